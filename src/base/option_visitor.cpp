@@ -1,0 +1,64 @@
+#include "mems_stiction/base/option_visitor.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+namespace mems_stiction {
+
+bool Range::contains(double value) const {
+  if (std::isnan(value)) return nan_means_none;
+  if (std::isinf(value)) return false;
+  const bool above = lower_open ? value > lower : value >= lower;
+  const bool below = upper_open ? value < upper : value <= upper;
+  return above && below;
+}
+
+std::string Range::text() const {
+  const bool has_lower = std::isfinite(lower);
+  const bool has_upper = std::isfinite(upper);
+  if (has_lower && has_upper) {
+    return std::string("in ") + (lower_open ? "(" : "[") + numberText(lower) + ", " + numberText(upper) +
+           (upper_open ? ")" : "]");
+  }
+  if (has_lower) return (lower_open ? "> " : ">= ") + numberText(lower);
+  if (has_upper) return (upper_open ? "< " : "<= ") + numberText(upper);
+  return nan_means_none ? "any finite number, or nan for none" : "any finite number";
+}
+
+void OptionValidator::number(const std::string& key, double& value, const std::string& unit, const Range& range,
+                             const std::string& /*meaning*/) {
+  if (range.contains(value)) return;
+  violations_.push_back(key + ": " + numberText(value) + (unit.empty() ? "" : " " + unit) + " is not allowed, must be " +
+                        range.text() + (unit.empty() ? "" : " " + unit));
+}
+
+void OptionValidator::integer(const std::string& key, int& value, const Range& range, const std::string& /*meaning*/) {
+  if (range.contains(value)) return;
+  violations_.push_back(key + ": " + std::to_string(value) + " is not allowed, must be an integer " + range.text());
+}
+
+void OptionValidator::flag(const std::string& /*key*/, bool& /*value*/, const std::string& /*meaning*/) {}
+
+void OptionValidator::text(const std::string& /*key*/, std::string& /*value*/, const std::string& /*meaning*/) {}
+
+void OptionValidator::choice(const std::string& key, std::string& value, const std::vector<std::string>& names,
+                             const std::string& /*meaning*/) {
+  std::string allowed;
+  for (const std::string& name : names) {
+    if (name == value) return;
+    allowed += (allowed.empty() ? "" : ", ") + name;
+  }
+  violations_.push_back(key + ": '" + value + "' is not allowed, must be one of: " + allowed);
+}
+
+std::string numberText(double value) {
+  char buffer[40];
+  for (int digits = 1; digits <= 17; ++digits) {
+    std::snprintf(buffer, sizeof buffer, "%.*g", digits, value);
+    if (std::strtod(buffer, nullptr) == value) break;
+  }
+  return buffer;
+}
+
+}  // namespace mems_stiction

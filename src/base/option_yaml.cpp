@@ -1,0 +1,306 @@
+#include "mems_stiction/base/option_yaml.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <locale>
+#include <numeric>
+#include <sstream>
+
+#include "mems_stiction/base/errors.hpp"
+
+namespace mems_stiction {
+namespace {
+
+std::string lowered(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+/// The whole text as a number, independent of the locale; nan and inf with or without YAML's leading dot.
+bool parseNumber(const std::string& text, double& value) {
+  const std::string word = lowered(text);
+  if (word == ".nan" || word == "nan") {
+    value = std::numeric_limits<double>::quiet_NaN();
+    return true;
+  }
+  for (const char* infinity : {".inf", "+.inf", "inf", "+inf"}) {
+    if (word == infinity) {
+      value = std::numeric_limits<double>::infinity();
+      return true;
+    }
+  }
+  if (word == "-.inf" || word == "-inf") {
+    value = -std::numeric_limits<double>::infinity();
+    return true;
+  }
+  std::istringstream stream(text);
+  stream.imbue(std::locale::classic());
+  double parsed = 0.0;
+  if (!(stream >> parsed) || !(stream >> std::ws).eof()) return false;
+  value = parsed;
+  return true;
+}
+
+/// One key that the tree supplies.
+struct Leaf {
+  std::string key;
+  YAML::Node node;
+  int uses = 0;
+};
+
+std::string withoutOuterSlashes(const std::string& key) {
+  const std::size_t first = key.find_first_not_of('/');
+  if (first == std::string::npos) return "";
+  return key.substr(first, key.find_last_not_of('/') - first + 1);
+}
+
+void flatten(const YAML::Node& node, const std::string& prefix, std::vector<Leaf>& leaves) {
+  if (!node.IsMap()) {
+    leaves.push_back({prefix, node});
+    return;
+  }
+  for (const auto& entry : node) {
+    const std::string name =
+        entry.first.IsScalar() ? withoutOuterSlashes(entry.first.Scalar()) : "(a key that is not text)";
+    flatten(entry.second, prefix.empty() ? name : prefix + "/" + name, leaves);
+  }
+}
+
+std::string shown(const YAML::Node& node) {
+  if (node.IsScalar()) return "'" + node.Scalar() + "'";
+  return node.IsSequence() ? "a list" : "no value";
+}
+
+/// Levenshtein's distance: insertions, deletions and substitutions from one word to the other.
+std::size_t editDistance(const std::string& left, const std::string& right) {
+  std::vector<std::size_t> row(right.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < right.size(); ++j) {
+      const std::size_t substituted = diagonal + (left[i] == right[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({substituted, row[j] + 1, row[j + 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+std::string lastPart(const std::string& key) { return key.substr(key.rfind('/') + 1); }
+
+/// Known keys that the unknown one may have meant, as " (did you mean ...?)"; empty if none is near.
+std::string suggestion(const std::string& unknown, const std::vector<std::string>& known) {
+  std::vector<std::string> nearest;
+  std::size_t best = std::max<std::size_t>(2, unknown.size() / 4) + 1;
+  for (const std::string& key : known) {
+    const std::size_t distance = lastPart(key) == lastPart(unknown) ? 1 : editDistance(unknown, key);
+    if (distance < best) {
+      best = distance;
+      nearest.clear();
+    }
+    if (distance == best && best <= std::max<std::size_t>(2, unknown.size() / 4)) nearest.push_back(key);
+  }
+  if (nearest.empty() || nearest.size() > 3) return "";
+  std::string text = " (did you mean ";
+  for (std::size_t i = 0; i < nearest.size(); ++i) text += (i == 0 ? "" : " or ") + nearest[i];
+  return text + "?)";
+}
+
+/// Takes each described field from the tree, if the tree names it, and checks its range by the common validator.
+class YamlReader : public OptionVisitor {
+ public:
+  explicit YamlReader(const YAML::Node& tree) {
+    if (!tree.IsDefined() || tree.IsNull()) return;
+    if (!tree.IsMap()) {
+      lines_.push_back("the configuration must be a map of keys and values, got " + shown(tree));
+      return;
+    }
+    flatten(tree, "", leaves_);
+  }
+
+  void number(const std::string& key, double& value, const std::string& unit, const Range& range,
+              const std::string& meaning) override {
+    if (const YAML::Node* node = take(key)) {
+      if (!node->IsScalar() || !parseNumber(node->Scalar(), value)) {
+        wrongType(key, *node, "a number " + range.text() + (unit.empty() ? "" : " " + unit));
+        return;
+      }
+    }
+    OptionValidator validator;
+    validator.number(key, value, unit, range, meaning);
+    append(validator);
+  }
+
+  void integer(const std::string& key, int& value, const Range& range, const std::string& meaning) override {
+    if (const YAML::Node* node = take(key)) {
+      double parsed = 0.0;
+      // The limits of int keep the cast defined; the range is checked below.
+      if (!node->IsScalar() || !parseNumber(node->Scalar(), parsed) || parsed != std::floor(parsed) ||
+          !(std::abs(parsed) <= static_cast<double>(std::numeric_limits<int>::max()))) {
+        wrongType(key, *node, "an integer " + range.text());
+        return;
+      }
+      value = static_cast<int>(parsed);
+    }
+    OptionValidator validator;
+    validator.integer(key, value, range, meaning);
+    append(validator);
+  }
+
+  void flag(const std::string& key, bool& value, const std::string& /*meaning*/) override {
+    const YAML::Node* node = take(key);
+    if (node == nullptr) return;
+    const std::string word = node->IsScalar() ? lowered(node->Scalar()) : "";
+    if (word == "true" || word == "yes" || word == "on") {
+      value = true;
+    } else if (word == "false" || word == "no" || word == "off") {
+      value = false;
+    } else {
+      wrongType(key, *node, "true or false");
+    }
+  }
+
+  void text(const std::string& key, std::string& value, const std::string& /*meaning*/) override {
+    const YAML::Node* node = take(key);
+    if (node == nullptr) return;
+    if (node->IsScalar()) {
+      value = node->Scalar();
+    } else {
+      wrongType(key, *node, "a text");
+    }
+  }
+
+  void choice(const std::string& key, std::string& value, const std::vector<std::string>& names,
+              const std::string& meaning) override {
+    if (const YAML::Node* node = take(key)) value = node->IsScalar() ? node->Scalar() : shown(*node);
+    OptionValidator validator;
+    validator.choice(key, value, names, meaning);
+    append(validator);
+  }
+
+  /// Call after every field was shown.
+  std::vector<std::string> violations() const {
+    std::vector<std::string> lines = lines_;
+    for (const Leaf& leaf : leaves_) {
+      const std::string section = leaf.key + "/";
+      const bool empty_section =
+          leaf.node.IsNull() && std::any_of(known_.begin(), known_.end(), [&](const std::string& key) {
+            return key.compare(0, section.size(), section) == 0;
+          });
+      if (leaf.uses == 0 && !empty_section) {
+        lines.push_back(leaf.key + ": " + shown(leaf.node) + " is given, but there is no such setting" +
+                        suggestion(leaf.key, known_));
+      }
+    }
+    return lines;
+  }
+
+ private:
+  /// The value that the tree gives for the key, or null. A second one is a violation.
+  const YAML::Node* take(const std::string& key) {
+    known_.push_back(key);
+    const YAML::Node* found = nullptr;
+    for (Leaf& leaf : leaves_) {
+      if (leaf.key != key) continue;
+      ++leaf.uses;
+      if (found != nullptr) {
+        lines_.push_back(key + ": " + shown(leaf.node) + " is given beside " + shown(*found) + ", must be given once");
+      } else {
+        found = &leaf.node;
+      }
+    }
+    return found;
+  }
+
+  void wrongType(const std::string& key, const YAML::Node& node, const std::string& allowed) {
+    lines_.push_back(key + ": " + shown(node) + " is not allowed, must be " + allowed);
+  }
+
+  void append(const OptionValidator& validator) {
+    lines_.insert(lines_.end(), validator.violations().begin(), validator.violations().end());
+  }
+
+  std::vector<Leaf> leaves_;
+  std::vector<std::string> known_;
+  std::vector<std::string> lines_;
+};
+
+/// Writes sections as they come; a section's keys are described together.
+class YamlWriter : public OptionVisitor {
+ public:
+  void number(const std::string& key, double& value, const std::string& unit, const Range& range,
+              const std::string& meaning) override {
+    line(key, yamlNumber(value), (unit.empty() ? "" : "[" + unit + "] ") + meaning + "; " + range.text());
+  }
+  void integer(const std::string& key, int& value, const Range& range, const std::string& meaning) override {
+    line(key, std::to_string(value), meaning + "; an integer " + range.text());
+  }
+  void flag(const std::string& key, bool& value, const std::string& meaning) override {
+    line(key, value ? "true" : "false", meaning);
+  }
+  void text(const std::string& key, std::string& value, const std::string& meaning) override {
+    line(key, quoted(value), meaning);
+  }
+  void choice(const std::string& key, std::string& value, const std::vector<std::string>& names,
+              const std::string& meaning) override {
+    std::string allowed;
+    for (const std::string& name : names) allowed += (allowed.empty() ? "" : ", ") + name;
+    line(key, quoted(value), meaning + "; one of: " + allowed);
+  }
+
+  const std::string& text() const { return text_; }
+
+ private:
+  static std::string quoted(const std::string& value) {
+    YAML::Emitter emitter;
+    emitter << YAML::DoubleQuoted << value;
+    return emitter.c_str();
+  }
+
+  void line(const std::string& key, const std::string& value, const std::string& comment) {
+    const std::size_t slash = key.find('/');
+    const std::string section = slash == std::string::npos ? "" : key.substr(0, slash);
+    if (section != section_ && !section.empty()) text_ += section + ":\n";
+    section_ = section;
+    text_ += section.empty() ? key : "  " + key.substr(slash + 1);
+    text_ += ": " + value + "  # " + comment + "\n";
+  }
+
+  std::string section_;
+  std::string text_;
+};
+
+}  // namespace
+
+std::vector<std::string> readYaml(const YAML::Node& tree, const DescribeFunction& describe) {
+  YamlReader reader(tree);
+  describe(reader);
+  return reader.violations();
+}
+
+void applyYaml(const YAML::Node& tree, const DescribeFunction& describe) {
+  std::vector<std::string> violations = readYaml(tree, describe);
+  if (!violations.empty()) throw OptionsError(std::move(violations));
+}
+
+std::string toYaml(const DescribeFunction& describe) {
+  YamlWriter writer;
+  describe(writer);
+  return writer.text();
+}
+
+std::string yamlNumber(double value) {
+  if (std::isnan(value)) return ".nan";
+  if (std::isinf(value)) return value > 0.0 ? ".inf" : "-.inf";
+  std::string text = numberText(value);
+  const std::size_t exponent = text.find('e');
+  if (exponent != std::string::npos && text.find('.') == std::string::npos) text.insert(exponent, ".0");
+  return text;
+}
+
+}  // namespace mems_stiction
