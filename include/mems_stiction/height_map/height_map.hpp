@@ -1,0 +1,57 @@
+#pragma once
+
+/// A surface on a regular grid: heights, pitch and validity.
+///
+/// Axes: column index grows along +x, row index grows along +y (row 0 is the top of the image), z points out of the
+/// lower body towards the upper one. Heights are metres; a pixel that is not finite (NaN, +-Inf; REP 117) is invalid.
+
+#include <opencv2/core.hpp>
+
+namespace mems_stiction {
+
+class HeightMap {
+ public:
+  HeightMap() = default;
+
+  /// @param heights rows x cols, CV_32FC1 or CV_64FC1, metres, non-finite = invalid. The pixels are shared, not copied,
+  ///        and never written to.
+  /// @param pitch_x, pitch_y distance of neighbouring columns and rows [m], > 0.
+  /// @throw SurfaceError if the type, size or pitch is not as above.
+  HeightMap(cv::Mat heights, double pitch_x, double pitch_y);
+
+  int rows() const { return heights_.rows; }
+  int cols() const { return heights_.cols; }
+  bool empty() const { return heights_.empty(); }
+  double pitchX() const { return pitch_x_; }
+  double pitchY() const { return pitch_y_; }
+  /// dx dy [m^2]
+  double cellArea() const { return pitch_x_ * pitch_y_; }
+  const cv::Mat& heights() const { return heights_; }
+
+  /// Height at one cell [m]; for single look-ups, not for loops over the frame.
+  double height(int row, int col) const {
+    return heights_.depth() == CV_32F ? heights_.at<float>(row, col) : heights_.at<double>(row, col);
+  }
+
+  /// The same surface as CV_64FC1: shares the pixels if they are double already.
+  HeightMap asDouble() const;
+
+ private:
+  cv::Mat heights_;
+  double pitch_x_ = 0.0;
+  double pitch_y_ = 0.0;
+};
+
+/// Height figures of one surface over its valid pixels.
+struct HeightStatistics {
+  int valid_count = 0;
+  double mean = 0.0;        ///< [m]
+  double rms_height = 0.0;  ///< Sq: root mean square about the mean [m] (ISO 25178-2, 4.1.1)
+  double min = 0.0;         ///< [m]
+  double max = 0.0;         ///< [m]
+};
+
+/// @throw SurfaceError if no pixel is valid.
+HeightStatistics heightStatistics(const HeightMap& surface);
+
+}  // namespace mems_stiction

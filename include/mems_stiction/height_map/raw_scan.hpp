@@ -1,0 +1,31 @@
+#pragma once
+
+/// From pixels as an instrument or a message delivers them to heights in metres.
+
+#include <limits>
+
+#include <opencv2/core.hpp>
+
+#include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/height_map/height_map.hpp"
+
+namespace mems_stiction {
+
+/// How pixels become heights: height = pixel x height_scale + height_offset.
+struct ScanOptions {
+  double pitch_x = 0.0;        ///< distance of neighbouring columns [m], >= 0; 0 = not stated, the scan must bring its own
+  double pitch_y = 0.0;        ///< distance of neighbouring rows [m], >= 0; 0 = not stated
+  double height_scale = 1.0;   ///< [m per unit of the pixel], not 0
+  double height_offset = 0.0;  ///< [m]
+  double invalid_value = std::numeric_limits<double>::quiet_NaN();  ///< pixels of this raw value are invalid; NaN = none
+
+  void describe(OptionVisitor& visitor);
+};
+
+/// @param pixels rows x cols of CV_32FC1, CV_64FC1, CV_16UC1, CV_16SC1, CV_8UC1, or CV_32FC2 (height, quality: the
+///        second channel is ignored but for NaN). Shared, not copied, when CV_32FC1 or CV_64FC1 with scale 1, offset 0
+///        and no invalid value.
+/// @throw SurfaceError for any other type (the message lists these), an empty image or a pitch that is not > 0.
+HeightMap heightMapFromPixels(const cv::Mat& pixels, const ScanOptions& options);
+
+}  // namespace mems_stiction

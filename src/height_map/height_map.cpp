@@ -1,0 +1,70 @@
+#include "mems_stiction/height_map/height_map.hpp"
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/option_visitor.hpp"
+
+namespace mems_stiction {
+namespace {
+
+/// Two passes, so that a stage offset of millimetres does not drown nanometres of roughness.
+template <typename Scalar>
+HeightStatistics statisticsOf(const cv::Mat& heights) {
+  HeightStatistics statistics;
+  double sum = 0.0;
+  for (int row = 0; row < heights.rows; ++row) {
+    const Scalar* line = heights.ptr<Scalar>(row);
+    for (int col = 0; col < heights.cols; ++col) {
+      const double height = line[col];
+      if (!std::isfinite(height)) continue;
+      if (statistics.valid_count == 0) statistics.min = statistics.max = height;
+      statistics.min = std::min(statistics.min, height);
+      statistics.max = std::max(statistics.max, height);
+      sum += height;
+      ++statistics.valid_count;
+    }
+  }
+  if (statistics.valid_count == 0) throw SurfaceError("the height map has no valid pixel");
+  statistics.mean = sum / statistics.valid_count;
+
+  double squares = 0.0;
+  for (int row = 0; row < heights.rows; ++row) {
+    const Scalar* line = heights.ptr<Scalar>(row);
+    for (int col = 0; col < heights.cols; ++col) {
+      const double deviation = line[col] - statistics.mean;
+      if (std::isfinite(deviation)) squares += deviation * deviation;
+    }
+  }
+  statistics.rms_height = std::sqrt(squares / statistics.valid_count);
+  return statistics;
+}
+
+}  // namespace
+
+HeightMap::HeightMap(cv::Mat heights, double pitch_x, double pitch_y)
+    : heights_(std::move(heights)), pitch_x_(pitch_x), pitch_y_(pitch_y) {
+  if (heights_.type() != CV_32FC1 && heights_.type() != CV_64FC1) {
+    throw SurfaceError("a height map must be CV_32FC1 or CV_64FC1, got OpenCV type " + std::to_string(heights_.type()));
+  }
+  if (heights_.empty()) throw SurfaceError("a height map must have at least one pixel");
+  if (!Range::positive().contains(pitch_x) || !Range::positive().contains(pitch_y)) {
+    throw SurfaceError("the pitch must be > 0 m, got " + numberText(pitch_x) + " x " + numberText(pitch_y));
+  }
+}
+
+HeightMap HeightMap::asDouble() const {
+  if (heights_.depth() == CV_64F) return *this;
+  cv::Mat wide;
+  heights_.convertTo(wide, CV_64F);
+  return {wide, pitch_x_, pitch_y_};
+}
+
+HeightStatistics heightStatistics(const HeightMap& surface) {
+  return surface.heights().depth() == CV_32F ? statisticsOf<float>(surface.heights())
+                                             : statisticsOf<double>(surface.heights());
+}
+
+}  // namespace mems_stiction
