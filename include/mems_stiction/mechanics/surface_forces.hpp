@@ -1,0 +1,52 @@
+#pragma once
+
+/// What pulls two surfaces together across a gap: van der Waals attraction and the field of a voltage; and when does a
+/// spring-held plate give way to the field?
+///
+///     van der Waals, plates:   p = H/(6 pi d^3),  u = H/(12 pi d^2)          (2)
+///     van der Waals, sphere:   F = H R/(6 d^2),   U = H R/(6 d)
+///     electrostatic, plates:   p = eps0 U^2/(2 (d + t/eps_r)^2)              (3); in contact d = 0
+///     pull-in:                 U = sqrt(8 k (g + t/eps_r)^3/(27 eps0 A))
+///
+/// Assumptions: smooth parallel plates much wider than their gap (no fringes); no retardation, so gaps below some 10 nm
+/// for van der Waals and an overestimate beyond; the sphere by Derjaguin's approximation, d << R; an insulator without
+/// charge in it; for pull-in a linear spring and a travel of more than a third of (g + t/eps_r).
+/// Outside: all diverge as the gap closes without an insulator. The caller keeps van der Waals gaps at an interatomic
+/// cut-off (about 0.165 nm) or more; a field gap of 0 without insulator is a short circuit and gives infinity.
+/// Sources: Israelachvili, Intermolecular and Surface Forces (3rd ed., 2011), chapter 13; Deladi et al. 2002, (2) and
+/// (3), the insulator's thickness there without eps_r; Senturia, Microsystem Design (2001), chapter 6.
+///
+///     const double pull = cell_area * surface_forces::vanDerWaalsPressure(gap, hamaker_constant);
+///
+/// Forces and pressures are published positive when they attract; energies are what separation to infinity costs.
+/// Arguments throughout: gap d [m], > 0; hamaker_constant H [J]; radius R [m]; voltage U [V];
+/// insulator_thickness t [m], >= 0; insulator_relative_permittivity eps_r [-], >= 1.
+
+namespace mems_stiction {
+namespace surface_forces {
+
+/// p of parallel plates [Pa].
+double vanDerWaalsPressure(double gap, double hamaker_constant);
+
+/// u of parallel plates per area [J/m^2].
+double vanDerWaalsEnergy(double gap, double hamaker_constant);
+
+/// F of a sphere before a plate [N].
+double vanDerWaalsSphereForce(double gap, double hamaker_constant, double radius);
+
+/// U of a sphere before a plate [J].
+double vanDerWaalsSphereEnergy(double gap, double hamaker_constant, double radius);
+
+/// p of parallel electrodes with an insulator on one of them [Pa]. gap = 0 is contact, gap < 0 counts as contact.
+double electrostaticPressure(double gap, double voltage, double insulator_thickness,
+                             double insulator_relative_permittivity);
+
+/// Voltage above which a plate on a linear spring has no stable position before contact [V].
+/// @param spring_constant k [N/m], > 0
+/// @param rest_gap g, the gap without voltage [m], > 0
+/// @param electrode_area A [m^2], > 0
+double pullInVoltage(double spring_constant, double rest_gap, double electrode_area, double insulator_thickness = 0.0,
+                     double insulator_relative_permittivity = 1.0);
+
+}  // namespace surface_forces
+}  // namespace mems_stiction

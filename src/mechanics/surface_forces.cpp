@@ -1,0 +1,39 @@
+#include "mems_stiction/mechanics/surface_forces.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mems_stiction/base/constants.hpp"
+
+namespace mems_stiction {
+namespace surface_forces {
+
+double vanDerWaalsPressure(double gap, double hamaker_constant) {
+  return hamaker_constant / (6.0 * kPi * gap * gap * gap);
+}
+
+double vanDerWaalsEnergy(double gap, double hamaker_constant) { return hamaker_constant / (12.0 * kPi * gap * gap); }
+
+double vanDerWaalsSphereForce(double gap, double hamaker_constant, double radius) {
+  return hamaker_constant * radius / (6.0 * gap * gap);
+}
+
+double vanDerWaalsSphereEnergy(double gap, double hamaker_constant, double radius) {
+  return hamaker_constant * radius / (6.0 * gap);
+}
+
+double electrostaticPressure(double gap, double voltage, double insulator_thickness,
+                             double insulator_relative_permittivity) {
+  if (voltage == 0.0) return 0.0;
+  const double field = voltage / (std::max(gap, 0.0) + insulator_thickness / insulator_relative_permittivity);
+  return 0.5 * kVacuumPermittivity * field * field;
+}
+
+double pullInVoltage(double spring_constant, double rest_gap, double electrode_area, double insulator_thickness,
+                     double insulator_relative_permittivity) {
+  const double gap = rest_gap + insulator_thickness / insulator_relative_permittivity;
+  return std::sqrt(8.0 * spring_constant * gap * gap * gap / (27.0 * kVacuumPermittivity * electrode_area));
+}
+
+}  // namespace surface_forces
+}  // namespace mems_stiction

@@ -1,0 +1,124 @@
+#include "mems_stiction/mechanics/surface_forces.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "mems_stiction/base/constants.hpp"
+
+namespace mems_stiction {
+namespace {
+
+using namespace surface_forces;
+
+constexpr double kHamaker = 65e-21;
+constexpr double kGap = 10e-9;
+constexpr double kRadius = 0.8e-6;
+constexpr double kRoundOff = 1e-13;          // closed forms against closed forms
+constexpr double kCentralDifference = 1e-8;  // step 1e-5 of the gap: truncation a few 1e-10, round-off 1e-11
+
+void expectRelative(double value, double expected, double tolerance) {
+  EXPECT_NEAR(value, expected, tolerance * std::fabs(expected));
+}
+
+template <typename Function>
+double minusSlope(Function function, double gap) {
+  const double step = 1e-5 * gap;
+  return -(function(gap + step) - function(gap - step)) / (2.0 * step);
+}
+
+TEST(VanDerWaals, reproducesThePlatesOfTheReference) {
+  expectRelative(vanDerWaalsPressure(kGap, kHamaker), 3.448e3, 2e-4);  // published to four digits
+  expectRelative(vanDerWaalsEnergy(kGap, kHamaker), 17.24e-6, 3e-4);
+}
+
+TEST(VanDerWaals, reproducesTheSphereOfTheReference) {
+  expectRelative(vanDerWaalsSphereForce(kGap, kHamaker, kRadius), kHamaker * kRadius / (6.0 * kGap * kGap), kRoundOff);
+}
+
+TEST(VanDerWaals, forcesAreMinusTheDerivativeOfTheEnergies) {
+  expectRelative(minusSlope([](double gap) { return vanDerWaalsEnergy(gap, kHamaker); }, kGap),
+                 vanDerWaalsPressure(kGap, kHamaker), kCentralDifference);
+  expectRelative(minusSlope([](double gap) { return vanDerWaalsSphereEnergy(gap, kHamaker, kRadius); }, kGap),
+                 vanDerWaalsSphereForce(kGap, kHamaker, kRadius), kCentralDifference);
+}
+
+TEST(VanDerWaals, sphereForceIsDerjaguinsOfThePlates) {
+  // F = 2 pi R u
+  expectRelative(vanDerWaalsSphereForce(kGap, kHamaker, kRadius),
+                 2.0 * kPi * kRadius * vanDerWaalsEnergy(kGap, kHamaker), kRoundOff);
+}
+
+TEST(VanDerWaals, sphereForceIsThePressureSummedOverTheParaboloid) {
+  // rings of equal gap: area 2 pi R dh; substitution h = gap/u, u in (0, 1]
+  const int rings = 2000;
+  double force = 0.0;
+  for (int ring = 0; ring < rings; ++ring) {
+    const double u = (ring + 0.5) / rings;
+    force += vanDerWaalsPressure(kGap / u, kHamaker) * 2.0 * kPi * kRadius * kGap / (u * u) / rings;
+  }
+  expectRelative(force, vanDerWaalsSphereForce(kGap, kHamaker, kRadius), 1e-7);  // midpoint rule of a line: round-off
+}
+
+TEST(VanDerWaals, fallsWithTheStatedPowersOfTheGap) {
+  expectRelative(vanDerWaalsPressure(2.0 * kGap, kHamaker), vanDerWaalsPressure(kGap, kHamaker) / 8.0, kRoundOff);
+  expectRelative(vanDerWaalsEnergy(2.0 * kGap, kHamaker), vanDerWaalsEnergy(kGap, kHamaker) / 4.0, kRoundOff);
+  expectRelative(vanDerWaalsSphereForce(2.0 * kGap, kHamaker, kRadius),
+                 vanDerWaalsSphereForce(kGap, kHamaker, kRadius) / 4.0, kRoundOff);
+}
+
+TEST(Electrostatic, reproducesTheElectrodesOfTheReference) {
+  expectRelative(electrostaticPressure(100e-9, 10.0, 0.0, 1.0), 44.271e3, 2e-5);  // published to five digits
+  expectRelative(electrostaticPressure(0.0, 10.0, 100e-9, 3.9), 673.36e3, 2e-5);
+}
+
+TEST(Electrostatic, insulatorCountsAsAGapThinnerByItsPermittivity) {
+  expectRelative(electrostaticPressure(40e-9, 7.0, 78e-9, 3.9), electrostaticPressure(60e-9, 7.0, 0.0, 1.0), kRoundOff);
+  EXPECT_EQ(electrostaticPressure(-5e-9, 7.0, 78e-9, 3.9), electrostaticPressure(0.0, 7.0, 78e-9, 3.9));
+}
+
+TEST(Electrostatic, isMinusTheDerivativeOfTheFieldEnergyAtFixedVoltage) {
+  // co-energy eps0 U^2/(2 (d + t/eps_r)) per area
+  const auto coEnergy = [](double gap) { return 0.5 * kVacuumPermittivity * 49.0 / (gap + 78e-9 / 3.9); };
+  expectRelative(minusSlope(coEnergy, 40e-9), electrostaticPressure(40e-9, 7.0, 78e-9, 3.9), kCentralDifference);
+}
+
+TEST(Electrostatic, growsWithTheSquareOfTheVoltageEitherSign) {
+  const double pressure = electrostaticPressure(30e-9, 5.0, 20e-9, 3.9);
+  expectRelative(electrostaticPressure(30e-9, 15.0, 20e-9, 3.9), 9.0 * pressure, kRoundOff);
+  EXPECT_EQ(electrostaticPressure(30e-9, -5.0, 20e-9, 3.9), pressure);
+  EXPECT_EQ(electrostaticPressure(0.0, 0.0, 0.0, 1.0), 0.0);
+}
+
+TEST(Electrostatic, bareContactIsAShortCircuit) { EXPECT_TRUE(std::isinf(electrostaticPressure(0.0, 5.0, 0.0, 1.0))); }
+
+TEST(PullIn, reproducesTheReference) {
+  expectRelative(pullInVoltage(1.0, 2e-6, 1e-8), 5.1741, 1e-5);  // published to five digits
+}
+
+TEST(PullIn, isTheLargestVoltageThatTheSpringHolds) {
+  // second route: the voltage that balances k x at travel x, its maximum over x
+  const double k = 3.3;
+  const double rest_gap = 1.7e-6;
+  const double area = 4e-9;
+  const double thickness = 0.2e-6;
+  const double permittivity = 7.5;
+  double largest = 0.0;
+  for (int step = 1; step < 20000; ++step) {
+    const double travel = rest_gap * step / 20000.0;
+    const double pressure_of_one_volt = electrostaticPressure(rest_gap - travel, 1.0, thickness, permittivity);
+    largest = std::fmax(largest, std::sqrt(k * travel / (area * pressure_of_one_volt)));
+  }
+  // a scan in steps of 5e-5 misses a maximum by its square
+  expectRelative(largest, pullInVoltage(k, rest_gap, area, thickness, permittivity), 1e-7);
+}
+
+TEST(PullIn, scalesWithGapSpringAndArea) {
+  const double voltage = pullInVoltage(1.3, 2.2e-6, 3e-8);
+  expectRelative(pullInVoltage(1.3, 4.0 * 2.2e-6, 3e-8), 8.0 * voltage, kRoundOff);
+  expectRelative(pullInVoltage(4.0 * 1.3, 2.2e-6, 3e-8), 2.0 * voltage, kRoundOff);
+  expectRelative(pullInVoltage(1.3, 2.2e-6, 4.0 * 3e-8), 0.5 * voltage, kRoundOff);
+}
+
+}  // namespace
+}  // namespace mems_stiction
