@@ -1,0 +1,126 @@
+#include "mems_stiction/roughness/areal_parameters.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mems_stiction/base/errors.hpp"
+
+namespace mems_stiction {
+namespace {
+
+/// Number, mean and extremes of the valid heights. The sum runs over differences from the first valid height, so that a
+/// stage offset of millimetres costs no digits.
+struct FirstPass {
+  long long count = 0;
+  double mean = 0.0;
+  double min = 0.0;
+  double max = 0.0;
+};
+
+template <typename Scalar>
+FirstPass firstPass(const cv::Mat& heights) {
+  FirstPass pass;
+  double origin = 0.0;
+  double sum = 0.0;
+  for (int row = 0; row < heights.rows; ++row) {
+    const Scalar* line = heights.ptr<Scalar>(row);
+    for (int col = 0; col < heights.cols; ++col) {
+      const double height = line[col];
+      if (!std::isfinite(height)) continue;
+      if (pass.count == 0) origin = pass.min = pass.max = height;
+      pass.min = std::min(pass.min, height);
+      pass.max = std::max(pass.max, height);
+      sum += height - origin;
+      ++pass.count;
+    }
+  }
+  if (pass.count == 0) throw SurfaceError("the height map has no valid pixel");
+  pass.mean = origin + sum / static_cast<double>(pass.count);
+  return pass;
+}
+
+struct Gradients {
+  long long count = 0;
+  double squares = 0.0;      ///< sum of |grad z|^2
+  double excess_area = 0.0;  ///< sum of sqrt(1 + |grad z|^2) - 1
+};
+
+template <typename Scalar>
+Gradients gradients(const HeightMap& surface) {
+  const cv::Mat& heights = surface.heights();
+  const double per_x = 0.5 / surface.pitchX();
+  const double per_y = 0.5 / surface.pitchY();
+  Gradients sums;
+  for (int row = 1; row + 1 < heights.rows; ++row) {
+    const Scalar* above = heights.ptr<Scalar>(row - 1);
+    const Scalar* line = heights.ptr<Scalar>(row);
+    const Scalar* below = heights.ptr<Scalar>(row + 1);
+    for (int col = 1; col + 1 < heights.cols; ++col) {
+      const double slope_x = (static_cast<double>(line[col + 1]) - static_cast<double>(line[col - 1])) * per_x;
+      const double slope_y = (static_cast<double>(below[col]) - static_cast<double>(above[col])) * per_y;
+      const double square = slope_x * slope_x + slope_y * slope_y;
+      if (!std::isfinite(square) || !std::isfinite(line[col])) continue;  // an invalid neighbor reaches the square
+      sums.squares += square;
+      sums.excess_area += square / (1.0 + std::sqrt(1.0 + square));  // sqrt(1 + q) - 1 without cancellation
+      ++sums.count;
+    }
+  }
+  return sums;
+}
+
+template <typename Scalar>
+ArealParameters parametersOf(const HeightMap& surface) {
+  const cv::Mat& heights = surface.heights();
+  const FirstPass pass = firstPass<Scalar>(heights);
+
+  double absolutes = 0.0;
+  double squares = 0.0;
+  double cubes = 0.0;
+  double fourths = 0.0;
+  // Powers of the deviation in units of the height range: cubes and fourths of nanometres stay far from underflow.
+  const double range = pass.max - pass.min;
+  const double unit = range > 0.0 ? range : 1.0;
+  for (int row = 0; row < heights.rows; ++row) {
+    const Scalar* line = heights.ptr<Scalar>(row);
+    for (int col = 0; col < heights.cols; ++col) {
+      const double deviation = (line[col] - pass.mean) / unit;
+      if (!std::isfinite(deviation)) continue;
+      const double square = deviation * deviation;
+      absolutes += std::fabs(deviation);
+      squares += square;
+      cubes += square * deviation;
+      fourths += square * square;
+    }
+  }
+
+  ArealParameters parameters;
+  const double count = static_cast<double>(pass.count);
+  parameters.sp = pass.max - pass.mean;
+  parameters.sv = pass.mean - pass.min;
+  parameters.sz = range;
+  if (range > 0.0) {
+    const double variance = squares / count;
+    parameters.sa = unit * absolutes / count;
+    parameters.sq = unit * std::sqrt(variance);
+    parameters.ssk = cubes / count / (variance * std::sqrt(variance));
+    parameters.sku = fourths / count / (variance * variance);
+  } else {
+    parameters.sp = parameters.sv = 0.0;  // the mean of equal numbers can round off
+  }
+
+  const Gradients slopes = gradients<Scalar>(surface);
+  if (slopes.count > 0) {
+    parameters.sdq = std::sqrt(slopes.squares / static_cast<double>(slopes.count));
+    parameters.sdr = slopes.excess_area / static_cast<double>(slopes.count);
+  }
+  return parameters;
+}
+
+}  // namespace
+
+ArealParameters arealParameters(const HeightMap& surface) {
+  if (surface.empty()) throw SurfaceError("the height map is empty");
+  return surface.heights().depth() == CV_32F ? parametersOf<float>(surface) : parametersOf<double>(surface);
+}
+
+}  // namespace mems_stiction
