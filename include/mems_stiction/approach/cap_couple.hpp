@@ -1,0 +1,43 @@
+#pragma once
+
+/// From a contact patch to a couple of spherical caps (section 2.2 of the paper).
+///
+///     rc      = (Lx + Ly)/4, Lx and Ly the sides of the patch's bounding box
+///     delta_c = height of each surface's summit over its base plane, the least-squares plane through the boundary
+///     edges R       = (rc^2 + delta_c^2)/(2 delta_c), the circle through three points of the cross-section 1/R_i   =
+///     1/R(z1) + 1/R(z2)                                                              (5) theta   = tilt of the
+///     mid-surface's base plane
+///
+/// The bounding box is that of the patch's outline, interpolated between cell centres at the level of the base planes
+/// (the mean gap of the boundary edges): rc and delta_c then belong to one contour, and R does not jump by +-4 % at 25
+/// pixels whenever the box grows by a pixel. At the frame's border and beside invalid pixels the outline is the cell's
+/// edge.
+///
+/// Where it is degenerate: fewer than 4 edges or edges on one line give a level base plane; a summit that is not above
+/// its base plane counts as flat; caps lower than a tenth of the patch's largest interference say nothing about its
+/// shape (the centre is not the summit), and the interference itself is taken for the cap height, at least one
+/// interatomic distance, so that no radius is infinite.
+
+#include "mems_stiction/approach/contact_patch.hpp"
+#include "mems_stiction/approach/gap_field.hpp"
+
+namespace mems_stiction {
+
+struct CapCouple {
+  double base_radius = 0.0;       ///< rc [m]
+  double height = 0.0;            ///< delta_c of both caps together [m], > 0
+  double composite_radius = 0.0;  ///< R_i of (5) [m]
+  double tilt = 0.0;              ///< theta [rad]
+  double cos_tilt = 1.0;
+  int centre = 0;  ///< cell of the caps' summit
+};
+
+/// The cell in the middle of the patch's bounding box.
+int boxCentre(const ContactPatch& patch, const GapField& field);
+
+/// @param centre_is_inside whether boxCentre() belongs to the patch; otherwise its deepest cell is the centre.
+/// @param smallest_height cap height of a patch without any relief [m], > 0
+/// Depends on the patch's cells only, not on how far the approach has gone since they came in.
+CapCouple capCouple(const ContactPatch& patch, const GapField& field, bool centre_is_inside, double smallest_height);
+
+}  // namespace mems_stiction

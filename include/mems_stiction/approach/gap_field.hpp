@@ -1,0 +1,59 @@
+#pragma once
+
+/// The gap between two surfaces at first touch: g = z2 - z1 - min(z2 - z1) >= 0 (section 2 of the paper).
+
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "mems_stiction/height_map/height_map.hpp"
+
+namespace mems_stiction {
+
+/// Row-major over the frame. Cells that are invalid in either surface have an infinite gap: they never come into
+/// contact and are left out of every sum. compute() reuses the memory of the previous frame.
+class GapField {
+ public:
+  /// Against a plane. @throw SurfaceError if no pixel is valid.
+  void compute(const HeightMap& lower);
+  /// @throw SurfaceError if the grids differ or no pixel is valid in both.
+  void compute(const HeightMap& lower, const HeightMap& upper);
+
+  int rows() const { return rows_; }
+  int cols() const { return cols_; }
+  double pitchX() const { return pitch_x_; }
+  double pitchY() const { return pitch_y_; }
+  double cellArea() const { return pitch_x_ * pitch_y_; }
+  int cellCount() const { return rows_ * cols_; }
+  int validCount() const { return valid_count_; }
+
+  const std::vector<double>& gaps() const { return gap_; }
+  double gap(int cell) const { return gap_[static_cast<std::size_t>(cell)]; }
+  bool isValid(int cell) const { return gap(cell) < kInvalidGap; }
+  double largestGap() const { return largest_gap_; }
+  double meanGap() const { return mean_gap_; }
+
+  bool upperIsFlat() const { return upper_is_flat_; }
+  /// z1 from an arbitrary but fixed level [m], so that a stage offset costs no digits. z2 = z1 + g on the same level.
+  double lowerHeight(int cell) const { return upper_is_flat_ ? -gap(cell) : lower_[static_cast<std::size_t>(cell)]; }
+
+  static constexpr double kInvalidGap = std::numeric_limits<double>::infinity();
+
+ private:
+  template <typename Scalar>
+  void computeAgainstPlane(const cv::Mat& heights);
+  void finish();
+
+  int rows_ = 0;
+  int cols_ = 0;
+  double pitch_x_ = 0.0;
+  double pitch_y_ = 0.0;
+  int valid_count_ = 0;
+  double largest_gap_ = 0.0;
+  double mean_gap_ = 0.0;
+  bool upper_is_flat_ = true;
+  std::vector<double> gap_;
+  std::vector<double> lower_;
+};
+
+}  // namespace mems_stiction

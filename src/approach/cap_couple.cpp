@@ -1,0 +1,138 @@
+#include "mems_stiction/approach/cap_couple.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mems_stiction {
+namespace {
+
+/// Caps lower than this share of the patch's largest interference do not describe it.
+constexpr double kLowestHeightShare = 0.1;
+constexpr std::int64_t kFewestEdgesOfPlane = 4;
+/// Relative determinant below which the boundary edges count as lying on one line.
+constexpr double kSingular = 1e-9;
+
+/// A quantity on the base plane at the centre, and its slope [per half pixel].
+struct PlaneValue {
+  double at_centre = 0.0;
+  double slope_x = 0.0;
+  double slope_y = 0.0;
+};
+
+/// Least-squares planes through the boundary edges, all from one set of sums.
+class BasePlanes {
+ public:
+  /// Coordinates are moved to the centre as integers: no digits are lost to the patch's place in the frame.
+  BasePlanes(const BoundarySums& sums, std::int64_t centre_x, std::int64_t centre_y)
+      : count_(static_cast<double>(sums.count)), centre_x_(centre_x), centre_y_(centre_y) {
+    const auto x = static_cast<double>(sums.x - sums.count * centre_x);
+    const auto y = static_cast<double>(sums.y - sums.count * centre_y);
+    const auto xx = static_cast<double>(sums.xx - 2 * centre_x * sums.x + sums.count * centre_x * centre_x);
+    const auto yy = static_cast<double>(sums.yy - 2 * centre_y * sums.y + sums.count * centre_y * centre_y);
+    const auto xy =
+        static_cast<double>(sums.xy - centre_x * sums.y - centre_y * sums.x + sums.count * centre_x * centre_y);
+    mean_x_ = x / count_;
+    mean_y_ = y / count_;
+    var_x_ = xx - x * mean_x_;
+    var_y_ = yy - y * mean_y_;
+    cov_ = xy - x * mean_y_;
+    determinant_ = var_x_ * var_y_ - cov_ * cov_;
+    is_level_ = sums.count < kFewestEdgesOfPlane || determinant_ <= kSingular * var_x_ * var_y_;
+  }
+
+  PlaneValue fit(double sum, double x_sum, double y_sum) const {
+    PlaneValue plane;
+    plane.at_centre = sum / count_;
+    if (is_level_) return plane;
+    const double x_moment = x_sum - static_cast<double>(centre_x_) * sum - mean_x_ * sum;
+    const double y_moment = y_sum - static_cast<double>(centre_y_) * sum - mean_y_ * sum;
+    plane.slope_x = (var_y_ * x_moment - cov_ * y_moment) / determinant_;
+    plane.slope_y = (var_x_ * y_moment - cov_ * x_moment) / determinant_;
+    plane.at_centre -= plane.slope_x * mean_x_ + plane.slope_y * mean_y_;
+    return plane;
+  }
+
+ private:
+  double count_;
+  std::int64_t centre_x_;
+  std::int64_t centre_y_;
+  double mean_x_ = 0.0, mean_y_ = 0.0;
+  double var_x_ = 0.0, var_y_ = 0.0, cov_ = 0.0;
+  double determinant_ = 0.0;
+  bool is_level_ = true;
+};
+
+/// How far the outline at `level` lies beyond the centre of an extreme cell [cells], in [0, 1].
+double outlineBeyond(const GapField& field, int cell, int row_step, int col_step, double level) {
+  constexpr double kCellEdge = 0.5;
+  const int row = cell / field.cols() + row_step;
+  const int col = cell % field.cols() + col_step;
+  if (row < 0 || row >= field.rows() || col < 0 || col >= field.cols()) return kCellEdge;
+  const int neighbour = row * field.cols() + col;
+  if (!field.isValid(neighbour)) return kCellEdge;
+  const double inside = field.gap(cell);
+  const double rise = field.gap(neighbour) - inside;
+  return rise > 0.0 ? std::clamp((level - inside) / rise, 0.0, 1.0) : kCellEdge;
+}
+
+double baseRadius(const ContactPatch& patch, const GapField& field, double level) {
+  const double cols = patch.max_col - patch.min_col + outlineBeyond(field, patch.extreme[kLeft], 0, -1, level) +
+                      outlineBeyond(field, patch.extreme[kRight], 0, 1, level);
+  const double rows = patch.max_row - patch.min_row + outlineBeyond(field, patch.extreme[kTop], -1, 0, level) +
+                      outlineBeyond(field, patch.extreme[kBottom], 1, 0, level);
+  return (cols * field.pitchX() + rows * field.pitchY()) / 4.0;
+}
+
+/// Curvature of the circle through the rim and the summit of a cap.
+double capCurvature(double base_radius, double height) {
+  return 2.0 * height / (base_radius * base_radius + height * height);
+}
+
+}  // namespace
+
+int boxCentre(const ContactPatch& patch, const GapField& field) {
+  return (patch.min_row + patch.max_row) / 2 * field.cols() + (patch.min_col + patch.max_col) / 2;
+}
+
+CapCouple capCouple(const ContactPatch& patch, const GapField& field, bool centre_is_inside, double smallest_height) {
+  CapCouple caps;
+  caps.centre = centre_is_inside ? boxCentre(patch, field) : patch.deepest;
+  const BoundarySums& edges = patch.boundary;
+  const bool has_edges = edges.count > 0;
+  const double level = has_edges ? edges.gap / static_cast<double>(edges.count) : patch.latest_gap;
+  caps.base_radius = baseRadius(patch, field, level);
+
+  double lower_height = 0.0;
+  double upper_height = 0.0;
+  if (has_edges) {
+    const BasePlanes planes(edges, 2 * (caps.centre % field.cols()), 2 * (caps.centre / field.cols()));
+    const PlaneValue gap = planes.fit(edges.gap, edges.x_gap, edges.y_gap);
+    PlaneValue lower;
+    if (field.upperIsFlat()) {
+      lower = {-gap.at_centre, -gap.slope_x, -gap.slope_y};
+    } else {
+      lower = planes.fit(edges.lower, edges.x_lower, edges.y_lower);
+      const double upper_base = lower.at_centre + gap.at_centre;
+      const double upper_summit = field.lowerHeight(caps.centre) + field.gap(caps.centre);
+      upper_height = std::max(0.0, upper_base - upper_summit);
+    }
+    lower_height = std::max(0.0, field.lowerHeight(caps.centre) - lower.at_centre);
+    const double mid_slope_x = (lower.slope_x + 0.5 * gap.slope_x) * 2.0 / field.pitchX();
+    const double mid_slope_y = (lower.slope_y + 0.5 * gap.slope_y) * 2.0 / field.pitchY();
+    const double slope = std::hypot(mid_slope_x, mid_slope_y);
+    caps.tilt = std::atan(slope);
+    caps.cos_tilt = 1.0 / std::sqrt(1.0 + slope * slope);
+  }
+
+  const double interference = level - field.gap(patch.deepest);
+  caps.height = lower_height + upper_height;
+  double curvature = capCurvature(caps.base_radius, lower_height) + capCurvature(caps.base_radius, upper_height);
+  if (caps.height <= kLowestHeightShare * interference || caps.height <= 0.0) {
+    caps.height = std::max(interference, smallest_height);
+    curvature = capCurvature(caps.base_radius, caps.height);
+  }
+  caps.composite_radius = 1.0 / curvature;
+  return caps;
+}
+
+}  // namespace mems_stiction
