@@ -1,0 +1,38 @@
+#pragma once
+
+/// The surfaces after contact (section 2.3 of the paper).
+///
+/// Only cells in interference change, by w = z1 - z2 > 0 there, and only outside the elastic regime:
+///
+///     z1' = z1 - c s w,   z2' = z2 + c (1 - s) w                                        (12), (13)
+///     s   = 1/2 + (1/2) ln(H2/H1)/|ln a|     for a H1 <= H2 <= H1/a; else the softer body takes all
+///     c   = 0 for phi <= 0.6, 2 (phi - 0.6) between, 1 for phi >= 1.1
+///
+/// A fully plastic patch ends with z1' = z2'; an elastic one comes back unchanged. The share of (12) as printed, for
+/// Formulation::kPrinted, is P/w; (13) is then used without the regime.
+
+#include "mems_stiction/approach/approach_options.hpp"
+#include "mems_stiction/mechanics/material.hpp"
+
+namespace mems_stiction {
+
+/// How the interference of a cell is divided between the bodies.
+class DeformationShare {
+ public:
+  /// @param hardness_ratio_limit a of (12), in (0, 1)
+  DeformationShare(const Material& lower, const Material& upper, double hardness_ratio_limit,
+                   const ApproachOptions& approach);
+
+  /// Share of w that the lower surface loses, c s [-].
+  double lower(double plasticity_index) const { return flow(plasticity_index) * lower_share_; }
+  /// Share of w that the upper surface loses, c (1 - s) [-].
+  double upper(double plasticity_index) const { return flow(plasticity_index) * (1.0 - lower_share_); }
+
+ private:
+  double flow(double plasticity_index) const;
+
+  double lower_share_ = 0.5;  ///< s [-], in [0, 1]
+  bool flows_in_every_regime_ = false;
+};
+
+}  // namespace mems_stiction

@@ -1,0 +1,69 @@
+#pragma once
+
+/// The iteration of the paper: bring the upper surface down step by step until the stopping condition holds
+/// (force_balance.hpp), and find the place inside that step.
+///
+/// Step k has D = k delta (1), cells with g < D in contact. Inside the step that meets the condition the cells are
+/// added level by level (cells of equal gap come together), and D is the gap of the last one: the result does not hang
+/// on delta. The search ends
+///   - in equilibrium;
+///   - bonded, at the first level whose contact fraction reaches the limit;
+///   - without equilibrium, after max_steps.
+
+#include <cstdint>
+#include <vector>
+
+#include "mems_stiction/approach/approach_options.hpp"
+#include "mems_stiction/approach/patch_sweep.hpp"
+#include "mems_stiction/equilibrium/equilibrium_state.hpp"
+#include "mems_stiction/loads/normal_load.hpp"
+
+namespace mems_stiction {
+
+/// Delta of (1) [m]: as set, or a fiftieth of the composite rms height, or the cut-off distance for surfaces without
+/// relief.
+double approachStep(const ApproachOptions& options, double composite_rms_height, double cutoff_distance);
+
+/// What the search needs to know beside the surfaces.
+struct SearchSetting {
+  AsperityLaw law;
+  CellForces forces;
+  double mechanical_load = 0.0;  ///< [N]
+  double step = 0.0;             ///< delta [m], > 0
+  int max_steps = 0;
+  double smallest_height = 0.0;  ///< of a cap without relief [m], > 0
+  bool keep_curve = false;
+};
+
+/// Runs one approach at a time; keeps its memory between frames. After run() the sweep and the responses are those of
+/// the state that was found.
+class ApproachSearch {
+ public:
+  EquilibriumState run(const GapField& field, const GapOrder& order, Connectivity connectivity,
+                       const SearchSetting& setting);
+
+  PatchSweep& sweep() { return sweep_; }
+  const CapCouple& caps(std::int32_t patch_id) const { return caps_[static_cast<std::size_t>(patch_id)]; }
+  const AsperityResponse& response(std::int32_t patch_id) const {
+    return responses_[static_cast<std::size_t>(patch_id)];
+  }
+  const std::vector<AsperityResponse>& responses() const { return responses_; }
+
+ private:
+  /// Brings the state's cells into contact and balances the forces there.
+  void moveTo(double approach, int contact_count, EquilibriumState& state);
+  /// Replaces the state by the first level in equilibrium after `previous_count` cells, if there is one.
+  void refine(int previous_count, EquilibriumState& state);
+  void record(EquilibriumState& state) const;
+
+  const GapField* field_ = nullptr;
+  const GapOrder* order_ = nullptr;
+  const SearchSetting* setting_ = nullptr;
+  PatchSweep sweep_;
+  GapLoads loads_;
+  std::vector<CapCouple> caps_;
+  std::vector<AsperityResponse> responses_;
+  std::vector<std::int32_t> level_ends_;
+};
+
+}  // namespace mems_stiction

@@ -1,0 +1,106 @@
+#include "mems_stiction/equilibrium/approach_search.hpp"
+
+#include <algorithm>
+
+#include "mems_stiction/approach/cap_couple.hpp"
+#include "mems_stiction/equilibrium/level_search.hpp"
+
+namespace mems_stiction {
+
+double approachStep(const ApproachOptions& options, double composite_rms_height, double cutoff_distance) {
+  constexpr double kStepsPerRmsHeight = 50.0;
+  if (options.step > 0.0) return options.step;
+  const double step = composite_rms_height / kStepsPerRmsHeight;
+  return step > 0.0 ? step : cutoff_distance;
+}
+
+EquilibriumState ApproachSearch::run(const GapField& field, const GapOrder& order, Connectivity connectivity,
+                                     const SearchSetting& setting) {
+  field_ = &field;
+  order_ = &order;
+  setting_ = &setting;
+  sweep_.begin(field, order, connectivity);
+  loads_.prepare(order);
+
+  const double limit_gap = order.cells()[static_cast<std::size_t>(order.contactLimit() - 1)].gap;
+  EquilibriumState state;
+  while (state.steps < setting.max_steps) {
+    ++state.steps;
+    const int previous_count = state.contact_count;
+    const double previous_approach = state.approach;
+    double approach = state.steps * setting.step;
+    int contact_count = order.countBelow(approach);
+    const bool reaches_limit = contact_count >= order.contactLimit();
+    if (reaches_limit) {
+      approach = limit_gap;
+      contact_count = order.contactLimit();
+    }
+    moveTo(approach, contact_count, state);
+    const bool is_equilibrium = state.balance.isEquilibrium();
+    if (is_equilibrium) refine(previous_count, state);
+    state.plastic_work += state.balance.plastic_force * (state.approach - previous_approach);
+    if (setting.keep_curve) record(state);
+    if (is_equilibrium) {
+      state.status = Status::kEquilibrium;
+      return state;
+    }
+    if (reaches_limit) {
+      state.status = Status::kBonded;
+      return state;
+    }
+  }
+  state.status = Status::kNoEquilibrium;
+  return state;
+}
+
+void ApproachSearch::moveTo(double approach, int contact_count, EquilibriumState& state) {
+  sweep_.advanceTo(contact_count);
+  caps_.resize(static_cast<std::size_t>(sweep_.patchIdEnd()));
+  responses_.resize(caps_.size());
+  for (const std::int32_t id : sweep_.takeChangedPatches()) {
+    const ContactPatch& patch = sweep_.patch(id);
+    const bool centre_is_inside = sweep_.patchOf(boxCentre(patch, *field_)) == id;
+    const auto place = static_cast<std::size_t>(id);
+    caps_[place] = capCouple(patch, *field_, centre_is_inside, setting_->smallest_height);
+    responses_[place] = AsperityResponse(caps_[place], setting_->law);
+  }
+  state.approach = approach;
+  state.contact_count = contact_count;
+  state.load = loads_.at(approach, contact_count, setting_->forces, setting_->mechanical_load);
+  state.balance = forceBalance(responses_, sweep_.livePatches(), state.load.total(), setting_->law);
+}
+
+void ApproachSearch::refine(int previous_count, EquilibriumState& state) {
+  const std::vector<OrderedCell>& cells = order_->cells();
+  level_ends_.clear();
+  for (int i = previous_count; i < state.contact_count; ++i) {
+    const bool is_last_of_level = i + 1 == static_cast<int>(cells.size()) ||
+                                  cells[static_cast<std::size_t>(i + 1)].gap != cells[static_cast<std::size_t>(i)].gap;
+    if (is_last_of_level) level_ends_.push_back(i + 1);
+  }
+  const EquilibriumState step_end = state;
+  const auto level_count = static_cast<int>(level_ends_.size());
+  const int level = firstLevelThat(level_count, [&](int candidate) {
+    const std::int32_t end = level_ends_[static_cast<std::size_t>(candidate)];
+    moveTo(cells[static_cast<std::size_t>(end - 1)].gap, end, state);
+    return state.balance.isEquilibrium();
+  });
+  if (level == level_count) moveTo(step_end.approach, step_end.contact_count, state);
+}
+
+void ApproachSearch::record(EquilibriumState& state) const {
+  const Energies energies = totalEnergies(responses_, sweep_.livePatches(), state.balance, setting_->law);
+  EnergyPoint point;
+  point.approach = state.approach;
+  point.contact_fraction = static_cast<double>(state.contact_count) / field_->validCount();
+  point.normal_load = state.balance.normal_load;
+  point.carried_load = state.balance.carried_load;
+  point.generalized_force = state.balance.generalized_force;
+  point.mechanical_energy = energies.mechanical;
+  point.surface_energy = energies.surface;
+  point.elastic_energy = energies.elastic;
+  point.total_energy = energies.total();
+  state.curve.push_back(point);
+}
+
+}  // namespace mems_stiction

@@ -1,0 +1,61 @@
+#include "mems_stiction/equilibrium/asperity_response.hpp"
+
+#include <algorithm>
+
+#include "mems_stiction/base/constants.hpp"
+#include "mems_stiction/mechanics/plasticity.hpp"
+
+namespace mems_stiction {
+namespace {
+
+/// V_i of (6). The volume of a spherical cap has the first power of the height as last factor; (6) prints the second.
+double sharingWeight(const CapCouple& caps, Formulation formulation) {
+  const double volume = (3.0 * caps.base_radius * caps.base_radius + caps.height * caps.height) * caps.height;
+  return formulation == Formulation::kPrinted ? volume * caps.height : volume;
+}
+
+}  // namespace
+
+AsperityLaw::AsperityLaw(const ContactPair& pair, double work_of_adhesion_in, double composite_rms_height_in,
+                         const ApproachOptions& approach)
+    : contact_modulus(pair.contact_modulus),
+      stiffness(4.0 / 3.0 * pair.contact_modulus),
+      hardness(pair.hardness),
+      work_of_adhesion(work_of_adhesion_in),
+      composite_rms_height(composite_rms_height_in),
+      formulation(approach.formulation),
+      deformation(approach.deformation) {}
+
+double AsperityLaw::plasticityIndexOf(double radius) const {
+  if (deformation == Deformation::kElastic) return 0.0;
+  if (formulation == Formulation::kPrinted) return contact_modulus / hardness * (composite_rms_height / radius);
+  return plasticityIndex(contact_modulus, hardness, composite_rms_height, radius);
+}
+
+AsperityResponse::AsperityResponse(const CapCouple& caps, const AsperityLaw& law)
+    : radius(caps.composite_radius),
+      base_radius(caps.base_radius),
+      volume(sharingWeight(caps, law.formulation)),
+      cos_tilt(caps.cos_tilt),
+      imposed_load(law.stiffness * caps.base_radius * caps.base_radius * caps.base_radius / caps.composite_radius),
+      yield_load(law.hardness * kPi * caps.base_radius * caps.base_radius),
+      elastic_share(regimeFactor(law.plasticityIndexOf(caps.composite_radius))) {}
+
+double AsperityResponse::carriedLoad() const {
+  return elastic_share * imposed_load + (1.0 - elastic_share) * std::min(imposed_load, yield_load);
+}
+
+double AsperityResponse::generalizedForce(double axial_load, const AsperityLaw& law) const {
+  const double adhesion = 2.0 * kPi * law.work_of_adhesion * radius;
+  if (law.formulation == Formulation::kPrinted) {
+    const double squared = axial_load * axial_load / imposed_load;
+    return (2.0 * axial_load - 2.0 * squared - elastic_share * (imposed_load - squared)) / 3.0 + adhesion;
+  }
+  const double excess = imposed_load - axial_load;
+  const double elastic = adhesion - excess * excess / imposed_load / 3.0;
+  if (elastic_share == 1.0) return elastic;
+  const double plastic = axial_load + adhesion - yield_load;
+  return elastic_share * elastic + (1.0 - elastic_share) * std::max(elastic, plastic);
+}
+
+}  // namespace mems_stiction

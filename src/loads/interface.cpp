@@ -1,0 +1,32 @@
+#include "mems_stiction/loads/interface.hpp"
+
+namespace mems_stiction {
+
+void InterfaceOptions::describe(OptionVisitor& visitor) {
+  visitor.number("interface/work_of_adhesion", work_of_adhesion, "J/m^2", Range::nonNegative(),
+                 "thermodynamic work of adhesion of the flat interface");
+  visitor.number("interface/hamaker_constant", hamaker_constant, "J", Range::nonNegative(),
+                 "Hamaker constant of the pair across the medium in the gap");
+  visitor.number("interface/cutoff_distance", cutoff_distance, "m", Range::positive(),
+                 "interatomic cut-off: smaller gaps count as this in van der Waals sums");
+  visitor.number("interface/equilibrium_distance", equilibrium_distance, "m", Range::positive(),
+                 "equilibrium distance of Tabor's parameter");
+  visitor.number("interface/insulator_thickness", insulator_thickness, "m", Range::nonNegative(),
+                 "thickness of the insulator between the electrodes; must be > 0 when the voltage is not 0");
+  visitor.number("interface/insulator_relative_permittivity", insulator_relative_permittivity, "", Range{1.0},
+                 "relative permittivity of the insulator");
+  visitor.number("interface/hardness_ratio_limit", hardness_ratio_limit, "", Range::openWithin(0.0, 1.0),
+                 "a of equation (12): hardness ratios beyond it deform the softer body only");
+}
+
+void LoadOptions::describe(OptionVisitor& visitor) {
+  visitor.number("load/max_voltage", max_voltage, "V", Range::positive(), "largest voltage that may be set");
+  visitor.number("load/max_mechanical_load", max_mechanical_load, "N", Range::positive(),
+                 "largest mechanical load that may be set");
+  visitor.number("load/voltage", voltage, "V", Range::within(-max_voltage, max_voltage),
+                 "voltage between the surfaces");
+  visitor.number("load/mechanical_load", mechanical_load, "N", Range::within(0.0, max_mechanical_load),
+                 "external force that presses the scanned area together");
+}
+
+}  // namespace mems_stiction

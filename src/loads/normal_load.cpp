@@ -1,0 +1,117 @@
+#include "mems_stiction/loads/normal_load.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mems_stiction/base/constants.hpp"
+
+namespace mems_stiction {
+namespace {
+
+/// A bucket may stand for its cells when its gap is at least this many times its width.
+constexpr double kGapsPerWidth = 16.0;
+/// Buckets next to the contact whose cells are summed one by one: enough for the Taylor series beyond, and, while they
+/// are wide, as many as reach the cut-off, where the integrand has a kink.
+constexpr double kFewestNearBuckets = kGapsPerWidth;
+constexpr double kMostNearBuckets = 64.0;
+
+GapMoments merged(const GapMoments& a, const GapMoments& b) {
+  if (a.count == 0.0) return b;
+  if (b.count == 0.0) return a;
+  GapMoments sum;
+  sum.count = a.count + b.count;
+  sum.mean = (a.count * a.mean + b.count * b.mean) / sum.count;
+  const double distance = b.mean - a.mean;
+  sum.variance =
+      (a.count * a.variance + b.count * b.variance + a.count * b.count / sum.count * distance * distance) / sum.count;
+  return sum;
+}
+
+}  // namespace
+
+CellForces::CellForces(const InterfaceOptions& interface, double voltage, double cell_area)
+    : van_der_waals_factor_(interface.hamaker_constant * cell_area / (6.0 * kPi)),
+      cutoff_(interface.cutoff_distance),
+      electrostatic_factor_(0.5 * kVacuumPermittivity * cell_area * voltage * voltage),
+      insulator_(interface.insulator_thickness / interface.insulator_relative_permittivity) {}
+
+double CellForces::vanDerWaals(double gap) const {
+  const double distance = std::max(gap, cutoff_);
+  return van_der_waals_factor_ / (distance * distance * distance);
+}
+
+double CellForces::electrostatic(double gap) const {
+  if (!hasElectrostatic()) return 0.0;
+  const double distance = gap + insulator_;
+  return electrostatic_factor_ / (distance * distance);
+}
+
+double CellForces::electrostaticInContact() const { return electrostatic(0.0); }
+
+double CellForces::vanDerWaals(const GapMoments& gaps, double approach) const {
+  const double gap = gaps.mean - approach;
+  if (gap < cutoff_) return gaps.count * vanDerWaals(gap);
+  return gaps.count * vanDerWaals(gap) * (1.0 + 6.0 * gaps.variance / (gap * gap));
+}
+
+double CellForces::electrostatic(const GapMoments& gaps, double approach) const {
+  if (!hasElectrostatic()) return 0.0;
+  const double distance = gaps.mean - approach + insulator_;
+  return gaps.count * electrostatic_factor_ / (distance * distance) *
+         (1.0 + 3.0 * gaps.variance / (distance * distance));
+}
+
+void GapLoads::prepare(const GapOrder& order) {
+  order_ = &order;
+  std::size_t level_count = 0;
+  while ((order.buckets().size() >> level_count) > 1) ++level_count;
+  levels_.resize(level_count);
+  for (std::size_t level = 0; level < level_count; ++level) {
+    const std::vector<GapMoments>& finer = level == 0 ? order.buckets() : levels_[level - 1];
+    std::vector<GapMoments>& coarser = levels_[level];
+    coarser.resize(finer.size() / 2);
+    for (std::size_t i = 0; i < coarser.size(); ++i) coarser[i] = merged(finer[2 * i], finer[2 * i + 1]);
+  }
+}
+
+NormalLoad GapLoads::at(double approach, int contact_count, const CellForces& forces, double mechanical_load) const {
+  const std::vector<GapMoments>& buckets = order_->buckets();
+  const auto bucket_count = static_cast<int>(buckets.size());
+  const double width = order_->bucketWidth();
+  const std::vector<OrderedCell>& cells = order_->cells();
+
+  NormalLoad load;
+  load.mechanical = mechanical_load;
+  load.electrostatic = contact_count * forces.electrostaticInContact();
+
+  const double cutoff_in_widths = forces.cutoff() / width;
+  const int near_buckets =
+      static_cast<int>(std::ceil(std::clamp(cutoff_in_widths, kFewestNearBuckets, kMostNearBuckets)));
+  int bucket = std::min(static_cast<int>(approach / width) + 1 + near_buckets, order_->orderedBuckets());
+  const int near_end = bucket == 0 ? 0 : order_->endOfBucket(bucket - 1);
+  for (int i = contact_count; i < near_end; ++i) {
+    const double gap = cells[static_cast<std::size_t>(i)].gap - approach;
+    load.van_der_waals += forces.vanDerWaals(gap);
+    load.electrostatic += forces.electrostatic(gap);
+  }
+  while (bucket < bucket_count) {
+    const double gap_in_widths = bucket - approach / width;
+    std::size_t level = 0;
+    while (level < levels_.size() && bucket % (2 << level) == 0) {
+      const double wider = 2 << level;
+      const bool has_kink = gap_in_widths < cutoff_in_widths && cutoff_in_widths < gap_in_widths + wider;
+      if (has_kink || gap_in_widths < kGapsPerWidth * wider) break;
+      ++level;
+    }
+    const GapMoments& gaps = level == 0 ? buckets[static_cast<std::size_t>(bucket)]
+                                        : levels_[level - 1][static_cast<std::size_t>(bucket >> level)];
+    if (gaps.count > 0.0) {
+      load.van_der_waals += forces.vanDerWaals(gaps, approach);
+      load.electrostatic += forces.electrostatic(gaps, approach);
+    }
+    bucket += 1 << level;
+  }
+  return load;
+}
+
+}  // namespace mems_stiction
