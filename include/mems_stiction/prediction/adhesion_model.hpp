@@ -1,0 +1,53 @@
+#pragma once
+
+/// Will this part stick? The one door for users of the core.
+///
+/// AdhesionModel brings two measured surfaces together until the free energy of the contact has its extremum, and reads
+/// off pull-off force, contact area and the deformed surfaces.
+///
+///     Options options;
+///     options.load.mechanical_load = 1e-6;                        // N
+///     AdhesionModel model(options);
+///     Prediction prediction = model.predict(HeightMap(heights, 20e-9, 20e-9));
+///     if (prediction.status == Status::kEquilibrium) use(prediction.pull_off_force);
+///
+/// Assumptions: asperities act independently; each is a couple of spherical caps; JKR holds for each (see
+/// median_tabor_parameter for how far it does). Outside: the status says so, forces are then lower bounds.
+/// Source: Deladi, Krijnen, Tas, Elwenspoek 2002; doc/model.md has every equation as implemented.
+
+#include <memory>
+
+#include "mems_stiction/height_map/height_map.hpp"
+#include "mems_stiction/prediction/options.hpp"
+#include "mems_stiction/prediction/prediction.hpp"
+
+namespace mems_stiction {
+
+/// Keeps its working memory between calls; one object serves one thread at a time.
+class AdhesionModel {
+ public:
+  /// @throw OptionsError if the options are out of range.
+  explicit AdhesionModel(const Options& options);
+  ~AdhesionModel();
+  AdhesionModel(AdhesionModel&&) noexcept;
+  AdhesionModel& operator=(AdhesionModel&&) noexcept;
+
+  const Options& options() const;
+
+  /// @throw OptionsError if the options are out of range; the previous ones stay.
+  void setOptions(const Options& options);
+
+  /// The surface against a rigid-plane-shaped counter-surface of the upper material.
+  /// @throw SurfaceError if no pixel is valid.
+  Prediction predict(const HeightMap& lower);
+
+  /// Two surfaces in one frame: z of both points from lower to upper, same rows, cols and pitch.
+  /// @throw SurfaceError if the grids differ or no pixel is valid in both.
+  Prediction predict(const HeightMap& lower, const HeightMap& upper);
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace mems_stiction

@@ -1,0 +1,90 @@
+#pragma once
+
+/// The answer of the model for one pair of surfaces. Field names are those of msg/StictionPrediction.msg and of the
+/// records that predict_scan prints.
+
+#include <cstdint>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "mems_stiction/equilibrium/equilibrium_state.hpp"
+#include "mems_stiction/mechanics/regime.hpp"
+#include "mems_stiction/roughness/areal_parameters.hpp"
+
+namespace mems_stiction {
+
+/// Regime of the whole interface by the adhesion parameter (14); limits 1 and 12 by Gui et al. 1999.
+enum class BondingRegime : std::uint8_t { kBonding = 0, kAdherence = 1, kNonBonding = 2 };
+
+/// Which single-asperity theory the median Tabor parameter asks for (Johnson and Greenwood 1997): JKR above 5, DMT
+/// below 0.1, the transition between.
+enum class ContactTheory : std::uint8_t { kDmt = 0, kTransition = 1, kJkr = 2 };
+
+/// One contact at equilibrium.
+struct Asperity {
+  double x = 0.0, y = 0.0, z = 0.0;  ///< centre: col pitch_x, row pitch_y, height of the lower surface [m]
+  double cap_radius = 0.0;           ///< rc, radius of the base of the spherical caps [m]
+  double composite_radius = 0.0;     ///< R_i of (5) [m]
+  double load = 0.0;                 ///< F_i of (6) [N]
+  double contact_radius = 0.0;       ///< a of JKR at the equilibrium load (7) [m]
+  double tilt = 0.0;                 ///< theta [rad]
+  double plasticity_index = 0.0;     ///< phi of (9) [-]
+  double tabor_parameter = 0.0;      ///< mu [-]
+  double area = 0.0;                 ///< cells in contact [m^2]
+  Regime regime = Regime::kElastic;
+};
+
+struct Prediction {
+  Status status = Status::kNoEquilibrium;
+  int steps = 0;  ///< steps of the approach that were taken
+
+  double voltage = 0.0;              ///< U [V]
+  double mechanical_load = 0.0;      ///< F_m [N]
+  double van_der_waals_force = 0.0;  ///< F_w of (2) [N]
+  double electrostatic_force = 0.0;  ///< F_e of (3) [N]
+  double normal_load = 0.0;          ///< F = F_w + F_e + F_m [N]
+
+  double pull_off_force = 0.0;             ///< (11): pull_off_force_jkr + van_der_waals_force [N]
+  double pull_off_force_jkr = 0.0;         ///< (3/2) pi Gamma sum R_i [N]
+  double pull_off_force_transition = 0.0;  ///< the same sum with the JKR-DMT transition's prefactor of each contact [N]
+
+  double contact_area = 0.0;      ///< cells in contact [m^2]
+  double contact_area_jkr = 0.0;  ///< sum pi a_i^2 [m^2]
+  double nominal_area = 0.0;      ///< valid cells [m^2]
+  double contact_fraction = 0.0;  ///< contact_area / nominal_area [-]
+  double approach = 0.0;          ///< D from first touch [m]
+  double mean_gap = 0.0;          ///< mean of the gap over the cells out of contact [m]
+
+  double mechanical_energy = 0.0;          ///< E_m of (10.1) [J]
+  double surface_energy = 0.0;             ///< E_s of (10.1) [J]
+  double elastic_energy = 0.0;             ///< E_e of (10.2) [J]
+  double total_energy = 0.0;               ///< E_t of (8) [J]
+  double plastic_work = 0.0;               ///< dissipated in flow along the approach [J]
+  double bonding_energy = 0.0;             ///< E_t / nominal area [J/m^2]
+  double normalized_bonding_energy = 0.0;  ///< bonding_energy / Gamma [-]; NaN when Gamma = 0
+
+  double adhesion_parameter = 0.0;  ///< (14) [-]; infinite when Gamma = 0
+  BondingRegime bonding_regime = BondingRegime::kNonBonding;
+  int asperity_count = 0;
+  int elastic_count = 0;
+  int elasto_plastic_count = 0;
+  int plastic_count = 0;
+  double max_tilt = 0.0;                ///< [rad]
+  double median_tabor_parameter = 0.0;  ///< [-]
+  ContactTheory contact_theory = ContactTheory::kTransition;
+
+  double composite_rms_height = 0.0;  ///< sigma of (9): sqrt(sigma1^2 + sigma2^2) [m]
+  double rms_height = 0.0;            ///< Sq of the lower surface [m]
+  ArealParameters roughness;          ///< of the lower surface
+  double invalid_fraction = 0.0;      ///< share of pixels that are invalid in either surface [-]
+  double processing_time = 0.0;       ///< wall time inside predict() [s]
+
+  std::vector<Asperity> asperities;
+  std::vector<EnergyPoint> energy_curve;
+  cv::Mat deformed_lower;  ///< rows x cols CV_64FC1 [m], NaN where invalid
+  cv::Mat deformed_upper;  ///< the same in the upper surface's own z [m]
+  cv::Mat contact_map;     ///< rows x cols CV_8UC1, values of Regime
+};
+
+}  // namespace mems_stiction

@@ -1,0 +1,45 @@
+#include "mems_stiction/prediction/surface_outputs.hpp"
+
+#include "mems_stiction/deformation/modified_topography.hpp"
+
+namespace mems_stiction {
+namespace {
+
+cv::Mat doubleCopy(const HeightMap& surface) {
+  cv::Mat copy;
+  surface.heights().convertTo(copy, CV_64F);
+  return copy;
+}
+
+}  // namespace
+
+void fillSurfaceOutputs(const HeightMap& lower, const HeightMap* upper, const EquilibriumState& state,
+                        ApproachSearch& search, const GapField& field, const GapOrder& order, const AsperityLaw& law,
+                        const Options& options, Prediction& prediction) {
+  const bool wants_map = options.output.contact_map;
+  const bool wants_surfaces = options.output.deformed_surfaces;
+  if (!wants_map && !wants_surfaces) return;
+  if (wants_map) prediction.contact_map = cv::Mat::zeros(field.rows(), field.cols(), CV_8UC1);
+  if (wants_surfaces) {
+    prediction.deformed_lower = doubleCopy(lower);
+    prediction.deformed_upper =
+        upper != nullptr ? doubleCopy(*upper) : cv::Mat::zeros(field.rows(), field.cols(), CV_64FC1);
+  }
+
+  const DeformationShare share(options.lower, options.upper, options.interface.hardness_ratio_limit, options.approach);
+  for (int i = 0; i < state.contact_count; ++i) {
+    const OrderedCell& cell = order.cells()[static_cast<std::size_t>(i)];
+    const double plasticity_index = law.plasticityIndexOf(search.response(search.sweep().patchOf(cell.cell)).radius);
+    const int row = cell.cell / field.cols();
+    const int col = cell.cell % field.cols();
+    if (wants_map)
+      prediction.contact_map.at<std::uint8_t>(row, col) = static_cast<std::uint8_t>(regimeOf(plasticity_index));
+    if (wants_surfaces) {
+      const double interference = state.approach - cell.gap;
+      prediction.deformed_lower.at<double>(row, col) -= share.lower(plasticity_index) * interference;
+      prediction.deformed_upper.at<double>(row, col) += share.upper(plasticity_index) * interference;
+    }
+  }
+}
+
+}  // namespace mems_stiction

@@ -1,0 +1,246 @@
+#include "support/plain_adhesion_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <opencv2/imgproc.hpp>
+
+#include "mems_stiction/approach/cap_couple.hpp"
+#include "mems_stiction/equilibrium/approach_search.hpp"
+#include "mems_stiction/equilibrium/level_search.hpp"
+#include "mems_stiction/prediction/contact_summary.hpp"
+
+namespace mems_stiction {
+namespace plain {
+namespace {
+
+bool touches(double gap, double approach, Touch touch) {
+  return touch == Touch::kBelow ? gap < approach : gap <= approach;
+}
+
+bool isDeeper(const GapField& field, int cell, int other) {
+  return field.gap(cell) != field.gap(other) ? field.gap(cell) < field.gap(other) : cell < other;
+}
+
+/// Calls visit(row, col, label) for every cell in contact.
+template <typename Visitor>
+void forEachContactCell(const cv::Mat& labels, Visitor&& visit) {
+  for (int row = 0; row < labels.rows; ++row) {
+    for (int col = 0; col < labels.cols; ++col) {
+      if (labels.at<int>(row, col) > 0) visit(row, col, labels.at<int>(row, col));
+    }
+  }
+}
+
+void measureBoundary(const GapField& field, const cv::Mat& labels, std::vector<ContactPatch>& patches) {
+  forEachContactCell(labels, [&](int row, int col, int label) {
+    for (const cv::Point step : {cv::Point(-1, 0), cv::Point(1, 0), cv::Point(0, -1), cv::Point(0, 1)}) {
+      const cv::Point neighbour = cv::Point(col, row) + step;
+      if (!cv::Rect(0, 0, labels.cols, labels.rows).contains(neighbour)) continue;
+      if (labels.at<int>(neighbour) > 0 || !field.isValid(neighbour.y * labels.cols + neighbour.x)) continue;
+      patches[static_cast<std::size_t>(label - 1)].boundary.addEdge(field, row, col, neighbour.y, neighbour.x, 1);
+    }
+  });
+}
+
+/// One state of the approach with its forces.
+struct State {
+  double approach = 0.0;
+  Touch touch = Touch::kBelow;
+  Labelling labelling;
+  std::vector<CapCouple> caps;
+  std::vector<AsperityResponse> responses;
+  std::vector<std::int32_t> ids;
+  NormalLoad load;
+  ForceBalance balance;
+};
+
+struct Problem {
+  const Options& options;
+  GapField field;
+  AsperityLaw law;
+};
+
+State stateAt(const Problem& problem, double approach, Touch touch) {
+  State state;
+  state.approach = approach;
+  state.touch = touch;
+  state.labelling = labelPatches(problem.field, approach, touch, problem.options.approach.connectivity);
+  for (const ContactPatch& patch : state.labelling.patches) {
+    const int centre = boxCentre(patch, problem.field);
+    const auto id = static_cast<std::int32_t>(state.ids.size());
+    const bool inside =
+        state.labelling.labels.at<int>(centre / problem.field.cols(), centre % problem.field.cols()) == id + 1;
+    state.caps.push_back(capCouple(patch, problem.field, inside, problem.options.interface.cutoff_distance));
+    state.responses.emplace_back(state.caps.back(), problem.law);
+    state.ids.push_back(id);
+  }
+  const CellForces forces(problem.options.interface, problem.options.load.voltage, problem.field.cellArea());
+  state.load = sumLoads(problem.field, approach, touch, forces, problem.options.load.mechanical_load);
+  state.balance = forceBalance(state.responses, state.ids, state.load.total(), problem.law);
+  return state;
+}
+
+/// The first gap level at which at least the limiting share of the valid cells touches.
+double limitGap(const GapField& field, double max_contact_fraction) {
+  std::vector<double> gaps;
+  std::copy_if(field.gaps().begin(), field.gaps().end(), std::back_inserter(gaps),
+               [](double gap) { return gap != GapField::kInvalidGap; });
+  std::sort(gaps.begin(), gaps.end());
+  const auto wanted = static_cast<std::size_t>(std::max(1.0, std::ceil(max_contact_fraction * gaps.size())));
+  return gaps[wanted - 1];
+}
+
+/// The first level in (previous, step_end] that is in equilibrium, or the end of the step.
+State refined(const Problem& problem, const State& step_end, double previous_approach) {
+  std::set<double> levels;
+  for (const double gap : problem.field.gaps()) {
+    if (touches(gap, step_end.approach, step_end.touch) && gap >= previous_approach) levels.insert(gap);
+  }
+  const std::vector<double> ordered(levels.begin(), levels.end());
+  State found = step_end;
+  const auto count = static_cast<int>(ordered.size());
+  const int level = firstLevelThat(count, [&](int candidate) {
+    found = stateAt(problem, ordered[static_cast<std::size_t>(candidate)], Touch::kUpTo);
+    return found.balance.isEquilibrium();
+  });
+  return level < count ? found : step_end;
+}
+
+double meanGapApart(const GapField& field, const State& state) {
+  double sum = 0.0;
+  int apart = 0;
+  for (const double gap : field.gaps()) {
+    if (gap == GapField::kInvalidGap || touches(gap, state.approach, state.touch)) continue;
+    sum += gap - state.approach;
+    ++apart;
+  }
+  return apart > 0 ? sum / apart : 0.0;
+}
+
+void summarize(const Problem& problem, const State& state, Prediction& prediction) {
+  const GapField& field = problem.field;
+  prediction.voltage = problem.options.load.voltage;
+  prediction.mechanical_load = problem.options.load.mechanical_load;
+  prediction.van_der_waals_force = state.load.van_der_waals;
+  prediction.electrostatic_force = state.load.electrostatic;
+  prediction.normal_load = state.load.total();
+  prediction.contact_area = state.labelling.contact_count * field.cellArea();
+  prediction.nominal_area = field.validCount() * field.cellArea();
+  prediction.contact_fraction = static_cast<double>(state.labelling.contact_count) / field.validCount();
+  prediction.approach = state.approach;
+  prediction.mean_gap = meanGapApart(field, state);
+  const Energies energies = totalEnergies(state.responses, state.ids, state.balance, problem.law);
+  prediction.mechanical_energy = energies.mechanical;
+  prediction.surface_energy = energies.surface;
+  prediction.elastic_energy = energies.elastic;
+  prediction.total_energy = energies.total();
+  prediction.bonding_energy = energies.total() / prediction.nominal_area;
+  for (std::size_t i = 0; i < state.caps.size(); ++i) {
+    const Asperity asperity = asperityAt(state.labelling.patches[i], state.caps[i], state.responses[i],
+                                         state.balance.load_share, field, problem.law, problem.options.interface);
+    addContact(asperity, problem.law, prediction);
+    prediction.asperities.push_back(asperity);
+  }
+  prediction.adhesion_parameter /= prediction.asperity_count;
+  prediction.pull_off_force = prediction.pull_off_force_jkr + prediction.van_der_waals_force;
+}
+
+}  // namespace
+
+Labelling labelPatches(const GapField& field, double approach, Touch touch, Connectivity connectivity) {
+  cv::Mat1b mask(field.rows(), field.cols());
+  for (int cell = 0; cell < field.cellCount(); ++cell) {
+    mask(cell / field.cols(), cell % field.cols()) = touches(field.gap(cell), approach, touch) ? 255 : 0;
+  }
+  Labelling labelling;
+  cv::Mat stats;
+  cv::Mat centroids;
+  const int count = cv::connectedComponentsWithStats(mask, labelling.labels, stats, centroids,
+                                                     connectivity == Connectivity::kFour ? 4 : 8, CV_32S);
+  labelling.patches.resize(static_cast<std::size_t>(count - 1));
+  for (int label = 1; label < count; ++label) {
+    ContactPatch& patch = labelling.patches[static_cast<std::size_t>(label - 1)];
+    patch.area = stats.at<int>(label, cv::CC_STAT_AREA);
+    patch.min_col = stats.at<int>(label, cv::CC_STAT_LEFT);
+    patch.max_col = patch.min_col + stats.at<int>(label, cv::CC_STAT_WIDTH) - 1;
+    patch.min_row = stats.at<int>(label, cv::CC_STAT_TOP);
+    patch.max_row = patch.min_row + stats.at<int>(label, cv::CC_STAT_HEIGHT) - 1;
+    patch.deepest = -1;
+    std::fill(std::begin(patch.extreme), std::end(patch.extreme), -1);
+    labelling.contact_count += patch.area;
+  }
+  forEachContactCell(labelling.labels, [&](int row, int col, int label) {
+    ContactPatch& patch = labelling.patches[static_cast<std::size_t>(label - 1)];
+    const int cell = row * field.cols() + col;
+    const auto take = [&](std::int32_t& best, bool applies) {
+      if (applies && (best < 0 || isDeeper(field, cell, best))) best = cell;
+    };
+    take(patch.deepest, true);
+    take(patch.extreme[kLeft], col == patch.min_col);
+    take(patch.extreme[kRight], col == patch.max_col);
+    take(patch.extreme[kTop], row == patch.min_row);
+    take(patch.extreme[kBottom], row == patch.max_row);
+    patch.latest_gap = std::max(patch.latest_gap, field.gap(cell));
+  });
+  measureBoundary(field, labelling.labels, labelling.patches);
+  return labelling;
+}
+
+NormalLoad sumLoads(const GapField& field, double approach, Touch touch, const CellForces& forces,
+                    double mechanical_load) {
+  NormalLoad load;
+  load.mechanical = mechanical_load;
+  for (const double gap : field.gaps()) {
+    if (gap == GapField::kInvalidGap) continue;
+    if (touches(gap, approach, touch)) {
+      load.electrostatic += forces.electrostaticInContact();
+    } else {
+      load.van_der_waals += forces.vanDerWaals(gap - approach);
+      load.electrostatic += forces.electrostatic(gap - approach);
+    }
+  }
+  return load;
+}
+
+Prediction predict(const Options& options, const HeightMap& lower, const HeightMap* upper) {
+  options.check();
+  Prediction prediction;
+  prediction.rms_height = heightStatistics(lower).rms_height;
+  prediction.composite_rms_height =
+      std::hypot(prediction.rms_height, upper != nullptr ? heightStatistics(*upper).rms_height : 0.0);
+  Problem problem{options, GapField(),
+                  AsperityLaw(ContactPair(options.lower, options.upper), options.interface.work_of_adhesion,
+                              prediction.composite_rms_height, options.approach)};
+  if (upper != nullptr) {
+    problem.field.compute(lower, *upper);
+  } else {
+    problem.field.compute(lower);
+  }
+  prediction.invalid_fraction = 1.0 - static_cast<double>(problem.field.validCount()) / problem.field.cellCount();
+
+  const double limit_gap = limitGap(problem.field, options.approach.max_contact_fraction);
+  const double step =
+      approachStep(options.approach, prediction.composite_rms_height, options.interface.cutoff_distance);
+  State state;
+  while (prediction.status == Status::kNoEquilibrium && prediction.steps < options.approach.max_steps) {
+    ++prediction.steps;
+    const double previous_approach = state.approach;
+    const double approach = prediction.steps * step;
+    const bool reaches_limit = limit_gap < approach;
+    state = reaches_limit ? stateAt(problem, limit_gap, Touch::kUpTo) : stateAt(problem, approach, Touch::kBelow);
+    if (state.balance.isEquilibrium()) {
+      state = refined(problem, state, previous_approach);
+      prediction.status = Status::kEquilibrium;
+    } else if (reaches_limit) {
+      prediction.status = Status::kBonded;
+    }
+    prediction.plastic_work += state.balance.plastic_force * (state.approach - previous_approach);
+  }
+  summarize(problem, state, prediction);
+  return prediction;
+}
+
+}  // namespace plain
+}  // namespace mems_stiction
