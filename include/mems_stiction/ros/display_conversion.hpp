@@ -1,0 +1,27 @@
+#pragma once
+
+/// Views of a prediction for rviz: enlarged, thinned out, heights exaggerated. For looking at, not for measuring.
+
+#include <sensor_msgs/PointCloud2.h>
+#include <std_msgs/Header.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include "mems_stiction/height_map/height_map.hpp"
+#include "mems_stiction/prediction/prediction.hpp"
+#include "mems_stiction/ros/parameters.hpp"
+
+namespace mems_stiction {
+
+/// The scanned surface after contact about its mean height. Fields: x, y, z [m on the screen], height [m, about the
+/// mean, not enlarged] and rgb by deformation regime. Invalid pixels are left out.
+/// @param prediction must hold deformed_lower and contact_map.
+sensor_msgs::PointCloud2 surfacePoints(const Prediction& prediction, const HeightMap& scan,
+                                       const std_msgs::Header& header, const DisplayOptions& options);
+
+/// One disc per contact with the radius of its cap, colored by deformation regime, above the same surface. The first
+/// marker removes those of the scan before.
+/// @param prediction must hold deformed_lower and asperities.
+visualization_msgs::MarkerArray asperityMarkers(const Prediction& prediction, const std_msgs::Header& header,
+                                                const DisplayOptions& options);
+
+}  // namespace mems_stiction

@@ -1,0 +1,46 @@
+#pragma once
+
+/// Between sensor_msgs/Image and height maps: encodings, byte order, validity (REP 117, REP 118).
+
+#include <string>
+
+#include <sensor_msgs/Image.h>
+#include <std_msgs/Header.h>
+
+#include "mems_stiction/ScanInfo.h"
+#include "mems_stiction/height_map/height_map.hpp"
+#include "mems_stiction/height_map/raw_scan.hpp"
+
+namespace mems_stiction {
+
+/// A height map and, since it may show the message's own pixels, the message.
+struct ReceivedScan {
+  std_msgs::Header header;
+  HeightMap surface;
+  sensor_msgs::ImageConstPtr image;
+};
+
+/// The encodings that carry heights, for messages: "32FC1, 64FC1, ...".
+std::string acceptedEncodings();
+
+/// The message over the parameters: every field that the message leaves at its default keeps the parameter's value.
+/// @throw SurfaceError naming a field that is negative, not finite, or stated nowhere.
+ScanOptions scanOptions(const ScanInfo& info, const ScanOptions& parameters);
+
+/// The message that reads back as `options`.
+ScanInfo scanInfoMessage(const ScanOptions& options, const std_msgs::Header& header);
+
+/// Shares the pixels of 32FC1 and 64FC1 in this machine's byte order with scale 1, offset 0 and no invalid value;
+/// copies otherwise. The image's memory is never written to.
+/// @throw SurfaceError if the encoding is not accepted, the size is zero, step or data size do not fit, or the pitch is
+///        not stated.
+ReceivedScan receiveScan(const sensor_msgs::ImageConstPtr& image, const ScanOptions& options);
+
+/// rows x cols CV_32FC1 or CV_64FC1 [m] as 32FC1 [m], NaN where invalid. Float32 keeps 7 digits: a
+/// stage offset should have come off before.
+sensor_msgs::ImagePtr heightImage(const cv::Mat& heights, const std_msgs::Header& header);
+
+/// rows x cols CV_8UC1 as mono8.
+sensor_msgs::ImagePtr contactMapImage(const cv::Mat& contact_map, const std_msgs::Header& header);
+
+}  // namespace mems_stiction

@@ -1,0 +1,68 @@
+#pragma once
+
+/// The parameters of node and nodelet: the core's configuration and the node's own settings, read from the private
+/// namespace by the same tables and the same reader as a configuration file.
+
+#include <string>
+
+#include <ros/node_handle.h>
+#include <xmlrpcpp/XmlRpcValue.h>
+
+#include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/prediction/configuration.hpp"
+
+namespace YAML {
+class Node;
+}
+
+namespace mems_stiction {
+
+/// What happens when scans arrive faster than they can be predicted.
+enum class DropPolicy {
+  kAll,     ///< every scan waits for its turn: a replay gives as many predictions as scans
+  kLatest,  ///< the newest queue_size scans wait, older ones are dropped and counted: a live view stays live
+};
+
+/// The views for rviz, which cannot show micrometers: everything is enlarged by `scale`, heights once more.
+struct DisplayOptions {
+  double scale = 1e6;                 ///< meters on the screen for one meter of the scan [-], > 0
+  double height_exaggeration = 10.0;  ///< of heights against lengths [-], > 0
+  int max_points = 40000;             ///< of surface_points; the surface is thinned out in rows and columns to keep it
+  int max_markers = 500;              ///< of asperity_markers; the contacts with the largest loads are shown
+
+  void describe(OptionVisitor& visitor);
+};
+
+struct NodeOptions {
+  int queue_size = 10;  ///< scans that may wait; with DropPolicy::kAll more wait, with a warning
+  DropPolicy drop_policy = DropPolicy::kAll;
+  bool use_scan_info = true;            ///< false: the parameters scan/... serve for every scan
+  double pairing_timeout = 5.0;         ///< how long a scan and its scan_info wait for each other [s], wall time
+  bool accumulate_deformation = false;  ///< each contact leaves its mark on the scans that follow
+  double diagnostic_period = 1.0;       ///< between messages on /diagnostics [s], wall time
+  double warning_period = 5.0;          ///< at most one warning about scans in so long a time [s], wall time
+  DisplayOptions display;
+
+  void describe(OptionVisitor& visitor);
+};
+
+struct NodeConfiguration {
+  Configuration core;
+  NodeOptions node;
+
+  void describe(OptionVisitor& visitor);
+};
+
+/// A tree of parameters as YAML.
+/// @throw OptionsError naming the key of a value that YAML has no form for (dates, binary data).
+YAML::Node yamlFromParameters(XmlRpc::XmlRpcValue tree);
+
+/// @param tree a map; keys of image_transport's own (`image_transport`, `<topic>/disable_pub_plugins`,
+///        `<topic>/<plugin>/...`) are passed over.
+/// @throw OptionsError one line per unknown key, wrong type, unphysical value or combination.
+NodeConfiguration nodeConfigurationFromYaml(const YAML::Node& tree);
+
+/// Reads the private namespace. @throw OptionsError as above.
+NodeConfiguration readParameters(const ros::NodeHandle& private_handle);
+
+}  // namespace mems_stiction

@@ -1,0 +1,17 @@
+#pragma once
+
+/// From the core's prediction to messages; field by field, no figure is computed here.
+
+#include <std_msgs/Header.h>
+
+#include "mems_stiction/AsperityArray.h"
+#include "mems_stiction/StictionPrediction.h"
+#include "mems_stiction/prediction/prediction.hpp"
+
+namespace mems_stiction {
+
+StictionPrediction predictionMessage(const Prediction& prediction, const std_msgs::Header& header);
+
+AsperityArray asperitiesMessage(const Prediction& prediction, const std_msgs::Header& header);
+
+}  // namespace mems_stiction

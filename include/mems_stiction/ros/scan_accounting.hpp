@@ -1,0 +1,66 @@
+#pragma once
+
+/// The books of the node: every scan that arrives ends as exactly one of predicted, dropped or rejected; the last two
+/// with a reason and a throttled warning. May be called from every thread.
+
+#include <cstdint>
+#include <mutex>
+#include <string>
+
+#include <diagnostic_updater/DiagnosticStatusWrapper.h>
+#include <ros/time.h>
+#include <std_msgs/Header.h>
+
+namespace mems_stiction {
+
+struct ScanCounts {
+  std::uint64_t received = 0;               ///< predicted + dropped + rejected + waiting
+  std::uint64_t predicted = 0;              ///< a prediction was published
+  std::uint64_t dropped = 0;                ///< given up for newer ones (drop_policy latest)
+  std::uint64_t rejected = 0;               ///< cannot be predicted
+  std::uint64_t missing_by_sequence = 0;    ///< numbers that header.seq skipped: lost before they came here
+  std::uint64_t stamps_not_increasing = 0;  ///< scans not newer than the one before: a bag in a loop, a clock set back
+  std::uint64_t counter_surfaces = 0;       ///< accepted
+  std::uint64_t counter_surfaces_rejected = 0;  ///< cannot be used
+  std::uint64_t waiting() const { return received - predicted - dropped - rejected; }
+};
+
+class ScanAccounting {
+ public:
+  /// @param warning_period at most one warning in so long a time.
+  explicit ScanAccounting(ros::WallDuration warning_period);
+
+  void received(const std_msgs::Header& header);
+  /// @param latency from arrival to publication [s]; @param processing_time of the core [s]
+  void predicted(double latency, double processing_time);
+  void dropped(const std_msgs::Header& header, const std::string& reason);
+  void rejected(const std_msgs::Header& header, const std::string& reason);
+  void counterSurfaceAccepted();
+  void counterSurfaceRejected(const std_msgs::Header& header, const std::string& reason);
+  /// A throttled warning about a scan that is predicted all the same.
+  void warn(const std_msgs::Header& header, const std::string& text);
+
+  ScanCounts counts() const;
+
+  /// One status with every count; WARN if scans were lost since the last report.
+  void report(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+ private:
+  void warnThrottled(const std::string& text);
+
+  const ros::WallDuration warning_period_;
+  mutable std::mutex mutex_;
+  ScanCounts counts_;
+  ScanCounts reported_;
+  ros::WallTime last_report_;
+  ros::WallTime last_warning_;
+  std::uint64_t suppressed_warnings_ = 0;
+  std::string last_reason_;
+  bool has_previous_ = false;
+  std_msgs::Header previous_;
+  double last_latency_ = 0.0;
+  double max_latency_ = 0.0;
+  double last_processing_time_ = 0.0;
+};
+
+}  // namespace mems_stiction

@@ -1,0 +1,40 @@
+#pragma once
+
+/// Every name that the ROS layer gives to a topic or service, and how many messages each connection may hold back.
+
+#include <cstdint>
+
+namespace mems_stiction {
+
+// In
+inline constexpr char kHeightTopic[] = "height";
+inline constexpr char kScanInfoTopic[] = "scan_info";
+inline constexpr char kCounterHeightTopic[] = "counter_height";
+inline constexpr char kCounterScanInfoTopic[] = "counter_scan_info";
+
+// Out
+inline constexpr char kPredictionTopic[] = "prediction";
+inline constexpr char kDeformedHeightTopic[] = "deformed_height";
+inline constexpr char kDeformedCounterHeightTopic[] = "deformed_counter_height";
+inline constexpr char kContactMapTopic[] = "contact_map";
+inline constexpr char kAsperitiesTopic[] = "asperities";
+inline constexpr char kSurfacePointsTopic[] = "surface_points";
+inline constexpr char kAsperityMarkersTopic[] = "asperity_markers";
+
+// Services, in the node's private namespace
+inline constexpr char kSetLoadService[] = "set_load";
+inline constexpr char kGetLoadService[] = "get_load";
+inline constexpr char kPredictService[] = "predict";
+inline constexpr char kResetSurfaceService[] = "reset_surface";
+
+/// roscpp drops the oldest message of a full queue without a count. Ours is unlimited (0): messages pass at once to the
+/// node's own queue, which is bounded by `queue_size` and counts what it drops.
+inline constexpr std::uint32_t kSubscriberQueue = 0;
+/// Predictions are small and there is one per scan: a subscriber may fall this far behind.
+inline constexpr std::uint32_t kPredictionQueue = 1000;
+/// Maps and lists are large: a slow subscriber gets the newest ones.
+inline constexpr std::uint32_t kMapQueue = 20;
+/// Views for rviz: only the newest matters.
+inline constexpr std::uint32_t kDisplayQueue = 1;
+
+}  // namespace mems_stiction

@@ -1,0 +1,65 @@
+#pragma once
+
+/// One worker thread that owns the core: scans in the order of arrival, and calls that go before them and whose answer
+/// is waited for. Everything that touches the core runs here, so nothing else needs a lock.
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <future>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+namespace mems_stiction {
+
+class WorkQueue {
+ public:
+  /// @param capacity scans that may wait; 0 = any number.
+  explicit WorkQueue(std::size_t capacity) : capacity_(capacity) {}
+  ~WorkQueue() { stop(); }
+  WorkQueue(const WorkQueue&) = delete;
+  WorkQueue& operator=(const WorkQueue&) = delete;
+
+  void start();
+  /// Finishes the job at hand, forgets the others and joins the thread. Calls that wait get std::future_error.
+  void stop();
+
+  /// Appends a scan. When more than `capacity` wait, the oldest ones go and their `drop` is called on this thread.
+  void pushScan(std::function<void()> run, std::function<void()> drop);
+  /// Appends a job that is never dropped and keeps its place among the scans.
+  void push(std::function<void()> run);
+
+  /// Runs `function` on the worker before the scans that wait, and returns its result or throws what it throws.
+  /// @throw std::future_error if the queue is stopped before.
+  template <typename Function>
+  auto call(Function function) -> decltype(function()) {
+    auto task = std::make_shared<std::packaged_task<decltype(function())()>>(std::move(function));
+    auto result = task->get_future();
+    pushUrgent([task] { (*task)(); });
+    task.reset();  // the queue holds the only owner: a forgotten task breaks its promise
+    return result.get();
+  }
+
+  std::size_t waitingScans() const;
+
+ private:
+  struct Job {
+    std::function<void()> run;
+    std::function<void()> drop;  ///< empty for jobs that are never dropped
+  };
+
+  void pushUrgent(std::function<void()> run);
+  void loop();
+
+  const std::size_t capacity_;
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<std::function<void()>> urgent_;
+  std::deque<Job> jobs_;
+  std::size_t waiting_scans_ = 0;
+  bool stopping_ = false;
+  std::thread thread_;
+};
+
+}  // namespace mems_stiction

@@ -1,0 +1,112 @@
+#include "mems_stiction/ros/prediction_conversion.hpp"
+
+namespace mems_stiction {
+namespace {
+
+// The messages state the same numbers as the core's enumerations.
+static_assert(static_cast<int>(Status::kEquilibrium) == StictionPrediction::EQUILIBRIUM, "status");
+static_assert(static_cast<int>(Status::kBonded) == StictionPrediction::BONDED, "status");
+static_assert(static_cast<int>(Status::kNoEquilibrium) == StictionPrediction::NO_EQUILIBRIUM, "status");
+static_assert(static_cast<int>(BondingRegime::kBonding) == StictionPrediction::REGIME_BONDING, "bonding_regime");
+static_assert(static_cast<int>(BondingRegime::kAdherence) == StictionPrediction::REGIME_ADHERENCE, "bonding_regime");
+static_assert(static_cast<int>(BondingRegime::kNonBonding) == StictionPrediction::REGIME_NON_BONDING, "bonding_regime");
+static_assert(static_cast<int>(ContactTheory::kDmt) == StictionPrediction::THEORY_DMT, "contact_theory");
+static_assert(static_cast<int>(ContactTheory::kTransition) == StictionPrediction::THEORY_TRANSITION, "contact_theory");
+static_assert(static_cast<int>(ContactTheory::kJkr) == StictionPrediction::THEORY_JKR, "contact_theory");
+static_assert(static_cast<int>(Regime::kElastic) == AsperityContact::ELASTIC, "regime");
+static_assert(static_cast<int>(Regime::kElastoPlastic) == AsperityContact::ELASTO_PLASTIC, "regime");
+static_assert(static_cast<int>(Regime::kPlastic) == AsperityContact::PLASTIC, "regime");
+
+std::uint32_t count(int value) { return static_cast<std::uint32_t>(value); }
+
+RoughnessStatistics roughnessMessage(const ArealParameters& parameters) {
+  RoughnessStatistics message;
+  message.sa = parameters.sa;
+  message.sq = parameters.sq;
+  message.ssk = parameters.ssk;
+  message.sku = parameters.sku;
+  message.sp = parameters.sp;
+  message.sv = parameters.sv;
+  message.sz = parameters.sz;
+  message.sdq = parameters.sdq;
+  message.sdr = parameters.sdr;
+  return message;
+}
+
+AsperityContact contactMessage(const Asperity& asperity) {
+  AsperityContact message;
+  message.x = asperity.x;
+  message.y = asperity.y;
+  message.z = asperity.z;
+  message.cap_radius = asperity.cap_radius;
+  message.composite_radius = asperity.composite_radius;
+  message.load = asperity.load;
+  message.contact_radius = asperity.contact_radius;
+  message.tilt = asperity.tilt;
+  message.plasticity_index = asperity.plasticity_index;
+  message.tabor_parameter = asperity.tabor_parameter;
+  message.area = asperity.area;
+  message.regime = static_cast<std::uint8_t>(asperity.regime);
+  return message;
+}
+
+}  // namespace
+
+StictionPrediction predictionMessage(const Prediction& prediction, const std_msgs::Header& header) {
+  StictionPrediction message;
+  message.header = header;
+  message.status = static_cast<std::uint8_t>(prediction.status);
+  message.steps = count(prediction.steps);
+
+  message.voltage = prediction.voltage;
+  message.mechanical_load = prediction.mechanical_load;
+  message.van_der_waals_force = prediction.van_der_waals_force;
+  message.electrostatic_force = prediction.electrostatic_force;
+  message.normal_load = prediction.normal_load;
+
+  message.pull_off_force = prediction.pull_off_force;
+  message.pull_off_force_jkr = prediction.pull_off_force_jkr;
+  message.pull_off_force_transition = prediction.pull_off_force_transition;
+
+  message.contact_area = prediction.contact_area;
+  message.contact_area_jkr = prediction.contact_area_jkr;
+  message.nominal_area = prediction.nominal_area;
+  message.contact_fraction = prediction.contact_fraction;
+  message.approach = prediction.approach;
+  message.mean_gap = prediction.mean_gap;
+
+  message.mechanical_energy = prediction.mechanical_energy;
+  message.surface_energy = prediction.surface_energy;
+  message.elastic_energy = prediction.elastic_energy;
+  message.total_energy = prediction.total_energy;
+  message.plastic_work = prediction.plastic_work;
+  message.bonding_energy = prediction.bonding_energy;
+  message.normalized_bonding_energy = prediction.normalized_bonding_energy;
+
+  message.adhesion_parameter = prediction.adhesion_parameter;
+  message.bonding_regime = static_cast<std::uint8_t>(prediction.bonding_regime);
+  message.asperity_count = count(prediction.asperity_count);
+  message.elastic_count = count(prediction.elastic_count);
+  message.elasto_plastic_count = count(prediction.elasto_plastic_count);
+  message.plastic_count = count(prediction.plastic_count);
+  message.max_tilt = prediction.max_tilt;
+  message.median_tabor_parameter = prediction.median_tabor_parameter;
+  message.contact_theory = static_cast<std::uint8_t>(prediction.contact_theory);
+
+  message.composite_rms_height = prediction.composite_rms_height;
+  message.rms_height = prediction.rms_height;
+  message.roughness = roughnessMessage(prediction.roughness);
+  message.invalid_fraction = prediction.invalid_fraction;
+  message.processing_time = prediction.processing_time;
+  return message;
+}
+
+AsperityArray asperitiesMessage(const Prediction& prediction, const std_msgs::Header& header) {
+  AsperityArray message;
+  message.header = header;
+  message.asperities.reserve(prediction.asperities.size());
+  for (const Asperity& asperity : prediction.asperities) message.asperities.push_back(contactMessage(asperity));
+  return message;
+}
+
+}  // namespace mems_stiction

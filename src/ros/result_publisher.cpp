@@ -1,0 +1,65 @@
+#include "mems_stiction/ros/result_publisher.hpp"
+
+#include "mems_stiction/ros/display_conversion.hpp"
+#include "mems_stiction/ros/prediction_conversion.hpp"
+#include "mems_stiction/ros/topic_names.hpp"
+
+namespace mems_stiction {
+namespace {
+
+template <typename Publisher>
+bool hasListener(const Publisher& publisher) {
+  return publisher.getNumSubscribers() > 0;
+}
+
+}  // namespace
+
+ResultPublisher::ResultPublisher(const ros::NodeHandle& handle, const DisplayOptions& display)
+    : display_(display), transport_(handle) {
+  ros::NodeHandle node(handle);
+  prediction_ = node.advertise<StictionPrediction>(kPredictionTopic, kPredictionQueue);
+  deformed_height_ = transport_.advertise(kDeformedHeightTopic, kMapQueue);
+  deformed_counter_height_ = transport_.advertise(kDeformedCounterHeightTopic, kMapQueue);
+  contact_map_ = transport_.advertise(kContactMapTopic, kMapQueue);
+  asperities_ = node.advertise<AsperityArray>(kAsperitiesTopic, kMapQueue);
+  surface_points_ = node.advertise<sensor_msgs::PointCloud2>(kSurfacePointsTopic, kDisplayQueue);
+  asperity_markers_ = node.advertise<visualization_msgs::MarkerArray>(kAsperityMarkersTopic, kDisplayQueue);
+}
+
+OutputOptions ResultPublisher::demanded() const {
+  const bool points = hasListener(surface_points_);
+  const bool markers = hasListener(asperity_markers_);
+  OutputOptions output;
+  output.deformed_surfaces =
+      hasListener(deformed_height_) || hasListener(deformed_counter_height_) || points || markers;
+  output.contact_map = hasListener(contact_map_) || points;
+  output.asperities = hasListener(asperities_) || markers;
+  output.roughness = true;
+  output.energy_curve = false;
+  return output;
+}
+
+void ResultPublisher::publish(const Prediction& prediction, const ReceivedScan& scan) const {
+  const std_msgs::Header& header = scan.header;
+  const bool has_surfaces = !prediction.deformed_lower.empty();
+  const bool has_map = !prediction.contact_map.empty();
+  // No contact and no record of contacts look the same: both are published as an empty list.
+  if (has_surfaces && hasListener(deformed_height_)) {
+    deformed_height_.publish(heightImage(prediction.deformed_lower, header));
+  }
+  if (!prediction.deformed_upper.empty() && hasListener(deformed_counter_height_)) {
+    deformed_counter_height_.publish(heightImage(prediction.deformed_upper, header));
+  }
+  if (has_map && hasListener(contact_map_)) contact_map_.publish(contactMapImage(prediction.contact_map, header));
+  if (hasListener(asperities_)) asperities_.publish(asperitiesMessage(prediction, header));
+  if (has_surfaces && has_map && hasListener(surface_points_)) {
+    surface_points_.publish(surfacePoints(prediction, scan.surface, header, display_));
+  }
+  if (has_surfaces && hasListener(asperity_markers_)) {
+    asperity_markers_.publish(asperityMarkers(prediction, header, display_));
+  }
+  // Last, so that whoever waits for the prediction finds the maps sent.
+  prediction_.publish(predictionMessage(prediction, header));
+}
+
+}  // namespace mems_stiction

@@ -1,0 +1,129 @@
+#include "mems_stiction/ros/scan_accounting.hpp"
+
+#include <algorithm>
+
+#include <diagnostic_msgs/DiagnosticStatus.h>
+#include <ros/console.h>
+
+namespace mems_stiction {
+namespace {
+
+std::string named(const char* what, const std_msgs::Header& header, const std::string& reason) {
+  std::ostringstream text;
+  text << what << " of stamp " << header.stamp << ": " << reason;
+  return text.str();
+}
+
+}  // namespace
+
+ScanAccounting::ScanAccounting(ros::WallDuration warning_period) : warning_period_(warning_period) {}
+
+void ScanAccounting::received(const std_msgs::Header& header) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++counts_.received;
+  if (has_previous_) {
+    if (header.stamp <= previous_.stamp) ++counts_.stamps_not_increasing;
+    // A number that does not grow is a publisher that restarts or does not count.
+    if (header.seq > previous_.seq + 1 && header.stamp > previous_.stamp) {
+      counts_.missing_by_sequence += header.seq - previous_.seq - 1;
+    }
+  }
+  has_previous_ = true;
+  previous_ = header;
+}
+
+void ScanAccounting::predicted(double latency, double processing_time) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++counts_.predicted;
+  last_latency_ = latency;
+  max_latency_ = std::max(max_latency_, latency);
+  last_processing_time_ = processing_time;
+}
+
+void ScanAccounting::dropped(const std_msgs::Header& header, const std::string& reason) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++counts_.dropped;
+  last_reason_ = named("dropped the scan", header, reason);
+  warnThrottled(last_reason_);
+}
+
+void ScanAccounting::rejected(const std_msgs::Header& header, const std::string& reason) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++counts_.rejected;
+  last_reason_ = named("rejected the scan", header, reason);
+  warnThrottled(last_reason_);
+}
+
+void ScanAccounting::counterSurfaceAccepted() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++counts_.counter_surfaces;
+}
+
+void ScanAccounting::counterSurfaceRejected(const std_msgs::Header& header, const std::string& reason) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++counts_.counter_surfaces_rejected;
+  last_reason_ = named("rejected the counter-surface", header, reason);
+  warnThrottled(last_reason_);
+}
+
+void ScanAccounting::warn(const std_msgs::Header& header, const std::string& text) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  warnThrottled(named("the scan", header, text));
+}
+
+void ScanAccounting::warnThrottled(const std::string& text) {
+  const ros::WallTime now = ros::WallTime::now();
+  if (!last_warning_.isZero() && now - last_warning_ < warning_period_) {
+    ++suppressed_warnings_;
+    return;
+  }
+  if (suppressed_warnings_ > 0) {
+    ROS_WARN_STREAM(text << " (and " << suppressed_warnings_ << " warnings since the last one shown)");
+  } else {
+    ROS_WARN_STREAM(text);
+  }
+  last_warning_ = now;
+  suppressed_warnings_ = 0;
+}
+
+ScanCounts ScanAccounting::counts() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return counts_;
+}
+
+void ScanAccounting::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const ros::WallTime now = ros::WallTime::now();
+  const double elapsed = last_report_.isZero() ? 0.0 : (now - last_report_).toSec();
+  const double rate = elapsed > 0.0 ? (counts_.predicted - reported_.predicted) / elapsed : 0.0;
+
+  const bool lost = counts_.dropped > reported_.dropped || counts_.rejected > reported_.rejected ||
+                    counts_.missing_by_sequence > reported_.missing_by_sequence ||
+                    counts_.counter_surfaces_rejected > reported_.counter_surfaces_rejected;
+  if (lost) {
+    status.summary(diagnostic_msgs::DiagnosticStatus::WARN,
+                   last_reason_.empty() ? "scans are missing by their sequence numbers" : last_reason_);
+  } else if (counts_.received == 0) {
+    status.summary(diagnostic_msgs::DiagnosticStatus::OK, "no scan yet");
+  } else {
+    status.summary(diagnostic_msgs::DiagnosticStatus::OK, "every scan since the last report is predicted or waits");
+  }
+  status.add("received", counts_.received);
+  status.add("predicted", counts_.predicted);
+  status.add("dropped", counts_.dropped);
+  status.add("rejected", counts_.rejected);
+  status.add("waiting", counts_.waiting());
+  status.add("missing_by_sequence", counts_.missing_by_sequence);
+  status.add("stamps_not_increasing", counts_.stamps_not_increasing);
+  status.add("counter_surfaces", counts_.counter_surfaces);
+  status.add("counter_surfaces_rejected", counts_.counter_surfaces_rejected);
+  status.add("last_reason", last_reason_);
+  status.add("rate [Hz]", rate);
+  status.add("last_latency [s]", last_latency_);
+  status.add("max_latency [s]", max_latency_);
+  status.add("last_processing_time [s]", last_processing_time_);
+  reported_ = counts_;
+  last_report_ = now;
+}
+
+}  // namespace mems_stiction

@@ -1,0 +1,32 @@
+/// The nodelet: constructs the server in whatever manager loads it. With bad parameters it says so and stays idle,
+/// since an exception would end its neighbours in the manager too.
+
+#include <memory>
+
+#include <nodelet/nodelet.h>
+#include <pluginlib/class_list_macros.hpp>
+
+#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/ros/stiction_server.hpp"
+
+namespace mems_stiction {
+
+class StictionNodelet : public nodelet::Nodelet {
+ private:
+  void onInit() override {
+    try {
+      server_ = std::make_unique<StictionServer>(getNodeHandle(), getPrivateNodeHandle(), getName());
+    } catch (const OptionsError& error) {
+      for (const std::string& line : error.violations()) NODELET_FATAL_STREAM("parameter ~" << line);
+      NODELET_FATAL("stays idle: mend the parameters and load the nodelet again");
+    } catch (const std::exception& error) {
+      NODELET_FATAL_STREAM("stays idle: " << error.what());
+    }
+  }
+
+  std::unique_ptr<StictionServer> server_;
+};
+
+}  // namespace mems_stiction
+
+PLUGINLIB_EXPORT_CLASS(mems_stiction::StictionNodelet, nodelet::Nodelet)

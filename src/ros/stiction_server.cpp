@@ -1,0 +1,250 @@
+#include "mems_stiction/ros/stiction_server.hpp"
+
+#include <boost/bind/bind.hpp>
+#include <boost/make_shared.hpp>
+
+#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/height_map/scan_sanity.hpp"
+#include "mems_stiction/ros/prediction_conversion.hpp"
+#include "mems_stiction/ros/topic_names.hpp"
+
+namespace mems_stiction {
+namespace {
+
+constexpr std::uint32_t kServiceThreads = 2;
+constexpr char kShuttingDown[] = "the node is shutting down";
+
+ros::NodeHandle withQueue(ros::NodeHandle handle, ros::CallbackQueue& queue) {
+  handle.setCallbackQueue(&queue);
+  return handle;
+}
+
+/// All reasons of one error on one line.
+std::string oneLine(std::string text) {
+  for (std::size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n')) text.replace(end, 1, "; ");
+  return text;
+}
+
+/// An unlimited queue keeps every scan.
+std::size_t capacityOf(const NodeOptions& options) {
+  return options.drop_policy == DropPolicy::kAll ? 0 : static_cast<std::size_t>(options.queue_size);
+}
+
+}  // namespace
+
+StictionServer::StictionServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
+                               const std::string& name)
+    : handle_(withQueue(handle, topic_queue_)),
+      private_handle_(withQueue(private_handle, topic_queue_)),
+      service_handle_(withQueue(private_handle, service_queue_)),
+      configuration_(readParameters(private_handle_)),
+      accounting_(ros::WallDuration(configuration_.node.warning_period)),
+      predictor_(configuration_.core, configuration_.node.accumulate_deformation),
+      publisher_(handle_, configuration_.node.display),
+      worker_(capacityOf(configuration_.node)),
+      load_(configuration_.core.model.load),
+      scans_(
+          ros::WallDuration(configuration_.node.pairing_timeout),
+          [this](const auto& image, const auto& info) { onScan(image, info); },
+          [this](const auto& header, const auto& reason) { rejectLone(header, reason); }),
+      counter_surfaces_(
+          ros::WallDuration(configuration_.node.pairing_timeout),
+          [this](const auto& image, const auto& info) { onCounterSurface(image, info); },
+          [this](const auto& header, const auto& reason) { accounting_.counterSurfaceRejected(header, reason); }),
+      transport_(handle_),
+      diagnostics_(handle_, private_handle_, name),
+      topic_spinner_(1, &topic_queue_),
+      service_spinner_(kServiceThreads, &service_queue_) {
+  advertiseServices();
+  subscribe();
+  startTimers();
+  worker_.start();
+  service_spinner_.start();
+  topic_spinner_.start();
+}
+
+StictionServer::~StictionServer() {
+  // The worker first: a service that waits for it gets its refusal, so that the spinners can end.
+  worker_.stop();
+  service_spinner_.stop();
+  topic_spinner_.stop();
+  const ScanCounts counts = accounting_.counts();
+  if (counts.waiting() > 0) ROS_INFO_STREAM(counts.waiting() << " scans were still waiting at shutdown");
+}
+
+void StictionServer::advertiseServices() {
+  services_ = {service_handle_.advertiseService(kSetLoadService, &StictionServer::setLoad, this),
+               service_handle_.advertiseService(kGetLoadService, &StictionServer::getLoad, this),
+               service_handle_.advertiseService(kPredictService, &StictionServer::predict, this),
+               service_handle_.advertiseService(kResetSurfaceService, &StictionServer::resetSurface, this)};
+}
+
+void StictionServer::subscribe() {
+  using ImagePtr = sensor_msgs::ImageConstPtr;
+  const image_transport::TransportHints hints("raw", ros::TransportHints(), private_handle_);
+  const bool use_scan_info = configuration_.node.use_scan_info;
+  const auto subscribePair = [&](const char* image_topic, const char* info_topic, ScanPairer& pairer, auto on_single,
+                                 image_transport::Subscriber& image_subscriber, ros::Subscriber& info_subscriber) {
+    if (!use_scan_info) {
+      image_subscriber = transport_.subscribe(
+          image_topic, kSubscriberQueue,
+          [this, on_single](const ImagePtr& image) { (this->*on_single)(image, nullptr); }, {}, hints);
+      return;
+    }
+    image_subscriber = transport_.subscribe(
+        image_topic, kSubscriberQueue, [&pairer](const ImagePtr& image) { pairer.add(image, ros::WallTime::now()); },
+        {}, hints);
+    info_subscriber = handle_.subscribe<ScanInfo>(
+        info_topic, kSubscriberQueue,
+        [&pairer](const ScanInfoConstPtr& info) { pairer.add(info, ros::WallTime::now()); });
+  };
+  subscribePair(kHeightTopic, kScanInfoTopic, scans_, &StictionServer::onScan, height_, scan_info_);
+  if (configuration_.core.counter_surface.type == CounterSurfaceType::kTopic) {
+    subscribePair(kCounterHeightTopic, kCounterScanInfoTopic, counter_surfaces_, &StictionServer::onCounterSurface,
+                  counter_height_, counter_scan_info_);
+  }
+}
+
+void StictionServer::startTimers() {
+  diagnostics_.setHardwareID("none");
+  diagnostics_.add("scans", this, &StictionServer::report);
+  diagnostic_timer_ = handle_.createWallTimer(ros::WallDuration(configuration_.node.diagnostic_period),
+                                              [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
+  pairing_timer_ =
+      handle_.createWallTimer(ros::WallDuration(0.2 * configuration_.node.pairing_timeout), [this](const auto&) {
+        scans_.expire(ros::WallTime::now());
+        counter_surfaces_.expire(ros::WallTime::now());
+      });
+}
+
+void StictionServer::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  accounting_.report(status);
+  const std::size_t waiting = worker_.waitingScans();
+  status.add("waiting_for_worker", waiting);
+  status.add("waiting_for_partner", scans_.waiting());
+  if (waiting > static_cast<std::size_t>(configuration_.node.queue_size)) {
+    status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN,
+                        std::to_string(waiting) + " scans wait, more than queue_size");
+  }
+}
+
+void StictionServer::rejectLone(const std_msgs::Header& header, const std::string& reason) {
+  accounting_.received(header);
+  accounting_.rejected(header, reason);
+}
+
+void StictionServer::onScan(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info) {
+  accounting_.received(image->header);
+  const ros::WallTime arrival = ros::WallTime::now();
+  worker_.pushScan([this, image, info, arrival] { predictAndPublish(image, info, arrival); },
+                   [this, header = image->header] {
+                     accounting_.dropped(header, "newer scans came before its turn (drop_policy is latest)");
+                   });
+}
+
+void StictionServer::onCounterSurface(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info) {
+  // In the order of arrival with the scans, so that a replay meets the same counter-surfaces as the live run.
+  worker_.push([this, image, info] { takeCounterSurface(image, info); });
+}
+
+ReceivedScan StictionServer::receive(const sensor_msgs::ImageConstPtr& image, const ScanInfo* info) const {
+  const ScanOptions& parameters = configuration_.core.scan;
+  return receiveScan(image, info == nullptr ? parameters : scanOptions(*info, parameters));
+}
+
+void StictionServer::predictAndPublish(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info,
+                                       ros::WallTime arrival) {
+  try {
+    const ReceivedScan scan = receive(image, info.get());
+    const Prediction prediction = predictor_.predictScan(scan, publisher_.demanded());
+    publisher_.publish(prediction, scan);
+    accounting_.predicted((ros::WallTime::now() - arrival).toSec(), prediction.processing_time);
+    for (const std::string& line : scanWarnings(scan.surface)) accounting_.warn(scan.header, line);
+  } catch (const std::exception& error) {
+    accounting_.rejected(image->header, oneLine(error.what()));
+  }
+}
+
+void StictionServer::takeCounterSurface(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info) {
+  try {
+    predictor_.setCounterSurface(receive(image, info.get()));
+    accounting_.counterSurfaceAccepted();
+  } catch (const std::exception& error) {
+    accounting_.counterSurfaceRejected(image->header, oneLine(error.what()));
+  }
+}
+
+bool StictionServer::setLoad(SetLoad::Request& request, SetLoad::Response& response) {
+  // What is returned when there is no prediction: NO_EQUILIBRIUM and zeros.
+  response.prediction = predictionMessage(Prediction(), std_msgs::Header());
+  try {
+    worker_.call([&] {
+      const LoadOptions before = predictor_.load();
+      predictor_.setLoad(request.voltage, request.mechanical_load);
+      {
+        const std::lock_guard<std::mutex> lock(load_mutex_);
+        load_ = predictor_.load();
+      }
+      response.success = true;
+      response.message = "from " + numberText(before.voltage) + " V, " + numberText(before.mechanical_load) + " N";
+      try {
+        if (const std::optional<Prediction> prediction = predictor_.predictLastScan()) {
+          response.prediction = predictionMessage(*prediction, predictor_.lastScan()->header);
+        } else {
+          response.message += "; no scan yet, so there is no prediction";
+        }
+      } catch (const std::exception& error) {
+        response.message += "; the last scan cannot be predicted: " + oneLine(error.what());
+      }
+    });
+  } catch (const std::future_error&) {
+    response.success = false;
+    response.message = kShuttingDown;
+  } catch (const std::exception& error) {
+    response.success = false;
+    response.message = oneLine(error.what());
+  }
+  return true;
+}
+
+bool StictionServer::getLoad(GetLoad::Request& /*request*/, GetLoad::Response& response) {
+  const std::lock_guard<std::mutex> lock(load_mutex_);
+  response.voltage = load_.voltage;
+  response.mechanical_load = load_.mechanical_load;
+  response.max_voltage = load_.max_voltage;
+  response.max_mechanical_load = load_.max_mechanical_load;
+  return true;
+}
+
+bool StictionServer::predict(Predict::Request& request, Predict::Response& response) {
+  response.prediction = predictionMessage(Prediction(), request.height.header);
+  try {
+    const auto image = boost::make_shared<const sensor_msgs::Image>(std::move(request.height));
+    worker_.call([&] {
+      const ReceivedScan scan = receive(image, &request.scan_info);
+      const Prediction prediction = predictor_.predictOnce(scan.surface, request.voltage, request.mechanical_load);
+      response.prediction = predictionMessage(prediction, scan.header);
+    });
+    response.success = true;
+  } catch (const std::future_error&) {
+    response.message = kShuttingDown;
+  } catch (const std::exception& error) {
+    response.message = oneLine(error.what());
+  }
+  return true;
+}
+
+bool StictionServer::resetSurface(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
+  try {
+    worker_.call([this] { predictor_.resetSurface(); });
+    response.success = true;
+    response.message = configuration_.node.accumulate_deformation
+                           ? "the next scan is taken as it was made"
+                           : "nothing to forget: accumulate_deformation is false";
+  } catch (const std::future_error&) {
+    response.message = kShuttingDown;
+  }
+  return true;
+}
+
+}  // namespace mems_stiction

@@ -1,0 +1,153 @@
+/// make_scan_bag: a bag of scans as the node takes them, from generated rough surfaces or from scan files.
+
+#include <cmath>
+#include <exception>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include <rosbag/bag.h>
+#include <CLI/CLI.hpp>
+#include <opencv2/core/utils/logger.hpp>
+
+#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/height_map/scan_file.hpp"
+#include "mems_stiction/ros/image_conversion.hpp"
+#include "mems_stiction/ros/topic_names.hpp"
+#include "mems_stiction/surface/gaussian_surface.hpp"
+
+namespace {
+
+using namespace mems_stiction;
+
+constexpr int kBadInput = 2;
+/// Stamp of the first scan [s]: fixed, so that the same call gives the same bag.
+constexpr double kFirstStamp = 1.0e9;
+
+struct Arguments {
+  std::string bag;
+  std::vector<std::string> scans;
+  int count = 0;
+  double rate = 10.0;
+  double pitch = 0.0;
+  double correlation_length = 80e-9;
+  std::vector<double> rms_heights{1e-9, 20e-9};
+  GaussianSurfaceOptions surface;
+};
+
+void describe(CLI::App& app, Arguments& arguments) {
+  app.description(
+      "Writes scans to a bag: topics height (32FC1, metres, about their mean) and scan_info, with the same stamps.\n"
+      "Without files, generates Gaussian rough surfaces from smooth to rough.");
+  app.add_option("-o,--output", arguments.bag, "the bag; replaced if it exists")->required()->type_name("OUT.bag");
+  app.add_option("scans", arguments.scans, "scan files, of every kind that predict_scan reads")->type_name("SCAN");
+  app.add_option("-n,--count", arguments.count, "generated surfaces; 1 if there are no files, else 0")
+      ->check(CLI::Range(1, 1000000));
+  app.add_option("--rows", arguments.surface.rows, "of generated surfaces")->capture_default_str();
+  app.add_option("--cols", arguments.surface.cols, "of generated surfaces")->capture_default_str();
+  app.add_option(
+         "--pitch", arguments.pitch,
+         "distance of neighbouring pixels [m]; 10e-9 for generated surfaces; for files, instead of what they say")
+      ->check(CLI::PositiveNumber)
+      ->type_name("M");
+  app.add_option("--rms-height", arguments.rms_heights,
+                 "rms height [m]; two values: of the first and the last surface, the others between in equal ratios")
+      ->expected(1, 2)
+      ->type_name("M")
+      ->capture_default_str();
+  app.add_option("--correlation-length", arguments.correlation_length, "of generated surfaces [m]")
+      ->type_name("M")
+      ->capture_default_str();
+  app.add_option("--seed", arguments.surface.seed, "of the first surface; each further one takes the next")
+      ->capture_default_str();
+  app.add_option("--rate", arguments.rate, "scans per second [Hz]")->check(CLI::PositiveNumber)->capture_default_str();
+  app.footer("Exit status: 0, or 2 for bad input (one line on stderr for each; the other scans are still written).");
+}
+
+class ScanBag {
+ public:
+  ScanBag(const std::string& path, double rate) : period_(1.0 / rate) { bag_.open(path, rosbag::bagmode::Write); }
+
+  void write(const HeightMap& surface, const std::string& frame) {
+    std_msgs::Header header;
+    header.seq = count_;
+    header.stamp = ros::Time(kFirstStamp) + ros::Duration(count_ * period_);
+    header.frame_id = frame;
+    ++count_;
+    // A stage offset must come off in double: float32 metres lose nanometres under millimetres.
+    const HeightMap wide = surface.asDouble();
+    const cv::Mat about_mean = wide.heights() - heightStatistics(wide).mean;
+    ScanOptions calibration;
+    calibration.pitch_x = surface.pitchX();
+    calibration.pitch_y = surface.pitchY();
+    bag_.write(kHeightTopic, header.stamp, *heightImage(about_mean, header));
+    bag_.write(kScanInfoTopic, header.stamp, scanInfoMessage(calibration, header));
+  }
+
+  std::uint32_t count() const { return count_; }
+
+ private:
+  rosbag::Bag bag_;
+  double period_;
+  std::uint32_t count_ = 0;
+};
+
+std::string stemOf(const std::string& path) {
+  const std::string name = path.substr(path.find_last_of('/') + 1);
+  return name.substr(0, name.find_last_of('.'));
+}
+
+/// Rms height of surface `index` of `count` [m].
+double rmsHeight(const std::vector<double>& ends, int index, int count) {
+  if (ends.size() == 1 || count == 1) return ends.front();
+  return ends.front() * std::pow(ends.back() / ends.front(), static_cast<double>(index) / (count - 1));
+}
+
+void writeGenerated(const Arguments& arguments, int count, ScanBag& bag) {
+  GaussianSurfaceOptions options = arguments.surface;
+  if (arguments.pitch > 0.0) options.pitch_x = options.pitch_y = arguments.pitch;
+  options.correlation_length_x = options.correlation_length_y = arguments.correlation_length;
+  for (int index = 0; index < count; ++index, ++options.seed) {
+    options.rms_height = rmsHeight(arguments.rms_heights, index, count);
+    bag.write(gaussianSurface(options), "scan");
+  }
+}
+
+int run(const Arguments& arguments) {
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);  // we name what is wrong ourselves
+  int status = 0;
+  ScanFileOptions file_options;
+  file_options.pitch_x = file_options.pitch_y = arguments.pitch;
+  ScanBag bag(arguments.bag, arguments.rate);
+  for (const std::string& path : arguments.scans) {
+    try {
+      bag.write(readScanFile(path, {}, file_options), stemOf(path));
+    } catch (const Error& error) {
+      std::cerr << "make_scan_bag: " << error.what() << "\n";
+      status = kBadInput;
+    }
+  }
+  const int default_count = arguments.scans.empty() ? 1 : 0;
+  writeGenerated(arguments, arguments.count > 0 ? arguments.count : default_count, bag);
+  std::cout << arguments.bag << ": " << bag.count() << " scans\n";
+  return status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app;
+  Arguments arguments;
+  describe(app, arguments);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kBadInput;
+  }
+  try {
+    return run(arguments);
+  } catch (const std::exception& error) {
+    std::cerr << "make_scan_bag: " << error.what() << "\n";
+    return kBadInput;
+  }
+}

@@ -1,0 +1,51 @@
+#!/usr/bin/env python3
+"""Bad parameters: the node exits with 1 and names every key; the nodelet names them and stays idle in its manager."""
+
+import subprocess
+import time
+import unittest
+
+import rospy
+import rosservice
+import rostest
+from roslib.packages import find_node
+
+BAD = {"queue_sise": 5, "lower": {"hardness": -1.0}, "drop_policy": "newest"}
+KEYS = ("queue_sise", "lower/hardness", "drop_policy", "newest")
+
+
+class BadParametersTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node("bad_parameters_test")
+
+    def test_the_node_exits_and_names_every_key(self):
+        rospy.set_param("/bad_node", BAD)
+        ended = subprocess.run([find_node("mems_stiction", "stiction_node")[0], "__name:=bad_node"], timeout=60,
+                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
+        self.assertEqual(ended.returncode, 1, ended.stdout)
+        for key in KEYS:
+            self.assertIn(key, ended.stdout)
+
+    def test_the_nodelet_names_every_key_and_its_manager_lives(self):
+        rospy.set_param("/bad_nodelet", BAD)
+        manager = subprocess.Popen(["rosrun", "nodelet", "nodelet", "manager", "__name:=bad_manager"],
+                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
+        try:
+            rospy.wait_for_service("/bad_manager/load_nodelet", timeout=30.0)
+            loader = subprocess.Popen(["rosrun", "nodelet", "nodelet", "load", "mems_stiction/StictionNodelet", "bad_manager",
+                                       "__name:=bad_nodelet"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            time.sleep(3.0)
+            self.assertIsNone(manager.poll())
+            self.assertNotIn("/bad_nodelet/set_load", rosservice.get_service_list())
+            loader.terminate()
+            loader.wait(timeout=30)
+        finally:
+            manager.terminate()
+        output, _ = manager.communicate(timeout=30)
+        for key in KEYS:
+            self.assertIn(key, output)
+
+
+if __name__ == "__main__":
+    rostest.rosrun("mems_stiction", "bad_parameters", BadParametersTest)

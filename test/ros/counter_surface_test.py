@@ -1,0 +1,61 @@
+#!/usr/bin/env python3
+"""counter_surface/type topic: the latest counter-surface is kept; without one scans are rejected."""
+
+import unittest
+
+import numpy as np
+import rospy
+import rostest
+from mems_stiction.msg import StictionPrediction
+from sensor_msgs.msg import Image
+from stiction_client import Collector, Counts, Station, figures, rough_surface
+
+
+class CounterSurfaceTest(unittest.TestCase):
+    def test_the_latest_counter_surface_is_kept(self):
+        rospy.init_node("counter_surface_test")
+        counts = Counts()
+        predictions = Collector("prediction", StictionPrediction).connect()
+        deformed = Collector("deformed_counter_height", Image).connect()
+        station = Station()
+        counter = Station("counter_")
+        surface = rough_surface(1)
+
+        station.send(surface)
+        counts.wait(received=1, rejected=1, predicted=0)
+        self.assertIn("no counter-surface", counts["last_reason"])
+
+        # Against itself, two equal surfaces touch everywhere: as flat against flat, bonded.
+        counter.send(surface)
+        counts.wait(counter_surfaces=1)
+        station.send(surface)
+        mated = predictions.wait(1)[0]
+        self.assertEqual(mated.status, StictionPrediction.BONDED)
+        self.assertEqual(np.frombuffer(deformed.wait(1)[0].data, np.float32).size, surface.size)
+
+        counter.send(rough_surface(2))
+        counts.wait(counter_surfaces=2)
+        station.send(surface)
+        rough = predictions.wait(2)[1]
+        self.assertEqual(rough.status, StictionPrediction.EQUILIBRIUM)
+        self.assertLess(rough.contact_fraction, mated.contact_fraction)
+        self.assertAlmostEqual(rough.composite_rms_height, 5e-9 * np.sqrt(2.0), delta=1e-11)
+
+        # A bad one is counted by itself and leaves the good one where it is.
+        counter.send(surface, pitch=-1.0)
+        counts.wait(counter_surfaces=2, counter_surfaces_rejected=1)
+        stamp = station.send(surface)
+        again = predictions.wait(3)[2]
+        self.assertEqual(again.header.stamp, stamp)
+        again.header = rough.header
+        self.assertEqual(figures(again), figures(rough))
+
+        # One of another size fits no scan.
+        counter.send(rough_surface(2, rows=32, cols=32))
+        counts.wait(counter_surfaces=3)
+        station.send(surface)
+        counts.wait(received=5, predicted=3, rejected=2)
+
+
+if __name__ == "__main__":
+    rostest.rosrun("mems_stiction", "counter_surface", CounterSurfaceTest)

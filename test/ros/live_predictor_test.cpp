@@ -1,0 +1,182 @@
+#include "mems_stiction/ros/live_predictor.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <boost/make_shared.hpp>
+
+#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/ros/display_conversion.hpp"
+#include "mems_stiction/ros/prediction_conversion.hpp"
+#include "mems_stiction/surface/gaussian_surface.hpp"
+
+namespace mems_stiction {
+namespace {
+
+ReceivedScan scanOf(const HeightMap& surface) { return {std_msgs::Header(), surface, nullptr}; }
+
+ReceivedScan roughScan(int seed = 3) {
+  GaussianSurfaceOptions options;
+  options.rows = 96;
+  options.cols = 128;
+  options.rms_height = 8e-9;
+  options.seed = seed;
+  return scanOf(gaussianSurface(options));
+}
+
+/// Soft, so that contacts leave their mark.
+Configuration softConfiguration() {
+  Configuration configuration;
+  configuration.model.lower.hardness = 5e8;
+  configuration.model.load.mechanical_load = 2e-6;
+  configuration.model.interface.insulator_thickness = 100e-9;
+  return configuration;
+}
+
+/// Every figure, wall time apart.
+void expectSame(const Prediction& left, const Prediction& right) {
+  StictionPrediction a = predictionMessage(left, {});
+  StictionPrediction b = predictionMessage(right, {});
+  a.processing_time = b.processing_time = 0.0;
+  std::ostringstream text_a, text_b;
+  text_a.precision(17), text_b.precision(17);
+  text_a << a, text_b << b;
+  EXPECT_EQ(text_a.str(), text_b.str());
+}
+
+TEST(LivePredictor, TheFiguresDoNotDependOnWhatElseIsAskedFor) {
+  LivePredictor predictor(softConfiguration(), false);
+  const ReceivedScan scan = roughScan();
+  OutputOptions little;
+  little.deformed_surfaces = little.contact_map = little.asperities = false;
+  const Prediction small = predictor.predictScan(scan, little);
+  const Prediction full = predictor.predictScan(scan, OutputOptions());
+  expectSame(small, full);
+  EXPECT_TRUE(small.deformed_lower.empty());
+  EXPECT_TRUE(small.contact_map.empty());
+  EXPECT_FALSE(full.deformed_lower.empty());
+}
+
+TEST(LivePredictor, VoltageActsBySquareAndARefusalChangesNothing) {
+  LivePredictor predictor(softConfiguration(), false);
+  EXPECT_FALSE(predictor.predictLastScan());
+  predictor.predictScan(roughScan(), OutputOptions());
+  predictor.setLoad(1e-3, 2e-6);  // so small that the gap stays the same
+  const double once = predictor.predictLastScan()->electrostatic_force;
+  predictor.setLoad(2e-3, 2e-6);
+  const double twice = predictor.predictLastScan()->electrostatic_force;
+  ASSERT_GT(once, 0.0);
+  EXPECT_NEAR(twice / once, 4.0, 1e-9);
+  for (const double refused : {1e9, std::nan(""), HUGE_VAL}) {
+    EXPECT_THROW(predictor.setLoad(refused, 0.0), OptionsError) << refused;
+    EXPECT_THROW(predictor.setLoad(0.0, refused), OptionsError) << refused;
+  }
+  EXPECT_THROW(predictor.setLoad(0.0, -1e-9), OptionsError);
+  EXPECT_EQ(predictor.load().voltage, 2e-3);
+  EXPECT_EQ(predictor.load().mechanical_load, 2e-6);
+}
+
+TEST(LivePredictor, ASinglePredictionEqualsTheScansAndLeavesNoTrace) {
+  LivePredictor predictor(softConfiguration(), true);
+  const ReceivedScan scan = roughScan();
+  const Prediction single = predictor.predictOnce(scan.surface, 0.0, 2e-6);
+  EXPECT_FALSE(predictor.lastScan());
+  const Prediction live = predictor.predictScan(scan, OutputOptions());
+  expectSame(single, live);
+  expectSame(single, predictor.predictOnce(scan.surface, 0.0, 2e-6));
+  predictor.predictOnce(scan.surface, 1.0, 1e-6);
+  EXPECT_EQ(predictor.load().mechanical_load, 2e-6);
+  expectSame(*predictor.predictLastScan(), live);
+}
+
+TEST(LivePredictor, AccumulatedDeformationIsTheNextScansSurface) {
+  const Configuration configuration = softConfiguration();
+  LivePredictor predictor(configuration, true);
+  const ReceivedScan scan = roughScan();
+  const Prediction first = predictor.predictScan(scan, OutputOptions());
+  ASSERT_GT(first.plastic_count + first.elasto_plastic_count, 0);
+  const Prediction second = predictor.predictScan(scan, OutputOptions());
+
+  ScanPredictor fresh(configuration);
+  const Prediction expected =
+      fresh.predict(HeightMap(first.deformed_lower, scan.surface.pitchX(), scan.surface.pitchY()));
+  EXPECT_NEAR(second.pull_off_force, expected.pull_off_force, 1e-9 * expected.pull_off_force);
+  EXPECT_NE(second.pull_off_force, first.pull_off_force);
+
+  predictor.resetSurface();
+  expectSame(predictor.predictScan(scan, OutputOptions()), first);
+}
+
+TEST(LivePredictor, WearIsMeasuredOnTheLevelledSurface) {
+  Configuration configuration = softConfiguration();
+  LivePredictor plain(configuration, true);
+  configuration.preprocessing.level = Levelling::kPlane;
+  LivePredictor levelling(configuration, true);
+  const ReceivedScan flat = roughScan();
+  cv::Mat tilted = flat.surface.heights().clone();
+  for (int col = 0; col < tilted.cols; ++col) tilted.col(col) += 1e-9 * col + 1e-6;
+  const ReceivedScan tilted_scan = scanOf(HeightMap(tilted, flat.surface.pitchX(), flat.surface.pitchY()));
+  const ReceivedScan levelled_scan = scanOf(ScanPredictor(configuration).prepared(flat.surface));
+  plain.predictScan(levelled_scan, OutputOptions());
+  levelling.predictScan(tilted_scan, OutputOptions());
+  const double once = plain.predictScan(levelled_scan, OutputOptions()).pull_off_force;
+  const double levelled = levelling.predictScan(tilted_scan, OutputOptions()).pull_off_force;
+  // The second levelling also sees the worn cells, a tilt of some 1e-12 m.
+  EXPECT_NEAR(levelled, once, 0.05 * once);
+}
+
+TEST(LivePredictor, AnotherSizeIsAnotherSurface) {
+  LivePredictor predictor(softConfiguration(), true);
+  predictor.predictScan(roughScan(), OutputOptions());
+  GaussianSurfaceOptions options;
+  options.rows = 64;
+  options.cols = 64;
+  options.correlation_length_x = options.correlation_length_y = 40e-9;
+  const ReceivedScan other = scanOf(gaussianSurface(options));
+  LivePredictor fresh(softConfiguration(), true);
+  expectSame(predictor.predictScan(other, OutputOptions()), fresh.predictScan(other, OutputOptions()));
+}
+
+TEST(LivePredictor, WaitsForTheCounterSurfaceOfTheTopic) {
+  Configuration configuration = softConfiguration();
+  configuration.counter_surface.type = CounterSurfaceType::kTopic;
+  LivePredictor predictor(configuration, false);
+  const ReceivedScan scan = roughScan(3);
+  EXPECT_THROW(predictor.predictScan(scan, OutputOptions()), SurfaceError);
+  EXPECT_FALSE(predictor.lastScan());
+  predictor.setCounterSurface(roughScan(4));
+  const Prediction prediction = predictor.predictScan(scan, OutputOptions());
+  expectSame(prediction, ScanPredictor(configuration).predict(scan.surface, roughScan(4).surface));
+}
+
+TEST(PredictionConversion, CarriesEveryContact) {
+  LivePredictor predictor(softConfiguration(), false);
+  const Prediction prediction = predictor.predictScan(roughScan(), OutputOptions());
+  std_msgs::Header header;
+  header.frame_id = "stage";
+  const AsperityArray message = asperitiesMessage(prediction, header);
+  ASSERT_EQ(message.asperities.size(), static_cast<std::size_t>(prediction.asperity_count));
+  EXPECT_EQ(message.header.frame_id, "stage");
+  EXPECT_EQ(message.asperities[0].composite_radius, prediction.asperities[0].composite_radius);
+  EXPECT_EQ(message.asperities[0].regime, static_cast<int>(prediction.asperities[0].regime));
+}
+
+TEST(DisplayConversion, KeepsToItsLimitsAndLeavesInvalidCellsOut) {
+  LivePredictor predictor(softConfiguration(), false);
+  ReceivedScan scan = roughScan();
+  cv::Mat heights = scan.surface.heights().clone();
+  heights.rowRange(0, 10).setTo(std::nan(""));
+  scan.surface = HeightMap(heights, scan.surface.pitchX(), scan.surface.pitchY());
+  const Prediction prediction = predictor.predictScan(scan, OutputOptions());
+  DisplayOptions display;
+  EXPECT_EQ(surfacePoints(prediction, scan.surface, {}, display).width, 86U * 128U);
+  display.max_points = 500;
+  const auto cloud = surfacePoints(prediction, scan.surface, {}, display);
+  EXPECT_LE(cloud.width, 500U);
+  EXPECT_GT(cloud.width, 250U);
+  display.max_markers = 2;
+  EXPECT_LE(asperityMarkers(prediction, {}, display).markers.size(), 3U);
+}
+
+}  // namespace
+}  // namespace mems_stiction

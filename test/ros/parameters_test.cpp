@@ -1,0 +1,115 @@
+#include "mems_stiction/ros/parameters.hpp"
+
+#include <string>
+
+#include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
+
+#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/option_yaml.hpp"
+
+namespace mems_stiction {
+namespace {
+
+NodeConfiguration fromText(const std::string& text) { return nodeConfigurationFromYaml(YAML::Load(text)); }
+
+std::string violations(const std::string& text) {
+  try {
+    fromText(text);
+  } catch (const OptionsError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Parameters, AnEmptyNamespaceGivesTheDefaults) {
+  const NodeConfiguration configuration = nodeConfigurationFromYaml(YAML::Node(YAML::NodeType::Map));
+  EXPECT_EQ(configuration.node.queue_size, 10);
+  EXPECT_EQ(configuration.node.drop_policy, DropPolicy::kAll);
+  EXPECT_TRUE(configuration.node.use_scan_info);
+  EXPECT_EQ(configuration.core.model.lower.hardness, Configuration().model.lower.hardness);
+}
+
+TEST(Parameters, NodeAndCoreKeysStandSideBySide) {
+  const NodeConfiguration configuration = fromText(
+      "{queue_size: 3, drop_policy: latest, lower: {hardness: 2.0e9}, load: {mechanical_load: 1e-6}, "
+      "display: {max_points: 100}}");
+  EXPECT_EQ(configuration.node.queue_size, 3);
+  EXPECT_EQ(configuration.node.drop_policy, DropPolicy::kLatest);
+  EXPECT_EQ(configuration.node.display.max_points, 100);
+  EXPECT_EQ(configuration.core.model.lower.hardness, 2e9);
+  EXPECT_EQ(configuration.core.model.load.mechanical_load, 1e-6);
+}
+
+TEST(Parameters, EveryBadKeyIsNamedAtOnce) {
+  const std::string text = violations(
+      "{queue_sise: 3, drop_policy: newest, lower: {hardness: -1}, pairing_timeout: soon, load: {voltage: 5}}");
+  for (const char* key :
+       {"queue_sise", "drop_policy", "lower/hardness", "pairing_timeout", "interface/insulator_thickness"}) {
+    EXPECT_NE(text.find(key), std::string::npos) << key << " in\n" << text;
+  }
+  EXPECT_NE(text.find("newest"), std::string::npos) << text;
+}
+
+TEST(Parameters, ImageTransportMayKeepItsOwnKeys) {
+  EXPECT_EQ(violations("{image_transport: raw, deformed_height: {disable_pub_plugins: [image_transport/theora]}, "
+                       "contact_map: {compressed: {format: png}}}"),
+            "");
+  EXPECT_NE(violations("{contact_map: {color: red}}").find("contact_map/color"), std::string::npos);
+  EXPECT_NE(violations("{prediction: {disable_pub_plugins: []}}").find("prediction/disable_pub_plugins"),
+            std::string::npos);
+}
+
+TEST(Parameters, TheParameterServersTypesArriveUnchanged) {
+  XmlRpc::XmlRpcValue tree;
+  tree["lower"]["youngs_modulus"] = 1.0 / 3.0;
+  tree["load"]["max_voltage"] = 7;                // an integer serves for a number
+  tree["interface"]["cutoff_distance"] = "1e-9";  // PyYAML reads this as text
+  tree["scan"]["invalid_value"] = std::nan("");
+  tree["accumulate_deformation"] = true;
+  const NodeConfiguration configuration = nodeConfigurationFromYaml(yamlFromParameters(tree));
+  EXPECT_EQ(configuration.core.model.lower.youngs_modulus, 1.0 / 3.0);
+  EXPECT_EQ(configuration.core.model.load.max_voltage, 7.0);
+  EXPECT_EQ(configuration.core.model.interface.cutoff_distance, 1e-9);
+  EXPECT_TRUE(std::isnan(configuration.core.scan.invalid_value));
+  EXPECT_TRUE(configuration.node.accumulate_deformation);
+}
+
+TEST(Parameters, TypesThatAreNoSettingAreNamed) {
+  XmlRpc::XmlRpcValue tree;
+  char bytes[] = "abc";
+  tree["lower"]["hardness"] = XmlRpc::XmlRpcValue(bytes, 3);
+  try {
+    yamlFromParameters(tree);
+    ADD_FAILURE();
+  } catch (const OptionsError& error) {
+    EXPECT_NE(std::string(error.what()).find("lower/hardness"), std::string::npos) << error.what();
+  }
+}
+
+/// The file is the documentation of the parameters, so it must show every key with its default.
+TEST(Parameters, TheShippedNodeYamlHoldsEveryKeyWithItsDefault) {
+  const YAML::Node shipped = YAML::LoadFile(MEMS_STICTION_SOURCE_DIR "/config/node.yaml");
+  const YAML::Node defaults = YAML::Load(toYaml([](OptionVisitor& visitor) { NodeOptions().describe(visitor); }));
+  std::size_t compared = 0;
+  const auto compare = [&](const YAML::Node& left, const YAML::Node& right, const std::string& where) {
+    ASSERT_EQ(left.size(), right.size()) << where;
+    for (const auto& entry : right) {
+      const std::string key = entry.first.Scalar();
+      ASSERT_TRUE(left[key]) << where << key;
+      if (entry.second.IsMap()) continue;
+      if (double number = 0.0; YAML::convert<double>::decode(entry.second, number)) {
+        EXPECT_EQ(left[key].as<double>(), number) << where << key;
+      } else {
+        EXPECT_EQ(left[key].Scalar(), entry.second.Scalar()) << where << key;
+      }
+      ++compared;
+    }
+  };
+  compare(shipped, defaults, "");
+  compare(shipped["display"], defaults["display"], "display/");
+  EXPECT_EQ(compared, 11U);
+}
+
+}  // namespace
+}  // namespace mems_stiction

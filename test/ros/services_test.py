@@ -1,0 +1,134 @@
+#!/usr/bin/env python3
+"""The services: what they set, what they refuse, and that their predictions are the topic's."""
+
+import math
+import unittest
+
+import numpy as np
+import rospy
+import rostest
+from mems_stiction.msg import ScanInfo, StictionPrediction
+from mems_stiction.srv import GetLoad, Predict, SetLoad
+from std_srvs.srv import Trigger
+from stiction_client import Collector, Counts, Station, figures, image_message, info_message, rough_surface
+
+LOAD = 1e-6
+
+
+class ServicesTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node("services_test")
+        cls.counts = Counts()
+        for name in ("set_load", "get_load", "predict", "reset_surface"):
+            rospy.wait_for_service("stiction_node/" + name, timeout=30.0)
+        cls.set_load = rospy.ServiceProxy("stiction_node/set_load", SetLoad)
+        cls.get_load = rospy.ServiceProxy("stiction_node/get_load", GetLoad)
+        cls.predict = rospy.ServiceProxy("stiction_node/predict", Predict)
+        cls.reset_surface = rospy.ServiceProxy("stiction_node/reset_surface", Trigger)
+        cls.predictions = Collector("prediction", StictionPrediction).connect()
+        cls.station = Station()
+
+    def setUp(self):
+        self.assertTrue(self.set_load(0.0, LOAD).success)
+
+    def send(self, heights):
+        """Sends one scan and returns its prediction."""
+        before = len(self.predictions.messages)
+        stamp = self.station.send(heights)
+        prediction = self.predictions.wait(before + 1)[before]
+        self.assertEqual(prediction.header.stamp, stamp)
+        return prediction
+
+    def assert_load(self, voltage, mechanical_load):
+        load = self.get_load()
+        self.assertEqual((load.voltage, load.mechanical_load), (voltage, mechanical_load))
+        self.assertEqual((load.max_voltage, load.max_mechanical_load), (50.0, 1e-3))
+
+    def test_1_set_load_before_any_scan_sets_and_says_that_there_is_no_prediction(self):
+        self.assert_load(0.0, LOAD)
+        answer = self.set_load(1.0, LOAD)
+        self.assertTrue(answer.success)
+        self.assertIn("no scan yet", answer.message)
+        self.assertEqual(answer.prediction.status, StictionPrediction.NO_EQUILIBRIUM)
+        self.assert_load(1.0, LOAD)
+
+    def test_2_set_load_predicts_the_last_scan_and_the_force_goes_with_the_square_of_the_voltage(self):
+        surface = rough_surface(2)
+        at_rest = self.send(surface)
+        self.assertEqual(at_rest.electrostatic_force, 0.0)
+        published = len(self.predictions.messages)
+        # So small that the surfaces do not come nearer: only the voltage differs.
+        once, twice = (self.set_load(voltage, LOAD).prediction for voltage in (1e-3, 2e-3))
+        self.assertEqual(once.header.stamp, at_rest.header.stamp)
+        self.assertEqual(once.voltage, 1e-3)
+        self.assertGreater(once.electrostatic_force, 0.0)
+        self.assertAlmostEqual(twice.electrostatic_force / once.electrostatic_force, 4.0, delta=1e-9)
+        # The closed form for a gap that is small against the insulator: eps0 A U^2 / (2 (t / eps_r)^2).
+        plates = 8.8541878128e-12 * once.nominal_area * once.voltage**2 / (2 * (100e-9 / 3.9) ** 2)
+        self.assertLess(once.electrostatic_force, plates)
+        self.assertGreater(once.electrostatic_force, 0.2 * plates)
+        # A voltage that counts never takes them apart.
+        strong = self.set_load(50.0, LOAD).prediction
+        self.assertGreater(strong.electrostatic_force, LOAD)
+        self.assertAlmostEqual(strong.normal_load, strong.electrostatic_force + strong.van_der_waals_force + LOAD,
+                               delta=1e-9 * strong.normal_load)
+        self.assertGreater(strong.contact_area_jkr, at_rest.contact_area_jkr)
+        self.assertGreaterEqual(strong.contact_area, at_rest.contact_area)
+        # The next scan is predicted with it, the same to the last bit.
+        self.assertEqual(len(self.predictions.messages), published)
+        live = self.send(surface)
+        live.header = strong.header
+        self.assertEqual(figures(live), figures(strong))
+
+    def test_3_a_refused_value_changes_nothing(self):
+        surface = rough_surface(3)
+        before = self.send(surface)
+        refused = [(51.0, LOAD, "voltage"), (-51.0, LOAD, "voltage"), (math.nan, LOAD, "voltage"),
+                   (math.inf, LOAD, "voltage"), (1.0, -1e-9, "mechanical_load"), (1.0, 2e-3, "mechanical_load"),
+                   (1.0, math.nan, "mechanical_load")]
+        for voltage, load, name in refused:
+            answer = self.set_load(voltage, load)
+            self.assertFalse(answer.success, (voltage, load))
+            self.assertIn(name, answer.message)
+            self.assert_load(0.0, LOAD)
+        after = self.send(surface)
+        after.header = before.header
+        self.assertEqual(figures(after), figures(before))
+
+    def test_4_predict_equals_the_topic_bit_for_bit_and_leaves_no_trace(self):
+        surface = rough_surface(4)
+        live = self.send(surface)
+        published = len(self.predictions.messages)
+        image = image_message(surface, live.header.stamp)
+        info = info_message(live.header.stamp)
+        answer = self.predict(image, info, 0.0, LOAD)
+        self.assertTrue(answer.success, answer.message)
+        self.assertEqual(figures(answer.prediction), figures(live))
+
+        other = self.predict(image_message(rough_surface(5), rospy.Time(5)), info, 10.0, 2e-6)
+        self.assertTrue(other.success, other.message)
+        self.assertEqual(other.prediction.voltage, 10.0)
+        self.assert_load(0.0, LOAD)
+        self.assertEqual(figures(self.set_load(0.0, LOAD).prediction), figures(live))
+        self.assertEqual(len(self.predictions.messages), published)
+
+    def test_5_predict_refuses_with_a_reason(self):
+        surface = rough_surface(6)
+        info = info_message(rospy.Time(6))
+        for image, scan_info, voltage, reason in [
+                (image_message(surface, rospy.Time(6), "rgb8"), info, 0.0, "32FC1"),
+                (image_message(surface, rospy.Time(6)), ScanInfo(), 0.0, "pitch"),
+                (image_message(np.full_like(surface, np.nan), rospy.Time(6)), info, 0.0, "valid"),
+                (image_message(surface, rospy.Time(6)), info, 51.0, "voltage")]:
+            answer = self.predict(image, scan_info, voltage, LOAD)
+            self.assertFalse(answer.success)
+            self.assertIn(reason, answer.message)
+        self.counts.wait(rejected=0)
+
+    def test_6_reset_surface_answers(self):
+        self.assertTrue(self.reset_surface().success)
+
+
+if __name__ == "__main__":
+    rostest.rosrun("mems_stiction", "services", ServicesTest)

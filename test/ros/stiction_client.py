@@ -1,0 +1,149 @@
+"""What the rostests share: scans to send, predictions to wait for, diagnostics to read."""
+
+import subprocess
+import threading
+import time
+
+import numpy as np
+import rospy
+from diagnostic_msgs.msg import DiagnosticArray
+from mems_stiction.msg import ScanInfo, StictionPrediction
+from roslib.packages import find_node
+from sensor_msgs.msg import Image
+
+PITCH = 10e-9
+TIMEOUT = 30.0
+
+
+def wait_until(condition, what, timeout=TIMEOUT):
+    """Polls in wall time; raises AssertionError when the time is over."""
+    end = time.monotonic() + timeout
+    while not condition():
+        if time.monotonic() > end:
+            raise AssertionError("waited %g s in vain for %s" % (timeout, what))
+        time.sleep(0.02)
+
+
+def rough_surface(seed, rows=48, cols=64, rms_height=5e-9):
+    """Smoothed noise, rows x cols float32 [m]."""
+    noise = np.random.RandomState(seed).normal(size=(rows, cols))
+    spectrum = np.fft.rfft2(noise)
+    ky, kx = np.meshgrid(np.fft.fftfreq(rows), np.fft.rfftfreq(cols), indexing="ij")
+    smooth = np.fft.irfft2(spectrum * np.exp(-(kx**2 + ky**2) * 200.0), s=(rows, cols))
+    return (smooth * rms_height / smooth.std()).astype(np.float32)
+
+
+def image_message(heights, stamp, encoding="32FC1"):
+    message = Image()
+    message.header.stamp = stamp
+    message.header.frame_id = "scan"
+    message.height, message.width = heights.shape
+    message.encoding = encoding
+    message.step = heights.shape[1] * heights.dtype.itemsize
+    message.data = heights.tobytes()
+    return message
+
+
+def info_message(stamp, pitch=PITCH):
+    message = ScanInfo()
+    message.header.stamp = stamp
+    message.pitch_x = message.pitch_y = pitch
+    return message
+
+
+def figures(prediction):
+    """Every field as it was sent, bit for bit, but the wall time and header.seq, which is the publisher's."""
+    import io
+
+    copy_of = StictionPrediction()
+    buffer = io.BytesIO()
+    prediction.serialize(buffer)
+    copy_of.deserialize(buffer.getvalue())
+    copy_of.processing_time = 0.0
+    copy_of.header.seq = 0
+    buffer = io.BytesIO()
+    copy_of.serialize(buffer)
+    return buffer.getvalue()
+
+
+class Collector:
+    """Keeps every message of a topic in the order of arrival."""
+
+    def __init__(self, topic, kind):
+        self.messages = []
+        self._subscriber = rospy.Subscriber(topic, kind, self.messages.append, queue_size=1000)
+        self._topic = topic
+
+    def connect(self):
+        wait_until(lambda: self._subscriber.get_num_connections() > 0, "a publisher of " + self._topic)
+        return self
+
+    def wait(self, count):
+        wait_until(lambda: len(self.messages) >= count, "message %d of %s, got %d" % (count, self._topic, len(self.messages)))
+        return self.messages
+
+
+class Counts:
+    """The newest figures of the node on /diagnostics."""
+
+    def __init__(self):
+        self._lock = threading.Lock()
+        self._values = {}
+        self._reports = []
+        rospy.Subscriber("/diagnostics", DiagnosticArray, self._take, queue_size=100)
+
+    def _take(self, message):
+        for status in message.status:
+            if status.name == "stiction_node: scans":
+                with self._lock:
+                    self._values = {entry.key: entry.value for entry in status.values}
+                    self._reports.append((status.level, status.message))
+
+    def __getitem__(self, key):
+        with self._lock:
+            return self._values.get(key, "")
+
+    def reasons(self):
+        with self._lock:
+            return [message for level, message in self._reports if level > 0]
+
+    def wait(self, **expected):
+        def reached():
+            return all(self[key] == str(value) for key, value in expected.items())
+
+        try:
+            wait_until(reached, "the counts %s" % expected)
+        except AssertionError as error:
+            raise AssertionError("%s; they are %s" % (error, self._values))
+
+
+class Station:
+    """Sends scans as a camera driver does: height and scan_info with one stamp."""
+
+    def __init__(self, prefix=""):
+        self.height = rospy.Publisher(prefix + "height", Image, queue_size=1000)
+        self.info = rospy.Publisher(prefix + "scan_info", ScanInfo, queue_size=1000)
+        wait_until(lambda: self.height.get_num_connections() and self.info.get_num_connections(), "the node to subscribe")
+        self._second = 1000
+
+    def stamp(self):
+        self._second += 1
+        return rospy.Time(self._second)
+
+    def send(self, heights, **info):
+        stamp = self.stamp()
+        self.height.publish(image_message(heights, stamp))
+        self.info.publish(info_message(stamp, **info))
+        return stamp
+
+
+def make_bag(path, *arguments):
+    # rosrun looks into no folder called build below the package.
+    program = find_node("mems_stiction", "make_scan_bag")[0]
+    subprocess.run([program, "-o", path] + list(arguments), check=True, timeout=120)
+
+
+def play_bag(path):
+    """As the documentation tells users to replay without loss."""
+    subprocess.run(["rosbag", "play", "--quiet", "--wait-for-subscribers", path], check=True, timeout=120,
+                   stdin=subprocess.DEVNULL)
