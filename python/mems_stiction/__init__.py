@@ -1,0 +1,1 @@
+"""What people read of predictions: text and pictures. The figures themselves come from the C++ core."""

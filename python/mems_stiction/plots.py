@@ -1,0 +1,216 @@
+"""One picture per scan: heights, contact map, cross-section through the contact that carries most.
+
+Arrays are rows x columns, heights in metres, NaN where nothing was measured; row 0 is the top.
+"""
+
+import matplotlib
+
+matplotlib.use("Agg")
+
+import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
+import numpy as np  # noqa: E402
+from matplotlib.colors import ListedColormap  # noqa: E402
+from matplotlib.patches import Patch  # noqa: E402
+from mpl_toolkits.axes_grid1 import make_axes_locatable  # noqa: E402
+
+from mems_stiction.prediction_text import STATUS_NAMES  # noqa: E402
+from mems_stiction import quantities  # noqa: E402
+from mems_stiction.quantities import length_scale, percent  # noqa: E402
+
+# Elastic, elasto-plastic, fully plastic: told apart without red-green vision too.
+REGIMES = ((1, "elastic", "#2f7fd1"), (2, "elasto-plastic", "#f2b705"), (3, "plastic", "#d1322f"))
+SMALL_CONTACT_SHARE = 3e-4  # contacts that take less of the frame are ringed, or nobody sees them
+MOST_RINGS = 300
+
+
+def with_unit(value, unit):
+    """As people write it: a picture can show what a terminal may not."""
+    return quantities.with_unit(value, unit).replace(" u", " µ")
+
+
+class ScanPicture:
+    """What one picture shows.
+
+    heights, deformed: the scan before and after contact [m]; they may differ by a plane, since preprocessing levels.
+    counter_deformed: the counter-surface after contact [m], or None for a flat one.
+    contact_map: 0 apart, 1 elastic, 2 elasto-plastic, 3 plastic.
+    asperities, prediction: the messages' records. pitch_x, pitch_y: [m].
+    """
+
+    def __init__(self, name, heights, deformed, counter_deformed, contact_map, asperities, prediction, pitch_x, pitch_y):
+        self.name = name
+        self.deformed = np.asarray(deformed, dtype=float)
+        self.contact_map = np.asarray(contact_map)
+        self.heights = in_frame_of(np.asarray(heights, dtype=float), self.deformed, self.contact_map)
+        self.counter = np.zeros_like(self.deformed) if counter_deformed is None else np.asarray(counter_deformed, float)
+        self.asperities = list(asperities)
+        self.prediction = prediction
+        self.pitch_x, self.pitch_y = pitch_x, pitch_y
+
+    @property
+    def extent(self):
+        rows, columns = self.heights.shape
+        return columns * self.pitch_x, rows * self.pitch_y
+
+    def counter_at_contact(self):
+        """The counter-surface where the search ended, in the scan's heights. The cell that came into contact last touches
+        without interference: no other contact cell is further apart."""
+        separation = (self.counter - self.heights)[self.contact_map > 0]
+        return self.counter - (np.nanmax(separation) if separation.size else np.nanmin(self.counter - self.heights))
+
+
+def in_frame_of(heights, deformed, contact_map):
+    """`heights` less the plane by which it differs from `deformed` outside the contacts."""
+    difference = heights - deformed
+    rows, columns = np.indices(heights.shape)
+    use = np.isfinite(difference) & (contact_map == 0)
+    if use.sum() < 3:
+        return heights
+    design = np.stack([np.ones(use.sum()), columns[use], rows[use]], axis=1)
+    plane, *_ = np.linalg.lstsq(design, difference[use], rcond=None)
+    return heights - (plane[0] + plane[1] * columns + plane[2] * rows)
+
+
+def save_picture(picture, path):
+    """Writes the three panels as PNG."""
+    figure = plt.figure(figsize=(15, 5.4), dpi=110)
+    grid = figure.add_gridspec(1, 3, width_ratios=(1.0, 1.0, 1.15), left=0.045, right=0.985, top=0.80, bottom=0.17,
+                               wspace=0.22)
+    figure.suptitle(picture.name, x=0.045, y=0.965, ha="left", fontsize=14, fontweight="bold")
+    figure.text(0.045, 0.88, _caption(picture), fontsize=10.5, color="#333333")
+    _draw_heights(figure, figure.add_subplot(grid[0]), picture)
+    contact_axes = figure.add_subplot(grid[1])
+    section = _section(picture)
+    _draw_contacts(contact_axes, picture, section)
+    _draw_section(figure.add_subplot(grid[2]), picture, section)
+    figure.savefig(path)
+    plt.close(figure)
+
+
+def _caption(picture):
+    prediction = picture.prediction
+    bound = "at least " if prediction.status == 1 else ""
+    parts = [STATUS_NAMES.get(prediction.status, "?"),
+             "pull-off force %s%s" % (bound, with_unit(prediction.pull_off_force, "N")),
+             "contact %s of the area" % percent(prediction.contact_fraction),
+             "rms height %s" % with_unit(prediction.rms_height, "m"),
+             "normal load %s" % with_unit(prediction.normal_load, "N"), "voltage %s" % with_unit(prediction.voltage, "V")]
+    return "   |   ".join(parts)
+
+
+def _map_axes(axes, picture, title):
+    width, height = picture.extent
+    scale, unit = length_scale(max(width, height))
+    axes.set_anchor("N")
+    axes.set_title(title, fontsize=11)
+    axes.set_xlabel("x [%s]" % unit)
+    return (0, width * scale, height * scale, 0), scale
+
+
+def _beside(axes):
+    return make_axes_locatable(axes).append_axes("right", size="4.5%", pad=0.1)
+
+
+def _draw_heights(figure, axes, picture):
+    extent, _ = _map_axes(axes, picture, "Height")
+    axes.set_ylabel("y [%s]" % length_scale(max(picture.extent))[1])
+    finite = picture.heights[np.isfinite(picture.heights)]
+    scale, unit = length_scale(finite.max() - finite.min())
+    low, high = np.percentile(finite, [0.2, 99.8]) if finite.size else (0, 1)
+    middle = np.mean(finite)
+    axes.set_facecolor("#e8d5e8")
+    image = axes.imshow((picture.heights - middle) * scale, extent=extent, cmap="viridis", vmin=(low - middle) * scale,
+                        vmax=(high - middle) * scale, interpolation="nearest")
+    bar = figure.colorbar(image, cax=_beside(axes), extend="both")
+    bar.set_label("height above mean [%s]" % unit)
+
+
+def _draw_contacts(axes, picture, section):
+    extent, scale = _map_axes(axes, picture, "Contact by regime")
+    finite = picture.heights[np.isfinite(picture.heights)]
+    low, high = np.percentile(finite, [1, 99])
+    # Pale greys, so that the colours stand out from valleys and from peaks.
+    axes.imshow(picture.heights, extent=extent, cmap="gray", vmin=low - 0.9 * (high - low), vmax=high + 0.15 * (high - low),
+                interpolation="nearest")
+    colours = ListedColormap([colour for _, _, colour in REGIMES])
+    shown = np.ma.masked_equal(picture.contact_map, 0)
+    axes.imshow(shown, extent=extent, cmap=colours, vmin=0.5, vmax=3.5, interpolation="nearest")
+    width, height = picture.extent
+    small = [a for a in picture.asperities if a.area < SMALL_CONTACT_SHARE * width * height]
+    small.sort(key=lambda a: -a.load)
+    for value, _, colour in REGIMES:
+        ringed = [a for a in small[:MOST_RINGS] if a.regime == value]
+        if not ringed:
+            continue
+        axes.scatter([(a.x + picture.pitch_x / 2) * scale for a in ringed],
+                     [(a.y + picture.pitch_y / 2) * scale for a in ringed], s=55 if len(small) < 80 else 20,
+                     facecolors="none", edgecolors=colour, linewidths=1.1, clip_on=False)
+    if section is not None:
+        y = (section.row + 0.5) * picture.pitch_y * scale
+        axes.plot([section.first * picture.pitch_x * scale, (section.last + 1) * picture.pitch_x * scale], [y, y],
+                  color="black", linewidth=1.6)
+    axes.set_xlim(extent[0], extent[1])
+    axes.set_ylim(extent[2], extent[3])
+    _beside(axes).set_axis_off()  # the two maps keep the same size
+    counts = (picture.prediction.elastic_count, picture.prediction.elasto_plastic_count, picture.prediction.plastic_count)
+    handles = [Patch(color=colour, label="%s (%d)" % (label, count)) for (_, label, colour), count in zip(REGIMES, counts)]
+    if section is not None:
+        handles.append(plt.Line2D([], [], color="black", linewidth=1.6, label="cross-section"))
+    axes.figure.legend(handles=handles, loc="lower center", bbox_to_anchor=(0.47, 0.01), ncol=4, fontsize=9, frameon=False,
+                       handlelength=1.2, columnspacing=1.2)
+
+
+class _Section:
+    def __init__(self, asperity, row, first, last):
+        self.asperity, self.row, self.first, self.last = asperity, row, first, last
+
+
+def _section(picture):
+    """Along x through the contact that carries most, three cap radii to either side and at least 7 pixels."""
+    if not picture.asperities:
+        return None
+    asperity = max(picture.asperities, key=lambda a: a.load)
+    rows, columns = picture.heights.shape
+    row = min(max(int(round(asperity.y / picture.pitch_y)), 0), rows - 1)
+    column = min(max(int(round(asperity.x / picture.pitch_x)), 0), columns - 1)
+    reach = max(7, int(round(3 * asperity.cap_radius / picture.pitch_x)))
+    return _Section(asperity, row, max(0, column - reach), min(columns - 1, column + reach))
+
+
+def _draw_section(axes, picture, section):
+    axes.set_title("Cross-section through the contact that carries most", fontsize=11)
+    if section is None:
+        axes.set_axis_off()
+        axes.text(0.5, 0.5, "no contact", ha="center", va="center")
+        return
+    part = slice(section.first, section.last + 1)
+    before, after = picture.heights[section.row, part], picture.deformed[section.row, part]
+    counter = picture.counter_at_contact()[section.row, part]
+    x = np.arange(section.first, section.last + 1) * picture.pitch_x - section.asperity.x
+    zero = np.nanmax(before)
+    x_scale, x_unit = length_scale(x[-1] - x[0])
+    z_scale, z_unit = length_scale(np.nanmax(before) - np.nanmin(before))
+    changed = np.nanmax(np.abs(after - before)) > 1e-3 * max(np.nanmax(before - counter), 1e-12)
+    style = {"marker": "."} if len(x) < 60 else {}
+    axes.fill_between(x * x_scale, (after - zero) * z_scale, np.nanmin(before - zero) * z_scale, color="#e9edf2")
+    axes.plot(x * x_scale, (counter - zero) * z_scale, color="#555555", linewidth=1.4, linestyle=(0, (5, 2)),
+              zorder=3, label="counter-surface at rest")
+    axes.plot(x * x_scale, (before - zero) * z_scale, color="#e07b00", linewidth=2.6, label="scan before contact", **style)
+    axes.plot(x * x_scale, (after - zero) * z_scale, color="#0b4f9e", linewidth=1.4, label="scan after contact" if changed else "scan after contact: unchanged")
+    # Ten times the interference shows what the contact does, a third of the relief where it stands; the rest may leave
+    # the picture.
+    relief = zero - np.nanmin(before)
+    deepest = -min(relief, max(10 * np.nanmax(before - counter), relief / 3))
+    low, high = deepest * z_scale, max(0.0, np.nanmax(counter - zero) * z_scale)
+    axes.set_ylim(low - 0.03 * (high - low), high + 0.42 * (high - low))
+    axes.set_xlim(x[0] * x_scale, x[-1] * x_scale)
+    axes.set_xlabel("x from the contact's centre [%s]" % x_unit)
+    axes.set_ylabel("height from the peak [%s]" % z_unit)
+    axes.grid(color="#dddddd", linewidth=0.6)
+    axes.set_axisbelow(True)
+    axes.legend(loc="upper left", fontsize=8.5, frameon=False)
+    asperity = section.asperity
+    regime = dict((value, label) for value, label, _ in REGIMES).get(asperity.regime, "?")
+    axes.text(0.985, 0.975, "%s\nload %s\nradius of curvature %s\nplasticity index %.2f" % (
+        regime, with_unit(asperity.load, "N"), with_unit(asperity.composite_radius, "m"), asperity.plasticity_index),
+        transform=axes.transAxes, ha="right", va="top", fontsize=8.5, color="#333333", linespacing=1.35)

@@ -1,0 +1,44 @@
+"""SI numbers as people read them: 1.23e-7 N as "123 nN"."""
+
+import math
+
+_PREFIXES = {-18: "a", -15: "f", -12: "p", -9: "n", -6: "u", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
+
+
+def prefix_for(value):
+    """The power of ten (a multiple of 3) and the letter with which `value` has one to three digits before the point."""
+    if value == 0 or not math.isfinite(value):
+        return 0, ""
+    exponent = 3 * math.floor(math.log10(abs(value) * (1 + 1e-9)) / 3)
+    exponent = min(max(exponent, min(_PREFIXES)), max(_PREFIXES))
+    return exponent, _PREFIXES[exponent]
+
+
+def with_unit(value, unit, digits=3):
+    """Three significant digits and a prefix: with_unit(1.234e-7, "N") is "123 nN"."""
+    if not math.isfinite(value):
+        return "%s %s" % (value, unit)
+    if value == 0:
+        return "0 %s" % unit
+    exponent, letter = prefix_for(float("%.*e" % (digits - 1, value)))
+    scaled = value / 10.0**exponent
+    before_point = len("%d" % abs(float("%.*g" % (digits, scaled))))
+    return "%.*f %s%s" % (max(0, digits - before_point), scaled, letter, unit)
+
+
+def length_scale(extent):
+    """Factor and unit for an axis that spans `extent` metres: (1e9, "nm") or (1e6, "µm"), (1e3, "mm")."""
+    if extent < 2e-6:
+        return 1e9, "nm"
+    return (1e6, "µm") if extent < 2e-3 else (1e3, "mm")
+
+
+def percent(fraction):
+    """Three significant digits: "12.3 %", "0.0123 %"."""
+    value = 100 * fraction
+    if not math.isfinite(value):
+        return "%s %%" % value
+    if value == 0:
+        return "0 %"
+    decimals = max(0, 2 - math.floor(math.log10(abs(value)))) if abs(value) < 100 else 0
+    return "%.*f %%" % (min(decimals, 6), value)

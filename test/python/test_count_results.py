@@ -1,0 +1,69 @@
+"""The last line of scripts/test tells the truth."""
+
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "lib" / "count_results.py"
+
+
+class CountResultsTest(unittest.TestCase):
+    def setUp(self):
+        self._folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self._folder.cleanup)
+        self.folder = pathlib.Path(self._folder.name)
+        self.checks = self.folder / "checks.tsv"
+        self.checks.write_text("")
+
+    def write(self, name, cases):
+        (self.folder / name).write_text("<testsuites><testsuite>%s</testsuite></testsuites>" % cases)
+
+    def run_program(self):
+        done = subprocess.run([sys.executable, str(PROGRAM), "--total", str(self.checks), str(self.folder)],
+                              stdout=subprocess.PIPE, universal_newlines=True)
+        return done.returncode, done.stdout.splitlines()
+
+    def test_cases_are_counted_not_files(self):
+        self.write("a.xml", '<testcase classname="S" name="one"/><testcase classname="S" name="two"/>'
+                            '<testcase classname="S" name="three" result="skipped"><skipped message="no scans"/></testcase>')
+        status, lines = self.run_program()
+        self.assertEqual((status, lines[-1]), (0, "2 passed, 0 failed, 1 skipped"))
+        self.assertIn("skipped 1: no scans", lines)
+
+    def test_a_failure_is_told_and_changes_the_status(self):
+        self.write("a.xml", '<testcase classname="S" name="one"><failure message="m">1 is not 2</failure></testcase>')
+        status, lines = self.run_program()
+        self.assertEqual((status, lines[-1]), (1, "0 passed, 1 failed, 0 skipped"))
+        self.assertIn("FAILED  S.one", lines)
+        self.assertIn("    1 is not 2", lines)
+
+    def test_nothing_ran_is_a_failure(self):
+        self.assertEqual(self.run_program(), (1, ["0 passed, 0 failed, 0 skipped"]))
+
+    def test_a_broken_result_file_is_a_failure(self):
+        (self.folder / "a.xml").write_text("<testsuites><test")
+        self.assertEqual(self.run_program()[1][-1], "0 passed, 1 failed, 0 skipped")
+
+    def test_the_nodes_of_a_rostest_count_once(self):
+        self.write("rosunit-replay.xml", '<testcase name="a"/><testcase name="b"><failure>no</failure></testcase>')
+        self.write("rostest-replay.xml", '<testcase classname="R" name="testreplay"><failure>b failed</failure></testcase>')
+        self.assertEqual(self.run_program()[1][-1], "1 passed, 1 failed, 0 skipped")
+
+    def test_a_node_of_a_rostest_that_died_counts_as_failed(self):
+        self.write("rosunit-replay.xml", '<testcase name="a"/>')
+        self.write("rostest-replay.xml", '<testcase classname="R" name="testreplay"><failure>died</failure></testcase>')
+        self.assertEqual(self.run_program()[1][-1], "1 passed, 1 failed, 0 skipped")
+
+    def test_checks_count_too(self):
+        output = self.folder / "output.txt"
+        output.write_text("wrong format")
+        self.checks.write_text("passed\tone\t\nfailed\ttwo\t%s\n" % output)
+        status, lines = self.run_program()
+        self.assertEqual((status, lines[-1]), (1, "1 passed, 1 failed, 0 skipped"))
+        self.assertIn("    wrong format", lines)
+
+
+if __name__ == "__main__":
+    unittest.main()

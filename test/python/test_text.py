@@ -1,0 +1,65 @@
+"""What people read: numbers with prefixes, table lines, the effect of a load."""
+
+import math
+import unittest
+from types import SimpleNamespace
+
+from mems_stiction.prediction_text import load_effect, table_header, table_line
+from mems_stiction.quantities import length_scale, percent, with_unit
+
+
+def prediction(**changes):
+    values = dict(status=0, pull_off_force=2.3e-6, van_der_waals_force=0.23e-6, electrostatic_force=0.0,
+                  normal_load=1e-6, rms_height=9.96e-9, voltage=0.0, mechanical_load=0.0, contact_area=1e-14, contact_fraction=0.00123,
+                  elastic_count=2, elasto_plastic_count=3, plastic_count=4, processing_time=0.0345)
+    values.update(changes)
+    return SimpleNamespace(**values)
+
+
+class QuantitiesTest(unittest.TestCase):
+    def test_three_significant_digits_and_a_prefix(self):
+        self.assertEqual(with_unit(1.234e-7, "N"), "123 nN")
+        self.assertEqual(with_unit(1.234e-6, "N"), "1.23 uN")
+        self.assertEqual(with_unit(-2e-3, "m"), "-2.00 mm")
+        self.assertEqual(with_unit(0.0, "V"), "0 V")
+
+    def test_rounding_up_changes_the_prefix(self):
+        self.assertEqual(with_unit(999.6e-9, "N"), "1.00 uN")
+        self.assertEqual(with_unit(99.96e-9, "N"), "100 nN")
+
+    def test_what_is_not_finite_stays_visible(self):
+        self.assertEqual(with_unit(math.inf, "N"), "inf N")
+        self.assertEqual(percent(math.nan), "nan %")
+
+    def test_percent(self):
+        self.assertEqual(percent(0.1234), "12.3 %")
+        self.assertEqual(percent(1.234e-5), "0.00123 %")
+        self.assertEqual(percent(1.0), "100 %")
+
+    def test_axes_are_in_nanometers_or_micrometers(self):
+        self.assertEqual(length_scale(1e-6), (1e9, "nm"))
+        self.assertEqual(length_scale(1e-5), (1e6, "µm"))
+
+
+class PredictionTextTest(unittest.TestCase):
+    def test_columns_stay_aligned(self):
+        plain = table_line("a", prediction())
+        bonded = table_line("/a/very/long/path/to/some/scan.tiff", prediction(status=1, voltage=12.5))
+        self.assertEqual(len(plain), len(bonded))
+        self.assertEqual(len(plain), len(table_header().splitlines()[1]))
+        self.assertIn("10.0 %", plain)
+
+    def test_the_force_of_a_bonded_surface_is_marked_as_a_lower_bound(self):
+        self.assertIn(">= 2.30 uN", table_line("a", prediction(status=1)))
+
+    def test_load_effect_says_what_grew(self):
+        text = "\n".join(load_effect(prediction(), prediction(
+            voltage=5.0, electrostatic_force=1e-6, contact_area=2e-14, status=1)))
+        self.assertIn("Electrostatic force 1.00 uN, before 0 N", text)
+        self.assertIn("contact area grows", text)
+        self.assertIn("pull-off force stays", text)
+        self.assertIn("from equilibrium to bonded", text)
+
+
+if __name__ == "__main__":
+    unittest.main()
