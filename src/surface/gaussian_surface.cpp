@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
-#include <random>
 #include <utility>
 
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/surface/random_field.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -32,17 +31,6 @@ std::vector<double> spectralFilter(int count, double pitch, double correlation_l
     filter[static_cast<std::size_t>(index)] = std::sqrt(std::max(0.0, spectrum.at<cv::Vec2d>(0, index)[0]));
   }
   return filter;
-}
-
-cv::Mat whiteNoise(int rows, int cols, int seed) {
-  cv::Mat noise(rows, cols, CV_64FC1);
-  std::mt19937_64 engine(static_cast<std::uint64_t>(seed));
-  std::normal_distribution<double> normal;
-  for (int row = 0; row < rows; ++row) {
-    double* line = noise.ptr<double>(row);
-    for (int col = 0; col < cols; ++col) line[col] = normal(engine);
-  }
-  return noise;
 }
 
 }  // namespace

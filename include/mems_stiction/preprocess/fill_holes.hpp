@@ -1,0 +1,36 @@
+#pragma once
+
+/// Heights for missing pixels.
+///
+/// Missing pixels become the thin plate through the valid ones around them: the sum of z_xx^2 + 2 z_xy^2 + z_yy^2 over
+/// all differences that touch a missing pixel is least (the biharmonic equation). A plane comes back exactly, and a
+/// hole in the top of an asperity is filled with a dome, where a harmonic fill would cut it off. At the frame's border
+/// the plate ends free. A membrane term of 1e-9 of the plate's decides where the plate alone does not.
+/// Holes are 4-connected sets of missing pixels; those larger than max_hole stay invalid: nobody knows what is there.
+/// When more than max_fraction of the frame is missing, the scan is refused.
+
+#include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/height_map/height_map.hpp"
+
+namespace mems_stiction {
+
+struct FillOptions {
+  bool enabled = false;
+  double max_fraction = 0.05;  ///< share of missing pixels beyond which the scan is refused [-], in [0, 1]
+  int max_hole = 200;          ///< larger holes stay invalid [pixels], in [1, 1000000]
+
+  /// Keys are prefix + "/max_fraction" and so on.
+  void describe(OptionVisitor& visitor, const std::string& prefix = "preprocessing/fill");
+};
+
+/// rows x cols, CV_64FC1, metres; the pixels of larger holes are NaN.
+/// @throw SurfaceError naming the fraction and the limit if too much is missing, or if no pixel is valid.
+HeightMap withFilledHoles(const HeightMap& surface, const FillOptions& options);
+
+/// Fills the marked pixels, whatever their number.
+/// @param heights rows x cols CV_64FC1 [m], NaN where missing
+/// @param wanted rows x cols CV_8UC1, not 0 at missing pixels that get a height; the other missing ones stay NaN and
+///        are to the plate as the outside of the frame
+void fillPixels(cv::Mat& heights, const cv::Mat& wanted, double pitch_x, double pitch_y);
+
+}  // namespace mems_stiction

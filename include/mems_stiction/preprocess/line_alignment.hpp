@@ -1,0 +1,33 @@
+#pragma once
+
+/// Taking off what changes from one scan line to the next: jumps, drift, bow of the fast axis. Lines are rows.
+///
+/// - median: each line less its median.
+/// - median_difference: each line is shifted so that the median of its differences from the line before it is 0. The
+///   usual cure for jumps; features that fill less than half of both lines have no say.
+/// - polynomial: each line less its own robust polynomial (polynomial_level.hpp) of degree 0 to 2.
+///
+/// What it costs: a line cannot tell its own offset from the surface's. All three take the tilt along y and every
+/// wavelength along y that is longer than the frame out of the surface; a sphere that fills the frame loses its shape.
+/// Lines without a valid pixel stay as they are. The mean height of the surface is kept.
+
+#include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/height_map/height_map.hpp"
+
+namespace mems_stiction {
+
+enum class LineAlignment { kNone, kMedian, kMedianDifference, kPolynomial };
+
+struct LineAlignmentOptions {
+  LineAlignment method = LineAlignment::kNone;
+  int degree = 1;  ///< of the polynomials, in [0, 2]
+
+  /// Keys are prefix + "/method" and so on.
+  void describe(OptionVisitor& visitor, const std::string& prefix = "preprocessing/lines");
+};
+
+/// rows x cols, CV_64FC1, metres; invalid pixels are NaN.
+/// @throw SurfaceError if no pixel is valid.
+HeightMap withAlignedLines(const HeightMap& surface, const LineAlignmentOptions& options);
+
+}  // namespace mems_stiction

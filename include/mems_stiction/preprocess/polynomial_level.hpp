@@ -1,0 +1,44 @@
+#pragma once
+
+/// How does a scan lie and bend, apart from its features?
+///
+///     z(x, y) ~ sum of c_ij u^i v^j over i + j <= degree;  u = (x - center_x)/unit, v = (y - center_y)/unit
+///
+/// Least squares over the valid pixels, or robust: iterated reweighting, first with Huber's weights (k = 1.345), then
+/// with Tukey's biweight (c = 4.685), residuals in units of 1.4826 times the median of their absolute values. Both
+/// constants keep 95 % of the efficiency of least squares on Gaussian roughness (Huber and Ronchetti, Robust
+/// Statistics, 2009). Pixels more than 4.685 units away, such as particles, spikes and etched steps, then have no
+/// say. Assumption: features cover less than about a third of the frame, otherwise they are the surface.
+/// Degenerate cases: terms that the valid pixels do not determine (a single row has no slope across it) are 0.
+
+#include <Eigen/Core>
+
+#include "mems_stiction/height_map/height_map.hpp"
+
+namespace mems_stiction {
+
+enum class FitWeights {
+  kEqual,   ///< least squares
+  kRobust,  ///< iterated reweighting
+};
+
+struct PolynomialSurface {
+  int degree = 0;         ///< 0, 1 or 2
+  double origin = 0.0;    ///< added to the sum [m]
+  double center_x = 0.0;  ///< centroid of the valid pixels [m]
+  double center_y = 0.0;  ///< [m]
+  double unit = 1.0;      ///< half of the frame's longer side [m]
+  double noise = 0.0;     ///< 1.4826 x median of the absolute residuals [m]
+  Eigen::Matrix<double, 6, 1> coefficients = Eigen::Matrix<double, 6, 1>::Zero();  ///< of 1, u, v, u^2, u v, v^2 [m]
+
+  double height(double x, double y) const;  ///< [m]
+};
+
+/// @param degree 0, 1 or 2
+/// @throw SurfaceError if no pixel is valid.
+PolynomialSurface fitPolynomial(const HeightMap& surface, int degree, FitWeights weights);
+
+/// The surface less a polynomial: rows x cols, CV_64FC1, metres; invalid pixels are NaN.
+HeightMap without(const PolynomialSurface& polynomial, const HeightMap& surface);
+
+}  // namespace mems_stiction

@@ -1,0 +1,31 @@
+#pragma once
+
+/// Which pixels jump out of their surroundings?
+///
+/// The residual of a pixel is its height less the median of the window around it, on the surface less its robust
+/// polynomial of degree 2 (so that tilt and bow do not count at the border). Pixels whose residual is further from the
+/// median residual than threshold x 1.4826 x (median absolute deviation of all residuals) become invalid;
+/// fill_holes.hpp gives them a height again. Where more than half of the residuals are equal (coarsely counted
+/// heights), the median runs over those that differ. Assumptions: a spike covers less than half a window. On Gaussian
+/// roughness a threshold of 6 removes two pixels in 10^9; surfaces that carry real particles of a few pixels lose them:
+/// choose a smaller window or a higher threshold.
+
+#include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/height_map/height_map.hpp"
+
+namespace mems_stiction {
+
+struct SpikeOptions {
+  bool enabled = false;
+  double threshold = 6.0;  ///< in robust standard deviations, > 0
+  int window = 5;          ///< side of the window [pixels], odd (an even one counts as the next odd one), in [3, 31]
+
+  /// Keys are prefix + "/threshold" and so on.
+  void describe(OptionVisitor& visitor, const std::string& prefix = "preprocessing/spikes");
+};
+
+/// rows x cols, CV_64FC1, metres; invalid pixels and spikes are NaN.
+/// @throw SurfaceError if no pixel is valid.
+HeightMap withoutSpikes(const HeightMap& surface, const SpikeOptions& options);
+
+}  // namespace mems_stiction

@@ -1,0 +1,176 @@
+#include "mems_stiction/roughness/power_spectrum.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "mems_stiction/base/constants.hpp"
+#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/height_map/validity.hpp"
+
+namespace mems_stiction {
+namespace {
+
+/// Weights of one axis: Hann's periodic window, centered on the pixels.
+std::vector<double> axisWindow(int count, SpectrumWindow window) {
+  std::vector<double> weights(static_cast<std::size_t>(count), 1.0);
+  if (window == SpectrumWindow::kNone) return weights;
+  for (int index = 0; index < count; ++index) {
+    const double sine = std::sin(kPi * (index + 0.5) / count);
+    weights[static_cast<std::size_t>(index)] = sine * sine;
+  }
+  return weights;
+}
+
+/// Heights about their weighted mean times the window, in units of `unit`.
+struct Weighted {
+  cv::Mat heights;
+  double unit = 1.0;             ///< [m]
+  double squared_weights = 0.0;  ///< sum over the frame
+};
+
+Weighted weightedHeights(const HeightMap& surface, SpectrumWindow window) {
+  Weighted weighted;
+  const HeightStatistics statistics = heightStatistics(surface);
+  weighted.heights = ownedHeights(surface) - statistics.mean;
+  const double range = statistics.max - statistics.min;
+  weighted.unit = range > 0.0 ? range : 1.0;
+
+  const std::vector<double> window_x = axisWindow(surface.cols(), window);
+  const std::vector<double> window_y = axisWindow(surface.rows(), window);
+  cv::Mat weights(surface.rows(), surface.cols(), CV_64FC1);
+  double sum = 0.0;
+  double products = 0.0;
+  for (int row = 0; row < surface.rows(); ++row) {
+    double* line = weighted.heights.ptr<double>(row);
+    double* weight = weights.ptr<double>(row);
+    for (int col = 0; col < surface.cols(); ++col) {
+      const bool valid = !std::isnan(line[col]);
+      weight[col] = valid ? window_y[static_cast<std::size_t>(row)] * window_x[static_cast<std::size_t>(col)] : 0.0;
+      if (!valid) line[col] = 0.0;
+      sum += weight[col];
+      products += weight[col] * line[col];
+      weighted.squared_weights += weight[col] * weight[col];
+    }
+  }
+  weighted.heights -= range > 0.0 ? products / sum : 0.0;
+  if (range == 0.0) weighted.heights.setTo(0.0);  // the mean of equal numbers can round off
+  cv::multiply(weighted.heights, weights, weighted.heights, 1.0 / weighted.unit);
+  return weighted;
+}
+
+/// Wave number of one coefficient of the transform [rad/m].
+double waveNumber(int index, int count, double pitch) {
+  const int wave = index <= count / 2 ? index : index - count;
+  return 2.0 * kPi * wave / (count * pitch);
+}
+
+}  // namespace
+
+PowerSpectrum powerSpectrum(const HeightMap& surface, SpectrumWindow window) {
+  const int rows = surface.rows();
+  const int cols = surface.cols();
+  if (rows < 2 || cols < 2) {
+    throw SurfaceError("a spectrum needs at least 2 x 2 pixels, got " + std::to_string(cols) + " x " +
+                       std::to_string(rows));
+  }
+  const Weighted weighted = weightedHeights(surface, window);
+  cv::Mat transform;
+  cv::dft(weighted.heights, transform, cv::DFT_COMPLEX_OUTPUT);
+
+  // C = |F dx dy|^2/(dx dy sum of w^2); integral d^2q/(2 pi)^2 = sum over wave vectors/(N dx dy)
+  const double density = weighted.unit * weighted.unit * surface.cellArea() / weighted.squared_weights;
+  const double per_mode = 1.0 / (static_cast<double>(surface.heights().total()) * surface.cellArea());
+  const double width = 2.0 * kPi / std::max(cols * surface.pitchX(), rows * surface.pitchY());
+  const double nyquist = kPi / std::max(surface.pitchX(), surface.pitchY());
+  std::vector<SpectrumRing> rings(static_cast<std::size_t>(nyquist / width + 1.5));
+
+  // Powers of q in units of the ring width: fourth powers of 1e10 stay in range.
+  double zeroth = 0.0;
+  double second = 0.0;
+  double fourth = 0.0;
+  for (int row = 0; row < rows; ++row) {
+    const cv::Vec2d* line = transform.ptr<cv::Vec2d>(row);
+    const double q_y = waveNumber(row, rows, surface.pitchY());
+    for (int col = 0; col < cols; ++col) {
+      if (row == 0 && col == 0) continue;
+      const double q = std::hypot(waveNumber(col, cols, surface.pitchX()), q_y);
+      const double power = density * line[col].dot(line[col]);
+      const double square = (q / width) * (q / width);
+      zeroth += power;
+      second += power * square;
+      fourth += power * square * square;
+      const auto ring = static_cast<std::size_t>(q / width + 0.5);
+      if (q > nyquist * (1.0 + 1e-12) || ring >= rings.size()) continue;
+      rings[ring].wave_number += q;
+      rings[ring].density += power;
+      ++rings[ring].count;
+    }
+  }
+
+  PowerSpectrum spectrum;
+  SpectralMoments& moments = spectrum.moments;
+  moments.m0 = zeroth * per_mode;
+  moments.m2 = 0.5 * second * per_mode * width * width;
+  moments.m4 = 0.375 * fourth * per_mode * std::pow(width, 4);
+  if (second > 0.0) moments.alpha = 1.5 * (zeroth / second) * (fourth / second);
+  for (SpectrumRing& ring : rings) {
+    if (ring.count == 0) continue;
+    ring.wave_number /= ring.count;
+    ring.density /= ring.count;
+    spectrum.rings.push_back(ring);
+  }
+  return spectrum;
+}
+
+HurstFit fitHurstExponent(const PowerSpectrum& spectrum, double shortest_wavelength, double longest_wavelength) {
+  if (!Range::positive().contains(shortest_wavelength) || !Range::positive().contains(longest_wavelength) ||
+      shortest_wavelength >= longest_wavelength) {
+    throw OptionsError({"wavelengths: " + numberText(shortest_wavelength) + " to " + numberText(longest_wavelength) +
+                        " m is not allowed, must be 0 < shortest < longest"});
+  }
+  double weight_sum = 0.0;
+  double mean_x = 0.0;
+  double mean_y = 0.0;
+  std::vector<const SpectrumRing*> inside;
+  for (const SpectrumRing& ring : spectrum.rings) {
+    const double wavelength = 2.0 * kPi / ring.wave_number;
+    if (wavelength < shortest_wavelength || wavelength > longest_wavelength || !(ring.density > 0.0)) continue;
+    inside.push_back(&ring);
+    weight_sum += ring.count;
+    mean_x += ring.count * std::log(ring.wave_number);
+    mean_y += ring.count * std::log(ring.density);
+  }
+  if (inside.size() < 3) {
+    std::string range = "the spectrum is empty";
+    if (!spectrum.rings.empty()) {
+      range = "the spectrum has wavelengths of " + numberText(2.0 * kPi / spectrum.rings.back().wave_number) + " to " +
+              numberText(2.0 * kPi / spectrum.rings.front().wave_number) + " m";
+    }
+    throw SurfaceError("a Hurst exponent needs at least 3 rings between " + numberText(shortest_wavelength) + " and " +
+                       numberText(longest_wavelength) + " m, found " + std::to_string(inside.size()) + "; " + range);
+  }
+  mean_x /= weight_sum;
+  mean_y /= weight_sum;
+  double variance = 0.0;
+  double covariance = 0.0;
+  for (const SpectrumRing* ring : inside) {
+    const double x = std::log(ring->wave_number) - mean_x;
+    variance += ring->count * x * x;
+    covariance += ring->count * x * (std::log(ring->density) - mean_y);
+  }
+  const double slope = covariance / variance;
+  double residuals = 0.0;
+  for (const SpectrumRing* ring : inside) {
+    const double residual = std::log(ring->density) - mean_y - slope * (std::log(ring->wave_number) - mean_x);
+    residuals += ring->count * residual * residual;
+  }
+  HurstFit fit;
+  fit.rings = static_cast<int>(inside.size());
+  fit.hurst_exponent = -0.5 * slope - 1.0;
+  fit.standard_error = 0.5 * std::sqrt(residuals / (fit.rings - 2) / variance);
+  return fit;
+}
+
+}  // namespace mems_stiction
