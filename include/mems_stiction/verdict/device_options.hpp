@@ -1,0 +1,49 @@
+#pragma once
+
+/// The device that must come off again: what its designer knows of spring, contact and beam. 0 means "not stated".
+
+#include <string>
+#include <vector>
+
+#include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/loads/interface.hpp"
+#include "mems_stiction/verdict/beam_adhesion.hpp"
+
+namespace mems_stiction {
+
+struct DeviceOptions {
+  double spring_stiffness = 0.0;  ///< k of the suspension along z [N/m], >= 0
+  double travel = 0.0;            ///< from rest to contact [m], >= 0
+  double contact_area = 0.0;      ///< nominal area of dimples or landing pads, all together [m^2], >= 0
+  double electrode_area = 0.0;    ///< that the voltage acts on [m^2], >= 0
+  double electrode_gap = 0.0;     ///< at rest [m], >= 0; 0 = the travel
+
+  BeamType beam_type = BeamType::kNone;
+  double beam_length = 0.0;           ///< [m], >= 0
+  double beam_thickness = 0.0;        ///< [m], >= 0
+  double beam_gap = 0.0;              ///< height of the beam above the substrate [m], >= 0
+  double beam_modulus = 0.0;          ///< Young's modulus of the beam [Pa], >= 0
+  double beam_residual_stress = 0.0;  ///< tensile positive; of doubly clamped beams [Pa]
+
+  /// Of the rough interface, measured on beams [J/m^2], >= 0; 0 = from the contacts of the prediction.
+  double apparent_work_of_adhesion = 0.0;
+
+  bool hasSpring() const { return spring_stiffness > 0.0 && travel > 0.0; }
+  bool hasBeam() const { return beam_type != BeamType::kNone; }
+  bool isStated() const { return hasBeam() || spring_stiffness > 0.0 || travel > 0.0 || contact_area > 0.0; }
+
+  /// k times travel [N].
+  double restoringForce() const { return spring_stiffness * travel; }
+  Beam beam() const;
+
+  void describe(OptionVisitor& visitor);
+  /// One line per violated constraint; empty when all is well. A beam must be stated as a whole.
+  std::vector<std::string> validate() const;
+};
+
+/// Voltage at which the electrodes close [V]: pull-in, or, when the travel ends before that (a third of the electrical
+/// gap), the voltage that holds the spring at the end of its travel. NaN when spring, travel or electrode area are not
+/// stated; the electrode's field has no fringes.
+double closingVoltage(const DeviceOptions& device, const InterfaceOptions& interface);
+
+}  // namespace mems_stiction

@@ -1,0 +1,61 @@
+#pragma once
+
+/// How far may the predicted pull-off force be off, given how well the constants are known?
+///
+/// Each sample draws one factor per uncertain constant, lognormal with median 1: w for the work of adhesion, h for the
+/// hardness, e for the modulus, x for the pitch, c for the cut-off. The contacts of the prediction are then moved:
+///
+///     R_i -> x^2 R_i     P1_i -> e x P1_i     yield load Y_i = Ha pi rc_i^2 -> h x^2 Y_i
+///     phi_i -> (e/h) phi_i/x, and with it the elastic share chi_i
+///     carried load  C = sum [chi_i P1_i + (1 - chi_i) min(P1_i, Y_i)]
+///     demand        B = F_m + F_e + F_w + 2 pi Gamma sum R_i
+///     growth        n = (B'/C')/(B/C), with F_w' in B' for n = 1
+///     F_w -> x^2 (n c^-2 near + far),    far = H A/(6 pi (mean gap)^3), which the cut-off does not touch
+///     pull-off per nominal area -> [n (3/2) pi (w Gamma) sum x^2 R_i + F_w']/(x^2 A0)
+///
+/// The growth says that a surface that must carry more, or carries less per contact, brings proportionally more
+/// contacts of the same kind into play (Archard; Greenwood and Williamson's exponential summits). It is a first-order
+/// model: the contacts are not searched again. Left out: the feedback of new contacts on the demand (it makes sticky
+/// surfaces near bonding more sensitive than said here), the change of the shares of large and small contacts, and
+/// steps of the contact count when there are few. F_w ~ c^-2 is the edge of a contact, a gap that grows evenly from 0.
+/// Whatever else the pull-off force holds (condensed water) goes with x^2 n, as the contacts that it surrounds.
+/// Judged by searching again with each constant changed (tested): on Gaussian surfaces with 30 contacts and more, the
+/// powers with which the pull-off force goes with the constants agree within 0.3 for most, within 0.7 at worst
+/// (hardness of surfaces half elastic, half plastic). With a few contacts the search goes in steps, and this is the
+/// smooth mean at best; a single contact that carries more than it must does not react at all, and this says more than
+/// the search.
+///
+/// With scan_sampling, a further factor has the variance sum R_i^2/(sum R_i)^2: a scan is one sample of the surface,
+/// and another place would have other contacts (Poisson).
+///
+/// Cost: one pass over the contacts per sample, some 0.2 ms for 1000 contacts and 200 samples. Same seed, same samples.
+
+#include <vector>
+
+#include "mems_stiction/prediction/options.hpp"
+#include "mems_stiction/prediction/prediction.hpp"
+#include "mems_stiction/verdict/uncertainty_options.hpp"
+
+namespace mems_stiction {
+
+/// Samples in ascending order; empty when the prediction has contacts but no list of them (output/asperities off).
+struct AdhesionSpread {
+  std::vector<double> pull_off;       ///< pull-off force over the prediction's [-]
+  std::vector<double> apparent_work;  ///< apparent work of adhesion over apparentWorkOfAdhesion() [-]
+
+  bool isKnown() const { return !pull_off.empty(); }
+};
+
+/// Energy per nominal area that separating the contacts costs when no load presses: the sum of JKR's energies over the
+/// contacts [J/m^2]. This is what beams of this rough surface would measure, without the van der Waals attraction
+/// across the open gap (which adds at most F_w (mean gap)/2 per nominal area). NaN without a list of contacts.
+double apparentWorkOfAdhesion(const Prediction& prediction, const Options& options);
+
+/// @param options those of the prediction
+AdhesionSpread adhesionSpread(const Prediction& prediction, const Options& options,
+                              const UncertaintyOptions& uncertainty);
+
+/// Value below which the given share of the sorted samples lies, linear between samples; NaN if there are none.
+double quantile(const std::vector<double>& sorted_samples, double share);
+
+}  // namespace mems_stiction

@@ -1,0 +1,35 @@
+#pragma once
+
+/// Where does a prediction leave the range of the model that made it?
+
+#include <cstdint>
+#include <string>
+
+#include "mems_stiction/prediction/prediction.hpp"
+
+namespace mems_stiction {
+
+/// Bits of a set of flags; the values are those of the message.
+enum RegimeFlag : std::uint32_t {
+  kBondedFlag = 1,         ///< contacts percolate: the pull-off force is a lower bound
+  kNoEquilibriumFlag = 2,  ///< the search ended first: the figures are those of its last step
+  kTaborFlag = 4,          ///< JKR's pull-off is too low: the median Tabor parameter asks for the transition or DMT
+  kPlasticityFlag = 8,     ///< more than half of the adhesion is of contacts that flow: their radii have changed
+  kResolutionFlag = 16,    ///< more than half of the adhesion is of contacts of few pixels: a finer pitch may change it
+  kFewContactsFlag = 32,   ///< so few contacts that another place of the surface may differ much
+};
+
+/// Contacts of fewer cells (five across) do not show their curvature.
+inline constexpr double kFewestCellsPerContact = 20.0;
+/// Fewer contacts than this scatter by a third and more from place to place.
+inline constexpr int kFewestContacts = 10;
+
+/// Shares are of the sum of composite radii, which the adhesion is proportional to; without a list of contacts
+/// (output/asperities off) they are of the number of contacts, and the mean contact stands for all.
+/// @param cell_area of the scan [m^2], > 0
+std::uint32_t regimeFlags(const Prediction& prediction, double cell_area);
+
+/// "bonded, tabor": the names of the flags set, in the order above; empty when none is.
+std::string regimeFlagNames(std::uint32_t flags);
+
+}  // namespace mems_stiction

@@ -1,0 +1,74 @@
+#pragma once
+
+/// Does this device stick? From the prediction of one scan to a word and its reason.
+///
+///     restoring force = k travel
+///     pull-off force  = pull-off force of the scan, contact area of the device/nominal area of the scan
+///     margin          = restoring force/pull-off force: above 1 the spring pulls the contact open
+///     peel number     = what bending gives per what adhesion takes, of a beam (beam_adhesion.hpp): above 1 it comes
+///     off
+///
+/// The margin is a ratio, so that 2 reads "twice the force needed" for every device, and beams and springs compare.
+/// Its 95 % interval is that of the uncertain constants (margin_uncertainty.hpp). The word:
+///
+///     no        the whole interval is above 1, also with the pull-off prefactors of the JKR-DMT transition
+///     yes       the whole interval is below 1
+///     marginal  1 lies within
+///     unknown   the device is not stated, the search found no equilibrium, or the surfaces bond (the forces are then
+///               lower bounds: they can say "yes", not "no")
+///
+/// With a spring and a beam stated, the worse of both counts: yes, unknown, marginal, no.
+/// Assumptions: the scan stands for the whole contact area; the load has been taken away before the device is to open
+/// (voltage and mechanical load made the contact, they do not hold it); the spring pulls along the normal and evenly on
+/// all contacts, so that none peels before the others (a tilting part comes off more easily than said here).
+///
+///     const Verdict verdict = verdictOf(prediction, device, uncertainty, options, scan.cellArea());
+///     if (verdict.sticks == Sticks::kYes) reject(verdict.reason);
+
+#include <cstdint>
+#include <limits>
+#include <string>
+
+#include "mems_stiction/prediction/options.hpp"
+#include "mems_stiction/prediction/prediction.hpp"
+#include "mems_stiction/verdict/device_options.hpp"
+#include "mems_stiction/verdict/margin_uncertainty.hpp"
+
+namespace mems_stiction {
+
+/// The values are those of the message.
+enum class Sticks : std::uint8_t { kNo = 0, kMarginal = 1, kYes = 2, kUnknown = 3 };
+
+/// "no", "marginal", "yes", "unknown".
+const char* sticksText(Sticks sticks);
+
+/// NaN stands for what the device's settings do not allow to say.
+struct Verdict {
+  static constexpr double kNotStated = std::numeric_limits<double>::quiet_NaN();
+
+  Sticks sticks = Sticks::kUnknown;
+  std::string reason;  ///< one sentence for people
+
+  double restoring_force = kNotStated;            ///< of the device [N]
+  double device_pull_off_force = kNotStated;      ///< scaled to the device's contact area [N]
+  double margin = kNotStated;                     ///< restoring over pull-off force [-]; infinite without adhesion
+  double margin_lower = kNotStated;               ///< 2.5 % quantile [-]
+  double margin_upper = kNotStated;               ///< 97.5 % quantile [-]
+  double margin_uncertainty = kNotStated;         ///< half of the central 68 % interval [-]: one standard deviation
+  double margin_transition = kNotStated;          ///< with the prefactors of the JKR-DMT transition [-], <= margin
+  double apparent_work_of_adhesion = kNotStated;  ///< of the rough interface [J/m^2]
+  double peel_number = kNotStated;                ///< of the beam [-]
+  double peel_number_lower = kNotStated;          ///< 2.5 % quantile [-]
+  double peel_number_upper = kNotStated;          ///< 97.5 % quantile [-]
+  double detachment_length = kNotStated;          ///< longest beam that comes off by itself [m]
+  double unstuck_length = kNotStated;             ///< free arm of the beam while it is stuck [m]
+  double pull_in_voltage = kNotStated;            ///< at which the electrodes close [V]
+  std::uint32_t regime_flags = 0;                 ///< bits of RegimeFlag
+};
+
+/// @param options those that the prediction was made with
+/// @param cell_area of the scan [m^2], > 0
+Verdict verdictOf(const Prediction& prediction, const DeviceOptions& device, const UncertaintyOptions& uncertainty,
+                  const Options& options, double cell_area);
+
+}  // namespace mems_stiction

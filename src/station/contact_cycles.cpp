@@ -1,0 +1,87 @@
+#include "mems_stiction/station/contact_cycles.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/prediction/adhesion_model.hpp"
+
+namespace mems_stiction {
+namespace {
+
+/// Surfaces are passed on from contact to contact; the list of contacts is for the verdict.
+Options withSurfaces(Options options) {
+  options.output.deformed_surfaces = true;
+  options.output.asperities = true;
+  options.output.contact_map = false;
+  options.output.roughness = false;
+  options.output.energy_curve = false;
+  return options;
+}
+
+/// Over the pixels that are valid in both [m].
+double largestDifference(const cv::Mat& before, const cv::Mat& after) {
+  double largest = 0.0;
+  for (int row = 0; row < after.rows; ++row) {
+    const double* old_line = before.ptr<double>(row);
+    const double* new_line = after.ptr<double>(row);
+    for (int col = 0; col < after.cols; ++col) {
+      const double difference = std::abs(new_line[col] - old_line[col]);
+      if (difference > largest) largest = difference;  // false for pixels that are not numbers
+    }
+  }
+  return largest;
+}
+
+}  // namespace
+
+ContactCyclesResult cycleContacts(const Options& options, const HeightMap& lower, const HeightMap* upper, int count,
+                                  const DeviceOptions& device, const UncertaintyOptions& uncertainty,
+                                  const RunControl& control) {
+  if (count < 1) {
+    throw OptionsError({"count: " + std::to_string(count) + " is not allowed, must be an integer >= 1"});
+  }
+  AdhesionModel model(withSurfaces(options));
+  ContactCyclesResult result;
+  result.lower = lower.asDouble();
+  if (upper != nullptr) {
+    result.upper = upper->asDouble();
+  } else {
+    const cv::Mat plane = cv::Mat::zeros(lower.rows(), lower.cols(), CV_64FC1);
+    result.upper = HeightMap(plane, lower.pitchX(), lower.pitchY());
+  }
+
+  for (int cycle = 1; cycle <= count; ++cycle) {
+    if (control.isCancelled()) return result;
+    const bool is_fresh_plane = cycle == 1 && upper == nullptr;
+    const Prediction prediction =
+        is_fresh_plane ? model.predict(result.lower) : model.predict(result.lower, result.upper);
+    const Verdict verdict = verdictOf(prediction, device, uncertainty, options, lower.cellArea());
+
+    ContactCycle row;
+    row.cycle = cycle;
+    row.status = prediction.status;
+    row.pull_off_force = prediction.pull_off_force;
+    row.van_der_waals_force = prediction.van_der_waals_force;
+    row.contact_area = prediction.contact_area;
+    row.contact_area_jkr = prediction.contact_area_jkr;
+    row.contact_fraction = prediction.contact_fraction;
+    row.asperity_count = prediction.asperity_count;
+    row.plastic_count = prediction.plastic_count;
+    row.largest_change = std::max(largestDifference(result.lower.heights(), prediction.deformed_lower),
+                                  largestDifference(result.upper.heights(), prediction.deformed_upper));
+    result.lower = HeightMap(prediction.deformed_lower, lower.pitchX(), lower.pitchY());
+    result.upper = HeightMap(prediction.deformed_upper, lower.pitchX(), lower.pitchY());
+    row.rms_height = heightStatistics(result.lower).rms_height;
+    row.sticks = verdict.sticks;
+    row.margin = verdict.margin;
+    row.margin_lower = verdict.margin_lower;
+    result.cycles.push_back(row);
+    if (row.sticks == Sticks::kYes && result.first_sticking_cycle == 0) result.first_sticking_cycle = cycle;
+    control.report(cycle, count);
+  }
+  result.is_complete = true;
+  return result;
+}
+
+}  // namespace mems_stiction

@@ -1,0 +1,79 @@
+#include "mems_stiction/station/held_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "mems_stiction/base/constants.hpp"
+#include "mems_stiction/mechanics/jkr.hpp"
+#include "mems_stiction/mechanics/plasticity.hpp"
+
+namespace mems_stiction {
+namespace {
+
+/// The surfaces of a held contact are not asked for, its contacts always.
+Options withContacts(Options options) {
+  options.output.deformed_surfaces = false;
+  options.output.contact_map = false;
+  options.output.roughness = false;
+  options.output.energy_curve = false;
+  options.output.asperities = true;
+  return options;
+}
+
+double heldContactArea(const Prediction& contact, double normal_load, const Options& options) {
+  const double work = options.interface.work_of_adhesion;
+  const double modulus = ContactPair(options.lower, options.upper).contact_modulus;
+  const double load_ratio = contact.normal_load > 0.0 ? normal_load / contact.normal_load : 1.0;
+  double area = 0.0;
+  for (const Asperity& asperity : contact.asperities) {
+    const double axial_load = load_ratio * asperity.load * std::cos(asperity.tilt);
+    const double unloaded = jkr::equilibriumContactRadius(axial_load, work, asperity.composite_radius, modulus);
+    const double share = regimeFactor(asperity.plasticity_index);
+    area += kPi * (share * unloaded * unloaded + (1.0 - share) * asperity.contact_radius * asperity.contact_radius);
+  }
+  return area;
+}
+
+}  // namespace
+
+HeldContact::HeldContact(const Options& options, const HeightMap& lower, const HeightMap* upper)
+    : options_(withContacts(options)), model_(options_), lower_(lower), has_upper_(upper != nullptr) {
+  if (has_upper_) upper_ = *upper;
+}
+
+HeldState HeldContact::advance(double voltage, double mechanical_load) {
+  Options options = options_;
+  options.load.voltage = voltage;
+  options.load.mechanical_load = mechanical_load;
+  model_.setOptions(options);  // refuses before anything changes
+
+  HeldState state;
+  state.voltage = voltage;
+  state.mechanical_load = mechanical_load;
+  const bool is_within = std::abs(voltage) <= largest_voltage_ && mechanical_load <= largest_load_;
+  if (!has_contact_ || !is_within) {
+    Prediction prediction = has_upper_ ? model_.predict(lower_, upper_) : model_.predict(lower_);
+    largest_voltage_ = std::max(largest_voltage_, std::abs(voltage));
+    largest_load_ = std::max(largest_load_, mechanical_load);
+    if (voltage != 0.0) {
+      field_factor_ = std::max(field_factor_, prediction.electrostatic_force / (voltage * voltage));
+    }
+    if (!has_contact_ || prediction.approach >= contact_.approach) {
+      contact_ = std::move(prediction);
+      has_contact_ = true;
+      state.is_searched = true;
+      state.electrostatic_force = contact_.electrostatic_force;
+      state.normal_load = contact_.normal_load;
+      state.contact_area_jkr = contact_.contact_area_jkr;
+      return state;
+    }
+  }
+  state.electrostatic_force = field_factor_ * voltage * voltage;
+  const double attraction = contact_.normal_load - contact_.electrostatic_force - contact_.mechanical_load;
+  state.normal_load = attraction + state.electrostatic_force + mechanical_load;
+  state.contact_area_jkr = heldContactArea(contact_, state.normal_load, options);
+  return state;
+}
+
+}  // namespace mems_stiction

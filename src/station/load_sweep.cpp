@@ -1,0 +1,164 @@
+#include "mems_stiction/station/load_sweep.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/mechanics/surface_forces.hpp"
+#include "mems_stiction/station/held_contact.hpp"
+
+namespace mems_stiction {
+namespace {
+
+void addListViolations(const std::string& name, const std::vector<double>& values, const std::string& unit,
+                       std::vector<std::string>& violations) {
+  if (values.empty()) violations.push_back(name + ": an empty list is not allowed, must hold one value at least");
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!std::isfinite(values[i]) || values[i] < 0.0) {
+      violations.push_back(name + ": " + numberText(values[i]) + " " + unit + " is not allowed, must be >= 0 " + unit);
+    }
+    if (i > 0 && !(values[i] > values[i - 1])) {
+      violations.push_back(name + ": " + numberText(values[i]) + " " + unit + " after " + numberText(values[i - 1]) +
+                           " " + unit + " is not allowed, must ascend");
+    }
+  }
+}
+
+/// The force of the field that holds the closed device [N].
+double holdingField(const DeviceOptions& device, const InterfaceOptions& interface, const HeldState& state,
+                    const Prediction& contact) {
+  if (device.electrode_area <= 0.0) return state.electrostatic_force * device.contact_area / contact.nominal_area;
+  const double rest_gap = device.electrode_gap > 0.0 ? device.electrode_gap : device.travel;
+  return device.electrode_area * surface_forces::electrostaticPressure(rest_gap - device.travel + contact.mean_gap,
+                                                                       state.voltage, interface.insulator_thickness,
+                                                                       interface.insulator_relative_permittivity);
+}
+
+/// One loop of the voltage at one mechanical load.
+class Loop {
+ public:
+  Loop(const Options& options, const HeightMap& lower, const HeightMap* upper, const DeviceOptions& device,
+       const UncertaintyOptions& uncertainty)
+      : options_(options),
+        device_(device),
+        uncertainty_(uncertainty),
+        contact_(options, lower, upper),
+        cell_area_(lower.cellArea()) {}
+
+  LoadSweepRow next(double voltage, double mechanical_load, SweepDirection direction) {
+    LoadSweepRow row;
+    row.voltage = voltage;
+    row.mechanical_load = mechanical_load;
+    row.direction = direction;
+    if (!is_open_) fill(contact_.advance(voltage, mechanical_load), row);
+    is_open_ = is_open_ || (direction == SweepDirection::kDown && row.holding_margin >= 1.0);
+    if (!is_open_) return row;
+
+    LoadSweepRow open;
+    open.voltage = voltage;
+    open.mechanical_load = mechanical_load;
+    open.direction = direction;
+    open.status = contact_.contact().status;
+    open.is_open = true;
+    open.sticks = Sticks::kNo;
+    return open;
+  }
+
+ private:
+  void fill(const HeldState& state, LoadSweepRow& row) {
+    const Prediction& contact = contact_.contact();
+    if (state.is_searched) verdict_ = verdictOf(contact, device_, uncertainty_, options_, cell_area_);
+    row.status = contact.status;
+    row.pull_off_force = contact.pull_off_force;
+    row.van_der_waals_force = contact.van_der_waals_force;
+    row.electrostatic_force = state.electrostatic_force;
+    row.normal_load = state.normal_load;
+    row.contact_area = contact.contact_area;
+    row.contact_area_jkr = state.contact_area_jkr;
+    row.contact_fraction = contact.contact_fraction;
+    row.asperity_count = contact.asperity_count;
+    row.approach = contact.approach;
+    row.sticks = verdict_.sticks;
+    row.margin = verdict_.margin;
+    row.margin_lower = verdict_.margin_lower;
+    if (std::isnan(verdict_.margin) || contact.status != Status::kEquilibrium) return;
+    const double pressing = state.mechanical_load * device_.contact_area / contact.nominal_area;
+    row.holding_margin = verdict_.restoring_force / (verdict_.device_pull_off_force + pressing +
+                                                     holdingField(device_, options_.interface, state, contact));
+  }
+
+  const Options& options_;
+  const DeviceOptions& device_;
+  const UncertaintyOptions& uncertainty_;
+  HeldContact contact_;
+  double cell_area_;
+  Verdict verdict_;
+  bool is_open_ = false;
+};
+
+LoadSweepSummary summarized(double mechanical_load, const std::vector<LoadSweepRow>& rows, std::size_t begin) {
+  LoadSweepSummary summary;
+  summary.mechanical_load = mechanical_load;
+  bool releases = true;
+  bool is_safe = true;
+  for (std::size_t i = begin; i < rows.size(); ++i) {
+    const LoadSweepRow& row = rows[i];
+    if (row.direction == SweepDirection::kDown) {
+      if (row.is_open && std::isnan(summary.opening_voltage)) summary.opening_voltage = row.voltage;
+      continue;
+    }
+    if (std::isnan(row.margin)) continue;
+    is_safe = is_safe && row.sticks == Sticks::kNo;
+    if (is_safe) summary.highest_safe_voltage = row.voltage;
+    const bool releases_here = row.margin >= 1.0 && row.status == Status::kEquilibrium;
+    if (releases && !releases_here) summary.lowest_sticking_voltage = row.voltage;
+    releases = releases && releases_here;
+    if (releases) summary.highest_releasing_voltage = row.voltage;
+  }
+  return summary;
+}
+
+}  // namespace
+
+std::vector<std::string> LoadSweepRequest::validate(const Options& options) const {
+  std::vector<std::string> violations;
+  addListViolations("voltages", voltages, "V", violations);
+  addListViolations("mechanical_loads", mechanical_loads, "N", violations);
+  if (!violations.empty()) return violations;
+  Options largest = options;
+  largest.load.voltage = voltages.back();
+  largest.load.mechanical_load = mechanical_loads.back();
+  return largest.validate();
+}
+
+LoadSweepResult sweepLoads(const Options& options, const HeightMap& lower, const HeightMap* upper,
+                           const LoadSweepRequest& request, const DeviceOptions& device,
+                           const UncertaintyOptions& uncertainty, const RunControl& control) {
+  std::vector<std::string> violations = request.validate(options);
+  if (!violations.empty()) throw OptionsError(std::move(violations));
+
+  const std::vector<double>& voltages = request.voltages;
+  const auto step_count = static_cast<int>(2 * voltages.size() - 1);
+  const int total = step_count * static_cast<int>(request.mechanical_loads.size());
+  LoadSweepResult result;
+  result.pull_in_voltage = closingVoltage(device, options.interface);
+  for (const double mechanical_load : request.mechanical_loads) {
+    const std::size_t begin = result.rows.size();
+    Loop loop(options, lower, upper, device, uncertainty);
+    for (int step = 0; step < step_count; ++step) {
+      if (control.isCancelled()) return result;
+      const auto up_count = static_cast<int>(voltages.size());
+      const bool is_up = step < up_count;
+      const int place = is_up ? step : 2 * (up_count - 1) - step;
+      result.rows.push_back(loop.next(voltages[static_cast<std::size_t>(place)], mechanical_load,
+                                      is_up ? SweepDirection::kUp : SweepDirection::kDown));
+      control.report(static_cast<int>(result.rows.size()), total);
+    }
+    result.summaries.push_back(summarized(mechanical_load, result.rows, begin));
+  }
+  result.is_complete = true;
+  return result;
+}
+
+}  // namespace mems_stiction

@@ -1,0 +1,78 @@
+#include "mems_stiction/verdict/device_options.hpp"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "mems_stiction/mechanics/surface_forces.hpp"
+
+namespace mems_stiction {
+
+Beam DeviceOptions::beam() const {
+  return {beam_type, beam_length, beam_thickness, beam_gap, beam_modulus, beam_residual_stress};
+}
+
+void DeviceOptions::describe(OptionVisitor& visitor) {
+  visitor.number("device/spring_stiffness", spring_stiffness, "N/m", Range::nonNegative(),
+                 "stiffness of the suspension along the contact's normal; 0 = not stated");
+  visitor.number("device/travel", travel, "m", Range::nonNegative(),
+                 "travel of the part from rest to contact; 0 = not stated");
+  visitor.number("device/contact_area", contact_area, "m^2", Range::nonNegative(),
+                 "nominal area of all dimples together; 0 = not stated");
+  visitor.number("device/electrode_area", electrode_area, "m^2", Range::nonNegative(),
+                 "area that the voltage acts on, for the pull-in voltage; 0 = not stated");
+  visitor.number("device/electrode_gap", electrode_gap, "m", Range::nonNegative(),
+                 "distance of the electrodes at rest; 0 = the travel");
+  visitor.enumeration(
+      "device/beam_type", beam_type,
+      {{"none", BeamType::kNone}, {"cantilever", BeamType::kCantilever}, {"doubly_clamped", BeamType::kDoublyClamped}},
+      "beam whose peel number is asked for");
+  visitor.number("device/beam_length", beam_length, "m", Range::nonNegative(), "length of the beam");
+  visitor.number("device/beam_thickness", beam_thickness, "m", Range::nonNegative(), "thickness of the beam");
+  visitor.number("device/beam_gap", beam_gap, "m", Range::nonNegative(), "height of the beam above the substrate");
+  visitor.number("device/beam_modulus", beam_modulus, "Pa", Range::nonNegative(), "Young's modulus of the beam");
+  visitor.number("device/beam_residual_stress", beam_residual_stress, "Pa", Range::any(),
+                 "residual stress of a doubly clamped beam, tensile positive");
+  visitor.number("device/apparent_work_of_adhesion", apparent_work_of_adhesion, "J/m^2", Range::nonNegative(),
+                 "of the rough interface, measured on beams; 0 = from the predicted contacts");
+}
+
+std::vector<std::string> DeviceOptions::validate() const {
+  DeviceOptions copy = *this;  // describe() shows mutable fields; the validator only reads them
+  OptionValidator validator;
+  copy.describe(validator);
+  std::vector<std::string> violations = validator.violations();
+  if (electrode_gap > 0.0 && travel > electrode_gap) {
+    violations.push_back("device/travel: " + numberText(travel) + " m is not allowed, must not exceed " +
+                         "device/electrode_gap " + numberText(electrode_gap) + " m");
+  }
+  if (!hasBeam()) return violations;
+  const std::pair<const char*, double> sizes[] = {{"device/beam_length", beam_length},
+                                                  {"device/beam_thickness", beam_thickness},
+                                                  {"device/beam_gap", beam_gap},
+                                                  {"device/beam_modulus", beam_modulus}};
+  for (const auto& size : sizes) {
+    if (size.second == 0.0) {
+      violations.push_back(std::string(size.first) +
+                           ": 0 is not allowed with a device/beam_type other than none; must be > 0");
+    }
+  }
+  return violations;
+}
+
+double closingVoltage(const DeviceOptions& device, const InterfaceOptions& interface) {
+  if (!device.hasSpring() || device.electrode_area <= 0.0) return std::numeric_limits<double>::quiet_NaN();
+  const double rest_gap = device.electrode_gap > 0.0 ? device.electrode_gap : device.travel;
+  const double thickness = interface.insulator_thickness;
+  const double permittivity = interface.insulator_relative_permittivity;
+  const double electrical_gap = rest_gap + thickness / permittivity;
+  if (3.0 * device.travel >= electrical_gap) {
+    return surface_forces::pullInVoltage(device.spring_stiffness, rest_gap, device.electrode_area, thickness,
+                                         permittivity);
+  }
+  const double pressure_of_one_volt =
+      surface_forces::electrostaticPressure(rest_gap - device.travel, 1.0, thickness, permittivity);
+  return std::sqrt(device.restoringForce() / (device.electrode_area * pressure_of_one_volt));
+}
+
+}  // namespace mems_stiction

@@ -1,0 +1,152 @@
+#include "mems_stiction/verdict/margin_uncertainty.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <random>
+
+#include "mems_stiction/base/constants.hpp"
+#include "mems_stiction/equilibrium/asperity_response.hpp"
+#include "mems_stiction/mechanics/jkr.hpp"
+#include "mems_stiction/mechanics/surface_forces.hpp"
+
+namespace mems_stiction {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+/// Standard normal numbers that are the same everywhere: std::normal_distribution is not.
+class NormalNumbers {
+ public:
+  explicit NormalNumbers(int seed) : engine_(static_cast<std::uint64_t>(seed)) {}
+
+  double next() {  // Box and Muller, one of the pair
+    const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
+    return radius * std::cos(2.0 * kPi * uniform());
+  }
+
+  /// Lognormal with median 1 and the given relative standard deviation.
+  double factor(double relative_deviation) {
+    const double normal = next();  // drawn even if unused: each constant keeps its own numbers
+    return std::exp(normal * std::sqrt(std::log1p(relative_deviation * relative_deviation)));
+  }
+
+ private:
+  double uniform() { return static_cast<double>(engine_() >> 11) * 0x1.0p-53; }
+
+  std::mt19937_64 engine_;
+};
+
+/// What a sample needs of the contacts, as arrays.
+class ContactList {
+ public:
+  ContactList(const std::vector<Asperity>& asperities, const ContactPair& pair, bool is_elastic) {
+    const double stiffness = 4.0 / 3.0 * pair.contact_modulus;
+    for (const Asperity& asperity : asperities) {
+      const double area = asperity.cap_radius * asperity.cap_radius;
+      imposed_.push_back(stiffness * area * asperity.cap_radius / asperity.composite_radius);
+      yield_.push_back(pair.hardness * kPi * area);
+      plasticity_.push_back(is_elastic ? 0.0 : asperity.plasticity_index);
+      radius_sum_ += asperity.composite_radius;
+      square_sum_ += asperity.composite_radius * asperity.composite_radius;
+    }
+  }
+
+  /// C for loads and plasticity indices times the given factors [N].
+  double carriedLoad(double imposed_factor, double yield_factor, double plasticity_factor) const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < imposed_.size(); ++i) {
+      const double share = regimeFactor(plasticity_factor * plasticity_[i]);
+      const double imposed = imposed_factor * imposed_[i];
+      sum += share * imposed + (1.0 - share) * std::min(imposed, yield_factor * yield_[i]);
+    }
+    return sum;
+  }
+
+  double radiusSum() const { return radius_sum_; }
+  /// Relative standard deviation of the sum of radii when contacts come at random.
+  double samplingDeviation() const { return radius_sum_ > 0.0 ? std::sqrt(square_sum_) / radius_sum_ : 0.0; }
+
+ private:
+  std::vector<double> imposed_;
+  std::vector<double> yield_;
+  std::vector<double> plasticity_;
+  double radius_sum_ = 0.0;
+  double square_sum_ = 0.0;
+};
+
+}  // namespace
+
+double apparentWorkOfAdhesion(const Prediction& prediction, const Options& options) {
+  if (prediction.asperities.empty() && prediction.asperity_count > 0) return kUnknown;
+  const double work = options.interface.work_of_adhesion;
+  const double modulus = ContactPair(options.lower, options.upper).contact_modulus;
+  double energy = 0.0;
+  for (const Asperity& asperity : prediction.asperities) {
+    const double radius = asperity.composite_radius;
+    const double contact = jkr::equilibriumContactRadius(0.0, work, radius, modulus);
+    energy -= jkr::energy(contact, work, radius, modulus);
+  }
+  return energy / prediction.nominal_area;
+}
+
+AdhesionSpread adhesionSpread(const Prediction& prediction, const Options& options,
+                              const UncertaintyOptions& uncertainty) {
+  AdhesionSpread spread;
+  if (prediction.asperities.empty() && prediction.asperity_count > 0) return spread;
+  const ContactPair pair(options.lower, options.upper);
+  const ContactList contacts(prediction.asperities, pair, options.approach.deformation == Deformation::kElastic);
+
+  const double adhesion = kPi * options.interface.work_of_adhesion * contacts.radiusSum();
+  const double applied = prediction.mechanical_load + prediction.electrostatic_force;
+  // what else attracts around the contacts, such as condensed water
+  const double other = prediction.pull_off_force - prediction.pull_off_force_jkr - prediction.van_der_waals_force;
+  const double demand = applied + prediction.van_der_waals_force + other + 2.0 * adhesion;
+  const double carried = contacts.carriedLoad(1.0, 1.0, 1.0);
+  const double pull_off = 1.5 * adhesion + prediction.van_der_waals_force + other;
+  const double open_area = prediction.nominal_area - prediction.contact_area;
+  const double far = prediction.mean_gap > 0.0
+                         ? std::min(prediction.van_der_waals_force,
+                                    open_area * surface_forces::vanDerWaalsPressure(prediction.mean_gap,
+                                                                                    options.interface.hamaker_constant))
+                         : 0.0;
+  const double near = prediction.van_der_waals_force - far;
+
+  NormalNumbers numbers(uncertainty.seed);
+  const auto count = static_cast<std::size_t>(uncertainty.samples);
+  spread.pull_off.reserve(count);
+  spread.apparent_work.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double work = numbers.factor(uncertainty.work_of_adhesion);
+    const double hardness = numbers.factor(uncertainty.hardness);
+    const double modulus = numbers.factor(uncertainty.youngs_modulus);
+    const double pitch = numbers.factor(uncertainty.pitch);
+    const double cutoff = numbers.factor(uncertainty.cutoff_distance);
+    const double place = numbers.factor(uncertainty.scan_sampling ? contacts.samplingDeviation() : 0.0);
+
+    const double area = pitch * pitch;
+    const double near_now = area * (near / (cutoff * cutoff) + other);
+    const double demand_now = applied + near_now + area * far + 2.0 * area * work * adhesion;
+    const double carried_now = contacts.carriedLoad(modulus * pitch, hardness * area, modulus / hardness / pitch);
+    const double growth = demand > 0.0 && carried > 0.0 ? demand_now / carried_now * (carried / demand) : 1.0;
+    const double pull_off_now = place * growth * (1.5 * area * work * adhesion + near_now) + area * far;
+    spread.pull_off.push_back(pull_off > 0.0 ? pull_off_now / area / pull_off : 1.0);
+    // JKR's energy at no load goes with Gamma^(5/3) R^(4/3) K^(-2/3)
+    const double energy = std::pow(work, 5.0 / 3.0) * std::pow(area, 4.0 / 3.0) * std::pow(modulus, -2.0 / 3.0);
+    spread.apparent_work.push_back(place * growth * energy / area);
+  }
+  std::sort(spread.pull_off.begin(), spread.pull_off.end());
+  std::sort(spread.apparent_work.begin(), spread.apparent_work.end());
+  return spread;
+}
+
+double quantile(const std::vector<double>& sorted_samples, double share) {
+  if (sorted_samples.empty()) return kUnknown;
+  const double place = share * static_cast<double>(sorted_samples.size() - 1);
+  const auto below = std::min(static_cast<std::size_t>(place), sorted_samples.size() - 1);
+  const std::size_t above = std::min(below + 1, sorted_samples.size() - 1);
+  return sorted_samples[below] + (place - static_cast<double>(below)) * (sorted_samples[above] - sorted_samples[below]);
+}
+
+}  // namespace mems_stiction

@@ -1,0 +1,64 @@
+#include "mems_stiction/verdict/regime_flags.hpp"
+
+#include <utility>
+
+namespace mems_stiction {
+namespace {
+
+constexpr double kLargeShare = 0.5;
+
+struct Shares {
+  double flowing = 0.0;  ///< of contacts that are not elastic [-]
+  double small = 0.0;    ///< of contacts of few pixels [-]
+};
+
+Shares sharesOf(const Prediction& prediction, double cell_area) {
+  Shares shares;
+  const double smallest_area = kFewestCellsPerContact * cell_area;
+  if (prediction.asperities.empty()) {
+    const double mean_area = prediction.contact_area / prediction.asperity_count;
+    shares.flowing =
+        static_cast<double>(prediction.asperity_count - prediction.elastic_count) / prediction.asperity_count;
+    shares.small = mean_area < smallest_area ? 1.0 : 0.0;
+    return shares;
+  }
+  double sum = 0.0;
+  for (const Asperity& asperity : prediction.asperities) {
+    sum += asperity.composite_radius;
+    if (asperity.regime != Regime::kElastic) shares.flowing += asperity.composite_radius;
+    if (asperity.area < smallest_area) shares.small += asperity.composite_radius;
+  }
+  shares.flowing /= sum;
+  shares.small /= sum;
+  return shares;
+}
+
+}  // namespace
+
+std::uint32_t regimeFlags(const Prediction& prediction, double cell_area) {
+  std::uint32_t flags = 0;
+  if (prediction.status == Status::kBonded) flags |= kBondedFlag;
+  if (prediction.status == Status::kNoEquilibrium) flags |= kNoEquilibriumFlag;
+  if (prediction.asperity_count == 0) return flags | kFewContactsFlag;
+  if (prediction.contact_theory != ContactTheory::kJkr) flags |= kTaborFlag;
+  const Shares shares = sharesOf(prediction, cell_area);
+  if (shares.flowing > kLargeShare) flags |= kPlasticityFlag;
+  if (shares.small > kLargeShare) flags |= kResolutionFlag;
+  if (prediction.asperity_count < kFewestContacts) flags |= kFewContactsFlag;
+  return flags;
+}
+
+std::string regimeFlagNames(std::uint32_t flags) {
+  const std::pair<RegimeFlag, const char*> names[] = {
+      {kBondedFlag, "bonded"},         {kNoEquilibriumFlag, "no_equilibrium"}, {kTaborFlag, "tabor"},
+      {kPlasticityFlag, "plasticity"}, {kResolutionFlag, "resolution"},        {kFewContactsFlag, "few_contacts"}};
+  std::string text;
+  for (const auto& entry : names) {
+    if ((flags & entry.first) == 0) continue;
+    if (!text.empty()) text += ", ";
+    text += entry.second;
+  }
+  return text;
+}
+
+}  // namespace mems_stiction

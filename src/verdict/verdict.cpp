@@ -1,0 +1,148 @@
+#include "mems_stiction/verdict/verdict.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "mems_stiction/verdict/regime_flags.hpp"
+
+namespace mems_stiction {
+namespace {
+
+constexpr double kLowerShare = 0.025;
+constexpr double kUpperShare = 0.975;
+constexpr double kStandardLower = 0.158655;  // one standard deviation of a normal distribution to either side
+constexpr double kStandardUpper = 1.0 - kStandardLower;
+
+struct Finding {
+  Sticks sticks;
+  std::string reason;
+};
+
+std::string shortNumber(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+int gravity(Sticks sticks) {
+  switch (sticks) {
+    case Sticks::kNo:
+      return 0;
+    case Sticks::kMarginal:
+      return 1;
+    case Sticks::kUnknown:
+      return 2;
+    case Sticks::kYes:
+      break;
+  }
+  return 3;
+}
+
+/// The word for a ratio of what opens to what holds.
+Finding judged(const std::string& name, double value, double lowest, double highest, bool is_upper_bound) {
+  const std::string interval =
+      name + " " + shortNumber(value) + ", 95 % within " + shortNumber(lowest) + " to " + shortNumber(highest);
+  if (highest < 1.0) return {Sticks::kYes, interval + ": below 1"};
+  if (is_upper_bound) {
+    return {Sticks::kUnknown, "the surfaces bond, so adhesion is at least as predicted: " + name + " at most " +
+                                  shortNumber(value) + ", but not safely below 1"};
+  }
+  if (lowest > 1.0) return {Sticks::kNo, interval + ": above 1"};
+  return {Sticks::kMarginal, interval + ": 1 lies within"};
+}
+
+Finding springFinding(const Prediction& prediction, const DeviceOptions& device, const AdhesionSpread& spread,
+                      Verdict& verdict) {
+  const double scale = device.contact_area / prediction.nominal_area;
+  const double across_the_gap = prediction.pull_off_force - prediction.pull_off_force_jkr;
+  const double transition = prediction.pull_off_force_transition + across_the_gap;
+  verdict.device_pull_off_force = prediction.pull_off_force * scale;
+  verdict.margin = verdict.restoring_force / verdict.device_pull_off_force;
+  verdict.margin_transition = verdict.restoring_force / (transition * scale);
+  verdict.margin_lower = verdict.margin_upper = verdict.margin;
+  if (std::isinf(verdict.margin)) return {Sticks::kNo, "nothing holds the contact: no adhesion"};
+  if (spread.isKnown()) {  // the margin falls as the pull-off force grows
+    verdict.margin_lower = verdict.margin / quantile(spread.pull_off, kUpperShare);
+    verdict.margin_upper = verdict.margin / quantile(spread.pull_off, kLowerShare);
+    verdict.margin_uncertainty =
+        0.5 * verdict.margin *
+        (1.0 / quantile(spread.pull_off, kStandardLower) - 1.0 / quantile(spread.pull_off, kStandardUpper));
+  }
+  const double lowest = std::min(verdict.margin_lower, verdict.margin_transition);
+  return judged("margin", verdict.margin, lowest, verdict.margin_upper, prediction.status == Status::kBonded);
+}
+
+Finding beamFinding(const Prediction& prediction, const DeviceOptions& device, const AdhesionSpread& spread,
+                    Verdict& verdict) {
+  const Beam beam = device.beam();
+  const double work = verdict.apparent_work_of_adhesion;
+  if (std::isnan(work)) {
+    return {Sticks::kUnknown, "the beam's adhesion needs the list of contacts: output/asperities is off"};
+  }
+  verdict.peel_number = peelNumber(beam, work);
+  verdict.detachment_length = detachmentLength(beam, work);
+  verdict.unstuck_length = unstuckLength(beam, work);
+  verdict.peel_number_lower = verdict.peel_number_upper = verdict.peel_number;
+  if (std::isinf(verdict.peel_number)) return {Sticks::kNo, "nothing holds the beam: no adhesion"};
+  const bool is_measured = device.apparent_work_of_adhesion > 0.0;
+  if (spread.isKnown() && !is_measured) {
+    const double at_most = verdict.peel_number / quantile(spread.apparent_work, kLowerShare);
+    const double at_least = verdict.peel_number / quantile(spread.apparent_work, kUpperShare);
+    verdict.peel_number_lower = std::min(at_least, at_most);  // compressed beams have peel numbers below 0
+    verdict.peel_number_upper = std::max(at_least, at_most);
+  }
+  return judged("peel number", verdict.peel_number, verdict.peel_number_lower, verdict.peel_number_upper,
+                prediction.status == Status::kBonded && !is_measured);
+}
+
+}  // namespace
+
+const char* sticksText(Sticks sticks) {
+  switch (sticks) {
+    case Sticks::kNo:
+      return "no";
+    case Sticks::kMarginal:
+      return "marginal";
+    case Sticks::kYes:
+      return "yes";
+    case Sticks::kUnknown:
+      break;
+  }
+  return "unknown";
+}
+
+Verdict verdictOf(const Prediction& prediction, const DeviceOptions& device, const UncertaintyOptions& uncertainty,
+                  const Options& options, double cell_area) {
+  Verdict verdict;
+  verdict.regime_flags = regimeFlags(prediction, cell_area);
+  verdict.pull_in_voltage = closingVoltage(device, options.interface);
+  verdict.apparent_work_of_adhesion = device.apparent_work_of_adhesion > 0.0
+                                          ? device.apparent_work_of_adhesion
+                                          : apparentWorkOfAdhesion(prediction, options);
+  const bool has_contact = device.hasSpring() && device.contact_area > 0.0;
+  if (device.hasSpring()) verdict.restoring_force = device.restoringForce();
+  if (!has_contact && !device.hasBeam()) {
+    verdict.reason =
+        "the device is not stated: device/spring_stiffness, device/travel and device/contact_area, or a beam, are "
+        "needed";
+    return verdict;
+  }
+  if (prediction.status == Status::kNoEquilibrium) {
+    verdict.reason = "the search for equilibrium ended before it was found: raise approach/max_steps";
+    return verdict;
+  }
+
+  const AdhesionSpread spread = adhesionSpread(prediction, options, uncertainty);
+  Finding finding{Sticks::kNo, ""};
+  if (has_contact) finding = springFinding(prediction, device, spread, verdict);
+  if (device.hasBeam()) {
+    const Finding of_beam = beamFinding(prediction, device, spread, verdict);
+    if (!has_contact || gravity(of_beam.sticks) > gravity(finding.sticks)) finding = of_beam;
+  }
+  verdict.sticks = finding.sticks;
+  verdict.reason = finding.reason;
+  return verdict;
+}
+
+}  // namespace mems_stiction

@@ -1,0 +1,144 @@
+/// The capillary term against the numbers of water at room temperature and closed forms of flat and sphere.
+
+#include "mems_stiction/loads/capillary.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "mems_stiction/base/constants.hpp"
+#include "support/analytic_surfaces.hpp"
+#include "support/sample_frames.hpp"
+
+namespace mems_stiction {
+namespace {
+
+constexpr double kNm = 1e-9;
+constexpr double kRoundOff = 1e-12;
+
+CapillaryOptions humid(double relative_humidity, double contact_angle = 0.0) {
+  CapillaryOptions options;
+  options.relative_humidity = relative_humidity;
+  options.contact_angle = contact_angle;
+  return options;
+}
+
+double sumOverCells(const GapField& field, double approach, int touching, const CapillaryForce& water) {
+  double sum = 0.0;
+  for (const double gap : field.gaps()) sum += water.forcePerCell(field.cellArea(), gap - approach);
+  return sum - touching * water.forcePerCell(field.cellArea());
+}
+
+TEST(CapillaryForce, hasTheKelvinRadiusOfWater) {
+  for (const double humidity : {0.1, 0.45, 0.7, 0.95}) {
+    const double length = CapillaryForce(humid(humidity)).kelvinRadius() * std::log(1.0 / humidity);
+    EXPECT_GT(length, 0.52 * kNm);  // published for water at room temperature: 0.52 to 0.54 nm
+    EXPECT_LT(length, 0.54 * kNm);
+  }
+}
+
+TEST(CapillaryForce, costsTwiceTheSurfaceTensionAtEveryHumidity) {
+  for (const double humidity : {0.1, 0.45, 0.95}) {
+    const CapillaryForce water(humid(humidity));
+    EXPECT_NEAR(water.pressure() * water.gapLimit(), 144e-3, kRoundOff);
+    const CapillaryForce slanted(humid(humidity, 1.2));
+    EXPECT_NEAR(slanted.pressure() * slanted.gapLimit(), 144e-3 * std::cos(1.2), kRoundOff);
+  }
+}
+
+TEST(CapillaryForce, pressureIsTheWorkOfBringingVaporToTheLiquid) {
+  // second route: a mole of liquid under tension p has the vapor's chemical potential, p V_m = R T ln(1/RH);
+  // 50 % at 25 degrees: 95.1 MPa
+  EXPECT_NEAR(CapillaryForce(humid(0.5)).pressure(), 95.1e6, 0.05e6);
+}
+
+TEST(CapillaryForce, scalesInSI) {
+  CapillaryOptions options = humid(0.6);
+  options.surface_tension = 0.0227;  // ethanol
+  options.molar_volume = 58.4e-6;
+  options.temperature = 310.0;
+  const CapillaryForce liquid(options);
+  EXPECT_NEAR(liquid.kelvinRadius(), 0.0227 * 58.4e-6 / (8.314462618 * 310.0 * std::log(1.0 / 0.6)), 1e-9 * kNm);
+  EXPECT_NEAR(liquid.pressure() * liquid.kelvinRadius(), 0.0227, kRoundOff);
+}
+
+TEST(CapillaryForce, isOffWhenDryAndActsOnlyBelowTheKelvinGap) {
+  EXPECT_FALSE(CapillaryForce(humid(0.0)).isOn());
+  EXPECT_EQ(CapillaryForce(humid(0.0)).forcePerCell(1e-16), 0.0);
+  const CapillaryForce water(humid(0.5));
+  EXPECT_EQ(water.forcePerCell(1e-16, 0.999 * water.gapLimit()), water.pressure() * 1e-16);
+  EXPECT_EQ(water.forcePerCell(1e-16, 1.001 * water.gapLimit()), 0.0);
+}
+
+TEST(CapillarySum, fillsAFlatAroundABumpOrNothing) {
+  const double pitch = 20 * kNm;
+  GapField field;
+  field.compute(analytic::flatWithBump(40, 51, pitch, pitch, 2 * kNm));
+  GapOrder order;
+  order.build(field, 0.5);
+  const double rest_of_area = (40 * 51 - 1) * pitch * pitch;
+  const CapillaryForce wide(humid(0.7));  // Kelvin gap 2.9 nm
+  EXPECT_NEAR(capillaryForce(order, 0.0, 1, wide, field.cellArea()), wide.pressure() * rest_of_area,
+              kRoundOff * wide.pressure() * rest_of_area);
+  const CapillaryForce narrow(humid(0.5));  // Kelvin gap 1.5 nm: nothing but the contact, then, 1 nm lower, all
+  EXPECT_EQ(capillaryForce(order, 0.0, 1, narrow, field.cellArea()), 0.0);
+  EXPECT_NEAR(capillaryForce(order, 1 * kNm, 1, narrow, field.cellArea()), narrow.pressure() * rest_of_area,
+              kRoundOff * narrow.pressure() * rest_of_area);
+}
+
+TEST(CapillarySum, ofASphereIsFourPiGammaRAtEveryHumidityAndApproach) {
+  const double radius = 2e-6;
+  GapField field;
+  field.compute(analytic::paraboloid(450, 451, 1 * kNm, 1 * kNm, radius));
+  GapOrder order;
+  order.build(field, 0.2);
+  for (const double humidity : {0.4, 0.7, 0.9}) {
+    for (const double approach : {0.0, 0.5 * kNm, 1.3 * kNm}) {
+      const int touching = order.countBelow(approach);
+      const double force = capillaryForce(order, approach, touching, CapillaryForce(humid(humidity)), 1 * kNm * kNm);
+      // rings of equal width in gap have equal area 2 pi R d_K; counting cells in a ring some 60 pixels across: 1 %
+      EXPECT_NEAR(force, 4.0 * kPi * 0.072 * radius, 0.01 * force) << humidity << " " << approach;
+    }
+  }
+}
+
+TEST(CapillarySum, agreesWithTheSumOverCells) {
+  for (const samples::Frame& frame : samples::allFrames()) {
+    const GapField field = frame.gapField();
+    for (const double max_fraction : {0.05, 1.0}) {
+      GapOrder order;
+      order.build(field, max_fraction);
+      for (const double humidity : {0.3, 0.8, 0.99, 0.9999}) {
+        const CapillaryForce water(humid(humidity));
+        const double approach = 0.7 * order.cells()[static_cast<std::size_t>(order.contactLimit() - 1)].gap;
+        const int touching = order.countBelow(approach);
+        const double expected = sumOverCells(field, approach, touching, water);
+        // only the bucket in which the limit lies is not counted exactly
+        const double limit = approach + water.gapLimit();
+        const auto bucket = static_cast<std::size_t>(limit / order.bucketWidth());
+        const bool is_partial = static_cast<int>(bucket) >= order.orderedBuckets() && bucket < order.buckets().size();
+        const double slack = (is_partial ? order.buckets()[bucket].count : 0.0) + 1e-9;
+        EXPECT_NEAR(capillaryForce(order, approach, touching, water, field.cellArea()), expected,
+                    slack * water.forcePerCell(field.cellArea()) + kRoundOff * expected)
+            << frame.name << " " << humidity;
+      }
+    }
+  }
+}
+
+TEST(CapillaryOptions, defaultsAreAllowedAndViolationsNamed) {
+  CapillaryOptions options;
+  OptionValidator fine;
+  options.describe(fine);
+  EXPECT_TRUE(fine.violations().empty());
+  options.relative_humidity = 1.0;
+  options.contact_angle = 1.6;
+  options.temperature = 0.0;
+  OptionValidator wrong;
+  options.describe(wrong);
+  ASSERT_EQ(wrong.violations().size(), 3u);
+  EXPECT_NE(wrong.violations()[0].find("interface/relative_humidity: 1"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace mems_stiction
