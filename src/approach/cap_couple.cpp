@@ -119,12 +119,11 @@ CapCouple capCouple(const ContactPatch& patch, const GapField& field, bool centr
     lower_height = std::max(0.0, field.lowerHeight(caps.centre) - lower.at_centre);
     const double mid_slope_x = (lower.slope_x + 0.5 * gap.slope_x) * 2.0 / field.pitchX();
     const double mid_slope_y = (lower.slope_y + 0.5 * gap.slope_y) * 2.0 / field.pitchY();
-    const double slope = std::hypot(mid_slope_x, mid_slope_y);
-    caps.tilt = std::atan(slope);
-    caps.cos_tilt = 1.0 / std::sqrt(1.0 + slope * slope);
+    caps.squared_slope = mid_slope_x * mid_slope_x + mid_slope_y * mid_slope_y;
+    caps.cos_tilt = 1.0 / std::sqrt(1.0 + caps.squared_slope);
   }
 
-  const double interference = level - field.gap(patch.deepest);
+  const double interference = level - patch.deepest_gap;
   caps.height = lower_height + upper_height;
   double curvature = capCurvature(caps.base_radius, lower_height) + capCurvature(caps.base_radius, upper_height);
   if (caps.height <= kLowestHeightShare * interference || caps.height <= 0.0) {

@@ -9,9 +9,9 @@ namespace {
 constexpr int kMaxBuckets = 1 << 16;
 constexpr int kMinBuckets = 1 << 6;
 constexpr int kCellsPerBucket = 8;
-/// Buckets beyond the contact limit that are sorted too, so that the nearest cells out of contact can be summed
-/// directly.
-constexpr int kBucketsBeyondLimit = 64;
+/// Buckets beyond the contact limit that are ordered too: cells near the contact are summed one by one, and the wider
+/// buckets of the tail start where their width is small against the gap.
+constexpr int kBucketsBeyondLimit = 16 * GapOrder::kBucketsPerTailBucket;
 
 int bucketCountFor(int valid_cells) {
   int count = kMinBuckets;
@@ -23,82 +23,138 @@ bool comesFirst(const OrderedCell& a, const OrderedCell& b) {
   return a.gap < b.gap || (a.gap == b.gap && a.cell < b.cell);
 }
 
-}  // namespace
-
-int GapOrder::bucketOf(double gap) const {
-  return std::min(static_cast<int>(gap * inverse_width_), static_cast<int>(buckets_.size()) - 1);
+/// Sums of gaps about the bucket's lower end become moments; no digits are lost to the size of the gap.
+void finishMoments(GapMoments& moments, double lower_end) {
+  if (moments.count == 0.0) return;
+  const double mean_excess = moments.mean / moments.count;
+  moments.variance = std::max(0.0, moments.variance / moments.count - mean_excess * mean_excess);
+  moments.mean = lower_end + mean_excess;
 }
 
+void addGap(GapMoments& moments, double excess) {
+  moments.count += 1.0;
+  moments.mean += excess;
+  moments.variance += excess * excess;
+}
+
+}  // namespace
+
+int GapOrder::bucketOf(double gap) const { return std::min(static_cast<int>(gap * inverse_width_), bucket_count_ - 1); }
+
 void GapOrder::build(const GapField& field, double max_contact_fraction) {
-  const int bucket_count = bucketCountFor(field.validCount());
+  bucket_count_ = bucketCountFor(field.validCount());
   // a frame without relief has one bucket of any width; a denormal range would overflow the inverse
-  bucket_width_ = std::max(field.largestGap(), 1e-200) / bucket_count;
+  bucket_width_ = std::max(field.largestGap(), 1e-200) / bucket_count_;
   inverse_width_ = 1.0 / bucket_width_;
-  buckets_.assign(static_cast<std::size_t>(bucket_count), GapMoments());
-  bucket_end_.assign(static_cast<std::size_t>(bucket_count), 0);
-
-  // moments about the bucket's lower end: no digits are lost to the size of the gap
-  for (const double gap : field.gaps()) {
-    if (gap == GapField::kInvalidGap) continue;
-    const int bucket = bucketOf(gap);
-    GapMoments& moments = buckets_[static_cast<std::size_t>(bucket)];
-    const double excess = gap - bucket * bucket_width_;
-    moments.count += 1.0;
-    moments.mean += excess;
-    moments.variance += excess * excess;
-  }
-  int total = 0;
-  for (int bucket = 0; bucket < bucket_count; ++bucket) {
-    GapMoments& moments = buckets_[static_cast<std::size_t>(bucket)];
-    total += static_cast<int>(moments.count);
-    bucket_end_[static_cast<std::size_t>(bucket)] = total;
-    if (moments.count == 0.0) continue;
-    const double mean_excess = moments.mean / moments.count;
-    moments.variance = std::max(0.0, moments.variance / moments.count - mean_excess * mean_excess);
-    moments.mean = bucket * bucket_width_ + mean_excess;
-  }
-
+  countGaps(field);
   const int wanted =
       std::clamp(static_cast<int>(std::ceil(max_contact_fraction * field.validCount())), 1, field.validCount());
+  chooseOrderedBuckets(wanted);
+  collectCells(field);
+  measureOrderedBuckets();
+
+  is_sorted_.assign(static_cast<std::size_t>(ordered_buckets_), 0);
   const int limit_bucket =
       static_cast<int>(std::lower_bound(bucket_end_.begin(), bucket_end_.end(), wanted) - bucket_end_.begin());
-  ordered_buckets_ = std::min(limit_bucket + 1 + kBucketsBeyondLimit, bucket_count);
-
-  cells_.resize(static_cast<std::size_t>(bucket_end_[static_cast<std::size_t>(ordered_buckets_ - 1)]));
-  for (int bucket = ordered_buckets_ - 1; bucket > 0; --bucket) {  // ends become starts, and ends again while filling
-    bucket_end_[static_cast<std::size_t>(bucket)] = bucket_end_[static_cast<std::size_t>(bucket - 1)];
-  }
-  bucket_end_[0] = 0;
-  const std::vector<double>& gaps = field.gaps();
-  for (std::size_t cell = 0; cell < gaps.size(); ++cell) {
-    if (gaps[cell] == GapField::kInvalidGap) continue;
-    const int bucket = bucketOf(gaps[cell]);
-    if (bucket >= ordered_buckets_) continue;
-    const std::int32_t place = bucket_end_[static_cast<std::size_t>(bucket)]++;
-    cells_[static_cast<std::size_t>(place)] = {gaps[cell], static_cast<std::int32_t>(cell)};
-  }
-  int start = 0;
-  for (int bucket = 0; bucket < ordered_buckets_; ++bucket) {
-    const int end = bucket_end_[static_cast<std::size_t>(bucket)];
-    if (end - start > 1) std::sort(cells_.begin() + start, cells_.begin() + end, comesFirst);
-    start = end;
-  }
-
+  sortBucket(limit_bucket);
   contact_limit_ = wanted;
-  while (contact_limit_ < static_cast<int>(cells_.size()) &&
-         cells_[static_cast<std::size_t>(contact_limit_)].gap == cells_[static_cast<std::size_t>(wanted - 1)].gap) {
+  const double limit_gap = cells_[static_cast<std::size_t>(wanted - 1)].gap;
+  while (contact_limit_ < endOfBucket(limit_bucket) &&
+         cells_[static_cast<std::size_t>(contact_limit_)].gap == limit_gap) {
     ++contact_limit_;
   }
 }
 
-int GapOrder::countBelow(double approach) const {
-  const auto first_apart = std::partition_point(cells_.begin(), cells_.end(),
+void GapOrder::countGaps(const GapField& field) {
+  bucket_end_.assign(static_cast<std::size_t>(bucket_count_), 0);
+  for (const double gap : field.gaps()) {
+    if (gap != GapField::kInvalidGap) ++bucket_end_[static_cast<std::size_t>(bucketOf(gap))];
+  }
+}
+
+void GapOrder::chooseOrderedBuckets(int wanted) {
+  int total = 0;
+  int bucket = 0;
+  while (total < wanted) total += bucket_end_[static_cast<std::size_t>(bucket++)];
+  const int beyond = bucket + kBucketsBeyondLimit;
+  const int rounded = (beyond + kBucketsPerTailBucket - 1) / kBucketsPerTailBucket * kBucketsPerTailBucket;
+  ordered_buckets_ = std::min(rounded, bucket_count_);
+}
+
+void GapOrder::collectCells(const GapField& field) {
+  int start = 0;
+  for (int bucket = 0; bucket < ordered_buckets_; ++bucket) {
+    std::int32_t& place = bucket_end_[static_cast<std::size_t>(bucket)];
+    const int count = place;
+    place = start;  // becomes the bucket's end while it is filled
+    start += count;
+  }
+  bucket_end_.resize(static_cast<std::size_t>(ordered_buckets_));
+  cells_.resize(static_cast<std::size_t>(start));
+  tail_moments_.assign(static_cast<std::size_t>((bucket_count_ - ordered_buckets_) / kBucketsPerTailBucket), {});
+
+  const double* gap = field.gaps().data();
+  std::int32_t cell = 0;
+  for (std::int32_t row = 0; row < field.rows(); ++row) {
+    for (int col = 0; col < field.cols(); ++col, ++cell) {
+      const double cell_gap = gap[cell];
+      if (cell_gap == GapField::kInvalidGap) continue;
+      const int bucket = bucketOf(cell_gap);
+      if (bucket < ordered_buckets_) {
+        const std::int32_t place = bucket_end_[static_cast<std::size_t>(bucket)]++;
+        cells_[static_cast<std::size_t>(place)] = {cell_gap, cell, row};
+      } else {
+        const int tail = (bucket - ordered_buckets_) / kBucketsPerTailBucket;
+        const double lower_end = (ordered_buckets_ + tail * kBucketsPerTailBucket) * bucket_width_;
+        addGap(tail_moments_[static_cast<std::size_t>(tail)], cell_gap - lower_end);
+      }
+    }
+  }
+  for (std::size_t tail = 0; tail < tail_moments_.size(); ++tail) {
+    finishMoments(tail_moments_[tail],
+                  (ordered_buckets_ + static_cast<int>(tail) * kBucketsPerTailBucket) * bucket_width_);
+  }
+}
+
+void GapOrder::measureOrderedBuckets() {
+  ordered_moments_.assign(static_cast<std::size_t>(ordered_buckets_), {});
+  int place = 0;
+  for (int bucket = 0; bucket < ordered_buckets_; ++bucket) {
+    GapMoments& moments = ordered_moments_[static_cast<std::size_t>(bucket)];
+    const double lower_end = bucket * bucket_width_;
+    for (; place < endOfBucket(bucket); ++place)
+      addGap(moments, cells_[static_cast<std::size_t>(place)].gap - lower_end);
+    finishMoments(moments, lower_end);
+  }
+}
+
+void GapOrder::sortBucket(int bucket) {
+  std::uint8_t& is_sorted = is_sorted_[static_cast<std::size_t>(bucket)];
+  if (is_sorted != 0) return;
+  const int begin = bucket == 0 ? 0 : endOfBucket(bucket - 1);
+  std::sort(cells_.begin() + begin, cells_.begin() + endOfBucket(bucket), comesFirst);
+  is_sorted = 1;
+}
+
+int GapOrder::countBelow(double approach) {
+  const double bucket_of_approach = approach * inverse_width_;
+  if (bucket_of_approach >= ordered_buckets_ && ordered_buckets_ < bucket_count_)
+    return static_cast<int>(cells_.size());
+  const int bucket =
+      std::min(static_cast<int>(std::min<double>(bucket_of_approach, bucket_count_)), ordered_buckets_ - 1);
+  sortBucket(bucket);
+  const auto begin = cells_.begin() + (bucket == 0 ? 0 : endOfBucket(bucket - 1));
+  const auto first_apart = std::partition_point(begin, cells_.begin() + endOfBucket(bucket),
                                                 [approach](const OrderedCell& cell) { return cell.gap < approach; });
   return static_cast<int>(first_apart - cells_.begin());
 }
 
-int GapOrder::endOfBucket(int bucket) const {
-  return bucket < ordered_buckets_ ? bucket_end_[static_cast<std::size_t>(bucket)] : static_cast<int>(cells_.size());
+void GapOrder::sortBetween(int begin, int end) {
+  const auto first_past = std::upper_bound(bucket_end_.begin(), bucket_end_.end(), begin);
+  for (auto bucket = static_cast<int>(first_past - bucket_end_.begin()); bucket < ordered_buckets_; ++bucket) {
+    if ((bucket == 0 ? 0 : endOfBucket(bucket - 1)) >= end) break;
+    sortBucket(bucket);
+  }
 }
 
 }  // namespace mems_stiction

@@ -29,9 +29,10 @@ void fillSurfaceOutputs(const HeightMap& lower, const HeightMap* upper, const Eq
   const DeformationShare share(options.lower, options.upper, options.interface.hardness_ratio_limit, options.approach);
   for (int i = 0; i < state.contact_count; ++i) {
     const OrderedCell& cell = order.cells()[static_cast<std::size_t>(i)];
-    const double plasticity_index = law.plasticityIndexOf(search.response(search.sweep().patchOf(cell.cell)).radius);
-    const int row = cell.cell / field.cols();
-    const int col = cell.cell % field.cols();
+    const std::int32_t place = search.sweep().livePlace(search.sweep().patchOf(cell.cell));
+    const double plasticity_index = law.plasticityIndexOf(search.responses()[static_cast<std::size_t>(place)].radius);
+    const int row = cell.row;
+    const int col = cell.cell - cell.row * field.cols();
     if (wants_map)
       prediction.contact_map.at<std::uint8_t>(row, col) = static_cast<std::uint8_t>(regimeOf(plasticity_index));
     if (wants_surfaces) {

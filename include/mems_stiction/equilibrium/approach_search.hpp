@@ -39,14 +39,11 @@ struct SearchSetting {
 /// the state that was found.
 class ApproachSearch {
  public:
-  EquilibriumState run(const GapField& field, const GapOrder& order, Connectivity connectivity,
-                       const SearchSetting& setting);
+  EquilibriumState run(const GapField& field, GapOrder& order, Connectivity connectivity, const SearchSetting& setting);
 
   PatchSweep& sweep() { return sweep_; }
-  const CapCouple& caps(std::int32_t patch_id) const { return caps_[static_cast<std::size_t>(patch_id)]; }
-  const AsperityResponse& response(std::int32_t patch_id) const {
-    return responses_[static_cast<std::size_t>(patch_id)];
-  }
+  /// Caps and responses of the live patches, in the order of sweep().livePatches().
+  const std::vector<CapCouple>& caps() const { return caps_; }
   const std::vector<AsperityResponse>& responses() const { return responses_; }
 
  private:
@@ -57,7 +54,7 @@ class ApproachSearch {
   void record(EquilibriumState& state) const;
 
   const GapField* field_ = nullptr;
-  const GapOrder* order_ = nullptr;
+  GapOrder* order_ = nullptr;
   const SearchSetting* setting_ = nullptr;
   PatchSweep sweep_;
   GapLoads loads_;
