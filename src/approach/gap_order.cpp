@@ -39,7 +39,9 @@ void addGap(GapMoments& moments, double excess) {
 
 }  // namespace
 
-int GapOrder::bucketOf(double gap) const { return std::min(static_cast<int>(gap * inverse_width_), bucket_count_ - 1); }
+int GapOrder::bucketOf(double gap) const {
+  return static_cast<int>(std::min(gap * inverse_width_, bucket_count_ - 1.0));
+}
 
 void GapOrder::build(const GapField& field, double max_contact_fraction) {
   bucket_count_ = bucketCountFor(field.validCount());
@@ -50,6 +52,7 @@ void GapOrder::build(const GapField& field, double max_contact_fraction) {
   const int wanted =
       std::clamp(static_cast<int>(std::ceil(max_contact_fraction * field.validCount())), 1, field.validCount());
   chooseOrderedBuckets(wanted);
+  measureTail();
   collectCells(field);
   measureOrderedBuckets();
 
@@ -67,9 +70,10 @@ void GapOrder::build(const GapField& field, double max_contact_fraction) {
 
 void GapOrder::countGaps(const GapField& field) {
   bucket_end_.assign(static_cast<std::size_t>(bucket_count_), 0);
-  for (const double gap : field.gaps()) {
-    if (gap != GapField::kInvalidGap) ++bucket_end_[static_cast<std::size_t>(bucketOf(gap))];
-  }
+  const double last = bucket_count_ - 1;
+  std::int32_t* count = bucket_end_.data();
+  for (const double gap : field.gaps()) ++count[static_cast<int>(std::min(gap * inverse_width_, last))];
+  bucket_end_.back() -= field.cellCount() - field.validCount();  // infinite gaps were counted there
 }
 
 void GapOrder::chooseOrderedBuckets(int wanted) {
@@ -79,6 +83,22 @@ void GapOrder::chooseOrderedBuckets(int wanted) {
   const int beyond = bucket + kBucketsBeyondLimit;
   const int rounded = (beyond + kBucketsPerTailBucket - 1) / kBucketsPerTailBucket * kBucketsPerTailBucket;
   ordered_buckets_ = std::min(rounded, bucket_count_);
+}
+
+void GapOrder::measureTail() {
+  tail_moments_.assign(static_cast<std::size_t>((bucket_count_ - ordered_buckets_) / kBucketsPerTailBucket), {});
+  int bucket = ordered_buckets_;
+  for (GapMoments& moments : tail_moments_) {
+    const double lower_end = bucket * bucket_width_;
+    for (int i = 0; i < kBucketsPerTailBucket; ++i, ++bucket) {
+      const double count = bucket_end_[static_cast<std::size_t>(bucket)];
+      const double excess = (i + 0.5) * bucket_width_;
+      moments.count += count;
+      moments.mean += count * excess;
+      moments.variance += count * excess * excess;
+    }
+    finishMoments(moments, lower_end);
+  }
 }
 
 void GapOrder::collectCells(const GapField& field) {
@@ -91,28 +111,24 @@ void GapOrder::collectCells(const GapField& field) {
   }
   bucket_end_.resize(static_cast<std::size_t>(ordered_buckets_));
   cells_.resize(static_cast<std::size_t>(start));
-  tail_moments_.assign(static_cast<std::size_t>((bucket_count_ - ordered_buckets_) / kBucketsPerTailBucket), {});
 
+  // which cells come in is random along a row: written without a branch, then put into their buckets
+  const auto cols = static_cast<std::size_t>(field.cols());
+  near_cells_.resize(cols);
+  const double bound = ordered_buckets_ < bucket_count_ ? ordered_buckets_ : GapField::kInvalidGap;
   const double* gap = field.gaps().data();
-  std::int32_t cell = 0;
-  for (std::int32_t row = 0; row < field.rows(); ++row) {
-    for (int col = 0; col < field.cols(); ++col, ++cell) {
-      const double cell_gap = gap[cell];
-      if (cell_gap == GapField::kInvalidGap) continue;
-      const int bucket = bucketOf(cell_gap);
-      if (bucket < ordered_buckets_) {
-        const std::int32_t place = bucket_end_[static_cast<std::size_t>(bucket)]++;
-        cells_[static_cast<std::size_t>(place)] = {cell_gap, cell, row};
-      } else {
-        const int tail = (bucket - ordered_buckets_) / kBucketsPerTailBucket;
-        const double lower_end = (ordered_buckets_ + tail * kBucketsPerTailBucket) * bucket_width_;
-        addGap(tail_moments_[static_cast<std::size_t>(tail)], cell_gap - lower_end);
-      }
+  for (std::int32_t row = 0; row < field.rows(); ++row, gap += cols) {
+    std::size_t near_count = 0;
+    for (std::size_t col = 0; col < cols; ++col) {
+      near_cells_[near_count] = static_cast<std::int32_t>(col);
+      near_count += gap[col] * inverse_width_ < bound ? 1 : 0;
     }
-  }
-  for (std::size_t tail = 0; tail < tail_moments_.size(); ++tail) {
-    finishMoments(tail_moments_[tail],
-                  (ordered_buckets_ + static_cast<int>(tail) * kBucketsPerTailBucket) * bucket_width_);
+    for (std::size_t i = 0; i < near_count; ++i) {
+      const std::int32_t col = near_cells_[i];
+      const double cell_gap = gap[col];
+      const std::int32_t place = bucket_end_[static_cast<std::size_t>(bucketOf(cell_gap))]++;
+      cells_[static_cast<std::size_t>(place)] = {cell_gap, static_cast<std::int32_t>(row * cols) + col, row};
+    }
   }
 }
 

@@ -33,7 +33,7 @@ Prediction AdhesionModel::Implementation::predict(const HeightMap& lower, const 
   }
   order_.build(field_, options.approach.max_contact_fraction);
 
-  const double lower_rms_height = heightStatistics(lower).rms_height;
+  const double lower_rms_height = upper != nullptr ? heightStatistics(lower).rms_height : field_.rmsGap();
   const double upper_rms_height = upper != nullptr ? heightStatistics(*upper).rms_height : 0.0;
   const double composite_rms_height = std::hypot(lower_rms_height, upper_rms_height);
 

@@ -5,7 +5,7 @@
 /// A histogram of the gap puts the cells that can come into contact into narrow buckets, lowest first. Inside a bucket
 /// they are sorted only when somebody asks for a place inside it: most buckets lie whole within one step of the
 /// approach. The buckets keep count, mean and variance of their gaps, from which the load sums of all steps are made;
-/// cells that stay apart are counted in wider buckets only.
+/// cells that stay apart are only counted.
 
 #include <cstdint>
 #include <vector>
@@ -51,7 +51,8 @@ class GapOrder {
   int endOfBucket(int bucket) const { return bucket_end_[static_cast<std::size_t>(bucket)]; }
   /// Gaps of each ordered bucket.
   const std::vector<GapMoments>& orderedMoments() const { return ordered_moments_; }
-  /// Gaps of the buckets beyond, kBucketsPerTailBucket of them together.
+  /// Gaps of the buckets beyond, kBucketsPerTailBucket of them together, each cell at the middle of its bucket: they
+  /// are far from contact against the width of a bucket.
   const std::vector<GapMoments>& tailMoments() const { return tail_moments_; }
 
   static constexpr int kBucketsPerTailBucket = 16;
@@ -61,6 +62,7 @@ class GapOrder {
   void countGaps(const GapField& field);
   void chooseOrderedBuckets(int wanted);
   void collectCells(const GapField& field);
+  void measureTail();
   void measureOrderedBuckets();
   void sortBucket(int bucket);
 
@@ -70,6 +72,7 @@ class GapOrder {
   int ordered_buckets_ = 0;
   int contact_limit_ = 0;
   std::vector<std::int32_t> bucket_end_;
+  std::vector<std::int32_t> near_cells_;
   std::vector<std::uint8_t> is_sorted_;
   std::vector<OrderedCell> cells_;
   std::vector<GapMoments> ordered_moments_;
