@@ -73,6 +73,31 @@ void GapField::compute(const HeightMap& lower) {
   measure();
 }
 
+template <typename LowerScalar, typename UpperScalar>
+double GapField::separate(const HeightMap& lower, const HeightMap& upper) {
+  double closest = kInvalidGap;
+  double reference = kInvalidGap;
+  std::size_t cell = 0;
+  for (int row = 0; row < rows_; ++row) {
+    const LowerScalar* line1 = lower.heights().ptr<LowerScalar>(row);
+    const UpperScalar* line2 = upper.heights().ptr<UpperScalar>(row);
+    for (int col = 0; col < cols_; ++col, ++cell) {
+      const double height = line1[col];
+      const double separation = line2[col] - height;
+      if (std::isfinite(separation)) {
+        if (reference == kInvalidGap) reference = height;
+        gap_[cell] = separation;
+        lower_[cell] = height - reference;
+        closest = std::min(closest, separation);
+      } else {
+        gap_[cell] = kInvalidGap;
+        lower_[cell] = 0.0;
+      }
+    }
+  }
+  return closest;
+}
+
 void GapField::compute(const HeightMap& lower, const HeightMap& upper) {
   requireSameGrid(lower, upper);
   rows_ = lower.rows();
@@ -83,27 +108,12 @@ void GapField::compute(const HeightMap& lower, const HeightMap& upper) {
   gap_.resize(static_cast<std::size_t>(cellCount()));
   lower_.resize(gap_.size());
 
-  const cv::Mat z1 = lower.asDouble().heights();
-  const cv::Mat z2 = upper.asDouble().heights();
-  double closest = kInvalidGap;
-  double reference = kInvalidGap;
-  std::size_t cell = 0;
-  for (int row = 0; row < rows_; ++row) {
-    const double* line1 = z1.ptr<double>(row);
-    const double* line2 = z2.ptr<double>(row);
-    for (int col = 0; col < cols_; ++col, ++cell) {
-      const double separation = line2[col] - line1[col];
-      if (std::isfinite(separation)) {
-        if (reference == kInvalidGap) reference = line1[col];
-        gap_[cell] = separation;
-        lower_[cell] = line1[col] - reference;
-        closest = std::min(closest, separation);
-      } else {
-        gap_[cell] = kInvalidGap;
-        lower_[cell] = 0.0;
-      }
-    }
-  }
+  const bool lower_is_single = lower.heights().depth() == CV_32F;
+  const bool upper_is_single = upper.heights().depth() == CV_32F;
+  const double closest =
+      lower_is_single
+          ? (upper_is_single ? separate<float, float>(lower, upper) : separate<float, double>(lower, upper))
+          : (upper_is_single ? separate<double, float>(lower, upper) : separate<double, double>(lower, upper));
   for (double& gap : gap_) gap -= closest == kInvalidGap ? 0.0 : closest;
   measure();
 }

@@ -14,8 +14,8 @@ double approachStep(const ApproachOptions& options, double composite_rms_height,
   return step > 0.0 ? step : cutoff_distance;
 }
 
-EquilibriumState ApproachSearch::run(const GapField& field, GapOrder& order, Connectivity connectivity,
-                                     const SearchSetting& setting) {
+void ApproachSearch::run(const GapField& field, GapOrder& order, Connectivity connectivity,
+                         const SearchSetting& setting, EquilibriumState& state) {
   field_ = &field;
   order_ = &order;
   setting_ = &setting;
@@ -23,7 +23,11 @@ EquilibriumState ApproachSearch::run(const GapField& field, GapOrder& order, Con
   loads_.prepare(order);
 
   const double limit_gap = order.cells()[static_cast<std::size_t>(order.contactLimit() - 1)].gap;
-  EquilibriumState state;
+  state.approach = 0.0;
+  state.contact_count = 0;
+  state.steps = 0;
+  state.plastic_work = 0.0;
+  state.curve.clear();
   while (state.steps < setting.max_steps) {
     ++state.steps;
     const int previous_count = state.contact_count;
@@ -42,15 +46,14 @@ EquilibriumState ApproachSearch::run(const GapField& field, GapOrder& order, Con
     if (setting.keep_curve) record(state);
     if (is_equilibrium) {
       state.status = Status::kEquilibrium;
-      return state;
+      return;
     }
     if (reaches_limit) {
       state.status = Status::kBonded;
-      return state;
+      return;
     }
   }
   state.status = Status::kNoEquilibrium;
-  return state;
 }
 
 void ApproachSearch::moveTo(double approach, int contact_count, EquilibriumState& state) {
@@ -79,14 +82,15 @@ void ApproachSearch::refine(int previous_count, EquilibriumState& state) {
                                   cells[static_cast<std::size_t>(i + 1)].gap != cells[static_cast<std::size_t>(i)].gap;
     if (is_last_of_level) level_ends_.push_back(i + 1);
   }
-  const EquilibriumState step_end = state;
+  const double step_end_approach = state.approach;
+  const int step_end_count = state.contact_count;
   const auto level_count = static_cast<int>(level_ends_.size());
   const int level = firstLevelThat(level_count, [&](int candidate) {
     const std::int32_t end = level_ends_[static_cast<std::size_t>(candidate)];
     moveTo(cells[static_cast<std::size_t>(end - 1)].gap, end, state);
     return state.balance.is_equilibrium;
   });
-  if (level == level_count) moveTo(step_end.approach, step_end.contact_count, state);
+  if (level == level_count) moveTo(step_end_approach, step_end_count, state);
 }
 
 void ApproachSearch::record(EquilibriumState& state) const {

@@ -85,7 +85,7 @@ void addContact(const Asperity& asperity, const AsperityLaw& law, Prediction& pr
 
 void summarizeContact(const HeightMap& lower, const EquilibriumState& state, ApproachSearch& search,
                       const GapField& field, const GapOrder& order, const AsperityLaw& law, const Options& options,
-                      Prediction& prediction) {
+                      std::vector<double>& tabor_parameters, Prediction& prediction) {
   prediction.status = state.status;
   prediction.steps = state.steps;
   prediction.van_der_waals_force = state.load.van_der_waals;
@@ -107,7 +107,7 @@ void summarizeContact(const HeightMap& lower, const EquilibriumState& state, App
   prediction.normalized_bonding_energy = law.work_of_adhesion > 0.0 ? prediction.bonding_energy / law.work_of_adhesion
                                                                     : std::numeric_limits<double>::quiet_NaN();
 
-  std::vector<double> tabor_parameters;
+  tabor_parameters.clear();
   const std::vector<std::int32_t>& patches = search.sweep().livePatches();
   for (std::size_t i = 0; i < patches.size(); ++i) {
     const CapCouple& caps = search.caps()[i];

@@ -44,6 +44,9 @@ class GapField {
  private:
   template <typename Scalar>
   void computeAgainstPlane(const cv::Mat& heights);
+  /// z2 - z1 into gap_, z1 into lower_; returns the smallest separation.
+  template <typename LowerScalar, typename UpperScalar>
+  double separate(const HeightMap& lower, const HeightMap& upper);
   void measure();
 
   int rows_ = 0;

@@ -39,7 +39,8 @@ struct SearchSetting {
 /// the state that was found.
 class ApproachSearch {
  public:
-  EquilibriumState run(const GapField& field, GapOrder& order, Connectivity connectivity, const SearchSetting& setting);
+  void run(const GapField& field, GapOrder& order, Connectivity connectivity, const SearchSetting& setting,
+           EquilibriumState& state);
 
   PatchSweep& sweep() { return sweep_; }
   /// Caps and responses of the live patches, in the order of sweep().livePatches().
