@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -66,6 +67,8 @@ ChildResult runChild(const std::vector<std::string>& arguments, const std::vecto
   ChildResult result;
   if (error != 0) return result;
   result.started = true;
+  const rlimit no_core{0, 0};  // a crash must not leave a core file in the caller's folder
+  prlimit(child, RLIMIT_CORE, &no_core, nullptr);
   const auto deadline =
       std::chrono::steady_clock::now() +
       std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(timeout));

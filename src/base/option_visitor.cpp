@@ -29,8 +29,8 @@ std::string Range::text() const {
 void OptionValidator::number(const std::string& key, double& value, const std::string& unit, const Range& range,
                              const std::string& /*meaning*/) {
   if (range.contains(value)) return;
-  violations_.push_back(key + ": " + numberText(value) + (unit.empty() ? "" : " " + unit) + " is not allowed, must be " +
-                        range.text() + (unit.empty() ? "" : " " + unit));
+  violations_.push_back(key + ": " + numberText(value) + (unit.empty() ? "" : " " + unit) +
+                        " is not allowed, must be " + range.text() + (unit.empty() ? "" : " " + unit));
 }
 
 void OptionValidator::integer(const std::string& key, int& value, const Range& range, const std::string& /*meaning*/) {
@@ -57,6 +57,10 @@ std::string numberText(double value) {
   for (int digits = 1; digits <= 17; ++digits) {
     std::snprintf(buffer, sizeof buffer, "%.*g", digits, value);
     if (std::strtod(buffer, nullptr) == value) break;
+  }
+  // "2000" rather than "2e+03": seven digits hold every value that came out with an exponent below 1e7.
+  if (std::abs(value) >= 1.0 && std::abs(value) < 1e7 && std::string(buffer).find('e') != std::string::npos) {
+    std::snprintf(buffer, sizeof buffer, "%.7g", value);
   }
   return buffer;
 }

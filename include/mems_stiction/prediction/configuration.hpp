@@ -1,0 +1,29 @@
+#pragma once
+
+/// One configuration file or parameter tree: the model's options and how scans are read and prepared.
+
+#include <string>
+#include <vector>
+
+#include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/height_map/raw_scan.hpp"
+#include "mems_stiction/prediction/options.hpp"
+#include "mems_stiction/preprocess/preprocess_options.hpp"
+#include "mems_stiction/surface/counter_surface.hpp"
+
+namespace mems_stiction {
+
+struct Configuration {
+  Options model;
+  ScanOptions scan;
+  PreprocessOptions preprocessing;
+  CounterSurfaceOptions counter_surface;
+
+  void describe(OptionVisitor& visitor);
+  /// One line per violated constraint; empty when all is well.
+  std::vector<std::string> validate() const;
+  /// @throw OptionsError with the lines of validate(), if there are any.
+  void check() const;
+};
+
+}  // namespace mems_stiction

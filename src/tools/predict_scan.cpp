@@ -1,0 +1,176 @@
+/// predict_scan: will the surface in this file stick? No ROS master needed; the prediction is the node's to the last
+/// line.
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <exception>
+#include <iostream>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/height_map/scan_file.hpp"
+#include "mems_stiction/height_map/scan_sanity.hpp"
+#include "mems_stiction/prediction/configuration_yaml.hpp"
+#include "mems_stiction/prediction/record.hpp"
+#include "mems_stiction/prediction/scan_predictor.hpp"
+
+namespace {
+
+using namespace mems_stiction;
+
+constexpr int kBadInput = 2;
+
+struct Arguments {
+  std::string configuration;
+  std::string pitch;  ///< "M" or "MX,MY"
+  std::optional<double> voltage;
+  std::optional<double> load;
+  std::optional<double> step;
+  std::string channel;
+  std::string deformed;
+  bool json = false;
+  std::vector<std::string> scans;
+};
+
+void describe(CLI::App& app, Arguments& arguments) {
+  app.description(
+      "Predicts whether the scanned surface sticks to its counter-surface: pull-off force, contact area, regimes.\n"
+      "Prints one record per scan in SI units, with the field names of mems_stiction/StictionPrediction.");
+  app.add_option("SCAN", arguments.scans,
+                 "TIFF, PNG or EXR image of heights, text grid (.txt, .asc, .csv), .gwy, or an instrument maker's file "
+                 "(those need the program gwyddion). Settings beside a scan: SCAN.yaml, with pitch_x, pitch_y, "
+                 "height_scale, ...")
+      ->required()
+      ->type_name("");
+  app.add_option("-c,--config", arguments.configuration,
+                 "materials, interface, loads, ...; every key is explained in config/stiction.yaml")
+      ->type_name("FILE.yaml");
+  app.add_option("-p,--pitch", arguments.pitch,
+                 "distance of neighbouring pixels [m]; MX,MY where columns and rows differ. Goes before what files say")
+      ->type_name("M");
+  app.add_option_function<double>(
+         "-u,--voltage", [&arguments](const double& value) { arguments.voltage = value; },
+         "voltage between the surfaces [V]")
+      ->type_name("V");
+  app.add_option_function<double>(
+         "-l,--load", [&arguments](const double& value) { arguments.load = value; },
+         "external force pressing the scanned area together [N]")
+      ->type_name("N");
+  app.add_option_function<double>(
+         "-s,--step", [&arguments](const double& value) { arguments.step = value; },
+         "approach per step [m]; 0 = automatic")
+      ->type_name("M");
+  app.add_option("--channel", arguments.channel,
+                 "title or number of the channel to take from an instrument maker's file")
+      ->type_name("NAME");
+  app.add_flag("-j,--json", arguments.json, "one JSON object per line instead of YAML documents");
+  app.add_option("-d,--deformed", arguments.deformed,
+                 "write the surface after contact as a float TIFF in metres; for one scan")
+      ->type_name("OUT.tiff");
+  app.footer(
+      "Exit status: 0 all scans predicted, 2 bad input (one line on stderr names the file and the cause; the other\n"
+      "scans of the call are still predicted).\n\n"
+      "Example: predict_scan --pitch 20e-9 --load 1e-6 surface.tiff");
+}
+
+/// The configuration file with the command line's values in it.
+/// @throw OptionsError, FileError
+Configuration configurationOf(const Arguments& arguments) {
+  Configuration configuration;
+  if (!arguments.configuration.empty()) configuration = loadConfiguration(arguments.configuration);
+  if (arguments.voltage) configuration.model.load.voltage = *arguments.voltage;
+  if (arguments.load) configuration.model.load.mechanical_load = *arguments.load;
+  if (arguments.step) configuration.model.approach.step = *arguments.step;
+  configuration.check();
+  if (!arguments.deformed.empty() && arguments.scans.size() > 1) {
+    throw OptionsError({"--deformed: one file cannot hold the surfaces of " + std::to_string(arguments.scans.size()) +
+                        " scans; give one scan"});
+  }
+  return configuration;
+}
+
+/// "M" or "MX,MY" into both pitches. @throw OptionsError
+void applyPitch(const std::string& text, ScanFileOptions& options) {
+  if (text.empty()) return;
+  std::istringstream stream(text);
+  char comma = ',';
+  bool good = static_cast<bool>(stream >> options.pitch_x);
+  options.pitch_y = options.pitch_x;
+  if (good && !(stream >> std::ws).eof()) good = stream >> comma >> options.pitch_y && comma == ',' && stream.eof();
+  if (!good || !Range::positive().contains(options.pitch_x) || !Range::positive().contains(options.pitch_y)) {
+    throw OptionsError({"--pitch: '" + text + "' is not allowed, must be one or two numbers > 0 m, as in 20e-9,25e-9"});
+  }
+}
+
+/// Several violations on one line, for people who count lines.
+std::string oneLine(std::string text) {
+  for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at)) text.replace(at, 1, "; ");
+  return text;
+}
+
+/// @throw Error in one line, with the file's name
+void predictScan(const std::string& path, const Arguments& arguments, const ScanFileOptions& file_options,
+                 ScanPredictor& predictor) {
+  const ScanFile scan = openScanFile(path, predictor.configuration().scan, file_options);
+  for (const std::string& warning : scanWarnings(scan.surface)) std::cerr << path << ": warning: " << warning << "\n";
+
+  Prediction prediction;
+  try {
+    prediction = predictor.predict(scan.surface);
+  } catch (const SurfaceError& error) {
+    throw SurfaceError(path + ": " + error.what());
+  }
+  if (!arguments.deformed.empty()) writeHeightTiff(arguments.deformed, prediction.deformed_lower);
+  if (arguments.json) {
+    std::cout << jsonRecord(path, scan.surface, prediction, scan.channel) << std::endl;
+  } else {
+    std::cout << yamlRecord(path, scan.surface, prediction, scan.channel) << std::flush;
+  }
+}
+
+int run(const Arguments& arguments) {
+  std::optional<ScanPredictor> predictor;
+  ScanFileOptions file_options;
+  file_options.import.channel = arguments.channel;
+  try {
+    applyPitch(arguments.pitch, file_options);
+    Configuration configuration = configurationOf(arguments);
+    configuration.model.output.deformed_surfaces = !arguments.deformed.empty();
+    configuration.model.output.contact_map = false;
+    configuration.model.output.roughness = true;
+    predictor.emplace(configuration);
+  } catch (const Error& error) {
+    std::cerr << "predict_scan: " << oneLine(error.what()) << "\n";
+    return kBadInput;
+  }
+  int status = 0;
+  for (const std::string& path : arguments.scans) {
+    try {
+      predictScan(path, arguments, file_options, *predictor);
+    } catch (const std::exception& error) {
+      std::string line = oneLine(error.what());
+      if (line.find(path) == std::string::npos) line = path + ": " + line;
+      std::cerr << "predict_scan: " << line << "\n";
+      status = kBadInput;
+    }
+  }
+  return status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app;
+  Arguments arguments;
+  describe(app, arguments);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kBadInput;
+  }
+  return run(arguments);
+}

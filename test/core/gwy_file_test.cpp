@@ -1,0 +1,231 @@
+#include "mems_stiction/height_map/gwy_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <random>
+
+#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/height_map/gwyddion_import.hpp"
+#include "support/scratch_folder.hpp"
+
+namespace mems_stiction {
+namespace {
+
+// ---- A writer of the container, by its documentation: name, type letter, little-endian value.
+
+std::string littleEndian(std::uint64_t value, int bytes) {
+  std::string text;
+  for (int i = 0; i < bytes; ++i) text += static_cast<char>(value >> (8 * i) & 0xFF);
+  return text;
+}
+
+std::string realBytes(double value) {
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &value, sizeof bits);
+  return littleEndian(bits, 8);
+}
+
+std::string named(const std::string& name, char type) { return name + '\0' + type; }
+std::string integer(const std::string& name, std::uint32_t value) { return named(name, 'i') + littleEndian(value, 4); }
+std::string real(const std::string& name, double value) { return named(name, 'd') + realBytes(value); }
+std::string text(const std::string& name, const std::string& value) { return named(name, 's') + value + '\0'; }
+std::string body(const std::string& type, const std::string& content) {
+  return type + '\0' + littleEndian(content.size(), 4) + content;
+}
+std::string object(const std::string& name, const std::string& type, const std::string& content) {
+  return named(name, 'o') + body(type, content);
+}
+std::string reals(const std::string& name, const std::vector<double>& values) {
+  std::string bytes = named(name, 'D') + littleEndian(values.size(), 4);
+  for (const double value : values) bytes += realBytes(value);
+  return bytes;
+}
+std::string unit(const std::string& name, const std::string& symbol) {
+  return object(name, "GwySIUnit", text("unitstr", symbol));
+}
+
+std::string field(const std::string& name, std::uint32_t cols, std::uint32_t rows, const std::vector<double>& values,
+                  const std::string& unit_z = "m") {
+  return object(name, "GwyDataField",
+                integer("xres", cols) + integer("yres", rows) + real("xreal", 3e-6) + real("yreal", 4e-6) +
+                    unit("si_unit_xy", "m") + unit("si_unit_z", unit_z) + reals("data", values));
+}
+
+std::string file(const std::string& content) { return "GWYP" + body("GwyContainer", content); }
+
+/// Two channels, a mask, and components of every other type that a reader must step over.
+std::string example() {
+  return file(named("/0/data/visible", 'b') + '\1' + named("flag", 'c') + 'x' + named("/big", 'q') +
+              littleEndian(1, 8) + named("counts", 'I') + littleEndian(2, 4) + littleEndian(7, 8) + named("wide", 'Q') +
+              littleEndian(1, 4) + littleEndian(7, 8) + named("bytes", 'C') + littleEndian(3, 4) + "abc" +
+              named("names", 'S') + littleEndian(2, 4) + std::string("one\0two\0", 8) + named("objects", 'O') +
+              littleEndian(2, 4) + body("GwySIUnit", text("unitstr", "V")) + body("Other", "") +
+              object("/0/meta", "GwyContainer", text("Instrument", "none")) +
+              field("/10/data", 3, 2, {1, 2, 3, 4, 5, 6}, "V") + text("/0/data/title", "ZSensor") +
+              field("/0/data", 3, 2, {1e-9, 2e-9, 3e-9, 4e-9, 5e-9, 6e-9}) +
+              field("/0/mask", 3, 2, {0, 1, 0, 0, 0, 0.5}, ""));
+}
+
+TEST(GwyFile, ChannelsCarrySizeUnitAndTitle) {
+  const std::vector<GwyChannel> channels = parseGwy(example());
+  ASSERT_EQ(channels.size(), 2u);
+  EXPECT_EQ(channels[0].id, 0);
+  EXPECT_EQ(channels[0].title, "ZSensor");
+  EXPECT_EQ(channels[0].unit_xy, "m");
+  EXPECT_EQ(channels[0].unit_z, "m");
+  EXPECT_EQ(channels[0].width, 3e-6);
+  EXPECT_EQ(channels[0].height, 4e-6);
+  EXPECT_EQ(channels[1].id, 10);
+  EXPECT_EQ(channels[1].title, "");
+  EXPECT_EQ(channels[1].unit_z, "V");
+}
+
+TEST(GwyFile, RowsAndColumnsAreInReadingOrder) {
+  const cv::Mat values = parseGwy(example())[0].values;
+  ASSERT_EQ(values.size(), cv::Size(3, 2));
+  EXPECT_EQ(values.at<double>(0, 2), 3e-9);
+  EXPECT_EQ(values.at<double>(1, 0), 4e-9);
+}
+
+TEST(GwyFile, MaskedPixelsAreInvalid) {
+  const cv::Mat values = parseGwy(example())[0].values;
+  EXPECT_TRUE(std::isnan(values.at<double>(0, 1)));
+  EXPECT_EQ(values.at<double>(1, 2), 6e-9) << "a mask of 0.5 is not above 0.5";
+}
+
+TEST(GwyFile, PitchIsSizeOverPixels) {
+  const HeightMap surface = surfaceOfChannel(parseGwy(example())[0]);
+  EXPECT_EQ(surface.pitchX(), 3e-6 / 3);
+  EXPECT_EQ(surface.pitchY(), 4e-6 / 2);
+}
+
+TEST(GwyFile, NoChannelIsNoError) { EXPECT_TRUE(parseGwy(file(text("/0/base/palette", "Gray"))).empty()); }
+
+TEST(GwyFile, SizesThatDoNotMatchTheDataAreRefused) {
+  EXPECT_THROW(parseGwy(file(field("/0/data", 3, 2, {1, 2, 3, 4, 5}))), FileError);
+  EXPECT_THROW(parseGwy(file(field("/0/data", 0, 2, {}))), FileError);
+  EXPECT_THROW(parseGwy(file(field("/0/data", 0x80000003u, 2, {1, 2, 3, 4, 5, 6}))), FileError);
+  EXPECT_THROW(parseGwy(file(field("/0/data", 0xFFFFFFFFu, 0xFFFFFFFFu, {1}))), FileError);
+  EXPECT_THROW(parseGwy(file(field("/0/data", 1, 1, {1}) + field("/0/mask", 2, 1, {1, 1}))), FileError);
+}
+
+TEST(GwyFile, HugeCountsAreRefusedBeforeMemoryIsTaken) {
+  EXPECT_THROW(parseGwy(file(named("data", 'D') + littleEndian(0xFFFFFFFF, 4))), FileError);
+  EXPECT_THROW(parseGwy(file(named("names", 'S') + littleEndian(0xFFFFFFFF, 4))), FileError);
+  EXPECT_THROW(parseGwy("GWYP" + std::string("GwyContainer\0", 13) + littleEndian(0xFFFFFFFF, 4)), FileError);
+}
+
+TEST(GwyFile, OtherContentIsRefused) {
+  EXPECT_THROW(parseGwy(""), FileError);
+  EXPECT_THROW(parseGwy("GWYO"), FileError);
+  EXPECT_THROW(parseGwy("GWYP" + body("GwyDataField", "")), FileError);
+  EXPECT_THROW(parseGwy(file(named("x", 'z'))), FileError);
+}
+
+TEST(GwyFile, EveryTruncationIsRefused) {
+  const std::string whole = example();
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    EXPECT_THROW(parseGwy(whole.substr(0, size)), FileError) << size << " of " << whole.size() << " bytes";
+  }
+}
+
+TEST(GwyFile, EveryFlippedByteIsReadOrRefused) {
+  const std::string whole = example();
+  for (std::size_t at = 0; at < whole.size(); ++at) {
+    for (const int value : {0x00, 0x01, 0x7F, 0x80, 0xFF, whole[at] ^ 0x20}) {
+      std::string damaged = whole;
+      damaged[at] = static_cast<char>(value);
+      try {
+        for (const GwyChannel& channel : parseGwy(damaged)) EXPECT_FALSE(channel.values.empty());
+      } catch (const FileError&) {
+        // Refused by name: as good as read.
+      }
+    }
+  }
+}
+
+TEST(GwyFile, RandomBytesAreReadOrRefused) {
+  std::mt19937 random(1);
+  const std::string whole = example();
+  for (int round = 0; round < 20000; ++round) {
+    std::string damaged = whole;
+    for (int flips = 0; flips < 4; ++flips) damaged[random() % damaged.size()] = static_cast<char>(random());
+    try {
+      parseGwy(damaged);
+    } catch (const FileError&) {
+    }
+  }
+}
+
+TEST(GwyFile, ErrorsNameTheFile) {
+  const ScratchFolder folder;
+  const std::string path = folder.write("cut.gwy", example().substr(0, 100));
+  try {
+    readGwyFile(path);
+    FAIL();
+  } catch (const FileError& error) {
+    EXPECT_EQ(std::string(error.what()).find(path + ": "), 0u) << error.what();
+  }
+  EXPECT_THROW(readGwyFile(folder.file("none.gwy")), FileError);
+}
+
+// ---- Which channel is the height?
+
+GwyChannel channel(int id, const std::string& title, const std::string& unit_z = "m") {
+  GwyChannel result;
+  result.id = id;
+  result.title = title;
+  result.values = cv::Mat::zeros(4, 4, CV_64FC1);
+  result.width = result.height = 1e-6;
+  result.unit_xy = "m";
+  result.unit_z = unit_z;
+  return result;
+}
+
+TEST(ChannelChoice, ClosedLoopSensorGoesBeforeHeight) {
+  EXPECT_EQ(chooseHeightChannel({channel(0, "Height"), channel(1, "ZSensor")}), 1u);
+  EXPECT_EQ(chooseHeightChannel({channel(0, "Height"), channel(1, "Height")}), 0u);
+  EXPECT_EQ(chooseHeightChannel({channel(3, "Unknown"), channel(4, "Topography")}), 1u);
+  EXPECT_EQ(chooseHeightChannel({channel(3, "")}), 0u);
+}
+
+TEST(ChannelChoice, MetresThatAreNotHeightsAreNotTaken) {
+  EXPECT_EQ(chooseHeightChannel({channel(0, "AmplitudeError"), channel(1, "Deflection"), channel(2, "Height")}), 2u);
+  EXPECT_THROW(chooseHeightChannel({channel(0, "AmplitudeError"), channel(1, "Deflection")}), FileError);
+}
+
+TEST(ChannelChoice, OtherUnitsAreNotTaken) {
+  EXPECT_EQ(chooseHeightChannel({channel(0, "Height", "V"), channel(1, "Height")}), 1u);
+  EXPECT_THROW(chooseHeightChannel({channel(0, "Height", "V")}), FileError);
+  EXPECT_THROW(chooseHeightChannel({}), FileError);
+}
+
+TEST(ChannelChoice, MayBeNamedByTitleOrNumber) {
+  const std::vector<GwyChannel> channels = {channel(0, "ZSensor"), channel(3, "Deflection"),
+                                            channel(5, "Phase", "deg")};
+  EXPECT_EQ(chooseHeightChannel(channels, "Deflection"), 1u);
+  EXPECT_EQ(chooseHeightChannel(channels, "3"), 1u);
+  EXPECT_THROW(chooseHeightChannel(channels, "Phase"), FileError);
+  try {
+    chooseHeightChannel(channels, "Heihgt");
+    FAIL();
+  } catch (const FileError& error) {
+    EXPECT_STREQ(error.what(),
+                 "there is no channel 'Heihgt'; there are: 0: ZSensor [m], 3: Deflection [m], 5: Phase [deg]");
+  }
+}
+
+TEST(ChannelChoice, ASurfaceHasTwoPixelsEachWayAndAPitch) {
+  GwyChannel bad = channel(0, "Height");
+  bad.width = 0.0;
+  EXPECT_THROW(surfaceOfChannel(bad), FileError);
+  bad = channel(0, "Height");
+  bad.values = cv::Mat::zeros(1, 1, CV_64FC1);
+  EXPECT_THROW(surfaceOfChannel(bad), FileError);
+}
+
+}  // namespace
+}  // namespace mems_stiction

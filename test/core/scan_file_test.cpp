@@ -1,0 +1,312 @@
+#include "mems_stiction/height_map/scan_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "mems_stiction/base/child_process.hpp"
+#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/height_map/text_grid.hpp"
+#include "mems_stiction/height_map/tiff_tags.hpp"
+#include "support/scratch_folder.hpp"
+
+namespace mems_stiction {
+namespace {
+
+ScanOptions withPitch(double pitch_x = 2e-9, double pitch_y = 3e-9) {
+  ScanOptions options;
+  options.pitch_x = pitch_x;
+  options.pitch_y = pitch_y;
+  return options;
+}
+
+/// Heights that differ in every pixel, all of them float32 numbers.
+cv::Mat example(int type) {
+  cv::Mat heights(5, 7, CV_64FC1);
+  for (int row = 0; row < 5; ++row) {
+    for (int col = 0; col < 7; ++col) heights.at<double>(row, col) = 10 * row + col;
+  }
+  heights.convertTo(heights, type);
+  return heights;
+}
+
+void expectExample(const HeightMap& surface, double scale = 1.0) {
+  ASSERT_EQ(surface.rows(), 5);
+  ASSERT_EQ(surface.cols(), 7);
+  for (int row = 0; row < 5; ++row) {
+    for (int col = 0; col < 7; ++col) EXPECT_EQ(surface.height(row, col), (10 * row + col) * scale);
+  }
+}
+
+/// What reading the file complains about.
+std::string refusal(const std::string& path, const ScanOptions& options = withPitch()) {
+  try {
+    readScanFile(path, options);
+  } catch (const FileError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find(path), std::string::npos) << "the file is not named: " << text;
+    EXPECT_EQ(text.find('\n'), std::string::npos) << "more than one line: " << text;
+    return text;
+  }
+  return "";
+}
+
+bool mentions(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(ScanFile, ReadsTiffOfEveryPixelType) {
+  const ScratchFolder folder;
+  for (const int type : {CV_32FC1, CV_64FC1, CV_32SC1, CV_16UC1, CV_8UC1}) {
+    if (type == CV_32SC1 && CV_VERSION_MAJOR == 4 && CV_VERSION_MINOR < 6) continue;  // OpenCV cannot write it
+    const std::string path = folder.file("scan" + std::to_string(type) + ".tiff");
+    ASSERT_TRUE(cv::imwrite(path, example(type)));
+    const HeightMap surface = readScanFile(path, withPitch());
+    expectExample(surface);
+    EXPECT_EQ(surface.pitchX(), 2e-9);
+    EXPECT_EQ(surface.pitchY(), 3e-9);
+    ScanOptions nanometres = withPitch();
+    nanometres.height_scale = 1e-9;
+    expectExample(readScanFile(path, nanometres), 1e-9);
+  }
+}
+
+TEST(ScanFile, ReadsPngAndExr) {
+  const ScratchFolder folder;
+  ASSERT_TRUE(cv::imwrite(folder.file("scan.png"), example(CV_16UC1)));
+  expectExample(readScanFile(folder.file("scan.png"), withPitch()));
+  // An OpenEXR file by its definition would need its library; OpenCV writes one where it has it.
+  setenv("OPENCV_IO_ENABLE_OPENEXR", "1", 1);
+  try {
+    ASSERT_TRUE(cv::imwrite(folder.file("scan.exr"), example(CV_32FC1)));
+  } catch (const cv::Exception& error) {
+    GTEST_SKIP() << "this OpenCV has no OpenEXR: " << error.err;
+  }
+  expectExample(readScanFile(folder.file("scan.exr"), withPitch()));
+}
+
+TEST(ScanFile, ReadsTextWithEverySeparator) {
+  const ScratchFolder folder;
+  for (const std::string separator : {" ", ",", ";", "\t", ", ", "   "}) {
+    std::string text = "# a comment\n\n";
+    for (int row = 0; row < 5; ++row) {
+      for (int col = 0; col < 7; ++col) text += (col == 0 ? "" : separator) + std::to_string(10 * row + col);
+      text += row == 2 ? " # remark\r\n" : "\n";
+    }
+    for (const char* name : {"scan.txt", "scan.ASC", "scan.csv"}) {
+      expectExample(readScanFile(folder.write(name, text), withPitch()));
+    }
+  }
+}
+
+TEST(TextGrid, CellsThatAreNotMeasuredAreNaN) {
+  const ScratchFolder folder;
+  const cv::Mat grid = readTextGrid(folder.write("a.csv", "1e-9,nan,3\n,NaN,6\n7,,9\n"));
+  ASSERT_EQ(grid.size(), cv::Size(3, 3));
+  EXPECT_EQ(grid.at<double>(0, 0), 1e-9);
+  EXPECT_TRUE(std::isnan(grid.at<double>(0, 1)));
+  EXPECT_TRUE(std::isnan(grid.at<double>(1, 0)));
+  EXPECT_TRUE(std::isnan(grid.at<double>(2, 1)));
+  EXPECT_EQ(grid.at<double>(2, 2), 9.0);
+}
+
+TEST(TextGrid, WhatIsNotAGridIsRefusedWithTheLine) {
+  const ScratchFolder folder;
+  EXPECT_TRUE(mentions(refusal(folder.write("a.txt", "1 2\n3 x4\n")), "line 2: 'x4' is not a number"));
+  EXPECT_TRUE(mentions(refusal(folder.write("b.txt", "1 2 3\n4 5 6\n7 8\n")), "line 3: 2 cells"));
+  EXPECT_TRUE(mentions(refusal(folder.write("c.txt", "# nothing\n")), "at least 2 x 2"));
+  EXPECT_TRUE(mentions(refusal(folder.write("d.txt", "1 2 3\n")), "at least 2 x 2"));
+  EXPECT_TRUE(mentions(refusal(folder.write("e.txt", std::string("1 2\n3 \0 4\n", 10))), "line 2: binary"));
+  EXPECT_TRUE(mentions(refusal(folder.write("f.csv", "1,2\n3,4e\n")), "'4e' is not a number"));
+}
+
+TEST(ScanFile, MissingPitchSaysHowToGiveIt) {
+  const ScratchFolder folder;
+  const std::string path = folder.write("scan.txt", "1 2\n3 4\n");
+  const std::string text = refusal(path, ScanOptions());
+  EXPECT_TRUE(mentions(text, "--pitch")) << text;
+  EXPECT_TRUE(mentions(text, "scan/pitch_x")) << text;
+}
+
+TEST(ScanFile, PitchByOptionGoesBeforeSidecarBeforeConfiguration) {
+  const ScratchFolder folder;
+  const std::string path = folder.write("scan.txt", "1 2\n3 4\n");
+  folder.write("scan.txt.yaml", "pitch_x: 5e-9\npitch_y: 6e-9\nheight_scale: 1e-9\n");
+  HeightMap surface = readScanFile(path, withPitch());
+  EXPECT_EQ(surface.pitchX(), 5e-9);
+  EXPECT_EQ(surface.pitchY(), 6e-9);
+  EXPECT_EQ(surface.height(1, 1), 4e-9);
+  ScanFileOptions options;
+  options.pitch_x = options.pitch_y = 7e-9;
+  surface = readScanFile(path, withPitch(), options);
+  EXPECT_EQ(surface.pitchX(), 7e-9);
+  EXPECT_EQ(surface.height(1, 1), 4e-9);
+}
+
+TEST(ScanFile, SidecarMayBeSpelledLikeAConfiguration) {
+  const ScratchFolder folder;
+  const std::string path = folder.write("scan.txt", "1 2\n3 4\n");
+  folder.write("scan.yaml", "scan: {pitch_x: 5e-9, pitch_y: 6e-9}\nscan/invalid_value: 4\n");
+  const HeightMap surface = readScanFile(path);
+  EXPECT_EQ(surface.pitchY(), 6e-9);
+  EXPECT_TRUE(std::isnan(surface.height(1, 1)));
+}
+
+TEST(ScanFile, SidecarErrorsNameTheSidecar) {
+  const ScratchFolder folder;
+  const std::string path = folder.write("scan.txt", "1 2\n3 4\n");
+  const std::string sidecar = folder.write("scan.txt.yaml", "pitch: 5e-9\nheight_scale: 0\n");
+  try {
+    readScanFile(path);
+    FAIL();
+  } catch (const OptionsError& error) {
+    ASSERT_EQ(error.violations().size(), 2u);
+    for (const std::string& line : error.violations()) EXPECT_EQ(line.find(sidecar + ": scan/"), 0u) << line;
+  }
+  folder.write("scan.txt.yaml", "a: [1, 2");
+  EXPECT_THROW(readScanFile(path), FileError);
+}
+
+TEST(ScanFile, FilesThatAreNoScansAreRefused) {
+  const ScratchFolder folder;
+  EXPECT_TRUE(mentions(refusal(folder.file("none.tiff")), "no such file"));
+  EXPECT_TRUE(mentions(refusal(folder.write("empty.tiff", "")), "is empty"));
+  EXPECT_TRUE(mentions(refusal(folder.write("text.tiff", "this is no image")), "not a tiff image"));
+  EXPECT_TRUE(mentions(refusal(folder.write("text.png", "this is no image")), "not a png image"));
+  std::filesystem::create_directory(folder.file("folder.tiff"));
+  EXPECT_TRUE(mentions(refusal(folder.file("folder.tiff")), "is a folder"));
+  ASSERT_TRUE(cv::imwrite(folder.file("colour.png"), cv::Mat::zeros(4, 4, CV_8UC3)));
+  EXPECT_TRUE(mentions(refusal(folder.file("colour.png")), "3 channels"));
+  ASSERT_TRUE(cv::imwrite(folder.file("colour.tiff"), cv::Mat::zeros(4, 4, CV_8UC3)));
+  EXPECT_TRUE(mentions(refusal(folder.file("colour.tiff")), "3 channels"));
+}
+
+TEST(ScanFile, EveryTruncatedTiffIsRefused) {
+  const ScratchFolder folder;
+  for (const int type : {CV_32FC1, CV_16UC1}) {
+    cv::Mat heights(16, 16, type);
+    cv::randu(heights, 1, 200);
+    ASSERT_TRUE(cv::imwrite(folder.file("whole.tiff"), heights));
+    const std::string whole = ScratchFolder::read(folder.file("whole.tiff"));
+    for (std::size_t size = 0; size < whole.size(); size += 13) {
+      EXPECT_NE(refusal(folder.write("cut.tiff", whole.substr(0, size))), "") << size << " of " << whole.size();
+    }
+  }
+}
+
+TEST(ScanFile, DamagedTiffIsReadOrRefused) {
+  const ScratchFolder folder;
+  ASSERT_TRUE(cv::imwrite(folder.file("whole.tiff"), example(CV_32FC1)));
+  const std::string whole = ScratchFolder::read(folder.file("whole.tiff"));
+  for (std::size_t at = 0; at < whole.size(); ++at) {
+    std::string damaged = whole;
+    damaged[at] = static_cast<char>(damaged[at] ^ 0xFF);
+    try {
+      readScanFile(folder.write("damaged.tiff", damaged), withPitch());
+    } catch (const FileError&) {
+    }
+  }
+}
+
+TEST(ScanFile, HeightTiffReadsBack) {
+  const ScratchFolder folder;
+  cv::Mat heights = example(CV_64FC1) * 1e-9;
+  heights.at<double>(2, 3) = std::nan("");
+  const std::string path = folder.file("out.any_ending");
+  writeHeightTiff(path, heights);
+  EXPECT_EQ(cv::imread(path, cv::IMREAD_UNCHANGED).type(), CV_32FC1);
+  const HeightMap back = readScanFile(path, withPitch());
+  EXPECT_TRUE(std::isnan(back.height(2, 3)));
+  EXPECT_FLOAT_EQ(static_cast<float>(back.height(4, 6)), 46e-9F);
+}
+
+TEST(ScanFile, HeightTiffKeepsNanometresOnAStageOffset) {
+  const ScratchFolder folder;
+  const cv::Mat heights = example(CV_64FC1) * 1e-9 + 0.076;  // float32 numbers are 7.45 nm apart there
+  writeHeightTiff(folder.file("out.tiff"), heights);
+  const HeightMap back = readScanFile(folder.file("out.tiff"), withPitch());
+  EXPECT_EQ(back.height(4, 6), heights.at<double>(4, 6));
+}
+
+TEST(ScanFile, HeightTiffThatCannotBeWrittenIsNamed) {
+  EXPECT_THROW(writeHeightTiff("/nonexistent/out.tiff", example(CV_32FC1)), FileError);
+}
+
+TEST(TiffTags, PlainTiffHasNoneOfPark) {
+  const ScratchFolder folder;
+  ASSERT_TRUE(cv::imwrite(folder.file("plain.tiff"), example(CV_32FC1)));
+  EXPECT_FALSE(hasParkTags(folder.file("plain.tiff")));
+  EXPECT_FALSE(hasParkTags(folder.file("none.tiff")));
+  EXPECT_FALSE(hasParkTags(folder.write("short.tiff", std::string("II*\0\xff\xff\xff\x7f", 8))));
+}
+
+// ---- The child process: each way that it can end is one clear line.
+
+std::string importRefusal(const std::string& program, double timeout = 10.0) {
+  const ScratchFolder folder;
+  const std::string path = folder.write("scan.di", "not really");
+  ImportOptions options;
+  options.program = program.empty() || program[0] != '#' ? program : folder.write("program", program);
+  if (!program.empty() && program[0] == '#') {
+    std::filesystem::permissions(options.program, std::filesystem::perms::owner_all);
+  }
+  options.timeout = timeout;
+  try {
+    importByGwyddion(path, options);
+  } catch (const FileError& error) {
+    EXPECT_EQ(std::string(error.what()).find(path + ": "), 0u) << error.what();
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+    return error.what();
+  }
+  return "";
+}
+
+TEST(GwyddionImport, MissingProgramNamesTheDebianPackage) {
+  EXPECT_TRUE(mentions(importRefusal("no_such_program"), "not installed (Debian package: gwyddion)"));
+}
+
+TEST(GwyddionImport, CrashIsNamed) {
+  EXPECT_TRUE(mentions(importRefusal("#!/bin/sh\nkill -SEGV $$\n"), "crashed on this file (Segmentation fault)"));
+}
+
+TEST(GwyddionImport, FailureQuotesTheProgram) {
+  EXPECT_TRUE(mentions(importRefusal("#!/bin/sh\necho >&2 \"$3: File is cut off.\"\necho more >&2\nexit 1\n"),
+                       "gwyddion cannot read it: File is cut off."));
+  EXPECT_TRUE(mentions(importRefusal("#!/bin/sh\nexit 3\n"), "exit status 3"));
+  EXPECT_TRUE(mentions(importRefusal("#!/bin/sh\nexit 0\n"), "cannot read it"));
+}
+
+TEST(GwyddionImport, HangingProgramAndItsChildrenAreStopped) {
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_TRUE(mentions(importRefusal("#!/bin/sh\nsleep 30 &\nsleep 30\n", 0.2), "did not finish within 0.2 s"));
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
+}
+
+TEST(GwyddionImport, GarbageFromTheProgramIsRefused) {
+  EXPECT_TRUE(
+      mentions(importRefusal("#!/bin/sh\necho garbage > \"${2#--convert-to-gwy=}\"\n"), "cannot be read: not a"));
+}
+
+TEST(GwyddionImport, TheHomeFolderIsPrivateAndGoesAway) {
+  const ScratchFolder folder;
+  const std::string told = folder.file("home");
+  importRefusal("#!/bin/sh\necho \"$HOME ${DISPLAY-none}\" > " + told + "\nexit 1\n");
+  const std::string line = ScratchFolder::read(told);
+  const std::string home = line.substr(0, line.find(' '));
+  EXPECT_EQ(line, home + " none\n");
+  EXPECT_FALSE(home.empty());
+  EXPECT_FALSE(std::filesystem::exists(home)) << home;
+}
+
+TEST(ChildProcess, ArgumentsReachTheProgramAsTheyAre) {
+  const ScratchFolder folder;
+  const ChildResult result =
+      runChild({"printf", "%s|", "a b", "$HOME", "*", "'"}, environmentWithout({}, {}), folder.file("log"), 10.0);
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(ScratchFolder::read(folder.file("log")), "a b|$HOME|*|'|");
+}
+
+}  // namespace
+}  // namespace mems_stiction
