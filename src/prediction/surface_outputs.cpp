@@ -1,5 +1,7 @@
 #include "mems_stiction/prediction/surface_outputs.hpp"
 
+#include <algorithm>
+
 #include "mems_stiction/deformation/modified_topography.hpp"
 
 namespace mems_stiction {
@@ -27,7 +29,7 @@ void fillSurfaceOutputs(const HeightMap& lower, const HeightMap* upper, const Eq
   if (!wants_map && !wants_surfaces) return;
   if (wants_map) {
     makeWritable(prediction.contact_map, field.rows(), field.cols(), CV_8UC1);
-    prediction.contact_map.setTo(0);
+    std::fill_n(prediction.contact_map.ptr<std::uint8_t>(), prediction.contact_map.total(), std::uint8_t{0});
   }
   if (wants_surfaces) {
     makeWritable(prediction.deformed_lower, field.rows(), field.cols(), CV_64FC1);
@@ -36,7 +38,7 @@ void fillSurfaceOutputs(const HeightMap& lower, const HeightMap* upper, const Eq
     if (upper != nullptr) {
       upper->heights().convertTo(prediction.deformed_upper, CV_64F);
     } else {
-      prediction.deformed_upper.setTo(0.0);
+      std::fill_n(prediction.deformed_upper.ptr<double>(), prediction.deformed_upper.total(), 0.0);
     }
   }
 
