@@ -16,8 +16,8 @@ bool isDeeper(const GapField& field, int cell, int other) {
 void BoundarySums::addEdge(const GapField& field, int row, int col, int neighbour_row, int neighbour_col, int sign) {
   const int cell = row * field.cols() + col;
   const int neighbour = neighbour_row * field.cols() + neighbour_col;
-  const std::int64_t edge_x = col + neighbour_col;
-  const std::int64_t edge_y = row + neighbour_row;
+  const double edge_x = col + neighbour_col;
+  const double edge_y = row + neighbour_row;
   count += sign;
   x += sign * edge_x;
   y += sign * edge_y;
@@ -26,24 +26,24 @@ void BoundarySums::addEdge(const GapField& field, int row, int col, int neighbou
   yy += sign * edge_y * edge_y;
   const double edge_gap = sign * 0.5 * (field.gap(cell) + field.gap(neighbour));
   gap += edge_gap;
-  x_gap += static_cast<double>(edge_x) * edge_gap;
-  y_gap += static_cast<double>(edge_y) * edge_gap;
+  x_gap += edge_x * edge_gap;
+  y_gap += edge_y * edge_gap;
   if (field.upperIsFlat()) return;  // the lower surface is then the gap, turned over
   const double edge_lower = sign * 0.5 * (field.lowerHeight(cell) + field.lowerHeight(neighbour));
   lower += edge_lower;
-  x_lower += static_cast<double>(edge_x) * edge_lower;
-  y_lower += static_cast<double>(edge_y) * edge_lower;
+  x_lower += edge_x * edge_lower;
+  y_lower += edge_y * edge_lower;
 }
 
 void BoundarySums::addEdges(const GapField& field, int row, int col, const int (&neighbours)[4],
                             const int (&signs)[4]) {
   const int cell = row * field.cols() + col;
   // all edges are half a pixel pitch, one unit, from the cell's centre: their sums follow from few products
-  const std::int64_t center_x = 2 * col;
-  const std::int64_t center_y = 2 * row;
-  const std::int64_t total = signs[kLeft] + signs[kRight] + signs[kTop] + signs[kBottom];
-  const std::int64_t horizontal = signs[kRight] - signs[kLeft];
-  const std::int64_t vertical = signs[kBottom] - signs[kTop];
+  const double center_x = 2 * col;
+  const double center_y = 2 * row;
+  const double total = signs[kLeft] + signs[kRight] + signs[kTop] + signs[kBottom];
+  const double horizontal = signs[kRight] - signs[kLeft];
+  const double vertical = signs[kBottom] - signs[kTop];
   count += total;
   x += total * center_x + horizontal;
   y += total * center_y + vertical;
@@ -58,8 +58,8 @@ void BoundarySums::addEdges(const GapField& field, int row, int col, const int (
     }
     const double edge_sum = edges[kLeft] + edges[kRight] + edges[kTop] + edges[kBottom];
     sum += edge_sum;
-    x_sum += static_cast<double>(center_x) * edge_sum + (edges[kRight] - edges[kLeft]);
-    y_sum += static_cast<double>(center_y) * edge_sum + (edges[kBottom] - edges[kTop]);
+    x_sum += center_x * edge_sum + (edges[kRight] - edges[kLeft]);
+    y_sum += center_y * edge_sum + (edges[kBottom] - edges[kTop]);
   };
   sums([&](int index) { return field.gap(index); }, gap, x_gap, y_gap);
   if (field.upperIsFlat()) return;  // the lower surface is then the gap, turned over

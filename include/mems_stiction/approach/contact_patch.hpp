@@ -13,9 +13,9 @@ namespace mems_stiction {
 /// midpoint with the mean of both cells. Coordinates are in half pixels (integers, so that adding and taking away an
 /// edge leaves no trace); heights are on GapField's level [m].
 struct BoundarySums {
-  std::int64_t count = 0;
-  std::int64_t x = 0, y = 0;
-  std::int64_t xx = 0, xy = 0, yy = 0;
+  double count = 0.0;
+  double x = 0.0, y = 0.0;
+  double xx = 0.0, xy = 0.0, yy = 0.0;
   double gap = 0.0, x_gap = 0.0, y_gap = 0.0;
   double lower = 0.0, x_lower = 0.0, y_lower = 0.0;
 
