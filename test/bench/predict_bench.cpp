@@ -12,45 +12,12 @@
 #include <opencv2/imgproc.hpp>
 
 #include "bench/frames.hpp"
-#include "mems_stiction/approach/gap_order.hpp"
+#include "bench/settings.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
 
 namespace mems_stiction {
 namespace bench {
 namespace {
-
-constexpr double kContactFraction = 0.3;
-
-/// A load that no contact can carry: every case goes through all its steps up to the contact fraction.
-constexpr double kOverload = 1.0;
-
-struct Case {
-  Frame frame;
-  int size;
-  int steps;
-
-  std::string name() const { return frameName(frame) + "/" + std::to_string(size) + "/" + std::to_string(steps); }
-};
-
-/// Approach at which the frame reaches the contact fraction [m].
-double fullApproach(const HeightMap& frame) {
-  GapField field;
-  field.compute(frame);
-  GapOrder order;
-  order.build(field, kContactFraction);
-  return order.cells()[static_cast<std::size_t>(order.contactLimit() - 1)].gap;
-}
-
-Options optionsFor(const Case& setting, bool all_outputs) {
-  Options options;
-  options.load.mechanical_load = kOverload;
-  options.load.voltage = 5.0;
-  options.interface.insulator_thickness = 100e-9;
-  options.approach.max_contact_fraction = kContactFraction;
-  options.approach.step = fullApproach(frameOf(setting.frame, setting.size)) / setting.steps;
-  options.output = {all_outputs, all_outputs, all_outputs, false, false};
-  return options;
-}
 
 void predict(benchmark::State& state, const Case& setting, bool all_outputs) {
   const HeightMap& frame = frameOf(setting.frame, setting.size);
