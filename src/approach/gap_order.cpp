@@ -19,8 +19,16 @@ int bucketCountFor(int valid_cells) {
   return count;
 }
 
+int roundedUp(int value, int multiple) { return (value + multiple - 1) / multiple * multiple; }
+
 bool comesFirst(const OrderedCell& a, const OrderedCell& b) {
   return a.gap < b.gap || (a.gap == b.gap && a.cell < b.cell);
+}
+
+void addGaps(GapMoments& moments, double count, double excess) {
+  moments.count += count;
+  moments.mean += count * excess;
+  moments.variance += count * excess * excess;
 }
 
 /// Sums of gaps about the bucket's lower end become moments; no digits are lost to the size of the gap.
@@ -31,58 +39,54 @@ void finishMoments(GapMoments& moments, double lower_end) {
   moments.mean = lower_end + mean_excess;
 }
 
-void addGap(GapMoments& moments, double excess) {
-  moments.count += 1.0;
-  moments.mean += excess;
-  moments.variance += excess * excess;
-}
-
 }  // namespace
 
-int GapOrder::bucketOf(double gap) const {
-  return static_cast<int>(std::min(gap * inverse_width_, bucket_count_ - 1.0));
-}
-
-void GapOrder::build(const GapField& field, double max_contact_fraction) {
-  bucket_count_ = bucketCountFor(field.validCount());
-  // a frame without relief has one bucket of any width; a denormal range would overflow the inverse
-  bucket_width_ = std::max(field.largestGap(), 1e-200) / bucket_count_;
-  inverse_width_ = 1.0 / bucket_width_;
+void GapOrder::build(const GapField& field, double max_contact_fraction, double step) {
+  chooseBuckets(field, step);
   countGaps(field);
   const int wanted =
       std::clamp(static_cast<int>(std::ceil(max_contact_fraction * field.validCount())), 1, field.validCount());
   chooseOrderedBuckets(wanted);
   measureTail();
   collectCells(field);
-  measureOrderedBuckets();
+  measureGroups();
+  findContactLimit(wanted);
+}
 
-  is_sorted_.assign(static_cast<std::size_t>(ordered_buckets_), 0);
-  const int limit_bucket =
-      static_cast<int>(std::lower_bound(bucket_end_.begin(), bucket_end_.end(), wanted) - bucket_end_.begin());
-  sortBucket(limit_bucket);
-  contact_limit_ = wanted;
-  const double limit_gap = cells_[static_cast<std::size_t>(wanted - 1)].gap;
-  while (contact_limit_ < endOfBucket(limit_bucket) &&
-         cells_[static_cast<std::size_t>(contact_limit_)].gap == limit_gap) {
-    ++contact_limit_;
+void GapOrder::chooseBuckets(const GapField& field, double step) {
+  const int wanted_buckets = bucketCountFor(field.validCount());
+  // a frame without relief has one bucket of any width; a denormal range would overflow the inverse
+  const double range = std::max(field.largestGap(), 1e-200);
+  const double steps = step > 0.0 ? std::floor(range / step) + 1.0 : kMaxBuckets + 1.0;
+  groups_are_steps_ = steps <= kMaxBuckets;
+  group_shift_ = 0;
+  if (groups_are_steps_) {
+    while (std::ldexp(steps, group_shift_ + 1) <= wanted_buckets) ++group_shift_;
+    group_width_ = step;
+    bucket_width_ = std::ldexp(step, -group_shift_);
+    bucket_count_ = static_cast<int>(std::ldexp(steps, group_shift_));
+  } else {
+    group_width_ = bucket_width_ = range / wanted_buckets;
+    bucket_count_ = wanted_buckets;
   }
+  bucket_count_ = roundedUp(bucket_count_, std::max(kBucketsPerTailBucket, 1 << group_shift_));
+  inverse_width_ = 1.0 / bucket_width_;
 }
 
 void GapOrder::countGaps(const GapField& field) {
-  bucket_end_.assign(static_cast<std::size_t>(bucket_count_), 0);
+  bucket_count_of_.assign(static_cast<std::size_t>(bucket_count_), 0);
   const double last = bucket_count_ - 1;
-  std::int32_t* count = bucket_end_.data();
+  std::int32_t* count = bucket_count_of_.data();
   for (const double gap : field.gaps()) ++count[static_cast<int>(std::min(gap * inverse_width_, last))];
-  bucket_end_.back() -= field.cellCount() - field.validCount();  // infinite gaps were counted there
+  bucket_count_of_.back() -= field.cellCount() - field.validCount();  // infinite gaps were counted there
 }
 
 void GapOrder::chooseOrderedBuckets(int wanted) {
   int total = 0;
   int bucket = 0;
-  while (total < wanted) total += bucket_end_[static_cast<std::size_t>(bucket++)];
-  const int beyond = bucket + kBucketsBeyondLimit;
-  const int rounded = (beyond + kBucketsPerTailBucket - 1) / kBucketsPerTailBucket * kBucketsPerTailBucket;
-  ordered_buckets_ = std::min(rounded, bucket_count_);
+  while (total < wanted) total += bucket_count_of_[static_cast<std::size_t>(bucket++)];
+  ordered_buckets_ = std::min(
+      roundedUp(bucket + kBucketsBeyondLimit, std::max(kBucketsPerTailBucket, 1 << group_shift_)), bucket_count_);
 }
 
 void GapOrder::measureTail() {
@@ -91,30 +95,27 @@ void GapOrder::measureTail() {
   for (GapMoments& moments : tail_moments_) {
     const double lower_end = bucket * bucket_width_;
     for (int i = 0; i < kBucketsPerTailBucket; ++i, ++bucket) {
-      const double count = bucket_end_[static_cast<std::size_t>(bucket)];
-      const double excess = (i + 0.5) * bucket_width_;
-      moments.count += count;
-      moments.mean += count * excess;
-      moments.variance += count * excess * excess;
+      addGaps(moments, bucket_count_of_[static_cast<std::size_t>(bucket)], (i + 0.5) * bucket_width_);
     }
     finishMoments(moments, lower_end);
   }
 }
 
 void GapOrder::collectCells(const GapField& field) {
+  group_end_.assign(static_cast<std::size_t>(ordered_buckets_ >> group_shift_), 0);
+  is_sorted_.assign(group_end_.size(), 0);
   int start = 0;
   for (int bucket = 0; bucket < ordered_buckets_; ++bucket) {
-    std::int32_t& place = bucket_end_[static_cast<std::size_t>(bucket)];
-    const int count = place;
-    place = start;  // becomes the bucket's end while it is filled
-    start += count;
+    std::int32_t& place = group_end_[static_cast<std::size_t>(bucket >> group_shift_)];
+    if (bucket >> group_shift_ << group_shift_ == bucket) place = start;  // becomes the group's end while it is filled
+    start += bucket_count_of_[static_cast<std::size_t>(bucket)];
   }
-  bucket_end_.resize(static_cast<std::size_t>(ordered_buckets_));
   cells_.resize(static_cast<std::size_t>(start));
 
-  // which cells come in is random along a row: written without a branch, then put into their buckets
+  // which cells come in is random along a row: written without a branch, then put into their groups
   const auto cols = static_cast<std::size_t>(field.cols());
   near_cells_.resize(cols);
+  const double last = bucket_count_ - 1;
   const double bound = ordered_buckets_ < bucket_count_ ? ordered_buckets_ : GapField::kInvalidGap;
   const double* gap = field.gaps().data();
   for (std::int32_t row = 0; row < field.rows(); ++row, gap += cols) {
@@ -126,51 +127,99 @@ void GapOrder::collectCells(const GapField& field) {
     for (std::size_t i = 0; i < near_count; ++i) {
       const std::int32_t col = near_cells_[i];
       const double cell_gap = gap[col];
-      const std::int32_t place = bucket_end_[static_cast<std::size_t>(bucketOf(cell_gap))]++;
-      cells_[static_cast<std::size_t>(place)] = {cell_gap, static_cast<std::int32_t>(row * cols) + col, row};
+      const int group = static_cast<int>(std::min(cell_gap * inverse_width_, last)) >> group_shift_;
+      const std::int32_t place = group_end_[static_cast<std::size_t>(group)]++;
+      cells_[static_cast<std::size_t>(place)] = {cell_gap, row * field.cols() + col, row};
     }
   }
 }
 
-void GapOrder::measureOrderedBuckets() {
+void GapOrder::measureGroups() {
   ordered_moments_.assign(static_cast<std::size_t>(ordered_buckets_), {});
+  const double last = bucket_count_ - 1;
+  double largest_before = -1.0;
   int place = 0;
+  for (int group = 0; group < static_cast<int>(group_end_.size()); ++group) {
+    double smallest = GapField::kInvalidGap;
+    double largest = largest_before;
+    for (; place < group_end_[static_cast<std::size_t>(group)]; ++place) {
+      const double gap = cells_[static_cast<std::size_t>(place)].gap;
+      const int bucket = static_cast<int>(std::min(gap * inverse_width_, last));
+      addGaps(ordered_moments_[static_cast<std::size_t>(bucket)], 1.0, gap - bucket * bucket_width_);
+      smallest = std::min(smallest, gap);
+      largest = std::max(largest, gap);
+    }
+    const double boundary = group * group_width_;
+    if (group > 0 && groups_are_steps_ && (largest_before >= boundary || smallest < boundary)) mendBoundary(group);
+    largest_before = largest;
+  }
   for (int bucket = 0; bucket < ordered_buckets_; ++bucket) {
-    GapMoments& moments = ordered_moments_[static_cast<std::size_t>(bucket)];
-    const double lower_end = bucket * bucket_width_;
-    for (; place < endOfBucket(bucket); ++place)
-      addGap(moments, cells_[static_cast<std::size_t>(place)].gap - lower_end);
-    finishMoments(moments, lower_end);
+    finishMoments(ordered_moments_[static_cast<std::size_t>(bucket)], bucket * bucket_width_);
   }
 }
 
-void GapOrder::sortBucket(int bucket) {
-  std::uint8_t& is_sorted = is_sorted_[static_cast<std::size_t>(bucket)];
+/// The bucket of a gap that is a whole number of steps is a matter of rounding; a step takes what is below its
+/// approach.
+void GapOrder::mendBoundary(int group) {
+  const double boundary = group * group_width_;
+  const auto begin = cells_.begin() + groupStart(group - 1);
+  const auto end = cells_.begin() + group_end_[static_cast<std::size_t>(group)];
+  const auto first_apart =
+      std::stable_partition(begin, end, [boundary](const OrderedCell& cell) { return cell.gap < boundary; });
+  group_end_[static_cast<std::size_t>(group - 1)] = static_cast<std::int32_t>(first_apart - cells_.begin());
+}
+
+void GapOrder::sortGroup(int group) {
+  std::uint8_t& is_sorted = is_sorted_[static_cast<std::size_t>(group)];
   if (is_sorted != 0) return;
-  const int begin = bucket == 0 ? 0 : endOfBucket(bucket - 1);
-  std::sort(cells_.begin() + begin, cells_.begin() + endOfBucket(bucket), comesFirst);
+  std::sort(cells_.begin() + groupStart(group), cells_.begin() + group_end_[static_cast<std::size_t>(group)],
+            comesFirst);
   is_sorted = 1;
 }
 
+void GapOrder::findContactLimit(int wanted) {
+  const auto limit_group =
+      static_cast<int>(std::lower_bound(group_end_.begin(), group_end_.end(), wanted) - group_end_.begin());
+  sortGroup(limit_group);
+  contact_limit_ = wanted;
+  const double limit_gap = cells_[static_cast<std::size_t>(wanted - 1)].gap;
+  while (contact_limit_ < group_end_[static_cast<std::size_t>(limit_group)] &&
+         cells_[static_cast<std::size_t>(contact_limit_)].gap == limit_gap) {
+    ++contact_limit_;
+  }
+}
+
 int GapOrder::countBelow(double approach) {
-  const double bucket_of_approach = approach * inverse_width_;
-  if (bucket_of_approach >= ordered_buckets_ && ordered_buckets_ < bucket_count_)
+  const auto group_count = static_cast<int>(group_end_.size());
+  if (approach >= group_count * group_width_ && ordered_buckets_ < bucket_count_) {
     return static_cast<int>(cells_.size());
-  const int bucket =
-      std::min(static_cast<int>(std::min<double>(bucket_of_approach, bucket_count_)), ordered_buckets_ - 1);
-  sortBucket(bucket);
-  const auto begin = cells_.begin() + (bucket == 0 ? 0 : endOfBucket(bucket - 1));
-  const auto first_apart = std::partition_point(begin, cells_.begin() + endOfBucket(bucket),
+  }
+  const double group_of_approach = std::min<double>(std::round(approach / group_width_), group_count);
+  if (groups_are_steps_ && group_of_approach * group_width_ == approach) {
+    return groupStart(static_cast<int>(group_of_approach));
+  }
+  const int group = std::min(static_cast<int>(std::min(approach * inverse_width_, bucket_count_ - 1.0)) >> group_shift_,
+                             group_count - 1);
+  sortGroup(group);
+  const auto begin = cells_.begin() + groupStart(group);
+  const auto first_apart = std::partition_point(begin, cells_.begin() + group_end_[static_cast<std::size_t>(group)],
                                                 [approach](const OrderedCell& cell) { return cell.gap < approach; });
   return static_cast<int>(first_apart - cells_.begin());
 }
 
 void GapOrder::sortBetween(int begin, int end) {
-  const auto first_past = std::upper_bound(bucket_end_.begin(), bucket_end_.end(), begin);
-  for (auto bucket = static_cast<int>(first_past - bucket_end_.begin()); bucket < ordered_buckets_; ++bucket) {
-    if ((bucket == 0 ? 0 : endOfBucket(bucket - 1)) >= end) break;
-    sortBucket(bucket);
+  const auto first_past = std::upper_bound(group_end_.begin(), group_end_.end(), begin);
+  for (auto group = static_cast<int>(first_past - group_end_.begin()); group < static_cast<int>(group_end_.size());
+       ++group) {
+    if (groupStart(group) >= end) break;
+    sortGroup(group);
   }
 }
+
+int GapOrder::groupStartFrom(int bucket) const {
+  return std::min(roundedUp(bucket, 1 << group_shift_), ordered_buckets_);
+}
+
+int GapOrder::cellsBefore(int group_start_bucket) const { return groupStart(group_start_bucket >> group_shift_); }
 
 }  // namespace mems_stiction

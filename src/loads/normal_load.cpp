@@ -72,8 +72,10 @@ void GapLoads::prepare(const GapOrder& order) {
   for (std::size_t level = 1; level < level_count; ++level) {
     const std::vector<GapMoments>& finer = levels_[level - 1];
     std::vector<GapMoments>& coarser = levels_[level];
-    coarser.resize(finer.size() / 2);
-    for (std::size_t i = 0; i < coarser.size(); ++i) coarser[i] = merged(finer[2 * i], finer[2 * i + 1]);
+    coarser.resize((finer.size() + 1) / 2);
+    for (std::size_t i = 0; i < coarser.size(); ++i) {
+      coarser[i] = 2 * i + 1 < finer.size() ? merged(finer[2 * i], finer[2 * i + 1]) : finer[2 * i];
+    }
     if (1 << level == GapOrder::kBucketsPerTailBucket) {
       coarser.insert(coarser.end(), order.tailMoments().begin(), order.tailMoments().end());
     }
@@ -92,8 +94,10 @@ NormalLoad GapLoads::at(double approach, int contact_count, const CellForces& fo
   const double cutoff_in_widths = forces.cutoff() / width;
   const int near_buckets =
       static_cast<int>(std::ceil(std::clamp(cutoff_in_widths, kFewestNearBuckets, kMostNearBuckets)));
-  int bucket = std::min(static_cast<int>(approach / width) + 1 + near_buckets, order_->orderedBuckets());
-  const int near_end = bucket == 0 ? 0 : order_->endOfBucket(bucket - 1);
+  // a group is near as a whole: its cells are not in order
+  const double past_near = std::min<double>(approach / width + 1.0 + near_buckets, bucket_count);
+  int bucket = order_->groupStartFrom(static_cast<int>(past_near));
+  const int near_end = order_->cellsBefore(bucket);
   for (int i = contact_count; i < near_end; ++i) {
     const double gap = cells[static_cast<std::size_t>(i)].gap - approach;
     load.van_der_waals += forces.vanDerWaals(gap);

@@ -49,18 +49,20 @@ void AdhesionModel::Implementation::predict(const HeightMap& lower, const Height
   } else {
     field_.compute(lower);
   }
-  order_.build(field_, options.approach.max_contact_fraction);
 
   const double lower_rms_height = upper != nullptr ? heightStatistics(lower).rms_height : field_.rmsGap();
   const double upper_rms_height = upper != nullptr ? heightStatistics(*upper).rms_height : 0.0;
   const double composite_rms_height = std::hypot(lower_rms_height, upper_rms_height);
+
+  const double step = approachStep(options.approach, composite_rms_height, options.interface.cutoff_distance);
+  order_.build(field_, options.approach.max_contact_fraction, step);
 
   const ContactPair pair(options.lower, options.upper);
   const SearchSetting setting{
       AsperityLaw(pair, options.interface.work_of_adhesion, composite_rms_height, options.approach),
       CellForces(options.interface, options.load.voltage, field_.cellArea()),
       options.load.mechanical_load,
-      approachStep(options.approach, composite_rms_height, options.interface.cutoff_distance),
+      step,
       options.approach.max_steps,
       options.interface.cutoff_distance,
       options.output.energy_curve};
