@@ -90,7 +90,18 @@ double capCurvature(double base_radius, double height) {
 }  // namespace
 
 int boxCentre(const ContactPatch& patch, const GapField& field) {
-  return (patch.min_row + patch.max_row) / 2 * field.cols() + (patch.min_col + patch.max_col) / 2;
+  const int first_row = (patch.min_row + patch.max_row) / 2;
+  const int last_row = (patch.min_row + patch.max_row + 1) / 2;
+  const int first_col = (patch.min_col + patch.max_col) / 2;
+  const int last_col = (patch.min_col + patch.max_col + 1) / 2;
+  int centre = first_row * field.cols() + first_col;
+  for (int row = first_row; row <= last_row; ++row) {
+    for (int col = first_col; col <= last_col; ++col) {
+      const int cell = row * field.cols() + col;
+      if (field.gap(cell) < field.gap(centre)) centre = cell;
+    }
+  }
+  return centre;
 }
 
 CapCouple capCouple(const ContactPatch& patch, const GapField& field, bool centre_is_inside, double smallest_height) {

@@ -36,7 +36,8 @@ struct CapCouple {
   double tilt() const { return std::atan(std::sqrt(squared_slope)); }  ///< theta [rad]
 };
 
-/// The cell in the middle of the patch's bounding box.
+/// The cell in the middle of the patch's bounding box. A side with an even number of cells has two middles: the deepest
+/// of them, so that a mirrored frame has the mirrored centre.
 int boxCentre(const ContactPatch& patch, const GapField& field);
 
 /// @param centre_is_inside whether boxCentre() belongs to the patch; otherwise its deepest cell is the centre.

@@ -1,0 +1,137 @@
+#include "mems_stiction/approach/gap_order.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "support/analytic_surfaces.hpp"
+#include "support/sample_frames.hpp"
+
+namespace mems_stiction {
+namespace {
+
+std::vector<OrderedCell> sortedCells(const GapField& field) {
+  std::vector<OrderedCell> cells;
+  for (int cell = 0; cell < field.cellCount(); ++cell) {
+    if (field.isValid(cell)) cells.push_back({field.gap(cell), cell});
+  }
+  std::stable_sort(cells.begin(), cells.end(), [](const auto& a, const auto& b) { return a.gap < b.gap; });
+  return cells;
+}
+
+HeightMap withSpike(const HeightMap& surface, double height) {
+  cv::Mat1d heights = surface.heights().clone();
+  heights(heights.rows / 3, heights.cols / 4) = height;
+  return {heights, surface.pitchX(), surface.pitchY()};
+}
+
+std::vector<samples::Frame> orderedFrames() {
+  std::vector<samples::Frame> frames = samples::allFrames();
+  const HeightMap rough = samples::gaussian(200, 201, 10e-9, 10e-9, 3e-9, 60e-9, 1);
+  frames.push_back({"large", rough, {}});
+  frames.push_back({"tall_spike", withSpike(rough, 5e-6), {}});
+  frames.push_back({"deep_pit", withSpike(rough, -5e-6), {}});
+  return frames;
+}
+
+class OrderedFrame : public testing::TestWithParam<samples::Frame> {
+ protected:
+  void SetUp() override { field_ = GetParam().gapField(); }
+  GapField field_;
+};
+
+INSTANTIATE_TEST_SUITE_P(Frames, OrderedFrame, testing::ValuesIn(orderedFrames()),
+                         [](const auto& tested) { return tested.param.name; });
+
+TEST_P(OrderedFrame, holdsTheCellsSortedByGapThenIndex) {
+  const std::vector<OrderedCell> expected = sortedCells(field_);
+  for (const double fraction : {1e-9, 0.01, 0.1, 0.5, 0.9, 1.0}) {
+    GapOrder order;
+    order.build(field_, fraction);
+    ASSERT_LE(order.cells().size(), expected.size());
+    ASSERT_GE(order.cells().size(), static_cast<std::size_t>(order.contactLimit()));
+    for (std::size_t i = 0; i < order.cells().size(); ++i) {
+      ASSERT_EQ(order.cells()[i].cell, expected[i].cell) << "place " << i;
+      ASSERT_EQ(order.cells()[i].gap, expected[i].gap) << "place " << i;
+    }
+  }
+}
+
+TEST_P(OrderedFrame, limitsContactAtTheFirstLevelThatReachesTheFraction) {
+  const std::vector<OrderedCell> expected = sortedCells(field_);
+  for (const double fraction : {1e-9, 0.01, 0.1, 0.5, 0.9, 1.0}) {
+    GapOrder order;
+    order.build(field_, fraction);
+    const auto wanted = std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(fraction * expected.size())));
+    const double level = expected[wanted - 1].gap;
+    const auto end = std::find_if(expected.begin(), expected.end(), [&](const auto& cell) { return cell.gap > level; });
+    EXPECT_EQ(order.contactLimit(), end - expected.begin()) << "fraction " << fraction;
+  }
+}
+
+TEST_P(OrderedFrame, countsTheCellsBelowAnApproach) {
+  GapOrder order;
+  order.build(field_, 1.0);
+  for (int k = 0; k <= 20; ++k) {
+    const double approach = field_.largestGap() * k / 20;
+    const auto below =
+        std::count_if(field_.gaps().begin(), field_.gaps().end(), [approach](double gap) { return gap < approach; });
+    EXPECT_EQ(order.countBelow(approach), below);
+  }
+  EXPECT_EQ(order.countBelow(0.0), 0);  // touching at D = 0 is not interference yet
+}
+
+TEST_P(OrderedFrame, keepsTheMomentsOfEveryBucket) {
+  GapOrder order;
+  order.build(field_, 0.3);
+  double count = 0.0;
+  double sum = 0.0;
+  double squares = 0.0;
+  for (const GapMoments& bucket : order.buckets()) {
+    ASSERT_GE(bucket.variance, 0.0);
+    // spread of values that share a bucket: half its width at most
+    ASSERT_LE(std::sqrt(bucket.variance), 0.5 * order.bucketWidth() * (1.0 + 1e-6));
+    count += bucket.count;
+    sum += bucket.count * bucket.mean;
+    squares += bucket.count * (bucket.variance + bucket.mean * bucket.mean);
+  }
+  EXPECT_EQ(count, field_.validCount());
+  double expected_squares = 0.0;
+  for (const double gap : field_.gaps()) expected_squares += gap == GapField::kInvalidGap ? 0.0 : gap * gap;
+  const double round_off = 1e-12;  // relative, of some ten thousand additions
+  EXPECT_NEAR(sum, field_.meanGap() * count, round_off * count * field_.largestGap());
+  EXPECT_NEAR(squares, expected_squares, round_off * count * field_.largestGap() * field_.largestGap());
+}
+
+TEST_P(OrderedFrame, knowsWhereTheBucketsEnd) {
+  GapOrder order;
+  order.build(field_, 0.3);
+  int end = 0;
+  for (int bucket = 0; bucket < order.orderedBuckets(); ++bucket) {
+    end += static_cast<int>(order.buckets()[static_cast<std::size_t>(bucket)].count);
+    ASSERT_EQ(order.endOfBucket(bucket), end);
+  }
+  EXPECT_EQ(static_cast<std::size_t>(end), order.cells().size());
+  EXPECT_EQ(order.endOfBucket(static_cast<int>(order.buckets().size()) - 1), end);
+}
+
+TEST_P(OrderedFrame, isTheSameAfterAnotherFrame) {
+  GapOrder fresh;
+  fresh.build(field_, 0.4);
+  GapOrder used;
+  used.build(samples::Frame{"", samples::whiteNoise(120, 90, 1e-9, 2e-9, 4e-9, 12), {}}.gapField(), 0.9);
+  used.build(field_, 0.4);
+  EXPECT_EQ(used.contactLimit(), fresh.contactLimit());
+  EXPECT_EQ(used.bucketWidth(), fresh.bucketWidth());
+  ASSERT_EQ(used.cells().size(), fresh.cells().size());
+  for (std::size_t i = 0; i < fresh.cells().size(); ++i) ASSERT_EQ(used.cells()[i].cell, fresh.cells()[i].cell);
+  ASSERT_EQ(used.buckets().size(), fresh.buckets().size());
+  for (std::size_t i = 0; i < fresh.buckets().size(); ++i) {
+    ASSERT_EQ(used.buckets()[i].count, fresh.buckets()[i].count);
+    ASSERT_EQ(used.buckets()[i].mean, fresh.buckets()[i].mean);
+  }
+}
+
+}  // namespace
+}  // namespace mems_stiction
