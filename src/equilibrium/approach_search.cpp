@@ -49,7 +49,7 @@ void ApproachSearch::run(const GapField& field, GapOrder& order, Connectivity co
       return;
     }
     if (reaches_limit) {
-      state.status = Status::kBonded;
+      state.status = nothingResists() ? Status::kNoEquilibrium : Status::kBonded;
       return;
     }
   }
@@ -71,6 +71,12 @@ void ApproachSearch::moveTo(double approach, int contact_count, EquilibriumState
   state.contact_count = contact_count;
   state.load = loads_.at(approach, contact_count, setting_->forces, setting_->mechanical_load);
   state.balance = forceBalance(responses_, state.load.total(), setting_->law);
+}
+
+bool ApproachSearch::nothingResists() const {
+  if (setting_->law.formulation != Formulation::kPrinted) return false;
+  return std::all_of(responses_.begin(), responses_.end(),
+                     [](const AsperityResponse& asperity) { return asperity.elastic_share == 0.0; });
 }
 
 void ApproachSearch::refine(int previous_count, EquilibriumState& state) {

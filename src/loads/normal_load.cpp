@@ -9,13 +9,13 @@ namespace mems_stiction {
 namespace {
 
 /// A bucket may stand for its cells when its gap is at least this many times its width.
-constexpr double kGapsPerWidth = 8.0;
+constexpr double kGapsPerWidth = 12.0;
 /// Buckets next to the contact whose cells are summed one by one: enough for the Taylor series beyond, and, while they
 /// are wide, as many as reach the cut-off, where the integrand has a kink.
 constexpr std::size_t kTailLevel = 4;
 static_assert(1 << kTailLevel == GapOrder::kBucketsPerTailBucket, "the tail's buckets are a level of the pyramid");
 constexpr double kFewestNearBuckets = kGapsPerWidth;
-constexpr double kMostNearBuckets = 32.0;
+constexpr double kMostNearBuckets = 64.0;
 
 GapMoments merged(const GapMoments& a, const GapMoments& b) {
   if (a.count == 0.0) return b;

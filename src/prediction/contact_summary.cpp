@@ -118,7 +118,8 @@ void summarizeContact(const HeightMap& lower, const EquilibriumState& state, App
     tabor_parameters.push_back(asperity.tabor_parameter);
     if (options.output.asperities) prediction.asperities.push_back(asperity);
   }
-  prediction.adhesion_parameter /= prediction.asperity_count;
+  prediction.adhesion_parameter = law.work_of_adhesion > 0.0 ? prediction.adhesion_parameter / prediction.asperity_count
+                                                             : std::numeric_limits<double>::infinity();
   prediction.bonding_regime = bondingRegimeOf(prediction.adhesion_parameter);
   prediction.median_tabor_parameter = median(tabor_parameters);
   prediction.contact_theory = contactTheoryOf(prediction.median_tabor_parameter);

@@ -223,17 +223,23 @@ Prediction predict(const Options& options, const HeightMap& lower, const HeightM
   const double step =
       approachStep(options.approach, prediction.composite_rms_height, options.interface.cutoff_distance);
   State state;
-  while (prediction.status == Status::kNoEquilibrium && prediction.steps < options.approach.max_steps) {
+  bool has_ended = false;
+  while (!has_ended && prediction.steps < options.approach.max_steps) {
     ++prediction.steps;
     const double previous_approach = state.approach;
     const double approach = prediction.steps * step;
     const bool reaches_limit = limit_gap < approach;
     state = reaches_limit ? stateAt(problem, limit_gap, Touch::kUpTo) : stateAt(problem, approach, Touch::kBelow);
+    has_ended = state.balance.is_equilibrium || reaches_limit;
     if (state.balance.is_equilibrium) {
       state = refined(problem, state, previous_approach);
       prediction.status = Status::kEquilibrium;
     } else if (reaches_limit) {
-      prediction.status = Status::kBonded;
+      const bool all_plastic =
+          std::all_of(state.responses.begin(), state.responses.end(),
+                      [](const AsperityResponse& asperity) { return asperity.elastic_share == 0.0; });
+      const bool is_printed = options.approach.formulation == Formulation::kPrinted;
+      prediction.status = is_printed && all_plastic ? Status::kNoEquilibrium : Status::kBonded;
     }
     prediction.plastic_work += state.balance.plastic_force * (state.approach - previous_approach);
   }

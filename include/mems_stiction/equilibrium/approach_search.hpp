@@ -8,7 +8,9 @@
 /// on delta. The search ends
 ///   - in equilibrium;
 ///   - bonded, at the first level whose contact fraction reaches the limit;
-///   - without equilibrium, after max_steps.
+///   - without equilibrium, after max_steps, or at that limit when to the letter of the paper nothing resists (all
+///   asperities
+///     plastic in Formulation::kPrinted).
 
 #include <cstdint>
 #include <vector>
@@ -52,6 +54,8 @@ class ApproachSearch {
   void moveTo(double approach, int contact_count, EquilibriumState& state);
   /// Replaces the state by the first level in equilibrium after `previous_count` cells, if there is one.
   void refine(int previous_count, EquilibriumState& state);
+  /// To the letter of the paper nothing resists a plastic asperity: when all are, no extremum can come.
+  bool nothingResists() const;
   void record(EquilibriumState& state) const;
 
   const GapField* field_ = nullptr;
