@@ -8,7 +8,7 @@ namespace {
 
 /// Caps lower than this share of the patch's largest interference do not describe it.
 constexpr double kLowestHeightShare = 0.1;
-constexpr std::int64_t kFewestEdgesOfPlane = 4;
+constexpr double kFewestEdgesOfPlane = 4.0;
 /// Relative determinant below which the boundary edges count as lying on one line.
 constexpr double kSingular = 1e-9;
 
@@ -22,15 +22,14 @@ struct PlaneValue {
 /// Least-squares planes through the boundary edges, all from one set of sums.
 class BasePlanes {
  public:
-  /// Coordinates are moved to the centre as integers: no digits are lost to the patch's place in the frame.
-  BasePlanes(const BoundarySums& sums, std::int64_t centre_x, std::int64_t centre_y)
-      : count_(static_cast<double>(sums.count)), centre_x_(centre_x), centre_y_(centre_y) {
-    const auto x = static_cast<double>(sums.x - sums.count * centre_x);
-    const auto y = static_cast<double>(sums.y - sums.count * centre_y);
-    const auto xx = static_cast<double>(sums.xx - 2 * centre_x * sums.x + sums.count * centre_x * centre_x);
-    const auto yy = static_cast<double>(sums.yy - 2 * centre_y * sums.y + sums.count * centre_y * centre_y);
-    const auto xy =
-        static_cast<double>(sums.xy - centre_x * sums.y - centre_y * sums.x + sums.count * centre_x * centre_y);
+  /// Coordinates are moved to the centre, exactly: no digits are lost to the patch's place in the frame.
+  BasePlanes(const BoundarySums& sums, double centre_x, double centre_y)
+      : count_(sums.count), centre_x_(centre_x), centre_y_(centre_y) {
+    const double x = sums.x - sums.count * centre_x;
+    const double y = sums.y - sums.count * centre_y;
+    const double xx = sums.xx - 2.0 * centre_x * sums.x + sums.count * centre_x * centre_x;
+    const double yy = sums.yy - 2.0 * centre_y * sums.y + sums.count * centre_y * centre_y;
+    const double xy = sums.xy - centre_x * sums.y - centre_y * sums.x + sums.count * centre_x * centre_y;
     mean_x_ = x / count_;
     mean_y_ = y / count_;
     var_x_ = xx - x * mean_x_;
@@ -44,8 +43,8 @@ class BasePlanes {
     PlaneValue plane;
     plane.at_centre = sum / count_;
     if (is_level_) return plane;
-    const double x_moment = x_sum - static_cast<double>(centre_x_) * sum - mean_x_ * sum;
-    const double y_moment = y_sum - static_cast<double>(centre_y_) * sum - mean_y_ * sum;
+    const double x_moment = x_sum - centre_x_ * sum - mean_x_ * sum;
+    const double y_moment = y_sum - centre_y_ * sum - mean_y_ * sum;
     plane.slope_x = (var_y_ * x_moment - cov_ * y_moment) / determinant_;
     plane.slope_y = (var_x_ * y_moment - cov_ * x_moment) / determinant_;
     plane.at_centre -= plane.slope_x * mean_x_ + plane.slope_y * mean_y_;
@@ -54,8 +53,8 @@ class BasePlanes {
 
  private:
   double count_;
-  std::int64_t centre_x_;
-  std::int64_t centre_y_;
+  double centre_x_;
+  double centre_y_;
   double mean_x_ = 0.0, mean_y_ = 0.0;
   double var_x_ = 0.0, var_y_ = 0.0, cov_ = 0.0;
   double determinant_ = 0.0;
@@ -109,8 +108,8 @@ CapCouple capCouple(const ContactPatch& patch, const GapField& field, bool centr
   CapCouple caps;
   caps.centre = centre_is_inside ? boxCentre(patch, field) : patch.deepest;
   const BoundarySums& edges = patch.boundary;
-  const bool has_edges = edges.count > 0;
-  const double level = has_edges ? edges.gap / static_cast<double>(edges.count) : patch.latest_gap;
+  const bool has_edges = edges.count > 0.0;
+  const double level = has_edges ? edges.gap / edges.count : patch.latest_gap;
   caps.base_radius = baseRadius(patch, field, level);
 
   double lower_height = 0.0;
@@ -130,12 +129,11 @@ CapCouple capCouple(const ContactPatch& patch, const GapField& field, bool centr
     lower_height = std::max(0.0, field.lowerHeight(caps.centre) - lower.at_centre);
     const double mid_slope_x = (lower.slope_x + 0.5 * gap.slope_x) * 2.0 / field.pitchX();
     const double mid_slope_y = (lower.slope_y + 0.5 * gap.slope_y) * 2.0 / field.pitchY();
-    const double slope = std::hypot(mid_slope_x, mid_slope_y);
-    caps.tilt = std::atan(slope);
-    caps.cos_tilt = 1.0 / std::sqrt(1.0 + slope * slope);
+    caps.squared_slope = mid_slope_x * mid_slope_x + mid_slope_y * mid_slope_y;
+    caps.cos_tilt = 1.0 / std::sqrt(1.0 + caps.squared_slope);
   }
 
-  const double interference = level - field.gap(patch.deepest);
+  const double interference = level - patch.deepest_gap;
   caps.height = lower_height + upper_height;
   double curvature = capCurvature(caps.base_radius, lower_height) + capCurvature(caps.base_radius, upper_height);
   if (caps.height <= kLowestHeightShare * interference || caps.height <= 0.0) {

@@ -16,8 +16,8 @@ bool isDeeper(const GapField& field, int cell, int other) {
 void BoundarySums::addEdge(const GapField& field, int row, int col, int neighbour_row, int neighbour_col, int sign) {
   const int cell = row * field.cols() + col;
   const int neighbour = neighbour_row * field.cols() + neighbour_col;
-  const std::int64_t edge_x = col + neighbour_col;
-  const std::int64_t edge_y = row + neighbour_row;
+  const double edge_x = col + neighbour_col;
+  const double edge_y = row + neighbour_row;
   count += sign;
   x += sign * edge_x;
   y += sign * edge_y;
@@ -26,13 +26,44 @@ void BoundarySums::addEdge(const GapField& field, int row, int col, int neighbou
   yy += sign * edge_y * edge_y;
   const double edge_gap = sign * 0.5 * (field.gap(cell) + field.gap(neighbour));
   gap += edge_gap;
-  x_gap += static_cast<double>(edge_x) * edge_gap;
-  y_gap += static_cast<double>(edge_y) * edge_gap;
+  x_gap += edge_x * edge_gap;
+  y_gap += edge_y * edge_gap;
   if (field.upperIsFlat()) return;  // the lower surface is then the gap, turned over
   const double edge_lower = sign * 0.5 * (field.lowerHeight(cell) + field.lowerHeight(neighbour));
   lower += edge_lower;
-  x_lower += static_cast<double>(edge_x) * edge_lower;
-  y_lower += static_cast<double>(edge_y) * edge_lower;
+  x_lower += edge_x * edge_lower;
+  y_lower += edge_y * edge_lower;
+}
+
+void BoundarySums::addEdges(const GapField& field, int row, int col, const int (&neighbours)[4],
+                            const int (&signs)[4]) {
+  const int cell = row * field.cols() + col;
+  // all edges are half a pixel pitch, one unit, from the cell's centre: their sums follow from few products
+  const double center_x = 2 * col;
+  const double center_y = 2 * row;
+  const double total = signs[kLeft] + signs[kRight] + signs[kTop] + signs[kBottom];
+  const double horizontal = signs[kRight] - signs[kLeft];
+  const double vertical = signs[kBottom] - signs[kTop];
+  count += total;
+  x += total * center_x + horizontal;
+  y += total * center_y + vertical;
+  xx += (total * center_x + 2 * horizontal) * center_x + signs[kLeft] + signs[kRight];
+  yy += (total * center_y + 2 * vertical) * center_y + signs[kTop] + signs[kBottom];
+  xy += total * center_x * center_y + horizontal * center_y + vertical * center_x;
+
+  const auto sums = [&](auto&& value, double& sum, double& x_sum, double& y_sum) {
+    double edges[4];
+    for (int side = 0; side < 4; ++side) {
+      edges[side] = signs[side] == 0 ? 0.0 : signs[side] * 0.5 * (value(cell) + value(neighbours[side]));
+    }
+    const double edge_sum = edges[kLeft] + edges[kRight] + edges[kTop] + edges[kBottom];
+    sum += edge_sum;
+    x_sum += center_x * edge_sum + (edges[kRight] - edges[kLeft]);
+    y_sum += center_y * edge_sum + (edges[kBottom] - edges[kTop]);
+  };
+  sums([&](int index) { return field.gap(index); }, gap, x_gap, y_gap);
+  if (field.upperIsFlat()) return;  // the lower surface is then the gap, turned over
+  sums([&](int index) { return field.lowerHeight(index); }, lower, x_lower, y_lower);
 }
 
 BoundarySums& BoundarySums::operator+=(const BoundarySums& other) {
@@ -51,15 +82,33 @@ BoundarySums& BoundarySums::operator+=(const BoundarySums& other) {
   return *this;
 }
 
-ContactPatch ContactPatch::ofCell(const GapField& field, int cell) {
+ContactPatch ContactPatch::ofCell(std::int32_t cell, std::int32_t row, std::int32_t col, double gap) {
   ContactPatch patch;
   patch.area = 1;
-  patch.min_col = patch.max_col = cell % field.cols();
-  patch.min_row = patch.max_row = cell / field.cols();
+  patch.min_col = patch.max_col = col;
+  patch.min_row = patch.max_row = row;
   for (std::int32_t& extreme_cell : patch.extreme) extreme_cell = cell;
   patch.deepest = cell;
-  patch.latest_gap = field.gap(cell);
+  patch.deepest_gap = patch.latest_gap = gap;
   return patch;
+}
+
+void ContactPatch::addCell(const GapField& field, std::int32_t cell, std::int32_t row, std::int32_t col, double gap) {
+  const auto extend = [&](Side side, std::int32_t& bound, std::int32_t place, bool is_further) {
+    if (!is_further && (place != bound || !isDeeper(field, cell, extreme[side]))) return;
+    bound = place;
+    extreme[side] = cell;
+  };
+  extend(kLeft, min_col, col, col < min_col);
+  extend(kRight, max_col, col, col > max_col);
+  extend(kTop, min_row, row, row < min_row);
+  extend(kBottom, max_row, row, row > max_row);
+  if (gap < deepest_gap || (gap == deepest_gap && cell < deepest)) {
+    deepest = cell;
+    deepest_gap = gap;
+  }
+  latest_gap = std::max(latest_gap, gap);
+  ++area;
 }
 
 void ContactPatch::merge(const GapField& field, const ContactPatch& other) {
@@ -73,7 +122,10 @@ void ContactPatch::merge(const GapField& field, const ContactPatch& other) {
   mergeSide(kRight, max_col, other.max_col, other.max_col > max_col);
   mergeSide(kTop, min_row, other.min_row, other.min_row < min_row);
   mergeSide(kBottom, max_row, other.max_row, other.max_row > max_row);
-  if (isDeeper(field, other.deepest, deepest)) deepest = other.deepest;
+  if (isDeeper(field, other.deepest, deepest)) {
+    deepest = other.deepest;
+    deepest_gap = other.deepest_gap;
+  }
   area += other.area;
   latest_gap = std::max(latest_gap, other.latest_gap);
   boundary += other.boundary;

@@ -9,9 +9,9 @@ namespace {
 constexpr int kMaxBuckets = 1 << 16;
 constexpr int kMinBuckets = 1 << 6;
 constexpr int kCellsPerBucket = 8;
-/// Buckets beyond the contact limit that are sorted too, so that the nearest cells out of contact can be summed
-/// directly.
-constexpr int kBucketsBeyondLimit = 64;
+/// Buckets beyond the contact limit that are ordered too: cells near the contact are summed one by one, and the wider
+/// buckets of the tail start where their width is small against the gap.
+constexpr int kBucketsBeyondLimit = 16 * GapOrder::kBucketsPerTailBucket;
 
 int bucketCountFor(int valid_cells) {
   int count = kMinBuckets;
@@ -19,86 +19,207 @@ int bucketCountFor(int valid_cells) {
   return count;
 }
 
+int roundedUp(int value, int multiple) { return (value + multiple - 1) / multiple * multiple; }
+
 bool comesFirst(const OrderedCell& a, const OrderedCell& b) {
   return a.gap < b.gap || (a.gap == b.gap && a.cell < b.cell);
 }
 
-}  // namespace
-
-int GapOrder::bucketOf(double gap) const {
-  return std::min(static_cast<int>(gap * inverse_width_), static_cast<int>(buckets_.size()) - 1);
+void addGaps(GapMoments& moments, double count, double excess) {
+  moments.count += count;
+  moments.mean += count * excess;
+  moments.variance += count * excess * excess;
 }
 
-void GapOrder::build(const GapField& field, double max_contact_fraction) {
-  const int bucket_count = bucketCountFor(field.validCount());
-  // a frame without relief has one bucket of any width; a denormal range would overflow the inverse
-  bucket_width_ = std::max(field.largestGap(), 1e-200) / bucket_count;
-  inverse_width_ = 1.0 / bucket_width_;
-  buckets_.assign(static_cast<std::size_t>(bucket_count), GapMoments());
-  bucket_end_.assign(static_cast<std::size_t>(bucket_count), 0);
+/// Sums of gaps about the bucket's lower end become moments; no digits are lost to the size of the gap.
+void finishMoments(GapMoments& moments, double lower_end) {
+  if (moments.count == 0.0) return;
+  const double mean_excess = moments.mean / moments.count;
+  moments.variance = std::max(0.0, moments.variance / moments.count - mean_excess * mean_excess);
+  moments.mean = lower_end + mean_excess;
+}
 
-  // moments about the bucket's lower end: no digits are lost to the size of the gap
-  for (const double gap : field.gaps()) {
-    if (gap == GapField::kInvalidGap) continue;
-    const int bucket = bucketOf(gap);
-    GapMoments& moments = buckets_[static_cast<std::size_t>(bucket)];
-    const double excess = gap - bucket * bucket_width_;
-    moments.count += 1.0;
-    moments.mean += excess;
-    moments.variance += excess * excess;
-  }
-  int total = 0;
-  for (int bucket = 0; bucket < bucket_count; ++bucket) {
-    GapMoments& moments = buckets_[static_cast<std::size_t>(bucket)];
-    total += static_cast<int>(moments.count);
-    bucket_end_[static_cast<std::size_t>(bucket)] = total;
-    if (moments.count == 0.0) continue;
-    const double mean_excess = moments.mean / moments.count;
-    moments.variance = std::max(0.0, moments.variance / moments.count - mean_excess * mean_excess);
-    moments.mean = bucket * bucket_width_ + mean_excess;
-  }
+}  // namespace
 
+void GapOrder::build(const GapField& field, double max_contact_fraction, double step) {
+  chooseBuckets(field, step);
+  countGaps(field);
   const int wanted =
       std::clamp(static_cast<int>(std::ceil(max_contact_fraction * field.validCount())), 1, field.validCount());
-  const int limit_bucket =
-      static_cast<int>(std::lower_bound(bucket_end_.begin(), bucket_end_.end(), wanted) - bucket_end_.begin());
-  ordered_buckets_ = std::min(limit_bucket + 1 + kBucketsBeyondLimit, bucket_count);
+  chooseOrderedBuckets(wanted);
+  measureTail();
+  collectCells(field);
+  measureGroups();
+  findContactLimit(wanted);
+}
 
-  cells_.resize(static_cast<std::size_t>(bucket_end_[static_cast<std::size_t>(ordered_buckets_ - 1)]));
-  for (int bucket = ordered_buckets_ - 1; bucket > 0; --bucket) {  // ends become starts, and ends again while filling
-    bucket_end_[static_cast<std::size_t>(bucket)] = bucket_end_[static_cast<std::size_t>(bucket - 1)];
+void GapOrder::chooseBuckets(const GapField& field, double step) {
+  const int wanted_buckets = bucketCountFor(field.validCount());
+  // a frame without relief has one bucket of any width; a denormal range would overflow the inverse
+  const double range = std::max(field.largestGap(), 1e-200);
+  const double steps = step > 0.0 ? std::floor(range / step) + 1.0 : kMaxBuckets + 1.0;
+  groups_are_steps_ = steps <= kMaxBuckets;
+  group_shift_ = 0;
+  if (groups_are_steps_) {
+    while (std::ldexp(steps, group_shift_ + 1) <= wanted_buckets) ++group_shift_;
+    group_width_ = step;
+    bucket_width_ = std::ldexp(step, -group_shift_);
+    bucket_count_ = static_cast<int>(std::ldexp(steps, group_shift_));
+  } else {
+    group_width_ = bucket_width_ = range / wanted_buckets;
+    bucket_count_ = wanted_buckets;
   }
-  bucket_end_[0] = 0;
-  const std::vector<double>& gaps = field.gaps();
-  for (std::size_t cell = 0; cell < gaps.size(); ++cell) {
-    if (gaps[cell] == GapField::kInvalidGap) continue;
-    const int bucket = bucketOf(gaps[cell]);
-    if (bucket >= ordered_buckets_) continue;
-    const std::int32_t place = bucket_end_[static_cast<std::size_t>(bucket)]++;
-    cells_[static_cast<std::size_t>(place)] = {gaps[cell], static_cast<std::int32_t>(cell)};
+  bucket_count_ = roundedUp(bucket_count_, std::max(kBucketsPerTailBucket, 1 << group_shift_));
+  inverse_width_ = 1.0 / bucket_width_;
+}
+
+void GapOrder::countGaps(const GapField& field) {
+  bucket_count_of_.assign(static_cast<std::size_t>(bucket_count_), 0);
+  const double last = bucket_count_ - 1;
+  std::int32_t* count = bucket_count_of_.data();
+  for (const double gap : field.gaps()) ++count[static_cast<int>(std::min(gap * inverse_width_, last))];
+  bucket_count_of_.back() -= field.cellCount() - field.validCount();  // infinite gaps were counted there
+}
+
+void GapOrder::chooseOrderedBuckets(int wanted) {
+  int total = 0;
+  int bucket = 0;
+  while (total < wanted) total += bucket_count_of_[static_cast<std::size_t>(bucket++)];
+  ordered_buckets_ = std::min(
+      roundedUp(bucket + kBucketsBeyondLimit, std::max(kBucketsPerTailBucket, 1 << group_shift_)), bucket_count_);
+}
+
+void GapOrder::measureTail() {
+  tail_moments_.assign(static_cast<std::size_t>((bucket_count_ - ordered_buckets_) / kBucketsPerTailBucket), {});
+  int bucket = ordered_buckets_;
+  for (GapMoments& moments : tail_moments_) {
+    const double lower_end = bucket * bucket_width_;
+    for (int i = 0; i < kBucketsPerTailBucket; ++i, ++bucket) {
+      addGaps(moments, bucket_count_of_[static_cast<std::size_t>(bucket)], (i + 0.5) * bucket_width_);
+    }
+    finishMoments(moments, lower_end);
   }
+}
+
+void GapOrder::collectCells(const GapField& field) {
+  group_end_.assign(static_cast<std::size_t>(ordered_buckets_ >> group_shift_), 0);
+  is_sorted_.assign(group_end_.size(), 0);
   int start = 0;
   for (int bucket = 0; bucket < ordered_buckets_; ++bucket) {
-    const int end = bucket_end_[static_cast<std::size_t>(bucket)];
-    if (end - start > 1) std::sort(cells_.begin() + start, cells_.begin() + end, comesFirst);
-    start = end;
+    std::int32_t& place = group_end_[static_cast<std::size_t>(bucket >> group_shift_)];
+    if (bucket >> group_shift_ << group_shift_ == bucket) place = start;  // becomes the group's end while it is filled
+    start += bucket_count_of_[static_cast<std::size_t>(bucket)];
   }
+  cells_.resize(static_cast<std::size_t>(start));
 
+  // which cells come in is random along a row: written without a branch, then put into their groups
+  const auto cols = static_cast<std::size_t>(field.cols());
+  near_cells_.resize(cols);
+  const double last = bucket_count_ - 1;
+  const double bound = ordered_buckets_ < bucket_count_ ? ordered_buckets_ : GapField::kInvalidGap;
+  const double* gap = field.gaps().data();
+  for (std::int32_t row = 0; row < field.rows(); ++row, gap += cols) {
+    std::size_t near_count = 0;
+    for (std::size_t col = 0; col < cols; ++col) {
+      near_cells_[near_count] = static_cast<std::int32_t>(col);
+      near_count += gap[col] * inverse_width_ < bound ? 1 : 0;
+    }
+    for (std::size_t i = 0; i < near_count; ++i) {
+      const std::int32_t col = near_cells_[i];
+      const double cell_gap = gap[col];
+      const int group = static_cast<int>(std::min(cell_gap * inverse_width_, last)) >> group_shift_;
+      const std::int32_t place = group_end_[static_cast<std::size_t>(group)]++;
+      cells_[static_cast<std::size_t>(place)] = {cell_gap, row * field.cols() + col, row};
+    }
+  }
+}
+
+void GapOrder::measureGroups() {
+  ordered_moments_.assign(static_cast<std::size_t>(ordered_buckets_), {});
+  const double last = bucket_count_ - 1;
+  double largest_before = -1.0;
+  int place = 0;
+  for (int group = 0; group < static_cast<int>(group_end_.size()); ++group) {
+    double smallest = GapField::kInvalidGap;
+    double largest = largest_before;
+    for (; place < group_end_[static_cast<std::size_t>(group)]; ++place) {
+      const double gap = cells_[static_cast<std::size_t>(place)].gap;
+      const int bucket = static_cast<int>(std::min(gap * inverse_width_, last));
+      addGaps(ordered_moments_[static_cast<std::size_t>(bucket)], 1.0, gap - bucket * bucket_width_);
+      smallest = std::min(smallest, gap);
+      largest = std::max(largest, gap);
+    }
+    const double boundary = group * group_width_;
+    if (group > 0 && groups_are_steps_ && (largest_before >= boundary || smallest < boundary)) mendBoundary(group);
+    largest_before = largest;
+  }
+  for (int bucket = 0; bucket < ordered_buckets_; ++bucket) {
+    finishMoments(ordered_moments_[static_cast<std::size_t>(bucket)], bucket * bucket_width_);
+  }
+}
+
+/// The bucket of a gap that is a whole number of steps is a matter of rounding; a step takes what is below its
+/// approach.
+void GapOrder::mendBoundary(int group) {
+  const double boundary = group * group_width_;
+  const auto begin = cells_.begin() + groupStart(group - 1);
+  const auto end = cells_.begin() + group_end_[static_cast<std::size_t>(group)];
+  const auto first_apart =
+      std::stable_partition(begin, end, [boundary](const OrderedCell& cell) { return cell.gap < boundary; });
+  group_end_[static_cast<std::size_t>(group - 1)] = static_cast<std::int32_t>(first_apart - cells_.begin());
+}
+
+void GapOrder::sortGroup(int group) {
+  std::uint8_t& is_sorted = is_sorted_[static_cast<std::size_t>(group)];
+  if (is_sorted != 0) return;
+  std::sort(cells_.begin() + groupStart(group), cells_.begin() + group_end_[static_cast<std::size_t>(group)],
+            comesFirst);
+  is_sorted = 1;
+}
+
+void GapOrder::findContactLimit(int wanted) {
+  const auto limit_group =
+      static_cast<int>(std::lower_bound(group_end_.begin(), group_end_.end(), wanted) - group_end_.begin());
+  sortGroup(limit_group);
   contact_limit_ = wanted;
-  while (contact_limit_ < static_cast<int>(cells_.size()) &&
-         cells_[static_cast<std::size_t>(contact_limit_)].gap == cells_[static_cast<std::size_t>(wanted - 1)].gap) {
+  const double limit_gap = cells_[static_cast<std::size_t>(wanted - 1)].gap;
+  while (contact_limit_ < group_end_[static_cast<std::size_t>(limit_group)] &&
+         cells_[static_cast<std::size_t>(contact_limit_)].gap == limit_gap) {
     ++contact_limit_;
   }
 }
 
-int GapOrder::countBelow(double approach) const {
-  const auto first_apart = std::partition_point(cells_.begin(), cells_.end(),
+int GapOrder::countBelow(double approach) {
+  const auto group_count = static_cast<int>(group_end_.size());
+  if (approach >= group_count * group_width_ && ordered_buckets_ < bucket_count_) {
+    return static_cast<int>(cells_.size());
+  }
+  const double group_of_approach = std::min<double>(std::round(approach / group_width_), group_count);
+  if (groups_are_steps_ && group_of_approach * group_width_ == approach) {
+    return groupStart(static_cast<int>(group_of_approach));
+  }
+  const int group = std::min(static_cast<int>(std::min(approach * inverse_width_, bucket_count_ - 1.0)) >> group_shift_,
+                             group_count - 1);
+  sortGroup(group);
+  const auto begin = cells_.begin() + groupStart(group);
+  const auto first_apart = std::partition_point(begin, cells_.begin() + group_end_[static_cast<std::size_t>(group)],
                                                 [approach](const OrderedCell& cell) { return cell.gap < approach; });
   return static_cast<int>(first_apart - cells_.begin());
 }
 
-int GapOrder::endOfBucket(int bucket) const {
-  return bucket < ordered_buckets_ ? bucket_end_[static_cast<std::size_t>(bucket)] : static_cast<int>(cells_.size());
+void GapOrder::sortBetween(int begin, int end) {
+  const auto first_past = std::upper_bound(group_end_.begin(), group_end_.end(), begin);
+  for (auto group = static_cast<int>(first_past - group_end_.begin()); group < static_cast<int>(group_end_.size());
+       ++group) {
+    if (groupStart(group) >= end) break;
+    sortGroup(group);
+  }
 }
+
+int GapOrder::groupStartFrom(int bucket) const {
+  return std::min(roundedUp(bucket, 1 << group_shift_), ordered_buckets_);
+}
+
+int GapOrder::cellsBefore(int group_start_bucket) const { return groupStart(group_start_bucket >> group_shift_); }
 
 }  // namespace mems_stiction

@@ -1,33 +1,47 @@
 #include "mems_stiction/approach/patch_sweep.hpp"
 
 #include <algorithm>
-#include <array>
 
 namespace mems_stiction {
 namespace {
 
-struct Offset {
-  int row;
-  int col;
-};
-
-/// The four that share an edge first, then the diagonals.
-constexpr std::array<Offset, 8> kNeighbours = {{{0, -1}, {0, 1}, {-1, 0}, {1, 0}, {-1, -1}, {-1, 1}, {1, -1}, {1, 1}}};
-constexpr int kEdgeNeighbours = 4;
+constexpr std::int32_t kApart = -1;
+/// Invalid cells and the border around the frame.
+constexpr std::int32_t kNoCell = -2;
+/// How far ahead of the sweep memory is asked for: its order is random in the frame, but known.
+constexpr int kPrefetchDistance = 12;
 
 }  // namespace
+
+std::size_t PatchSweep::placeOf(std::int32_t cell, std::int32_t row) const {
+  return static_cast<std::size_t>(cell + stride_ + 1 + 2 * row);
+}
 
 void PatchSweep::begin(const GapField& field, const GapOrder& order, Connectivity connectivity) {
   field_ = &field;
   order_ = &order;
   connectivity_ = connectivity;
-  label_.resize(static_cast<std::size_t>(field.cellCount()));
+  stride_ = field.cols() + 2;
+  label_.assign(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(field.rows() + 2), kNoCell);
+  for (int row = 0; row < field.rows(); ++row) {
+    const auto line = label_.begin() + static_cast<std::ptrdiff_t>(placeOf(row * field.cols(), row));
+    std::fill(line, line + field.cols(), kApart);
+  }
+  if (field.validCount() < field.cellCount()) {
+    for (int cell = 0; cell < field.cellCount(); ++cell) {
+      if (!field.isValid(cell)) label_[placeOf(cell, cell / field.cols())] = kNoCell;
+    }
+  }
+  inserted_ = 0;
   restart();
 }
 
 void PatchSweep::restart() {
+  for (int i = 0; i < inserted_; ++i) {
+    const OrderedCell& cell = order_->cells()[static_cast<std::size_t>(i)];
+    label_[placeOf(cell.cell, cell.row)] = kApart;
+  }
   inserted_ = 0;
-  std::fill(label_.begin(), label_.end(), -1);
   parent_.clear();
   patches_.clear();
   live_.clear();
@@ -36,9 +50,25 @@ void PatchSweep::restart() {
   is_changed_.clear();
 }
 
+void PatchSweep::prefetch(const OrderedCell& cell) const {
+  const std::int32_t* label = label_.data() + placeOf(cell.cell, cell.row);
+  __builtin_prefetch(label - stride_);
+  __builtin_prefetch(label, 1);
+  __builtin_prefetch(label + stride_);
+  const double* gap = field_->gaps().data() + cell.cell;
+  __builtin_prefetch(gap - field_->cols());
+  __builtin_prefetch(gap);
+  __builtin_prefetch(gap + field_->cols());
+}
+
 void PatchSweep::advanceTo(int count) {
   if (count < inserted_) restart();
-  for (; inserted_ < count; ++inserted_) insert(order_->cells()[static_cast<std::size_t>(inserted_)].cell);
+  const std::vector<OrderedCell>& cells = order_->cells();
+  const auto ahead_end = static_cast<int>(cells.size()) - kPrefetchDistance;
+  for (; inserted_ < count; ++inserted_) {
+    if (inserted_ < ahead_end) prefetch(cells[static_cast<std::size_t>(inserted_ + kPrefetchDistance)]);
+    insert(cells[static_cast<std::size_t>(inserted_)]);
+  }
 }
 
 std::int32_t PatchSweep::root(std::int32_t id) {
@@ -51,7 +81,7 @@ std::int32_t PatchSweep::root(std::int32_t id) {
 }
 
 std::int32_t PatchSweep::patchOf(int cell) {
-  const std::int32_t label = label_[static_cast<std::size_t>(cell)];
+  const std::int32_t label = label_[placeOf(cell, cell / field_->cols())];
   return label < 0 ? -1 : root(label);
 }
 
@@ -71,9 +101,9 @@ const std::vector<std::int32_t>& PatchSweep::takeChangedPatches() {
   return changed_live_;
 }
 
-std::int32_t PatchSweep::addPatch(int cell) {
+std::int32_t PatchSweep::addPatch(const ContactPatch& patch) {
   const auto id = static_cast<std::int32_t>(patches_.size());
-  patches_.push_back(ContactPatch::ofCell(*field_, cell));
+  patches_.push_back(patch);
   parent_.push_back(id);
   live_place_.push_back(static_cast<std::int32_t>(live_.size()));
   live_.push_back(id);
@@ -89,42 +119,45 @@ std::int32_t PatchSweep::unite(std::int32_t a, std::int32_t b) {
   live_[static_cast<std::size_t>(place)] = live_.back();
   live_place_[static_cast<std::size_t>(live_.back())] = place;
   live_.pop_back();
+  if (place < static_cast<std::int32_t>(live_.size())) markChanged(live_[static_cast<std::size_t>(place)]);
   return a;
 }
 
-void PatchSweep::insert(int cell) {
-  const int cols = field_->cols();
-  const int rows = field_->rows();
-  const int row = cell / cols;
-  const int col = cell % cols;
-  const std::size_t reach = connectivity_ == Connectivity::kEight ? kNeighbours.size() : kEdgeNeighbours;
-
+template <int kReach>
+std::int32_t PatchSweep::uniteNeighbours(std::size_t place) {
+  const std::ptrdiff_t offsets[8] = {-1, 1, -stride_, stride_, -stride_ - 1, 1 - stride_, stride_ - 1, stride_ + 1};
   std::int32_t id = -1;
-  for (std::size_t k = 0; k < reach; ++k) {
-    const int neighbour_row = row + kNeighbours[k].row;
-    const int neighbour_col = col + kNeighbours[k].col;
-    if (neighbour_row < 0 || neighbour_row >= rows || neighbour_col < 0 || neighbour_col >= cols) continue;
-    const std::int32_t neighbour_patch = patchOf(neighbour_row * cols + neighbour_col);
-    if (neighbour_patch < 0 || neighbour_patch == id) continue;
+  for (int k = 0; k < kReach; ++k) {
+    const std::int32_t label = label_[place + static_cast<std::size_t>(offsets[k])];
+    if (label < 0 || label == id) continue;
+    const std::int32_t neighbour_patch = root(label);
+    if (neighbour_patch == id) continue;
     id = id < 0 ? neighbour_patch : unite(id, neighbour_patch);
   }
-  if (id < 0) {
-    id = addPatch(cell);
-  } else {
-    patches_[static_cast<std::size_t>(id)].merge(*field_, ContactPatch::ofCell(*field_, cell));
-  }
-  label_[static_cast<std::size_t>(cell)] = id;
+  return id;
+}
 
-  BoundarySums& boundary = patches_[static_cast<std::size_t>(id)].boundary;
-  for (std::size_t k = 0; k < kEdgeNeighbours; ++k) {
-    const int neighbour_row = row + kNeighbours[k].row;
-    const int neighbour_col = col + kNeighbours[k].col;
-    if (neighbour_row < 0 || neighbour_row >= rows || neighbour_col < 0 || neighbour_col >= cols) continue;
-    const int neighbour = neighbour_row * cols + neighbour_col;
-    if (!field_->isValid(neighbour)) continue;
-    const bool was_outside = label_[static_cast<std::size_t>(neighbour)] < 0;
-    boundary.addEdge(*field_, row, col, neighbour_row, neighbour_col, was_outside ? 1 : -1);
+void PatchSweep::insert(const OrderedCell& cell) {
+  const int cols = field_->cols();
+  const std::int32_t col = cell.cell - cell.row * cols;
+  const std::size_t place = placeOf(cell.cell, cell.row);
+  std::int32_t id = connectivity_ == Connectivity::kEight ? uniteNeighbours<8>(place) : uniteNeighbours<4>(place);
+  if (id < 0) {
+    id = addPatch(ContactPatch::ofCell(cell.cell, cell.row, col, cell.gap));
+  } else {
+    patches_[static_cast<std::size_t>(id)].addCell(*field_, cell.cell, cell.row, col, cell.gap);
   }
+  label_[place] = id;
+
+  // an edge to a cell in contact was counted from its other side, and is inside now
+  const auto edgeSign = [this](std::size_t neighbour) {
+    const std::int32_t label = label_[neighbour];
+    return label == kNoCell ? 0 : (label == kApart ? 1 : -1);
+  };
+  const auto stride = static_cast<std::size_t>(stride_);
+  const int signs[4] = {edgeSign(place - 1), edgeSign(place + 1), edgeSign(place - stride), edgeSign(place + stride)};
+  const int neighbours[4] = {cell.cell - 1, cell.cell + 1, cell.cell - cols, cell.cell + cols};
+  patches_[static_cast<std::size_t>(id)].boundary.addEdges(*field_, cell.row, col, neighbours, signs);
   markChanged(id);
 }
 

@@ -14,8 +14,8 @@ double approachStep(const ApproachOptions& options, double composite_rms_height,
   return step > 0.0 ? step : cutoff_distance;
 }
 
-EquilibriumState ApproachSearch::run(const GapField& field, const GapOrder& order, Connectivity connectivity,
-                                     const SearchSetting& setting) {
+void ApproachSearch::run(const GapField& field, GapOrder& order, Connectivity connectivity,
+                         const SearchSetting& setting, EquilibriumState& state) {
   field_ = &field;
   order_ = &order;
   setting_ = &setting;
@@ -23,7 +23,11 @@ EquilibriumState ApproachSearch::run(const GapField& field, const GapOrder& orde
   loads_.prepare(order);
 
   const double limit_gap = order.cells()[static_cast<std::size_t>(order.contactLimit() - 1)].gap;
-  EquilibriumState state;
+  state.approach = 0.0;
+  state.contact_count = 0;
+  state.steps = 0;
+  state.plastic_work = 0.0;
+  state.curve.clear();
   while (state.steps < setting.max_steps) {
     ++state.steps;
     const int previous_count = state.contact_count;
@@ -36,41 +40,47 @@ EquilibriumState ApproachSearch::run(const GapField& field, const GapOrder& orde
       contact_count = order.contactLimit();
     }
     moveTo(approach, contact_count, state);
-    const bool is_equilibrium = state.balance.isEquilibrium();
+    const bool is_equilibrium = state.balance.is_equilibrium;
     if (is_equilibrium) refine(previous_count, state);
     state.plastic_work += state.balance.plastic_force * (state.approach - previous_approach);
     if (setting.keep_curve) record(state);
     if (is_equilibrium) {
       state.status = Status::kEquilibrium;
-      return state;
+      return;
     }
     if (reaches_limit) {
-      state.status = Status::kBonded;
-      return state;
+      state.status = nothingResists() ? Status::kNoEquilibrium : Status::kBonded;
+      return;
     }
   }
   state.status = Status::kNoEquilibrium;
-  return state;
 }
 
 void ApproachSearch::moveTo(double approach, int contact_count, EquilibriumState& state) {
   sweep_.advanceTo(contact_count);
-  caps_.resize(static_cast<std::size_t>(sweep_.patchIdEnd()));
+  caps_.resize(sweep_.livePatches().size());
   responses_.resize(caps_.size());
   for (const std::int32_t id : sweep_.takeChangedPatches()) {
     const ContactPatch& patch = sweep_.patch(id);
     const bool centre_is_inside = sweep_.patchOf(boxCentre(patch, *field_)) == id;
-    const auto place = static_cast<std::size_t>(id);
+    const auto place = static_cast<std::size_t>(sweep_.livePlace(id));
     caps_[place] = capCouple(patch, *field_, centre_is_inside, setting_->smallest_height);
     responses_[place] = AsperityResponse(caps_[place], setting_->law);
   }
   state.approach = approach;
   state.contact_count = contact_count;
   state.load = loads_.at(approach, contact_count, setting_->forces, setting_->mechanical_load);
-  state.balance = forceBalance(responses_, sweep_.livePatches(), state.load.total(), setting_->law);
+  state.balance = forceBalance(responses_, state.load.total(), setting_->law);
+}
+
+bool ApproachSearch::nothingResists() const {
+  if (setting_->law.formulation != Formulation::kPrinted) return false;
+  return std::all_of(responses_.begin(), responses_.end(),
+                     [](const AsperityResponse& asperity) { return asperity.elastic_share == 0.0; });
 }
 
 void ApproachSearch::refine(int previous_count, EquilibriumState& state) {
+  order_->sortBetween(previous_count, state.contact_count);
   const std::vector<OrderedCell>& cells = order_->cells();
   level_ends_.clear();
   for (int i = previous_count; i < state.contact_count; ++i) {
@@ -78,24 +88,25 @@ void ApproachSearch::refine(int previous_count, EquilibriumState& state) {
                                   cells[static_cast<std::size_t>(i + 1)].gap != cells[static_cast<std::size_t>(i)].gap;
     if (is_last_of_level) level_ends_.push_back(i + 1);
   }
-  const EquilibriumState step_end = state;
+  const double step_end_approach = state.approach;
+  const int step_end_count = state.contact_count;
   const auto level_count = static_cast<int>(level_ends_.size());
   const int level = firstLevelThat(level_count, [&](int candidate) {
     const std::int32_t end = level_ends_[static_cast<std::size_t>(candidate)];
     moveTo(cells[static_cast<std::size_t>(end - 1)].gap, end, state);
-    return state.balance.isEquilibrium();
+    return state.balance.is_equilibrium;
   });
-  if (level == level_count) moveTo(step_end.approach, step_end.contact_count, state);
+  if (level == level_count) moveTo(step_end_approach, step_end_count, state);
 }
 
 void ApproachSearch::record(EquilibriumState& state) const {
-  const Energies energies = totalEnergies(responses_, sweep_.livePatches(), state.balance, setting_->law);
+  const Energies energies = totalEnergies(responses_, state.balance, setting_->law);
   EnergyPoint point;
   point.approach = state.approach;
   point.contact_fraction = static_cast<double>(state.contact_count) / field_->validCount();
   point.normal_load = state.balance.normal_load;
   point.carried_load = state.balance.carried_load;
-  point.generalized_force = state.balance.generalized_force;
+  point.generalized_force = generalizedForce(responses_, state.balance, setting_->law);
   point.mechanical_energy = energies.mechanical;
   point.surface_energy = energies.surface;
   point.elastic_energy = energies.elastic;

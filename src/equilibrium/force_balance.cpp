@@ -1,34 +1,41 @@
 #include "mems_stiction/equilibrium/force_balance.hpp"
 
 namespace mems_stiction {
+namespace {
 
-ForceBalance forceBalance(const std::vector<AsperityResponse>& responses, const std::vector<std::int32_t>& patches,
-                          double normal_load, const AsperityLaw& law) {
+double axialLoad(const AsperityResponse& asperity, const ForceBalance& balance) {
+  return balance.load_share * asperity.volume * asperity.cos_tilt;
+}
+
+}  // namespace
+
+ForceBalance forceBalance(const std::vector<AsperityResponse>& responses, double normal_load, const AsperityLaw& law) {
   ForceBalance balance;
   balance.normal_load = normal_load;
   double volume = 0.0;
-  for (const std::int32_t id : patches) {
-    const AsperityResponse& asperity = responses[static_cast<std::size_t>(id)];
+  for (const AsperityResponse& asperity : responses) {
     volume += asperity.volume;
     balance.carried_load += asperity.carriedLoad();
     balance.plastic_force += (1.0 - asperity.elastic_share) * asperity.yield_load;
   }
   balance.load_share = normal_load / volume;
-  for (const std::int32_t id : patches) {
-    const AsperityResponse& asperity = responses[static_cast<std::size_t>(id)];
-    balance.generalized_force +=
-        asperity.generalizedForce(balance.load_share * asperity.volume * asperity.cos_tilt, law);
-  }
+  balance.is_equilibrium = balance.carried_load >= normal_load && generalizedForce(responses, balance, law) <= 0.0;
   return balance;
 }
 
-Energies totalEnergies(const std::vector<AsperityResponse>& responses, const std::vector<std::int32_t>& patches,
-                       const ForceBalance& balance, const AsperityLaw& law) {
+double generalizedForce(const std::vector<AsperityResponse>& responses, const ForceBalance& balance,
+                        const AsperityLaw& law) {
+  double sum = 0.0;
+  for (const AsperityResponse& asperity : responses)
+    sum += asperity.generalizedForce(axialLoad(asperity, balance), law);
+  return sum;
+}
+
+Energies totalEnergies(const std::vector<AsperityResponse>& responses, const ForceBalance& balance,
+                       const AsperityLaw& law) {
   Energies sum;
-  for (const std::int32_t id : patches) {
-    const AsperityResponse& asperity = responses[static_cast<std::size_t>(id)];
-    sum += asperityEnergies(asperity, balance.load_share * asperity.volume * asperity.cos_tilt, law);
-  }
+  for (const AsperityResponse& asperity : responses)
+    sum += asperityEnergies(asperity, axialLoad(asperity, balance), law);
   return sum;
 }
 

@@ -29,6 +29,10 @@ HeightStatistics statisticsOf(const cv::Mat& heights) {
   }
   if (statistics.valid_count == 0) throw SurfaceError("the height map has no valid pixel");
   statistics.mean = sum / statistics.valid_count;
+  if (statistics.min == statistics.max) {  // no relief, whatever the rounding of the mean
+    statistics.mean = statistics.min;
+    return statistics;
+  }
 
   double squares = 0.0;
   for (int row = 0; row < heights.rows; ++row) {

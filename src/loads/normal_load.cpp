@@ -9,9 +9,11 @@ namespace mems_stiction {
 namespace {
 
 /// A bucket may stand for its cells when its gap is at least this many times its width.
-constexpr double kGapsPerWidth = 16.0;
+constexpr double kGapsPerWidth = 12.0;
 /// Buckets next to the contact whose cells are summed one by one: enough for the Taylor series beyond, and, while they
 /// are wide, as many as reach the cut-off, where the integrand has a kink.
+constexpr std::size_t kTailLevel = 4;
+static_assert(1 << kTailLevel == GapOrder::kBucketsPerTailBucket, "the tail's buckets are a level of the pyramid");
 constexpr double kFewestNearBuckets = kGapsPerWidth;
 constexpr double kMostNearBuckets = 64.0;
 
@@ -63,20 +65,25 @@ double CellForces::electrostatic(const GapMoments& gaps, double approach) const 
 
 void GapLoads::prepare(const GapOrder& order) {
   order_ = &order;
-  std::size_t level_count = 0;
-  while ((order.buckets().size() >> level_count) > 1) ++level_count;
+  std::size_t level_count = 1;
+  while ((order.bucketCount() >> level_count) > 0) ++level_count;
   levels_.resize(level_count);
-  for (std::size_t level = 0; level < level_count; ++level) {
-    const std::vector<GapMoments>& finer = level == 0 ? order.buckets() : levels_[level - 1];
+  levels_[0] = order.orderedMoments();
+  for (std::size_t level = 1; level < level_count; ++level) {
+    const std::vector<GapMoments>& finer = levels_[level - 1];
     std::vector<GapMoments>& coarser = levels_[level];
-    coarser.resize(finer.size() / 2);
-    for (std::size_t i = 0; i < coarser.size(); ++i) coarser[i] = merged(finer[2 * i], finer[2 * i + 1]);
+    coarser.resize((finer.size() + 1) / 2);
+    for (std::size_t i = 0; i < coarser.size(); ++i) {
+      coarser[i] = 2 * i + 1 < finer.size() ? merged(finer[2 * i], finer[2 * i + 1]) : finer[2 * i];
+    }
+    if (1 << level == GapOrder::kBucketsPerTailBucket) {
+      coarser.insert(coarser.end(), order.tailMoments().begin(), order.tailMoments().end());
+    }
   }
 }
 
 NormalLoad GapLoads::at(double approach, int contact_count, const CellForces& forces, double mechanical_load) const {
-  const std::vector<GapMoments>& buckets = order_->buckets();
-  const auto bucket_count = static_cast<int>(buckets.size());
+  const int bucket_count = order_->bucketCount();
   const double width = order_->bucketWidth();
   const std::vector<OrderedCell>& cells = order_->cells();
 
@@ -87,8 +94,10 @@ NormalLoad GapLoads::at(double approach, int contact_count, const CellForces& fo
   const double cutoff_in_widths = forces.cutoff() / width;
   const int near_buckets =
       static_cast<int>(std::ceil(std::clamp(cutoff_in_widths, kFewestNearBuckets, kMostNearBuckets)));
-  int bucket = std::min(static_cast<int>(approach / width) + 1 + near_buckets, order_->orderedBuckets());
-  const int near_end = bucket == 0 ? 0 : order_->endOfBucket(bucket - 1);
+  // a group is near as a whole: its cells are not in order
+  const double past_near = std::min<double>(approach / width + 1.0 + near_buckets, bucket_count);
+  int bucket = order_->groupStartFrom(static_cast<int>(past_near));
+  const int near_end = order_->cellsBefore(bucket);
   for (int i = contact_count; i < near_end; ++i) {
     const double gap = cells[static_cast<std::size_t>(i)].gap - approach;
     load.van_der_waals += forces.vanDerWaals(gap);
@@ -96,15 +105,14 @@ NormalLoad GapLoads::at(double approach, int contact_count, const CellForces& fo
   }
   while (bucket < bucket_count) {
     const double gap_in_widths = bucket - approach / width;
-    std::size_t level = 0;
-    while (level < levels_.size() && bucket % (2 << level) == 0) {
+    std::size_t level = bucket < order_->orderedBuckets() ? 0 : kTailLevel;
+    while (level + 1 < levels_.size() && bucket % (2 << level) == 0) {
       const double wider = 2 << level;
       const bool has_kink = gap_in_widths < cutoff_in_widths && cutoff_in_widths < gap_in_widths + wider;
       if (has_kink || gap_in_widths < kGapsPerWidth * wider) break;
       ++level;
     }
-    const GapMoments& gaps = level == 0 ? buckets[static_cast<std::size_t>(bucket)]
-                                        : levels_[level - 1][static_cast<std::size_t>(bucket >> level)];
+    const GapMoments& gaps = levels_[level][static_cast<std::size_t>(bucket >> level)];
     if (gaps.count > 0.0) {
       load.van_der_waals += forces.vanDerWaals(gaps, approach);
       load.electrostatic += forces.electrostatic(gaps, approach);

@@ -9,12 +9,28 @@
 #include "mems_stiction/prediction/surface_outputs.hpp"
 
 namespace mems_stiction {
+namespace {
+
+/// Every figure as in a new prediction; lists are empty and maps are there to be written over.
+void resetKeepingMemory(Prediction& prediction) {
+  Prediction fresh;
+  fresh.asperities.swap(prediction.asperities);
+  fresh.energy_curve.swap(prediction.energy_curve);
+  fresh.asperities.clear();
+  fresh.energy_curve.clear();
+  fresh.deformed_lower = std::move(prediction.deformed_lower);
+  fresh.deformed_upper = std::move(prediction.deformed_upper);
+  fresh.contact_map = std::move(prediction.contact_map);
+  prediction = std::move(fresh);
+}
+
+}  // namespace
 
 class AdhesionModel::Implementation {
  public:
   explicit Implementation(const Options& new_options) : options(new_options) { options.check(); }
 
-  Prediction predict(const HeightMap& lower, const HeightMap* upper);
+  void predict(const HeightMap& lower, const HeightMap* upper, Prediction& prediction);
 
   Options options;
 
@@ -22,44 +38,47 @@ class AdhesionModel::Implementation {
   GapField field_;
   GapOrder order_;
   ApproachSearch search_;
+  EquilibriumState state_;
+  std::vector<double> tabor_parameters_;
 };
 
-Prediction AdhesionModel::Implementation::predict(const HeightMap& lower, const HeightMap* upper) {
+void AdhesionModel::Implementation::predict(const HeightMap& lower, const HeightMap* upper, Prediction& prediction) {
   const auto start = std::chrono::steady_clock::now();
   if (upper != nullptr) {
     field_.compute(lower, *upper);
   } else {
     field_.compute(lower);
   }
-  order_.build(field_, options.approach.max_contact_fraction);
 
-  const double lower_rms_height = heightStatistics(lower).rms_height;
+  const double lower_rms_height = upper != nullptr ? heightStatistics(lower).rms_height : field_.rmsGap();
   const double upper_rms_height = upper != nullptr ? heightStatistics(*upper).rms_height : 0.0;
   const double composite_rms_height = std::hypot(lower_rms_height, upper_rms_height);
+
+  const double step = approachStep(options.approach, composite_rms_height, options.interface.cutoff_distance);
+  order_.build(field_, options.approach.max_contact_fraction, step);
 
   const ContactPair pair(options.lower, options.upper);
   const SearchSetting setting{
       AsperityLaw(pair, options.interface.work_of_adhesion, composite_rms_height, options.approach),
       CellForces(options.interface, options.load.voltage, field_.cellArea()),
       options.load.mechanical_load,
-      approachStep(options.approach, composite_rms_height, options.interface.cutoff_distance),
+      step,
       options.approach.max_steps,
       options.interface.cutoff_distance,
       options.output.energy_curve};
-  EquilibriumState state = search_.run(field_, order_, options.approach.connectivity, setting);
+  search_.run(field_, order_, options.approach.connectivity, setting, state_);
 
-  Prediction prediction;
+  resetKeepingMemory(prediction);
   prediction.voltage = options.load.voltage;
   prediction.mechanical_load = options.load.mechanical_load;
   prediction.composite_rms_height = composite_rms_height;
   prediction.rms_height = lower_rms_height;
   prediction.invalid_fraction = 1.0 - static_cast<double>(field_.validCount()) / field_.cellCount();
-  summarizeContact(lower, state, search_, field_, order_, setting.law, options, prediction);
+  summarizeContact(lower, state_, search_, field_, order_, setting.law, options, tabor_parameters_, prediction);
   if (options.output.roughness) prediction.roughness = arealParameters(lower);
-  fillSurfaceOutputs(lower, upper, state, search_, field_, order_, setting.law, options, prediction);
-  prediction.energy_curve = std::move(state.curve);
+  fillSurfaceOutputs(lower, upper, state_, search_, field_, order_, setting.law, options, prediction);
+  prediction.energy_curve.assign(state_.curve.begin(), state_.curve.end());
   prediction.processing_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return prediction;
 }
 
 AdhesionModel::AdhesionModel(const Options& options) : implementation_(std::make_unique<Implementation>(options)) {}
@@ -74,10 +93,24 @@ void AdhesionModel::setOptions(const Options& options) {
   implementation_->options = options;
 }
 
-Prediction AdhesionModel::predict(const HeightMap& lower) { return implementation_->predict(lower, nullptr); }
+Prediction AdhesionModel::predict(const HeightMap& lower) {
+  Prediction prediction;
+  predict(lower, prediction);
+  return prediction;
+}
 
 Prediction AdhesionModel::predict(const HeightMap& lower, const HeightMap& upper) {
-  return implementation_->predict(lower, &upper);
+  Prediction prediction;
+  predict(lower, upper, prediction);
+  return prediction;
+}
+
+void AdhesionModel::predict(const HeightMap& lower, Prediction& prediction) {
+  implementation_->predict(lower, nullptr, prediction);
+}
+
+void AdhesionModel::predict(const HeightMap& lower, const HeightMap& upper, Prediction& prediction) {
+  implementation_->predict(lower, &upper, prediction);
 }
 
 }  // namespace mems_stiction

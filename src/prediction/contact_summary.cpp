@@ -59,7 +59,7 @@ Asperity asperityAt(const ContactPatch& patch, const CapCouple& caps, const Aspe
   const double apparent_load =
       jkr::apparentLoad(asperity.load * caps.cos_tilt, law.work_of_adhesion, caps.composite_radius);
   asperity.contact_radius = jkr::contactRadius(apparent_load, caps.composite_radius, law.contact_modulus);
-  asperity.tilt = caps.tilt;
+  asperity.tilt = caps.tilt();
   asperity.plasticity_index = law.plasticityIndexOf(caps.composite_radius);
   asperity.tabor_parameter =
       taborParameter(caps.composite_radius, law.work_of_adhesion, law.contact_modulus, interface.equilibrium_distance);
@@ -85,7 +85,7 @@ void addContact(const Asperity& asperity, const AsperityLaw& law, Prediction& pr
 
 void summarizeContact(const HeightMap& lower, const EquilibriumState& state, ApproachSearch& search,
                       const GapField& field, const GapOrder& order, const AsperityLaw& law, const Options& options,
-                      Prediction& prediction) {
+                      std::vector<double>& tabor_parameters, Prediction& prediction) {
   prediction.status = state.status;
   prediction.steps = state.steps;
   prediction.van_der_waals_force = state.load.van_der_waals;
@@ -98,7 +98,7 @@ void summarizeContact(const HeightMap& lower, const EquilibriumState& state, App
   prediction.mean_gap = meanGapApart(state, field, order);
   prediction.plastic_work = state.plastic_work;
 
-  const Energies energies = totalEnergies(search.responses(), search.sweep().livePatches(), state.balance, law);
+  const Energies energies = totalEnergies(search.responses(), state.balance, law);
   prediction.mechanical_energy = energies.mechanical;
   prediction.surface_energy = energies.surface;
   prediction.elastic_energy = energies.elastic;
@@ -107,17 +107,19 @@ void summarizeContact(const HeightMap& lower, const EquilibriumState& state, App
   prediction.normalized_bonding_energy = law.work_of_adhesion > 0.0 ? prediction.bonding_energy / law.work_of_adhesion
                                                                     : std::numeric_limits<double>::quiet_NaN();
 
-  std::vector<double> tabor_parameters;
-  for (const std::int32_t id : search.sweep().livePatches()) {
-    Asperity asperity = asperityAt(search.sweep().patch(id), search.caps(id), search.response(id),
+  tabor_parameters.clear();
+  const std::vector<std::int32_t>& patches = search.sweep().livePatches();
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    const CapCouple& caps = search.caps()[i];
+    Asperity asperity = asperityAt(search.sweep().patch(patches[i]), caps, search.responses()[i],
                                    state.balance.load_share, field, law, options.interface);
-    const int centre = search.caps(id).centre;
-    asperity.z = lower.height(centre / field.cols(), centre % field.cols());
+    asperity.z = lower.height(caps.centre / field.cols(), caps.centre % field.cols());
     addContact(asperity, law, prediction);
     tabor_parameters.push_back(asperity.tabor_parameter);
     if (options.output.asperities) prediction.asperities.push_back(asperity);
   }
-  prediction.adhesion_parameter /= prediction.asperity_count;
+  prediction.adhesion_parameter = law.work_of_adhesion > 0.0 ? prediction.adhesion_parameter / prediction.asperity_count
+                                                             : std::numeric_limits<double>::infinity();
   prediction.bonding_regime = bondingRegimeOf(prediction.adhesion_parameter);
   prediction.median_tabor_parameter = median(tabor_parameters);
   prediction.contact_theory = contactTheoryOf(prediction.median_tabor_parameter);

@@ -1,14 +1,17 @@
 #include "mems_stiction/prediction/surface_outputs.hpp"
 
+#include <algorithm>
+
 #include "mems_stiction/deformation/modified_topography.hpp"
 
 namespace mems_stiction {
 namespace {
 
-cv::Mat doubleCopy(const HeightMap& surface) {
-  cv::Mat copy;
-  surface.heights().convertTo(copy, CV_64F);
-  return copy;
+/// A map of this size and type that nobody else holds: the one that is there, if it can be written over.
+void makeWritable(cv::Mat& map, int rows, int cols, int type) {
+  const bool is_shared = map.u != nullptr && map.u->refcount > 1;
+  if (is_shared) map.release();
+  map.create(rows, cols, type);
 }
 
 }  // namespace
@@ -18,20 +21,34 @@ void fillSurfaceOutputs(const HeightMap& lower, const HeightMap* upper, const Eq
                         const Options& options, Prediction& prediction) {
   const bool wants_map = options.output.contact_map;
   const bool wants_surfaces = options.output.deformed_surfaces;
+  if (!wants_map) prediction.contact_map.release();
+  if (!wants_surfaces) {
+    prediction.deformed_lower.release();
+    prediction.deformed_upper.release();
+  }
   if (!wants_map && !wants_surfaces) return;
-  if (wants_map) prediction.contact_map = cv::Mat::zeros(field.rows(), field.cols(), CV_8UC1);
+  if (wants_map) {
+    makeWritable(prediction.contact_map, field.rows(), field.cols(), CV_8UC1);
+    std::fill_n(prediction.contact_map.ptr<std::uint8_t>(), prediction.contact_map.total(), std::uint8_t{0});
+  }
   if (wants_surfaces) {
-    prediction.deformed_lower = doubleCopy(lower);
-    prediction.deformed_upper =
-        upper != nullptr ? doubleCopy(*upper) : cv::Mat::zeros(field.rows(), field.cols(), CV_64FC1);
+    makeWritable(prediction.deformed_lower, field.rows(), field.cols(), CV_64FC1);
+    makeWritable(prediction.deformed_upper, field.rows(), field.cols(), CV_64FC1);
+    lower.heights().convertTo(prediction.deformed_lower, CV_64F);
+    if (upper != nullptr) {
+      upper->heights().convertTo(prediction.deformed_upper, CV_64F);
+    } else {
+      std::fill_n(prediction.deformed_upper.ptr<double>(), prediction.deformed_upper.total(), 0.0);
+    }
   }
 
   const DeformationShare share(options.lower, options.upper, options.interface.hardness_ratio_limit, options.approach);
   for (int i = 0; i < state.contact_count; ++i) {
     const OrderedCell& cell = order.cells()[static_cast<std::size_t>(i)];
-    const double plasticity_index = law.plasticityIndexOf(search.response(search.sweep().patchOf(cell.cell)).radius);
-    const int row = cell.cell / field.cols();
-    const int col = cell.cell % field.cols();
+    const std::int32_t place = search.sweep().livePlace(search.sweep().patchOf(cell.cell));
+    const double plasticity_index = law.plasticityIndexOf(search.responses()[static_cast<std::size_t>(place)].radius);
+    const int row = cell.row;
+    const int col = cell.cell - cell.row * field.cols();
     if (wants_map)
       prediction.contact_map.at<std::uint8_t>(row, col) = static_cast<std::uint8_t>(regimeOf(plasticity_index));
     if (wants_surfaces) {

@@ -134,7 +134,7 @@ TEST(CapCouple, hasTheSameCapsAgainstAFlatAsAgainstNoSurface) {
   const CapCouple plain = onlyCaps(againstPlane(lower), 0.7 * kNm);
   const CapCouple on_flat = onlyCaps(between(lower, analytic::flat(50, 61, 3 * kNm, 2 * kNm, 1e-6)), 0.7 * kNm);
   EXPECT_NEAR(plain.composite_radius, on_flat.composite_radius, kRoundOff * plain.composite_radius);
-  EXPECT_NEAR(plain.tilt, on_flat.tilt, 1e-9);
+  EXPECT_NEAR(plain.tilt(), on_flat.tilt(), 1e-9);
 }
 
 TEST(CapCouple, measuresATiltOfTenDegrees) {
@@ -146,8 +146,8 @@ TEST(CapCouple, measuresATiltOfTenDegrees) {
     const HeightMap sphere =
         analytic::sum(analytic::paraboloid(75, 80, pitch, 1.5 * pitch, 2e-6, 0.3 * pitch, 0.2 * pitch), plane);
     const CapCouple caps = onlyCaps(between(sphere, plane), 0.6 * kNm);
-    EXPECT_NEAR(caps.tilt / kDegree, 10.0, 0.2) << "azimuth " << azimuth;
-    EXPECT_NEAR(caps.cos_tilt, std::cos(caps.tilt), 1e-12);
+    EXPECT_NEAR(caps.tilt() / kDegree, 10.0, 0.2) << "azimuth " << azimuth;
+    EXPECT_NEAR(caps.cos_tilt, std::cos(caps.tilt()), 1e-12);
     EXPECT_NEAR(caps.composite_radius, 2e-6, 0.05 * 2e-6) << "azimuth " << azimuth;
   }
 }
@@ -161,7 +161,7 @@ TEST(CapCouple, hasTheTiltOfTheMidSurface) {
   heights(2, 2) = 30.0;
   const CapCouple caps = onlyCaps(againstPlane(frame(heights)), 20 * kNm);
   // edges a pixel apart carry half the difference of neighbours two pixels apart: the slope is that of the surface
-  EXPECT_NEAR(std::tan(caps.tilt), 0.5 * 1.0 / 10.0, 1e-9);
+  EXPECT_NEAR(std::tan(caps.tilt()), 0.5 * 1.0 / 10.0, 1e-9);
 }
 
 TEST(CapCouple, countsAHollowSurfaceAsFlat) {
@@ -179,7 +179,7 @@ TEST(CapCouple, ofOneRaisedPixelFollowsTheFormulas) {
   EXPECT_NEAR(caps.height, 2 * kNm, kRoundOff * kNm);
   EXPECT_NEAR(caps.composite_radius, radiusOfCaps(6.5 * kNm, 2 * kNm), kRoundOff * caps.composite_radius);
   EXPECT_EQ(caps.centre, 3 * 9 + 4);
-  EXPECT_NEAR(caps.tilt, 0.0, 1e-12);
+  EXPECT_NEAR(caps.tilt(), 0.0, 1e-12);
 }
 
 TEST(CapCouple, ofAPlateauHasTheMeanOfBothSides) {
@@ -226,7 +226,7 @@ TEST(CapCouple, ofAPlaneHasAFiniteRadius) {
   EXPECT_EQ(caps.height, kSmallestHeight);
   EXPECT_NEAR(caps.composite_radius, radiusOfCaps(caps.base_radius, kSmallestHeight),
               kRoundOff * caps.composite_radius);
-  EXPECT_EQ(caps.tilt, 0.0);
+  EXPECT_EQ(caps.tilt(), 0.0);
   EXPECT_EQ(caps.cos_tilt, 1.0);
 }
 
@@ -237,25 +237,25 @@ TEST(CapCouple, hasALevelBaseWithFewerThanFourEdges) {
   heights(0, 1) = 4.0;
   heights(1, 0) = 1.0;
   const CapCouple corner = onlyCaps(againstPlane(frame(heights)), 1 * kNm);
-  EXPECT_EQ(corner.tilt, 0.0);
+  EXPECT_EQ(corner.tilt(), 0.0);
   EXPECT_NEAR(corner.height, 8 * kNm - (6 + 4.5) / 2 * kNm, kRoundOff * kNm);
 
   cv::Mat1d border(6, 6, 0.0);
   border(0, 3) = 8.0;
   border(0, 2) = 2.0;
-  EXPECT_EQ(onlyCaps(againstPlane(frame(border)), 1 * kNm).tilt, 0.0);
+  EXPECT_EQ(onlyCaps(againstPlane(frame(border)), 1 * kNm).tilt(), 0.0);
 }
 
 TEST(CapCouple, hasALevelBaseWithEdgesOnOneLine) {
   // one row: two edges; a stripe across the frame whose edges all lie on one side: many edges on one line
   const CapCouple row = onlyCaps(againstPlane(frame((cv::Mat1d(1, 5) << 0.0, 3.0, 9.0, 1.0, 0.0))), 1 * kNm);
-  EXPECT_EQ(row.tilt, 0.0);
+  EXPECT_EQ(row.tilt(), 0.0);
   EXPECT_TRUE(std::isfinite(row.composite_radius));
   cv::Mat1d stripe(6, 8, 0.0);
   stripe.row(0) = 5.0;
   stripe(1, 2) = 1.0;
   const CapCouple caps = onlyCaps(againstPlane(frame(stripe)), 1 * kNm);
-  EXPECT_EQ(caps.tilt, 0.0);
+  EXPECT_EQ(caps.tilt(), 0.0);
   EXPECT_TRUE(std::isfinite(caps.composite_radius));
 }
 
@@ -276,7 +276,7 @@ TEST(CapCouple, endsAtTheCellsEdgeBesideInvalidPixels) {
   const CapCouple beside = onlyCaps(againstPlane(analytic::withInvalidPixel(bump, 3, 4)), 1 * kNm);
   EXPECT_NEAR(beside.base_radius, open.base_radius, kRoundOff * kNm);  // half a pixel either way
   EXPECT_NEAR(beside.height, open.height, kRoundOff * kNm);
-  EXPECT_EQ(beside.tilt, 0.0);  // three edges are left
+  EXPECT_EQ(beside.tilt(), 0.0);  // three edges are left
 }
 
 TEST(CapCouple, doesNotDependOnThePlaceInTheFrame) {
@@ -287,7 +287,7 @@ TEST(CapCouple, doesNotDependOnThePlaceInTheFrame) {
   const std::vector<CapCouple> caps = allCaps(againstPlane(frame(heights, 10 * kNm, 7 * kNm)), 8 * kNm);
   ASSERT_EQ(caps.size(), 2u);
   EXPECT_NEAR(caps[0].composite_radius, caps[1].composite_radius, kRoundOff * caps[0].composite_radius);
-  EXPECT_NEAR(caps[0].tilt, caps[1].tilt, 1e-9);
+  EXPECT_NEAR(caps[0].tilt(), caps[1].tilt(), 1e-9);
   EXPECT_NEAR(caps[0].base_radius, caps[1].base_radius, kRoundOff * kNm);
 }
 

@@ -107,49 +107,55 @@ TEST(Energies, storeNothingInAPlasticAsperity) {
   EXPECT_EQ(plastic.surface, elastic.surface);
 }
 
-/// Two asperities of different volume and tilt, and one id that has merged away.
+/// Two asperities of different volume and tilt.
 struct TwoAsperities {
   AsperityLaw law = lawOf(kSpheres[0], Formulation::kCorrected);
-  std::vector<AsperityResponse> responses = {responseOf(kSpheres[0], 30e-9, 1.0, law), AsperityResponse(),
+  std::vector<AsperityResponse> responses = {responseOf(kSpheres[0], 30e-9, 1.0, law),
                                              responseOf(kSpheres[0], 50e-9, 0.4, law)};
-  std::vector<std::int32_t> patches = {0, 2};
 
-  TwoAsperities() { responses[2].cos_tilt = 0.5; }
+  TwoAsperities() { responses[1].cos_tilt = 0.5; }
 };
 
 TEST(ForceBalance, sharesTheLoadByVolumeAlongEachAxis) {
   const TwoAsperities two;
   const double load = 3e-6;
-  const ForceBalance balance = forceBalance(two.responses, two.patches, load, two.law);
-  const double volume = two.responses[0].volume + two.responses[2].volume;
+  const ForceBalance balance = forceBalance(two.responses, load, two.law);
+  const double volume = two.responses[0].volume + two.responses[1].volume;
   const double first = load * two.responses[0].volume / volume;
-  const double second = load * two.responses[2].volume / volume;
+  const double second = load * two.responses[1].volume / volume;
   EXPECT_NEAR(balance.load_share, load / volume, 1e-12 * load / volume);
   const double force =
-      two.responses[0].generalizedForce(first, two.law) + two.responses[2].generalizedForce(0.5 * second, two.law);
-  EXPECT_NEAR(balance.generalized_force, force, 1e-12 * load);
-  EXPECT_NEAR(balance.carried_load, two.responses[0].carriedLoad() + two.responses[2].carriedLoad(), 1e-12 * load);
-  EXPECT_NEAR(balance.plastic_force, 0.6 * two.responses[2].yield_load, 1e-12 * two.responses[2].yield_load);
+      two.responses[0].generalizedForce(first, two.law) + two.responses[1].generalizedForce(0.5 * second, two.law);
+  EXPECT_NEAR(generalizedForce(two.responses, balance, two.law), force, 1e-12 * load);
+  EXPECT_NEAR(balance.carried_load, two.responses[0].carriedLoad() + two.responses[1].carriedLoad(), 1e-12 * load);
+  EXPECT_NEAR(balance.plastic_force, 0.6 * two.responses[1].yield_load, 1e-12 * two.responses[1].yield_load);
 
-  const Energies energies = totalEnergies(two.responses, two.patches, balance, two.law);
+  const Energies energies = totalEnergies(two.responses, balance, two.law);
   Energies expected = asperityEnergies(two.responses[0], first, two.law);
-  expected += asperityEnergies(two.responses[2], 0.5 * second, two.law);
+  expected += asperityEnergies(two.responses[1], 0.5 * second, two.law);
   EXPECT_NEAR(energies.mechanical, expected.mechanical, 1e-12 * expected.mechanical);
   EXPECT_NEAR(energies.surface, expected.surface, 1e-12 * expected.surface);
   EXPECT_NEAR(energies.elastic, expected.elastic, 1e-12 * expected.elastic);
 }
 
 TEST(ForceBalance, needsBothToCarryTheLoadAndToResist) {
-  ForceBalance balance;
-  balance.normal_load = 1.0;
-  balance.carried_load = 1.0;
-  balance.generalized_force = 0.0;
-  EXPECT_TRUE(balance.isEquilibrium());
-  balance.carried_load = 0.99;  // resists, since (P1 - P0)^2 knows no sign, but would be crushed
-  EXPECT_FALSE(balance.isEquilibrium());
-  balance.carried_load = 2.0;
-  balance.generalized_force = 1e-9;
-  EXPECT_FALSE(balance.isEquilibrium());
+  const Sphere& sphere = kSpheres[0];
+  const AsperityLaw law = lawOf(sphere, Formulation::kCorrected);
+  const double load = 1e-6;
+  const double apparent = jkr::apparentLoad(load, law.work_of_adhesion, sphere.radius);
+  const double equilibrium = jkr::contactRadius(apparent, sphere.radius, law.contact_modulus);
+  const auto balanceAt = [&](double contact_radius, double normal_load) {
+    return forceBalance({responseOf(sphere, contact_radius, 1.0, law)}, normal_load, law);
+  };
+  EXPECT_FALSE(balanceAt(0.999 * equilibrium, load).is_equilibrium);  // adhesion still pulls the surfaces together
+  EXPECT_TRUE(balanceAt(1.001 * equilibrium, load).is_equilibrium);
+
+  // a contact far too small for its load resists too, since (P1 - P0)^2 knows no sign, but it would be crushed
+  const double crushing_load = 100.0 * apparent;
+  const ForceBalance crushed = balanceAt(equilibrium, crushing_load);
+  EXPECT_LT(crushed.carried_load, crushing_load);
+  EXPECT_LT(generalizedForce({responseOf(sphere, equilibrium, 1.0, law)}, crushed, law), 0.0);
+  EXPECT_FALSE(crushed.is_equilibrium);
 }
 
 }  // namespace

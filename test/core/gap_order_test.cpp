@@ -14,7 +14,7 @@ namespace {
 std::vector<OrderedCell> sortedCells(const GapField& field) {
   std::vector<OrderedCell> cells;
   for (int cell = 0; cell < field.cellCount(); ++cell) {
-    if (field.isValid(cell)) cells.push_back({field.gap(cell), cell});
+    if (field.isValid(cell)) cells.push_back({field.gap(cell), cell, cell / field.cols()});
   }
   std::stable_sort(cells.begin(), cells.end(), [](const auto& a, const auto& b) { return a.gap < b.gap; });
   return cells;
@@ -35,6 +35,13 @@ std::vector<samples::Frame> orderedFrames() {
   return frames;
 }
 
+/// Steps as a search takes them, one that meets the gaps of lattices exactly, one that is tiny, and one beyond the
+/// range.
+std::vector<double> stepsFor(const GapField& field) {
+  const double range = std::max(field.largestGap(), 1e-9);
+  return {range / 37.3, range / 8.0, range / 1e7, 3.0 * range};
+}
+
 class OrderedFrame : public testing::TestWithParam<samples::Frame> {
  protected:
   void SetUp() override { field_ = GetParam().gapField(); }
@@ -44,16 +51,45 @@ class OrderedFrame : public testing::TestWithParam<samples::Frame> {
 INSTANTIATE_TEST_SUITE_P(Frames, OrderedFrame, testing::ValuesIn(orderedFrames()),
                          [](const auto& tested) { return tested.param.name; });
 
-TEST_P(OrderedFrame, holdsTheCellsSortedByGapThenIndex) {
+TEST_P(OrderedFrame, sortsTheCellsByGapThenIndexWhereAsked) {
   const std::vector<OrderedCell> expected = sortedCells(field_);
-  for (const double fraction : {1e-9, 0.01, 0.1, 0.5, 0.9, 1.0}) {
+  for (const double step : stepsFor(field_)) {
+    for (const double fraction : {1e-9, 0.01, 0.1, 0.5, 0.9, 1.0}) {
+      GapOrder order;
+      order.build(field_, fraction, step);
+      ASSERT_LE(order.cells().size(), expected.size());
+      ASSERT_GE(order.cells().size(), static_cast<std::size_t>(order.contactLimit()));
+      order.sortBetween(0, static_cast<int>(order.cells().size()));
+      for (std::size_t i = 0; i < order.cells().size(); ++i) {
+        ASSERT_EQ(order.cells()[i].cell, expected[i].cell) << "place " << i;
+        ASSERT_EQ(order.cells()[i].row, expected[i].cell / field_.cols()) << "place " << i;
+        ASSERT_EQ(order.cells()[i].gap, expected[i].gap) << "place " << i;
+      }
+    }
+  }
+}
+
+TEST_P(OrderedFrame, keepsTheCellsOfOneStepTogetherAndInTheOrderOfTheFrame) {
+  const double range = std::max(field_.largestGap(), 1e-9);
+  for (const double step : {range / 37.3, range / 8.0, 3.0 * range}) {
     GapOrder order;
-    order.build(field_, fraction);
-    ASSERT_LE(order.cells().size(), expected.size());
-    ASSERT_GE(order.cells().size(), static_cast<std::size_t>(order.contactLimit()));
-    for (std::size_t i = 0; i < order.cells().size(); ++i) {
-      ASSERT_EQ(order.cells()[i].cell, expected[i].cell) << "place " << i;
-      ASSERT_EQ(order.cells()[i].gap, expected[i].gap) << "place " << i;
+    order.build(field_, 0.5, step);
+    int before = 0;
+    for (int k = 1; before < order.contactLimit(); ++k) {
+      const double approach = k * step;
+      const int below = order.countBelow(approach);
+      const auto expected =
+          std::count_if(field_.gaps().begin(), field_.gaps().end(), [=](double gap) { return gap < approach; });
+      ASSERT_EQ(below, std::min<std::ptrdiff_t>(expected, static_cast<std::ptrdiff_t>(order.cells().size())));
+      for (int i = before; i < below; ++i) {
+        ASSERT_LT(order.cells()[static_cast<std::size_t>(i)].gap, approach);
+        ASSERT_GE(order.cells()[static_cast<std::size_t>(i)].gap, (k - 1) * step);
+      }
+      if (below >= order.contactLimit()) break;  // the last group is sorted for the limit
+      for (int i = before + 1; i < below; ++i) {
+        ASSERT_LT(order.cells()[static_cast<std::size_t>(i - 1)].cell, order.cells()[static_cast<std::size_t>(i)].cell);
+      }
+      before = below;
     }
   }
 }
@@ -62,7 +98,7 @@ TEST_P(OrderedFrame, limitsContactAtTheFirstLevelThatReachesTheFraction) {
   const std::vector<OrderedCell> expected = sortedCells(field_);
   for (const double fraction : {1e-9, 0.01, 0.1, 0.5, 0.9, 1.0}) {
     GapOrder order;
-    order.build(field_, fraction);
+    order.build(field_, fraction, 0.03 * field_.largestGap());
     const auto wanted = std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(fraction * expected.size())));
     const double level = expected[wanted - 1].gap;
     const auto end = std::find_if(expected.begin(), expected.end(), [&](const auto& cell) { return cell.gap > level; });
@@ -88,32 +124,48 @@ TEST_P(OrderedFrame, keepsTheMomentsOfEveryBucket) {
   double count = 0.0;
   double sum = 0.0;
   double squares = 0.0;
-  for (const GapMoments& bucket : order.buckets()) {
+  const auto add = [&](const GapMoments& bucket, double width) {
     ASSERT_GE(bucket.variance, 0.0);
     // spread of values that share a bucket: half its width at most
-    ASSERT_LE(std::sqrt(bucket.variance), 0.5 * order.bucketWidth() * (1.0 + 1e-6));
+    ASSERT_LE(std::sqrt(bucket.variance), 0.5 * width * (1.0 + 1e-6));
     count += bucket.count;
     sum += bucket.count * bucket.mean;
     squares += bucket.count * (bucket.variance + bucket.mean * bucket.mean);
-  }
+  };
+  for (const GapMoments& bucket : order.orderedMoments()) add(bucket, order.bucketWidth());
+  const double tail_width = order.bucketWidth() * GapOrder::kBucketsPerTailBucket;
+  for (const GapMoments& bucket : order.tailMoments()) add(bucket, tail_width);
+  ASSERT_EQ(order.orderedMoments().size() + order.tailMoments().size() * GapOrder::kBucketsPerTailBucket,
+            static_cast<std::size_t>(order.bucketCount()));
   EXPECT_EQ(count, field_.validCount());
   double expected_squares = 0.0;
   for (const double gap : field_.gaps()) expected_squares += gap == GapField::kInvalidGap ? 0.0 : gap * gap;
-  const double round_off = 1e-12;  // relative, of some ten thousand additions
-  EXPECT_NEAR(sum, field_.meanGap() * count, round_off * count * field_.largestGap());
-  EXPECT_NEAR(squares, expected_squares, round_off * count * field_.largestGap() * field_.largestGap());
+  // relative: the round-off of some ten thousand additions; cells of the tail stand at the middle of their bucket
+  const double tolerance = order.tailMoments().empty() ? 1e-12 : 0.5 * order.bucketWidth() / field_.largestGap();
+  EXPECT_NEAR(sum, field_.meanGap() * count, tolerance * count * field_.largestGap());
+  EXPECT_NEAR(squares, expected_squares, 2.0 * tolerance * count * field_.largestGap() * field_.largestGap());
 }
 
-TEST_P(OrderedFrame, knowsWhereTheBucketsEnd) {
-  GapOrder order;
-  order.build(field_, 0.3);
-  int end = 0;
-  for (int bucket = 0; bucket < order.orderedBuckets(); ++bucket) {
-    end += static_cast<int>(order.buckets()[static_cast<std::size_t>(bucket)].count);
-    ASSERT_EQ(order.endOfBucket(bucket), end);
+TEST_P(OrderedFrame, knowsWhereTheGroupsStart) {
+  for (const double step : stepsFor(field_)) {
+    GapOrder order;
+    order.build(field_, 0.3, step);
+    const double round_off = 1e-12 * field_.largestGap();  // of a gap at the border of two buckets
+    for (int bucket = 0; bucket <= order.orderedBuckets(); ++bucket) {
+      const int start = order.groupStartFrom(bucket);
+      ASSERT_GE(start, bucket);
+      if (start != bucket) continue;
+      const int before = order.cellsBefore(start);
+      const double border = start * order.bucketWidth();
+      if (before > 0) {
+        ASSERT_LE(order.cells()[static_cast<std::size_t>(before - 1)].gap, border + round_off) << "bucket " << bucket;
+      }
+      if (before < static_cast<int>(order.cells().size())) {
+        ASSERT_GE(order.cells()[static_cast<std::size_t>(before)].gap, border - round_off) << "bucket " << bucket;
+      }
+    }
+    EXPECT_EQ(order.cellsBefore(order.orderedBuckets()), static_cast<int>(order.cells().size()));
   }
-  EXPECT_EQ(static_cast<std::size_t>(end), order.cells().size());
-  EXPECT_EQ(order.endOfBucket(static_cast<int>(order.buckets().size()) - 1), end);
 }
 
 TEST_P(OrderedFrame, isTheSameAfterAnotherFrame) {
@@ -126,10 +178,10 @@ TEST_P(OrderedFrame, isTheSameAfterAnotherFrame) {
   EXPECT_EQ(used.bucketWidth(), fresh.bucketWidth());
   ASSERT_EQ(used.cells().size(), fresh.cells().size());
   for (std::size_t i = 0; i < fresh.cells().size(); ++i) ASSERT_EQ(used.cells()[i].cell, fresh.cells()[i].cell);
-  ASSERT_EQ(used.buckets().size(), fresh.buckets().size());
-  for (std::size_t i = 0; i < fresh.buckets().size(); ++i) {
-    ASSERT_EQ(used.buckets()[i].count, fresh.buckets()[i].count);
-    ASSERT_EQ(used.buckets()[i].mean, fresh.buckets()[i].mean);
+  ASSERT_EQ(used.orderedMoments().size(), fresh.orderedMoments().size());
+  for (std::size_t i = 0; i < fresh.orderedMoments().size(); ++i) {
+    ASSERT_EQ(used.orderedMoments()[i].count, fresh.orderedMoments()[i].count);
+    ASSERT_EQ(used.orderedMoments()[i].mean, fresh.orderedMoments()[i].mean);
   }
 }
 

@@ -51,7 +51,6 @@ struct State {
   Labelling labelling;
   std::vector<CapCouple> caps;
   std::vector<AsperityResponse> responses;
-  std::vector<std::int32_t> ids;
   NormalLoad load;
   ForceBalance balance;
 };
@@ -69,16 +68,15 @@ State stateAt(const Problem& problem, double approach, Touch touch) {
   state.labelling = labelPatches(problem.field, approach, touch, problem.options.approach.connectivity);
   for (const ContactPatch& patch : state.labelling.patches) {
     const int centre = boxCentre(patch, problem.field);
-    const auto id = static_cast<std::int32_t>(state.ids.size());
+    const auto label = static_cast<int>(state.caps.size()) + 1;
     const bool inside =
-        state.labelling.labels.at<int>(centre / problem.field.cols(), centre % problem.field.cols()) == id + 1;
+        state.labelling.labels.at<int>(centre / problem.field.cols(), centre % problem.field.cols()) == label;
     state.caps.push_back(capCouple(patch, problem.field, inside, problem.options.interface.cutoff_distance));
     state.responses.emplace_back(state.caps.back(), problem.law);
-    state.ids.push_back(id);
   }
   const CellForces forces(problem.options.interface, problem.options.load.voltage, problem.field.cellArea());
   state.load = sumLoads(problem.field, approach, touch, forces, problem.options.load.mechanical_load);
-  state.balance = forceBalance(state.responses, state.ids, state.load.total(), problem.law);
+  state.balance = forceBalance(state.responses, state.load.total(), problem.law);
   return state;
 }
 
@@ -103,7 +101,7 @@ State refined(const Problem& problem, const State& step_end, double previous_app
   const auto count = static_cast<int>(ordered.size());
   const int level = firstLevelThat(count, [&](int candidate) {
     found = stateAt(problem, ordered[static_cast<std::size_t>(candidate)], Touch::kUpTo);
-    return found.balance.isEquilibrium();
+    return found.balance.is_equilibrium;
   });
   return level < count ? found : step_end;
 }
@@ -131,7 +129,7 @@ void summarize(const Problem& problem, const State& state, Prediction& predictio
   prediction.contact_fraction = static_cast<double>(state.labelling.contact_count) / field.validCount();
   prediction.approach = state.approach;
   prediction.mean_gap = meanGapApart(field, state);
-  const Energies energies = totalEnergies(state.responses, state.ids, state.balance, problem.law);
+  const Energies energies = totalEnergies(state.responses, state.balance, problem.law);
   prediction.mechanical_energy = energies.mechanical;
   prediction.surface_energy = energies.surface;
   prediction.elastic_energy = energies.elastic;
@@ -178,6 +176,7 @@ Labelling labelPatches(const GapField& field, double approach, Touch touch, Conn
       if (applies && (best < 0 || isDeeper(field, cell, best))) best = cell;
     };
     take(patch.deepest, true);
+    patch.deepest_gap = field.gap(patch.deepest);
     take(patch.extreme[kLeft], col == patch.min_col);
     take(patch.extreme[kRight], col == patch.max_col);
     take(patch.extreme[kTop], row == patch.min_row);
@@ -224,17 +223,23 @@ Prediction predict(const Options& options, const HeightMap& lower, const HeightM
   const double step =
       approachStep(options.approach, prediction.composite_rms_height, options.interface.cutoff_distance);
   State state;
-  while (prediction.status == Status::kNoEquilibrium && prediction.steps < options.approach.max_steps) {
+  bool has_ended = false;
+  while (!has_ended && prediction.steps < options.approach.max_steps) {
     ++prediction.steps;
     const double previous_approach = state.approach;
     const double approach = prediction.steps * step;
     const bool reaches_limit = limit_gap < approach;
     state = reaches_limit ? stateAt(problem, limit_gap, Touch::kUpTo) : stateAt(problem, approach, Touch::kBelow);
-    if (state.balance.isEquilibrium()) {
+    has_ended = state.balance.is_equilibrium || reaches_limit;
+    if (state.balance.is_equilibrium) {
       state = refined(problem, state, previous_approach);
       prediction.status = Status::kEquilibrium;
     } else if (reaches_limit) {
-      prediction.status = Status::kBonded;
+      const bool all_plastic =
+          std::all_of(state.responses.begin(), state.responses.end(),
+                      [](const AsperityResponse& asperity) { return asperity.elastic_share == 0.0; });
+      const bool is_printed = options.approach.formulation == Formulation::kPrinted;
+      prediction.status = is_printed && all_plastic ? Status::kNoEquilibrium : Status::kBonded;
     }
     prediction.plastic_work += state.balance.plastic_force * (state.approach - previous_approach);
   }

@@ -18,6 +18,8 @@
 /// shape (the centre is not the summit), and the interference itself is taken for the cap height, at least one
 /// interatomic distance, so that no radius is infinite.
 
+#include <cmath>
+
 #include "mems_stiction/approach/contact_patch.hpp"
 #include "mems_stiction/approach/gap_field.hpp"
 
@@ -27,9 +29,11 @@ struct CapCouple {
   double base_radius = 0.0;       ///< rc [m]
   double height = 0.0;            ///< delta_c of both caps together [m], > 0
   double composite_radius = 0.0;  ///< R_i of (5) [m]
-  double tilt = 0.0;              ///< theta [rad]
-  double cos_tilt = 1.0;
-  int centre = 0;  ///< cell of the caps' summit
+  double squared_slope = 0.0;     ///< tan(theta)^2
+  double cos_tilt = 1.0;          ///< cos(theta)
+  int centre = 0;                 ///< cell of the caps' summit
+
+  double tilt() const { return std::atan(std::sqrt(squared_slope)); }  ///< theta [rad]
 };
 
 /// The cell in the middle of the patch's bounding box. A side with an even number of cells has two middles: the deepest

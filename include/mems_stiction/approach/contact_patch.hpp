@@ -13,14 +13,16 @@ namespace mems_stiction {
 /// midpoint with the mean of both cells. Coordinates are in half pixels (integers, so that adding and taking away an
 /// edge leaves no trace); heights are on GapField's level [m].
 struct BoundarySums {
-  std::int64_t count = 0;
-  std::int64_t x = 0, y = 0;
-  std::int64_t xx = 0, xy = 0, yy = 0;
+  double count = 0.0;
+  double x = 0.0, y = 0.0;
+  double xx = 0.0, xy = 0.0, yy = 0.0;
   double gap = 0.0, x_gap = 0.0, y_gap = 0.0;
   double lower = 0.0, x_lower = 0.0, y_lower = 0.0;
 
   /// The edge between two neighbouring cells; sign +1 adds it, -1 takes it away.
   void addEdge(const GapField& field, int row, int col, int neighbour_row, int neighbour_col, int sign);
+  /// The edges of one cell to its four neighbours, in the order of Side; a sign of 0 leaves an edge out.
+  void addEdges(const GapField& field, int row, int col, const int (&neighbours)[4], const int (&signs)[4]);
   BoundarySums& operator+=(const BoundarySums& other);
 };
 
@@ -32,11 +34,14 @@ struct ContactPatch {
   /// Deepest cell (smallest gap, then smallest index) among those that touch each side of the bounding box.
   std::int32_t extreme[4] = {0, 0, 0, 0};
   std::int32_t deepest = 0;  ///< cell with the smallest gap, then the smallest index
+  double deepest_gap = 0.0;  ///< its gap [m]
   double latest_gap = 0.0;   ///< largest gap among its cells [m]
   BoundarySums boundary;
 
   /// A patch of one cell, its boundary still empty.
-  static ContactPatch ofCell(const GapField& field, int cell);
+  static ContactPatch ofCell(std::int32_t cell, std::int32_t row, std::int32_t col, double gap);
+  /// Adds one cell, but not its edges.
+  void addCell(const GapField& field, std::int32_t cell, std::int32_t row, std::int32_t col, double gap);
   /// Adds the attributes of `other`, but not the edges between the two, which the caller takes away.
   void merge(const GapField& field, const ContactPatch& other);
 };

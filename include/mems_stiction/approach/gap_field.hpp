@@ -32,6 +32,8 @@ class GapField {
   bool isValid(int cell) const { return gap(cell) < kInvalidGap; }
   double largestGap() const { return largest_gap_; }
   double meanGap() const { return mean_gap_; }
+  /// Root mean square of the gap about its mean [m]: the composite rms height of what was compared, cell by cell.
+  double rmsGap() const { return rms_gap_; }
 
   bool upperIsFlat() const { return upper_is_flat_; }
   /// z1 from an arbitrary but fixed level [m], so that a stage offset costs no digits. z2 = z1 + g on the same level.
@@ -42,7 +44,10 @@ class GapField {
  private:
   template <typename Scalar>
   void computeAgainstPlane(const cv::Mat& heights);
-  void finish();
+  /// z2 - z1 into gap_, z1 into lower_; returns the smallest separation.
+  template <typename LowerScalar, typename UpperScalar>
+  double separate(const HeightMap& lower, const HeightMap& upper);
+  void measure();
 
   int rows_ = 0;
   int cols_ = 0;
@@ -51,6 +56,7 @@ class GapField {
   int valid_count_ = 0;
   double largest_gap_ = 0.0;
   double mean_gap_ = 0.0;
+  double rms_gap_ = 0.0;
   bool upper_is_flat_ = true;
   std::vector<double> gap_;
   std::vector<double> lower_;

@@ -2,8 +2,10 @@
 
 /// Cells in order of gap: the order in which they come into contact as the upper surface is brought down.
 ///
-/// A histogram of the gap puts cells into buckets of equal width; only the buckets that can come into contact are
-/// sorted. The buckets keep count, mean and variance of their gaps, from which the load sums of all steps are made.
+/// The cells that can come into contact are put into groups, lowest gaps first; a group is what one step of the
+/// approach adds. Inside a group they stay in the order of the frame, so that the sweep walks through memory, and are
+/// sorted only when somebody asks for a place inside. A finer histogram keeps count, mean and variance of the gaps,
+/// from which the load sums of all steps are made; cells that stay apart are only counted.
 
 #include <cstdint>
 #include <vector>
@@ -15,6 +17,7 @@ namespace mems_stiction {
 struct OrderedCell {
   double gap;  ///< [m]
   std::int32_t cell;
+  std::int32_t row;
 };
 
 /// Gaps of one bucket, or of several neighbouring ones.
@@ -27,32 +30,66 @@ struct GapMoments {
 class GapOrder {
  public:
   /// @param max_contact_fraction contact is searched up to this share of the valid cells, in (0, 1].
-  void build(const GapField& field, double max_contact_fraction);
+  /// @param step delta of the approach [m]: countBelow() of its multiples costs nothing. 0, or a step that is tiny
+  /// against the
+  ///        range of the gap, gives groups of one bucket.
+  void build(const GapField& field, double max_contact_fraction, double step = 0.0);
 
-  /// Sorted by gap, then by cell; at least contactLimit() of them, and some more beyond.
+  /// In order of group; at least contactLimit() of them, and some more beyond.
   const std::vector<OrderedCell>& cells() const { return cells_; }
-  /// Number of cells in contact at the first gap level that reaches the contact fraction limit.
+  /// Number of cells in contact at the first gap level that reaches the contact fraction limit. The cells up to there
+  /// are those of the smallest gaps, and the last one has that gap.
   int contactLimit() const { return contact_limit_; }
-  /// Number of ordered cells with gap < approach.
-  int countBelow(double approach) const;
+  /// Number of ordered cells with gap < approach; these are the first cells then.
+  int countBelow(double approach);
+  /// Sorts the groups that reach into these places, by gap, then by cell.
+  void sortBetween(int begin, int end);
 
+  /// Buckets 0 .. bucketCount()-1 cover the range of the gap; each is bucketWidth() wide [m].
+  int bucketCount() const { return bucket_count_; }
   double bucketWidth() const { return bucket_width_; }
-  const std::vector<GapMoments>& buckets() const { return buckets_; }
-  /// Index of the first ordered cell past `bucket`; the cells' end if the bucket lies beyond the ordered ones.
-  int endOfBucket(int bucket) const;
-  /// Number of leading buckets whose cells are all in cells().
+  /// Number of leading buckets whose cells are in cells(); a multiple of kBucketsPerTailBucket.
   int orderedBuckets() const { return ordered_buckets_; }
+  /// Gaps of each ordered bucket.
+  const std::vector<GapMoments>& orderedMoments() const { return ordered_moments_; }
+  /// Gaps of the buckets beyond, kBucketsPerTailBucket of them together, each cell at the middle of its bucket: they
+  /// are far from contact against the width of a bucket.
+  const std::vector<GapMoments>& tailMoments() const { return tail_moments_; }
+
+  /// The first ordered bucket that starts a group at or beyond `bucket`, or orderedBuckets().
+  int groupStartFrom(int bucket) const;
+  /// Index of the first ordered cell at or past a bucket that starts a group.
+  int cellsBefore(int group_start_bucket) const;
+
+  static constexpr int kBucketsPerTailBucket = 16;
 
  private:
-  int bucketOf(double gap) const;
+  void chooseBuckets(const GapField& field, double step);
+  void countGaps(const GapField& field);
+  void chooseOrderedBuckets(int wanted);
+  void measureTail();
+  void collectCells(const GapField& field);
+  void measureGroups();
+  void mendBoundary(int group);
+  void sortGroup(int group);
+  void findContactLimit(int wanted);
+  int groupStart(int group) const { return group == 0 ? 0 : group_end_[static_cast<std::size_t>(group - 1)]; }
 
+  int bucket_count_ = 0;
   double bucket_width_ = 1.0;
   double inverse_width_ = 1.0;
+  int group_shift_ = 0;  ///< a group is 2^group_shift_ buckets
+  double group_width_ = 1.0;
+  bool groups_are_steps_ = false;
   int ordered_buckets_ = 0;
   int contact_limit_ = 0;
-  std::vector<GapMoments> buckets_;
-  std::vector<std::int32_t> bucket_end_;
+  std::vector<std::int32_t> bucket_count_of_;
+  std::vector<std::int32_t> group_end_;
+  std::vector<std::uint8_t> is_sorted_;
+  std::vector<std::int32_t> near_cells_;
   std::vector<OrderedCell> cells_;
+  std::vector<GapMoments> ordered_moments_;
+  std::vector<GapMoments> tail_moments_;
 };
 
 }  // namespace mems_stiction

@@ -4,6 +4,7 @@
 /// patches with their additive attributes. Every step of the approach costs only the cells that it adds; relabelling
 /// the frame at each step gives the same patches (test/support/plain_adhesion_model.hpp does that).
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -29,16 +30,24 @@ class PatchSweep {
   /// One more than the largest patch id so far.
   int patchIdEnd() const { return static_cast<int>(patches_.size()); }
 
-  /// Ids of the live patches that have changed since the last call (all of them after a restart).
+  /// Ids of the live patches that have changed, or moved to another place in livePatches(), since the last call (all of
+  /// them after a restart).
   const std::vector<std::int32_t>& takeChangedPatches();
+
+  /// Place of a live patch in livePatches().
+  std::int32_t livePlace(std::int32_t id) const { return live_place_[static_cast<std::size_t>(id)]; }
 
   /// Patch that holds the cell, or -1 if the cell is not in contact.
   std::int32_t patchOf(int cell);
 
  private:
   void restart();
-  void insert(int cell);
-  std::int32_t addPatch(int cell);
+  void insert(const OrderedCell& cell);
+  template <int kReach>
+  std::int32_t uniteNeighbours(std::size_t place);
+  std::int32_t addPatch(const ContactPatch& patch);
+  std::size_t placeOf(std::int32_t cell, std::int32_t row) const;
+  void prefetch(const OrderedCell& cell) const;
   std::int32_t unite(std::int32_t a, std::int32_t b);
   std::int32_t root(std::int32_t id);
   void markChanged(std::int32_t id);
@@ -47,7 +56,8 @@ class PatchSweep {
   const GapOrder* order_ = nullptr;
   Connectivity connectivity_ = Connectivity::kFour;
   int inserted_ = 0;
-  std::vector<std::int32_t> label_;   ///< per cell: the patch that it joined, or -1
+  std::ptrdiff_t stride_ = 0;         ///< of label_, which has a border of one cell around the frame
+  std::vector<std::int32_t> label_;   ///< per cell: the patch that it joined, kApart or kNoCell
   std::vector<std::int32_t> parent_;  ///< per patch: itself, or the patch that it merged into
   std::vector<ContactPatch> patches_;
   std::vector<std::int32_t> live_;

@@ -8,7 +8,9 @@
 /// on delta. The search ends
 ///   - in equilibrium;
 ///   - bonded, at the first level whose contact fraction reaches the limit;
-///   - without equilibrium, after max_steps.
+///   - without equilibrium, after max_steps, or at that limit when to the letter of the paper nothing resists (all
+///   asperities
+///     plastic in Formulation::kPrinted).
 
 #include <cstdint>
 #include <vector>
@@ -39,14 +41,12 @@ struct SearchSetting {
 /// the state that was found.
 class ApproachSearch {
  public:
-  EquilibriumState run(const GapField& field, const GapOrder& order, Connectivity connectivity,
-                       const SearchSetting& setting);
+  void run(const GapField& field, GapOrder& order, Connectivity connectivity, const SearchSetting& setting,
+           EquilibriumState& state);
 
   PatchSweep& sweep() { return sweep_; }
-  const CapCouple& caps(std::int32_t patch_id) const { return caps_[static_cast<std::size_t>(patch_id)]; }
-  const AsperityResponse& response(std::int32_t patch_id) const {
-    return responses_[static_cast<std::size_t>(patch_id)];
-  }
+  /// Caps and responses of the live patches, in the order of sweep().livePatches().
+  const std::vector<CapCouple>& caps() const { return caps_; }
   const std::vector<AsperityResponse>& responses() const { return responses_; }
 
  private:
@@ -54,10 +54,12 @@ class ApproachSearch {
   void moveTo(double approach, int contact_count, EquilibriumState& state);
   /// Replaces the state by the first level in equilibrium after `previous_count` cells, if there is one.
   void refine(int previous_count, EquilibriumState& state);
+  /// To the letter of the paper nothing resists a plastic asperity: when all are, no extremum can come.
+  bool nothingResists() const;
   void record(EquilibriumState& state) const;
 
   const GapField* field_ = nullptr;
-  const GapOrder* order_ = nullptr;
+  GapOrder* order_ = nullptr;
   const SearchSetting* setting_ = nullptr;
   PatchSweep sweep_;
   GapLoads loads_;

@@ -7,7 +7,6 @@
 /// stops when the incremental free total energy becomes zero"). The derivative is used in its closed form, since
 /// differences of E_t jump when patches merge.
 
-#include <cstdint>
 #include <vector>
 
 #include "mems_stiction/equilibrium/asperity_response.hpp"
@@ -16,22 +15,22 @@
 namespace mems_stiction {
 
 struct ForceBalance {
-  double normal_load = 0.0;        ///< F [N]
-  double load_share = 0.0;         ///< F / sum V: F_i = load_share V_i
-  double carried_load = 0.0;       ///< what the patches can carry [N]
-  double generalized_force = 0.0;  ///< sum r_i [N]
-  double plastic_force = 0.0;      ///< sum (1 - chi) Ha pi rc^2, the work dissipated per unit of approach [N]
-
-  bool isEquilibrium() const { return carried_load >= normal_load && generalized_force <= 0.0; }
+  double normal_load = 0.0;    ///< F [N]
+  double load_share = 0.0;     ///< F / sum V: F_i = load_share V_i
+  double carried_load = 0.0;   ///< what the patches can carry [N]
+  double plastic_force = 0.0;  ///< sum (1 - chi) Ha pi rc^2, the work dissipated per unit of approach [N]
+  bool is_equilibrium = false;
 };
 
-/// @param responses indexed by patch id
-/// @param patches ids of the patches that exist; sums run in this order
-ForceBalance forceBalance(const std::vector<AsperityResponse>& responses, const std::vector<std::int32_t>& patches,
-                          double normal_load, const AsperityLaw& law);
+/// @param responses of all patches; sums run in this order
+ForceBalance forceBalance(const std::vector<AsperityResponse>& responses, double normal_load, const AsperityLaw& law);
+
+/// dE_t/dD = sum r_i under the balance's loads [N].
+double generalizedForce(const std::vector<AsperityResponse>& responses, const ForceBalance& balance,
+                        const AsperityLaw& law);
 
 /// Energies of all patches under the balance's loads.
-Energies totalEnergies(const std::vector<AsperityResponse>& responses, const std::vector<std::int32_t>& patches,
-                       const ForceBalance& balance, const AsperityLaw& law);
+Energies totalEnergies(const std::vector<AsperityResponse>& responses, const ForceBalance& balance,
+                       const AsperityLaw& law);
 
 }  // namespace mems_stiction

@@ -60,7 +60,7 @@ class GapLoads {
 
  private:
   const GapOrder* order_ = nullptr;
-  std::vector<std::vector<GapMoments>> levels_;  ///< levels_[k - 1][i]: buckets i 2^k .. (i + 1) 2^k - 1
+  std::vector<std::vector<GapMoments>> levels_;  ///< levels_[k][i]: buckets i 2^k .. (i + 1) 2^k - 1
 };
 
 }  // namespace mems_stiction

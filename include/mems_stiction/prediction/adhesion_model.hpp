@@ -45,6 +45,11 @@ class AdhesionModel {
   /// @throw SurfaceError if the grids differ or no pixel is valid in both.
   Prediction predict(const HeightMap& lower, const HeightMap& upper);
 
+  /// The same into an earlier prediction, whose memory is used again: from the second frame of a size on nothing is
+  /// allocated. Maps of the earlier prediction that are shared elsewhere are left alone.
+  void predict(const HeightMap& lower, Prediction& prediction);
+  void predict(const HeightMap& lower, const HeightMap& upper, Prediction& prediction);
+
  private:
   class Implementation;
   std::unique_ptr<Implementation> implementation_;

@@ -18,8 +18,9 @@ Asperity asperityAt(const ContactPatch& patch, const CapCouple& caps, const Aspe
 void addContact(const Asperity& asperity, const AsperityLaw& law, Prediction& prediction);
 
 /// Fills everything in `prediction` that follows from the contacts.
+/// @param tabor_parameters working memory
 void summarizeContact(const HeightMap& lower, const EquilibriumState& state, ApproachSearch& search,
                       const GapField& field, const GapOrder& order, const AsperityLaw& law, const Options& options,
-                      Prediction& prediction);
+                      std::vector<double>& tabor_parameters, Prediction& prediction);
 
 }  // namespace mems_stiction

@@ -1,0 +1,92 @@
+#!/usr/bin/env python3
+"""Prints what scripts/bench measured as tables.
+
+usage: bench_table.py FOLDER   with predict.json, in_flight.json and, where they were made, callgrind.txt and latency.json
+"""
+
+import json
+import pathlib
+import re
+import sys
+
+# What the case must reach against labelling each step alone; the others are shown for information.
+REQUIRED_RATIO = {"gaussian/1024/200": 50, "gaussian/1024/1000": 150}
+REQUIRED_OUTPUT_COST = 1.6
+REQUIRED_GROWTH = 5.0
+REQUIRED_SPEED_UP = 1.6
+
+
+def times_of(path):
+    """CPU time in ms by case, without the decorations of Google Benchmark's names; wall time for threaded cases."""
+    times = {}
+    for run in json.loads(path.read_text())["benchmarks"]:
+        name = re.sub(r"/(min_time|iterations|real_time).*", "", run["name"])
+        times[name] = run["real_time"] if "real_time" in run["name"] else run["cpu_time"]
+    return times
+
+
+def verdict(value, limit, at_least):
+    good = value >= limit if at_least else value <= limit
+    return "%s %g: %s" % ("at least" if at_least else "at most", limit, "yes" if good else "NO")
+
+
+def print_core(times):
+    print("Core, one thread. ms of CPU time; 'passes' are reads of the whole frame.")
+    print("%-24s %10s %8s %12s %8s %10s  %s" % ("frame/size/steps", "predict", "passes", "all outputs", "cost", "label/predict", "required"))
+    for name, labelling in times.items():
+        if not name.startswith("label/"):
+            continue
+        case = name[len("label/"):]
+        predict = times["predict/" + case]
+        everything = times["predict_all_outputs/" + case]
+        one_pass = times["pass/" + case.split("/")[1]]
+        required = REQUIRED_RATIO.get(case)
+        print("%-24s %10.2f %8.0f %12.2f %8.2f %13.1f  %s" % (
+            case, predict, predict / one_pass, everything, everything / predict, labelling / predict,
+            verdict(labelling / predict, required, True) if required else ""))
+    case = "gaussian/1024/200"
+    cost = times["predict_all_outputs/" + case] / times["predict/" + case]
+    growth = times["predict/gaussian/2048/200"] / times["predict/" + case]
+    print("all outputs against none, %s: %.2f (%s)" % (case, cost, verdict(cost, REQUIRED_OUTPUT_COST, False)))
+    print("2048 x 2048 against 1024 x 1024: %.2f (%s)" % (growth, verdict(growth, REQUIRED_GROWTH, False)))
+
+
+def print_in_flight(times):
+    # Each model does the same number of frames: twice the frames in the time of one.
+    speed_up = 2.0 * times["in_flight/1"] / times["in_flight/2"]
+    print("two frames in flight against one: %.2f times the frames per second (%s)"
+          % (speed_up, verdict(speed_up, REQUIRED_SPEED_UP, True)))
+
+
+def print_latency(rows):
+    print()
+    print("Replay of 1024 x 1024 scans, from the arrival of a scan to that of its prediction at one listener [ms]")
+    print("%-8s %6s %6s %8s %8s %8s %12s %16s" % ("shell", "Hz", "scans", "p50", "p99", "dropped", "core p50", "callback/core"))
+    for row in rows:
+        print("%-8s %6g %6d %8.1f %8.1f %8d %12.1f %16.2f" % (
+            row["shell"], row["rate"], row["scans"], row["p50_ms"], row["p99_ms"], row["dropped"], row["core_p50_ms"],
+            row["callback_to_publish_over_core"]))
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    folder = pathlib.Path(sys.argv[1])
+    print_core(times_of(folder / "predict.json"))
+    print_in_flight(times_of(folder / "in_flight.json"))
+    callgrind = folder / "callgrind.txt"
+    if callgrind.exists():
+        counted = re.search(r"Collected : (\d+)", callgrind.read_text())
+        if counted:
+            count = int(counted.group(1))
+            (folder / "instructions.json").write_text(json.dumps({"gaussian/512/200": count}) + "\n")
+            print("instructions, gaussian/512/200: %.1f million" % (count / 1e6))
+    latency = folder / "latency.json"
+    if latency.exists():
+        print_latency(json.loads(latency.read_text()))
+    print()
+    print("JSON: %s" % folder)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,85 @@
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "mems_stiction/prediction/adhesion_model.hpp"
+#include "mems_stiction/surface/gaussian_surface.hpp"
+#include "support/allocation_count.hpp"
+#include "support/analytic_surfaces.hpp"
+
+namespace mems_stiction {
+namespace {
+
+constexpr int kSize = 512;
+
+HeightMap frame(int seed) {
+  GaussianSurfaceOptions options;
+  options.rows = options.cols = kSize;
+  options.seed = seed;
+  return analytic::asSingle(gaussianSurface(options));
+}
+
+Options optionsWith(bool all_outputs) {
+  Options options;
+  options.load.voltage = 5.0;
+  options.interface.insulator_thickness = 100e-9;
+  options.output = {all_outputs, all_outputs, all_outputs, all_outputs, all_outputs};
+  return options;
+}
+
+TEST(Allocation, IsSeenByTheCount) {
+  startCountingAllocations();
+  const auto memory = std::make_unique<std::vector<double>>(1000);
+  const cv::Mat map = cv::Mat::zeros(100, 100, CV_64FC1);
+  const AllocationCount count = stopCountingAllocations();
+  EXPECT_GE(count.calls, 3);
+  EXPECT_GE(count.peak, static_cast<std::ptrdiff_t>(1000 * sizeof(double) + 100 * 100 * sizeof(double)));
+}
+
+class RepeatedFrame : public testing::TestWithParam<bool> {};
+
+TEST_P(RepeatedFrame, AllocatesNothing) {
+  const HeightMap scan = frame(1);
+  AdhesionModel model(optionsWith(GetParam()));
+  Prediction prediction;
+  model.predict(scan, prediction);
+  startCountingAllocations();
+  model.predict(scan, prediction);
+  const AllocationCount count = stopCountingAllocations();
+  EXPECT_EQ(count.calls, 0);
+}
+
+TEST_P(RepeatedFrame, AgainstARoughCounterSurfaceAllocatesNothing) {
+  const HeightMap scan = frame(1);
+  const HeightMap counter_surface = frame(2);
+  AdhesionModel model(optionsWith(GetParam()));
+  Prediction prediction;
+  model.predict(scan, counter_surface, prediction);
+  startCountingAllocations();
+  model.predict(scan, counter_surface, prediction);
+  const AllocationCount count = stopCountingAllocations();
+  EXPECT_EQ(count.calls, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Outputs, RepeatedFrame, testing::Values(false, true));
+
+TEST(Memory, OfAPredictionStaysBelow64BytesAPixelBeyondTheInput) {
+  const HeightMap scan = frame(1);
+  for (const double max_contact_fraction : {0.3, 1.0}) {
+    Options options = optionsWith(true);
+    options.approach.max_contact_fraction = max_contact_fraction;
+    options.load.mechanical_load = 1.0;  // nothing carries it: the approach goes on to the limit
+    startCountingAllocations();
+    {
+      AdhesionModel model(options);
+      Prediction prediction;
+      model.predict(scan, prediction);
+    }
+    const AllocationCount count = stopCountingAllocations();
+    EXPECT_LE(count.peak, 64 * kSize * kSize) << "contact fraction " << max_contact_fraction;
+    EXPECT_GE(count.peak, 8 * kSize * kSize) << "the gap alone takes 8 bytes a pixel: the count must see it";
+  }
+}
+
+}  // namespace
+}  // namespace mems_stiction
