@@ -207,6 +207,24 @@ int GapOrder::countBelow(double approach) {
   return static_cast<int>(first_apart - cells_.begin());
 }
 
+double GapOrder::cellsBelow(double limit) const {
+  const double limit_in_widths = limit * inverse_width_;
+  if (limit_in_widths < ordered_buckets_) {
+    const int group = static_cast<int>(std::max(limit_in_widths, 0.0)) >> group_shift_;
+    const auto begin = cells_.begin() + groupStart(group);
+    const auto end = cells_.begin() + group_end_[static_cast<std::size_t>(group)];
+    return static_cast<double>(groupStart(group) +
+                               std::count_if(begin, end, [limit](const OrderedCell& cell) { return cell.gap < limit; }));
+  }
+  auto count = static_cast<double>(cells_.size());
+  for (int bucket = ordered_buckets_; bucket < bucket_count_ && bucket < limit_in_widths; ++bucket) {
+    // the largest gap is the last bucket's upper end, and below any limit past it
+    const double covered = std::min(limit_in_widths - bucket, 1.0);
+    count += covered * bucket_count_of_[static_cast<std::size_t>(bucket)];
+  }
+  return count;
+}
+
 void GapOrder::sortBetween(int begin, int end) {
   const auto first_past = std::upper_bound(group_end_.begin(), group_end_.end(), begin);
   for (auto group = static_cast<int>(first_past - group_end_.begin()); group < static_cast<int>(group_end_.size());

@@ -70,6 +70,7 @@ void ApproachSearch::moveTo(double approach, int contact_count, EquilibriumState
   state.approach = approach;
   state.contact_count = contact_count;
   state.load = loads_.at(approach, contact_count, setting_->forces, setting_->mechanical_load);
+  state.load.capillary = capillaryForce(*order_, approach, contact_count, setting_->capillary, field_->cellArea());
   state.balance = forceBalance(responses_, state.load.total(), setting_->law);
 }
 

@@ -34,24 +34,10 @@ CapillaryForce::CapillaryForce(const CapillaryOptions& options) {
   gap_limit_ = 2.0 * kelvin_radius_ * std::cos(options.contact_angle);
 }
 
-double cellsBelow(const GapOrder& order, double limit) {
-  const int bucket_count = static_cast<int>(order.buckets().size());
-  const double limit_in_widths = limit / order.bucketWidth();
-  if (limit_in_widths < order.orderedBuckets()) return order.countBelow(limit);
-  double count = static_cast<double>(order.cells().size());
-  for (int bucket = order.orderedBuckets(); bucket < bucket_count; ++bucket) {
-    // the largest gap is the last bucket's upper end, and below any limit past it
-    const double covered = std::clamp(limit_in_widths - bucket, 0.0, 1.0);
-    if (covered == 0.0) break;
-    count += covered * order.buckets()[static_cast<std::size_t>(bucket)].count;
-  }
-  return count;
-}
-
 double capillaryForce(const GapOrder& order, double approach, int contact_count, const CapillaryForce& force,
                       double cell_area) {
   if (!force.isOn()) return 0.0;
-  const double filled = cellsBelow(order, approach + force.gapLimit()) - contact_count;
+  const double filled = order.cellsBelow(approach + force.gapLimit()) - contact_count;
   return std::max(0.0, filled) * force.forcePerCell(cell_area);
 }
 

@@ -65,7 +65,8 @@ void AdhesionModel::Implementation::predict(const HeightMap& lower, const Height
       step,
       options.approach.max_steps,
       options.interface.cutoff_distance,
-      options.output.energy_curve};
+      options.output.energy_curve,
+      CapillaryForce(options.capillary)};
   search_.run(field_, order_, options.approach.connectivity, setting, state_);
 
   resetKeepingMemory(prediction);

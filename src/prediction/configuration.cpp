@@ -9,6 +9,8 @@ void Configuration::describe(OptionVisitor& visitor) {
   scan.describe(visitor);
   preprocessing.describe(visitor);
   counter_surface.describe(visitor);
+  device.describe(visitor);
+  uncertainty.describe(visitor);
 }
 
 std::vector<std::string> Configuration::validate() const {
@@ -18,7 +20,10 @@ std::vector<std::string> Configuration::validate() const {
   copy.scan.describe(validator);
   copy.preprocessing.describe(validator);
   copy.counter_surface.describe(validator);
+  copy.uncertainty.describe(validator);
   violations.insert(violations.end(), validator.violations().begin(), validator.violations().end());
+  const std::vector<std::string> of_device = device.validate();
+  violations.insert(violations.end(), of_device.begin(), of_device.end());
   if (scan.height_scale == 0.0) {
     violations.push_back(
         "scan/height_scale: 0 m per unit of the pixel is not allowed, it makes every surface flat; must not be 0");

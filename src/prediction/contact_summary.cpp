@@ -91,6 +91,7 @@ void summarizeContact(const HeightMap& lower, const EquilibriumState& state, App
   prediction.van_der_waals_force = state.load.van_der_waals;
   prediction.electrostatic_force = state.load.electrostatic;
   prediction.normal_load = state.load.total();
+  prediction.capillary_force = state.load.capillary;
   prediction.contact_area = state.contact_count * field.cellArea();
   prediction.nominal_area = field.validCount() * field.cellArea();
   prediction.contact_fraction = static_cast<double>(state.contact_count) / field.validCount();
@@ -123,7 +124,8 @@ void summarizeContact(const HeightMap& lower, const EquilibriumState& state, App
   prediction.bonding_regime = bondingRegimeOf(prediction.adhesion_parameter);
   prediction.median_tabor_parameter = median(tabor_parameters);
   prediction.contact_theory = contactTheoryOf(prediction.median_tabor_parameter);
-  prediction.pull_off_force = prediction.pull_off_force_jkr + prediction.van_der_waals_force;
+  prediction.pull_off_force =
+      prediction.pull_off_force_jkr + prediction.van_der_waals_force + prediction.capillary_force;
 }
 
 }  // namespace mems_stiction

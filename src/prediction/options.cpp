@@ -16,6 +16,7 @@ void Options::describe(OptionVisitor& visitor) {
   lower.describe(visitor, "lower");
   upper.describe(visitor, "upper");
   interface.describe(visitor);
+  capillary.describe(visitor);
   load.describe(visitor);
   approach.describe(visitor);
   output.describe(visitor);

@@ -98,6 +98,7 @@ StictionPrediction predictionMessage(const Prediction& prediction, const std_msg
   message.roughness = roughnessMessage(prediction.roughness);
   message.invalid_fraction = prediction.invalid_fraction;
   message.processing_time = prediction.processing_time;
+  message.capillary_force = prediction.capillary_force;
   return message;
 }
 

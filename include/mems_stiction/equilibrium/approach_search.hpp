@@ -18,6 +18,7 @@
 #include "mems_stiction/approach/approach_options.hpp"
 #include "mems_stiction/approach/patch_sweep.hpp"
 #include "mems_stiction/equilibrium/equilibrium_state.hpp"
+#include "mems_stiction/loads/capillary.hpp"
 #include "mems_stiction/loads/normal_load.hpp"
 
 namespace mems_stiction {
@@ -35,6 +36,7 @@ struct SearchSetting {
   int max_steps = 0;
   double smallest_height = 0.0;  ///< of a cap without relief [m], > 0
   bool keep_curve = false;
+  CapillaryForce capillary;  ///< of condensed water
 };
 
 /// Runs one approach at a time; keeps its memory between frames. After run() the sweep and the responses are those of

@@ -60,10 +60,6 @@ class CapillaryForce {
   double pressure_ = 0.0;
 };
 
-/// Number of cells with gap < limit: by binary search among the ordered ones; beyond, whole buckets by their counts and
-/// the last one in proportion, as if its gaps were spread evenly.
-double cellsBelow(const GapOrder& order, double limit);
-
 /// F_c [N] when the first `contact_count` ordered cells touch and the others are apart by gap - approach.
 double capillaryForce(const GapOrder& order, double approach, int contact_count, const CapillaryForce& force,
                       double cell_area);

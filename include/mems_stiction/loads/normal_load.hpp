@@ -20,8 +20,9 @@ struct NormalLoad {
   double van_der_waals = 0.0;  ///< F_w [N]
   double electrostatic = 0.0;  ///< F_e [N]
   double mechanical = 0.0;     ///< F_m [N]
+  double capillary = 0.0;      ///< F_c, of condensed water; 0 unless interface/relative_humidity is set [N]
 
-  double total() const { return van_der_waals + electrostatic + mechanical; }
+  double total() const { return van_der_waals + electrostatic + mechanical + capillary; }
 };
 
 /// The integrands of (2) and (3) for one cell.

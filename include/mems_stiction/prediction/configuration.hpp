@@ -10,6 +10,8 @@
 #include "mems_stiction/prediction/options.hpp"
 #include "mems_stiction/preprocess/preprocess_options.hpp"
 #include "mems_stiction/surface/counter_surface.hpp"
+#include "mems_stiction/verdict/device_options.hpp"
+#include "mems_stiction/verdict/uncertainty_options.hpp"
 
 namespace mems_stiction {
 
@@ -18,6 +20,8 @@ struct Configuration {
   ScanOptions scan;
   PreprocessOptions preprocessing;
   CounterSurfaceOptions counter_surface;
+  DeviceOptions device;
+  UncertaintyOptions uncertainty;
 
   void describe(OptionVisitor& visitor);
   /// One line per violated constraint; empty when all is well.

@@ -8,6 +8,7 @@
 
 #include "mems_stiction/approach/approach_options.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/loads/capillary.hpp"
 #include "mems_stiction/loads/interface.hpp"
 #include "mems_stiction/mechanics/material.hpp"
 
@@ -28,6 +29,7 @@ struct Options {
   Material lower;
   Material upper;
   InterfaceOptions interface;
+  CapillaryOptions capillary;
   LoadOptions load;
   ApproachOptions approach;
   OutputOptions output;

@@ -93,6 +93,7 @@ void visitPredictionFields(PredictionType& prediction, Visitor&& visit) {
   visit("van_der_waals_force", prediction.van_der_waals_force, "N");
   visit("electrostatic_force", prediction.electrostatic_force, "N");
   visit("normal_load", prediction.normal_load, "N");
+  visit("capillary_force", prediction.capillary_force, "N");
 
   visit("pull_off_force", prediction.pull_off_force, "N");
   visit("pull_off_force_jkr", prediction.pull_off_force_jkr, "N");

@@ -1,0 +1,42 @@
+/// The capillary term inside a prediction, against closed forms.
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "mems_stiction/base/constants.hpp"
+#include "mems_stiction/prediction/adhesion_model.hpp"
+#include "support/analytic_surfaces.hpp"
+
+namespace mems_stiction {
+namespace {
+
+constexpr double kNm = 1e-9;
+
+Options humid(double relative_humidity) {
+  Options options;
+  options.interface.hamaker_constant = 0.0;
+  options.capillary.relative_humidity = relative_humidity;
+  return options;
+}
+
+TEST(CapillaryPrediction, ofASphereIsFourPiGammaR) {
+  const HeightMap sphere = analytic::paraboloid(451, 451, 1 * kNm, 1 * kNm, 2e-6);
+  for (const double humidity : {0.5, 0.8}) {
+    const Prediction prediction = AdhesionModel(humid(humidity)).predict(sphere);
+    ASSERT_EQ(prediction.status, Status::kEquilibrium);
+    const double expected = 4.0 * kPi * 0.072 * 2e-6;
+    EXPECT_NEAR(prediction.capillary_force, expected,
+                0.02 * expected);  // rings counted in pixels
+    EXPECT_EQ(prediction.normal_load, prediction.capillary_force);
+    EXPECT_EQ(prediction.pull_off_force, prediction.pull_off_force_jkr + prediction.capillary_force);
+  }
+}
+
+TEST(CapillaryPrediction, isOffByDefault) {
+  const HeightMap sphere = analytic::paraboloid(101, 101, 1 * kNm, 1 * kNm, 2e-6);
+  EXPECT_EQ(AdhesionModel(Options()).predict(sphere).capillary_force, 0.0);
+}
+
+}  // namespace
+}  // namespace mems_stiction
