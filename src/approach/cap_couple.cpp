@@ -61,24 +61,24 @@ class BasePlanes {
   bool is_level_ = true;
 };
 
-/// How far the outline at `level` lies beyond the centre of an extreme cell [cells], in [0, 1].
-double outlineBeyond(const GapField& field, int cell, int row_step, int col_step, double level) {
+/// How far the outline at `level` lies beyond the centre of an extreme cell, towards its neighbour outside [cells], in
+/// [0, 1].
+double outlineBeyond(const GapField& field, int cell, int neighbour, bool is_in_frame, double level) {
   constexpr double kCellEdge = 0.5;
-  const int row = cell / field.cols() + row_step;
-  const int col = cell % field.cols() + col_step;
-  if (row < 0 || row >= field.rows() || col < 0 || col >= field.cols()) return kCellEdge;
-  const int neighbour = row * field.cols() + col;
-  if (!field.isValid(neighbour)) return kCellEdge;
+  if (!is_in_frame || !field.isValid(neighbour)) return kCellEdge;
   const double inside = field.gap(cell);
   const double rise = field.gap(neighbour) - inside;
   return rise > 0.0 ? std::clamp((level - inside) / rise, 0.0, 1.0) : kCellEdge;
 }
 
 double baseRadius(const ContactPatch& patch, const GapField& field, double level) {
-  const double cols = patch.max_col - patch.min_col + outlineBeyond(field, patch.extreme[kLeft], 0, -1, level) +
-                      outlineBeyond(field, patch.extreme[kRight], 0, 1, level);
-  const double rows = patch.max_row - patch.min_row + outlineBeyond(field, patch.extreme[kTop], -1, 0, level) +
-                      outlineBeyond(field, patch.extreme[kBottom], 1, 0, level);
+  const auto beyond = [&](Side side, int step, bool is_in_frame) {
+    return outlineBeyond(field, patch.extreme[side], patch.extreme[side] + step, is_in_frame, level);
+  };
+  const double cols = patch.max_col - patch.min_col + beyond(kLeft, -1, patch.min_col > 0) +
+                      beyond(kRight, 1, patch.max_col + 1 < field.cols());
+  const double rows = patch.max_row - patch.min_row + beyond(kTop, -field.cols(), patch.min_row > 0) +
+                      beyond(kBottom, field.cols(), patch.max_row + 1 < field.rows());
   return (cols * field.pitchX() + rows * field.pitchY()) / 4.0;
 }
 
@@ -89,24 +89,24 @@ double capCurvature(double base_radius, double height) {
 
 }  // namespace
 
-int boxCentre(const ContactPatch& patch, const GapField& field) {
+GridCell boxCentre(const ContactPatch& patch, const GapField& field) {
   const int first_row = (patch.min_row + patch.max_row) / 2;
   const int last_row = (patch.min_row + patch.max_row + 1) / 2;
   const int first_col = (patch.min_col + patch.max_col) / 2;
   const int last_col = (patch.min_col + patch.max_col + 1) / 2;
-  int centre = first_row * field.cols() + first_col;
+  GridCell centre = field.cellAt(first_row, first_col);
   for (int row = first_row; row <= last_row; ++row) {
     for (int col = first_col; col <= last_col; ++col) {
-      const int cell = row * field.cols() + col;
-      if (field.gap(cell) < field.gap(centre)) centre = cell;
+      const GridCell cell = field.cellAt(row, col);
+      if (field.gap(cell.index) < field.gap(centre.index)) centre = cell;
     }
   }
   return centre;
 }
 
-CapCouple capCouple(const ContactPatch& patch, const GapField& field, bool centre_is_inside, double smallest_height) {
+CapCouple capCouple(const ContactPatch& patch, const GapField& field, const GridCell& centre, double smallest_height) {
   CapCouple caps;
-  caps.centre = centre_is_inside ? boxCentre(patch, field) : patch.deepest;
+  caps.centre = centre;
   const BoundarySums& edges = patch.boundary;
   const bool has_edges = edges.count > 0.0;
   const double level = has_edges ? edges.gap / edges.count : patch.latest_gap;
@@ -115,7 +115,7 @@ CapCouple capCouple(const ContactPatch& patch, const GapField& field, bool centr
   double lower_height = 0.0;
   double upper_height = 0.0;
   if (has_edges) {
-    const BasePlanes planes(edges, 2 * (caps.centre % field.cols()), 2 * (caps.centre / field.cols()));
+    const BasePlanes planes(edges, 2 * centre.col, 2 * centre.row);
     const PlaneValue gap = planes.fit(edges.gap, edges.x_gap, edges.y_gap);
     PlaneValue lower;
     if (field.upperIsFlat()) {
@@ -123,10 +123,10 @@ CapCouple capCouple(const ContactPatch& patch, const GapField& field, bool centr
     } else {
       lower = planes.fit(edges.lower, edges.x_lower, edges.y_lower);
       const double upper_base = lower.at_centre + gap.at_centre;
-      const double upper_summit = field.lowerHeight(caps.centre) + field.gap(caps.centre);
+      const double upper_summit = field.lowerHeight(centre.index) + field.gap(centre.index);
       upper_height = std::max(0.0, upper_base - upper_summit);
     }
-    lower_height = std::max(0.0, field.lowerHeight(caps.centre) - lower.at_centre);
+    lower_height = std::max(0.0, field.lowerHeight(centre.index) - lower.at_centre);
     const double mid_slope_x = (lower.slope_x + 0.5 * gap.slope_x) * 2.0 / field.pitchX();
     const double mid_slope_y = (lower.slope_y + 0.5 * gap.slope_y) * 2.0 / field.pitchY();
     caps.squared_slope = mid_slope_x * mid_slope_x + mid_slope_y * mid_slope_y;

@@ -35,12 +35,11 @@ void BoundarySums::addEdge(const GapField& field, int row, int col, int neighbou
   y_lower += edge_y * edge_lower;
 }
 
-void BoundarySums::addEdges(const GapField& field, int row, int col, const int (&neighbours)[4],
-                            const int (&signs)[4]) {
-  const int cell = row * field.cols() + col;
+void BoundarySums::addEdges(const GapField& field, const GridCell& cell, const int (&neighbours)[4],
+                            const double (&signs)[4]) {
   // all edges are half a pixel pitch, one unit, from the cell's centre: their sums follow from few products
-  const double center_x = 2 * col;
-  const double center_y = 2 * row;
+  const double center_x = 2 * cell.col;
+  const double center_y = 2 * cell.row;
   const double total = signs[kLeft] + signs[kRight] + signs[kTop] + signs[kBottom];
   const double horizontal = signs[kRight] - signs[kLeft];
   const double vertical = signs[kBottom] - signs[kTop];
@@ -54,7 +53,7 @@ void BoundarySums::addEdges(const GapField& field, int row, int col, const int (
   const auto sums = [&](auto&& value, double& sum, double& x_sum, double& y_sum) {
     double edges[4];
     for (int side = 0; side < 4; ++side) {
-      edges[side] = signs[side] == 0 ? 0.0 : signs[side] * 0.5 * (value(cell) + value(neighbours[side]));
+      edges[side] = signs[side] == 0.0 ? 0.0 : signs[side] * 0.5 * (value(cell.index) + value(neighbours[side]));
     }
     const double edge_sum = edges[kLeft] + edges[kRight] + edges[kTop] + edges[kBottom];
     sum += edge_sum;

@@ -80,8 +80,8 @@ std::int32_t PatchSweep::root(std::int32_t id) {
   return id;
 }
 
-std::int32_t PatchSweep::patchOf(int cell) {
-  const std::int32_t label = label_[placeOf(cell, cell / field_->cols())];
+std::int32_t PatchSweep::patchOf(const GridCell& cell) {
+  const std::int32_t label = label_[placeOf(cell.index, cell.row)];
   return label < 0 ? -1 : root(label);
 }
 
@@ -123,41 +123,41 @@ std::int32_t PatchSweep::unite(std::int32_t a, std::int32_t b) {
   return a;
 }
 
-template <int kReach>
-std::int32_t PatchSweep::uniteNeighbours(std::size_t place) {
-  const std::ptrdiff_t offsets[8] = {-1, 1, -stride_, stride_, -stride_ - 1, 1 - stride_, stride_ - 1, stride_ + 1};
-  std::int32_t id = -1;
-  for (int k = 0; k < kReach; ++k) {
-    const std::int32_t label = label_[place + static_cast<std::size_t>(offsets[k])];
-    if (label < 0 || label == id) continue;
-    const std::int32_t neighbour_patch = root(label);
-    if (neighbour_patch == id) continue;
-    id = id < 0 ? neighbour_patch : unite(id, neighbour_patch);
-  }
-  return id;
+std::int32_t PatchSweep::joined(std::int32_t id, std::int32_t label) {
+  if (label < 0 || label == id) return id;
+  const std::int32_t neighbour = root(label);
+  if (id < 0) return neighbour;
+  return neighbour == id ? id : unite(id, neighbour);
 }
 
 void PatchSweep::insert(const OrderedCell& cell) {
   const int cols = field_->cols();
   const std::int32_t col = cell.cell - cell.row * cols;
+  const auto stride = static_cast<std::size_t>(stride_);
   const std::size_t place = placeOf(cell.cell, cell.row);
-  std::int32_t id = connectivity_ == Connectivity::kEight ? uniteNeighbours<8>(place) : uniteNeighbours<4>(place);
+  std::int32_t* const label = label_.data() + place;
+  const std::int32_t labels[4] = {label[-1], label[1], *(label - stride), label[stride]};  // in the order of Side
+
+  std::int32_t id = -1;
+  for (const std::int32_t neighbour : labels) id = joined(id, neighbour);
+  if (connectivity_ == Connectivity::kEight) {
+    for (const std::int32_t* const row : {label - stride, label + stride}) {
+      id = joined(id, row[-1]);
+      id = joined(id, row[1]);
+    }
+  }
   if (id < 0) {
     id = addPatch(ContactPatch::ofCell(cell.cell, cell.row, col, cell.gap));
   } else {
     patches_[static_cast<std::size_t>(id)].addCell(*field_, cell.cell, cell.row, col, cell.gap);
   }
-  label_[place] = id;
+  *label = id;
 
   // an edge to a cell in contact was counted from its other side, and is inside now
-  const auto edgeSign = [this](std::size_t neighbour) {
-    const std::int32_t label = label_[neighbour];
-    return label == kNoCell ? 0 : (label == kApart ? 1 : -1);
-  };
-  const auto stride = static_cast<std::size_t>(stride_);
-  const int signs[4] = {edgeSign(place - 1), edgeSign(place + 1), edgeSign(place - stride), edgeSign(place + stride)};
+  double signs[4];
+  for (int side = 0; side < 4; ++side) signs[side] = labels[side] >= 0 ? -1.0 : (labels[side] == kApart ? 1.0 : 0.0);
   const int neighbours[4] = {cell.cell - 1, cell.cell + 1, cell.cell - cols, cell.cell + cols};
-  patches_[static_cast<std::size_t>(id)].boundary.addEdges(*field_, cell.row, col, neighbours, signs);
+  patches_[static_cast<std::size_t>(id)].boundary.addEdges(*field_, {cell.row, col, cell.cell}, neighbours, signs);
   markChanged(id);
 }
 

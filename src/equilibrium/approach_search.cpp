@@ -62,9 +62,10 @@ void ApproachSearch::moveTo(double approach, int contact_count, EquilibriumState
   responses_.resize(caps_.size());
   for (const std::int32_t id : sweep_.takeChangedPatches()) {
     const ContactPatch& patch = sweep_.patch(id);
-    const bool centre_is_inside = sweep_.patchOf(boxCentre(patch, *field_)) == id;
+    GridCell centre = boxCentre(patch, *field_);
+    if (sweep_.patchOf(centre) != id) centre = field_->cellAt(patch.deepest);
     const auto place = static_cast<std::size_t>(sweep_.livePlace(id));
-    caps_[place] = capCouple(patch, *field_, centre_is_inside, setting_->smallest_height);
+    caps_[place] = capCouple(patch, *field_, centre, setting_->smallest_height);
     responses_[place] = AsperityResponse(caps_[place], setting_->law);
   }
   state.approach = approach;

@@ -51,8 +51,8 @@ Asperity asperityAt(const ContactPatch& patch, const CapCouple& caps, const Aspe
                     double load_share, const GapField& field, const AsperityLaw& law,
                     const InterfaceOptions& interface) {
   Asperity asperity;
-  asperity.x = caps.centre % field.cols() * field.pitchX();
-  asperity.y = caps.centre / field.cols() * field.pitchY();
+  asperity.x = caps.centre.col * field.pitchX();
+  asperity.y = caps.centre.row * field.pitchY();
   asperity.cap_radius = caps.base_radius;
   asperity.composite_radius = caps.composite_radius;
   asperity.load = load_share * response.volume;
@@ -114,7 +114,7 @@ void summarizeContact(const HeightMap& lower, const EquilibriumState& state, App
     const CapCouple& caps = search.caps()[i];
     Asperity asperity = asperityAt(search.sweep().patch(patches[i]), caps, search.responses()[i],
                                    state.balance.load_share, field, law, options.interface);
-    asperity.z = lower.height(caps.centre / field.cols(), caps.centre % field.cols());
+    asperity.z = lower.height(caps.centre.row, caps.centre.col);
     addContact(asperity, law, prediction);
     tabor_parameters.push_back(asperity.tabor_parameter);
     if (options.output.asperities) prediction.asperities.push_back(asperity);

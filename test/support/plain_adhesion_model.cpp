@@ -67,11 +67,10 @@ State stateAt(const Problem& problem, double approach, Touch touch) {
   state.touch = touch;
   state.labelling = labelPatches(problem.field, approach, touch, problem.options.approach.connectivity);
   for (const ContactPatch& patch : state.labelling.patches) {
-    const int centre = boxCentre(patch, problem.field);
+    GridCell centre = boxCentre(patch, problem.field);
     const auto label = static_cast<int>(state.caps.size()) + 1;
-    const bool inside =
-        state.labelling.labels.at<int>(centre / problem.field.cols(), centre % problem.field.cols()) == label;
-    state.caps.push_back(capCouple(patch, problem.field, inside, problem.options.interface.cutoff_distance));
+    if (state.labelling.labels.at<int>(centre.row, centre.col) != label) centre = problem.field.cellAt(patch.deepest);
+    state.caps.push_back(capCouple(patch, problem.field, centre, problem.options.interface.cutoff_distance));
     state.responses.emplace_back(state.caps.back(), problem.law);
   }
   const CellForces forces(problem.options.interface, problem.options.load.voltage, problem.field.cellArea());

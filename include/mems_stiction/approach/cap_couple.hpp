@@ -31,18 +31,18 @@ struct CapCouple {
   double composite_radius = 0.0;  ///< R_i of (5) [m]
   double squared_slope = 0.0;     ///< tan(theta)^2
   double cos_tilt = 1.0;          ///< cos(theta)
-  int centre = 0;                 ///< cell of the caps' summit
+  GridCell centre;                ///< cell of the caps' summit
 
   double tilt() const { return std::atan(std::sqrt(squared_slope)); }  ///< theta [rad]
 };
 
 /// The cell in the middle of the patch's bounding box. A side with an even number of cells has two middles: the deepest
 /// of them, so that a mirrored frame has the mirrored centre.
-int boxCentre(const ContactPatch& patch, const GapField& field);
+GridCell boxCentre(const ContactPatch& patch, const GapField& field);
 
-/// @param centre_is_inside whether boxCentre() belongs to the patch; otherwise its deepest cell is the centre.
+/// @param centre boxCentre() if that belongs to the patch, otherwise the patch's deepest cell.
 /// @param smallest_height cap height of a patch without any relief [m], > 0
 /// Depends on the patch's cells only, not on how far the approach has gone since they came in.
-CapCouple capCouple(const ContactPatch& patch, const GapField& field, bool centre_is_inside, double smallest_height);
+CapCouple capCouple(const ContactPatch& patch, const GapField& field, const GridCell& centre, double smallest_height);
 
 }  // namespace mems_stiction

@@ -22,7 +22,7 @@ struct BoundarySums {
   /// The edge between two neighbouring cells; sign +1 adds it, -1 takes it away.
   void addEdge(const GapField& field, int row, int col, int neighbour_row, int neighbour_col, int sign);
   /// The edges of one cell to its four neighbours, in the order of Side; a sign of 0 leaves an edge out.
-  void addEdges(const GapField& field, int row, int col, const int (&neighbours)[4], const int (&signs)[4]);
+  void addEdges(const GapField& field, const GridCell& cell, const int (&neighbours)[4], const double (&signs)[4]);
   BoundarySums& operator+=(const BoundarySums& other);
 };
 

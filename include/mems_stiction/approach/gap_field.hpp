@@ -10,6 +10,14 @@
 
 namespace mems_stiction {
 
+/// A cell of the frame by row and column, and by its index row cols + col: each form where the other would cost a
+/// division.
+struct GridCell {
+  int row = 0;
+  int col = 0;
+  int index = 0;
+};
+
 /// Row-major over the frame. Cells that are invalid in either surface have an infinite gap: they never come into
 /// contact and are left out of every sum. compute() reuses the memory of the previous frame.
 class GapField {
@@ -26,6 +34,8 @@ class GapField {
   double cellArea() const { return pitch_x_ * pitch_y_; }
   int cellCount() const { return rows_ * cols_; }
   int validCount() const { return valid_count_; }
+  GridCell cellAt(int row, int col) const { return {row, col, row * cols_ + col}; }
+  GridCell cellAt(int index) const { return {index / cols_, index % cols_, index}; }
 
   const std::vector<double>& gaps() const { return gap_; }
   double gap(int cell) const { return gap_[static_cast<std::size_t>(cell)]; }

@@ -38,13 +38,14 @@ class PatchSweep {
   std::int32_t livePlace(std::int32_t id) const { return live_place_[static_cast<std::size_t>(id)]; }
 
   /// Patch that holds the cell, or -1 if the cell is not in contact.
-  std::int32_t patchOf(int cell);
+  std::int32_t patchOf(int cell) { return patchOf(field_->cellAt(cell)); }
+  std::int32_t patchOf(const GridCell& cell);
 
  private:
   void restart();
   void insert(const OrderedCell& cell);
-  template <int kReach>
-  std::int32_t uniteNeighbours(std::size_t place);
+  /// Patch `id` (-1: none yet) together with the patch of a neighbour's label.
+  std::int32_t joined(std::int32_t id, std::int32_t label);
   std::int32_t addPatch(const ContactPatch& patch);
   std::size_t placeOf(std::int32_t cell, std::int32_t row) const;
   void prefetch(const OrderedCell& cell) const;
