@@ -63,22 +63,18 @@ class BasePlanes {
 
 /// How far the outline at `level` lies beyond the centre of an extreme cell, towards its neighbour outside [cells], in
 /// [0, 1].
-double outlineBeyond(const GapField& field, int cell, int neighbour, bool is_in_frame, double level) {
+double outlineBeyond(const ExtremeCell& extreme, double level) {
   constexpr double kCellEdge = 0.5;
-  if (!is_in_frame || !field.isValid(neighbour)) return kCellEdge;
-  const double inside = field.gap(cell);
-  const double rise = field.gap(neighbour) - inside;
-  return rise > 0.0 ? std::clamp((level - inside) / rise, 0.0, 1.0) : kCellEdge;
+  const double rise = extreme.outside - extreme.gap;
+  if (!(rise > 0.0 && rise < GapField::kInvalidGap)) return kCellEdge;
+  return std::clamp((level - extreme.gap) / rise, 0.0, 1.0);
 }
 
 double baseRadius(const ContactPatch& patch, const GapField& field, double level) {
-  const auto beyond = [&](Side side, int step, bool is_in_frame) {
-    return outlineBeyond(field, patch.extreme[side], patch.extreme[side] + step, is_in_frame, level);
-  };
-  const double cols = patch.max_col - patch.min_col + beyond(kLeft, -1, patch.min_col > 0) +
-                      beyond(kRight, 1, patch.max_col + 1 < field.cols());
-  const double rows = patch.max_row - patch.min_row + beyond(kTop, -field.cols(), patch.min_row > 0) +
-                      beyond(kBottom, field.cols(), patch.max_row + 1 < field.rows());
+  const double cols = patch.max_col - patch.min_col + outlineBeyond(patch.extreme[kLeft], level) +
+                      outlineBeyond(patch.extreme[kRight], level);
+  const double rows = patch.max_row - patch.min_row + outlineBeyond(patch.extreme[kTop], level) +
+                      outlineBeyond(patch.extreme[kBottom], level);
   return (cols * field.pitchX() + rows * field.pitchY()) / 4.0;
 }
 
@@ -89,24 +85,30 @@ double capCurvature(double base_radius, double height) {
 
 }  // namespace
 
-GridCell boxCentre(const ContactPatch& patch, const GapField& field) {
+PatchCentre boxCentre(const ContactPatch& patch, const GapField& field) {
   const int first_row = (patch.min_row + patch.max_row) / 2;
   const int last_row = (patch.min_row + patch.max_row + 1) / 2;
   const int first_col = (patch.min_col + patch.max_col) / 2;
   const int last_col = (patch.min_col + patch.max_col + 1) / 2;
-  GridCell centre = field.cellAt(first_row, first_col);
+  PatchCentre centre{field.cellAt(first_row, first_col), GapField::kInvalidGap};
   for (int row = first_row; row <= last_row; ++row) {
     for (int col = first_col; col <= last_col; ++col) {
       const GridCell cell = field.cellAt(row, col);
-      if (field.gap(cell.index) < field.gap(centre.index)) centre = cell;
+      const double gap = field.gap(cell.index);
+      if (gap < centre.gap) centre = {cell, gap};
     }
   }
   return centre;
 }
 
-CapCouple capCouple(const ContactPatch& patch, const GapField& field, const GridCell& centre, double smallest_height) {
+PatchCentre deepestCentre(const ContactPatch& patch, const GapField& field) {
+  return {field.cellAt(patch.deepest), patch.deepest_gap};
+}
+
+CapCouple capCouple(const ContactPatch& patch, const GapField& field, const PatchCentre& centre,
+                    double smallest_height) {
   CapCouple caps;
-  caps.centre = centre;
+  caps.centre = centre.cell;
   const BoundarySums& edges = patch.boundary;
   const bool has_edges = edges.count > 0.0;
   const double level = has_edges ? edges.gap / edges.count : patch.latest_gap;
@@ -115,18 +117,19 @@ CapCouple capCouple(const ContactPatch& patch, const GapField& field, const Grid
   double lower_height = 0.0;
   double upper_height = 0.0;
   if (has_edges) {
-    const BasePlanes planes(edges, 2 * centre.col, 2 * centre.row);
+    const BasePlanes planes(edges, 2 * centre.cell.col, 2 * centre.cell.row);
     const PlaneValue gap = planes.fit(edges.gap, edges.x_gap, edges.y_gap);
+    const double lower_summit = field.upperIsFlat() ? -centre.gap : field.lowerHeight(centre.cell.index);
     PlaneValue lower;
     if (field.upperIsFlat()) {
       lower = {-gap.at_centre, -gap.slope_x, -gap.slope_y};
     } else {
       lower = planes.fit(edges.lower, edges.x_lower, edges.y_lower);
       const double upper_base = lower.at_centre + gap.at_centre;
-      const double upper_summit = field.lowerHeight(centre.index) + field.gap(centre.index);
+      const double upper_summit = lower_summit + centre.gap;
       upper_height = std::max(0.0, upper_base - upper_summit);
     }
-    lower_height = std::max(0.0, field.lowerHeight(centre.index) - lower.at_centre);
+    lower_height = std::max(0.0, lower_summit - lower.at_centre);
     const double mid_slope_x = (lower.slope_x + 0.5 * gap.slope_x) * 2.0 / field.pitchX();
     const double mid_slope_y = (lower.slope_y + 0.5 * gap.slope_y) * 2.0 / field.pitchY();
     caps.squared_slope = mid_slope_x * mid_slope_x + mid_slope_y * mid_slope_y;

@@ -5,10 +5,12 @@
 namespace mems_stiction {
 namespace {
 
-bool isDeeper(const GapField& field, int cell, int other) {
-  const double gap = field.gap(cell);
-  const double other_gap = field.gap(other);
+bool isDeeper(double gap, std::int32_t cell, double other_gap, std::int32_t other) {
   return gap < other_gap || (gap == other_gap && cell < other);
+}
+
+bool isDeeper(const ExtremeCell& cell, const ExtremeCell& other) {
+  return isDeeper(cell.gap, cell.cell, other.gap, other.cell);
 }
 
 }  // namespace
@@ -35,7 +37,7 @@ void BoundarySums::addEdge(const GapField& field, int row, int col, int neighbou
   y_lower += edge_y * edge_lower;
 }
 
-void BoundarySums::addEdges(const GapField& field, const GridCell& cell, const int (&neighbours)[4],
+void BoundarySums::addEdges(const GapField& field, const GridCell& cell, double cell_gap, const double (&gaps)[4],
                             const double (&signs)[4]) {
   // all edges are half a pixel pitch, one unit, from the cell's centre: their sums follow from few products
   const double center_x = 2 * cell.col;
@@ -50,19 +52,24 @@ void BoundarySums::addEdges(const GapField& field, const GridCell& cell, const i
   yy += (total * center_y + 2 * vertical) * center_y + signs[kTop] + signs[kBottom];
   xy += total * center_x * center_y + horizontal * center_y + vertical * center_x;
 
-  const auto sums = [&](auto&& value, double& sum, double& x_sum, double& y_sum) {
-    double edges[4];
-    for (int side = 0; side < 4; ++side) {
-      edges[side] = signs[side] == 0.0 ? 0.0 : signs[side] * 0.5 * (value(cell.index) + value(neighbours[side]));
-    }
+  const auto addHeights = [&](const double(&edges)[4], double& sum, double& x_sum, double& y_sum) {
     const double edge_sum = edges[kLeft] + edges[kRight] + edges[kTop] + edges[kBottom];
     sum += edge_sum;
     x_sum += center_x * edge_sum + (edges[kRight] - edges[kLeft]);
     y_sum += center_y * edge_sum + (edges[kBottom] - edges[kTop]);
   };
-  sums([&](int index) { return field.gap(index); }, gap, x_gap, y_gap);
+  double edges[4];
+  for (int side = 0; side < 4; ++side) {
+    edges[side] = signs[side] == 0.0 ? 0.0 : signs[side] * 0.5 * (cell_gap + gaps[side]);
+  }
+  addHeights(edges, gap, x_gap, y_gap);
   if (field.upperIsFlat()) return;  // the lower surface is then the gap, turned over
-  sums([&](int index) { return field.lowerHeight(index); }, lower, x_lower, y_lower);
+  const int neighbours[4] = {cell.index - 1, cell.index + 1, cell.index - field.cols(), cell.index + field.cols()};
+  const double cell_lower = field.lowerHeight(cell.index);
+  for (int side = 0; side < 4; ++side) {
+    edges[side] = signs[side] == 0.0 ? 0.0 : signs[side] * 0.5 * (cell_lower + field.lowerHeight(neighbours[side]));
+  }
+  addHeights(edges, lower, x_lower, y_lower);
 }
 
 BoundarySums& BoundarySums::operator+=(const BoundarySums& other) {
@@ -81,38 +88,39 @@ BoundarySums& BoundarySums::operator+=(const BoundarySums& other) {
   return *this;
 }
 
-ContactPatch ContactPatch::ofCell(std::int32_t cell, std::int32_t row, std::int32_t col, double gap) {
+ContactPatch ContactPatch::ofCell(const GridCell& cell, double gap, const double (&outside)[4]) {
   ContactPatch patch;
   patch.area = 1;
-  patch.min_col = patch.max_col = col;
-  patch.min_row = patch.max_row = row;
-  for (std::int32_t& extreme_cell : patch.extreme) extreme_cell = cell;
-  patch.deepest = cell;
+  patch.min_col = patch.max_col = cell.col;
+  patch.min_row = patch.max_row = cell.row;
+  for (int side = 0; side < 4; ++side) patch.extreme[side] = {cell.index, gap, outside[side]};
+  patch.deepest = cell.index;
   patch.deepest_gap = patch.latest_gap = gap;
   return patch;
 }
 
-void ContactPatch::addCell(const GapField& field, std::int32_t cell, std::int32_t row, std::int32_t col, double gap) {
+void ContactPatch::addCell(const GridCell& cell, double gap, const double (&outside)[4]) {
   const auto extend = [&](Side side, std::int32_t& bound, std::int32_t place, bool is_further) {
-    if (!is_further && (place != bound || !isDeeper(field, cell, extreme[side]))) return;
+    const ExtremeCell candidate{cell.index, gap, outside[side]};
+    if (!is_further && (place != bound || !isDeeper(candidate, extreme[side]))) return;
     bound = place;
-    extreme[side] = cell;
+    extreme[side] = candidate;
   };
-  extend(kLeft, min_col, col, col < min_col);
-  extend(kRight, max_col, col, col > max_col);
-  extend(kTop, min_row, row, row < min_row);
-  extend(kBottom, max_row, row, row > max_row);
-  if (gap < deepest_gap || (gap == deepest_gap && cell < deepest)) {
-    deepest = cell;
+  extend(kLeft, min_col, cell.col, cell.col < min_col);
+  extend(kRight, max_col, cell.col, cell.col > max_col);
+  extend(kTop, min_row, cell.row, cell.row < min_row);
+  extend(kBottom, max_row, cell.row, cell.row > max_row);
+  if (isDeeper(gap, cell.index, deepest_gap, deepest)) {
+    deepest = cell.index;
     deepest_gap = gap;
   }
   latest_gap = std::max(latest_gap, gap);
   ++area;
 }
 
-void ContactPatch::merge(const GapField& field, const ContactPatch& other) {
+void ContactPatch::merge(const ContactPatch& other) {
   const auto mergeSide = [&](Side side, std::int32_t& bound, std::int32_t other_bound, bool other_is_further) {
-    if (other_is_further || (bound == other_bound && isDeeper(field, other.extreme[side], extreme[side]))) {
+    if (other_is_further || (bound == other_bound && isDeeper(other.extreme[side], extreme[side]))) {
       bound = other_bound;
       extreme[side] = other.extreme[side];
     }
@@ -121,7 +129,7 @@ void ContactPatch::merge(const GapField& field, const ContactPatch& other) {
   mergeSide(kRight, max_col, other.max_col, other.max_col > max_col);
   mergeSide(kTop, min_row, other.min_row, other.min_row < min_row);
   mergeSide(kBottom, max_row, other.max_row, other.max_row > max_row);
-  if (isDeeper(field, other.deepest, deepest)) {
+  if (isDeeper(other.deepest_gap, other.deepest, deepest_gap, deepest)) {
     deepest = other.deepest;
     deepest_gap = other.deepest_gap;
   }

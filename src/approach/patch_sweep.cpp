@@ -24,8 +24,7 @@ void PatchSweep::begin(const GapField& field, const GapOrder& order, Connectivit
   stride_ = field.cols() + 2;
   label_.assign(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(field.rows() + 2), kNoCell);
   for (int row = 0; row < field.rows(); ++row) {
-    const auto line = label_.begin() + static_cast<std::ptrdiff_t>(placeOf(row * field.cols(), row));
-    std::fill(line, line + field.cols(), kApart);
+    std::fill_n(label_.data() + placeOf(row * field.cols(), row), field.cols(), kApart);
   }
   if (field.validCount() < field.cellCount()) {
     for (int cell = 0; cell < field.cellCount(); ++cell) {
@@ -113,7 +112,7 @@ std::int32_t PatchSweep::addPatch(const ContactPatch& patch) {
 
 std::int32_t PatchSweep::unite(std::int32_t a, std::int32_t b) {
   if (patches_[static_cast<std::size_t>(a)].area < patches_[static_cast<std::size_t>(b)].area) std::swap(a, b);
-  patches_[static_cast<std::size_t>(a)].merge(*field_, patches_[static_cast<std::size_t>(b)]);
+  patches_[static_cast<std::size_t>(a)].merge(patches_[static_cast<std::size_t>(b)]);
   parent_[static_cast<std::size_t>(b)] = a;
   const std::int32_t place = live_place_[static_cast<std::size_t>(b)];
   live_[static_cast<std::size_t>(place)] = live_.back();
@@ -130,34 +129,33 @@ std::int32_t PatchSweep::joined(std::int32_t id, std::int32_t label) {
   return neighbour == id ? id : unite(id, neighbour);
 }
 
-void PatchSweep::insert(const OrderedCell& cell) {
-  const int cols = field_->cols();
-  const std::int32_t col = cell.cell - cell.row * cols;
-  const auto stride = static_cast<std::size_t>(stride_);
-  const std::size_t place = placeOf(cell.cell, cell.row);
-  std::int32_t* const label = label_.data() + place;
-  const std::int32_t labels[4] = {label[-1], label[1], *(label - stride), label[stride]};  // in the order of Side
+void PatchSweep::insert(const OrderedCell& ordered) {
+  const GridCell cell{ordered.row, ordered.cell - ordered.row * field_->cols(), ordered.cell};
+  std::int32_t* const label = label_.data() + placeOf(ordered.cell, ordered.row);
+  const std::int32_t labels[4] = {label[-1], label[1], *(label - stride_), label[stride_]};  // in the order of Side
+  const int neighbours[4] = {cell.index - 1, cell.index + 1, cell.index - field_->cols(), cell.index + field_->cols()};
 
   std::int32_t id = -1;
-  for (const std::int32_t neighbour : labels) id = joined(id, neighbour);
+  double gaps[4];
+  double signs[4];
+  for (int side = 0; side < 4; ++side) {
+    gaps[side] = labels[side] == kNoCell ? GapField::kInvalidGap : field_->gap(neighbours[side]);
+    // an edge to a cell in contact was counted from its other side, and is inside now
+    signs[side] = labels[side] >= 0 ? -1.0 : (labels[side] == kApart ? 1.0 : 0.0);
+    id = joined(id, labels[side]);
+  }
   if (connectivity_ == Connectivity::kEight) {
-    for (const std::int32_t* const row : {label - stride, label + stride}) {
-      id = joined(id, row[-1]);
-      id = joined(id, row[1]);
+    for (const std::ptrdiff_t diagonal : {-stride_ - 1, 1 - stride_, stride_ - 1, stride_ + 1}) {
+      id = joined(id, label[diagonal]);
     }
   }
   if (id < 0) {
-    id = addPatch(ContactPatch::ofCell(cell.cell, cell.row, col, cell.gap));
+    id = addPatch(ContactPatch::ofCell(cell, ordered.gap, gaps));
   } else {
-    patches_[static_cast<std::size_t>(id)].addCell(*field_, cell.cell, cell.row, col, cell.gap);
+    patches_[static_cast<std::size_t>(id)].addCell(cell, ordered.gap, gaps);
   }
   *label = id;
-
-  // an edge to a cell in contact was counted from its other side, and is inside now
-  double signs[4];
-  for (int side = 0; side < 4; ++side) signs[side] = labels[side] >= 0 ? -1.0 : (labels[side] == kApart ? 1.0 : 0.0);
-  const int neighbours[4] = {cell.cell - 1, cell.cell + 1, cell.cell - cols, cell.cell + cols};
-  patches_[static_cast<std::size_t>(id)].boundary.addEdges(*field_, {cell.row, col, cell.cell}, neighbours, signs);
+  patches_[static_cast<std::size_t>(id)].boundary.addEdges(*field_, cell, ordered.gap, gaps, signs);
   markChanged(id);
 }
 

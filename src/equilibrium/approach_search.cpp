@@ -20,6 +20,7 @@ void ApproachSearch::run(const GapField& field, GapOrder& order, Connectivity co
   order_ = &order;
   setting_ = &setting;
   sweep_.begin(field, order, connectivity);
+  centres_.clear();
   loads_.prepare(order);
 
   const double limit_gap = order.cells()[static_cast<std::size_t>(order.contactLimit() - 1)].gap;
@@ -56,16 +57,27 @@ void ApproachSearch::run(const GapField& field, GapOrder& order, Connectivity co
   state.status = Status::kNoEquilibrium;
 }
 
+const PatchCentre& ApproachSearch::centreOf(std::int32_t patch_id, const ContactPatch& patch) {
+  KnownCentre& known = centres_[static_cast<std::size_t>(patch_id)];
+  const std::int32_t box[4] = {patch.min_row, patch.max_row, patch.min_col, patch.max_col};
+  if (known.is_settled && std::equal(box, box + 4, known.box)) return known.centre;
+  std::copy(box, box + 4, known.box);
+  known.centre = boxCentre(patch, *field_);
+  known.is_settled = sweep_.patchOf(known.centre.cell) == patch_id;
+  if (!known.is_settled) known.centre = deepestCentre(patch, *field_);
+  return known.centre;
+}
+
 void ApproachSearch::moveTo(double approach, int contact_count, EquilibriumState& state) {
+  if (contact_count < sweep_.contactCount()) centres_.clear();  // the sweep starts over, with new patches
   sweep_.advanceTo(contact_count);
   caps_.resize(sweep_.livePatches().size());
   responses_.resize(caps_.size());
+  centres_.resize(static_cast<std::size_t>(sweep_.patchIdEnd()));
   for (const std::int32_t id : sweep_.takeChangedPatches()) {
     const ContactPatch& patch = sweep_.patch(id);
-    GridCell centre = boxCentre(patch, *field_);
-    if (sweep_.patchOf(centre) != id) centre = field_->cellAt(patch.deepest);
     const auto place = static_cast<std::size_t>(sweep_.livePlace(id));
-    caps_[place] = capCouple(patch, *field_, centre, setting_->smallest_height);
+    caps_[place] = capCouple(patch, *field_, centreOf(id, patch), setting_->smallest_height);
     responses_[place] = AsperityResponse(caps_[place], setting_->law);
   }
   state.approach = approach;

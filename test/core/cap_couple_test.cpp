@@ -23,9 +23,9 @@ std::vector<CapCouple> allCaps(const GapField& field, double approach, Touch tou
   const plain::Labelling labelling = plain::labelPatches(field, approach, touch, Connectivity::kFour);
   std::vector<CapCouple> caps;
   for (std::size_t i = 0; i < labelling.patches.size(); ++i) {
-    GridCell centre = boxCentre(labelling.patches[i], field);
-    const bool is_inside = labelling.labels.at<int>(centre.row, centre.col) == static_cast<int>(i) + 1;
-    if (!is_inside) centre = field.cellAt(labelling.patches[i].deepest);
+    PatchCentre centre = boxCentre(labelling.patches[i], field);
+    const bool is_inside = labelling.labels.at<int>(centre.cell.row, centre.cell.col) == static_cast<int>(i) + 1;
+    if (!is_inside) centre = deepestCentre(labelling.patches[i], field);
     caps.push_back(capCouple(labelling.patches[i], field, centre, kSmallestHeight));
   }
   return caps;

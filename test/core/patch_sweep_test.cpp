@@ -49,7 +49,12 @@ void expectSamePatch(const ContactPatch& patch, const ContactPatch& expected, co
   EXPECT_EQ(patch.max_col, expected.max_col);
   EXPECT_EQ(patch.min_row, expected.min_row);
   EXPECT_EQ(patch.max_row, expected.max_row);
-  for (const Side side : {kLeft, kRight, kTop, kBottom}) EXPECT_EQ(patch.extreme[side], expected.extreme[side]);
+  for (const Side side : {kLeft, kRight, kTop, kBottom}) {
+    EXPECT_EQ(patch.extreme[side].cell, expected.extreme[side].cell);
+    EXPECT_EQ(patch.extreme[side].gap, expected.extreme[side].gap);
+    EXPECT_EQ(patch.extreme[side].outside, expected.extreme[side].outside);
+  }
+  EXPECT_EQ(patch.deepest_gap, expected.deepest_gap);
   EXPECT_EQ(patch.deepest, expected.deepest);
   EXPECT_EQ(patch.latest_gap, expected.latest_gap);
   expectSameBoundary(patch.boundary, expected.boundary, round_off);

@@ -67,9 +67,10 @@ State stateAt(const Problem& problem, double approach, Touch touch) {
   state.touch = touch;
   state.labelling = labelPatches(problem.field, approach, touch, problem.options.approach.connectivity);
   for (const ContactPatch& patch : state.labelling.patches) {
-    GridCell centre = boxCentre(patch, problem.field);
+    PatchCentre centre = boxCentre(patch, problem.field);
     const auto label = static_cast<int>(state.caps.size()) + 1;
-    if (state.labelling.labels.at<int>(centre.row, centre.col) != label) centre = problem.field.cellAt(patch.deepest);
+    const bool is_inside = state.labelling.labels.at<int>(centre.cell.row, centre.cell.col) == label;
+    if (!is_inside) centre = deepestCentre(patch, problem.field);
     state.caps.push_back(capCouple(patch, problem.field, centre, problem.options.interface.cutoff_distance));
     state.responses.emplace_back(state.caps.back(), problem.law);
   }
@@ -165,21 +166,27 @@ Labelling labelPatches(const GapField& field, double approach, Touch touch, Conn
     patch.min_row = stats.at<int>(label, cv::CC_STAT_TOP);
     patch.max_row = patch.min_row + stats.at<int>(label, cv::CC_STAT_HEIGHT) - 1;
     patch.deepest = -1;
-    std::fill(std::begin(patch.extreme), std::end(patch.extreme), -1);
+    for (ExtremeCell& extreme : patch.extreme) extreme.cell = -1;
     labelling.contact_count += patch.area;
   }
   forEachContactCell(labelling.labels, [&](int row, int col, int label) {
     ContactPatch& patch = labelling.patches[static_cast<std::size_t>(label - 1)];
     const int cell = row * field.cols() + col;
-    const auto take = [&](std::int32_t& best, bool applies) {
-      if (applies && (best < 0 || isDeeper(field, cell, best))) best = cell;
+    const auto gapAt = [&](int other_row, int other_col) {
+      const bool is_in_frame = other_row >= 0 && other_row < field.rows() && other_col >= 0 && other_col < field.cols();
+      return is_in_frame ? field.gap(other_row * field.cols() + other_col) : GapField::kInvalidGap;
     };
-    take(patch.deepest, true);
+    const auto take = [&](Side side, bool applies, int row_step, int col_step) {
+      ExtremeCell& best = patch.extreme[side];
+      if (!applies || (best.cell >= 0 && !isDeeper(field, cell, best.cell))) return;
+      best = {cell, field.gap(cell), gapAt(row + row_step, col + col_step)};
+    };
+    take(kLeft, col == patch.min_col, 0, -1);
+    take(kRight, col == patch.max_col, 0, 1);
+    take(kTop, row == patch.min_row, -1, 0);
+    take(kBottom, row == patch.max_row, 1, 0);
+    if (patch.deepest < 0 || isDeeper(field, cell, patch.deepest)) patch.deepest = cell;
     patch.deepest_gap = field.gap(patch.deepest);
-    take(patch.extreme[kLeft], col == patch.min_col);
-    take(patch.extreme[kRight], col == patch.max_col);
-    take(patch.extreme[kTop], row == patch.min_row);
-    take(patch.extreme[kBottom], row == patch.max_row);
     patch.latest_gap = std::max(patch.latest_gap, field.gap(cell));
   });
   measureBoundary(field, labelling.labels, labelling.patches);

@@ -25,6 +25,12 @@
 
 namespace mems_stiction {
 
+/// The cell that is taken for the summit of both caps.
+struct PatchCentre {
+  GridCell cell;
+  double gap = 0.0;  ///< [m]
+};
+
 struct CapCouple {
   double base_radius = 0.0;       ///< rc [m]
   double height = 0.0;            ///< delta_c of both caps together [m], > 0
@@ -38,11 +44,14 @@ struct CapCouple {
 
 /// The cell in the middle of the patch's bounding box. A side with an even number of cells has two middles: the deepest
 /// of them, so that a mirrored frame has the mirrored centre.
-GridCell boxCentre(const ContactPatch& patch, const GapField& field);
+PatchCentre boxCentre(const ContactPatch& patch, const GapField& field);
+/// The patch's deepest cell.
+PatchCentre deepestCentre(const ContactPatch& patch, const GapField& field);
 
-/// @param centre boxCentre() if that belongs to the patch, otherwise the patch's deepest cell.
+/// @param centre boxCentre() if that belongs to the patch, otherwise deepestCentre().
 /// @param smallest_height cap height of a patch without any relief [m], > 0
 /// Depends on the patch's cells only, not on how far the approach has gone since they came in.
-CapCouple capCouple(const ContactPatch& patch, const GapField& field, const GridCell& centre, double smallest_height);
+CapCouple capCouple(const ContactPatch& patch, const GapField& field, const PatchCentre& centre,
+                    double smallest_height);
 
 }  // namespace mems_stiction

@@ -22,28 +22,38 @@ struct BoundarySums {
   /// The edge between two neighbouring cells; sign +1 adds it, -1 takes it away.
   void addEdge(const GapField& field, int row, int col, int neighbour_row, int neighbour_col, int sign);
   /// The edges of one cell to its four neighbours, in the order of Side; a sign of 0 leaves an edge out.
-  void addEdges(const GapField& field, const GridCell& cell, const int (&neighbours)[4], const double (&signs)[4]);
+  /// @param gaps of the cell's neighbours [m]; not read where the sign is 0
+  void addEdges(const GapField& field, const GridCell& cell, double gap, const double (&gaps)[4],
+                const double (&signs)[4]);
   BoundarySums& operator+=(const BoundarySums& other);
 };
 
 enum Side { kLeft = 0, kRight = 1, kTop = 2, kBottom = 3 };
 
+/// A cell at one side of a patch's bounding box, and what lies beyond.
+struct ExtremeCell {
+  std::int32_t cell = 0;
+  double gap = 0.0;      ///< [m]
+  double outside = 0.0;  ///< gap of the neighbour beyond the box [m]; infinite if that is invalid or not in the frame
+};
+
 struct ContactPatch {
   std::int32_t area = 0;  ///< [cells]
   std::int32_t min_col = 0, max_col = 0, min_row = 0, max_row = 0;
   /// Deepest cell (smallest gap, then smallest index) among those that touch each side of the bounding box.
-  std::int32_t extreme[4] = {0, 0, 0, 0};
+  ExtremeCell extreme[4];
   std::int32_t deepest = 0;  ///< cell with the smallest gap, then the smallest index
   double deepest_gap = 0.0;  ///< its gap [m]
   double latest_gap = 0.0;   ///< largest gap among its cells [m]
   BoundarySums boundary;
 
   /// A patch of one cell, its boundary still empty.
-  static ContactPatch ofCell(std::int32_t cell, std::int32_t row, std::int32_t col, double gap);
+  /// @param outside gaps of its four neighbours, in the order of Side [m]; infinite where there is none
+  static ContactPatch ofCell(const GridCell& cell, double gap, const double (&outside)[4]);
   /// Adds one cell, but not its edges.
-  void addCell(const GapField& field, std::int32_t cell, std::int32_t row, std::int32_t col, double gap);
+  void addCell(const GridCell& cell, double gap, const double (&outside)[4]);
   /// Adds the attributes of `other`, but not the edges between the two, which the caller takes away.
-  void merge(const GapField& field, const ContactPatch& other);
+  void merge(const ContactPatch& other);
 };
 
 }  // namespace mems_stiction

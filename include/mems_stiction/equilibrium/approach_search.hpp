@@ -56,6 +56,8 @@ class ApproachSearch {
   void moveTo(double approach, int contact_count, EquilibriumState& state);
   /// Replaces the state by the first level in equilibrium after `previous_count` cells, if there is one.
   void refine(int previous_count, EquilibriumState& state);
+  /// The centre of a patch that has changed; looked up again only when its bounding box has.
+  const PatchCentre& centreOf(std::int32_t patch_id, const ContactPatch& patch);
   /// To the letter of the paper nothing resists a plastic asperity: when all are, no extremum can come.
   bool nothingResists() const;
   void record(EquilibriumState& state) const;
@@ -65,6 +67,13 @@ class ApproachSearch {
   const SearchSetting* setting_ = nullptr;
   PatchSweep sweep_;
   GapLoads loads_;
+  struct KnownCentre {
+    PatchCentre centre;
+    std::int32_t box[4];
+    bool is_settled = false;  ///< the box's centre belongs to the patch, and will as long as the box stays
+  };
+
+  std::vector<KnownCentre> centres_;  ///< by patch id
   std::vector<CapCouple> caps_;
   std::vector<AsperityResponse> responses_;
   std::vector<std::int32_t> level_ends_;
