@@ -213,8 +213,8 @@ double GapOrder::cellsBelow(double limit) const {
     const int group = static_cast<int>(std::max(limit_in_widths, 0.0)) >> group_shift_;
     const auto begin = cells_.begin() + groupStart(group);
     const auto end = cells_.begin() + group_end_[static_cast<std::size_t>(group)];
-    return static_cast<double>(groupStart(group) +
-                               std::count_if(begin, end, [limit](const OrderedCell& cell) { return cell.gap < limit; }));
+    return static_cast<double>(
+        groupStart(group) + std::count_if(begin, end, [limit](const OrderedCell& cell) { return cell.gap < limit; }));
   }
   auto count = static_cast<double>(cells_.size());
   for (int bucket = ordered_buckets_; bucket < bucket_count_ && bucket < limit_in_widths; ++bucket) {

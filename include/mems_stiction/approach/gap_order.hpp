@@ -42,8 +42,8 @@ class GapOrder {
   int contactLimit() const { return contact_limit_; }
   /// Number of ordered cells with gap < approach; these are the first cells then.
   int countBelow(double approach);
-  /// Number of valid cells with gap < limit, wherever the limit lies: exact where the cells are ordered, from the counts of the
-  /// buckets beyond.
+  /// Number of valid cells with gap < limit, wherever the limit lies: exact where the cells are ordered, from the
+  /// counts of the buckets beyond.
   double cellsBelow(double limit) const;
   /// Sorts the groups that reach into these places, by gap, then by cell.
   void sortBetween(int begin, int end);

@@ -13,11 +13,12 @@ namespace mems_stiction {
 
 /// How pixels become heights: height = pixel x height_scale + height_offset.
 struct ScanOptions {
-  double pitch_x = 0.0;        ///< distance of neighbouring columns [m], >= 0; 0 = not stated, the scan must bring its own
-  double pitch_y = 0.0;        ///< distance of neighbouring rows [m], >= 0; 0 = not stated
+  double pitch_x = 0.0;  ///< distance of neighbouring columns [m], >= 0; 0 = not stated, the scan must bring its own
+  double pitch_y = 0.0;  ///< distance of neighbouring rows [m], >= 0; 0 = not stated
   double height_scale = 1.0;   ///< [m per unit of the pixel], not 0
   double height_offset = 0.0;  ///< [m]
-  double invalid_value = std::numeric_limits<double>::quiet_NaN();  ///< pixels of this raw value are invalid; NaN = none
+  double invalid_value =
+      std::numeric_limits<double>::quiet_NaN();  ///< pixels of this raw value are invalid; NaN = none
 
   void describe(OptionVisitor& visitor);
 };

@@ -6,8 +6,8 @@
 ///     a^3   = R P1/K,  K = 4E/3
 ///     P(a)  = K a^3/R - sqrt(6 pi w K a^3)
 ///     d(a)  = a^2/R - sqrt(8 pi w a/(3K))
-///     pull-off at fixed load: (3/2) pi w R at a^3 = (3/2) pi w R^2/K; at fixed grips: (5/6) pi w R at a^3 = pi w
-///     R^2/(6K)
+///     pull-off at fixed load:  (3/2) pi w R at a^3 = (3/2) pi w R^2/K
+///     pull-off at fixed grips: (5/6) pi w R at a^3 = pi w R^2/(6K)
 ///
 /// Assumptions: paraboloid on a half-space, both elastic and smooth, a << R, no force outside the contact, no friction.
 /// Holds for compliant, large, sticky spheres: Tabor's parameter above about 5 (transition.hpp). Outside, towards

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Height and hybrid parameters of ISO 25178-2 over the valid pixels of one surface, heights about their mean (levelling
-/// is the caller's).
+/// Height and hybrid parameters of ISO 25178-2 over the valid pixels of one surface, heights about their mean
+/// (levelling is the caller's).
 
 #include "mems_stiction/height_map/height_map.hpp"
 
