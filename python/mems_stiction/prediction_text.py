@@ -56,4 +56,6 @@ def _change(unit, old, new):
     verb = "grows" if new > old else "falls"
     if not old:
         return "%s from 0 to %s" % (verb, text(new))
-    return "%s from %s to %s (%+.3g %%)" % (verb, text(old), text(new), 100 * (new / old - 1))
+    ratio = new / old
+    factor = "%+.3g %%" % (100 * (ratio - 1)) if ratio < 3 else "%.3g times" % ratio
+    return "%s from %s to %s (%s)" % (verb, text(old), text(new), factor)
