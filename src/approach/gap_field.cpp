@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <string>
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/base/vectorized.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -25,36 +27,89 @@ void requireSameGrid(const HeightMap& lower, const HeightMap& upper) {
                      ")");
 }
 
+/// Highest valid height of a line.
+template <typename Scalar>
+inline Scalar highestOfLanes(const Scalar* line, std::size_t size) {
+  constexpr Scalar kLargest = std::numeric_limits<Scalar>::max();
+  constexpr std::size_t kMaxima = 8;  // independent ones, which the compiler turns into vector instructions
+  Scalar highest[kMaxima];
+  std::fill(highest, highest + kMaxima, -kLargest);
+  std::size_t i = 0;
+  for (; i + kMaxima <= size; i += kMaxima) {
+    for (std::size_t lane = 0; lane < kMaxima; ++lane) {
+      const Scalar height = line[i + lane];
+      const bool is_higher = height > highest[lane] && height <= kLargest;  // false for NaN and infinity
+      highest[lane] = is_higher ? height : highest[lane];
+    }
+  }
+  for (; i < size; ++i) {
+    if (line[i] > highest[0] && line[i] <= kLargest) highest[0] = line[i];
+  }
+  return *std::max_element(highest, highest + kMaxima);
+}
+
+MEMS_STICTION_VECTORIZED float highestOf(const float* line, std::size_t size) { return highestOfLanes(line, size); }
+MEMS_STICTION_VECTORIZED double highestOf(const double* line, std::size_t size) { return highestOfLanes(line, size); }
+
+template <typename Scalar>
+inline void gapsBelowLine(double top, const Scalar* line, std::size_t size, double* gap) {
+  for (std::size_t i = 0; i < size; ++i) {
+    const double height = line[i];
+    gap[i] = height - height == 0.0 ? top - height : GapField::kInvalidGap;
+  }
+}
+
+MEMS_STICTION_VECTORIZED void gapsBelow(double top, const float* line, std::size_t size, double* gap) {
+  gapsBelowLine(top, line, size, gap);
+}
+MEMS_STICTION_VECTORIZED void gapsBelow(double top, const double* line, std::size_t size, double* gap) {
+  gapsBelowLine(top, line, size, gap);
+}
+
+constexpr std::size_t kLanes = 4;
+/// Four doubles that are added, compared and chosen side by side, in the instructions that the processor has.
+using Lanes = double __attribute__((vector_size(kLanes * sizeof(double))));
+
+/// Count, sum, sum of squares and maximum of the finite gaps, in fixed lanes.
+struct GapSums {
+  Lanes count{};
+  Lanes sum{};
+  Lanes squares{};
+  Lanes largest{};
+};
+
+/// @param size a multiple of kLanes
+MEMS_STICTION_VECTORIZED void addGaps(const double* gaps, std::size_t size, GapSums& sums) {
+  const Lanes zero{};
+  const Lanes one = zero + 1.0;
+  GapSums local = sums;
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    Lanes gap;
+    std::memcpy(&gap, gaps + i, sizeof gap);
+    const auto is_valid = gap < GapField::kInvalidGap;
+    const Lanes value = is_valid ? gap : zero;
+    local.count += is_valid ? one : zero;
+    local.sum += value;
+    local.squares += value * value;
+    local.largest = value > local.largest ? value : local.largest;
+  }
+  sums = local;
+}
+
+double sumOf(const Lanes& lanes) { return lanes[0] + lanes[1] + lanes[2] + lanes[3]; }
+double largestOf(const Lanes& lanes) { return std::max({lanes[0], lanes[1], lanes[2], lanes[3]}); }
+
 }  // namespace
 
 template <typename Scalar>
 void GapField::computeAgainstPlane(const cv::Mat& heights) {
-  constexpr Scalar kLargest = std::numeric_limits<Scalar>::max();
-  constexpr int kLanes = 8;  // independent maxima, which the compiler turns into vector instructions
-  Scalar highest[kLanes];
-  std::fill(highest, highest + kLanes, -kLargest);
+  Scalar highest = -std::numeric_limits<Scalar>::max();
   for (int row = 0; row < rows_; ++row) {
-    const Scalar* line = heights.ptr<Scalar>(row);
-    int col = 0;
-    for (; col + kLanes <= cols_; col += kLanes) {
-      for (int lane = 0; lane < kLanes; ++lane) {
-        const Scalar height = line[col + lane];
-        const bool is_higher = height > highest[lane] && height <= kLargest;  // false for NaN and infinity
-        highest[lane] = is_higher ? height : highest[lane];
-      }
-    }
-    for (; col < cols_; ++col) {
-      if (line[col] > highest[0] && line[col] <= kLargest) highest[0] = line[col];
-    }
+    highest = std::max(highest, highestOf(heights.ptr<Scalar>(row), static_cast<std::size_t>(cols_)));
   }
-  const double top = *std::max_element(highest, highest + kLanes);
   double* gap = gap_.data();
   for (int row = 0; row < rows_; ++row, gap += cols_) {
-    const Scalar* line = heights.ptr<Scalar>(row);
-    for (int col = 0; col < cols_; ++col) {
-      const double height = line[col];
-      gap[col] = height - height == 0.0 ? top - height : kInvalidGap;
-    }
+    gapsBelow(highest, heights.ptr<Scalar>(row), static_cast<std::size_t>(cols_), gap);
   }
 }
 
@@ -119,34 +174,22 @@ void GapField::compute(const HeightMap& lower, const HeightMap& upper) {
 }
 
 void GapField::measure() {
-  constexpr std::size_t kLanes = 4;  // independent sums, which the compiler turns into vector instructions
-  double count[kLanes] = {};
-  double sum[kLanes] = {};
-  double squares[kLanes] = {};
-  double largest[kLanes] = {};
-  const std::size_t size = gap_.size();
-  const auto add = [&](std::size_t lane, double gap) {
-    const bool is_valid = gap < kInvalidGap;
-    const double value = is_valid ? gap : 0.0;
-    count[lane] += is_valid ? 1.0 : 0.0;
-    sum[lane] += value;
-    squares[lane] += value * value;
-    largest[lane] = value > largest[lane] ? value : largest[lane];
-  };
-  std::size_t cell = 0;
-  for (; cell + kLanes <= size; cell += kLanes) {
-    for (std::size_t lane = 0; lane < kLanes; ++lane) add(lane, gap_[cell + lane]);
-  }
-  for (; cell < size; ++cell) add(0, gap_[cell]);
+  GapSums sums;
+  const std::size_t in_lanes = gap_.size() / kLanes * kLanes;
+  addGaps(gap_.data(), in_lanes, sums);
+  double rest[kLanes];
+  std::fill(rest, rest + kLanes, kInvalidGap);
+  std::copy(gap_.begin() + static_cast<std::ptrdiff_t>(in_lanes), gap_.end(), rest);
+  addGaps(rest, kLanes, sums);
 
-  valid_count_ = static_cast<int>(count[0] + count[1] + count[2] + count[3]);
+  valid_count_ = static_cast<int>(sumOf(sums.count));
   if (valid_count_ == 0) {
     throw SurfaceError(upper_is_flat_ ? "the height map has no valid pixel"
                                       : "no pixel is valid in both the scan and the counter-surface");
   }
-  largest_gap_ = *std::max_element(largest, largest + kLanes);
-  mean_gap_ = (sum[0] + sum[1] + sum[2] + sum[3]) / valid_count_;
-  const double mean_square = (squares[0] + squares[1] + squares[2] + squares[3]) / valid_count_;
+  largest_gap_ = largestOf(sums.largest);
+  mean_gap_ = sumOf(sums.sum) / valid_count_;
+  const double mean_square = sumOf(sums.squares) / valid_count_;
   rms_gap_ = std::sqrt(std::max(0.0, mean_square - mean_gap_ * mean_gap_));
 }
 
