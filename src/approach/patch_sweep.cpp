@@ -9,7 +9,10 @@ constexpr std::int32_t kApart = -1;
 /// Invalid cells and the border around the frame.
 constexpr std::int32_t kNoCell = -2;
 /// How far ahead of the sweep memory is asked for: its order is random in the frame, but known.
-constexpr int kPrefetchDistance = 12;
+constexpr int kPrefetchDistance = 16;
+/// The patches that a cell will join are known once its neighbours' labels have arrived.
+constexpr int kPatchPrefetchDistance = 6;
+constexpr std::size_t kCacheLine = 64;
 
 }  // namespace
 
@@ -60,12 +63,28 @@ void PatchSweep::prefetch(const OrderedCell& cell) const {
   __builtin_prefetch(gap + field_->cols());
 }
 
+void PatchSweep::prefetchPatches(const OrderedCell& cell) const {
+  const std::int32_t* label = label_.data() + placeOf(cell.cell, cell.row);
+  std::int32_t last = kApart;
+  for (const std::int32_t neighbour : {label[-1], label[1], *(label - stride_), label[stride_]}) {
+    if (neighbour < 0 || neighbour == last) continue;
+    last = neighbour;
+    const char* patch = reinterpret_cast<const char*>(patches_.data() + neighbour);
+    for (std::size_t offset = 0; offset < sizeof(ContactPatch); offset += kCacheLine)
+      __builtin_prefetch(patch + offset, 1);
+    __builtin_prefetch(parent_.data() + neighbour);
+  }
+}
+
 void PatchSweep::advanceTo(int count) {
   if (count < inserted_) restart();
   const std::vector<OrderedCell>& cells = order_->cells();
   const auto ahead_end = static_cast<int>(cells.size()) - kPrefetchDistance;
+  const int patch_ahead_end = count - kPatchPrefetchDistance;
   for (; inserted_ < count; ++inserted_) {
     if (inserted_ < ahead_end) prefetch(cells[static_cast<std::size_t>(inserted_ + kPrefetchDistance)]);
+    if (inserted_ < patch_ahead_end)
+      prefetchPatches(cells[static_cast<std::size_t>(inserted_ + kPatchPrefetchDistance)]);
     insert(cells[static_cast<std::size_t>(inserted_)]);
   }
 }

@@ -49,6 +49,7 @@ class PatchSweep {
   std::int32_t addPatch(const ContactPatch& patch);
   std::size_t placeOf(std::int32_t cell, std::int32_t row) const;
   void prefetch(const OrderedCell& cell) const;
+  void prefetchPatches(const OrderedCell& cell) const;
   std::int32_t unite(std::int32_t a, std::int32_t b);
   std::int32_t root(std::int32_t id);
   void markChanged(std::int32_t id);
