@@ -6,6 +6,13 @@
 #include "mems_stiction/equilibrium/level_search.hpp"
 
 namespace mems_stiction {
+namespace {
+
+/// Cells whose gaps differ by less than this share of a step come into contact together. Else round-off decides which
+/// part of a symmetrical ring of cells comes first, and a contact of few pixels gets the radius of half a ring.
+constexpr double kLevelWidth = 1e-6;
+
+}  // namespace
 
 double approachStep(const ApproachOptions& options, double composite_rms_height, double cutoff_distance) {
   constexpr double kStepsPerRmsHeight = 50.0;
@@ -97,10 +104,13 @@ void ApproachSearch::refine(int previous_count, EquilibriumState& state) {
   order_->sortBetween(previous_count, state.contact_count);
   const std::vector<OrderedCell>& cells = order_->cells();
   level_ends_.clear();
+  const double level_width = kLevelWidth * setting_->step;
+  double level_gap = previous_count < state.contact_count ? cells[static_cast<std::size_t>(previous_count)].gap : 0.0;
   for (int i = previous_count; i < state.contact_count; ++i) {
-    const bool is_last_of_level = i + 1 == static_cast<int>(cells.size()) ||
-                                  cells[static_cast<std::size_t>(i + 1)].gap != cells[static_cast<std::size_t>(i)].gap;
-    if (is_last_of_level) level_ends_.push_back(i + 1);
+    const bool is_last_of_step = i + 1 == state.contact_count;
+    if (!is_last_of_step && cells[static_cast<std::size_t>(i + 1)].gap <= level_gap + level_width) continue;
+    level_ends_.push_back(i + 1);
+    if (!is_last_of_step) level_gap = cells[static_cast<std::size_t>(i + 1)].gap;
   }
   const double step_end_approach = state.approach;
   const int step_end_count = state.contact_count;

@@ -91,12 +91,22 @@ double limitGap(const GapField& field, double max_contact_fraction) {
 }
 
 /// The first level in (previous, step_end] that is in equilibrium, or the end of the step.
-State refined(const Problem& problem, const State& step_end, double previous_approach) {
-  std::set<double> levels;
+State refined(const Problem& problem, const State& step_end, double previous_approach, double step) {
+  std::set<double> gaps;
   for (const double gap : problem.field.gaps()) {
-    if (touches(gap, step_end.approach, step_end.touch) && gap >= previous_approach) levels.insert(gap);
+    if (touches(gap, step_end.approach, step_end.touch) && gap >= previous_approach) gaps.insert(gap);
   }
-  const std::vector<double> ordered(levels.begin(), levels.end());
+  // Gaps within a millionth of a step of the smallest among them are one level: they differ by round-off.
+  std::vector<double> ordered;
+  double level_start = -1.0;
+  for (const double gap : gaps) {
+    if (ordered.empty() || gap > level_start + 1e-6 * step) {
+      ordered.push_back(gap);
+      level_start = gap;
+    } else {
+      ordered.back() = gap;
+    }
+  }
   State found = step_end;
   const auto count = static_cast<int>(ordered.size());
   const int level = firstLevelThat(count, [&](int candidate) {
@@ -238,7 +248,7 @@ Prediction predict(const Options& options, const HeightMap& lower, const HeightM
     state = reaches_limit ? stateAt(problem, limit_gap, Touch::kUpTo) : stateAt(problem, approach, Touch::kBelow);
     has_ended = state.balance.is_equilibrium || reaches_limit;
     if (state.balance.is_equilibrium) {
-      state = refined(problem, state, previous_approach);
+      state = refined(problem, state, previous_approach, step);
       prediction.status = Status::kEquilibrium;
     } else if (reaches_limit) {
       const bool all_plastic =
