@@ -175,6 +175,61 @@ double singleSpacing(const HeightStatistics& statistics) {
   return static_cast<double>(std::nextafter(largest, std::numeric_limits<float>::infinity())) - largest;
 }
 
+void writePixels(const std::string& path, const cv::Mat& pixels) {
+  std::string cause = "cannot be written";
+  bool written = false;
+  try {
+    // Uncompressed: every reader takes it, and nothing is lost.
+    const std::vector<int> parameters = {cv::IMWRITE_TIFF_COMPRESSION, 1};
+    // OpenCV chooses the format by the name; the caller's name may have any ending.
+    std::vector<unsigned char> bytes;
+    if (cv::imencode(".tiff", pixels, bytes, parameters)) {
+      std::ofstream stream(path, std::ios::binary | std::ios::trunc);
+      stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+      stream.close();
+      written = stream.good();
+    }
+  } catch (const cv::Exception& error) {
+    cause += ": " + error.err;
+  }
+  if (!written) throw FileError(path + ": " + cause);
+}
+
+/// True if the float32 pixels hold every height, or its absence.
+bool isSame(const cv::Mat& heights, const cv::Mat& narrow) {
+  for (int row = 0; row < heights.rows; ++row) {
+    const double* wide_line = heights.ptr<double>(row);
+    const float* narrow_line = narrow.ptr<float>(row);
+    for (int col = 0; col < heights.cols; ++col) {
+      if (wide_line[col] != static_cast<double>(narrow_line[col]) && !std::isnan(wide_line[col])) return false;
+    }
+  }
+  return true;
+}
+
+std::vector<ScanChannel> channelList(const std::string& path, const std::vector<GwyChannel>& channels,
+                                     const std::string& wanted) {
+  std::vector<ScanChannel> list;
+  for (const GwyChannel& channel : channels) {
+    ScanChannel entry;
+    entry.name = std::to_string(channel.id) + ": " + (channel.title.empty() ? "(no title)" : channel.title);
+    entry.rows = channel.values.rows;
+    entry.cols = channel.values.cols;
+    entry.pitch_x = entry.cols > 0 ? channel.width / entry.cols : 0.0;
+    entry.pitch_y = entry.rows > 0 ? channel.height / entry.rows : 0.0;
+    entry.unit_xy = channel.unit_xy;
+    entry.unit_z = channel.unit_z;
+    list.push_back(entry);
+  }
+  if (list.empty()) throw FileError(path + ": the file has no image channel");
+  try {
+    list[chooseHeightChannel(channels, wanted)].is_chosen = true;
+  } catch (const FileError&) {
+    // None can be taken: the list shows why.
+  }
+  return list;
+}
+
 }  // namespace
 
 ScanFile openScanFile(const std::string& path, const ScanOptions& scan, const ScanFileOptions& options) {
@@ -194,6 +249,30 @@ ScanFile openScanFile(const std::string& path, const ScanOptions& scan, const Sc
   return withPitch(importByGwyddion(path, options.import), options);
 }
 
+std::vector<ScanChannel> listScanChannels(const std::string& path, const ScanOptions& scan,
+                                          const ScanFileOptions& options) {
+  const Content content = contentOf(path);
+  const std::string& wanted = options.import.channel;
+  if (content == Content::kGwy) return channelList(path, readGwyFile(path), wanted);
+  if (content == Content::kOther || (content == Content::kTiff && hasParkTags(path))) {
+    return channelList(path, channelsByGwyddion(path, options.import), wanted);
+  }
+  const cv::Mat pixels = content == Content::kText ? readTextGrid(path) : readPixels(path, content);
+  if (content == Content::kTiff && pixels.channels() != 1 && pixels.type() != CV_32FC2) {
+    return channelList(path, channelsByGwyddion(path, options.import), wanted);
+  }
+  const ScanOptions stated = withSidecar(path, scan);
+  ScanChannel entry;
+  entry.rows = pixels.rows;
+  entry.cols = pixels.cols;
+  entry.pitch_x = options.pitch_x > 0.0 ? options.pitch_x : stated.pitch_x;
+  entry.pitch_y = options.pitch_y > 0.0 ? options.pitch_y : stated.pitch_y;
+  entry.unit_xy = "m";
+  entry.unit_z = stated.height_scale == 1.0 ? "m" : numberText(stated.height_scale) + " m";
+  entry.is_chosen = pixels.channels() == 1 || pixels.type() == CV_32FC2;
+  return {entry};
+}
+
 HeightMap readScanFile(const std::string& path, const ScanOptions& scan, const ScanFileOptions& options) {
   return openScanFile(path, scan, options).surface;
 }
@@ -210,23 +289,20 @@ void writeHeightTiff(const std::string& path, const cv::Mat& heights) {
     }
     if (narrow) heights.convertTo(pixels, CV_32F);
   }
-  std::string cause = "cannot be written";
-  bool written = false;
-  try {
-    // Uncompressed: every reader takes it, and nothing is lost.
-    const std::vector<int> parameters = {cv::IMWRITE_TIFF_COMPRESSION, 1};
-    // OpenCV chooses the format by the name; the caller's name may have any ending.
-    std::vector<unsigned char> bytes;
-    if (cv::imencode(".tiff", pixels, bytes, parameters)) {
-      std::ofstream stream(path, std::ios::binary | std::ios::trunc);
-      stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-      stream.close();
-      written = stream.good();
-    }
-  } catch (const cv::Exception& error) {
-    cause += ": " + error.err;
-  }
-  if (!written) throw FileError(path + ": " + cause);
+  writePixels(path, pixels);
+}
+
+void writeScan(const std::string& path, const HeightMap& surface, const std::string& note) {
+  cv::Mat pixels;
+  surface.heights().convertTo(pixels, CV_32F);
+  if (surface.heights().depth() == CV_64F && !isSame(surface.heights(), pixels)) pixels = surface.heights();
+  writePixels(path, pixels);
+  std::ofstream sidecar(path + ".yaml", std::ios::trunc);
+  sidecar << "# " << note << "\n# Heights in metres: height = pixel x height_scale + height_offset.\n"
+          << "pitch_x: " << yamlNumber(surface.pitchX()) << "\npitch_y: " << yamlNumber(surface.pitchY())
+          << "\nheight_scale: 1.0\nheight_offset: 0.0\n";
+  sidecar.close();
+  if (!sidecar.good()) throw FileError(path + ".yaml: cannot be written");
 }
 
 }  // namespace mems_stiction

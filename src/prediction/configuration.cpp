@@ -6,7 +6,9 @@ namespace mems_stiction {
 
 void Configuration::describe(OptionVisitor& visitor) {
   model.describe(visitor);
+  spatial_roughness.describe(visitor);
   scan.describe(visitor);
+  resolution.describe(visitor);
   preprocessing.describe(visitor);
   counter_surface.describe(visitor);
   device.describe(visitor);
@@ -17,7 +19,9 @@ std::vector<std::string> Configuration::validate() const {
   std::vector<std::string> violations = model.validate();
   Configuration copy = *this;  // describe() shows mutable fields; the validator only reads them
   OptionValidator validator;
+  copy.spatial_roughness.describe(validator);
   copy.scan.describe(validator);
+  copy.resolution.describe(validator);
   copy.preprocessing.describe(validator);
   copy.counter_surface.describe(validator);
   copy.uncertainty.describe(validator);
@@ -31,6 +35,16 @@ std::vector<std::string> Configuration::validate() const {
   if ((scan.pitch_x > 0.0) != (scan.pitch_y > 0.0)) {
     violations.push_back("scan/pitch_x: " + numberText(scan.pitch_x) + " m with scan/pitch_y " +
                          numberText(scan.pitch_y) + " m is not allowed; both must be > 0 m, or both 0");
+  }
+  const SpatialRoughnessOptions& fit = spatial_roughness;
+  if (fit.hurst_shortest_wavelength > 0.0 && fit.hurst_longest_wavelength > 0.0 &&
+      fit.hurst_shortest_wavelength >= fit.hurst_longest_wavelength) {
+    violations.push_back("output/hurst_longest_wavelength: " + numberText(fit.hurst_longest_wavelength) +
+                         " m is not allowed, must be > output/hurst_shortest_wavelength " +
+                         numberText(fit.hurst_shortest_wavelength) + " m");
+  }
+  if (counter_surface.type == CounterSurfaceType::kFile && counter_surface.file.empty()) {
+    violations.push_back("counter_surface/file: '' is not allowed with counter_surface/type file; must name a file");
   }
   return violations;
 }

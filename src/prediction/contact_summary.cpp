@@ -124,6 +124,15 @@ void summarizeContact(const HeightMap& lower, const EquilibriumState& state, App
   prediction.bonding_regime = bondingRegimeOf(prediction.adhesion_parameter);
   prediction.median_tabor_parameter = median(tabor_parameters);
   prediction.contact_theory = contactTheoryOf(prediction.median_tabor_parameter);
+
+  std::vector<double>& values = tabor_parameters;  // the same memory, its figures are used up
+  values.clear();
+  for (const std::int32_t patch : patches) values.push_back(search.sweep().patch(patch).area);
+  prediction.median_contact_pixels = median(values);
+  values.clear();
+  for (std::size_t i = 0; i < patches.size(); ++i) values.push_back(search.caps()[i].composite_radius);
+  prediction.median_composite_radius = median(values);
+
   prediction.pull_off_force =
       prediction.pull_off_force_jkr + prediction.van_der_waals_force + prediction.capillary_force;
 }

@@ -136,7 +136,7 @@ HeightMap withFilledHoles(const HeightMap& surface, const FillOptions& options) 
     char text[32];
     std::snprintf(text, sizeof text, "%.4g", fraction);
     throw SurfaceError(std::string("a fraction of ") + text + " of the pixels is missing, more than the limit of " +
-                       numberText(options.max_fraction));
+                       numberText(options.max_fraction) + " (preprocessing/fill/max_fraction)");
   }
   const cv::Mat missing = ~validMask(heights);
   cv::Mat labels;

@@ -33,6 +33,7 @@ struct Arguments {
   std::string channel;
   std::string deformed;
   bool json = false;
+  bool convergence = false;
   std::vector<std::string> scans;
 };
 
@@ -68,6 +69,8 @@ void describe(CLI::App& app, Arguments& arguments) {
                  "title or number of the channel to take from an instrument maker's file")
       ->type_name("NAME");
   app.add_flag("-j,--json", arguments.json, "one JSON object per line instead of YAML documents");
+  app.add_flag("--convergence", arguments.convergence,
+               "predict at full, half and quarter resolution too, and print how pull-off force and contact area move");
   app.add_option("-d,--deformed", arguments.deformed,
                  "write the surface after contact as a float TIFF in metres; for one scan")
       ->type_name("OUT.tiff");
@@ -119,16 +122,20 @@ void predictScan(const std::string& path, const Arguments& arguments, const Scan
   for (const std::string& warning : scanWarnings(scan.surface)) std::cerr << path << ": warning: " << warning << "\n";
 
   Prediction prediction;
+  RecordExtras extras;
+  extras.channel = scan.channel;
   try {
     prediction = predictor.predict(scan.surface);
+    extras.preprocessing = predictor.lastRecord();
+    if (arguments.convergence) extras.convergence = predictor.convergence(scan.surface);
   } catch (const SurfaceError& error) {
     throw SurfaceError(path + ": " + error.what());
   }
   if (!arguments.deformed.empty()) writeHeightTiff(arguments.deformed, prediction.deformed_lower);
   if (arguments.json) {
-    std::cout << jsonRecord(path, scan.surface, prediction, scan.channel) << std::endl;
+    std::cout << jsonRecord(path, scan.surface, prediction, extras) << std::endl;
   } else {
-    std::cout << yamlRecord(path, scan.surface, prediction, scan.channel) << std::flush;
+    std::cout << yamlRecord(path, scan.surface, prediction, extras) << std::flush;
   }
 }
 

@@ -51,6 +51,18 @@ class KeyCollector : public OptionVisitor {
   }
 };
 
+/// Keys of the leaves of a tree, with slashes.
+void addKeys(const YAML::Node& tree, const std::string& prefix, std::set<std::string>& keys) {
+  for (const auto& entry : tree) {
+    const std::string key = prefix + entry.first.Scalar();
+    if (entry.second.IsMap()) {
+      addKeys(entry.second, key + "/", keys);
+    } else {
+      keys.insert(key);
+    }
+  }
+}
+
 TEST(Configuration, DefaultsAreValid) { EXPECT_TRUE(Configuration().validate().empty()); }
 
 TEST(Configuration, NestedMapsAndFlatKeysAreTheSame) {
@@ -89,7 +101,7 @@ TEST(Configuration, ChoicesAndFlagsAreRead) {
       "counter_surface: {type: topic, facing: up}\noutput/energy_curve: yes\noutput/asperities: False");
   EXPECT_EQ(configuration.model.approach.connectivity, Connectivity::kEight);
   EXPECT_EQ(configuration.model.approach.formulation, Formulation::kPrinted);
-  EXPECT_EQ(configuration.preprocessing.level, Levelling::kPlane);
+  EXPECT_EQ(configuration.preprocessing.level.shape, LevelShape::kPlane);
   EXPECT_EQ(configuration.counter_surface.type, CounterSurfaceType::kTopic);
   EXPECT_EQ(configuration.counter_surface.facing, CounterSurfaceFacing::kUp);
   EXPECT_TRUE(configuration.model.output.energy_curve);
@@ -132,6 +144,15 @@ TEST(Configuration, UnphysicalValuesAreRefused) {
   EXPECT_TRUE(mentions(refusal("load/voltage: 5"), "interface/insulator_thickness: 0 m"));
   EXPECT_TRUE(mentions(refusal("{load: {voltage: 5, max_voltage: 2}, interface/insulator_thickness: 1e-9}"),
                        "load/voltage: 5 V is not allowed, must be in [-2, 2]"));
+}
+
+TEST(Configuration, CombinationsThatMeanNothingAreRefused) {
+  EXPECT_TRUE(mentions(refusal("counter_surface/type: file"), "counter_surface/file: ''"));
+  EXPECT_TRUE(mentions(refusal("output: {hurst_shortest_wavelength: 2e-7, hurst_longest_wavelength: 1e-7}"),
+                       "output/hurst_longest_wavelength: 1e-07 m"));
+  EXPECT_TRUE(mentions(refusal("counter_surface/pose/tilt_x: 1.6"), "counter_surface/pose/tilt_x: 1.6 rad"));
+  EXPECT_TRUE(mentions(refusal("preprocessing/fill/max_fraction: 2"), "preprocessing/fill/max_fraction: 2"));
+  EXPECT_TRUE(mentions(refusal("resolution/min_contact_pixels: -1"), "resolution/min_contact_pixels: -1"));
 }
 
 TEST(Configuration, AllViolationsComeAtOnceAndEachOnce) {
@@ -215,9 +236,7 @@ TEST(Configuration, TemplateHoldsEveryKeyWithItsDefault) {
   Configuration configuration;
   configuration.describe(described);
   std::set<std::string> given;
-  for (const auto& section : YAML::LoadFile(path)) {
-    for (const auto& entry : section.second) given.insert(section.first.Scalar() + "/" + entry.first.Scalar());
-  }
+  addKeys(YAML::LoadFile(path), "", given);
   EXPECT_EQ(given, described.keys);
   EXPECT_EQ(toYaml(loadConfiguration(path)), toYaml(Configuration()));
 }
@@ -263,7 +282,7 @@ TEST(ScanPredictor, LevelsWhenAsked) {
   const HeightMap scan(heights, 1e-8, 1e-8);
   Configuration configuration;
   ScanPredictor plain(configuration);
-  configuration.preprocessing.level = Levelling::kPlane;
+  configuration.preprocessing.level.shape = LevelShape::kPlane;
   ScanPredictor levelling(configuration);
   // The tilt alone has an rms of 2 nm sqrt((16^2 - 1)/12) = 9.2 nm.
   EXPECT_GT(plain.predict(scan).rms_height, 8e-9);

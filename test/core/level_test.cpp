@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/preprocess/preprocess_options.hpp"
 #include "support/analytic_surfaces.hpp"
 
 namespace mems_stiction {
@@ -137,14 +136,6 @@ TEST(Levelled, fitsTwoLongRows) {
 TEST(Levelled, refusesASurfaceWithoutAValidPixel) {
   const cv::Mat heights(3, 4, CV_64FC1, cv::Scalar(std::numeric_limits<double>::quiet_NaN()));
   EXPECT_THROW(levelled(HeightMap(heights, kPitchX, kPitchY)), SurfaceError);
-}
-
-TEST(PreprocessOptions, describesLevelByName) {
-  PreprocessOptions options;
-  EXPECT_EQ(options.level, Levelling::kNone);
-  OptionValidator validator;
-  options.describe(validator);
-  EXPECT_TRUE(validator.violations().empty());
 }
 
 }  // namespace

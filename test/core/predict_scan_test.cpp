@@ -143,10 +143,40 @@ TEST_F(PredictScan, UnitSlipsAreWarnedOfOnStandardError) {
   EXPECT_EQ(outcome.output.find("warning"), std::string::npos);
 }
 
+TEST_F(PredictScan, ConvergenceIsAListInBothFormatsAndATableForPeople) {
+  const std::string call = "--convergence --pitch 20e-9 --load 1e-5 " + sphere();
+  const Outcome json = run("--json " + call);
+  ASSERT_EQ(json.status, 0);
+  const nlohmann::json record = nlohmann::json::parse(json.output);
+  ASSERT_EQ(record["convergence"].size(), 3u);
+  EXPECT_EQ(record["convergence"][2]["decimation"], 4);
+  EXPECT_EQ(record["convergence"][2]["cols"], 25);
+  EXPECT_EQ(record["is_resolution_limited"].type(), nlohmann::json::value_t::boolean);
+
+  const Outcome yaml = run(call);
+  EXPECT_NE(yaml.output.find("# half "), std::string::npos) << yaml.output;
+  const YAML::Node document = YAML::Load(yaml.output);
+  EXPECT_EQ(document["convergence"][1]["pull_off_force"].as<double>(),
+            record["convergence"][1]["pull_off_force"].get<double>());
+}
+
+TEST_F(PredictScan, TheRecordSaysHowTheScanWasCleanedAndHowFarItsRoughnessReaches) {
+  const std::string configuration = folder_.write(
+      "c.yaml", "preprocessing: {level: plane, tip: {radius: 50e-9}}\noutput: {spatial_roughness: true}\n");
+  const YAML::Node record = YAML::Load(run("-c " + configuration + " --pitch 20e-9 " + sphere()).output);
+  ASSERT_EQ(record["preprocessing"].size(), 2u);
+  EXPECT_EQ(record["preprocessing"][0]["step"].as<std::string>(), "tip");
+  EXPECT_EQ(record["preprocessing"][1]["parameters"].as<std::string>(), "shape=plane robust=false");
+  EXPECT_TRUE(record["tip_unreached_fraction"].IsDefined());
+  EXPECT_GT(record["roughness"]["sal"].as<double>(), 0.0);
+  EXPECT_FALSE(YAML::Load(run("--pitch 20e-9 " + sphere()).output)["roughness"]["sal"].IsDefined());
+}
+
 TEST_F(PredictScan, HelpNamesEveryOption) {
   const Outcome outcome = run("--help");
   EXPECT_EQ(outcome.status, 0);
-  for (const char* option : {"--config", "--pitch", "--voltage", "--load", "--step", "--json", "--deformed", "SCAN"}) {
+  for (const char* option :
+       {"--config", "--pitch", "--voltage", "--load", "--step", "--json", "--deformed", "--convergence", "SCAN"}) {
     EXPECT_NE(outcome.output.find(option), std::string::npos) << option;
   }
 }

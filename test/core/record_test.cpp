@@ -77,7 +77,9 @@ TEST(Record, HasTheFieldsThatScriptsRead) {
 }
 
 TEST(Record, YamlHoldsEveryFieldToTheLastBit) {
-  const std::string text = yamlRecord("a \"b\": c.tiff", scan(), example(), "0: ZSensor");
+  RecordExtras extras;
+  extras.channel = "0: ZSensor";
+  const std::string text = yamlRecord("a \"b\": c.tiff", scan(), example(), extras);
   EXPECT_EQ(text.compare(0, 4, "---\n"), 0) << text;
   EXPECT_EQ(text.back(), '\n');
   const YAML::Node record = YAML::Load(text);

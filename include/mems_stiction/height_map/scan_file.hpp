@@ -14,6 +14,7 @@
 /// before both.
 
 #include <string>
+#include <vector>
 
 #include <opencv2/core.hpp>
 
@@ -38,6 +39,21 @@ struct ScanFile {
 /// @throw OptionsError if a sidecar has an unknown key or a value out of range; each line names the sidecar.
 ScanFile openScanFile(const std::string& path, const ScanOptions& scan = {}, const ScanFileOptions& options = {});
 
+/// One channel of a scan file.
+struct ScanChannel {
+  std::string name;  ///< "0: ZSensor"; empty for files that have one channel without a name
+  int rows = 0, cols = 0;
+  double pitch_x = 0.0, pitch_y = 0.0;  ///< [unit_xy]; 0 = not stated
+  std::string unit_xy;                  ///< "m", or another; empty = none
+  std::string unit_z;
+  bool is_chosen = false;  ///< openScanFile() takes this one
+};
+
+/// Every channel of the file, also those that are not heights. Images and text grids have one.
+/// @throw FileError in one line with the file and the cause; OptionsError for a bad sidecar.
+std::vector<ScanChannel> listScanChannels(const std::string& path, const ScanOptions& scan = {},
+                                          const ScanFileOptions& options = {});
+
 /// The surface alone. @throw as openScanFile().
 HeightMap readScanFile(const std::string& path, const ScanOptions& scan = {}, const ScanFileOptions& options = {});
 
@@ -46,5 +62,11 @@ HeightMap readScanFile(const std::string& path, const ScanOptions& scan = {}, co
 /// @param heights rows x cols, CV_32FC1 or CV_64FC1
 /// @throw FileError naming the file if it cannot be written.
 void writeHeightTiff(const std::string& path, const cv::Mat& heights);
+
+/// Writes a surface as a TIFF that reads back to the last bit (float32 where that holds every height exactly, else
+/// float64), and beside it PATH.yaml with its pitch and scale.
+/// @param note one line on where the surface comes from, kept as a comment
+/// @throw FileError naming the file if it cannot be written.
+void writeScan(const std::string& path, const HeightMap& surface, const std::string& note);
 
 }  // namespace mems_stiction

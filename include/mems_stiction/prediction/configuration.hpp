@@ -8,7 +8,9 @@
 #include "mems_stiction/base/option_visitor.hpp"
 #include "mems_stiction/height_map/raw_scan.hpp"
 #include "mems_stiction/prediction/options.hpp"
-#include "mems_stiction/preprocess/preprocess_options.hpp"
+#include "mems_stiction/prediction/resolution.hpp"
+#include "mems_stiction/preprocess/pipeline.hpp"
+#include "mems_stiction/roughness/spatial_roughness.hpp"
 #include "mems_stiction/surface/counter_surface.hpp"
 #include "mems_stiction/verdict/device_options.hpp"
 #include "mems_stiction/verdict/uncertainty_options.hpp"
@@ -17,8 +19,10 @@ namespace mems_stiction {
 
 struct Configuration {
   Options model;
+  SpatialRoughnessOptions spatial_roughness;
   ScanOptions scan;
-  PreprocessOptions preprocessing;
+  ResolutionOptions resolution;
+  PipelineOptions preprocessing;
   CounterSurfaceOptions counter_surface;
   DeviceOptions device;
   UncertaintyOptions uncertainty;

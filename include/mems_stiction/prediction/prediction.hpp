@@ -11,6 +11,7 @@
 #include "mems_stiction/equilibrium/equilibrium_state.hpp"
 #include "mems_stiction/mechanics/regime.hpp"
 #include "mems_stiction/roughness/areal_parameters.hpp"
+#include "mems_stiction/roughness/spatial_roughness.hpp"
 
 namespace mems_stiction {
 
@@ -86,6 +87,12 @@ struct Prediction {
   cv::Mat deformed_lower;  ///< rows x cols CV_64FC1 [m], NaN where invalid
   cv::Mat deformed_upper;  ///< the same in the upper surface's own z [m]
   cv::Mat contact_map;     ///< rows x cols CV_8UC1, values of Regime
+
+  double median_contact_pixels = 0.0;  ///< pixels of the scan in half of the contacts or fewer [-]; NaN without contact
+  double median_composite_radius = 0.0;  ///< median of R_i of (5) [m]; NaN without contact
+  bool is_resolution_limited = false;    ///< median_contact_pixels is below resolution/min_contact_pixels
+  bool is_tip_limited = false;           ///< the tip is blunter than the contacts: its radius > median_composite_radius
+  SpatialRoughness spatial_roughness;    ///< of the scan; NaN unless output/spatial_roughness is set
 };
 
 }  // namespace mems_stiction

@@ -5,7 +5,7 @@
 ///
 ///     visitPredictionFields(prediction, [&](const char* name, const auto& value, const char* unit) { print(...); });
 ///
-/// Values are double, int, Status, BondingRegime and ContactTheory; word() makes words of the enumerations.
+/// Values are double, int, bool, Status, BondingRegime and ContactTheory; word() makes words of the enumerations.
 
 #include "mems_stiction/prediction/prediction.hpp"
 
@@ -80,7 +80,22 @@ void visitRoughnessFields(Parameters& roughness, Visitor&& visit) {
   visit("sdr", roughness.sdr, "");
 }
 
-/// Every scalar of the prediction; the roughness figures have visitRoughnessFields().
+/// @param roughness SpatialRoughness, const or not
+/// @param visit called with (name, value, unit) for each figure
+template <typename Parameters, typename Visitor>
+void visitSpatialRoughnessFields(Parameters& roughness, Visitor&& visit) {
+  visit("sal", roughness.sal, "m");
+  visit("str", roughness.str, "");
+  visit("m0", roughness.m0, "m^2");
+  visit("m2", roughness.m2, "");
+  visit("m4", roughness.m4, "1/m^2");
+  visit("nayak", roughness.nayak, "");
+  visit("summit_density", roughness.summit_density, "1/m^2");
+  visit("mean_summit_radius", roughness.mean_summit_radius, "m");
+  visit("hurst", roughness.hurst, "");
+}
+
+/// Every scalar of the prediction; the roughness figures have visitRoughnessFields() and visitSpatialRoughnessFields().
 /// @param prediction Prediction, const or not
 /// @param visit called with (name, value, unit) for each figure
 template <typename PredictionType, typename Visitor>
@@ -128,6 +143,11 @@ void visitPredictionFields(PredictionType& prediction, Visitor&& visit) {
   visit("rms_height", prediction.rms_height, "m");
   visit("invalid_fraction", prediction.invalid_fraction, "");
   visit("processing_time", prediction.processing_time, "s");
+
+  visit("median_contact_pixels", prediction.median_contact_pixels, "");
+  visit("median_composite_radius", prediction.median_composite_radius, "m");
+  visit("is_resolution_limited", prediction.is_resolution_limited, "");
+  visit("is_tip_limited", prediction.is_tip_limited, "");
 }
 
 /// The fields of one point of the energy curve.

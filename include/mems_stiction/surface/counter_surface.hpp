@@ -1,15 +1,36 @@
 #pragma once
 
-/// The surface that the scan is brought into contact with.
+/// What is the scan brought into contact with?
+///
+/// | type        | heights                                                         | beyond its edge            |
+/// |-------------|-----------------------------------------------------------------|----------------------------|
+/// | flat        | a plane                                                         | goes on                    |
+/// | topic       | a measured height map that arrives beside the scans             | nothing: cells are invalid |
+/// | file        | a scan file of any kind that scan_file.hpp reads, read once     | nothing: cells are invalid |
+/// | gaussian    | random heights of given lengths, skewness and kurtosis          | wraps around               |
+/// | self_affine | random heights, alike on many scales                            | wraps around               |
+///
+/// Generated surfaces have the scan's size and pitch, and depend on it and the seed alone: the same scan size gives the
+/// same surface. They are described as a probe would see them, asperities up, and turned over for mounting. Where each
+/// lies over the scan is said by the pose (alignment.hpp); a plane takes only its tilts.
+
+#include <limits>
+#include <string>
 
 #include "mems_stiction/base/option_visitor.hpp"
 #include "mems_stiction/height_map/height_map.hpp"
+#include "mems_stiction/surface/alignment.hpp"
+#include "mems_stiction/surface/self_affine_surface.hpp"
+#include "mems_stiction/surface/translated_gaussian_surface.hpp"
 
 namespace mems_stiction {
 
 enum class CounterSurfaceType {
-  kFlat,   ///< a plane
-  kTopic,  ///< a measured height map that arrives beside the scans
+  kFlat,        ///< a plane
+  kTopic,       ///< a measured height map that arrives beside the scans
+  kFile,        ///< a measured height map from a file
+  kGaussian,    ///< generated: translated_gaussian_surface.hpp
+  kSelfAffine,  ///< generated: self_affine_surface.hpp
 };
 
 /// Which way the heights of a measured counter-surface point.
@@ -21,11 +42,30 @@ enum class CounterSurfaceFacing {
 struct CounterSurfaceOptions {
   CounterSurfaceType type = CounterSurfaceType::kFlat;
   CounterSurfaceFacing facing = CounterSurfaceFacing::kDown;
+  std::string file;     ///< for type file
+  std::string channel;  ///< title or number, of an instrument maker's file; empty = the likeliest height channel
+  SurfacePose pose;
+  TranslatedGaussianOptions gaussian;    ///< its rows, cols and pitches are the scan's, its seed is `seed`
+  SelfAffineSurfaceOptions self_affine;  ///< the same
+  int seed = 1;                          ///< of generated surfaces, >= 0
+
+  bool isMeasured() const { return type == CounterSurfaceType::kTopic || type == CounterSurfaceType::kFile; }
+  bool isGenerated() const { return type == CounterSurfaceType::kGaussian || type == CounterSurfaceType::kSelfAffine; }
 
   void describe(OptionVisitor& visitor);
 };
 
-/// The counter-surface in the scan's frame. Turning over twice gives back the surface.
+/// A height map that faces the other way: z negated, columns mirrored. Twice gives back the surface.
+HeightMap turnedOver(const HeightMap& surface);
+
+/// The counter-surface in the scan's frame.
 HeightMap mountedCounterSurface(const HeightMap& measured, CounterSurfaceFacing facing);
+
+/// A generated counter-surface as it is mounted, on the scan's grid, before its pose.
+/// @throw SurfaceError if the settings cannot be drawn on the scan's grid; the message names them.
+HeightMap generatedCounterSurface(const HeightMap& scan, const CounterSurfaceOptions& options);
+
+/// True if the pose leaves every surface where it is.
+bool isIdentity(const SurfacePose& pose);
 
 }  // namespace mems_stiction

@@ -1,0 +1,62 @@
+#include "mems_stiction/roughness/spatial_roughness.hpp"
+
+#include <algorithm>
+
+#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/roughness/autocorrelation.hpp"
+#include "mems_stiction/roughness/power_spectrum.hpp"
+#include "mems_stiction/roughness/summits.hpp"
+
+namespace mems_stiction {
+namespace {
+
+constexpr int kSmallestSpectrumSide = 8;
+constexpr double kShortestInPitches = 8.0;
+constexpr double kLongestInSides = 0.25;
+
+double hurstExponent(const HeightMap& surface, const PowerSpectrum& spectrum, const SpatialRoughnessOptions& options) {
+  const double shortest = options.hurst_shortest_wavelength > 0.0
+                              ? options.hurst_shortest_wavelength
+                              : kShortestInPitches * std::max(surface.pitchX(), surface.pitchY());
+  const double longest =
+      options.hurst_longest_wavelength > 0.0
+          ? options.hurst_longest_wavelength
+          : kLongestInSides * std::min(surface.cols() * surface.pitchX(), surface.rows() * surface.pitchY());
+  if (shortest >= longest) return std::numeric_limits<double>::quiet_NaN();
+  try {
+    return fitHurstExponent(spectrum, shortest, longest).hurst_exponent;
+  } catch (const SurfaceError&) {  // too few rings there
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+}  // namespace
+
+void SpatialRoughnessOptions::describe(OptionVisitor& visitor) {
+  visitor.flag("output/spatial_roughness", enabled,
+               "compute autocorrelation length, spectral moments, summits and Hurst's exponent of the scanned surface");
+  visitor.number("output/hurst_shortest_wavelength", hurst_shortest_wavelength, "m", Range::nonNegative(),
+                 "Hurst's exponent is fitted from this wavelength; 0 = 8 pitches");
+  visitor.number("output/hurst_longest_wavelength", hurst_longest_wavelength, "m", Range::nonNegative(),
+                 "Hurst's exponent is fitted up to this wavelength; 0 = a quarter of the shorter side");
+}
+
+SpatialRoughness spatialRoughness(const HeightMap& surface, const SpatialRoughnessOptions& options) {
+  SpatialRoughness roughness;
+  const SpatialParameters spatial = spatialParameters(surface);
+  roughness.sal = spatial.sal;
+  roughness.str = spatial.str;
+  const SummitParameters summits = summitParameters(surface);
+  roughness.summit_density = summits.density;
+  roughness.mean_summit_radius = summits.mean_radius;
+  if (std::min(surface.rows(), surface.cols()) < kSmallestSpectrumSide) return roughness;
+  const PowerSpectrum spectrum = powerSpectrum(surface, SpectrumWindow::kHann);
+  roughness.m0 = spectrum.moments.m0;
+  roughness.m2 = spectrum.moments.m2;
+  roughness.m4 = spectrum.moments.m4;
+  roughness.nayak = spectrum.moments.alpha;
+  roughness.hurst = hurstExponent(surface, spectrum, options);
+  return roughness;
+}
+
+}  // namespace mems_stiction

@@ -1,0 +1,184 @@
+/// import_scan: instrument makers' files, and every other scan that can be read, into TIFF + YAML that need no
+/// gwyddion any more.
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/height_map/scan_file.hpp"
+#include "mems_stiction/height_map/scan_sanity.hpp"
+#include "mems_stiction/height_map/validity.hpp"
+
+namespace {
+
+using namespace mems_stiction;
+namespace fs = std::filesystem;
+
+constexpr int kBadInput = 2;
+
+struct Arguments {
+  std::string output = ".";
+  std::string channel;
+  std::string pitch;  ///< "M" or "MX,MY"
+  bool list = false;
+  std::vector<std::string> scans;
+};
+
+void describe(CLI::App& app, Arguments& arguments) {
+  app.description(
+      "Turns scans into float TIFFs in metres with their pitch beside them (NAME.tiff, NAME.tiff.yaml), to the last\n"
+      "bit. predict_scan and make_scan_bag read those without the program gwyddion.");
+  app.add_option("SCAN", arguments.scans,
+                 "instrument makers' files (read by the program gwyddion), .gwy, TIFF, PNG or EXR images of heights, "
+                 "text grids")
+      ->required()
+      ->type_name("");
+  app.add_option("-o,--output", arguments.output, "folder to write to; made if it does not exist")
+      ->type_name("FOLDER")
+      ->capture_default_str();
+  app.add_flag("-l,--list", arguments.list,
+               "write nothing; print the channels of each file with size, pitch and unit, the one that would be taken "
+               "marked with *");
+  app.add_option("--channel", arguments.channel, "title or number of the channel to take")->type_name("NAME");
+  app.add_option("-p,--pitch", arguments.pitch,
+                 "distance of neighbouring pixels [m]; MX,MY where columns and rows differ. Goes before what files say")
+      ->type_name("M");
+  app.footer(
+      "Exit status: 0, or 2 if a file could not be imported (one line on stderr names it and the cause; the others of\n"
+      "the call are still imported). Bags: make_scan_bag -o OUT.bag SCAN... takes the same files.\n\n"
+      "Example: import_scan --output scans wafer3.di wafer4.x3p");
+}
+
+/// Several violations on one line, for people who count lines.
+std::string oneLine(std::string text) {
+  for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at)) text.replace(at, 1, "; ");
+  return text;
+}
+
+/// @throw OptionsError
+void applyPitch(const std::string& text, ScanFileOptions& options) {
+  if (text.empty()) return;
+  std::istringstream stream(text);
+  char comma = ',';
+  bool good = static_cast<bool>(stream >> options.pitch_x);
+  options.pitch_y = options.pitch_x;
+  if (good && !(stream >> std::ws).eof()) good = stream >> comma >> options.pitch_y && comma == ',' && stream.eof();
+  if (!good || !Range::positive().contains(options.pitch_x) || !Range::positive().contains(options.pitch_y)) {
+    throw OptionsError({"--pitch: '" + text + "' is not allowed, must be one or two numbers > 0 m, as in 20e-9,25e-9"});
+  }
+}
+
+std::string unitText(const std::string& unit) { return unit.empty() ? "no unit" : unit; }
+
+void printChannels(const std::string& path, const ScanFileOptions& options) {
+  const std::vector<ScanChannel> channels = listScanChannels(path, {}, options);
+  std::cout << path << "\n";
+  for (const ScanChannel& channel : channels) {
+    const std::string size = std::to_string(channel.cols) + " x " + std::to_string(channel.rows);
+    char pitch[80] = "pitch not stated";
+    if (channel.pitch_x > 0.0 && channel.pitch_y > 0.0) {
+      std::snprintf(pitch, sizeof pitch, "pitch %.6g x %.6g %s", channel.pitch_x, channel.pitch_y,
+                    unitText(channel.unit_xy).c_str());
+    }
+    char line[400];
+    std::snprintf(line, sizeof line, "  %c %-28s %13s pixels  %-34s heights in %s", channel.is_chosen ? '*' : ' ',
+                  channel.name.empty() ? "(single channel)" : channel.name.c_str(), size.c_str(), pitch,
+                  unitText(channel.unit_z).c_str());
+    std::cout << line << "\n";
+  }
+  std::cout << std::flush;
+}
+
+/// Keeps track of what was written, so that no two scans of a call end in one file and no input is overwritten.
+class Importer {
+ public:
+  explicit Importer(const Arguments& arguments) : arguments_(arguments) {}
+
+  /// @throw Error in one line, with the file's name
+  void import(const std::string& path, const ScanFileOptions& options) {
+    const ScanFile scan = openScanFile(path, {}, options);
+    fs::path target = fs::path(arguments_.output) / fs::path(path).filename();
+    target.replace_extension(".tiff");
+    if (!written_.insert(target.string()).second) {
+      throw FileError(path + ": " + target.string() + " was written for another scan of this call; import it alone");
+    }
+    for (const std::string& input : arguments_.scans) {
+      std::error_code error;
+      if (fs::equivalent(input, target, error)) {
+        throw FileError(path + ": " + target.string() + " is a scan of this call; choose another --output");
+      }
+    }
+    const std::string of_channel = scan.channel.empty() ? "" : ", channel " + scan.channel;
+    writeScan(target.string(), scan.surface, fs::path(path).filename().string() + of_channel);
+    for (const std::string& warning : scanWarnings(scan.surface)) std::cerr << path << ": warning: " << warning << "\n";
+    report(path, target.string(), scan);
+  }
+
+ private:
+  static void report(const std::string& path, const std::string& target, const ScanFile& scan) {
+    const HeightMap& surface = scan.surface;
+    char figures[160];
+    std::snprintf(figures, sizeof figures, "%d x %d pixels of %.6g x %.6g m, %.3g %% missing", surface.cols(),
+                  surface.rows(), surface.pitchX(), surface.pitchY(), 100.0 * invalidFraction(surface));
+    std::cout << path << (scan.channel.empty() ? "" : " [" + scan.channel + "]") << " -> " << target << ": " << figures
+              << std::endl;
+  }
+
+  const Arguments& arguments_;
+  std::set<std::string> written_;
+};
+
+int run(const Arguments& arguments) {
+  ScanFileOptions options;
+  options.import.channel = arguments.channel;
+  try {
+    applyPitch(arguments.pitch, options);
+    if (!arguments.list) {
+      std::error_code error;
+      fs::create_directories(arguments.output, error);
+      if (error) throw FileError(arguments.output + ": the folder cannot be made: " + error.message());
+    }
+  } catch (const Error& error) {
+    std::cerr << "import_scan: " << oneLine(error.what()) << "\n";
+    return kBadInput;
+  }
+  Importer importer(arguments);
+  int status = 0;
+  for (const std::string& path : arguments.scans) {
+    try {
+      if (arguments.list) {
+        printChannels(path, options);
+      } else {
+        importer.import(path, options);
+      }
+    } catch (const std::exception& error) {
+      std::string line = oneLine(error.what());
+      if (line.find(path) == std::string::npos) line = path + ": " + line;
+      std::cerr << "import_scan: " << line << "\n";
+      status = kBadInput;
+    }
+  }
+  return status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app;
+  Arguments arguments;
+  describe(app, arguments);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kBadInput;
+  }
+  return run(arguments);
+}
