@@ -4,8 +4,10 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <iterator>
 #include <vector>
 
+#include <sensor_msgs/image_encodings.h>
 #include <sensor_msgs/point_cloud2_iterator.h>
 #include <std_msgs/ColorRGBA.h>
 
@@ -31,6 +33,13 @@ Color colorOf(Regime regime) {
   return {190, 190, 190};
 }
 
+/// Low dark, high bright, over three rms heights to either side.
+Color grayOf(double above_mean, double rms_height) {
+  const double level = rms_height > 0.0 ? std::min(std::max(above_mean / (3.0 * rms_height), -1.0), 1.0) : 0.0;
+  const auto gray = static_cast<std::uint8_t>(140.0 + 100.0 * level);
+  return {gray, gray, gray};
+}
+
 double meanHeight(const cv::Mat& heights) { return heightStatistics(HeightMap(heights, 1.0, 1.0)).mean; }
 
 /// Every how many rows and columns a point is shown.
@@ -46,7 +55,9 @@ int strideFor(const cv::Mat& heights, int max_points) {
 sensor_msgs::PointCloud2 surfacePoints(const Prediction& prediction, const HeightMap& scan,
                                        const std_msgs::Header& header, const DisplayOptions& options) {
   const cv::Mat& heights = prediction.deformed_lower;
-  const double mean = meanHeight(heights);
+  const HeightStatistics statistics = heightStatistics(HeightMap(heights, 1.0, 1.0));
+  const double mean = statistics.mean;
+  const double rms_height = statistics.rms_height;
   const int stride = strideFor(heights, options.max_points);
   std::vector<cv::Point> shown;
   for (int row = 0; row < heights.rows; row += stride) {
@@ -71,7 +82,8 @@ sensor_msgs::PointCloud2 surfacePoints(const Prediction& prediction, const Heigh
     *y = static_cast<float>(cell.y * scan.pitchY() * options.scale);
     *z = static_cast<float>(above_mean * options.scale * options.height_exaggeration);
     *height = static_cast<float>(above_mean);
-    const Color color = colorOf(static_cast<Regime>(prediction.contact_map.at<std::uint8_t>(cell)));
+    const auto regime = static_cast<Regime>(prediction.contact_map.at<std::uint8_t>(cell));
+    const Color color = regime == Regime::kApart ? grayOf(above_mean, rms_height) : colorOf(regime);
     rgb[0] = color.blue;
     rgb[1] = color.green;
     rgb[2] = color.red;
@@ -110,7 +122,7 @@ visualization_msgs::MarkerArray asperityMarkers(const Prediction& prediction, co
     disc.pose.position.y = asperity->y * options.scale;
     disc.pose.position.z = (asperity->z - mean) * options.scale * options.height_exaggeration;
     disc.pose.orientation.w = 1.0;
-    disc.scale.x = disc.scale.y = 2.0 * asperity->cap_radius * options.scale;
+    disc.scale.x = disc.scale.y = std::max(2.0 * asperity->cap_radius * options.scale, options.min_marker_diameter);
     disc.scale.z = 0.1 * disc.scale.x;
     const Color color = colorOf(asperity->regime);
     disc.color.r = static_cast<float>(color.red) / 255.0F;
@@ -120,6 +132,39 @@ visualization_msgs::MarkerArray asperityMarkers(const Prediction& prediction, co
     array.markers.push_back(disc);
   }
   return array;
+}
+
+sensor_msgs::Image previewImage(const HeightMap& surface, const std_msgs::Header& header,
+                                const DisplayOptions& options) {
+  const cv::Mat heights = surface.asDouble().heights();
+  const int longest = std::max(heights.rows, heights.cols);
+  const int stride = (longest + options.max_preview_size - 1) / options.max_preview_size;
+  sensor_msgs::Image image;
+  image.header = header;
+  image.encoding = sensor_msgs::image_encodings::MONO8;
+  image.height = static_cast<std::uint32_t>((heights.rows + stride - 1) / stride);
+  image.width = static_cast<std::uint32_t>((heights.cols + stride - 1) / stride);
+  image.step = image.width;
+
+  std::vector<double> shown;
+  for (int row = 0; row < heights.rows; row += stride) {
+    for (int col = 0; col < heights.cols; col += stride) shown.push_back(heights.at<double>(row, col));
+  }
+  std::vector<double> sorted;
+  std::copy_if(shown.begin(), shown.end(), std::back_inserter(sorted),
+               [](double height) { return std::isfinite(height); });
+  std::sort(sorted.begin(), sorted.end());
+  const auto at = [&](double share) {
+    return sorted.empty() ? 0.0 : sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+  };
+  const double low = at(0.01);
+  const double range = std::max(at(0.99) - low, 1e-15);  // a flat surface is dark
+  for (const double height : shown) {
+    const double level =
+        std::isfinite(height) ? 1.0 + 254.0 * std::min(std::max((height - low) / range, 0.0), 1.0) : 0.0;
+    image.data.push_back(static_cast<std::uint8_t>(std::lround(level)));
+  }
+  return image;
 }
 
 }  // namespace mems_stiction

@@ -127,7 +127,7 @@ ReceivedScan receiveScan(const sensor_msgs::ImageConstPtr& image, const ScanOpti
   const HeightEncoding& encoding = checkedEncoding(*image);
   const bool foreign_order = encoding.scalar_size > 1 && (image->is_bigendian != 0) != kThisMachineIsBigEndian;
   const cv::Mat pixels = foreign_order ? swappedPixels(*image, encoding) : cv_bridge::toCvShare(image)->image;
-  return {image->header, heightMapFromPixels(pixels, options), image};
+  return {image->header, heightMapFromPixels(pixels, options), image, std::nullopt};
 }
 
 sensor_msgs::ImagePtr heightImage(const cv::Mat& heights, const std_msgs::Header& header) {

@@ -68,6 +68,16 @@ void DisplayOptions::describe(OptionVisitor& visitor) {
                  "enlargement of heights against lengths");
   visitor.integer("display/max_points", max_points, Range::within(1, 1e8), "points of surface_points");
   visitor.integer("display/max_markers", max_markers, Range::within(1, 1e6), "discs of asperity_markers");
+  visitor.number("display/min_marker_diameter", min_marker_diameter, "m on the screen", Range::nonNegative(),
+                 "smaller contacts get discs of this size, so that they are seen");
+  visitor.integer("display/max_preview_size", max_preview_size, Range::within(1, 32768),
+                  "pixels of the longer side of preview");
+}
+
+void TransformOptions::describe(OptionVisitor& visitor) {
+  visitor.text("counter_surface/frame", frame, "tf frame of the counter-surface; empty = counter_surface/pose serves");
+  visitor.number("counter_surface/transform_timeout", timeout, "s", Range::nonNegative(),
+                 "how long a scan waits for the transform at its stamp");
 }
 
 void NodeOptions::describe(OptionVisitor& visitor) {
@@ -84,6 +94,7 @@ void NodeOptions::describe(OptionVisitor& visitor) {
   visitor.number("diagnostic_period", diagnostic_period, "s", Range::positive(), "between messages on /diagnostics");
   visitor.number("warning_period", warning_period, "s", Range::nonNegative(),
                  "at most one warning about scans in so long a time");
+  transform.describe(visitor);
   display.describe(visitor);
 }
 
@@ -102,7 +113,8 @@ YAML::Node yamlFromParameters(XmlRpc::XmlRpcValue tree) {
 NodeConfiguration nodeConfigurationFromYaml(const YAML::Node& tree) {
   YAML::Node ours(YAML::NodeType::Map);
   for (const auto& entry : tree) {
-    if (!belongsToImageTransport(entry.first.Scalar(), entry.second)) ours[entry.first.Scalar()] = entry.second;
+    const std::string key = entry.first.Scalar();
+    if (key != kReconfigureParameters && !belongsToImageTransport(key, entry.second)) ours[key] = entry.second;
   }
   NodeConfiguration configuration;
   std::vector<std::string> violations =
@@ -110,6 +122,10 @@ NodeConfiguration nodeConfigurationFromYaml(const YAML::Node& tree) {
   // Combinations of settings; ranges are found by both and named once.
   for (const std::string& line : configuration.core.validate()) {
     if (std::find(violations.begin(), violations.end(), line) == violations.end()) violations.push_back(line);
+  }
+  if (!configuration.node.transform.frame.empty() && !isIdentity(configuration.core.counter_surface.pose)) {
+    violations.push_back("counter_surface/frame: " + configuration.node.transform.frame +
+                         " is not allowed with a counter_surface/pose other than 0; must be empty, or the pose 0");
   }
   if (!violations.empty()) throw OptionsError(std::move(violations));
   return configuration;

@@ -1,5 +1,7 @@
 #include "mems_stiction/ros/prediction_conversion.hpp"
 
+#include "mems_stiction/verdict/regime_flags.hpp"
+
 namespace mems_stiction {
 namespace {
 
@@ -16,6 +18,17 @@ static_assert(static_cast<int>(ContactTheory::kJkr) == StictionPrediction::THEOR
 static_assert(static_cast<int>(Regime::kElastic) == AsperityContact::ELASTIC, "regime");
 static_assert(static_cast<int>(Regime::kElastoPlastic) == AsperityContact::ELASTO_PLASTIC, "regime");
 static_assert(static_cast<int>(Regime::kPlastic) == AsperityContact::PLASTIC, "regime");
+static_assert(static_cast<int>(Sticks::kNo) == StictionPrediction::STICKS_NO, "sticks");
+static_assert(static_cast<int>(Sticks::kMarginal) == StictionPrediction::STICKS_MARGINAL, "sticks");
+static_assert(static_cast<int>(Sticks::kYes) == StictionPrediction::STICKS_YES, "sticks");
+static_assert(static_cast<int>(Sticks::kUnknown) == StictionPrediction::STICKS_UNKNOWN, "sticks");
+static_assert(static_cast<std::uint32_t>(kBondedFlag) == StictionPrediction::FLAG_BONDED, "regime_flags");
+static_assert(static_cast<std::uint32_t>(kNoEquilibriumFlag) == StictionPrediction::FLAG_NO_EQUILIBRIUM,
+              "regime_flags");
+static_assert(static_cast<std::uint32_t>(kTaborFlag) == StictionPrediction::FLAG_TABOR, "regime_flags");
+static_assert(static_cast<std::uint32_t>(kPlasticityFlag) == StictionPrediction::FLAG_PLASTICITY, "regime_flags");
+static_assert(static_cast<std::uint32_t>(kResolutionFlag) == StictionPrediction::FLAG_RESOLUTION, "regime_flags");
+static_assert(static_cast<std::uint32_t>(kFewContactsFlag) == StictionPrediction::FLAG_FEW_CONTACTS, "regime_flags");
 
 std::uint32_t count(int value) { return static_cast<std::uint32_t>(value); }
 
@@ -31,6 +44,40 @@ RoughnessStatistics roughnessMessage(const ArealParameters& parameters) {
   message.sdq = parameters.sdq;
   message.sdr = parameters.sdr;
   return message;
+}
+
+SpatialRoughnessStatistics spatialRoughnessMessage(const SpatialRoughness& roughness) {
+  SpatialRoughnessStatistics message;
+  message.sal = roughness.sal;
+  message.str = roughness.str;
+  message.m0 = roughness.m0;
+  message.m2 = roughness.m2;
+  message.m4 = roughness.m4;
+  message.nayak = roughness.nayak;
+  message.summit_density = roughness.summit_density;
+  message.mean_summit_radius = roughness.mean_summit_radius;
+  message.hurst = roughness.hurst;
+  return message;
+}
+
+void fillVerdict(const Verdict& verdict, StictionPrediction& message) {
+  message.sticks = static_cast<std::uint8_t>(verdict.sticks);
+  message.reason = verdict.reason;
+  message.restoring_force = verdict.restoring_force;
+  message.device_pull_off_force = verdict.device_pull_off_force;
+  message.margin = verdict.margin;
+  message.margin_lower = verdict.margin_lower;
+  message.margin_upper = verdict.margin_upper;
+  message.margin_uncertainty = verdict.margin_uncertainty;
+  message.margin_transition = verdict.margin_transition;
+  message.apparent_work_of_adhesion = verdict.apparent_work_of_adhesion;
+  message.peel_number = verdict.peel_number;
+  message.peel_number_lower = verdict.peel_number_lower;
+  message.peel_number_upper = verdict.peel_number_upper;
+  message.detachment_length = verdict.detachment_length;
+  message.unstuck_length = verdict.unstuck_length;
+  message.pull_in_voltage = verdict.pull_in_voltage;
+  message.regime_flags = verdict.regime_flags;
 }
 
 AsperityContact contactMessage(const Asperity& asperity) {
@@ -52,7 +99,8 @@ AsperityContact contactMessage(const Asperity& asperity) {
 
 }  // namespace
 
-StictionPrediction predictionMessage(const Prediction& prediction, const std_msgs::Header& header) {
+StictionPrediction predictionMessage(const PredictedScan& scan, const std_msgs::Header& header) {
+  const Prediction& prediction = scan.prediction;
   StictionPrediction message;
   message.header = header;
   message.status = static_cast<std::uint8_t>(prediction.status);
@@ -99,6 +147,15 @@ StictionPrediction predictionMessage(const Prediction& prediction, const std_msg
   message.invalid_fraction = prediction.invalid_fraction;
   message.processing_time = prediction.processing_time;
   message.capillary_force = prediction.capillary_force;
+  message.spatial_roughness = spatialRoughnessMessage(prediction.spatial_roughness);
+  message.median_contact_pixels = prediction.median_contact_pixels;
+  message.median_composite_radius = prediction.median_composite_radius;
+  message.is_resolution_limited = static_cast<std::uint8_t>(prediction.is_resolution_limited);
+  message.is_tip_limited = static_cast<std::uint8_t>(prediction.is_tip_limited);
+
+  message.preprocessing = recordLines(scan.preprocessing);
+  message.tip_unreached_fraction = scan.preprocessing.tip_unreached_fraction;
+  fillVerdict(scan.verdict, message);
   return message;
 }
 

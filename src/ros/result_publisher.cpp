@@ -1,5 +1,7 @@
 #include "mems_stiction/ros/result_publisher.hpp"
 
+#include <utility>
+
 #include "mems_stiction/ros/display_conversion.hpp"
 #include "mems_stiction/ros/prediction_conversion.hpp"
 #include "mems_stiction/ros/topic_names.hpp"
@@ -14,7 +16,8 @@ bool hasListener(const Publisher& publisher) {
 
 }  // namespace
 
-ResultPublisher::ResultPublisher(const ros::NodeHandle& handle, const DisplayOptions& display)
+ResultPublisher::ResultPublisher(const ros::NodeHandle& handle, const DisplayOptions& display,
+                                 std::function<void()> preview_wanted)
     : display_(display), transport_(handle) {
   ros::NodeHandle node(handle);
   prediction_ = node.advertise<StictionPrediction>(kPredictionTopic, kPredictionQueue);
@@ -24,6 +27,11 @@ ResultPublisher::ResultPublisher(const ros::NodeHandle& handle, const DisplayOpt
   asperities_ = node.advertise<AsperityArray>(kAsperitiesTopic, kMapQueue);
   surface_points_ = node.advertise<sensor_msgs::PointCloud2>(kSurfacePointsTopic, kDisplayQueue);
   asperity_markers_ = node.advertise<visualization_msgs::MarkerArray>(kAsperityMarkersTopic, kDisplayQueue);
+  // Latched for who looks for it, and made anew for whoever comes, since the latched one may be old.
+  preview_ = node.advertise<sensor_msgs::Image>(
+      kPreviewTopic, kDisplayQueue,
+      [preview_wanted = std::move(preview_wanted)](const ros::SingleSubscriberPublisher&) { preview_wanted(); },
+      ros::SubscriberStatusCallback(), ros::VoidConstPtr(), true);
 }
 
 OutputOptions ResultPublisher::demanded() const {
@@ -39,11 +47,11 @@ OutputOptions ResultPublisher::demanded() const {
   return output;
 }
 
-void ResultPublisher::publish(const Prediction& prediction, const ReceivedScan& scan) const {
+void ResultPublisher::publish(const PredictedScan& predicted, const ReceivedScan& scan) const {
+  const Prediction& prediction = predicted.prediction;
   const std_msgs::Header& header = scan.header;
   const bool has_surfaces = !prediction.deformed_lower.empty();
   const bool has_map = !prediction.contact_map.empty();
-  // No contact and no record of contacts look the same: both are published as an empty list.
   if (has_surfaces && hasListener(deformed_height_)) {
     deformed_height_.publish(heightImage(prediction.deformed_lower, header));
   }
@@ -59,7 +67,13 @@ void ResultPublisher::publish(const Prediction& prediction, const ReceivedScan& 
     asperity_markers_.publish(asperityMarkers(prediction, header, display_));
   }
   // Last, so that whoever waits for the prediction finds the maps sent.
-  prediction_.publish(predictionMessage(prediction, header));
+  prediction_.publish(predictionMessage(predicted, header));
+}
+
+bool ResultPublisher::isPreviewWanted() const { return hasListener(preview_); }
+
+void ResultPublisher::publishPreview(const HeightMap& surface, const std_msgs::Header& header) const {
+  preview_.publish(previewImage(surface, header, display_));
 }
 
 }  // namespace mems_stiction

@@ -1,10 +1,14 @@
 #include "mems_stiction/ros/stiction_server.hpp"
 
+#include <thread>
+#include <utility>
+
 #include <boost/bind/bind.hpp>
 #include <boost/make_shared.hpp>
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/height_map/scan_sanity.hpp"
+#include "mems_stiction/ros/one_line.hpp"
 #include "mems_stiction/ros/prediction_conversion.hpp"
 #include "mems_stiction/ros/topic_names.hpp"
 
@@ -12,17 +16,11 @@ namespace mems_stiction {
 namespace {
 
 constexpr std::uint32_t kServiceThreads = 2;
-constexpr char kShuttingDown[] = "the node is shutting down";
+const ros::WallDuration kGatePeriod(0.01);
 
 ros::NodeHandle withQueue(ros::NodeHandle handle, ros::CallbackQueue& queue) {
   handle.setCallbackQueue(&queue);
   return handle;
-}
-
-/// All reasons of one error on one line.
-std::string oneLine(std::string text) {
-  for (std::size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n')) text.replace(end, 1, "; ");
-  return text;
 }
 
 /// An unlimited queue keeps every scan.
@@ -40,9 +38,14 @@ StictionServer::StictionServer(const ros::NodeHandle& handle, const ros::NodeHan
       configuration_(readParameters(private_handle_)),
       accounting_(ros::WallDuration(configuration_.node.warning_period)),
       predictor_(configuration_.core, configuration_.node.accumulate_deformation),
-      publisher_(handle_, configuration_.node.display),
+      publisher_(handle_, configuration_.node.display, [this] { worker_.push([this] { showLastScan(); }); }),
       worker_(capacityOf(configuration_.node)),
       load_(configuration_.core.model.load),
+      counter_surface_frame_(configuration_.node.transform.frame.empty()
+                                 ? nullptr
+                                 : std::make_unique<CounterSurfaceFrame>(handle_, configuration_.node.transform.frame)),
+      gate_(ros::WallDuration(configuration_.node.transform.timeout),
+            [this](const std_msgs::Header& header) { return counter_surface_frame_->poseAt(header); }),
       scans_(
           ros::WallDuration(configuration_.node.pairing_timeout),
           [this](const auto& image, const auto& info) { onScan(image, info); },
@@ -52,6 +55,8 @@ StictionServer::StictionServer(const ros::NodeHandle& handle, const ros::NodeHan
           [this](const auto& image, const auto& info) { onCounterSurface(image, info); },
           [this](const auto& header, const auto& reason) { accounting_.counterSurfaceRejected(header, reason); }),
       transport_(handle_),
+      reconfigure_(service_handle_, predictor_.runningOptions(), [this](const auto& options) { change(options); }),
+      actions_(service_handle_, [this](const auto& height, const auto& info) { return findCase(height, info); }),
       diagnostics_(handle_, private_handle_, name),
       topic_spinner_(1, &topic_queue_),
       service_spinner_(kServiceThreads, &service_queue_) {
@@ -59,12 +64,15 @@ StictionServer::StictionServer(const ros::NodeHandle& handle, const ros::NodeHan
   subscribe();
   startTimers();
   worker_.start();
+  actions_.start();
   service_spinner_.start();
   topic_spinner_.start();
 }
 
 StictionServer::~StictionServer() {
-  // The worker first: a service that waits for it gets its refusal, so that the spinners can end.
+  // Long runs and the worker first: a service that waits for them gets its refusal, so that the spinners can end.
+  stopping_ = true;
+  actions_.stop();
   worker_.stop();
   service_spinner_.stop();
   topic_spinner_.stop();
@@ -115,6 +123,9 @@ void StictionServer::startTimers() {
         scans_.expire(ros::WallTime::now());
         counter_surfaces_.expire(ros::WallTime::now());
       });
+  if (counter_surface_frame_) {
+    gate_timer_ = handle_.createWallTimer(kGatePeriod, [this](const auto&) { gate_.poll(ros::WallTime::now()); });
+  }
 }
 
 void StictionServer::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
@@ -122,6 +133,7 @@ void StictionServer::report(diagnostic_updater::DiagnosticStatusWrapper& status)
   const std::size_t waiting = worker_.waitingScans();
   status.add("waiting_for_worker", waiting);
   status.add("waiting_for_partner", scans_.waiting());
+  status.add("waiting_for_transform", gate_.waiting());
   if (waiting > static_cast<std::size_t>(configuration_.node.queue_size)) {
     status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN,
                         std::to_string(waiting) + " scans wait, more than queue_size");
@@ -136,7 +148,19 @@ void StictionServer::rejectLone(const std_msgs::Header& header, const std::strin
 void StictionServer::onScan(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info) {
   accounting_.received(image->header);
   const ros::WallTime arrival = ros::WallTime::now();
-  worker_.pushScan([this, image, info, arrival] { predictAndPublish(image, info, arrival); },
+  if (!counter_surface_frame_) {
+    queueScan(image, info, arrival, std::nullopt);
+    return;
+  }
+  gate_.add(
+      image->header, [this, image, info, arrival](const SurfacePose& pose) { queueScan(image, info, arrival, pose); },
+      [this, header = image->header](const std::string& reason) { accounting_.rejected(header, oneLine(reason)); },
+      arrival);
+}
+
+void StictionServer::queueScan(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info,
+                               ros::WallTime arrival, const std::optional<SurfacePose>& pose) {
+  worker_.pushScan([this, image, info, arrival, pose] { predictAndPublish(image, info, arrival, pose); },
                    [this, header = image->header] {
                      accounting_.dropped(header, "newer scans came before its turn (drop_policy is latest)");
                    });
@@ -144,7 +168,12 @@ void StictionServer::onScan(const sensor_msgs::ImageConstPtr& image, const ScanI
 
 void StictionServer::onCounterSurface(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info) {
   // In the order of arrival with the scans, so that a replay meets the same counter-surfaces as the live run.
-  worker_.push([this, image, info] { takeCounterSurface(image, info); });
+  const auto queue = [this, image, info] { worker_.push([this, image, info] { takeCounterSurface(image, info); }); };
+  if (counter_surface_frame_) {
+    gate_.addBehind(queue, ros::WallTime::now());
+  } else {
+    queue();
+  }
 }
 
 ReceivedScan StictionServer::receive(const sensor_msgs::ImageConstPtr& image, const ScanInfo* info) const {
@@ -152,17 +181,53 @@ ReceivedScan StictionServer::receive(const sensor_msgs::ImageConstPtr& image, co
   return receiveScan(image, info == nullptr ? parameters : scanOptions(*info, parameters));
 }
 
+ReceivedScan StictionServer::receiveByCall(sensor_msgs::Image image, const ScanInfo& info) const {
+  ReceivedScan scan = receive(boost::make_shared<const sensor_msgs::Image>(std::move(image)), &info);
+  if (!counter_surface_frame_) return scan;
+  const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(configuration_.node.transform.timeout);
+  for (;;) {
+    try {
+      scan.counter_surface_pose = counter_surface_frame_->poseAt(scan.header);
+      return scan;
+    } catch (const NoTransform&) {
+      if (stopping_ || ros::WallTime::now() >= deadline) throw;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+}
+
+StationCase StictionServer::findCase(const sensor_msgs::Image& height, const ScanInfo& info) {
+  if (height.width == 0) return worker_.call([this] { return predictor_.stationCase(nullptr); });
+  const ReceivedScan scan = receiveByCall(height, info);
+  return worker_.call([&] { return predictor_.stationCase(&scan); });
+}
+
+void StictionServer::change(const RunningOptions& options) {
+  worker_.call([&] {
+    predictor_.change(options);
+    const std::lock_guard<std::mutex> lock(load_mutex_);
+    load_ = options.load;
+  });
+}
+
 void StictionServer::predictAndPublish(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info,
-                                       ros::WallTime arrival) {
+                                       ros::WallTime arrival, const std::optional<SurfacePose>& pose) {
   try {
-    const ReceivedScan scan = receive(image, info.get());
-    const Prediction prediction = predictor_.predictScan(scan, publisher_.demanded());
-    publisher_.publish(prediction, scan);
-    accounting_.predicted((ros::WallTime::now() - arrival).toSec(), prediction.processing_time);
+    ReceivedScan scan = receive(image, info.get());
+    scan.counter_surface_pose = pose;
+    const PredictedScan predicted = predictor_.predictScan(scan, publisher_.demanded());
+    publisher_.publish(predicted, scan);
+    if (publisher_.isPreviewWanted()) publisher_.publishPreview(predictor_.prepared(scan.surface), scan.header);
+    accounting_.predicted((ros::WallTime::now() - arrival).toSec(), predicted.prediction.processing_time);
     for (const std::string& line : scanWarnings(scan.surface)) accounting_.warn(scan.header, line);
   } catch (const std::exception& error) {
     accounting_.rejected(image->header, oneLine(error.what()));
   }
+}
+
+void StictionServer::showLastScan() {
+  const std::optional<ReceivedScan>& scan = predictor_.lastScan();
+  if (scan) publisher_.publishPreview(predictor_.prepared(scan->surface), scan->header);
 }
 
 void StictionServer::takeCounterSurface(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info) {
@@ -176,20 +241,21 @@ void StictionServer::takeCounterSurface(const sensor_msgs::ImageConstPtr& image,
 
 bool StictionServer::setLoad(SetLoad::Request& request, SetLoad::Response& response) {
   // What is returned when there is no prediction: NO_EQUILIBRIUM and zeros.
-  response.prediction = predictionMessage(Prediction(), std_msgs::Header());
+  response.prediction = predictionMessage(PredictedScan(), std_msgs::Header());
   try {
+    const boost::recursive_mutex::scoped_lock lock(reconfigure_.mutex());
+    RunningOptions options = reconfigure_.options();
+    const LoadOptions before = options.load;
+    options.load.voltage = request.voltage;
+    options.load.mechanical_load = request.mechanical_load;
+    change(options);
+    reconfigure_.show(options);
     worker_.call([&] {
-      const LoadOptions before = predictor_.load();
-      predictor_.setLoad(request.voltage, request.mechanical_load);
-      {
-        const std::lock_guard<std::mutex> lock(load_mutex_);
-        load_ = predictor_.load();
-      }
       response.success = true;
       response.message = "from " + numberText(before.voltage) + " V, " + numberText(before.mechanical_load) + " N";
       try {
-        if (const std::optional<Prediction> prediction = predictor_.predictLastScan()) {
-          response.prediction = predictionMessage(*prediction, predictor_.lastScan()->header);
+        if (const std::optional<PredictedScan> predicted = predictor_.predictLastScan()) {
+          response.prediction = predictionMessage(*predicted, predictor_.lastScan()->header);
         } else {
           response.message += "; no scan yet, so there is no prediction";
         }
@@ -217,13 +283,12 @@ bool StictionServer::getLoad(GetLoad::Request& /*request*/, GetLoad::Response& r
 }
 
 bool StictionServer::predict(Predict::Request& request, Predict::Response& response) {
-  response.prediction = predictionMessage(Prediction(), request.height.header);
+  response.prediction = predictionMessage(PredictedScan(), request.height.header);
   try {
-    const auto image = boost::make_shared<const sensor_msgs::Image>(std::move(request.height));
+    const ReceivedScan scan = receiveByCall(std::move(request.height), request.scan_info);
     worker_.call([&] {
-      const ReceivedScan scan = receive(image, &request.scan_info);
-      const Prediction prediction = predictor_.predictOnce(scan.surface, request.voltage, request.mechanical_load);
-      response.prediction = predictionMessage(prediction, scan.header);
+      const PredictedScan predicted = predictor_.predictOnce(scan, request.voltage, request.mechanical_load);
+      response.prediction = predictionMessage(predicted, scan.header);
     });
     response.success = true;
   } catch (const std::future_error&) {

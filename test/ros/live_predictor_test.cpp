@@ -13,7 +13,7 @@
 namespace mems_stiction {
 namespace {
 
-ReceivedScan scanOf(const HeightMap& surface) { return {std_msgs::Header(), surface, nullptr}; }
+ReceivedScan scanOf(const HeightMap& surface) { return {std_msgs::Header(), surface, nullptr, std::nullopt}; }
 
 ReceivedScan roughScan(int seed = 3) {
   GaussianSurfaceOptions options;
@@ -34,7 +34,7 @@ Configuration softConfiguration() {
 }
 
 /// Every figure, wall time apart.
-void expectSame(const Prediction& left, const Prediction& right) {
+void expectSame(const PredictedScan& left, const PredictedScan& right) {
   StictionPrediction a = predictionMessage(left, {});
   StictionPrediction b = predictionMessage(right, {});
   a.processing_time = b.processing_time = 0.0;
@@ -49,12 +49,12 @@ TEST(LivePredictor, TheFiguresDoNotDependOnWhatElseIsAskedFor) {
   const ReceivedScan scan = roughScan();
   OutputOptions little;
   little.deformed_surfaces = little.contact_map = little.asperities = false;
-  const Prediction small = predictor.predictScan(scan, little);
-  const Prediction full = predictor.predictScan(scan, OutputOptions());
+  const PredictedScan small = predictor.predictScan(scan, little);
+  const PredictedScan full = predictor.predictScan(scan, OutputOptions());
   expectSame(small, full);
-  EXPECT_TRUE(small.deformed_lower.empty());
-  EXPECT_TRUE(small.contact_map.empty());
-  EXPECT_FALSE(full.deformed_lower.empty());
+  EXPECT_TRUE(small.prediction.deformed_lower.empty());
+  EXPECT_TRUE(small.prediction.contact_map.empty());
+  EXPECT_FALSE(full.prediction.deformed_lower.empty());
 }
 
 TEST(LivePredictor, VoltageActsBySquareAndARefusalChangesNothing) {
@@ -62,9 +62,9 @@ TEST(LivePredictor, VoltageActsBySquareAndARefusalChangesNothing) {
   EXPECT_FALSE(predictor.predictLastScan());
   predictor.predictScan(roughScan(), OutputOptions());
   predictor.setLoad(1e-3, 2e-6);  // so small that the gap stays the same
-  const double once = predictor.predictLastScan()->electrostatic_force;
+  const double once = predictor.predictLastScan()->prediction.electrostatic_force;
   predictor.setLoad(2e-3, 2e-6);
-  const double twice = predictor.predictLastScan()->electrostatic_force;
+  const double twice = predictor.predictLastScan()->prediction.electrostatic_force;
   ASSERT_GT(once, 0.0);
   EXPECT_NEAR(twice / once, 4.0, 1e-9);
   for (const double refused : {1e9, std::nan(""), HUGE_VAL}) {
@@ -79,12 +79,12 @@ TEST(LivePredictor, VoltageActsBySquareAndARefusalChangesNothing) {
 TEST(LivePredictor, ASinglePredictionEqualsTheScansAndLeavesNoTrace) {
   LivePredictor predictor(softConfiguration(), true);
   const ReceivedScan scan = roughScan();
-  const Prediction single = predictor.predictOnce(scan.surface, 0.0, 2e-6);
+  const PredictedScan single = predictor.predictOnce(scan, 0.0, 2e-6);
   EXPECT_FALSE(predictor.lastScan());
-  const Prediction live = predictor.predictScan(scan, OutputOptions());
+  const PredictedScan live = predictor.predictScan(scan, OutputOptions());
   expectSame(single, live);
-  expectSame(single, predictor.predictOnce(scan.surface, 0.0, 2e-6));
-  predictor.predictOnce(scan.surface, 1.0, 1e-6);
+  expectSame(single, predictor.predictOnce(scan, 0.0, 2e-6));
+  predictor.predictOnce(scan, 1.0, 1e-6);
   EXPECT_EQ(predictor.load().mechanical_load, 2e-6);
   expectSame(*predictor.predictLastScan(), live);
 }
@@ -93,9 +93,10 @@ TEST(LivePredictor, AccumulatedDeformationIsTheNextScansSurface) {
   const Configuration configuration = softConfiguration();
   LivePredictor predictor(configuration, true);
   const ReceivedScan scan = roughScan();
-  const Prediction first = predictor.predictScan(scan, OutputOptions());
+  const PredictedScan first_scan = predictor.predictScan(scan, OutputOptions());
+  const Prediction& first = first_scan.prediction;
   ASSERT_GT(first.plastic_count + first.elasto_plastic_count, 0);
-  const Prediction second = predictor.predictScan(scan, OutputOptions());
+  const Prediction second = predictor.predictScan(scan, OutputOptions()).prediction;
 
   ScanPredictor fresh(configuration);
   const Prediction expected =
@@ -104,13 +105,13 @@ TEST(LivePredictor, AccumulatedDeformationIsTheNextScansSurface) {
   EXPECT_NE(second.pull_off_force, first.pull_off_force);
 
   predictor.resetSurface();
-  expectSame(predictor.predictScan(scan, OutputOptions()), first);
+  expectSame(predictor.predictScan(scan, OutputOptions()), first_scan);
 }
 
 TEST(LivePredictor, WearIsMeasuredOnTheLevelledSurface) {
   Configuration configuration = softConfiguration();
   LivePredictor plain(configuration, true);
-  configuration.preprocessing.level = Levelling::kPlane;
+  configuration.preprocessing.level.shape = LevelShape::kPlane;
   LivePredictor levelling(configuration, true);
   const ReceivedScan flat = roughScan();
   cv::Mat tilted = flat.surface.heights().clone();
@@ -119,8 +120,8 @@ TEST(LivePredictor, WearIsMeasuredOnTheLevelledSurface) {
   const ReceivedScan levelled_scan = scanOf(ScanPredictor(configuration).prepared(flat.surface));
   plain.predictScan(levelled_scan, OutputOptions());
   levelling.predictScan(tilted_scan, OutputOptions());
-  const double once = plain.predictScan(levelled_scan, OutputOptions()).pull_off_force;
-  const double levelled = levelling.predictScan(tilted_scan, OutputOptions()).pull_off_force;
+  const double once = plain.predictScan(levelled_scan, OutputOptions()).prediction.pull_off_force;
+  const double levelled = levelling.predictScan(tilted_scan, OutputOptions()).prediction.pull_off_force;
   // The second levelling also sees the worn cells, a tilt of some 1e-12 m.
   EXPECT_NEAR(levelled, once, 0.05 * once);
 }
@@ -145,13 +146,73 @@ TEST(LivePredictor, WaitsForTheCounterSurfaceOfTheTopic) {
   EXPECT_THROW(predictor.predictScan(scan, OutputOptions()), SurfaceError);
   EXPECT_FALSE(predictor.lastScan());
   predictor.setCounterSurface(roughScan(4));
-  const Prediction prediction = predictor.predictScan(scan, OutputOptions());
-  expectSame(prediction, ScanPredictor(configuration).predict(scan.surface, roughScan(4).surface));
+  PredictedScan predicted = predictor.predictScan(scan, OutputOptions());
+  PredictedScan expected = predicted;
+  expected.prediction = ScanPredictor(configuration).predict(scan.surface, roughScan(4).surface);
+  expectSame(predicted, expected);
+}
+
+TEST(LivePredictor, EverySettingChangesAtOnceOrNone) {
+  LivePredictor predictor(softConfiguration(), false);
+  const ReceivedScan scan = roughScan();
+  const PredictedScan before = predictor.predictScan(scan, OutputOptions());
+  EXPECT_EQ(before.verdict.sticks, Sticks::kUnknown);
+
+  RunningOptions options = predictor.runningOptions();
+  options.interface.work_of_adhesion *= 2.0;
+  options.device.spring_stiffness = 1.0;
+  options.device.travel = 1e-6;
+  options.device.contact_area = before.prediction.nominal_area;
+  options.device.electrode_gap = 1e-7;  // less than the travel
+  EXPECT_THROW(predictor.change(options), OptionsError);
+  expectSame(*predictor.predictLastScan(), before);
+
+  options.device.electrode_gap = 0.0;
+  predictor.change(options);
+  const PredictedScan after = *predictor.predictLastScan();
+  EXPECT_GT(after.prediction.pull_off_force, before.prediction.pull_off_force);
+  EXPECT_NEAR(after.verdict.margin, 1e-6 / after.prediction.pull_off_force, 1e-9 * after.verdict.margin);
+  EXPECT_NE(after.verdict.sticks, Sticks::kUnknown);
+  expectSame(predictor.predictOnce(scan, 0.0, 2e-6), after);
+}
+
+TEST(LivePredictor, TheVerdictDoesNotDependOnWhoListens) {
+  Configuration configuration = softConfiguration();
+  configuration.device.spring_stiffness = 1.0;
+  configuration.device.travel = 1e-6;
+  configuration.device.contact_area = 1e-12;
+  LivePredictor predictor(configuration, false);
+  OutputOptions nothing;
+  nothing.deformed_surfaces = nothing.contact_map = nothing.asperities = false;
+  const PredictedScan alone = predictor.predictScan(roughScan(), nothing);
+  EXPECT_LT(alone.verdict.margin_lower, alone.verdict.margin);
+  expectSame(alone, predictor.predictScan(roughScan(), OutputOptions()));
+}
+
+TEST(LivePredictor, TheScansPoseIsThatOfTheParameters) {
+  Configuration configuration = softConfiguration();
+  configuration.counter_surface.type = CounterSurfaceType::kGaussian;
+  SurfacePose pose;
+  pose.offset_x = 37e-9;
+  pose.rotation = 0.3;
+  pose.tilt_x = 1e-3;
+  LivePredictor by_scan(configuration, false);
+  configuration.counter_surface.pose = pose;
+  LivePredictor by_parameter(configuration, false);
+  ReceivedScan scan = roughScan();
+  const PredictedScan expected = by_parameter.predictScan(scan, OutputOptions());
+  const double mated = by_scan.predictScan(scan, OutputOptions()).prediction.pull_off_force;
+  EXPECT_NE(mated, expected.prediction.pull_off_force);
+  scan.counter_surface_pose = pose;
+  expectSame(by_scan.predictScan(scan, OutputOptions()), expected);
+  expectSame(*by_scan.predictLastScan(), expected);
+  expectSame(by_scan.predictOnce(scan, 0.0, 2e-6), expected);
+  EXPECT_EQ(by_scan.stationCase(nullptr).configuration.counter_surface.pose.tilt_x, pose.tilt_x);
 }
 
 TEST(PredictionConversion, CarriesEveryContact) {
   LivePredictor predictor(softConfiguration(), false);
-  const Prediction prediction = predictor.predictScan(roughScan(), OutputOptions());
+  const Prediction prediction = predictor.predictScan(roughScan(), OutputOptions()).prediction;
   std_msgs::Header header;
   header.frame_id = "stage";
   const AsperityArray message = asperitiesMessage(prediction, header);
@@ -167,7 +228,7 @@ TEST(DisplayConversion, KeepsToItsLimitsAndLeavesInvalidCellsOut) {
   cv::Mat heights = scan.surface.heights().clone();
   heights.rowRange(0, 10).setTo(std::nan(""));
   scan.surface = HeightMap(heights, scan.surface.pitchX(), scan.surface.pitchY());
-  const Prediction prediction = predictor.predictScan(scan, OutputOptions());
+  const Prediction prediction = predictor.predictScan(scan, OutputOptions()).prediction;
   DisplayOptions display;
   EXPECT_EQ(surfacePoints(prediction, scan.surface, {}, display).width, 86U * 128U);
   display.max_points = 500;

@@ -60,6 +60,20 @@ TEST(Parameters, ImageTransportMayKeepItsOwnKeys) {
             std::string::npos);
 }
 
+TEST(Parameters, TheFrameOfTheCounterSurfaceIsTheNodesAndExcludesAPose) {
+  const NodeConfiguration configuration =
+      fromText("{counter_surface: {type: flat, frame: chuck, transform_timeout: 2.0}}");
+  EXPECT_EQ(configuration.node.transform.frame, "chuck");
+  EXPECT_EQ(configuration.node.transform.timeout, 2.0);
+  const std::string text = violations("{counter_surface: {frame: chuck, pose: {tilt_x: 0.1}}}");
+  EXPECT_NE(text.find("counter_surface/frame"), std::string::npos) << text;
+}
+
+TEST(Parameters, TheMirrorOfReconfigureIsNoSetting) {
+  EXPECT_EQ(violations("{reconfigure: {voltage: 1.0}}"), "");
+  EXPECT_NE(violations("{voltage: 1.0}").find("voltage"), std::string::npos);
+}
+
 TEST(Parameters, TheParameterServersTypesArriveUnchanged) {
   XmlRpc::XmlRpcValue tree;
   tree["lower"]["youngs_modulus"] = 1.0 / 3.0;
@@ -108,7 +122,8 @@ TEST(Parameters, TheShippedNodeYamlHoldsEveryKeyWithItsDefault) {
   };
   compare(shipped, defaults, "");
   compare(shipped["display"], defaults["display"], "display/");
-  EXPECT_EQ(compared, 11U);
+  compare(shipped["counter_surface"], defaults["counter_surface"], "counter_surface/");
+  EXPECT_EQ(compared, 15U);
 }
 
 }  // namespace

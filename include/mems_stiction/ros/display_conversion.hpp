@@ -2,6 +2,7 @@
 
 /// Views of a prediction for rviz: enlarged, thinned out, heights exaggerated. For looking at, not for measuring.
 
+#include <sensor_msgs/Image.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <std_msgs/Header.h>
 #include <visualization_msgs/MarkerArray.h>
@@ -23,5 +24,10 @@ sensor_msgs::PointCloud2 surfacePoints(const Prediction& prediction, const Heigh
 /// @param prediction must hold deformed_lower and asperities.
 visualization_msgs::MarkerArray asperityMarkers(const Prediction& prediction, const std_msgs::Header& header,
                                                 const DisplayOptions& options);
+
+/// The surface as a mono8 picture, low dark and high bright: 1 at the height that 1 % of the pixels lie below, 255 at
+/// that of 99 %; 0 where invalid. Rows and columns are thinned out to keep options.max_preview_size.
+sensor_msgs::Image previewImage(const HeightMap& surface, const std_msgs::Header& header,
+                                const DisplayOptions& options);
 
 }  // namespace mems_stiction

@@ -2,6 +2,7 @@
 
 /// Between sensor_msgs/Image and height maps: encodings, byte order, validity (REP 117, REP 118).
 
+#include <optional>
 #include <string>
 
 #include <sensor_msgs/Image.h>
@@ -10,6 +11,7 @@
 #include "mems_stiction/ScanInfo.h"
 #include "mems_stiction/height_map/height_map.hpp"
 #include "mems_stiction/height_map/raw_scan.hpp"
+#include "mems_stiction/surface/alignment.hpp"
 
 namespace mems_stiction {
 
@@ -18,6 +20,7 @@ struct ReceivedScan {
   std_msgs::Header header;
   HeightMap surface;
   sensor_msgs::ImageConstPtr image;
+  std::optional<SurfacePose> counter_surface_pose;  ///< at the scan's stamp; none = as configured
 };
 
 /// The encodings that carry heights, for messages: "32FC1, 64FC1, ...".

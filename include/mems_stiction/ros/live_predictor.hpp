@@ -1,14 +1,24 @@
 #pragma once
 
-/// What the node remembers between scans, and the core beside it: the load, the last scan, the counter-surface and the
-/// deformation that has accumulated. No ROS graph; one object serves one thread.
+/// What the node remembers between scans, and the core beside it: the settings that may change, the last scan, the
+/// counter-surface and the deformation that has accumulated. No ROS graph; one object serves one thread.
 
 #include <optional>
 
 #include "mems_stiction/prediction/scan_predictor.hpp"
 #include "mems_stiction/ros/image_conversion.hpp"
+#include "mems_stiction/ros/predicted_scan.hpp"
+#include "mems_stiction/ros/running_options.hpp"
 
 namespace mems_stiction {
+
+/// What a long run on one scan needs, so that it can go its own way while scans are predicted.
+struct StationCase {
+  std_msgs::Header header;      ///< of the scan
+  Configuration configuration;  ///< with the pose of that scan
+  HeightMap scan;               ///< before preprocessing, worn
+  HeightMap measured_counter;   ///< for counter_surface/type topic, else empty
+};
 
 class LivePredictor {
  public:
@@ -18,18 +28,28 @@ class LivePredictor {
   LivePredictor(const Configuration& configuration, bool accumulate_deformation);
 
   /// The scan that the topic brought. @throw SurfaceError if it cannot be predicted; then nothing changes.
-  Prediction predictScan(const ReceivedScan& scan, const OutputOptions& output);
+  PredictedScan predictScan(const ReceivedScan& scan, const OutputOptions& output);
 
-  /// Both loads at once [V], [N]. @throw OptionsError naming each refused value; then nothing changes.
-  void setLoad(double voltage, double mechanical_load) { predictor_.setLoad(voltage, mechanical_load); }
+  /// The one way by which a setting changes while the node runs; all of them at once.
+  /// @throw OptionsError naming each refused value; then nothing changes.
+  void change(const RunningOptions& options);
+  /// The same for both loads [V], [N].
+  void setLoad(double voltage, double mechanical_load);
 
-  /// The last scan again, at the load that is set, without adding to the accumulated deformation.
+  /// The last scan again, with the settings of now, without adding to the accumulated deformation.
   /// @return nothing if there is no scan yet. @throw SurfaceError if it does not fit a newer counter-surface.
-  std::optional<Prediction> predictLastScan();
+  std::optional<PredictedScan> predictLastScan();
 
   /// A scan at a load of its own, unworn; nothing is remembered.
   /// @throw OptionsError, SurfaceError as above.
-  Prediction predictOnce(const HeightMap& scan, double voltage, double mechanical_load);
+  PredictedScan predictOnce(const ReceivedScan& scan, double voltage, double mechanical_load);
+
+  /// @param given null: the last scan as the contacts before have left it.
+  /// @throw SurfaceError if there is no scan, or no counter-surface.
+  StationCase stationCase(const ReceivedScan* given) const;
+
+  /// The scan on its own grid as the model gets it, before refinement. @throw SurfaceError if it cannot be used.
+  HeightMap prepared(const HeightMap& scan) const { return predictor_.prepared(scan); }
 
   /// For counter_surface/type topic: the latest is kept.
   void setCounterSurface(const ReceivedScan& counter_surface);
@@ -37,11 +57,14 @@ class LivePredictor {
   /// Forgets the accumulated deformation.
   void resetSurface();
 
-  const LoadOptions& load() const { return predictor_.configuration().model.load; }
+  const Configuration& configuration() const { return predictor_.configuration(); }
+  RunningOptions runningOptions() const { return RunningOptions(configuration()); }
+  const LoadOptions& load() const { return configuration().model.load; }
   const std::optional<ReceivedScan>& lastScan() const { return last_scan_; }
 
  private:
-  Prediction run(ScanPredictor& predictor, const HeightMap& surface) const;
+  PredictedScan run(ScanPredictor& predictor, const HeightMap& surface, const ReceivedScan& scan) const;
+  void requireCounterSurface() const;
 
   ScanPredictor predictor_;
   ScanPredictor single_predictor_;  ///< for predictOnce()

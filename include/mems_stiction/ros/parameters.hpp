@@ -29,6 +29,16 @@ struct DisplayOptions {
   double height_exaggeration = 10.0;  ///< of heights against lengths [-], > 0
   int max_points = 40000;             ///< of surface_points; the surface is thinned out in rows and columns to keep it
   int max_markers = 500;              ///< of asperity_markers; the contacts with the largest loads are shown
+  double min_marker_diameter = 0.1;   ///< of a disc on the screen, so that small contacts are seen [m], >= 0
+  int max_preview_size = 512;         ///< pixels of the longer side of preview
+
+  void describe(OptionVisitor& visitor);
+};
+
+/// Where the counter-surface lies over each scan, by tf2.
+struct TransformOptions {
+  std::string frame;     ///< of the counter-surface; empty = off, counter_surface/pose serves
+  double timeout = 0.5;  ///< how long a scan waits for its transform [s], wall time
 
   void describe(OptionVisitor& visitor);
 };
@@ -41,6 +51,7 @@ struct NodeOptions {
   bool accumulate_deformation = false;  ///< each contact leaves its mark on the scans that follow
   double diagnostic_period = 1.0;       ///< between messages on /diagnostics [s], wall time
   double warning_period = 5.0;          ///< at most one warning about scans in so long a time [s], wall time
+  TransformOptions transform;
   DisplayOptions display;
 
   void describe(OptionVisitor& visitor);
@@ -58,7 +69,7 @@ struct NodeConfiguration {
 YAML::Node yamlFromParameters(XmlRpc::XmlRpcValue tree);
 
 /// @param tree a map; keys of image_transport's own (`image_transport`, `<topic>/disable_pub_plugins`,
-///        `<topic>/<plugin>/...`) are passed over.
+///        `<topic>/<plugin>/...`) and the mirror of dynamic_reconfigure are passed over.
 /// @throw OptionsError one line per unknown key, wrong type, unphysical value or combination.
 NodeConfiguration nodeConfigurationFromYaml(const YAML::Node& tree);
 

@@ -6,11 +6,11 @@
 
 #include "mems_stiction/AsperityArray.h"
 #include "mems_stiction/StictionPrediction.h"
-#include "mems_stiction/prediction/prediction.hpp"
+#include "mems_stiction/ros/predicted_scan.hpp"
 
 namespace mems_stiction {
 
-StictionPrediction predictionMessage(const Prediction& prediction, const std_msgs::Header& header);
+StictionPrediction predictionMessage(const PredictedScan& scan, const std_msgs::Header& header);
 
 AsperityArray asperitiesMessage(const Prediction& prediction, const std_msgs::Header& header);
 

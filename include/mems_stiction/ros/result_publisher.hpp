@@ -2,24 +2,30 @@
 
 /// What goes out for a predicted scan, and what somebody listens to: nothing else is computed or published.
 
+#include <functional>
+
 #include <image_transport/image_transport.h>
 #include <ros/node_handle.h>
 
-#include "mems_stiction/prediction/prediction.hpp"
 #include "mems_stiction/ros/image_conversion.hpp"
 #include "mems_stiction/ros/parameters.hpp"
+#include "mems_stiction/ros/predicted_scan.hpp"
 
 namespace mems_stiction {
 
 class ResultPublisher {
  public:
-  ResultPublisher(const ros::NodeHandle& handle, const DisplayOptions& display);
+  /// @param preview_wanted called on the handle's queue when somebody starts to listen to the preview.
+  ResultPublisher(const ros::NodeHandle& handle, const DisplayOptions& display, std::function<void()> preview_wanted);
 
   /// What the subscribers of this moment need.
   OutputOptions demanded() const;
 
-  /// Publishes the prediction, and of the rest what `prediction` holds and somebody listens to.
-  void publish(const Prediction& prediction, const ReceivedScan& scan) const;
+  /// Publishes the prediction, and of the rest what it holds and somebody listens to.
+  void publish(const PredictedScan& predicted, const ReceivedScan& scan) const;
+
+  bool isPreviewWanted() const;
+  void publishPreview(const HeightMap& surface, const std_msgs::Header& header) const;
 
  private:
   DisplayOptions display_;
@@ -31,6 +37,7 @@ class ResultPublisher {
   ros::Publisher asperities_;
   ros::Publisher surface_points_;
   ros::Publisher asperity_markers_;
+  ros::Publisher preview_;
 };
 
 }  // namespace mems_stiction

@@ -2,11 +2,14 @@
 
 /// The one implementation behind node and nodelet: connects topics and services with the worker that owns the core.
 ///
-/// Threads: one for topics and timers, one for the core (WorkQueue), two for services. A service that needs the core is
-/// run by the worker before the scans that wait.
+/// Threads: one for topics, transforms and timers, one for the core (WorkQueue), two for services, one for each action. A
+/// service that needs the core is run by the worker before the scans that wait; an action takes from it what it needs
+/// and then works by itself.
 
+#include <atomic>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,10 +22,14 @@
 #include "mems_stiction/GetLoad.h"
 #include "mems_stiction/Predict.h"
 #include "mems_stiction/SetLoad.h"
+#include "mems_stiction/ros/counter_surface_frame.hpp"
 #include "mems_stiction/ros/live_predictor.hpp"
+#include "mems_stiction/ros/reconfigure_server.hpp"
 #include "mems_stiction/ros/result_publisher.hpp"
 #include "mems_stiction/ros/scan_accounting.hpp"
 #include "mems_stiction/ros/scan_pairer.hpp"
+#include "mems_stiction/ros/station_actions.hpp"
+#include "mems_stiction/ros/transform_gate.hpp"
 #include "mems_stiction/ros/work_queue.hpp"
 
 namespace mems_stiction {
@@ -44,12 +51,22 @@ class StictionServer {
 
   void onScan(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info);
   void onCounterSurface(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info);
-  void predictAndPublish(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info, ros::WallTime arrival);
+  /// @param pose of the counter-surface at the scan's stamp, when counter_surface/frame is set
+  void queueScan(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info, ros::WallTime arrival,
+                 const std::optional<SurfacePose>& pose);
+  void predictAndPublish(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info, ros::WallTime arrival,
+                         const std::optional<SurfacePose>& pose);
+  void showLastScan();
   void takeCounterSurface(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info);
   void rejectLone(const std_msgs::Header& header, const std::string& reason);
   void report(diagnostic_updater::DiagnosticStatusWrapper& status);
   /// @param info null: the parameters serve.
   ReceivedScan receive(const sensor_msgs::ImageConstPtr& image, const ScanInfo* info) const;
+  /// A scan that came by a call, with its pose; waits for the transform. Not for the worker and the topic thread.
+  ReceivedScan receiveByCall(sensor_msgs::Image image, const ScanInfo& info) const;
+  StationCase findCase(const sensor_msgs::Image& height, const ScanInfo& info);
+  /// The one way to change settings, on the worker. @throw OptionsError, std::future_error.
+  void change(const RunningOptions& options);
 
   bool setLoad(SetLoad::Request& request, SetLoad::Response& response);
   bool getLoad(GetLoad::Request& request, GetLoad::Response& response);
@@ -70,18 +87,24 @@ class StictionServer {
   WorkQueue worker_;
   mutable std::mutex load_mutex_;
   LoadOptions load_;  ///< what ~get_load tells, without waiting for the worker
+  std::atomic<bool> stopping_{false};
 
-  ScanPairer scans_;             ///< touched by the topic thread only
-  ScanPairer counter_surfaces_;  ///< touched by the topic thread only
+  std::unique_ptr<CounterSurfaceFrame> counter_surface_frame_;  ///< null: counter_surface/frame is not set
+  TransformGate gate_;                                          ///< touched by the topic thread only
+  ScanPairer scans_;                                            ///< touched by the topic thread only
+  ScanPairer counter_surfaces_;                                 ///< touched by the topic thread only
   image_transport::ImageTransport transport_;
   image_transport::Subscriber height_;
   ros::Subscriber scan_info_;
   image_transport::Subscriber counter_height_;
   ros::Subscriber counter_scan_info_;
   std::vector<ros::ServiceServer> services_;
+  ReconfigureServer reconfigure_;
+  StationActions actions_;
   diagnostic_updater::Updater diagnostics_;
   ros::WallTimer diagnostic_timer_;
   ros::WallTimer pairing_timer_;
+  ros::WallTimer gate_timer_;
 
   ros::AsyncSpinner topic_spinner_;
   ros::AsyncSpinner service_spinner_;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Every name that the ROS layer gives to a topic or service, and how many messages each connection may hold back.
+/// Every name that the ROS layer gives to a topic, service or action, and how many messages each connection may hold back.
 
 #include <cstdint>
 
@@ -20,12 +20,23 @@ inline constexpr char kContactMapTopic[] = "contact_map";
 inline constexpr char kAsperitiesTopic[] = "asperities";
 inline constexpr char kSurfacePointsTopic[] = "surface_points";
 inline constexpr char kAsperityMarkersTopic[] = "asperity_markers";
+inline constexpr char kPreviewTopic[] = "preview";
 
 // Services, in the node's private namespace
 inline constexpr char kSetLoadService[] = "set_load";
 inline constexpr char kGetLoadService[] = "get_load";
 inline constexpr char kPredictService[] = "predict";
 inline constexpr char kResetSurfaceService[] = "reset_surface";
+
+// Actions, there too
+inline constexpr char kSweepLoadAction[] = "sweep_load";
+inline constexpr char kCycleContactAction[] = "cycle_contact";
+
+/// Where dynamic_reconfigure mirrors what is set, there too; no setting of ours.
+inline constexpr char kReconfigureParameters[] = "reconfigure";
+
+/// What a caller reads when the node ends before it could answer.
+inline constexpr char kShuttingDown[] = "the node is shutting down";
 
 /// roscpp drops the oldest message of a full queue without a count. Ours is unlimited (0): messages pass at once to the
 /// node's own queue, which is bounded by `queue_size` and counts what it drops.

@@ -1,0 +1,17 @@
+#pragma once
+
+/// All that is said about one scan.
+
+#include "mems_stiction/prediction/prediction.hpp"
+#include "mems_stiction/preprocess/pipeline.hpp"
+#include "mems_stiction/verdict/verdict.hpp"
+
+namespace mems_stiction {
+
+struct PredictedScan {
+  Prediction prediction;
+  Verdict verdict;                 ///< on the device, from this prediction
+  PreprocessRecord preprocessing;  ///< what was done to the scan before
+};
+
+}  // namespace mems_stiction

@@ -1,0 +1,143 @@
+#include "mems_stiction/ros/station_actions.hpp"
+
+#include <algorithm>
+#include <future>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/prediction/counter_surface_source.hpp"
+#include "mems_stiction/preprocess/refine.hpp"
+#include "mems_stiction/ros/one_line.hpp"
+#include "mems_stiction/ros/station_conversion.hpp"
+#include "mems_stiction/ros/topic_names.hpp"
+
+namespace mems_stiction {
+namespace {
+
+constexpr bool kNoAutoStart = false;
+
+/// Both surfaces as the model gets them.
+struct SurfacePair {
+  HeightMap lower;
+  HeightMap upper;  ///< empty for a level plane
+  const HeightMap* upperOrNull() const { return upper.empty() ? nullptr : &upper; }
+};
+
+SurfacePair surfacesOf(const StationCase& station_case) {
+  const Configuration& configuration = station_case.configuration;
+  PipelineOptions cleaning = configuration.preprocessing;
+  cleaning.refine.factor = 1;
+  SurfacePair pair;
+  pair.lower = prepareScan(station_case.scan, cleaning).surface;
+  CounterSurfaceSource source(configuration.counter_surface, configuration.scan, configuration.preprocessing);
+  const bool is_measured = configuration.counter_surface.type == CounterSurfaceType::kTopic;
+  pair.upper = is_measured ? source.over(pair.lower, station_case.measured_counter) : source.over(pair.lower);
+  if (configuration.preprocessing.refine.factor > 1) {
+    pair.lower = refined(pair.lower, configuration.preprocessing.refine);
+    if (!pair.upper.empty()) pair.upper = refined(pair.upper, configuration.preprocessing.refine);
+  }
+  return pair;
+}
+
+template <typename Action, typename Feedback>
+RunControl controlOf(actionlib::SimpleActionServer<Action>& server, const std::atomic<bool>& cancel,
+                     Feedback feedback) {
+  RunControl control;
+  control.cancel = &cancel;
+  control.progress = [&server, feedback](int done, int total) mutable {
+    feedback.done = static_cast<std::uint32_t>(done);
+    feedback.total = static_cast<std::uint32_t>(total);
+    server.publishFeedback(feedback);
+  };
+  return control;
+}
+
+}  // namespace
+
+StationActions::StationActions(const ros::NodeHandle& private_handle, FindCase find_case)
+    : find_case_(std::move(find_case)),
+      sweep_(
+          private_handle, kSweepLoadAction, [this](const auto& goal) { sweep(goal); }, kNoAutoStart),
+      cycle_(
+          private_handle, kCycleContactAction, [this](const auto& goal) { cycle(goal); }, kNoAutoStart) {
+  sweep_.registerPreemptCallback([this] { cancel_sweep_ = true; });
+  cycle_.registerPreemptCallback([this] { cancel_cycle_ = true; });
+}
+
+void StationActions::start() {
+  sweep_.start();
+  cycle_.start();
+}
+
+void StationActions::stop() {
+  stopping_ = true;
+  cancel_sweep_ = true;
+  cancel_cycle_ = true;
+}
+
+template <typename Action, typename Result, typename Work>
+void StationActions::answer(Server<Action>& server, std::atomic<bool>& cancel, Result& result, Work work) {
+  cancel = false;
+  // Whoever asked to end before this goal's flag was cleared is asked again.
+  if (stopping_ || server.isPreemptRequested()) cancel = true;
+  try {
+    if (!cancel && work()) {
+      server.setSucceeded(result);
+      return;
+    }
+    result.message = stopping_ ? kShuttingDown : "cancelled";
+  } catch (const std::future_error&) {
+    result.message = kShuttingDown;
+  } catch (const std::exception& error) {
+    result.message = oneLine(error.what());
+    server.setAborted(result, result.message);
+    return;
+  }
+  if (server.isPreemptRequested()) {
+    server.setPreempted(result, result.message);
+  } else {
+    server.setAborted(result, result.message);
+  }
+}
+
+void StationActions::sweep(const SweepLoadGoalConstPtr& goal) {
+  SweepLoadResult result;
+  result.pull_in_voltage = std::numeric_limits<double>::quiet_NaN();
+  answer(sweep_, cancel_sweep_, result, [&] {
+    const StationCase station_case = find_case_(goal->height, goal->scan_info);
+    result.header = station_case.header;
+    const Configuration& configuration = station_case.configuration;
+    LoadSweepRequest request;
+    request.voltages = goal->voltages;
+    request.mechanical_loads = goal->mechanical_loads;
+    if (request.mechanical_loads.empty()) request.mechanical_loads = {configuration.model.load.mechanical_load};
+    const SurfacePair pair = surfacesOf(station_case);
+    const LoadSweepResult swept =
+        sweepLoads(configuration.model, pair.lower, pair.upperOrNull(), request, configuration.device,
+                   configuration.uncertainty, controlOf(sweep_, cancel_sweep_, SweepLoadFeedback()));
+    result = sweepMessage(swept);
+    result.header = station_case.header;
+    return swept.is_complete;
+  });
+}
+
+void StationActions::cycle(const CycleContactGoalConstPtr& goal) {
+  CycleContactResult result;
+  answer(cycle_, cancel_cycle_, result, [&] {
+    const StationCase station_case = find_case_(goal->height, goal->scan_info);
+    result.header = station_case.header;
+    const Configuration& configuration = station_case.configuration;
+    constexpr std::uint32_t kMost = std::numeric_limits<int>::max();
+    const SurfacePair pair = surfacesOf(station_case);
+    const ContactCyclesResult cycled = cycleContacts(
+        configuration.model, pair.lower, pair.upperOrNull(), static_cast<int>(std::min(goal->count, kMost)),
+        configuration.device, configuration.uncertainty, controlOf(cycle_, cancel_cycle_, CycleContactFeedback()));
+    result = cyclesMessage(cycled);
+    result.header = station_case.header;
+    return cycled.is_complete;
+  });
+}
+
+}  // namespace mems_stiction

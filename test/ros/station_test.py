@@ -1,0 +1,184 @@
+#!/usr/bin/env python3
+"""The test station's part: actions with progress and cancel beside live scans, and settings that change in one place."""
+
+import math
+import time
+import unittest
+
+import actionlib
+import dynamic_reconfigure.client
+import rospy
+import rostest
+from actionlib_msgs.msg import GoalStatus
+from mems_stiction.msg import (CycleContactAction, CycleContactGoal, StictionPrediction, SweepLoadAction, SweepLoadGoal,
+                               SweepPoint)
+from mems_stiction.srv import GetLoad, SetLoad
+from stiction_client import Collector, Counts, Station, image_message, info_message, rough_surface, wait_until
+
+LOAD = 1e-6
+DEVICE = dict(spring_stiffness=1.0, travel=1e-6, contact_area=48 * 64 * 1e-16, electrode_area=1e-8)
+
+
+class StationTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node("station_test")
+        cls.counts = Counts()
+        cls.set_load = rospy.ServiceProxy("stiction_node/set_load", SetLoad)
+        cls.get_load = rospy.ServiceProxy("stiction_node/get_load", GetLoad)
+        rospy.wait_for_service("stiction_node/set_load", timeout=30.0)
+        cls.predictions = Collector("prediction", StictionPrediction).connect()
+        cls.station = Station()
+        cls.sweep = actionlib.SimpleActionClient("stiction_node/sweep_load", SweepLoadAction)
+        cls.cycle = actionlib.SimpleActionClient("stiction_node/cycle_contact", CycleContactAction)
+        assert cls.sweep.wait_for_server(rospy.Duration(30)) and cls.cycle.wait_for_server(rospy.Duration(30))
+        cls.settings = dynamic_reconfigure.client.Client("stiction_node", timeout=30.0)
+
+    def live(self, surface):
+        count = len(self.predictions.messages)
+        self.station.send(surface)
+        return self.predictions.wait(count + 1)[count]
+
+    def run_goal(self, client, goal):
+        """The state in the end, the result and all feedback."""
+        feedback = []
+        client.send_goal(goal, feedback_cb=feedback.append)
+        self.assertTrue(client.wait_for_result(rospy.Duration(60)))
+        return client.get_state(), client.get_result(), feedback
+
+    def assert_progress(self, feedback, total):
+        # Feedback and result travel on topics of their own: of a short goal the last ones may come too late.
+        done = [message.done for message in feedback]
+        self.assertEqual(done, sorted(set(done)))
+        self.assertTrue(all(1 <= message.done <= message.total == total for message in feedback), feedback)
+
+    def test_1_an_action_before_any_scan_says_so(self):
+        state, result, _ = self.run_goal(self.sweep, SweepLoadGoal(voltages=[0.0]))
+        self.assertEqual(state, GoalStatus.ABORTED)
+        self.assertIn("no scan yet", result.message)
+        state, result, _ = self.run_goal(self.cycle, CycleContactGoal(count=2))
+        self.assertEqual(state, GoalStatus.ABORTED)
+        self.assertIn("no scan yet", result.message)
+
+    def test_2_reconfigure_sets_the_device_and_the_verdict_follows(self):
+        surface = rough_surface(1)
+        before = self.live(surface)
+        self.assertEqual(before.sticks, StictionPrediction.STICKS_UNKNOWN)
+        self.assertIn("not stated", before.reason)
+        self.assertTrue(math.isnan(before.margin))
+        self.settings.update_configuration(DEVICE)
+        after = self.live(surface)
+        self.assertNotEqual(after.sticks, StictionPrediction.STICKS_UNKNOWN)
+        self.assertAlmostEqual(after.margin * after.pull_off_force / 1e-6, 1.0, delta=1e-9)
+        self.assertLess(after.margin_lower, after.margin)
+        self.assertEqual(after.pull_off_force, before.pull_off_force)
+        self.settings.update_configuration({"work_of_adhesion": 0.1})
+        self.assertGreater(self.live(surface).pull_off_force, after.pull_off_force)
+        self.settings.update_configuration({"work_of_adhesion": 0.05})
+        self.assertEqual(self.live(surface).pull_off_force, after.pull_off_force)
+
+    def test_3_services_and_reconfigure_share_one_setter(self):
+        answer = self.settings.update_configuration({"voltage": 12.0})
+        self.assertEqual((answer["voltage"], self.get_load().voltage), (12.0, 12.0))
+        self.assertTrue(self.set_load(3.0, LOAD).success)
+        wait_until(lambda: self.settings.get_configuration()["voltage"] == 3.0, "reconfigure to show the service's change")
+        # A refused value takes the whole request back, and the client sees what is set.
+        for refused in ({"voltage": 51.0}, {"insulator_thickness": 0.0}, {"work_of_adhesion": -1.0},
+                        {"travel": 2e-6, "electrode_gap": 1e-7}, {"beam_type": "cantilever"},
+                        {"mechanical_load": math.nan}):
+            asked = dict(refused, hamaker_constant=1e-20)
+            answer = self.settings.update_configuration(asked)
+            self.assertEqual(answer["hamaker_constant"], 65e-21, refused)
+            for name in refused:
+                self.assertNotEqual(answer[name], refused[name], refused)
+        load = self.get_load()
+        self.assertEqual((load.voltage, load.mechanical_load), (3.0, LOAD))
+        self.assertTrue(self.set_load(0.0, LOAD).success)
+
+    def test_4_a_sweep_of_the_last_scan(self):
+        surface = rough_surface(2)
+        self.assertEqual(self.get_load().voltage, 0.0)
+        live = self.live(surface)
+        state, result, feedback = self.run_goal(self.sweep, SweepLoadGoal(voltages=[0.0, 10.0, 20.0]))
+        self.assertEqual(state, GoalStatus.SUCCEEDED, result.message)
+        self.assertEqual(result.header.stamp, live.header.stamp)
+        self.assertEqual([point.voltage for point in result.points], [0.0, 10.0, 20.0, 10.0, 0.0])
+        self.assertEqual([point.direction for point in result.points], [SweepPoint.UP] * 3 + [SweepPoint.DOWN] * 2)
+        self.assertEqual(result.points[0].pull_off_force, live.pull_off_force)
+        self.assertEqual(len(result.summaries), 1)
+        self.assertGreater(result.pull_in_voltage, 0.0)
+        self.assert_progress(feedback, 5)
+        # A given scan, and the sweep leaves no trace.
+        other = image_message(rough_surface(3), rospy.Time(5))
+        state, given, _ = self.run_goal(self.sweep, SweepLoadGoal(voltages=[0.0], mechanical_loads=[LOAD, 2 * LOAD],
+                                                                  height=other, scan_info=info_message(rospy.Time(5))))
+        self.assertEqual(state, GoalStatus.SUCCEEDED, given.message)
+        self.assertEqual(len(given.points), 2)
+        self.assertNotEqual(given.points[0].pull_off_force, live.pull_off_force)
+        self.assertEqual(self.set_load(0.0, LOAD).prediction.pull_off_force, live.pull_off_force)
+
+    def test_5_refused_goals_say_why(self):
+        for goal, reason in ((SweepLoadGoal(), "voltages"), (SweepLoadGoal(voltages=[51.0]), "voltage"),
+                             (SweepLoadGoal(voltages=[2.0, 1.0]), "voltages")):
+            state, result, _ = self.run_goal(self.sweep, goal)
+            self.assertEqual(state, GoalStatus.ABORTED)
+            self.assertIn(reason, result.message)
+            self.assertNotIn("\n", result.message)
+        state, result, _ = self.run_goal(self.cycle, CycleContactGoal(count=0))
+        self.assertEqual(state, GoalStatus.ABORTED)
+        self.assertIn("count", result.message)
+
+    def test_6_cycles_of_the_last_scan(self):
+        live = self.live(rough_surface(2))
+        state, result, feedback = self.run_goal(self.cycle, CycleContactGoal(count=4))
+        self.assertEqual(state, GoalStatus.SUCCEEDED, result.message)
+        self.assertEqual([cycle.cycle for cycle in result.cycles], [1, 2, 3, 4])
+        self.assertEqual(result.cycles[0].pull_off_force, live.pull_off_force)
+        self.assert_progress(feedback, 4)
+
+    def test_7_scans_go_on_beside_an_action_and_it_can_be_cancelled(self):
+        surface = rough_surface(4, rows=128, cols=128)
+        self.live(surface)
+        received, predicted = int(self.counts["received"]), len(self.predictions.messages)
+        for client, goal in ((self.cycle, CycleContactGoal(count=1000000)),
+                             (self.sweep, SweepLoadGoal(voltages=[i * 1e-4 for i in range(200000)]))):
+            feedback = []
+            client.send_goal(goal, feedback_cb=feedback.append)
+            wait_until(lambda: len(feedback) > 1, "progress")
+            for _ in range(5):
+                self.station.send(surface)
+            self.predictions.wait(predicted + 5)
+            predicted += 5
+            self.assertEqual(client.get_state(), GoalStatus.ACTIVE)
+            begin = time.monotonic()
+            client.cancel_goal()
+            self.assertTrue(client.wait_for_result(rospy.Duration(10)))
+            self.assertLess(time.monotonic() - begin, 5.0)
+            self.assertEqual(client.get_state(), GoalStatus.PREEMPTED)
+            result = client.get_result()
+            self.assertEqual(result.message, "cancelled")
+            self.assertGreater(len(getattr(result, "cycles", None) or result.points), 0)
+        self.counts.wait(predicted=predicted, dropped=0, rejected=0)
+
+    def test_8_a_new_goal_takes_the_place_of_the_one_that_runs(self):
+        self.cycle.send_goal(CycleContactGoal(count=1000000))
+        other = actionlib.SimpleActionClient("stiction_node/cycle_contact", CycleContactAction)
+        self.assertTrue(other.wait_for_server(rospy.Duration(10)))
+        state, result, _ = self.run_goal(other, CycleContactGoal(count=2))
+        self.assertEqual(state, GoalStatus.SUCCEEDED, result.message)
+        self.assertEqual(len(result.cycles), 2)
+
+    def test_9_the_node_ends_while_an_action_runs(self):
+        import rosnode
+
+        feedback = []
+        self.cycle.send_goal(CycleContactGoal(count=1000000), feedback_cb=feedback.append)
+        wait_until(lambda: feedback, "progress")
+        manager = "/stiction_node_manager"
+        name = manager if manager in rosnode.get_node_names() else "/stiction_node"
+        rosnode.kill_nodes([name])
+        wait_until(lambda: name not in rosnode.get_node_names(), "%s to end" % name, timeout=10.0)
+
+
+if __name__ == "__main__":
+    rostest.rosrun("mems_stiction", "station", StationTest)

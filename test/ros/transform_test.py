@@ -1,0 +1,168 @@
+#!/usr/bin/env python3
+"""counter_surface/frame: the transform at the scan's stamp does what the same pose does as parameters; a scan without
+transform is rejected with that reason, and nobody overtakes a scan that waits."""
+
+import math
+import time
+import unittest
+
+import numpy as np
+import rospy
+import rostest
+from geometry_msgs.msg import TransformStamped
+from mems_stiction.msg import StictionPrediction
+from mems_stiction.srv import Predict, SetLoad
+from stiction_client import Collector, Counts, Station, image_message, info_message, rough_surface
+from tf2_msgs.msg import TFMessage
+
+FIRST = dict(offset_x=4.0e-8, offset_y=-2.5e-8, rotation=0.4, tilt_x=0.002, tilt_y=-0.001)
+FIGURES = ("pull_off_force", "normal_load", "contact_area_jkr", "approach", "mean_gap", "total_energy")
+
+
+def multiplied(a, b):
+    """Quaternions (x, y, z, w)."""
+    ax, ay, az, aw = a
+    bx, by, bz, bw = b
+    return (aw * bx + ax * bw + ay * bz - az * by, aw * by - ax * bz + ay * bw + az * bx,
+            aw * bz + ax * by - ay * bx + az * bw, aw * bw - ax * bx - ay * by - az * bz)
+
+
+def tilt_and_rotation(tilt_x, tilt_y, rotation):
+    """The shortest turn of z to the plane's normal, after a turn about z."""
+    normal = np.array([-math.tan(tilt_x), -math.tan(tilt_y), 1.0])
+    normal /= np.linalg.norm(normal)
+    axis = np.cross([0.0, 0.0, 1.0], normal)
+    angle = math.asin(np.linalg.norm(axis))
+    axis = axis / np.linalg.norm(axis) * math.sin(0.5 * angle)
+    return multiplied((axis[0], axis[1], axis[2], math.cos(0.5 * angle)),
+                      (0.0, 0.0, math.sin(0.5 * rotation), math.cos(0.5 * rotation)))
+
+
+def transform(parent, child, stamp, x, y, turn):
+    message = TransformStamped()
+    message.header.stamp = stamp
+    message.header.frame_id = parent
+    message.child_frame_id = child
+    message.transform.translation.x, message.transform.translation.y = x, y
+    message.transform.translation.z = 5e-6  # does not matter: the surfaces are brought together
+    q = message.transform.rotation
+    q.x, q.y, q.z, q.w = turn
+    return message
+
+
+class TransformTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node("transform_test")
+        cls.counts = Counts()
+        cls.moving = rospy.Publisher("/tf", TFMessage, queue_size=100)
+        cls.static = rospy.Publisher("/tf_static", TFMessage, queue_size=10, latch=True)
+        cls.predictions = Collector("prediction", StictionPrediction).connect()
+        cls.station = Station()
+        cls.references = []
+        for name in ("first/", "second/"):
+            cls.references.append((Station(name), Collector(name + "prediction", StictionPrediction).connect()))
+        # The stage moves in the scan's frame; the counter-surface sits on it, tilted and turned.
+        turn = tilt_and_rotation(FIRST["tilt_x"], FIRST["tilt_y"], FIRST["rotation"])
+        cls.static.publish(TFMessage([transform("stage", "counter", rospy.Time(0), 0.0, FIRST["offset_y"], turn),
+                                      transform("stage", "fixed", rospy.Time(0), 0.0, 0.0, (0.0, 0.0, 0.0, 1.0))]))
+        while cls.moving.get_num_connections() == 0:
+            time.sleep(0.01)
+
+    def move(self, stamp, x):
+        self.moving.publish(TFMessage([transform("scan", "stage", stamp, x, 0.0, (0.0, 0.0, 0.0, 1.0))]))
+
+    def reference(self, index, surface):
+        station, predictions = self.references[index]
+        count = len(predictions.messages)
+        station.send(surface)
+        return predictions.wait(count + 1)[count]
+
+    def assert_same(self, left, right):
+        for name in FIGURES:
+            a, b = getattr(left, name), getattr(right, name)
+            self.assertAlmostEqual(a / b, 1.0, delta=1e-6, msg=name)
+
+    def test_1_a_scan_without_transform_is_rejected_with_that_reason(self):
+        begin = time.monotonic()
+        self.station.send(rough_surface(1))
+        self.counts.wait(received=1, rejected=1, predicted=0)
+        self.assertGreater(time.monotonic() - begin, 0.9)
+        self.assertIn("no transform from the scan's frame scan to counter_surface/frame counter", self.counts["last_reason"])
+        self.assertEqual(self.predictions.messages, [])
+
+    def test_2_the_transform_at_the_stamp_is_the_pose_by_parameters(self):
+        surface = rough_surface(2)
+        # The stage moves on; each scan takes the place at its own stamp, between two transforms.
+        for second in range(1000, 1021, 2):
+            self.move(rospy.Time(second), 4.0e-9 * (second - 1000))
+        count = len(self.predictions.messages)
+        self.station._second = 1009
+        self.assertEqual(self.station.send(surface), rospy.Time(1010))
+        self.station._second = 1018
+        self.station.send(surface)  # 1019: interpolated
+        self.station.send(surface)  # 1020
+        answers = self.predictions.wait(count + 3)[count:]
+        first, second = self.reference(0, surface), self.reference(1, surface)
+        self.assertNotEqual(first.pull_off_force, second.pull_off_force)
+        self.assert_same(answers[0], first)
+        self.assert_same(answers[2], second)
+        self.assertNotEqual(answers[1].pull_off_force, answers[2].pull_off_force)
+
+        # The same scan by call, and again after a change of load: at its own pose.
+        predict = rospy.ServiceProxy("stiction_node/predict", Predict)
+        called = predict(image_message(surface, rospy.Time(1010)), info_message(rospy.Time(1010)), 0.0, 1e-6)
+        self.assertTrue(called.success, called.message)
+        self.assert_same(called.prediction, first)
+        again = rospy.ServiceProxy("stiction_node/set_load", SetLoad)(0.0, 1e-6)
+        self.assert_same(again.prediction, second)
+        missing = predict(image_message(surface, rospy.Time(2000)), info_message(rospy.Time(2000)), 0.0, 1e-6)
+        self.assertFalse(missing.success)
+        self.assertIn("no transform", missing.message)
+
+    def test_3_a_scan_waits_for_its_transform_and_nobody_overtakes_it(self):
+        surface = rough_surface(3)
+        count = len(self.predictions.messages)
+        self.station._second = 1021
+        self.station.send(surface)  # 1022: no transform yet
+        fixed = image_message(surface, self.station.stamp())  # 1023: its transform is there at all times
+        fixed.header.frame_id = "fixed"
+        self.station.height.publish(fixed)
+        self.station.info.publish(info_message(fixed.header.stamp))
+        time.sleep(0.3)
+        self.assertEqual(len(self.predictions.messages), count)
+        # Services do not wait with it.
+        begin = time.monotonic()
+        self.assertTrue(rospy.ServiceProxy("stiction_node/set_load", SetLoad)(0.0, 1e-6).success)
+        self.assertLess(time.monotonic() - begin, 0.5)
+        self.move(rospy.Time(1022), 0.0)
+        stamps = [message.header.stamp.secs for message in self.predictions.wait(count + 2)[count:]]
+        self.assertEqual(stamps, [1022, 1023])
+
+    def test_4_a_transform_that_is_too_old_rejects_and_the_next_scan_goes_on(self):
+        surface = rough_surface(4)
+        rejected, predicted = int(self.counts["rejected"]), len(self.predictions.messages)
+        self.station._second = 1499
+        self.station.send(surface)
+        self.counts.wait(rejected=rejected + 1)
+        self.move(rospy.Time(1501), 0.0)
+        self.station.send(surface)
+        self.predictions.wait(predicted + 1)
+        self.assertEqual(self.predictions.messages[predicted].header.stamp.secs, 1501)
+        self.assertIn("at the scan's stamp", self.counts["last_reason"])
+
+    def test_5_a_scan_without_stamp_or_frame_is_rejected_at_once(self):
+        rejected = int(self.counts["rejected"])
+        for stamp, frame in ((rospy.Time(0), "scan"), (rospy.Time(1012), "")):
+            image = image_message(rough_surface(5), stamp)
+            image.header.frame_id = frame
+            info = info_message(stamp)
+            self.station.height.publish(image)
+            self.station.info.publish(info)
+            rejected += 1
+            self.counts.wait(rejected=rejected)
+            self.assertIn("no frame_id" if not frame else "no stamp", self.counts["last_reason"])
+
+
+if __name__ == "__main__":
+    rostest.rosrun("mems_stiction", "transform", TransformTest)
