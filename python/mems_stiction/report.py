@@ -1,0 +1,206 @@
+"""The report on many scans: what stiction_batch dumped, as one HTML page with everything in it, CSV and JSON beside it.
+
+No figure is computed here: all come from the core, by stiction_batch.
+"""
+
+import base64
+import csv
+import datetime
+import io
+import json
+import math
+import pathlib
+import platform
+import re
+from types import SimpleNamespace
+
+import jinja2
+import matplotlib
+import numpy as np
+import yaml
+
+from mems_stiction.plots import ScanPicture, save_picture, with_unit
+from mems_stiction.quantities import percent
+from mems_stiction.report_figures import number, scan_figure, trend_figure
+from mems_stiction.report_template import PAGE
+
+STATES = {"EQUILIBRIUM": (0, "equilibrium"), "BONDED": (1, "bonded"), "NO_EQUILIBRIUM": (2, "no equilibrium")}
+FIGURES = (("pull-off force", "pull_off_force", "N"), ("of contacts, by JKR", "pull_off_force_jkr", "N"),
+           ("of contacts, JKR-DMT transition", "pull_off_force_transition", "N"), ("normal load", "normal_load", "N"),
+           ("voltage", "voltage", "V"), ("mechanical load", "mechanical_load", "N"),
+           ("contact fraction", "contact_fraction", "%"), ("contact area", "contact_area", "m^2"),
+           ("scanned area", "nominal_area", "m^2"), ("approach", "approach", "m"), ("mean gap", "mean_gap", "m"),
+           ("bonding energy", "bonding_energy", "J/m^2"), ("adhesion parameter", "adhesion_parameter", ""),
+           ("bonding regime", "bonding_regime", "word"), ("median Tabor parameter", "median_tabor_parameter", ""),
+           ("single-asperity theory", "contact_theory", "word"), ("rms height Sq", "sq", "m"), ("skewness Ssk", "ssk", ""),
+           ("kurtosis Sku", "sku", ""), ("rms gradient Sdq", "sdq", ""), ("not measured", "invalid_fraction", "%"),
+           ("restoring force of the device", "restoring_force", "N"),
+           ("pull-off force of the device", "device_pull_off_force", "N"), ("margin", "margin", ""),
+           ("margin, 95 % from", "margin_lower", ""), ("margin, 95 % to", "margin_upper", ""),
+           ("peel number", "peel_number", ""), ("detachment length", "detachment_length", "m"))
+FLAGS = {"bonded": "contacts percolate, the pull-off force is a lower bound",
+         "no_equilibrium": "the search ended before the equilibrium", "tabor": "JKR is not the theory for these asperities",
+         "plasticity": "most of the adhesion is of contacts that flow",
+         "resolution": "most of the adhesion is of contacts of few pixels",
+         "few_contacts": "few contacts: another place of the surface may differ much"}
+SOURCES = (
+    "Adhesion of two rough surfaces, equilibrium, plasticity limits: S. Deladi, G. Krijnen, N. Tas, M. Elwenspoek, "
+    "Three dimensional adhesion model for arbitrary rough surfaces (2002); as implemented, and what differs: doc/model.md.",
+    "Contact of one asperity: Johnson, Kendall and Roberts, Proc. R. Soc. A 324 (1971) 301.",
+    "Surface forces: Israelachvili, Intermolecular and Surface Forces (3rd ed., 2011), chapter 13.",
+    "Which contact theory holds: Johnson and Greenwood, J. Colloid Interface Sci. 192 (1997) 326; Maugis, J. Colloid "
+    "Interface Sci. 150 (1992) 243.",
+    "Adhesion parameter and its regimes: Gui et al., J. Appl. Phys. 85 (1999) 7448.",
+    "Peel numbers of beams: de Boer and Michalske, J. Appl. Phys. 86 (1999) 817; Mastrangelo and Hsu, J. MEMS 2 (1993) 33 and 44.",
+    "Roughness: ISO 25178-2.",
+    "Material constants: the comments of the configuration below; defaults and their sources: config/stiction.yaml.",
+)
+
+
+def text_of(value, unit):
+    if unit == "word":
+        return str(value) if value in ("DMT", "JKR") else str(value).lower().replace("_", "-")
+    value = number(value)
+    if math.isnan(value):
+        return "not stated"
+    if unit == "%":
+        return percent(value)
+    if unit == "m^2":
+        if value >= 1e-8:
+            return "%.3g mm²" % (value * 1e6)
+        return "%.3g µm²" % (value * 1e12) if value >= 1e-15 else "%.3g nm²" % (value * 1e18)
+    if unit:
+        return with_unit(value, unit).replace("^2", "²")
+    return "%.3g" % value
+
+
+def read_rows(path):
+    """The rows of stiction_batch -o ROWS.jsonl."""
+    with open(path, encoding="utf-8") as stream:
+        return [json.loads(line) for line in stream]
+
+
+def scan_name(row):
+    name = pathlib.PurePath(row["file"]).name
+    if row["scan"]:
+        name += ", scan %d" % row["scan"]
+    parts = [part for part in (row["name"], row["channel"]) if part and part != "scan"]
+    return name + (" (%s)" % ", ".join(parts) if parts else "")
+
+
+def chosen(rows, most):
+    """The numbers of at most so many rows, evenly spread, the first and the last among them."""
+    if len(rows) <= most:
+        return [row["number"] for row in rows]
+    return [rows[place]["number"] for place in sorted(set(np.linspace(0, len(rows) - 1, most).astype(int)))]
+
+
+def picture_of(folder, result, title):
+    arrays = {name: np.load(str(folder / (name + ".npy"))) for name in ("heights", "deformed", "counter_deformed", "contact_map")}
+    columns = result["asperities"]
+    asperities = [SimpleNamespace(**dict(zip(columns, values))) for values in zip(*columns.values())]
+    prediction = SimpleNamespace(**{key: number(value) for key, value in result.items()
+                                    if value is None or isinstance(value, (int, float))})
+    prediction.status = STATES[result["status"]][0]
+    for name in ("elastic_count", "elasto_plastic_count", "plastic_count"):
+        setattr(prediction, name, result[name])
+    return ScanPicture(title, arrays["heights"], arrays["deformed"], arrays["counter_deformed"], arrays["contact_map"],
+                       asperities, prediction, result["pitch_x"], result["pitch_y"])
+
+
+def embedded(png):
+    return "data:image/png;base64," + base64.b64encode(png).decode("ascii")
+
+
+def scan_section(row, folder):
+    """What the page shows of one scan. `folder` holds its dump."""
+    with open(str(folder / "result.json"), encoding="utf-8") as stream:
+        result = json.load(stream)
+    stream = io.BytesIO()
+    save_picture(picture_of(folder, result, scan_name(row)), stream)
+    bound = "≥ " if result["status"] == "BONDED" else ""
+    figures = [(label, (bound if "pull_off_force" in key else "") + text_of(result[key], unit)) for label, key, unit in FIGURES
+               if key in result and text_of(result[key], unit) != "not stated"]
+    return {"number": row["number"], "name": scan_name(row), "maps": embedded(stream.getvalue()),
+            "details": embedded(scan_figure(result)), "figures": figures,
+            "warnings": [row["warnings"]] if row["warnings"] else [], "sticks": result.get("sticks"),
+            "verdict": _sentence(result.get("verdict_reason", "")), "flags": _flags(result.get("regime_flag_names", ""))}
+
+
+def _flags(names):
+    return "; ".join(FLAGS.get(name, name) for name in names.split(", ") if name)
+
+
+def _sentence(text):
+    return text[:1].upper() + text[1:] + ("" if not text or text.endswith(".") else ".")
+
+
+def table_row(row, drawn):
+    entry = {"number": row["number"], "name": scan_name(row), "reason": row["reason"], "anchor": row["number"] in drawn}
+    if not row["reason"]:
+        bound = "≥ " if row["status"] == "BONDED" else ""
+        entry.update(status=STATES[row["status"]][1], pull_off=bound + text_of(row["pull_off_force"], "N"),
+                     contact=percent(row["contact_fraction"]), contacts=row["asperity_count"],
+                     regimes="%d / %d / %d" % (row["elastic_count"], row["elasto_plastic_count"], row["plastic_count"]),
+                     rms=text_of(row["rms_height"], "m"), sticks=row.get("sticks"), margin=_margin(row))
+    return entry
+
+
+def _margin(row):
+    values = [number(row.get(name)) for name in ("margin", "margin_lower", "margin_upper")]
+    if math.isnan(values[0]):
+        return "-"
+    text = "%.3g" % values[0]
+    return text if math.isnan(values[1]) else "%s (%.2g to %.2g)" % (text, values[1], values[2])
+
+
+def summary(rows, drawn):
+    predicted = [row for row in rows if not row["reason"]]
+    parts = ["%d scans, %d of them predicted." % (len(rows), len(predicted))]
+    for word, status in (("bonded", "BONDED"), ("without equilibrium", "NO_EQUILIBRIUM")):
+        count = sum(row["status"] == status for row in predicted)
+        if count:
+            parts.append("%d %s." % (count, word))
+    if any("sticks" in row for row in predicted):
+        counts = [(word, sum(row["sticks"] == word for row in predicted)) for word in ("no", "marginal", "yes", "unknown")]
+        parts.append("Does the device stick? " + ", ".join("%s: %d" % pair for pair in counts if pair[1]) + ".")
+    if len(drawn) < len(predicted):
+        parts.append("Pictures of %d scans, evenly spread; the table and the trends have all." % len(drawn))
+    return " ".join(parts)
+
+
+def page(title, rows, sections, settings_text, configuration_path, date=None):
+    """The HTML. `settings_text` is the settings file beside the rows."""
+    predicted = [row for row in rows if not row["reason"]]
+    settings = yaml.safe_load(settings_text)
+    given = pathlib.Path(configuration_path).read_text(encoding="utf-8") if configuration_path else ""
+    configuration = settings_text.split("\nconfiguration:\n", 1)[1]
+    drawn = {section["number"] for section in sections}
+    versions = [("mems_stiction", settings["version"]), ("OpenCV", settings["opencv_version"]),
+                ("Python", platform.python_version()), ("Matplotlib", matplotlib.__version__),
+                ("Jinja", jinja2.__version__)]
+    environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined)
+    return environment.from_string(PAGE).render(
+        title=title, version=settings["version"], summary=summary(rows, drawn),
+        date=date or datetime.datetime.now().strftime("%Y-%m-%d %H:%M"),
+        has_device=any("sticks" in row for row in predicted), table=[table_row(row, drawn) for row in rows],
+        bounded=any(row["status"] == "BONDED" for row in predicted),
+        trends=embedded(trend_figure(predicted)) if len(predicted) > 1 else "", scans=sections,
+        inputs=settings["inputs"], versions=versions, sources=SOURCES, configuration_file=given,
+        configuration_name=str(configuration_path or ""), configuration=re.sub(r"(?m)^  ", "", configuration))
+
+
+def write_csv(rows, path):
+    """Every row with the columns of stiction_batch."""
+    columns = list(max(rows, key=len))
+    with open(str(path), "w", encoding="utf-8", newline="") as stream:
+        writer = csv.DictWriter(stream, columns, lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+def write_json(rows, settings_text, path):
+    settings = yaml.safe_load(settings_text)
+    with open(str(path), "w", encoding="utf-8") as stream:
+        json.dump({"settings": settings, "scans": rows}, stream, indent=1, default=str)
+        stream.write("\n")

@@ -1,0 +1,80 @@
+"""The report's page, for jinja2. It refers to nothing outside itself, and prints on A4."""
+
+PAGE = """<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<title>{{ title }}</title>
+<style>
+  body { font-family: "DejaVu Sans", Arial, sans-serif; font-size: 14px; color: #222; max-width: 1300px; margin: 24px auto; padding: 0 24px; line-height: 1.45; }
+  h1 { font-size: 25px; margin-bottom: 4px; }
+  h2 { font-size: 19px; border-bottom: 2px solid #0b4f9e; padding-bottom: 3px; margin-top: 36px; }
+  h3 { font-size: 15px; margin-bottom: 4px; }
+  img { width: 100%; height: auto; display: block; margin: 8px 0; }
+  table { border-collapse: collapse; margin: 10px 0; }
+  th, td { padding: 3px 9px; text-align: left; border-bottom: 1px solid #ddd; vertical-align: top; }
+  th { background: #eef2f7; }
+  td.n, th.n { text-align: right; white-space: nowrap; }
+  .path { overflow-wrap: anywhere; } td.path { min-width: 180px; }
+  .quiet { color: #666; }
+  .warning { background: #fff6dd; border-left: 4px solid #f2b705; padding: 5px 10px; }
+  .no { color: #1b7a3d; font-weight: bold; } .yes { color: #b3201d; font-weight: bold; } .marginal { color: #9a6b00; font-weight: bold; }
+  ul { padding-left: 20px; }
+  pre { background: #f6f6f6; padding: 10px; font-size: 12px; white-space: pre-wrap; overflow-wrap: anywhere; }
+  .figures { columns: 3; column-gap: 24px; }
+  .figures div { break-inside: avoid; display: flex; justify-content: space-between; border-bottom: 1px dotted #ccc; padding: 1px 0; }
+  @page { size: A4; margin: 12mm 12mm 14mm 12mm; @bottom-right { content: counter(page) " / " counter(pages); font-size: 9px; color: #666; } }
+  @media screen and (max-width: 1250px) { th.n, td.n { white-space: normal; } .overview { font-size: 12px; } td.path { min-width: 110px; } }
+  @media print {
+    body { font-size: 10px; margin: 0; padding: 0; max-width: none; }
+    h1 { font-size: 20px; } h2 { font-size: 15px; margin-top: 14px; } h3 { font-size: 12px; }
+    .scan, .appendix { break-before: page; } tr, img { break-inside: avoid; } h2, h3 { break-after: avoid; } thead { display: table-header-group; }
+    pre { font-size: 8.5px; } th, td { padding: 2px 4px; } th.n, td.n { white-space: normal; } td.path { min-width: 34mm; } .overview { font-size: 8.5px; width: 100%; }
+  }
+</style>
+</head>
+<body>
+<h1>{{ title }}</h1>
+<p class="quiet">mems_stiction {{ version }}, {{ date }}</p>
+<p>{{ summary }}</p>
+
+<h2>Scans</h2>
+<table class="overview">
+<thead><tr><th class="n">number</th><th>scan</th><th>state</th>{% if has_device %}<th>sticks</th><th class="n">margin</th>{% endif %}<th class="n">pull-off force</th><th class="n">contact fraction</th><th class="n">contacts</th><th class="n">elastic / mixed / plastic</th><th class="n">rms height</th></tr></thead>
+<tbody>
+{% for row in table %}<tr><td class="n">{% if row.anchor %}<a href="#scan{{ row.number }}">{{ row.number }}</a>{% else %}{{ row.number }}{% endif %}</td><td class="path">{{ row.name }}</td>
+{%- if row.reason %}<td colspan="{{ 8 if has_device else 6 }}">not predicted: {{ row.reason }}</td>
+{%- else %}<td>{{ row.status }}</td>{% if has_device %}<td class="{{ row.sticks }}">{{ row.sticks }}</td><td class="n">{{ row.margin }}</td>{% endif %}<td class="n">{{ row.pull_off }}</td><td class="n">{{ row.contact }}</td><td class="n">{{ row.contacts }}</td><td class="n">{{ row.regimes }}</td><td class="n">{{ row.rms }}</td>{% endif %}</tr>
+{% endfor %}</tbody>
+</table>
+{% if bounded %}<p class="quiet">&ge; marks lower bounds: bonded surfaces hold over the whole area.</p>{% endif %}
+
+{% if trends %}<h2>Trends</h2>
+<img class="tall" alt="Trends over the scans" src="{{ trends }}">{% endif %}
+
+{% for scan in scans %}<div class="scan" id="scan{{ scan.number }}">
+<h2>{{ scan.number }}: {{ scan.name }}</h2>
+{% for warning in scan.warnings %}<p class="warning">{{ warning }}</p>{% endfor %}
+{% if scan.verdict %}<p><span class="{{ scan.sticks }}">Sticks: {{ scan.sticks }}.</span> {{ scan.verdict }}{% if scan.flags %} <span class="quiet">Outside the model's range: {{ scan.flags }}.</span>{% endif %}</p>{% endif %}
+<img alt="Heights, contact map and cross-section" src="{{ scan.maps }}">
+<div class="figures">{% for label, value in scan.figures %}<div><span>{{ label }}</span><span>{{ value }}</span></div>{% endfor %}</div>
+<img class="tall" alt="Energy, forces, loads, plasticity" src="{{ scan.details }}">
+</div>
+{% endfor %}
+
+<div class="appendix">
+<h2>Appendix: how this was made</h2>
+<h3>Inputs</h3>
+<ul>{% for input in inputs %}<li class="path">{{ input }}</li>{% endfor %}</ul>
+<h3>Versions</h3>
+<table>{% for name, value in versions %}<tr><th>{{ name }}</th><td>{{ value }}</td></tr>{% endfor %}</table>
+<h3>Model and sources</h3>
+<ul>{% for source in sources %}<li>{{ source }}</li>{% endfor %}</ul>
+{% if configuration_file %}<h3>Configuration as given: <span class="path">{{ configuration_name }}</span></h3>
+<pre>{{ configuration_file }}</pre>{% endif %}
+<h3>All parameters in effect</h3>
+<pre>{{ configuration }}</pre>
+</div>
+</body>
+</html>
+"""

@@ -1,0 +1,66 @@
+#!/usr/bin/env python3
+"""An archive of bags and scan files over the workers of a Dask cluster: shards by stiction_batch, joined at the end.
+
+usage: batch_dask.py [--config FILE.yaml] [--workers N | --scheduler HOST:PORT] [--shards N] -o ROWS.csv BAG|SCAN...
+
+Without --scheduler the workers run on this machine. With one, workers must see the same folders and have stiction_batch
+on their PATH. Called again after an interruption, every shard goes on where it was.
+"""
+
+import argparse
+import pathlib
+import subprocess
+import sys
+
+
+def run_shard(command):
+    """One shard, in a process of its own; its last line."""
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
+    if done.returncode:
+        raise RuntimeError(done.stderr.strip() or "stiction_batch ended with status %d" % done.returncode)
+    return done.stdout.strip()
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("inputs", nargs="+", metavar="BAG|SCAN")
+    parser.add_argument("-o", "--output", required=True, metavar="ROWS.csv|ROWS.jsonl")
+    parser.add_argument("-c", "--config", metavar="FILE.yaml")
+    parser.add_argument("--workers", type=int, default=2, help="on this machine (2)")
+    parser.add_argument("--scheduler", metavar="HOST:PORT", help="of a cluster that runs already")
+    parser.add_argument("--shards", type=int, default=0, help="four for each worker if not given")
+    arguments = parser.parse_args()
+
+    from distributed import Client, LocalCluster, as_completed
+
+    output = pathlib.Path(arguments.output).resolve()
+    count = arguments.shards or 4 * arguments.workers
+    shards = ["%s.shard_%04d%s" % (output.with_suffix(""), index, output.suffix) for index in range(1, count + 1)]
+    # Absolute, since workers stand in other folders.
+    inputs = [str(pathlib.Path(path).resolve()) for path in arguments.inputs]
+    settings = ["--config", str(pathlib.Path(arguments.config).resolve())] if arguments.config else []
+    commands = [["stiction_batch", "--shard", "%d/%d" % (index, count), "-o", shard] + settings + ["--"] + inputs
+                for index, shard in enumerate(shards, 1)]
+
+    cluster = None
+    if not arguments.scheduler:
+        # Threads suffice: each runs a program and waits for it.
+        cluster = LocalCluster(n_workers=arguments.workers, threads_per_worker=1, processes=False, dashboard_address=None)
+    try:
+        with Client(arguments.scheduler or cluster) as client:
+            futures = client.map(run_shard, commands, pure=False, retries=2)
+            for done, future in enumerate(as_completed(futures), 1):
+                future.result()
+                print("%d of %d shards" % (done, count), file=sys.stderr, flush=True)
+    except RuntimeError as error:
+        print("batch_dask: %s" % error, file=sys.stderr)
+        return 2
+    finally:
+        if cluster is not None:
+            cluster.close()
+    print(run_shard(["stiction_batch", "--merge", "-o", str(output)] + shards))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

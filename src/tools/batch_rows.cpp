@@ -1,0 +1,198 @@
+#include "batch_rows.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <map>
+
+#include "mems_stiction/base/errors.hpp"
+
+namespace mems_stiction {
+namespace {
+
+constexpr auto kReplaceBadBytes = nlohmann::json::error_handler_t::replace;
+
+bool endsWith(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+std::string jsonText(const nlohmann::json& value) { return value.dump(-1, ' ', false, kReplaceBadBytes); }
+
+std::string csvCell(const nlohmann::json& value) {
+  if (value.is_null()) return "";
+  if (value.is_number_float() && !std::isfinite(value.get<double>())) {
+    const double number = value.get<double>();
+    return std::isnan(number) ? "nan" : number > 0.0 ? "inf" : "-inf";
+  }
+  if (!value.is_string()) return jsonText(value);
+  const std::string text = value.get<std::string>();
+  if (text.find_first_of("\",") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char letter : text) quoted += letter == '"' ? std::string("\"\"") : std::string(1, letter);
+  return quoted + "\"";
+}
+
+/// The number that a row begins with; 0 if it does not.
+std::size_t numberOf(const std::string& line, RowFormat format) {
+  static const std::string kJsonStart = "{\"number\":";
+  if (format == RowFormat::kJsonLines && line.compare(0, kJsonStart.size(), kJsonStart) != 0) return 0;
+  const char* start = line.c_str() + (format == RowFormat::kJsonLines ? kJsonStart.size() : 0);
+  return std::strtoull(start, nullptr, 10);
+}
+
+/// Lines without their ends; what follows the last end goes to `torn`.
+std::vector<std::string> linesOf(const std::string& text, std::string& torn) {
+  std::vector<std::string> lines;
+  std::size_t start = 0;
+  for (std::size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n', start)) {
+    lines.push_back(text.substr(start, end - start));
+    start = end + 1;
+  }
+  torn = text.substr(start);
+  return lines;
+}
+
+[[noreturn]] void failWithSystemsReason(const std::string& path) {
+  throw FileError(path + ": " + std::strerror(errno));
+}
+
+void writeAll(int descriptor, const std::string& text, const std::string& path) {
+  std::size_t written = 0;
+  while (written < text.size()) {
+    const ssize_t count = ::write(descriptor, text.data() + written, text.size() - written);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) failWithSystemsReason(path);
+    written += static_cast<std::size_t>(count);
+  }
+}
+
+}  // namespace
+
+RowFormat rowFormatOf(const std::string& path) {
+  if (endsWith(path, ".csv")) return RowFormat::kCsv;
+  if (endsWith(path, ".jsonl") || endsWith(path, ".ndjson")) return RowFormat::kJsonLines;
+  throw OptionsError({"--output: '" + path + "' is not allowed, must end in .csv or .jsonl"});
+}
+
+std::string rowText(const RowFields& fields, RowFormat format, const std::vector<std::string>& columns) {
+  std::string line;
+  if (format == RowFormat::kJsonLines) {
+    for (const auto& [name, value] : fields) line += (line.empty() ? "{\"" : ",\"") + name + "\":" + jsonText(value);
+    return line + "}\n";
+  }
+  for (const std::string& column : columns) {
+    const auto field =
+        std::find_if(fields.begin(), fields.end(), [&](const auto& candidate) { return candidate.first == column; });
+    if (&column != &columns.front()) line += ",";
+    if (field != fields.end()) line += csvCell(field->second);
+  }
+  return line + "\n";
+}
+
+std::string headingText(RowFormat format, const std::vector<std::string>& columns) {
+  if (format == RowFormat::kJsonLines) return "";
+  std::string line;
+  for (const std::string& column : columns) line += (line.empty() ? "" : ",") + column;
+  return line + "\n";
+}
+
+RowFile::RowFile(const std::string& path, RowFormat format, const std::string& heading,
+                 const std::vector<std::size_t>& numbers)
+    : path_(path) {
+  descriptor_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) failWithSystemsReason(path);
+  try {
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+      throw FileError(path + ": another program is writing it");
+    }
+    const std::string text = readWhole(path);
+    std::string torn;
+    std::vector<std::string> lines = linesOf(text, torn);
+    if (!torn.empty() && ::ftruncate(descriptor_, static_cast<off_t>(text.size() - torn.size())) != 0) {
+      failWithSystemsReason(path);
+    }
+    if (lines.empty()) {
+      writeAll(descriptor_, heading, path_);
+    } else if (!heading.empty()) {
+      if (lines.front() + "\n" != heading) throw FileError(path + ": line 1 has other columns than this run writes");
+      lines.erase(lines.begin());
+    }
+    done_ = lines.size();
+    for (std::size_t i = 0; i < done_; ++i) {
+      if (i < numbers.size() && numberOf(lines[i], format) == numbers[i]) continue;
+      throw FileError(path + ": line " + std::to_string(i + (heading.empty() ? 1 : 2)) +
+                      " is not a row of this shard: continue with the same --shard, or write another file");
+    }
+  } catch (...) {
+    ::close(descriptor_);
+    throw;
+  }
+}
+
+RowFile::~RowFile() { ::close(descriptor_); }
+
+void RowFile::append(const std::string& line) {
+  writeAll(descriptor_, line, path_);
+  ++done_;
+}
+
+std::string settingsPathOf(const std::string& rows_path) { return rows_path + ".settings.yaml"; }
+
+std::string readWhole(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) throw FileError(path + ": cannot be read: " + std::strerror(errno));
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+void writeWhole(const std::string& path, const std::string& text) {
+  const std::string partial = path + "." + std::to_string(::getpid()) + ".part";
+  std::ofstream stream(partial, std::ios::binary | std::ios::trunc);
+  stream << text;
+  stream.close();
+  if (!stream || std::rename(partial.c_str(), path.c_str()) != 0) failWithSystemsReason(path);
+}
+
+void mergeRows(const std::vector<std::string>& shards, const std::string& path, std::size_t total) {
+  const RowFormat format = rowFormatOf(path);
+  std::string heading;
+  std::map<std::size_t, std::string> rows;
+  for (const std::string& shard : shards) {
+    if (rowFormatOf(shard) != format) throw FileError(shard + ": not of the kind of " + path);
+    std::string torn;
+    std::vector<std::string> lines = linesOf(readWhole(shard), torn);
+    if (!torn.empty()) throw FileError(shard + ": the last line is torn: run this shard again, it goes on from there");
+    if (format == RowFormat::kCsv && !lines.empty()) {
+      if (!heading.empty() && heading != lines.front())
+        throw FileError(shard + ": other columns than " + shards.front());
+      heading = lines.front();
+      lines.erase(lines.begin());
+    }
+    for (std::string& line : lines) {
+      const std::size_t number = numberOf(line, format);
+      if (number < 1 || number > total) throw FileError(shard + ": a line is not a row: " + line.substr(0, 60));
+      if (!rows.emplace(number, std::move(line)).second) {
+        throw FileError(shard + ": row " + std::to_string(number) + " is in another shard too");
+      }
+    }
+  }
+  if (rows.size() != total) {
+    std::size_t missing = 1;
+    while (rows.count(missing) != 0) ++missing;
+    throw FileError(path + ": not written, " + std::to_string(total - rows.size()) + " of " + std::to_string(total) +
+                    " rows are missing, the first of them number " + std::to_string(missing) +
+                    ": a shard is not given, or not finished");
+  }
+  std::string text = heading.empty() ? "" : heading + "\n";
+  for (const auto& row : rows) text += row.second + "\n";
+  writeWhole(path, text);
+}
+
+}  // namespace mems_stiction

@@ -1,0 +1,66 @@
+#pragma once
+
+/// A file of rows that survives interruption: appended line by line, mended and continued after a kill, joined from
+/// shards. Rows begin with their number; CSV has a line of names first.
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace mems_stiction {
+
+/// Names and values in the order of the columns. Numbers are written with as few digits as read back to the same.
+using RowFields = std::vector<std::pair<std::string, nlohmann::json>>;
+
+enum class RowFormat { kCsv, kJsonLines };
+
+/// By the end of the name: .csv, or .jsonl (.ndjson). @throw OptionsError for other names
+RowFormat rowFormatOf(const std::string& path);
+
+/// One line with its end. Numbers that are not finite: nan, inf, -inf in CSV; null in JSON. @param columns CSV only:
+/// the cells, empty where the row has no such field
+std::string rowText(const RowFields& fields, RowFormat format, const std::vector<std::string>& columns);
+
+/// The CSV line of names; empty for JSON lines.
+std::string headingText(RowFormat format, const std::vector<std::string>& columns);
+
+/// The one program that writes the rows of one shard.
+class RowFile {
+ public:
+  /// Opens the file or makes it, locks it, takes off a torn last line and checks that what is there are the first of
+  /// these rows. @param numbers of the rows of this shard, in order
+  /// @throw FileError if it cannot be written, another program writes it, or it holds other rows.
+  RowFile(const std::string& path, RowFormat format, const std::string& heading,
+          const std::vector<std::size_t>& numbers);
+  ~RowFile();
+  RowFile(const RowFile&) = delete;
+  RowFile& operator=(const RowFile&) = delete;
+
+  /// Rows that are in the file.
+  std::size_t done() const { return done_; }
+  /// Hands the line to the system in one piece. @throw FileError
+  void append(const std::string& line);
+
+ private:
+  std::string path_;
+  int descriptor_ = -1;
+  std::size_t done_ = 0;
+};
+
+/// Where the settings of a file of rows are kept, so that rows of different settings never mix.
+std::string settingsPathOf(const std::string& rows_path);
+
+/// The whole file. @throw FileError
+std::string readWhole(const std::string& path);
+/// Under another name first, so that it is there as a whole or not at all. @throw FileError
+void writeWhole(const std::string& path, const std::string& text);
+
+/// Joins shards to the file that one run writes, byte for byte.
+/// @param total rows that one run writes
+/// @throw FileError if rows are torn, missing or there twice.
+void mergeRows(const std::vector<std::string>& shards, const std::string& path, std::size_t total);
+
+}  // namespace mems_stiction

@@ -1,0 +1,51 @@
+#pragma once
+
+/// What a prediction has to say for one row of a table, and in full for a report.
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "batch_rows.hpp"
+#include "mems_stiction/height_map/height_map.hpp"
+#include "mems_stiction/prediction/prediction.hpp"
+#include "mems_stiction/verdict/verdict.hpp"
+
+namespace mems_stiction {
+
+/// Where a scan comes from. The number counts from 1 over all inputs.
+struct ScanOrigin {
+  std::size_t number = 0;
+  std::string file;      ///< as the user wrote it
+  std::size_t scan = 0;  ///< in its bag, from 1; 0 for a file
+  std::string name;      ///< the frame_id; empty for a file
+  std::string stamp;     ///< seconds.nanoseconds; empty for a file
+  std::string channel;   ///< of an instrument maker's file
+};
+
+/// number, file, scan, name, stamp, channel, reason; the reason is empty for a scan that was predicted.
+RowFields originFields(const ScanOrigin& origin, const std::string& reason);
+
+/// The figures of the prediction, by the names of StictionPrediction, and of the verdict if there is one. No wall time:
+/// the same scan gives the same row.
+RowFields figureFields(const HeightMap& scan, const std::vector<std::string>& warnings, const Prediction& prediction,
+                       const std::optional<Verdict>& verdict);
+
+/// Every column in order. @param with_verdict whether a device is stated
+std::vector<std::string> columnNames(bool with_verdict);
+
+/// The unit of every column that has one.
+std::map<std::string, std::string> columnUnits(bool with_verdict);
+
+/// Several lines as one.
+std::string oneLine(std::string text);
+
+/// Writes heights.npy, deformed.npy, counter_deformed.npy (float64 [m], NaN where invalid), contact_map.npy (uint8) and,
+/// last, result.json: figures, asperities and energy curve by columns. Makes the folder.
+/// @param prepared the scan that the model got, before contact
+/// @throw FileError
+void writeFullResult(const std::string& folder, const RowFields& fields, const HeightMap& prepared,
+                     const Prediction& prediction);
+
+}  // namespace mems_stiction

@@ -1,0 +1,262 @@
+"""stiction_batch and what drives it: one row per scan, whatever happens in between."""
+
+import csv
+import json
+import os
+import pathlib
+import random
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import numpy as np
+import rosbag
+from mems_stiction import report
+from roslib.packages import find_node
+
+SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "scripts"
+CONFIG = """
+load: {mechanical_load: 1.0e-6}
+device: {spring_stiffness: 2.0, travel: 1.0e-6, contact_area: 1.0e-11}
+"""
+
+
+def program(name):
+    return find_node("mems_stiction", name)[0]
+
+
+def run(command, **settings):
+    return subprocess.run([str(part) for part in command], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                          stdin=subprocess.DEVNULL, universal_newlines=True, timeout=120, **settings)
+
+
+class BatchTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls._folder = tempfile.TemporaryDirectory()
+        cls.inputs = pathlib.Path(cls._folder.name)
+        cls.batch = program("stiction_batch")
+        cls.make_bag(cls.inputs / "a.bag", "--count", 5, "--rms-height", "1e-9", "8e-9")
+        cls.make_bag(cls.inputs / "b.bag", "--count", 3, "--seed", 40, "--rms-height", "4e-9")
+        (cls.inputs / "broken.tiff").write_text("no picture")
+        (cls.inputs / "grid.txt").write_text("0 1e-9\n0 0\n")
+        (cls.inputs / "device.yaml").write_text(CONFIG)
+        cls.everything = [cls.inputs / name for name in ("a.bag", "broken.tiff", "b.bag", "grid.txt", "missing.bag")]
+
+    @classmethod
+    def tearDownClass(cls):
+        cls._folder.cleanup()
+
+    @classmethod
+    def make_bag(cls, path, *arguments):
+        done = run([program("make_scan_bag"), "-o", path, "--rows", 96, "--cols", 128] + list(arguments))
+        assert done.returncode == 0, done.stderr
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def predict(self, rows, *arguments, **changes):
+        config = [] if "--config" in arguments else ["--config", self.inputs / "device.yaml"]
+        done = run([self.batch, "-o", self.folder / rows] + config + list(arguments)
+                   + list(changes.get("inputs", self.everything)))
+        self.assertEqual(done.returncode, changes.get("status", 0), done.stderr)
+        return done
+
+    def rows(self, name):
+        with open(str(self.folder / name), newline="") as stream:
+            return list(csv.DictReader(stream))
+
+    def test_one_row_per_scan_and_a_failed_scan_is_a_row_with_its_reason(self):
+        self.predict("rows.csv")
+        rows = self.rows("rows.csv")
+        self.assertEqual([int(row["number"]) for row in rows], list(range(1, 12)))
+        reasons = {int(row["number"]): row["reason"] for row in rows if row["reason"]}
+        self.assertEqual(sorted(reasons), [6, 10, 11])
+        for number, name in ((6, "broken.tiff"), (10, "grid.txt"), (11, "missing.bag")):
+            self.assertIn(name, reasons[number])
+        self.assertIn("pitch", reasons[10])
+        self.assertTrue(all(row["pull_off_force"] == "" for row in rows if row["reason"]))
+        self.assertTrue(all(row["sticks"] for row in rows if not row["reason"]))
+
+    def test_the_figures_are_those_of_predict_scan_to_the_last_bit(self):
+        self.predict("rows.jsonl", "--dump", self.folder / "dump", inputs=[self.inputs / "b.bag"])
+        heights = np.load(str(self.folder / "dump/000001/heights.npy"))
+        self.assertEqual(heights.shape, (96, 128))
+        np.savetxt(str(self.folder / "scan.txt"), heights, fmt="%.17g")
+        done = run([program("predict_scan"), "--json", "--config", self.inputs / "device.yaml", "--pitch", "10e-9",
+                    self.folder / "scan.txt"])
+        record = json.loads(done.stdout)
+        row = json.loads((self.folder / "rows.jsonl").read_text().splitlines()[0])
+        common = set(row) & set(record) - {"file"}
+        self.assertGreater(len(common), 30)
+        self.assertEqual({name: row[name] for name in common}, {name: record[name] for name in common})
+
+    def test_merged_shards_are_one_run_byte_for_byte(self):
+        for kind in ("csv", "jsonl"):
+            self.predict("one." + kind)
+            shards = ["shard%d.%s" % (index, kind) for index in (1, 2, 3)]
+            for index, shard in enumerate(shards, 1):
+                self.predict(shard, "--shard", "%d/3" % index)
+            paths = [self.folder / shard for shard in reversed(shards)]
+            done = run([self.batch, "--merge", "-o", self.folder / ("all." + kind)] + paths)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            for end in ("", ".settings.yaml"):
+                self.assertEqual((self.folder / ("all." + kind + end)).read_bytes(),
+                                 (self.folder / ("one." + kind + end)).read_bytes())
+            done = run([self.batch, "--merge", "-o", self.folder / ("less." + kind)] + paths[:2])
+            self.assertEqual(done.returncode, 2)
+            self.assertIn("rows are missing", done.stderr)
+
+    def test_killed_in_the_middle_it_goes_on_without_loss_or_repetition(self):
+        self.make_bag(self.folder / "long.bag", "--count", 150, "--rms-height", "1e-9", "8e-9")
+        inputs = [self.folder / "long.bag"]
+        self.predict("one.csv", inputs=inputs)
+        expected = (self.folder / "one.csv").read_bytes()
+        path = self.folder / "killed.csv"
+        kills = 0
+        for _ in range(4):
+            before = path.stat().st_size if path.exists() else 0
+            process = subprocess.Popen([self.batch, "--config", str(self.inputs / "device.yaml"), "-o", str(path)]
+                                       + [str(name) for name in inputs], stdout=subprocess.DEVNULL)
+            while process.poll() is None and (not path.exists() or path.stat().st_size < before + 10000):
+                time.sleep(0.001)
+            process.send_signal(signal.SIGKILL)
+            kills += process.wait() == -signal.SIGKILL
+            self.assertTrue(expected.startswith(path.read_bytes()))
+        self.assertGreater(kills, 0)
+        self.predict("killed.csv", inputs=inputs)
+        self.assertEqual(path.read_bytes(), expected)
+
+    def test_a_line_torn_anywhere_is_mended(self):
+        self.predict("one.csv")
+        expected = (self.folder / "one.csv").read_bytes()
+        generator = random.Random(1)
+        for length in [0, 1, 10] + [generator.randrange(len(expected)) for _ in range(6)]:
+            (self.folder / "one.csv").write_bytes(expected[:length])
+            self.predict("one.csv")
+            self.assertEqual((self.folder / "one.csv").read_bytes(), expected)
+
+    def test_rows_of_other_settings_or_shards_do_not_mix(self):
+        self.predict("one.csv", "--shard", "1/2")
+        before = (self.folder / "one.csv").read_bytes()
+        self.assertIn("other inputs, settings", self.predict("one.csv", "--shard", "1/2", "--load", "2e-6", status=2).stderr)
+        self.assertIn("not a row of this shard", self.predict("one.csv", "--shard", "2/2", status=2).stderr)
+        self.assertIn("--shard", self.predict("two.csv", "--shard", "3/2", status=2).stderr)
+        self.assertIn("--output", self.predict("rows.xls", status=2).stderr)
+        self.assertEqual((self.folder / "one.csv").read_bytes(), before)
+
+    def test_of_a_bag_that_was_cut_off_the_scans_before_the_cut_are_predicted(self):
+        whole = self.folder / "whole.bag"
+        self.make_bag(whole, "--count", 40, "--rms-height", "3e-9")
+        cut = self.folder / "cut.bag"
+        cut.write_bytes(whole.read_bytes()[:int(whole.stat().st_size * 0.7)])
+        self.predict("rows.csv", inputs=[cut, self.inputs / "b.bag"])
+        self.predict("whole.csv", inputs=[whole])
+        rows = self.rows("rows.csv")
+        of_cut = [row for row in rows if row["file"].endswith("cut.bag")]
+        self.assertTrue(10 < len(of_cut) < 40, len(of_cut))
+        self.assertIn("cut off", of_cut[-1]["reason"])
+        sound = [row["pull_off_force"] for row in self.rows("whole.csv")]
+        predicted = [row["pull_off_force"] for row in of_cut if not row["reason"]]
+        # The cut may part the last scan from its scan_info.
+        self.assertIn(len(of_cut) - len(predicted), (1, 2))
+        self.assertEqual(predicted, sound[:len(predicted)])
+        self.assertEqual(len(rows) - len(of_cut), 3)
+
+    def test_a_bag_without_the_topic_is_a_row_that_names_what_the_bag_has(self):
+        self.predict("rows.csv", "--topic", "other", inputs=[self.inputs / "b.bag"])
+        self.assertIn("no message on topic 'other'; the bag has height, scan_info", self.rows("rows.csv")[0]["reason"])
+
+    def rewritten(self, name, rename):
+        """b.bag with other topics: rename(topic) gives the names that a message is written under."""
+        path = self.folder / name
+        with rosbag.Bag(str(path), "w") as target, rosbag.Bag(str(self.inputs / "b.bag")) as source:
+            for topic, message, stamp in source.read_messages():
+                for new_topic in rename(topic):
+                    target.write(new_topic, message, stamp)
+        return path
+
+    def test_a_bag_without_scan_info_takes_the_pitch_of_the_configuration(self):
+        bag = self.rewritten("bare.bag", lambda topic: ["/line1/height"] if topic == "height" else [])
+        (self.folder / "pitch.yaml").write_text(CONFIG + "scan: {pitch_x: 10.0e-9, pitch_y: 10.0e-9}\n")
+        for config, reason in ((self.inputs / "device.yaml", "pitch"), (self.folder / "pitch.yaml", "")):
+            rows = "%s.csv" % config.stem
+            self.predict(rows, "--config", config, "--topic", "line1/height", inputs=[bag])
+            self.assertTrue(all(reason in row["reason"] for row in self.rows(rows)))
+        self.predict("whole.csv", inputs=[self.inputs / "b.bag"])
+        self.assertEqual([row["pull_off_force"] for row in self.rows("pitch.csv")],
+                         [row["pull_off_force"] for row in self.rows("whole.csv")])
+
+    def test_a_recorded_counter_surface_is_met(self):
+        bag = self.rewritten("counter.bag", lambda topic: ["counter_" + topic, topic])
+        (self.folder / "topic.yaml").write_text(CONFIG + "counter_surface: {type: topic, facing: up}\n")
+        self.predict("rows.csv", "--config", self.folder / "topic.yaml", inputs=[bag, self.inputs / "b.bag"])
+        rows = self.rows("rows.csv")
+        self.assertEqual([row["reason"] for row in rows[:3]], [""] * 3)
+        for row in rows[:3]:  # two of the same roughness
+            self.assertAlmostEqual(float(row["composite_rms_height"]) / float(row["rms_height"]), 2**0.5, places=6)
+        self.assertIn("no counter-surface was recorded before the scan", rows[3]["reason"])
+
+    def test_the_dask_example_on_two_workers_gives_the_rows_of_one_run(self):
+        self.predict("one.csv")
+        environment = dict(os.environ, PATH=str(pathlib.Path(self.batch).parent) + os.pathsep + os.environ["PATH"])
+        done = run([sys.executable, SCRIPTS / "examples/batch_dask.py", "--workers", 2, "--shards", 3, "--config",
+                    self.inputs / "device.yaml", "-o", self.folder / "dask.csv"] + self.everything, env=environment)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual((self.folder / "dask.csv").read_bytes(), (self.folder / "one.csv").read_bytes())
+
+    def test_the_array_example_gives_the_rows_of_one_run(self):
+        self.predict("one.csv")
+        (self.folder / "inputs.txt").write_text("".join("%s\n" % path for path in self.everything))
+        path = str(pathlib.Path(self.batch).parent) + os.pathsep + os.environ["PATH"]
+        for task in (1, 2):
+            done = run([SCRIPTS / "examples/batch_array.sbatch", self.folder / "inputs.txt", self.inputs / "device.yaml",
+                        self.folder / "rows"],
+                       env=dict(os.environ, PATH=path, SLURM_ARRAY_TASK_ID=str(task), SLURM_ARRAY_TASK_COUNT="2"))
+            self.assertEqual(done.returncode, 0, done.stderr)
+        run([self.batch, "--merge", "-o", self.folder / "all.csv"] + sorted((self.folder / "rows").glob("*.csv")))
+        self.assertEqual((self.folder / "all.csv").read_bytes(), (self.folder / "one.csv").read_bytes())
+
+    def test_the_report_is_one_page_with_everything_in_it(self):
+        page = self.folder / "report.html"
+        done = run([program("stiction_report"), "--config", self.inputs / "device.yaml", "--pdf", "--most", 2, "-o", page,
+                    self.inputs / "a.bag", self.inputs / "broken.tiff"])
+        self.assertEqual(done.returncode, 0, done.stderr)
+        text = page.read_text(encoding="utf-8")
+        # Nothing from elsewhere: every address is data or a place on the page.
+        self.assertEqual([a for a in re.findall(r'(?:src|href)="([^"]{0,40})', text) if not a.startswith(("data:", "#"))], [])
+        self.assertEqual(text.count('class="scan"'), 2)
+        self.assertEqual(text.count("data:image/png;base64,"), 2 * 2 + 1)
+        for expected in ("6 scans, 5 of them predicted", "not predicted: ", "work_of_adhesion", "Johnson, Kendall"):
+            self.assertIn(expected, text)
+        self.assertEqual((self.folder / "report.pdf").read_bytes()[:5], b"%PDF-")
+        self.assertEqual(len(self.rows("report.csv")), 6)
+        scans = json.loads((self.folder / "report.json").read_text())["scans"]
+        self.assertEqual([row["pull_off_force"] for row in scans[:5]],
+                         [float(row["pull_off_force"]) for row in self.rows("report.csv")[:5]])
+
+    def test_a_report_on_nothing_says_so(self):
+        done = run([program("stiction_report"), "-o", self.folder / "report.html", self.inputs / "broken.tiff"])
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("broken.tiff", done.stderr)
+        done = run([program("stiction_report"), "-o", self.folder / "report.txt", self.inputs / "a.bag"])
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("must end in .html", done.stderr)
+
+
+class ChosenTest(unittest.TestCase):
+    def test_pictures_are_spread_evenly_with_both_ends(self):
+        rows = [{"number": number} for number in range(1, 101)]
+        self.assertEqual(report.chosen(rows, 3), [1, 50, 100])
+        self.assertEqual(report.chosen(rows[:3], 3), [1, 2, 3])
+        self.assertEqual(report.chosen(rows, 1), [1])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,73 @@
+#!/usr/bin/env python3
+"""The example station script as a station runs it: a bag, steps of voltage, an exit status."""
+
+import os
+import subprocess
+import tempfile
+import unittest
+
+import rospy
+import rostest
+from mems_stiction.srv import GetLoad
+from roslib.packages import find_node
+from stiction_client import make_bag
+
+PASS, FAIL, NOT_MADE = 0, 1, 2
+
+
+class StationCheckTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node("station_check_test")
+        rospy.wait_for_service("stiction_node/get_load", timeout=30.0)
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.bag = os.path.join(cls.folder.name, "scans.bag")
+        make_bag(cls.bag, "--count", "2", "--rows", "64", "--cols", "64", "--rms-height", "5e-9")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def run_check(self, *arguments, **changes):
+        command = [find_node("mems_stiction", "station_check")[0], "--bag", changes.get("bag", self.bag)]
+        return subprocess.run(command + list(arguments), stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                              stdin=subprocess.DEVNULL, universal_newlines=True, timeout=60)
+
+    def assert_load_is_put_back(self):
+        load = rospy.ServiceProxy("stiction_node/get_load", GetLoad)()
+        self.assertEqual((load.voltage, load.mechanical_load), (0.0, 1e-6))
+
+    def test_a_device_within_its_limits_passes_with_a_line_for_each_step(self):
+        done = self.run_check("--voltages", "0,10,20", "--max-pull-off-force", "1e-3")
+        self.assertEqual(done.returncode, PASS, done.stderr)
+        lines = done.stdout.splitlines()
+        self.assertEqual(len(lines), 6, done.stdout)
+        self.assertEqual([line.split("  ")[0] for line in lines], ["scan 1", "scan 2", "0 V", "10.0 V", "20.0 V", "PASS"])
+        self.assertTrue(all(line.endswith("  ok") for line in lines[:-1]), done.stdout)
+        self.assert_load_is_put_back()
+
+    def test_a_device_that_holds_too_strongly_fails_and_the_line_says_why(self):
+        done = self.run_check("--voltages", "0,20", "--max-pull-off-force", "1e-12")
+        self.assertEqual(done.returncode, FAIL, done.stderr)
+        self.assertIn("FAIL: pull-off force above 1.00 pN", done.stdout)
+        self.assertEqual(done.stdout.splitlines()[-1], "FAIL")
+        self.assert_load_is_put_back()
+
+    def test_what_cannot_be_checked_neither_passes_nor_fails(self):
+        for arguments, changes, reason in [
+                (["--voltages", "0,99"], {}, "99 V was refused"),
+                ([], {"bag": "/no/such.bag"}, "/no/such.bag cannot be read"),
+                (["--node", "nobody", "--timeout", "0.5"], {}, "no service nobody/set_load")]:
+            done = self.run_check("--max-contact-fraction", "0.9", *arguments, **changes)
+            self.assertEqual(done.returncode, NOT_MADE, done.stdout)
+            self.assertIn(reason, done.stderr)
+            self.assert_load_is_put_back()
+
+    def test_a_check_without_a_limit_is_refused(self):
+        done = self.run_check()
+        self.assertEqual(done.returncode, NOT_MADE)
+        self.assertIn("no limit", done.stderr)
+
+
+if __name__ == "__main__":
+    rostest.rosrun("mems_stiction", "station_check", StationCheckTest)
