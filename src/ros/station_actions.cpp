@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/one_line.hpp"
 #include "mems_stiction/prediction/counter_surface_source.hpp"
 #include "mems_stiction/preprocess/refine.hpp"
-#include "mems_stiction/ros/one_line.hpp"
 #include "mems_stiction/ros/station_conversion.hpp"
 #include "mems_stiction/ros/topic_names.hpp"
 

@@ -7,8 +7,8 @@
 #include <boost/make_shared.hpp>
 
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/one_line.hpp"
 #include "mems_stiction/height_map/scan_sanity.hpp"
-#include "mems_stiction/ros/one_line.hpp"
 #include "mems_stiction/ros/prediction_conversion.hpp"
 #include "mems_stiction/ros/topic_names.hpp"
 

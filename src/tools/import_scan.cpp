@@ -1,17 +1,14 @@
 /// import_scan: instrument makers' files, and every other scan that can be read, into TIFF + YAML that need no
 /// gwyddion any more.
 
-#include <CLI/CLI.hpp>
-
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <set>
-#include <sstream>
 #include <string>
 #include <vector>
 
+#include "command_line.hpp"
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/height_map/scan_file.hpp"
 #include "mems_stiction/height_map/scan_sanity.hpp"
@@ -21,8 +18,6 @@ namespace {
 
 using namespace mems_stiction;
 namespace fs = std::filesystem;
-
-constexpr int kBadInput = 2;
 
 struct Arguments {
   std::string output = ".";
@@ -55,25 +50,6 @@ void describe(CLI::App& app, Arguments& arguments) {
       "Exit status: 0, or 2 if a file could not be imported (one line on stderr names it and the cause; the others of\n"
       "the call are still imported). Bags: make_scan_bag -o OUT.bag SCAN... takes the same files.\n\n"
       "Example: import_scan --output scans wafer3.di wafer4.x3p");
-}
-
-/// Several violations on one line, for people who count lines.
-std::string oneLine(std::string text) {
-  for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at)) text.replace(at, 1, "; ");
-  return text;
-}
-
-/// @throw OptionsError
-void applyPitch(const std::string& text, ScanFileOptions& options) {
-  if (text.empty()) return;
-  std::istringstream stream(text);
-  char comma = ',';
-  bool good = static_cast<bool>(stream >> options.pitch_x);
-  options.pitch_y = options.pitch_x;
-  if (good && !(stream >> std::ws).eof()) good = stream >> comma >> options.pitch_y && comma == ',' && stream.eof();
-  if (!good || !Range::positive().contains(options.pitch_x) || !Range::positive().contains(options.pitch_y)) {
-    throw OptionsError({"--pitch: '" + text + "' is not allowed, must be one or two numbers > 0 m, as in 20e-9,25e-9"});
-  }
 }
 
 std::string unitText(const std::string& unit) { return unit.empty() ? "no unit" : unit; }
@@ -147,38 +123,19 @@ int run(const Arguments& arguments) {
       if (error) throw FileError(arguments.output + ": the folder cannot be made: " + error.message());
     }
   } catch (const Error& error) {
-    std::cerr << "import_scan: " << oneLine(error.what()) << "\n";
+    complain("import_scan", error.what());
     return kBadInput;
   }
   Importer importer(arguments);
-  int status = 0;
-  for (const std::string& path : arguments.scans) {
-    try {
-      if (arguments.list) {
-        printChannels(path, options);
-      } else {
-        importer.import(path, options);
-      }
-    } catch (const std::exception& error) {
-      std::string line = oneLine(error.what());
-      if (line.find(path) == std::string::npos) line = path + ": " + line;
-      std::cerr << "import_scan: " << line << "\n";
-      status = kBadInput;
+  return forEachScan("import_scan", arguments.scans, [&](const std::string& path) {
+    if (arguments.list) {
+      printChannels(path, options);
+    } else {
+      importer.import(path, options);
     }
-  }
-  return status;
+  });
 }
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  CLI::App app;
-  Arguments arguments;
-  describe(app, arguments);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kBadInput;
-  }
-  return run(arguments);
-}
+int main(int argc, char** argv) { return runProgram<Arguments>("import_scan", argc, argv, describe, run); }

@@ -1,15 +1,14 @@
 /// make_scan_bag: a bag of scans as the node takes them, from generated rough surfaces or from scan files.
 
 #include <cmath>
-#include <exception>
 #include <iostream>
 #include <string>
 #include <vector>
 
 #include <rosbag/bag.h>
-#include <CLI/CLI.hpp>
 #include <opencv2/core/utils/logger.hpp>
 
+#include "command_line.hpp"
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/height_map/scan_file.hpp"
 #include "mems_stiction/ros/image_conversion.hpp"
@@ -20,7 +19,6 @@ namespace {
 
 using namespace mems_stiction;
 
-constexpr int kBadInput = 2;
 /// Stamp of the first scan [s]: fixed, so that the same call gives the same bag.
 constexpr double kFirstStamp = 1.0e9;
 
@@ -123,7 +121,7 @@ int run(const Arguments& arguments) {
     try {
       bag.write(readScanFile(path, {}, file_options), stemOf(path));
     } catch (const Error& error) {
-      std::cerr << "make_scan_bag: " << error.what() << "\n";
+      complain("make_scan_bag", error.what());
       status = kBadInput;
     }
   }
@@ -135,19 +133,4 @@ int run(const Arguments& arguments) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  CLI::App app;
-  Arguments arguments;
-  describe(app, arguments);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kBadInput;
-  }
-  try {
-    return run(arguments);
-  } catch (const std::exception& error) {
-    std::cerr << "make_scan_bag: " << error.what() << "\n";
-    return kBadInput;
-  }
-}
+int main(int argc, char** argv) { return runProgram<Arguments>("make_scan_bag", argc, argv, describe, run); }

@@ -1,16 +1,13 @@
 /// predict_scan: will the surface in this file stick? No ROS master needed; the prediction is the node's to the last
 /// line.
 
-#include <CLI/CLI.hpp>
-
 #include <algorithm>
-#include <exception>
 #include <iostream>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <vector>
 
+#include "command_line.hpp"
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/height_map/scan_file.hpp"
 #include "mems_stiction/height_map/scan_sanity.hpp"
@@ -21,8 +18,6 @@
 namespace {
 
 using namespace mems_stiction;
-
-constexpr int kBadInput = 2;
 
 struct Arguments {
   std::string configuration;
@@ -96,25 +91,6 @@ Configuration configurationOf(const Arguments& arguments) {
   return configuration;
 }
 
-/// "M" or "MX,MY" into both pitches. @throw OptionsError
-void applyPitch(const std::string& text, ScanFileOptions& options) {
-  if (text.empty()) return;
-  std::istringstream stream(text);
-  char comma = ',';
-  bool good = static_cast<bool>(stream >> options.pitch_x);
-  options.pitch_y = options.pitch_x;
-  if (good && !(stream >> std::ws).eof()) good = stream >> comma >> options.pitch_y && comma == ',' && stream.eof();
-  if (!good || !Range::positive().contains(options.pitch_x) || !Range::positive().contains(options.pitch_y)) {
-    throw OptionsError({"--pitch: '" + text + "' is not allowed, must be one or two numbers > 0 m, as in 20e-9,25e-9"});
-  }
-}
-
-/// Several violations on one line, for people who count lines.
-std::string oneLine(std::string text) {
-  for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at)) text.replace(at, 1, "; ");
-  return text;
-}
-
 /// @throw Error in one line, with the file's name
 void predictScan(const std::string& path, const Arguments& arguments, const ScanFileOptions& file_options,
                  ScanPredictor& predictor) {
@@ -151,33 +127,13 @@ int run(const Arguments& arguments) {
     configuration.model.output.roughness = true;
     predictor.emplace(configuration);
   } catch (const Error& error) {
-    std::cerr << "predict_scan: " << oneLine(error.what()) << "\n";
+    complain("predict_scan", error.what());
     return kBadInput;
   }
-  int status = 0;
-  for (const std::string& path : arguments.scans) {
-    try {
-      predictScan(path, arguments, file_options, *predictor);
-    } catch (const std::exception& error) {
-      std::string line = oneLine(error.what());
-      if (line.find(path) == std::string::npos) line = path + ": " + line;
-      std::cerr << "predict_scan: " << line << "\n";
-      status = kBadInput;
-    }
-  }
-  return status;
+  return forEachScan("predict_scan", arguments.scans,
+                     [&](const std::string& path) { predictScan(path, arguments, file_options, *predictor); });
 }
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  CLI::App app;
-  Arguments arguments;
-  describe(app, arguments);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kBadInput;
-  }
-  return run(arguments);
-}
+int main(int argc, char** argv) { return runProgram<Arguments>("predict_scan", argc, argv, describe, run); }

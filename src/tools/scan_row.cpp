@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/one_line.hpp"
 #include "mems_stiction/prediction/prediction_fields.hpp"
 #include "mems_stiction/verdict/regime_flags.hpp"
 #include "mems_stiction/verdict/verdict_fields.hpp"
@@ -130,13 +131,6 @@ std::map<std::string, std::string> columnUnits(bool with_verdict) {
     if (*unit != '\0') units[name] = unit;
   });
   return units;
-}
-
-std::string oneLine(std::string text) {
-  for (std::size_t at = text.find_first_of("\r\n"); at != std::string::npos; at = text.find_first_of("\r\n", at)) {
-    text.replace(at, 1, "; ");
-  }
-  return text;
 }
 
 void writeFullResult(const std::string& folder, const RowFields& fields, const HeightMap& prepared,

@@ -38,9 +38,6 @@ std::vector<std::string> columnNames(bool with_verdict);
 /// The unit of every column that has one.
 std::map<std::string, std::string> columnUnits(bool with_verdict);
 
-/// Several lines as one.
-std::string oneLine(std::string text);
-
 /// Writes heights.npy, deformed.npy, counter_deformed.npy (float64 [m], NaN where invalid), contact_map.npy (uint8) and,
 /// last, result.json: figures, asperities and energy curve by columns. Makes the folder.
 /// @param prepared the scan that the model got, before contact

@@ -1,9 +1,6 @@
 /// stiction_batch: one row per scan over many bags and scan files; goes on where it was interrupted, in shards that join
 /// to what one run gives. No ROS master needed.
 
-#include <CLI/CLI.hpp>
-
-#include <exception>
 #include <fstream>
 #include <iomanip>
 #include <iostream>
@@ -17,6 +14,7 @@
 #include <opencv2/core/utils/logger.hpp>
 
 #include "batch_rows.hpp"
+#include "command_line.hpp"
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/height_map/scan_file.hpp"
 #include "mems_stiction/height_map/scan_sanity.hpp"
@@ -29,8 +27,6 @@
 namespace {
 
 using namespace mems_stiction;
-
-constexpr int kBadInput = 2;
 
 struct Arguments {
   std::string configuration;
@@ -337,18 +333,7 @@ int merge(const Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app;
-  Arguments arguments;
-  describe(app, arguments);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kBadInput;
-  }
-  try {
+  return runProgram<Arguments>("stiction_batch", argc, argv, describe, [](const Arguments& arguments) {
     return arguments.merge ? merge(arguments) : run(arguments);
-  } catch (const std::exception& error) {
-    std::cerr << "stiction_batch: " << oneLine(error.what()) << "\n";
-    return kBadInput;
-  }
+  });
 }

@@ -1,0 +1,76 @@
+#pragma once
+
+/// What the command-line tools have in common: parsing, exit statuses, and one line on stderr for what is wrong.
+
+#include <CLI/CLI.hpp>
+
+#include <exception>
+#include <iostream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/one_line.hpp"
+#include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/height_map/scan_file.hpp"
+
+namespace mems_stiction {
+
+/// Exit status when the command line or a scan cannot be used.
+constexpr int kBadInput = 2;
+
+inline void complain(const std::string& program, const std::string& what) {
+  std::cerr << program << ": " << oneLine(what) << "\n";
+}
+
+/// "M" or "MX,MY" into both pitches. @throw OptionsError
+inline void applyPitch(const std::string& text, ScanFileOptions& options) {
+  if (text.empty()) return;
+  std::istringstream stream(text);
+  char comma = ',';
+  bool good = static_cast<bool>(stream >> options.pitch_x);
+  options.pitch_y = options.pitch_x;
+  if (good && !(stream >> std::ws).eof()) good = stream >> comma >> options.pitch_y && comma == ',' && stream.eof();
+  if (!good || !Range::positive().contains(options.pitch_x) || !Range::positive().contains(options.pitch_y)) {
+    throw OptionsError({"--pitch: '" + text + "' is not allowed, must be one or two numbers > 0 m, as in 20e-9,25e-9"});
+  }
+}
+
+/// Calls handle(path) for each scan. One that throws is named with the reason; the others go on.
+/// @return the exit status
+template <typename Handler>
+int forEachScan(const std::string& program, const std::vector<std::string>& scans, Handler&& handle) {
+  int status = 0;
+  for (const std::string& path : scans) {
+    try {
+      handle(path);
+    } catch (const std::exception& error) {
+      const std::string what = error.what();
+      complain(program, what.find(path) == std::string::npos ? path + ": " + what : what);
+      status = kBadInput;
+    }
+  }
+  return status;
+}
+
+/// The whole of main(): describe(app, arguments), parse, run(arguments). @return the exit status
+template <typename Arguments, typename Describe, typename Run>
+int runProgram(const std::string& program, int argc, char** argv, Describe&& describe, Run&& run) {
+  CLI::App app;
+  Arguments arguments;
+  describe(app, arguments);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kBadInput;
+  }
+  try {
+    return run(arguments);
+  } catch (const std::exception& error) {
+    complain(program, error.what());
+    return kBadInput;
+  }
+}
+
+}  // namespace mems_stiction
