@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mems_stiction/base/lanes.hpp"
+#include "mems_stiction/base/vectorized.hpp"
+
 namespace mems_stiction {
 namespace {
 
@@ -24,57 +27,62 @@ class BasePlanes {
  public:
   /// Coordinates are moved to the centre, exactly: no digits are lost to the patch's place in the frame.
   BasePlanes(const BoundarySums& sums, double centre_x, double centre_y)
-      : count_(sums.count), centre_x_(centre_x), centre_y_(centre_y) {
+      : inverse_count_(1.0 / sums.count), centre_x_(centre_x), centre_y_(centre_y) {
     const double x = sums.x - sums.count * centre_x;
     const double y = sums.y - sums.count * centre_y;
     const double xx = sums.xx - 2.0 * centre_x * sums.x + sums.count * centre_x * centre_x;
     const double yy = sums.yy - 2.0 * centre_y * sums.y + sums.count * centre_y * centre_y;
     const double xy = sums.xy - centre_x * sums.y - centre_y * sums.x + sums.count * centre_x * centre_y;
-    mean_x_ = x / count_;
-    mean_y_ = y / count_;
+    mean_x_ = x * inverse_count_;
+    mean_y_ = y * inverse_count_;
     var_x_ = xx - x * mean_x_;
     var_y_ = yy - y * mean_y_;
     cov_ = xy - x * mean_y_;
-    determinant_ = var_x_ * var_y_ - cov_ * cov_;
-    is_level_ = sums.count < kFewestEdgesOfPlane || determinant_ <= kSingular * var_x_ * var_y_;
+    const double determinant = var_x_ * var_y_ - cov_ * cov_;
+    is_level_ = sums.count < kFewestEdgesOfPlane || determinant <= kSingular * var_x_ * var_y_;
+    inverse_determinant_ = 1.0 / determinant;
   }
 
   PlaneValue fit(double sum, double x_sum, double y_sum) const {
     PlaneValue plane;
-    plane.at_centre = sum / count_;
+    plane.at_centre = sum * inverse_count_;
     if (is_level_) return plane;
     const double x_moment = x_sum - centre_x_ * sum - mean_x_ * sum;
     const double y_moment = y_sum - centre_y_ * sum - mean_y_ * sum;
-    plane.slope_x = (var_y_ * x_moment - cov_ * y_moment) / determinant_;
-    plane.slope_y = (var_x_ * y_moment - cov_ * x_moment) / determinant_;
+    plane.slope_x = (var_y_ * x_moment - cov_ * y_moment) * inverse_determinant_;
+    plane.slope_y = (var_x_ * y_moment - cov_ * x_moment) * inverse_determinant_;
     plane.at_centre -= plane.slope_x * mean_x_ + plane.slope_y * mean_y_;
     return plane;
   }
 
  private:
-  double count_;
+  double inverse_count_;
   double centre_x_;
   double centre_y_;
   double mean_x_ = 0.0, mean_y_ = 0.0;
   double var_x_ = 0.0, var_y_ = 0.0, cov_ = 0.0;
-  double determinant_ = 0.0;
+  double inverse_determinant_ = 0.0;
   bool is_level_ = true;
 };
 
-/// How far the outline at `level` lies beyond the centre of an extreme cell, towards its neighbour outside [cells], in
-/// [0, 1].
-double outlineBeyond(const ExtremeCell& extreme, double level) {
+/// How far the outline at `level` lies beyond the centres of the extreme cells, towards their neighbours outside
+/// [cells], in [0, 1]; where there is none, the outline is the cell's edge.
+MEMS_STICTION_INLINE void outlineBeyond(const ExtremeCell (&extreme)[4], double level, Lanes& beyond) {
   constexpr double kCellEdge = 0.5;
-  const double rise = extreme.outside - extreme.gap;
-  if (!(rise > 0.0 && rise < GapField::kInvalidGap)) return kCellEdge;
-  return std::clamp((level - extreme.gap) / rise, 0.0, 1.0);
+  const Lanes zero{};
+  const Lanes gap{extreme[0].gap, extreme[1].gap, extreme[2].gap, extreme[3].gap};
+  const Lanes outside{extreme[0].outside, extreme[1].outside, extreme[2].outside, extreme[3].outside};
+  const Lanes rise = outside - gap;
+  const Lanes share = (level - gap) / rise;
+  const Lanes within = share > 0.0 ? (share < 1.0 ? share : zero + 1.0) : zero;
+  beyond = (rise > 0.0) & (rise < GapField::kInvalidGap) ? within : zero + kCellEdge;
 }
 
-double baseRadius(const ContactPatch& patch, const GapField& field, double level) {
-  const double cols = patch.max_col - patch.min_col + outlineBeyond(patch.extreme[kLeft], level) +
-                      outlineBeyond(patch.extreme[kRight], level);
-  const double rows = patch.max_row - patch.min_row + outlineBeyond(patch.extreme[kTop], level) +
-                      outlineBeyond(patch.extreme[kBottom], level);
+MEMS_STICTION_INLINE double baseRadius(const ContactPatch& patch, const GapField& field, double level) {
+  Lanes beyond;
+  outlineBeyond(patch.extreme, level, beyond);
+  const double cols = patch.max_col - patch.min_col + beyond[kLeft] + beyond[kRight];
+  const double rows = patch.max_row - patch.min_row + beyond[kTop] + beyond[kBottom];
   return (cols * field.pitchX() + rows * field.pitchY()) / 4.0;
 }
 
@@ -105,8 +113,8 @@ PatchCentre deepestCentre(const ContactPatch& patch, const GapField& field) {
   return {field.cellAt(patch.deepest), patch.deepest_gap};
 }
 
-CapCouple capCouple(const ContactPatch& patch, const GapField& field, const PatchCentre& centre,
-                    double smallest_height) {
+MEMS_STICTION_VECTORIZED CapCouple capCouple(const ContactPatch& patch, const GapField& field,
+                                             const PatchCentre& centre, double smallest_height) {
   CapCouple caps;
   caps.centre = centre.cell;
   const BoundarySums& edges = patch.boundary;
@@ -119,26 +127,28 @@ CapCouple capCouple(const ContactPatch& patch, const GapField& field, const Patc
   if (has_edges) {
     const BasePlanes planes(edges, 2 * centre.cell.col, 2 * centre.cell.row);
     const PlaneValue gap = planes.fit(edges.gap, edges.x_gap, edges.y_gap);
-    const double lower_summit = field.upperIsFlat() ? -centre.gap : field.lowerHeight(centre.cell.index);
-    PlaneValue lower;
-    if (field.upperIsFlat()) {
-      lower = {-gap.at_centre, -gap.slope_x, -gap.slope_y};
+    double mid_slope_x = -0.5 * gap.slope_x;
+    double mid_slope_y = -0.5 * gap.slope_y;
+    if (field.upperIsFlat()) {  // the lower surface is the gap, turned over
+      lower_height = std::max(0.0, gap.at_centre - centre.gap);
     } else {
-      lower = planes.fit(edges.lower, edges.x_lower, edges.y_lower);
-      const double upper_base = lower.at_centre + gap.at_centre;
-      const double upper_summit = lower_summit + centre.gap;
-      upper_height = std::max(0.0, upper_base - upper_summit);
+      const PlaneValue lower = planes.fit(edges.lower, edges.x_lower, edges.y_lower);
+      const double lower_summit = field.lowerHeight(centre.cell.index);
+      lower_height = std::max(0.0, lower_summit - lower.at_centre);
+      upper_height = std::max(0.0, lower.at_centre + gap.at_centre - (lower_summit + centre.gap));
+      mid_slope_x = lower.slope_x + 0.5 * gap.slope_x;
+      mid_slope_y = lower.slope_y + 0.5 * gap.slope_y;
     }
-    lower_height = std::max(0.0, lower_summit - lower.at_centre);
-    const double mid_slope_x = (lower.slope_x + 0.5 * gap.slope_x) * 2.0 / field.pitchX();
-    const double mid_slope_y = (lower.slope_y + 0.5 * gap.slope_y) * 2.0 / field.pitchY();
+    mid_slope_x *= 2.0 / field.pitchX();
+    mid_slope_y *= 2.0 / field.pitchY();
     caps.squared_slope = mid_slope_x * mid_slope_x + mid_slope_y * mid_slope_y;
     caps.cos_tilt = 1.0 / std::sqrt(1.0 + caps.squared_slope);
   }
 
   const double interference = level - patch.deepest_gap;
   caps.height = lower_height + upper_height;
-  double curvature = capCurvature(caps.base_radius, lower_height) + capCurvature(caps.base_radius, upper_height);
+  double curvature = capCurvature(caps.base_radius, lower_height);
+  if (upper_height > 0.0) curvature += capCurvature(caps.base_radius, upper_height);
   if (caps.height <= kLowestHeightShare * interference || caps.height <= 0.0) {
     caps.height = std::max(interference, smallest_height);
     curvature = capCurvature(caps.base_radius, caps.height);

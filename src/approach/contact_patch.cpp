@@ -5,12 +5,8 @@
 namespace mems_stiction {
 namespace {
 
-bool isDeeper(double gap, std::int32_t cell, double other_gap, std::int32_t other) {
-  return gap < other_gap || (gap == other_gap && cell < other);
-}
-
 bool isDeeper(const ExtremeCell& cell, const ExtremeCell& other) {
-  return isDeeper(cell.gap, cell.cell, other.gap, other.cell);
+  return comesBefore(cell.gap, cell.cell, other.gap, other.cell);
 }
 
 }  // namespace
@@ -37,39 +33,17 @@ void BoundarySums::addEdge(const GapField& field, int row, int col, int neighbou
   y_lower += edge_y * edge_lower;
 }
 
-void BoundarySums::addEdges(const GapField& field, const GridCell& cell, double cell_gap, const double (&gaps)[4],
-                            const double (&signs)[4]) {
-  // all edges are half a pixel pitch, one unit, from the cell's centre: their sums follow from few products
-  const double center_x = 2 * cell.col;
-  const double center_y = 2 * cell.row;
-  const double total = signs[kLeft] + signs[kRight] + signs[kTop] + signs[kBottom];
-  const double horizontal = signs[kRight] - signs[kLeft];
-  const double vertical = signs[kBottom] - signs[kTop];
-  count += total;
-  x += total * center_x + horizontal;
-  y += total * center_y + vertical;
-  xx += (total * center_x + 2 * horizontal) * center_x + signs[kLeft] + signs[kRight];
-  yy += (total * center_y + 2 * vertical) * center_y + signs[kTop] + signs[kBottom];
-  xy += total * center_x * center_y + horizontal * center_y + vertical * center_x;
-
-  const auto addHeights = [&](const double(&edges)[4], double& sum, double& x_sum, double& y_sum) {
-    const double edge_sum = edges[kLeft] + edges[kRight] + edges[kTop] + edges[kBottom];
-    sum += edge_sum;
-    x_sum += center_x * edge_sum + (edges[kRight] - edges[kLeft]);
-    y_sum += center_y * edge_sum + (edges[kBottom] - edges[kTop]);
-  };
-  double edges[4];
-  for (int side = 0; side < 4; ++side) {
-    edges[side] = signs[side] == 0.0 ? 0.0 : signs[side] * 0.5 * (cell_gap + gaps[side]);
-  }
-  addHeights(edges, gap, x_gap, y_gap);
-  if (field.upperIsFlat()) return;  // the lower surface is then the gap, turned over
+void BoundarySums::addLowerEdges(const GapField& field, const GridCell& cell, const Lanes& signs) {
   const int neighbours[4] = {cell.index - 1, cell.index + 1, cell.index - field.cols(), cell.index + field.cols()};
   const double cell_lower = field.lowerHeight(cell.index);
-  for (int side = 0; side < 4; ++side) {
+  double edges[4];
+  for (std::size_t side = 0; side < 4; ++side) {
     edges[side] = signs[side] == 0.0 ? 0.0 : signs[side] * 0.5 * (cell_lower + field.lowerHeight(neighbours[side]));
   }
-  addHeights(edges, lower, x_lower, y_lower);
+  const double edge_sum = edges[kLeft] + edges[kRight] + edges[kTop] + edges[kBottom];
+  lower += edge_sum;
+  x_lower += 2 * cell.col * edge_sum + (edges[kRight] - edges[kLeft]);
+  y_lower += 2 * cell.row * edge_sum + (edges[kBottom] - edges[kTop]);
 }
 
 BoundarySums& BoundarySums::operator+=(const BoundarySums& other) {
@@ -88,18 +62,7 @@ BoundarySums& BoundarySums::operator+=(const BoundarySums& other) {
   return *this;
 }
 
-ContactPatch ContactPatch::ofCell(const GridCell& cell, double gap, const double (&outside)[4]) {
-  ContactPatch patch;
-  patch.area = 1;
-  patch.min_col = patch.max_col = cell.col;
-  patch.min_row = patch.max_row = cell.row;
-  for (int side = 0; side < 4; ++side) patch.extreme[side] = {cell.index, gap, outside[side]};
-  patch.deepest = cell.index;
-  patch.deepest_gap = patch.latest_gap = gap;
-  return patch;
-}
-
-void ContactPatch::addCell(const GridCell& cell, double gap, const double (&outside)[4]) {
+void ContactPatch::extendBox(const GridCell& cell, double gap, const double (&outside)[4]) {
   const auto extend = [&](Side side, std::int32_t& bound, std::int32_t place, bool is_further) {
     const ExtremeCell candidate{cell.index, gap, outside[side]};
     if (!is_further && (place != bound || !isDeeper(candidate, extreme[side]))) return;
@@ -110,12 +73,6 @@ void ContactPatch::addCell(const GridCell& cell, double gap, const double (&outs
   extend(kRight, max_col, cell.col, cell.col > max_col);
   extend(kTop, min_row, cell.row, cell.row < min_row);
   extend(kBottom, max_row, cell.row, cell.row > max_row);
-  if (isDeeper(gap, cell.index, deepest_gap, deepest)) {
-    deepest = cell.index;
-    deepest_gap = gap;
-  }
-  latest_gap = std::max(latest_gap, gap);
-  ++area;
 }
 
 void ContactPatch::merge(const ContactPatch& other) {
@@ -129,7 +86,7 @@ void ContactPatch::merge(const ContactPatch& other) {
   mergeSide(kRight, max_col, other.max_col, other.max_col > max_col);
   mergeSide(kTop, min_row, other.min_row, other.min_row < min_row);
   mergeSide(kBottom, max_row, other.max_row, other.max_row > max_row);
-  if (isDeeper(other.deepest_gap, other.deepest, deepest_gap, deepest)) {
+  if (comesBefore(other.deepest_gap, other.deepest, deepest_gap, deepest)) {
     deepest = other.deepest;
     deepest_gap = other.deepest_gap;
   }

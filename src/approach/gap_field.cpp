@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <string>
 
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/lanes.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
 #include "mems_stiction/base/vectorized.hpp"
 
@@ -66,10 +66,6 @@ MEMS_STICTION_VECTORIZED void gapsBelow(double top, const double* line, std::siz
   gapsBelowLine(top, line, size, gap);
 }
 
-constexpr std::size_t kLanes = 4;
-/// Four doubles that are added, compared and chosen side by side, in the instructions that the processor has.
-using Lanes = double __attribute__((vector_size(kLanes * sizeof(double))));
-
 /// Count, sum, sum of squares and maximum of the finite gaps, in fixed lanes.
 struct GapSums {
   Lanes count{};
@@ -85,7 +81,7 @@ MEMS_STICTION_VECTORIZED void addGaps(const double* gaps, std::size_t size, GapS
   GapSums local = sums;
   for (std::size_t i = 0; i < size; i += kLanes) {
     Lanes gap;
-    std::memcpy(&gap, gaps + i, sizeof gap);
+    load(gaps + i, gap);
     const auto is_valid = gap < GapField::kInvalidGap;
     const Lanes value = is_valid ? gap : zero;
     local.count += is_valid ? one : zero;
@@ -95,9 +91,6 @@ MEMS_STICTION_VECTORIZED void addGaps(const double* gaps, std::size_t size, GapS
   }
   sums = local;
 }
-
-double sumOf(const Lanes& lanes) { return lanes[0] + lanes[1] + lanes[2] + lanes[3]; }
-double largestOf(const Lanes& lanes) { return std::max({lanes[0], lanes[1], lanes[2], lanes[3]}); }
 
 }  // namespace
 
@@ -126,6 +119,39 @@ void GapField::compute(const HeightMap& lower) {
     computeAgainstPlane<double>(lower.heights());
   }
   measure();
+}
+
+MEMS_STICTION_VECTORIZED int GapField::columnsBelow(double limit, int row, std::int32_t* columns) const {
+  // Surfaces are smooth on the scale of a few cells: blocks that are wholly above or below the limit are frequent.
+  constexpr std::int32_t kBlock = 8;
+  const double* gap = gap_.data() + static_cast<std::ptrdiff_t>(row) * cols_;
+  std::int32_t* next = columns;
+  std::int32_t col = 0;
+  for (; col + kBlock <= cols_; col += kBlock, gap += kBlock) {
+    Lanes low;
+    Lanes high;
+    load(gap, low);
+    load(gap + kLanes, high);
+    const LaneMask below_low = low < limit;
+    const LaneMask below_high = high < limit;
+    const LaneMask sums = below_low + below_high;  // minus their number
+    const std::int64_t count = -(sums[0] + sums[1] + sums[2] + sums[3]);
+    if (count == 0) continue;
+    if (count == kBlock) {
+      for (std::int32_t i = 0; i < kBlock; ++i) next[i] = col + i;
+      next += kBlock;
+      continue;
+    }
+    for (std::int32_t i = 0; i < kBlock; ++i) {  // which ones is random: written without a branch
+      *next = col + i;
+      next += gap[i] < limit ? 1 : 0;
+    }
+  }
+  for (; col < cols_; ++col, ++gap) {
+    *next = col;
+    next += *gap < limit ? 1 : 0;
+  }
+  return static_cast<int>(next - columns);
 }
 
 template <typename LowerScalar, typename UpperScalar>

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mems_stiction/base/vectorized.hpp"
+
 namespace mems_stiction {
 namespace {
 
@@ -21,10 +23,6 @@ int bucketCountFor(int valid_cells) {
 
 int roundedUp(int value, int multiple) { return (value + multiple - 1) / multiple * multiple; }
 
-bool comesFirst(const OrderedCell& a, const OrderedCell& b) {
-  return a.gap < b.gap || (a.gap == b.gap && a.cell < b.cell);
-}
-
 void addGaps(GapMoments& moments, double count, double excess) {
   moments.count += count;
   moments.mean += count * excess;
@@ -39,6 +37,14 @@ void finishMoments(GapMoments& moments, double lower_end) {
   moments.mean = lower_end + mean_excess;
 }
 
+MEMS_STICTION_VECTORIZED void findBuckets(const double* gaps, std::size_t size, double inverse_width, double last,
+                                          std::int32_t* buckets) {
+  for (std::size_t i = 0; i < size; ++i) {
+    const double in_widths = gaps[i] * inverse_width;
+    buckets[i] = static_cast<std::int32_t>(in_widths < last ? in_widths : last);
+  }
+}
+
 }  // namespace
 
 void GapOrder::build(const GapField& field, double max_contact_fraction, double step) {
@@ -49,7 +55,6 @@ void GapOrder::build(const GapField& field, double max_contact_fraction, double 
   chooseOrderedBuckets(wanted);
   measureTail();
   collectCells(field);
-  measureGroups();
   findContactLimit(wanted);
 }
 
@@ -75,9 +80,14 @@ void GapOrder::chooseBuckets(const GapField& field, double step) {
 
 void GapOrder::countGaps(const GapField& field) {
   bucket_count_of_.assign(static_cast<std::size_t>(bucket_count_), 0);
-  const double last = bucket_count_ - 1;
+  const auto cols = static_cast<std::size_t>(field.cols());
+  row_buckets_.resize(cols);
   std::int32_t* count = bucket_count_of_.data();
-  for (const double gap : field.gaps()) ++count[static_cast<int>(std::min(gap * inverse_width_, last))];
+  const double* gap = field.gaps().data();
+  for (int row = 0; row < field.rows(); ++row, gap += cols) {
+    findBuckets(gap, cols, inverse_width_, bucket_count_ - 1, row_buckets_.data());
+    for (const std::int32_t bucket : row_buckets_) ++count[bucket];
+  }
   bucket_count_of_.back() -= field.cellCount() - field.validCount();  // infinite gaps were counted there
 }
 
@@ -101,7 +111,7 @@ void GapOrder::measureTail() {
   }
 }
 
-void GapOrder::collectCells(const GapField& field) {
+MEMS_STICTION_VECTORIZED void GapOrder::collectCells(const GapField& field) {
   group_end_.assign(static_cast<std::size_t>(ordered_buckets_ >> group_shift_), 0);
   is_sorted_.assign(group_end_.size(), 0);
   int start = 0;
@@ -112,49 +122,55 @@ void GapOrder::collectCells(const GapField& field) {
   }
   cells_.resize(static_cast<std::size_t>(start));
 
-  // which cells come in is random along a row: written without a branch, then put into their groups
-  const auto cols = static_cast<std::size_t>(field.cols());
-  near_cells_.resize(cols);
+  ordered_moments_.assign(static_cast<std::size_t>(ordered_buckets_), {});
+  const bool all_are_ordered = ordered_buckets_ == bucket_count_;
   const double last = bucket_count_ - 1;
-  const double bound = ordered_buckets_ < bucket_count_ ? ordered_buckets_ : GapField::kInvalidGap;
-  const double* gap = field.gaps().data();
-  for (std::int32_t row = 0; row < field.rows(); ++row, gap += cols) {
-    std::size_t near_count = 0;
-    for (std::size_t col = 0; col < cols; ++col) {
-      near_cells_[near_count] = static_cast<std::int32_t>(col);
-      near_count += gap[col] * inverse_width_ < bound ? 1 : 0;
-    }
-    for (std::size_t i = 0; i < near_count; ++i) {
-      const std::int32_t col = near_cells_[i];
-      const double cell_gap = gap[col];
-      const int group = static_cast<int>(std::min(cell_gap * inverse_width_, last)) >> group_shift_;
-      const std::int32_t place = group_end_[static_cast<std::size_t>(group)]++;
-      cells_[static_cast<std::size_t>(place)] = {cell_gap, row * field.cols() + col, row};
+  const double limit = all_are_ordered ? GapField::kInvalidGap : (ordered_buckets_ + 1) * bucket_width_;
+  near_cells_.resize(static_cast<std::size_t>(field.cols()));
+  bool may_be_misplaced = false;
+  for (std::int32_t row = 0; row < field.rows(); ++row) {
+    const int near_count = field.columnsBelow(limit, row, near_cells_.data());
+    const std::int32_t first_cell = row * field.cols();
+    const double* gaps = field.gaps().data() + first_cell;
+    for (int i = 0; i < near_count; ++i) {
+      const std::int32_t col = near_cells_[static_cast<std::size_t>(i)];
+      const double gap = gaps[col];
+      const int bucket = static_cast<int>(std::min(gap * inverse_width_, last));
+      if (bucket >= ordered_buckets_) continue;
+      const std::int32_t place = group_end_[static_cast<std::size_t>(bucket >> group_shift_)]++;
+      cells_[static_cast<std::size_t>(place)] = {gap, first_cell + col, row};
+      const double excess = gap - bucket * bucket_width_;
+      addGaps(ordered_moments_[static_cast<std::size_t>(bucket)], 1.0, excess);
+      if (excess < 0.0 || excess >= bucket_width_) may_be_misplaced = true;
     }
   }
+  for (int bucket = 0; bucket < ordered_buckets_; ++bucket) {
+    finishMoments(ordered_moments_[static_cast<std::size_t>(bucket)], bucket * bucket_width_);
+  }
+  if (may_be_misplaced && groups_are_steps_) mendGroups();
 }
 
-void GapOrder::measureGroups() {
-  ordered_moments_.assign(static_cast<std::size_t>(ordered_buckets_), {});
-  const double last = bucket_count_ - 1;
+int GapOrder::mendedGroup(double gap, int bucket) const {
+  const int group = bucket >> group_shift_;
+  if (!groups_are_steps_) return group;
+  if (gap < groupLowerEnd(group)) return group - 1;
+  return gap >= groupLowerEnd(group + 1) ? std::min(group + 1, groupCount() - 1) : group;
+}
+
+void GapOrder::mendGroups() {
   double largest_before = -1.0;
   int place = 0;
-  for (int group = 0; group < static_cast<int>(group_end_.size()); ++group) {
+  for (int group = 0; group < groupCount(); ++group) {
     double smallest = GapField::kInvalidGap;
     double largest = largest_before;
     for (; place < group_end_[static_cast<std::size_t>(group)]; ++place) {
       const double gap = cells_[static_cast<std::size_t>(place)].gap;
-      const int bucket = static_cast<int>(std::min(gap * inverse_width_, last));
-      addGaps(ordered_moments_[static_cast<std::size_t>(bucket)], 1.0, gap - bucket * bucket_width_);
       smallest = std::min(smallest, gap);
       largest = std::max(largest, gap);
     }
     const double boundary = group * group_width_;
-    if (group > 0 && groups_are_steps_ && (largest_before >= boundary || smallest < boundary)) mendBoundary(group);
+    if (group > 0 && (largest_before >= boundary || smallest < boundary)) mendBoundary(group);
     largest_before = largest;
-  }
-  for (int bucket = 0; bucket < ordered_buckets_; ++bucket) {
-    finishMoments(ordered_moments_[static_cast<std::size_t>(bucket)], bucket * bucket_width_);
   }
 }
 
@@ -173,13 +189,12 @@ void GapOrder::sortGroup(int group) {
   std::uint8_t& is_sorted = is_sorted_[static_cast<std::size_t>(group)];
   if (is_sorted != 0) return;
   std::sort(cells_.begin() + groupStart(group), cells_.begin() + group_end_[static_cast<std::size_t>(group)],
-            comesFirst);
+            [](const OrderedCell& a, const OrderedCell& b) { return comesBefore(a.gap, a.cell, b.gap, b.cell); });
   is_sorted = 1;
 }
 
 void GapOrder::findContactLimit(int wanted) {
-  const auto limit_group =
-      static_cast<int>(std::lower_bound(group_end_.begin(), group_end_.end(), wanted) - group_end_.begin());
+  const int limit_group = groupOfPlace(wanted - 1);
   sortGroup(limit_group);
   contact_limit_ = wanted;
   const double limit_gap = cells_[static_cast<std::size_t>(wanted - 1)].gap;
@@ -189,8 +204,13 @@ void GapOrder::findContactLimit(int wanted) {
   }
 }
 
+int GapOrder::groupOfPlace(int place) const {
+  const auto end = std::upper_bound(group_end_.begin(), group_end_.end(), place);
+  return static_cast<int>(end - group_end_.begin());
+}
+
 int GapOrder::countBelow(double approach) {
-  const auto group_count = static_cast<int>(group_end_.size());
+  const int group_count = groupCount();
   if (approach >= group_count * group_width_ && ordered_buckets_ < bucket_count_) {
     return static_cast<int>(cells_.size());
   }
@@ -226,9 +246,7 @@ double GapOrder::cellsBelow(double limit) const {
 }
 
 void GapOrder::sortBetween(int begin, int end) {
-  const auto first_past = std::upper_bound(group_end_.begin(), group_end_.end(), begin);
-  for (auto group = static_cast<int>(first_past - group_end_.begin()); group < static_cast<int>(group_end_.size());
-       ++group) {
+  for (int group = groupOfPlace(begin); group < groupCount(); ++group) {
     if (groupStart(group) >= end) break;
     sortGroup(group);
   }

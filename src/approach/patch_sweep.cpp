@@ -2,180 +2,220 @@
 
 #include <algorithm>
 
+#include "mems_stiction/base/vectorized.hpp"
+
 namespace mems_stiction {
 namespace {
 
-constexpr std::int32_t kApart = -1;
-/// Invalid cells and the border around the frame.
-constexpr std::int32_t kNoCell = -2;
 /// How far ahead of the sweep memory is asked for: its order is random in the frame, but known.
 constexpr int kPrefetchDistance = 16;
-/// The patches that a cell will join are known once its neighbours' labels have arrived.
-constexpr int kPatchPrefetchDistance = 6;
 constexpr std::size_t kCacheLine = 64;
+/// A sweep that goes no further than this share of the frame looks up its cells one by one: most end before it.
+constexpr double kShareLookedUp = 1.0 / 64.0;
 
 }  // namespace
-
-std::size_t PatchSweep::placeOf(std::int32_t cell, std::int32_t row) const {
-  return static_cast<std::size_t>(cell + stride_ + 1 + 2 * row);
-}
 
 void PatchSweep::begin(const GapField& field, const GapOrder& order, Connectivity connectivity) {
   field_ = &field;
   order_ = &order;
   connectivity_ = connectivity;
-  stride_ = field.cols() + 2;
-  label_.assign(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(field.rows() + 2), kNoCell);
-  for (int row = 0; row < field.rows(); ++row) {
-    std::fill_n(label_.data() + placeOf(row * field.cols(), row), field.cols(), kApart);
-  }
-  if (field.validCount() < field.cellCount()) {
-    for (int cell = 0; cell < field.cellCount(); ++cell) {
-      if (!field.isValid(cell)) label_[placeOf(cell, cell / field.cols())] = kNoCell;
-    }
-  }
-  inserted_ = 0;
+  dales_.begin(field);
+  surroundings_.begin(field, order, dales_);
   restart();
 }
 
 void PatchSweep::restart() {
-  for (int i = 0; i < inserted_; ++i) {
-    const OrderedCell& cell = order_->cells()[static_cast<std::size_t>(i)];
-    label_[placeOf(cell.cell, cell.row)] = kApart;
-  }
   inserted_ = 0;
-  parent_.clear();
+  patch_of_dale_.clear();
+  next_dale_.clear();
+  dale_count_.clear();
   patches_.clear();
   live_.clear();
   live_place_.clear();
-  changed_.clear();
+  changed_count_ = 0;
   is_changed_.clear();
+  makeRoom();
 }
 
-void PatchSweep::prefetch(const OrderedCell& cell) const {
-  const std::int32_t* label = label_.data() + placeOf(cell.cell, cell.row);
-  __builtin_prefetch(label - stride_);
-  __builtin_prefetch(label, 1);
-  __builtin_prefetch(label + stride_);
-  const double* gap = field_->gaps().data() + cell.cell;
-  __builtin_prefetch(gap - field_->cols());
-  __builtin_prefetch(gap);
-  __builtin_prefetch(gap + field_->cols());
-}
-
-void PatchSweep::prefetchPatches(const OrderedCell& cell) const {
-  const std::int32_t* label = label_.data() + placeOf(cell.cell, cell.row);
-  std::int32_t last = kApart;
-  for (const std::int32_t neighbour : {label[-1], label[1], *(label - stride_), label[stride_]}) {
-    if (neighbour < 0 || neighbour == last) continue;
-    last = neighbour;
-    const char* patch = reinterpret_cast<const char*>(patches_.data() + neighbour);
-    for (std::size_t offset = 0; offset < sizeof(ContactPatch); offset += kCacheLine)
-      __builtin_prefetch(patch + offset, 1);
-    __builtin_prefetch(parent_.data() + neighbour);
+void PatchSweep::makeRoom() {
+  const auto count = static_cast<std::size_t>(dales_.count());
+  patches_.resize(count);
+  live_place_.resize(count);
+  is_changed_.resize(count);
+  changed_.resize(count + 1);
+  dale_count_.resize(count, 1);
+  for (auto id = static_cast<std::int32_t>(patch_of_dale_.size()); id < dales_.count(); ++id) {
+    patch_of_dale_.push_back(id);
+    next_dale_.push_back(id);
   }
+}
+
+void PatchSweep::prefetchCell(int place) const {
+  const OrderedCell& cell = order_->cells()[static_cast<std::size_t>(place)];
+  const std::int32_t* dale = dales_.data() + cell.cell;
+  const double* gap = field_->gaps().data() + cell.cell;
+  for (const std::ptrdiff_t offset : {-field_->cols(), 0, field_->cols()}) {
+    __builtin_prefetch(dale + offset);
+    __builtin_prefetch(gap + offset);
+  }
+}
+
+void PatchSweep::prefetchPatch(int place) const {
+  const std::int32_t dale = surroundings_.collected(place).dale();
+  const char* patch = reinterpret_cast<const char*>(patches_.data() + patchOfDale(dale));
+  for (std::size_t offset = 0; offset < sizeof(ContactPatch); offset += kCacheLine)
+    __builtin_prefetch(patch + offset, 1);
+}
+
+void PatchSweep::prefetchCentre(std::int32_t id) const {
+  const ContactPatch& known = patch(id);
+  const int row = (known.min_row + known.max_row) / 2;
+  const int col = (known.min_col + known.max_col) / 2;
+  const std::ptrdiff_t cell = static_cast<std::ptrdiff_t>(row) * field_->cols() + col;
+  __builtin_prefetch(field_->gaps().data() + cell);
+  __builtin_prefetch(dales_.data() + cell);
 }
 
 void PatchSweep::advanceTo(int count) {
   if (count < inserted_) restart();
-  const std::vector<OrderedCell>& cells = order_->cells();
-  const auto ahead_end = static_cast<int>(cells.size()) - kPrefetchDistance;
-  const int patch_ahead_end = count - kPatchPrefetchDistance;
-  for (; inserted_ < count; ++inserted_) {
-    if (inserted_ < ahead_end) prefetch(cells[static_cast<std::size_t>(inserted_ + kPrefetchDistance)]);
-    if (inserted_ < patch_ahead_end)
-      prefetchPatches(cells[static_cast<std::size_t>(inserted_ + kPatchPrefetchDistance)]);
-    insert(cells[static_cast<std::size_t>(inserted_)]);
+  const auto looked_up = static_cast<int>(kShareLookedUp * field_->cellCount());
+  while (inserted_ < count) {
+    if (count > looked_up && inserted_ >= surroundings_.end()) {
+      surroundings_.collectFrom(inserted_);
+      makeRoom();
+    }
+    if (inserted_ < surroundings_.begin()) {
+      insertLookedUp(std::min(count, surroundings_.begin()));
+    } else if (inserted_ < surroundings_.end()) {
+      insertCollected(std::min(count, surroundings_.end()));
+    } else {
+      insertLookedUp(count);
+    }
   }
 }
 
-std::int32_t PatchSweep::root(std::int32_t id) {
-  while (parent_[static_cast<std::size_t>(id)] != id) {
-    std::int32_t& parent = parent_[static_cast<std::size_t>(id)];
-    parent = parent_[static_cast<std::size_t>(parent)];  // path halving
-    id = parent;
+MEMS_STICTION_INLINE void PatchSweep::markChanged(std::int32_t id) {
+  std::uint8_t& flag = is_changed_[static_cast<std::size_t>(id)];
+  // written without a branch: there is room for every patch
+  changed_[changed_count_] = id;
+  changed_count_ += flag == 0 ? 1 : 0;
+  flag = 1;
+}
+
+MEMS_STICTION_INLINE void PatchSweep::insert(const OrderedCell& ordered, const CellSurroundings& around) {
+  if (around.dale() >= patchIdEnd()) makeRoom();
+  std::int32_t id = patchOfDale(around.dale());
+  if (around.isBorder() || connectivity_ == Connectivity::kEight) id = join(id, ordered, around);
+  ContactPatch& patch = patches_[static_cast<std::size_t>(id)];
+  if (patch.area == 0) {
+    live_place_[static_cast<std::size_t>(id)] = static_cast<std::int32_t>(live_.size());
+    live_.push_back(id);
   }
-  return id;
+  const GridCell cell{ordered.row, ordered.cell - ordered.row * field_->cols(), ordered.cell};
+  patch.addCell(cell, ordered.gap, around.gaps);
+  patch.boundary.addEdges(*field_, cell, ordered.gap, around.gaps);
+  markChanged(id);
+}
+
+void PatchSweep::insertLookedUp(int stop) {
+  const std::vector<OrderedCell>& cells = order_->cells();
+  const auto ahead_end = static_cast<int>(cells.size()) - kPrefetchDistance;
+  for (; inserted_ < stop; ++inserted_) {
+    if (inserted_ < ahead_end) prefetchCell(inserted_ + kPrefetchDistance);
+    const OrderedCell& cell = cells[static_cast<std::size_t>(inserted_)];
+    insert(cell, surroundings_.look({cell.row, cell.cell - cell.row * field_->cols(), cell.cell}));
+  }
+}
+
+MEMS_STICTION_VECTORIZED void PatchSweep::insertCollected(int stop) {
+  const std::vector<OrderedCell>& cells = order_->cells();
+  const int ahead_end = stop - kPrefetchDistance;
+  CellSurroundings looked_up;
+  for (; inserted_ < stop; ++inserted_) {
+    if (inserted_ < ahead_end) prefetchPatch(inserted_ + kPrefetchDistance);
+    const OrderedCell& cell = cells[static_cast<std::size_t>(inserted_)];
+    const CellSurroundings* around = &surroundings_.collected(inserted_);
+    if (around->cell != cell.cell) {  // its group has been sorted since
+      looked_up = surroundings_.look({cell.row, cell.cell - cell.row * field_->cols(), cell.cell});
+      around = &looked_up;
+    }
+    insert(cell, *around);
+  }
 }
 
 std::int32_t PatchSweep::patchOf(const GridCell& cell) {
-  const std::int32_t label = label_[placeOf(cell.index, cell.row)];
-  return label < 0 ? -1 : root(label);
-}
-
-void PatchSweep::markChanged(std::int32_t id) {
-  std::uint8_t& flag = is_changed_[static_cast<std::size_t>(id)];
-  if (flag == 0) changed_.push_back(id);
-  flag = 1;
+  const std::int32_t dale = dales_.at(cell);
+  if (dale < 0 || dale >= patchIdEnd()) return -1;
+  const std::int32_t id = patchOfDale(dale);
+  const ContactPatch& patch = patches_[static_cast<std::size_t>(id)];
+  return patch.area > 0 && field_->gap(cell.index) <= patch.latest_gap ? id : -1;
 }
 
 const std::vector<std::int32_t>& PatchSweep::takeChangedPatches() {
   changed_live_.clear();
-  for (const std::int32_t id : changed_) {
+  for (std::size_t i = 0; i < changed_count_; ++i) {
+    const std::int32_t id = changed_[i];
     is_changed_[static_cast<std::size_t>(id)] = 0;
-    if (parent_[static_cast<std::size_t>(id)] == id) changed_live_.push_back(id);
+    if (patchOfDale(id) == id) changed_live_.push_back(id);
   }
-  changed_.clear();
+  changed_count_ = 0;
   return changed_live_;
 }
 
-std::int32_t PatchSweep::addPatch(const ContactPatch& patch) {
-  const auto id = static_cast<std::int32_t>(patches_.size());
-  patches_.push_back(patch);
-  parent_.push_back(id);
-  live_place_.push_back(static_cast<std::int32_t>(live_.size()));
-  live_.push_back(id);
-  is_changed_.push_back(0);
-  return id;
-}
-
 std::int32_t PatchSweep::unite(std::int32_t a, std::int32_t b) {
-  if (patches_[static_cast<std::size_t>(a)].area < patches_[static_cast<std::size_t>(b)].area) std::swap(a, b);
-  patches_[static_cast<std::size_t>(a)].merge(patches_[static_cast<std::size_t>(b)]);
-  parent_[static_cast<std::size_t>(b)] = a;
+  if (dale_count_[static_cast<std::size_t>(a)] < dale_count_[static_cast<std::size_t>(b)]) std::swap(a, b);
+  dale_count_[static_cast<std::size_t>(a)] += dale_count_[static_cast<std::size_t>(b)];
+  std::int32_t dale = b;
+  do {
+    patch_of_dale_[static_cast<std::size_t>(dale)] = a;
+    dale = next_dale_[static_cast<std::size_t>(dale)];
+  } while (dale != b);
+  std::swap(next_dale_[static_cast<std::size_t>(a)], next_dale_[static_cast<std::size_t>(b)]);
+
+  ContactPatch& patch = patches_[static_cast<std::size_t>(a)];
+  const ContactPatch& other = patches_[static_cast<std::size_t>(b)];
+  if (other.area == 0) return a;  // its cells of this step are still to come
   const std::int32_t place = live_place_[static_cast<std::size_t>(b)];
-  live_[static_cast<std::size_t>(place)] = live_.back();
-  live_place_[static_cast<std::size_t>(live_.back())] = place;
-  live_.pop_back();
-  if (place < static_cast<std::int32_t>(live_.size())) markChanged(live_[static_cast<std::size_t>(place)]);
+  std::int32_t moved = a;
+  if (patch.area == 0) {
+    patch = other;
+  } else {
+    patch.merge(other);
+    moved = live_.back();
+    live_.pop_back();
+  }
+  if (place < static_cast<std::int32_t>(live_.size())) {
+    live_[static_cast<std::size_t>(place)] = moved;
+    live_place_[static_cast<std::size_t>(moved)] = place;
+    markChanged(moved);
+  }
   return a;
 }
 
-std::int32_t PatchSweep::joined(std::int32_t id, std::int32_t label) {
-  if (label < 0 || label == id) return id;
-  const std::int32_t neighbour = root(label);
-  if (id < 0) return neighbour;
-  return neighbour == id ? id : unite(id, neighbour);
-}
-
-void PatchSweep::insert(const OrderedCell& ordered) {
-  const GridCell cell{ordered.row, ordered.cell - ordered.row * field_->cols(), ordered.cell};
-  std::int32_t* const label = label_.data() + placeOf(ordered.cell, ordered.row);
-  const std::int32_t labels[4] = {label[-1], label[1], *(label - stride_), label[stride_]};  // in the order of Side
-  const int neighbours[4] = {cell.index - 1, cell.index + 1, cell.index - field_->cols(), cell.index + field_->cols()};
-
-  std::int32_t id = -1;
-  double gaps[4];
-  double signs[4];
-  for (int side = 0; side < 4; ++side) {
-    gaps[side] = labels[side] == kNoCell ? GapField::kInvalidGap : field_->gap(neighbours[side]);
-    // an edge to a cell in contact was counted from its other side, and is inside now
-    signs[side] = labels[side] >= 0 ? -1.0 : (labels[side] == kApart ? 1.0 : 0.0);
-    id = joined(id, labels[side]);
-  }
-  if (connectivity_ == Connectivity::kEight) {
-    for (const std::ptrdiff_t diagonal : {-stride_ - 1, 1 - stride_, stride_ - 1, stride_ + 1}) {
-      id = joined(id, label[diagonal]);
+std::int32_t PatchSweep::join(std::int32_t id, const OrderedCell& ordered, const CellSurroundings& around) {
+  const int cols = field_->cols();
+  const int col = ordered.cell - ordered.row * cols;
+  const auto joinNeighbour = [&](int row_step, int col_step, double gap) {
+    const GridCell neighbour{ordered.row + row_step, col + col_step, ordered.cell + row_step * cols + col_step};
+    if (!comesBefore(gap, neighbour.index, ordered.gap, ordered.cell)) return;
+    const std::int32_t dale = dales_.find(neighbour);
+    if (dale >= patchIdEnd()) makeRoom();
+    const std::int32_t neighbour_id = patchOfDale(dale);
+    if (neighbour_id != id) id = unite(id, neighbour_id);
+  };
+  joinNeighbour(0, -1, around.gaps[kLeft]);
+  joinNeighbour(0, 1, around.gaps[kRight]);
+  joinNeighbour(-1, 0, around.gaps[kTop]);
+  joinNeighbour(1, 0, around.gaps[kBottom]);
+  if (connectivity_ == Connectivity::kFour) return id;
+  for (const int row_step : {-1, 1}) {
+    for (const int col_step : {-1, 1}) {
+      const int row = ordered.row + row_step;
+      if (row < 0 || row >= field_->rows() || col + col_step < 0 || col + col_step >= cols) continue;
+      joinNeighbour(row_step, col_step, field_->gap(row * cols + col + col_step));
     }
   }
-  if (id < 0) {
-    id = addPatch(ContactPatch::ofCell(cell, ordered.gap, gaps));
-  } else {
-    patches_[static_cast<std::size_t>(id)].addCell(cell, ordered.gap, gaps);
-  }
-  *label = id;
-  patches_[static_cast<std::size_t>(id)].boundary.addEdges(*field_, cell, ordered.gap, gaps, signs);
-  markChanged(id);
+  return id;
 }
 
 }  // namespace mems_stiction

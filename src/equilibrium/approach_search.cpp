@@ -11,6 +11,8 @@ namespace {
 /// Cells whose gaps differ by less than this share of a step come into contact together. Else round-off decides which
 /// part of a symmetrical ring of cells comes first, and a contact of few pixels gets the radius of half a ring.
 constexpr double kLevelWidth = 1e-6;
+/// How many patches ahead the cells at their centres are asked for.
+constexpr std::size_t kPrefetchDistance = 8;
 
 }  // namespace
 
@@ -81,7 +83,10 @@ void ApproachSearch::moveTo(double approach, int contact_count, EquilibriumState
   caps_.resize(sweep_.livePatches().size());
   responses_.resize(caps_.size());
   centres_.resize(static_cast<std::size_t>(sweep_.patchIdEnd()));
-  for (const std::int32_t id : sweep_.takeChangedPatches()) {
+  const std::vector<std::int32_t>& changed = sweep_.takeChangedPatches();
+  for (std::size_t i = 0; i < changed.size(); ++i) {
+    if (i + kPrefetchDistance < changed.size()) sweep_.prefetchCentre(changed[i + kPrefetchDistance]);
+    const std::int32_t id = changed[i];
     const ContactPatch& patch = sweep_.patch(id);
     const auto place = static_cast<std::size_t>(sweep_.livePlace(id));
     caps_[place] = capCouple(patch, *field_, centreOf(id, patch), setting_->smallest_height);

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "mems_stiction/base/constants.hpp"
+#include "mems_stiction/base/lanes.hpp"
+#include "mems_stiction/base/vectorized.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -50,6 +52,28 @@ double CellForces::electrostatic(double gap) const {
 
 double CellForces::electrostaticInContact() const { return electrostatic(0.0); }
 
+MEMS_STICTION_VECTORIZED void CellForces::addCells(const OrderedCell* cells, std::size_t count, double approach,
+                                                   NormalLoad& load) const {
+  const Lanes zero{};
+  const Lanes cutoff = zero + cutoff_;
+  Lanes inverse_cubes{};
+  Lanes inverse_squares{};
+  const std::size_t in_lanes = count / kLanes * kLanes;
+  for (std::size_t i = 0; i < in_lanes; i += kLanes) {
+    const Lanes gap = Lanes{cells[i].gap, cells[i + 1].gap, cells[i + 2].gap, cells[i + 3].gap} - approach;
+    const Lanes distance = gap > cutoff ? gap : cutoff;
+    const Lanes insulated = gap + insulator_;
+    inverse_cubes += 1.0 / (distance * distance * distance);
+    inverse_squares += 1.0 / (insulated * insulated);
+  }
+  load.van_der_waals += van_der_waals_factor_ * sumOf(inverse_cubes);
+  if (hasElectrostatic()) load.electrostatic += electrostatic_factor_ * sumOf(inverse_squares);
+  for (std::size_t i = in_lanes; i < count; ++i) {
+    load.van_der_waals += vanDerWaals(cells[i].gap - approach);
+    load.electrostatic += electrostatic(cells[i].gap - approach);
+  }
+}
+
 double CellForces::vanDerWaals(const GapMoments& gaps, double approach) const {
   const double gap = gaps.mean - approach;
   if (gap < cutoff_) return gaps.count * vanDerWaals(gap);
@@ -67,11 +91,10 @@ void GapLoads::prepare(const GapOrder& order) {
   order_ = &order;
   std::size_t level_count = 1;
   while ((order.bucketCount() >> level_count) > 0) ++level_count;
-  levels_.resize(level_count);
-  levels_[0] = order.orderedMoments();
+  coarser_levels_.resize(level_count - 1);
   for (std::size_t level = 1; level < level_count; ++level) {
-    const std::vector<GapMoments>& finer = levels_[level - 1];
-    std::vector<GapMoments>& coarser = levels_[level];
+    const std::vector<GapMoments>& finer = momentsOf(level - 1);
+    std::vector<GapMoments>& coarser = coarser_levels_[level - 1];
     coarser.resize((finer.size() + 1) / 2);
     for (std::size_t i = 0; i < coarser.size(); ++i) {
       coarser[i] = 2 * i + 1 < finer.size() ? merged(finer[2 * i], finer[2 * i + 1]) : finer[2 * i];
@@ -82,7 +105,12 @@ void GapLoads::prepare(const GapOrder& order) {
   }
 }
 
-NormalLoad GapLoads::at(double approach, int contact_count, const CellForces& forces, double mechanical_load) const {
+const std::vector<GapMoments>& GapLoads::momentsOf(std::size_t level) const {
+  return level == 0 ? order_->orderedMoments() : coarser_levels_[level - 1];
+}
+
+MEMS_STICTION_VECTORIZED NormalLoad GapLoads::at(double approach, int contact_count, const CellForces& forces,
+                                                 double mechanical_load) const {
   const int bucket_count = order_->bucketCount();
   const double width = order_->bucketWidth();
   const std::vector<OrderedCell>& cells = order_->cells();
@@ -98,21 +126,18 @@ NormalLoad GapLoads::at(double approach, int contact_count, const CellForces& fo
   const double past_near = std::min<double>(approach / width + 1.0 + near_buckets, bucket_count);
   int bucket = order_->groupStartFrom(static_cast<int>(past_near));
   const int near_end = order_->cellsBefore(bucket);
-  for (int i = contact_count; i < near_end; ++i) {
-    const double gap = cells[static_cast<std::size_t>(i)].gap - approach;
-    load.van_der_waals += forces.vanDerWaals(gap);
-    load.electrostatic += forces.electrostatic(gap);
-  }
+  forces.addCells(cells.data() + contact_count, static_cast<std::size_t>(std::max(near_end - contact_count, 0)),
+                  approach, load);
   while (bucket < bucket_count) {
     const double gap_in_widths = bucket - approach / width;
     std::size_t level = bucket < order_->orderedBuckets() ? 0 : kTailLevel;
-    while (level + 1 < levels_.size() && bucket % (2 << level) == 0) {
+    while (level < coarser_levels_.size() && bucket % (2 << level) == 0) {
       const double wider = 2 << level;
       const bool has_kink = gap_in_widths < cutoff_in_widths && cutoff_in_widths < gap_in_widths + wider;
       if (has_kink || gap_in_widths < kGapsPerWidth * wider) break;
       ++level;
     }
-    const GapMoments& gaps = levels_[level][static_cast<std::size_t>(bucket >> level)];
+    const GapMoments& gaps = momentsOf(level)[static_cast<std::size_t>(bucket >> level)];
     if (gaps.count > 0.0) {
       load.van_der_waals += forces.vanDerWaals(gaps, approach);
       load.electrostatic += forces.electrostatic(gaps, approach);

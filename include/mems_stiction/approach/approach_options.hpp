@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// How the surfaces are brought together and when a search ends.
 
 #include "mems_stiction/base/option_visitor.hpp"
@@ -8,13 +9,14 @@ namespace mems_stiction {
 
 enum class Connectivity { kFour, kEight };
 
-/// Which reading of the paper's equations (6), (9), (10), (12) and (13) is used; doc/model.md has the table.
+/// Which reading of the paper's equations (6), (9), (10), (12) and (13) is used; doc/theory.md has the table.
 enum class Formulation { kCorrected, kPrinted };
 
 /// Whether hardness plays a part. kElastic keeps every asperity in the elastic regime (chi = 1), as the theories that
 /// the paper compares with do.
 enum class Deformation { kThreeRegimes, kElastic };
 
+/// Settings of the approach; keys approach/...
 struct ApproachOptions {
   double step = 0.0;                  ///< delta of (1) [m]; 0 = composite rms height / 50
   int max_steps = 100000;             ///< the search range ends after so many steps

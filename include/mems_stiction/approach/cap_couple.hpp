@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// From a contact patch to a couple of spherical caps (section 2.2 of the paper).
 ///
 ///     rc      = (Lx + Ly)/4, Lx and Ly the sides of the patch's bounding box
@@ -32,6 +33,7 @@ struct PatchCentre {
   double gap = 0.0;  ///< [m]
 };
 
+/// Two spherical caps in place of one patch.
 struct CapCouple {
   double base_radius = 0.0;       ///< rc [m]
   double height = 0.0;            ///< delta_c of both caps together [m], > 0
@@ -49,8 +51,8 @@ PatchCentre boxCentre(const ContactPatch& patch, const GapField& field);
 /// The patch's deepest cell.
 PatchCentre deepestCentre(const ContactPatch& patch, const GapField& field);
 
-/// @param centre boxCentre() if that belongs to the patch, otherwise deepestCentre().
-/// @param smallest_height cap height of a patch without any relief [m], > 0
+/// - @p centre boxCentre() if that belongs to the patch, otherwise deepestCentre().
+/// - @p smallest_height cap height of a patch without any relief [m], > 0
 /// Depends on the patch's cells only, not on how far the approach has gone since they came in.
 CapCouple capCouple(const ContactPatch& patch, const GapField& field, const PatchCentre& centre,
                     double smallest_height);

@@ -1,8 +1,10 @@
 #pragma once
 
+/// @file
 /// The gap between two surfaces at first touch: g = z2 - z1 - min(z2 - z1) >= 0 (section 2 of the paper).
 
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -17,6 +19,11 @@ struct GridCell {
   int col = 0;
   int index = 0;
 };
+
+/// The order in which cells come into contact: by gap [m], then by index, so that no two are equal.
+inline bool comesBefore(double gap, int cell, double other_gap, int other) {
+  return gap < other_gap || (gap == other_gap && cell < other);
+}
 
 /// Row-major over the frame. Cells that are invalid in either surface have an infinite gap: they never come into
 /// contact and are left out of every sum. compute() reuses the memory of the previous frame.
@@ -44,6 +51,11 @@ class GapField {
   double meanGap() const { return mean_gap_; }
   /// Root mean square of the gap about its mean [m]: the composite rms height of what was compared, cell by cell.
   double rmsGap() const { return rms_gap_; }
+
+  /// Columns of a row's cells with a gap below the limit, in ascending order.
+  /// - @p columns room for cols() of them
+  /// @return how many there are
+  int columnsBelow(double limit, int row, std::int32_t* columns) const;
 
   bool upperIsFlat() const { return upper_is_flat_; }
   /// z1 from an arbitrary but fixed level [m], so that a stage offset costs no digits. z2 = z1 + g on the same level.

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// Cells in order of gap: the order in which they come into contact as the upper surface is brought down.
 ///
 /// The cells that can come into contact are put into groups, lowest gaps first; a group is what one step of the
@@ -7,6 +8,7 @@
 /// sorted only when somebody asks for a place inside. A finer histogram keeps count, mean and variance of the gaps,
 /// from which the load sums of all steps are made; cells that stay apart are only counted.
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -14,6 +16,7 @@
 
 namespace mems_stiction {
 
+/// A cell and its gap.
 struct OrderedCell {
   double gap;  ///< [m]
   std::int32_t cell;
@@ -27,10 +30,11 @@ struct GapMoments {
   double variance = 0.0;  ///< [m^2]
 };
 
+/// The cells of a field in order of gap, sorted as far as the approach has come.
 class GapOrder {
  public:
-  /// @param max_contact_fraction contact is searched up to this share of the valid cells, in (0, 1].
-  /// @param step delta of the approach [m]: countBelow() of its multiples costs nothing. 0, or a step that is tiny
+  /// - @p max_contact_fraction contact is searched up to this share of the valid cells, in (0, 1].
+  /// - @p step delta of the approach [m]: countBelow() of its multiples costs nothing. 0, or a step that is tiny
   /// against the
   ///        range of the gap, gives groups of one bucket.
   void build(const GapField& field, double max_contact_fraction, double step = 0.0);
@@ -64,6 +68,23 @@ class GapOrder {
   /// Index of the first ordered cell at or past a bucket that starts a group.
   int cellsBefore(int group_start_bucket) const;
 
+  int groupCount() const { return static_cast<int>(group_end_.size()); }
+  /// Index of the first ordered cell of a group; of the group past the last one: the number of ordered cells.
+  int groupStart(int group) const { return group == 0 ? 0 : group_end_[static_cast<std::size_t>(group - 1)]; }
+  /// The group that holds this place of the order.
+  int groupOfPlace(int place) const;
+  /// Where a group starts, give or take one bucketWidth() [m].
+  double groupLowerEnd(int group) const { return group * group_width_; }
+  /// The group of a cell with this gap, exactly; groupCount() if the cell is not ordered.
+  /// @param gap at most one bucketWidth() beyond the last group's end [m]
+  int groupOf(double gap) const {
+    const int bucket = static_cast<int>(gap * inverse_width_);
+    if (bucket >= ordered_buckets_) return groupCount();
+    const double excess = gap - bucket * bucket_width_;
+    const bool is_rounded = excess < 0.0 || excess >= bucket_width_;
+    return is_rounded ? mendedGroup(gap, bucket) : bucket >> group_shift_;
+  }
+
   static constexpr int kBucketsPerTailBucket = 16;
 
  private:
@@ -72,11 +93,12 @@ class GapOrder {
   void chooseOrderedBuckets(int wanted);
   void measureTail();
   void collectCells(const GapField& field);
-  void measureGroups();
+  /// The bucket of a gap that is a whole number of steps is a matter of rounding, its group is not.
+  int mendedGroup(double gap, int bucket) const;
+  void mendGroups();
   void mendBoundary(int group);
   void sortGroup(int group);
   void findContactLimit(int wanted);
-  int groupStart(int group) const { return group == 0 ? 0 : group_end_[static_cast<std::size_t>(group - 1)]; }
 
   int bucket_count_ = 0;
   double bucket_width_ = 1.0;
@@ -89,6 +111,7 @@ class GapOrder {
   std::vector<std::int32_t> bucket_count_of_;
   std::vector<std::int32_t> group_end_;
   std::vector<std::uint8_t> is_sorted_;
+  std::vector<std::int32_t> row_buckets_;
   std::vector<std::int32_t> near_cells_;
   std::vector<OrderedCell> cells_;
   std::vector<GapMoments> ordered_moments_;

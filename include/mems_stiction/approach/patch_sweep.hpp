@@ -1,26 +1,33 @@
 #pragma once
 
-/// The approach as one sweep: cells come into contact one by one in order of gap, and a union-find keeps the contact
-/// patches with their additive attributes. Every step of the approach costs only the cells that it adds; relabelling
-/// the frame at each step gives the same patches (test/support/plain_adhesion_model.hpp does that).
+/// @file
+/// The approach as one sweep: cells come into contact one by one in order of gap, and joining the dales of
+/// the gap keeps the contact patches with their additive attributes. Every step of the approach costs only the cells
+/// that it adds; relabelling the frame at each step gives the same patches (test/support/plain_adhesion_model.hpp does
+/// that).
 
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "mems_stiction/approach/approach_options.hpp"
+#include "mems_stiction/approach/cell_surroundings.hpp"
 #include "mems_stiction/approach/contact_patch.hpp"
+#include "mems_stiction/approach/dale_map.hpp"
 #include "mems_stiction/approach/gap_field.hpp"
 #include "mems_stiction/approach/gap_order.hpp"
 
 namespace mems_stiction {
 
+/// The patches of an approach that only moves forward.
 class PatchSweep {
  public:
   /// Starts with no cell in contact. The field and the order must outlive the sweep's use; memory is reused.
   void begin(const GapField& field, const GapOrder& order, Connectivity connectivity);
 
-  /// Brings the first `count` cells of the order into contact; starts over if fewer are asked for than are in.
+  /// Brings the first `count` cells of the order into contact; starts over if fewer are asked for than are in. The
+  /// patches are those of a moment of the approach when all cells up to some gap are in: a step of the order, or a
+  /// level of a group that is sorted.
   void advanceTo(int count);
   int contactCount() const { return inserted_; }
 
@@ -34,37 +41,46 @@ class PatchSweep {
   /// them after a restart).
   const std::vector<std::int32_t>& takeChangedPatches();
 
+  /// Asks for the memory that finding the patch's centre needs.
+  void prefetchCentre(std::int32_t id) const;
+
   /// Place of a live patch in livePatches().
   std::int32_t livePlace(std::int32_t id) const { return live_place_[static_cast<std::size_t>(id)]; }
 
-  /// Patch that holds the cell, or -1 if the cell is not in contact.
+  /// Patch that holds the cell, or -1 if the cell is not in contact. Cells of equal gap come into contact together.
   std::int32_t patchOf(int cell) { return patchOf(field_->cellAt(cell)); }
   std::int32_t patchOf(const GridCell& cell);
 
  private:
   void restart();
-  void insert(const OrderedCell& cell);
-  /// Patch `id` (-1: none yet) together with the patch of a neighbour's label.
-  std::int32_t joined(std::int32_t id, std::int32_t label);
-  std::int32_t addPatch(const ContactPatch& patch);
-  std::size_t placeOf(std::int32_t cell, std::int32_t row) const;
-  void prefetch(const OrderedCell& cell) const;
-  void prefetchPatches(const OrderedCell& cell) const;
+  /// A patch for every dale that is known.
+  void makeRoom();
+  /// The next cells up to this place.
+  void insertLookedUp(int stop);
+  void insertCollected(int stop);
+  void insert(const OrderedCell& cell, const CellSurroundings& around);
+  /// The patch of the cell's dale together with those that the cell touches.
+  std::int32_t join(std::int32_t id, const OrderedCell& cell, const CellSurroundings& around);
   std::int32_t unite(std::int32_t a, std::int32_t b);
-  std::int32_t root(std::int32_t id);
+  std::int32_t patchOfDale(std::int32_t dale) const { return patch_of_dale_[static_cast<std::size_t>(dale)]; }
   void markChanged(std::int32_t id);
+  void prefetchCell(int place) const;
+  void prefetchPatch(int place) const;
 
   const GapField* field_ = nullptr;
   const GapOrder* order_ = nullptr;
   Connectivity connectivity_ = Connectivity::kFour;
   int inserted_ = 0;
-  std::ptrdiff_t stride_ = 0;         ///< of label_, which has a border of one cell around the frame
-  std::vector<std::int32_t> label_;   ///< per cell: the patch that it joined, kApart or kNoCell
-  std::vector<std::int32_t> parent_;  ///< per patch: itself, or the patch that it merged into
-  std::vector<ContactPatch> patches_;
+  DaleMap dales_;
+  SurroundingsTable surroundings_;
+  std::vector<std::int32_t> patch_of_dale_;
+  std::vector<std::int32_t> next_dale_;   ///< per dale: the next one of its patch, in a ring
+  std::vector<std::int32_t> dale_count_;  ///< per patch
+  std::vector<ContactPatch> patches_;     ///< per dale; of area 0 before its first cell comes into contact
   std::vector<std::int32_t> live_;
   std::vector<std::int32_t> live_place_;
-  std::vector<std::int32_t> changed_;
+  std::vector<std::int32_t> changed_;  ///< the first changed_count_, and room for one more than there are patches
+  std::size_t changed_count_ = 0;
   std::vector<std::int32_t> changed_live_;
   std::vector<std::uint8_t> is_changed_;
 };

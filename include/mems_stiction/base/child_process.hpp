@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// Run another program and wait for it, for at most a stated time.
 
 #include <string>
@@ -7,6 +8,7 @@
 
 namespace mems_stiction {
 
+/// How a child process ended, and what it said.
 struct ChildResult {
   bool started = false;    ///< false: the program was not found or could not be started
   bool timed_out = false;  ///< the program and its children were killed after the timeout
@@ -15,9 +17,9 @@ struct ChildResult {
 };
 
 /// No shell: the arguments reach the program as they are. Input is empty; output and error go to `log_path`.
-/// @param arguments the program (looked up in PATH) and its arguments
-/// @param environment the whole environment, "NAME=value"
-/// @param timeout [s]
+/// - @p arguments the program (looked up in PATH) and its arguments
+/// - @p environment the whole environment, "NAME=value"
+/// - @p timeout [s]
 ChildResult runChild(const std::vector<std::string>& arguments, const std::vector<std::string>& environment,
                      const std::string& log_path, double timeout);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// Physical constants, SI.
 
 namespace mems_stiction {

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// Errors of the core: a small family, one class per thing a caller can do about it.
 
 #include <stdexcept>

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// A text of several lines on one, for logs, records and people who count lines.
 
 #include <string>

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// One table of settings, many uses. Every options struct describes its fields to a visitor: key, unit, allowed range
 /// and meaning. Reading YAML, the ROS parameter server, validation, the printed effective configuration and the
 /// parameter documentation are visitors, so they cannot disagree about a key or a range.

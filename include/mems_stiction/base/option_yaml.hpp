@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// Settings from YAML and back, for anything that describes itself to an OptionVisitor.
 ///
 /// Keys are either nested maps or flat names with slashes: `lower: {hardness: 12e9}` and `lower/hardness: 12e9` are the

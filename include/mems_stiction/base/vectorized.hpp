@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// MEMS_STICTION_VECTORIZED marks a function that passes over the whole frame: it is compiled twice, for every x86-64
 /// processor and for those with AVX2, and the processor chooses at run time. Both give the same bits: sums run in fixed
 /// lanes, and AVX2 alone brings no fused multiply-add.
@@ -8,4 +9,11 @@
 #define MEMS_STICTION_VECTORIZED __attribute__((target_clones("avx2", "default")))
 #else
 #define MEMS_STICTION_VECTORIZED
+#endif
+
+/// Marks a small function that becomes part of the vectorized functions that call it.
+#if defined(__GNUC__)
+#define MEMS_STICTION_INLINE inline __attribute__((always_inline))
+#else
+#define MEMS_STICTION_INLINE inline
 #endif

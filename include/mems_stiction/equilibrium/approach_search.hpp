@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// The iteration of the paper: bring the upper surface down step by step until the stopping condition holds
 /// (force_balance.hpp), and find the place inside that step.
 ///

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// How one asperity answers the approach that is imposed on it: the forces of section 2.2 of the paper, before the load
 /// is shared.
 ///

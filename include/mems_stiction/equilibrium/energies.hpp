@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// The energies along the approach, (8) and (10) with JKR's exponents, which the print lost.
 ///
 ///     p   = 1/(K^(2/3) R^(1/3))
@@ -15,6 +16,7 @@
 
 namespace mems_stiction {
 
+/// The terms of (8), summed over the asperities [J].
 struct Energies {
   double mechanical = 0.0;  ///< E_m [J]
   double surface = 0.0;     ///< E_s [J]

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// What the approach ends with, and what it passed on the way.
 
 #include <cstdint>

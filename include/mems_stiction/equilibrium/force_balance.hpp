@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// The stopping condition: are the surfaces in equilibrium at this approach?
 ///
 /// The load is shared in proportion to the caps' volumes, F_i = F V_i / sum V (6). Equilibrium is the first state in
@@ -14,6 +15,7 @@
 
 namespace mems_stiction {
 
+/// What presses, what carries, and what is left.
 struct ForceBalance {
   double normal_load = 0.0;    ///< F [N]
   double load_share = 0.0;     ///< F / sum V: F_i = load_share V_i
@@ -22,7 +24,7 @@ struct ForceBalance {
   bool is_equilibrium = false;
 };
 
-/// @param responses of all patches; sums run in this order
+/// - @p responses of all patches; sums run in this order
 ForceBalance forceBalance(const std::vector<AsperityResponse>& responses, double normal_load, const AsperityLaw& law);
 
 /// dE_t/dD = sum r_i under the balance's loads [N].

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// Where, inside the step of the approach that meets a condition, is the condition met first?
 
 #include <algorithm>
@@ -10,7 +11,7 @@ namespace mems_stiction {
 /// Searches the levels 0 .. count-1 of the step in two passes: the ends of groups of sqrt(count) levels, then the
 /// levels of the first group whose end meets the condition, one by one. Each pass asks in ascending order, so that a
 /// sweep starts over once at most.
-/// @param holds bool(int level); its last call is for the returned level.
+/// - @p holds bool(int level); its last call is for the returned level.
 /// @return the level, or count if no end of a group meets the condition.
 template <typename Condition>
 int firstLevelThat(int count, Condition&& holds) {

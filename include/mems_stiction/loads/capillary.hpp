@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// How hard does water that condenses between the surfaces pull them together?
 ///
 ///     r_K = gamma V_m/(R T ln(1/RH))          Kelvin radius of the meniscus, hollow in one direction

@@ -1,12 +1,13 @@
 #pragma once
 
+/// @file
 /// What acts between the two bodies: adhesion, van der Waals attraction, the insulator; and what is applied to them.
 
 #include "mems_stiction/base/option_visitor.hpp"
 
 namespace mems_stiction {
 
-/// The interface of the pair. Sources of the defaults: doc/model.md, "Materials".
+/// The interface of the pair. Sources of the defaults: doc/theory.md, "Materials".
 struct InterfaceOptions {
   double work_of_adhesion = 0.05;        ///< Gamma, thermodynamic, of the flat interface [J/m^2], >= 0
   double hamaker_constant = 65e-21;      ///< H across the gap's medium [J], >= 0 (SiO2 across air: Bergstrom 1997)

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// The total normal load on the contacts, as a sum with named parts (section 2.1 of the paper).
 ///
 ///     F_w = sum H dA/(6 pi max(d, D0)^3)           cells apart                                       (2)
@@ -16,6 +17,7 @@
 
 namespace mems_stiction {
 
+/// The normal load and its parts [N].
 struct NormalLoad {
   double van_der_waals = 0.0;  ///< F_w [N]
   double electrostatic = 0.0;  ///< F_e [N]
@@ -30,9 +32,11 @@ class CellForces {
  public:
   CellForces(const InterfaceOptions& interface, double voltage, double cell_area);
 
-  double vanDerWaals(double gap) const;      ///< of a cell apart by gap [m]: [N]
-  double electrostatic(double gap) const;    ///< of a cell apart by gap [m]: [N]
-  double electrostaticInContact() const;     ///< of a cell in contact [N]
+  double vanDerWaals(double gap) const;    ///< of a cell apart by gap [m]: [N]
+  double electrostatic(double gap) const;  ///< of a cell apart by gap [m]: [N]
+  double electrostaticInContact() const;   ///< of a cell in contact [N]
+  /// Adds both of many cells that are apart by their gap - approach [m].
+  void addCells(const OrderedCell* cells, std::size_t count, double approach, NormalLoad& load) const;
   double cutoff() const { return cutoff_; }  ///< D0 [m]
   bool hasElectrostatic() const { return electrostatic_factor_ != 0.0; }
 
@@ -61,7 +65,10 @@ class GapLoads {
 
  private:
   const GapOrder* order_ = nullptr;
-  std::vector<std::vector<GapMoments>> levels_;  ///< levels_[k][i]: buckets i 2^k .. (i + 1) 2^k - 1
+  /// momentsOf(k)[i]: buckets i 2^k .. (i + 1) 2^k - 1 together; level 0 is the order's own.
+  const std::vector<GapMoments>& momentsOf(std::size_t level) const;
+
+  std::vector<std::vector<GapMoments>> coarser_levels_;  ///< from level 1 on
 };
 
 }  // namespace mems_stiction

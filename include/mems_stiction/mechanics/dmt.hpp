@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// How does an elastic sphere stick to a flat when attraction acts outside the contact only?
 ///
 ///     P(a) = K a^3/R - 2 pi w R,  K = 4E/3;   d(a) = a^2/R;   pull-off: 2 pi w R at a = 0

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// How does an elastic sphere flatten on a flat without adhesion?
 ///
 ///     P = K a^3/R,  K = 4E/3;   d = a^2/R;   P = K sqrt(R) d^(3/2);   p0 = 3P/(2 pi a^2)

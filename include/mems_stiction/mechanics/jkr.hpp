@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// How does an elastic sphere stick to a flat when attraction acts inside the contact only?
 ///
 ///     P1    = P + 3 pi w R + sqrt(6 pi w R P + (3 pi w R)^2)           apparent load (7)

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// The two bodies: elastic constants and hardness.
 
 #include <string>

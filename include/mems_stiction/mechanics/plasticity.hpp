@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// Does an asperity deform elastically, plastically, or in between?
 ///
 ///     phi = (E/Ha) sqrt(sigma/R)                                       (9), with the root that its print lost
@@ -34,9 +35,10 @@ inline double plasticityIndex(double contact_modulus, double hardness, double co
 
 /// chi of (10.2), the elastic share of an asperity [-]: 1 elastic, 0 fully plastic.
 inline double regimeFactor(double plasticity_index) {
-  if (plasticity_index <= kElasticLimit) return 1.0;
-  if (plasticity_index >= kPlasticLimit) return 0.0;
-  return 1.0 - 2.0 * (plasticity_index - kElasticLimit);
+  // neighbouring asperities differ: the line between the limits, cut off without a branch
+  const double line = (kPlasticLimit - plasticity_index) / (kPlasticLimit - kElasticLimit);
+  const double share = line > 1.0 ? 1.0 : line;
+  return share < 0.0 ? 0.0 : share;
 }
 
 }  // namespace mems_stiction

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// Deformation regime of one asperity by its plasticity index (plasticity.hpp).
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// What pulls two surfaces together across a gap: van der Waals attraction and the field of a voltage; and when does a
 /// spring-held plate give way to the field?
 ///
@@ -42,9 +43,9 @@ double electrostaticPressure(double gap, double voltage, double insulator_thickn
                              double insulator_relative_permittivity);
 
 /// Voltage above which a plate on a linear spring has no stable position before contact [V].
-/// @param spring_constant k [N/m], > 0
-/// @param rest_gap g, the gap without voltage [m], > 0
-/// @param electrode_area A [m^2], > 0
+/// - @p spring_constant k [N/m], > 0
+/// - @p rest_gap g, the gap without voltage [m], > 0
+/// - @p electrode_area A [m^2], > 0
 double pullInVoltage(double spring_constant, double rest_gap, double electrode_area, double insulator_thickness = 0.0,
                      double insulator_relative_permittivity = 1.0);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// Which adhesion theory fits an asperity, JKR or DMT, and what is its pull-off force in between?
 ///
 ///     mu     = (R w^2/(E^2 z0^3))^(1/3)                                Tabor's parameter

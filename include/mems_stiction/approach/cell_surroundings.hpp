@@ -1,0 +1,67 @@
+#pragma once
+
+/// @file
+/// What lies around a cell when it comes into contact: all that its patch needs to know of it, in one place of memory.
+///
+/// The order of the approach jumps about the frame. The table therefore collects the surroundings of the next cells in
+/// the order of the frame and leaves them in the order of the approach, a window at a time; a sweep that has taken more
+/// than its first few cells then reads memory from front to back.
+
+#include <cstdint>
+#include <vector>
+
+#include "mems_stiction/approach/contact_patch.hpp"
+#include "mems_stiction/approach/dale_map.hpp"
+#include "mems_stiction/approach/gap_field.hpp"
+#include "mems_stiction/approach/gap_order.hpp"
+
+namespace mems_stiction {
+
+/// Of one cell.
+struct CellSurroundings {
+  double gaps[4];     ///< of the neighbours, in the order of Side [m]; infinite where there is none
+  std::int32_t cell;  ///< whose surroundings they are
+  std::uint32_t dale_and_border;
+
+  std::int32_t dale() const { return static_cast<std::int32_t>(dale_and_border >> 1U); }  ///< of the cell
+  /// Whether a neighbour may belong to another dale.
+  bool isBorder() const { return (dale_and_border & 1U) != 0; }
+};
+
+/// A window of them, in the order of the approach.
+class SurroundingsTable {
+ public:
+  /// Nothing is collected yet. Field and order must outlive the table's use; memory is reused.
+  void begin(const GapField& field, const GapOrder& order, DaleMap& dales);
+
+  /// Collects the window that starts at the group of this place.
+  void collectFrom(int place);
+  /// Places of the window.
+  int begin() const { return begin_; }
+  int end() const { return end_; }
+  /// Of the cell at a place of the window; somebody else's if its group has been sorted since.
+  const CellSurroundings& collected(int place) const { return table_[static_cast<std::size_t>(place - begin_)]; }
+
+  /// Surroundings of any valid cell, from the field.
+  CellSurroundings look(const GridCell& cell) const;
+
+ private:
+  /// Columns of a row's cells that come into contact in the window; makes their dales known.
+  int chooseCells(int row, std::vector<std::int32_t>& cells);
+  void collectRow(int row, const std::vector<std::int32_t>& cells, int count);
+
+  const GapField* field_ = nullptr;
+  const GapOrder* order_ = nullptr;
+  DaleMap* dales_ = nullptr;
+  int begin_ = 0;
+  int end_ = 0;
+  int first_group_ = 0;
+  int end_group_ = 0;
+  std::vector<CellSurroundings> table_;
+  std::vector<std::int32_t> next_place_;  ///< per group of the window, while it is collected
+  std::vector<std::int32_t> row_cells_[2];
+  std::vector<std::uint8_t> is_border_;
+  std::vector<double> no_row_;  ///< the gaps above and below the frame
+};
+
+}  // namespace mems_stiction

@@ -1,0 +1,50 @@
+#pragma once
+
+/// @file
+/// The dales of the gap (ISO 25178-2: the regions around the pits, from which paths lead down to the pit): each cell
+/// follows one downward path, to the left or up if that leads down, else to the lower one of right and below.
+///
+/// Gaps are compared together with the cell's index, so that no two cells are equal. A cell that comes into contact in
+/// the order of the gap then either starts a patch, as the pit of a dale, or touches the patch of its own dale: which
+/// patch a cell joins first is known before the approach begins, and patches meet only where dales do.
+
+#include <cstdint>
+#include <vector>
+
+#include "mems_stiction/approach/gap_field.hpp"
+
+namespace mems_stiction {
+
+/// The dale of each cell, found out as the approach asks for it.
+class DaleMap {
+ public:
+  /// Forgets all dales. The field must outlive the map's use; memory is reused.
+  void begin(const GapField& field);
+
+  /// Dale of a valid cell; follows the path downward when it is not known yet.
+  std::int32_t find(const GridCell& cell) { return at(cell) == kUnknown ? follow(cell) : at(cell); }
+  /// Makes the dales of these cells of a row known: in order of the frame, most have their neighbour's.
+  /// - @p cols in ascending order
+  void findInRow(int row, const std::int32_t* cols, int count);
+  /// Dale of a cell, or kUnknown if nobody has asked for it, or if the cell is not valid.
+  std::int32_t at(const GridCell& cell) const { return dale_[place(cell)]; }
+  /// Number of dales found so far; they are numbered in the order in which they were found.
+  int count() const { return count_; }
+
+  /// at() of every cell, row by row.
+  const std::int32_t* data() const { return dale_.data(); }
+
+  static constexpr std::int32_t kUnknown = -1;
+
+ private:
+  std::size_t place(const GridCell& cell) const { return static_cast<std::size_t>(cell.index); }
+  std::int32_t follow(const GridCell& cell);
+  /// The next cell of the path; the cell itself if it is a pit.
+  GridCell below(const GridCell& cell) const;
+
+  const GapField* field_ = nullptr;
+  int count_ = 0;
+  std::vector<std::int32_t> dale_;
+};
+
+}  // namespace mems_stiction
