@@ -23,9 +23,9 @@ SMALL_CONTACT_SHARE = 3e-4  # contacts that take less of the frame are ringed, o
 MOST_RINGS = 300
 
 
-def with_unit(value, unit):
+def with_unit(value, unit, digits=3):
     """As people write it: a picture can show what a terminal may not."""
-    return quantities.with_unit(value, unit).replace(" u", " µ")
+    return quantities.with_unit(value, unit, digits).replace(" u", " µ")
 
 
 class ScanPicture:

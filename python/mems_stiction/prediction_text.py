@@ -1,16 +1,27 @@
 """Predictions (mems_stiction/StictionPrediction) in words: one aligned line each, and the difference of two."""
 
-from mems_stiction.quantities import percent, with_unit
+import math
+
+from mems_stiction.quantities import area, percent, ratio, with_unit
 
 STATUS_NAMES = {0: "equilibrium", 1: "bonded", 2: "no equilibrium"}
+STICKS_NAMES = {0: "no", 1: "marginal", 2: "yes", 3: "unknown"}
 
 _COLUMNS = "%-18s  %-14s %8s %11s %9s %8s %6s %8s %9s %7s %8s"
+_VERDICT = " %9s  %-8s"
 
 
-def table_header():
+def has_verdict(prediction):
+    """Whether a device is stated as far as a margin or a peel number needs it."""
+    return not (math.isnan(prediction.margin) and math.isnan(prediction.peel_number))
+
+
+def table_header(with_verdict=False):
     """Two lines; the columns are those of table_line()."""
     top = _COLUMNS % ("", "", "rms", "pull-off", "contact", "", "contacts", "", "vdW share", "", "")
     bottom = _COLUMNS % ("scan", "status", "height", "force", "fraction", "elastic", "mixed", "plastic", "of force", "voltage", "time")
+    if with_verdict:
+        bottom += _VERDICT % ("margin", "sticks")
     return top.rstrip() + "\n" + bottom.rstrip()
 
 
@@ -19,16 +30,21 @@ def shortened(name, width=18):
     return name if len(name) <= width else "..." + name[3 - width:]
 
 
-def table_line(name, prediction):
+def table_line(name, prediction, with_verdict=False):
     """Rms height, pull-off force, contact, contacts per regime, van der Waals share of the pull-off force, load and time of
-    one scan. A bonded surface's force is a lower bound and marked so."""
+    one scan, then the device's margin, or its peel number, and whether it sticks. A bonded surface's force is a lower
+    bound and marked so."""
     bound = ">= " if prediction.status == 1 else ""
     force = prediction.pull_off_force
     share = percent(prediction.van_der_waals_force / force) if force else "-"
-    return _COLUMNS % (shortened(name), STATUS_NAMES.get(prediction.status, "?"), with_unit(prediction.rms_height, "m"),
+    line = _COLUMNS % (shortened(name), STATUS_NAMES.get(prediction.status, "?"), with_unit(prediction.rms_height, "m"),
                        bound + with_unit(force, "N"), percent(prediction.contact_fraction), prediction.elastic_count,
                        prediction.elasto_plastic_count, prediction.plastic_count, share,
                        with_unit(prediction.voltage, "V"), with_unit(prediction.processing_time, "s"))
+    if with_verdict:
+        figure = prediction.peel_number if math.isnan(prediction.margin) else prediction.margin
+        line += _VERDICT % (ratio(figure), STICKS_NAMES.get(prediction.sticks, "?"))
+    return line
 
 
 def load_effect(before, after):
@@ -45,17 +61,13 @@ def load_effect(before, after):
     return sentences
 
 
-def _area(value):
-    return "%.3g nm^2" % (value * 1e18) if value < 1e-14 else "%.3g um^2" % (value * 1e12)
-
-
 def _change(unit, old, new):
-    text = _area if unit == "m^2" else (lambda value: with_unit(value, unit))
+    text = area if unit == "m^2" else (lambda value: with_unit(value, unit))
     if old == new:
         return "stays at %s" % text(old)
     verb = "grows" if new > old else "falls"
     if not old:
         return "%s from 0 to %s" % (verb, text(new))
-    ratio = new / old
-    factor = "%+.3g %%" % (100 * (ratio - 1)) if ratio < 3 else "%.3g times" % ratio
+    growth = new / old
+    factor = "%+.3g %%" % (100 * (growth - 1)) if growth < 3 else "%.3g times" % growth
     return "%s from %s to %s (%s)" % (verb, text(old), text(new), factor)

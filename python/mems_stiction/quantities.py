@@ -42,3 +42,16 @@ def percent(fraction):
         return "0 %"
     decimals = max(0, 2 - math.floor(math.log10(abs(value)))) if abs(value) < 100 else 0
     return "%.*f %%" % (min(decimals, 6), value)
+
+
+def ratio(value):
+    """Three significant digits, without an exponent up to a million: "0.0299", "16", "1240". "-" where there is none."""
+    if math.isnan(value):
+        return "-"
+    text = "%.3g" % value
+    return "%.0f" % float(text) if "e+" in text and abs(value) < 1e6 else text
+
+
+def area(value):
+    """Prefixes do not fit squares: area(2e-16) is "200 nm^2", area(2e-13) "0.2 um^2"."""
+    return "%s nm^2" % ratio(value * 1e18) if value < 1e-14 else "%s um^2" % ratio(value * 1e12)

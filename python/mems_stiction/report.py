@@ -20,7 +20,7 @@ import numpy as np
 import yaml
 
 from mems_stiction.plots import ScanPicture, save_picture, with_unit
-from mems_stiction.quantities import percent
+from mems_stiction.quantities import percent, ratio
 from mems_stiction.report_figures import number, scan_figure, trend_figure
 from mems_stiction.report_template import PAGE
 
@@ -37,7 +37,10 @@ FIGURES = (("pull-off force", "pull_off_force", "N"), ("of contacts, by JKR", "p
            ("restoring force of the device", "restoring_force", "N"),
            ("pull-off force of the device", "device_pull_off_force", "N"), ("margin", "margin", ""),
            ("margin, 95 % from", "margin_lower", ""), ("margin, 95 % to", "margin_upper", ""),
-           ("peel number", "peel_number", ""), ("detachment length", "detachment_length", "m"))
+           ("pull-in voltage", "pull_in_voltage", "V"), ("apparent work of adhesion", "apparent_work_of_adhesion", "J/m^2"),
+           ("peel number", "peel_number", ""), ("peel number, 95 % from", "peel_number_lower", ""),
+           ("peel number, 95 % to", "peel_number_upper", ""), ("detachment length", "detachment_length", "m"),
+           ("free length while stuck", "unstuck_length", "m"))
 FLAGS = {"bonded": "contacts percolate, the pull-off force is a lower bound",
          "no_equilibrium": "the search ended before the equilibrium", "tabor": "JKR is not the theory for these asperities",
          "plasticity": "most of the adhesion is of contacts that flow",
@@ -45,7 +48,7 @@ FLAGS = {"bonded": "contacts percolate, the pull-off force is a lower bound",
          "few_contacts": "few contacts: another place of the surface may differ much"}
 SOURCES = (
     "Adhesion of two rough surfaces, equilibrium, plasticity limits: S. Deladi, G. Krijnen, N. Tas, M. Elwenspoek, "
-    "Three dimensional adhesion model for arbitrary rough surfaces (2002); as implemented, and what differs: doc/model.md.",
+    "Three dimensional adhesion model for arbitrary rough surfaces (2002); as implemented, and what differs: doc/theory.md.",
     "Contact of one asperity: Johnson, Kendall and Roberts, Proc. R. Soc. A 324 (1971) 301.",
     "Surface forces: Israelachvili, Intermolecular and Surface Forces (3rd ed., 2011), chapter 13.",
     "Which contact theory holds: Johnson and Greenwood, J. Colloid Interface Sci. 192 (1997) 326; Maugis, J. Colloid "
@@ -71,7 +74,7 @@ def text_of(value, unit):
         return "%.3g µm²" % (value * 1e12) if value >= 1e-15 else "%.3g nm²" % (value * 1e18)
     if unit:
         return with_unit(value, unit).replace("^2", "²")
-    return "%.3g" % value
+    return ratio(value)
 
 
 def read_rows(path):
@@ -135,23 +138,28 @@ def _sentence(text):
     return text[:1].upper() + text[1:] + ("" if not text or text.endswith(".") else ".")
 
 
-def table_row(row, drawn):
+def table_row(row, drawn, judge):
     entry = {"number": row["number"], "name": scan_name(row), "reason": row["reason"], "anchor": row["number"] in drawn}
     if not row["reason"]:
         bound = "≥ " if row["status"] == "BONDED" else ""
         entry.update(status=STATES[row["status"]][1], pull_off=bound + text_of(row["pull_off_force"], "N"),
                      contact=percent(row["contact_fraction"]), contacts=row["asperity_count"],
                      regimes="%d / %d / %d" % (row["elastic_count"], row["elasto_plastic_count"], row["plastic_count"]),
-                     rms=text_of(row["rms_height"], "m"), sticks=row.get("sticks"), margin=_margin(row))
+                     rms=text_of(row["rms_height"], "m"), sticks=row.get("sticks"), ratio=_ratio_with_interval(row, judge))
     return entry
 
 
-def _margin(row):
-    values = [number(row.get(name)) for name in ("margin", "margin_lower", "margin_upper")]
-    if math.isnan(values[0]):
-        return "-"
-    text = "%.3g" % values[0]
-    return text if math.isnan(values[1]) else "%s (%.2g to %.2g)" % (text, values[1], values[2])
+def judged_by(rows):
+    """What the verdicts rest on: the margin of a spring, or the peel number of a beam where there is no margin."""
+    if any(not math.isnan(number(row.get("margin"))) for row in rows):
+        return "margin"
+    return "peel_number" if any(not math.isnan(number(row.get("peel_number"))) for row in rows) else "margin"
+
+
+def _ratio_with_interval(row, name):
+    values = [number(row.get(name + end)) for end in ("", "_lower", "_upper")]
+    text = ratio(values[0])
+    return text if math.isnan(values[0]) or math.isnan(values[1]) else "%s (%s to %s)" % (text, ratio(values[1]), ratio(values[2]))
 
 
 def summary(rows, drawn):
@@ -183,7 +191,8 @@ def page(title, rows, sections, settings_text, configuration_path, date=None):
     return environment.from_string(PAGE).render(
         title=title, version=settings["version"], summary=summary(rows, drawn),
         date=date or datetime.datetime.now().strftime("%Y-%m-%d %H:%M"),
-        has_device=any("sticks" in row for row in predicted), table=[table_row(row, drawn) for row in rows],
+        has_device=any("sticks" in row for row in predicted), judged_by=judged_by(predicted).replace("_", " "),
+        table=[table_row(row, drawn, judged_by(predicted)) for row in rows],
         bounded=any(row["status"] == "BONDED" for row in predicted),
         trends=embedded(trend_figure(predicted)) if len(predicted) > 1 else "", scans=sections,
         inputs=settings["inputs"], versions=versions, sources=SOURCES, configuration_file=given,

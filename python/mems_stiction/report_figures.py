@@ -6,7 +6,6 @@
 import io
 import math
 
-from mems_stiction import quantities
 from mems_stiction.plots import REGIMES, plt, with_unit
 from mems_stiction.quantities import prefix_for
 
@@ -21,7 +20,9 @@ PRESSING = (("van der Waals", "van_der_waals_force", "#4c78a8"), ("electrostatic
 HOLDING = (("contacts (JKR)", "pull_off_force_jkr", "#b0413e"), ("van der Waals", "van_der_waals_force", "#4c78a8"),
            ("capillary", "capillary_force", "#54a89e"))
 TRENDS = (("pull_off_force", "pull-off force", "N"), ("contact_fraction", "contact fraction", ""),
-          ("rms_height", "rms height", "m"), ("margin", "margin: restoring / pull-off force", ""))
+          ("rms_height", "rms height", "m"), ("margin", "margin: restoring / pull-off force", ""),
+          ("peel_number", "peel number: the beam's own work / adhesion", ""))
+RATIOS = ("margin", "peel_number")  # the verdict rests on
 
 
 def png_of(figure):
@@ -63,6 +64,9 @@ def _draw_energy(axes, result):
     if not curve:
         return _say(axes, "no step was taken")
     approach = curve["approach"] + [result["approach"]]
+    if not any(number(value) > 0 for value in approach):  # the first cells that touch carry the load
+        return _say(axes, "The equilibrium is at first touch, D = 0 m,\nso that there is no approach to draw: $E_t$ = %s" % with_unit(
+            number(result["total_energy"]), "J"))
     order = np.argsort([number(value) for value in approach], kind="stable")
     names = ("total_energy", "mechanical_energy", "surface_energy", "elastic_energy")
     everything = [value for name in names for value in curve[name] + [result[name]]]
@@ -159,10 +163,10 @@ def _draw_loads(axes, result):
     axes.set_xscale("log")
     _histogram(axes, groups, np.logspace(low, high * (1 + 1e-12) + 1e-9, 25))
     # Few decades have few labels: then the steps between have them too.
-    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: quantities.with_unit(value, "N", 1).replace(" u", " µ")))
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: with_unit(value, "N", 1)))
     if high - low < 1.5:
         axes.xaxis.set_minor_formatter(
-            FuncFormatter(lambda value, _: quantities.with_unit(value, "N", 1).replace(" u", " µ") if "%.0e" % value in _steps(value) else ""))
+            FuncFormatter(lambda value, _: with_unit(value, "N", 1) if "%.0e" % value in _steps(value) else ""))
         axes.tick_params(axis="x", which="minor", labelsize=9)
     axes.set_xlabel("load of the contact [N], logarithmic")
 
@@ -212,22 +216,31 @@ def trend_figure(rows):
                                           (lost, "x", "#7f7f7f", "no equilibrium: not to be used")):
             if use.any():
                 axes.scatter(numbers[use], values[use], marker=marker, color=colour, s=26, zorder=2, label=text)
-        if name == "margin":
-            low, high = (np.array([number(row.get("margin_" + end)) for row in rows]) for end in ("lower", "upper"))
+        if name in RATIOS:
+            low, high = (np.array([number(row.get("%s_%s" % (name, end))) for row in rows]) for end in ("lower", "upper"))
             axes.fill_between(numbers, low, high, color="#0b4f9e", alpha=0.14, label="95 % interval")
             axes.axhline(1.0, color="#d1322f", linewidth=1, linestyle="--", label="1: sticks below")
-        positive = values[np.isfinite(values) & (values > 0)]
-        if positive.size == np.isfinite(values).sum() and positive.size and positive.max() > 30 * positive.min():
-            axes.set_yscale("log")
-            axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: "%g" % value))
-        else:
-            axes.set_ylim(bottom=0)
+        drawn = np.concatenate([values, low, high]) if name in RATIOS else values
+        _scale_trend(axes, values, drawn[np.isfinite(drawn)])
         axes.set_title(label[0].upper() + label[1:], fontsize=11)
         axes.set_ylabel("%s [%s]" % (label.split(":")[0], shown_unit or "-"))
         axes.set_xlabel("number of the scan")
         axes.xaxis.set_major_locator(MaxNLocator(integer=True))
         axes.grid(color="#dddddd", linewidth=0.6)
-        axes.legend(fontsize=8.5, framealpha=0.8, edgecolor="none")
+        axes.legend(fontsize=8.5, framealpha=0.8, edgecolor="none", loc="upper left", ncol=3)
     for axes in list(all_axes.flat)[len(trends):]:
         axes.set_axis_off()
     return png_of(figure)
+
+
+def _scale_trend(axes, values, drawn):
+    """Logarithmic where the values span more than a factor of thirty; with room for the legend above all that is drawn."""
+    finite = values[np.isfinite(values)]
+    if not drawn.size:
+        return
+    if finite.size and finite.min() > 0 and finite.max() > 30 * finite.min() and drawn.min() > 0:
+        axes.set_yscale("log")
+        axes.set_ylim(drawn.min() / 1.5, drawn.max() * (drawn.max() / drawn.min())**0.25)
+        axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: "%g" % value))
+    else:
+        axes.set_ylim(0, 1.3 * drawn.max() if drawn.max() > 0 else 1.0)

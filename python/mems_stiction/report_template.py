@@ -15,6 +15,7 @@ PAGE = """<!DOCTYPE html>
   th, td { padding: 3px 9px; text-align: left; border-bottom: 1px solid #ddd; vertical-align: top; }
   th { background: #eef2f7; }
   td.n, th.n { text-align: right; white-space: nowrap; }
+  .wide { overflow-x: auto; } .overview { font-size: 13px; }
   .path { overflow-wrap: anywhere; } td.path { min-width: 180px; }
   .quiet { color: #666; }
   .warning { background: #fff6dd; border-left: 4px solid #f2b705; padding: 5px 10px; }
@@ -24,7 +25,7 @@ PAGE = """<!DOCTYPE html>
   .figures { columns: 3; column-gap: 24px; }
   .figures div { break-inside: avoid; display: flex; justify-content: space-between; border-bottom: 1px dotted #ccc; padding: 1px 0; }
   @page { size: A4; margin: 12mm 12mm 14mm 12mm; @bottom-right { content: counter(page) " / " counter(pages); font-size: 9px; color: #666; } }
-  @media screen and (max-width: 1250px) { th.n, td.n { white-space: normal; } .overview { font-size: 12px; } td.path { min-width: 110px; } }
+  @media screen and (max-width: 1400px) { th.n, td.n { white-space: normal; } .overview { font-size: 12px; } td.path { min-width: 110px; } }
   @media print {
     body { font-size: 10px; margin: 0; padding: 0; max-width: none; }
     h1 { font-size: 20px; } h2 { font-size: 15px; margin-top: 14px; } h3 { font-size: 12px; }
@@ -39,14 +40,14 @@ PAGE = """<!DOCTYPE html>
 <p>{{ summary }}</p>
 
 <h2>Scans</h2>
-<table class="overview">
-<thead><tr><th class="n">number</th><th>scan</th><th>state</th>{% if has_device %}<th>sticks</th><th class="n">margin</th>{% endif %}<th class="n">pull-off force</th><th class="n">contact fraction</th><th class="n">contacts</th><th class="n">elastic / mixed / plastic</th><th class="n">rms height</th></tr></thead>
+<div class="wide"><table class="overview">
+<thead><tr><th class="n">number</th><th>scan</th><th>state</th>{% if has_device %}<th>sticks</th><th class="n">{{ judged_by }}</th>{% endif %}<th class="n">pull-off force</th><th class="n">contact fraction</th><th class="n">contacts</th><th class="n">elastic / mixed / plastic</th><th class="n">rms height</th></tr></thead>
 <tbody>
 {% for row in table %}<tr><td class="n">{% if row.anchor %}<a href="#scan{{ row.number }}">{{ row.number }}</a>{% else %}{{ row.number }}{% endif %}</td><td class="path">{{ row.name }}</td>
 {%- if row.reason %}<td colspan="{{ 8 if has_device else 6 }}">not predicted: {{ row.reason }}</td>
-{%- else %}<td>{{ row.status }}</td>{% if has_device %}<td class="{{ row.sticks }}">{{ row.sticks }}</td><td class="n">{{ row.margin }}</td>{% endif %}<td class="n">{{ row.pull_off }}</td><td class="n">{{ row.contact }}</td><td class="n">{{ row.contacts }}</td><td class="n">{{ row.regimes }}</td><td class="n">{{ row.rms }}</td>{% endif %}</tr>
+{%- else %}<td>{{ row.status }}</td>{% if has_device %}<td class="{{ row.sticks }}">{{ row.sticks }}</td><td class="n">{{ row.ratio }}</td>{% endif %}<td class="n">{{ row.pull_off }}</td><td class="n">{{ row.contact }}</td><td class="n">{{ row.contacts }}</td><td class="n">{{ row.regimes }}</td><td class="n">{{ row.rms }}</td>{% endif %}</tr>
 {% endfor %}</tbody>
-</table>
+</table></div>
 {% if bounded %}<p class="quiet">&ge; marks lower bounds: bonded surfaces hold over the whole area.</p>{% endif %}
 
 {% if trends %}<h2>Trends</h2>

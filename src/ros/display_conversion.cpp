@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
+#include <cstdio>
 #include <iterator>
+#include <string>
 #include <vector>
 
 #include <sensor_msgs/image_encodings.h>
@@ -18,15 +19,17 @@ struct Color {
   std::uint8_t red, green, blue;
 };
 
-/// Apart gray, elastic blue, elasto-plastic orange, fully plastic red.
+constexpr char kLegend[] = "gray: apart   blue: elastic   yellow: elasto-plastic   red: plastic";
+
+/// The colors of kLegend, as in all our pictures: told apart without red-green vision too.
 Color colorOf(Regime regime) {
   switch (regime) {
     case Regime::kElastic:
-      return {31, 119, 180};
+      return {47, 127, 209};
     case Regime::kElastoPlastic:
-      return {255, 165, 0};
+      return {242, 183, 5};
     case Regime::kPlastic:
-      return {200, 30, 30};
+      return {209, 50, 47};
     case Regime::kApart:
       break;
   }
@@ -40,7 +43,70 @@ Color grayOf(double above_mean, double rms_height) {
   return {gray, gray, gray};
 }
 
-double meanHeight(const cv::Mat& heights) { return heightStatistics(HeightMap(heights, 1.0, 1.0)).mean; }
+/// Share of the longer side that the rms height gets on the screen: relief that is seen and hides nothing.
+constexpr double kReliefShare = 0.015;
+constexpr double kTextHeight = 0.35;  // [m on the screen]
+
+/// The largest of 1, 2, 5, 10, 20, ... that is not above the value.
+double roundedDown(double value) {
+  const double decade = std::pow(10.0, std::floor(std::log10(value)));
+  const double digit = value / decade;
+  return decade * (digit >= 5.0 ? 5.0 : digit >= 2.0 ? 2.0 : 1.0);
+}
+
+/// "600 nm", "1.95 um": what a line of text can show.
+std::string lengthText(double length) {
+  char text[32];
+  if (length < 1e-6) {
+    std::snprintf(text, sizeof text, "%.3g nm", length * 1e9);
+  } else {
+    std::snprintf(text, sizeof text, "%.3g um", length * 1e6);
+  }
+  return text;
+}
+
+/// From the scan to the screen.
+class View {
+ public:
+  View(const cv::Mat& heights, const HeightMap& scan, const std_msgs::Header& scan_header,
+       const DisplayOptions& options)
+      : header(scan_header),
+        width_(heights.cols * scan.pitchX()),
+        height_(heights.rows * scan.pitchY()),
+        middle_x_(0.5 * (heights.cols - 1) * scan.pitchX()),
+        middle_y_(0.5 * (heights.rows - 1) * scan.pitchY()) {
+    if (!options.frame.empty()) header.frame_id = options.frame;
+    const HeightStatistics statistics = heightStatistics(HeightMap(heights, 1.0, 1.0));
+    mean = statistics.mean;
+    rms_height = statistics.rms_height;
+    const double longer = std::max(width_, height_);
+    scale = options.scale > 0.0 ? options.scale : kViewSize / longer;
+    exaggeration_ = options.height_exaggeration;
+    if (exaggeration_ == 0.0) exaggeration_ = rms_height > 0.0 ? roundedDown(kReliefShare * longer / rms_height) : 1.0;
+  }
+
+  double x(double along_columns) const { return (along_columns - middle_x_) * scale; }
+  double y(double along_rows) const { return (middle_y_ - along_rows) * scale; }
+  double z(double height) const { return (height - mean) * scale * exaggeration_; }
+  /// Of the lower edge [m on the screen].
+  double bottom() const { return -0.5 * height_ * scale; }
+
+  std::string text() const {
+    char factor[32];
+    std::snprintf(factor, sizeof factor, "%.3g", exaggeration_);
+    return lengthText(width_) + " x " + lengthText(height_) + ", heights x " + factor + ", rms " +
+           lengthText(rms_height);
+  }
+
+  std_msgs::Header header;
+  double mean = 0.0;        ///< of the heights [m]
+  double rms_height = 0.0;  ///< [m]
+  double scale = 1.0;
+
+ private:
+  double width_, height_, middle_x_, middle_y_;  ///< of the scan [m]
+  double exaggeration_ = 1.0;
+};
 
 /// Every how many rows and columns a point is shown.
 int strideFor(const cv::Mat& heights, int max_points) {
@@ -55,9 +121,7 @@ int strideFor(const cv::Mat& heights, int max_points) {
 sensor_msgs::PointCloud2 surfacePoints(const Prediction& prediction, const HeightMap& scan,
                                        const std_msgs::Header& header, const DisplayOptions& options) {
   const cv::Mat& heights = prediction.deformed_lower;
-  const HeightStatistics statistics = heightStatistics(HeightMap(heights, 1.0, 1.0));
-  const double mean = statistics.mean;
-  const double rms_height = statistics.rms_height;
+  const View view(heights, scan, header, options);
   const int stride = strideFor(heights, options.max_points);
   std::vector<cv::Point> shown;
   for (int row = 0; row < heights.rows; row += stride) {
@@ -67,7 +131,7 @@ sensor_msgs::PointCloud2 surfacePoints(const Prediction& prediction, const Heigh
   }
 
   sensor_msgs::PointCloud2 cloud;
-  cloud.header = header;
+  cloud.header = view.header;
   cloud.is_dense = true;
   sensor_msgs::PointCloud2Modifier modifier(cloud);
   using sensor_msgs::PointField;
@@ -77,13 +141,13 @@ sensor_msgs::PointCloud2 surfacePoints(const Prediction& prediction, const Heigh
   sensor_msgs::PointCloud2Iterator<float> x(cloud, "x"), y(cloud, "y"), z(cloud, "z"), height(cloud, "height");
   sensor_msgs::PointCloud2Iterator<std::uint8_t> rgb(cloud, "rgb");
   for (const cv::Point& cell : shown) {
-    const double above_mean = heights.at<double>(cell) - mean;
-    *x = static_cast<float>(cell.x * scan.pitchX() * options.scale);
-    *y = static_cast<float>(cell.y * scan.pitchY() * options.scale);
-    *z = static_cast<float>(above_mean * options.scale * options.height_exaggeration);
+    const double above_mean = heights.at<double>(cell) - view.mean;
+    *x = static_cast<float>(view.x(cell.x * scan.pitchX()));
+    *y = static_cast<float>(view.y(cell.y * scan.pitchY()));
+    *z = static_cast<float>(view.z(heights.at<double>(cell)));
     *height = static_cast<float>(above_mean);
     const auto regime = static_cast<Regime>(prediction.contact_map.at<std::uint8_t>(cell));
-    const Color color = regime == Regime::kApart ? grayOf(above_mean, rms_height) : colorOf(regime);
+    const Color color = regime == Regime::kApart ? grayOf(above_mean, view.rms_height) : colorOf(regime);
     rgb[0] = color.blue;
     rgb[1] = color.green;
     rgb[2] = color.red;
@@ -93,8 +157,9 @@ sensor_msgs::PointCloud2 surfacePoints(const Prediction& prediction, const Heigh
   return cloud;
 }
 
-visualization_msgs::MarkerArray asperityMarkers(const Prediction& prediction, const std_msgs::Header& header,
-                                                const DisplayOptions& options) {
+visualization_msgs::MarkerArray asperityMarkers(const Prediction& prediction, const HeightMap& scan,
+                                                const std_msgs::Header& header, const DisplayOptions& options) {
+  const View view(prediction.deformed_lower, scan, header, options);
   std::vector<const Asperity*> shown;
   for (const Asperity& asperity : prediction.asperities) shown.push_back(&asperity);
   if (shown.size() > static_cast<std::size_t>(options.max_markers)) {
@@ -105,24 +170,35 @@ visualization_msgs::MarkerArray asperityMarkers(const Prediction& prediction, co
 
   visualization_msgs::MarkerArray array;
   visualization_msgs::Marker clear;
-  clear.header = header;
+  clear.header = view.header;
   clear.ns = "asperities";
   clear.action = visualization_msgs::Marker::DELETEALL;
   array.markers.push_back(clear);
 
-  const double mean = meanHeight(prediction.deformed_lower);
+  visualization_msgs::Marker text;
+  text.header = view.header;
+  text.ns = "size";
+  text.type = visualization_msgs::Marker::TEXT_VIEW_FACING;
+  text.action = visualization_msgs::Marker::ADD;
+  text.pose.position.y = view.bottom() - 2.5 * kTextHeight;
+  text.pose.orientation.w = 1.0;
+  text.scale.z = kTextHeight;
+  text.color.r = text.color.g = text.color.b = text.color.a = 1.0F;
+  text.text = view.text() + "\n" + kLegend;
+  array.markers.push_back(text);
+
   for (const Asperity* asperity : shown) {
     visualization_msgs::Marker disc;
-    disc.header = header;
+    disc.header = view.header;
     disc.ns = clear.ns;
     disc.id = static_cast<std::int32_t>(array.markers.size());
     disc.type = visualization_msgs::Marker::CYLINDER;
     disc.action = visualization_msgs::Marker::ADD;
-    disc.pose.position.x = asperity->x * options.scale;
-    disc.pose.position.y = asperity->y * options.scale;
-    disc.pose.position.z = (asperity->z - mean) * options.scale * options.height_exaggeration;
+    disc.pose.position.x = view.x(asperity->x);
+    disc.pose.position.y = view.y(asperity->y);
+    disc.pose.position.z = view.z(asperity->z);
     disc.pose.orientation.w = 1.0;
-    disc.scale.x = disc.scale.y = std::max(2.0 * asperity->cap_radius * options.scale, options.min_marker_diameter);
+    disc.scale.x = disc.scale.y = std::max(2.0 * asperity->cap_radius * view.scale, options.min_marker_diameter);
     disc.scale.z = 0.1 * disc.scale.x;
     const Color color = colorOf(asperity->regime);
     disc.color.r = static_cast<float>(color.red) / 255.0F;

@@ -62,10 +62,11 @@ bool belongsToImageTransport(const std::string& key, const YAML::Node& value) {
 }  // namespace
 
 void DisplayOptions::describe(OptionVisitor& visitor) {
-  visitor.number("display/scale", scale, "m on the screen per m", Range::positive(),
-                 "enlargement of the views for rviz");
-  visitor.number("display/height_exaggeration", height_exaggeration, "", Range::positive(),
-                 "enlargement of heights against lengths");
+  visitor.text("display/frame", frame, "frame_id of the views for rviz; empty = the scan's");
+  visitor.number("display/scale", scale, "m on the screen per m", Range::nonNegative(),
+                 "enlargement of the views for rviz; 0 = the longer side fills 10 m");
+  visitor.number("display/height_exaggeration", height_exaggeration, "", Range::nonNegative(),
+                 "enlargement of heights against lengths; 0 = chosen for each scan");
   visitor.integer("display/max_points", max_points, Range::within(1, 1e8), "points of surface_points");
   visitor.integer("display/max_markers", max_markers, Range::within(1, 1e6), "discs of asperity_markers");
   visitor.number("display/min_marker_diameter", min_marker_diameter, "m on the screen", Range::nonNegative(),

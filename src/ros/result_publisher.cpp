@@ -64,7 +64,7 @@ void ResultPublisher::publish(const PredictedScan& predicted, const ReceivedScan
     surface_points_.publish(surfacePoints(prediction, scan.surface, header, display_));
   }
   if (has_surfaces && hasListener(asperity_markers_)) {
-    asperity_markers_.publish(asperityMarkers(prediction, header, display_));
+    asperity_markers_.publish(asperityMarkers(prediction, scan.surface, header, display_));
   }
   // Last, so that whoever waits for the prediction finds the maps sent.
   prediction_.publish(predictionMessage(predicted, header));

@@ -10,6 +10,7 @@
 #include "mems_stiction/prediction/prediction_fields.hpp"
 #include "mems_stiction/verdict/regime_flags.hpp"
 #include "mems_stiction/verdict/verdict_fields.hpp"
+#include "npy_file.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -47,23 +48,6 @@ void visitFigures(const HeightMap& scan, const std::vector<std::string>& warning
     visit(std::strcmp(name, "reason") == 0 ? "verdict_reason" : name, value, unit);
   });
   visit("regime_flag_names", regimeFlagNames(verdict->regime_flags), "");
-}
-
-/// A NumPy array file of version 1.0: the shape, then the pixels row by row.
-void writeNpy(const std::string& path, const cv::Mat& pixels) {
-  const cv::Mat whole = pixels.isContinuous() ? pixels : pixels.clone();
-  std::string header = std::string("{'descr': '") + (whole.depth() == CV_8U ? "|u1" : "<f8") +
-                       "', 'fortran_order': False, 'shape': (" + std::to_string(whole.rows) + ", " +
-                       std::to_string(whole.cols) + "), }";
-  constexpr std::size_t kPreface = 10;
-  header.append(63 - (kPreface + header.size()) % 64, ' ');
-  header += '\n';
-  std::string text("\x93NUMPY\x01\x00", 8);
-  text += static_cast<char>(header.size() & 0xFF);
-  text += static_cast<char>(header.size() >> 8);
-  text += header;
-  text.append(reinterpret_cast<const char*>(whole.data), whole.total() * whole.elemSize());
-  writeWhole(path, text);
 }
 
 nlohmann::json asperityColumns(const std::vector<Asperity>& asperities) {

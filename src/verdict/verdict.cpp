@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 
 #include "mems_stiction/verdict/regime_flags.hpp"
 
@@ -19,9 +21,13 @@ struct Finding {
   std::string reason;
 };
 
+/// Three significant digits, without an exponent up to a million.
 std::string shortNumber(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", value);
+  if (std::strstr(text, "e+") == nullptr || !(std::abs(value) < 1e6)) return text;
+  const double rounded = std::strtod(text, nullptr);  // 7250, not 7.25e+03
+  std::snprintf(text, sizeof text, "%.0f", rounded);
   return text;
 }
 

@@ -250,6 +250,19 @@ class BatchTest(unittest.TestCase):
         self.assertIn("must end in .html", done.stderr)
 
 
+class JudgedByTest(unittest.TestCase):
+    def test_a_beam_without_a_spring_is_judged_by_its_peel_number(self):
+        beam = {"margin": None, "peel_number": 3.21, "peel_number_lower": 1.234, "peel_number_upper": 1234.5}
+        self.assertEqual(report.judged_by([beam]), "peel_number")
+        self.assertEqual(report.judged_by([beam, {"margin": 2.0}]), "margin")
+        self.assertEqual(report.judged_by([]), "margin")
+        row = dict(beam, number=1, file="a.tiff", scan=0, name="", channel="", reason="", status="EQUILIBRIUM",
+                   pull_off_force=1e-7, contact_fraction=0.01, asperity_count=3, elastic_count=1, elasto_plastic_count=1,
+                   plastic_count=1, rms_height=1e-9, sticks="no")
+        self.assertEqual(report.table_row(row, set(), "peel_number")["ratio"], "3.21 (1.23 to 1230)")
+        self.assertEqual(report.table_row(row, set(), "margin")["ratio"], "-")
+
+
 class ChosenTest(unittest.TestCase):
     def test_pictures_are_spread_evenly_with_both_ends(self):
         rows = [{"number": number} for number in range(1, 101)]

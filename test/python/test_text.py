@@ -4,8 +4,8 @@ import math
 import unittest
 from types import SimpleNamespace
 
-from mems_stiction.prediction_text import load_effect, table_header, table_line
-from mems_stiction.quantities import length_scale, percent, with_unit
+from mems_stiction.prediction_text import has_verdict, load_effect, table_header, table_line
+from mems_stiction.quantities import length_scale, percent, ratio, with_unit
 
 
 def prediction(**changes):
@@ -31,6 +31,10 @@ class QuantitiesTest(unittest.TestCase):
         self.assertEqual(with_unit(math.inf, "N"), "inf N")
         self.assertEqual(percent(math.nan), "nan %")
 
+    def test_ratios_do_without_exponents_up_to_a_million(self):
+        self.assertEqual([ratio(value) for value in (0.02994, 16.04, 1236.0, 136468.0, 2.5e6, math.inf, math.nan)],
+                         ["0.0299", "16", "1240", "136000", "2.5e+06", "inf", "-"])
+
     def test_percent(self):
         self.assertEqual(percent(0.1234), "12.3 %")
         self.assertEqual(percent(1.234e-5), "0.00123 %")
@@ -48,6 +52,16 @@ class PredictionTextTest(unittest.TestCase):
         self.assertEqual(len(plain), len(bonded))
         self.assertEqual(len(plain), len(table_header().splitlines()[1]))
         self.assertIn("10.0 %", plain)
+
+    def test_a_device_adds_margin_and_verdict(self):
+        device = prediction(margin=12.34, peel_number=math.nan, sticks=0)
+        beam = prediction(margin=math.nan, peel_number=0.5, sticks=2)
+        unstated = prediction(margin=math.nan, peel_number=math.nan, sticks=3)
+        self.assertEqual([has_verdict(one) for one in (device, beam, unstated)], [True, True, False])
+        self.assertTrue(table_line("a", device, True).endswith("      12.3  no      "))
+        self.assertTrue(table_line("a", beam, True).rstrip().endswith("0.5  yes"))
+        self.assertTrue(table_line("a", unstated, True).rstrip().endswith("-  unknown"))
+        self.assertTrue(table_header(True).endswith("   margin  sticks"))
 
     def test_the_force_of_a_bonded_surface_is_marked_as_a_lower_bound(self):
         self.assertIn(">= 2.30 uN", table_line("a", prediction(status=1)))

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <gtest/gtest.h>
+#include <sensor_msgs/point_cloud2_iterator.h>
 #include <boost/make_shared.hpp>
 
 #include "mems_stiction/base/errors.hpp"
@@ -236,7 +237,77 @@ TEST(DisplayConversion, KeepsToItsLimitsAndLeavesInvalidCellsOut) {
   EXPECT_LE(cloud.width, 500U);
   EXPECT_GT(cloud.width, 250U);
   display.max_markers = 2;
-  EXPECT_LE(asperityMarkers(prediction, {}, display).markers.size(), 3U);
+  // What removes the markers before, the line of text, two discs.
+  ASSERT_GT(prediction.asperity_count, 2);
+  EXPECT_EQ(asperityMarkers(prediction, scan.surface, {}, display).markers.size(), 4U);
+}
+
+TEST(DisplayConversion, FillsTheViewWhateverTheSizeOfTheScan) {
+  const ReceivedScan scan = roughScan();  // 96 x 128 pixels
+  const cv::Mat& heights = scan.surface.heights();
+  std_msgs::Header header;
+  header.frame_id = "stage";
+  for (const double pitch : {1e-9, 1e-6}) {
+    const HeightMap surface(heights, pitch, pitch);
+    const Prediction prediction =
+        LivePredictor(softConfiguration(), false).predictScan(scanOf(surface), OutputOptions()).prediction;
+    DisplayOptions display;
+    const auto cloud = surfacePoints(prediction, surface, header, display);
+    EXPECT_EQ(cloud.header.frame_id, "stiction_view");
+    sensor_msgs::PointCloud2ConstIterator<float> first(cloud, "x");
+    // The first pixel is the upper left one: 127 and 95 pitches across, about the origin, the longer side 128 of 10 m.
+    EXPECT_NEAR(first[0], -0.5 * 127 / 128 * kViewSize, 1e-5);
+    EXPECT_NEAR(first[1], 0.5 * 95 / 128 * kViewSize, 1e-5);
+    const auto markers = asperityMarkers(prediction, surface, header, display);
+    EXPECT_NE(markers.markers[1].text.find(pitch < 1e-8 ? "128 nm x 96 nm" : "128 um x 96 um"), std::string::npos)
+        << markers.markers[1].text;
+
+    display.frame = "";
+    display.scale = 1e6;
+    display.height_exaggeration = 4.0;
+    const auto stated = surfacePoints(prediction, surface, header, display);
+    EXPECT_EQ(stated.header.frame_id, "stage");
+    sensor_msgs::PointCloud2ConstIterator<float> corner(stated, "x");
+    EXPECT_NEAR(corner[0] / (-63.5 * pitch * 1e6), 1.0, 1e-6);
+    EXPECT_NEAR(corner[2] / (corner[3] * 4e6), 1.0, 1e-6);  // z against the height about the mean
+    EXPECT_NE(asperityMarkers(prediction, surface, header, display).markers[1].text.find("heights x 4,"),
+              std::string::npos);
+  }
+}
+
+TEST(DisplayConversion, ThePreviewIsAPictureOfTheValidPixels) {
+  cv::Mat heights(6, 10, CV_32FC1);
+  for (int row = 0; row < 6; ++row) {
+    for (int col = 0; col < 10; ++col) heights.at<float>(row, col) = static_cast<float>(1e-9 * (10 * row + col));
+  }
+  heights.at<float>(0, 0) = std::nanf("");
+  heights.at<float>(5, 9) = HUGE_VALF;
+  std_msgs::Header header;
+  header.frame_id = "stage";
+  DisplayOptions display;
+  const HeightMap surface(heights, 1e-8, 1e-8);
+  const sensor_msgs::Image image = previewImage(surface, header, display);
+  EXPECT_EQ(image.encoding, "mono8");
+  EXPECT_EQ(image.header.frame_id, "stage");
+  ASSERT_EQ(image.data.size(), 60U);
+  EXPECT_EQ(image.step, 10U);
+  EXPECT_EQ(image.data[0], 0);   // not measured
+  EXPECT_EQ(image.data[59], 0);  // not a number of meters
+  EXPECT_EQ(image.data[1], 1);   // the lowest
+  EXPECT_EQ(image.data[58], 255);
+  for (int i = 2; i < 58; ++i) EXPECT_GT(image.data[i], image.data[i - 1]) << i;
+
+  display.max_preview_size = 4;  // every third pixel
+  const sensor_msgs::Image thinned = previewImage(surface, header, display);
+  EXPECT_EQ(thinned.width, 4U);
+  EXPECT_EQ(thinned.height, 2U);
+  EXPECT_EQ(thinned.data.size(), 8U);
+  EXPECT_EQ(thinned.data[0], 0);
+
+  const cv::Mat nothing(4, 4, CV_32FC1, cv::Scalar(std::nanf("")));
+  for (const std::uint8_t pixel : previewImage(HeightMap(nothing, 1e-8, 1e-8), header, display).data) {
+    EXPECT_EQ(pixel, 0);
+  }
 }
 
 }  // namespace

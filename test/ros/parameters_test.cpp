@@ -123,7 +123,7 @@ TEST(Parameters, TheShippedNodeYamlHoldsEveryKeyWithItsDefault) {
   compare(shipped, defaults, "");
   compare(shipped["display"], defaults["display"], "display/");
   compare(shipped["counter_surface"], defaults["counter_surface"], "counter_surface/");
-  EXPECT_EQ(compared, 15U);
+  EXPECT_EQ(compared, 16U);
 }
 
 }  // namespace

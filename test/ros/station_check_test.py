@@ -6,6 +6,7 @@ import subprocess
 import tempfile
 import unittest
 
+import dynamic_reconfigure.client
 import rospy
 import rostest
 from mems_stiction.srv import GetLoad
@@ -52,6 +53,19 @@ class StationCheckTest(unittest.TestCase):
         self.assertIn("FAIL: pull-off force above 1.00 pN", done.stdout)
         self.assertEqual(done.stdout.splitlines()[-1], "FAIL")
         self.assert_load_is_put_back()
+
+    def test_the_verdict_on_the_device_decides(self):
+        done = self.run_check("--verdict")
+        self.assertEqual(done.returncode, FAIL, done.stderr)
+        self.assertIn("FAIL: sticks: unknown, ", done.stdout)  # no device is stated
+        settings = dynamic_reconfigure.client.Client("stiction_node", timeout=30.0)
+        device = dict(spring_stiffness=10.0, travel=1e-6, contact_area=1e-13)
+        for change, status, line in ((device, PASS, "PASS"), (dict(spring_stiffness=1e-6), FAIL, "FAIL: sticks: yes, margin ")):
+            settings.update_configuration(change)
+            done = self.run_check("--verdict")
+            self.assertEqual(done.returncode, status, done.stdout)
+            self.assertIn(line, done.stdout)
+        settings.update_configuration({name: 0.0 for name in device})
 
     def test_what_cannot_be_checked_neither_passes_nor_fails(self):
         for arguments, changes, reason in [

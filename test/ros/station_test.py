@@ -13,6 +13,7 @@ from actionlib_msgs.msg import GoalStatus
 from mems_stiction.msg import (CycleContactAction, CycleContactGoal, StictionPrediction, SweepLoadAction, SweepLoadGoal,
                                SweepPoint)
 from mems_stiction.srv import GetLoad, SetLoad
+from rosgraph_msgs.msg import Log
 from stiction_client import Collector, Counts, Station, image_message, info_message, rough_surface, wait_until
 
 LOAD = 1e-6
@@ -82,12 +83,22 @@ class StationTest(unittest.TestCase):
         self.assertEqual((answer["voltage"], self.get_load().voltage), (12.0, 12.0))
         self.assertTrue(self.set_load(3.0, LOAD).success)
         wait_until(lambda: self.settings.get_configuration()["voltage"] == 3.0, "reconfigure to show the service's change")
-        # A refused value takes the whole request back, and the client sees what is set.
-        for refused in ({"voltage": 51.0}, {"insulator_thickness": 0.0}, {"work_of_adhesion": -1.0},
-                        {"travel": 2e-6, "electrode_gap": 1e-7}, {"beam_type": "cantilever"},
-                        {"mechanical_load": math.nan}):
+        # A refused value takes the whole request back, the client sees what is set, and a warning says why.
+        log = Collector("/rosout", Log).connect()
+        for refused, reason in (
+                ({"voltage": 51.0}, "load/voltage: 51 V is not allowed, must be in [-50, 50] V"),
+                ({"insulator_thickness": 0.0}, "interface/insulator_thickness"),
+                ({"work_of_adhesion": -1.0}, "interface/work_of_adhesion: -1 J/m^2 is not allowed, must be >= 0"),
+                ({"travel": 2e-6, "electrode_gap": 1e-7}, "device/travel: 2e-06 m is not allowed, must not exceed"),
+                ({"beam_type": "cantilever"}, "device/beam_length: 0 is not allowed"),
+                ({"beam_type": "bridge"}, "device/beam_type: 'bridge' is not allowed, must be one of none cantilever"),
+                ({"mechanical_load": math.nan}, "load/mechanical_load: nan N is not allowed")):
             asked = dict(refused, hamaker_constant=1e-20)
+            del log.messages[:]
             answer = self.settings.update_configuration(asked)
+            wait_until(lambda: any(message.level == Log.WARN and message.msg.startswith("reconfigure refused, nothing changed: ")
+                                   and reason in message.msg for message in log.messages),
+                       "a warning with '%s'; there are %s" % (reason, [message.msg for message in log.messages]), timeout=5.0)
             self.assertEqual(answer["hamaker_constant"], 65e-21, refused)
             for name in refused:
                 self.assertNotEqual(answer[name], refused[name], refused)

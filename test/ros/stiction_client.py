@@ -78,6 +78,11 @@ class Collector:
         wait_until(lambda: self._subscriber.get_num_connections() > 0, "a publisher of " + self._topic)
         return self
 
+    def close(self):
+        """Leaves the publisher a moment to hear of it, before the next scan takes another way to the node."""
+        self._subscriber.unregister()
+        time.sleep(0.3)
+
     def wait(self, count):
         wait_until(lambda: len(self.messages) >= count, "message %d of %s, got %d" % (count, self._topic, len(self.messages)))
         return self.messages

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// Where does the counter-surface lie over a scan, by tf2?
 ///
 /// The counter-surface's frame has its origin in the middle of its pixels, x along columns, y along rows, and z as the
@@ -30,6 +31,7 @@ class NoTransform : public std::runtime_error {
 /// @throw SurfaceError if the plane is tilted beyond what a pose takes, or faces away from the scan.
 SurfacePose poseOf(const geometry_msgs::Transform& transform);
 
+/// Looks up where the counter-surface lay at a scan's stamp.
 class CounterSurfaceFrame {
  public:
   /// Listens to /tf and /tf_static on the handle's callback queue.

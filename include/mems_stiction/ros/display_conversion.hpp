@@ -1,6 +1,9 @@
 #pragma once
 
+/// @file
 /// Views of a prediction for rviz: enlarged, thinned out, heights exaggerated. For looking at, not for measuring.
+/// Their frame is options.frame: the middle of the scan is the origin, x points along its columns to the right, y
+/// against its rows, so that from above it looks as the scan's picture does; z is up.
 
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/PointCloud2.h>
@@ -15,15 +18,15 @@ namespace mems_stiction {
 
 /// The scanned surface after contact about its mean height. Fields: x, y, z [m on the screen], height [m, about the
 /// mean, not enlarged] and rgb by deformation regime. Invalid pixels are left out.
-/// @param prediction must hold deformed_lower and contact_map.
+/// - @p prediction must hold deformed_lower and contact_map.
 sensor_msgs::PointCloud2 surfacePoints(const Prediction& prediction, const HeightMap& scan,
                                        const std_msgs::Header& header, const DisplayOptions& options);
 
 /// One disc per contact with the radius of its cap, colored by deformation regime, above the same surface. The first
-/// marker removes those of the scan before.
-/// @param prediction must hold deformed_lower and asperities.
-visualization_msgs::MarkerArray asperityMarkers(const Prediction& prediction, const std_msgs::Header& header,
-                                                const DisplayOptions& options);
+/// marker removes those of the scan before; the second is a line of text with size and exaggeration.
+/// - @p prediction must hold deformed_lower and asperities.
+visualization_msgs::MarkerArray asperityMarkers(const Prediction& prediction, const HeightMap& scan,
+                                                const std_msgs::Header& header, const DisplayOptions& options);
 
 /// The surface as a mono8 picture, low dark and high bright: 1 at the height that 1 % of the pixels lie below, 255 at
 /// that of 99 %; 0 where invalid. Rows and columns are thinned out to keep options.max_preview_size.

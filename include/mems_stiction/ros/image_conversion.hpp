@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// Between sensor_msgs/Image and height maps: encodings, byte order, validity (REP 117, REP 118).
 
 #include <optional>

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// What the node remembers between scans, and the core beside it: the settings that may change, the last scan, the
 /// counter-surface and the deformation that has accumulated. No ROS graph; one object serves one thread.
 
@@ -20,9 +21,10 @@ struct StationCase {
   HeightMap measured_counter;   ///< for counter_surface/type topic, else empty
 };
 
+/// The core as the node uses it, one scan after the other.
 class LivePredictor {
  public:
-  /// @param accumulate_deformation the depth that a contact has pressed into a scan is taken off the scans of the same
+  /// - @p accumulate_deformation the depth that a contact has pressed into a scan is taken off the scans of the same
   ///        size that follow: every scan is then taken for the surface as it was made, worn by the contacts before.
   /// @throw OptionsError if the configuration is out of range.
   LivePredictor(const Configuration& configuration, bool accumulate_deformation);

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// The parameters of node and nodelet: the core's configuration and the node's own settings, read from the private
 /// namespace by the same tables and the same reader as a configuration file.
 
@@ -25,15 +26,19 @@ enum class DropPolicy {
 
 /// The views for rviz, which cannot show micrometers: everything is enlarged by `scale`, heights once more.
 struct DisplayOptions {
-  double scale = 1e6;                 ///< meters on the screen for one meter of the scan [-], > 0
-  double height_exaggeration = 10.0;  ///< of heights against lengths [-], > 0
-  int max_points = 40000;             ///< of surface_points; the surface is thinned out in rows and columns to keep it
-  int max_markers = 500;              ///< of asperity_markers; the contacts with the largest loads are shown
-  double min_marker_diameter = 0.1;   ///< of a disc on the screen, so that small contacts are seen [m], >= 0
-  int max_preview_size = 512;         ///< pixels of the longer side of preview
+  std::string frame = "stiction_view";  ///< frame_id of the views; empty = the scan's
+  double scale = 0.0;                   ///< meters on the screen for one meter of the scan [-]; 0 = kViewSize fits
+  double height_exaggeration = 0.0;     ///< of heights against lengths [-]; 0 = chosen for each scan
+  int max_points = 40000;            ///< of surface_points; the surface is thinned out in rows and columns to keep it
+  int max_markers = 500;             ///< of asperity_markers; the contacts with the largest loads are shown
+  double min_marker_diameter = 0.1;  ///< of a disc on the screen, so that small contacts are seen [m], >= 0
+  int max_preview_size = 512;        ///< pixels of the longer side of preview
 
   void describe(OptionVisitor& visitor);
 };
+
+/// The longer side of a scan on the screen [m], where DisplayOptions::scale does not say otherwise.
+inline constexpr double kViewSize = 10.0;
 
 /// Where the counter-surface lies over each scan, by tf2.
 struct TransformOptions {
@@ -43,6 +48,7 @@ struct TransformOptions {
   void describe(OptionVisitor& visitor);
 };
 
+/// Settings of the node itself.
 struct NodeOptions {
   int queue_size = 10;  ///< scans that may wait; with DropPolicy::kAll more wait, with a warning
   DropPolicy drop_policy = DropPolicy::kAll;
@@ -57,6 +63,7 @@ struct NodeOptions {
   void describe(OptionVisitor& visitor);
 };
 
+/// The whole private namespace.
 struct NodeConfiguration {
   Configuration core;
   NodeOptions node;

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// All that is said about one scan.
 
 #include "mems_stiction/prediction/prediction.hpp"
@@ -8,6 +9,7 @@
 
 namespace mems_stiction {
 
+/// A prediction with what belongs to it in the message.
 struct PredictedScan {
   Prediction prediction;
   Verdict verdict;                 ///< on the device, from this prediction

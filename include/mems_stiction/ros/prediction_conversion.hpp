@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// From the core's prediction to messages; field by field, no figure is computed here.
 
 #include <std_msgs/Header.h>

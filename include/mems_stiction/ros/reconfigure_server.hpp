@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// dynamic_reconfigure beside the services: shows what is set, passes changes to the one setter, and puts back what it
 /// refuses.
 
@@ -15,6 +16,7 @@
 
 namespace mems_stiction {
 
+/// One per node; the thread of its queue calls back.
 class ReconfigureServer {
  public:
   /// @throw OptionsError naming refused values; then nothing has changed.

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// What goes out for a predicted scan, and what somebody listens to: nothing else is computed or published.
 
 #include <functional>
@@ -13,9 +14,10 @@
 
 namespace mems_stiction {
 
+/// Every topic that the node publishes, but the diagnostics.
 class ResultPublisher {
  public:
-  /// @param preview_wanted called on the handle's queue when somebody starts to listen to the preview.
+  /// - @p preview_wanted called on the handle's queue when somebody starts to listen to the preview.
   ResultPublisher(const ros::NodeHandle& handle, const DisplayOptions& display, std::function<void()> preview_wanted);
 
   /// What the subscribers of this moment need.

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// The settings that may change while the node runs: by ~set_load, by dynamic_reconfigure, through one setter
 /// (LivePredictor::change()).
 
@@ -9,6 +10,7 @@
 
 namespace mems_stiction {
 
+/// Four sections of the configuration.
 struct RunningOptions {
   InterfaceOptions interface;
   CapillaryOptions capillary;

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// The books of the node: every scan that arrives ends as exactly one of predicted, dropped or rejected; the last two
 /// with a reason and a throttled warning. May be called from every thread.
 
@@ -13,6 +14,7 @@
 
 namespace mems_stiction {
 
+/// Counts since start.
 struct ScanCounts {
   std::uint64_t received = 0;               ///< predicted + dropped + rejected + waiting
   std::uint64_t predicted = 0;              ///< a prediction was published
@@ -25,6 +27,7 @@ struct ScanCounts {
   std::uint64_t waiting() const { return received - predicted - dropped - rejected; }
 };
 
+/// Counts, warns and reports.
 class ScanAccounting {
  public:
   /// @param warning_period at most one warning in so long a time.

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// Puts each height image together with the scan_info of the same stamp, and tells who was left alone and why. One
 /// object serves one thread.
 
@@ -14,13 +15,14 @@
 
 namespace mems_stiction {
 
+/// Holds back each half of a pair until the other one comes, or time is up.
 class ScanPairer {
  public:
   using Accept = std::function<void(const sensor_msgs::ImageConstPtr&, const ScanInfoConstPtr&)>;
   /// A message without partner, for good.
   using Reject = std::function<void(const std_msgs::Header&, const std::string& reason)>;
 
-  /// @param timeout how long a message waits for its partner.
+  /// - @p timeout how long a message waits for its partner.
   ScanPairer(ros::WallDuration timeout, Accept accept, Reject reject);
 
   void add(const sensor_msgs::ImageConstPtr& image, ros::WallTime now);

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// The long runs of a test station, ~sweep_load and ~cycle_contact. Each goal runs on a thread of its own with surfaces
 /// and settings of its own, so that live scans go on; a new goal takes the place of the one that runs.
 
@@ -15,6 +16,7 @@
 
 namespace mems_stiction {
 
+/// Both action servers.
 class StationActions {
  public:
   /// The scan of a goal, or the last one if the image has no pixels. May throw; what() is the client's answer.

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// From sweeps and cycles to messages; field by field, no figure is computed here.
 
 #include "mems_stiction/CycleContactResult.h"

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// The one implementation behind node and nodelet: connects topics and services with the worker that owns the core.
 ///
 /// Threads: one for topics, transforms and timers, one for the core (WorkQueue), two for services, one for each action. A
@@ -34,6 +35,7 @@
 
 namespace mems_stiction {
 
+/// Lives as long as the node; everything happens on its own threads.
 class StictionServer {
  public:
   /// Reads the parameters and starts to serve.

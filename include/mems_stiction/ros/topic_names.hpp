@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// Every name that the ROS layer gives to a topic, service or action, and how many messages each connection may hold back.
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// Scans that wait for their transform, in the order of arrival: the first in line lets nobody pass. Nobody sleeps
 /// here; whoever owns the gate asks it now and then. One object serves one thread.
 
@@ -14,6 +15,7 @@
 
 namespace mems_stiction {
 
+/// Holds scans back, in order, until their transforms are there.
 class TransformGate {
  public:
   /// @throw NoTransform while there is none, SurfaceError if there will be none.
@@ -21,7 +23,7 @@ class TransformGate {
   using Accept = std::function<void(const SurfacePose&)>;
   using Reject = std::function<void(const std::string& reason)>;
 
-  /// @param timeout how long a scan waits, from its arrival.
+  /// - @p timeout how long a scan waits, from its arrival.
   TransformGate(ros::WallDuration timeout, Lookup lookup);
 
   /// Exactly one of both is called, here or by a later call.

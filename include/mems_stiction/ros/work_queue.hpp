@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// One worker thread that owns the core: scans in the order of arrival, and calls that go before them and whose answer
 /// is waited for. Everything that touches the core runs here, so nothing else needs a lock.
 
@@ -13,6 +14,7 @@
 
 namespace mems_stiction {
 
+/// One thread that works off scans and calls.
 class WorkQueue {
  public:
   /// @param capacity scans that may wait; 0 = any number.

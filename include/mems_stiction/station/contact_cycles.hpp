@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// After how many contacts does the device fail?
 ///
 /// The surfaces meet N times under the same load, each time as the last contact left them: what has flowed stays flat
@@ -37,6 +38,7 @@ struct ContactCycle {
   double margin_lower = Verdict::kNotStated;  ///< 2.5 % quantile [-]
 };
 
+/// What the contacts said, in order.
 struct ContactCyclesResult {
   std::vector<ContactCycle> cycles;
   int first_sticking_cycle = 0;  ///< the first whose verdict is "yes"; 0 = none, or device not stated
@@ -45,8 +47,8 @@ struct ContactCyclesResult {
   bool is_complete = false;      ///< false: cancelled
 };
 
-/// @param upper null for a flat counter-surface
-/// @param count of contacts, >= 1
+/// - @p upper null for a flat counter-surface
+/// - @p count of contacts, >= 1
 /// @throw OptionsError for a count or options out of range, before any work; SurfaceError as AdhesionModel.
 ContactCyclesResult cycleContacts(const Options& options, const HeightMap& lower, const HeightMap* upper, int count,
                                   const DeviceOptions& device, const UncertaintyOptions& uncertainty,

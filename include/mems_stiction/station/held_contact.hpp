@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// What is left of a contact when the load that made it is taken back?
 ///
 /// JKR's contacts do not open on the way back: each follows its stable branch down to its own pull-off force. So, as
@@ -32,6 +33,7 @@ struct HeldState {
   bool is_searched = false;          ///< the equilibrium was searched at this load; else the contact was held
 };
 
+/// A contact that was made, while loads change.
 class HeldContact {
  public:
   /// Against a flat counter-surface, or `upper` if it is not null. Both are shared, not copied.

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// Up to which voltage does the device still come off?
 ///
 /// For each mechanical load, the voltage goes up through the grid and down again, on surfaces that start as given:
@@ -35,6 +36,7 @@
 
 namespace mems_stiction {
 
+/// The grid of loads.
 struct LoadSweepRequest {
   std::vector<double> voltages;          ///< [V], >= 0, ascending
   std::vector<double> mechanical_loads;  ///< on the scanned area [N], ascending
@@ -76,6 +78,7 @@ struct LoadSweepSummary {
   double opening_voltage = Verdict::kNotStated;  ///< the highest at which the device opens on the way down [V]
 };
 
+/// The curve, and what it says.
 struct LoadSweepResult {
   std::vector<LoadSweepRow> rows;                ///< per mechanical load: upward, then downward
   std::vector<LoadSweepSummary> summaries;       ///< one per mechanical load that was finished
@@ -83,7 +86,7 @@ struct LoadSweepResult {
   bool is_complete = false;                      ///< false: cancelled
 };
 
-/// @param upper null for a flat counter-surface
+/// - @p upper null for a flat counter-surface
 /// @throw OptionsError for a request or options out of range, before any work; SurfaceError as AdhesionModel.
 LoadSweepResult sweepLoads(const Options& options, const HeightMap& lower, const HeightMap* upper,
                            const LoadSweepRequest& request, const DeviceOptions& device,

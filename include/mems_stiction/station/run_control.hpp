@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// How a caller watches and stops a long run.
 
 #include <atomic>
@@ -7,6 +8,7 @@
 
 namespace mems_stiction {
 
+/// How a long run tells of its progress and is stopped.
 struct RunControl {
   /// Called after each unit of work with how many of how many are done; may be empty. It must not throw.
   std::function<void(int done, int total)> progress;

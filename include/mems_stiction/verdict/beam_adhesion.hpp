@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// Does a beam that touches the substrate come off by itself, and how long may it be?
 ///
 /// A beam of length l, thickness t and modulus E hangs over a gap h. Bending it down to the substrate stores energy
@@ -35,6 +36,7 @@ namespace mems_stiction {
 
 enum class BeamType { kNone, kCantilever, kDoublyClamped };
 
+/// A beam over a substrate.
 struct Beam {
   BeamType type = BeamType::kNone;
   double length = 0.0;           ///< l [m], > 0
@@ -44,7 +46,7 @@ struct Beam {
   double residual_stress = 0.0;  ///< sigma, tensile positive [Pa]; of doubly clamped beams only
 };
 
-/// G at which an S-shaped arm rests with the unstuck length s [J/m^2]. @param unstuck_length s [m], > 0
+/// G at which an S-shaped arm rests with the unstuck length s [J/m^2]. @p unstuck_length s [m], > 0
 double sShapeWork(const Beam& beam, double unstuck_length);
 
 /// G at which a cantilever that touches with its tip only is about to come off, l = s [J/m^2].

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// The device that must come off again: what its designer knows of spring, contact and beam. 0 means "not stated".
 
 #include <string>
@@ -11,6 +12,7 @@
 
 namespace mems_stiction {
 
+/// Spring, contact area, electrodes and beam; keys device/...
 struct DeviceOptions {
   double spring_stiffness = 0.0;  ///< k of the suspension along z [N/m], >= 0
   double travel = 0.0;            ///< from rest to contact [m], >= 0

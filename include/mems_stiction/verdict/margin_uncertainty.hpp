@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// How far may the predicted pull-off force be off, given how well the constants are known?
 ///
 /// Each sample draws one factor per uncertain constant, lognormal with median 1: w for the work of adhesion, h for the
@@ -51,7 +52,7 @@ struct AdhesionSpread {
 /// across the open gap (which adds at most F_w (mean gap)/2 per nominal area). NaN without a list of contacts.
 double apparentWorkOfAdhesion(const Prediction& prediction, const Options& options);
 
-/// @param options those of the prediction
+/// - @p options those of the prediction
 AdhesionSpread adhesionSpread(const Prediction& prediction, const Options& options,
                               const UncertaintyOptions& uncertainty);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// Where does a prediction leave the range of the model that made it?
 
 #include <cstdint>
@@ -26,7 +27,7 @@ inline constexpr int kFewestContacts = 10;
 
 /// Shares are of the sum of composite radii, which the adhesion is proportional to; without a list of contacts
 /// (output/asperities off) they are of the number of contacts, and the mean contact stands for all.
-/// @param cell_area of the scan [m^2], > 0
+/// - @p cell_area of the scan [m^2], > 0
 std::uint32_t regimeFlags(const Prediction& prediction, double cell_area);
 
 /// "bonded, tabor": the names of the flags set, in the order above; empty when none is.

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// How well the constants of a prediction are known: what margin_uncertainty.hpp draws its samples from.
 
 #include "mems_stiction/base/option_visitor.hpp"

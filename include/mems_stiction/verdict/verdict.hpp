@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// Does this device stick? From the prediction of one scan to a word and its reason.
 ///
 ///     restoring force = k travel
@@ -66,8 +67,8 @@ struct Verdict {
   std::uint32_t regime_flags = 0;                 ///< bits of RegimeFlag
 };
 
-/// @param options those that the prediction was made with
-/// @param cell_area of the scan [m^2], > 0
+/// - @p options those that the prediction was made with
+/// - @p cell_area of the scan [m^2], > 0
 Verdict verdictOf(const Prediction& prediction, const DeviceOptions& device, const UncertaintyOptions& uncertainty,
                   const Options& options, double cell_area);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// The one list of what a verdict says, by the field names of the message: what records, conversions and documentation
 /// visit, so that they cannot disagree about a name or a unit.
 

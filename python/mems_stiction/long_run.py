@@ -1,0 +1,81 @@
+"""Runs one of the node's long actions for a person at a terminal: progress, and Ctrl-C that cancels and keeps what is done."""
+
+import csv
+import sys
+import time
+
+import actionlib
+import rospy
+from actionlib import CommState, TerminalState
+
+DONE, CANCELLED, NOT_RUN = 0, 1, 2  # exit statuses
+SILENCE = 5.0  # after which a node counts as gone [s]
+
+
+class CannotRun(Exception):
+    """The node is not there, or has refused the goal; the text says why."""
+
+
+def run(action, kind, goal, timeout):
+    """The result, and whether it is complete. Needs rospy.init_node(..., disable_signals=True)."""
+    from tqdm import tqdm
+
+    # Not the simple client: it may miss the end of a goal that is refused at once.
+    client = actionlib.ActionClient(action, kind)
+    if not client.wait_for_server(rospy.Duration(timeout)):
+        raise CannotRun("no action %s for %g s: is the node running under that name?" % (action, timeout))
+    with tqdm(desc=action.split("/")[-1], unit="", leave=False, disable=None, file=sys.stderr) as bar:
+        def show(_, feedback):
+            bar.total = feedback.total
+            bar.update(feedback.done - bar.n)
+
+        handle = client.send_goal(goal, feedback_cb=show)
+        try:
+            _wait(client, handle, action)
+        except KeyboardInterrupt:
+            handle.cancel()
+            _wait(client, handle, action)
+    result, state = handle.get_result(), handle.get_terminal_state()
+    if state in (TerminalState.ABORTED, TerminalState.REJECTED, TerminalState.LOST):
+        raise CannotRun(result.message if result else "the node has lost the goal")
+    return result, state == TerminalState.SUCCEEDED
+
+
+def _wait(client, handle, action):
+    """Until the goal has ended, in wall time."""
+    seen = time.monotonic()
+    while handle.get_comm_state() != CommState.DONE:
+        time.sleep(0.05)
+        if client.wait_for_server(rospy.Duration(0.01)):
+            seen = time.monotonic()
+        elif time.monotonic() - seen > SILENCE:
+            raise CannotRun("the node of %s has gone" % action)
+
+
+def spread(items, most):
+    """At most so many, evenly spread, the first and the last among them."""
+    if len(items) <= most:
+        return items
+    return [items[round(place * (len(items) - 1) / (most - 1))] for place in range(most)]
+
+
+def numbers(text):
+    """"0,5,10" or FIRST:LAST:STEP, as in "0:30:2.5", the last one included."""
+    if ":" not in text:
+        return [float(part) for part in text.split(",")]
+    first, last, step = (float(part) for part in text.split(":"))
+    if not step > 0:
+        raise ValueError("the step must be > 0")
+    count = int((last - first) / step * (1 + 1e-12) + 1e-9) + 1
+    return [first + index * step for index in range(count)]
+
+
+def write_csv(messages, path):
+    """One line for each message, with its field names; units stand in the .msg file."""
+    names = messages[0].__slots__ if messages else []
+    with open(str(path), "w", encoding="utf-8", newline="") as stream:
+        writer = csv.writer(stream, lineterminator="\n")
+        writer.writerow(names)
+        for message in messages:
+            writer.writerow([repr(value) if isinstance(value, float) else int(value) for value in
+                             (getattr(message, name) for name in names)])

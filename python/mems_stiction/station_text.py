@@ -1,0 +1,109 @@
+"""Load sweeps and contact cycles (mems_stiction/SweepLoadResult, CycleContactResult) in words."""
+
+import math
+
+from mems_stiction.prediction_text import STATUS_NAMES, STICKS_NAMES
+from mems_stiction.quantities import area, percent, ratio, with_unit
+
+UP = 0  # SweepPoint.UP
+ROUND_OFF = 1e-9  # of sums over a million cells, with room
+_SWEEP = "%-4s %10s %10s  %-14s %11s %11s %10s %12s %9s %9s  %s"
+_CYCLE = "%6s  %-14s %11s %10s %9s %9s %11s %12s %9s  %s"
+
+
+def sweep_header():
+    top = _SWEEP % ("", "", "", "", "pull-off", "electro-", "contact", "JKR contact", "", "while", "")
+    bottom = _SWEEP % ("way", "voltage", "load", "status", "force", "static", "fraction", "area", "margin", "held", "sticks")
+    return top.rstrip() + "\n" + bottom
+
+
+def sweep_line(point):
+    """Margin: once the load is taken away; while held: with it. Below 1 the device stays closed."""
+    way = "up" if point.direction == UP else "down"
+    if point.is_open:
+        return (_SWEEP % (way, with_unit(point.voltage, "V"), with_unit(point.mechanical_load, "N"), "open", "-", "-", "-", "-",
+                          "-", "-", "no")).rstrip()
+    bound = ">= " if point.status == 1 else ""
+    return _SWEEP % (way, with_unit(point.voltage, "V"), with_unit(point.mechanical_load, "N"),
+                     STATUS_NAMES.get(point.status, "?"), bound + with_unit(point.pull_off_force, "N"),
+                     with_unit(point.electrostatic_force, "N"), percent(point.contact_fraction),
+                     area(point.contact_area_jkr), ratio(point.margin), ratio(point.holding_margin),
+                     STICKS_NAMES.get(point.sticks, "?"))
+
+
+def sweep_sentences(result):
+    """What the loop says: where it releases, where it sticks, where it opens, pull-in, and the hysteresis."""
+    sentences = []
+    for summary in result.summaries:
+        sentences.append("Pressed with %s:" % with_unit(summary.mechanical_load, "N"))
+        for text, voltage in (
+                ("releases after voltages up to", summary.highest_releasing_voltage),
+                ("surely (95 %) releases after voltages up to", summary.highest_safe_voltage),
+                ("first voltage after which it does not release", summary.lowest_sticking_voltage),
+                ("opens on the way down at", summary.opening_voltage)):
+            sentences.append("  %s: %s" % (text, "none of the sweep" if math.isnan(voltage) else with_unit(voltage, "V")))
+        gap = widest_gap(result.points, summary.mechanical_load)
+        if gap is None:
+            sentences.append("  no hysteresis: the way down is the way up")
+        else:
+            voltage, up, down = gap
+            sentences.append("  hysteresis, widest at %s: JKR contact area %s on the way up, %s on the way down" % (
+                with_unit(voltage, "V"), area(up), area(down) if down else "0, open"))
+    if math.isnan(result.pull_in_voltage):
+        sentences.append("Pull-in voltage: not stated (device/spring_stiffness, travel, electrode_area)")
+    else:
+        sentences.append("Pull-in voltage: %s" % with_unit(result.pull_in_voltage, "V"))
+    if all(math.isnan(point.margin) for point in result.points if not point.is_open):
+        sentences.append("No device is stated (device/...), so there is no margin.")
+    else:
+        sentences.append("Margin: restoring force over pull-off force, once the load is gone; above 1 the device opens.")
+        sentences.append("While held: restoring force over all that holds while the load acts.")
+    return sentences
+
+
+def widest_gap(points, mechanical_load):
+    """(voltage, area up, area down) where the JKR contact areas [m^2] of both ways differ most; None if they do not."""
+    of_load = [point for point in points if point.mechanical_load == mechanical_load]
+    up = {point.voltage: point.contact_area_jkr for point in of_load if point.direction == UP}
+    gaps = [(point.voltage, up[point.voltage], point.contact_area_jkr) for point in of_load if point.direction != UP]
+    widest = max(gaps, key=lambda gap: abs(gap[2] - gap[1]), default=None)
+    return widest if widest and widest[1] != widest[2] else None
+
+
+def cycle_header():
+    top = _CYCLE % ("", "", "pull-off", "contact", "", "", "rms", "largest", "", "")
+    bottom = _CYCLE % ("cycle", "status", "force", "fraction", "contacts", "plastic", "height", "change", "margin", "sticks")
+    return top.rstrip() + "\n" + bottom
+
+
+def cycle_line(cycle):
+    """`largest change` of either surface's height in this contact."""
+    bound = ">= " if cycle.status == 1 else ""
+    return _CYCLE % (cycle.cycle, STATUS_NAMES.get(cycle.status, "?"), bound + with_unit(cycle.pull_off_force, "N"),
+                     percent(cycle.contact_fraction), cycle.asperity_count, cycle.plastic_count,
+                     with_unit(cycle.rms_height, "m"), with_unit(cycle.largest_change, "m"), ratio(cycle.margin),
+                     STICKS_NAMES.get(cycle.sticks, "?"))
+
+
+def cycle_sentences(result):
+    if not result.cycles:
+        return []
+    first, last = result.cycles[0], result.cycles[-1]
+    growth = last.pull_off_force / first.pull_off_force - 1 if first.pull_off_force else 0.0
+    if abs(growth) < ROUND_OFF:
+        change = "stays at %s" % with_unit(first.pull_off_force, "N")
+    else:
+        change = "goes from %s to %s (%+.3g %%)" % (with_unit(first.pull_off_force, "N"), with_unit(last.pull_off_force, "N"),
+                                                   100 * growth)
+    sentences = ["From contact %d to contact %d the pull-off force %s." % (first.cycle, last.cycle, change)]
+    settled = [cycle.cycle for cycle in result.cycles if cycle.largest_change == 0.0]
+    if settled:
+        sentences.append("From contact %d on nothing flows any more." % settled[0])
+    if math.isnan(last.margin):
+        sentences.append("No device is stated (device/...), so there is no verdict.")
+    elif result.first_sticking_cycle:
+        sentences.append("The device fails: from contact %d on it sticks." % result.first_sticking_cycle)
+    else:
+        sentences.append("The device does not surely stick after any of these contacts; the lowest margin is %s." % ratio(
+            min(cycle.margin for cycle in result.cycles)))
+    return sentences

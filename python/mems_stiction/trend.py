@@ -1,0 +1,63 @@
+"""What a station saw so far, scan by scan: predicted, lost, or still waiting. No ROS here."""
+
+
+class Scan:
+    """One scan. `prediction` is its message, or None while there is none; `is_lost`: there will be none."""
+
+    def __init__(self, stamp):
+        self.stamp = stamp
+        self.prediction = None
+        self.is_lost = False
+        self.has_arrived = False  # its image; the prediction of a small scan may be here first
+
+
+class Trend:
+    """The scans in the order in which they were made.
+
+    Scans are predicted in this order, so that one without a prediction is lost once a later one has its own, or once
+    the node counts a loss.
+    """
+
+    def __init__(self):
+        self.scans = []
+        self._uncounted = 0  # scans seen to be lost before the node's count said so
+
+    def add_scan(self, stamp):
+        """An image has arrived."""
+        place = len(self.scans)
+        while place > 0 and not self.scans[place - 1].has_arrived and self.scans[place - 1].stamp >= stamp:
+            place -= 1
+        if place == len(self.scans) or self.scans[place].stamp != stamp:
+            self.scans.insert(place, Scan(stamp))
+        self.scans[place].has_arrived = True
+        if any(scan.prediction is not None for scan in self.scans[place + 1:]):
+            self._lose(self.scans[place:place + 1])
+
+    def add_prediction(self, stamp, prediction):
+        """A replay brings the same stamps again: the first scan that waits is meant."""
+        waiting = [scan for scan in self.scans if scan.stamp == stamp and scan.prediction is None]
+        if not waiting:
+            waiting = [Scan(stamp)]
+            self.scans += waiting
+        scan = waiting[0]
+        scan.prediction, scan.is_lost = prediction, False
+        self._lose(self.scans[:self.scans.index(scan)])
+
+    def _lose(self, scans):
+        """A later one is predicted already."""
+        for scan in scans:
+            if scan.prediction is None and not scan.is_lost:
+                scan.is_lost = True
+                self._uncounted += 1
+
+    def add_losses(self, count):
+        """The node has rejected or dropped so many more: they are the first that wait."""
+        waiting = [scan for scan in self.scans if scan.prediction is None and not scan.is_lost]
+        already_seen = min(count, self._uncounted)
+        self._uncounted -= already_seen
+        for scan in waiting[:count - already_seen]:
+            scan.is_lost = True
+
+    def decided(self):
+        """(number from 1, scan) of all but those that wait."""
+        return [(number, scan) for number, scan in enumerate(self.scans, 1) if scan.prediction is not None or scan.is_lost]

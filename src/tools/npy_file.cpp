@@ -1,0 +1,23 @@
+#include "npy_file.hpp"
+
+#include "batch_rows.hpp"
+
+namespace mems_stiction {
+
+void writeNpy(const std::string& path, const cv::Mat& pixels) {
+  const cv::Mat whole = pixels.isContinuous() ? pixels : pixels.clone();
+  std::string header = std::string("{'descr': '") + (whole.depth() == CV_8U ? "|u1" : "<f8") +
+                       "', 'fortran_order': False, 'shape': (" + std::to_string(whole.rows) + ", " +
+                       std::to_string(whole.cols) + "), }";
+  constexpr std::size_t kPreface = 10;
+  header.append(63 - (kPreface + header.size()) % 64, ' ');
+  header += '\n';
+  std::string text("\x93NUMPY\x01\x00", 8);
+  text += static_cast<char>(header.size() & 0xFF);
+  text += static_cast<char>(header.size() >> 8);
+  text += header;
+  text.append(reinterpret_cast<const char*>(whole.data), whole.total() * whole.elemSize());
+  writeWhole(path, text);
+}
+
+}  // namespace mems_stiction

@@ -1,0 +1,95 @@
+"""Sweeps and cycles in words, and what the command lines read."""
+
+import math
+import unittest
+from types import SimpleNamespace
+
+from mems_stiction.long_run import numbers, spread
+from mems_stiction.station_text import (cycle_header, cycle_line, cycle_sentences, sweep_header, sweep_line, sweep_sentences,
+                                        widest_gap)
+
+NAN = math.nan
+
+
+def point(voltage, direction=0, **changes):
+    values = dict(direction=direction, voltage=voltage, mechanical_load=1e-6, status=0, is_open=False, pull_off_force=2e-7,
+                  electrostatic_force=3e-6, contact_fraction=1e-4, contact_area_jkr=2e-15, margin=12.0, margin_lower=6.0,
+                  holding_margin=0.5, sticks=0)
+    values.update(changes)
+    return SimpleNamespace(**values)
+
+
+def summary(**changes):
+    values = dict(mechanical_load=1e-6, highest_releasing_voltage=20.0, highest_safe_voltage=NAN, lowest_sticking_voltage=30.0,
+                  opening_voltage=NAN)
+    values.update(changes)
+    return SimpleNamespace(**values)
+
+
+def cycle(number, **changes):
+    values = dict(cycle=number, status=0, pull_off_force=1e-7 * number, contact_fraction=1e-4, asperity_count=3, plastic_count=1,
+                  rms_height=5e-9, largest_change=1e-10, sticks=0, margin=4.0 / number)
+    values.update(changes)
+    return SimpleNamespace(**values)
+
+
+class ArgumentsTest(unittest.TestCase):
+    def test_numbers_are_a_list_or_a_range_with_its_end(self):
+        self.assertEqual(numbers("0,5,1e1"), [0.0, 5.0, 10.0])
+        self.assertEqual(numbers("0:30:10"), [0.0, 10.0, 20.0, 30.0])
+        self.assertEqual(len(numbers("0:1:0.1")), 11)  # 0.1 has no exact form
+        self.assertEqual(numbers("0:25:10"), [0.0, 10.0, 20.0])
+        for wrong in ("0:30", "0:30:0", "a,b", ""):
+            self.assertRaises(ValueError, numbers, wrong)
+
+    def test_long_tables_keep_both_ends(self):
+        self.assertEqual(spread([1, 2, 3], 3), [1, 2, 3])
+        self.assertEqual(spread(list(range(101)), 3), [0, 50, 100])
+
+
+class SweepTextTest(unittest.TestCase):
+    def test_columns_stand_below_their_names(self):
+        header = sweep_header().splitlines()[1]
+        for line in (sweep_line(point(20.0)), sweep_line(point(0.0, status=1, margin=NAN, sticks=3))):
+            self.assertEqual(line.index(line.split()[-1]), header.index("sticks"), line)
+        self.assertIn(">= 200 nN", sweep_line(point(0.0, status=1)))
+        self.assertTrue(sweep_line(point(0.0, 1, is_open=True)).split()[5] == "open")
+
+    def test_what_is_not_among_the_voltages_is_said(self):
+        points = [point(0.0), point(20.0, contact_area_jkr=9e-15), point(0.0, 1, contact_area_jkr=8e-15)]
+        text = "\n".join(sweep_sentences(SimpleNamespace(points=points, summaries=[summary()], pull_in_voltage=NAN)))
+        self.assertIn("  releases after voltages up to: 20.0 V", text)
+        self.assertIn("surely (95 %) releases after voltages up to: none of the sweep", text)
+        self.assertIn("does not release: 30.0 V", text)
+        self.assertIn("opens on the way down at: none of the sweep", text)
+        self.assertIn("hysteresis, widest at 0 V: JKR contact area 2000 nm^2 on the way up, 8000 nm^2 on the way down", text)
+        self.assertIn("Pull-in voltage: not stated", text)
+
+    def test_no_difference_is_no_hysteresis(self):
+        self.assertIsNone(widest_gap([point(0.0), point(20.0), point(0.0, 1)], 1e-6))
+        self.assertIsNone(widest_gap([point(0.0)], 1e-6))
+
+
+class CycleTextTest(unittest.TestCase):
+    def test_columns_stand_below_their_names(self):
+        header = cycle_header().splitlines()[1]
+        line = cycle_line(cycle(2))
+        self.assertEqual(line.index("no"), header.index("sticks"))
+
+    def test_growth_rest_and_failure_are_said(self):
+        result = SimpleNamespace(cycles=[cycle(1), cycle(2, sticks=2), cycle(3, sticks=2, largest_change=0.0)], first_sticking_cycle=2)
+        text = "\n".join(cycle_sentences(result))
+        self.assertIn("from 100 nN to 300 nN (+200 %)", text)
+        self.assertIn("From contact 3 on nothing flows any more.", text)
+        self.assertIn("from contact 2 on it sticks", text)
+        result.cycles[2].pull_off_force = result.cycles[0].pull_off_force * (1 + 1e-15)
+        self.assertIn("the pull-off force stays at 100 nN", cycle_sentences(result)[0])
+        result.first_sticking_cycle = 0
+        self.assertIn("the lowest margin is 1.33", "\n".join(cycle_sentences(result)))
+        for one in result.cycles:
+            one.margin = NAN
+        self.assertIn("No device is stated", "\n".join(cycle_sentences(result)))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,151 @@
+"""The plot of a station's screen: which scan is where, what is lost, what the picture says."""
+
+import math
+import unittest
+from types import SimpleNamespace
+
+from mems_stiction.plots import plt
+from mems_stiction.trend import Trend
+from mems_stiction.trend_figure import trend_picture
+
+NAN = math.nan
+
+
+def prediction(force=2e-7, sticks=3, margin=NAN, **changes):
+    """As the node publishes it; without a margin no device is stated."""
+    values = dict(status=0, pull_off_force=force, sticks=sticks, reason="the reason", margin=margin, margin_lower=0.5 * margin,
+                  margin_upper=2 * margin, device_pull_off_force=10 * force if margin == margin else NAN,
+                  restoring_force=10 * force * margin, peel_number=NAN, peel_number_lower=NAN, peel_number_upper=NAN)
+    values.update(changes)
+    return SimpleNamespace(**values)
+
+
+def states(trend):
+    return "".join("p" if scan.prediction is not None else "x" if scan.is_lost else "." for scan in trend.scans)
+
+
+class TrendTest(unittest.TestCase):
+    def setUp(self):
+        self.trend = Trend()
+
+    def scans(self, *stamps):
+        for stamp in stamps:
+            self.trend.add_scan(stamp)
+
+    def predictions(self, *stamps):
+        for stamp in stamps:
+            self.trend.add_prediction(stamp, prediction())
+
+    def test_a_scan_is_lost_once_a_later_one_is_predicted(self):
+        self.scans(1, 2, 3, 4)
+        self.predictions(1, 3)
+        self.assertEqual(states(self.trend), "pxp.")
+        self.assertEqual([number for number, _ in self.trend.decided()], [1, 2, 3])
+
+    def test_the_nodes_count_decides_on_the_latest_scans(self):
+        self.scans(1, 2)
+        self.predictions(1)
+        self.trend.add_losses(1)
+        self.assertEqual(states(self.trend), "px")
+        self.scans(3)
+        self.predictions(3)
+        self.assertEqual(states(self.trend), "pxp")
+
+    def test_a_loss_that_was_seen_is_not_counted_again(self):
+        self.scans(1, 2, 3)
+        self.predictions(2)
+        self.trend.add_losses(1)
+        self.assertEqual(states(self.trend), "xp.")
+
+    def test_a_prediction_that_comes_after_all_counts(self):
+        self.scans(1)
+        self.trend.add_losses(1)  # of a scan_info without a scan
+        self.assertEqual(states(self.trend), "x")
+        self.predictions(1)
+        self.assertEqual(states(self.trend), "p")
+
+    def test_a_prediction_may_overtake_its_scan(self):
+        self.predictions(1, 3)
+        self.scans(1, 2, 3)
+        self.assertEqual([scan.stamp for scan in self.trend.scans], [1, 2, 3])
+        self.assertEqual(states(self.trend), "pxp")
+        self.predictions(4)
+        self.scans(4)
+        self.assertEqual(states(self.trend), "pxpp")
+
+    def test_a_replay_of_the_same_stamps_is_a_new_series(self):
+        for _ in range(2):
+            self.scans(1, 2)
+            self.predictions(1, 2)
+        self.assertEqual(states(self.trend), "pppp")
+
+    def test_predictions_alone_are_enough(self):
+        self.predictions(1, 2)
+        self.assertEqual(states(self.trend), "pp")
+
+
+class TrendPictureTest(unittest.TestCase):
+    def picture(self, *predictions, **settings):
+        """None stands for a scan without a prediction."""
+        trend = Trend()
+        for stamp, given in enumerate(predictions):
+            trend.add_scan(stamp)
+            if given is not None:
+                trend.add_prediction(stamp, given)
+        trend.add_losses(sum(given is None for given in predictions))
+        figure = trend_picture(trend, **settings)
+        self.addCleanup(plt.close, figure)
+        return figure
+
+    def texts(self, figure):
+        return " | ".join(text.get_text() for text in figure.texts)
+
+    def test_forces_are_in_newtons_and_a_lost_scan_breaks_the_line(self):
+        figure = self.picture(prediction(2e-7), None, prediction(4e-7))
+        axes, = figure.axes  # no device: no margin
+        self.assertEqual(axes.get_ylabel(), "pull-off force\nof the scan [nN]")
+        line = axes.lines[0]
+        self.assertEqual(list(line.get_xdata()), [1, 2, 3])
+        values = line.get_ydata()
+        self.assertAlmostEqual(values[0], 200)
+        self.assertTrue(math.isnan(values[1]))
+        self.assertIn("not predicted (1)", axes.get_legend_handles_labels()[1])
+        self.assertIn("3 scans, 1 not predicted", self.texts(figure))
+        self.assertIn("Scan 3: pull-off force 400 nN", self.texts(figure))
+
+    def test_a_device_brings_its_restoring_force_the_margin_and_the_verdict(self):
+        figure = self.picture(prediction(2e-7, 0, 4.0), prediction(2e-7, 1, 1.2), prediction(2e-7, 2, 0.2))
+        force, margin = figure.axes
+        self.assertEqual(force.get_ylabel(), "pull-off force\nof the device [µN]")
+        self.assertIn("restoring force of its spring", force.get_legend_handles_labels()[1])
+        for shown, expected in zip(force.lines[1].get_ydata(), (8.0, 2.4, 0.4)):
+            self.assertAlmostEqual(shown, expected)
+        self.assertEqual(margin.get_ylabel(), "margin [-]")
+        self.assertEqual(margin.get_legend_handles_labels()[1],
+                         ["95 % interval", "releases", "marginal", "sticks", "1: sticks below"])
+        self.assertIn("Scan 3: STICKS | the reason", self.texts(figure))
+
+    def test_a_beam_has_its_peel_number(self):
+        figure = self.picture(prediction(2e-7, 0, peel_number=3.0, peel_number_lower=2.0, peel_number_upper=4.0))
+        self.assertEqual(figure.axes[1].get_ylabel(), "peel number [-]")
+        self.assertIn("Scan 1: does not stick", self.texts(figure))
+
+    def test_decades_of_force_are_logarithmic_with_a_unit_at_each_step(self):
+        axes = self.picture(prediction(1e-9), prediction(1e-6)).axes[0]
+        self.assertEqual((axes.get_yscale(), axes.get_ylabel()), ("log", "pull-off force\nof the scan [N]"))
+        self.assertEqual(axes.yaxis.get_major_formatter()(0.01), "10 nN")  # the axis itself counts in micronewtons
+
+    def test_lower_bounds_lost_scans_and_an_empty_station_say_so(self):
+        self.assertIn("at least 200 nN", self.texts(self.picture(prediction(2e-7, status=1))))
+        self.assertIn("Scan 1: no equilibrium", self.texts(self.picture(prediction(2e-7, status=2))))
+        self.assertIn("Scan 2: not predicted", self.texts(self.picture(prediction(), None)))
+        self.assertIn("no scan yet", self.texts(self.picture()))
+
+    def test_the_last_scans_alone_are_shown_when_asked_for(self):
+        figure = self.picture(*[prediction()] * 30, last=10)
+        self.assertEqual(list(figure.axes[0].lines[0].get_xdata()), list(range(21, 31)))
+        self.assertIn("20 older not shown", self.texts(figure))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,127 @@
+#!/usr/bin/env python3
+"""sweep_load and cycle_contact as a tester calls them: a table, sentences, files, Ctrl-C, an exit status."""
+
+import csv
+import os
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+import rospy
+import rostest
+from mems_stiction.msg import StictionPrediction
+from roslib.packages import find_node
+from stiction_client import Collector, Station, rough_surface
+
+DONE, CANCELLED, NOT_RUN = 0, 1, 2
+PNG = b"\x89PNG"
+
+
+def start(program, *arguments):
+    return subprocess.Popen([find_node("mems_stiction", program)[0]] + list(arguments), stdout=subprocess.PIPE,
+                            stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, universal_newlines=True)
+
+
+def run(program, *arguments):
+    process = start(program, *arguments)
+    output, errors = process.communicate(timeout=60)
+    return process.returncode, output, errors
+
+
+class StationScriptsTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node("station_scripts_test")
+        cls.predictions = Collector("prediction", StictionPrediction).connect()
+        cls.station = Station()
+        cls.folder = tempfile.TemporaryDirectory()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def rows(self, name):
+        with open(self.path(name), newline="") as stream:
+            return list(csv.DictReader(stream))
+
+    def assert_picture(self, name):
+        with open(self.path(name), "rb") as stream:
+            self.assertEqual(stream.read(4), PNG)
+
+    def test_1_what_is_refused_is_said_in_one_line(self):
+        for program, arguments, reason in (
+                ("sweep_load", ["--voltages", "0"], "sweep_load: no scan yet"),
+                ("sweep_load", ["--voltages", "0:10:0"], "--voltages"),
+                ("cycle_contact", ["--count", "2"], "cycle_contact: no scan yet"),
+                ("cycle_contact", ["--count", "0"], "--count: 0 is not allowed"),
+                ("cycle_contact", ["--count", "1", "--node", "nobody", "--timeout", "0.5"], "no action nobody/cycle_contact")):
+            status, output, errors = run(program, *arguments)
+            self.assertEqual((status, output), (NOT_RUN, ""))
+            self.assertIn(reason, errors)
+            self.assertNotIn("Traceback", errors)
+            self.assertNotIn("[ERROR]", errors)
+
+    def test_2_a_sweep_shows_both_ways_and_what_they_say(self):
+        self.station.send(rough_surface(1))
+        prediction = self.predictions.wait(1)[0]
+        status, output, errors = run("sweep_load", "--voltages", "10,5")
+        self.assertEqual((status, errors), (NOT_RUN, "sweep_load: voltages: 5 V after 10 V is not allowed, must ascend\n"))
+        status, output, errors = run("sweep_load", "--voltages", "0:20:5", "--csv", self.path("sweep.csv"), "--plot",
+                                     self.path("sweep.png"))
+        self.assertEqual(status, DONE, errors)
+        lines = output.splitlines()
+        self.assertEqual([line.split()[:3] for line in lines[2:11]],
+                         [["up", "0", "V"], ["up", "5.00", "V"], ["up", "10.0", "V"], ["up", "15.0", "V"], ["up", "20.0", "V"],
+                          ["down", "15.0", "V"], ["down", "10.0", "V"], ["down", "5.00", "V"], ["down", "0", "V"]])
+        self.assertTrue(all(len(line) <= 140 for line in lines))
+        for sentence in ("releases after voltages up to: ", "opens on the way down at: ", "hysteresis, widest at", "Pull-in voltage: "):
+            self.assertIn(sentence, output)
+        rows = self.rows("sweep.csv")
+        self.assertEqual(len(rows), 9)
+        self.assertEqual(float(rows[0]["pull_off_force"]), prediction.pull_off_force)
+        self.assertEqual(float(rows[0]["margin"]), prediction.margin)
+        # Hysteresis: at the same voltage the contact is larger on the way down, as long as the device is closed.
+        up = {row["voltage"]: float(row["contact_area_jkr"]) for row in rows[:5]}
+        closed = [row for row in rows[5:] if row["is_open"] == "0"]
+        self.assertTrue(closed)
+        for row in closed:
+            self.assertGreater(float(row["contact_area_jkr"]), up[row["voltage"]])
+        self.assert_picture("sweep.png")
+
+    def test_3_cycles_show_what_the_contacts_leave(self):
+        status, output, errors = run("cycle_contact", "--count", "4", "--csv", self.path("cycles.csv"), "--plot",
+                                     self.path("cycles.png"))
+        self.assertEqual(status, DONE, errors)
+        self.assertEqual([line.split()[0] for line in output.splitlines()[2:6]], ["1", "2", "3", "4"])
+        self.assertIn("From contact 1 to contact 4 the pull-off force goes from", output)
+        self.assertIn("the lowest margin is", output)
+        rows = self.rows("cycles.csv")
+        self.assertEqual([row["cycle"] for row in rows], ["1", "2", "3", "4"])
+        self.assertEqual(float(rows[0]["pull_off_force"]), self.predictions.messages[-1].pull_off_force)
+        self.assertGreater(float(rows[0]["largest_change"]), 0.0)
+        self.assert_picture("cycles.png")
+
+    def test_4_ctrl_c_ends_early_and_keeps_what_is_done(self):
+        self.station.send(rough_surface(2, rows=128, cols=128))
+        self.predictions.wait(2)
+        for program, arguments in (("sweep_load", ["--voltages", "0:40:0.0001"]), ("cycle_contact", ["--count", "1000000"])):
+            process = start(program, *(arguments + ["--csv", self.path(program + ".csv")]))
+            time.sleep(4.0)
+            process.send_signal(signal.SIGINT)
+            output, errors = process.communicate(timeout=30)
+            self.assertEqual(process.returncode, CANCELLED, errors)
+            self.assertIn("%s: ended early: cancelled" % program, errors)
+            self.assertNotIn("Traceback", errors)
+            count = len(self.rows(program + ".csv"))
+            self.assertGreater(count, 0)
+            self.assertLess(count, 800000)
+            self.assertLess(len(output.splitlines()), 120)
+
+
+if __name__ == "__main__":
+    rostest.rosrun("mems_stiction", "station_scripts", StationScriptsTest)
