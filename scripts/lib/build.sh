@@ -25,7 +25,9 @@ showBuildFailure() {
   } >&2
 }
 
-# buildAll [CMAKE_ARGUMENT...]: configures with these and builds. Returns 1 and shows the causes if it fails.
+# buildAll [CMAKE_ARGUMENT...]: configures with these and builds; only what build_targets=(NAME...) names, if it is set.
+# Returns 1 and shows the causes if it fails.
+build_targets=()
 buildAll() {
   local started=$SECONDS status=0
   mkdir -p "$build_folder"
@@ -38,7 +40,7 @@ buildAll() {
     showBuildFailure "configuring with cmake"
     return 1
   fi
-  startGroup cmake --build "$build_folder" -- -j "$(buildJobs)" >>"$build_log" 2>&1
+  startGroup cmake --build "$build_folder" ${build_targets[@]+--target "${build_targets[@]}"} -- -j "$(buildJobs)" >>"$build_log" 2>&1
   watchGroup 'building' buildPercentage || status=$?
   if [ "$status" -ne 0 ]; then
     showBuildFailure "the build"

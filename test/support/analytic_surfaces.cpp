@@ -46,6 +46,15 @@ HeightMap paraboloid(int rows, int cols, double pitch_x, double pitch_y, double 
   });
 }
 
+HeightMap sphere(int rows, int cols, double pitch_x, double pitch_y, double radius, double center_x, double center_y) {
+  return sampled(rows, cols, pitch_x, pitch_y, [=](int row, int col) {
+    const double x = fromMiddle(col, cols, pitch_x) - center_x;
+    const double y = fromMiddle(row, rows, pitch_y) - center_y;
+    const double square = x * x + y * y;
+    return -square / (radius + std::sqrt(radius * radius - square));  // sqrt(R^2 - r^2) - R without its round-off
+  });
+}
+
 HeightMap sphereArray(int rows, int cols, double pitch_x, double pitch_y, const std::vector<double>& radii, int count_x,
                       int count_y) {
   if (radii.empty()) throw std::invalid_argument("sphereArray needs at least one radius");

@@ -17,6 +17,10 @@ HeightMap flat(int rows, int cols, double pitch_x, double pitch_y, double height
 HeightMap paraboloid(int rows, int cols, double pitch_x, double pitch_y, double radius, double center_x = 0.0,
                      double center_y = 0.0);
 
+/// The upper half of a sphere whose apex is at z = 0; the frame must lie within the radius.
+HeightMap sphere(int rows, int cols, double pitch_x, double pitch_y, double radius, double center_x = 0.0,
+                 double center_y = 0.0);
+
 /// The frame in count_x x count_y equal tiles, each with a paraboloid in its middle, all apexes at z = 0. Tile
 /// (i, j) has the radius radii[(j count_x + i) % radii.size()].
 HeightMap sphereArray(int rows, int cols, double pitch_x, double pitch_y, const std::vector<double>& radii, int count_x,

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// The surfaces after contact (section 2.3 of the paper).
 ///
 /// Only cells in interference change, by w = z1 - z2 > 0 there, and only outside the elastic regime:
@@ -19,7 +20,7 @@ namespace mems_stiction {
 /// How the interference of a cell is divided between the bodies.
 class DeformationShare {
  public:
-  /// @param hardness_ratio_limit a of (12), in (0, 1)
+  /// - @p hardness_ratio_limit a of (12), in (0, 1)
   DeformationShare(const Material& lower, const Material& upper, double hardness_ratio_limit,
                    const ApproachOptions& approach);
 

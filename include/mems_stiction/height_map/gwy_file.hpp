@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// Channels of a Gwyddion .gwy file.
 ///
 /// The container is a tree of named, type-tagged, little-endian components (https://gwyddion.net/documentation/
@@ -13,6 +14,7 @@
 
 namespace mems_stiction {
 
+/// One channel of a .gwy container.
 struct GwyChannel {
   int id = 0;           ///< N of "/N/data"
   std::string title;    ///< UTF-8; empty if the file gives none

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// Instrument makers' files, read by the program gwyddion as a child process: a damaged file that crashes the reader
 /// ends that process and nothing else. gwyddion is optional; the project neither links nor ships it.
 
@@ -11,12 +12,14 @@
 
 namespace mems_stiction {
 
+/// Which channel to take, and how to call Gwyddion.
 struct ImportOptions {
   std::string program = "gwyddion";  ///< looked up in PATH
   double timeout = 60.0;             ///< for one file [s]; usual files take 0.02 to 0.2 s
   std::string channel;               ///< title or number of the channel to take; empty = the likeliest height channel
 };
 
+/// A channel as heights, and where it came from.
 struct ImportedScan {
   HeightMap surface;    ///< CV_64FC1 [m]; missing data is NaN
   std::string channel;  ///< which one it is: "0: ZSensor"
@@ -29,7 +32,7 @@ std::vector<GwyChannel> channelsByGwyddion(const std::string& path, const Import
 /// Position in `channels` of the one to take: lengths in metres along x, y and z, and a title that says height. A
 /// closed-loop sensor ("ZSensor", "Z Height") goes before "Height" and "Topography", these before unknown titles, and
 /// titles of other signals ("AmplitudeError", "Deflection") are never chosen without being named; then the lower id.
-/// @param wanted title or number; empty = as above
+/// - @p wanted title or number; empty = as above
 /// @throw FileError without a file name: which channels there are, and why none can be taken.
 std::size_t chooseHeightChannel(const std::vector<GwyChannel>& channels, const std::string& wanted = {});
 

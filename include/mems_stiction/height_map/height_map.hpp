@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// A surface on a regular grid: heights, pitch and validity.
 ///
 /// Axes: column index grows along +x, row index grows along +y (row 0 is the top of the image), z points out of the
@@ -9,6 +10,7 @@
 
 namespace mems_stiction {
 
+/// Heights on a regular grid [m] with pitch [m]; pixels that are not finite were not measured. Shares its pixels when copied.
 class HeightMap {
  public:
   HeightMap() = default;

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// From pixels as an instrument or a message delivers them to heights in metres.
 
 #include <limits>
@@ -23,7 +24,7 @@ struct ScanOptions {
   void describe(OptionVisitor& visitor);
 };
 
-/// @param pixels rows x cols of CV_32FC1, CV_64FC1, CV_16UC1, CV_16SC1, CV_8UC1, or CV_32FC2 (height, quality: the
+/// - @p pixels rows x cols of CV_32FC1, CV_64FC1, CV_16UC1, CV_16SC1, CV_8UC1, or CV_32FC2 (height, quality: the
 ///        second channel is ignored but for NaN). Shared, not copied, when CV_32FC1 or CV_64FC1 with scale 1, offset 0
 ///        and no invalid value.
 /// @throw SurfaceError for any other type (the message lists these), an empty image or a pitch that is not > 0.

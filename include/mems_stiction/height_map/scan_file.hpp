@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// A scan from any file that we can read, and a height map to TIFF.
 ///
 /// | content                                       | read by     | calibration                     |
@@ -24,12 +25,14 @@
 
 namespace mems_stiction {
 
+/// What goes before what a file says about itself.
 struct ScanFileOptions {
   double pitch_x = 0.0;  ///< instead of every other statement of the pitch [m]; 0 = none
   double pitch_y = 0.0;  ///< the same for rows [m]
   ImportOptions import;  ///< for files that gwyddion reads; `channel` also for .gwy
 };
 
+/// A file as heights in metres, and where they came from.
 struct ScanFile {
   HeightMap surface;    ///< [m]
   std::string channel;  ///< the channel that was chosen, "0: ZSensor"; empty where a file has one only
@@ -59,13 +62,13 @@ HeightMap readScanFile(const std::string& path, const ScanOptions& scan = {}, co
 
 /// Writes heights [m] as a TIFF of one float channel: float32, or float64 where float32 would cost more than a
 /// thousandth of the rms height.
-/// @param heights rows x cols, CV_32FC1 or CV_64FC1
+/// - @p heights rows x cols, CV_32FC1 or CV_64FC1
 /// @throw FileError naming the file if it cannot be written.
 void writeHeightTiff(const std::string& path, const cv::Mat& heights);
 
 /// Writes a surface as a TIFF that reads back to the last bit (float32 where that holds every height exactly, else
 /// float64), and beside it PATH.yaml with its pitch and scale.
-/// @param note one line on where the surface comes from, kept as a comment
+/// - @p note one line on where the surface comes from, kept as a comment
 /// @throw FileError naming the file if it cannot be written.
 void writeScan(const std::string& path, const HeightMap& surface, const std::string& note);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// Does a scan look like what it claims to be? A wrong unit is the commonest mistake, and it gives no error: only a
 /// prediction that is wrong by powers of ten.
 

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// Heights as text: one row of the scan per line, row 0 first.
 
 #include <string>

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// Park Systems' AFM files are TIFF files too: their pixels are a colour picture of the scan, the heights are in tags.
 
 #include <string>

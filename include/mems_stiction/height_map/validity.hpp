@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// Which pixels of a height map were measured.
 
 #include "mems_stiction/height_map/height_map.hpp"

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// Will this part stick? The one door for users of the core.
 ///
 /// AdhesionModel brings two measured surfaces together until the free energy of the contact has its extremum, and reads
@@ -13,7 +14,7 @@
 ///
 /// Assumptions: asperities act independently; each is a couple of spherical caps; JKR holds for each (see
 /// median_tabor_parameter for how far it does). Outside: the status says so, forces are then lower bounds.
-/// Source: Deladi, Krijnen, Tas, Elwenspoek 2002; doc/model.md has every equation as implemented.
+/// Source: Deladi, Krijnen, Tas, Elwenspoek 2002; doc/theory.md has every equation as implemented.
 
 #include <memory>
 

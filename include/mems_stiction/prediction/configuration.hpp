@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// One configuration file or parameter tree: the model's options and how scans are read and prepared.
 
 #include <string>
@@ -17,6 +18,7 @@
 
 namespace mems_stiction {
 
+/// Everything that a configuration file may set.
 struct Configuration {
   Options model;
   SpatialRoughnessOptions spatial_roughness;

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// One configuration file or parameter tree into a Configuration, and back. Keys: config/stiction.yaml.
 
 #include <string>
@@ -9,7 +10,7 @@
 
 namespace mems_stiction {
 
-/// @param defaults what keys that the tree does not name keep.
+/// - @p defaults what keys that the tree does not name keep.
 /// @throw OptionsError one line per unknown key, wrong type, unphysical value or combination.
 Configuration configurationFromYaml(const YAML::Node& tree, const Configuration& defaults = {});
 

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// From the state at equilibrium to the figures that are published (section 2.3 of the paper): pull-off force, contact
 /// areas, energies, adhesion parameter, one record per asperity.
 
@@ -18,7 +19,7 @@ Asperity asperityAt(const ContactPatch& patch, const CapCouple& caps, const Aspe
 void addContact(const Asperity& asperity, const AsperityLaw& law, Prediction& prediction);
 
 /// Fills everything in `prediction` that follows from the contacts.
-/// @param tabor_parameters working memory
+/// - @p tabor_parameters working memory
 void summarizeContact(const HeightMap& lower, const EquilibriumState& state, ApproachSearch& search,
                       const GapField& field, const GapOrder& order, const AsperityLaw& law, const Options& options,
                       std::vector<double>& tabor_parameters, Prediction& prediction);

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// Would a finer scan say something else? The same prediction on fewer pixels tells what still moves.
 ///
 /// A scan is made coarser by the mean over blocks of pixels, as an instrument with larger pixels would see it. What

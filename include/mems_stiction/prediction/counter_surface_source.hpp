@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// The configured counter-surface, ready on the grid of whatever scan comes: cleaned, mounted, in its pose.
 ///
 /// A measured counter-surface is cleaned as the scan is (same steps; the tip is taken off while its asperities point
@@ -13,10 +14,11 @@
 
 namespace mems_stiction {
 
+/// Gives the counter-surface that belongs over a scan, of whatever type is configured.
 class CounterSurfaceSource {
  public:
-  /// @param scan how pixels of the file become heights, where it does not say so itself
-  /// @param cleaning the steps of the scan; the last one, refinement, is left to the caller
+  /// - @p scan how pixels of the file become heights, where it does not say so itself
+  /// - @p cleaning the steps of the scan; the last one, refinement, is left to the caller
   CounterSurfaceSource(const CounterSurfaceOptions& options, const ScanOptions& scan, const PipelineOptions& cleaning);
 
   /// Reads and cleans the file of type file; nothing for other types.

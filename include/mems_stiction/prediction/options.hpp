@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// Everything that a prediction depends on beside the surfaces. Keys, units, ranges: describe(); sources:
 /// config/*.yaml.
 
@@ -25,6 +26,7 @@ struct OutputOptions {
   void describe(OptionVisitor& visitor);
 };
 
+/// What AdhesionModel is constructed with.
 struct Options {
   Material lower;
   Material upper;

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// The answer of the model for one pair of surfaces. Field names are those of msg/StictionPrediction.msg and of the
 /// records that predict_scan prints.
 
@@ -36,6 +37,7 @@ struct Asperity {
   Regime regime = Regime::kElastic;
 };
 
+/// Everything that AdhesionModel::predict() finds out about one pair of surfaces.
 struct Prediction {
   Status status = Status::kNoEquilibrium;
   int steps = 0;  ///< steps of the approach that were taken

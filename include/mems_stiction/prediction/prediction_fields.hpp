@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// One table of the figures of a Prediction: name, member, unit. Records, messages, tables and reports visit it, so a
 /// name or a unit stands in one place. Names and order are those of msg/StictionPrediction.msg.
 ///

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// A prediction as text for scripts: field names of StictionPrediction, SI units, words for the enumerations.
 
 #include <string>
@@ -22,7 +23,7 @@ struct RecordExtras {
 /// One YAML document, from its "---" to the end of its last line. Numbers that are not finite are .nan, .inf, -.inf.
 /// The energy curve is a list of maps, left out when the prediction has none; spatial roughness is a part of
 /// `roughness`, left out when it was not computed. The convergence is repeated as a table in comments, for people.
-/// @param file the scan's name, as the user wrote it
+/// - @p file the scan's name, as the user wrote it
 std::string yamlRecord(const std::string& file, const HeightMap& scan, const Prediction& prediction,
                        const RecordExtras& extras = {});
 

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// From a scan to its prediction with one configuration: what node, command line and bag tools share to the last line.
 
 #include "mems_stiction/height_map/height_map.hpp"

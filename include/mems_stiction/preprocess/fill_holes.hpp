@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// Heights for missing pixels.
 ///
 /// Missing pixels become the thin plate through the valid ones around them: the sum of z_xx^2 + 2 z_xy^2 + z_yy^2 over
@@ -14,6 +15,7 @@
 
 namespace mems_stiction {
 
+/// Which missing pixels get heights.
 struct FillOptions {
   bool enabled = false;
   double max_fraction = 0.05;  ///< share of missing pixels beyond which the scan is refused [-], in [0, 1]
@@ -28,8 +30,8 @@ struct FillOptions {
 HeightMap withFilledHoles(const HeightMap& surface, const FillOptions& options);
 
 /// Fills the marked pixels, whatever their number.
-/// @param heights rows x cols CV_64FC1 [m], NaN where missing
-/// @param wanted rows x cols CV_8UC1, not 0 at missing pixels that get a height; the other missing ones stay NaN and
+/// - @p heights rows x cols CV_64FC1 [m], NaN where missing
+/// - @p wanted rows x cols CV_8UC1, not 0 at missing pixels that get a height; the other missing ones stay NaN and
 ///        are to the plate as the outside of the frame
 void fillPixels(cv::Mat& heights, const cv::Mat& wanted, double pitch_x, double pitch_y);
 

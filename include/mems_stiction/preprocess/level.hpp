@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// How does a scan lie, and what is left when its tilt is taken off?
 ///
 ///     z(x, y) ~ mean_height + slope_x (x - center_x) + slope_y (y - center_y),  least squares in z over the valid
@@ -17,6 +18,7 @@
 
 namespace mems_stiction {
 
+/// z = offset + slope_x x + slope_y y.
 struct Plane {
   double mean_height = 0.0;  ///< height at the centroid of the valid pixels [m]
   double slope_x = 0.0;      ///< dz/dx [-]

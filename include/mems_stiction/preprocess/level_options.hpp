@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// Which shape is taken off a scan as its lie and bend.
 
 #include "mems_stiction/base/option_visitor.hpp"
@@ -13,6 +14,7 @@ enum class LevelShape {
   kPolynomial,  ///< degree 2
 };
 
+/// What is subtracted, and how it is fitted.
 struct LevelOptions {
   LevelShape shape = LevelShape::kNone;
   bool robust = false;  ///< features and spikes have no say in the fit (polynomial_level.hpp)

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// Taking off what changes from one scan line to the next: jumps, drift, bow of the fast axis. Lines are rows.
 ///
 /// - median: each line less its median.
@@ -18,6 +19,7 @@ namespace mems_stiction {
 
 enum class LineAlignment { kNone, kMedian, kMedianDifference, kPolynomial };
 
+/// How scan lines are brought to one level.
 struct LineAlignmentOptions {
   LineAlignment method = LineAlignment::kNone;
   int degree = 1;  ///< of the polynomials, in [0, 2]

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// The Gaussian areal filter of ISO 16610-61: what is left of a surface above a cut-off wavelength.
 ///
 ///     s(x, y) = exp(-pi (x^2 + y^2)/(alpha lc)^2)/(alpha lc)^2,  alpha = sqrt(ln 2/pi)
@@ -15,6 +16,7 @@
 
 namespace mems_stiction {
 
+/// The filter's cut-off.
 struct LowPassOptions {
   double cutoff_wavelength = 0.0;  ///< lc [m], >= 0; 0 = off
 

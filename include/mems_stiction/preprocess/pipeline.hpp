@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// From a scan as it leaves an instrument to the surface that is brought into contact, with a record of what was done.
 ///
 /// The steps run in this order; each is off by default.
@@ -35,6 +36,7 @@
 
 namespace mems_stiction {
 
+/// Settings of every step; each is off by default.
 struct PipelineOptions {
   StageOffsetOptions offset;
   LineAlignmentOptions lines;
@@ -59,11 +61,13 @@ struct PreprocessStep {
   long long invalid_pixels = 0;  ///< after the step
 };
 
+/// What the steps that ran did to one scan.
 struct PreprocessRecord {
   std::vector<PreprocessStep> steps;    ///< those that ran, in order
   double tip_unreached_fraction = 0.0;  ///< share of pixels that the tip could not reach [-]; 0 without `tip`
 };
 
+/// The surface after the pipeline, and the record of it.
 struct PreparedScan {
   HeightMap surface;
   PreprocessRecord record;

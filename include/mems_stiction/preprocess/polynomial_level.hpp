@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// How does a scan lie and bend, apart from its features?
 ///
 ///     z(x, y) ~ sum of c_ij u^i v^j over i + j <= degree;  u = (x - center_x)/unit, v = (y - center_y)/unit
@@ -22,6 +23,7 @@ enum class FitWeights {
   kRobust,  ///< iterated reweighting
 };
 
+/// A polynomial of second degree in x and y.
 struct PolynomialSurface {
   int degree = 0;         ///< 0, 1 or 2
   double origin = 0.0;    ///< added to the sum [m]
@@ -34,7 +36,7 @@ struct PolynomialSurface {
   double height(double x, double y) const;  ///< [m]
 };
 
-/// @param degree 0, 1 or 2
+/// - @p degree 0, 1 or 2
 /// @throw SurfaceError if no pixel is valid.
 PolynomialSurface fitPolynomial(const HeightMap& surface, int degree, FitWeights weights);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// More pixels from the same scan, so that an asperity of one or two pixels is no longer a spike.
 ///
 /// Each pixel becomes factor x factor pixels; pitches are divided by the factor, so the frame keeps its size and its
@@ -19,6 +20,7 @@ namespace mems_stiction {
 
 enum class Interpolation { kCubic, kLanczos };
 
+/// How many pixels per pixel, and what draws between them.
 struct RefineOptions {
   int factor = 1;  ///< in [1, 16]; 1 = off
   Interpolation interpolation = Interpolation::kCubic;

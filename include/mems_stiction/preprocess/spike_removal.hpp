@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// Which pixels jump out of their surroundings?
 ///
 /// The residual of a pixel is its height less the median of the window around it, on the surface less its robust
@@ -15,6 +16,7 @@
 
 namespace mems_stiction {
 
+/// What counts as a spike.
 struct SpikeOptions {
   bool enabled = false;
   double threshold = 6.0;  ///< in robust standard deviations, > 0

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// Taking the height of the stage off a scan, before anything narrows it to single precision.
 ///
 /// Single precision spaces heights of 10 mm by 0.9 nm: under such an offset the roughness drowns. The difference is
@@ -10,6 +11,7 @@
 
 namespace mems_stiction {
 
+/// Whether the mean height is subtracted.
 struct StageOffsetOptions {
   bool enabled = false;
 

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// What can the surface look like that a tip of known shape has drawn so?
 ///
 /// An image is the surface dilated by the tip, i(x) = max over p of s(p) - depth(p - x); depth(r) is how far the tip
@@ -27,6 +28,7 @@
 
 namespace mems_stiction {
 
+/// The shape of the tip: a cone with a spherical end.
 struct TipOptions {
   double radius = 0.0;      ///< of the sphere [m], >= 0; 0 = off
   double half_angle = 0.0;  ///< between axis and flank of the cone [rad], in [0, 1.55]; 0 = a sphere with a cylinder
@@ -38,6 +40,7 @@ struct TipOptions {
 /// How far the tip has receded at a distance from its axis [m]; infinite beyond a cylinder.
 double tipDepth(const TipOptions& tip, double distance);
 
+/// The surface below the tip, and how much of it the tip could not reach.
 struct TipCorrection {
   HeightMap surface;  ///< CV_64FC1 [m]; invalid pixels are NaN
   cv::Mat reached;    ///< rows x cols CV_8UC1: 255 where the tip touched, 0 elsewhere and at invalid pixels

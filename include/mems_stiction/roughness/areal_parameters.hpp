@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// Height and hybrid parameters of ISO 25178-2 over the valid pixels of one surface, heights about their mean
 /// (levelling is the caller's).
 
@@ -7,6 +8,7 @@
 
 namespace mems_stiction {
 
+/// Height and hybrid parameters; NaN without a valid pixel.
 struct ArealParameters {
   double sa = 0.0;   ///< arithmetical mean height [m]
   double sq = 0.0;   ///< root mean square height [m]

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// How far does a surface resemble itself, and is that the same in every direction?
 ///
 ///     acf(tx, ty) = <z(x, y) z(x + tx, y + ty)> / <z^2>
@@ -24,6 +25,7 @@ enum class FrameBoundary { kOpen, kPeriodic };
 /// @throw SurfaceError if no pixel is valid.
 cv::Mat autocorrelation(const HeightMap& surface, FrameBoundary boundary = FrameBoundary::kOpen);
 
+/// How far heights are alike.
 struct SpatialParameters {
   double sal = 0.0;            ///< autocorrelation length [m]; 0 for a constant surface
   double str = 0.0;            ///< texture aspect ratio [-], in (0, 1]; 0 for a constant surface
@@ -32,7 +34,7 @@ struct SpatialParameters {
   bool decayed = false;        ///< acf fell to s in every direction
 };
 
-/// @param s in (0, 1)
+/// - @p s in (0, 1)
 /// @throw SurfaceError if no pixel is valid; OptionsError if s is out of range.
 SpatialParameters spatialParameters(const HeightMap& surface, FrameBoundary boundary = FrameBoundary::kOpen,
                                     double s = 0.2);

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// On which wavelengths does a surface carry its roughness?
 ///
 ///     C(q) = |integral of z w exp(-i q r) d^2r|^2 / (A <w^2>)                    power spectral density [m^4]
@@ -26,6 +27,7 @@ namespace mems_stiction {
 
 enum class SpectrumWindow { kNone, kHann };
 
+/// Moments of a profile's spectrum, averaged over its directions.
 struct SpectralMoments {
   double m0 = 0.0;     ///< [m^2]
   double m2 = 0.0;     ///< [-]
@@ -40,6 +42,7 @@ struct SpectrumRing {
   int count = 0;             ///< wave vectors in it
 };
 
+/// The spectral density of a surface, averaged over directions.
 struct PowerSpectrum {
   SpectralMoments moments;
   /// Rings of the width 2 pi/(longer side), by ascending |q| up to the smaller of the two Nyquist wave numbers; rings

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// How far a surface's roughness reaches sideways, in one table: autocorrelation, spectrum, summits, self-affinity.
 ///
 /// Heights and their meaning: autocorrelation.hpp, power_spectrum.hpp (Hann window: a measured frame does not wrap
@@ -14,6 +15,7 @@
 
 namespace mems_stiction {
 
+/// Whether it is computed, and where the exponent is fitted.
 struct SpatialRoughnessOptions {
   bool enabled = false;
   /// Wavelengths between which the power law is fitted [m], >= 0. 0 = 8 pitches: shorter ones carry the tip and noise.

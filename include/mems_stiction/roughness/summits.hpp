@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// The tops of a surface: how many, how blunt.
 ///
 /// A summit is a valid pixel above its eight neighbors, all valid (of equal heights side by side, the last in reading
@@ -15,6 +16,7 @@
 
 namespace mems_stiction {
 
+/// Figures of the summits of one scan.
 struct SummitParameters {
   int count = 0;
   double density = 0.0;         ///< summits per area of the pixels that were examined [1/m^2]

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// How does the counter-surface lie over the scan, and what are its heights on the scan's grid?
 ///
 /// Both surfaces have their frame's origin in the middle of their pixels, ((cols - 1)/2 pitch_x, (rows - 1)/2 pitch_y),

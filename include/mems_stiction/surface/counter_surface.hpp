@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// What is the scan brought into contact with?
 ///
 /// | type        | heights                                                         | beyond its edge            |
@@ -39,6 +40,7 @@ enum class CounterSurfaceFacing {
   kUp,    ///< as measured, asperities up: turned over about its y axis (z negated, columns mirrored)
 };
 
+/// What the counter-surface is and how it lies.
 struct CounterSurfaceOptions {
   CounterSurfaceType type = CounterSurfaceType::kFlat;
   CounterSurfaceFacing facing = CounterSurfaceFacing::kDown;

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// A random rough surface with Gaussian heights and a Gaussian autocorrelation.
 ///
 ///     <z(r) z(r + (x, y))> = sigma^2 exp(-(x^2/lx^2 + y^2/ly^2))

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// How do Gaussian numbers become numbers of a wanted skewness and kurtosis?
 ///
 /// By Johnson's translations of a standard normal g (Johnson, Biometrika 36 (1949) 149):
@@ -15,6 +16,7 @@
 
 namespace mems_stiction {
 
+/// A function that gives normal numbers another skewness and kurtosis.
 class JohnsonTranslation {
  public:
   /// @param skewness in [-4, 4]

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// What the seeded surfaces share: white noise, and its filtering in the space of wave vectors.
 
 #include <functional>

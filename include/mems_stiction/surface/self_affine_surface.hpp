@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// A random surface that looks alike on many scales.
 ///
 ///     C(q) = C0                        for q < q_r = 2 pi/rolloff_wavelength

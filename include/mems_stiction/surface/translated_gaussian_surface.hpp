@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// A random rough surface whose heights are skewed, or have heavier or lighter tails than Gaussian ones: worn surfaces
 /// have a negative skewness, surfaces with particles a positive one and a high kurtosis.
 ///
@@ -16,6 +17,7 @@
 
 namespace mems_stiction {
 
+/// A Gaussian surface, with skewness and kurtosis of its own.
 struct TranslatedGaussianOptions {
   GaussianSurfaceOptions gaussian;  ///< size, rms height, correlation lengths and seed of the surface asked for
   double skewness = 0.0;            ///< in [-4, 4]

@@ -1,0 +1,412 @@
+#!/usr/bin/env python3
+"""Writes the page of sensitivities from what sensitivity_study printed.
+
+usage: sensitivity_page.py STUDY.json PAGE.md FIGURE.png
+"""
+
+import argparse
+import json
+import os
+import pathlib
+import re
+import statistics
+
+import matplotlib
+
+matplotlib.use("Agg")
+
+import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
+
+DOCUMENTS = pathlib.Path(__file__).resolve().parents[2] / "doc"
+COLORS = ("#2f7fd1", "#d1322f", "#7a7a7a", "#f2b705", "#3a9d5d")
+QUANTITIES = (("pull_off_force", "pull-off force"), ("pull_off_force_jkr", "its part of contacts"),
+              ("contact_area", "contact area"), ("mean_gap", "mean gap"))
+MOVED = 1e-3  # a scan counts as moved when its pull-off force changes by more than this
+FEWEST_CONTACTS = 10  # as FLAG_FEW_CONTACTS has it
+UNTOUCHED = 5e-5  # smaller changes print as 0.0 %
+
+# What a setting is; why its default is what it is; what else there is to say. Numbers come from the study.
+SETTINGS = {
+    "pitch": (
+        "Pixels of the scan; coarser ones are means over blocks, as `predict_scan --convergence` makes them. It is no "
+        "setting: the scan brings it. *refined by N*: coarse pixels, then `preprocessing/refine/factor: N`.",
+        "", "The mean gap holds longest, then the contact area; the sum of radii, and with it `pull_off_force_jkr`, goes first: "
+        "radii need pixels. Aim at {min_contact_pixels:g} pixels in the median contact, below which `is_resolution_limited` is set."),
+    "approach/step": (
+        "Approach per step; sigma is the composite rms height.",
+        "Shorter steps say the same to well within the scan-to-scan spread; longer ones overlook places of rest.",
+        "The equilibrium is searched inside the first step that *ends* at rest, so most scans do not depend on the step at all. "
+        "Those that move came to rest and lost it again within one step, by contacts that merged."),
+    "approach/max_steps": (
+        "Steps after which the search gives up, with the status NO_EQUILIBRIUM.",
+        "Far above what a scan needs: it ends only searches whose step was typed wrong.", ""),
+    "approach/connectivity": (
+        "Whether cells that meet at a corner belong to one contact (8) or not (4).",
+        "The stricter reading of \"connected\"; hardly matters.", "Only contacts of few pixels can tell them apart."),
+    "approach/max_contact_fraction": (
+        "Contact fraction from which on the surfaces count as bonded.",
+        "Decides only [near bonding](#near-bonding), where it lies between what rests and what has closed.", ""),
+    "interface/cutoff_distance": (
+        "The smallest distance D0 [m] in van der Waals sums.",
+        "The usual value of the literature; the others tried are those in use.",
+        "It moves more than all other settings together: the attraction along the rim of each contact goes with D0^-2. Unless it was "
+        "measured for the pair, `pull_off_force` has one digit; compare surfaces by `pull_off_force_jkr` as well."),
+    "interface/equilibrium_distance": (
+        "z0 [m] of Tabor's parameter. The table has `pull_off_force_transition` in place of the part of contacts.",
+        "Middle of the values in use; enters `pull_off_force_transition` and the Tabor parameter only.", ""),
+    "preprocessing/refine/factor": (
+        "Pixels per pixel, interpolated.",
+        "Off: it adds no information, costs its square in time, and fine scans do not need it.",
+        "It moves the result about as far as a scan of half the pitch does. Of use where contacts span some 6 pixels (see *pitch*: it narrows "
+        "the scatter); at 2 to 4 pixels it makes contacts too round, and forces too large."),
+    "preprocessing/refine/interpolation": (
+        "How refinement draws between pixels, both with factor 2.",
+        "Both agree within the scan-to-scan spread; cubic has no ripples beside steps.", ""),
+    "approach/formulation": (
+        "Equations as corrected, or to the letter of the paper.",
+        "A choice of model, not of digits: [theory](theory.md#what-differs-from-the-printed-paper) gives the reasons.", ""),
+    "approach/deformation": (
+        "Elastic, elasto-plastic and plastic asperities, or all of them elastic.",
+        "A choice of model too: real surfaces flow.",
+        "It matters where the pressure of an elastic contact would exceed the hardness, and nowhere else: a plasticity index above 1 alone moves nothing."),
+}
+YARDSTICKS = {"interface/work_of_adhesion": "work of adhesion", "hardness": "hardness of both bodies",
+              "youngs_modulus": "Young's modulus of both bodies"}
+
+
+def spread(values):
+    """Standard deviation over the mean."""
+    return statistics.stdev(values) / abs(statistics.mean(values))
+
+
+def percent(share, sign=True):
+    text = "%+.1f" % (100 * share) if sign else "%.1f" % (100 * share)
+    return "0" if text in ("+0.0", "-0.0", "0.0") else text.replace("-", "−")
+
+
+class Surface:
+    """One surface of the study: what the default said of each scan, and every case against it."""
+
+    def __init__(self, record):
+        self.name, self.description, self.cases = record["name"], record["description"], record["cases"]
+        self.default = next(case for case in self.cases if case["is_default"])["outcomes"]
+        self.reference = {case["key"]: case["outcomes"] for case in self.cases if case["is_default"]}
+
+    def values(self, quantity):
+        return [outcome[quantity] for outcome in self.default]
+
+    def changes(self, case, quantity):
+        """Relative change of each scan against the default of the same key."""
+        reference = self.reference.get(case["key"], self.default)
+        return [outcome[quantity] / default[quantity] - 1 for outcome, default in zip(case["outcomes"], reference)]
+
+    def changes_as_text(self, case, quantity):
+        changes = self.changes(case, quantity)
+        mean, scatter = percent(statistics.mean(changes)), percent(statistics.stdev(changes), sign=False)
+        return "0" if (mean, scatter) == ("0", "0") else "%s ± %s" % (mean, scatter)
+
+    def moved(self, case):
+        """How many scans the case moves, and the largest change of the pull-off force."""
+        changes = self.changes(case, "pull_off_force")
+        return sum(abs(change) > MOVED for change in changes), max(changes, key=abs)
+
+    def spread(self, quantity):
+        return spread(self.values(quantity))
+
+
+class Study:
+    def __init__(self, path):
+        self.record = json.loads(pathlib.Path(path).read_text())
+        self.surfaces = [Surface(record) for record in self.record["surfaces"]]
+        self.near_bonding = [Surface(record) for record in self.record["near_bonding"]]
+
+    def cases(self, key):
+        """The cases of a key, each as a list with one case per surface."""
+        return list(zip(*([case for case in surface.cases if case["key"] == key] for surface in self.surfaces)))
+
+    def label(self, cases):
+        if cases[0]["key"] != "pitch":
+            return cases[0]["value"]
+        pitches = sorted({case["outcomes"][0]["pitch"] for case in cases})
+        nanometers = ", ".join("%g nm" % (1e9 * pitch) for pitch in pitches)
+        return nanometers + (", " + cases[0]["value"] if cases[0]["value"] else "")
+
+    def largest_shift(self, key, quantity, kinds=("numerical", "model", "physical")):
+        """Of the mean over scans, over surfaces and values."""
+        shifts = [statistics.mean(surface.changes(case, quantity)) for cases in self.cases(key)
+                  for surface, case in zip(self.surfaces, cases) if case["kind"] in kinds]
+        return max(shifts, key=abs)
+
+    def spreads(self, quantity):
+        return [surface.spread(quantity) for surface in self.surfaces]
+
+
+def table(header, rows):
+    lines = ["| " + " | ".join(header) + " |", "|" + "---|" * len(header)]
+    return lines + ["| " + " | ".join(row) + " |" for row in rows] + [""]
+
+
+def surfaces_table(study):
+    rows = []
+    for surface in study.surfaces:
+        mean = {name: statistics.mean(surface.values(name)) for name, _ in QUANTITIES}
+        rows.append([surface.name, surface.description, str(len(surface.default)),
+                     "%.0f" % statistics.mean(surface.values("asperity_count")),
+                     "%.0f" % statistics.mean(surface.values("median_contact_pixels")),
+                     "%.3g ± %s %%" % (mean["pull_off_force"], percent(surface.spread("pull_off_force"), False)),
+                     "%.3g ± %s %%" % (mean["pull_off_force_jkr"], percent(surface.spread("pull_off_force_jkr"), False)),
+                     "%.3g ± %s %%" % (mean["contact_area"], percent(surface.spread("contact_area"), False)),
+                     "%.3g ± %s %%" % (1e9 * mean["mean_gap"], percent(surface.spread("mean_gap"), False))])
+    return table(["surface", "heights", "scans", "contacts", "pixels per contact", "pull-off force [N]", "its part of contacts [N]",
+                  "contact area [m^2]", "mean gap [nm]"], rows)
+
+
+def default_of(study, key):
+    value = study.label(next(cases for cases in study.cases(key) if cases[0]["is_default"]))
+    if key == "approach/step":
+        return "0 (automatic: sigma/%g)" % study.record["steps_per_rms_height"]
+    return value
+
+
+def settings_of(study):
+    """Keys that have a default, in the order of the study."""
+    keys = [case["key"] for case in study.surfaces[0].cases if case["kind"] != "physical" and case["key"] != "pitch"]
+    return [key for key in dict.fromkeys(keys) if key in SETTINGS]
+
+
+def defaults_table(study):
+    rows = []
+    for key in settings_of(study):
+        rows.append(["`%s`" % key, default_of(study, key), percent(study.largest_shift(key, "pull_off_force")),
+                     percent(study.largest_shift(key, "contact_area")), percent(study.largest_shift(key, "mean_gap")),
+                     SETTINGS[key][1]])
+    intervals = [row for interval in study.record["intervals"] for row in interval["rows"]
+                 if row["samples"] == study.record["samples"]]
+    if intervals:
+        scatter = max(max(row["lower_scatter"], row["upper_scatter"]) for row in intervals)
+        rows.append(["`uncertainty/samples`", "%d" % study.record["samples"], "", "", "",
+                     "The ends of the 95 %% interval [scatter](#samples-of-the-interval) by up to %s %%, little beside its width; it costs nothing that shows." % percent(scatter, False)])
+    return table(["setting", "default", "pull-off force [%]", "contact area [%]", "mean gap [%]", "why"], rows)
+
+
+def setting_section(study, key):
+    what, why, more = SETTINGS[key]
+    quantities = list(QUANTITIES)
+    if key == "interface/equilibrium_distance":
+        quantities[1] = ("pull_off_force_transition", "with prefactors of the transition")
+    lines = ["### %s" % ("pitch" if key == "pitch" else "`%s`" % key), "", what, ""]
+    rows = []
+    unmoved = []
+    for cases in study.cases(key):
+        if cases[0]["is_default"]:
+            continue
+        label = study.label(cases)
+        entries = []
+        for surface, case in zip(study.surfaces, cases):
+            moved, largest = surface.moved(case)
+            statuses = sorted({outcome["status"] for outcome in case["outcomes"]} - {"EQUILIBRIUM"})
+            entries.append([label, surface.name] + [surface.changes_as_text(case, name) for name, _ in quantities]
+                           + ["%d of %d%s" % (moved, len(surface.default), ", to %s" % percent(largest) if moved else "")
+                              + (" (%s)" % ", ".join(statuses) if statuses else "")])
+        if all(entry[2:6] == ["0"] * 4 for entry in entries):
+            unmoved.append(label)
+        else:
+            rows += entries
+    if rows:
+        lines += table(["value", "surface"] + [title + " [%]" for _, title in quantities] + ["scans that move"], rows)
+    if unmoved:
+        lines += ["Nothing moves with %s." % ", ".join(unmoved), ""]
+    default = "" if key == "pitch" else "Default: %s. %s" % (default_of(study, key), why)
+    lines += [" ".join(part for part in (default, more.format(**study.record)) if part), ""]
+    lines += [digits(study, key), ""]
+    return lines
+
+
+def digits(study, key):
+    """Which digits mean something: shifts beside the scan-to-scan spread."""
+    words = []
+    for name, title in (("pull_off_force", "pull-off force"), ("contact_area", "contact area"), ("mean_gap", "mean gap")):
+        shift, beside = abs(study.largest_shift(key, name)), max(study.spreads(name))
+        if shift < UNTOUCHED:
+            verdict = "untouched"
+        elif shift < beside / 3:
+            verdict = "%s %%, lost beside the %s %% from scan to scan" % (percent(shift, False), percent(beside, False))
+        elif shift < beside:
+            verdict = "%s %%, below the %s %% from scan to scan" % (percent(shift, False), percent(beside, False))
+        else:
+            verdict = "%s %%, **above** the %s %% from scan to scan" % (percent(shift, False), percent(beside, False))
+        words.append("%s %s" % (title, verdict))
+    return "*Digits:* at most, on the mean: " + "; ".join(words) + "."
+
+
+def yardstick_table(study):
+    rows = []
+    for key, title in YARDSTICKS.items():
+        for cases in study.cases(key):
+            for surface, case in zip(study.surfaces, cases):
+                rows.append(["%s %s" % (title, case["value"]), surface.name]
+                            + [surface.changes_as_text(case, name) for name, _ in QUANTITIES])
+    return table(["constant", "surface"] + [title + " [%]" for _, title in QUANTITIES], rows)
+
+
+def near_bonding_table(study):
+    surfaces = study.near_bonding
+    limits = [case["value"] for case in surfaces[0].cases]
+    rows = []
+    for surface in surfaces:
+        row = [surface.name]
+        for case in surface.cases:
+            outcomes = case["outcomes"]
+            bonded = sum(outcome["status"] == "BONDED" for outcome in outcomes)
+            force = statistics.mean(outcome["pull_off_force"] for outcome in outcomes)
+            row.append("%d of %d, %.2g N" % (bonded, len(outcomes), force))
+        resting = [outcome["contact_fraction"] for outcome in surface.cases[-1]["outcomes"]
+                   if outcome["status"] == "EQUILIBRIUM"]
+        row.append("%.2g to %.2g" % (min(resting), max(resting)) if resting else "none")
+        rows.append(row)
+    return table(["rms height"] + ["limit %s" % limit for limit in limits] + ["contact fractions at rest, limit 1"], rows)
+
+
+def intervals_table(study):
+    rows = []
+    for interval in study.record["intervals"]:
+        for row in interval["rows"]:
+            rows.append([interval["name"], "%d" % row["samples"], "%.2f ± %s %%" % (row["lower"], percent(row["lower_scatter"], False)),
+                         "%.2f ± %s %%" % (row["upper"], percent(row["upper_scatter"], False))])
+    return table(["surface", "samples", "lower end over the prediction", "upper end"], rows)
+
+
+def in_short(study):
+    numerical = [key for key in settings_of(study) if study.cases(key)[0][0]["kind"] == "numerical"
+                 and key not in ("interface/cutoff_distance", "approach/max_steps")]
+    halved = [(cases, surface, case) for cases in study.cases("approach/step") for surface, case in zip(study.surfaces, cases)
+              if case["value"] in ("sigma/100", "sigma/200", "sigma/500")]
+    step = max((statistics.mean(surface.changes(case, "pull_off_force")) for _, surface, case in halved), key=abs)
+    cutoff = [percent(statistics.mean(surface.changes(case, "pull_off_force"))) for cases in study.cases("interface/cutoff_distance")
+              for surface, case in zip(study.surfaces, cases) if not case["is_default"]]
+    spreads = study.spreads("pull_off_force")
+    area, gap = study.spreads("contact_area"), study.spreads("mean_gap")
+    lines = [
+        "- **Another place of the same surface** moves the pull-off force by %s %% (standard deviation), the contact area by %s %%, "
+        "the mean gap by %s %%. Digits below that say something about this scan, not about the surface."
+        % (span(spreads), span(area), span(gap)),
+        "- **The step is converged** as far as that: steps of half to a tenth of the default move the mean pull-off force by %s %% at most." % percent(step)
+        if abs(step) < max(spreads) else
+        "- **The step is not converged:** shorter ones move the mean pull-off force by %s %%." % percent(step),
+        "- **The cut-off distance** is the one setting that decides the first digit of `pull_off_force`: %s to %s %% over the values in use. "
+        "It leaves contact area, gap and `pull_off_force_jkr` nearly alone, unless the surface is so smooth that its own attraction presses it together."
+        % (min(cutoff, key=number), max(cutoff, key=number)) if max(abs(number(text)) for text in cutoff) > 100 * max(spreads) else
+        "- **The cut-off distance** moves `pull_off_force` by %s to %s %% over the values in use, less than another place does."
+        % (min(cutoff, key=number), max(cutoff, key=number)),
+    ]
+    few = [surface.name for surface in study.surfaces if statistics.mean(surface.values("asperity_count")) < FEWEST_CONTACTS]
+    if few:
+        lines.insert(0, "- **Too few contacts** on %s (fewer than %d a scan): single contacts come and go, and the figures say little. Try a higher `--pressure`."
+                     % (", ".join(few), FEWEST_CONTACTS))
+    others = [key for key in numerical if abs(study.largest_shift(key, "pull_off_force")) < max(spreads) / 3
+              and key != "approach/step"]
+    lines.append("- **Lost beside the scan-to-scan spread**, whatever they are set to here: %s." % ", ".join("`%s`" % key for key in others))
+    return lines + [""]
+
+
+def span(shares):
+    """1.5 to 2.5, in percent; one number if they are all the same."""
+    lowest, highest = percent(min(shares), False), percent(max(shares), False)
+    return lowest if lowest == highest else "%s to %s" % (lowest, highest)
+
+
+def number(text):
+    return float(text.replace("−", "-"))
+
+
+def linked_from(folder, text):
+    """The page's links to other pages, which are written as from doc/, as from another folder."""
+    to_documents = os.path.relpath(str(DOCUMENTS), str(folder.resolve()))
+    if to_documents == ".":
+        return text
+    return re.sub(r"\]\(([\w./]+\.(?:md|yaml))", lambda link: "](" + os.path.normpath(os.path.join(to_documents, link.group(1))), text)
+
+
+def page(study, figure, is_generated):
+    pressure = "%g MPa" % (1e-6 * study.record["pressure"])
+    lines = ["# Sensitivities: which digits mean something", "",
+             "*Written by `scripts/sensitivity`%s; do not edit it by hand.*" % ("" if is_generated else " for the scans named below"), "",
+             "How far does a prediction move when a numerical setting is changed, everything else being equal? Each setting is changed alone, "
+             "on every scan; the table gives the mean change and its standard deviation over the scans, in percent. What counts is the comparison with "
+             "the spread from scan to scan: a shift below it cannot be seen in practice. A scan *moves* when its pull-off force "
+             "changes by more than %g %%. Words: [terminology](terminology.md); keys: [parameters](parameters.md)." % (100 * MOVED), "",
+             "## In short", ""]
+    lines += in_short(study)
+    lines += ["![Change of pull-off force and contact area with each setting](%s)" % figure, "",
+              "*Mean change on each surface; bars: standard deviation over the scans; band: spread from scan to scan (mean of the surfaces).*", "",
+              "## What was run", "",
+              "Scans pressed on a plane with %s of mechanical load over their area, everything else as [config/stiction.yaml](../config/stiction.yaml) "
+              "has it. ± is the spread from scan to scan." % pressure, ""]
+    lines += surfaces_table(study)
+    lines += ["## The defaults", "", "Largest shift of the mean over all values that were tried. "
+              + ("A test compares the defaults with those of the code." if is_generated else
+                 "The reasons beside them come from the generated surfaces of [doc/sensitivity.md](sensitivity.md): do they hold here too?"), ""]
+    lines += defaults_table(study)
+    lines += ["## Setting by setting", ""]
+    for key in ["pitch"] + settings_of(study):
+        lines += setting_section(study, key)
+    lines += ["## Near bonding", "",
+              "`approach/max_contact_fraction` matters only on surfaces so smooth that their attraction closes them. Gaussian ones with a correlation "
+              "length of 80 nm, no mechanical load: how many of the scans bond, and the mean pull-off force.", ""]
+    lines += near_bonding_table(study)
+    lines += ["A limit below 0.3 calls surfaces bonded that rest. Above 0.9 the whole frame has become a single contact, whose one cap is meaningless: "
+              "forces drop by powers of ten. Between, the limit decides nothing but how large the lower bound is; 0.5 lies in the middle.", "",
+              "## Samples of the interval", "",
+              "The margin's 95 %% interval is drawn at random. Its ends, as pull-off force over the predicted one, and how they scatter from seed to seed. "
+              "With the default of %d they are good to a tenth; take more for figures that are to be published." % study.record["samples"], ""]
+    lines += intervals_table(study)
+    lines += ["## For comparison: the constants", "", "Each larger by its standard uncertainty (`uncertainty/...`).", ""]
+    lines += yardstick_table(study)
+    return "\n".join(lines).rstrip() + "\n"
+
+
+def draw(study, path):
+    keys = ["pitch"] + settings_of(study) + list(YARDSTICKS)
+    rows = [(("pitch " if key == "pitch" else key.split("/", 1)[-1] + " ") + study.label(cases), cases)
+            for key in keys for cases in study.cases(key) if not cases[0]["is_default"]]
+    rows = [row for row in rows if any(abs(change) > UNTOUCHED for surface, case in zip(study.surfaces, row[1])
+                                       for name in ("pull_off_force", "contact_area") for change in surface.changes(case, name))]
+    figure, axes = plt.subplots(1, 2, figsize=(10.5, 1.2 + 0.26 * len(rows)), sharey=True)
+    for axis, (name, title) in zip(axes, (QUANTITIES[0], QUANTITIES[2])):
+        band = 100 * statistics.mean(study.spreads(name))
+        axis.axvspan(-band, band, color="#e8e8e8")
+        axis.axvline(0, color="black", linewidth=0.6)
+        for index, surface in enumerate(study.surfaces):
+            shift = 0.22 * (index - (len(study.surfaces) - 1) / 2)
+            changes = [surface.changes(cases[index], name) for _, cases in rows]
+            axis.errorbar([100 * statistics.mean(change) for change in changes], [place + shift for place in range(len(rows))],
+                          xerr=[100 * statistics.stdev(change) for change in changes], fmt="o", markersize=3.5, linewidth=0.9,
+                          color=COLORS[index % len(COLORS)], label=surface.name)
+        axis.set_xlim(-85, 85)
+        axis.set_xlabel("change of the %s [%%]" % title)
+        axis.grid(axis="x", linewidth=0.3)
+    axes[0].set_yticks(range(len(rows)))
+    axes[0].set_yticklabels([label for label, _ in rows], fontsize=8)
+    axes[0].set_ylim(len(rows) - 0.5, -0.5)
+    axes[1].legend(loc="lower right", fontsize=8)
+    figure.tight_layout()
+    figure.savefig(str(path), dpi=100)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("study", metavar="STUDY.json")
+    parser.add_argument("page", metavar="PAGE.md", type=pathlib.Path)
+    parser.add_argument("figure", metavar="FIGURE.png", type=pathlib.Path)
+    parser.add_argument("--of-files", action="store_true", help="the surfaces are given scans, not the generated ones")
+    arguments = parser.parse_args()
+    study = Study(arguments.study)
+    arguments.figure.parent.mkdir(parents=True, exist_ok=True)
+    draw(study, arguments.figure)
+    figure = os.path.relpath(str(arguments.figure), str(arguments.page.parent))
+    text = linked_from(arguments.page.parent, page(study, figure, not arguments.of_files))
+    arguments.page.write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,142 @@
+"""The pages say what the code says: links lead somewhere, names of topics, services and diagnostics are those of the sources,
+tables of messages are those of the message files."""
+
+import importlib.util
+import pathlib
+import re
+import subprocess
+import sys
+import unittest
+
+REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
+LIBRARY = REPOSITORY / "scripts" / "lib"
+PAGES = [REPOSITORY / "README.md"] + sorted((REPOSITORY / "doc").glob("*.md"))
+API = (REPOSITORY / "doc" / "ros_api.md").read_text(encoding="utf-8")
+
+
+def module(name):
+    specification = importlib.util.spec_from_file_location(name, str(LIBRARY / (name + ".py")))
+    loaded = importlib.util.module_from_spec(specification)
+    specification.loader.exec_module(loaded)
+    return loaded
+
+
+markdown = module("markdown_for_doxygen")
+
+
+def source(path):
+    return (REPOSITORY / path).read_text()
+
+
+def section(title):
+    """The text below a heading of the API page, up to the next of the same or a higher rank."""
+    match = re.search(r"^(#+) %s$" % re.escape(title), API, re.MULTILINE)
+    rest = API[match.end():]
+    end = re.search(r"^#{1,%d} " % len(match.group(1)), rest, re.MULTILINE)
+    return rest[:end.start()] if end else rest
+
+
+def rows(title):
+    """{name: type} of the table below a heading."""
+    found = re.findall(r"^\| (`[^|]+`) \| ([^|]+) \|", section(title), re.MULTILINE)
+    return {name: kind.strip() for names, kind in found for name in re.findall(r"`([^`]+)`", names)}
+
+
+class LinkTest(unittest.TestCase):
+    def test_every_link_leads_somewhere(self):
+        for page in PAGES:
+            text = re.sub(r"^```.*?^```", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
+            for target in re.findall(r"\]\(([^)\s]+)\)", text):
+                if target.startswith("http"):
+                    continue
+                path, _, anchor = target.partition("#")
+                file = (page.parent / path).resolve() if path else page
+                with self.subTest(page=page.name, target=target):
+                    self.assertTrue(file.exists())
+                    if anchor:
+                        self.assertIn(anchor, markdown.anchors(file.read_text(encoding="utf-8")))
+
+    def test_every_page_is_linked_from_the_readme(self):
+        readme = PAGES[0].read_text(encoding="utf-8")
+        for page in PAGES[1:]:
+            self.assertTrue("(doc/%s" % page.name in readme, "%s is not" % page.name)
+
+    def test_every_picture_is_shown(self):
+        text = "".join(page.read_text(encoding="utf-8") for page in PAGES)
+        for picture in (REPOSITORY / "doc" / "images").iterdir():
+            self.assertIn(picture.name, text)
+
+
+class RosApiTest(unittest.TestCase):
+    def names(self, suffix):
+        return re.findall(r'k\w+%s\[\] = "([^"]+)"' % suffix, source("include/mems_stiction/ros/topic_names.hpp"))
+
+    def test_topics(self):
+        listed = dict(rows("Subscribed"))
+        listed.update(rows("Published"))
+        self.assertEqual(set(self.names("Topic")), {name for name in listed if not name.startswith("/")})
+        publisher = source("src/ros/result_publisher.cpp")
+        constants = dict(re.findall(r'(k\w+Topic)\[\] = "([^"]+)"', source("include/mems_stiction/ros/topic_names.hpp")))
+        advertised = re.findall(r"(?:advertise<([\w:]+)>|transport_\.(advertise))\(\s*(k\w+)", publisher)
+        self.assertGreaterEqual(len(advertised), 8)
+        for kind, by_transport, constant in advertised:
+            expected = "sensor_msgs/Image" if by_transport else kind.replace("::", "/")
+            self.assertEqual(rows("Published")[constants[constant]].split("/")[-1], expected.split("/")[-1])
+
+    def test_services_and_actions(self):
+        for title, suffix, folder in (("Services", "Service", "srv"), ("Actions", "Action", "action")):
+            listed = rows(title)
+            self.assertEqual({"~" + name for name in self.names(suffix)}, {name for name in listed if name.startswith("~")})
+            for kind in listed.values():
+                package, _, name = kind.partition("/")
+                if package == "mems_stiction":
+                    self.assertTrue((REPOSITORY / folder / ("%s.%s" % (name, folder))).exists(), kind)
+
+    def test_diagnostics(self):
+        added = []
+        for path in ("src/ros/scan_accounting.cpp", "src/ros/stiction_server.cpp"):
+            added += re.findall(r'status\.add\("([^"]+)"', source(path))
+        listed = re.findall(r"^\| `([^`]+)` \|", section("Diagnostics"), re.MULTILINE)
+        self.assertEqual(listed, added)
+
+    def test_encodings(self):
+        for encoding in re.findall(r"enc::(?:TYPE_)?(\w+),", source("src/ros/image_conversion.cpp")):
+            self.assertIn("`%s`" % (encoding if encoding[0].isdigit() else encoding.lower()), section("Subscribed"))
+
+    def test_messages(self):
+        done = subprocess.run([sys.executable, str(LIBRARY / "message_tables.py"), "--check"], stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, universal_newlines=True)
+        self.assertEqual(done.returncode, 0, done.stdout)
+
+
+class ValidityTest(unittest.TestCase):
+    def test_every_flag_is_explained(self):
+        page = (REPOSITORY / "doc" / "validity.md").read_text(encoding="utf-8")
+        flags = re.findall(r"^uint32 (FLAG_\w+) = (\d+)", source("msg/StictionPrediction.msg"), re.MULTILINE)
+        self.assertEqual(len(flags), 6)
+        for name, value in flags:
+            self.assertIn("`%s` (%s)" % (name, value), page)
+
+    def test_limits_are_those_of_the_code(self):
+        page = (REPOSITORY / "doc" / "validity.md").read_text(encoding="utf-8")
+        flags = source("include/mems_stiction/verdict/regime_flags.hpp")
+        self.assertIn("fewer than %g pixels" % float(re.search(r"kFewestCellsPerContact = ([\d.]+)", flags).group(1)), page)
+        self.assertIn("fewer than %s contacts" % re.search(r"kFewestContacts = (\d+)", flags).group(1), page)
+        summary = source("src/prediction/contact_summary.cpp")
+        self.assertIn("not above %g" % float(re.search(r"kJkrLimit = ([\d.]+)", summary).group(1)), page)
+        resolution = source("include/mems_stiction/prediction/resolution.hpp")
+        self.assertIn("fewer than %g pixels) and" % float(re.search(r"min_contact_pixels = ([\d.]+)", resolution).group(1)), page)
+
+
+class HeaderTest(unittest.TestCase):
+    def test_opening_comments_belong_to_their_files(self):
+        """Without @file doxygen takes the comment that opens a header for one on whatever follows."""
+        for path in sorted((REPOSITORY / "include").rglob("*.hpp")):
+            lines = path.read_text().splitlines()
+            with self.subTest(header=path.name):
+                if lines[2].startswith("///"):
+                    self.assertEqual(lines[2], "/// @file")
+
+
+if __name__ == "__main__":
+    unittest.main()
