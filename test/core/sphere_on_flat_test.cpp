@@ -8,6 +8,7 @@
 #include "mems_stiction/mechanics/jkr.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
 #include "support/analytic_surfaces.hpp"
+#include "support/sphere_contact.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -16,13 +17,7 @@ constexpr double kRadius = 2e-6;
 constexpr double kWorkOfAdhesion = 0.05;
 constexpr double kLoads[] = {0.0, 1e-7, 1e-6, 1e-5};
 
-Options silicon(double load) {
-  Options options;  // both bodies as in material.hpp
-  options.interface.work_of_adhesion = kWorkOfAdhesion;
-  options.interface.hamaker_constant = 0.0;
-  options.load.mechanical_load = load;
-  return options;
-}
+Options silicon(double load) { return contactOnly(load, kWorkOfAdhesion); }
 
 double contactModulus() { return ContactPair(Material(), Material()).contact_modulus; }
 
@@ -30,29 +25,11 @@ double jkrRadius(double load, double radius = kRadius, double work_of_adhesion =
   return jkr::equilibriumContactRadius(load, work_of_adhesion, radius, contactModulus());
 }
 
-/// How a frame lies around the sphere.
-struct Grid {
-  const char* name;
-  double rows_per_radius;  ///< the frame's height in contact radii
-  double cols_per_radius;
-  int odd;             ///< 1 makes both sides odd, so that the apex is a pixel
-  double pitch_ratio;  ///< dy/dx
-  double shift;        ///< of the apex [pixels]
-};
-
-const Grid kGrids[] = {{"square_even", 4, 4, 0, 1, 0},
-                       {"square_odd", 4, 4, 1, 1, 0},
-                       {"wide", 3, 6, 0, 1, 0.3},
-                       {"anisotropic", 4, 4, 1, 1.25, 0.2},
-                       {"anisotropic_tall", 6, 3, 0, 0.8, 0.4}};
-
-HeightMap sphereOn(const Grid& grid, double contact_radius, double pixels) {
-  const double pitch_x = contact_radius / pixels;
-  const double pitch_y = pitch_x * grid.pitch_ratio;
-  const int rows = 2 * static_cast<int>(0.5 * grid.rows_per_radius * contact_radius / pitch_y) + grid.odd;
-  const int cols = 2 * static_cast<int>(0.5 * grid.cols_per_radius * contact_radius / pitch_x) + grid.odd;
-  return analytic::paraboloid(rows, cols, pitch_x, pitch_y, kRadius, grid.shift * pitch_x, grid.shift * pitch_y);
-}
+const SphereGrid kGrids[] = {{"square_even", 4, 4, 0, 1, 0, 0},
+                             {"square_odd", 4, 4, 1, 1, 0, 0},
+                             {"wide", 3, 6, 0, 1, 0.3, 0.3},
+                             {"anisotropic", 4, 4, 1, 1.25, 0.2, 0.25},
+                             {"anisotropic_tall", 6, 3, 0, 0.8, 0.4, 0.32}};
 
 struct Errors {
   double area = 0.0;
@@ -63,9 +40,9 @@ struct Errors {
   double largest() const { return std::max({area, patch_radius, pull_off}); }
 };
 
-Errors errorsOf(const Grid& grid, double load, double pixels) {
+Errors errorsOf(const SphereGrid& grid, double load, double pixels) {
   const double a = jkrRadius(load);
-  const Prediction prediction = AdhesionModel(silicon(load)).predict(sphereOn(grid, a, pixels));
+  const Prediction prediction = AdhesionModel(silicon(load)).predict(sphereOn(grid, kRadius, a, pixels));
   EXPECT_EQ(prediction.status, Status::kEquilibrium);
   EXPECT_EQ(prediction.asperity_count, 1);
   Errors errors;
@@ -77,7 +54,7 @@ Errors errorsOf(const Grid& grid, double load, double pixels) {
   return errors;
 }
 
-class SphereOnFlat : public testing::TestWithParam<Grid> {};
+class SphereOnFlat : public testing::TestWithParam<SphereGrid> {};
 
 INSTANTIATE_TEST_SUITE_P(Grids, SphereOnFlat, testing::ValuesIn(kGrids),
                          [](const auto& tested) { return tested.param.name; });
@@ -106,7 +83,7 @@ TEST(SphereOnFlat, isHertzAsAdhesionVanishes) {
     for (const double work_of_adhesion : {0.0, 1e-9}) {
       Options options = silicon(load);
       options.interface.work_of_adhesion = work_of_adhesion;
-      const Prediction prediction = AdhesionModel(options).predict(sphereOn(kGrids[1], a, 25));
+      const Prediction prediction = AdhesionModel(options).predict(sphereOn(kGrids[1], kRadius, a, 25));
       EXPECT_EQ(prediction.status, Status::kEquilibrium);
       EXPECT_NEAR(prediction.contact_area_jkr, kPi * a * a, 0.03 * kPi * a * a);
       EXPECT_NEAR(prediction.contact_area, kPi * a * a, 0.06 * kPi * a * a);

@@ -69,6 +69,17 @@ TEST(Verdict, answersNoMarginalAndYes) {
   EXPECT_NE(stuck.reason.find("margin 0.1"), std::string::npos);
 }
 
+TEST(Verdict, writesNumbersForPeople) {
+  const Spheres spheres;
+  const double area = spheres.prediction.nominal_area;
+  const double held = spheres.prediction.pull_off_force;
+  const auto reasonFor = [&](double margin) { return verdictFor(spheres, springOf(margin * held, area)).reason; };
+  EXPECT_EQ(reasonFor(12.34).find("margin 12.3, 95 % within "), 0U);
+  EXPECT_EQ(reasonFor(999.96).find("margin 1000, 95 % within "), 0U);
+  EXPECT_EQ(reasonFor(136468.0).find("margin 136000, 95 % within "), 0U);
+  EXPECT_EQ(reasonFor(0.02994).find("margin 0.0299, 95 % within "), 0U);
+}
+
 TEST(Verdict, exactConstantsStillLeaveTheTheoriesApart) {
   const Spheres spheres;
   UncertaintyOptions exact;

@@ -1,0 +1,218 @@
+#include "verification/table.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <sstream>
+
+namespace mems_stiction {
+namespace verification {
+namespace {
+
+/// What test/property checks, and where a plausible property ends.
+constexpr const char* kProperties =
+    "\n## Properties of every prediction\n\n"
+    "Checked by test/property on random rough surfaces, materials and loads (RapidCheck; a fixed seed, others by\n"
+    "`RC_PARAMS=\"seed=42 max_success=5000\"`):\n\n"
+    "- lengths times c and stiffnesses times s make areas c^2, forces s c^2 and energies s c^3 times as large;\n"
+    "- turning or flipping the frame, a border of invalid pixels, exchanging the bodies, moving them along z change\n"
+    "  nothing;\n"
+    "- two tiles of a scan under twice the load have twice its force;\n"
+    "- more work of adhesion never touches less;\n"
+    "- F_w and F_e are the sums over cells; the contacts share the load, the area and the pull-off force;\n"
+    "- only what touched is lower afterwards, and volumes are shared by hardness;\n"
+    "- a second, slow path (relabelling the frame at each step) finds the same state.\n\n"
+    "Two plausible properties have exceptions, which belong to the model:\n\n"
+    "- *More work of adhesion holds more.* The pull-off force is 3/2 pi w times the sum of radii. When contacts "
+    "merge,\n"
+    "  or a contact of few pixels grows by one, that sum may fall faster than w rises: on 2 of 1000 small random "
+    "frames\n"
+    "  at 1.5 times the work of adhesion. Of six surfaces together it never did.\n"
+    "- *More load touches more.* The generalized force of an asperity grows with its load P0 up to JKR's apparent "
+    "load\n"
+    "  P1 of its radius; (P1 - P0)^2 knows no sign. An asperity to which (6) gives more than P1 resists the more, and "
+    "a\n"
+    "  larger load may then rest on less area: on 3 of 10000 frames, all with such an asperity. Without one, never.\n";
+
+constexpr int kNameWidth = 56;
+constexpr int kValueWidth = 14;
+constexpr int kErrorWidth = 9;
+constexpr int kOrderWidth = 6;
+
+std::string formatted(const char* format, double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+std::string valueText(const Row& row, double value) {
+  const bool is_round_off = row.reference == 0.0 && std::abs(value) < kRoundOff;
+  return is_round_off ? "0" : formatted("%.7g", value);
+}
+
+/// Round-off differs from machine to machine: digits of it would say nothing.
+std::string errorText(double error) {
+  if (error == 0.0) return "0";
+  return error < kRoundOff ? "<1e-12" : formatted("%.1e", error);
+}
+
+std::string toleranceText(const Row& row) { return row.tolerance == 0.0 ? "0" : formatted("%.1e", row.tolerance); }
+
+std::string orderText(const Row& row) {
+  if (!row.convergence) return {};
+  const double order = row.convergence->order();
+  return std::isinf(order) ? "exact" : formatted("%.2f", order);
+}
+
+std::string nameText(const Row& row) { return row.unit.empty() ? row.quantity : row.quantity + " [" + row.unit + "]"; }
+
+/// Right- or left-aligned; letters beyond the width stay.
+std::string right(const std::string& text, int width) {
+  return std::string(static_cast<std::size_t>(std::max(0, width - static_cast<int>(text.size()))), ' ') + text;
+}
+std::string left(const std::string& text, int width) {
+  return text + std::string(static_cast<std::size_t>(std::max(0, width - static_cast<int>(text.size()))), ' ');
+}
+
+/// Reasons of a section, each once: a letter stands for it in the table.
+class Reasons {
+ public:
+  std::string letterOf(const std::string& reason) {
+    auto found = std::find(reasons_.begin(), reasons_.end(), reason);
+    if (found == reasons_.end()) found = reasons_.insert(reasons_.end(), reason);
+    return std::string(1, static_cast<char>('a' + (found - reasons_.begin())));
+  }
+  std::string legend() const {
+    std::string text;
+    for (std::size_t i = 0; i < reasons_.size(); ++i) {
+      text += "  " + std::string(1, static_cast<char>('a' + i)) + "  " + reasons_[i] + "\n";
+    }
+    return text;
+  }
+
+ private:
+  std::vector<std::string> reasons_;
+};
+
+std::string countText(const Count& count) {
+  return std::to_string(count.rows) + " rows, " + std::to_string(count.out) + " out";
+}
+
+std::string errorsByResolution(const Convergence& convergence, const char* between) {
+  std::string text;
+  for (std::size_t i = 0; i < convergence.errors.size(); ++i) {
+    text +=
+        (i == 0 ? "" : between) + formatted("%g", convergence.resolutions[i]) + ": " + errorText(convergence.errors[i]);
+  }
+  return text;
+}
+
+/// A pipe would end the cell.
+std::string cell(std::string text) {
+  for (std::size_t at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2)) text.insert(at, "\\");
+  return text;
+}
+
+void writeConvergence(const Section& section, std::ostringstream& page) {
+  const auto hasConvergence = [](const Row& row) { return row.convergence.has_value(); };
+  if (!std::any_of(section.rows.begin(), section.rows.end(), hasConvergence)) return;
+  page << "\nErrors by resolution:\n\n| quantity | counted in | errors | order | at least | why |\n"
+       << "|---|---|---|---|---|---|\n";
+  for (const Row& row : section.rows) {
+    if (!row.convergence) continue;
+    const Convergence& convergence = *row.convergence;
+    page << "| *" << cell(row.quantity) << "* | " << convergence.resolution << " | "
+         << errorsByResolution(convergence, "; ") << " | " << orderText(row) << " | "
+         << formatted("%g", convergence.least_order) << " | " << cell(convergence.reason) << " |\n";
+  }
+}
+
+}  // namespace
+
+Count countRows(const std::vector<Section>& sections) {
+  Count count;
+  for (const Section& section : sections) {
+    for (const Row& row : section.rows) {
+      ++count.rows;
+      if (!row.isWithin()) ++count.out;
+    }
+  }
+  return count;
+}
+
+std::vector<std::string> rowNames(const std::vector<Section>& sections) {
+  std::vector<std::string> names;
+  for (const Section& section : sections) {
+    for (const Row& row : section.rows) names.push_back(section.title + ": " + row.quantity);
+  }
+  return names;
+}
+
+std::vector<std::string> rowNamesOfPage(const std::string& page) {
+  std::vector<std::string> names;
+  std::istringstream lines(page);
+  std::string title;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.rfind("## ", 0) == 0) title = line.substr(3);
+    if (line.rfind("| ok | ", 0) != 0 && line.rfind("| **out** | ", 0) != 0) continue;
+    const std::size_t begin = line.find("| ", 2) + 2;
+    std::string name = line.substr(begin, line.find(" | ", begin) - begin);
+    for (std::size_t at = name.find("\\|"); at != std::string::npos; at = name.find("\\|")) name.erase(at, 1);
+    names.push_back(title + ": " + name);
+  }
+  return names;
+}
+
+std::string terminalTable(const std::vector<Section>& sections) {
+  std::ostringstream text;
+  for (const Section& section : sections) {
+    Reasons reasons;
+    text << section.title << "\n"
+         << left("", kNameWidth + 2) << right("computed", kValueWidth) << right("reference", kValueWidth)
+         << right("error", kErrorWidth) << right("order", kOrderWidth) << right("tol.", kErrorWidth) << "\n";
+    for (const Row& row : section.rows) {
+      text << "  " << left(nameText(row), kNameWidth) << right(valueText(row, row.computed), kValueWidth)
+           << right(valueText(row, row.reference), kValueWidth) << right(errorText(row.error()), kErrorWidth)
+           << right(orderText(row), kOrderWidth) << right(toleranceText(row), kErrorWidth) << " "
+           << reasons.letterOf(row.reason) << (row.isWithin() ? "" : "  <-- OUT") << "\n";
+      if (!row.convergence) continue;
+      text << "      " << row.convergence->resolution << " " << errorsByResolution(*row.convergence, ", ") << "\n";
+      if (row.convergence->order() < row.convergence->least_order) {
+        text << "      order must be at least " << row.convergence->least_order << ": " << row.convergence->reason
+             << "\n";
+      }
+    }
+    text << reasons.legend() << "\n";
+  }
+  text << countText(countRows(sections)) << "\n";
+  return text.str();
+}
+
+std::string markdownPage(const std::vector<Section>& sections) {
+  std::ostringstream page;
+  page << "# Verification\n\n"
+          "Every closed form that the model is built from, and every published number that it must give: written by\n"
+          "`scripts/verify`, which fails when a row is out. References do not come from this package's code: they are\n"
+          "published numbers, or closed forms and quadratures written down separately in test/verification.\n\n"
+          "*error* is |computed/reference - 1|, or |computed| where the reference is 0; *order* is p in\n"
+          "error ~ pitch^p, of rows that hang on the grid. Values of such rows are those of the finest grid, at the\n"
+          "grid's worst phase. A row is out when its error exceeds the tolerance or its order falls short.\n\n"
+       << "**" << countText(countRows(sections)) << ".**\n";
+  for (const Section& section : sections) {
+    page << "\n## " << section.title << "\n\n"
+         << "| | quantity | unit | computed | reference | source of the reference | error | order | tolerance | why |\n"
+         << "|---|---|---|---|---|---|---|---|---|---|\n";
+    for (const Row& row : section.rows) {
+      page << (row.isWithin() ? "| ok | " : "| **out** | ") << cell(row.quantity) << " | " << row.unit << " | "
+           << valueText(row, row.computed) << " | " << valueText(row, row.reference) << " | " << cell(row.source)
+           << " | " << errorText(row.error()) << " | " << orderText(row) << " | " << toleranceText(row) << " | "
+           << cell(row.reason) << " |\n";
+    }
+    writeConvergence(section, page);
+  }
+  page << kProperties;
+  return page.str();
+}
+
+}  // namespace verification
+}  // namespace mems_stiction
