@@ -1,0 +1,196 @@
+"""scripts/reproduce_paper: a trial run, its page, and that the rows of its table are computed."""
+
+import copy
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+
+REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(REPOSITORY / "scripts" / "lib"))
+
+from paper import cases, claims, data  # noqa: E402
+
+
+def program():
+    """paper_study as built; by the environment where ROS cannot find it."""
+    if "MEMS_STICTION_PAPER_STUDY" in os.environ:
+        return os.environ["MEMS_STICTION_PAPER_STUDY"]
+    from roslib.packages import find_node
+
+    return find_node("mems_stiction", "paper_study")[0]
+
+
+class OtherMaps:
+    """Maps of a case after which no surface had changed, with the energies backwards and twice the tilt."""
+
+    def __init__(self, maps):
+        self._maps = maps
+        self.lower_after, self.upper_after = maps.lower, maps.upper
+
+    def __getattr__(self, name):
+        return getattr(self._maps, name)
+
+    def asperities(self, name):
+        return 2 * self._maps.asperities(name)
+
+    def energies(self, name):
+        return self._maps.energies(name)[::-1]
+
+
+class OtherFacts(claims.Facts):
+    def maps(self, name):
+        return OtherMaps(super().maps(name))
+
+
+class TrialRun(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls._folder = tempfile.TemporaryDirectory()
+        cls.folder = pathlib.Path(cls._folder.name)
+        cls.done = subprocess.run(
+            [str(REPOSITORY / "scripts" / "reproduce_paper"), "--quick", "--program", program(), "--work", str(cls.folder / "work"),
+             "--doc", str(cls.folder / "doc")], stdout=subprocess.PIPE, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL,
+            universal_newlines=True, timeout=200)
+        assert cls.done.returncode == 0, cls.done.stderr
+        cls.record = json.loads((cls.folder / "work" / "results.json").read_text())
+        cls.study = cases.Study(cls.record["seeds"], cls.record["size"], True)
+        cls.page = (cls.folder / "doc" / "paper.md").read_text()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls._folder.cleanup()
+
+    def facts(self, results=None, kind=claims.Facts):
+        results = self.record["results"] if results is None else results
+        return kind(self.study, results, data.Sweep(self.study, results), self.folder / "work" / "dump")
+
+    def changed(self, change):
+        """The results after change(name, figures) went over each case."""
+        results = copy.deepcopy(self.record["results"])
+        for name, figures in results.items():
+            change(name, figures)
+        return results
+
+    def row(self, name, **arguments):
+        return {row.name: row for row in claims.all_rows(self.facts(**arguments))}[name]
+
+    def test_writes_seven_figures_fit_for_a_repository(self):
+        names = re.findall(r"\]\((figures/[^)]+)\)", self.page)
+        self.assertEqual(names, ["figures/figure_%d.png" % number for number in range(1, 8)])
+        for name in names:
+            self.assertTrue(10e3 < (self.folder / "doc" / name).stat().st_size < 300e3, name)
+
+    def test_the_page_says_what_was_run(self):
+        self.assertIn("quick trial", self.page)
+        self.assertIn("%d predictions" % self.record["predictions"], self.page)
+        self.assertIn(self.record["version"], self.page)
+        self.assertIn("%d × %d pixels, %d pairs" % (self.study.size, self.study.size, self.study.seeds), self.page)
+        self.assertNotIn(str(REPOSITORY), self.page)
+
+    def test_every_claim_is_a_row_with_a_verdict(self):
+        table = self.page[self.page.index("## The paper's claims"):]
+        rows = claims.all_rows(self.facts())
+        for row in rows:
+            self.assertIn("| %s | %s |" % (row.part, row.claim), table)
+            self.assertIn("| **%s** |" % row.verdict, table)
+        for part in ("abstract", "2.2", "conclusions 1", "conclusions 2", "conclusions 3", "conclusions 4", "conclusions 5",
+                     "conclusions 6"):
+            self.assertTrue(any(part in row.part for row in rows), part)
+
+    def test_other_results_give_other_rows(self):
+        """No number of a row is typed in: with every figure changed, every row that claims to have run something changes."""
+        random = np.random.RandomState(1)
+
+        def change(name, figures):
+            for field, value in figures.items():
+                if isinstance(value, float):
+                    figures[field] = value * random.uniform(0.5, 0.9)
+                if isinstance(value, int) and field.endswith("_count"):
+                    figures[field] = value + random.randint(3, 9)
+            if figures["status"] == "BONDED":
+                figures["status"] = "EQUILIBRIUM"
+
+        before = claims.all_rows(self.facts())
+        after = claims.all_rows(self.facts(self.changed(change), OtherFacts))
+        unchanged = [row.name for row, other in zip(before, after) if row.came_out == other.came_out]
+        self.assertEqual(unchanged, ["friction"])
+
+    def test_verdicts_follow_the_results(self):
+        def weak(name, figures):
+            figures["bonding_energy"] *= 1e-6
+
+        def shrunk(name, figures):
+            if "/regimes" in name:
+                figures["contact_area"] *= 0.5
+
+        def elastic(name, figures):
+            figures["elasto_plastic_count"] = figures["plastic_count"] = 0
+
+        def rough_bonds(name, figures):
+            if name.startswith("sweep/"):
+                figures["contact_fraction"] = 1 - figures["contact_fraction"]
+
+        for name, change, before in (("energy_outside_bonding", weak, claims.YES), ("larger_area_gold", shrunk, claims.YES),
+                                     ("three_regimes", elastic, claims.YES), ("plastic_without_load", elastic, claims.YES),
+                                     ("falls", rough_bonds, claims.PART)):
+            self.assertEqual(self.row(name).verdict, before, name)
+            row = self.row(name, results=self.changed(change))
+            self.assertIn(row.verdict, (claims.NO, claims.PART), row.came_out)
+            self.assertNotEqual(row.came_out, self.row(name).came_out)
+        self.assertEqual(self.row("material_topography", kind=OtherFacts).verdict, claims.NO)
+        self.assertEqual(self.row("energy_extremum", kind=OtherFacts).verdict, claims.NO)
+
+    def test_area_and_energy_fall_with_the_adhesion_parameter_within_their_bands(self):
+        sweep = self.facts().sweep
+        for material in cases.MATERIALS:
+            for series in cases.SERIES:
+                self.assertLessEqual(claims.largest_rise(sweep.values(material, series.name, "contact_fraction")), 1.0, series.name)
+                if not series.name.endswith("vdw"):  # E_t contains the energy of the attraction, which first rises
+                    rise = claims.largest_rise(sweep.values(material, series.name, "normalized_bonding_energy"))
+                    self.assertLessEqual(rise, 1.0, series.name)
+
+    def test_without_van_der_waals_and_plasticity_only_the_adhesion_parameter_counts(self):
+        """Silicon of 10 nm and gold of 50 nm: the same pairs give the same state at the same parameter, to round-off; a cell
+        more or less where round-off decides a level."""
+        sweep = self.facts().sweep
+        silicon, gold = (sweep.values(material, "elastic", "asperity_count") for material in cases.MATERIALS)
+        self.assertGreater(np.mean(silicon == gold), 0.9)
+        self.assertTrue(np.all(np.abs(silicon - gold) <= 1))
+
+    def test_the_number_of_jobs_changes_nothing(self):
+        path = self.folder / "pairs.jsonl"
+        pairs = [cases.pair(cases.SILICON, 64, seed, [cases.case("a/%d" % seed, cases.SILICON, 1e-10 * seed, {})]) for seed in range(1, 6)]
+        path.write_text("".join(json.dumps(one) + "\n" for one in pairs))
+        one, three = (sorted(subprocess.run([program(), "--jobs", jobs, str(path)], stdout=subprocess.PIPE, check=True,
+                                            universal_newlines=True).stdout.splitlines()) for jobs in ("1", "3"))
+        self.assertEqual(len(one), 5)
+        self.assertEqual(one, three)
+
+    def test_a_setting_that_does_not_exist_is_an_error_that_names_it(self):
+        path = self.folder / "wrong.jsonl"
+        path.write_text(json.dumps(cases.pair(cases.SILICON, 64, 1, [cases.case("a", cases.SILICON, 1e-9, {"interface/gamma": 1.0})])) + "\n")
+        done = subprocess.run([program(), str(path)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("interface/gamma", done.stderr)
+        self.assertEqual(done.stdout, "")
+
+
+class ShippedPage(unittest.TestCase):
+    def test_is_of_a_full_run_and_complete(self):
+        page = (REPOSITORY / "doc" / "paper.md").read_text()
+        self.assertNotIn("quick trial", page)
+        for name in re.findall(r"\]\((figures/[^)]+)\)", page):
+            self.assertLess((REPOSITORY / "doc" / name).stat().st_size, 300e3, name)
+        full = cases.Study(12, 2048, False)
+        self.assertIn("%d × %d pixels, %d pairs" % (full.size, full.size, full.seeds), page)
+
+
+if __name__ == "__main__":
+    unittest.main()
