@@ -90,8 +90,9 @@ MEMS_STICTION_VECTORIZED void SurroundingsTable::collectRow(int row, const std::
   const double* above = row > 0 ? line - cols : no_row_.data();
   const double* below = row + 1 < field_->rows() ? line + cols : no_row_.data();
   const std::int32_t* dales = dales_->data() + first_cell;
-  markBorders(row > 0 ? dales - cols : dales, dales, row + 1 < field_->rows() ? dales + cols : dales,
-              static_cast<std::size_t>(cols), is_border_.data());
+  const std::int32_t* dales_above = row > 0 ? dales - cols : dales;
+  const std::int32_t* dales_below = row + 1 < field_->rows() ? dales + cols : dales;
+  markBorders(dales_above, dales, dales_below, static_cast<std::size_t>(cols), is_border_.data());
   const GapOrder& order = *order_;
   const auto groups = static_cast<std::uint32_t>(end_group_ - first_group_);
   for (int i = 0; i < count; ++i) {
@@ -104,7 +105,18 @@ MEMS_STICTION_VECTORIZED void SurroundingsTable::collectRow(int row, const std::
     around.gaps[kTop] = above[col];
     around.gaps[kBottom] = below[col];
     around.cell = first_cell + col;
-    around.dale_and_border = static_cast<std::uint32_t>(dales[col]) << 1U | is_border_[static_cast<std::size_t>(col)];
+    const std::int32_t dale = dales[col];
+    std::uint32_t is_border = is_border_[static_cast<std::size_t>(col)];
+    if (is_border != 0) {  // only neighbours that come into contact before matter; left and top are first of equal gaps
+      const auto joins = [&](bool comes_before, std::int32_t other) {
+        return static_cast<std::uint32_t>(comes_before) & static_cast<std::uint32_t>(other != dale);
+      };
+      is_border = joins(around.gaps[kLeft] <= line[col], dales[std::max(col - 1, 0)]) |
+                  joins(around.gaps[kRight] < line[col], dales[std::min(col + 1, cols - 1)]) |
+                  joins(around.gaps[kTop] <= line[col], dales_above[col]) |
+                  joins(around.gaps[kBottom] < line[col], dales_below[col]);
+    }
+    around.dale_and_border = static_cast<std::uint32_t>(dale) << 1U | is_border;
   }
 }
 

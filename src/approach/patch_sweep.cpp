@@ -61,10 +61,13 @@ void PatchSweep::prefetchCell(int place) const {
 }
 
 void PatchSweep::prefetchPatch(int place) const {
-  const std::int32_t dale = surroundings_.collected(place).dale();
-  const char* patch = reinterpret_cast<const char*>(patches_.data() + patchOfDale(dale));
+  const CellSurroundings& around = surroundings_.collected(place);
+  const char* patch = reinterpret_cast<const char*>(patches_.data() + patchOfDale(around.dale()));
   for (std::size_t offset = 0; offset < sizeof(ContactPatch); offset += kCacheLine)
     __builtin_prefetch(patch + offset, 1);
+  if (!around.isBorder()) return;
+  const std::int32_t* dale = dales_.data() + around.cell;
+  for (const std::ptrdiff_t offset : {-field_->cols(), 0, field_->cols()}) __builtin_prefetch(dale + offset);
 }
 
 void PatchSweep::prefetchCentre(std::int32_t id) const {
