@@ -10,6 +10,7 @@ namespace {
 /// Largest window, as a share of the frame: what a search up to a contact fraction of 0.3 reads in one go, at 12 bytes
 /// a pixel of memory.
 constexpr double kWindowShare = 0.29;
+constexpr std::ptrdiff_t kWriteAhead = 3;
 
 }  // namespace
 
@@ -100,6 +101,7 @@ MEMS_STICTION_VECTORIZED void SurroundingsTable::collectRow(int row, const std::
     const auto group = static_cast<std::uint32_t>(order.groupOf(line[col]) - first_group_);
     if (group >= groups) continue;
     CellSurroundings& around = table_[static_cast<std::size_t>(next_place_[group]++)];
+    __builtin_prefetch(&around + kWriteAhead, 1);  // where the group goes on: there are too many for the processor
     around.gaps[kLeft] = col > 0 ? line[col - 1] : GapField::kInvalidGap;
     around.gaps[kRight] = col + 1 < cols ? line[col + 1] : GapField::kInvalidGap;
     around.gaps[kTop] = above[col];

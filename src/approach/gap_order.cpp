@@ -11,6 +11,7 @@ namespace {
 constexpr int kMaxBuckets = 1 << 16;
 constexpr int kMinBuckets = 1 << 6;
 constexpr int kCellsPerBucket = 8;
+constexpr std::ptrdiff_t kWriteAhead = 6;
 /// Buckets beyond the contact limit that are ordered too: cells near the contact are summed one by one, and the wider
 /// buckets of the tail start where their width is small against the gap.
 constexpr int kBucketsBeyondLimit = 16 * GapOrder::kBucketsPerTailBucket;
@@ -138,7 +139,9 @@ MEMS_STICTION_VECTORIZED void GapOrder::collectCells(const GapField& field) {
       const int bucket = static_cast<int>(std::min(gap * inverse_width_, last));
       if (bucket >= ordered_buckets_) continue;
       const std::int32_t place = group_end_[static_cast<std::size_t>(bucket >> group_shift_)]++;
-      cells_[static_cast<std::size_t>(place)] = {gap, first_cell + col, row};
+      OrderedCell& cell = cells_[static_cast<std::size_t>(place)];
+      cell = {gap, first_cell + col, row};
+      __builtin_prefetch(&cell + kWriteAhead, 1);  // where the group goes on: there are too many for the processor
       const double excess = gap - bucket * bucket_width_;
       addGaps(ordered_moments_[static_cast<std::size_t>(bucket)], 1.0, excess);
       if (excess < 0.0 || excess >= bucket_width_) may_be_misplaced = true;

@@ -1,6 +1,7 @@
 #include "mems_stiction/equilibrium/approach_search.hpp"
 
 #include <algorithm>
+#include <new>
 
 #include "mems_stiction/approach/cap_couple.hpp"
 #include "mems_stiction/equilibrium/level_search.hpp"
@@ -89,8 +90,10 @@ void ApproachSearch::moveTo(double approach, int contact_count, EquilibriumState
     const std::int32_t id = changed[i];
     const ContactPatch& patch = sweep_.patch(id);
     const auto place = static_cast<std::size_t>(sweep_.livePlace(id));
-    caps_[place] = capCouple(patch, *field_, centreOf(id, patch), setting_->smallest_height);
-    responses_[place] = AsperityResponse(caps_[place], setting_->law);
+    // in place: a copy would wait for what has just been written
+    const auto* caps =
+        ::new (&caps_[place]) CapCouple(capCouple(patch, *field_, centreOf(id, patch), setting_->smallest_height));
+    ::new (&responses_[place]) AsperityResponse(*caps, setting_->law);
   }
   state.approach = approach;
   state.contact_count = contact_count;
