@@ -40,6 +40,7 @@ class AdhesionModel::Implementation {
   ApproachSearch search_;
   EquilibriumState state_;
   std::vector<double> tabor_parameters_;
+  SurfaceOutputMemory surface_memory_;
 };
 
 void AdhesionModel::Implementation::predict(const HeightMap& lower, const HeightMap* upper, Prediction& prediction) {
@@ -77,7 +78,7 @@ void AdhesionModel::Implementation::predict(const HeightMap& lower, const Height
   prediction.invalid_fraction = 1.0 - static_cast<double>(field_.validCount()) / field_.cellCount();
   summarizeContact(lower, state_, search_, field_, order_, setting.law, options, tabor_parameters_, prediction);
   if (options.output.roughness) prediction.roughness = arealParameters(lower);
-  fillSurfaceOutputs(lower, upper, state_, search_, field_, order_, setting.law, options, prediction);
+  fillSurfaceOutputs(lower, upper, state_, search_, field_, setting.law, options, surface_memory_, prediction);
   prediction.energy_curve.assign(state_.curve.begin(), state_.curve.end());
   prediction.processing_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }

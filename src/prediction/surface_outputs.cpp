@@ -1,6 +1,7 @@
 #include "mems_stiction/prediction/surface_outputs.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "mems_stiction/deformation/modified_topography.hpp"
 
@@ -17,8 +18,8 @@ void makeWritable(cv::Mat& map, int rows, int cols, int type) {
 }  // namespace
 
 void fillSurfaceOutputs(const HeightMap& lower, const HeightMap* upper, const EquilibriumState& state,
-                        ApproachSearch& search, const GapField& field, const GapOrder& order, const AsperityLaw& law,
-                        const Options& options, Prediction& prediction) {
+                        ApproachSearch& search, const GapField& field, const AsperityLaw& law, const Options& options,
+                        SurfaceOutputMemory& memory, Prediction& prediction) {
   const bool wants_map = options.output.contact_map;
   const bool wants_surfaces = options.output.deformed_surfaces;
   if (!wants_map) prediction.contact_map.release();
@@ -43,18 +44,35 @@ void fillSurfaceOutputs(const HeightMap& lower, const HeightMap* upper, const Eq
   }
 
   const DeformationShare share(options.lower, options.upper, options.interface.hardness_ratio_limit, options.approach);
-  for (int i = 0; i < state.contact_count; ++i) {
-    const OrderedCell& cell = order.cells()[static_cast<std::size_t>(i)];
-    const std::int32_t place = search.sweep().livePlace(search.sweep().patchOf(cell.cell));
-    const double plasticity_index = law.plasticityIndexOf(search.responses()[static_cast<std::size_t>(place)].radius);
-    const int row = cell.row;
-    const int col = cell.cell - cell.row * field.cols();
-    if (wants_map)
-      prediction.contact_map.at<std::uint8_t>(row, col) = static_cast<std::uint8_t>(regimeOf(plasticity_index));
-    if (wants_surfaces) {
-      const double interference = state.approach - cell.gap;
-      prediction.deformed_lower.at<double>(row, col) -= share.lower(plasticity_index) * interference;
-      prediction.deformed_upper.at<double>(row, col) += share.upper(plasticity_index) * interference;
+  std::vector<SurfaceChange>& changes = memory.changes;
+  changes.clear();
+  for (const AsperityResponse& asperity : search.responses()) {
+    const double plasticity_index = law.plasticityIndexOf(asperity.radius);
+    changes.push_back({share.lower(plasticity_index), share.upper(plasticity_index),
+                       static_cast<std::uint8_t>(regimeOf(plasticity_index))});
+  }
+
+  PatchSweep& sweep = search.sweep();
+  std::vector<std::int32_t>& columns = memory.columns;
+  columns.resize(static_cast<std::size_t>(field.cols()));
+  const double past_contact = std::nextafter(state.approach, GapField::kInvalidGap);
+  for (int row = 0; row < field.rows(); ++row) {
+    const int count = field.columnsBelow(past_contact, row, columns.data());
+    std::uint8_t* map = wants_map ? prediction.contact_map.ptr<std::uint8_t>(row) : nullptr;
+    double* lower_line = wants_surfaces ? prediction.deformed_lower.ptr<double>(row) : nullptr;
+    double* upper_line = wants_surfaces ? prediction.deformed_upper.ptr<double>(row) : nullptr;
+    for (int i = 0; i < count; ++i) {
+      const std::int32_t col = columns[static_cast<std::size_t>(i)];
+      const GridCell cell = field.cellAt(row, col);
+      const std::int32_t patch = sweep.patchOf(cell);
+      if (patch < 0) continue;
+      const SurfaceChange& change = changes[static_cast<std::size_t>(sweep.livePlace(patch))];
+      if (wants_map) map[col] = change.regime;
+      if (wants_surfaces) {
+        const double interference = state.approach - field.gap(cell.index);
+        lower_line[col] -= change.lower_share * interference;
+        upper_line[col] += change.upper_share * interference;
+      }
     }
   }
 }
