@@ -12,6 +12,18 @@ namespace {
 constexpr double kWindowShare = 0.29;
 constexpr std::ptrdiff_t kWriteAhead = 3;
 
+/// Whether a neighbour belongs to another dale that is known.
+MEMS_STICTION_VECTORIZED void markBorders(const std::int32_t* above, const std::int32_t* line,
+                                          const std::int32_t* below, std::size_t size, std::uint8_t* is_border) {
+  for (std::size_t i = 1; i + 1 < size; ++i) {
+    const std::int32_t dale = line[i];
+    const auto isOther = [dale](std::int32_t other) { return static_cast<int>(other != dale && other >= 0); };
+    is_border[i] =
+        static_cast<std::uint8_t>(isOther(line[i - 1]) | isOther(line[i + 1]) | isOther(above[i]) | isOther(below[i]));
+  }
+  is_border[0] = is_border[size - 1] = 1;
+}
+
 }  // namespace
 
 void SurroundingsTable::begin(const GapField& field, const GapOrder& order, DaleMap& dales) {
@@ -69,18 +81,6 @@ int SurroundingsTable::chooseCells(int row, std::vector<std::int32_t>& cells) {
   const int count = field_->columnsBelow(limit, row, cells.data());
   dales_->findInRow(row, cells.data(), count);
   return count;
-}
-
-/// Whether a neighbour belongs to another dale that is known.
-MEMS_STICTION_VECTORIZED void markBorders(const std::int32_t* above, const std::int32_t* line,
-                                          const std::int32_t* below, std::size_t size, std::uint8_t* is_border) {
-  for (std::size_t i = 1; i + 1 < size; ++i) {
-    const std::int32_t dale = line[i];
-    const auto isOther = [dale](std::int32_t other) { return static_cast<int>(other != dale && other >= 0); };
-    is_border[i] =
-        static_cast<std::uint8_t>(isOther(line[i - 1]) | isOther(line[i + 1]) | isOther(above[i]) | isOther(below[i]));
-  }
-  is_border[0] = is_border[size - 1] = 1;
 }
 
 MEMS_STICTION_VECTORIZED void SurroundingsTable::collectRow(int row, const std::vector<std::int32_t>& cells,

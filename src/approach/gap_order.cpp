@@ -125,7 +125,6 @@ MEMS_STICTION_VECTORIZED void GapOrder::collectCells(const GapField& field) {
 
   ordered_moments_.assign(static_cast<std::size_t>(ordered_buckets_), {});
   const bool all_are_ordered = ordered_buckets_ == bucket_count_;
-  const double last = bucket_count_ - 1;
   const double limit = all_are_ordered ? GapField::kInvalidGap : (ordered_buckets_ + 1) * bucket_width_;
   near_cells_.resize(static_cast<std::size_t>(field.cols()));
   bool may_be_misplaced = false;
@@ -136,7 +135,7 @@ MEMS_STICTION_VECTORIZED void GapOrder::collectCells(const GapField& field) {
     for (int i = 0; i < near_count; ++i) {
       const std::int32_t col = near_cells_[static_cast<std::size_t>(i)];
       const double gap = gaps[col];
-      const int bucket = static_cast<int>(std::min(gap * inverse_width_, last));
+      const int bucket = bucketOf(gap);
       if (bucket >= ordered_buckets_) continue;
       const std::int32_t place = group_end_[static_cast<std::size_t>(bucket >> group_shift_)]++;
       OrderedCell& cell = cells_[static_cast<std::size_t>(place)];
@@ -221,8 +220,7 @@ int GapOrder::countBelow(double approach) {
   if (groups_are_steps_ && group_of_approach * group_width_ == approach) {
     return groupStart(static_cast<int>(group_of_approach));
   }
-  const int group = std::min(static_cast<int>(std::min(approach * inverse_width_, bucket_count_ - 1.0)) >> group_shift_,
-                             group_count - 1);
+  const int group = std::min(bucketOf(approach) >> group_shift_, group_count - 1);
   sortGroup(group);
   const auto begin = cells_.begin() + groupStart(group);
   const auto first_apart = std::partition_point(begin, cells_.begin() + group_end_[static_cast<std::size_t>(group)],

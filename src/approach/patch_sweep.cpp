@@ -114,7 +114,7 @@ MEMS_STICTION_INLINE void PatchSweep::insert(const OrderedCell& ordered, const C
     live_place_[static_cast<std::size_t>(id)] = static_cast<std::int32_t>(live_.size());
     live_.push_back(id);
   }
-  const GridCell cell{ordered.row, ordered.cell - ordered.row * field_->cols(), ordered.cell};
+  const GridCell cell = gridCell(ordered);
   patch.addCell(cell, ordered.gap, around.gaps);
   patch.boundary.addEdges(*field_, cell, ordered.gap, around.gaps);
   markChanged(id);
@@ -126,7 +126,7 @@ void PatchSweep::insertLookedUp(int stop) {
   for (; inserted_ < stop; ++inserted_) {
     if (inserted_ < ahead_end) prefetchCell(inserted_ + kPrefetchDistance);
     const OrderedCell& cell = cells[static_cast<std::size_t>(inserted_)];
-    insert(cell, surroundings_.look({cell.row, cell.cell - cell.row * field_->cols(), cell.cell}));
+    insert(cell, surroundings_.look(gridCell(cell)));
   }
 }
 
@@ -139,7 +139,7 @@ MEMS_STICTION_VECTORIZED void PatchSweep::insertCollected(int stop) {
     const OrderedCell& cell = cells[static_cast<std::size_t>(inserted_)];
     const CellSurroundings* around = &surroundings_.collected(inserted_);
     if (around->cell != cell.cell) {  // its group has been sorted since
-      looked_up = surroundings_.look({cell.row, cell.cell - cell.row * field_->cols(), cell.cell});
+      looked_up = surroundings_.look(gridCell(cell));
       around = &looked_up;
     }
     insert(cell, *around);

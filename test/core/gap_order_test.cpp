@@ -168,6 +168,22 @@ TEST_P(OrderedFrame, knowsWhereTheGroupsStart) {
   }
 }
 
+TEST_P(OrderedFrame, knowsTheGroupOfEveryGap) {
+  std::vector<double> steps = stepsFor(field_);
+  steps.push_back(0.0);
+  for (const double step : steps) {
+    for (const double fraction : {0.3, 1.0}) {
+      GapOrder order;
+      order.build(field_, fraction, step);
+      const auto count = static_cast<int>(order.cells().size());
+      for (int place = 0; place < count; ++place) {
+        const double gap = order.cells()[static_cast<std::size_t>(place)].gap;
+        ASSERT_EQ(order.groupOf(gap), order.groupOfPlace(place)) << "place " << place << " step " << step;
+      }
+    }
+  }
+}
+
 TEST_P(OrderedFrame, isTheSameAfterAnotherFrame) {
   GapOrder fresh;
   fresh.build(field_, 0.4);

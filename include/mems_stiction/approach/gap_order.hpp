@@ -76,9 +76,8 @@ class GapOrder {
   /// Where a group starts, give or take one bucketWidth() [m].
   double groupLowerEnd(int group) const { return group * group_width_; }
   /// The group of a cell with this gap, exactly; groupCount() if the cell is not ordered.
-  /// @param gap at most one bucketWidth() beyond the last group's end [m]
   int groupOf(double gap) const {
-    const int bucket = static_cast<int>(gap * inverse_width_);
+    const int bucket = bucketOf(gap);
     if (bucket >= ordered_buckets_) return groupCount();
     const double excess = gap - bucket * bucket_width_;
     const bool is_rounded = excess < 0.0 || excess >= bucket_width_;
@@ -96,6 +95,8 @@ class GapOrder {
   /// The bucket of a gap that is a whole number of steps is a matter of rounding, its group is not.
   int mendedGroup(double gap, int bucket) const;
   void mendGroups();
+  /// The last bucket holds what rounding puts beyond it.
+  int bucketOf(double gap) const { return static_cast<int>(std::min(gap * inverse_width_, bucket_count_ - 1.0)); }
   void mendBoundary(int group);
   void sortGroup(int group);
   void findContactLimit(int wanted);

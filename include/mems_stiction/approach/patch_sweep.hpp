@@ -63,6 +63,9 @@ class PatchSweep {
   std::int32_t join(std::int32_t id, const OrderedCell& cell, const CellSurroundings& around);
   std::int32_t unite(std::int32_t a, std::int32_t b);
   std::int32_t patchOfDale(std::int32_t dale) const { return patch_of_dale_[static_cast<std::size_t>(dale)]; }
+  GridCell gridCell(const OrderedCell& cell) const {
+    return {cell.row, cell.cell - cell.row * field_->cols(), cell.cell};
+  }
   void markChanged(std::int32_t id);
   void prefetchCell(int place) const;
   void prefetchPatch(int place) const;
