@@ -98,15 +98,17 @@ PatchCentre boxCentre(const ContactPatch& patch, const GapField& field) {
   const int last_row = (patch.min_row + patch.max_row + 1) / 2;
   const int first_col = (patch.min_col + patch.max_col) / 2;
   const int last_col = (patch.min_col + patch.max_col + 1) / 2;
-  PatchCentre centre{field.cellAt(first_row, first_col), GapField::kInvalidGap};
-  for (int row = first_row; row <= last_row; ++row) {
-    for (int col = first_col; col <= last_col; ++col) {
-      const GridCell cell = field.cellAt(row, col);
-      const double gap = field.gap(cell.index);
-      if (gap < centre.gap) centre = {cell, gap};
+  return field.readGaps([&](const auto& gaps) {
+    PatchCentre centre{field.cellAt(first_row, first_col), GapField::kInvalidGap};
+    for (int row = first_row; row <= last_row; ++row) {
+      for (int col = first_col; col <= last_col; ++col) {
+        const GridCell cell = field.cellAt(row, col);
+        const double gap = gaps[cell.index];
+        if (gap < centre.gap) centre = {cell, gap};
+      }
     }
-  }
-  return centre;
+    return centre;
+  });
 }
 
 PatchCentre deepestCentre(const ContactPatch& patch, const GapField& field) {

@@ -31,19 +31,24 @@ void SurroundingsTable::begin(const GapField& field, const GapOrder& order, Dale
   order_ = &order;
   dales_ = &dales;
   begin_ = end_ = 0;
-  no_row_.assign(static_cast<std::size_t>(field.cols()), GapField::kInvalidGap);
   is_border_.resize(static_cast<std::size_t>(field.cols()));
+  for (std::vector<double>* gaps : {row_gaps_, row_gaps_ + 1, row_gaps_ + 2, &no_row_}) {
+    gaps->assign(static_cast<std::size_t>(field.cols()) + 2, GapField::kInvalidGap);
+  }
   for (std::vector<std::int32_t>& cells : row_cells_) cells.resize(static_cast<std::size_t>(field.cols()));
 }
 
 CellSurroundings SurroundingsTable::look(const GridCell& cell) const {
-  const double* gap = field_->gaps().data() + cell.index;
   const int cols = field_->cols();
-  CellSurroundings around;
-  around.gaps[kLeft] = cell.col > 0 ? gap[-1] : GapField::kInvalidGap;
-  around.gaps[kRight] = cell.col + 1 < cols ? gap[1] : GapField::kInvalidGap;
-  around.gaps[kTop] = cell.row > 0 ? gap[-cols] : GapField::kInvalidGap;
-  around.gaps[kBottom] = cell.row + 1 < field_->rows() ? gap[cols] : GapField::kInvalidGap;
+  CellSurroundings around = field_->readGaps([&](const auto& gaps) {
+    const auto gapAt = [&](bool is_in_frame, int index) { return is_in_frame ? gaps[index] : GapField::kInvalidGap; };
+    CellSurroundings found;
+    found.gaps[kLeft] = gapAt(cell.col > 0, cell.index - 1);
+    found.gaps[kRight] = gapAt(cell.col + 1 < cols, cell.index + 1);
+    found.gaps[kTop] = gapAt(cell.row > 0, cell.index - cols);
+    found.gaps[kBottom] = gapAt(cell.row + 1 < field_->rows(), cell.index + cols);
+    return found;
+  });
   around.cell = cell.index;
   around.dale_and_border = static_cast<std::uint32_t>(dales_->find(cell)) << 1U | 1U;
   return around;
@@ -69,17 +74,24 @@ void SurroundingsTable::collectFrom(int place) {
   int count = chooseCells(0, row_cells_[0]);
   for (int row = 0; row < field_->rows(); ++row) {
     // the dales of the next row first: a cell asks for those of its neighbours
-    std::vector<std::int32_t>& next_cells = row_cells_[(row + 1) % 2];
-    const int next_count = row + 1 < field_->rows() ? chooseCells(row + 1, next_cells) : 0;
+    const int next_count = chooseCells(row + 1, row_cells_[(row + 1) % 2]);
     collectRow(row, row_cells_[row % 2], count);
     count = next_count;
   }
 }
 
+const double* SurroundingsTable::gapsOf(int row) const {
+  const bool is_in_frame = row >= 0 && row < field_->rows();
+  return (is_in_frame ? row_gaps_[row % kRowsKept] : no_row_).data() + 1;
+}
+
 int SurroundingsTable::chooseCells(int row, std::vector<std::int32_t>& cells) {
+  if (row == field_->rows()) return 0;
+  double* gaps = row_gaps_[row % kRowsKept].data() + 1;
+  field_->gapsOfRow(row, gaps);
   const double limit = order_->groupLowerEnd(end_group_) + order_->bucketWidth();
-  const int count = field_->columnsBelow(limit, row, cells.data());
-  dales_->findInRow(row, cells.data(), count);
+  const int count = columnsBelow(limit, gaps, field_->cols(), cells.data());
+  dales_->findInRow(row, cells.data(), count, gaps, gapsOf(row - 1));
   return count;
 }
 
@@ -87,9 +99,9 @@ MEMS_STICTION_VECTORIZED void SurroundingsTable::collectRow(int row, const std::
                                                             int count) {
   const int cols = field_->cols();
   const int first_cell = row * cols;
-  const double* line = field_->gaps().data() + first_cell;
-  const double* above = row > 0 ? line - cols : no_row_.data();
-  const double* below = row + 1 < field_->rows() ? line + cols : no_row_.data();
+  const double* line = gapsOf(row);
+  const double* above = gapsOf(row - 1);
+  const double* below = gapsOf(row + 1);
   const std::int32_t* dales = dales_->data() + first_cell;
   const std::int32_t* dales_above = row > 0 ? dales - cols : dales;
   const std::int32_t* dales_below = row + 1 < field_->rows() ? dales + cols : dales;
@@ -102,8 +114,8 @@ MEMS_STICTION_VECTORIZED void SurroundingsTable::collectRow(int row, const std::
     if (group >= groups) continue;
     CellSurroundings& around = table_[static_cast<std::size_t>(next_place_[group]++)];
     __builtin_prefetch(&around + kWriteAhead, 1);  // where the group goes on: there are too many for the processor
-    around.gaps[kLeft] = col > 0 ? line[col - 1] : GapField::kInvalidGap;
-    around.gaps[kRight] = col + 1 < cols ? line[col + 1] : GapField::kInvalidGap;
+    around.gaps[kLeft] = line[col - 1];
+    around.gaps[kRight] = line[col + 1];
     around.gaps[kTop] = above[col];
     around.gaps[kBottom] = below[col];
     around.cell = first_cell + col;

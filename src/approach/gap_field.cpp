@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <type_traits>
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/lanes.hpp"
@@ -27,111 +28,197 @@ void requireSameGrid(const HeightMap& lower, const HeightMap& upper) {
                      ")");
 }
 
-/// Highest valid height of a line.
-template <typename Scalar>
-inline Scalar highestOfLanes(const Scalar* line, std::size_t size) {
-  constexpr Scalar kLargest = std::numeric_limits<Scalar>::max();
-  constexpr std::size_t kMaxima = 8;  // independent ones, which the compiler turns into vector instructions
-  Scalar highest[kMaxima];
-  std::fill(highest, highest + kMaxima, -kLargest);
-  std::size_t i = 0;
-  for (; i + kMaxima <= size; i += kMaxima) {
-    for (std::size_t lane = 0; lane < kMaxima; ++lane) {
-      const Scalar height = line[i + lane];
-      const bool is_higher = height > highest[lane] && height <= kLargest;  // false for NaN and infinity
-      highest[lane] = is_higher ? height : highest[lane];
-    }
-  }
-  for (; i < size; ++i) {
-    if (line[i] > highest[0] && line[i] <= kLargest) highest[0] = line[i];
-  }
-  return *std::max_element(highest, highest + kMaxima);
-}
+/// Sums over valid heights, in fixed lanes. They are taken from a level that is one of the heights: it can stand for what
+/// is left out, and adds nothing.
+struct HeightSums {
+  explicit HeightSums(double level_in) : level(level_in), highest(Lanes{} + level_in), lowest(Lanes{} + level_in) {}
 
-MEMS_STICTION_VECTORIZED float highestOf(const float* line, std::size_t size) { return highestOfLanes(line, size); }
-MEMS_STICTION_VECTORIZED double highestOf(const double* line, std::size_t size) { return highestOfLanes(line, size); }
+  bool isFinite() const { return std::isfinite(sumOf(squares)); }
 
-template <typename Scalar>
-inline void gapsBelowLine(double top, const Scalar* line, std::size_t size, double* gap) {
-  for (std::size_t i = 0; i < size; ++i) {
-    const double height = line[i];
-    gap[i] = height - height == 0.0 ? top - height : GapField::kInvalidGap;
-  }
-}
-
-MEMS_STICTION_VECTORIZED void gapsBelow(double top, const float* line, std::size_t size, double* gap) {
-  gapsBelowLine(top, line, size, gap);
-}
-MEMS_STICTION_VECTORIZED void gapsBelow(double top, const double* line, std::size_t size, double* gap) {
-  gapsBelowLine(top, line, size, gap);
-}
-
-/// Count, sum, sum of squares and maximum of the finite gaps, in fixed lanes.
-struct GapSums {
-  Lanes count{};
+  double level;  ///< [m]
+  std::size_t count = 0;
   Lanes sum{};
   Lanes squares{};
-  Lanes largest{};
+  Lanes highest;
+  Lanes lowest;
 };
 
-/// @param size a multiple of kLanes
-MEMS_STICTION_VECTORIZED void addGaps(const double* gaps, std::size_t size, GapSums& sums) {
-  const Lanes zero{};
-  const Lanes one = zero + 1.0;
-  GapSums local = sums;
-  for (std::size_t i = 0; i < size; i += kLanes) {
-    Lanes gap;
-    load(gaps + i, gap);
-    const auto is_valid = gap < GapField::kInvalidGap;
-    const Lanes value = is_valid ? gap : zero;
-    local.count += is_valid ? one : zero;
-    local.sum += value;
-    local.squares += value * value;
-    local.largest = value > local.largest ? value : local.largest;
+MEMS_STICTION_INLINE void loadHeights(const double* line, Lanes& heights) { load(line, heights); }
+MEMS_STICTION_INLINE void loadHeights(const float* line, Lanes& heights) {
+  float __attribute__((vector_size(kLanes * sizeof(float)))) single;
+  std::memcpy(&single, line, sizeof single);
+  heights = __builtin_convertvector(single, Lanes);
+}
+
+MEMS_STICTION_INLINE void addLanes(const Lanes& heights, HeightSums& sums) {
+  const Lanes excess = heights - sums.level;
+  sums.sum += excess;
+  sums.squares += excess * excess;
+  sums.highest = heights > sums.highest ? heights : sums.highest;
+  sums.lowest = heights < sums.lowest ? heights : sums.lowest;
+}
+
+/// All heights of a row; the sums are finite if all of them are valid.
+template <typename Scalar>
+MEMS_STICTION_INLINE void addAll(const Scalar* line, std::size_t size, HeightSums& sums) {
+  HeightSums local = sums;
+  Lanes heights;
+  std::size_t i = 0;
+  for (; i + kLanes <= size; i += kLanes) {
+    loadHeights(line + i, heights);
+    addLanes(heights, local);
   }
+  if (i < size) {
+    heights = Lanes{} + local.level;
+    for (std::size_t lane = 0; i < size; ++i, ++lane) heights[lane] = line[i];
+    addLanes(heights, local);
+  }
+  local.count += size;
   sums = local;
+}
+
+MEMS_STICTION_VECTORIZED void addRow(const float* line, std::size_t size, HeightSums& sums) {
+  addAll(line, size, sums);
+}
+MEMS_STICTION_VECTORIZED void addRow(const double* line, std::size_t size, HeightSums& sums) {
+  addAll(line, size, sums);
+}
+
+/// The valid heights of a row; the others become -infinity.
+template <typename Scalar>
+void addValid(Scalar* line, std::size_t size, HeightSums& sums) {
+  for (std::size_t i = 0; i < size; ++i) {
+    if (std::isfinite(line[i])) {
+      Lanes heights = Lanes{} + sums.level;
+      heights[i % kLanes] = line[i];
+      addLanes(heights, sums);
+      ++sums.count;
+    } else {
+      line[i] = -std::numeric_limits<Scalar>::infinity();
+    }
+  }
+}
+
+template <typename Scalar>
+MEMS_STICTION_INLINE void gapsBelowTop(double top, const Scalar* relief, std::size_t size, double* gaps) {
+  for (std::size_t i = 0; i < size; ++i) gaps[i] = top - static_cast<double>(relief[i]);
+}
+
+MEMS_STICTION_VECTORIZED void gapsBelow(double top, const float* relief, std::size_t size, double* gaps) {
+  gapsBelowTop(top, relief, size, gaps);
+}
+MEMS_STICTION_VECTORIZED void gapsBelow(double top, const double* relief, std::size_t size, double* gaps) {
+  gapsBelowTop(top, relief, size, gaps);
 }
 
 }  // namespace
 
-template <typename Scalar>
-void GapField::computeAgainstPlane(const cv::Mat& heights) {
-  Scalar highest = -std::numeric_limits<Scalar>::max();
-  for (int row = 0; row < rows_; ++row) {
-    highest = std::max(highest, highestOf(heights.ptr<Scalar>(row), static_cast<std::size_t>(cols_)));
-  }
-  double* gap = gap_.data();
-  for (int row = 0; row < rows_; ++row, gap += cols_) {
-    gapsBelow(highest, heights.ptr<Scalar>(row), static_cast<std::size_t>(cols_), gap);
-  }
-}
-
-void GapField::compute(const HeightMap& lower) {
+void GapField::takeGrid(const HeightMap& lower) {
   rows_ = lower.rows();
   cols_ = lower.cols();
   pitch_x_ = lower.pitchX();
   pitch_y_ = lower.pitchY();
-  upper_is_flat_ = true;
-  gap_.resize(static_cast<std::size_t>(cellCount()));
-  if (lower.heights().depth() == CV_32F) {
-    computeAgainstPlane<float>(lower.heights());
-  } else {
-    computeAgainstPlane<double>(lower.heights());
-  }
-  measure();
 }
 
-MEMS_STICTION_VECTORIZED int GapField::columnsBelow(double limit, int row, std::int32_t* columns) const {
+template <typename Scalar, typename RowSource>
+void GapField::fillRelief(std::vector<Scalar>& relief, const RowSource& fillRow) {
+  is_single_ = std::is_same<Scalar, float>::value;
+  const auto cols = static_cast<std::size_t>(cols_);
+  relief.resize(static_cast<std::size_t>(cellCount()));
+  HeightSums sums(std::numeric_limits<double>::quiet_NaN());
+  Scalar* line = relief.data();
+  for (int row = 0; row < rows_; ++row, line += cols) {
+    fillRow(row, line);
+    if (sums.count == 0) {  // the level is the first valid height
+      const Scalar* valid = std::find_if(line, line + cols, [](Scalar height) { return std::isfinite(height); });
+      if (valid != line + cols) sums = HeightSums(*valid);
+    }
+    const HeightSums before = sums;
+    addRow(line, cols, sums);
+    if (sums.isFinite()) continue;
+    sums = before;
+    addValid(line, cols, sums);
+  }
+  if (sums.count == 0) {
+    throw SurfaceError(upper_is_flat_ ? "the height map has no valid pixel"
+                                      : "no pixel is valid in both the scan and the counter-surface");
+  }
+  const auto count = static_cast<double>(sums.count);
+  valid_count_ = static_cast<int>(sums.count);
+  top_ = largestOf(sums.highest);
+  largest_gap_ = top_ - smallestOf(sums.lowest);
+  const double mean_excess = sumOf(sums.sum) / count;
+  mean_gap_ = (top_ - sums.level) - mean_excess;
+  rms_gap_ = std::sqrt(std::max(0.0, sumOf(sums.squares) / count - mean_excess * mean_excess));
+}
+
+void GapField::compute(const HeightMap& lower) {
+  takeGrid(lower);
+  upper_is_flat_ = true;
+  const auto copyInto = [&](auto& relief) {
+    fillRelief(relief, [&](int row, auto* line) {
+      using Scalar = std::remove_reference_t<decltype(*line)>;
+      std::copy_n(lower.heights().ptr<Scalar>(row), cols_, line);
+    });
+  };
+  if (lower.heights().depth() == CV_32F) {
+    copyInto(single_relief_);
+  } else {
+    copyInto(relief_);
+  }
+}
+
+void GapField::gapsOfRow(int row, double* gaps) const {
+  const auto cols = static_cast<std::size_t>(cols_);
+  const std::size_t first = static_cast<std::size_t>(row) * cols;
+  if (is_single_) {
+    gapsBelow(top_, single_relief_.data() + first, cols, gaps);
+  } else {
+    gapsBelow(top_, relief_.data() + first, cols, gaps);
+  }
+}
+
+template <typename LowerScalar, typename UpperScalar>
+void GapField::subtractSurfaces(const HeightMap& lower, const HeightMap& upper) {
+  double level = std::numeric_limits<double>::quiet_NaN();
+  fillRelief(relief_, [&](int row, double* line) {
+    const LowerScalar* line1 = lower.heights().ptr<LowerScalar>(row);
+    const UpperScalar* line2 = upper.heights().ptr<UpperScalar>(row);
+    double* lower_line = lower_.data() + static_cast<std::ptrdiff_t>(row) * cols_;
+    for (int col = 0; col < cols_; ++col) {
+      const double height = line1[col];
+      line[col] = height - line2[col];
+      const bool is_valid = std::isfinite(line[col]);
+      if (is_valid && std::isnan(level)) level = height;
+      lower_line[col] = is_valid ? height - level : 0.0;
+    }
+  });
+}
+
+void GapField::compute(const HeightMap& lower, const HeightMap& upper) {
+  requireSameGrid(lower, upper);
+  takeGrid(lower);
+  upper_is_flat_ = false;
+  lower_.resize(static_cast<std::size_t>(cellCount()));
+  const bool lower_is_single = lower.heights().depth() == CV_32F;
+  const bool upper_is_single = upper.heights().depth() == CV_32F;
+  if (lower_is_single) {
+    upper_is_single ? subtractSurfaces<float, float>(lower, upper) : subtractSurfaces<float, double>(lower, upper);
+  } else {
+    upper_is_single ? subtractSurfaces<double, float>(lower, upper) : subtractSurfaces<double, double>(lower, upper);
+  }
+}
+
+MEMS_STICTION_VECTORIZED int columnsBelow(double limit, const double* gaps, int cols, std::int32_t* columns) {
   // Surfaces are smooth on the scale of a few cells: blocks that are wholly above or below the limit are frequent.
   constexpr std::int32_t kBlock = 8;
-  const double* gap = gap_.data() + static_cast<std::ptrdiff_t>(row) * cols_;
   std::int32_t* next = columns;
   std::int32_t col = 0;
-  for (; col + kBlock <= cols_; col += kBlock, gap += kBlock) {
+  for (; col + kBlock <= cols; col += kBlock, gaps += kBlock) {
     Lanes low;
     Lanes high;
-    load(gap, low);
-    load(gap + kLanes, high);
+    load(gaps, low);
+    load(gaps + kLanes, high);
     const LaneMask below_low = low < limit;
     const LaneMask below_high = high < limit;
     const LaneMask sums = below_low + below_high;  // minus their number
@@ -144,79 +231,14 @@ MEMS_STICTION_VECTORIZED int GapField::columnsBelow(double limit, int row, std::
     }
     for (std::int32_t i = 0; i < kBlock; ++i) {  // which ones is random: written without a branch
       *next = col + i;
-      next += gap[i] < limit ? 1 : 0;
+      next += gaps[i] < limit ? 1 : 0;
     }
   }
-  for (; col < cols_; ++col, ++gap) {
+  for (; col < cols; ++col, ++gaps) {
     *next = col;
-    next += *gap < limit ? 1 : 0;
+    next += *gaps < limit ? 1 : 0;
   }
   return static_cast<int>(next - columns);
-}
-
-template <typename LowerScalar, typename UpperScalar>
-double GapField::separate(const HeightMap& lower, const HeightMap& upper) {
-  double closest = kInvalidGap;
-  double reference = kInvalidGap;
-  std::size_t cell = 0;
-  for (int row = 0; row < rows_; ++row) {
-    const LowerScalar* line1 = lower.heights().ptr<LowerScalar>(row);
-    const UpperScalar* line2 = upper.heights().ptr<UpperScalar>(row);
-    for (int col = 0; col < cols_; ++col, ++cell) {
-      const double height = line1[col];
-      const double separation = line2[col] - height;
-      if (std::isfinite(separation)) {
-        if (reference == kInvalidGap) reference = height;
-        gap_[cell] = separation;
-        lower_[cell] = height - reference;
-        closest = std::min(closest, separation);
-      } else {
-        gap_[cell] = kInvalidGap;
-        lower_[cell] = 0.0;
-      }
-    }
-  }
-  return closest;
-}
-
-void GapField::compute(const HeightMap& lower, const HeightMap& upper) {
-  requireSameGrid(lower, upper);
-  rows_ = lower.rows();
-  cols_ = lower.cols();
-  pitch_x_ = lower.pitchX();
-  pitch_y_ = lower.pitchY();
-  upper_is_flat_ = false;
-  gap_.resize(static_cast<std::size_t>(cellCount()));
-  lower_.resize(gap_.size());
-
-  const bool lower_is_single = lower.heights().depth() == CV_32F;
-  const bool upper_is_single = upper.heights().depth() == CV_32F;
-  const double closest =
-      lower_is_single
-          ? (upper_is_single ? separate<float, float>(lower, upper) : separate<float, double>(lower, upper))
-          : (upper_is_single ? separate<double, float>(lower, upper) : separate<double, double>(lower, upper));
-  for (double& gap : gap_) gap -= closest == kInvalidGap ? 0.0 : closest;
-  measure();
-}
-
-void GapField::measure() {
-  GapSums sums;
-  const std::size_t in_lanes = gap_.size() / kLanes * kLanes;
-  addGaps(gap_.data(), in_lanes, sums);
-  double rest[kLanes];
-  std::fill(rest, rest + kLanes, kInvalidGap);
-  std::copy(gap_.begin() + static_cast<std::ptrdiff_t>(in_lanes), gap_.end(), rest);
-  addGaps(rest, kLanes, sums);
-
-  valid_count_ = static_cast<int>(sumOf(sums.count));
-  if (valid_count_ == 0) {
-    throw SurfaceError(upper_is_flat_ ? "the height map has no valid pixel"
-                                      : "no pixel is valid in both the scan and the counter-surface");
-  }
-  largest_gap_ = largestOf(sums.largest);
-  mean_gap_ = sumOf(sums.sum) / valid_count_;
-  const double mean_square = sumOf(sums.squares) / valid_count_;
-  rms_gap_ = std::sqrt(std::max(0.0, mean_square - mean_gap_ * mean_gap_));
 }
 
 }  // namespace mems_stiction

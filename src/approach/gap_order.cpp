@@ -82,11 +82,12 @@ void GapOrder::chooseBuckets(const GapField& field, double step) {
 void GapOrder::countGaps(const GapField& field) {
   bucket_count_of_.assign(static_cast<std::size_t>(bucket_count_), 0);
   const auto cols = static_cast<std::size_t>(field.cols());
+  row_gaps_.resize(cols);
   row_buckets_.resize(cols);
   std::int32_t* count = bucket_count_of_.data();
-  const double* gap = field.gaps().data();
-  for (int row = 0; row < field.rows(); ++row, gap += cols) {
-    findBuckets(gap, cols, inverse_width_, bucket_count_ - 1, row_buckets_.data());
+  for (int row = 0; row < field.rows(); ++row) {
+    field.gapsOfRow(row, row_gaps_.data());
+    findBuckets(row_gaps_.data(), cols, inverse_width_, bucket_count_ - 1, row_buckets_.data());
     for (const std::int32_t bucket : row_buckets_) ++count[bucket];
   }
   bucket_count_of_.back() -= field.cellCount() - field.validCount();  // infinite gaps were counted there
@@ -129,9 +130,10 @@ MEMS_STICTION_VECTORIZED void GapOrder::collectCells(const GapField& field) {
   near_cells_.resize(static_cast<std::size_t>(field.cols()));
   bool may_be_misplaced = false;
   for (std::int32_t row = 0; row < field.rows(); ++row) {
-    const int near_count = field.columnsBelow(limit, row, near_cells_.data());
+    double* gaps = row_gaps_.data();
+    field.gapsOfRow(row, gaps);
+    const int near_count = columnsBelow(limit, gaps, field.cols(), near_cells_.data());
     const std::int32_t first_cell = row * field.cols();
-    const double* gaps = field.gaps().data() + first_cell;
     for (int i = 0; i < near_count; ++i) {
       const std::int32_t col = near_cells_[static_cast<std::size_t>(i)];
       const double gap = gaps[col];

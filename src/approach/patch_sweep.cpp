@@ -9,7 +9,6 @@ namespace {
 
 /// How far ahead of the sweep memory is asked for: its order is random in the frame, but known.
 constexpr int kPrefetchDistance = 16;
-constexpr std::size_t kCacheLine = 64;
 /// A sweep that goes no further than this share of the frame looks up its cells one by one: most end before it.
 constexpr double kShareLookedUp = 1.0 / 64.0;
 
@@ -53,18 +52,18 @@ void PatchSweep::makeRoom() {
 void PatchSweep::prefetchCell(int place) const {
   const OrderedCell& cell = order_->cells()[static_cast<std::size_t>(place)];
   const std::int32_t* dale = dales_.data() + cell.cell;
-  const double* gap = field_->gaps().data() + cell.cell;
   for (const std::ptrdiff_t offset : {-field_->cols(), 0, field_->cols()}) {
     __builtin_prefetch(dale + offset);
-    __builtin_prefetch(gap + offset);
+    field_->prefetch(cell.cell + offset);
   }
 }
 
 void PatchSweep::prefetchPatch(int place) const {
   const CellSurroundings& around = surroundings_.collected(place);
-  const char* patch = reinterpret_cast<const char*>(patches_.data() + patchOfDale(around.dale()));
+  const ContactPatch& patch = patches_[static_cast<std::size_t>(patchOfDale(around.dale()))];
+  const char* lines = reinterpret_cast<const char*>(&patch);
   for (std::size_t offset = 0; offset < sizeof(ContactPatch); offset += kCacheLine)
-    __builtin_prefetch(patch + offset, 1);
+    __builtin_prefetch(lines + offset, 1);
   if (!around.isBorder()) return;
   const std::int32_t* dale = dales_.data() + around.cell;
   for (const std::ptrdiff_t offset : {-field_->cols(), 0, field_->cols()}) __builtin_prefetch(dale + offset);
@@ -75,7 +74,7 @@ void PatchSweep::prefetchCentre(std::int32_t id) const {
   const int row = (known.min_row + known.max_row) / 2;
   const int col = (known.min_col + known.max_col) / 2;
   const std::ptrdiff_t cell = static_cast<std::ptrdiff_t>(row) * field_->cols() + col;
-  __builtin_prefetch(field_->gaps().data() + cell);
+  field_->prefetch(cell);
   __builtin_prefetch(dales_.data() + cell);
 }
 

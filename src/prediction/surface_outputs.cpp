@@ -55,9 +55,12 @@ void fillSurfaceOutputs(const HeightMap& lower, const HeightMap* upper, const Eq
   PatchSweep& sweep = search.sweep();
   std::vector<std::int32_t>& columns = memory.columns;
   columns.resize(static_cast<std::size_t>(field.cols()));
+  std::vector<double>& gaps = memory.gaps;
+  gaps.resize(columns.size());
   const double past_contact = std::nextafter(state.approach, GapField::kInvalidGap);
   for (int row = 0; row < field.rows(); ++row) {
-    const int count = field.columnsBelow(past_contact, row, columns.data());
+    field.gapsOfRow(row, gaps.data());
+    const int count = columnsBelow(past_contact, gaps.data(), field.cols(), columns.data());
     std::uint8_t* map = wants_map ? prediction.contact_map.ptr<std::uint8_t>(row) : nullptr;
     double* lower_line = wants_surfaces ? prediction.deformed_lower.ptr<double>(row) : nullptr;
     double* upper_line = wants_surfaces ? prediction.deformed_upper.ptr<double>(row) : nullptr;
@@ -69,7 +72,7 @@ void fillSurfaceOutputs(const HeightMap& lower, const HeightMap* upper, const Eq
       const SurfaceChange& change = changes[static_cast<std::size_t>(sweep.livePlace(patch))];
       if (wants_map) map[col] = change.regime;
       if (wants_surfaces) {
-        const double interference = state.approach - field.gap(cell.index);
+        const double interference = state.approach - gaps[static_cast<std::size_t>(col)];
         lower_line[col] -= change.lower_share * interference;
         upper_line[col] += change.upper_share * interference;
       }

@@ -40,7 +40,8 @@ void label(benchmark::State& state, const Case& setting) {
   const double full_approach = fullApproach(frame);
   GapField field;
   field.compute(frame);
-  const cv::Mat gaps(setting.size, setting.size, CV_64FC1, const_cast<double*>(field.gaps().data()));
+  cv::Mat1d gaps(setting.size, setting.size);
+  for (int row = 0; row < setting.size; ++row) field.gapsOfRow(row, gaps.ptr<double>(row));
   cv::Mat labels;
   cv::Mat stats;
   cv::Mat centroids;

@@ -46,7 +46,9 @@ class SurroundingsTable {
   CellSurroundings look(const GridCell& cell) const;
 
  private:
-  /// Columns of a row's cells that come into contact in the window; makes their dales known.
+  /// Gaps of a row that was chosen from lately, or of one off the frame, from one cell before the first.
+  const double* gapsOf(int row) const;
+  /// Columns of a row's cells that come into contact in the window; makes their dales known. None off the frame.
   int chooseCells(int row, std::vector<std::int32_t>& cells);
   void collectRow(int row, const std::vector<std::int32_t>& cells, int count);
 
@@ -59,9 +61,11 @@ class SurroundingsTable {
   int end_group_ = 0;
   std::vector<CellSurroundings> table_;
   std::vector<std::int32_t> next_place_;  ///< per group of the window, while it is collected
+  static constexpr int kRowsKept = 3;
+  std::vector<double> row_gaps_[kRowsKept];  ///< of the row, the one above and the one below
+  std::vector<double> no_row_;               ///< the gaps above and below the frame
   std::vector<std::int32_t> row_cells_[2];
   std::vector<std::uint8_t> is_border_;
-  std::vector<double> no_row_;  ///< the gaps above and below the frame
 };
 
 }  // namespace mems_stiction

@@ -5,6 +5,7 @@
 /// All attributes are additive, so that two patches merge in constant time.
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 
 #include "mems_stiction/approach/gap_field.hpp"
@@ -12,6 +13,9 @@
 #include "mems_stiction/base/vectorized.hpp"
 
 namespace mems_stiction {
+
+/// What the processor moves between memory and cache at once [bytes].
+constexpr std::size_t kCacheLine = 64;
 
 /// Sums over the boundary edges of a patch. An edge joins a cell inside to a valid neighbour outside; it counts at its
 /// midpoint with the mean of both cells. Coordinates are in half pixels (integers, so that adding and taking away an
@@ -45,16 +49,17 @@ struct ExtremeCell {
   double outside = 0.0;  ///< gap of the neighbour beyond the box [m]; infinite if that is invalid or not in the frame
 };
 
-/// A connected set of contact cells, as sums that add up when patches merge.
-struct ContactPatch {
+/// A connected set of contact cells, as sums that add up when patches merge. What every cell changes comes first, in two
+/// cache lines; the sides of the box are in the next two.
+struct alignas(kCacheLine) ContactPatch {
   std::int32_t area = 0;  ///< [cells]
   std::int32_t min_col = 0, max_col = 0, min_row = 0, max_row = 0;
-  /// Deepest cell (smallest gap, then smallest index) among those that touch each side of the bounding box.
-  ExtremeCell extreme[4];
   std::int32_t deepest = 0;  ///< cell with the smallest gap, then the smallest index
   double deepest_gap = 0.0;  ///< its gap [m]
   double latest_gap = 0.0;   ///< largest gap among its cells [m]
   BoundarySums boundary;
+  /// Deepest cell (smallest gap, then smallest index) among those that touch each side of the bounding box.
+  ExtremeCell extreme[4];
 
   /// Adds one cell, but not its edges; a patch without cells begins with it.
   /// - @p outside gaps of its four neighbours, in the order of Side [m]; infinite where there is none

@@ -25,7 +25,9 @@ class DaleMap {
   std::int32_t find(const GridCell& cell) { return at(cell) == kUnknown ? follow(cell) : at(cell); }
   /// Makes the dales of these cells of a row known: in order of the frame, most have their neighbour's.
   /// - @p cols in ascending order
-  void findInRow(int row, const std::int32_t* cols, int count);
+  /// - @p gaps, @p gaps_above of the row and of the one above it [m]: from one cell before the first, infinite where
+  ///      the frame has no cell
+  void findInRow(int row, const std::int32_t* cols, int count, const double* gaps, const double* gaps_above);
   /// Dale of a cell, or kUnknown if nobody has asked for it, or if the cell is not valid.
   std::int32_t at(const GridCell& cell) const { return dale_[place(cell)]; }
   /// Number of dales found so far; they are numbered in the order in which they were found.
@@ -39,12 +41,16 @@ class DaleMap {
  private:
   std::size_t place(const GridCell& cell) const { return static_cast<std::size_t>(cell.index); }
   std::int32_t follow(const GridCell& cell);
+  template <typename Scalar>
+  std::int32_t follow(const GridCell& cell, const StoredGaps<Scalar>& gaps);
   /// The next cell of the path; the cell itself if it is a pit.
-  GridCell below(const GridCell& cell) const;
+  template <typename Scalar>
+  GridCell below(const GridCell& cell, const StoredGaps<Scalar>& gaps) const;
 
   const GapField* field_ = nullptr;
   int count_ = 0;
   std::vector<std::int32_t> dale_;
+  std::vector<std::int32_t> path_;
 };
 
 }  // namespace mems_stiction

@@ -3,8 +3,10 @@
 /// @file
 /// The gap between two surfaces at first touch: g = z2 - z1 - min(z2 - z1) >= 0 (section 2 of the paper).
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <vector>
 
@@ -25,8 +27,21 @@ inline bool comesBefore(double gap, int cell, double other_gap, int other) {
   return gap < other_gap || (gap == other_gap && cell < other);
 }
 
+class GapRange;
+
+/// The gaps of a frame by cell index, read from its relief as it is stored.
+template <typename Scalar>
+struct StoredGaps {
+  const Scalar* relief;
+  double top;
+  double operator[](std::ptrdiff_t cell) const { return top - static_cast<double>(relief[cell]); }
+};
+
 /// Row-major over the frame. Cells that are invalid in either surface have an infinite gap: they never come into
 /// contact and are left out of every sum. compute() reuses the memory of the previous frame.
+///
+/// What is kept is the relief z1 - z2, in the precision of the scan where the upper surface is flat, and the gap is
+/// what lies between it and its highest point: a scan in single precision then costs 4 bytes a cell, and no digits.
 class GapField {
  public:
   /// Against a plane. @throw SurfaceError if no pixel is valid.
@@ -44,18 +59,34 @@ class GapField {
   GridCell cellAt(int row, int col) const { return {row, col, row * cols_ + col}; }
   GridCell cellAt(int index) const { return {index / cols_, index % cols_, index}; }
 
-  const std::vector<double>& gaps() const { return gap_; }
-  double gap(int cell) const { return gap_[static_cast<std::size_t>(cell)]; }
+  double gap(int cell) const {
+    const auto place = static_cast<std::size_t>(cell);
+    return top_ - (is_single_ ? static_cast<double>(single_relief_[place]) : relief_[place]);
+  }
+  /// read(StoredGaps) of a scalar that is known to the compiler, for code that asks for many gaps; returns what it
+  /// returns.
+  template <typename Reader>
+  auto readGaps(const Reader& read) const {
+    return is_single_ ? read(StoredGaps<float>{single_relief_.data(), top_})
+                      : read(StoredGaps<double>{relief_.data(), top_});
+  }
+  /// Of all cells, row by row; each is worked out when it is read.
+  GapRange gaps() const;
+  /// - @p gaps room for cols() of them [m]
+  void gapsOfRow(int row, double* gaps) const;
+  /// Asks for the memory that gap() of this cell will read; a cell off the frame is allowed.
+  void prefetch(std::ptrdiff_t cell) const {
+    if (is_single_) {
+      __builtin_prefetch(single_relief_.data() + cell);
+    } else {
+      __builtin_prefetch(relief_.data() + cell);
+    }
+  }
   bool isValid(int cell) const { return gap(cell) < kInvalidGap; }
   double largestGap() const { return largest_gap_; }
   double meanGap() const { return mean_gap_; }
   /// Root mean square of the gap about its mean [m]: the composite rms height of what was compared, cell by cell.
   double rmsGap() const { return rms_gap_; }
-
-  /// Columns of a row's cells with a gap below the limit, in ascending order.
-  /// - @p columns room for cols() of them
-  /// @return how many there are
-  int columnsBelow(double limit, int row, std::int32_t* columns) const;
 
   bool upperIsFlat() const { return upper_is_flat_; }
   /// z1 from an arbitrary but fixed level [m], so that a stage offset costs no digits. z2 = z1 + g on the same level.
@@ -64,12 +95,12 @@ class GapField {
   static constexpr double kInvalidGap = std::numeric_limits<double>::infinity();
 
  private:
-  template <typename Scalar>
-  void computeAgainstPlane(const cv::Mat& heights);
-  /// z2 - z1 into gap_, z1 into lower_; returns the smallest separation.
+  void takeGrid(const HeightMap& lower);
+  /// - @p fillRow(row, line) writes a row's z1 - z2 [m], not finite where it is not valid
+  template <typename Scalar, typename RowSource>
+  void fillRelief(std::vector<Scalar>& relief, const RowSource& fillRow);
   template <typename LowerScalar, typename UpperScalar>
-  double separate(const HeightMap& lower, const HeightMap& upper);
-  void measure();
+  void subtractSurfaces(const HeightMap& lower, const HeightMap& upper);
 
   int rows_ = 0;
   int cols_ = 0;
@@ -80,8 +111,61 @@ class GapField {
   double mean_gap_ = 0.0;
   double rms_gap_ = 0.0;
   bool upper_is_flat_ = true;
-  std::vector<double> gap_;
+  bool is_single_ = false;
+  double top_ = 0.0;                  ///< highest point of the relief [m]
+  std::vector<double> relief_;        ///< z1 - z2 [m]; -infinity where it is not valid
+  std::vector<float> single_relief_;  ///< in its place, if is_single_
   std::vector<double> lower_;
 };
+
+/// The gaps of a field in the order of the frame [m].
+class GapRange {
+ public:
+  class iterator {
+   public:
+    using iterator_category = std::forward_iterator_tag;
+    using value_type = double;
+    using difference_type = std::ptrdiff_t;
+    using pointer = const double*;
+    using reference = double;
+
+    iterator() = default;
+    iterator(const GapField& field, int cell) : field_(&field), cell_(cell) {}
+    double operator*() const { return field_->gap(cell_); }
+    iterator& operator++() {
+      ++cell_;
+      return *this;
+    }
+    iterator operator++(int) {
+      const iterator before = *this;
+      ++*this;
+      return before;
+    }
+    bool operator==(const iterator& other) const { return cell_ == other.cell_; }
+    bool operator!=(const iterator& other) const { return cell_ != other.cell_; }
+
+   private:
+    const GapField* field_ = nullptr;
+    int cell_ = 0;
+  };
+  using const_iterator = iterator;
+  using value_type = double;
+
+  explicit GapRange(const GapField& field) : field_(&field) {}
+  iterator begin() const { return {*field_, 0}; }
+  iterator end() const { return {*field_, field_->cellCount()}; }
+  bool operator==(const GapRange& other) const { return std::equal(begin(), end(), other.begin(), other.end()); }
+
+ private:
+  const GapField* field_;
+};
+
+inline GapRange GapField::gaps() const { return GapRange(*this); }
+
+/// Columns of a row's cells with a gap below the limit, in ascending order.
+/// - @p gaps of the row's `cols` cells [m]
+/// - @p columns room for as many
+/// @return how many there are
+int columnsBelow(double limit, const double* gaps, int cols, std::int32_t* columns);
 
 }  // namespace mems_stiction

@@ -112,6 +112,7 @@ class GapOrder {
   std::vector<std::int32_t> bucket_count_of_;
   std::vector<std::int32_t> group_end_;
   std::vector<std::uint8_t> is_sorted_;
+  std::vector<double> row_gaps_;
   std::vector<std::int32_t> row_buckets_;
   std::vector<std::int32_t> near_cells_;
   std::vector<OrderedCell> cells_;

@@ -20,6 +20,7 @@ using LaneMask = std::int64_t __attribute__((vector_size(kLanes * sizeof(std::in
 inline void load(const double* values, Lanes& lanes) { std::memcpy(&lanes, values, sizeof lanes); }
 
 inline double sumOf(const Lanes& lanes) { return lanes[0] + lanes[1] + lanes[2] + lanes[3]; }
+inline double smallestOf(const Lanes& lanes) { return std::min({lanes[0], lanes[1], lanes[2], lanes[3]}); }
 inline double largestOf(const Lanes& lanes) { return std::max({lanes[0], lanes[1], lanes[2], lanes[3]}); }
 
 }  // namespace mems_stiction

@@ -22,7 +22,8 @@ struct SurfaceChange {
 /// Kept from frame to frame, so that nothing is allocated.
 struct SurfaceOutputMemory {
   std::vector<SurfaceChange> changes;  ///< in the order of the live patches
-  std::vector<std::int32_t> columns;   ///< of one row's cells in contact
+  std::vector<double> gaps;            ///< of one row
+  std::vector<std::int32_t> columns;   ///< of its cells in contact
 };
 
 /// Fills those maps of `prediction` that options.output asks for.
