@@ -33,12 +33,14 @@ void BoundarySums::addEdge(const GapField& field, int row, int col, int neighbou
   y_lower += edge_y * edge_lower;
 }
 
-void BoundarySums::addLowerEdges(const GapField& field, const GridCell& cell, const Lanes& signs) {
+void BoundarySums::addLowerEdges(const GapField& field, const GridCell& cell, const EdgeChanges& changes,
+                                 std::size_t lane) {
   const int neighbours[4] = {cell.index - 1, cell.index + 1, cell.index - field.cols(), cell.index + field.cols()};
   const double cell_lower = field.lowerHeight(cell.index);
   double edges[4];
   for (std::size_t side = 0; side < 4; ++side) {
-    edges[side] = signs[side] == 0.0 ? 0.0 : signs[side] * 0.5 * (cell_lower + field.lowerHeight(neighbours[side]));
+    const double sign = changes.signs[side][lane];
+    edges[side] = sign == 0.0 ? 0.0 : sign * 0.5 * (cell_lower + field.lowerHeight(neighbours[side]));
   }
   const double edge_sum = edges[kLeft] + edges[kRight] + edges[kTop] + edges[kBottom];
   lower += edge_sum;
@@ -62,7 +64,7 @@ BoundarySums& BoundarySums::operator+=(const BoundarySums& other) {
   return *this;
 }
 
-void ContactPatch::extendBox(const GridCell& cell, double gap, const double (&outside)[4]) {
+void ContactPatch::extendBox(GridCell cell, double gap, const double (&outside)[4]) {
   const auto extend = [&](Side side, std::int32_t& bound, std::int32_t place, bool is_further) {
     const ExtremeCell candidate{cell.index, gap, outside[side]};
     if (!is_further && (place != bound || !isDeeper(candidate, extreme[side]))) return;

@@ -98,52 +98,85 @@ void PatchSweep::advanceTo(int count) {
 }
 
 MEMS_STICTION_INLINE void PatchSweep::markChanged(std::int32_t id) {
-  std::uint8_t& flag = is_changed_[static_cast<std::size_t>(id)];
+  std::int32_t& flag = is_changed_[static_cast<std::size_t>(id)];
   // written without a branch: there is room for every patch
   changed_[changed_count_] = id;
   changed_count_ += flag == 0 ? 1 : 0;
   flag = 1;
 }
 
-MEMS_STICTION_INLINE void PatchSweep::insert(const OrderedCell& ordered, const CellSurroundings& around) {
-  if (around.dale() >= patchIdEnd()) makeRoom();
-  std::int32_t id = patchOfDale(around.dale());
-  if (around.isBorder() || connectivity_ == Connectivity::kEight) id = join(id, ordered, around);
-  ContactPatch& patch = patches_[static_cast<std::size_t>(id)];
-  if (patch.area == 0) {
-    live_place_[static_cast<std::size_t>(id)] = static_cast<std::int32_t>(live_.size());
-    live_.push_back(id);
+MEMS_STICTION_INLINE void PatchSweep::insert(const OrderedCell* const (&cells)[kLanes],
+                                             const CellSurroundings* const (&around)[kLanes], int count) {
+  const IntegerLanes index{cells[0]->cell, cells[1]->cell, cells[2]->cell, cells[3]->cell};
+  const IntegerLanes row{cells[0]->row, cells[1]->row, cells[2]->row, cells[3]->row};
+  const IntegerLanes col = index - row * field_->cols();
+  const Lanes gap{cells[0]->gap, cells[1]->gap, cells[2]->gap, cells[3]->gap};
+  Lanes neighbours[4];
+  load(around[0]->gaps, neighbours[0]);
+  load(around[1]->gaps, neighbours[1]);
+  load(around[2]->gaps, neighbours[2]);
+  load(around[3]->gaps, neighbours[3]);
+  transpose(neighbours[0], neighbours[1], neighbours[2], neighbours[3]);
+  const Lanes row_lanes = __builtin_convertvector(row, Lanes);
+  const Lanes col_lanes = __builtin_convertvector(col, Lanes);
+  const EdgeChanges changes(gap, neighbours, col_lanes, row_lanes);
+
+  for (int lane = 0; lane < count; ++lane) {
+    const CellSurroundings& surroundings = *around[lane];
+    std::int32_t id = patchOfDale(surroundings.dale());
+    if (surroundings.isBorder() || connectivity_ == Connectivity::kEight) id = join(id, *cells[lane], surroundings);
+    ContactPatch& patch = patches_[static_cast<std::size_t>(id)];
+    if (patch.area == 0) {
+      live_place_[static_cast<std::size_t>(id)] = static_cast<std::int32_t>(live_.size());
+      live_.push_back(id);
+    }
+    const GridCell cell{row[lane], col[lane], index[lane]};
+    patch.addCell(cell, cells[lane]->gap, surroundings.gaps);
+    patch.boundary.addEdges(changes, static_cast<std::size_t>(lane));
+    if (!field_->upperIsFlat()) {
+      patch.boundary.addLowerEdges(*field_, cell, changes, static_cast<std::size_t>(lane));
+    }
+    markChanged(id);
   }
-  const GridCell cell = gridCell(ordered);
-  patch.addCell(cell, ordered.gap, around.gaps);
-  patch.boundary.addEdges(*field_, cell, ordered.gap, around.gaps);
-  markChanged(id);
+  inserted_ += count;
 }
 
 void PatchSweep::insertLookedUp(int stop) {
-  const std::vector<OrderedCell>& cells = order_->cells();
-  const auto ahead_end = static_cast<int>(cells.size()) - kPrefetchDistance;
-  for (; inserted_ < stop; ++inserted_) {
-    if (inserted_ < ahead_end) prefetchCell(inserted_ + kPrefetchDistance);
-    const OrderedCell& cell = cells[static_cast<std::size_t>(inserted_)];
-    insert(cell, surroundings_.look(gridCell(cell)));
+  const auto ahead_end = static_cast<int>(order_->cells().size()) - kPrefetchDistance;
+  CellSurroundings looked_up[kLanes];
+  while (inserted_ < stop) {
+    const int count = std::min(stop - inserted_, static_cast<int>(kLanes));
+    const OrderedCell* next = order_->cells().data() + inserted_;
+    for (int i = 0; i < count; ++i) {
+      if (inserted_ + i < ahead_end) prefetchCell(inserted_ + i + kPrefetchDistance);
+      looked_up[i] = surroundings_.look(gridCell(next[i]));
+    }
+    if (dales_.count() > patchIdEnd()) makeRoom();
+    const int last = count - 1;
+    const int used[kLanes] = {0, std::min(1, last), std::min(2, last), last};
+    insert({next, next + used[1], next + used[2], next + used[3]},
+           {looked_up, looked_up + used[1], looked_up + used[2], looked_up + used[3]}, count);
   }
 }
 
 MEMS_STICTION_VECTORIZED void PatchSweep::insertCollected(int stop) {
-  const std::vector<OrderedCell>& cells = order_->cells();
-  const int ahead_end = stop - kPrefetchDistance;
-  CellSurroundings looked_up;
-  for (; inserted_ < stop; ++inserted_) {
-    if (inserted_ < ahead_end) prefetchPatch(inserted_ + kPrefetchDistance);
-    const OrderedCell& cell = cells[static_cast<std::size_t>(inserted_)];
-    const CellSurroundings* around = &surroundings_.collected(inserted_);
-    if (around->cell != cell.cell) {  // its group has been sorted since
-      looked_up = surroundings_.look(gridCell(cell));
-      around = &looked_up;
+  constexpr int kCount = kLanes;
+  const int ahead_end = stop - kPrefetchDistance - kCount;
+  while (inserted_ + kCount <= stop) {
+    if (inserted_ < ahead_end) {
+      for (int i = 0; i < kCount; ++i) prefetchPatch(inserted_ + i + kPrefetchDistance);
     }
-    insert(cell, *around);
+    const OrderedCell* next = order_->cells().data() + inserted_;
+    const CellSurroundings* around = &surroundings_.collected(inserted_);
+    const auto isCollected = [&](int i) { return static_cast<int>(around[i].cell == next[i].cell); };
+    const int are_collected = isCollected(0) & isCollected(1) & isCollected(2) & isCollected(3);
+    if (are_collected == 0) {  // their group has been sorted since
+      insertLookedUp(inserted_ + kCount);
+      continue;
+    }
+    insert({next, next + 1, next + 2, next + 3}, {around, around + 1, around + 2, around + 3}, kCount);
   }
+  insertLookedUp(stop);
 }
 
 std::int32_t PatchSweep::patchOf(const GridCell& cell) {

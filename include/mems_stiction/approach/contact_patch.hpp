@@ -17,6 +17,21 @@ namespace mems_stiction {
 /// What the processor moves between memory and cache at once [bytes].
 constexpr std::size_t kCacheLine = 64;
 
+enum Side { kLeft = 0, kRight = 1, kTop = 2, kBottom = 3 };
+
+/// What changes in BoundarySums when each of four cells comes into contact: edges to neighbours that are apart come in,
+/// those to neighbours that came into contact before are inside now and go.
+struct EdgeChanges {
+  /// - @p own gaps of the four cells [m]
+  /// - @p neighbours gaps of their neighbours, by Side [m]; infinite where there is none
+  EdgeChanges(const Lanes& own, const Lanes (&neighbours)[4], const Lanes& col, const Lanes& row);
+
+  Lanes sums[4];     ///< of each cell: count, gap, x, x_gap
+  Lanes moments[4];  ///< of each cell: y, y_gap, xx, yy
+  Lanes xy;
+  Lanes signs[4];  ///< by Side: +1 for an edge that comes in, -1 for one that goes, 0 for none
+};
+
 /// Sums over the boundary edges of a patch. An edge joins a cell inside to a valid neighbour outside; it counts at its
 /// midpoint with the mean of both cells. Coordinates are in half pixels (integers, so that adding and taking away an
 /// edge leaves no trace); heights are on GapField's level [m].
@@ -29,18 +44,13 @@ struct BoundarySums {
 
   /// The edge between two neighbouring cells; sign +1 adds it, -1 takes it away.
   void addEdge(const GapField& field, int row, int col, int neighbour_row, int neighbour_col, int sign);
-  /// What changes when a cell comes into contact: edges to neighbours that are apart come in, those to neighbours that
-  /// came into contact before are inside now and go.
-  /// - @p gaps of the cell's four neighbours, in the order of Side [m]; infinite where there is none
-  void addEdges(const GapField& field, const GridCell& cell, double gap, const double (&gaps)[4]);
+  /// The edges of one of the cells that come into contact.
+  /// - @p lane which of them
+  void addEdges(const EdgeChanges& changes, std::size_t lane);
+  /// The part of it that a rough upper surface needs; against a plane it is the gap, turned over.
+  void addLowerEdges(const GapField& field, const GridCell& cell, const EdgeChanges& changes, std::size_t lane);
   BoundarySums& operator+=(const BoundarySums& other);
-
- private:
-  /// The part of addEdges() that a rough upper surface needs.
-  void addLowerEdges(const GapField& field, const GridCell& cell, const Lanes& signs);
 };
-
-enum Side { kLeft = 0, kRight = 1, kTop = 2, kBottom = 3 };
 
 /// A cell at one side of a patch's bounding box, and what lies beyond.
 struct ExtremeCell {
@@ -65,52 +75,70 @@ struct alignas(kCacheLine) ContactPatch {
   /// - @p outside gaps of its four neighbours, in the order of Side [m]; infinite where there is none
   void addCell(const GridCell& cell, double gap, const double (&outside)[4]);
   /// The part of addCell() for a cell at the sides of the bounding box or beyond them.
-  void extendBox(const GridCell& cell, double gap, const double (&outside)[4]);
+  void extendBox(GridCell cell, double gap, const double (&outside)[4]);
   /// Adds the attributes of `other`, but not the edges between the two, which the caller takes away.
   void merge(const ContactPatch& other);
 };
 
 // The sweep's innermost work, here so that it is compiled into the sweep for the processor's instructions.
 
-MEMS_STICTION_INLINE void BoundarySums::addEdges(const GapField& field, const GridCell& cell, double cell_gap,
-                                                 const double (&gaps)[4]) {
-  // left and top neighbours have smaller indices: of equal gaps they come first
-  constexpr LaneMask kComesFirst{-1, 0, -1, 0};
-  Lanes neighbour;
-  load(gaps, neighbour);
+MEMS_STICTION_INLINE EdgeChanges::EdgeChanges(const Lanes& own, const Lanes (&neighbours)[4], const Lanes& col,
+                                              const Lanes& row) {
   const Lanes zero{};
-  const Lanes own = zero + cell_gap;
-  const LaneMask is_apart = neighbour < GapField::kInvalidGap;
-  const LaneMask is_inside = (neighbour < own) | ((neighbour == own) & kComesFirst);
-  const Lanes signs = is_inside ? zero - 1.0 : (is_apart ? zero + 1.0 : zero);
-  const Lanes edges = signs * 0.5 * (own + (is_apart ? neighbour : zero));
+  const auto edgesAt = [&](Side side, bool comes_first_of_equals, Lanes& edges) {
+    const Lanes& gap = neighbours[side];
+    const LaneMask is_apart = gap < GapField::kInvalidGap;
+    const LaneMask is_inside = comes_first_of_equals ? gap <= own : gap < own;
+    signs[side] = is_inside ? zero - 1.0 : (is_apart ? zero + 1.0 : zero);
+    edges = signs[side] * 0.5 * (own + (is_apart ? gap : zero));
+  };
+  // left and top neighbours have smaller indices: of equal gaps they come first
+  Lanes left, right, top, bottom;
+  edgesAt(kLeft, true, left);
+  edgesAt(kRight, false, right);
+  edgesAt(kTop, true, top);
+  edgesAt(kBottom, false, bottom);
 
-  // Number of edges and sum of their gaps side by side, in pairs: over left and top with the first, right and bottom
-  // with the second. All edges are half a pixel pitch, one unit, from the cell's centre: moments follow from few
-  // products.
-  const Lanes first = __builtin_shuffle(signs, edges, LaneMask{0, 4, 2, 6});
-  const Lanes second = __builtin_shuffle(signs, edges, LaneMask{1, 5, 3, 7});
-  const Lanes sums = first + second;
-  const Lanes differences = second - first;
-  const LanePair horizontal{sums[0], sums[1]};
-  const LanePair vertical{sums[2], sums[3]};
-  const LanePair total = horizontal + vertical;
-  const LanePair rightwards{differences[0], differences[1]};
-  const LanePair downwards{differences[2], differences[3]};
-  const double center_x = 2 * cell.col;
-  const double center_y = 2 * cell.row;
-  const LanePair x_sums = total * center_x + rightwards;
-  const LanePair y_sums = total * center_y + downwards;
-  count += total[0];
-  gap += total[1];
-  x += x_sums[0];
-  x_gap += x_sums[1];
-  y += y_sums[0];
-  y_gap += y_sums[1];
-  xx += (x_sums[0] + rightwards[0]) * center_x + horizontal[0];
-  yy += (y_sums[0] + downwards[0]) * center_y + vertical[0];
-  xy += x_sums[0] * center_y + downwards[0] * center_x;
-  if (!field.upperIsFlat()) addLowerEdges(field, cell, signs);  // against a plane it is the gap, turned over
+  // All edges are half a pixel pitch, one unit, from the cell's centre: moments follow from few products.
+  const Lanes center_x = 2.0 * col;
+  const Lanes center_y = 2.0 * row;
+  const Lanes horizontal = signs[kLeft] + signs[kRight];
+  const Lanes vertical = signs[kTop] + signs[kBottom];
+  const Lanes rightwards = signs[kRight] - signs[kLeft];
+  const Lanes downwards = signs[kBottom] - signs[kTop];
+  Lanes& count = sums[0];
+  Lanes& gap = sums[1];
+  Lanes& x = sums[2];
+  Lanes& x_gap = sums[3];
+  count = horizontal + vertical;
+  gap = (left + right) + (top + bottom);
+  x = count * center_x + rightwards;
+  x_gap = gap * center_x + (right - left);
+  Lanes& y = moments[0];
+  Lanes& y_gap = moments[1];
+  Lanes& xx = moments[2];
+  Lanes& yy = moments[3];
+  y = count * center_y + downwards;
+  y_gap = gap * center_y + (bottom - top);
+  xx = (x + rightwards) * center_x + horizontal;
+  yy = (y + downwards) * center_y + vertical;
+  xy = x * center_y + downwards * center_x;
+  transpose(count, gap, x, x_gap);
+  transpose(y, y_gap, xx, yy);
+}
+
+MEMS_STICTION_INLINE void BoundarySums::addEdges(const EdgeChanges& changes, std::size_t lane) {
+  const Lanes sums = Lanes{count, gap, x, x_gap} + changes.sums[lane];
+  const Lanes moments = Lanes{y, y_gap, xx, yy} + changes.moments[lane];
+  count = sums[0];
+  gap = sums[1];
+  x = sums[2];
+  x_gap = sums[3];
+  y = moments[0];
+  y_gap = moments[1];
+  xx = moments[2];
+  yy = moments[3];
+  xy += changes.xy[lane];
 }
 
 MEMS_STICTION_INLINE void ContactPatch::addCell(const GridCell& cell, double gap, const double (&outside)[4]) {
@@ -127,7 +155,7 @@ MEMS_STICTION_INLINE void ContactPatch::addCell(const GridCell& cell, double gap
   const bool is_inside = static_cast<int>(cell.col > min_col) & static_cast<int>(cell.col < max_col) &
                          static_cast<int>(cell.row > min_row) & static_cast<int>(cell.row < max_row);
   if (!is_inside) extendBox(cell, gap, outside);
-  if (comesBefore(gap, cell.index, deepest_gap, deepest)) {
+  if (gap <= deepest_gap && comesBefore(gap, cell.index, deepest_gap, deepest)) {
     deepest = cell.index;
     deepest_gap = gap;
   }

@@ -58,7 +58,8 @@ class PatchSweep {
   /// The next cells up to this place.
   void insertLookedUp(int stop);
   void insertCollected(int stop);
-  void insert(const OrderedCell& cell, const CellSurroundings& around);
+  /// The next cells, at most kLanes of them; where there are fewer, the last lanes repeat one.
+  void insert(const OrderedCell* const (&cells)[kLanes], const CellSurroundings* const (&around)[kLanes], int count);
   /// The patch of the cell's dale together with those that the cell touches.
   std::int32_t join(std::int32_t id, const OrderedCell& cell, const CellSurroundings& around);
   std::int32_t unite(std::int32_t a, std::int32_t b);
@@ -85,7 +86,7 @@ class PatchSweep {
   std::vector<std::int32_t> changed_;  ///< the first changed_count_, and room for one more than there are patches
   std::size_t changed_count_ = 0;
   std::vector<std::int32_t> changed_live_;
-  std::vector<std::uint8_t> is_changed_;
+  std::vector<std::int32_t> is_changed_;  ///< not bytes: the compiler would let a write to one change anything
 };
 
 }  // namespace mems_stiction

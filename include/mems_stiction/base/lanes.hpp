@@ -12,12 +12,24 @@ namespace mems_stiction {
 
 constexpr std::size_t kLanes = 4;
 using Lanes = double __attribute__((vector_size(kLanes * sizeof(double))));
-using LanePair = double __attribute__((vector_size(2 * sizeof(double))));
 /// What comparing two Lanes gives: all bits set where it holds, none elsewhere.
 using LaneMask = std::int64_t __attribute__((vector_size(kLanes * sizeof(std::int64_t))));
+using IntegerLanes = std::int32_t __attribute__((vector_size(kLanes * sizeof(std::int32_t))));
 
 /// By reference: how lanes are returned would depend on the instructions that a file is compiled for.
 inline void load(const double* values, Lanes& lanes) { std::memcpy(&lanes, values, sizeof lanes); }
+
+/// Rows become columns: a[i], b[i], c[i], d[i] become the i-th of them.
+inline void transpose(Lanes& a, Lanes& b, Lanes& c, Lanes& d) {
+  const Lanes even_ab = __builtin_shuffle(a, b, LaneMask{0, 4, 2, 6});
+  const Lanes odd_ab = __builtin_shuffle(a, b, LaneMask{1, 5, 3, 7});
+  const Lanes even_cd = __builtin_shuffle(c, d, LaneMask{0, 4, 2, 6});
+  const Lanes odd_cd = __builtin_shuffle(c, d, LaneMask{1, 5, 3, 7});
+  a = __builtin_shuffle(even_ab, even_cd, LaneMask{0, 1, 4, 5});
+  b = __builtin_shuffle(odd_ab, odd_cd, LaneMask{0, 1, 4, 5});
+  c = __builtin_shuffle(even_ab, even_cd, LaneMask{2, 3, 6, 7});
+  d = __builtin_shuffle(odd_ab, odd_cd, LaneMask{2, 3, 6, 7});
+}
 
 inline double sumOf(const Lanes& lanes) { return lanes[0] + lanes[1] + lanes[2] + lanes[3]; }
 inline double smallestOf(const Lanes& lanes) { return std::min({lanes[0], lanes[1], lanes[2], lanes[3]}); }
