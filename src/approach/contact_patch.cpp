@@ -65,11 +65,16 @@ BoundarySums& BoundarySums::operator+=(const BoundarySums& other) {
 }
 
 void ContactPatch::extendBox(GridCell cell, double gap, const double (&outside)[4]) {
+  // which sides a cell extends is random: written without a branch
   const auto extend = [&](Side side, std::int32_t& bound, std::int32_t place, bool is_further) {
-    const ExtremeCell candidate{cell.index, gap, outside[side]};
-    if (!is_further && (place != bound || !isDeeper(candidate, extreme[side]))) return;
-    bound = place;
-    extreme[side] = candidate;
+    ExtremeCell& known = extreme[side];
+    const int is_earlier = static_cast<int>(gap < known.gap) |
+                           (static_cast<int>(gap == known.gap) & static_cast<int>(cell.index < known.cell));
+    const bool is_new = (static_cast<int>(is_further) | (static_cast<int>(place == bound) & is_earlier)) != 0;
+    bound = is_new ? place : bound;
+    known.cell = is_new ? cell.index : known.cell;
+    known.gap = is_new ? gap : known.gap;
+    known.outside = is_new ? outside[side] : known.outside;
   };
   extend(kLeft, min_col, cell.col, cell.col < min_col);
   extend(kRight, max_col, cell.col, cell.col > max_col);
