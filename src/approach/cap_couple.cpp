@@ -67,11 +67,11 @@ class BasePlanes {
 
 /// How far the outline at `level` lies beyond the centres of the extreme cells, towards their neighbours outside
 /// [cells], in [0, 1]; where there is none, the outline is the cell's edge.
-MEMS_STICTION_INLINE void outlineBeyond(const ExtremeCell (&extreme)[4], double level, Lanes& beyond) {
+MEMS_STICTION_INLINE void outlineBeyond(const ExtremeCells& extreme, double level, Lanes& beyond) {
   constexpr double kCellEdge = 0.5;
   const Lanes zero{};
-  const Lanes gap{extreme[0].gap, extreme[1].gap, extreme[2].gap, extreme[3].gap};
-  const Lanes outside{extreme[0].outside, extreme[1].outside, extreme[2].outside, extreme[3].outside};
+  const Lanes& gap = extreme.gaps();
+  const Lanes& outside = extreme.outside();
   const Lanes rise = outside - gap;
   const Lanes share = (level - gap) / rise;
   const Lanes within = share > 0.0 ? (share < 1.0 ? share : zero + 1.0) : zero;

@@ -64,29 +64,11 @@ BoundarySums& BoundarySums::operator+=(const BoundarySums& other) {
   return *this;
 }
 
-void ContactPatch::extendBox(GridCell cell, double gap, const double (&outside)[4]) {
-  // which sides a cell extends is random: written without a branch
-  const auto extend = [&](Side side, std::int32_t& bound, std::int32_t place, bool is_further) {
-    ExtremeCell& known = extreme[side];
-    const int is_earlier = static_cast<int>(gap < known.gap) |
-                           (static_cast<int>(gap == known.gap) & static_cast<int>(cell.index < known.cell));
-    const bool is_new = (static_cast<int>(is_further) | (static_cast<int>(place == bound) & is_earlier)) != 0;
-    bound = is_new ? place : bound;
-    known.cell = is_new ? cell.index : known.cell;
-    known.gap = is_new ? gap : known.gap;
-    known.outside = is_new ? outside[side] : known.outside;
-  };
-  extend(kLeft, min_col, cell.col, cell.col < min_col);
-  extend(kRight, max_col, cell.col, cell.col > max_col);
-  extend(kTop, min_row, cell.row, cell.row < min_row);
-  extend(kBottom, max_row, cell.row, cell.row > max_row);
-}
-
 void ContactPatch::merge(const ContactPatch& other) {
   const auto mergeSide = [&](Side side, std::int32_t& bound, std::int32_t other_bound, bool other_is_further) {
     if (other_is_further || (bound == other_bound && isDeeper(other.extreme[side], extreme[side]))) {
       bound = other_bound;
-      extreme[side] = other.extreme[side];
+      extreme.set(side, other.extreme[side]);
     }
   };
   mergeSide(kLeft, min_col, other.min_col, other.min_col < min_col);

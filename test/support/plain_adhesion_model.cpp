@@ -176,7 +176,7 @@ Labelling labelPatches(const GapField& field, double approach, Touch touch, Conn
     patch.min_row = stats.at<int>(label, cv::CC_STAT_TOP);
     patch.max_row = patch.min_row + stats.at<int>(label, cv::CC_STAT_HEIGHT) - 1;
     patch.deepest = -1;
-    for (ExtremeCell& extreme : patch.extreme) extreme.cell = -1;
+    for (const Side side : {kLeft, kRight, kTop, kBottom}) patch.extreme.set(side, {-1, 0.0, 0.0});
     labelling.contact_count += patch.area;
   }
   forEachContactCell(labelling.labels, [&](int row, int col, int label) {
@@ -187,9 +187,9 @@ Labelling labelPatches(const GapField& field, double approach, Touch touch, Conn
       return is_in_frame ? field.gap(other_row * field.cols() + other_col) : GapField::kInvalidGap;
     };
     const auto take = [&](Side side, bool applies, int row_step, int col_step) {
-      ExtremeCell& best = patch.extreme[side];
-      if (!applies || (best.cell >= 0 && !isDeeper(field, cell, best.cell))) return;
-      best = {cell, field.gap(cell), gapAt(row + row_step, col + col_step)};
+      const int best = patch.extreme[side].cell;
+      if (!applies || (best >= 0 && !isDeeper(field, cell, best))) return;
+      patch.extreme.set(side, {cell, field.gap(cell), gapAt(row + row_step, col + col_step)});
     };
     take(kLeft, col == patch.min_col, 0, -1);
     take(kRight, col == patch.max_col, 0, 1);

@@ -59,6 +59,31 @@ struct ExtremeCell {
   double outside = 0.0;  ///< gap of the neighbour beyond the box [m]; infinite if that is invalid or not in the frame
 };
 
+/// One of them at each side, side by side.
+class ExtremeCells {
+ public:
+  ExtremeCell operator[](Side side) const { return {cells_[side], gaps_[side], outside_[side]}; }
+  void set(Side side, const ExtremeCell& extreme) {
+    cells_[side] = extreme.cell;
+    gaps_[side] = extreme.gap;
+    outside_[side] = extreme.outside;
+  }
+  const Lanes& gaps() const { return gaps_; }
+  const Lanes& outside() const { return outside_; }
+
+  /// One cell is all there is.
+  void begin(std::int32_t cell, double gap, const double (&outside)[4]);
+  /// The cell takes the sides that it lies beyond, and those that it touches as the deepest.
+  /// - @p beyond how far it lies beyond each side [cells]
+  /// @return the sides that it takes
+  IntegerLanes add(std::int32_t cell, double gap, const double (&outside)[4], const IntegerLanes& beyond);
+
+ private:
+  Lanes gaps_{};
+  Lanes outside_{};
+  IntegerLanes cells_{};
+};
+
 /// A connected set of contact cells, as sums that add up when patches merge. What every cell changes comes first, in two
 /// cache lines; the sides of the box are in the next two.
 struct alignas(kCacheLine) ContactPatch {
@@ -69,13 +94,11 @@ struct alignas(kCacheLine) ContactPatch {
   double latest_gap = 0.0;   ///< largest gap among its cells [m]
   BoundarySums boundary;
   /// Deepest cell (smallest gap, then smallest index) among those that touch each side of the bounding box.
-  ExtremeCell extreme[4];
+  ExtremeCells extreme;
 
   /// Adds one cell, but not its edges; a patch without cells begins with it.
   /// - @p outside gaps of its four neighbours, in the order of Side [m]; infinite where there is none
   void addCell(const GridCell& cell, double gap, const double (&outside)[4]);
-  /// The part of addCell() for a cell at the sides of the bounding box or beyond them.
-  void extendBox(GridCell cell, double gap, const double (&outside)[4]);
   /// Adds the attributes of `other`, but not the edges between the two, which the caller takes away.
   void merge(const ContactPatch& other);
 };
@@ -141,20 +164,51 @@ MEMS_STICTION_INLINE void BoundarySums::addEdges(const EdgeChanges& changes, std
   xy += changes.xy[lane];
 }
 
+MEMS_STICTION_INLINE void ExtremeCells::begin(std::int32_t cell, double gap, const double (&outside)[4]) {
+  cells_ = IntegerLanes{} + cell;
+  gaps_ = Lanes{} + gap;
+  load(outside, outside_);
+}
+
+MEMS_STICTION_INLINE IntegerLanes ExtremeCells::add(std::int32_t cell, double gap, const double (&outside)[4],
+                                                    const IntegerLanes& beyond) {
+  const Lanes new_gaps = Lanes{} + gap;
+  const IntegerLanes new_cells = IntegerLanes{} + cell;
+  Lanes new_outside;
+  load(outside, new_outside);
+  const LaneMask is_first_of_equals = __builtin_convertvector(new_cells < cells_, LaneMask);
+  const LaneMask is_deeper = (new_gaps < gaps_) | ((new_gaps == gaps_) & is_first_of_equals);
+  const LaneMask is_new =
+      __builtin_convertvector(beyond > 0, LaneMask) | (__builtin_convertvector(beyond == 0, LaneMask) & is_deeper);
+  const IntegerLanes is_new_side = __builtin_convertvector(is_new, IntegerLanes);
+  gaps_ = is_new ? new_gaps : gaps_;
+  outside_ = is_new ? new_outside : outside_;
+  cells_ = is_new_side ? new_cells : cells_;
+  return is_new_side;
+}
+
 MEMS_STICTION_INLINE void ContactPatch::addCell(const GridCell& cell, double gap, const double (&outside)[4]) {
   if (area == 0) {
     area = 1;
     min_col = max_col = cell.col;
     min_row = max_row = cell.row;
-    for (int side = 0; side < 4; ++side) extreme[side] = {cell.index, gap, outside[side]};
+    extreme.begin(cell.index, gap, outside);
     deepest = cell.index;
     deepest_gap = latest_gap = gap;
     return;
   }
-  // most cells lie inside the box; which of its sides the others extend is hard to predict
-  const bool is_inside = static_cast<int>(cell.col > min_col) & static_cast<int>(cell.col < max_col) &
-                         static_cast<int>(cell.row > min_row) & static_cast<int>(cell.row < max_row);
-  if (!is_inside) extendBox(cell, gap, outside);
+  // which sides of the box a cell extends is random: all four side by side, without a branch
+  const IntegerLanes box{min_col, max_col, min_row, max_row};
+  const IntegerLanes place{cell.col, cell.col, cell.row, cell.row};
+  constexpr IntegerLanes kIsLower{-1, 0, -1, 0};
+  const IntegerLanes distance = place - box;
+  const IntegerLanes beyond = (distance ^ kIsLower) - kIsLower;  // distance, or minus it
+  const IntegerLanes is_new = extreme.add(cell.index, gap, outside, beyond);
+  const IntegerLanes extended = is_new ? place : box;
+  min_col = extended[kLeft];
+  max_col = extended[kRight];
+  min_row = extended[kTop];
+  max_row = extended[kBottom];
   if (gap <= deepest_gap && comesBefore(gap, cell.index, deepest_gap, deepest)) {
     deepest = cell.index;
     deepest_gap = gap;
