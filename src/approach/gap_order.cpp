@@ -38,12 +38,24 @@ void finishMoments(GapMoments& moments, double lower_end) {
   moments.mean = lower_end + mean_excess;
 }
 
-MEMS_STICTION_VECTORIZED void findBuckets(const double* gaps, std::size_t size, double inverse_width, double last,
-                                          std::int32_t* buckets) {
+template <typename Scalar>
+MEMS_STICTION_INLINE void findBucketsOf(const StoredGaps<Scalar>& gaps, std::ptrdiff_t first, std::size_t size,
+                                        double inverse_width, double last, std::int32_t* buckets) {
+  const Scalar* relief = gaps.relief + first;
+  const double top = gaps.top;
   for (std::size_t i = 0; i < size; ++i) {
-    const double in_widths = gaps[i] * inverse_width;
+    const double in_widths = (top - static_cast<double>(relief[i])) * inverse_width;
     buckets[i] = static_cast<std::int32_t>(in_widths < last ? in_widths : last);
   }
+}
+
+MEMS_STICTION_VECTORIZED void findBuckets(const StoredGaps<float>& gaps, std::ptrdiff_t first, std::size_t size,
+                                          double inverse_width, double last, std::int32_t* buckets) {
+  findBucketsOf(gaps, first, size, inverse_width, last, buckets);
+}
+MEMS_STICTION_VECTORIZED void findBuckets(const StoredGaps<double>& gaps, std::ptrdiff_t first, std::size_t size,
+                                          double inverse_width, double last, std::int32_t* buckets) {
+  findBucketsOf(gaps, first, size, inverse_width, last, buckets);
 }
 
 }  // namespace
@@ -82,14 +94,15 @@ void GapOrder::chooseBuckets(const GapField& field, double step) {
 void GapOrder::countGaps(const GapField& field) {
   bucket_count_of_.assign(static_cast<std::size_t>(bucket_count_), 0);
   const auto cols = static_cast<std::size_t>(field.cols());
-  row_gaps_.resize(cols);
   row_buckets_.resize(cols);
   std::int32_t* count = bucket_count_of_.data();
-  for (int row = 0; row < field.rows(); ++row) {
-    field.gapsOfRow(row, row_gaps_.data());
-    findBuckets(row_gaps_.data(), cols, inverse_width_, bucket_count_ - 1, row_buckets_.data());
-    for (const std::int32_t bucket : row_buckets_) ++count[bucket];
-  }
+  field.readGaps([&](const auto& gaps) {
+    for (int row = 0; row < field.rows(); ++row) {
+      const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(row) * field.cols();
+      findBuckets(gaps, first, cols, inverse_width_, bucket_count_ - 1, row_buckets_.data());
+      for (const std::int32_t bucket : row_buckets_) ++count[bucket];
+    }
+  });
   bucket_count_of_.back() -= field.cellCount() - field.validCount();  // infinite gaps were counted there
 }
 
@@ -127,6 +140,7 @@ MEMS_STICTION_VECTORIZED void GapOrder::collectCells(const GapField& field) {
   ordered_moments_.assign(static_cast<std::size_t>(ordered_buckets_), {});
   const bool all_are_ordered = ordered_buckets_ == bucket_count_;
   const double limit = all_are_ordered ? GapField::kInvalidGap : (ordered_buckets_ + 1) * bucket_width_;
+  row_gaps_.resize(static_cast<std::size_t>(field.cols()));
   near_cells_.resize(static_cast<std::size_t>(field.cols()));
   bool may_be_misplaced = false;
   for (std::int32_t row = 0; row < field.rows(); ++row) {
