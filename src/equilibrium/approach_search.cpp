@@ -1,7 +1,6 @@
 #include "mems_stiction/equilibrium/approach_search.hpp"
 
 #include <algorithm>
-#include <new>
 
 #include "mems_stiction/approach/cap_couple.hpp"
 #include "mems_stiction/equilibrium/level_search.hpp"
@@ -12,8 +11,6 @@ namespace {
 /// Cells whose gaps differ by less than this share of a step come into contact together. Else round-off decides which
 /// part of a symmetrical ring of cells comes first, and a contact of few pixels gets the radius of half a ring.
 constexpr double kLevelWidth = 1e-6;
-/// How many patches ahead the cells at their centres are asked for.
-constexpr std::size_t kPrefetchDistance = 8;
 
 }  // namespace
 
@@ -32,7 +29,13 @@ void ApproachSearch::run(const GapField& field, GapOrder& order, Connectivity co
   sweep_.begin(field, order, connectivity);
   centres_.clear();
   loads_.prepare(order);
+  search(state);
+  keepCaps();
+}
 
+void ApproachSearch::search(EquilibriumState& state) {
+  GapOrder& order = *order_;
+  const SearchSetting& setting = *setting_;
   const double limit_gap = order.cells()[static_cast<std::size_t>(order.contactLimit() - 1)].gap;
   state.approach = 0.0;
   state.contact_count = 0;
@@ -67,39 +70,62 @@ void ApproachSearch::run(const GapField& field, GapOrder& order, Connectivity co
   state.status = Status::kNoEquilibrium;
 }
 
-const PatchCentre& ApproachSearch::centreOf(std::int32_t patch_id, const ContactPatch& patch) {
-  KnownCentre& known = centres_[static_cast<std::size_t>(patch_id)];
-  const std::int32_t box[4] = {patch.min_row, patch.max_row, patch.min_col, patch.max_col};
-  if (known.is_settled && std::equal(box, box + 4, known.box)) return known.centre;
-  std::copy(box, box + 4, known.box);
-  known.centre = boxCentre(patch, *field_);
-  known.is_settled = sweep_.patchOf(known.centre.cell) == patch_id;
-  if (!known.is_settled) known.centre = deepestCentre(patch, *field_);
-  return known.centre;
-}
-
 void ApproachSearch::moveTo(double approach, int contact_count, EquilibriumState& state) {
   if (contact_count < sweep_.contactCount()) centres_.clear();  // the sweep starts over, with new patches
   sweep_.advanceTo(contact_count);
-  caps_.resize(sweep_.livePatches().size());
-  responses_.resize(caps_.size());
+  responses_.resize(sweep_.livePatches().size());
   centres_.resize(static_cast<std::size_t>(sweep_.patchIdEnd()));
   const std::vector<std::int32_t>& changed = sweep_.takeChangedPatches();
-  for (std::size_t i = 0; i < changed.size(); ++i) {
-    if (i + kPrefetchDistance < changed.size()) sweep_.prefetchCentre(changed[i + kPrefetchDistance]);
-    const std::int32_t id = changed[i];
-    const ContactPatch& patch = sweep_.patch(id);
-    const auto place = static_cast<std::size_t>(sweep_.livePlace(id));
-    // in place: a copy would wait for what has just been written
-    const auto* caps =
-        ::new (&caps_[place]) CapCouple(capCouple(patch, *field_, centreOf(id, patch), setting_->smallest_height));
-    ::new (&responses_[place]) AsperityResponse(*caps, setting_->law);
-  }
+  updateCentres(changed);
+  updateResponses(changed);
   state.approach = approach;
   state.contact_count = contact_count;
   state.load = loads_.at(approach, contact_count, setting_->forces, setting_->mechanical_load);
   state.load.capillary = capillaryForce(*order_, approach, contact_count, setting_->capillary, field_->cellArea());
   state.balance = forceBalance(responses_, state.load.total(), setting_->law);
+}
+
+void ApproachSearch::updateCentres(const std::vector<std::int32_t>& changed) {
+  moved_patches_.clear();
+  for (const std::int32_t id : changed) {
+    KnownCentre& known = centres_[static_cast<std::size_t>(id)];
+    const ContactPatch& patch = sweep_.patch(id);
+    const Box box{patch.min_col, patch.max_col, patch.min_row, patch.max_row};
+    if (known.is_settled && box == known.box) continue;
+    known.box = box;
+    sweep_.prefetchCentre(id);
+    moved_patches_.push_back(id);
+  }
+  for (const std::int32_t id : moved_patches_) {
+    KnownCentre& known = centres_[static_cast<std::size_t>(id)];
+    const ContactPatch& patch = sweep_.patch(id);
+    known.centre = boxCentre(patch, *field_);
+    known.is_settled = sweep_.patchOf(known.centre.cell) == id;
+    if (!known.is_settled) known.centre = deepestCentre(patch, *field_);
+  }
+}
+
+void ApproachSearch::updateResponses(const std::vector<std::int32_t>& changed) {
+  for (std::size_t i = 0; i < changed.size(); i += kLanes) {
+    CentredPatch patches[kLanes];
+    AsperityResponse* responses[kLanes];
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const std::int32_t id = changed[std::min(i + lane, changed.size() - 1)];  // the last one fills up the lanes
+      patches[lane] = centred(id);
+      responses[lane] = &responses_[static_cast<std::size_t>(sweep_.livePlace(id))];
+    }
+    CapLanes caps;
+    capCouples(patches, *field_, setting_->smallest_height, caps);
+    findResponses(caps, setting_->law, responses);
+  }
+}
+
+void ApproachSearch::keepCaps() {
+  caps_.clear();
+  for (const std::int32_t id : sweep_.livePatches()) {
+    const CentredPatch patch = centred(id);
+    caps_.push_back(capCouple(*patch.patch, *field_, *patch.centre, setting_->smallest_height));
+  }
 }
 
 bool ApproachSearch::nothingResists() const {

@@ -194,5 +194,40 @@ TEST(AsperityResponse, isTheSameInBothFormulationsWhenElastic) {
   }
 }
 
+TEST(AsperityResponse, isTheSameForFourAsperitiesAtOnce) {
+  // elastic, between, plastic, and much too large
+  const double radii[kLanes] = {4e-6, 1e-6, 0.1e-6, 1.0};
+  CapLanes lanes;
+  CapCouple caps[kLanes];
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    caps[lane] = capsOf(10e-9 * static_cast<double>(lane + 1), radii[lane]);
+    caps[lane].cos_tilt = 1.0 - 0.1 * static_cast<double>(lane);
+    lanes.base_radius[lane] = caps[lane].base_radius;
+    lanes.height[lane] = caps[lane].height;
+    lanes.composite_radius[lane] = caps[lane].composite_radius;
+    lanes.squared_slope[lane] = caps[lane].squared_slope;
+    lanes.cos_tilt[lane] = caps[lane].cos_tilt;
+  }
+  for (const Formulation formulation : {Formulation::kCorrected, Formulation::kPrinted}) {
+    for (const Deformation deformation : {Deformation::kThreeRegimes, Deformation::kElastic}) {
+      AsperityLaw law = lawOf(0.05, 0.85, 1e-6, formulation);
+      law.deformation = deformation;
+      AsperityResponse responses[kLanes];
+      findResponses(lanes, law, {&responses[0], &responses[1], &responses[2], &responses[3]});
+      for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        const AsperityResponse alone(caps[lane], law);
+        EXPECT_EQ(responses[lane].radius, alone.radius);
+        EXPECT_EQ(responses[lane].base_radius, alone.base_radius);
+        EXPECT_EQ(responses[lane].volume, alone.volume);
+        EXPECT_EQ(responses[lane].cos_tilt, alone.cos_tilt);
+        EXPECT_EQ(responses[lane].imposed_load, alone.imposed_load);
+        EXPECT_EQ(responses[lane].yield_load, alone.yield_load);
+        EXPECT_EQ(responses[lane].elastic_share, alone.elastic_share);
+        EXPECT_EQ(alone.elastic_share, regimeFactor(law.plasticityIndexOf(radii[lane])));
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace mems_stiction

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -289,6 +290,76 @@ TEST(CapCouple, doesNotDependOnThePlaceInTheFrame) {
   EXPECT_NEAR(caps[0].composite_radius, caps[1].composite_radius, kRoundOff * caps[0].composite_radius);
   EXPECT_NEAR(caps[0].tilt(), caps[1].tilt(), 1e-9);
   EXPECT_NEAR(caps[0].base_radius, caps[1].base_radius, kRoundOff * kNm);
+}
+
+/// Hills with and without neighbours, at the frame's border, with a crater, in one line of edges, bent, and without any
+/// edge: each is described in its own way.
+HeightMap frameOfAllKinds() {
+  cv::Mat1d heights(24, 40, 0.0);
+  heights.row(0) = 5.0;  // edges on one line
+  heights(1, 12) = 1.0;
+  heights(4, 0) = 8.0;  // three edges
+  heights(4, 5) = 7.0;  // a pixel
+  const cv::Mat1d hill = (cv::Mat1d(3, 4) << 3, 5, 4, 2, 4, 9, 7, 3, 2, 6, 5, 4);
+  hill.copyTo(heights(cv::Rect(10, 4, 4, 3)));
+  heights(cv::Rect(18, 4, 5, 5)) = 10.0;  // with a crater
+  heights(6, 20) = 5.1;
+  heights(cv::Rect(26, 4, 1, 5)) = 10.0;  // bent
+  heights(cv::Rect(26, 8, 5, 1)) = 10.0;
+  heights(cv::Rect(34, 6, 3, 2)) = 2.5;
+  heights(cv::Rect(2, 14, 3, 3)) = std::numeric_limits<double>::quiet_NaN();
+  heights(15, 3) = 6.0;  // without edges
+  heights(cv::Rect(8, 14, 6, 3)) = 4.0;
+  heights(cv::Rect(20, 14, 8, 6)) = 3.0;
+  heights(cv::Rect(21, 15, 4, 4)) = 6.0;
+  heights(23, 39) = 4.0;  // two edges
+  return frame(heights, 10 * kNm, 16 * kNm);
+}
+
+TEST(CapCouple, isTheSameForFourPatchesAtOnce) {
+  const HeightMap lower = frameOfAllKinds();
+  const HeightMap upper = negative(analytic::paraboloid(24, 40, 10 * kNm, 16 * kNm, 100e-6));
+  for (const GapField& field : {againstPlane(lower), between(lower, upper)}) {
+    const std::vector<ContactPatch> patches =
+        plain::labelPatches(field, 8.5 * kNm, Touch::kBelow, Connectivity::kFour).patches;
+    ASSERT_EQ(patches.size(), 11u);
+    for (std::size_t first = 0; first < patches.size(); ++first) {
+      for (const std::size_t stride : {1u, 2u, 5u}) {
+        PatchCentre centres[kLanes];
+        CentredPatch four[kLanes];
+        for (std::size_t lane = 0; lane < kLanes; ++lane) {
+          const ContactPatch& patch = patches[(first + lane * stride) % patches.size()];
+          centres[lane] = lane % 2 == 0 ? boxCentre(patch, field) : deepestCentre(patch, field);
+          four[lane] = {&patch, &centres[lane]};
+        }
+        CapLanes lanes;
+        capCouples(four, field, kSmallestHeight, lanes);
+        for (std::size_t lane = 0; lane < kLanes; ++lane) {
+          const CapCouple alone = capCouple(*four[lane].patch, field, centres[lane], kSmallestHeight);
+          EXPECT_EQ(lanes.base_radius[lane], alone.base_radius);
+          EXPECT_EQ(lanes.height[lane], alone.height);
+          EXPECT_EQ(lanes.composite_radius[lane], alone.composite_radius);
+          EXPECT_EQ(lanes.squared_slope[lane], alone.squared_slope);
+          EXPECT_EQ(lanes.cos_tilt[lane], alone.cos_tilt);
+          EXPECT_TRUE(std::isfinite(alone.composite_radius));
+        }
+      }
+    }
+  }
+}
+
+TEST(CapCouple, ofAPatchWithoutEdgesHasItsInterferenceForHeight) {
+  cv::Mat1d heights(5, 7, 0.0);
+  heights(cv::Rect(1, 1, 3, 3)) = std::numeric_limits<double>::quiet_NaN();
+  heights(2, 2) = 6.0;
+  for (const GapField& field :
+       {againstPlane(frame(heights)), between(frame(heights), analytic::flatWithBump(5, 7, 10 * kNm, 10 * kNm, kNm))}) {
+    const CapCouple caps = onlyCaps(field, 2 * kNm);
+    EXPECT_EQ(caps.height, kSmallestHeight);  // all of its gap is one
+    EXPECT_EQ(caps.squared_slope, 0.0);
+    EXPECT_EQ(caps.cos_tilt, 1.0);
+    EXPECT_NEAR(caps.base_radius, 5 * kNm, kRoundOff * kNm);
+  }
 }
 
 }  // namespace

@@ -4,9 +4,12 @@
 /// Four doubles that are added, compared and chosen side by side, in the instructions that the processor has.
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+
+#include "mems_stiction/base/vectorized.hpp"
 
 namespace mems_stiction {
 
@@ -18,6 +21,16 @@ using IntegerLanes = std::int32_t __attribute__((vector_size(kLanes * sizeof(std
 
 /// By reference: how lanes are returned would depend on the instructions that a file is compiled for.
 inline void load(const double* values, Lanes& lanes) { std::memcpy(&lanes, values, sizeof lanes); }
+/// value(i) for each lane i.
+template <typename Value>
+MEMS_STICTION_INLINE void fill(const Value& value, Lanes& lanes) {
+  lanes = Lanes{static_cast<double>(value(0)), static_cast<double>(value(1)), static_cast<double>(value(2)),
+                static_cast<double>(value(3))};
+}
+
+MEMS_STICTION_INLINE void takeRoot(const Lanes& lanes, Lanes& roots) {
+  fill([&](int i) { return std::sqrt(lanes[i]); }, roots);
+}
 
 /// Rows become columns: a[i], b[i], c[i], d[i] become the i-th of them.
 inline void transpose(Lanes& a, Lanes& b, Lanes& c, Lanes& d) {

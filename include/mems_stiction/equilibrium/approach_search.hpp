@@ -13,6 +13,7 @@
 ///   asperities
 ///     plastic in Formulation::kPrinted).
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -53,12 +54,21 @@ class ApproachSearch {
   const std::vector<AsperityResponse>& responses() const { return responses_; }
 
  private:
+  /// Steps until the search ends.
+  void search(EquilibriumState& state);
   /// Brings the state's cells into contact and balances the forces there.
   void moveTo(double approach, int contact_count, EquilibriumState& state);
   /// Replaces the state by the first level in equilibrium after `previous_count` cells, if there is one.
   void refine(int previous_count, EquilibriumState& state);
-  /// The centre of a patch that has changed; looked up again only when its bounding box has.
-  const PatchCentre& centreOf(std::int32_t patch_id, const ContactPatch& patch);
+  /// Centres of patches that have changed; looked up again only where the bounding box has.
+  void updateCentres(const std::vector<std::int32_t>& changed);
+  /// Responses of patches that have changed, four at a time.
+  void updateResponses(const std::vector<std::int32_t>& changed);
+  CentredPatch centred(std::int32_t patch_id) const {
+    return {&sweep_.patch(patch_id), &centres_[static_cast<std::size_t>(patch_id)].centre};
+  }
+  /// Describes the patches of the state that was found.
+  void keepCaps();
   /// To the letter of the paper nothing resists a plastic asperity: when all are, no extremum can come.
   bool nothingResists() const;
   void record(EquilibriumState& state) const;
@@ -68,13 +78,15 @@ class ApproachSearch {
   const SearchSetting* setting_ = nullptr;
   PatchSweep sweep_;
   GapLoads loads_;
+  using Box = std::array<std::int32_t, 4>;
   struct KnownCentre {
     PatchCentre centre;
-    std::int32_t box[4];
+    Box box;
     bool is_settled = false;  ///< the box's centre belongs to the patch, and will as long as the box stays
   };
 
-  std::vector<KnownCentre> centres_;  ///< by patch id
+  std::vector<KnownCentre> centres_;         ///< by patch id
+  std::vector<std::int32_t> moved_patches_;  ///< those with another bounding box
   std::vector<CapCouple> caps_;
   std::vector<AsperityResponse> responses_;
   std::vector<std::int32_t> level_ends_;

@@ -42,6 +42,7 @@ struct AsperityLaw {
 
   /// phi of (9) in the formulation that is set; 0 when all deformation is elastic.
   double plasticityIndexOf(double radius) const;
+  void findPlasticityIndices(const Lanes& radii, Lanes& indices) const;  ///< of four asperities
 };
 
 /// Everything about one asperity that does not depend on the load.
@@ -61,5 +62,8 @@ struct AsperityResponse {
   /// dE_t/dD under the load P0 that acts along its axis [N]; positive pulls the surfaces together.
   double generalizedForce(double axial_load, const AsperityLaw& law) const;
 };
+
+/// The responses of four asperities at once, bit for bit those of one at a time.
+void findResponses(const CapLanes& caps, const AsperityLaw& law, AsperityResponse* const (&responses)[kLanes]);
 
 }  // namespace mems_stiction

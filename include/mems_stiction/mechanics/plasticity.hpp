@@ -17,6 +17,8 @@
 
 #include <cmath>
 
+#include "mems_stiction/base/lanes.hpp"
+
 namespace mems_stiction {
 
 /// Plasticity indices below it are elastic [-].
@@ -24,21 +26,35 @@ inline constexpr double kElasticLimit = 0.6;
 /// Plasticity indices above it are fully plastic [-].
 inline constexpr double kPlasticLimit = 1.1;
 
-/// phi of (9) [-].
+/// phi of (9) [-], of four asperities.
 /// @param contact_modulus E [Pa], > 0
 /// @param hardness Ha of the softer body [Pa], > 0
 /// @param composite_rms_height sigma of the pair [m], >= 0
-/// @param radius composite radius of the asperity [m], > 0
+/// @param radii composite radii of the asperities [m], > 0
+MEMS_STICTION_INLINE void findPlasticityIndices(double contact_modulus, double hardness, double composite_rms_height,
+                                                const Lanes& radii, Lanes& indices) {
+  Lanes roots;
+  takeRoot(composite_rms_height / radii, roots);
+  indices = contact_modulus / hardness * roots;
+}
 inline double plasticityIndex(double contact_modulus, double hardness, double composite_rms_height, double radius) {
-  return contact_modulus / hardness * std::sqrt(composite_rms_height / radius);
+  Lanes indices;
+  findPlasticityIndices(contact_modulus, hardness, composite_rms_height, Lanes{} + radius, indices);
+  return indices[0];
 }
 
-/// chi of (10.2), the elastic share of an asperity [-]: 1 elastic, 0 fully plastic.
-inline double regimeFactor(double plasticity_index) {
+/// chi of (10.2), the elastic share of an asperity [-]: 1 elastic, 0 fully plastic; of four asperities.
+MEMS_STICTION_INLINE void findRegimeFactors(const Lanes& plasticity_indices, Lanes& factors) {
   // neighbouring asperities differ: the line between the limits, cut off without a branch
-  const double line = (kPlasticLimit - plasticity_index) / (kPlasticLimit - kElasticLimit);
-  const double share = line > 1.0 ? 1.0 : line;
-  return share < 0.0 ? 0.0 : share;
+  const Lanes zero{};
+  const Lanes line = (kPlasticLimit - plasticity_indices) / (kPlasticLimit - kElasticLimit);
+  const Lanes share = line > 1.0 ? zero + 1.0 : line;
+  factors = share < 0.0 ? zero : share;
+}
+inline double regimeFactor(double plasticity_index) {
+  Lanes factors;
+  findRegimeFactors(Lanes{} + plasticity_index, factors);
+  return factors[0];
 }
 
 }  // namespace mems_stiction
