@@ -121,6 +121,7 @@ class GapField {
 /// The gaps of a field in the order of the frame [m].
 class GapRange {
  public:
+  /// Forward iterator over the gaps; reading one subtracts the relief from its highest point.
   class iterator {
    public:
     using iterator_category = std::forward_iterator_tag;

@@ -31,19 +31,23 @@ inline constexpr double kPlasticLimit = 1.1;
 /// @param hardness Ha of the softer body [Pa], > 0
 /// @param composite_rms_height sigma of the pair [m], >= 0
 /// @param radii composite radii of the asperities [m], > 0
+/// @param[out] indices phi of each asperity
 MEMS_STICTION_INLINE void findPlasticityIndices(double contact_modulus, double hardness, double composite_rms_height,
                                                 const Lanes& radii, Lanes& indices) {
   Lanes roots;
   takeRoot(composite_rms_height / radii, roots);
   indices = contact_modulus / hardness * roots;
 }
+/// phi of (9) [-], of one asperity; its parameters are those of findPlasticityIndices.
 inline double plasticityIndex(double contact_modulus, double hardness, double composite_rms_height, double radius) {
   Lanes indices;
   findPlasticityIndices(contact_modulus, hardness, composite_rms_height, Lanes{} + radius, indices);
   return indices[0];
 }
 
-/// chi of (10.2), the elastic share of an asperity [-]: 1 elastic, 0 fully plastic; of four asperities.
+/// chi of (10.2), the elastic share [-], of four asperities: 1 elastic, 0 fully plastic.
+/// @param plasticity_indices phi of (9) [-]
+/// @param[out] factors chi of each asperity
 MEMS_STICTION_INLINE void findRegimeFactors(const Lanes& plasticity_indices, Lanes& factors) {
   // neighbouring asperities differ: the line between the limits, cut off without a branch
   const Lanes zero{};
@@ -51,6 +55,7 @@ MEMS_STICTION_INLINE void findRegimeFactors(const Lanes& plasticity_indices, Lan
   const Lanes share = line > 1.0 ? zero + 1.0 : line;
   factors = share < 0.0 ? zero : share;
 }
+/// chi of (10.2) [-], of one asperity.
 inline double regimeFactor(double plasticity_index) {
   Lanes factors;
   findRegimeFactors(Lanes{} + plasticity_index, factors);
