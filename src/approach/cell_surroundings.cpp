@@ -9,7 +9,7 @@ namespace {
 
 /// Largest window, as a share of the frame: what a search up to a contact fraction of 0.3 reads in one go, at 12 bytes
 /// a pixel of memory.
-constexpr double kWindowShare = 0.29;
+constexpr double kWindowShare = 0.31;
 constexpr std::ptrdiff_t kWriteAhead = 3;
 
 /// Whether a neighbour belongs to another dale that is known.

@@ -9,7 +9,8 @@ namespace {
 
 /// How far ahead of the sweep memory is asked for: its order is random in the frame, but known.
 constexpr int kPrefetchDistance = 16;
-/// A sweep that goes no further than this share of the frame looks up its cells one by one: most end before it.
+/// The first cells of a sweep, and the last ones that are past a window of the table, are looked up one by one if they
+/// are no more than this share of the frame: most sweeps end before it, and a window costs a pass over the frame.
 constexpr double kShareLookedUp = 1.0 / 64.0;
 
 }  // namespace
@@ -83,7 +84,7 @@ void PatchSweep::advanceTo(int count) {
   if (count < inserted_) restart();
   const auto looked_up = static_cast<int>(kShareLookedUp * field_->cellCount());
   while (inserted_ < count) {
-    if (count > looked_up && inserted_ >= surroundings_.end()) {
+    if (count > looked_up && order_->contactLimit() - inserted_ > looked_up && inserted_ >= surroundings_.end()) {
       surroundings_.collectFrom(inserted_);
       makeRoom();
     }
