@@ -121,7 +121,7 @@ void GapField::takeGrid(const HeightMap& lower) {
 }
 
 template <typename Scalar, typename RowSource>
-void GapField::fillRelief(std::vector<Scalar>& relief, const RowSource& fillRow) {
+void GapField::fillRelief(LargePageVector<Scalar>& relief, const RowSource& fillRow) {
   is_single_ = std::is_same<Scalar, float>::value;
   const auto cols = static_cast<std::size_t>(cols_);
   relief.resize(static_cast<std::size_t>(cellCount()));

@@ -136,7 +136,7 @@ bool ApproachSearch::nothingResists() const {
 
 void ApproachSearch::refine(int previous_count, EquilibriumState& state) {
   order_->sortBetween(previous_count, state.contact_count);
-  const std::vector<OrderedCell>& cells = order_->cells();
+  const LargePageVector<OrderedCell>& cells = order_->cells();
   level_ends_.clear();
   const double level_width = kLevelWidth * setting_->step;
   double level_gap = previous_count < state.contact_count ? cells[static_cast<std::size_t>(previous_count)].gap : 0.0;

@@ -113,7 +113,7 @@ MEMS_STICTION_VECTORIZED NormalLoad GapLoads::at(double approach, int contact_co
                                                  double mechanical_load) const {
   const int bucket_count = order_->bucketCount();
   const double width = order_->bucketWidth();
-  const std::vector<OrderedCell>& cells = order_->cells();
+  const LargePageVector<OrderedCell>& cells = order_->cells();
 
   NormalLoad load;
   load.mechanical = mechanical_load;

@@ -132,7 +132,7 @@ TEST_P(SweptFrame, hasThePatchesOfARelabelledFrameAtEveryStep) {
 }
 
 TEST_P(SweptFrame, hasThePatchesOfARelabelledFrameAtGapLevels) {
-  const std::vector<OrderedCell>& cells = order_.cells();
+  const LargePageVector<OrderedCell>& cells = order_.cells();
   order_.sortBetween(0, static_cast<int>(cells.size()));
   const std::size_t stride = std::max<std::size_t>(1, cells.size() / 25);
   for (std::size_t place = 0; place < cells.size() && !HasFailure(); place += stride) {

@@ -14,6 +14,7 @@
 #include "mems_stiction/approach/dale_map.hpp"
 #include "mems_stiction/approach/gap_field.hpp"
 #include "mems_stiction/approach/gap_order.hpp"
+#include "mems_stiction/base/large_pages.hpp"
 
 namespace mems_stiction {
 
@@ -59,7 +60,7 @@ class SurroundingsTable {
   int end_ = 0;
   int first_group_ = 0;
   int end_group_ = 0;
-  std::vector<CellSurroundings> table_;
+  LargePageVector<CellSurroundings> table_;
   std::vector<std::int32_t> next_place_;  ///< per group of the window, while it is collected
   static constexpr int kRowsKept = 3;
   std::vector<double> row_gaps_[kRowsKept];  ///< of the row, the one above and the one below

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "mems_stiction/approach/gap_field.hpp"
+#include "mems_stiction/base/large_pages.hpp"
 
 namespace mems_stiction {
 
@@ -49,7 +50,7 @@ class DaleMap {
 
   const GapField* field_ = nullptr;
   int count_ = 0;
-  std::vector<std::int32_t> dale_;
+  LargePageVector<std::int32_t> dale_;
   std::vector<std::int32_t> path_;
 };
 

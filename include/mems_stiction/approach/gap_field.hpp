@@ -10,6 +10,7 @@
 #include <limits>
 #include <vector>
 
+#include "mems_stiction/base/large_pages.hpp"
 #include "mems_stiction/height_map/height_map.hpp"
 
 namespace mems_stiction {
@@ -98,7 +99,7 @@ class GapField {
   void takeGrid(const HeightMap& lower);
   /// - @p fillRow(row, line) writes a row's z1 - z2 [m], not finite where it is not valid
   template <typename Scalar, typename RowSource>
-  void fillRelief(std::vector<Scalar>& relief, const RowSource& fillRow);
+  void fillRelief(LargePageVector<Scalar>& relief, const RowSource& fillRow);
   template <typename LowerScalar, typename UpperScalar>
   void subtractSurfaces(const HeightMap& lower, const HeightMap& upper);
 
@@ -113,8 +114,8 @@ class GapField {
   bool upper_is_flat_ = true;
   bool is_single_ = false;
   double top_ = 0.0;                  ///< highest point of the relief [m]
-  std::vector<double> relief_;        ///< z1 - z2 [m]; -infinity where it is not valid
-  std::vector<float> single_relief_;  ///< in its place, if is_single_
+  LargePageVector<double> relief_;        ///< z1 - z2 [m]; -infinity where it is not valid
+  LargePageVector<float> single_relief_;  ///< in its place, if is_single_
   std::vector<double> lower_;
 };
 

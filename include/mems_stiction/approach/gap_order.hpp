@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "mems_stiction/approach/gap_field.hpp"
+#include "mems_stiction/base/large_pages.hpp"
 
 namespace mems_stiction {
 
@@ -40,7 +41,7 @@ class GapOrder {
   void build(const GapField& field, double max_contact_fraction, double step = 0.0);
 
   /// In order of group; at least contactLimit() of them, and some more beyond.
-  const std::vector<OrderedCell>& cells() const { return cells_; }
+  const LargePageVector<OrderedCell>& cells() const { return cells_; }
   /// Number of cells in contact at the first gap level that reaches the contact fraction limit. The cells up to there
   /// are those of the smallest gaps, and the last one has that gap.
   int contactLimit() const { return contact_limit_; }
@@ -115,7 +116,7 @@ class GapOrder {
   std::vector<double> row_gaps_;
   std::vector<std::int32_t> row_buckets_;
   std::vector<std::int32_t> near_cells_;
-  std::vector<OrderedCell> cells_;
+  LargePageVector<OrderedCell> cells_;
   std::vector<GapMoments> ordered_moments_;
   std::vector<GapMoments> tail_moments_;
 };
