@@ -113,7 +113,7 @@ class GapField {
   double rms_gap_ = 0.0;
   bool upper_is_flat_ = true;
   bool is_single_ = false;
-  double top_ = 0.0;                  ///< highest point of the relief [m]
+  double top_ = 0.0;                      ///< highest point of the relief [m]
   LargePageVector<double> relief_;        ///< z1 - z2 [m]; -infinity where it is not valid
   LargePageVector<float> single_relief_;  ///< in its place, if is_single_
   std::vector<double> lower_;

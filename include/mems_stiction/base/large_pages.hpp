@@ -22,10 +22,15 @@ namespace mems_stiction {
 template <typename T>
 class LargePageAllocator : public std::allocator<T> {
  public:
+  /// The allocator of another type; that of std::allocator would forget the large pages.
   template <typename Other>
   struct rebind {
     using other = LargePageAllocator<Other>;
   };
+
+  LargePageAllocator() = default;
+  template <typename Other>
+  LargePageAllocator(const LargePageAllocator<Other>& /*other*/) noexcept {}  // NOLINT(google-explicit-constructor)
 
   T* allocate(std::size_t count) {
     T* const memory = std::allocator<T>::allocate(count);
