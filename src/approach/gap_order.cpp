@@ -142,7 +142,7 @@ MEMS_STICTION_VECTORIZED void GapOrder::collectCells(const GapField& field) {
   const double limit = all_are_ordered ? GapField::kInvalidGap : (ordered_buckets_ + 1) * bucket_width_;
   row_gaps_.resize(static_cast<std::size_t>(field.cols()));
   near_cells_.resize(static_cast<std::size_t>(field.cols()));
-  bool may_be_misplaced = false;
+  bool any_is_misplaced = false;
   for (std::int32_t row = 0; row < field.rows(); ++row) {
     double* gaps = row_gaps_.data();
     field.gapsOfRow(row, gaps);
@@ -159,13 +159,13 @@ MEMS_STICTION_VECTORIZED void GapOrder::collectCells(const GapField& field) {
       __builtin_prefetch(&cell + kWriteAhead, 1);  // where the group goes on: there are too many for the processor
       const double excess = gap - bucket * bucket_width_;
       addGaps(ordered_moments_[static_cast<std::size_t>(bucket)], 1.0, excess);
-      if (excess < 0.0 || excess >= bucket_width_) may_be_misplaced = true;
+      if (isNearBorder(excess) && mendedGroup(gap, bucket) != bucket >> group_shift_) any_is_misplaced = true;
     }
   }
   for (int bucket = 0; bucket < ordered_buckets_; ++bucket) {
     finishMoments(ordered_moments_[static_cast<std::size_t>(bucket)], bucket * bucket_width_);
   }
-  if (may_be_misplaced && groups_are_steps_) mendGroups();
+  if (any_is_misplaced) mendGroups();
 }
 
 int GapOrder::mendedGroup(double gap, int bucket) const {

@@ -26,20 +26,30 @@ HeightMap withSpike(const HeightMap& surface, double height) {
   return {heights, surface.pitchX(), surface.pitchY()};
 }
 
+/// Heights that are whole multiples of a digit, as a scan of few bits has them.
+HeightMap quantised(int size, double digit) {
+  cv::Mat1d heights(size, size);
+  for (int i = 0; i < size * size; ++i) heights(i / size, i % size) = digit * (i * 7919 % 8);
+  return {heights, 20e-9, 20e-9};
+}
+
 std::vector<samples::Frame> orderedFrames() {
   std::vector<samples::Frame> frames = samples::allFrames();
   const HeightMap rough = samples::gaussian(200, 201, 10e-9, 10e-9, 3e-9, 60e-9, 1);
   frames.push_back({"large", rough, {}});
   frames.push_back({"tall_spike", withSpike(rough, 5e-6), {}});
   frames.push_back({"deep_pit", withSpike(rough, -5e-6), {}});
+  for (const int nanometres : {1, 2, 3, 4}) {
+    frames.push_back({"quantised_" + std::to_string(nanometres) + "_nm", quantised(32, nanometres * 1e-9), {}});
+  }
   return frames;
 }
 
-/// Steps as a search takes them, one that meets the gaps of lattices exactly, one that is tiny, and one beyond the
-/// range.
+/// Steps as a search takes them, some that meet the gaps of lattices exactly or but for round-off, one that is tiny, and
+/// one beyond the range.
 std::vector<double> stepsFor(const GapField& field) {
   const double range = std::max(field.largestGap(), 1e-9);
-  return {range / 37.3, range / 8.0, range / 1e7, 3.0 * range};
+  return {range / 37.3, range / 8.0, range / 14.0, range / 133.0, range / 259.0, range / 1e7, 3.0 * range};
 }
 
 class OrderedFrame : public testing::TestWithParam<samples::Frame> {

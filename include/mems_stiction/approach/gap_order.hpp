@@ -80,9 +80,7 @@ class GapOrder {
   int groupOf(double gap) const {
     const int bucket = bucketOf(gap);
     if (bucket >= ordered_buckets_) return groupCount();
-    const double excess = gap - bucket * bucket_width_;
-    const bool is_rounded = excess < 0.0 || excess >= bucket_width_;
-    return is_rounded ? mendedGroup(gap, bucket) : bucket >> group_shift_;
+    return isNearBorder(gap - bucket * bucket_width_) ? mendedGroup(gap, bucket) : bucket >> group_shift_;
   }
 
   static constexpr int kBucketsPerTailBucket = 16;
@@ -93,6 +91,12 @@ class GapOrder {
   void chooseOrderedBuckets(int wanted);
   void measureTail();
   void collectCells(const GapField& field);
+  /// Whether rounding may have decided on the bucket of a gap that lies so far beyond the bucket's lower end [m]: the
+  /// margin is wider than the rounding of this difference too.
+  bool isNearBorder(double excess) const {
+    constexpr double kMargin = 1e-9;  // of a width; 2^16 buckets round to 1e-11 of one
+    return excess < kMargin * bucket_width_ || excess >= (1.0 - kMargin) * bucket_width_;
+  }
   /// The bucket of a gap that is a whole number of steps is a matter of rounding, its group is not.
   int mendedGroup(double gap, int bucket) const;
   void mendGroups();
