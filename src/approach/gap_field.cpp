@@ -13,6 +13,9 @@
 namespace mems_stiction {
 namespace {
 
+/// Largest range of the relief [m]: squares of gaps, summed over any frame, stay finite.
+constexpr double kLargestRange = 1e100;
+
 std::string gridText(const HeightMap& surface) {
   return std::to_string(surface.rows()) + " rows x " + std::to_string(surface.cols()) + " columns, pitch " +
          numberText(surface.pitchX()) + " x " + numberText(surface.pitchY()) + " m";
@@ -147,6 +150,11 @@ void GapField::fillRelief(LargePageVector<Scalar>& relief, const RowSource& fill
   valid_count_ = static_cast<int>(sums.count);
   top_ = largestOf(sums.highest);
   largest_gap_ = top_ - smallestOf(sums.lowest);
+  if (!(largest_gap_ <= kLargestRange)) {
+    throw SurfaceError(std::string(upper_is_flat_ ? "the heights lie" : "scan minus counter-surface lies") +
+                       " between " + numberText(smallestOf(sums.lowest)) + " and " + numberText(top_) +
+                       " m, which is not allowed: the range must be <= " + numberText(kLargestRange) + " m");
+  }
   const double mean_excess = sumOf(sums.sum) / count;
   mean_gap_ = (top_ - sums.level) - mean_excess;
   rms_gap_ = std::sqrt(std::max(0.0, sumOf(sums.squares) / count - mean_excess * mean_excess));

@@ -14,6 +14,17 @@ MEMS_STICTION_INLINE void findSharingWeights(const CapLanes& caps, Formulation f
   if (formulation == Formulation::kPrinted) weights *= caps.height;
 }
 
+/// AsperityLaw::plasticityIndexOf() of four asperities.
+MEMS_STICTION_INLINE void findPlasticityIndices(const AsperityLaw& law, const Lanes& radii, Lanes& indices) {
+  if (law.deformation == Deformation::kElastic) {
+    indices = Lanes{};
+  } else if (law.formulation == Formulation::kPrinted) {
+    indices = law.contact_modulus / law.hardness * (law.composite_rms_height / radii);
+  } else {
+    mems_stiction::findPlasticityIndices(law.contact_modulus, law.hardness, law.composite_rms_height, radii, indices);
+  }
+}
+
 }  // namespace
 
 AsperityLaw::AsperityLaw(const ContactPair& pair, double work_of_adhesion_in, double composite_rms_height_in,
@@ -26,19 +37,9 @@ AsperityLaw::AsperityLaw(const ContactPair& pair, double work_of_adhesion_in, do
       formulation(approach.formulation),
       deformation(approach.deformation) {}
 
-MEMS_STICTION_INLINE void AsperityLaw::findPlasticityIndices(const Lanes& radii, Lanes& indices) const {
-  if (deformation == Deformation::kElastic) {
-    indices = Lanes{};
-  } else if (formulation == Formulation::kPrinted) {
-    indices = contact_modulus / hardness * (composite_rms_height / radii);
-  } else {
-    mems_stiction::findPlasticityIndices(contact_modulus, hardness, composite_rms_height, radii, indices);
-  }
-}
-
 double AsperityLaw::plasticityIndexOf(double radius) const {
   Lanes indices;
-  findPlasticityIndices(Lanes{} + radius, indices);
+  findPlasticityIndices(*this, Lanes{} + radius, indices);
   return indices[0];
 }
 
@@ -47,7 +48,7 @@ MEMS_STICTION_VECTORIZED void findResponses(const CapLanes& caps, const Asperity
   const Lanes& rc = caps.base_radius;
   Lanes volume, plasticity_index, elastic_share;
   findSharingWeights(caps, law.formulation, volume);
-  law.findPlasticityIndices(caps.composite_radius, plasticity_index);
+  findPlasticityIndices(law, caps.composite_radius, plasticity_index);
   findRegimeFactors(plasticity_index, elastic_share);
   const Lanes imposed_load = law.stiffness * rc * rc * rc / caps.composite_radius;
   const Lanes yield_load = law.hardness * kPi * rc * rc;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/option_visitor.hpp"
 #include "mems_stiction/equilibrium/approach_search.hpp"
 #include "mems_stiction/prediction/contact_summary.hpp"
 #include "mems_stiction/prediction/surface_outputs.hpp"
@@ -54,6 +56,10 @@ void AdhesionModel::Implementation::predict(const HeightMap& lower, const Height
   const double lower_rms_height = upper != nullptr ? heightStatistics(lower).rms_height : field_.rmsGap();
   const double upper_rms_height = upper != nullptr ? heightStatistics(*upper).rms_height : 0.0;
   const double composite_rms_height = std::hypot(lower_rms_height, upper_rms_height);
+  if (!std::isfinite(composite_rms_height)) {  // large against their gap, or their sums would have been refused
+    throw SurfaceError("the rms heights of scan (" + numberText(lower_rms_height) + " m) and counter-surface (" +
+                       numberText(upper_rms_height) + " m) must be finite");
+  }
 
   const double step = approachStep(options.approach, composite_rms_height, options.interface.cutoff_distance);
   order_.build(field_, options.approach.max_contact_fraction, step);

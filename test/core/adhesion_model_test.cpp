@@ -225,6 +225,14 @@ TEST(AdhesionModel, refusesSurfacesThatItCannotUse) {
   EXPECT_THROW(model.predict(HeightMap(cv::Mat1d(4, 5, kNan), kNm, kNm)), SurfaceError);
   EXPECT_THROW(model.predict(rough(), analytic::flat(80, 74, 10 * kNm, 10 * kNm)), SurfaceError);
   EXPECT_THROW(model.predict(rough(), analytic::flat(80, 75, 10 * kNm, 11 * kNm)), SurfaceError);
+  for (const double height : {2e154, -2e154, 1e300, -1e300, 1.7e308, -1.7e308}) {
+    cv::Mat1d heights = rough().heights().clone();
+    heights(3, 4) = height;
+    const HeightMap outlier(heights, rough().pitchX(), rough().pitchY());
+    EXPECT_THROW(model.predict(outlier), SurfaceError) << height;
+    EXPECT_THROW(model.predict(outlier, rough()), SurfaceError) << height;
+    EXPECT_THROW(model.predict(outlier, outlier), SurfaceError) << height;
+  }
   // and goes on after it
   EXPECT_EQ(model.predict(rough()).pull_off_force, AdhesionModel(Options()).predict(rough()).pull_off_force);
 }

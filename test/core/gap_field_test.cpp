@@ -134,6 +134,19 @@ TEST(GapField, refusesSurfacesWithoutAValidPixel) {
   EXPECT_NE(messageOf(left, right).find("valid in both"), std::string::npos);
 }
 
+TEST(GapField, refusesHeightsThatNoSquareCanHold) {
+  const auto message = [](double height, double other) {
+    return messageOf(map((cv::Mat1d(2, 3) << 0.0, 1e-9, height, 2e-9, other, kNan)), map(cv::Mat1d(2, 3, 0.0)));
+  };
+  EXPECT_EQ(message(1e99, 0.0), "");
+  for (const double height : {2e154, -2e154, 1e308, -1e308}) {
+    EXPECT_NE(message(height, 0.0).find("must be <= 1e+100 m"), std::string::npos) << message(height, 0.0);
+    EXPECT_NE(message(height, -height).find("must be <= 1e+100 m"), std::string::npos) << message(height, -height);
+    GapField field;
+    EXPECT_THROW(field.compute(map((cv::Mat1d(1, 3) << 0.0, height, 1e-9))), SurfaceError);
+  }
+}
+
 TEST(GapField, refusesGridsThatDifferAndNamesBoth) {
   const cv::Mat1d heights(2, 3, 0.0);
   const HeightMap lower(heights, 2e-9, 3e-9);

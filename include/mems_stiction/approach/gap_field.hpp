@@ -45,9 +45,9 @@ struct StoredGaps {
 /// what lies between it and its highest point: a scan in single precision then costs 4 bytes a cell, and no digits.
 class GapField {
  public:
-  /// Against a plane. @throw SurfaceError if no pixel is valid.
+  /// Against a plane. @throw SurfaceError if no pixel is valid, or if heights lie more than 1e100 m apart.
   void compute(const HeightMap& lower);
-  /// @throw SurfaceError if the grids differ or no pixel is valid in both.
+  /// @throw SurfaceError if the grids differ or no pixel is valid in both, or if gaps lie more than 1e100 m apart.
   void compute(const HeightMap& lower, const HeightMap& upper);
 
   int rows() const { return rows_; }

@@ -42,7 +42,6 @@ struct AsperityLaw {
 
   /// phi of (9) in the formulation that is set; 0 when all deformation is elastic.
   double plasticityIndexOf(double radius) const;
-  void findPlasticityIndices(const Lanes& radii, Lanes& indices) const;  ///< of four asperities
 };
 
 /// Everything about one asperity that does not depend on the load.
