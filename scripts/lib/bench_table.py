@@ -18,9 +18,10 @@ REQUIRED_SPEED_UP = 1.6
 
 def times_of(path):
     """CPU time in ms by case, without the decorations of Google Benchmark's names; wall time for threaded cases. The
-    least of the repetitions: what other programs on the machine add is never negative."""
+    least of the repetitions: what other programs on the machine add is never negative. In the order in which the cases
+    are defined, also where their repetitions ran mixed."""
     times = {}
-    for run in json.loads(path.read_text())["benchmarks"]:
+    for run in sorted(json.loads(path.read_text())["benchmarks"], key=lambda run: run.get("family_index", 0)):
         if run.get("run_type") == "aggregate":
             continue
         name = re.sub(r"/(min_time|iterations|repeats|real_time).*", "", run["name"])
