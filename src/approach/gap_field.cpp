@@ -124,14 +124,14 @@ void GapField::takeGrid(const HeightMap& lower) {
 }
 
 template <typename Scalar, typename RowSource>
-void GapField::fillRelief(LargePageVector<Scalar>& relief, const RowSource& fillRow) {
+void GapField::fillRelief(LargePageVector<Scalar>& relief, const RowSource& fill_row) {
   is_single_ = std::is_same<Scalar, float>::value;
   const auto cols = static_cast<std::size_t>(cols_);
   relief.resize(static_cast<std::size_t>(cellCount()));
   HeightSums sums(std::numeric_limits<double>::quiet_NaN());
   Scalar* line = relief.data();
   for (int row = 0; row < rows_; ++row, line += cols) {
-    fillRow(row, line);
+    fill_row(row, line);
     if (sums.count == 0) {  // the level is the first valid height
       const Scalar* valid = std::find_if(line, line + cols, [](Scalar height) { return std::isfinite(height); });
       if (valid != line + cols) sums = HeightSums(*valid);

@@ -139,12 +139,14 @@ void ApproachSearch::refine(int previous_count, EquilibriumState& state) {
   const LargePageVector<OrderedCell>& cells = order_->cells();
   level_ends_.clear();
   const double level_width = kLevelWidth * setting_->step;
-  double level_gap = previous_count < state.contact_count ? cells[static_cast<std::size_t>(previous_count)].gap : 0.0;
-  for (int i = previous_count; i < state.contact_count; ++i) {
-    const bool is_last_of_step = i + 1 == state.contact_count;
-    if (!is_last_of_step && cells[static_cast<std::size_t>(i + 1)].gap <= level_gap + level_width) continue;
-    level_ends_.push_back(i + 1);
-    if (!is_last_of_step) level_gap = cells[static_cast<std::size_t>(i + 1)].gap;
+  const auto end_of_step = static_cast<std::size_t>(state.contact_count);
+  auto cell = static_cast<std::size_t>(previous_count);
+  double level_gap = cell < end_of_step ? cells[cell].gap : 0.0;
+  while (cell < end_of_step) {
+    ++cell;
+    if (cell < end_of_step && cells[cell].gap <= level_gap + level_width) continue;
+    level_ends_.push_back(static_cast<std::int32_t>(cell));
+    if (cell < end_of_step) level_gap = cells[cell].gap;
   }
   const double step_end_approach = state.approach;
   const int step_end_count = state.contact_count;

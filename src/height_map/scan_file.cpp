@@ -123,7 +123,7 @@ ScanOptions withSidecar(const std::string& path, const ScanOptions& given) {
     } catch (const YAML::Exception& yaml_error) {
       throw FileError(sidecar + ": not valid YAML: " + yaml_error.what());
     }
-    if (options.height_scale == 0.0) lines.push_back("scan/height_scale: 0 is not allowed, must not be 0");
+    if (options.height_scale == 0.0) lines.emplace_back("scan/height_scale: 0 is not allowed, must not be 0");
     for (std::string& line : lines) line.insert(0, sidecar + ": ");
     if (!lines.empty()) throw OptionsError(std::move(lines));
     return options;
@@ -149,7 +149,7 @@ HeightMap calibrated(const std::string& path, const cv::Mat& pixels, const ScanO
   }
 }
 
-ScanFile withPitch(ImportedScan scan, const ScanFileOptions& options) {
+ScanFile withPitch(const ImportedScan& scan, const ScanFileOptions& options) {
   const double pitch_x = options.pitch_x > 0.0 ? options.pitch_x : scan.surface.pitchX();
   const double pitch_y = options.pitch_y > 0.0 ? options.pitch_y : scan.surface.pitchY();
   return {HeightMap(scan.surface.heights(), pitch_x, pitch_y), scan.channel};

@@ -29,7 +29,7 @@ std::vector<std::string> Configuration::validate() const {
   const std::vector<std::string> of_device = device.validate();
   violations.insert(violations.end(), of_device.begin(), of_device.end());
   if (scan.height_scale == 0.0) {
-    violations.push_back(
+    violations.emplace_back(
         "scan/height_scale: 0 m per unit of the pixel is not allowed, it makes every surface flat; must not be 0");
   }
   if ((scan.pitch_x > 0.0) != (scan.pitch_y > 0.0)) {
@@ -44,7 +44,7 @@ std::vector<std::string> Configuration::validate() const {
                          numberText(fit.hurst_shortest_wavelength) + " m");
   }
   if (counter_surface.type == CounterSurfaceType::kFile && counter_surface.file.empty()) {
-    violations.push_back("counter_surface/file: '' is not allowed with counter_surface/type file; must name a file");
+    violations.emplace_back("counter_surface/file: '' is not allowed with counter_surface/type file; must name a file");
   }
   return violations;
 }

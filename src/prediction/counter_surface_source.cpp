@@ -67,7 +67,7 @@ HeightMap CounterSurfaceSource::over(const HeightMap& scan) {
 }
 
 HeightMap CounterSurfaceSource::over(const HeightMap& scan, const HeightMap& measured) const {
-  const HeightMap mounted = mountedCounterSurface(cleaned(measured), options_.facing);
+  HeightMap mounted = mountedCounterSurface(cleaned(measured), options_.facing);
   // The model refuses grids that differ, and says how they do.
   if (isIdentity(options_.pose) || !haveSameGrid(mounted, scan)) return mounted;
   return alignedTo(scan, mounted, options_.pose);

@@ -18,6 +18,9 @@ struct TipRow {
   int row = 0;                ///< from the axis
   int reach = 0;              ///< columns -reach .. reach
   std::vector<double> depth;  ///< 2 reach + 1 values [m]
+
+  /// In the column so many from the axis, at most `reach`.
+  double depthAt(int shift) const { return depth.data()[reach + shift]; }
 };
 
 /// The part of the tip that is less deep than `range`: no other part can touch. Symmetrical in both axes.
@@ -48,7 +51,7 @@ cv::Mat eroded(const cv::Mat& heights, const std::vector<TipRow>& tip) {
         if (row + tip_row.row < 0 || row + tip_row.row >= heights.rows) continue;
         const double* line = heights.ptr<double>(row + tip_row.row);
         for (int shift = -tip_row.reach; shift <= tip_row.reach; ++shift) {
-          const double depth = tip_row.depth[static_cast<std::size_t>(shift + tip_row.reach)];
+          const double depth = tip_row.depthAt(shift);
           const int first = std::max(0, -shift);
           const int last = std::min(heights.cols, heights.cols - shift);
           for (int col = first; col < last; ++col) {
@@ -84,7 +87,7 @@ void forEachTouch(const cv::Mat& image, const cv::Mat& surface, const TipRow& ti
   const double* height = image.ptr<double>(row);
   const double* bound = surface.ptr<double>(row + tip_row.row);
   for (int shift = -tip_row.reach; shift <= tip_row.reach; ++shift) {
-    const double depth = tip_row.depth[static_cast<std::size_t>(shift + tip_row.reach)] - tolerance;
+    const double depth = tip_row.depthAt(shift) - tolerance;
     const int last = std::min(image.cols, image.cols - shift);
     for (int col = std::max(0, -shift); col < last; ++col) {
       if (height[col] + depth <= bound[col + shift]) visit(col, shift);
@@ -120,7 +123,7 @@ cv::Mat reachedPixels(const cv::Mat& image, const cv::Mat& surface, const std::v
         const double* bound = surface.ptr<double>(row + tip_row.row);
         const int first = std::max(touch.min_col, -tip_row.reach);
         for (int shift = first; shift <= std::min(touch.max_col, tip_row.reach); ++shift) {
-          const double depth = tip_row.depth[static_cast<std::size_t>(shift + tip_row.reach)] - tolerance;
+          const double depth = tip_row.depthAt(shift) - tolerance;
           if (image.at<double>(row, col) + depth <= bound[col + shift]) {
             reached.at<uchar>(row + tip_row.row, col + shift) = 255;
           }

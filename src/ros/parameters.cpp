@@ -14,7 +14,7 @@
 namespace mems_stiction {
 namespace {
 
-YAML::Node yamlOf(XmlRpc::XmlRpcValue value, const std::string& key, std::vector<std::string>& violations) {
+YAML::Node yamlOf(XmlRpc::XmlRpcValue& value, const std::string& key, std::vector<std::string>& violations) {
   using XmlRpc::XmlRpcValue;
   switch (value.getType()) {
     case XmlRpcValue::TypeBoolean:
@@ -27,7 +27,8 @@ YAML::Node yamlOf(XmlRpc::XmlRpcValue value, const std::string& key, std::vector
       return YAML::Node(static_cast<std::string>(value));
     case XmlRpcValue::TypeArray: {
       YAML::Node list(YAML::NodeType::Sequence);
-      for (int i = 0; i < value.size(); ++i) list.push_back(yamlOf(value[i], key, violations));
+      const int size = value.size();  // begin() and end() are those of a struct
+      for (int i = 0; i < size; ++i) list.push_back(yamlOf(value[i], key, violations));
       return list;
     }
     case XmlRpcValue::TypeStruct: {
@@ -106,7 +107,7 @@ void NodeConfiguration::describe(OptionVisitor& visitor) {
 
 YAML::Node yamlFromParameters(XmlRpc::XmlRpcValue tree) {
   std::vector<std::string> violations;
-  const YAML::Node node = yamlOf(std::move(tree), "", violations);
+  const YAML::Node node = yamlOf(tree, "", violations);
   if (!violations.empty()) throw OptionsError(std::move(violations));
   return node;
 }
@@ -138,7 +139,7 @@ NodeConfiguration readParameters(const ros::NodeHandle& private_handle) {
   if (tree.getType() != XmlRpc::XmlRpcValue::TypeStruct) {
     throw OptionsError({private_handle.getNamespace() + ": a single value is not allowed, must be a map of settings"});
   }
-  return nodeConfigurationFromYaml(yamlFromParameters(std::move(tree)));
+  return nodeConfigurationFromYaml(yamlFromParameters(tree));
 }
 
 }  // namespace mems_stiction

@@ -89,8 +89,8 @@ SpatialParameters spatialParameters(const HeightMap& surface, FrameBoundary boun
   if (acf.at<double>(acf.rows / 2, acf.cols / 2) == 0.0) return found;
   found.decayed = true;
   found.sal = std::numeric_limits<double>::infinity();
-  const double half_cols = acf.cols / 2;
-  const double half_rows = acf.rows / 2;
+  const int half_cols = acf.cols / 2;
+  const int half_rows = acf.rows / 2;
   for (int direction = 0; direction < kDirections; ++direction) {
     const double angle = kPi * direction / kDirections;
     // One pixel's length along this direction, and how many steps reach the border of the map.

@@ -101,7 +101,7 @@ PowerSpectrum powerSpectrum(const HeightMap& surface, SpectrumWindow window) {
       zeroth += power;
       second += power * square;
       fourth += power * square * square;
-      const auto ring = static_cast<std::size_t>(q / width + 0.5);
+      const auto ring = static_cast<std::size_t>(std::lround(q / width));
       if (q > nyquist * (1.0 + 1e-12) || ring >= rings.size()) continue;
       rings[ring].wave_number += q;
       rings[ring].density += power;

@@ -33,7 +33,7 @@ std::string csvCell(const nlohmann::json& value) {
     return std::isnan(number) ? "nan" : number > 0.0 ? "inf" : "-inf";
   }
   if (!value.is_string()) return jsonText(value);
-  const std::string text = value.get<std::string>();
+  std::string text = value.get<std::string>();
   if (text.find_first_of("\",") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char letter : text) quoted += letter == '"' ? std::string("\"\"") : std::string(1, letter);

@@ -57,15 +57,15 @@ int forEachScan(const std::string& program, const std::vector<std::string>& scan
 /// The whole of main(): describe(app, arguments), parse, run(arguments). @return the exit status
 template <typename Arguments, typename Describe, typename Run>
 int runProgram(const std::string& program, int argc, char** argv, Describe&& describe, Run&& run) {
-  CLI::App app;
-  Arguments arguments;
-  describe(app, arguments);
   try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kBadInput;
-  }
-  try {
+    CLI::App app;
+    Arguments arguments;
+    describe(app, arguments);
+    try {
+      app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+      return app.exit(error) == 0 ? 0 : kBadInput;
+    }
     return run(arguments);
   } catch (const std::exception& error) {
     complain(program, error.what());

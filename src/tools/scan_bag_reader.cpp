@@ -30,7 +30,7 @@ std::string sibling(const std::string& topic, const char* name) {
 /// @throw SurfaceError if the message is of another type
 template <typename Message>
 boost::shared_ptr<const Message> instantiate(const rosbag::MessageInstance& message) {
-  const boost::shared_ptr<const Message> content = message.instantiate<Message>();
+  boost::shared_ptr<const Message> content = message.instantiate<Message>();
   if (!content) {
     throw SurfaceError("topic '" + message.getTopic() + "' carries " + message.getDataType() + ", must be " +
                        ros::message_traits::DataType<Message>::value());

@@ -52,9 +52,9 @@ void visitFigures(const HeightMap& scan, const std::vector<std::string>& warning
 
 nlohmann::json asperityColumns(const std::vector<Asperity>& asperities) {
   nlohmann::json columns = nlohmann::json::object();
-  const auto column = [&](const char* name, const auto& valueOf) {
+  const auto column = [&](const char* name, const auto& value_of) {
     nlohmann::json values = nlohmann::json::array();
-    for (const Asperity& asperity : asperities) values.push_back(valueOf(asperity));
+    for (const Asperity& asperity : asperities) values.push_back(value_of(asperity));
     columns[name] = values;
   };
   column("x", [](const Asperity& a) { return a.x; });

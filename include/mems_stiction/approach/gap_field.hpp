@@ -97,9 +97,9 @@ class GapField {
 
  private:
   void takeGrid(const HeightMap& lower);
-  /// - @p fillRow(row, line) writes a row's z1 - z2 [m], not finite where it is not valid
+  /// - @p fill_row(row, line) writes a row's z1 - z2 [m], not finite where it is not valid
   template <typename Scalar, typename RowSource>
-  void fillRelief(LargePageVector<Scalar>& relief, const RowSource& fillRow);
+  void fillRelief(LargePageVector<Scalar>& relief, const RowSource& fill_row);
   template <typename LowerScalar, typename UpperScalar>
   void subtractSurfaces(const HeightMap& lower, const HeightMap& upper);
 

@@ -32,16 +32,27 @@ MEMS_STICTION_INLINE void takeRoot(const Lanes& lanes, Lanes& roots) {
   fill([&](int i) { return std::sqrt(lanes[i]); }, roots);
 }
 
+/// Four of the eight values of a (0 to 3) and b (4 to 7).
+template <int first, int second, int third, int fourth>
+MEMS_STICTION_INLINE void pick(const Lanes& a, const Lanes& b, Lanes& picked) {
+#if defined(__clang__)
+  picked = __builtin_shufflevector(a, b, first, second, third, fourth);
+#else  // the name that GCC before 12 knows
+  picked = __builtin_shuffle(a, b, LaneMask{first, second, third, fourth});
+#endif
+}
+
 /// Rows become columns: a[i], b[i], c[i], d[i] become the i-th of them.
 inline void transpose(Lanes& a, Lanes& b, Lanes& c, Lanes& d) {
-  const Lanes even_ab = __builtin_shuffle(a, b, LaneMask{0, 4, 2, 6});
-  const Lanes odd_ab = __builtin_shuffle(a, b, LaneMask{1, 5, 3, 7});
-  const Lanes even_cd = __builtin_shuffle(c, d, LaneMask{0, 4, 2, 6});
-  const Lanes odd_cd = __builtin_shuffle(c, d, LaneMask{1, 5, 3, 7});
-  a = __builtin_shuffle(even_ab, even_cd, LaneMask{0, 1, 4, 5});
-  b = __builtin_shuffle(odd_ab, odd_cd, LaneMask{0, 1, 4, 5});
-  c = __builtin_shuffle(even_ab, even_cd, LaneMask{2, 3, 6, 7});
-  d = __builtin_shuffle(odd_ab, odd_cd, LaneMask{2, 3, 6, 7});
+  Lanes even_ab, odd_ab, even_cd, odd_cd;
+  pick<0, 4, 2, 6>(a, b, even_ab);
+  pick<1, 5, 3, 7>(a, b, odd_ab);
+  pick<0, 4, 2, 6>(c, d, even_cd);
+  pick<1, 5, 3, 7>(c, d, odd_cd);
+  pick<0, 1, 4, 5>(even_ab, even_cd, a);
+  pick<0, 1, 4, 5>(odd_ab, odd_cd, b);
+  pick<2, 3, 6, 7>(even_ab, even_cd, c);
+  pick<2, 3, 6, 7>(odd_ab, odd_cd, d);
 }
 
 inline double sumOf(const Lanes& lanes) { return lanes[0] + lanes[1] + lanes[2] + lanes[3]; }
