@@ -1,9 +1,11 @@
 #include "mems_stiction/ros/station_actions.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <future>
 #include <limits>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include "mems_stiction/base/errors.hpp"
@@ -17,6 +19,9 @@ namespace mems_stiction {
 namespace {
 
 constexpr bool kNoAutoStart = false;
+/// From the arrival of a goal: rospy's SimpleActionClient never hears of an answer that comes before its send_goal has
+/// returned, and waits on (https://github.com/ros/actionlib/issues/206). Goals that are refused are answered that soon.
+constexpr std::chrono::milliseconds kEarliestAnswer{100};
 
 /// Both surfaces as the model gets them.
 struct SurfacePair {
@@ -82,20 +87,22 @@ void StationActions::answer(Server<Action>& server, std::atomic<bool>& cancel, R
   cancel = false;
   // Whoever asked to end before this goal's flag was cleared is asked again.
   if (stopping_ || server.isPreemptRequested()) cancel = true;
+  const auto earliest_answer = std::chrono::steady_clock::now() + kEarliestAnswer;
+  bool is_complete = false;
+  bool has_failed = false;
   try {
-    if (!cancel && work()) {
-      server.setSucceeded(result);
-      return;
-    }
-    result.message = stopping_ ? kShuttingDown : "cancelled";
+    is_complete = !cancel && work();
+    if (!is_complete) result.message = stopping_ ? kShuttingDown : "cancelled";
   } catch (const std::future_error&) {
     result.message = kShuttingDown;
   } catch (const std::exception& error) {
     result.message = oneLine(error.what());
-    server.setAborted(result, result.message);
-    return;
+    has_failed = true;
   }
-  if (server.isPreemptRequested()) {
+  if (!stopping_) std::this_thread::sleep_until(earliest_answer);
+  if (is_complete) {
+    server.setSucceeded(result);
+  } else if (!has_failed && server.isPreemptRequested()) {
     server.setPreempted(result, result.message);
   } else {
     server.setAborted(result, result.message);

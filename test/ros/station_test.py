@@ -44,7 +44,7 @@ class StationTest(unittest.TestCase):
         """The state in the end, the result and all feedback."""
         feedback = []
         client.send_goal(goal, feedback_cb=feedback.append)
-        self.assertTrue(client.wait_for_result(rospy.Duration(60)))
+        self.assertTrue(client.wait_for_result(rospy.Duration(60)), "no answer in a minute")
         return client.get_state(), client.get_result(), feedback
 
     def assert_progress(self, feedback, total):
@@ -138,6 +138,20 @@ class StationTest(unittest.TestCase):
         state, result, _ = self.run_goal(self.cycle, CycleContactGoal(count=0))
         self.assertEqual(state, GoalStatus.ABORTED)
         self.assertIn("count", result.message)
+
+    def test_5_refused_goals_reach_a_client_that_is_slow_to_take_its_handle(self):
+        send_goal = self.sweep.action_client.send_goal
+
+        def send_slowly(*arguments):
+            handle = send_goal(*arguments)
+            time.sleep(0.03)  # on a busy machine; the simple client misses what comes meanwhile
+            return handle
+
+        self.sweep.action_client.send_goal = send_slowly
+        try:
+            self.assertEqual(self.run_goal(self.sweep, SweepLoadGoal())[0], GoalStatus.ABORTED)
+        finally:
+            self.sweep.action_client.send_goal = send_goal
 
     def test_6_cycles_of_the_last_scan(self):
         live = self.live(rough_surface(2))
