@@ -220,6 +220,7 @@ TEST(AsperityResponse, isTheSameForFourAsperitiesAtOnce) {
         EXPECT_EQ(responses[lane].base_radius, alone.base_radius);
         EXPECT_EQ(responses[lane].volume, alone.volume);
         EXPECT_EQ(responses[lane].cos_tilt, alone.cos_tilt);
+        EXPECT_EQ(alone.cos_tilt, caps[lane].cos_tilt);
         EXPECT_EQ(responses[lane].imposed_load, alone.imposed_load);
         EXPECT_EQ(responses[lane].yield_load, alone.yield_load);
         EXPECT_EQ(responses[lane].elastic_share, alone.elastic_share);

@@ -221,6 +221,18 @@ TEST(CapCouple, takesTheInterferenceWhereTheCentreIsNotTheSummit) {
   EXPECT_NEAR(caps.composite_radius, radiusOfCaps(caps.base_radius, caps.height), kRoundOff * caps.composite_radius);
 }
 
+TEST(CapCouple, takesTheInterferenceAlsoWhereTheUpperSurfaceHasALowCap) {
+  cv::Mat1d lower(9, 9, 0.0);
+  lower(cv::Rect(2, 2, 5, 5)) = 10.0;
+  lower(4, 4) = 4.9;  // below the base plane at 5
+  cv::Mat1d upper(9, 9, 0.0);
+  upper(4, 4) = -0.3;
+  const CapCouple caps = onlyCaps(between(frame(lower), frame(upper)), 6 * kNm);
+  EXPECT_EQ(caps.centre.index, 4 * 9 + 4);
+  EXPECT_NEAR(caps.height, 5 * kNm, 0.05 * kNm);
+  EXPECT_NEAR(caps.composite_radius, radiusOfCaps(caps.base_radius, caps.height), kRoundOff * caps.composite_radius);
+}
+
 TEST(CapCouple, ofAPlaneHasAFiniteRadius) {
   const CapCouple caps = onlyCaps(againstPlane(analytic::flat(20, 30, 10 * kNm, 8 * kNm)), 0.0, Touch::kUpTo);
   EXPECT_NEAR(caps.base_radius, (30 * 10 + 20 * 8) / 4.0 * kNm, kRoundOff * kNm);

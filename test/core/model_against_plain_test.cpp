@@ -155,5 +155,33 @@ TEST_P(ModelAgainstPlain, isTheSameWhereTheSearchEndsEarly) {
   expectSame(predictFast(options), predictPlain(options), kSame);
 }
 
+/// A ring whose inside comes into contact after it, all in one step. The search tries the step's end first, where the
+/// middle is part of the patch, and goes back to levels where the same box has another centre.
+TEST(RingAgainstPlain, isTheSameWhereTheSearchGoesBack) {
+  constexpr int kSize = 7;
+  cv::Mat1d heights(15, 15, 0.0);
+  for (int row = 0; row < kSize; ++row) {
+    for (int col = 0; col < kSize; ++col) {
+      const int to_edge = std::min(std::min(row, kSize - 1 - row), std::min(col, kSize - 1 - col));
+      heights(row + 3, col + 5) = (20.0 - 0.02 * to_edge) * kNm;
+    }
+  }
+  const HeightMap surface(heights, 10 * kNm, 10 * kNm);
+  bool has_ended_in_a_ring = false;
+  for (double load = 1e-9; load < 1e-4; load *= 2.0) {
+    Setting setting;
+    setting.load = load;
+    Options options = optionsOf(setting);
+    options.interface.hamaker_constant = 0.0;
+    options.interface.work_of_adhesion = 1e-4;
+    const Prediction fast = AdhesionModel(options).predict(surface);
+    expectSame(fast, plain::predict(options, surface, nullptr), kSame);
+    if (HasFailure()) FAIL() << "load " << load;
+    const double cells = fast.contact_area / surface.pitchX() / surface.pitchY();
+    has_ended_in_a_ring |= fast.steps == 1 && std::abs(cells - 4.0 * (kSize - 1)) < 0.5;
+  }
+  EXPECT_TRUE(has_ended_in_a_ring);
+}
+
 }  // namespace
 }  // namespace mems_stiction
