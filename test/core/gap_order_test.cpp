@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <map>
 
 #include <gtest/gtest.h>
 
@@ -100,6 +102,19 @@ TEST_P(OrderedFrame, keepsTheCellsOfOneStepTogetherAndInTheOrderOfTheFrame) {
         ASSERT_LT(order.cells()[static_cast<std::size_t>(i - 1)].cell, order.cells()[static_cast<std::size_t>(i)].cell);
       }
       before = below;
+    }
+  }
+}
+
+TEST_P(OrderedFrame, keepsCellsOfEqualGapsInTheOrderOfTheFrame) {
+  for (const double step : stepsFor(field_)) {
+    GapOrder order;
+    order.build(field_, 0.5, step);
+    std::map<double, std::int32_t> latest;
+    for (const OrderedCell& cell : order.cells()) {
+      const auto found = latest.emplace(cell.gap, -1).first;
+      ASSERT_LT(found->second, cell.cell);
+      found->second = cell.cell;
     }
   }
 }

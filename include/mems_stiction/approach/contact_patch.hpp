@@ -73,7 +73,8 @@ class ExtremeCells {
 
   /// One cell is all there is.
   void begin(std::int32_t cell, double gap, const double (&outside)[4]);
-  /// The cell takes the sides that it lies beyond, and those that it touches as the deepest.
+  /// The cell takes the sides that it lies beyond, and those that it touches as the deepest; of cells of equal gaps the
+  /// first one added keeps them.
   /// - @p beyond how far it lies beyond each side [cells]
   /// @return the sides that it takes
   IntegerLanes add(std::int32_t cell, double gap, const double (&outside)[4], const IntegerLanes& beyond);
@@ -96,7 +97,8 @@ struct alignas(kCacheLine) ContactPatch {
   /// Deepest cell (smallest gap, then smallest index) among those that touch each side of the bounding box.
   ExtremeCells extreme;
 
-  /// Adds one cell, but not its edges; a patch without cells begins with it.
+  /// Adds one cell, but not its edges; a patch without cells begins with it. Cells of equal gaps are added in the order of
+  /// the frame.
   /// - @p outside gaps of its four neighbours, in the order of Side [m]; infinite where there is none
   void addCell(const GridCell& cell, double gap, const double (&outside)[4]);
   /// Adds the attributes of `other`, but not the edges between the two, which the caller takes away.
@@ -176,8 +178,7 @@ MEMS_STICTION_INLINE IntegerLanes ExtremeCells::add(std::int32_t cell, double ga
   const IntegerLanes new_cells = IntegerLanes{} + cell;
   Lanes new_outside;
   load(outside, new_outside);
-  const LaneMask is_first_of_equals = __builtin_convertvector(new_cells < cells_, LaneMask);
-  const LaneMask is_deeper = (new_gaps < gaps_) | ((new_gaps == gaps_) & is_first_of_equals);
+  const LaneMask is_deeper = new_gaps < gaps_;
   const LaneMask is_new =
       __builtin_convertvector(beyond > 0, LaneMask) | (__builtin_convertvector(beyond == 0, LaneMask) & is_deeper);
   const IntegerLanes is_new_side = __builtin_convertvector(is_new, IntegerLanes);
@@ -209,7 +210,7 @@ MEMS_STICTION_INLINE void ContactPatch::addCell(const GridCell& cell, double gap
   max_col = extended[kRight];
   min_row = extended[kTop];
   max_row = extended[kBottom];
-  if (gap <= deepest_gap && comesBefore(gap, cell.index, deepest_gap, deepest)) {
+  if (gap < deepest_gap) {
     deepest = cell.index;
     deepest_gap = gap;
   }

@@ -40,7 +40,8 @@ class GapOrder {
   ///        range of the gap, gives groups of one bucket.
   void build(const GapField& field, double max_contact_fraction, double step = 0.0);
 
-  /// In order of group; at least contactLimit() of them, and some more beyond.
+  /// In order of group; at least contactLimit() of them, and some more beyond. Cells of equal gaps stand in the order of
+  /// the frame.
   const LargePageVector<OrderedCell>& cells() const { return cells_; }
   /// Number of cells in contact at the first gap level that reaches the contact fraction limit. The cells up to there
   /// are those of the smallest gaps, and the last one has that gap.
