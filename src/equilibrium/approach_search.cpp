@@ -140,13 +140,10 @@ void ApproachSearch::refine(int previous_count, EquilibriumState& state) {
   level_ends_.clear();
   const double level_width = kLevelWidth * setting_->step;
   const auto end_of_step = static_cast<std::size_t>(state.contact_count);
-  auto cell = static_cast<std::size_t>(previous_count);
-  double level_gap = cell < end_of_step ? cells[cell].gap : 0.0;
-  while (cell < end_of_step) {
-    ++cell;
-    if (cell < end_of_step && cells[cell].gap <= level_gap + level_width) continue;
+  for (auto cell = static_cast<std::size_t>(previous_count); cell < end_of_step;) {
+    const double highest_gap = cells[cell].gap + level_width;
+    while (cell < end_of_step && cells[cell].gap <= highest_gap) ++cell;
     level_ends_.push_back(static_cast<std::int32_t>(cell));
-    if (cell < end_of_step) level_gap = cells[cell].gap;
   }
   const double step_end_approach = state.approach;
   const int step_end_count = state.contact_count;

@@ -28,21 +28,16 @@ HeightMap withSpike(const HeightMap& surface, double height) {
   return {heights, surface.pitchX(), surface.pitchY()};
 }
 
-/// Heights that are whole multiples of a digit, as a scan of few bits has them.
-HeightMap quantised(int size, double digit) {
-  cv::Mat1d heights(size, size);
-  for (int i = 0; i < size * size; ++i) heights(i / size, i % size) = digit * (i * 7919 % 8);
-  return {heights, 20e-9, 20e-9};
-}
-
 std::vector<samples::Frame> orderedFrames() {
   std::vector<samples::Frame> frames = samples::allFrames();
   const HeightMap rough = samples::gaussian(200, 201, 10e-9, 10e-9, 3e-9, 60e-9, 1);
   frames.push_back({"large", rough, {}});
   frames.push_back({"tall_spike", withSpike(rough, 5e-6), {}});
   frames.push_back({"deep_pit", withSpike(rough, -5e-6), {}});
-  for (const int nanometres : {1, 2, 3, 4}) {
-    frames.push_back({"quantised_" + std::to_string(nanometres) + "_nm", quantised(32, nanometres * 1e-9), {}});
+  for (const int nanometres : {1, 2, 3, 4}) {  // as a scan of three bits has them
+    const double digit = nanometres * 1e-9;
+    const HeightMap noise = samples::whiteNoise(32, 32, 20e-9, 20e-9, 7.0 * digit, nanometres);
+    frames.push_back({"quantized_" + std::to_string(nanometres) + "_nm", samples::quantized(noise, digit), {}});
   }
   return frames;
 }

@@ -1,7 +1,5 @@
 #include "mems_stiction/base/large_pages.hpp"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <limits>
@@ -10,7 +8,10 @@
 #include <utility>
 #include <vector>
 
-using namespace mems_stiction;
+#include <gtest/gtest.h>
+
+namespace mems_stiction {
+namespace {
 
 TEST(LargePageVector, keepsItsValuesWhileItGrowsFromSmallToSeveralLargePages) {
   LargePageVector<std::uint64_t> values;
@@ -36,3 +37,6 @@ TEST(LargePageVector, refusesMoreThanThereIsAndStaysAsItWas) {
   EXPECT_THROW(values.reserve(std::numeric_limits<std::size_t>::max()), std::length_error);
   EXPECT_EQ(values, LargePageVector<double>(7, 1.0));
 }
+
+}  // namespace
+}  // namespace mems_stiction
