@@ -48,8 +48,11 @@ HeightStatistics statisticsOf(const cv::Mat& heights) {
 
 }  // namespace
 
-HeightMap::HeightMap(cv::Mat heights, double pitch_x, double pitch_y)
-    : heights_(std::move(heights)), pitch_x_(pitch_x), pitch_y_(pitch_y) {
+HeightMap::HeightMap(const cv::Mat& heights, double pitch_x, double pitch_y)
+    : HeightMap(heights, pitch_x, pitch_y, nullptr) {}
+
+HeightMap::HeightMap(const cv::Mat& heights, double pitch_x, double pitch_y, PixelOwner owner)
+    : owner_(std::move(owner)), heights_(heights), pitch_x_(pitch_x), pitch_y_(pitch_y) {
   if (heights_.type() != CV_32FC1 && heights_.type() != CV_64FC1) {
     throw SurfaceError("a height map must be CV_32FC1 or CV_64FC1, got OpenCV type " + std::to_string(heights_.type()));
   }
@@ -57,6 +60,9 @@ HeightMap::HeightMap(cv::Mat heights, double pitch_x, double pitch_y)
   if (!Range::positive().contains(pitch_x) || !Range::positive().contains(pitch_y)) {
     throw SurfaceError("the pitch must be > 0 m, got " + numberText(pitch_x) + " x " + numberText(pitch_y));
   }
+  const bool only_points_to_pixels = heights_.u == nullptr;
+  if (only_points_to_pixels && !owner_) heights_ = heights_.clone();
+  if (!only_points_to_pixels) owner_.reset();
 }
 
 HeightMap HeightMap::asDouble() const {

@@ -56,7 +56,7 @@ void ScanOptions::describe(OptionVisitor& visitor) {
                  "pixels of this raw value are invalid; nan = none");
 }
 
-HeightMap heightMapFromPixels(const cv::Mat& pixels, const ScanOptions& options) {
+HeightMap heightMapFromPixels(const cv::Mat& pixels, const ScanOptions& options, const PixelOwner& owner) {
   if (pixels.empty()) throw SurfaceError("the image has no pixels");
   if (!Range::positive().contains(options.pitch_x) || !Range::positive().contains(options.pitch_y)) {
     throw SurfaceError("the pitch must be > 0 m, got " + numberText(options.pitch_x) + " x " +
@@ -88,7 +88,7 @@ HeightMap heightMapFromPixels(const cv::Mat& pixels, const ScanOptions& options)
       throw SurfaceError("pixels of OpenCV type " + cv::typeToString(pixels.type()) +
                          " are not heights; accepted: 32FC1, 64FC1, 32FC2 (height, quality), 16UC1, 16SC1, 8UC1");
   }
-  return {heights, options.pitch_x, options.pitch_y};
+  return {heights, options.pitch_x, options.pitch_y, owner};
 }
 
 }  // namespace mems_stiction

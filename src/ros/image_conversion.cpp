@@ -126,8 +126,11 @@ ScanInfo scanInfoMessage(const ScanOptions& options, const std_msgs::Header& hea
 ReceivedScan receiveScan(const sensor_msgs::ImageConstPtr& image, const ScanOptions& options) {
   const HeightEncoding& encoding = checkedEncoding(*image);
   const bool foreign_order = encoding.scalar_size > 1 && (image->is_bigendian != 0) != kThisMachineIsBigEndian;
-  const cv::Mat pixels = foreign_order ? swappedPixels(*image, encoding) : cv_bridge::toCvShare(image)->image;
-  return {image->header, heightMapFromPixels(pixels, options), image, std::nullopt};
+  if (foreign_order)
+    return {image->header, heightMapFromPixels(swappedPixels(*image, encoding), options), std::nullopt};
+  const cv_bridge::CvImageConstPtr shown = cv_bridge::toCvShare(image);
+  const PixelOwner message(image.get(), [image](const void* /*message*/) {});
+  return {image->header, heightMapFromPixels(shown->image, options, message), std::nullopt};
 }
 
 sensor_msgs::ImagePtr heightImage(const cv::Mat& heights, const std_msgs::Header& header) {

@@ -3,17 +3,24 @@
 
 import unittest
 
+import actionlib
 import numpy as np
 import rospy
 import rostest
-from mems_stiction.msg import StictionPrediction
+from actionlib_msgs.msg import GoalStatus
+from mems_stiction.msg import StictionPrediction, SweepLoadAction, SweepLoadGoal
 from sensor_msgs.msg import Image
-from stiction_client import Collector, Counts, Station, figures, rough_surface
+from stiction_client import Collector, Counts, Station, Traffic, figures, image_message, info_message, predict_scan, rough_surface
+
+LOAD = 1e-6
 
 
 class CounterSurfaceTest(unittest.TestCase):
-    def test_the_latest_counter_surface_is_kept(self):
+    @classmethod
+    def setUpClass(cls):
         rospy.init_node("counter_surface_test")
+
+    def test_the_latest_counter_surface_is_kept(self):
         counts = Counts()
         predictions = Collector("prediction", StictionPrediction).connect()
         deformed = Collector("deformed_counter_height", Image).connect()
@@ -55,6 +62,21 @@ class CounterSurfaceTest(unittest.TestCase):
         counts.wait(counter_surfaces=3)
         station.send(surface)
         counts.wait(received=5, predicted=3, rejected=2)
+
+    def test_a_sweep_keeps_its_counter_surface_while_others_arrive(self):
+        sweep = actionlib.SimpleActionClient("stiction_node/sweep_load", SweepLoadAction)
+        self.assertTrue(sweep.wait_for_server(rospy.Duration(30)))
+        surface, counters = rough_surface(11), [rough_surface(12), rough_surface(13)]
+        expected = [predict_scan(surface, LOAD, counter=counter)["pull_off_force"] for counter in counters]
+        self.assertNotEqual(expected[0], expected[1])
+        stamp = rospy.Time(3)
+        goal = SweepLoadGoal(voltages=[0.0], height=image_message(surface, stamp), scan_info=info_message(stamp))
+        with Traffic(Station("counter_"), counters), Traffic(Station(), [rough_surface(14)]):
+            for _ in range(30):
+                sweep.send_goal(goal)
+                self.assertTrue(sweep.wait_for_result(rospy.Duration(30)), "no answer in half a minute")
+                self.assertEqual(sweep.get_state(), GoalStatus.SUCCEEDED, sweep.get_result().message)
+                self.assertIn(sweep.get_result().points[0].pull_off_force, expected)
 
 
 if __name__ == "__main__":

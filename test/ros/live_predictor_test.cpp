@@ -14,7 +14,7 @@
 namespace mems_stiction {
 namespace {
 
-ReceivedScan scanOf(const HeightMap& surface) { return {std_msgs::Header(), surface, nullptr, std::nullopt}; }
+ReceivedScan scanOf(const HeightMap& surface) { return {std_msgs::Header(), surface, std::nullopt}; }
 
 ReceivedScan roughScan(int seed = 3) {
   GaussianSurfaceOptions options;
@@ -151,6 +151,38 @@ TEST(LivePredictor, WaitsForTheCounterSurfaceOfTheTopic) {
   PredictedScan expected = predicted;
   expected.prediction = ScanPredictor(configuration).predict(scan.surface, roughScan(4).surface);
   expectSame(predicted, expected);
+}
+
+/// A 32FC1 scan that shows the pixels of its message, which nobody else holds.
+ReceivedScan shownScan(int seed, boost::weak_ptr<const sensor_msgs::Image>& watched) {
+  const HeightMap surface = roughScan(seed).surface;
+  const sensor_msgs::ImageConstPtr message = heightImage(surface.heights(), std_msgs::Header());
+  watched = message;
+  ScanOptions options;
+  options.pitch_x = surface.pitchX();
+  options.pitch_y = surface.pitchY();
+  return receiveScan(message, options);
+}
+
+TEST(LivePredictor, ALongRunHoldsThePixelsOfItsScanAndCounterSurface) {
+  Configuration configuration = softConfiguration();
+  configuration.counter_surface.type = CounterSurfaceType::kTopic;
+  LivePredictor predictor(configuration, false);
+  boost::weak_ptr<const sensor_msgs::Image> scan_message, counter_message;
+  predictor.setCounterSurface(shownScan(4, counter_message));
+  {
+    std::optional<ReceivedScan> given = shownScan(3, scan_message);
+    const cv::Mat expected = given->surface.heights().clone();
+    const StationCase station_case = predictor.stationCase(&*given);
+    given.reset();
+    predictor.setCounterSurface(roughScan(5));
+    ASSERT_FALSE(scan_message.expired());
+    ASSERT_FALSE(counter_message.expired());
+    EXPECT_EQ(station_case.scan.heights().data, scan_message.lock()->data.data());
+    EXPECT_EQ(cv::norm(station_case.scan.heights(), expected, cv::NORM_INF), 0.0);
+  }
+  EXPECT_TRUE(scan_message.expired());
+  EXPECT_TRUE(counter_message.expired());
 }
 
 TEST(LivePredictor, EverySettingChangesAtOnceOrNone) {

@@ -14,7 +14,8 @@ from mems_stiction.msg import (CycleContactAction, CycleContactGoal, StictionPre
                                SweepPoint)
 from mems_stiction.srv import GetLoad, SetLoad
 from rosgraph_msgs.msg import Log
-from stiction_client import Collector, Counts, Station, image_message, info_message, rough_surface, wait_until
+from stiction_client import (Collector, Counts, Station, Traffic, image_message, info_message, predict_scan, rough_surface,
+                             wait_until)
 
 LOAD = 1e-6
 DEVICE = dict(spring_stiffness=1.0, travel=1e-6, contact_area=48 * 64 * 1e-16, electrode_area=1e-8)
@@ -52,6 +53,17 @@ class StationTest(unittest.TestCase):
         done = [message.done for message in feedback]
         self.assertEqual(done, sorted(set(done)))
         self.assertTrue(all(1 <= message.done <= message.total == total for message in feedback), feedback)
+
+    def assert_first_contacts(self, points, surface, loads, counter=None):
+        """The first contact at each load is what the command line predicts for this surface, to the bit."""
+        first = {}
+        for point in points:
+            first.setdefault(point.mechanical_load, point)
+        self.assertEqual(list(first), loads)
+        for load, point in first.items():
+            expected = predict_scan(surface, load, point.voltage, counter)
+            for field in ("pull_off_force", "van_der_waals_force", "contact_area_jkr", "approach"):
+                self.assertEqual(getattr(point, field), expected[field], (field, load))
 
     def test_1_an_action_before_any_scan_says_so(self):
         state, result, _ = self.run_goal(self.sweep, SweepLoadGoal(voltages=[0.0]))
@@ -125,7 +137,8 @@ class StationTest(unittest.TestCase):
                                                                   height=other, scan_info=info_message(rospy.Time(5))))
         self.assertEqual(state, GoalStatus.SUCCEEDED, given.message)
         self.assertEqual(len(given.points), 2)
-        self.assertNotEqual(given.points[0].pull_off_force, live.pull_off_force)
+        self.assertEqual(given.header.stamp, rospy.Time(5))
+        self.assert_first_contacts(given.points, rough_surface(3), [LOAD, 2 * LOAD])
         self.assertEqual(self.set_load(0.0, LOAD).prediction.pull_off_force, live.pull_off_force)
 
     def test_5_refused_goals_say_why(self):
@@ -184,6 +197,39 @@ class StationTest(unittest.TestCase):
             self.assertEqual(result.message, "cancelled")
             self.assertGreater(len(getattr(result, "cycles", None) or result.points), 0)
         self.counts.wait(predicted=predicted, dropped=0, rejected=0)
+
+    def test_7_the_figures_of_an_action_are_those_of_the_command_line_under_traffic(self):
+        # 64FC1 and 32FC1 are shown, not copied: nothing may change or go while an action works on them
+        self.set_load(0.0, LOAD)
+        surfaces = [rough_surface(seed, rows=96, cols=128) for seed in range(20, 24)]
+        surfaces[2:] = [surface.astype(float) for surface in surfaces[2:]]
+        expected = [predict_scan(surface, LOAD) for surface in surfaces]
+        encodings = {"float32": "32FC1", "float64": "64FC1"}
+        stamp = rospy.Time(7)
+        with Traffic(self.station, surfaces[:2]) as traffic:
+            for surface, record in zip(surfaces, expected):
+                image = image_message(surface, stamp, encodings[str(surface.dtype)])
+                for _ in range(3):
+                    goal = SweepLoadGoal(voltages=[0.0, 5.0], height=image, scan_info=info_message(stamp))
+                    state, swept, _ = self.run_goal(self.sweep, goal)
+                    self.assertEqual(state, GoalStatus.SUCCEEDED, swept.message)
+                    self.assertEqual(swept.points[0].pull_off_force, record["pull_off_force"])
+                    self.assertEqual(swept.points[0].contact_area_jkr, record["contact_area_jkr"])
+                    goal = CycleContactGoal(count=3, height=image, scan_info=info_message(stamp))
+                    state, cycled, _ = self.run_goal(self.cycle, goal)
+                    self.assertEqual(state, GoalStatus.SUCCEEDED, cycled.message)
+                    self.assertEqual(cycled.cycles[0].pull_off_force, record["pull_off_force"])
+                    self.assertEqual([cycle.pull_off_force for cycle in cycled.cycles],
+                                     [record["pull_off_force"]] * 3, "nothing flows under this load")
+            for _ in range(6):  # the last scan, whichever that is
+                state, swept, _ = self.run_goal(self.sweep, SweepLoadGoal(voltages=[0.0, 5.0]))
+                self.assertEqual(state, GoalStatus.SUCCEEDED, swept.message)
+                self.assert_first_contacts(swept.points, traffic.sent[swept.header.stamp], [LOAD])
+                state, cycled, _ = self.run_goal(self.cycle, CycleContactGoal(count=2))
+                self.assertEqual(state, GoalStatus.SUCCEEDED, cycled.message)
+                record = predict_scan(traffic.sent[cycled.header.stamp], LOAD)
+                self.assertEqual(cycled.cycles[0].pull_off_force, record["pull_off_force"])
+        self.counts.wait(dropped=0)
 
     def test_8_a_new_goal_takes_the_place_of_the_one_that_runs(self):
         self.cycle.send_goal(CycleContactGoal(count=1000000))

@@ -1,6 +1,9 @@
 """What the rostests share: scans to send, predictions to wait for, diagnostics to read."""
 
+import json
+import pathlib
 import subprocess
+import tempfile
 import threading
 import time
 
@@ -12,6 +15,7 @@ from roslib.packages import find_node
 from sensor_msgs.msg import Image
 
 PITCH = 10e-9
+NODE_KEYS = ("diagnostic_period", "pairing_timeout")  # of station.yaml, which the command line does not have
 TIMEOUT = 30.0
 
 
@@ -140,6 +144,57 @@ class Station:
         self.height.publish(image_message(heights, stamp))
         self.info.publish(info_message(stamp, **info))
         return stamp
+
+
+def _write_grid(path, heights):
+    """A text grid from which every height comes back to the bit."""
+    path.write_text("".join(" ".join(repr(float(height)) for height in row) + "\n" for row in heights))
+
+
+def predict_scan(heights, load, voltage=0.0, counter=None):
+    """The record of the command line for the same heights [m] at the rostests' settings, counter-surface [m] or none."""
+    program = find_node("mems_stiction", "predict_scan")[0]
+    config = (pathlib.Path(__file__).parent / "station.yaml").read_text()
+    config = "".join(line + "\n" for line in config.splitlines() if line.split(":")[0] not in NODE_KEYS)
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        _write_grid(folder / "scan.txt", heights)
+        if counter is not None:
+            _write_grid(folder / "counter.txt", counter)
+            config += "counter_surface: {type: file, file: %s}\nscan: {pitch_x: %r, pitch_y: %r}\n" % (
+                folder / "counter.txt", PITCH, PITCH)
+        (folder / "config.yaml").write_text(config)
+        done = subprocess.run([program, "--json", "--config", folder / "config.yaml", "--pitch", repr(PITCH), "--load", repr(load),
+                               "--voltage", repr(voltage), folder / "scan.txt"], check=True, timeout=60, stdout=subprocess.PIPE)
+    return json.loads(done.stdout)
+
+
+class Traffic:
+    """Sends scans one after the other, on a thread of its own, for as long as the block runs."""
+
+    def __init__(self, station, surfaces, period=0.02):
+        self.surfaces = surfaces
+        self.sent = {}  # stamp: heights
+        self._station, self._period = station, period
+        self._stop = threading.Event()
+        self._thread = threading.Thread(target=self._run)
+
+    def _run(self):
+        number = 0
+        while not self._stop.is_set():
+            surface = self.surfaces[number % len(self.surfaces)]
+            self.sent[self._station.send(surface)] = surface
+            number += 1
+            time.sleep(self._period)
+
+    def __enter__(self):
+        self._thread.start()
+        wait_until(lambda: len(self.sent) > 3, "traffic")
+        return self
+
+    def __exit__(self, *_):
+        self._stop.set()
+        self._thread.join()
 
 
 def make_bag(path, *arguments):

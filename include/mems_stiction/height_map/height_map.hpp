@@ -6,20 +6,29 @@
 /// Axes: column index grows along +x, row index grows along +y (row 0 is the top of the image), z points out of the
 /// lower body towards the upper one. Heights are metres; a pixel that is not finite (NaN, +-Inf; REP 117) is invalid.
 
+#include <memory>
+
 #include <opencv2/core.hpp>
 
 namespace mems_stiction {
 
-/// Heights on a regular grid [m] with pitch [m]; pixels that are not finite were not measured. Shares its pixels when copied.
+/// Whatever must live as long as the pixels that lie inside it, such as a message.
+using PixelOwner = std::shared_ptr<const void>;
+
+/// Heights on a regular grid [m] with pitch [m]; pixels that are not finite were not measured. Shares its pixels when
+/// copied, and holds them: they live as long as any map that shows them.
 class HeightMap {
  public:
   HeightMap() = default;
 
-  /// @param heights rows x cols, CV_32FC1 or CV_64FC1, metres, non-finite = invalid. The pixels are shared, not copied,
-  ///        and never written to.
+  /// @param heights rows x cols, CV_32FC1 or CV_64FC1, metres, non-finite = invalid. The pixels are never written to.
+  ///        They are shared if the matrix holds them itself; pixels that it only points to are copied.
   /// @param pitch_x, pitch_y distance of neighbouring columns and rows [m], > 0.
   /// @throw SurfaceError if the type, size or pitch is not as above.
-  HeightMap(cv::Mat heights, double pitch_x, double pitch_y);
+  HeightMap(const cv::Mat& heights, double pitch_x, double pitch_y);
+  /// The same for pixels inside something else: shared, not copied.
+  /// @param owner what the pixels lie in; kept as long as they are shown. Null is the same as no owner.
+  HeightMap(const cv::Mat& heights, double pitch_x, double pitch_y, PixelOwner owner);
 
   int rows() const { return heights_.rows; }
   int cols() const { return heights_.cols; }
@@ -39,6 +48,7 @@ class HeightMap {
   HeightMap asDouble() const;
 
  private:
+  PixelOwner owner_;  ///< of the pixels, where the matrix only points to them
   cv::Mat heights_;
   double pitch_x_ = 0.0;
   double pitch_y_ = 0.0;

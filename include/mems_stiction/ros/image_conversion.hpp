@@ -16,11 +16,10 @@
 
 namespace mems_stiction {
 
-/// A height map and, since it may show the message's own pixels, the message.
+/// A scan as it arrived.
 struct ReceivedScan {
   std_msgs::Header header;
-  HeightMap surface;
-  sensor_msgs::ImageConstPtr image;
+  HeightMap surface;  ///< holds the message, where it shows its pixels
   std::optional<SurfacePose> counter_surface_pose;  ///< at the scan's stamp; none = as configured
 };
 
