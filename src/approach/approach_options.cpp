@@ -12,12 +12,6 @@ void ApproachOptions::describe(OptionVisitor& visitor) {
 
   visitor.enumeration("approach/connectivity", connectivity, {{"4", Connectivity::kFour}, {"8", Connectivity::kEight}},
                       "neighbours that join cells into one patch");
-  visitor.enumeration("approach/formulation", formulation,
-                      {{"corrected", Formulation::kCorrected}, {"printed", Formulation::kPrinted}},
-                      "equations as corrected, or to the letter of the paper");
-  visitor.enumeration("approach/deformation", deformation,
-                      {{"three_regimes", Deformation::kThreeRegimes}, {"elastic", Deformation::kElastic}},
-                      "elastic, elasto-plastic and plastic asperities, or all of them elastic");
 }
 
 }  // namespace mems_stiction

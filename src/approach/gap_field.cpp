@@ -160,9 +160,18 @@ void GapField::fillRelief(LargePageVector<Scalar>& relief, const RowSource& fill
   rms_gap_ = std::sqrt(std::max(0.0, sumOf(sums.squares) / count - mean_excess * mean_excess));
 }
 
-void GapField::compute(const HeightMap& lower) {
-  takeGrid(lower);
-  upper_is_flat_ = true;
+void GapField::compute(const SurfacePair& surfaces) {
+  if (!surfaces.upperIsPlane()) requireSameGrid(surfaces.lower, surfaces.upper);
+  takeGrid(surfaces.lower);
+  upper_is_flat_ = surfaces.upperIsPlane();
+  if (upper_is_flat_) {
+    computeAgainstPlane(surfaces.lower);
+  } else {
+    computeBetween(surfaces.lower, surfaces.upper);
+  }
+}
+
+void GapField::computeAgainstPlane(const HeightMap& lower) {
   const auto copyInto = [&](auto& relief) {
     fillRelief(relief, [&](int row, auto* line) {
       using Scalar = std::remove_reference_t<decltype(*line)>;
@@ -203,10 +212,7 @@ void GapField::subtractSurfaces(const HeightMap& lower, const HeightMap& upper) 
   });
 }
 
-void GapField::compute(const HeightMap& lower, const HeightMap& upper) {
-  requireSameGrid(lower, upper);
-  takeGrid(lower);
-  upper_is_flat_ = false;
+void GapField::computeBetween(const HeightMap& lower, const HeightMap& upper) {
   lower_.resize(static_cast<std::size_t>(cellCount()));
   const bool lower_is_single = lower.heights().depth() == CV_32F;
   const bool upper_is_single = upper.heights().depth() == CV_32F;

@@ -28,14 +28,14 @@ MEMS_STICTION_INLINE void findPlasticityIndices(const AsperityLaw& law, const La
 }  // namespace
 
 AsperityLaw::AsperityLaw(const ContactPair& pair, double work_of_adhesion_in, double composite_rms_height_in,
-                         const ApproachOptions& approach)
+                         Formulation formulation_in, Deformation deformation_in)
     : contact_modulus(pair.contact_modulus),
       stiffness(4.0 / 3.0 * pair.contact_modulus),
       hardness(pair.hardness),
       work_of_adhesion(work_of_adhesion_in),
       composite_rms_height(composite_rms_height_in),
-      formulation(approach.formulation),
-      deformation(approach.deformation) {}
+      formulation(formulation_in),
+      deformation(deformation_in) {}
 
 double AsperityLaw::plasticityIndexOf(double radius) const {
   Lanes indices;

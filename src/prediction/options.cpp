@@ -4,14 +4,6 @@
 
 namespace mems_stiction {
 
-void OutputOptions::describe(OptionVisitor& visitor) {
-  visitor.flag("output/deformed_surfaces", deformed_surfaces, "compute both surfaces after contact");
-  visitor.flag("output/contact_map", contact_map, "compute the map of deformation regimes");
-  visitor.flag("output/asperities", asperities, "compute one record per contact");
-  visitor.flag("output/roughness", roughness, "compute the ISO 25178 figures of the scanned surface");
-  visitor.flag("output/energy_curve", energy_curve, "keep the energies at every step of the approach");
-}
-
 void Options::describe(OptionVisitor& visitor) {
   lower.describe(visitor, "lower");
   upper.describe(visitor, "upper");
@@ -19,14 +11,16 @@ void Options::describe(OptionVisitor& visitor) {
   capillary.describe(visitor);
   load.describe(visitor);
   approach.describe(visitor);
+  visitor.choice("approach/formulation", formulation, formulationNames(),
+                 "equations as corrected, or to the letter of the paper");
+  visitor.enumeration("approach/deformation", deformation,
+                      {{"three_regimes", Deformation::kThreeRegimes}, {"elastic", Deformation::kElastic}},
+                      "elastic, elasto-plastic and plastic asperities, or all of them elastic");
   output.describe(visitor);
 }
 
 std::vector<std::string> Options::validate() const {
-  Options copy = *this;  // describe() shows mutable fields; the validator only reads them
-  OptionValidator validator;
-  copy.describe(validator);
-  std::vector<std::string> violations = validator.violations();
+  std::vector<std::string> violations = rangeViolations(*this);
   if (load.voltage != 0.0 && interface.insulator_thickness == 0.0) {
     violations.push_back("interface/insulator_thickness: 0 m is not allowed with load/voltage " +
                          numberText(load.voltage) +

@@ -85,8 +85,7 @@ class Pipeline {
     PreprocessStep step;
     step.name = name;
     ParameterText parameters(name);
-    StepOptions copy = options;  // describe() shows mutable fields; the text only reads them
-    copy.describe(parameters);
+    describeConst(options, parameters);
     step.parameters = parameters.text();
     const HeightMap after = apply(prepared_.surface);
     measureChange(prepared_.surface, after, step);
@@ -113,12 +112,7 @@ void PipelineOptions::describe(OptionVisitor& visitor) {
   refine.describe(visitor);
 }
 
-std::vector<std::string> PipelineOptions::validate() const {
-  PipelineOptions copy = *this;  // describe() shows mutable fields; the validator only reads them
-  OptionValidator validator;
-  copy.describe(validator);
-  return validator.violations();
-}
+std::vector<std::string> PipelineOptions::validate() const { return rangeViolations(*this); }
 
 PreparedScan prepareScan(const HeightMap& scan, const PipelineOptions& options) {
   std::vector<std::string> violations = options.validate();

@@ -102,9 +102,8 @@ void RunningOptions::applyTo(Configuration& configuration) const {
 
 dynamic_reconfigure::Config reconfigureMessage(const RunningOptions& options) {
   dynamic_reconfigure::Config message;
-  RunningOptions copy = options;  // describe() shows mutable fields; the writer only reads them
   Writer writer(message);
-  copy.describe(writer);
+  describeConst(options, writer);
   return message;
 }
 

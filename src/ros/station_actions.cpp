@@ -10,10 +10,10 @@
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/one_line.hpp"
-#include "mems_stiction/prediction/counter_surface_source.hpp"
 #include "mems_stiction/preprocess/refine.hpp"
 #include "mems_stiction/ros/station_conversion.hpp"
 #include "mems_stiction/ros/topic_names.hpp"
+#include "mems_stiction/scan/counter_surface_source.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -22,13 +22,6 @@ constexpr bool kNoAutoStart = false;
 /// From the arrival of a goal: rospy's SimpleActionClient never hears of an answer that comes before its send_goal has
 /// returned, and waits on (https://github.com/ros/actionlib/issues/206). Goals that are refused are answered that soon.
 constexpr std::chrono::milliseconds kEarliestAnswer{100};
-
-/// Both surfaces as the model gets them.
-struct SurfacePair {
-  HeightMap lower;
-  HeightMap upper;  ///< empty for a level plane
-  const HeightMap* upperOrNull() const { return upper.empty() ? nullptr : &upper; }
-};
 
 SurfacePair surfacesOf(const StationCase& station_case) {
   const Configuration& configuration = station_case.configuration;
@@ -122,8 +115,8 @@ void StationActions::sweep(const SweepLoadGoalConstPtr& goal) {
     if (request.mechanical_loads.empty()) request.mechanical_loads = {configuration.model.load.mechanical_load};
     const SurfacePair pair = surfacesOf(station_case);
     const LoadSweepResult swept =
-        sweepLoads(configuration.model, pair.lower, pair.upperOrNull(), request, configuration.device,
-                   configuration.uncertainty, controlOf(sweep_, cancel_sweep_, SweepLoadFeedback()));
+        sweepLoads(configuration.model, pair, request, configuration.device, configuration.uncertainty,
+                   controlOf(sweep_, cancel_sweep_, SweepLoadFeedback()));
     result = sweepMessage(swept);
     result.header = station_case.header;
     return swept.is_complete;
@@ -138,9 +131,9 @@ void StationActions::cycle(const CycleContactGoalConstPtr& goal) {
     const Configuration& configuration = station_case.configuration;
     constexpr std::uint32_t kMost = std::numeric_limits<int>::max();
     const SurfacePair pair = surfacesOf(station_case);
-    const ContactCyclesResult cycled = cycleContacts(
-        configuration.model, pair.lower, pair.upperOrNull(), static_cast<int>(std::min(goal->count, kMost)),
-        configuration.device, configuration.uncertainty, controlOf(cycle_, cancel_cycle_, CycleContactFeedback()));
+    const ContactCyclesResult cycled =
+        cycleContacts(configuration.model, pair, static_cast<int>(std::min(goal->count, kMost)), configuration.device,
+                      configuration.uncertainty, controlOf(cycle_, cancel_cycle_, CycleContactFeedback()));
     result = cyclesMessage(cycled);
     result.header = station_case.header;
     return cycled.is_complete;

@@ -33,9 +33,14 @@ double largestDifference(const cv::Mat& before, const cv::Mat& after) {
   return largest;
 }
 
+/// A level plane that can be worn.
+HeightMap planeOn(const HeightMap& grid) {
+  return {cv::Mat::zeros(grid.rows(), grid.cols(), CV_64FC1), grid.pitchX(), grid.pitchY()};
+}
+
 }  // namespace
 
-ContactCyclesResult cycleContacts(const Options& options, const HeightMap& lower, const HeightMap* upper, int count,
+ContactCyclesResult cycleContacts(const Options& options, const SurfacePair& surfaces, int count,
                                   const DeviceOptions& device, const UncertaintyOptions& uncertainty,
                                   const RunControl& control) {
   if (count < 1) {
@@ -43,20 +48,16 @@ ContactCyclesResult cycleContacts(const Options& options, const HeightMap& lower
   }
   AdhesionModel model(withSurfaces(options));
   ContactCyclesResult result;
-  result.lower = lower.asDouble();
-  if (upper != nullptr) {
-    result.upper = upper->asDouble();
-  } else {
-    const cv::Mat plane = cv::Mat::zeros(lower.rows(), lower.cols(), CV_64FC1);
-    result.upper = HeightMap(plane, lower.pitchX(), lower.pitchY());
-  }
+  const HeightMap& grid = surfaces.lower;
+  HeightMap& lower = result.surfaces.lower;
+  HeightMap& upper = result.surfaces.upper;
+  lower = surfaces.lower.asDouble();
+  if (!surfaces.upperIsPlane()) upper = surfaces.upper.asDouble();
 
   for (int cycle = 1; cycle <= count; ++cycle) {
     if (control.isCancelled()) return result;
-    const bool is_fresh_plane = cycle == 1 && upper == nullptr;
-    const Prediction prediction =
-        is_fresh_plane ? model.predict(result.lower) : model.predict(result.lower, result.upper);
-    const Verdict verdict = verdictOf(prediction, device, uncertainty, options, lower.cellArea());
+    const Prediction prediction = model.predict(result.surfaces);
+    const Verdict verdict = verdictOf(prediction, device, uncertainty, options, grid.cellArea());
 
     ContactCycle row;
     row.cycle = cycle;
@@ -68,11 +69,12 @@ ContactCyclesResult cycleContacts(const Options& options, const HeightMap& lower
     row.contact_fraction = prediction.contact_fraction;
     row.asperity_count = prediction.asperity_count;
     row.plastic_count = prediction.plastic_count;
-    row.largest_change = std::max(largestDifference(result.lower.heights(), prediction.deformed_lower),
-                                  largestDifference(result.upper.heights(), prediction.deformed_upper));
-    result.lower = HeightMap(prediction.deformed_lower, lower.pitchX(), lower.pitchY());
-    result.upper = HeightMap(prediction.deformed_upper, lower.pitchX(), lower.pitchY());
-    row.rms_height = heightStatistics(result.lower).rms_height;
+    if (upper.empty()) upper = planeOn(grid);
+    row.largest_change = std::max(largestDifference(lower.heights(), prediction.deformed_lower),
+                                  largestDifference(upper.heights(), prediction.deformed_upper));
+    lower = HeightMap(prediction.deformed_lower, grid.pitchX(), grid.pitchY());
+    upper = HeightMap(prediction.deformed_upper, grid.pitchX(), grid.pitchY());
+    row.rms_height = heightStatistics(lower).rms_height;
     row.sticks = verdict.sticks;
     row.margin = verdict.margin;
     row.margin_lower = verdict.margin_lower;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "mems_stiction/base/constants.hpp"
@@ -21,7 +22,9 @@ Options withContacts(Options options) {
   return options;
 }
 
+/// NaN if the solver parts the contact into no asperities.
 double heldContactArea(const Prediction& contact, double normal_load, const Options& options) {
+  if (!contact.has_asperities) return std::numeric_limits<double>::quiet_NaN();
   const double work = options.interface.work_of_adhesion;
   const double modulus = ContactPair(options.lower, options.upper).contact_modulus;
   const double load_ratio = contact.normal_load > 0.0 ? normal_load / contact.normal_load : 1.0;
@@ -37,10 +40,8 @@ double heldContactArea(const Prediction& contact, double normal_load, const Opti
 
 }  // namespace
 
-HeldContact::HeldContact(const Options& options, const HeightMap& lower, const HeightMap* upper)
-    : options_(withContacts(options)), model_(options_), lower_(lower), has_upper_(upper != nullptr) {
-  if (has_upper_) upper_ = *upper;
-}
+HeldContact::HeldContact(const Options& options, const SurfacePair& surfaces)
+    : options_(withContacts(options)), model_(options_), surfaces_(surfaces) {}
 
 HeldState HeldContact::advance(double voltage, double mechanical_load) {
   Options options = options_;
@@ -53,7 +54,7 @@ HeldState HeldContact::advance(double voltage, double mechanical_load) {
   state.mechanical_load = mechanical_load;
   const bool is_within = std::abs(voltage) <= largest_voltage_ && mechanical_load <= largest_load_;
   if (!has_contact_ || !is_within) {
-    Prediction prediction = has_upper_ ? model_.predict(lower_, upper_) : model_.predict(lower_);
+    Prediction prediction = model_.predict(surfaces_);
     largest_voltage_ = std::max(largest_voltage_, std::abs(voltage));
     largest_load_ = std::max(largest_load_, mechanical_load);
     if (voltage != 0.0) {

@@ -38,13 +38,13 @@ double holdingField(const DeviceOptions& device, const InterfaceOptions& interfa
 /// One loop of the voltage at one mechanical load.
 class Loop {
  public:
-  Loop(const Options& options, const HeightMap& lower, const HeightMap* upper, const DeviceOptions& device,
+  Loop(const Options& options, const SurfacePair& surfaces, const DeviceOptions& device,
        const UncertaintyOptions& uncertainty)
       : options_(options),
         device_(device),
         uncertainty_(uncertainty),
-        contact_(options, lower, upper),
-        cell_area_(lower.cellArea()) {}
+        contact_(options, surfaces),
+        cell_area_(surfaces.lower.cellArea()) {}
 
   LoadSweepRow next(double voltage, double mechanical_load, SweepDirection direction) {
     LoadSweepRow row;
@@ -132,9 +132,9 @@ std::vector<std::string> LoadSweepRequest::validate(const Options& options) cons
   return largest.validate();
 }
 
-LoadSweepResult sweepLoads(const Options& options, const HeightMap& lower, const HeightMap* upper,
-                           const LoadSweepRequest& request, const DeviceOptions& device,
-                           const UncertaintyOptions& uncertainty, const RunControl& control) {
+LoadSweepResult sweepLoads(const Options& options, const SurfacePair& surfaces, const LoadSweepRequest& request,
+                           const DeviceOptions& device, const UncertaintyOptions& uncertainty,
+                           const RunControl& control) {
   std::vector<std::string> violations = request.validate(options);
   if (!violations.empty()) throw OptionsError(std::move(violations));
 
@@ -145,7 +145,7 @@ LoadSweepResult sweepLoads(const Options& options, const HeightMap& lower, const
   result.pull_in_voltage = closingVoltage(device, options.interface);
   for (const double mechanical_load : request.mechanical_loads) {
     const std::size_t begin = result.rows.size();
-    Loop loop(options, lower, upper, device, uncertainty);
+    Loop loop(options, surfaces, device, uncertainty);
     for (int step = 0; step < step_count; ++step) {
       if (control.isCancelled()) return result;
       const auto up_count = static_cast<int>(voltages.size());

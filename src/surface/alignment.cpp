@@ -13,10 +13,8 @@ namespace {
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
-void check(SurfacePose pose) {
-  OptionValidator validator;
-  pose.describe(validator);
-  std::vector<std::string> violations = validator.violations();
+void check(const SurfacePose& pose) {
+  std::vector<std::string> violations = rangeViolations(pose);
   if (!violations.empty()) throw OptionsError(std::move(violations));
 }
 

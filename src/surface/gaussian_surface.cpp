@@ -52,10 +52,7 @@ void GaussianSurfaceOptions::describe(OptionVisitor& visitor, const std::string&
 }
 
 std::vector<std::string> GaussianSurfaceOptions::validate(const std::string& prefix) const {
-  GaussianSurfaceOptions copy = *this;  // describe() shows mutable fields; the validator only reads them
-  OptionValidator validator;
-  copy.describe(validator, prefix);
-  return validator.violations();
+  return rangeViolations(*this, prefix);
 }
 
 HeightMap gaussianSurface(const GaussianSurfaceOptions& options) {

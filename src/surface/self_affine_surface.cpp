@@ -36,10 +36,7 @@ void SelfAffineSurfaceOptions::describe(OptionVisitor& visitor, const std::strin
 }
 
 std::vector<std::string> SelfAffineSurfaceOptions::validate(const std::string& prefix) const {
-  SelfAffineSurfaceOptions copy = *this;  // describe() shows mutable fields; the validator only reads them
-  OptionValidator validator;
-  copy.describe(validator, prefix);
-  return validator.violations();
+  return rangeViolations(*this, prefix);
 }
 
 HeightMap selfAffineSurface(const SelfAffineSurfaceOptions& options) {

@@ -17,10 +17,7 @@ void TranslatedGaussianOptions::describe(OptionVisitor& visitor, const std::stri
 }
 
 std::vector<std::string> TranslatedGaussianOptions::validate(const std::string& prefix) const {
-  TranslatedGaussianOptions copy = *this;  // describe() shows mutable fields; the validator only reads them
-  OptionValidator validator;
-  copy.describe(validator, prefix);
-  return validator.violations();
+  return rangeViolations(*this, prefix);
 }
 
 HeightMap translatedGaussianSurface(const TranslatedGaussianOptions& options) {

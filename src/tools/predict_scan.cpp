@@ -11,9 +11,9 @@
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/height_map/scan_file.hpp"
 #include "mems_stiction/height_map/scan_sanity.hpp"
-#include "mems_stiction/prediction/configuration_yaml.hpp"
-#include "mems_stiction/prediction/record.hpp"
-#include "mems_stiction/prediction/scan_predictor.hpp"
+#include "mems_stiction/scan/configuration_yaml.hpp"
+#include "mems_stiction/scan/record.hpp"
+#include "mems_stiction/scan/scan_predictor.hpp"
 
 namespace {
 

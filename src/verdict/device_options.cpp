@@ -38,10 +38,7 @@ void DeviceOptions::describe(OptionVisitor& visitor) {
 }
 
 std::vector<std::string> DeviceOptions::validate() const {
-  DeviceOptions copy = *this;  // describe() shows mutable fields; the validator only reads them
-  OptionValidator validator;
-  copy.describe(validator);
-  std::vector<std::string> violations = validator.violations();
+  std::vector<std::string> violations = rangeViolations(*this);
   if (electrode_gap > 0.0 && travel > electrode_gap) {
     violations.push_back("device/travel: " + numberText(travel) + " m is not allowed, must not exceed " +
                          "device/electrode_gap " + numberText(electrode_gap) + " m");

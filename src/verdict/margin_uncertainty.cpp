@@ -79,7 +79,7 @@ class ContactList {
 }  // namespace
 
 double apparentWorkOfAdhesion(const Prediction& prediction, const Options& options) {
-  if (prediction.asperities.empty() && prediction.asperity_count > 0) return kUnknown;
+  if (!prediction.listsContacts()) return kUnknown;
   const double work = options.interface.work_of_adhesion;
   const double modulus = ContactPair(options.lower, options.upper).contact_modulus;
   double energy = 0.0;
@@ -94,9 +94,9 @@ double apparentWorkOfAdhesion(const Prediction& prediction, const Options& optio
 AdhesionSpread adhesionSpread(const Prediction& prediction, const Options& options,
                               const UncertaintyOptions& uncertainty) {
   AdhesionSpread spread;
-  if (prediction.asperities.empty() && prediction.asperity_count > 0) return spread;
+  if (!prediction.listsContacts()) return spread;
   const ContactPair pair(options.lower, options.upper);
-  const ContactList contacts(prediction.asperities, pair, options.approach.deformation == Deformation::kElastic);
+  const ContactList contacts(prediction.asperities, pair, options.deformation == Deformation::kElastic);
 
   const double adhesion = kPi * options.interface.work_of_adhesion * contacts.radiusSum();
   const double applied = prediction.mechanical_load + prediction.electrostatic_force;

@@ -39,6 +39,7 @@ std::uint32_t regimeFlags(const Prediction& prediction, double cell_area) {
   std::uint32_t flags = 0;
   if (prediction.status == Status::kBonded) flags |= kBondedFlag;
   if (prediction.status == Status::kNoEquilibrium) flags |= kNoEquilibriumFlag;
+  if (!prediction.has_asperities) return flags;  // nothing is known of single contacts
   if (prediction.asperity_count == 0) return flags | kFewContactsFlag;
   if (prediction.contact_theory != ContactTheory::kJkr) flags |= kTaborFlag;
   const Shares shares = sharesOf(prediction, cell_area);

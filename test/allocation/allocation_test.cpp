@@ -54,9 +54,9 @@ TEST_P(RepeatedFrame, AgainstARoughCounterSurfaceAllocatesNothing) {
   const HeightMap counter_surface = frame(2);
   AdhesionModel model(optionsWith(GetParam()));
   Prediction prediction;
-  model.predict(scan, counter_surface, prediction);
+  model.predict({scan, counter_surface}, prediction);
   startCountingAllocations();
-  model.predict(scan, counter_surface, prediction);
+  model.predict({scan, counter_surface}, prediction);
   const AllocationCount count = stopCountingAllocations();
   EXPECT_EQ(count.calls, 0);
 }

@@ -24,7 +24,7 @@
 #include <nlohmann/json.hpp>
 
 #include "mems_stiction/prediction/adhesion_model.hpp"
-#include "mems_stiction/prediction/configuration_yaml.hpp"
+#include "mems_stiction/scan/configuration_yaml.hpp"
 #include "mems_stiction/surface/counter_surface.hpp"
 #include "tools/command_line.hpp"
 #include "tools/npy_file.hpp"
@@ -80,7 +80,7 @@ std::string predictCase(const YAML::Node& wanted, const HeightMap& lower, const 
   const double scale = wanted["scale"].as<double>();
   const HeightMap scan = scaled(lower, scale);
   const HeightMap counter = scaled(upper, scale);
-  const Prediction prediction = AdhesionModel(optionsOf(wanted, !dump.empty())).predict(scan, counter);
+  const Prediction prediction = AdhesionModel(optionsOf(wanted, !dump.empty())).predict({scan, counter});
   RowFields fields = figureFields(scan, {}, prediction, std::nullopt);
   fields.insert(fields.begin(), {"case", wanted["name"].as<std::string>()});
   if (!dump.empty()) {

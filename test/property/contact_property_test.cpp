@@ -7,7 +7,7 @@
 
 #include "mems_stiction/approach/gap_field.hpp"
 #include "mems_stiction/base/constants.hpp"
-#include "mems_stiction/prediction/scan_predictor.hpp"
+#include "mems_stiction/scan/scan_predictor.hpp"
 #include "property/rough_pairs.hpp"
 #include "support/plain_adhesion_model.hpp"
 
@@ -23,18 +23,14 @@ bool isNear(double value, double expected, double tolerance) {
   return std::abs(value - expected) <= tolerance * std::abs(expected);
 }
 
-GapField fieldOf(const Pair& pair) {
+GapField fieldOf(const SurfacePair& pair) {
   GapField field;
-  if (pair.hasUpper()) {
-    field.compute(pair.lower, pair.upper);
-  } else {
-    field.compute(pair.lower);
-  }
+  field.compute(pair);
   return field;
 }
 
 RC_GTEST_PROP(Monotony, moreWorkOfAdhesionTouchesMore, (const PairCase& pair_case, const SettingCase& setting)) {
-  const Pair pair = pairOf(pair_case);
+  const SurfacePair pair = pairOf(pair_case);
   Options options = optionsOf(setting);
   const Prediction less = predict(options, pair);
   options.interface.work_of_adhesion *= 1.0 + 0.01 * *rc::evenly(1, 300);
@@ -53,7 +49,7 @@ RC_GTEST_PROP(Monotony, moreWorkOfAdhesionHoldsMore, (PairCase pair_case, const 
   double less = 0.0, more = 0.0;
   for (int i = 0; i < 6; ++i) {
     pair_case.seed += 1;
-    const Pair pair = pairOf(pair_case);
+    const SurfacePair pair = pairOf(pair_case);
     options.interface.work_of_adhesion = work;
     less += predict(options, pair).pull_off_force_jkr;
     options.interface.work_of_adhesion = factor * work;
@@ -77,7 +73,7 @@ RC_GTEST_PROP(Monotony, moreLoadTouchesMore, (const PairCase& pair_case, Setting
   // than P1 by (6) resists the more, and then a larger load may rest on less area (3 of 10000 surfaces). To the letter
   // of the paper a plastic asperity does from P1/2 on, so that formulation is left out.
   setting.is_printed = false;
-  const Pair pair = pairOf(pair_case);
+  const SurfacePair pair = pairOf(pair_case);
   Options options = optionsOf(setting);
   const Prediction less = predict(options, pair);
   options.load.mechanical_load += 1e-8 * *rc::evenly(1, 500);
@@ -115,7 +111,7 @@ TEST(RoughPairs, coverEveryOutcome) {
 }
 
 RC_GTEST_PROP(Conservation, contactsShareLoadAndArea, (const PairCase& pair_case, const SettingCase& setting)) {
-  const Pair pair = pairOf(pair_case);
+  const SurfacePair pair = pairOf(pair_case);
   const Options options = optionsOf(setting);
   const Prediction found = predict(options, pair);
   double load = 0.0, area = 0.0, radii = 0.0, circles = 0.0;
@@ -140,7 +136,7 @@ RC_GTEST_PROP(Conservation, contactsShareLoadAndArea, (const PairCase& pair_case
 }
 
 RC_GTEST_PROP(Loads, areTheSumsOverCells, (const PairCase& pair_case, const SettingCase& setting)) {
-  const Pair pair = pairOf(pair_case);
+  const SurfacePair pair = pairOf(pair_case);
   const Options options = optionsOf(setting);
   const Prediction found = predict(options, pair);
   const GapField field = fieldOf(pair);
@@ -163,7 +159,7 @@ RC_GTEST_PROP(Loads, areTheSumsOverCells, (const PairCase& pair_case, const Sett
 }
 
 RC_GTEST_PROP(DeformedSurfaces, areLowerOnlyWhereTheyTouched, (const PairCase& pair_case, const SettingCase& setting)) {
-  const Pair pair = pairOf(pair_case);
+  const SurfacePair pair = pairOf(pair_case);
   const Options options = optionsOf(setting);
   const Prediction found = predict(options, pair);
   const GapField field = fieldOf(pair);
@@ -173,7 +169,7 @@ RC_GTEST_PROP(DeformedSurfaces, areLowerOnlyWhereTheyTouched, (const PairCase& p
       if (!field.isValid(row * field.cols() + col)) continue;
       const double lost = height - found.deformed_lower.at<double>(row, col);
       const double raised =
-          found.deformed_upper.at<double>(row, col) - (pair.hasUpper() ? pair.upper.height(row, col) : 0.0);
+          found.deformed_upper.at<double>(row, col) - (!pair.upperIsPlane() ? pair.upper.height(row, col) : 0.0);
       if (found.contact_map.at<std::uint8_t>(row, col) == 0) {
         RC_ASSERT(lost == 0.0);
         RC_ASSERT(raised == 0.0);
@@ -192,7 +188,7 @@ RC_GTEST_PROP(DeformedSurfaces, areLowerOnlyWhereTheyTouched, (const PairCase& p
 RC_GTEST_PROP(DeformedSurfaces, shareTheVolumeByHardness, (const PairCase& pair_case, SettingCase setting)) {
   setting.is_elastic = setting.is_printed = false;
   const double ratio = 0.8 + 0.01 * *rc::evenly(0, 45);  // of hardness, upper over lower
-  const Pair pair = pairOf(pair_case);
+  const SurfacePair pair = pairOf(pair_case);
   Options options = optionsOf(setting);
   options.upper.hardness = ratio * options.lower.hardness;
   const double limit = options.interface.hardness_ratio_limit;
@@ -202,7 +198,7 @@ RC_GTEST_PROP(DeformedSurfaces, shareTheVolumeByHardness, (const PairCase& pair_
     for (int col = 0; col < pair.lower.cols(); ++col) {
       if (found.contact_map.at<std::uint8_t>(row, col) == 0) continue;
       lost += pair.lower.height(row, col) - found.deformed_lower.at<double>(row, col);
-      raised += found.deformed_upper.at<double>(row, col) - (pair.hasUpper() ? pair.upper.height(row, col) : 0.0);
+      raised += found.deformed_upper.at<double>(row, col) - (!pair.upperIsPlane() ? pair.upper.height(row, col) : 0.0);
     }
   }
   RC_CLASSIFY(lost + raised > 0.0, "flowed");
@@ -217,13 +213,13 @@ RC_GTEST_PROP(DeformedSurfaces, shareTheVolumeByHardness, (const PairCase& pair_
 RC_GTEST_PROP(SecondPath, findsTheSameState, (PairCase pair_case, const SettingCase& setting)) {
   pair_case.rows = 24 + pair_case.rows % 16;
   pair_case.cols = 24 + pair_case.cols % 16;
-  const Pair pair = pairOf(pair_case);
+  const SurfacePair pair = pairOf(pair_case);
   Options options = optionsOf(setting);
   // forces across the gap differ by kHistogram between both paths, which may move the place by a cell
   options.interface.hamaker_constant = 0.0;
   options.load.voltage = 0.0;
   const Prediction found = predict(options, pair);
-  const Prediction expected = plain::predict(options, pair.lower, pair.hasUpper() ? &pair.upper : nullptr);
+  const Prediction expected = plain::predict(options, pair);
   RC_ASSERT(found.status == expected.status);
   RC_ASSERT(found.steps == expected.steps);
   RC_ASSERT(found.asperity_count == expected.asperity_count);
@@ -236,12 +232,13 @@ RC_GTEST_PROP(SecondPath, findsTheSameState, (PairCase pair_case, const SettingC
 }
 
 RC_GTEST_PROP(ScanPredictor, isTheModelWhereNothingIsPrepared, (PairCase pair_case, const SettingCase& setting)) {
-  const Pair pair = pairOf(pair_case);
+  const SurfacePair pair = pairOf(pair_case);
   Configuration configuration;
   configuration.model = optionsOf(setting);
-  if (pair.hasUpper()) configuration.counter_surface.type = CounterSurfaceType::kTopic;
+  if (!pair.upperIsPlane()) configuration.counter_surface.type = CounterSurfaceType::kTopic;
   ScanPredictor predictor(configuration);
-  const Prediction found = pair.hasUpper() ? predictor.predict(pair.lower, pair.upper) : predictor.predict(pair.lower);
+  const Prediction found =
+      !pair.upperIsPlane() ? predictor.predict(pair.lower, pair.upper) : predictor.predict(pair.lower);
   const Prediction expected = predict(configuration.model, pair);
   RC_ASSERT(found.status == expected.status);
   RC_ASSERT(found.pull_off_force == expected.pull_off_force);

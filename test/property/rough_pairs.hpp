@@ -35,17 +35,10 @@ struct PairCase {
   }
 };
 
-struct Pair {
-  HeightMap lower;
-  HeightMap upper;  ///< empty: a plane
-
-  bool hasUpper() const { return !upper.empty(); }
-};
-
 /// Heights on whole multiples of 2^-60 m, a billionth of a nanometre: sums with an offset of 2^-20 m are then exact.
 inline HeightMap withExactSums(const HeightMap& surface) { return samples::quantized(surface, std::ldexp(1.0, -60)); }
 
-inline Pair pairOf(const PairCase& c) {
+inline SurfacePair pairOf(const PairCase& c) {
   const auto frame = [&](int seed, double rms_height) {
     const double longest = 0.49 * std::min(c.rows * c.pitch_y, c.cols * c.pitch_x);  // the generator's limit: half
     const double correlation = std::min(longest, 1.0 * c.correlation * std::max(c.pitch_x, c.pitch_y));
@@ -53,14 +46,14 @@ inline Pair pairOf(const PairCase& c) {
         samples::gaussian(c.rows, c.cols, c.pitch_x * kNm, c.pitch_y * kNm, rms_height, correlation * kNm, seed);
     return withExactSums(c.holes > 0 ? samples::withHoles(rough, 0.01 * c.holes, seed + 1000) : rough);
   };
-  Pair pair{frame(c.seed, 0.1 * c.rms_height * kNm), {}};
+  SurfacePair pair{frame(c.seed, 0.1 * c.rms_height * kNm), {}};
   if (c.has_counter_surface) pair.upper = frame(c.seed + 500, 0.07 * c.rms_height * kNm);
   return pair;
 }
 
-inline Prediction predict(const Options& options, const Pair& pair) {
+inline Prediction predict(const Options& options, const SurfacePair& pair) {
   AdhesionModel model(options);
-  return pair.hasUpper() ? model.predict(pair.lower, pair.upper) : model.predict(pair.lower);
+  return model.predict(pair);
 }
 
 /// What a prediction depends on beside the surfaces.
@@ -90,8 +83,8 @@ inline Options optionsOf(const SettingCase& c) {
   options.interface.hamaker_constant = 1e-21 * c.hamaker;
   options.interface.insulator_thickness = 50 * kNm;
   options.load.voltage = c.voltage;
-  options.approach.formulation = c.is_printed ? Formulation::kPrinted : Formulation::kCorrected;
-  options.approach.deformation = c.is_elastic ? Deformation::kElastic : Deformation::kThreeRegimes;
+  options.formulation = c.is_printed ? "printed" : "corrected";
+  options.deformation = c.is_elastic ? Deformation::kElastic : Deformation::kThreeRegimes;
   options.approach.connectivity = c.joins_corners ? Connectivity::kEight : Connectivity::kFour;
   options.output.roughness = false;
   return options;

@@ -63,8 +63,8 @@ HeightMap scaled(const HeightMap& surface, double factor) {
 }
 
 template <typename Change>
-Pair changed(const Pair& pair, Change&& change) {
-  return {change(pair.lower), pair.hasUpper() ? change(pair.upper) : HeightMap()};
+SurfacePair changed(const SurfacePair& pair, Change&& change) {
+  return {change(pair.lower), !pair.upperIsPlane() ? change(pair.upper) : HeightMap()};
 }
 
 RC_GTEST_PROP(Scaling, lengthsByCAndStiffnessBySScaleForcesBySCSquared,
@@ -72,7 +72,7 @@ RC_GTEST_PROP(Scaling, lengthsByCAndStiffnessBySScaleForcesBySCSquared,
   // powers of two and of four keep every product, quotient and square root exact: the same cells touch
   const double c = std::ldexp(1.0, *rc::evenly(-8, 9));
   const double s = std::ldexp(1.0, 2 * *rc::evenly(-4, 5));
-  const Pair pair = pairOf(pair_case);
+  const SurfacePair pair = pairOf(pair_case);
   Options options = optionsOf(setting);
   options.load.max_voltage = options.load.max_mechanical_load = 1e12;
   const Prediction before = predict(options, pair);
@@ -99,14 +99,14 @@ HeightMap turned(const HeightMap& surface) {
 }
 
 RC_GTEST_PROP(Frame, canBeTurnedByNinetyDegrees, (const PairCase& pair_case, const SettingCase& setting)) {
-  const Pair pair = pairOf(pair_case);
+  const SurfacePair pair = pairOf(pair_case);
   const Options options = optionsOf(setting);
   checkSame(predict(options, changed(pair, turned)), predict(options, pair), kReordered);
 }
 
 RC_GTEST_PROP(Frame, canBeFlipped, (const PairCase& pair_case, const SettingCase& setting)) {
   const int axis = *rc::evenly(-1, 2);
-  const Pair pair = pairOf(pair_case);
+  const SurfacePair pair = pairOf(pair_case);
   const Options options = optionsOf(setting);
   const auto flipped = [axis](const HeightMap& surface) {
     cv::Mat heights;
@@ -118,7 +118,7 @@ RC_GTEST_PROP(Frame, canBeFlipped, (const PairCase& pair_case, const SettingCase
 
 RC_GTEST_PROP(Frame, canHaveABorderOfInvalidPixels, (PairCase pair_case, const SettingCase& setting)) {
   const int width = *rc::evenly(1, 5);
-  const Pair pair = pairOf(pair_case);
+  const SurfacePair pair = pairOf(pair_case);
   const Options options = optionsOf(setting);
   const auto bordered = [width](const HeightMap& surface) {
     cv::Mat heights;
@@ -131,7 +131,7 @@ RC_GTEST_PROP(Frame, canHaveABorderOfInvalidPixels, (PairCase pair_case, const S
 
 RC_GTEST_PROP(Bodies, canBeExchanged, (PairCase pair_case, const SettingCase& setting)) {
   pair_case.has_counter_surface = true;
-  const Pair pair = pairOf(pair_case);
+  const SurfacePair pair = pairOf(pair_case);
   Options options = optionsOf(setting);
   const Prediction before = predict(options, pair);
   const auto turnedOver = [](const HeightMap& surface) {
@@ -158,10 +158,10 @@ RC_GTEST_PROP(Bodies, canBeMovedAlongZ, (const PairCase& pair_case, const Settin
   const auto moved = [](const HeightMap& surface, double offset) {
     return HeightMap(cv::Mat(surface.heights() + offset), surface.pitchX(), surface.pitchY());
   };
-  const Pair pair = pairOf(pair_case);
+  const SurfacePair pair = pairOf(pair_case);
   const Options options = optionsOf(setting);
-  const Pair elsewhere{moved(pair.lower, lower_offset),
-                       pair.hasUpper() ? moved(pair.upper, upper_offset) : HeightMap()};
+  const SurfacePair elsewhere{moved(pair.lower, lower_offset),
+                              !pair.upperIsPlane() ? moved(pair.upper, upper_offset) : HeightMap()};
   checkSame(predict(options, elsewhere), predict(options, pair), kReordered);
 }
 

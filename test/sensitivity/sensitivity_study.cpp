@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "mems_stiction/equilibrium/approach_search.hpp"
-#include "mems_stiction/prediction/configuration_yaml.hpp"
 #include "mems_stiction/prediction/prediction_fields.hpp"
+#include "mems_stiction/scan/configuration_yaml.hpp"
 #include "study_cases.hpp"
 #include "tools/command_line.hpp"
 

@@ -7,8 +7,8 @@
 #include <yaml-cpp/yaml.h>
 
 #include "mems_stiction/equilibrium/approach_search.hpp"
-#include "mems_stiction/prediction/configuration_yaml.hpp"
-#include "mems_stiction/prediction/scan_predictor.hpp"
+#include "mems_stiction/scan/configuration_yaml.hpp"
+#include "mems_stiction/scan/scan_predictor.hpp"
 #include "mems_stiction/verdict/margin_uncertainty.hpp"
 
 namespace mems_stiction {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "mems_stiction/prediction/configuration.hpp"
 #include "mems_stiction/prediction/prediction.hpp"
+#include "mems_stiction/scan/configuration.hpp"
 #include "study_surfaces.hpp"
 
 namespace mems_stiction {

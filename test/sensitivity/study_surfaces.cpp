@@ -5,7 +5,7 @@
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/height_map/scan_file.hpp"
-#include "mems_stiction/prediction/scan_predictor.hpp"
+#include "mems_stiction/scan/scan_predictor.hpp"
 #include "mems_stiction/surface/gaussian_surface.hpp"
 #include "mems_stiction/surface/self_affine_surface.hpp"
 

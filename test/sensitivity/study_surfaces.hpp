@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "mems_stiction/height_map/height_map.hpp"
-#include "mems_stiction/prediction/configuration.hpp"
+#include "mems_stiction/scan/configuration.hpp"
 
 namespace mems_stiction {
 namespace study {

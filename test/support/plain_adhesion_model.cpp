@@ -8,8 +8,8 @@
 
 #include "mems_stiction/approach/cap_couple.hpp"
 #include "mems_stiction/equilibrium/approach_search.hpp"
+#include "mems_stiction/equilibrium/asperity_summary.hpp"
 #include "mems_stiction/equilibrium/level_search.hpp"
-#include "mems_stiction/prediction/contact_summary.hpp"
 
 namespace mems_stiction {
 namespace plain {
@@ -127,6 +127,10 @@ double meanGapApart(const GapField& field, const State& state) {
   return apart > 0 ? sum / apart : 0.0;
 }
 
+Formulation formulationOf(const Options& options) {
+  return options.formulation == "printed" ? Formulation::kPrinted : Formulation::kCorrected;
+}
+
 void summarize(const Problem& problem, const State& state, Prediction& prediction) {
   const GapField& field = problem.field;
   prediction.voltage = problem.options.load.voltage;
@@ -145,14 +149,25 @@ void summarize(const Problem& problem, const State& state, Prediction& predictio
   prediction.elastic_energy = energies.elastic;
   prediction.total_energy = energies.total();
   prediction.bonding_energy = energies.total() / prediction.nominal_area;
+  ContactSolution sums;
   for (std::size_t i = 0; i < state.caps.size(); ++i) {
-    const Asperity asperity = asperityAt(state.labelling.patches[i], state.caps[i], state.responses[i],
-                                         state.balance.load_share, field, problem.law, problem.options.interface);
-    addContact(asperity, problem.law, prediction);
-    prediction.asperities.push_back(asperity);
+    sums.asperities.push_back(asperityAt(state.labelling.patches[i], state.caps[i], state.responses[i],
+                                         state.balance.load_share, field, problem.law, problem.options.interface));
   }
-  prediction.adhesion_parameter /= prediction.asperity_count;
+  sumAsperities(problem.law, sums);
+  prediction.pull_off_force_jkr = sums.pull_off_force_jkr;
+  prediction.pull_off_force_transition = sums.pull_off_force_transition;
+  prediction.contact_area_jkr = sums.contact_area_jkr;
+  prediction.adhesion_parameter = sums.adhesion_parameter;
   prediction.pull_off_force = prediction.pull_off_force_jkr + prediction.van_der_waals_force;
+  prediction.asperity_count = static_cast<int>(sums.asperities.size());
+  for (const Asperity& asperity : sums.asperities) {
+    prediction.max_tilt = std::max(prediction.max_tilt, asperity.tilt);
+    if (asperity.regime == Regime::kElastic) ++prediction.elastic_count;
+    if (asperity.regime == Regime::kElastoPlastic) ++prediction.elasto_plastic_count;
+    if (asperity.regime == Regime::kPlastic) ++prediction.plastic_count;
+  }
+  prediction.asperities = sums.asperities;
 }
 
 }  // namespace
@@ -219,20 +234,16 @@ NormalLoad sumLoads(const GapField& field, double approach, Touch touch, const C
   return load;
 }
 
-Prediction predict(const Options& options, const HeightMap& lower, const HeightMap* upper) {
+Prediction predict(const Options& options, const SurfacePair& surfaces) {
   options.check();
   Prediction prediction;
-  prediction.rms_height = heightStatistics(lower).rms_height;
-  prediction.composite_rms_height =
-      std::hypot(prediction.rms_height, upper != nullptr ? heightStatistics(*upper).rms_height : 0.0);
+  prediction.rms_height = heightStatistics(surfaces.lower).rms_height;
+  const double upper_rms_height = surfaces.upperIsPlane() ? 0.0 : heightStatistics(surfaces.upper).rms_height;
+  prediction.composite_rms_height = std::hypot(prediction.rms_height, upper_rms_height);
   Problem problem{options, GapField(),
                   AsperityLaw(ContactPair(options.lower, options.upper), options.interface.work_of_adhesion,
-                              prediction.composite_rms_height, options.approach)};
-  if (upper != nullptr) {
-    problem.field.compute(lower, *upper);
-  } else {
-    problem.field.compute(lower);
-  }
+                              prediction.composite_rms_height, formulationOf(options), options.deformation)};
+  problem.field.compute(surfaces);
   prediction.invalid_fraction = 1.0 - static_cast<double>(problem.field.validCount()) / problem.field.cellCount();
 
   const double limit_gap = limitGap(problem.field, options.approach.max_contact_fraction);
@@ -254,7 +265,7 @@ Prediction predict(const Options& options, const HeightMap& lower, const HeightM
       const bool all_plastic =
           std::all_of(state.responses.begin(), state.responses.end(),
                       [](const AsperityResponse& asperity) { return asperity.elastic_share == 0.0; });
-      const bool is_printed = options.approach.formulation == Formulation::kPrinted;
+      const bool is_printed = formulationOf(options) == Formulation::kPrinted;
       prediction.status = is_printed && all_plastic ? Status::kNoEquilibrium : Status::kBonded;
     }
     prediction.plastic_work += state.balance.plastic_force * (state.approach - previous_approach);

@@ -34,7 +34,7 @@ NormalLoad sumLoads(const GapField& field, double approach, Touch touch, const C
                     double mechanical_load);
 
 /// The whole prediction but the maps, the roughness and the energy curve.
-Prediction predict(const Options& options, const HeightMap& lower, const HeightMap* upper = nullptr);
+Prediction predict(const Options& options, const SurfacePair& surfaces);
 
 }  // namespace plain
 }  // namespace mems_stiction

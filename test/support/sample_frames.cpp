@@ -21,7 +21,7 @@ GapField Frame::gapField() const {
   if (upper.empty()) {
     field.compute(lower);
   } else {
-    field.compute(lower, upper);
+    field.compute({lower, upper});
   }
   return field;
 }

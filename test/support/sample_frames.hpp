@@ -5,20 +5,21 @@
 
 #include <ostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mems_stiction/approach/gap_field.hpp"
-#include "mems_stiction/height_map/height_map.hpp"
+#include "mems_stiction/surface/surface_pair.hpp"
 
 namespace mems_stiction {
 namespace samples {
 
-struct Frame {
-  std::string name;
-  HeightMap lower;
-  HeightMap upper;  ///< empty: flat counter-surface
+struct Frame : SurfacePair {
+  Frame(std::string name_in, HeightMap lower_in, HeightMap upper_in = {})
+      : SurfacePair(std::move(lower_in), std::move(upper_in)), name(std::move(name_in)) {}
 
-  const HeightMap* upperOrNull() const { return upper.empty() ? nullptr : &upper; }
+  std::string name;
+
   GapField gapField() const;
 
   /// GTest names the frame in its messages.

@@ -24,9 +24,7 @@ constexpr double kStiffness = 4.0 / 3.0 * kModulus;
 
 /// All that one sphere at an imposed contact radius depends on.
 AsperityLaw lawOf(Formulation formulation) {
-  ApproachOptions approach;
-  approach.formulation = formulation;
-  return {ContactPair(Material(), Material()), kWork, 0.0, approach};
+  return {ContactPair(Material(), Material()), kWork, 0.0, formulation, Deformation::kThreeRegimes};
 }
 
 AsperityResponse sphereAt(double contact_radius, double elastic_share, Formulation formulation) {
@@ -53,9 +51,7 @@ DeformationShare shareOf(double lower_hardness, double upper_hardness, Formulati
   Material lower, upper;
   lower.hardness = lower_hardness;
   upper.hardness = upper_hardness;
-  ApproachOptions approach;
-  approach.formulation = formulation;
-  return {lower, upper, 0.9, approach};
+  return {lower, upper, 0.9, formulation, Deformation::kThreeRegimes};
 }
 
 }  // namespace

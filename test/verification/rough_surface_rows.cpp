@@ -21,7 +21,7 @@ constexpr double kWork = 50e-3;
 Prediction predict(double rms_height, int seed, double load = 0.0, Deformation deformation = Deformation::kThreeRegimes,
                    double hardness = 12e9) {
   Options options = contactOnly(load, kWork);
-  options.approach.deformation = deformation;
+  options.deformation = deformation;
   options.lower.hardness = hardness;
   options.output.roughness = false;
   return AdhesionModel(options).predict(samples::gaussian(160, 200, 10 * kNm, 10 * kNm, rms_height, 100 * kNm, seed));

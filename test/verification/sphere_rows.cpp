@@ -88,7 +88,7 @@ std::vector<Row> twoSphereRows() {
     const HeightMap lower = sphereOn(gridAt(phase), 2e-6, a, pixels);
     const cv::Mat1d turned = -sphereOn(gridAt(phase), 3e-6, a, pixels).heights();
     const Prediction found =
-        AdhesionModel(contactOnly(load, kWork)).predict(lower, HeightMap(turned, lower.pitchX(), lower.pitchY()));
+        AdhesionModel(contactOnly(load, kWork)).predict({lower, HeightMap(turned, lower.pitchX(), lower.pitchY())});
     if (found.asperity_count != 1) return {};
     return {found.asperities[0].composite_radius, found.contact_area_jkr};
   });
@@ -105,7 +105,7 @@ std::vector<Row> tiltRows() {
     const HeightMap sphere = sphereOn(gridAt(phase), kRadius, a, pixels);
     const HeightMap plane =
         analytic::tiltedPlane(sphere.rows(), sphere.cols(), sphere.pitchX(), sphere.pitchY(), std::tan(tilt), 0.0);
-    const Prediction found = AdhesionModel(contactOnly(load, kWork)).predict(analytic::sum(sphere, plane), plane);
+    const Prediction found = AdhesionModel(contactOnly(load, kWork)).predict({analytic::sum(sphere, plane), plane});
     if (found.asperity_count != 1) return {};
     return {found.asperities[0].tilt * 180.0 / closed_form::kPi, found.contact_area_jkr};
   });

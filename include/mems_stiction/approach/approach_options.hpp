@@ -9,21 +9,12 @@ namespace mems_stiction {
 
 enum class Connectivity { kFour, kEight };
 
-/// Which reading of the paper's equations (6), (9), (10), (12) and (13) is used; doc/theory.md has the table.
-enum class Formulation { kCorrected, kPrinted };
-
-/// Whether hardness plays a part. kElastic keeps every asperity in the elastic regime (chi = 1), as the theories that
-/// the paper compares with do.
-enum class Deformation { kThreeRegimes, kElastic };
-
 /// Settings of the approach; keys approach/...
 struct ApproachOptions {
   double step = 0.0;                  ///< delta of (1) [m]; 0 = composite rms height / 50
   int max_steps = 100000;             ///< the search range ends after so many steps
   double max_contact_fraction = 0.5;  ///< beyond it the surfaces count as bonded, in (0, 1]
   Connectivity connectivity = Connectivity::kFour;
-  Formulation formulation = Formulation::kCorrected;
-  Deformation deformation = Deformation::kThreeRegimes;
 
   void describe(OptionVisitor& visitor);
 };

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "mems_stiction/base/large_pages.hpp"
-#include "mems_stiction/height_map/height_map.hpp"
+#include "mems_stiction/surface/surface_pair.hpp"
 
 namespace mems_stiction {
 
@@ -45,10 +45,8 @@ struct StoredGaps {
 /// what lies between it and its highest point: a scan in single precision then costs 4 bytes a cell, and no digits.
 class GapField {
  public:
-  /// Against a plane. @throw SurfaceError if no pixel is valid, or if heights lie more than 1e100 m apart.
-  void compute(const HeightMap& lower);
   /// @throw SurfaceError if the grids differ or no pixel is valid in both, or if gaps lie more than 1e100 m apart.
-  void compute(const HeightMap& lower, const HeightMap& upper);
+  void compute(const SurfacePair& surfaces);
 
   int rows() const { return rows_; }
   int cols() const { return cols_; }
@@ -97,6 +95,8 @@ class GapField {
 
  private:
   void takeGrid(const HeightMap& lower);
+  void computeAgainstPlane(const HeightMap& lower);
+  void computeBetween(const HeightMap& lower, const HeightMap& upper);
   /// - @p fill_row(row, line) writes a row's z1 - z2 [m], not finite where it is not valid
   template <typename Scalar, typename RowSource>
   void fillRelief(LargePageVector<Scalar>& relief, const RowSource& fill_row);

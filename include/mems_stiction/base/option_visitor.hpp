@@ -80,6 +80,23 @@ class OptionValidator : public OptionVisitor {
   std::vector<std::string> violations_;
 };
 
+/// describe() of options that must stay as they are: what the visitor sees, and could write to, is a copy.
+/// - @p arguments of describe() after the visitor, such as a prefix
+template <typename Options, typename... Arguments>
+void describeConst(const Options& options, OptionVisitor& visitor, const Arguments&... arguments) {
+  Options copy = options;
+  copy.describe(visitor, arguments...);
+}
+
+/// One line per described field that is out of its range; empty when all is well.
+/// - @p arguments of describe() after the visitor, such as a prefix
+template <typename Options, typename... Arguments>
+std::vector<std::string> rangeViolations(const Options& options, const Arguments&... arguments) {
+  OptionValidator validator;
+  describeConst(options, validator, arguments...);
+  return validator.violations();
+}
+
 /// Shortest decimal text that reads back as the same double: for messages and printed configurations.
 std::string numberText(double value);
 

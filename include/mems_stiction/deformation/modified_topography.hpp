@@ -12,7 +12,7 @@
 /// A fully plastic patch ends with z1' = z2'; an elastic one comes back unchanged. The share of (12) as printed, for
 /// Formulation::kPrinted, is P/w; (13) is then used without the regime.
 
-#include "mems_stiction/approach/approach_options.hpp"
+#include "mems_stiction/mechanics/formulation.hpp"
 #include "mems_stiction/mechanics/material.hpp"
 
 namespace mems_stiction {
@@ -21,8 +21,8 @@ namespace mems_stiction {
 class DeformationShare {
  public:
   /// - @p hardness_ratio_limit a of (12), in (0, 1)
-  DeformationShare(const Material& lower, const Material& upper, double hardness_ratio_limit,
-                   const ApproachOptions& approach);
+  DeformationShare(const Material& lower, const Material& upper, double hardness_ratio_limit, Formulation formulation,
+                   Deformation deformation);
 
   /// Share of w that the lower surface loses, c s [-].
   double lower(double plasticity_index) const { return flow(plasticity_index) * lower_share_; }

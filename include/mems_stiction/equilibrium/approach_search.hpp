@@ -49,6 +49,7 @@ class ApproachSearch {
            EquilibriumState& state);
 
   PatchSweep& sweep() { return sweep_; }
+  const PatchSweep& sweep() const { return sweep_; }
   /// Caps and responses of the live patches, in the order of sweep().livePatches().
   const std::vector<CapCouple>& caps() const { return caps_; }
   const std::vector<AsperityResponse>& responses() const { return responses_; }

@@ -20,8 +20,8 @@
 /// With Formulation::kPrinted the force is the derivative of (8) with (10) to the letter, where nothing resists a
 /// plastic asperity: r = (1/3) [2 P0 - 2 P0^2/P1 - chi (P1 - P0^2/P1) + 6 pi Gamma R].
 
-#include "mems_stiction/approach/approach_options.hpp"
 #include "mems_stiction/approach/cap_couple.hpp"
+#include "mems_stiction/mechanics/formulation.hpp"
 #include "mems_stiction/mechanics/material.hpp"
 
 namespace mems_stiction {
@@ -37,8 +37,8 @@ struct AsperityLaw {
   Deformation deformation = Deformation::kThreeRegimes;
 
   AsperityLaw() = default;
-  AsperityLaw(const ContactPair& pair, double work_of_adhesion, double composite_rms_height,
-              const ApproachOptions& approach);
+  AsperityLaw(const ContactPair& pair, double work_of_adhesion, double composite_rms_height, Formulation formulation,
+              Deformation deformation);
 
   /// phi of (9) in the formulation that is set; 0 when all deformation is elastic.
   double plasticityIndexOf(double radius) const;

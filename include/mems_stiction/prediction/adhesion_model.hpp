@@ -12,15 +12,14 @@
 ///     Prediction prediction = model.predict(HeightMap(heights, 20e-9, 20e-9));
 ///     if (prediction.status == Status::kEquilibrium) use(prediction.pull_off_force);
 ///
-/// Assumptions: asperities act independently; each is a couple of spherical caps; JKR holds for each (see
-/// median_tabor_parameter for how far it does). Outside: the status says so, forces are then lower bounds.
+/// Which solver answers is a matter of options.formulation (contact_solvers.hpp); assumptions stand with each solver.
 /// Source: Deladi, Krijnen, Tas, Elwenspoek 2002; doc/theory.md has every equation as implemented.
 
 #include <memory>
 
-#include "mems_stiction/height_map/height_map.hpp"
 #include "mems_stiction/prediction/options.hpp"
 #include "mems_stiction/prediction/prediction.hpp"
+#include "mems_stiction/surface/surface_pair.hpp"
 
 namespace mems_stiction {
 
@@ -38,18 +37,13 @@ class AdhesionModel {
   /// @throw OptionsError if the options are out of range; the previous ones stay.
   void setOptions(const Options& options);
 
-  /// The surface against a rigid-plane-shaped counter-surface of the upper material.
-  /// @throw SurfaceError if no pixel is valid.
-  Prediction predict(const HeightMap& lower);
-
-  /// Two surfaces in one frame: z of both points from lower to upper, same rows, cols and pitch.
+  /// Two surfaces in one frame, same rows, cols and pitch; or one against a plane of the upper material.
   /// @throw SurfaceError if the grids differ or no pixel is valid in both.
-  Prediction predict(const HeightMap& lower, const HeightMap& upper);
+  Prediction predict(const SurfacePair& surfaces);
 
   /// The same into an earlier prediction, whose memory is used again: from the second frame of a size on nothing is
   /// allocated. Maps of the earlier prediction that are shared elsewhere are left alone.
-  void predict(const HeightMap& lower, Prediction& prediction);
-  void predict(const HeightMap& lower, const HeightMap& upper, Prediction& prediction);
+  void predict(const SurfacePair& surfaces, Prediction& prediction);
 
  private:
   class Implementation;

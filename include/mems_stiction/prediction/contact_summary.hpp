@@ -1,27 +1,20 @@
 #pragma once
 
 /// @file
-/// From the state at equilibrium to the figures that are published (section 2.3 of the paper): pull-off force, contact
-/// areas, energies, adhesion parameter, one record per asperity.
+/// From what a solver has found to the figures that are published.
 
-#include "mems_stiction/equilibrium/approach_search.hpp"
-#include "mems_stiction/prediction/options.hpp"
+#include <vector>
+
+#include "mems_stiction/contact/contact_problem.hpp"
+#include "mems_stiction/contact/contact_solution.hpp"
 #include "mems_stiction/prediction/prediction.hpp"
 
 namespace mems_stiction {
 
-/// One contact at equilibrium: what the sums and the asperity records are made from. z is left to the caller.
-Asperity asperityAt(const ContactPatch& patch, const CapCouple& caps, const AsperityResponse& response,
-                    double load_share, const GapField& field, const AsperityLaw& law,
-                    const InterfaceOptions& interface);
-
-/// Adds one contact to the sums, counts and extremes of a prediction.
-void addContact(const Asperity& asperity, const AsperityLaw& law, Prediction& prediction);
-
-/// Fills everything in `prediction` that follows from the contacts.
-/// - @p tabor_parameters working memory
-void summarizeContact(const HeightMap& lower, const EquilibriumState& state, ApproachSearch& search,
-                      const GapField& field, const GapOrder& order, const AsperityLaw& law, const Options& options,
-                      std::vector<double>& tabor_parameters, Prediction& prediction);
+/// Fills everything in `prediction` that follows from the solution, and moves its lists and maps there. Figures that the
+/// solver does not have are NaN, their words "unknown".
+/// - @p values working memory
+void summarizeContact(const ContactProblem& problem, ContactSolution& solution, std::vector<double>& values,
+                      Prediction& prediction);
 
 }  // namespace mems_stiction

@@ -7,34 +7,15 @@
 #include <string>
 #include <vector>
 
-#include "mems_stiction/approach/approach_options.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
-#include "mems_stiction/loads/capillary.hpp"
-#include "mems_stiction/loads/interface.hpp"
-#include "mems_stiction/mechanics/material.hpp"
+#include "mems_stiction/contact/contact_settings.hpp"
+#include "mems_stiction/prediction/contact_solvers.hpp"
 
 namespace mems_stiction {
 
-/// What predict() returns beside the figures; each costs time.
-struct OutputOptions {
-  bool deformed_surfaces = true;  ///< both surfaces after contact
-  bool contact_map = true;        ///< 0 apart, 1 elastic, 2 elasto-plastic, 3 fully plastic
-  bool asperities = true;         ///< one record per contact
-  bool roughness = true;          ///< ISO 25178 figures of the lower surface
-  bool energy_curve = false;      ///< one record per step of the approach
-
-  void describe(OptionVisitor& visitor);
-};
-
 /// What AdhesionModel is constructed with.
-struct Options {
-  Material lower;
-  Material upper;
-  InterfaceOptions interface;
-  CapillaryOptions capillary;
-  LoadOptions load;
-  ApproachOptions approach;
-  OutputOptions output;
+struct Options : ContactSettings {
+  std::string formulation = kDefaultFormulation;  ///< which solver: one of formulationNames()
 
   void describe(OptionVisitor& visitor);
 

@@ -9,33 +9,18 @@
 
 #include <opencv2/core.hpp>
 
-#include "mems_stiction/equilibrium/equilibrium_state.hpp"
-#include "mems_stiction/mechanics/regime.hpp"
+#include "mems_stiction/contact/contact_solution.hpp"
 #include "mems_stiction/roughness/areal_parameters.hpp"
 #include "mems_stiction/roughness/spatial_roughness.hpp"
 
 namespace mems_stiction {
 
 /// Regime of the whole interface by the adhesion parameter (14); limits 1 and 12 by Gui et al. 1999.
-enum class BondingRegime : std::uint8_t { kBonding = 0, kAdherence = 1, kNonBonding = 2 };
+enum class BondingRegime : std::uint8_t { kBonding = 0, kAdherence = 1, kNonBonding = 2, kUnknown = 3 };
 
 /// Which single-asperity theory the median Tabor parameter asks for (Johnson and Greenwood 1997): JKR above 5, DMT
 /// below 0.1, the transition between.
-enum class ContactTheory : std::uint8_t { kDmt = 0, kTransition = 1, kJkr = 2 };
-
-/// One contact at equilibrium.
-struct Asperity {
-  double x = 0.0, y = 0.0, z = 0.0;  ///< centre: col pitch_x, row pitch_y, height of the lower surface [m]
-  double cap_radius = 0.0;           ///< rc, radius of the base of the spherical caps [m]
-  double composite_radius = 0.0;     ///< R_i of (5) [m]
-  double load = 0.0;                 ///< F_i of (6) [N]
-  double contact_radius = 0.0;       ///< a of JKR at the equilibrium load (7) [m]
-  double tilt = 0.0;                 ///< theta [rad]
-  double plasticity_index = 0.0;     ///< phi of (9) [-]
-  double tabor_parameter = 0.0;      ///< mu [-]
-  double area = 0.0;                 ///< cells in contact [m^2]
-  Regime regime = Regime::kElastic;
-};
+enum class ContactTheory : std::uint8_t { kDmt = 0, kTransition = 1, kJkr = 2, kUnknown = 3 };
 
 /// Everything that AdhesionModel::predict() finds out about one pair of surfaces.
 struct Prediction {
@@ -70,6 +55,7 @@ struct Prediction {
 
   double adhesion_parameter = 0.0;  ///< (14) [-]; infinite when Gamma = 0
   BondingRegime bonding_regime = BondingRegime::kNonBonding;
+  bool has_asperities = true;  ///< false: the solver parts the contact into no asperities, and counts none
   int asperity_count = 0;
   int elastic_count = 0;
   int elasto_plastic_count = 0;
@@ -84,11 +70,14 @@ struct Prediction {
   double invalid_fraction = 0.0;      ///< share of pixels that are invalid in either surface [-]
   double processing_time = 0.0;       ///< wall time inside predict() [s]
 
+  /// Whether `asperities` lists every contact: it does not if the solver knows none, or output/asperities is off.
+  bool listsContacts() const { return has_asperities && static_cast<int>(asperities.size()) == asperity_count; }
   std::vector<Asperity> asperities;
   std::vector<EnergyPoint> energy_curve;
   cv::Mat deformed_lower;  ///< rows x cols CV_64FC1 [m], NaN where invalid
   cv::Mat deformed_upper;  ///< the same in the upper surface's own z [m]
   cv::Mat contact_map;     ///< rows x cols CV_8UC1, values of Regime
+  cv::Mat pressure;        ///< rows x cols CV_64FC1 [Pa], repulsion positive; empty if the solver does not know it
 
   double median_contact_pixels = 0.0;  ///< pixels of the scan in half of the contacts or fewer [-]; NaN without contact
   double median_composite_radius = 0.0;  ///< median of R_i of (5) [m]; NaN without contact

@@ -40,7 +40,7 @@ inline const char* word(Regime regime) {
   return "PLASTIC";
 }
 
-/// "BONDING", "ADHERENCE", "NON_BONDING"
+/// "BONDING", "ADHERENCE", "NON_BONDING", "UNKNOWN"
 inline const char* word(BondingRegime regime) {
   switch (regime) {
     case BondingRegime::kBonding:
@@ -48,12 +48,14 @@ inline const char* word(BondingRegime regime) {
     case BondingRegime::kAdherence:
       return "ADHERENCE";
     case BondingRegime::kNonBonding:
+      return "NON_BONDING";
+    case BondingRegime::kUnknown:
       break;
   }
-  return "NON_BONDING";
+  return "UNKNOWN";
 }
 
-/// "DMT", "TRANSITION", "JKR"
+/// "DMT", "TRANSITION", "JKR", "UNKNOWN"
 inline const char* word(ContactTheory theory) {
   switch (theory) {
     case ContactTheory::kDmt:
@@ -61,9 +63,11 @@ inline const char* word(ContactTheory theory) {
     case ContactTheory::kTransition:
       return "TRANSITION";
     case ContactTheory::kJkr:
+      return "JKR";
+    case ContactTheory::kUnknown:
       break;
   }
-  return "JKR";
+  return "UNKNOWN";
 }
 
 /// @param roughness ArealParameters, const or not

@@ -6,10 +6,10 @@
 
 #include <optional>
 
-#include "mems_stiction/prediction/scan_predictor.hpp"
 #include "mems_stiction/ros/image_conversion.hpp"
 #include "mems_stiction/ros/predicted_scan.hpp"
 #include "mems_stiction/ros/running_options.hpp"
+#include "mems_stiction/scan/scan_predictor.hpp"
 
 namespace mems_stiction {
 

@@ -10,7 +10,7 @@
 #include <xmlrpcpp/XmlRpcValue.h>
 
 #include "mems_stiction/base/option_visitor.hpp"
-#include "mems_stiction/prediction/configuration.hpp"
+#include "mems_stiction/scan/configuration.hpp"
 
 namespace YAML {
 class Node;

@@ -6,7 +6,7 @@
 
 #include <dynamic_reconfigure/Config.h>
 
-#include "mems_stiction/prediction/configuration.hpp"
+#include "mems_stiction/scan/configuration.hpp"
 
 namespace mems_stiction {
 

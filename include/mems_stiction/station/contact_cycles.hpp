@@ -9,13 +9,12 @@
 /// Assumptions: both surfaces meet in the same place each time, to the pixel; no wear, no material transfer, no
 /// hardening; contacts open fully in between.
 ///
-///     const ContactCyclesResult result = cycleContacts(options, scan, nullptr, 100, device, uncertainty,
-///     RunControl());
+///     const ContactCyclesResult result = cycleContacts(options, scan, 100, device, uncertainty, RunControl());
 
 #include <vector>
 
-#include "mems_stiction/height_map/height_map.hpp"
 #include "mems_stiction/station/run_control.hpp"
+#include "mems_stiction/surface/surface_pair.hpp"
 #include "mems_stiction/verdict/verdict.hpp"
 
 namespace mems_stiction {
@@ -42,15 +41,13 @@ struct ContactCycle {
 struct ContactCyclesResult {
   std::vector<ContactCycle> cycles;
   int first_sticking_cycle = 0;  ///< the first whose verdict is "yes"; 0 = none, or device not stated
-  HeightMap lower;               ///< after the last contact
-  HeightMap upper;               ///< the same in its own z; against a flat surface it starts from 0
+  SurfacePair surfaces;          ///< after the last contact, the upper one in its own z; a plane starts from 0
   bool is_complete = false;      ///< false: cancelled
 };
 
-/// - @p upper null for a flat counter-surface
 /// - @p count of contacts, >= 1
 /// @throw OptionsError for a count or options out of range, before any work; SurfaceError as AdhesionModel.
-ContactCyclesResult cycleContacts(const Options& options, const HeightMap& lower, const HeightMap* upper, int count,
+ContactCyclesResult cycleContacts(const Options& options, const SurfacePair& surfaces, int count,
                                   const DeviceOptions& device, const UncertaintyOptions& uncertainty,
                                   const RunControl& control);
 

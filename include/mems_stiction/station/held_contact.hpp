@@ -18,7 +18,6 @@
 /// smaller states on its way, and their plastic flow is contained in that of the larger. Should a search end at a
 /// smaller approach, the held contact stays.
 
-#include "mems_stiction/height_map/height_map.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
 
 namespace mems_stiction {
@@ -36,8 +35,8 @@ struct HeldState {
 /// A contact that was made, while loads change.
 class HeldContact {
  public:
-  /// Against a flat counter-surface, or `upper` if it is not null. Both are shared, not copied.
-  HeldContact(const Options& options, const HeightMap& lower, const HeightMap* upper);
+  /// The surfaces are shared, not copied.
+  HeldContact(const Options& options, const SurfacePair& surfaces);
 
   /// Goes on to the next load. @throw OptionsError if the load is out of range; then nothing changes.
   HeldState advance(double voltage, double mechanical_load);
@@ -48,9 +47,7 @@ class HeldContact {
  private:
   Options options_;
   AdhesionModel model_;
-  HeightMap lower_;
-  HeightMap upper_;
-  bool has_upper_ = false;
+  SurfacePair surfaces_;
   bool has_contact_ = false;
   double largest_voltage_ = 0.0;  ///< in size [V]
   double largest_load_ = 0.0;     ///< [N]

@@ -23,15 +23,15 @@
 ///     LoadSweepRequest request;
 ///     request.voltages = {0, 5, 10, 20};
 ///     request.mechanical_loads = {0};
-///     const LoadSweepResult result = sweepLoads(options, scan, nullptr, request, device, uncertainty, RunControl());
+///     const LoadSweepResult result = sweepLoads(options, scan, request, device, uncertainty, RunControl());
 
 #include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
 
-#include "mems_stiction/height_map/height_map.hpp"
 #include "mems_stiction/station/run_control.hpp"
+#include "mems_stiction/surface/surface_pair.hpp"
 #include "mems_stiction/verdict/verdict.hpp"
 
 namespace mems_stiction {
@@ -86,10 +86,9 @@ struct LoadSweepResult {
   bool is_complete = false;                      ///< false: cancelled
 };
 
-/// - @p upper null for a flat counter-surface
 /// @throw OptionsError for a request or options out of range, before any work; SurfaceError as AdhesionModel.
-LoadSweepResult sweepLoads(const Options& options, const HeightMap& lower, const HeightMap* upper,
-                           const LoadSweepRequest& request, const DeviceOptions& device,
-                           const UncertaintyOptions& uncertainty, const RunControl& control);
+LoadSweepResult sweepLoads(const Options& options, const SurfacePair& surfaces, const LoadSweepRequest& request,
+                           const DeviceOptions& device, const UncertaintyOptions& uncertainty,
+                           const RunControl& control);
 
 }  // namespace mems_stiction

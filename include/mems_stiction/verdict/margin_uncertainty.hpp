@@ -39,7 +39,7 @@
 
 namespace mems_stiction {
 
-/// Samples in ascending order; empty when the prediction has contacts but no list of them (output/asperities off).
+/// Samples in ascending order; empty when the prediction does not list its contacts (Prediction::listsContacts()).
 struct AdhesionSpread {
   std::vector<double> pull_off;       ///< pull-off force over the prediction's [-]
   std::vector<double> apparent_work;  ///< apparent work of adhesion over apparentWorkOfAdhesion() [-]

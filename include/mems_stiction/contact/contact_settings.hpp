@@ -1,0 +1,37 @@
+#pragma once
+
+/// @file
+/// What a contact of two surfaces depends on beside the surfaces.
+
+#include "mems_stiction/approach/approach_options.hpp"
+#include "mems_stiction/loads/capillary.hpp"
+#include "mems_stiction/loads/interface.hpp"
+#include "mems_stiction/mechanics/formulation.hpp"
+#include "mems_stiction/mechanics/material.hpp"
+
+namespace mems_stiction {
+
+/// What predict() returns beside the figures; each costs time.
+struct OutputOptions {
+  bool deformed_surfaces = true;  ///< both surfaces after contact
+  bool contact_map = true;        ///< 0 apart, 1 elastic, 2 elasto-plastic, 3 fully plastic
+  bool asperities = true;         ///< one record per contact
+  bool roughness = true;          ///< ISO 25178 figures of the lower surface
+  bool energy_curve = false;      ///< one record per step of the approach
+
+  void describe(OptionVisitor& visitor);
+};
+
+/// What every solver is given. A solver leaves alone what has no meaning for it.
+struct ContactSettings {
+  Material lower;
+  Material upper;
+  InterfaceOptions interface;
+  CapillaryOptions capillary;
+  LoadOptions load;
+  ApproachOptions approach;
+  Deformation deformation = Deformation::kThreeRegimes;
+  OutputOptions output;
+};
+
+}  // namespace mems_stiction

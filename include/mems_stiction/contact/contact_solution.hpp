@@ -1,0 +1,102 @@
+#pragma once
+
+/// @file
+/// What a solver answers, whichever it is. Summary, maps, verdict and station take it from here.
+///
+/// A figure that a solver does not have is NaN, a map that it does not have, or that was not asked for, is empty, and
+/// `has_asperities` says whether it parts the contact into asperities at all.
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "mems_stiction/loads/normal_load.hpp"
+#include "mems_stiction/mechanics/regime.hpp"
+
+namespace mems_stiction {
+
+/// How the search for equilibrium ended.
+enum class Status : std::uint8_t {
+  kEquilibrium = 0,    ///< the free energy has its extremum and the contacts carry the load
+  kBonded = 1,         ///< no extremum before the contact fraction limit: forces are lower bounds
+  kNoEquilibrium = 2,  ///< the search range ended first: results are those of the last step
+};
+
+/// One step of the approach, for the energy curve.
+struct EnergyPoint {
+  double approach = 0.0;           ///< D [m]
+  double contact_fraction = 0.0;   ///< [-]
+  double normal_load = 0.0;        ///< F [N]
+  double carried_load = 0.0;       ///< what the contacts can carry [N]
+  double generalized_force = 0.0;  ///< dE_t/dD [N]
+  double mechanical_energy = 0.0;  ///< (10.1) [J]
+  double surface_energy = 0.0;     ///< (10.1) [J]
+  double elastic_energy = 0.0;     ///< (10.2) [J]
+  double total_energy = 0.0;       ///< (8) [J]
+};
+
+/// One contact at equilibrium.
+struct Asperity {
+  double x = 0.0, y = 0.0, z = 0.0;  ///< centre: col pitch_x, row pitch_y, height of the lower surface [m]
+  double cap_radius = 0.0;           ///< rc, radius of the base of the spherical caps [m]
+  double composite_radius = 0.0;     ///< R_i of (5) [m]
+  double load = 0.0;                 ///< F_i of (6) [N]
+  double contact_radius = 0.0;       ///< a of JKR at the equilibrium load (7) [m]
+  double tilt = 0.0;                 ///< theta [rad]
+  double plasticity_index = 0.0;     ///< phi of (9) [-]
+  double tabor_parameter = 0.0;      ///< mu [-]
+  double area = 0.0;                 ///< cells in contact [m^2]
+  Regime regime = Regime::kElastic;
+};
+
+/// The energies of a contact.
+struct ContactEnergies {
+  static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+  double mechanical = kUnknown;    ///< of the load [J]
+  double surface = kUnknown;       ///< of the surfaces that touch [J]
+  double elastic = kUnknown;       ///< stored in the bodies [J]
+  double plastic_work = kUnknown;  ///< dissipated in flow along the approach [J]
+
+  /// (8): mechanical + surface - elastic [J]
+  double total() const { return mechanical + surface - elastic; }
+};
+
+/// The state that a solver has found, and what it takes to leave it.
+struct ContactSolution {
+  static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+  Status status = Status::kNoEquilibrium;
+  int steps = 0;               ///< that the solver took
+  double approach = kUnknown;  ///< D from first touch [m]
+  double mean_gap = kUnknown;  ///< over the cells out of contact [m]; 0 when every cell touches
+  int contact_cells = 0;       ///< cells that touch
+  NormalLoad load;             ///< what presses the surfaces together, by its causes
+  ContactEnergies energies;
+
+  double pull_off_force = kUnknown;             ///< [N]
+  double pull_off_force_jkr = kUnknown;         ///< the part of the contacts by JKR [N]
+  double pull_off_force_transition = kUnknown;  ///< the same with the JKR-DMT transition's prefactors [N]
+  double contact_area_jkr = kUnknown;           ///< sum pi a_i^2 [m^2]
+  double adhesion_parameter = kUnknown;         ///< (14) [-]; infinite without work of adhesion
+
+  bool has_asperities = false;  ///< false: `asperities` is empty because the solver knows none
+  std::vector<Asperity> asperities;
+  std::vector<EnergyPoint> energy_curve;  ///< if output.energy_curve asks for it
+
+  // Maps, rows x cols of the frame, if `output` asks for them.
+  cv::Mat contact_map;      ///< CV_8UC1, values of Regime
+  cv::Mat displaced_lower;  ///< CV_64FC1 [m], NaN where invalid: the lower surface after contact
+  cv::Mat displaced_upper;  ///< the same in the upper surface's own z
+  cv::Mat pressure;         ///< CV_64FC1 [Pa], repulsion positive; empty if the solver does not know it
+
+  /// As new, but with the memory of lists and maps, which are there to be written over.
+  void resetKeepingMemory();
+};
+
+/// A map of this size and type that nobody else holds: the one that is there, if it can be written over.
+void makeWritable(cv::Mat& map, int rows, int cols, int type);
+
+}  // namespace mems_stiction

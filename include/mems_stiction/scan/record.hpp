@@ -1,0 +1,35 @@
+#pragma once
+
+/// @file
+/// A prediction as text for scripts: field names of StictionPrediction, SI units, words for the enumerations.
+
+#include <string>
+#include <vector>
+
+#include "mems_stiction/height_map/height_map.hpp"
+#include "mems_stiction/prediction/prediction.hpp"
+#include "mems_stiction/preprocess/pipeline.hpp"
+#include "mems_stiction/scan/convergence.hpp"
+
+namespace mems_stiction {
+
+/// What a record may hold beside the prediction; each is left out when empty.
+struct RecordExtras {
+  std::string channel;                      ///< which channel of the file
+  PreprocessRecord preprocessing;           ///< a list of maps: step, parameters, rms_change, changed_pixels, ...
+  std::vector<ConvergenceRow> convergence;  ///< a list of maps, one per resolution
+};
+
+/// One YAML document, from its "---" to the end of its last line. Numbers that are not finite are .nan, .inf, -.inf.
+/// The energy curve is a list of maps, left out when the prediction has none; spatial roughness is a part of
+/// `roughness`, left out when it was not computed. The convergence is repeated as a table in comments, for people.
+/// - @p file the scan's name, as the user wrote it
+std::string yamlRecord(const std::string& file, const HeightMap& scan, const Prediction& prediction,
+                       const RecordExtras& extras = {});
+
+/// The same as one JSON object on one line, without a line end. Numbers that are not finite are null: JSON has no
+/// others.
+std::string jsonRecord(const std::string& file, const HeightMap& scan, const Prediction& prediction,
+                       const RecordExtras& extras = {});
+
+}  // namespace mems_stiction

@@ -1,0 +1,26 @@
+#pragma once
+
+/// @file
+/// The two surfaces that meet.
+
+#include <utility>
+
+#include "mems_stiction/height_map/height_map.hpp"
+
+namespace mems_stiction {
+
+/// Two surfaces in one frame: z of both points from lower to upper. A pair that no upper surface was given has a level
+/// plane there, whose own z is 0; this is how "no upper surface" is said everywhere.
+struct SurfacePair {
+  SurfacePair() = default;
+  SurfacePair(HeightMap lower_in,
+              HeightMap upper_in = {})  // NOLINT(google-explicit-constructor): one surface is a pair
+      : lower(std::move(lower_in)), upper(std::move(upper_in)) {}
+
+  bool upperIsPlane() const { return upper.empty(); }
+
+  HeightMap lower;
+  HeightMap upper;  ///< same rows, cols and pitch; empty for a level plane
+};
+
+}  // namespace mems_stiction

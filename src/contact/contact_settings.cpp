@@ -1,0 +1,13 @@
+#include "mems_stiction/contact/contact_settings.hpp"
+
+namespace mems_stiction {
+
+void OutputOptions::describe(OptionVisitor& visitor) {
+  visitor.flag("output/deformed_surfaces", deformed_surfaces, "compute both surfaces after contact");
+  visitor.flag("output/contact_map", contact_map, "compute the map of deformation regimes");
+  visitor.flag("output/asperities", asperities, "compute one record per contact");
+  visitor.flag("output/roughness", roughness, "compute the ISO 25178 figures of the scanned surface");
+  visitor.flag("output/energy_curve", energy_curve, "keep the energies at every step of the approach");
+}
+
+}  // namespace mems_stiction

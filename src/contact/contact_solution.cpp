@@ -1,0 +1,26 @@
+#include "mems_stiction/contact/contact_solution.hpp"
+
+#include <utility>
+
+namespace mems_stiction {
+
+void ContactSolution::resetKeepingMemory() {
+  ContactSolution fresh;
+  fresh.asperities.swap(asperities);
+  fresh.energy_curve.swap(energy_curve);
+  fresh.asperities.clear();
+  fresh.energy_curve.clear();
+  std::swap(fresh.contact_map, contact_map);
+  std::swap(fresh.displaced_lower, displaced_lower);
+  std::swap(fresh.displaced_upper, displaced_upper);
+  std::swap(fresh.pressure, pressure);
+  *this = std::move(fresh);
+}
+
+void makeWritable(cv::Mat& map, int rows, int cols, int type) {
+  const bool is_shared = map.u != nullptr && map.u->refcount > 1;
+  if (is_shared) map.release();
+  map.create(rows, cols, type);
+}
+
+}  // namespace mems_stiction

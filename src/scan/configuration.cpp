@@ -1,0 +1,53 @@
+#include "mems_stiction/scan/configuration.hpp"
+
+#include "mems_stiction/base/errors.hpp"
+
+namespace mems_stiction {
+
+void Configuration::describe(OptionVisitor& visitor) {
+  model.describe(visitor);
+  spatial_roughness.describe(visitor);
+  scan.describe(visitor);
+  resolution.describe(visitor);
+  preprocessing.describe(visitor);
+  counter_surface.describe(visitor);
+  device.describe(visitor);
+  uncertainty.describe(visitor);
+}
+
+std::vector<std::string> Configuration::validate() const {
+  std::vector<std::string> violations = model.validate();
+  for (const std::vector<std::string>& of_section :
+       {rangeViolations(spatial_roughness), rangeViolations(scan), rangeViolations(resolution),
+        rangeViolations(preprocessing), rangeViolations(counter_surface), rangeViolations(uncertainty)}) {
+    violations.insert(violations.end(), of_section.begin(), of_section.end());
+  }
+  const std::vector<std::string> of_device = device.validate();
+  violations.insert(violations.end(), of_device.begin(), of_device.end());
+  if (scan.height_scale == 0.0) {
+    violations.emplace_back(
+        "scan/height_scale: 0 m per unit of the pixel is not allowed, it makes every surface flat; must not be 0");
+  }
+  if ((scan.pitch_x > 0.0) != (scan.pitch_y > 0.0)) {
+    violations.push_back("scan/pitch_x: " + numberText(scan.pitch_x) + " m with scan/pitch_y " +
+                         numberText(scan.pitch_y) + " m is not allowed; both must be > 0 m, or both 0");
+  }
+  const SpatialRoughnessOptions& fit = spatial_roughness;
+  if (fit.hurst_shortest_wavelength > 0.0 && fit.hurst_longest_wavelength > 0.0 &&
+      fit.hurst_shortest_wavelength >= fit.hurst_longest_wavelength) {
+    violations.push_back("output/hurst_longest_wavelength: " + numberText(fit.hurst_longest_wavelength) +
+                         " m is not allowed, must be > output/hurst_shortest_wavelength " +
+                         numberText(fit.hurst_shortest_wavelength) + " m");
+  }
+  if (counter_surface.type == CounterSurfaceType::kFile && counter_surface.file.empty()) {
+    violations.emplace_back("counter_surface/file: '' is not allowed with counter_surface/type file; must name a file");
+  }
+  return violations;
+}
+
+void Configuration::check() const {
+  std::vector<std::string> violations = validate();
+  if (!violations.empty()) throw OptionsError(std::move(violations));
+}
+
+}  // namespace mems_stiction

@@ -1,0 +1,160 @@
+#include "mems_stiction/scan/record.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "mems_stiction/base/option_yaml.hpp"
+#include "mems_stiction/prediction/prediction_fields.hpp"
+
+namespace mems_stiction {
+namespace {
+
+/// Visitor that adds fields to the map which the emitter has open.
+class YamlFields {
+ public:
+  explicit YamlFields(YAML::Emitter& emitter) : emitter_(emitter) {}
+
+  void operator()(const char* name, double value, const char* /*unit*/) { pair(name, yamlNumber(value)); }
+  void operator()(const char* name, int value, const char* /*unit*/) { pair(name, std::to_string(value)); }
+  void operator()(const char* name, long long value, const char* /*unit*/) { pair(name, std::to_string(value)); }
+  void operator()(const char* name, bool value, const char* /*unit*/) { pair(name, value ? "true" : "false"); }
+  void operator()(const char* name, const std::string& value, const char* /*unit*/) {
+    emitter_ << YAML::Key << name << YAML::Value << YAML::DoubleQuoted << value;
+  }
+  template <typename Enum>
+  void operator()(const char* name, Enum value, const char* /*unit*/) {
+    pair(name, word(value));
+  }
+
+ private:
+  void pair(const char* name, const std::string& value) { emitter_ << YAML::Key << name << YAML::Value << value; }
+
+  YAML::Emitter& emitter_;
+};
+
+/// Visitor that adds fields to a JSON object.
+class JsonFields {
+ public:
+  explicit JsonFields(nlohmann::json& object) : object_(object) {}
+
+  void operator()(const char* name, double value, const char* /*unit*/) { object_[name] = value; }
+  void operator()(const char* name, int value, const char* /*unit*/) { object_[name] = value; }
+  void operator()(const char* name, long long value, const char* /*unit*/) { object_[name] = value; }
+  void operator()(const char* name, bool value, const char* /*unit*/) { object_[name] = value; }
+  void operator()(const char* name, const std::string& value, const char* /*unit*/) { object_[name] = value; }
+  template <typename Enum>
+  void operator()(const char* name, Enum value, const char* /*unit*/) {
+    object_[name] = word(value);
+  }
+
+ private:
+  nlohmann::json& object_;
+};
+
+/// Size and pitch of the scan: what a reader needs to trust the figures below.
+template <typename Visitor>
+void visitScanFields(const HeightMap& scan, Visitor&& visit) {
+  visit("rows", scan.rows(), "");
+  visit("cols", scan.cols(), "");
+  visit("pitch_x", scan.pitchX(), "m");
+  visit("pitch_y", scan.pitchY(), "m");
+}
+
+template <typename Visitor>
+void visitStepFields(const PreprocessStep& step, Visitor&& visit) {
+  visit("step", step.name, "");
+  visit("parameters", step.parameters, "");
+  visit("rms_change", step.rms_change, "m");
+  visit("changed_pixels", step.changed_pixels, "");
+  visit("invalid_pixels", step.invalid_pixels, "");
+}
+
+bool hasTipStep(const PreprocessRecord& record) {
+  return std::any_of(record.steps.begin(), record.steps.end(),
+                     [](const PreprocessStep& step) { return step.name == "tip"; });
+}
+
+bool isComputed(const SpatialRoughness& roughness) { return !std::isnan(roughness.sal); }
+
+/// A list of flow maps under `name`, left out when it is empty.
+template <typename Items, typename VisitItem>
+void addYamlList(YAML::Emitter& emitter, const char* name, const Items& items, VisitItem visit_item) {
+  if (items.empty()) return;
+  YamlFields fields(emitter);
+  emitter << YAML::Key << name << YAML::Value << YAML::BeginSeq;
+  for (const auto& item : items) {
+    emitter << YAML::Flow << YAML::BeginMap;
+    visit_item(item, fields);
+    emitter << YAML::EndMap;
+  }
+  emitter << YAML::EndSeq;
+}
+
+template <typename Items, typename VisitItem>
+void addJsonList(nlohmann::json& record, const char* name, const Items& items, VisitItem visit_item) {
+  for (const auto& item : items) {
+    nlohmann::json entry;
+    visit_item(item, JsonFields(entry));
+    record[name].push_back(entry);
+  }
+}
+
+const auto kVisitStep = [](const auto& item, auto&& fields) { visitStepFields(item, fields); };
+const auto kVisitPoint = [](const auto& item, auto&& fields) { visitEnergyPointFields(item, fields); };
+const auto kVisitRow = [](const auto& item, auto&& fields) { visitConvergenceFields(item, fields); };
+
+}  // namespace
+
+std::string yamlRecord(const std::string& file, const HeightMap& scan, const Prediction& prediction,
+                       const RecordExtras& extras) {
+  YAML::Emitter emitter;
+  YamlFields fields(emitter);
+  emitter << YAML::BeginDoc << YAML::BeginMap;
+  fields("file", file, "");
+  if (!extras.channel.empty()) fields("channel", extras.channel, "");
+  visitScanFields(scan, fields);
+  visitPredictionFields(prediction, fields);
+  emitter << YAML::Key << "roughness" << YAML::Value << YAML::BeginMap;
+  visitRoughnessFields(prediction.roughness, fields);
+  if (isComputed(prediction.spatial_roughness)) visitSpatialRoughnessFields(prediction.spatial_roughness, fields);
+  emitter << YAML::EndMap;
+  addYamlList(emitter, "preprocessing", extras.preprocessing.steps, kVisitStep);
+  if (hasTipStep(extras.preprocessing)) {
+    fields("tip_unreached_fraction", extras.preprocessing.tip_unreached_fraction, "");
+  }
+  addYamlList(emitter, "convergence", extras.convergence, kVisitRow);
+  addYamlList(emitter, "energy_curve", prediction.energy_curve, kVisitPoint);
+  emitter << YAML::EndMap;
+  std::string text = std::string(emitter.c_str()) + "\n";
+  if (!extras.convergence.empty()) text += convergenceTable(extras.convergence, "# ");
+  return text;
+}
+
+std::string jsonRecord(const std::string& file, const HeightMap& scan, const Prediction& prediction,
+                       const RecordExtras& extras) {
+  nlohmann::json record;
+  record["file"] = file;
+  if (!extras.channel.empty()) record["channel"] = extras.channel;
+  JsonFields fields(record);
+  visitScanFields(scan, fields);
+  visitPredictionFields(prediction, fields);
+  nlohmann::json roughness;
+  visitRoughnessFields(prediction.roughness, JsonFields(roughness));
+  if (isComputed(prediction.spatial_roughness)) {
+    visitSpatialRoughnessFields(prediction.spatial_roughness, JsonFields(roughness));
+  }
+  record["roughness"] = roughness;
+  addJsonList(record, "preprocessing", extras.preprocessing.steps, kVisitStep);
+  if (hasTipStep(extras.preprocessing)) {
+    record["tip_unreached_fraction"] = extras.preprocessing.tip_unreached_fraction;
+  }
+  addJsonList(record, "convergence", extras.convergence, kVisitRow);
+  addJsonList(record, "energy_curve", prediction.energy_curve, kVisitPoint);
+  // A file name need not be UTF-8; a bad byte becomes U+FFFD instead of an exception.
+  return record.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+}  // namespace mems_stiction

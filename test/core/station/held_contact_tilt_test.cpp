@@ -1,0 +1,37 @@
+/// A contact that leans is held by the load along its axis.
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "mems_stiction/base/constants.hpp"
+#include "mems_stiction/mechanics/jkr.hpp"
+#include "mems_stiction/station/held_contact.hpp"
+#include "support/analytic_surfaces.hpp"
+#include "support/sphere_contact.hpp"
+
+namespace mems_stiction {
+namespace {
+
+TEST(HeldContact, onASlopeFollowsJkrOfTheLoadAlongItsAxis) {
+  constexpr double kWork = 0.05;
+  const double pitch = 1.5e-9;
+  const HeightMap plane = analytic::tiltedPlane(101, 110, pitch, pitch, std::tan(0.5), 0.0);
+  const HeightMap sphere = analytic::sum(analytic::paraboloid(101, 110, pitch, pitch, 2e-6), plane);
+  Options options = contactOnly(0.0, kWork);
+  options.deformation = Deformation::kElastic;
+  HeldContact held(options, {sphere, plane});
+  held.advance(0.0, 1e-5);
+  const HeldState released = held.advance(0.0, 1e-6);
+  ASSERT_FALSE(released.is_searched);
+  ASSERT_EQ(held.contact().asperities.size(), 1u);
+  const Asperity& asperity = held.contact().asperities[0];
+  const double modulus = ContactPair(Material(), Material()).contact_modulus;
+  // cos(0.5) = 0.878; the tilt is measured within 0.2 degrees
+  const double a = jkr::equilibriumContactRadius(1e-6 * std::cos(0.5), kWork, asperity.composite_radius, modulus);
+  EXPECT_NEAR(released.contact_area_jkr, kPi * a * a, 2e-3 * kPi * a * a);
+  EXPECT_NEAR(asperity.tilt, 0.5, 0.0035);
+}
+
+}  // namespace
+}  // namespace mems_stiction

@@ -1,0 +1,247 @@
+#include "mems_stiction/station/load_sweep.hpp"
+
+#include <atomic>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "mems_stiction/base/constants.hpp"
+#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/mechanics/jkr.hpp"
+#include "mems_stiction/mechanics/surface_forces.hpp"
+#include "mems_stiction/station/held_contact.hpp"
+#include "mems_stiction/surface/gaussian_surface.hpp"
+#include "support/analytic_surfaces.hpp"
+
+namespace mems_stiction {
+namespace {
+
+constexpr double kNm = 1e-9;
+constexpr double kRoundOff = 1e-12;
+
+Options insulated() {
+  Options options;
+  options.interface.insulator_thickness = 50 * kNm;
+  return options;
+}
+
+HeightMap sphere() { return analytic::paraboloid(301, 301, 1 * kNm, 1 * kNm, 2e-6); }
+
+HeightMap rough() {
+  GaussianSurfaceOptions options;
+  options.rows = options.cols = 256;
+  options.rms_height = 5 * kNm;
+  options.correlation_length_x = options.correlation_length_y = 100 * kNm;
+  return gaussianSurface(options);
+}
+
+/// A device of the scan's area whose spring gives `force`.
+DeviceOptions deviceFor(const HeightMap& scan, double force) {
+  DeviceOptions device;
+  device.travel = 1e-6;
+  device.spring_stiffness = force / device.travel;
+  device.contact_area = scan.cellArea() * scan.rows() * scan.cols();
+  return device;
+}
+
+TEST(HeldContact, elasticContactFollowsJkrDown) {
+  Options options;
+  options.interface.hamaker_constant = 0.0;
+  options.deformation = Deformation::kElastic;
+  HeldContact held(options, sphere());
+  held.advance(0.0, 1e-5);
+  const Asperity& asperity = held.contact().asperities[0];
+  const double modulus = ContactPair(options.lower, options.upper).contact_modulus;
+  for (const double load : {4e-6, 1e-7, 0.0}) {
+    const HeldState state = held.advance(0.0, load);
+    EXPECT_FALSE(state.is_searched);
+    EXPECT_EQ(state.normal_load, load);
+    const double a =
+        jkr::equilibriumContactRadius(load * std::cos(asperity.tilt), 0.05, asperity.composite_radius, modulus);
+    EXPECT_NEAR(state.contact_area_jkr, kPi * a * a, kRoundOff * kPi * a * a);
+    // a search from first touch at this load finds the same contact: JKR has no hysteresis while it presses
+    Options at_load = options;
+    at_load.load.mechanical_load = load;
+    const Prediction searched = AdhesionModel(at_load).predict(sphere());
+    EXPECT_NEAR(state.contact_area_jkr, searched.contact_area_jkr, 0.05 * searched.contact_area_jkr);  // 20 pixels
+  }
+}
+
+TEST(HeldContact, flattenedContactKeepsItsArea) {
+  Options options;
+  options.lower.hardness = 0.5e9;
+  options.interface.hamaker_constant = 0.0;
+  HeldContact held(options, sphere());
+  const HeldState largest = held.advance(0.0, 1e-5);
+  ASSERT_EQ(held.contact().plastic_count, 1);
+  const HeldState back = held.advance(0.0, 1e-7);
+  EXPECT_NEAR(back.contact_area_jkr, largest.contact_area_jkr, kRoundOff * largest.contact_area_jkr);
+}
+
+TEST(HeldContact, fieldFollowsTheSquareOfTheVoltage) {
+  HeldContact held(insulated(), sphere());
+  const HeldState at_ten = held.advance(10.0, 0.0);
+  const HeldState at_four = held.advance(4.0, 0.0);
+  EXPECT_TRUE(at_ten.is_searched);
+  EXPECT_FALSE(at_four.is_searched);
+  EXPECT_NEAR(at_four.electrostatic_force, 0.16 * at_ten.electrostatic_force, kRoundOff * at_ten.electrostatic_force);
+  EXPECT_EQ(held.advance(0.0, 0.0).electrostatic_force, 0.0);
+}
+
+TEST(HeldContact, goesOnAsOneSearchAtTheLargerLoad) {
+  HeldContact held(insulated(), rough());
+  held.advance(5.0, 0.0);
+  held.advance(0.0, 0.0);
+  const HeldState state = held.advance(20.0, 1e-6);
+  Options options = insulated();
+  options.load.voltage = 20.0;
+  options.load.mechanical_load = 1e-6;
+  const Prediction searched = AdhesionModel(options).predict(rough());
+  EXPECT_TRUE(state.is_searched);
+  EXPECT_EQ(held.contact().pull_off_force, searched.pull_off_force);
+  EXPECT_EQ(state.contact_area_jkr, searched.contact_area_jkr);
+}
+
+TEST(HeldContact, aSmallerContactDoesNotReplaceALargerOne) {
+  HeldContact held(insulated(), rough());
+  held.advance(0.0, 1e-4);
+  const double pull_off = held.contact().pull_off_force;
+  const HeldState state = held.advance(1.0, 0.0);  // a voltage not seen before, but far weaker
+  EXPECT_FALSE(state.is_searched);
+  EXPECT_EQ(held.contact().pull_off_force, pull_off);
+  EXPECT_GT(state.electrostatic_force, 0.0);
+}
+
+LoadSweepRequest upTo(double voltage, int count, std::vector<double> loads = {0.0}) {
+  LoadSweepRequest request;
+  for (int i = 0; i < count; ++i) request.voltages.push_back(count > 1 ? voltage * i / (count - 1) : voltage);
+  request.mechanical_loads = std::move(loads);
+  return request;
+}
+
+TEST(LoadSweep, showsHysteresisOnARoughSurface) {
+  const LoadSweepResult result = sweepLoads(insulated(), rough(), upTo(40.0, 5, {0.0, 1e-6}), DeviceOptions(), {}, {});
+  ASSERT_TRUE(result.is_complete);
+  ASSERT_EQ(result.rows.size(), 18u);
+  ASSERT_EQ(result.summaries.size(), 2u);
+  for (const std::size_t begin : {0u, 9u}) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      const LoadSweepRow& up = result.rows[begin + i];
+      const LoadSweepRow& down = result.rows[begin + 8 - i];
+      EXPECT_EQ(up.voltage, down.voltage);
+      EXPECT_EQ(up.direction, SweepDirection::kUp);
+      EXPECT_EQ(down.direction, SweepDirection::kDown);
+      EXPECT_LT(up.approach, result.rows[begin + i + 1].approach);
+      EXPECT_LT(up.contact_area, result.rows[begin + i + 1].contact_area);
+      EXPECT_GT(down.pull_off_force, up.pull_off_force);
+      EXPECT_GT(down.contact_area_jkr, up.contact_area_jkr);
+      EXPECT_EQ(down.pull_off_force, result.rows[begin + 4].pull_off_force);
+      EXPECT_LT(down.contact_area_jkr, result.rows[begin + 9 - 1 - i - 1].contact_area_jkr);  // the row before it
+    }
+  }
+  EXPECT_TRUE(std::isnan(result.rows[0].margin));  // no device
+  EXPECT_TRUE(std::isnan(result.summaries[0].highest_releasing_voltage));
+  EXPECT_EQ(result.rows[0].sticks, Sticks::kUnknown);
+}
+
+TEST(LoadSweep, findsTheHighestVoltageThatReleases) {
+  const HeightMap scan = rough();
+  const LoadSweepResult plain = sweepLoads(insulated(), scan, upTo(40.0, 5), DeviceOptions(), {}, {});
+  const double between = 0.5 * (plain.rows[2].pull_off_force + plain.rows[3].pull_off_force);
+  DeviceOptions device = deviceFor(scan, between);
+  device.electrode_area = 1e-8;
+  const LoadSweepResult result = sweepLoads(insulated(), scan, upTo(40.0, 5), device, {}, {});
+  EXPECT_EQ(result.summaries[0].highest_releasing_voltage, 20.0);
+  EXPECT_EQ(result.summaries[0].lowest_sticking_voltage, 30.0);
+  EXPECT_FALSE(result.summaries[0].highest_safe_voltage > 20.0);  // NaN or lower: the interval is wider
+  EXPECT_NEAR(result.rows[2].margin, between / plain.rows[2].pull_off_force, 1e-9);
+  EXPECT_EQ(result.pull_in_voltage, closingVoltage(device, insulated().interface));
+}
+
+TEST(LoadSweep, opensOnTheWayDownWhereTheSpringOvercomesAdhesionAndField) {
+  const HeightMap scan = sphere();
+  const LoadSweepResult plain = sweepLoads(insulated(), scan, upTo(20.0, 11), DeviceOptions(), {}, {});
+  const LoadSweepRow& top = plain.rows[10];
+  // pull-off and the field of 9 V: opens at the next lower voltage of the grid, 8 V
+  const double force = top.pull_off_force + top.electrostatic_force * 81.0 / 400.0;
+  const LoadSweepResult result = sweepLoads(insulated(), scan, upTo(20.0, 11), deviceFor(scan, force), {}, {});
+  EXPECT_EQ(result.summaries[0].opening_voltage, 8.0);
+  for (const LoadSweepRow& row : result.rows) {
+    const bool opens = row.direction == SweepDirection::kDown && row.voltage <= 8.0;
+    EXPECT_EQ(row.is_open, opens) << row.voltage;
+    EXPECT_EQ(row.pull_off_force == 0.0, opens) << row.voltage;
+  }
+}
+
+TEST(LoadSweep, mechanicalLoadHoldsTheDeviceToo) {
+  const HeightMap scan = sphere();
+  const LoadSweepResult plain = sweepLoads(Options(), scan, upTo(0.0, 1, {1e-6}), DeviceOptions(), {}, {});
+  const double pull_off = plain.rows[0].pull_off_force;
+  const LoadSweepResult result =
+      sweepLoads(Options(), scan, upTo(0.0, 1, {1e-6}), deviceFor(scan, pull_off + 1e-6), {}, {});
+  EXPECT_NEAR(result.rows[0].holding_margin, 1.0, kRoundOff);
+  EXPECT_NEAR(result.rows[0].margin, (pull_off + 1e-6) / pull_off, 1e-9);
+}
+
+TEST(LoadSweep, fieldOfAStatedElectrodeHoldsTheDevice) {
+  const HeightMap scan = sphere();
+  DeviceOptions device = deviceFor(scan, 1e-6);
+  device.electrode_area = 1e-9;
+  device.electrode_gap = 1.5e-6;  // 0.5 um is left when closed
+  const LoadSweepResult result = sweepLoads(insulated(), scan, upTo(10.0, 2), device, {}, {});
+  const LoadSweepRow& row = result.rows[1];
+  Options at_ten = insulated();
+  at_ten.load.voltage = 10.0;
+  const double mean_gap = AdhesionModel(at_ten).predict(scan).mean_gap;
+  const double field = 1e-9 * surface_forces::electrostaticPressure(0.5e-6 + mean_gap, 10.0, 50 * kNm, 3.9);
+  EXPECT_NEAR(row.holding_margin, 1e-6 / (row.pull_off_force + field), 1e-9 * row.holding_margin);
+}
+
+TEST(LoadSweep, takesACounterSurface) {
+  const HeightMap scan = rough();
+  const HeightMap plane = analytic::flat(256, 256, scan.pitchX(), scan.pitchY(), 1e-6);
+  const LoadSweepResult flat = sweepLoads(insulated(), scan, upTo(20.0, 2), DeviceOptions(), {}, {});
+  const LoadSweepResult measured = sweepLoads(insulated(), {scan, plane}, upTo(20.0, 2), DeviceOptions(), {}, {});
+  // the same surfaces on another level: gaps differ by the round-off of heights of 1 um
+  EXPECT_NEAR(measured.rows[1].pull_off_force, flat.rows[1].pull_off_force, 1e-3 * flat.rows[1].pull_off_force);
+}
+
+TEST(LoadSweep, reportsProgressAndStopsWhenToldTo) {
+  std::atomic<bool> cancel{false};
+  std::vector<int> done;
+  RunControl control;
+  control.cancel = &cancel;
+  control.progress = [&](int now, int total) {
+    EXPECT_EQ(total, 9);
+    done.push_back(now);
+    if (now == 4) cancel = true;
+  };
+  const LoadSweepResult result = sweepLoads(insulated(), sphere(), upTo(20.0, 5), DeviceOptions(), {}, control);
+  EXPECT_FALSE(result.is_complete);
+  EXPECT_EQ(result.rows.size(), 4u);
+  EXPECT_TRUE(result.summaries.empty());
+  EXPECT_EQ(done, (std::vector<int>{1, 2, 3, 4}));
+}
+
+TEST(LoadSweep, refusesARequestOutOfRangeBeforeAnyWork) {
+  const auto violations = [](std::vector<double> voltages, std::vector<double> loads, const Options& options) {
+    LoadSweepRequest request;
+    request.voltages = std::move(voltages);
+    request.mechanical_loads = std::move(loads);
+    try {
+      sweepLoads(options, sphere(), request, DeviceOptions(), {}, {});
+    } catch (const OptionsError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(violations({}, {0.0}, insulated()).find("voltages: an empty list"), std::string::npos);
+  EXPECT_NE(violations({0.0, 5.0, 5.0}, {0.0}, insulated()).find("must ascend"), std::string::npos);
+  EXPECT_NE(violations({-1.0}, {0.0}, insulated()).find("voltages: -1 V"), std::string::npos);
+  EXPECT_NE(violations({0.0}, {std::nan("")}, insulated()).find("mechanical_loads: nan"), std::string::npos);
+  EXPECT_NE(violations({2000.0}, {0.0}, insulated()).find("load/voltage: 2000"), std::string::npos);
+  EXPECT_NE(violations({5.0}, {0.0}, Options()).find("interface/insulator_thickness"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace mems_stiction

@@ -1,0 +1,209 @@
+/// The command line as users and scripts call it: the real executable, its output, its exit status.
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <yaml-cpp/yaml.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "mems_stiction/base/constants.hpp"
+#include "mems_stiction/height_map/scan_file.hpp"
+#include "mems_stiction/mechanics/material.hpp"
+#include "mems_stiction/scan/scan_predictor.hpp"
+#include "support/analytic_surfaces.hpp"
+#include "support/scratch_folder.hpp"
+
+namespace mems_stiction {
+namespace {
+
+struct Outcome {
+  int status = -1;
+  std::string output;
+  std::vector<std::string> errors;  ///< lines
+};
+
+class PredictScan : public ::testing::Test {
+ protected:
+  Outcome run(const std::string& arguments) const {
+    const std::string command = std::string(MEMS_STICTION_PREDICT_SCAN) + " " + arguments + " >" + folder_.file("out") +
+                                " 2>" + folder_.file("err");
+    const int status = std::system(command.c_str());
+    Outcome outcome;
+    outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    outcome.output = ScratchFolder::read(folder_.file("out"));
+    std::istringstream errors(ScratchFolder::read(folder_.file("err")));
+    for (std::string line; std::getline(errors, line);) outcome.errors.push_back(line);
+    return outcome;
+  }
+
+  /// A sphere of 2 um in a frame of 2 um, float32 metres.
+  std::string sphere(const std::string& name = "sphere.tiff") const {
+    writeHeightTiff(folder_.file(name), analytic::paraboloid(101, 101, 20e-9, 20e-9, 2e-6).heights());
+    return folder_.file(name);
+  }
+
+  ScratchFolder folder_;
+};
+
+TEST_F(PredictScan, PrintsTheRecordOfTheCoresPrediction) {
+  const std::string scan = sphere();
+  const Outcome outcome = run("--pitch 20e-9 --load 1e-6 " + scan);
+  ASSERT_EQ(outcome.status, 0);
+  EXPECT_TRUE(outcome.errors.empty()) << outcome.errors.front();
+  const YAML::Node record = YAML::Load(outcome.output);
+
+  Configuration configuration;
+  configuration.model.load.mechanical_load = 1e-6;
+  ScanOptions options;
+  options.pitch_x = options.pitch_y = 20e-9;
+  const Prediction prediction = ScanPredictor(configuration).predict(readScanFile(scan, options));
+  EXPECT_EQ(record["file"].as<std::string>(), scan);
+  EXPECT_EQ(record["mechanical_load"].as<double>(), 1e-6);
+  EXPECT_EQ(record["pull_off_force"].as<double>(), prediction.pull_off_force);
+  EXPECT_EQ(record["contact_area"].as<double>(), prediction.contact_area);
+  EXPECT_EQ(record["roughness"]["sq"].as<double>(), prediction.roughness.sq);
+}
+
+TEST_F(PredictScan, JsonIsOneObjectPerLine) {
+  const std::string scan = sphere();
+  const Outcome outcome = run("--json --pitch 20e-9,30e-9 " + scan + " " + scan);
+  ASSERT_EQ(outcome.status, 0);
+  std::istringstream lines(outcome.output);
+  int count = 0;
+  for (std::string line; std::getline(lines, line); ++count) {
+    const nlohmann::json record = nlohmann::json::parse(line);
+    EXPECT_EQ(record["file"], scan);
+    EXPECT_EQ(record["pitch_x"].get<double>(), 20e-9);
+    EXPECT_EQ(record["pitch_y"].get<double>(), 30e-9);
+  }
+  EXPECT_EQ(count, 2);
+}
+
+TEST_F(PredictScan, ConfigurationFileAndOptionsMeet) {
+  const std::string configuration = folder_.write(
+      "c.yaml",
+      "interface: {insulator_thickness: 100e-9}\nload: {mechanical_load: 1e-6, voltage: 1}\nscan: {pitch_x: "
+      "20e-9, pitch_y: 20e-9}\n");
+  const YAML::Node record =
+      YAML::Load(run("--config " + configuration + " --voltage -5 --step 0.1e-9 " + sphere()).output);
+  EXPECT_EQ(record["voltage"].as<double>(), -5.0) << "the option goes before the file";
+  EXPECT_EQ(record["mechanical_load"].as<double>(), 1e-6);
+  EXPECT_GT(record["electrostatic_force"].as<double>(), 0.0);
+}
+
+TEST_F(PredictScan, WritesTheDeformedSurface) {
+  const std::string out = folder_.file("deformed.tiff");
+  ASSERT_EQ(run("--pitch 20e-9 --load 1e-5 --deformed " + out + " " + sphere()).status, 0);
+  const cv::Mat deformed = cv::imread(out, cv::IMREAD_UNCHANGED);
+  ASSERT_EQ(deformed.type(), CV_32FC1);
+  EXPECT_EQ(deformed.size(), cv::Size(101, 101));
+  EXPECT_LT(deformed.at<float>(50, 50), 0.0F) << "the apex was at 0 and is flattened";
+  EXPECT_EQ(deformed.at<float>(0, 0), cv::imread(sphere(), cv::IMREAD_UNCHANGED).at<float>(0, 0));
+}
+
+TEST_F(PredictScan, BadInputIsOneLineAndTheOthersArePredicted) {
+  const std::string good = sphere();
+  const std::string whole = ScratchFolder::read(good);
+  const std::string bad = folder_.write("bad.tiff", whole.substr(0, whole.size() / 2));
+  const Outcome outcome = run("--json --pitch 20e-9 " + bad + " " + good + " " + folder_.file("none.png"));
+  EXPECT_EQ(outcome.status, 2);
+  ASSERT_EQ(outcome.errors.size(), 2u);
+  EXPECT_NE(outcome.errors[0].find(bad), std::string::npos) << outcome.errors[0];
+  EXPECT_NE(outcome.errors[1].find("none.png: there is no such file"), std::string::npos) << outcome.errors[1];
+  EXPECT_EQ(nlohmann::json::parse(outcome.output)["file"], good);
+}
+
+TEST_F(PredictScan, BadSettingsAreOneLineEach) {
+  const std::string scan = sphere();
+  const std::string broken = folder_.write("broken.yaml", "lower: {youngs_modulos: 1e9}\n");
+  for (const std::string& arguments :
+       {"--pitch 0 " + scan, "--pitch 2e-9x " + scan, "--pitch 20e-9 --load -1 " + scan,
+        "--pitch 20e-9 --voltage 5 " + scan, "--config " + broken + " " + scan, "--config /nonexistent.yaml " + scan,
+        "--pitch 20e-9 --deformed x.tiff " + scan + " " + scan, scan}) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.status, 2) << arguments;
+    EXPECT_EQ(outcome.errors.size(), 1u) << arguments;
+    EXPECT_TRUE(outcome.output.empty()) << arguments;
+  }
+  EXPECT_EQ(run("").status, 2);
+  EXPECT_EQ(run("--no_such_option " + scan).status, 2);
+  EXPECT_EQ(run("--load heavy " + scan).status, 2);
+}
+
+TEST_F(PredictScan, UnitSlipsAreWarnedOfOnStandardError) {
+  const Outcome outcome = run("--pitch 20 " + sphere());
+  EXPECT_EQ(outcome.status, 0);
+  ASSERT_FALSE(outcome.errors.empty());
+  EXPECT_NE(outcome.errors[0].find("warning: pitch_x 20 m"), std::string::npos) << outcome.errors[0];
+  EXPECT_EQ(outcome.output.find("warning"), std::string::npos);
+}
+
+TEST_F(PredictScan, ConvergenceIsAListInBothFormatsAndATableForPeople) {
+  const std::string call = "--convergence --pitch 20e-9 --load 1e-5 " + sphere();
+  const Outcome json = run("--json " + call);
+  ASSERT_EQ(json.status, 0);
+  const nlohmann::json record = nlohmann::json::parse(json.output);
+  ASSERT_EQ(record["convergence"].size(), 3u);
+  EXPECT_EQ(record["convergence"][2]["decimation"], 4);
+  EXPECT_EQ(record["convergence"][2]["cols"], 25);
+  EXPECT_EQ(record["is_resolution_limited"].type(), nlohmann::json::value_t::boolean);
+
+  const Outcome yaml = run(call);
+  EXPECT_NE(yaml.output.find("# half "), std::string::npos) << yaml.output;
+  const YAML::Node document = YAML::Load(yaml.output);
+  EXPECT_EQ(document["convergence"][1]["pull_off_force"].as<double>(),
+            record["convergence"][1]["pull_off_force"].get<double>());
+}
+
+TEST_F(PredictScan, TheRecordSaysHowTheScanWasCleanedAndHowFarItsRoughnessReaches) {
+  const std::string configuration = folder_.write(
+      "c.yaml", "preprocessing: {level: plane, tip: {radius: 50e-9}}\noutput: {spatial_roughness: true}\n");
+  const YAML::Node record = YAML::Load(run("-c " + configuration + " --pitch 20e-9 " + sphere()).output);
+  ASSERT_EQ(record["preprocessing"].size(), 2u);
+  EXPECT_EQ(record["preprocessing"][0]["step"].as<std::string>(), "tip");
+  EXPECT_EQ(record["preprocessing"][1]["parameters"].as<std::string>(), "shape=plane robust=false");
+  EXPECT_TRUE(record["tip_unreached_fraction"].IsDefined());
+  EXPECT_GT(record["roughness"]["sal"].as<double>(), 0.0);
+  EXPECT_FALSE(YAML::Load(run("--pitch 20e-9 " + sphere()).output)["roughness"]["sal"].IsDefined());
+}
+
+TEST_F(PredictScan, HelpNamesEveryOption) {
+  const Outcome outcome = run("--help");
+  EXPECT_EQ(outcome.status, 0);
+  for (const char* option :
+       {"--config", "--pitch", "--voltage", "--load", "--step", "--json", "--deformed", "--convergence", "SCAN"}) {
+    EXPECT_NE(outcome.output.find(option), std::string::npos) << option;
+  }
+}
+
+TEST_F(PredictScan, SphereOnFlatGivesThePullOffOfJkr) {
+  // No van der Waals forces, so that the pull-off is JKR's alone; 25 pixels across the contact radius.
+  const std::string configuration = folder_.write(
+      "jkr.yaml", "interface: {hamaker_constant: 0, work_of_adhesion: 0.1}\napproach: {deformation: elastic}\n");
+  constexpr double kRadius = 2e-6;
+  constexpr double kWork = 0.1;
+  const double modulus = 4.0 / 3.0 * ContactPair(Material(), Material()).contact_modulus;
+  for (const double load : {0.0, 1e-7, 1e-6, 1e-5}) {
+    const double adhesion = 3.0 * kPi * kWork * kRadius;
+    const double apparent = load + adhesion + std::sqrt(2.0 * adhesion * load + adhesion * adhesion);
+    const double contact_radius = std::cbrt(kRadius * apparent / modulus);
+    const double pitch = contact_radius / 25.0;
+    writeHeightTiff(folder_.file("s.tiff"), analytic::paraboloid(201, 201, pitch, pitch, kRadius).heights());
+    std::ostringstream arguments;
+    arguments << "--config " << configuration << " --pitch " << pitch << " --load " << load << " "
+              << folder_.file("s.tiff");
+    const YAML::Node record = YAML::Load(run(arguments.str()).output);
+    EXPECT_EQ(record["status"].as<std::string>(), "EQUILIBRIUM");
+    EXPECT_NEAR(record["pull_off_force"].as<double>() / (1.5 * kPi * kWork * kRadius), 1.0, 0.03) << load;
+    EXPECT_NEAR(record["contact_area_jkr"].as<double>() / (kPi * contact_radius * contact_radius), 1.0, 0.03) << load;
+    EXPECT_NEAR(record["contact_area"].as<double>() / (kPi * contact_radius * contact_radius), 1.0, 0.06) << load;
+  }
+}
+
+}  // namespace
+}  // namespace mems_stiction
