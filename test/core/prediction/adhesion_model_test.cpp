@@ -71,14 +71,14 @@ TEST(AdhesionModel, predictsTheSameFromSinglePrecision) {
   EXPECT_NEAR(narrow.contact_area, wide.contact_area, 0.02 * wide.contact_area);
   EXPECT_NEAR(narrow.pull_off_force, wide.pull_off_force, 0.02 * wide.pull_off_force);
   EXPECT_EQ(narrow.deformed_lower.type(), CV_64FC1);
-  const Prediction on_rough = model.predict(analytic::asSingle(surface), analytic::asSingle(rough(2)));
-  EXPECT_NEAR(on_rough.contact_area, model.predict(surface, rough(2)).contact_area, 0.02 * on_rough.contact_area);
+  const Prediction on_rough = model.predict({analytic::asSingle(surface), analytic::asSingle(rough(2))});
+  EXPECT_NEAR(on_rough.contact_area, model.predict({surface, rough(2)}).contact_area, 0.02 * on_rough.contact_area);
 }
 
 TEST(AdhesionModel, takesAFlatCounterSurfaceAsNone) {
   AdhesionModel model{Options()};
   const Prediction none = model.predict(rough());
-  const Prediction flat = model.predict(rough(), analytic::flat(80, 75, 10 * kNm, 10 * kNm, 1 * kNm));
+  const Prediction flat = model.predict({rough(), analytic::flat(80, 75, 10 * kNm, 10 * kNm, 1 * kNm)});
   EXPECT_EQ(flat.contact_area, none.contact_area);
   EXPECT_EQ(flat.asperity_count, none.asperity_count);
   EXPECT_NEAR(flat.pull_off_force, none.pull_off_force, 1e-9 * none.pull_off_force);
@@ -223,15 +223,15 @@ TEST(AdhesionModel, worksWithoutAdhesion) {
 TEST(AdhesionModel, refusesSurfacesThatItCannotUse) {
   AdhesionModel model{Options()};
   EXPECT_THROW(model.predict(HeightMap(cv::Mat1d(4, 5, kNan), kNm, kNm)), SurfaceError);
-  EXPECT_THROW(model.predict(rough(), analytic::flat(80, 74, 10 * kNm, 10 * kNm)), SurfaceError);
-  EXPECT_THROW(model.predict(rough(), analytic::flat(80, 75, 10 * kNm, 11 * kNm)), SurfaceError);
+  EXPECT_THROW(model.predict(SurfacePair(rough(), analytic::flat(80, 74, 10 * kNm, 10 * kNm))), SurfaceError);
+  EXPECT_THROW(model.predict(SurfacePair(rough(), analytic::flat(80, 75, 10 * kNm, 11 * kNm))), SurfaceError);
   for (const double height : {2e154, -2e154, 1e300, -1e300, 1.7e308, -1.7e308}) {
     cv::Mat1d heights = rough().heights().clone();
     heights(3, 4) = height;
     const HeightMap outlier(heights, rough().pitchX(), rough().pitchY());
     EXPECT_THROW(model.predict(outlier), SurfaceError) << height;
-    EXPECT_THROW(model.predict(outlier, rough()), SurfaceError) << height;
-    EXPECT_THROW(model.predict(outlier, outlier), SurfaceError) << height;
+    EXPECT_THROW(model.predict(SurfacePair(outlier, rough())), SurfaceError) << height;
+    EXPECT_THROW(model.predict(SurfacePair(outlier, outlier)), SurfaceError) << height;
   }
   // and goes on after it
   EXPECT_EQ(model.predict(rough()).pull_off_force, AdhesionModel(Options()).predict(rough()).pull_off_force);
