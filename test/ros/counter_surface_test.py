@@ -20,7 +20,7 @@ class CounterSurfaceTest(unittest.TestCase):
     def setUpClass(cls):
         rospy.init_node("counter_surface_test")
 
-    def test_the_latest_counter_surface_is_kept(self):
+    def test_1_the_latest_counter_surface_is_kept(self):
         counts = Counts()
         predictions = Collector("prediction", StictionPrediction).connect()
         deformed = Collector("deformed_counter_height", Image).connect()
@@ -63,7 +63,7 @@ class CounterSurfaceTest(unittest.TestCase):
         station.send(surface)
         counts.wait(received=5, predicted=3, rejected=2)
 
-    def test_a_sweep_keeps_its_counter_surface_while_others_arrive(self):
+    def test_2_a_sweep_keeps_its_counter_surface_while_others_arrive(self):
         sweep = actionlib.SimpleActionClient("stiction_node/sweep_load", SweepLoadAction)
         self.assertTrue(sweep.wait_for_server(rospy.Duration(30)))
         surface, counters = rough_surface(11), [rough_surface(12), rough_surface(13)]

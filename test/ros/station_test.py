@@ -206,21 +206,21 @@ class StationTest(unittest.TestCase):
         expected = [predict_scan(surface, LOAD) for surface in surfaces]
         encodings = {"float32": "32FC1", "float64": "64FC1"}
         stamp = rospy.Time(7)
+        goals = []
+        for surface in surfaces:
+            given = dict(height=image_message(surface, stamp, encodings[str(surface.dtype)]), scan_info=info_message(stamp))
+            goals.append((SweepLoadGoal(voltages=[0.0, 5.0], **given), CycleContactGoal(count=3, **given)))
+        quiet = [self.run_goal(self.cycle, cycle)[1].cycles for _, cycle in goals]
         with Traffic(self.station, surfaces[:2]) as traffic:
-            for surface, record in zip(surfaces, expected):
-                image = image_message(surface, stamp, encodings[str(surface.dtype)])
-                for _ in range(3):
-                    goal = SweepLoadGoal(voltages=[0.0, 5.0], height=image, scan_info=info_message(stamp))
-                    state, swept, _ = self.run_goal(self.sweep, goal)
-                    self.assertEqual(state, GoalStatus.SUCCEEDED, swept.message)
-                    self.assertEqual(swept.points[0].pull_off_force, record["pull_off_force"])
-                    self.assertEqual(swept.points[0].contact_area_jkr, record["contact_area_jkr"])
-                    goal = CycleContactGoal(count=3, height=image, scan_info=info_message(stamp))
-                    state, cycled, _ = self.run_goal(self.cycle, goal)
-                    self.assertEqual(state, GoalStatus.SUCCEEDED, cycled.message)
-                    self.assertEqual(cycled.cycles[0].pull_off_force, record["pull_off_force"])
-                    self.assertEqual([cycle.pull_off_force for cycle in cycled.cycles],
-                                     [record["pull_off_force"]] * 3, "nothing flows under this load")
+            for (sweep, cycle), record, alone in list(zip(goals, expected, quiet)) * 3:
+                state, swept, _ = self.run_goal(self.sweep, sweep)
+                self.assertEqual(state, GoalStatus.SUCCEEDED, swept.message)
+                self.assertEqual(swept.points[0].pull_off_force, record["pull_off_force"])
+                self.assertEqual(swept.points[0].contact_area_jkr, record["contact_area_jkr"])
+                state, cycled, _ = self.run_goal(self.cycle, cycle)
+                self.assertEqual(state, GoalStatus.SUCCEEDED, cycled.message)
+                self.assertEqual(cycled.cycles[0].pull_off_force, record["pull_off_force"])
+                self.assertEqual(cycled.cycles, alone)
             for _ in range(6):  # the last scan, whichever that is
                 state, swept, _ = self.run_goal(self.sweep, SweepLoadGoal(voltages=[0.0, 5.0]))
                 self.assertEqual(state, GoalStatus.SUCCEEDED, swept.message)

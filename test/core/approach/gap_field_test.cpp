@@ -112,8 +112,8 @@ TEST(GapField, leavesOutPixelsThatAreInvalidInEitherSurface) {
 
 TEST(GapField, keepsNothingOfThePreviousFrame) {
   GapField used;
-  used.compute(samples::gaussian(50, 50, 10e-9, 10e-9, 3e-9, 40e-9, 1),
-               samples::gaussian(50, 50, 10e-9, 10e-9, 3e-9, 40e-9, 2));
+  used.compute({samples::gaussian(50, 50, 10e-9, 10e-9, 3e-9, 40e-9, 1),
+                samples::gaussian(50, 50, 10e-9, 10e-9, 3e-9, 40e-9, 2)});
   const HeightMap small = map((cv::Mat1d(1, 3) << 1e-9, kNan, 2e-9));
   used.compute(small);
   GapField fresh;
