@@ -5,10 +5,12 @@ import json
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 import numpy as np
 
@@ -16,6 +18,7 @@ REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(REPOSITORY / "scripts" / "lib"))
 
 from paper import cases, claims, data  # noqa: E402
+from paper.version import version  # noqa: E402
 
 
 def program():
@@ -180,6 +183,33 @@ class TrialRun(unittest.TestCase):
         self.assertEqual(done.returncode, 2)
         self.assertIn("interface/gamma", done.stderr)
         self.assertEqual(done.stdout, "")
+
+
+class Version(unittest.TestCase):
+    """What the page says that its numbers come from."""
+
+    def setUp(self):
+        text = (REPOSITORY / "package.xml").read_text()
+        self.package = re.search(r"<version>([^<]+)</version>", text).group(1)
+
+    def test_is_the_package_s_where_there_is_no_git(self):
+        with unittest.mock.patch.dict(os.environ, PATH=os.devnull):
+            self.assertEqual(version(), self.package)
+
+    @unittest.skipUnless(shutil.which("git"), "git is not installed")
+    def test_is_the_package_s_in_an_archive_whatever_repository_lies_around_it(self):
+        with tempfile.TemporaryDirectory() as folder:
+            git = ["git", "-C", folder, "-c", "user.name=a", "-c", "user.email=a@b"]
+            for command in (["init", "--quiet"], ["commit", "--quiet", "--allow-empty", "--message=other"]):
+                subprocess.run(git + command, check=True)
+            archive = pathlib.Path(folder) / "archive"
+            archive.mkdir()
+            shutil.copy(str(REPOSITORY / "package.xml"), str(archive))
+            with unittest.mock.patch.object(cases, "REPOSITORY", archive):
+                self.assertEqual(version(), self.package)
+            with unittest.mock.patch.object(cases, "REPOSITORY", pathlib.Path(folder)):
+                shutil.copy(str(REPOSITORY / "package.xml"), folder)
+                self.assertIn(self.package + ", sources of commit ", version())
 
 
 class ShippedPage(unittest.TestCase):

@@ -5,12 +5,11 @@ import json
 import os
 import pathlib
 import shutil
-import subprocess
 import sys
 import time
-import xml.etree.ElementTree as ElementTree
 
 from paper import cases, page
+from paper.version import version
 
 SECONDS_BETWEEN_LINES = 30  # of progress, where it does not go to a terminal
 
@@ -36,17 +35,6 @@ class Progress:
     def close(self):
         self._bar.close()
         return time.monotonic() - self._started
-
-
-def version():
-    """Of the package, and of the sources if this is a clone."""
-    package = ElementTree.parse(cases.REPOSITORY / "package.xml").findtext("version")
-    described = subprocess.run(["git", "-C", str(cases.REPOSITORY), "rev-parse", "--short=10", "HEAD"], stdout=subprocess.PIPE,
-                               stderr=subprocess.DEVNULL, universal_newlines=True)
-    if described.returncode:
-        return package
-    changed = subprocess.run(["git", "-C", str(cases.REPOSITORY), "diff", "--quiet", "HEAD", "--", "src", "include", "config"])
-    return "%s, sources of commit %s%s" % (package, described.stdout.strip(), " with changes" if changed.returncode else "")
 
 
 def parse():
