@@ -25,11 +25,14 @@ showBuildFailure() {
   } >&2
 }
 
-# buildAll [CMAKE_ARGUMENT...]: configures with these and builds; only what build_targets=(NAME...) names, if it is set.
-# Returns 1 and shows the causes if it fails.
-build_targets=()
-buildAll() {
-  local started=$SECONDS status=0
+# A build without ROS lies in a folder of its own, beside the one with it.
+useCoreBuild() {
+  build_folder=$build_folder/core
+  build_log=$build_folder/build.log
+}
+
+# configure [CMAKE_ARGUMENT...]: returns 1 and shows the causes if it fails.
+configure() {
   mkdir -p "$build_folder"
   # A cache that was made for another folder (a copied tree) cannot be used.
   if [ -f "$build_folder/CMakeCache.txt" ] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$repository" "$build_folder/CMakeCache.txt"; then
@@ -40,13 +43,28 @@ buildAll() {
     showBuildFailure "configuring with cmake"
     return 1
   fi
+}
+
+# buildAll [CMAKE_ARGUMENT...]: configures with these and builds; only what build_targets=(NAME...) names, if it is set.
+# Returns 1 and shows the causes if it fails. $build_name goes into the lines that people read.
+build_targets=()
+build_name=''
+buildAll() {
+  local started=$SECONDS status=0
+  configure "$@" || return 1
   startGroup cmake --build "$build_folder" ${build_targets[@]+--target "${build_targets[@]}"} -- -j "$(buildJobs)" >>"$build_log" 2>&1
-  watchGroup 'building' buildPercentage || status=$?
+  watchGroup "building${build_name:+ $build_name}" buildPercentage || status=$?
   if [ "$status" -ne 0 ]; then
-    showBuildFailure "the build"
+    showBuildFailure "the build${build_name:+ of $build_name}"
     return 1
   fi
-  say "built in $(clock $((SECONDS - started)))"
+  say "${build_name:+$build_name: }built in $(clock $((SECONDS - started)))"
+}
+
+# builtProgram NAME: the file of a program of this build. Those without ROS and the portable one lie inside build's folder.
+builtProgram() {
+  find "$build_folder" \( -path "$build_folder/core" -o -path "$build_folder/portable" \) -prune \
+    -o -name "$1" -type f -perm -u+x -print -quit
 }
 
 # What a shell needs to run what was built: devel space, messages for Python, library path. The programs come on the PATH,
