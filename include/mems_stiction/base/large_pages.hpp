@@ -7,7 +7,6 @@
 ///     LargePageVector<float> relief;  // a std::vector otherwise; small ones stay in ordinary pages
 
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -35,17 +34,18 @@ class LargePageAllocator : public std::allocator<T> {
   T* allocate(std::size_t count) {
     T* const memory = std::allocator<T>::allocate(count);
 #if defined(MADV_HUGEPAGE)
-    const auto first = reinterpret_cast<std::uintptr_t>(memory);
-    const std::uintptr_t begin = (first + kLargePage - 1) / kLargePage * kLargePage;
-    const std::uintptr_t end = (first + count * sizeof(T)) / kLargePage * kLargePage;
+    void* begin = memory;
+    std::size_t bytes = count * sizeof(T);
     // only advice: where it is not followed, everything works in ordinary pages
-    if (begin < end) static_cast<void>(madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE));
+    if (std::align(kLargePage, kLargePage, begin, bytes) != nullptr) {
+      static_cast<void>(madvise(begin, bytes / kLargePage * kLargePage, MADV_HUGEPAGE));
+    }
 #endif
     return memory;
   }
 
  private:
-  static constexpr std::uintptr_t kLargePage = std::uintptr_t{1} << 21U;
+  static constexpr std::size_t kLargePage = std::size_t{1} << 21U;
 };
 
 template <typename T>
