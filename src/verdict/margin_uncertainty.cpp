@@ -7,8 +7,8 @@
 #include <random>
 
 #include "mems_stiction/base/constants.hpp"
-#include "mems_stiction/equilibrium/asperity_response.hpp"
 #include "mems_stiction/mechanics/jkr.hpp"
+#include "mems_stiction/mechanics/plasticity.hpp"
 #include "mems_stiction/mechanics/surface_forces.hpp"
 
 namespace mems_stiction {
