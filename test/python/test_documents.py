@@ -10,7 +10,7 @@ import unittest
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 LIBRARY = REPOSITORY / "scripts" / "lib"
-PAGES = [REPOSITORY / "README.md"] + sorted((REPOSITORY / "doc").glob("*.md"))
+PAGES = [REPOSITORY / "README.md", REPOSITORY / "CONTRIBUTING.md"] + sorted((REPOSITORY / "doc").glob("*.md"))
 API = (REPOSITORY / "doc" / "ros_api.md").read_text(encoding="utf-8")
 
 
@@ -59,7 +59,7 @@ class LinkTest(unittest.TestCase):
     def test_every_page_is_linked_from_the_readme(self):
         readme = PAGES[0].read_text(encoding="utf-8")
         for page in PAGES[1:]:
-            self.assertTrue("(doc/%s" % page.name in readme, "%s is not" % page.name)
+            self.assertTrue("(%s" % page.relative_to(REPOSITORY).as_posix() in readme, "%s is not" % page.name)
 
     def test_every_picture_is_shown(self):
         text = "".join(page.read_text(encoding="utf-8") for page in PAGES)
@@ -124,7 +124,7 @@ class ValidityTest(unittest.TestCase):
         self.assertIn("fewer than %s contacts" % re.search(r"kFewestContacts = (\d+)", flags).group(1), page)
         summary = source("src/prediction/contact_summary.cpp")
         self.assertIn("not above %g" % float(re.search(r"kJkrLimit = ([\d.]+)", summary).group(1)), page)
-        resolution = source("include/mems_stiction/prediction/resolution.hpp")
+        resolution = source("include/mems_stiction/scan/resolution.hpp")
         self.assertIn("fewer than %g pixels) and" % float(re.search(r"min_contact_pixels = ([\d.]+)", resolution).group(1)), page)
 
 

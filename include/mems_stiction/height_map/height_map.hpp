@@ -27,7 +27,7 @@ class HeightMap {
   /// @throw SurfaceError if the type, size or pitch is not as above.
   HeightMap(const cv::Mat& heights, double pitch_x, double pitch_y);
   /// The same for pixels inside something else: shared, not copied.
-  /// @param owner what the pixels lie in; kept as long as they are shown. Null is the same as no owner.
+  /// - @p owner what the pixels lie in; kept as long as they are shown. Null is the same as no owner.
   HeightMap(const cv::Mat& heights, double pitch_x, double pitch_y, PixelOwner owner);
 
   int rows() const { return heights_.rows; }

@@ -1,0 +1,81 @@
+"""The rooms are as doc/architecture.md says: no include goes backwards, the core knows no ROS, and only one file knows a solver."""
+
+import pathlib
+import re
+import unittest
+
+REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
+PAGE = REPOSITORY / "doc" / "architecture.md"
+FIRST_ROOM_WITH_ROS = "ros"
+INCLUDE = re.compile(r'^\s*#\s*include\s+["<]mems_stiction/(\w+)/')
+ROS = re.compile(r"\bros(?:::|/|cpp|bag|console)|\bROS_[A-Z]|\b\w+_msgs\b|<(?:tf2|cv_bridge|nodelet|image_transport)")
+
+
+def rooms_of_the_page():
+    """The part of the page that has the picture and the table."""
+    return re.search(r"^## Rooms\n(.*?)^## ", PAGE.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL).group(1)
+
+
+def rooms():
+    """{room: who may use it, besides itself} in the order of the page; None for every later room."""
+    table = re.findall(r"^\| `(\w+)` \| [^|]+ \| ([^|]+) \|$", rooms_of_the_page(), re.MULTILINE)
+    return {room: None if users == "later rooms" else re.findall(r"`([^`]+)`", users) for room, users in table}
+
+
+def sources():
+    """(room, path inside include/mems_stiction or src, lines) of every file."""
+    for top in (REPOSITORY / "include" / "mems_stiction", REPOSITORY / "src"):
+        for path in sorted(top.rglob("*.[hc]pp")):
+            inside = path.relative_to(top)
+            yield inside.parts[0], inside.as_posix(), path.read_text(encoding="utf-8").splitlines()
+
+
+def backward_includes(order, files):
+    """A line for each include that the order forbids."""
+    names = list(order)
+    found = []
+    for room, path, lines in files:
+        for number, line in enumerate(lines, 1):
+            match = INCLUDE.match(line)
+            if not match or match.group(1) == room:
+                continue
+            used = match.group(1)
+            allowed = order[used]
+            if names.index(used) > names.index(room):
+                found.append("%s:%d: %s comes before %s" % (path, number, room, used))
+            elif allowed is not None and room not in allowed and path not in allowed:
+                found.append("%s:%d: %s is for %s alone" % (path, number, used, ", ".join(allowed) or "nobody"))
+    return found
+
+
+class ArchitectureTest(unittest.TestCase):
+    def test_every_folder_is_a_room_of_the_page(self):
+        self.assertEqual({room for room, _, _ in sources()}, set(rooms()))
+        tested = {path.name for path in (REPOSITORY / "test" / "core").iterdir() if path.is_dir()}
+        self.assertLessEqual(tested, set(rooms()))
+
+    def test_no_include_goes_backwards(self):
+        self.assertEqual(backward_includes(rooms(), sources()), [])
+
+    def test_the_picture_shows_the_rooms_in_this_order(self):
+        picture = re.search(r"^```text\n(.*?)^```", rooms_of_the_page(), re.MULTILINE | re.DOTALL).group(1)
+        self.assertEqual(re.findall(r"^[ \w]{12}\|  (\w+)", picture, re.MULTILINE), list(reversed(list(rooms()))))
+
+    def test_the_core_knows_no_ros(self):
+        names = list(rooms())
+        core = set(names[:names.index(FIRST_ROOM_WITH_ROS)])
+        found = ["%s:%d: %s" % (path, number, line) for room, path, lines in sources() if room in core
+                 for number, line in enumerate(lines, 1) if ROS.search(line.partition("//")[0])]
+        self.assertEqual(found, [])
+
+    def test_the_check_sees_what_is_wrong(self):
+        order = {"low": None, "hidden": ["high", "middle/door.cpp"], "middle": None, "high": None}
+        use = '#include "mems_stiction/%s/a.hpp"'
+        for room, path, used, is_allowed in (("low", "low/a.cpp", "high", False), ("high", "high/a.cpp", "low", True),
+                                             ("low", "low/a.cpp", "low", True), ("high", "high/a.cpp", "hidden", True),
+                                             ("middle", "middle/a.cpp", "hidden", False), ("middle", "middle/door.cpp", "hidden", True)):
+            self.assertEqual(backward_includes(order, [(room, path, [use % used])]) == [], is_allowed, (path, used))
+
+
+if __name__ == "__main__":
+    unittest.main()
