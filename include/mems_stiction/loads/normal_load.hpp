@@ -5,7 +5,7 @@
 ///
 ///     F_w = sum H dA/(6 pi max(d, D0)^3)           cells apart                                       (2)
 ///     F_e = sum eps0 dA U^2/(2 (d + t/eps_r)^2)    cells apart; with d = 0 in contact                (3)
-///     F   = F_w + F_e + F_m
+///     F   = F_w + F_e + F_m + F_c                  F_c: condensed water (capillary.hpp)
 ///
 /// (2) diverges at the edge of the contact; atoms are finite, so gaps below the cut-off D0 count as D0. (3) is printed
 /// with t for t/eps_r: eps_r = 1 is that case.

@@ -34,7 +34,7 @@ struct Prediction {
   double normal_load = 0.0;          ///< F = F_w + F_e + F_m + F_c [N]
   double capillary_force = 0.0;      ///< F_c of condensed water; 0 unless interface/relative_humidity is set [N]
 
-  double pull_off_force = 0.0;             ///< (11): pull_off_force_jkr + van_der_waals_force [N]
+  double pull_off_force = 0.0;             ///< (11): pull_off_force_jkr + van_der_waals_force + capillary_force [N]
   double pull_off_force_jkr = 0.0;         ///< (3/2) pi Gamma sum R_i [N]
   double pull_off_force_transition = 0.0;  ///< the same sum with the JKR-DMT transition's prefactor of each contact [N]
 

@@ -1,8 +1,9 @@
 #pragma once
 
 /// @file
-/// One table of the figures of a Prediction: name, member, unit. Records, messages, tables and reports visit it, so a
-/// name or a unit stands in one place. Names and order are those of msg/StictionPrediction.msg.
+/// One table of the figures of a Prediction: name, member, unit. The records of predict_scan and the rows of
+/// stiction_batch visit it, so a name or a unit stands in one place. Names are those of msg/StictionPrediction.msg;
+/// messages are filled field by field (ros/prediction_conversion.hpp), and a test compares both.
 ///
 ///     visitPredictionFields(prediction, [&](const char* name, const auto& value, const char* unit) { print(...); });
 ///

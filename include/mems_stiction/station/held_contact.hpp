@@ -6,9 +6,9 @@
 /// JKR's contacts do not open on the way back: each follows its stable branch down to its own pull-off force. So, as
 /// long as the load presses, the set of contacts made under the largest load so far stays:
 ///
-///     - the approach, the cells in contact, sum R_i, and with them the pull-off force (11) and F_w, stay those of the
-///       largest load (the approach does not retreat; the elastic retreat that is left out would let F_w fall a little,
-///       so what holds is an upper bound);
+///     - the approach, the cells in contact, sum R_i, and with them the pull-off force (11), F_w and F_c, stay those of
+///       the largest load (the approach does not retreat; the elastic retreat that is left out would let F_w fall a
+///       little, so what holds is an upper bound);
 ///     - F_e follows the voltage squared at that approach, F_m follows the load, and the contacts share the new
 ///       total in the same proportions;
 ///     - an elastic contact's radius follows (7) down its new share P0; what has flowed keeps its radius:
@@ -27,7 +27,7 @@ struct HeldState {
   double voltage = 0.0;              ///< [V]
   double mechanical_load = 0.0;      ///< [N]
   double electrostatic_force = 0.0;  ///< at this voltage [N]
-  double normal_load = 0.0;          ///< F_w + F_e + F_m [N]
+  double normal_load = 0.0;          ///< F_w + F_e + F_m + F_c [N]
   double contact_area_jkr = 0.0;     ///< sum pi a_i^2 at this load [m^2]
   bool is_searched = false;          ///< the equilibrium was searched at this load; else the contact was held
 };
