@@ -13,7 +13,7 @@ COLOURS = ("#0b4f9e", "#d17a00", "#1b7a3d", "#8a3fa0", "#7a5230", "#5a5f66")
 
 
 def save_sweep(result, path):
-    """Contact and margins against the voltage, up and down, a color for each mechanical load."""
+    """Contact and margins against the voltage, up and down, a colour for each mechanical load."""
     figure, axes = plt.subplots(1, 2, figsize=(13, 5.8), dpi=100)
     figure.subplots_adjust(left=0.07, right=0.985, top=0.92, bottom=0.215, wspace=0.2)
     loads = sorted({point.mechanical_load for point in result.points})

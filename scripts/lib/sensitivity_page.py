@@ -18,7 +18,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
 
 DOCUMENTS = pathlib.Path(__file__).resolve().parents[2] / "doc"
-COLORS = ("#2f7fd1", "#d1322f", "#7a7a7a", "#f2b705", "#3a9d5d")
+COLOURS = ("#2f7fd1", "#d1322f", "#7a7a7a", "#f2b705", "#3a9d5d")
 QUANTITIES = (("pull_off_force", "pull-off force"), ("pull_off_force_jkr", "its part of contacts"),
               ("contact_area", "contact area"), ("mean_gap", "mean gap"))
 MOVED = 1e-3  # a scan counts as moved when its pull-off force changes by more than this
@@ -128,8 +128,8 @@ class Study:
         if cases[0]["key"] != "pitch":
             return cases[0]["value"]
         pitches = sorted({case["outcomes"][0]["pitch"] for case in cases})
-        nanometers = ", ".join("%g nm" % (1e9 * pitch) for pitch in pitches)
-        return nanometers + (", " + cases[0]["value"] if cases[0]["value"] else "")
+        nanometres = ", ".join("%g nm" % (1e9 * pitch) for pitch in pitches)
+        return nanometres + (", " + cases[0]["value"] if cases[0]["value"] else "")
 
     def largest_shift(self, key, quantity, kinds=("numerical", "model", "physical")):
         """Of the mean over scans, over surfaces and values."""
@@ -381,7 +381,7 @@ def draw(study, path):
             changes = [surface.changes(cases[index], name) for _, cases in rows]
             axis.errorbar([100 * statistics.mean(change) for change in changes], [place + shift for place in range(len(rows))],
                           xerr=[100 * statistics.stdev(change) for change in changes], fmt="o", markersize=3.5, linewidth=0.9,
-                          color=COLORS[index % len(COLORS)], label=surface.name)
+                          color=COLOURS[index % len(COLOURS)], label=surface.name)
         axis.set_xlim(-85, 85)
         axis.set_xlabel("change of the %s [%%]" % title)
         axis.grid(axis="x", linewidth=0.3)

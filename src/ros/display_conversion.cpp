@@ -15,14 +15,14 @@
 namespace mems_stiction {
 namespace {
 
-struct Color {
+struct Colour {
   std::uint8_t red, green, blue;
 };
 
-constexpr char kLegend[] = "gray: apart   blue: elastic   yellow: elasto-plastic   red: plastic";
+constexpr char kLegend[] = "grey: apart   blue: elastic   yellow: elasto-plastic   red: plastic";
 
-/// The colors of kLegend, as in all our pictures: told apart without red-green vision too.
-Color colorOf(Regime regime) {
+/// The colours of kLegend, as in all our pictures: told apart without red-green vision too.
+Colour colourOf(Regime regime) {
   switch (regime) {
     case Regime::kElastic:
       return {47, 127, 209};
@@ -37,10 +37,10 @@ Color colorOf(Regime regime) {
 }
 
 /// Low dark, high bright, over three rms heights to either side.
-Color grayOf(double above_mean, double rms_height) {
+Colour greyOf(double above_mean, double rms_height) {
   const double level = rms_height > 0.0 ? std::min(std::max(above_mean / (3.0 * rms_height), -1.0), 1.0) : 0.0;
-  const auto gray = static_cast<std::uint8_t>(140.0 + 100.0 * level);
-  return {gray, gray, gray};
+  const auto grey = static_cast<std::uint8_t>(140.0 + 100.0 * level);
+  return {grey, grey, grey};
 }
 
 /// Share of the longer side that the rms height gets on the screen: relief that is seen and hides nothing.
@@ -147,10 +147,10 @@ sensor_msgs::PointCloud2 surfacePoints(const Prediction& prediction, const Heigh
     *z = static_cast<float>(view.z(heights.at<double>(cell)));
     *height = static_cast<float>(above_mean);
     const auto regime = static_cast<Regime>(prediction.contact_map.at<std::uint8_t>(cell));
-    const Color color = regime == Regime::kApart ? grayOf(above_mean, view.rms_height) : colorOf(regime);
-    rgb[0] = color.blue;
-    rgb[1] = color.green;
-    rgb[2] = color.red;
+    const Colour colour = regime == Regime::kApart ? greyOf(above_mean, view.rms_height) : colourOf(regime);
+    rgb[0] = colour.blue;
+    rgb[1] = colour.green;
+    rgb[2] = colour.red;
     rgb[3] = 0;
     ++x, ++y, ++z, ++height, ++rgb;
   }
@@ -200,10 +200,10 @@ visualization_msgs::MarkerArray asperityMarkers(const Prediction& prediction, co
     disc.pose.orientation.w = 1.0;
     disc.scale.x = disc.scale.y = std::max(2.0 * asperity->cap_radius * view.scale, options.min_marker_diameter);
     disc.scale.z = 0.1 * disc.scale.x;
-    const Color color = colorOf(asperity->regime);
-    disc.color.r = static_cast<float>(color.red) / 255.0F;
-    disc.color.g = static_cast<float>(color.green) / 255.0F;
-    disc.color.b = static_cast<float>(color.blue) / 255.0F;
+    const Colour colour = colourOf(asperity->regime);
+    disc.color.r = static_cast<float>(colour.red) / 255.0F;
+    disc.color.g = static_cast<float>(colour.green) / 255.0F;
+    disc.color.b = static_cast<float>(colour.blue) / 255.0F;
     disc.color.a = 0.8F;
     array.markers.push_back(disc);
   }

@@ -59,7 +59,7 @@ Gradients gradients(const HeightMap& surface) {
       const double slope_x = (static_cast<double>(line[col + 1]) - static_cast<double>(line[col - 1])) * per_x;
       const double slope_y = (static_cast<double>(below[col]) - static_cast<double>(above[col])) * per_y;
       const double square = slope_x * slope_x + slope_y * slope_y;
-      if (!std::isfinite(square) || !std::isfinite(line[col])) continue;  // an invalid neighbor reaches the square
+      if (!std::isfinite(square) || !std::isfinite(line[col])) continue;  // an invalid neighbour reaches the square
       sums.squares += square;
       sums.excess_area += square / (1.0 + std::sqrt(1.0 + square));  // sqrt(1 + q) - 1 without cancellation
       ++sums.count;

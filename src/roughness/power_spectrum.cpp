@@ -12,7 +12,7 @@
 namespace mems_stiction {
 namespace {
 
-/// Weights of one axis: Hann's periodic window, centered on the pixels.
+/// Weights of one axis: Hann's periodic window, centred on the pixels.
 std::vector<double> axisWindow(int count, SpectrumWindow window) {
   std::vector<double> weights(static_cast<std::size_t>(count), 1.0);
   if (window == SpectrumWindow::kNone) return weights;

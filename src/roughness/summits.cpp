@@ -27,13 +27,13 @@ SummitParameters summitParameters(const HeightMap& surface) {
       const double after[] = {line[col + 1], below[col - 1], below[col], below[col + 1]};
       double sum = z;
       bool highest = true;
-      for (const double neighbor : before) {
-        sum += neighbor;
-        highest = highest && z >= neighbor;
+      for (const double neighbour : before) {
+        sum += neighbour;
+        highest = highest && z >= neighbour;
       }
-      for (const double neighbor : after) {
-        sum += neighbor;
-        highest = highest && z > neighbor;
+      for (const double neighbour : after) {
+        sum += neighbour;
+        highest = highest && z > neighbour;
       }
       if (std::isnan(sum)) continue;
       ++examined;

@@ -324,7 +324,7 @@ TEST(DisplayConversion, ThePreviewIsAPictureOfTheValidPixels) {
   ASSERT_EQ(image.data.size(), 60U);
   EXPECT_EQ(image.step, 10U);
   EXPECT_EQ(image.data[0], 0);   // not measured
-  EXPECT_EQ(image.data[59], 0);  // not a number of meters
+  EXPECT_EQ(image.data[59], 0);  // not a number of metres
   EXPECT_EQ(image.data[1], 1);   // the lowest
   EXPECT_EQ(image.data[58], 255);
   for (int i = 2; i < 58; ++i) EXPECT_GT(image.data[i], image.data[i - 1]) << i;

@@ -19,9 +19,9 @@ from stiction_client import Collector, Counts, Station, rough_surface, wait_unti
 GREEN, RED = (53, 196, 106), (255, 90, 79)  # of trend_figure.VERDICTS
 
 
-def has_color(picture, color):
-    """Whether some pixel of rows x columns x RGB is near the color; edges of letters are blended."""
-    return bool((np.abs(picture.astype(int) - color).max(axis=2) < 12).any())
+def has_colour(picture, colour):
+    """Whether some pixel of rows x columns x RGB is near the colour; edges of letters are blended."""
+    return bool((np.abs(picture.astype(int) - colour).max(axis=2) < 12).any())
 
 
 def rgb(message):
@@ -106,26 +106,26 @@ class ViewsTest(unittest.TestCase):
         self.live(surface)
         self.assertEqual(self.predictions.messages[-1].sticks, StictionPrediction.STICKS_NO)
         headline = slice(20, 70)
-        wait_until(lambda: trend.messages and has_color(rgb(trend.messages[-1])[headline], GREEN), "a green headline")
-        self.assertFalse(has_color(rgb(trend.messages[-1])[headline], RED))
+        wait_until(lambda: trend.messages and has_colour(rgb(trend.messages[-1])[headline], GREEN), "a green headline")
+        self.assertFalse(has_colour(rgb(trend.messages[-1])[headline], RED))
         self.assertEqual((trend.messages[-1].width, trend.messages[-1].height), (1280, 720))
 
         rejected = int(self.counts["rejected"])
         self.station.send(np.full_like(surface, np.nan))
         self.counts.wait(rejected=rejected + 1)
-        wait_until(lambda: not has_color(rgb(trend.messages[-1])[headline], GREEN), "the headline on the lost scan")
+        wait_until(lambda: not has_colour(rgb(trend.messages[-1])[headline], GREEN), "the headline on the lost scan")
 
         self.settings.update_configuration(dict(spring_stiffness=1e-4))
         self.live(surface)
         self.assertEqual(self.predictions.messages[-1].sticks, StictionPrediction.STICKS_YES)
-        wait_until(lambda: has_color(rgb(trend.messages[-1])[headline], RED), "a red headline")
+        wait_until(lambda: has_colour(rgb(trend.messages[-1])[headline], RED), "a red headline")
 
         # The other plot ends after two predictions and one loss, with the same story on a picture of the size asked for.
         _, errors = plot.communicate(timeout=30)
         self.assertEqual(plot.returncode, 0, errors)
         picture = (255 * matplotlib.image.imread(path)[:, :, :3]).round()
         self.assertEqual(picture.shape, (500, 900, 3))
-        self.assertTrue(has_color(picture[:50], RED))
+        self.assertTrue(has_colour(picture[:50], RED))
         self.assertEqual(os.listdir(folder.name), ["trend.png"])
 
     def test_4_wrong_arguments_are_named(self):

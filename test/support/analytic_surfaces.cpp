@@ -37,19 +37,19 @@ HeightMap flat(int rows, int cols, double pitch_x, double pitch_y, double height
   return sampled(rows, cols, pitch_x, pitch_y, [=](int, int) { return height; });
 }
 
-HeightMap paraboloid(int rows, int cols, double pitch_x, double pitch_y, double radius, double center_x,
-                     double center_y) {
+HeightMap paraboloid(int rows, int cols, double pitch_x, double pitch_y, double radius, double centre_x,
+                     double centre_y) {
   return sampled(rows, cols, pitch_x, pitch_y, [=](int row, int col) {
-    const double x = fromMiddle(col, cols, pitch_x) - center_x;
-    const double y = fromMiddle(row, rows, pitch_y) - center_y;
+    const double x = fromMiddle(col, cols, pitch_x) - centre_x;
+    const double y = fromMiddle(row, rows, pitch_y) - centre_y;
     return -(x * x + y * y) / (2.0 * radius);
   });
 }
 
-HeightMap sphere(int rows, int cols, double pitch_x, double pitch_y, double radius, double center_x, double center_y) {
+HeightMap sphere(int rows, int cols, double pitch_x, double pitch_y, double radius, double centre_x, double centre_y) {
   return sampled(rows, cols, pitch_x, pitch_y, [=](int row, int col) {
-    const double x = fromMiddle(col, cols, pitch_x) - center_x;
-    const double y = fromMiddle(row, rows, pitch_y) - center_y;
+    const double x = fromMiddle(col, cols, pitch_x) - centre_x;
+    const double y = fromMiddle(row, rows, pitch_y) - centre_y;
     const double square = x * x + y * y;
     return -square / (radius + std::sqrt(radius * radius - square));  // sqrt(R^2 - r^2) - R without its round-off
   });

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Surfaces whose truth is a formula. Heights are CV_64FC1, metres. Lengths x and y of the centered ones count from the
+/// Surfaces whose truth is a formula. Heights are CV_64FC1, metres. Lengths x and y of the centred ones count from the
 /// middle of the frame, ((cols - 1)/2, (rows - 1)/2): a pixel when the side is odd, between two pixels when it is even.
 
 #include <vector>
@@ -13,13 +13,13 @@ namespace analytic {
 /// z = height everywhere.
 HeightMap flat(int rows, int cols, double pitch_x, double pitch_y, double height = 0.0);
 
-/// z = -((x - center_x)^2 + (y - center_y)^2)/(2 radius); the apex is at z = 0.
-HeightMap paraboloid(int rows, int cols, double pitch_x, double pitch_y, double radius, double center_x = 0.0,
-                     double center_y = 0.0);
+/// z = -((x - centre_x)^2 + (y - centre_y)^2)/(2 radius); the apex is at z = 0.
+HeightMap paraboloid(int rows, int cols, double pitch_x, double pitch_y, double radius, double centre_x = 0.0,
+                     double centre_y = 0.0);
 
 /// The upper half of a sphere whose apex is at z = 0; the frame must lie within the radius.
-HeightMap sphere(int rows, int cols, double pitch_x, double pitch_y, double radius, double center_x = 0.0,
-                 double center_y = 0.0);
+HeightMap sphere(int rows, int cols, double pitch_x, double pitch_y, double radius, double centre_x = 0.0,
+                 double centre_y = 0.0);
 
 /// The frame in count_x x count_y equal tiles, each with a paraboloid in its middle, all apexes at z = 0. Tile
 /// (i, j) has the radius radii[(j count_x + i) % radii.size()].

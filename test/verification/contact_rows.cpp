@@ -163,7 +163,7 @@ Section equilibriumSection() {
       exact("(10.2) at chi = 0.25", "J", "a quarter of it",
             asperityEnergies(sphereAt(a, 0.25, Formulation::kCorrected), load, law).elastic,
             0.25 * (closed_form::jkrWork(in_units) + surface) * energy_unit),
-      near("generalized force where (7) holds", "pi w R", "0", sphere.generalizedForce(load, law) / units.force(), 0.0,
+      near("generalised force where (7) holds", "pi w R", "0", sphere.generalizedForce(load, law) / units.force(), 0.0,
            1e-11, "round-off of terms of 10"),
       exact("load that a sphere carries", "N", "K a^3/R", sphere.carriedLoad(), kStiffness * a * a * a / kRadius),
   };
@@ -192,7 +192,7 @@ Section equilibriumSection() {
     const double plastic = axial + 2.0 * units.force() - yield;  // above the elastic one only when deep
     const AsperityResponse mixed = sphereAt(rc, 0.8, Formulation::kCorrected);
     const std::string depth = is_deep ? " deep in flow" : " in early flow";
-    section.rows.push_back(exact("generalized force" + depth + ", chi = 0.8", "N",
+    section.rows.push_back(exact("generalised force" + depth + ", chi = 0.8", "N",
                                  is_deep ? "0.8 r_e + 0.2 r_p, by hand" : "r_e: no more than elastic",
                                  mixed.generalizedForce(axial, law),
                                  is_deep ? 0.8 * elastic + 0.2 * plastic : elastic));

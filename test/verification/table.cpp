@@ -28,7 +28,7 @@ constexpr const char* kProperties =
     "  or a contact of few pixels grows by one, that sum may fall faster than w rises: on 2 of 1000 small random "
     "frames\n"
     "  at 1.5 times the work of adhesion. Of six surfaces together it never did.\n"
-    "- *More load touches more.* The generalized force of an asperity grows with its load P0 up to JKR's apparent "
+    "- *More load touches more.* The generalised force of an asperity grows with its load P0 up to JKR's apparent "
     "load\n"
     "  P1 of its radius; (P1 - P0)^2 knows no sign. An asperity to which (6) gives more than P1 resists the more, and "
     "a\n"

@@ -22,7 +22,7 @@ namespace mems_stiction {
 sensor_msgs::PointCloud2 surfacePoints(const Prediction& prediction, const HeightMap& scan,
                                        const std_msgs::Header& header, const DisplayOptions& options);
 
-/// One disc per contact with the radius of its cap, colored by deformation regime, above the same surface. The first
+/// One disc per contact with the radius of its cap, coloured by deformation regime, above the same surface. The first
 /// marker removes those of the scan before; the second is a line of text with size and exaggeration.
 /// - @p prediction must hold deformed_lower and asperities.
 visualization_msgs::MarkerArray asperityMarkers(const Prediction& prediction, const HeightMap& scan,

@@ -24,10 +24,10 @@ enum class DropPolicy {
   kLatest,  ///< the newest queue_size scans wait, older ones are dropped and counted: a live view stays live
 };
 
-/// The views for rviz, which cannot show micrometers: everything is enlarged by `scale`, heights once more.
+/// The views for rviz, which cannot show micrometres: everything is enlarged by `scale`, heights once more.
 struct DisplayOptions {
   std::string frame = "stiction_view";  ///< frame_id of the views; empty = the scan's
-  double scale = 0.0;                   ///< meters on the screen for one meter of the scan [-]; 0 = kViewSize fits
+  double scale = 0.0;                   ///< metres on the screen for one metre of the scan [-]; 0 = kViewSize fits
   double height_exaggeration = 0.0;     ///< of heights against lengths [-]; 0 = chosen for each scan
   int max_points = 40000;            ///< of surface_points; the surface is thinned out in rows and columns to keep it
   int max_markers = 500;             ///< of asperity_markers; the contacts with the largest loads are shown

@@ -3,7 +3,7 @@
 /// @file
 /// The tops of a surface: how many, how blunt.
 ///
-/// A summit is a valid pixel above its eight neighbors, all valid (of equal heights side by side, the last in reading
+/// A summit is a valid pixel above its eight neighbours, all valid (of equal heights side by side, the last in reading
 /// order). Its curvature is -(z_xx + z_yy)/2 by central differences at the pixel. Summits at the frame's border or
 /// beside an invalid pixel cannot be told from slopes and are left out, of the area too. Summits are those of this
 /// pitch: they are sound where the surface is smooth over some pixels (about six per correlation length); noise of a

@@ -23,7 +23,7 @@
 
 namespace mems_stiction {
 
-/// Defaults: centered, not turned, level.
+/// Defaults: centred, not turned, level.
 struct SurfacePose {
   double offset_x = 0.0;  ///< [m]
   double offset_y = 0.0;  ///< [m]

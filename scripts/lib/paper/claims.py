@@ -51,7 +51,7 @@ def all_rows(facts):
     makers = [energy_extremum, three_regimes, tilt, interface, section_regimes, bonding_limits, theory_comparison, falls]
     for of_material in (stops_later, larger_area, higher_pull_off):
         makers += [functools.partial(of_material, material=material) for material in cases.MATERIALS]
-    makers += [arbitrary_surfaces, material_topography, neighbors_only, van_der_waals_close, van_der_waals_rough,
+    makers += [arbitrary_surfaces, material_topography, neighbours_only, van_der_waals_close, van_der_waals_rough,
                plastic_without_load, energy_outside_bonding, friction]
     return [maker(facts) for maker in makers]
 
@@ -294,12 +294,12 @@ def material_topography(facts):
                % (", ".join(said), ", ".join("%.3g" % (volume * 1e27) for volume in volumes)), verdict(rising and changes, rising or changes))
 
 
-def neighbors_only(facts):
+def neighbours_only(facts):
     maps = facts.maps("contact")
     changed = (maps.lower_after != maps.lower) | (np.abs(maps.upper_after - maps.upper) > 0)
     outside = int(np.sum(changed & (maps.contact_map == 0)))
     inside = int(np.sum(changed & (maps.contact_map > 0)))
-    return Row("neighbors_only", "conclusions 2", "The modification is a consequence of the interaction between asperities.",
+    return Row("neighbours_only", "conclusions 2", "The modification is a consequence of the interaction between asperities.",
                "Figure 2's pair: cells that differ after pull-off.", "%d cells in contact changed, %d out of contact." % (inside, outside),
                verdict(inside > 0 and outside == 0, inside > outside))
 

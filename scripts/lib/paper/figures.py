@@ -12,7 +12,7 @@ from paper.data import band, maps_of
 
 NM = 1e9
 GREY, DARK = "#888888", "#333333"
-# By series: with van der Waals in warm colors; three regimes as full lines, all-elastic dashed.
+# By series: with van der Waals in warm colours; three regimes as full lines, all-elastic dashed.
 SERIES_STYLE = {"elastic": ("#2f7fd1", (0, (5, 2))), "regimes": ("#0b4f9e", "-"),
                 "elastic_vdw": ("#f2a33c", (0, (5, 2))), "regimes_vdw": ("#b0413e", "-")}
 

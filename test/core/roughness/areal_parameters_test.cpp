@@ -42,7 +42,7 @@ TEST(ArealParameters, gradientOfASineIsThatOfCentralDifferences) {
   const int periods = 5;
   const double phase_step = 2.0 * kPi * periods / cols;
   const ArealParameters found = arealParameters(analytic::sine(37, cols, kPitchX, kPitchY, amplitude, periods));
-  // central differences of a sine are A sin(step)/pitch cos(x); two of 240 columns, at phase 0, have no neighbors and
+  // central differences of a sine are A sin(step)/pitch cos(x); two of 240 columns, at phase 0, have no neighbours and
   // their cos^2 is 1 where the mean is 1/2: (120 - 2)/(240 - 2)
   const double central = amplitude * std::sin(phase_step) / kPitchX;
   const double cos_first = 1.0;
@@ -124,13 +124,13 @@ TEST(ArealParameters, ofSinglePrecisionAgreeToItsDigits) {
   const ArealParameters narrow = arealParameters(analytic::asSingle(surface));
   expectRelative(narrow.sq, wide.sq, 1e-7);  // 24 bits of height
   expectRelative(narrow.sku, wide.sku, 1e-7);
-  expectRelative(narrow.sdq, wide.sdq, 1e-6);  // a difference of neighbors keeps fewer
+  expectRelative(narrow.sdq, wide.sdq, 1e-6);  // a difference of neighbours keeps fewer
 }
 
 TEST(ArealParameters, leaveInvalidPixelsOut) {
   const HeightMap plane = analytic::tiltedPlane(9, 12, kPitchX, kPitchY, 0.2, 0.1);
   const ArealParameters whole = arealParameters(plane);
-  // a hole takes its own pixel and the gradients of its four neighbors; on a plane the others are all the same
+  // a hole takes its own pixel and the gradients of its four neighbours; on a plane the others are all the same
   const ArealParameters holed = arealParameters(analytic::withInvalidPixel(plane, 4, 5));
   expectRelative(holed.sdq, whole.sdq, 1e-12);
   EXPECT_TRUE(std::isfinite(holed.sku));

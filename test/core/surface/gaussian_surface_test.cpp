@@ -100,7 +100,7 @@ TEST(GaussianSurface, heightsAreGaussian) {
 
 TEST(GaussianSurface, isPeriodic) {
   const HeightMap surface = gaussianSurface(anisotropic());
-  // rms step between neighboring columns, sigma sqrt(2 (1 - exp(-1/100))) = 0.141 sigma, also across the seam: with 540
+  // rms step between neighbouring columns, sigma sqrt(2 (1 - exp(-1/100))) = 0.141 sigma, also across the seam: with 540
   // rows in 45 independent stretches the estimate scatters by 1/sqrt(90); 4 of them
   double squares = 0.0;
   for (int row = 0; row < surface.rows(); ++row) {
