@@ -11,7 +11,7 @@
 /// Heights are taken about their mean; levelling is the caller's. By FFT. `open` pads with nothing around the frame and
 /// divides each lag by the number of pairs of valid pixels, so that neither the border nor invalid pixels bias it; lags
 /// up to half of the frame are used. `periodic` wraps around, for synthetic surfaces that do. Where acf stays above s
-/// in a direction up to half of the frame (a lay, a residual tilt), the longest lag is cut off there: Str is then an
+/// in a direction up to half of the frame (grooves, a residual tilt), the longest lag is cut off there: Str is then an
 /// upper bound and `decayed` is false. If no direction decays, Sal is that limit: a lower bound.
 
 #include "mems_stiction/height_map/height_map.hpp"

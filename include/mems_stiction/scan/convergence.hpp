@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// Would a finer scan say something else? The same prediction on fewer pixels tells what still moves.
+/// Would a finer scan say something else? Predicting the same scan on fewer pixels shows what still moves.
 ///
 /// A scan is made coarser by the mean over blocks of pixels, as an instrument with larger pixels would see it. What
 /// full resolution still changes against half of it is a fair guess of what twice as many pixels would change.

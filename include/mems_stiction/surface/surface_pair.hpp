@@ -9,8 +9,8 @@
 
 namespace mems_stiction {
 
-/// Two surfaces in one frame: z of both points from lower to upper. A pair that no upper surface was given has a level
-/// plane there, whose own z is 0; this is how "no upper surface" is said everywhere.
+/// Two surfaces in one frame: z of both points from lower to upper. Without an upper surface there is a level plane at
+/// z = 0 in its place. An empty `upper` is the one way to say so.
 struct SurfacePair {
   SurfacePair() = default;
   SurfacePair(HeightMap lower_in,

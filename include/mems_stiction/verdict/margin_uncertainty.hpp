@@ -24,8 +24,8 @@
 /// Judged by searching again with each constant changed (tested): on Gaussian surfaces with 30 contacts and more, the
 /// powers with which the pull-off force goes with the constants agree within 0.3 for most, within 0.7 at worst
 /// (hardness of surfaces half elastic, half plastic). With a few contacts the search goes in steps, and this is the
-/// smooth mean at best; a single contact that carries more than it must does not react at all, and this says more than
-/// the search.
+/// smooth mean at best. A single contact that carries more than it must does not react at all: this is then wider than
+/// what the search would say.
 ///
 /// With scan_sampling, a further factor has the variance sum R_i^2/(sum R_i)^2: a scan is one sample of the surface,
 /// and another place would have other contacts (Poisson).

@@ -1,8 +1,7 @@
 #pragma once
 
 /// @file
-/// The one list of what a verdict says, by the field names of the message: what records, conversions and documentation
-/// visit, so that they cannot disagree about a name or a unit.
+/// The one list of what a verdict says, with the field names of the message and the units.
 
 namespace mems_stiction {
 
