@@ -30,7 +30,7 @@ using DescribeFunction = std::function<void(OptionVisitor&)>;
 /// Sets the described fields that `tree` names and leaves the others. Supplied and untouched fields are checked against
 /// their ranges.
 /// @return one line for each key that is unknown, given twice, of the wrong type or out of range; empty when all is
-///         well. A number out of range has been stored; after any violation the fields are not fit for use.
+/// well. A number out of range has been stored; after any violation the fields are not fit for use.
 std::vector<std::string> readYaml(const YAML::Node& tree, const DescribeFunction& describe);
 
 /// The same. @throw OptionsError with the lines of readYaml(), if there are any.
