@@ -93,10 +93,10 @@ class Pipeline {
     prepared_.record.steps.push_back(step);
   }
 
-  PreparedScan& prepared() { return prepared_; }
+  CleanedScan& prepared() { return prepared_; }
 
  private:
-  PreparedScan prepared_;
+  CleanedScan prepared_;
 };
 
 }  // namespace
@@ -114,7 +114,7 @@ void PipelineOptions::describe(OptionVisitor& visitor) {
 
 std::vector<std::string> PipelineOptions::validate() const { return rangeViolations(*this); }
 
-PreparedScan prepareScan(const HeightMap& scan, const PipelineOptions& options) {
+CleanedScan cleanScan(const HeightMap& scan, const PipelineOptions& options) {
   std::vector<std::string> violations = options.validate();
   if (!violations.empty()) throw OptionsError(std::move(violations));
 

@@ -28,7 +28,7 @@ SurfacePair surfacesOf(const StationCase& station_case) {
   PipelineOptions cleaning = configuration.preprocessing;
   cleaning.refine.factor = 1;
   SurfacePair pair;
-  pair.lower = prepareScan(station_case.scan, cleaning).surface;
+  pair.lower = cleanScan(station_case.scan, cleaning).surface;
   CounterSurfaceSource source(configuration.counter_surface, configuration.scan, configuration.preprocessing);
   const bool is_measured = configuration.counter_surface.type == CounterSurfaceType::kTopic;
   pair.upper = is_measured ? source.over(pair.lower, station_case.measured_counter) : source.over(pair.lower);

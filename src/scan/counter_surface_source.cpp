@@ -73,8 +73,8 @@ HeightMap CounterSurfaceSource::over(const HeightMap& scan, const HeightMap& mea
 HeightMap CounterSurfaceSource::cleaned(const HeightMap& measured) const {
   // A tip erodes from above: what is stated as mounted is cleaned as it was measured.
   const bool is_upside_down = cleaning_.tip.radius > 0.0 && options_.facing == CounterSurfaceFacing::kDown;
-  if (!is_upside_down) return prepareScan(measured, cleaning_).surface;
-  return turnedOver(prepareScan(turnedOver(measured), cleaning_).surface);
+  if (!is_upside_down) return cleanScan(measured, cleaning_).surface;
+  return turnedOver(cleanScan(turnedOver(measured), cleaning_).surface);
 }
 
 }  // namespace mems_stiction

@@ -92,11 +92,11 @@ void ScanPredictor::setCounterSurfacePose(const SurfacePose& pose) {
 }
 
 HeightMap ScanPredictor::prepared(const HeightMap& scan) const {
-  return prepareScan(scan, cleaningOf(configuration_)).surface;
+  return cleanScan(scan, cleaningOf(configuration_)).surface;
 }
 
 HeightMap ScanPredictor::prepare(const HeightMap& scan) {
-  PreparedScan prepared = prepareScan(scan, cleaningOf(configuration_));
+  CleanedScan prepared = cleanScan(scan, cleaningOf(configuration_));
   record_ = std::move(prepared.record);
   return prepared.surface;
 }
@@ -132,7 +132,7 @@ void ScanPredictor::describeScan(const HeightMap& lower, Prediction& prediction)
 
 Prediction ScanPredictor::predictRefined(const HeightMap& lower, const HeightMap& upper) {
   const int factor = configuration_.preprocessing.refine.factor;
-  const PreparedScan fine_scan = prepareScan(lower, refinementOf(configuration_));
+  const CleanedScan fine_scan = cleanScan(lower, refinementOf(configuration_));
   record_.steps.insert(record_.steps.end(), fine_scan.record.steps.begin(), fine_scan.record.steps.end());
   const HeightMap& fine_lower = fine_scan.surface;
   HeightMap fine_upper;

@@ -18,7 +18,7 @@
 ///
 ///     PipelineOptions options;
 ///     options.level.shape = LevelShape::kPlane;
-///     const PreparedScan prepared = prepareScan(scan, options);
+///     const CleanedScan cleaned = cleanScan(scan, options);
 
 #include <string>
 #include <utility>
@@ -68,7 +68,7 @@ struct PreprocessRecord {
 };
 
 /// The surface after the pipeline, and the record of it.
-struct PreparedScan {
+struct CleanedScan {
   HeightMap surface;
   PreprocessRecord record;
 };
@@ -76,7 +76,7 @@ struct PreparedScan {
 /// Without any step the surface is the scan itself, to the bit, and shares its pixels.
 /// @throw OptionsError with the lines of validate(), if there are any.
 /// @throw SurfaceError if no pixel is valid, or more are missing than fill/max_fraction allows.
-PreparedScan prepareScan(const HeightMap& scan, const PipelineOptions& options);
+CleanedScan cleanScan(const HeightMap& scan, const PipelineOptions& options);
 
 /// "spikes (threshold=6 window=5): rms change 1.2e-10 m, 14 pixels changed" per step, for people and logs.
 std::vector<std::string> recordLines(const PreprocessRecord& record);

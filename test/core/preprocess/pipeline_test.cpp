@@ -70,7 +70,7 @@ Options polysilicon(double load) {
 
 TEST(Pipeline, withoutAnyStepIsTheScanItself) {
   const HeightMap scan = analytic::withInvalidPixel(gaussianSurface(smoothFilm()), 3, 4);
-  const PreparedScan prepared = prepareScan(scan, PipelineOptions());
+  const CleanedScan prepared = cleanScan(scan, PipelineOptions());
   EXPECT_EQ(prepared.surface.heights().data, scan.heights().data);
   EXPECT_TRUE(prepared.record.steps.empty());
 }
@@ -79,7 +79,7 @@ TEST(Pipeline, planeAloneIsLevelled) {
   const HeightMap scan = analytic::tiltedPlane(30, 40, 5e-9, 6e-9, 0.1, 0.2);
   PipelineOptions options;
   options.level.shape = LevelShape::kPlane;
-  const PreparedScan prepared = prepareScan(scan, options);
+  const CleanedScan prepared = cleanScan(scan, options);
   EXPECT_EQ(cv::countNonZero(prepared.surface.heights() != levelled(scan).heights()), 0);
   ASSERT_EQ(prepared.record.steps.size(), 1u);
   EXPECT_EQ(prepared.record.steps[0].name, "level");
@@ -102,7 +102,7 @@ TEST(Pipeline, recordsWhatEachStepDidInTheOrderOfTheTable) {
   options.tip.radius = 20e-9;
   options.low_pass.cutoff_wavelength = 60e-9;
   options.refine.factor = 2;
-  const PreparedScan prepared = prepareScan(scan, options);
+  const CleanedScan prepared = cleanScan(scan, options);
   const std::vector<PreprocessStep>& steps = prepared.record.steps;
   ASSERT_EQ(steps.size(), 8u);
   const char* names[] = {"offset", "lines", "spikes", "fill", "tip", "level", "low_pass", "refine"};
@@ -142,7 +142,7 @@ TEST(Pipeline, optionsReadFromYamlAndNameWhatIsWrong) {
   options.fill.max_fraction = 1.5;
   options.refine.factor = 0;
   try {
-    prepareScan(analytic::flat(3, 3, 1e-9, 1e-9), options);
+    cleanScan(analytic::flat(3, 3, 1e-9, 1e-9), options);
     FAIL() << "was accepted";
   } catch (const OptionsError& error) {
     ASSERT_EQ(error.violations().size(), 2u);
@@ -154,7 +154,7 @@ TEST(Pipeline, optionsReadFromYamlAndNameWhatIsWrong) {
 TEST(Pipeline, refusesAScanWithTooManyHoles) {
   PipelineOptions options = cleaning();
   options.fill.max_fraction = 0.001;
-  EXPECT_THROW(prepareScan(spoiled(gaussianSurface(smoothFilm())), options), SurfaceError);
+  EXPECT_THROW(cleanScan(spoiled(gaussianSurface(smoothFilm())), options), SurfaceError);
 }
 
 // ------------------------------------------------------------------ what it is all for
@@ -167,7 +167,7 @@ TEST(CleanedScan, pullOffForceOfAGaussianSurfaceIsThatOfTheCleanOne) {
     LevelOptions without_bow;
     without_bow.shape = LevelShape::kPolynomial;
     const HeightMap clean = levelledBy(gaussianSurface(surface), without_bow);
-    const PreparedScan prepared = prepareScan(spoiled(clean), cleaning());
+    const CleanedScan prepared = cleanScan(spoiled(clean), cleaning());
     EXPECT_EQ(invalidFraction(prepared.surface), 0.0);
     EXPECT_LT(heightStatistics(HeightMap(prepared.surface.heights() - clean.heights(), 1.0, 1.0)).rms_height,
               0.01 * surface.rms_height);
@@ -190,7 +190,7 @@ TEST(CleanedScan, pullOffForceOfASphereIsThatOfTheCleanOne) {
   const HeightMap clean(heights, 5e-9, 5e-9);
   PipelineOptions options = cleaning();
   options.level.robust = true;
-  const PreparedScan prepared = prepareScan(spoiled(clean), options);
+  const CleanedScan prepared = cleanScan(spoiled(clean), options);
   AdhesionModel model(polysilicon(1e-7));
   const Prediction expected = model.predict(clean);
   const Prediction found = model.predict(prepared.surface);
@@ -212,8 +212,8 @@ TEST(CleanedScan, jumpsBetweenLinesLeaveNoTrace) {
   const HeightMap jumped(heights, 10e-9, 10e-9);
   AdhesionModel model(polysilicon(200e-6));
   // Each line takes the median of its own roughness with it, jumps or not.
-  const double expected = model.predict(prepareScan(clean, options).surface).pull_off_force;
-  EXPECT_NEAR(model.predict(prepareScan(jumped, options).surface).pull_off_force / expected, 1.0, 0.01);
+  const double expected = model.predict(cleanScan(clean, options).surface).pull_off_force;
+  EXPECT_NEAR(model.predict(cleanScan(jumped, options).surface).pull_off_force / expected, 1.0, 0.01);
 }
 
 }  // namespace

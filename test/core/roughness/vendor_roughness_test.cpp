@@ -46,7 +46,7 @@ class VendorRoughness : public ::testing::Test {
   HeightMap flat(const std::string& file) const {
     PipelineOptions options;
     options.level.shape = LevelShape::kPlane;
-    return prepareScan(scan(file), options).surface;
+    return cleanScan(scan(file), options).surface;
   }
 
   std::string folder_;
@@ -96,7 +96,7 @@ TEST_F(VendorRoughness, theWholePipelineRunsOnEveryScan) {
     options.level.robust = true;
     options.low_pass.cutoff_wavelength = 4.0 * surface.pitchX();
     options.refine.factor = 2;
-    const PreparedScan prepared = prepareScan(surface, options);
+    const CleanedScan prepared = cleanScan(surface, options);
     EXPECT_EQ(prepared.record.steps.size(), 8u);
     EXPECT_EQ(prepared.surface.cols(), 2 * surface.cols());
     EXPECT_LT(invalidFraction(prepared.surface), 0.001);
@@ -111,7 +111,7 @@ TEST_F(VendorRoughness, missingPixelsOfTheInterferometerAreFilled) {
   PipelineOptions options;
   options.level.shape = LevelShape::kPlane;
   options.fill.enabled = true;
-  const PreparedScan prepared = prepareScan(scan("opd-1.opd"), options);
+  const CleanedScan prepared = cleanScan(scan("opd-1.opd"), options);
   EXPECT_EQ(prepared.record.steps[0].changed_pixels, 116);
   EXPECT_EQ(invalidFraction(prepared.surface), 0.0);
   // The largest hole is the bottom of a pit whose rim lies 70 nm deep: the rms height grows a little.
