@@ -58,6 +58,13 @@ Finding judged(const std::string& name, double value, double lowest, double high
   return {Sticks::kMarginal, interval + ": 1 lies within"};
 }
 
+/// What there is to say where the contacts are not listed, so that nothing tells how far the figures may be off.
+Finding withoutContacts(const std::string& what, const Prediction& prediction) {
+  return {Sticks::kUnknown, what + " needs the list of contacts: " +
+                                (prediction.has_asperities ? "output/asperities is off"
+                                                           : "this approach/formulation tells none apart")};
+}
+
 Finding springFinding(const Prediction& prediction, const DeviceOptions& device, const AdhesionSpread& spread,
                       Verdict& verdict) {
   const double scale = device.contact_area / prediction.nominal_area;
@@ -66,15 +73,17 @@ Finding springFinding(const Prediction& prediction, const DeviceOptions& device,
   verdict.device_pull_off_force = prediction.pull_off_force * scale;
   verdict.margin = verdict.restoring_force / verdict.device_pull_off_force;
   verdict.margin_transition = verdict.restoring_force / (transition * scale);
-  verdict.margin_lower = verdict.margin_upper = verdict.margin;
-  if (std::isinf(verdict.margin)) return {Sticks::kNo, "nothing holds the contact: no adhesion"};
-  if (spread.isKnown()) {  // the margin falls as the pull-off force grows
-    verdict.margin_lower = verdict.margin / quantile(spread.pull_off, kUpperShare);
-    verdict.margin_upper = verdict.margin / quantile(spread.pull_off, kLowerShare);
-    verdict.margin_uncertainty =
-        0.5 * verdict.margin *
-        (1.0 / quantile(spread.pull_off, kStandardLower) - 1.0 / quantile(spread.pull_off, kStandardUpper));
+  if (std::isinf(verdict.margin)) {
+    verdict.margin_lower = verdict.margin_upper = verdict.margin;
+    return {Sticks::kNo, "nothing holds the contact: no adhesion"};
   }
+  if (!spread.isKnown()) return withoutContacts("the margin's interval", prediction);
+  // the margin falls as the pull-off force grows
+  verdict.margin_lower = verdict.margin / quantile(spread.pull_off, kUpperShare);
+  verdict.margin_upper = verdict.margin / quantile(spread.pull_off, kLowerShare);
+  verdict.margin_uncertainty =
+      0.5 * verdict.margin *
+      (1.0 / quantile(spread.pull_off, kStandardLower) - 1.0 / quantile(spread.pull_off, kStandardUpper));
   const double lowest = std::min(verdict.margin_lower, verdict.margin_transition);
   return judged("margin", verdict.margin, lowest, verdict.margin_upper, prediction.status == Status::kBonded);
 }
@@ -83,16 +92,14 @@ Finding beamFinding(const Prediction& prediction, const DeviceOptions& device, c
                     Verdict& verdict) {
   const Beam beam = device.beam();
   const double work = verdict.apparent_work_of_adhesion;
-  if (std::isnan(work)) {
-    return {Sticks::kUnknown, "the beam's adhesion needs the list of contacts: output/asperities is off"};
-  }
+  if (std::isnan(work)) return withoutContacts("the beam's adhesion", prediction);
   verdict.peel_number = peelNumber(beam, work);
   verdict.detachment_length = detachmentLength(beam, work);
   verdict.unstuck_length = unstuckLength(beam, work);
   verdict.peel_number_lower = verdict.peel_number_upper = verdict.peel_number;
   if (std::isinf(verdict.peel_number)) return {Sticks::kNo, "nothing holds the beam: no adhesion"};
   const bool is_measured = device.apparent_work_of_adhesion > 0.0;
-  if (spread.isKnown() && !is_measured) {
+  if (!is_measured) {  // known, as the contacts that the work of adhesion was summed over
     const double at_most = verdict.peel_number / quantile(spread.apparent_work, kLowerShare);
     const double at_least = verdict.peel_number / quantile(spread.apparent_work, kUpperShare);
     verdict.peel_number_lower = std::min(at_least, at_most);  // compressed beams have peel numbers below 0

@@ -97,6 +97,14 @@ class BatchTest(unittest.TestCase):
         self.assertGreater(len(common), 30)
         self.assertEqual({name: row[name] for name in common}, {name: record[name] for name in common})
 
+    def test_the_verdict_does_not_depend_on_what_is_output(self):
+        (self.folder / "silent.yaml").write_text(CONFIG + "output: {asperities: false, roughness: false}\n")
+        self.predict("one.csv", inputs=[self.inputs / "a.bag"])
+        self.predict("silent.csv", "--config", self.folder / "silent.yaml", inputs=[self.inputs / "a.bag"])
+        self.assertEqual((self.folder / "silent.csv").read_bytes(), (self.folder / "one.csv").read_bytes())
+        for row in self.rows("silent.csv"):
+            self.assertLess(float(row["margin_lower"]), float(row["margin_upper"]))
+
     def test_merged_shards_are_one_run_byte_for_byte(self):
         for kind in ("csv", "jsonl"):
             self.predict("one." + kind)

@@ -130,6 +130,47 @@ TEST(Verdict, bondedSurfacesCanSayYesButNotNo) {
   EXPECT_NE(unsure.reason.find("bond"), std::string::npos);
 }
 
+TEST(Verdict, isUnknownWhereNothingTellsHowFarTheMarginMayBeOff) {
+  const Spheres listed;
+  const DeviceOptions strong = springOf(10.0 * listed.pullOff(), listed.prediction.nominal_area);
+  ASSERT_EQ(verdictFor(listed, strong).sticks, Sticks::kNo);
+  Spheres spheres;
+  spheres.prediction.asperities.clear();
+  const DeviceOptions weak = springOf(0.1 * spheres.pullOff(), spheres.prediction.nominal_area);
+  for (const Status status : {Status::kEquilibrium, Status::kBonded}) {
+    spheres.prediction.status = status;
+    for (const DeviceOptions& device : {strong, weak}) {
+      const Verdict verdict = verdictFor(spheres, device);
+      EXPECT_EQ(verdict.sticks, Sticks::kUnknown);
+      EXPECT_NE(verdict.reason.find("output/asperities"), std::string::npos) << verdict.reason;
+      EXPECT_EQ(verdict.margin, verdictFor(listed, device).margin);
+      EXPECT_TRUE(std::isnan(verdict.margin_lower));
+      EXPECT_TRUE(std::isnan(verdict.margin_upper));
+      EXPECT_TRUE(std::isnan(verdict.margin_uncertainty));
+    }
+  }
+  spheres.prediction.has_asperities = false;  // of a solver that parts the contact into none
+  EXPECT_NE(verdictFor(spheres, strong).reason.find("approach/formulation"), std::string::npos);
+}
+
+TEST(Verdict, ofABeamIsUnknownWithoutTheContactsThatItsAdhesionIsSummedOver) {
+  Spheres spheres;
+  spheres.prediction.asperities.clear();
+  DeviceOptions device;
+  device.beam_type = BeamType::kCantilever;
+  device.beam_length = 50e-6;
+  device.beam_thickness = 2e-6;
+  device.beam_gap = 2e-6;
+  device.beam_modulus = 160e9;
+  const Verdict unmeasured = verdictFor(spheres, device);
+  EXPECT_EQ(unmeasured.sticks, Sticks::kUnknown);
+  EXPECT_NE(unmeasured.reason.find("output/asperities"), std::string::npos) << unmeasured.reason;
+  EXPECT_TRUE(std::isnan(unmeasured.peel_number_lower));
+  EXPECT_TRUE(std::isnan(unmeasured.peel_number_upper));
+  device.apparent_work_of_adhesion = 1e-3;  // measured on beams: no contacts are needed
+  EXPECT_NE(verdictFor(spheres, device).sticks, Sticks::kUnknown);
+}
+
 TEST(Verdict, anEndedSearchSaysNothing) {
   Spheres spheres;
   spheres.prediction.status = Status::kNoEquilibrium;
