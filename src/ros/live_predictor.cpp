@@ -7,6 +7,12 @@
 namespace mems_stiction {
 namespace {
 
+/// The node's messages always carry the roughness.
+Configuration withRoughness(Configuration configuration) {
+  configuration.model.output.roughness = true;
+  return configuration;
+}
+
 /// What the figures and the verdict need.
 OutputOptions figuresOnly() {
   OutputOptions output;
@@ -34,103 +40,99 @@ cv::Mat deepened(const cv::Mat& wear, const cv::Mat& before, const cv::Mat& afte
 }  // namespace
 
 LivePredictor::LivePredictor(const Configuration& configuration, bool accumulate_deformation)
-    : predictor_(configuration), single_predictor_(configuration), accumulate_deformation_(accumulate_deformation) {
-  single_predictor_.setOutput(figuresOnly());
-}
+    : settings_(configuration),
+      predictor_(withRoughness(configuration)),
+      accumulate_deformation_(accumulate_deformation) {}
 
 void LivePredictor::requireCounterSurface() const {
-  if (configuration().counter_surface.type == CounterSurfaceType::kTopic && !counter_surface_) {
+  if (settings_.snapshot()->counter_surface.type == CounterSurfaceType::kTopic && !has_counter_surface_) {
     throw SurfaceError("no counter-surface has arrived yet (counter_surface/type is topic)");
   }
 }
 
-PredictedScan LivePredictor::run(ScanPredictor& predictor, const HeightMap& surface, const ReceivedScan& scan) const {
+void LivePredictor::setPoseOf(const ReceivedScan& scan) {
+  if (scan.counter_surface_pose) predictor_.preparer().setCounterSurfacePose(*scan.counter_surface_pose);
+}
+
+PreparedScan LivePredictor::prepare(const ReceivedScan& scan, const cv::Mat& wear) {
   requireCounterSurface();
-  if (scan.counter_surface_pose) predictor.setCounterSurfacePose(*scan.counter_surface_pose);
-  const bool is_measured = predictor.configuration().counter_surface.type == CounterSurfaceType::kTopic;
+  setPoseOf(scan);
+  return predictor_.preparer().prepare(worn(scan.surface, wear));
+}
+
+const PreparedScan& LivePredictor::lastPrepared() {
+  if (last_->is_reset) {
+    last_->prepared = prepare(last_->received, last_->wear_before);
+  } else if (last_->has_newer_counter) {
+    setPoseOf(last_->received);
+    predictor_.preparer().mount(last_->prepared);
+  }
+  last_->is_reset = last_->has_newer_counter = false;
+  return last_->prepared;
+}
+
+PredictedScan LivePredictor::judged(const PreparedScan& prepared, const Configuration& settings) {
   PredictedScan predicted;
-  predicted.prediction =
-      is_measured ? predictor.predict(surface, counter_surface_->surface) : predictor.predict(surface);
-  const Configuration& configuration = predictor.configuration();
-  predicted.verdict = verdictOf(predicted.prediction, configuration.device, configuration.uncertainty,
-                                configuration.model, surface.cellArea());
-  predicted.preprocessing = predictor.lastRecord();
+  predicted.prediction = predictor_.predict(prepared);
+  predicted.verdict = verdictOf(predicted.prediction, settings.device, settings.uncertainty, predictor_.options(),
+                                prepared.surfaces.lower.cellArea());
+  predicted.preprocessing = prepared.record;
   return predicted;
 }
 
 PredictedScan LivePredictor::predictScan(const ReceivedScan& scan, const OutputOptions& output) {
-  OutputOptions wanted = output;
-  wanted.asperities = true;  // whether or not somebody listens to them, the verdict is the same
-  wanted.deformed_surfaces = output.deformed_surfaces || accumulate_deformation_;
-  predictor_.setOutput(wanted);
+  const SettingsOwner::Snapshot settings = settings_.snapshot();
+  Options options = settings->model;
+  options.output = output;
+  options.output.asperities = true;  // whether or not somebody listens to them, the verdict is the same
+  options.output.deformed_surfaces = output.deformed_surfaces || accumulate_deformation_;
+  predictor_.setOptions(options);
 
-  const HeightMap surface = worn(scan.surface, wear_);
-  PredictedScan predicted = run(predictor_, surface, scan);
-
-  last_scan_ = scan;
-  wear_before_last_scan_ = wear_;
+  const PreparedScan prepared = prepare(scan, wear_);
+  PredictedScan predicted = judged(prepared, *settings);
+  last_ = LastScan{scan, prepared, wear_};
   if (accumulate_deformation_) {
-    const cv::Mat before = predictor_.prepared(surface).asDouble().heights();
-    wear_ = deepened(wear_, before, predicted.prediction.deformed_lower);
+    wear_ = deepened(wear_, prepared.surfaces.lower.asDouble().heights(), predicted.prediction.deformed_lower);
   }
   return predicted;
 }
 
-void LivePredictor::change(const RunningOptions& options) {
-  RunningOptions load_apart = options;
-  load_apart.load.voltage = load().voltage;
-  load_apart.load.mechanical_load = load().mechanical_load;
-  if (reconfigureMessage(load_apart) == reconfigureMessage(runningOptions())) {
-    predictor_.setLoad(options.load.voltage, options.load.mechanical_load);
-    return;
-  }
-  Configuration configuration = predictor_.configuration();
-  options.applyTo(configuration);
-  // Both are made before either is changed. The counter-surface is drawn or read again, so that nothing of the old
-  // settings stays behind.
-  ScanPredictor predictor(configuration);
-  ScanPredictor single_predictor(configuration);
-  single_predictor.setOutput(figuresOnly());
-  predictor_ = std::move(predictor);
-  single_predictor_ = std::move(single_predictor);
-}
-
-void LivePredictor::setLoad(double voltage, double mechanical_load) {
-  RunningOptions options = runningOptions();
-  options.load.voltage = voltage;
-  options.load.mechanical_load = mechanical_load;
-  change(options);
-}
-
 std::optional<PredictedScan> LivePredictor::predictLastScan() {
-  if (!last_scan_) return std::nullopt;
-  predictor_.setOutput(figuresOnly());
-  return run(predictor_, worn(last_scan_->surface, wear_before_last_scan_), *last_scan_);
+  if (!last_) return std::nullopt;
+  const SettingsOwner::Snapshot settings = settings_.snapshot();
+  Options options = settings->model;
+  options.output = figuresOnly();
+  predictor_.setOptions(options);
+  return judged(lastPrepared(), *settings);
 }
 
 PredictedScan LivePredictor::predictOnce(const ReceivedScan& scan, double voltage, double mechanical_load) {
-  single_predictor_.setLoad(voltage, mechanical_load);
-  return run(single_predictor_, scan.surface, scan);
+  const SettingsOwner::Snapshot settings = settings_.snapshot();
+  Options options = settings->model;
+  options.output = figuresOnly();
+  options.load.voltage = voltage;
+  options.load.mechanical_load = mechanical_load;
+  predictor_.setOptions(options);  // refuses before the scan is touched
+  return judged(prepare(scan, cv::Mat()), *settings);
 }
 
-StationCase LivePredictor::stationCase(const ReceivedScan* given) const {
-  if (given == nullptr && !last_scan_) throw SurfaceError("no scan yet, and none was given");
-  requireCounterSurface();
-  const ReceivedScan& scan = given != nullptr ? *given : *last_scan_;
-  StationCase station_case;
-  station_case.header = scan.header;
-  station_case.configuration = configuration();
-  if (scan.counter_surface_pose) station_case.configuration.counter_surface.pose = *scan.counter_surface_pose;
-  station_case.scan = given != nullptr ? scan.surface : worn(scan.surface, wear_before_last_scan_);
-  if (counter_surface_) station_case.measured_counter = counter_surface_->surface;
-  return station_case;
+StationCase LivePredictor::stationCase(const ReceivedScan* given) {
+  if (given != nullptr) return {given->header, prepare(*given, cv::Mat()), settings_.snapshot()};
+  if (!last_) throw SurfaceError("no scan yet, and none was given");
+  return {last_->received.header, lastPrepared(), settings_.snapshot()};
 }
 
-void LivePredictor::setCounterSurface(const ReceivedScan& counter_surface) { counter_surface_ = counter_surface; }
+void LivePredictor::setCounterSurface(const ReceivedScan& counter_surface) {
+  predictor_.preparer().setMeasuredCounterSurface(counter_surface.surface);
+  has_counter_surface_ = true;
+  if (last_) last_->has_newer_counter = true;
+}
 
 void LivePredictor::resetSurface() {
   wear_.release();
-  wear_before_last_scan_.release();
+  if (!last_ || last_->wear_before.empty()) return;
+  last_->wear_before.release();
+  last_->is_reset = true;
 }
 
 }  // namespace mems_stiction

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/ros/reconfigure_conversion.hpp"
 #include "mems_stiction/ros/topic_names.hpp"
 
 namespace mems_stiction {
@@ -20,47 +21,43 @@ ros::NodeHandle reconfigureHandle(const ros::NodeHandle& private_handle) {
   return ros::NodeHandle(private_handle, kReconfigureParameters, remappings);
 }
 
-StictionConfig configOf(const RunningOptions& options) {
+StictionConfig configOf(const RunningSettings& settings) {
   StictionConfig config = StictionConfig::__getDefault__();
-  dynamic_reconfigure::Config message = reconfigureMessage(options);
+  dynamic_reconfigure::Config message = reconfigureMessage(settings);
   config.__fromMessage__(message);
   return config;
 }
 
 }  // namespace
 
-ReconfigureServer::ReconfigureServer(const ros::NodeHandle& private_handle, const RunningOptions& options,
+ReconfigureServer::ReconfigureServer(const ros::NodeHandle& private_handle, const SettingsOwner& settings,
                                      Change change)
-    : options_(options),
+    : settings_(settings),
       change_(std::move(change)),
       server_(
           std::make_unique<dynamic_reconfigure::Server<StictionConfig>>(mutex_, reconfigureHandle(private_handle))) {
-  server_->updateConfig(configOf(options));
+  server_->updateConfig(configOf(settings.current()));
   bool is_first = true;  // setCallback() calls at once, with what is set
   server_->setCallback([this, is_first](StictionConfig& config, std::uint32_t) mutable {
     if (!std::exchange(is_first, false)) take(config);
   });
 }
 
-void ReconfigureServer::show(const RunningOptions& options) {
-  options_ = options;
-  server_->updateConfig(configOf(options));
-}
+void ReconfigureServer::show() { server_->updateConfig(configOf(settings_.current())); }
 
 void ReconfigureServer::take(StictionConfig& config) {
   try {
     dynamic_reconfigure::Config message;
     config.__toMessage__(message);
-    RunningOptions changed = options_;
+    RunningSettings changed = settings_.current();
     applyReconfigure(message, changed);
     change_(changed);
-    options_ = changed;
   } catch (const OptionsError& error) {
     for (const std::string& line : error.violations())
       ROS_WARN_STREAM("reconfigure refused, nothing changed: " << line);
-    config = configOf(options_);
+    config = configOf(settings_.current());
   } catch (const std::future_error&) {
-    config = configOf(options_);  // the node is shutting down
+    config = configOf(settings_.current());  // the node is shutting down
   }
 }
 

@@ -10,10 +10,8 @@
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/one_line.hpp"
-#include "mems_stiction/preprocess/refine.hpp"
 #include "mems_stiction/ros/station_conversion.hpp"
 #include "mems_stiction/ros/topic_names.hpp"
-#include "mems_stiction/scan/counter_surface_source.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -22,22 +20,6 @@ constexpr bool kNoAutoStart = false;
 /// From the arrival of a goal: rospy's SimpleActionClient never hears of an answer that comes before its send_goal has
 /// returned, and waits on (https://github.com/ros/actionlib/issues/206). Goals that are refused are answered that soon.
 constexpr std::chrono::milliseconds kEarliestAnswer{100};
-
-SurfacePair surfacesOf(const StationCase& station_case) {
-  const Configuration& configuration = station_case.configuration;
-  PipelineOptions cleaning = configuration.preprocessing;
-  cleaning.refine.factor = 1;
-  SurfacePair pair;
-  pair.lower = cleanScan(station_case.scan, cleaning).surface;
-  CounterSurfaceSource source(configuration.counter_surface, configuration.scan, configuration.preprocessing);
-  const bool is_measured = configuration.counter_surface.type == CounterSurfaceType::kTopic;
-  pair.upper = is_measured ? source.over(pair.lower, station_case.measured_counter) : source.over(pair.lower);
-  if (configuration.preprocessing.refine.factor > 1) {
-    pair.lower = refined(pair.lower, configuration.preprocessing.refine);
-    if (!pair.upper.empty()) pair.upper = refined(pair.upper, configuration.preprocessing.refine);
-  }
-  return pair;
-}
 
 template <typename Action, typename Feedback>
 RunControl controlOf(actionlib::SimpleActionServer<Action>& server, const std::atomic<bool>& cancel,
@@ -108,14 +90,13 @@ void StationActions::sweep(const SweepLoadGoalConstPtr& goal) {
   answer(sweep_, cancel_sweep_, result, [&] {
     const StationCase station_case = find_case_(goal->height, goal->scan_info);
     result.header = station_case.header;
-    const Configuration& configuration = station_case.configuration;
+    const Configuration& settings = *station_case.settings;
     LoadSweepRequest request;
     request.voltages = goal->voltages;
     request.mechanical_loads = goal->mechanical_loads;
-    if (request.mechanical_loads.empty()) request.mechanical_loads = {configuration.model.load.mechanical_load};
-    const SurfacePair pair = surfacesOf(station_case);
+    if (request.mechanical_loads.empty()) request.mechanical_loads = {settings.model.load.mechanical_load};
     const LoadSweepResult swept =
-        sweepLoads(configuration.model, pair, request, configuration.device, configuration.uncertainty,
+        sweepLoads(settings.model, station_case.scan.model_surfaces, request, settings.device, settings.uncertainty,
                    controlOf(sweep_, cancel_sweep_, SweepLoadFeedback()));
     result = sweepMessage(swept);
     result.header = station_case.header;
@@ -128,12 +109,11 @@ void StationActions::cycle(const CycleContactGoalConstPtr& goal) {
   answer(cycle_, cancel_cycle_, result, [&] {
     const StationCase station_case = find_case_(goal->height, goal->scan_info);
     result.header = station_case.header;
-    const Configuration& configuration = station_case.configuration;
+    const Configuration& settings = *station_case.settings;
     constexpr std::uint32_t kMost = std::numeric_limits<int>::max();
-    const SurfacePair pair = surfacesOf(station_case);
     const ContactCyclesResult cycled =
-        cycleContacts(configuration.model, pair, static_cast<int>(std::min(goal->count, kMost)), configuration.device,
-                      configuration.uncertainty, controlOf(cycle_, cancel_cycle_, CycleContactFeedback()));
+        cycleContacts(settings.model, station_case.scan.model_surfaces, static_cast<int>(std::min(goal->count, kMost)),
+                      settings.device, settings.uncertainty, controlOf(cycle_, cancel_cycle_, CycleContactFeedback()));
     result = cyclesMessage(cycled);
     result.header = station_case.header;
     return cycled.is_complete;

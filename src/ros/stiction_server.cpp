@@ -32,30 +32,33 @@ std::size_t capacityOf(const NodeOptions& options) {
 
 StictionServer::StictionServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
                                const std::string& name)
+    : StictionServer(handle, private_handle, name, readParameters(private_handle)) {}
+
+StictionServer::StictionServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
+                               const std::string& name, const NodeConfiguration& configuration)
     : handle_(withQueue(handle, topic_queue_)),
       private_handle_(withQueue(private_handle, topic_queue_)),
       service_handle_(withQueue(private_handle, service_queue_)),
-      configuration_(readParameters(private_handle_)),
-      accounting_(ros::WallDuration(configuration_.node.warning_period)),
-      predictor_(configuration_.core, configuration_.node.accumulate_deformation),
-      publisher_(handle_, configuration_.node.display, [this] { worker_.push([this] { showLastScan(); }); }),
-      worker_(capacityOf(configuration_.node)),
-      load_(configuration_.core.model.load),
-      counter_surface_frame_(configuration_.node.transform.frame.empty()
+      options_(configuration.node),
+      accounting_(ros::WallDuration(options_.warning_period)),
+      predictor_(configuration.core, options_.accumulate_deformation),
+      publisher_(handle_, options_.display, [this] { worker_.push([this] { showLastScan(); }); }),
+      worker_(capacityOf(options_)),
+      counter_surface_frame_(options_.transform.frame.empty()
                                  ? nullptr
-                                 : std::make_unique<CounterSurfaceFrame>(handle_, configuration_.node.transform.frame)),
-      gate_(ros::WallDuration(configuration_.node.transform.timeout),
+                                 : std::make_unique<CounterSurfaceFrame>(handle_, options_.transform.frame)),
+      gate_(ros::WallDuration(options_.transform.timeout),
             [this](const std_msgs::Header& header) { return counter_surface_frame_->poseAt(header); }),
       scans_(
-          ros::WallDuration(configuration_.node.pairing_timeout),
+          ros::WallDuration(options_.pairing_timeout),
           [this](const auto& image, const auto& info) { onScan(image, info); },
           [this](const auto& header, const auto& reason) { rejectLone(header, reason); }),
       counter_surfaces_(
-          ros::WallDuration(configuration_.node.pairing_timeout),
+          ros::WallDuration(options_.pairing_timeout),
           [this](const auto& image, const auto& info) { onCounterSurface(image, info); },
           [this](const auto& header, const auto& reason) { accounting_.counterSurfaceRejected(header, reason); }),
       transport_(handle_),
-      reconfigure_(service_handle_, predictor_.runningOptions(), [this](const auto& options) { change(options); }),
+      reconfigure_(service_handle_, predictor_.settings(), [this](const auto& settings) { change(settings); }),
       actions_(service_handle_, [this](const auto& height, const auto& info) { return findCase(height, info); }),
       diagnostics_(handle_, private_handle_, name),
       topic_spinner_(1, &topic_queue_),
@@ -90,7 +93,7 @@ void StictionServer::advertiseServices() {
 void StictionServer::subscribe() {
   using ImagePtr = sensor_msgs::ImageConstPtr;
   const image_transport::TransportHints hints("raw", ros::TransportHints(), private_handle_);
-  const bool use_scan_info = configuration_.node.use_scan_info;
+  const bool use_scan_info = options_.use_scan_info;
   const auto subscribePair = [&](const char* image_topic, const char* info_topic, ScanPairer& pairer, auto on_single,
                                  image_transport::Subscriber& image_subscriber, ros::Subscriber& info_subscriber) {
     if (!use_scan_info) {
@@ -107,7 +110,7 @@ void StictionServer::subscribe() {
         [&pairer](const ScanInfoConstPtr& info) { pairer.add(info, ros::WallTime::now()); });
   };
   subscribePair(kHeightTopic, kScanInfoTopic, scans_, &StictionServer::onScan, height_, scan_info_);
-  if (configuration_.core.counter_surface.type == CounterSurfaceType::kTopic) {
+  if (predictor_.settings().snapshot()->counter_surface.type == CounterSurfaceType::kTopic) {
     subscribePair(kCounterHeightTopic, kCounterScanInfoTopic, counter_surfaces_, &StictionServer::onCounterSurface,
                   counter_height_, counter_scan_info_);
   }
@@ -116,13 +119,12 @@ void StictionServer::subscribe() {
 void StictionServer::startTimers() {
   diagnostics_.setHardwareID("none");
   diagnostics_.add("scans", this, &StictionServer::report);
-  diagnostic_timer_ = handle_.createWallTimer(ros::WallDuration(configuration_.node.diagnostic_period),
+  diagnostic_timer_ = handle_.createWallTimer(ros::WallDuration(options_.diagnostic_period),
                                               [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
-  pairing_timer_ =
-      handle_.createWallTimer(ros::WallDuration(0.2 * configuration_.node.pairing_timeout), [this](const auto&) {
-        scans_.expire(ros::WallTime::now());
-        counter_surfaces_.expire(ros::WallTime::now());
-      });
+  pairing_timer_ = handle_.createWallTimer(ros::WallDuration(0.2 * options_.pairing_timeout), [this](const auto&) {
+    scans_.expire(ros::WallTime::now());
+    counter_surfaces_.expire(ros::WallTime::now());
+  });
   if (counter_surface_frame_) {
     gate_timer_ = handle_.createWallTimer(kGatePeriod, [this](const auto&) { gate_.poll(ros::WallTime::now()); });
   }
@@ -130,11 +132,12 @@ void StictionServer::startTimers() {
 
 void StictionServer::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
   accounting_.report(status);
+  status.add("cleaned", predictor_.cleanings());
   const std::size_t waiting = worker_.waitingScans();
   status.add("waiting_for_worker", waiting);
   status.add("waiting_for_partner", scans_.waiting());
   status.add("waiting_for_transform", gate_.waiting());
-  if (waiting > static_cast<std::size_t>(configuration_.node.queue_size)) {
+  if (waiting > static_cast<std::size_t>(options_.queue_size)) {
     status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN,
                         std::to_string(waiting) + " scans wait, more than queue_size");
   }
@@ -177,14 +180,14 @@ void StictionServer::onCounterSurface(const sensor_msgs::ImageConstPtr& image, c
 }
 
 ReceivedScan StictionServer::receive(const sensor_msgs::ImageConstPtr& image, const ScanInfo* info) const {
-  const ScanOptions& parameters = configuration_.core.scan;
-  return receiveScan(image, info == nullptr ? parameters : scanOptions(*info, parameters));
+  const SettingsOwner::Snapshot settings = predictor_.settings().snapshot();
+  return receiveScan(image, info == nullptr ? settings->scan : scanOptions(*info, settings->scan));
 }
 
 ReceivedScan StictionServer::receiveByCall(sensor_msgs::Image image, const ScanInfo& info) const {
   ReceivedScan scan = receive(boost::make_shared<const sensor_msgs::Image>(std::move(image)), &info);
   if (!counter_surface_frame_) return scan;
-  const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(configuration_.node.transform.timeout);
+  const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(options_.transform.timeout);
   for (;;) {
     try {
       scan.counter_surface_pose = counter_surface_frame_->poseAt(scan.header);
@@ -202,12 +205,9 @@ StationCase StictionServer::findCase(const sensor_msgs::Image& height, const Sca
   return worker_.call([&] { return predictor_.stationCase(&scan); });
 }
 
-void StictionServer::change(const RunningOptions& options) {
-  worker_.call([&] {
-    predictor_.change(options);
-    const std::lock_guard<std::mutex> lock(load_mutex_);
-    load_ = options.load;
-  });
+void StictionServer::change(const RunningSettings& settings) {
+  // Between two scans: what is published after the answer was predicted with the new settings.
+  worker_.call([&] { predictor_.settings().change(settings); });
 }
 
 void StictionServer::predictAndPublish(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info,
@@ -217,7 +217,7 @@ void StictionServer::predictAndPublish(const sensor_msgs::ImageConstPtr& image, 
     scan.counter_surface_pose = pose;
     const PredictedScan predicted = predictor_.predictScan(scan, publisher_.demanded());
     publisher_.publish(predicted, scan);
-    if (publisher_.isPreviewWanted()) publisher_.publishPreview(predictor_.prepared(scan.surface), scan.header);
+    if (publisher_.isPreviewWanted()) publisher_.publishPreview(predictor_.lastSurface(), scan.header);
     accounting_.predicted((ros::WallTime::now() - arrival).toSec(), predicted.prediction.processing_time);
     for (const std::string& line : scanWarnings(scan.surface)) accounting_.warn(scan.header, line);
   } catch (const std::exception& error) {
@@ -226,8 +226,8 @@ void StictionServer::predictAndPublish(const sensor_msgs::ImageConstPtr& image, 
 }
 
 void StictionServer::showLastScan() {
-  const std::optional<ReceivedScan>& scan = predictor_.lastScan();
-  if (scan) publisher_.publishPreview(predictor_.prepared(scan->surface), scan->header);
+  const ReceivedScan* scan = predictor_.lastScan();
+  if (scan != nullptr) publisher_.publishPreview(predictor_.lastSurface(), scan->header);
 }
 
 void StictionServer::takeCounterSurface(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info) {
@@ -244,12 +244,12 @@ bool StictionServer::setLoad(SetLoad::Request& request, SetLoad::Response& respo
   response.prediction = predictionMessage(PredictedScan(), std_msgs::Header());
   try {
     const boost::recursive_mutex::scoped_lock lock(reconfigure_.mutex());
-    RunningOptions options = reconfigure_.options();
-    const LoadOptions before = options.load;
-    options.load.voltage = request.voltage;
-    options.load.mechanical_load = request.mechanical_load;
-    change(options);
-    reconfigure_.show(options);
+    RunningSettings settings = predictor_.settings().current();
+    const LoadOptions before = settings.load;
+    settings.load.voltage = request.voltage;
+    settings.load.mechanical_load = request.mechanical_load;
+    change(settings);
+    reconfigure_.show();
     worker_.call([&] {
       response.success = true;
       response.message = "from " + numberText(before.voltage) + " V, " + numberText(before.mechanical_load) + " N";
@@ -274,11 +274,11 @@ bool StictionServer::setLoad(SetLoad::Request& request, SetLoad::Response& respo
 }
 
 bool StictionServer::getLoad(GetLoad::Request& /*request*/, GetLoad::Response& response) {
-  const std::lock_guard<std::mutex> lock(load_mutex_);
-  response.voltage = load_.voltage;
-  response.mechanical_load = load_.mechanical_load;
-  response.max_voltage = load_.max_voltage;
-  response.max_mechanical_load = load_.max_mechanical_load;
+  const LoadOptions load = predictor_.settings().current().load;
+  response.voltage = load.voltage;
+  response.mechanical_load = load.mechanical_load;
+  response.max_voltage = load.max_voltage;
+  response.max_mechanical_load = load.max_mechanical_load;
   return true;
 }
 
@@ -303,9 +303,8 @@ bool StictionServer::resetSurface(std_srvs::Trigger::Request& /*request*/, std_s
   try {
     worker_.call([this] { predictor_.resetSurface(); });
     response.success = true;
-    response.message = configuration_.node.accumulate_deformation
-                           ? "the next scan is taken as it was made"
-                           : "nothing to forget: accumulate_deformation is false";
+    response.message = options_.accumulate_deformation ? "the next scan is taken as it was made"
+                                                       : "nothing to forget: accumulate_deformation is false";
   } catch (const std::future_error&) {
     response.message = kShuttingDown;
   }

@@ -12,16 +12,11 @@ bool haveSameGrid(const HeightMap& a, const HeightMap& b) {
   return a.rows() == b.rows() && a.cols() == b.cols() && a.pitchX() == b.pitchX() && a.pitchY() == b.pitchY();
 }
 
-PipelineOptions withoutRefinement(PipelineOptions options) {
-  options.refine.factor = 1;
-  return options;
-}
-
 }  // namespace
 
 CounterSurfaceSource::CounterSurfaceSource(const CounterSurfaceOptions& options, const ScanOptions& scan,
                                            const PipelineOptions& cleaning)
-    : options_(options), scan_(scan), cleaning_(withoutRefinement(cleaning)) {}
+    : options_(options), scan_(scan), cleaning_(cleaning) {}
 
 void CounterSurfaceSource::load() {
   if (options_.type != CounterSurfaceType::kFile || !surface_.empty()) return;
@@ -29,7 +24,7 @@ void CounterSurfaceSource::load() {
   file_options.import.channel = options_.channel;
   const HeightMap measured = readScanFile(options_.file, scan_, file_options);
   try {
-    surface_ = mountedCounterSurface(cleaned(measured), options_.facing);
+    surface_ = mounted(measured);
   } catch (const SurfaceError& error) {
     throw SurfaceError("counter_surface/file " + options_.file + ": " + error.what());
   }
@@ -42,39 +37,53 @@ void CounterSurfaceSource::setPose(const SurfacePose& pose) {
   placed_ = HeightMap();
 }
 
+void CounterSurfaceSource::setMeasured(const HeightMap& measured) {
+  if (measured.empty() && measured_.empty()) return;
+  measured_ = measured;
+  mounted_measured_ = HeightMap();
+  placed_ = HeightMap();
+}
+
 HeightMap CounterSurfaceSource::over(const HeightMap& scan) {
-  if (options_.type == CounterSurfaceType::kTopic) {
+  const SurfacePose& pose = options_.pose;
+  const bool is_measured = !measured_.empty();
+  if (options_.type == CounterSurfaceType::kTopic && !is_measured) {
     throw SurfaceError("no counter-surface: counter_surface/type is topic, and no measured one was given");
   }
-  const SurfacePose& pose = options_.pose;
-  if (options_.type == CounterSurfaceType::kFlat && pose.tilt_x == 0.0 && pose.tilt_y == 0.0) return {};
+  const bool is_flat = options_.type == CounterSurfaceType::kFlat && !is_measured;
+  if (is_flat && pose.tilt_x == 0.0 && pose.tilt_y == 0.0) return {};
   if (!placed_.empty() && haveSameGrid(placed_, scan)) return placed_;
-  if (options_.type == CounterSurfaceType::kFlat) {
+  if (is_flat) {
     placed_ = tiltedFlat(scan, pose.tilt_x, pose.tilt_y);
     return placed_;
+  }
+  const HeightMap& surface = unplaced(scan);
+  const bool is_on_the_grid = haveSameGrid(surface, scan);
+  if (is_measured && !is_on_the_grid) return surface;
+  const Beyond beyond = options_.isGenerated() && !is_measured ? Beyond::kPeriodic : Beyond::kInvalid;
+  placed_ = is_on_the_grid && isIdentity(pose) ? surface : alignedTo(scan, surface, pose, beyond);
+  return placed_;
+}
+
+const HeightMap& CounterSurfaceSource::unplaced(const HeightMap& scan) {
+  if (!measured_.empty()) {
+    if (mounted_measured_.empty()) mounted_measured_ = mounted(measured_);
+    return mounted_measured_;
   }
   load();
   if (options_.isGenerated() && (surface_.empty() || !haveSameGrid(surface_, scan))) {
     surface_ = generatedCounterSurface(scan, options_);
   }
-  const bool is_there = isIdentity(pose) && haveSameGrid(surface_, scan);
-  placed_ = is_there ? surface_
-                     : alignedTo(scan, surface_, pose, options_.isGenerated() ? Beyond::kPeriodic : Beyond::kInvalid);
-  return placed_;
+  return surface_;
 }
 
-HeightMap CounterSurfaceSource::over(const HeightMap& scan, const HeightMap& measured) const {
-  HeightMap mounted = mountedCounterSurface(cleaned(measured), options_.facing);
-  // The model refuses grids that differ, and says how they do.
-  if (isIdentity(options_.pose) || !haveSameGrid(mounted, scan)) return mounted;
-  return alignedTo(scan, mounted, options_.pose);
-}
-
-HeightMap CounterSurfaceSource::cleaned(const HeightMap& measured) const {
+HeightMap CounterSurfaceSource::mounted(const HeightMap& measured) {
+  ++cleanings_;
   // A tip erodes from above: what is stated as mounted is cleaned as it was measured.
   const bool is_upside_down = cleaning_.tip.radius > 0.0 && options_.facing == CounterSurfaceFacing::kDown;
-  if (!is_upside_down) return cleanScan(measured, cleaning_).surface;
-  return turnedOver(cleanScan(turnedOver(measured), cleaning_).surface);
+  const HeightMap cleaned = is_upside_down ? turnedOver(cleanScan(turnedOver(measured), cleaning_).surface)
+                                           : cleanScan(measured, cleaning_).surface;
+  return mountedCounterSurface(cleaned, options_.facing);
 }
 
 }  // namespace mems_stiction

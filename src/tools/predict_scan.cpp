@@ -93,17 +93,18 @@ Configuration configurationOf(const Arguments& arguments) {
 
 /// @throw Error in one line, with the file's name
 void predictScan(const std::string& path, const Arguments& arguments, const ScanFileOptions& file_options,
-                 ScanPredictor& predictor) {
-  const ScanFile scan = openScanFile(path, predictor.configuration().scan, file_options);
+                 const ScanOptions& scan_options, ScanPredictor& predictor) {
+  const ScanFile scan = openScanFile(path, scan_options, file_options);
   for (const std::string& warning : scanWarnings(scan.surface)) std::cerr << path << ": warning: " << warning << "\n";
 
   Prediction prediction;
   RecordExtras extras;
   extras.channel = scan.channel;
   try {
-    prediction = predictor.predict(scan.surface);
-    extras.preprocessing = predictor.lastRecord();
-    if (arguments.convergence) extras.convergence = predictor.convergence(scan.surface);
+    const PreparedScan prepared = predictor.preparer().prepare(scan.surface);
+    prediction = predictor.predict(prepared);
+    extras.preprocessing = prepared.record;
+    if (arguments.convergence) extras.convergence = predictor.convergence(prepared);
   } catch (const SurfaceError& error) {
     throw SurfaceError(path + ": " + error.what());
   }
@@ -117,6 +118,7 @@ void predictScan(const std::string& path, const Arguments& arguments, const Scan
 
 int run(const Arguments& arguments) {
   std::optional<ScanPredictor> predictor;
+  ScanOptions scan_options;
   ScanFileOptions file_options;
   file_options.import.channel = arguments.channel;
   try {
@@ -126,12 +128,14 @@ int run(const Arguments& arguments) {
     configuration.model.output.contact_map = false;
     configuration.model.output.roughness = true;
     predictor.emplace(configuration);
+    scan_options = configuration.scan;
   } catch (const Error& error) {
     complain("predict_scan", error.what());
     return kBadInput;
   }
-  return forEachScan("predict_scan", arguments.scans,
-                     [&](const std::string& path) { predictScan(path, arguments, file_options, *predictor); });
+  return forEachScan("predict_scan", arguments.scans, [&](const std::string& path) {
+    predictScan(path, arguments, file_options, scan_options, *predictor);
+  });
 }
 
 }  // namespace

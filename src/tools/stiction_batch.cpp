@@ -113,15 +113,12 @@ struct Item {
 class Batch {
  public:
   Batch(const Arguments& arguments, std::vector<std::string> inputs, const Configuration& configuration)
-      : arguments_(arguments),
-        inputs_(std::move(inputs)),
-        predictor_(configuration),
-        has_device_(configuration.device.isStated()) {
+      : arguments_(arguments), inputs_(std::move(inputs)), configuration_(configuration), predictor_(configuration) {
     for (std::size_t input = 0; input < inputs_.size(); ++input) list(input);
   }
 
   std::size_t size() const { return items_.size(); }
-  bool hasDevice() const { return has_device_; }
+  bool hasDevice() const { return configuration_.device.isStated(); }
 
   /// @param number from 1 @param failed whether there is no prediction
   RowFields row(std::size_t number, bool& failed) {
@@ -146,7 +143,7 @@ class Batch {
     if (!failed && !arguments_.dump.empty()) {
       std::ostringstream folder;
       folder << arguments_.dump << "/" << std::setw(6) << std::setfill('0') << number;
-      writeFullResult(folder.str(), fields, predictor_.prepared(surface_), prediction_);
+      writeFullResult(folder.str(), fields, prepared_.surfaces.lower, prediction_);
     }
     return fields;
   }
@@ -173,34 +170,34 @@ class Batch {
   const ScanBagReader& open(std::size_t input) {
     if (!bag_ || bag_input_ != input) {
       bag_.reset();
-      bag_ = std::make_unique<ScanBagReader>(inputs_[input], arguments_.topic, predictor_.configuration().scan);
+      bag_ = std::make_unique<ScanBagReader>(inputs_[input], arguments_.topic, configuration_.scan);
       bag_input_ = input;
     }
     return *bag_;
   }
 
   RowFields predict(const Item& item, ScanOrigin& origin) {
-    std::optional<HeightMap> counter_surface;
-    BagScan of_bag;  // its messages own the pixels
+    HeightMap counter_surface;
     if (item.scan == 0) {
-      const ScanFile file = openScanFile(inputs_[item.input], predictor_.configuration().scan);
+      const ScanFile file = openScanFile(inputs_[item.input], configuration_.scan);
       surface_ = file.surface;
       origin.channel = file.channel;
     } else {
-      const bool wants_counter = predictor_.configuration().counter_surface.type == CounterSurfaceType::kTopic;
-      of_bag = open(item.input).read(item.scan - 1, wants_counter);
-      surface_ = {of_bag.scan.surface.heights().clone(), of_bag.scan.surface.pitchX(), of_bag.scan.surface.pitchY()};
+      const bool wants_counter = configuration_.counter_surface.type == CounterSurfaceType::kTopic;
+      const BagScan of_bag = open(item.input).read(item.scan - 1, wants_counter);
+      surface_ = of_bag.scan.surface;
       if (of_bag.counter_surface) counter_surface = of_bag.counter_surface->surface;
       origin.name = of_bag.scan.header.frame_id;
       std::ostringstream stamp;
       stamp << of_bag.scan.header.stamp;
       origin.stamp = stamp.str();
     }
-    prediction_ = counter_surface ? predictor_.predict(surface_, *counter_surface) : predictor_.predict(surface_);
+    predictor_.preparer().setMeasuredCounterSurface(counter_surface);
+    prepared_ = predictor_.preparer().prepare(surface_);
+    prediction_ = predictor_.predict(prepared_);
     std::optional<Verdict> verdict;
-    if (has_device_) {
-      const Configuration& configuration = predictor_.configuration();
-      verdict = verdictOf(prediction_, configuration.device, configuration.uncertainty, configuration.model,
+    if (hasDevice()) {
+      verdict = verdictOf(prediction_, configuration_.device, configuration_.uncertainty, configuration_.model,
                           surface_.cellArea());
     }
     return figureFields(surface_, scanWarnings(surface_), prediction_, verdict);
@@ -208,12 +205,13 @@ class Batch {
 
   const Arguments& arguments_;
   std::vector<std::string> inputs_;
+  const Configuration& configuration_;
   ScanPredictor predictor_;
-  bool has_device_;
   std::vector<Item> items_;
   std::unique_ptr<ScanBagReader> bag_;  ///< the one that was opened last
   std::size_t bag_input_ = 0;
-  HeightMap surface_;
+  HeightMap surface_;      ///< as it was read
+  PreparedScan prepared_;  ///< and what belongs to it, for the full result
   Prediction prediction_;
 };
 

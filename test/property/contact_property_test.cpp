@@ -237,8 +237,7 @@ RC_GTEST_PROP(ScanPredictor, isTheModelWhereNothingIsPrepared, (PairCase pair_ca
   configuration.model = optionsOf(setting);
   if (!pair.upperIsPlane()) configuration.counter_surface.type = CounterSurfaceType::kTopic;
   ScanPredictor predictor(configuration);
-  const Prediction found =
-      !pair.upperIsPlane() ? predictor.predict(pair.lower, pair.upper) : predictor.predict(pair.lower);
+  const Prediction found = predictor.predict(pair.lower, pair.upper);
   const Prediction expected = predict(configuration.model, pair);
   RC_ASSERT(found.status == expected.status);
   RC_ASSERT(found.pull_off_force == expected.pull_off_force);

@@ -34,6 +34,13 @@ Configuration softConfiguration() {
   return configuration;
 }
 
+void setLoad(LivePredictor& predictor, double voltage, double mechanical_load) {
+  RunningSettings settings = predictor.settings().current();
+  settings.load.voltage = voltage;
+  settings.load.mechanical_load = mechanical_load;
+  predictor.settings().change(settings);
+}
+
 /// Every figure, wall time apart.
 void expectSame(const PredictedScan& left, const PredictedScan& right) {
   StictionPrediction a = predictionMessage(left, {});
@@ -62,19 +69,19 @@ TEST(LivePredictor, VoltageActsBySquareAndARefusalChangesNothing) {
   LivePredictor predictor(softConfiguration(), false);
   EXPECT_FALSE(predictor.predictLastScan());
   predictor.predictScan(roughScan(), OutputOptions());
-  predictor.setLoad(1e-3, 2e-6);  // so small that the gap stays the same
+  setLoad(predictor, 1e-3, 2e-6);  // so small that the gap stays the same
   const double once = predictor.predictLastScan()->prediction.electrostatic_force;
-  predictor.setLoad(2e-3, 2e-6);
+  setLoad(predictor, 2e-3, 2e-6);
   const double twice = predictor.predictLastScan()->prediction.electrostatic_force;
   ASSERT_GT(once, 0.0);
   EXPECT_NEAR(twice / once, 4.0, 1e-9);
   for (const double refused : {1e9, std::nan(""), HUGE_VAL}) {
-    EXPECT_THROW(predictor.setLoad(refused, 0.0), OptionsError) << refused;
-    EXPECT_THROW(predictor.setLoad(0.0, refused), OptionsError) << refused;
+    EXPECT_THROW(setLoad(predictor, refused, 0.0), OptionsError) << refused;
+    EXPECT_THROW(setLoad(predictor, 0.0, refused), OptionsError) << refused;
   }
-  EXPECT_THROW(predictor.setLoad(0.0, -1e-9), OptionsError);
-  EXPECT_EQ(predictor.load().voltage, 2e-3);
-  EXPECT_EQ(predictor.load().mechanical_load, 2e-6);
+  EXPECT_THROW(setLoad(predictor, 0.0, -1e-9), OptionsError);
+  EXPECT_EQ(predictor.settings().current().load.voltage, 2e-3);
+  EXPECT_EQ(predictor.settings().current().load.mechanical_load, 2e-6);
 }
 
 TEST(LivePredictor, ASinglePredictionEqualsTheScansAndLeavesNoTrace) {
@@ -86,7 +93,7 @@ TEST(LivePredictor, ASinglePredictionEqualsTheScansAndLeavesNoTrace) {
   expectSame(single, live);
   expectSame(single, predictor.predictOnce(scan, 0.0, 2e-6));
   predictor.predictOnce(scan, 1.0, 1e-6);
-  EXPECT_EQ(predictor.load().mechanical_load, 2e-6);
+  EXPECT_EQ(predictor.settings().current().load.mechanical_load, 2e-6);
   expectSame(*predictor.predictLastScan(), live);
 }
 
@@ -118,7 +125,7 @@ TEST(LivePredictor, WearIsMeasuredOnTheLevelledSurface) {
   cv::Mat tilted = flat.surface.heights().clone();
   for (int col = 0; col < tilted.cols; ++col) tilted.col(col) += 1e-9 * col + 1e-6;
   const ReceivedScan tilted_scan = scanOf(HeightMap(tilted, flat.surface.pitchX(), flat.surface.pitchY()));
-  const ReceivedScan levelled_scan = scanOf(ScanPredictor(configuration).prepared(flat.surface));
+  const ReceivedScan levelled_scan = scanOf(ScanPreparer(configuration).prepare(flat.surface).surfaces.lower);
   plain.predictScan(levelled_scan, OutputOptions());
   levelling.predictScan(tilted_scan, OutputOptions());
   const double once = plain.predictScan(levelled_scan, OutputOptions()).prediction.pull_off_force;
@@ -153,6 +160,67 @@ TEST(LivePredictor, WaitsForTheCounterSurfaceOfTheTopic) {
   expectSame(predicted, expected);
 }
 
+TEST(LivePredictor, AScanIsCleanedOnceForAllWhoAskForIt) {
+  Configuration configuration = softConfiguration();
+  configuration.preprocessing.level.shape = LevelShape::kPlane;
+  configuration.preprocessing.refine.factor = 2;
+  configuration.counter_surface.type = CounterSurfaceType::kTopic;
+  configuration.device.spring_stiffness = configuration.device.travel = configuration.device.contact_area = 1e-6;
+  LivePredictor predictor(configuration, true);
+  predictor.setCounterSurface(roughScan(4));
+  std::uint64_t expected = 1;  // the counter-surface
+  for (int scan = 0; scan < 3; ++scan) {
+    const PredictedScan live = predictor.predictScan(roughScan(3), OutputOptions());  // worn from the second on
+    EXPECT_EQ(predictor.cleanings(), ++expected);
+    EXPECT_EQ(predictor.lastSurface().rows(), 96);  // the preview
+    RunningSettings settings = predictor.settings().current();
+    settings.interface.work_of_adhesion *= 1.5;
+    settings.load.voltage = 1.0;
+    predictor.settings().change(settings);
+    EXPECT_NE(predictor.predictLastScan()->prediction.pull_off_force, live.prediction.pull_off_force);
+    const StationCase station_case = predictor.stationCase(nullptr);
+    EXPECT_EQ(station_case.scan.model_surfaces.lower.rows(), 2 * 96);
+    EXPECT_EQ(station_case.settings->model.load.voltage, 1.0);
+    EXPECT_EQ(predictor.cleanings(), expected);
+  }
+  const ReceivedScan given = roughScan(5);
+  predictor.stationCase(&given);
+  predictor.predictOnce(given, 0.0, 1e-6);
+  EXPECT_EQ(predictor.cleanings(), expected += 2) << "of scans that are not kept, once for each call";
+  predictor.setCounterSurface(roughScan(6));
+  predictor.predictLastScan();
+  predictor.stationCase(nullptr);
+  EXPECT_EQ(predictor.cleanings(), expected += 1) << "the new counter-surface alone";
+  predictor.resetSurface();
+  predictor.predictLastScan();
+  predictor.stationCase(nullptr);
+  EXPECT_EQ(predictor.cleanings(), expected += 1) << "the last scan without the wear";
+}
+
+TEST(LivePredictor, TheLastScanMeetsTheNewestCounterSurfaceAndForgetsItsWear) {
+  Configuration configuration = softConfiguration();
+  configuration.preprocessing.level.shape = LevelShape::kPlane;
+  configuration.counter_surface.type = CounterSurfaceType::kTopic;
+  LivePredictor predictor(configuration, true);
+  predictor.setCounterSurface(roughScan(4));
+  predictor.predictScan(roughScan(3), OutputOptions());
+  predictor.predictScan(roughScan(3), OutputOptions());
+  const double worn = predictor.predictLastScan()->prediction.pull_off_force;
+  predictor.setCounterSurface(roughScan(5));
+  EXPECT_NE(predictor.predictLastScan()->prediction.pull_off_force, worn);
+  predictor.resetSurface();
+  EXPECT_EQ(predictor.predictLastScan()->prediction.pull_off_force,
+            ScanPredictor(configuration).predict(roughScan(3).surface, roughScan(5).surface).pull_off_force);
+
+  GaussianSurfaceOptions other;
+  other.rows = other.cols = 64;
+  predictor.setCounterSurface(scanOf(gaussianSurface(other)));
+  for (int i = 0; i < 2; ++i) EXPECT_THROW(predictor.predictLastScan(), SurfaceError) << "its grid is another";
+  EXPECT_EQ(predictor.lastSurface().rows(), 96);
+  predictor.setCounterSurface(roughScan(4));
+  EXPECT_TRUE(predictor.predictLastScan());
+}
+
 /// A 32FC1 scan that shows the pixels of its message, which nobody else holds.
 ReceivedScan shownScan(int seed, boost::weak_ptr<const sensor_msgs::Image>& watched) {
   const HeightMap surface = roughScan(seed).surface;
@@ -178,8 +246,8 @@ TEST(LivePredictor, ALongRunHoldsThePixelsOfItsScanAndCounterSurface) {
     predictor.setCounterSurface(roughScan(5));
     ASSERT_FALSE(scan_message.expired());
     ASSERT_FALSE(counter_message.expired());
-    EXPECT_EQ(station_case.scan.heights().data, scan_message.lock()->data.data());
-    EXPECT_EQ(cv::norm(station_case.scan.heights(), expected, cv::NORM_INF), 0.0);
+    EXPECT_EQ(station_case.scan.surfaces.lower.heights().data, scan_message.lock()->data.data());
+    EXPECT_EQ(cv::norm(station_case.scan.surfaces.lower.heights(), expected, cv::NORM_INF), 0.0);
   }
   EXPECT_TRUE(scan_message.expired());
   EXPECT_TRUE(counter_message.expired());
@@ -191,17 +259,17 @@ TEST(LivePredictor, EverySettingChangesAtOnceOrNone) {
   const PredictedScan before = predictor.predictScan(scan, OutputOptions());
   EXPECT_EQ(before.verdict.sticks, Sticks::kUnknown);
 
-  RunningOptions options = predictor.runningOptions();
+  RunningSettings options = predictor.settings().current();
   options.interface.work_of_adhesion *= 2.0;
   options.device.spring_stiffness = 1.0;
   options.device.travel = 1e-6;
   options.device.contact_area = before.prediction.nominal_area;
   options.device.electrode_gap = 1e-7;  // less than the travel
-  EXPECT_THROW(predictor.change(options), OptionsError);
+  EXPECT_THROW(predictor.settings().change(options), OptionsError);
   expectSame(*predictor.predictLastScan(), before);
 
   options.device.electrode_gap = 0.0;
-  predictor.change(options);
+  predictor.settings().change(options);
   const PredictedScan after = *predictor.predictLastScan();
   EXPECT_GT(after.prediction.pull_off_force, before.prediction.pull_off_force);
   EXPECT_NEAR(after.verdict.margin, 1e-6 / after.prediction.pull_off_force, 1e-9 * after.verdict.margin);
@@ -240,7 +308,9 @@ TEST(LivePredictor, TheScansPoseIsThatOfTheParameters) {
   expectSame(by_scan.predictScan(scan, OutputOptions()), expected);
   expectSame(*by_scan.predictLastScan(), expected);
   expectSame(by_scan.predictOnce(scan, 0.0, 2e-6), expected);
-  EXPECT_EQ(by_scan.stationCase(nullptr).configuration.counter_surface.pose.tilt_x, pose.tilt_x);
+  const HeightMap upper = by_scan.stationCase(nullptr).scan.surfaces.upper;
+  const HeightMap expected_upper = by_parameter.stationCase(nullptr).scan.surfaces.upper;
+  EXPECT_EQ(cv::norm(upper.heights(), expected_upper.heights(), cv::NORM_INF), 0.0);
 }
 
 TEST(PredictionConversion, CarriesEveryContact) {

@@ -41,6 +41,11 @@ class StationTest(unittest.TestCase):
         self.station.send(surface)
         return self.predictions.wait(count + 1)[count]
 
+    def cleaned(self):
+        """How many scans were cleaned until the last prediction."""
+        self.counts.wait(predicted=len(self.predictions.messages))
+        return int(self.counts["cleaned"])
+
     def run_goal(self, client, goal):
         """The state in the end, the result and all feedback."""
         feedback = []
@@ -122,6 +127,7 @@ class StationTest(unittest.TestCase):
         surface = rough_surface(2)
         self.assertEqual(self.get_load().voltage, 0.0)
         live = self.live(surface)
+        cleaned = self.cleaned()
         state, result, feedback = self.run_goal(self.sweep, SweepLoadGoal(voltages=[0.0, 10.0, 20.0]))
         self.assertEqual(state, GoalStatus.SUCCEEDED, result.message)
         self.assertEqual(result.header.stamp, live.header.stamp)
@@ -140,6 +146,9 @@ class StationTest(unittest.TestCase):
         self.assertEqual(given.header.stamp, rospy.Time(5))
         self.assert_first_contacts(given.points, rough_surface(3), [LOAD, 2 * LOAD])
         self.assertEqual(self.set_load(0.0, LOAD).prediction.pull_off_force, live.pull_off_force)
+        # Cleaned: the given scan and the next one; the last one was when it came.
+        self.live(surface)
+        self.assertEqual(self.cleaned(), cleaned + 2)
 
     def test_5_refused_goals_say_why(self):
         for goal, reason in ((SweepLoadGoal(), "voltages"), (SweepLoadGoal(voltages=[51.0]), "voltage"),

@@ -80,6 +80,8 @@ class ViewsTest(unittest.TestCase):
                 break
             before = newest
         self.assertEqual([message.header.stamp for message in messages], [before, newest])
+        # No scan was cleaned for its preview.
+        self.counts.wait(cleaned=len(self.predictions.messages))
 
     def test_2_the_views_for_rviz_have_a_frame_of_their_own(self):
         points = Collector("surface_points", PointCloud2).connect()

@@ -5,7 +5,7 @@
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/height_map/scan_file.hpp"
-#include "mems_stiction/scan/scan_predictor.hpp"
+#include "mems_stiction/scan/prepared_scan.hpp"
 #include "mems_stiction/surface/gaussian_surface.hpp"
 #include "mems_stiction/surface/self_affine_surface.hpp"
 
@@ -62,7 +62,7 @@ std::vector<Surface> generatedSurfaces(int scans, int pixels) {
 
 Surface surfaceOfFile(const std::string& path, const Configuration& configuration) {
   const HeightMap cleaned =
-      ScanPredictor(configuration).prepared(openScanFile(path, configuration.scan, {}).surface).asDouble();
+      ScanPreparer(configuration).prepare(openScanFile(path, configuration.scan, {}).surface).surfaces.lower.asDouble();
   if (cleaned.rows() < kSmallestSide || cleaned.cols() < kSmallestSide) {
     throw SurfaceError(path + ": " + std::to_string(cleaned.cols()) + " x " + std::to_string(cleaned.rows()) +
                        " pixels are too few to be cut into quarters; must have " + std::to_string(kSmallestSide) +

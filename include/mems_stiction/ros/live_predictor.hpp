@@ -3,22 +3,26 @@
 /// @file
 /// What the node remembers between scans, and the core beside it: the settings that may change, the last scan, the
 /// counter-surface and the deformation that has accumulated. No ROS graph; one object serves one thread.
+///
+/// A scan is cleaned once, when it comes. As the last scan it stays prepared: new loads, long runs and the preview take
+/// it from there. It is prepared again only when the wear that it was measured against is forgotten (resetSurface());
+/// under a newer counter-surface it is mounted again, not cleaned. No running setting bears on its preparation.
 
+#include <cstdint>
 #include <optional>
 
 #include "mems_stiction/ros/image_conversion.hpp"
 #include "mems_stiction/ros/predicted_scan.hpp"
-#include "mems_stiction/ros/running_options.hpp"
+#include "mems_stiction/scan/running_settings.hpp"
 #include "mems_stiction/scan/scan_predictor.hpp"
 
 namespace mems_stiction {
 
 /// What a long run on one scan needs, so that it can go its own way while scans are predicted.
 struct StationCase {
-  std_msgs::Header header;      ///< of the scan
-  Configuration configuration;  ///< with the pose of that scan
-  HeightMap scan;               ///< before preprocessing, worn
-  HeightMap measured_counter;   ///< for counter_surface/type topic, else empty
+  std_msgs::Header header;           ///< of the scan
+  PreparedScan scan;                 ///< as the contacts before have left it, if it is the last one
+  SettingsOwner::Snapshot settings;  ///< of the time when it was asked for
 };
 
 /// The core as the node uses it, one scan after the other.
@@ -29,14 +33,12 @@ class LivePredictor {
   /// @throw OptionsError if the configuration is out of range.
   LivePredictor(const Configuration& configuration, bool accumulate_deformation);
 
+  /// For every thread, unlike the rest. A change is that of the next prediction.
+  SettingsOwner& settings() { return settings_; }
+  const SettingsOwner& settings() const { return settings_; }
+
   /// The scan that the topic brought. @throw SurfaceError if it cannot be predicted; then nothing changes.
   PredictedScan predictScan(const ReceivedScan& scan, const OutputOptions& output);
-
-  /// The one way by which a setting changes while the node runs; all of them at once.
-  /// @throw OptionsError naming each refused value; then nothing changes.
-  void change(const RunningOptions& options);
-  /// The same for both loads [V], [N].
-  void setLoad(double voltage, double mechanical_load);
 
   /// The last scan again, with the settings of now, without adding to the accumulated deformation.
   /// @return nothing if there is no scan yet. @throw SurfaceError if it does not fit a newer counter-surface.
@@ -47,11 +49,8 @@ class LivePredictor {
   PredictedScan predictOnce(const ReceivedScan& scan, double voltage, double mechanical_load);
 
   /// @param given null: the last scan as the contacts before have left it.
-  /// @throw SurfaceError if there is no scan, or no counter-surface.
-  StationCase stationCase(const ReceivedScan* given) const;
-
-  /// The scan on its own grid as the model gets it, before refinement. @throw SurfaceError if it cannot be used.
-  HeightMap prepared(const HeightMap& scan) const { return predictor_.prepared(scan); }
+  /// @throw SurfaceError if there is no scan, or no counter-surface, or either cannot be used.
+  StationCase stationCase(const ReceivedScan* given);
 
   /// For counter_surface/type topic: the latest is kept.
   void setCounterSurface(const ReceivedScan& counter_surface);
@@ -59,21 +58,36 @@ class LivePredictor {
   /// Forgets the accumulated deformation.
   void resetSurface();
 
-  const Configuration& configuration() const { return predictor_.configuration(); }
-  RunningOptions runningOptions() const { return RunningOptions(configuration()); }
-  const LoadOptions& load() const { return configuration().model.load; }
-  const std::optional<ReceivedScan>& lastScan() const { return last_scan_; }
+  /// As it came; null: there is none yet.
+  const ReceivedScan* lastScan() const { return last_ ? &last_->received : nullptr; }
+  /// The last scan as the model got it, on its own grid. Only if there is one.
+  const HeightMap& lastSurface() const { return last_->prepared.surfaces.lower; }
+
+  /// How many scans and counter-surfaces have been cleaned so far. For every thread.
+  std::uint64_t cleanings() const { return predictor_.preparer().cleanings(); }
 
  private:
-  PredictedScan run(ScanPredictor& predictor, const HeightMap& surface, const ReceivedScan& scan) const;
-  void requireCounterSurface() const;
+  struct LastScan {
+    ReceivedScan received;
+    PreparedScan prepared;
+    cv::Mat wear_before;             ///< what had been pressed in when it came
+    bool is_reset = false;           ///< the wear has been forgotten since
+    bool has_newer_counter = false;  ///< another counter-surface has come since
+  };
 
+  PreparedScan prepare(const ReceivedScan& scan, const cv::Mat& wear);
+  /// Brought up to date, if need be.
+  const PreparedScan& lastPrepared();
+  void setPoseOf(const ReceivedScan& scan);
+  void requireCounterSurface() const;
+  /// The prediction with `options` set before, and its verdict.
+  PredictedScan judged(const PreparedScan& prepared, const Configuration& settings);
+
+  SettingsOwner settings_;
   ScanPredictor predictor_;
-  ScanPredictor single_predictor_;  ///< for predictOnce()
   bool accumulate_deformation_;
-  std::optional<ReceivedScan> counter_surface_;
-  std::optional<ReceivedScan> last_scan_;
-  cv::Mat wear_before_last_scan_;
+  bool has_counter_surface_ = false;
+  std::optional<LastScan> last_;
   cv::Mat wear_;  ///< depth pressed in by the contacts so far, rows x cols CV_64FC1 [m]; empty = none
 };
 

@@ -12,7 +12,7 @@
 #include <boost/thread/recursive_mutex.hpp>
 
 #include "mems_stiction/StictionConfig.h"
-#include "mems_stiction/ros/running_options.hpp"
+#include "mems_stiction/scan/running_settings.hpp"
 
 namespace mems_stiction {
 
@@ -20,26 +20,25 @@ namespace mems_stiction {
 class ReconfigureServer {
  public:
   /// @throw OptionsError naming refused values; then nothing has changed.
-  using Change = std::function<void(const RunningOptions&)>;
+  using Change = std::function<void(const RunningSettings&)>;
 
   /// Serves under the names of the private namespace; its parameters, a mirror that nobody reads, stand in
   /// `reconfigure` there, where they cannot be taken for settings.
-  ReconfigureServer(const ros::NodeHandle& private_handle, const RunningOptions& options, Change change);
+  /// @param settings outlive the server
+  ReconfigureServer(const ros::NodeHandle& private_handle, const SettingsOwner& settings, Change change);
 
-  /// Held while settings change, so that a change by a service and one by reconfigure do not undo each other.
+  /// Held from reading the settings to changing them, so that a change by a service and one by reconfigure do not undo
+  /// each other.
   boost::recursive_mutex& mutex() { return mutex_; }
 
-  /// As they are; with the mutex held.
-  const RunningOptions& options() const { return options_; }
-
   /// After a change by somebody else, with the mutex held.
-  void show(const RunningOptions& options);
+  void show();
 
  private:
   void take(StictionConfig& config);
 
   boost::recursive_mutex mutex_;
-  RunningOptions options_;  ///< as they are
+  const SettingsOwner& settings_;
   Change change_;
   std::unique_ptr<dynamic_reconfigure::Server<StictionConfig>> server_;
 };

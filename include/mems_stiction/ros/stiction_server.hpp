@@ -9,7 +9,6 @@
 
 #include <atomic>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,6 +46,8 @@ class StictionServer {
   StictionServer& operator=(const StictionServer&) = delete;
 
  private:
+  StictionServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle, const std::string& name,
+                 const NodeConfiguration& configuration);
   void advertiseServices();
   void subscribe();
   void startTimers();
@@ -68,7 +69,7 @@ class StictionServer {
   ReceivedScan receiveByCall(sensor_msgs::Image image, const ScanInfo& info) const;
   StationCase findCase(const sensor_msgs::Image& height, const ScanInfo& info);
   /// The one way to change settings, on the worker. @throw OptionsError, std::future_error.
-  void change(const RunningOptions& options);
+  void change(const RunningSettings& settings);
 
   bool setLoad(SetLoad::Request& request, SetLoad::Response& response);
   bool getLoad(GetLoad::Request& request, GetLoad::Response& response);
@@ -82,13 +83,11 @@ class StictionServer {
   ros::NodeHandle private_handle_;
   ros::NodeHandle service_handle_;
 
-  NodeConfiguration configuration_;
+  const NodeOptions options_;
   ScanAccounting accounting_;
-  LivePredictor predictor_;  ///< touched by the worker only
+  LivePredictor predictor_;  ///< touched by the worker only, but for what is for every thread
   ResultPublisher publisher_;
   WorkQueue worker_;
-  mutable std::mutex load_mutex_;
-  LoadOptions load_;  ///< what ~get_load tells, without waiting for the worker
   std::atomic<bool> stopping_{false};
 
   std::unique_ptr<CounterSurfaceFrame> counter_surface_frame_;  ///< null: counter_surface/frame is not set

@@ -5,7 +5,10 @@
 ///
 /// A measured counter-surface is cleaned as the scan is (same steps; the tip is taken off while its asperities point
 /// up), then turned over if it faces up, then put in its pose. A generated one needs no cleaning. Results are kept: a
-/// file is read and cleaned once, a surface is drawn once per scan grid and resampled once per pose.
+/// measured surface is cleaned once, a generated one is drawn once per scan grid, either is resampled once per pose.
+
+#include <atomic>
+#include <cstdint>
 
 #include "mems_stiction/height_map/height_map.hpp"
 #include "mems_stiction/height_map/raw_scan.hpp"
@@ -18,7 +21,7 @@ namespace mems_stiction {
 class CounterSurfaceSource {
  public:
   /// - @p scan how pixels of the file become heights, where it does not say so itself
-  /// - @p cleaning the steps of the scan; the last one, refinement, is left to the caller
+  /// - @p cleaning the steps of the scan, without refinement, which is left to the caller
   CounterSurfaceSource(const CounterSurfaceOptions& options, const ScanOptions& scan, const PipelineOptions& cleaning);
 
   /// Reads and cleans the file of type file; nothing for other types.
@@ -27,24 +30,35 @@ class CounterSurfaceSource {
 
   /// @throw OptionsError if the pose is out of range; then nothing changes.
   void setPose(const SurfacePose& pose);
+  const SurfacePose& pose() const { return options_.pose; }
 
-  /// The counter-surface on the scan's grid; empty for a level plane.
-  /// @throw SurfaceError for type topic, which has no surface of its own, or one that cannot be drawn on this grid or
-  /// does not overlap it.
+  /// A surface that was measured beside the scans takes the place of the configured one; empty: no longer. It is
+  /// cleaned when it is first asked for.
+  void setMeasured(const HeightMap& measured);
+
+  /// The counter-surface on the scan's grid; empty for a level plane. A measured one of another grid is not resampled,
+  /// it belongs to another scan: it is returned as it is, and the model refuses the pair.
+  /// @throw SurfaceError for type topic without a measured surface, or one that cannot be cleaned, cannot be drawn on
+  /// this grid or does not overlap it.
   HeightMap over(const HeightMap& scan);
 
-  /// The same with a surface that was measured beside the scan, in place of the configured one.
-  /// @throw SurfaceError if their grids differ: such a surface is not resampled, it belongs to another scan.
-  HeightMap over(const HeightMap& scan, const HeightMap& measured) const;
+  /// How many measured surfaces have been cleaned so far. For any thread.
+  std::uint64_t cleanings() const { return cleanings_; }
 
  private:
-  HeightMap cleaned(const HeightMap& measured) const;
+  /// The measured surface or that of the file, cleaned and turned over, before its pose.
+  HeightMap mounted(const HeightMap& measured);
+  /// What lies over the scan before its pose, on whatever grid it has.
+  const HeightMap& unplaced(const HeightMap& scan);
 
   CounterSurfaceOptions options_;
   ScanOptions scan_;
   PipelineOptions cleaning_;
-  HeightMap surface_;  ///< mounted, before its pose; of type file, or the generated one of the latest grid
-  HeightMap placed_;   ///< in its pose, on the latest grid
+  HeightMap measured_;          ///< beside the scans, as it came
+  HeightMap mounted_measured_;  ///< the same before its pose; empty: not asked for yet
+  HeightMap surface_;           ///< mounted, before its pose; of type file, or the generated one of the latest grid
+  HeightMap placed_;            ///< in its pose, on the latest grid
+  std::atomic<std::uint64_t> cleanings_{0};
 };
 
 }  // namespace mems_stiction

@@ -3,16 +3,21 @@
 /// @file
 /// From a scan to its prediction with one configuration: what node, command line and bag tools share to the last line.
 
+#include <vector>
+
 #include "mems_stiction/height_map/height_map.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
 #include "mems_stiction/scan/configuration.hpp"
 #include "mems_stiction/scan/convergence.hpp"
-#include "mems_stiction/scan/counter_surface_source.hpp"
+#include "mems_stiction/scan/prepared_scan.hpp"
 
 namespace mems_stiction {
 
-/// Prepares the scan (configuration.preprocessing), mounts the counter-surface (configuration.counter_surface) and asks
-/// the model. One object serves one thread at a time.
+/// Prepares scans (prepared_scan.hpp) and asks the model. One object serves one thread at a time.
+///
+///     ScanPredictor predictor(configuration);
+///     const PreparedScan prepared = predictor.preparer().prepare(scan);
+///     const Prediction prediction = predictor.predict(prepared);
 ///
 /// Refinement (preprocessing/refine) stays inside: figures are those of the refined surfaces, maps have the scan's own
 /// size. Deformed surfaces are the scan's pixels less the mean depth over each, so that untouched pixels keep their
@@ -24,47 +29,33 @@ class ScanPredictor {
   /// @throw OptionsError if the configuration is out of range, also when that file cannot be used.
   explicit ScanPredictor(const Configuration& configuration);
 
-  const Configuration& configuration() const { return configuration_; }
+  ScanPreparer& preparer() { return preparer_; }
+  const ScanPreparer& preparer() const { return preparer_; }
 
-  /// Both loads at once [V], [N]. @throw OptionsError naming each refused value; then nothing changes.
-  void setLoad(double voltage, double mechanical_load);
-  /// What the next predictions return beside the figures, which do not depend on it.
-  void setOutput(const OutputOptions& output);
-  /// Where the counter-surface lies over the next scans, of every type; a plane takes the tilts.
-  /// @throw OptionsError naming each refused value; then nothing changes.
-  void setCounterSurfacePose(const SurfacePose& pose);
+  /// What the model is told beside the surfaces. Roughness is the preparation's: output/roughness is of no effect here.
+  const Options& options() const { return model_.options(); }
+  /// For the next predictions; prepared scans stay good. @throw OptionsError naming each refused value; then nothing
+  /// changes.
+  void setOptions(const Options& options);
 
-  /// The scan with configuration.preprocessing applied, on its own grid: all steps but refinement. Maps of the
-  /// prediction compare with it.
-  /// @throw SurfaceError if no pixel is valid, or too many are missing.
-  HeightMap prepared(const HeightMap& scan) const;
+  /// @throw SurfaceError if the two surfaces do not fit.
+  Prediction predict(const PreparedScan& prepared);
 
-  /// Against the configured counter-surface. @throw SurfaceError if the scan cannot be used, or the configured
-  /// counter-surface is one that arrives beside the scan.
-  Prediction predict(const HeightMap& scan);
-  /// Against a measured counter-surface. @throw SurfaceError if either cannot be used or their grids differ.
-  Prediction predict(const HeightMap& scan, const HeightMap& measured_counter_surface);
-
-  /// What preprocessing did to the scan of the latest prediction.
-  const PreprocessRecord& lastRecord() const { return record_; }
+  /// One scan from its beginning, under a counter-surface that was measured beside it, or the configured one if that is
+  /// empty. @throw SurfaceError if either cannot be used or their grids differ, or if the configured one is one that
+  /// arrives beside the scan.
+  Prediction predict(const HeightMap& scan, const HeightMap& measured_counter_surface = {});
 
   /// predict() at full, half and quarter resolution; rows and columns beyond a multiple of 4 are left out of all three,
   /// so that they see the same area. Both surfaces are made coarser after cleaning and before refinement.
   /// @throw SurfaceError as predict(), or if a side has fewer than 16 pixels.
-  std::vector<ConvergenceRow> convergence(const HeightMap& scan);
+  std::vector<ConvergenceRow> convergence(const PreparedScan& prepared);
 
  private:
-  HeightMap prepare(const HeightMap& scan);
-  /// @param upper empty for a level plane
-  Prediction predictPair(const HeightMap& lower, const HeightMap& upper);
-  Prediction predictRefined(const HeightMap& lower, const HeightMap& upper);
-  /// What the scan alone decides: flags of resolution, spatial roughness.
-  void describeScan(const HeightMap& lower, Prediction& prediction) const;
-
-  Configuration configuration_;
+  ScanPreparer preparer_;
   AdhesionModel model_;
-  CounterSurfaceSource counter_surface_;
-  PreprocessRecord record_;
+  double min_contact_pixels_;
+  double tip_radius_;  ///< of the tip that drew the scan [m]; 0 = not known
 };
 
 }  // namespace mems_stiction

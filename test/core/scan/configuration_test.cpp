@@ -246,18 +246,25 @@ TEST(ScanPredictor, RefusedLoadNamesEachValueAndChangesNothing) {
   configuration.model.interface.insulator_thickness = 1e-7;
   configuration.model.load.voltage = 3.0;
   ScanPredictor predictor(configuration);
-  predictor.setLoad(5.0, 1e-6);
+  Options options = configuration.model;
+  options.load.voltage = 5.0;
+  options.load.mechanical_load = 1e-6;
+  predictor.setOptions(options);
+  Options refused = options;
+  refused.load.voltage = 2000.0;
+  refused.load.mechanical_load = -1.0;
   try {
-    predictor.setLoad(2000.0, -1.0);
+    predictor.setOptions(refused);
     FAIL();
   } catch (const OptionsError& error) {
     EXPECT_EQ(error.violations().size(), 2u);
     EXPECT_TRUE(mentions(error.what(), "load/voltage: 2000 V"));
     EXPECT_TRUE(mentions(error.what(), "load/mechanical_load: -1 N"));
   }
-  EXPECT_THROW(predictor.setLoad(std::nan(""), 0.0), OptionsError);
-  EXPECT_EQ(predictor.configuration().model.load.voltage, 5.0);
-  EXPECT_EQ(predictor.configuration().model.load.mechanical_load, 1e-6);
+  refused.load.voltage = std::nan("");
+  EXPECT_THROW(predictor.setOptions(refused), OptionsError);
+  EXPECT_EQ(predictor.options().load.voltage, 5.0);
+  EXPECT_EQ(predictor.options().load.mechanical_load, 1e-6);
   const HeightMap scan(cv::Mat::eye(8, 8, CV_64FC1) * 1e-9, 1e-8, 1e-8);
   const Prediction prediction = predictor.predict(scan);
   EXPECT_EQ(prediction.voltage, 5.0);

@@ -39,20 +39,17 @@ HeightMap rough(int seed = 5, int rows = 96, int cols = 128) {
 
 // ------------------------------------------------------------------ cleaning
 
-TEST(ScanPredictor, KeepsTheRecordOfTheLastScan) {
+TEST(ScanPreparer, RecordsEveryStep) {
   Configuration configuration = pressed();
   configuration.preprocessing.offset.enabled = true;
   configuration.preprocessing.level.shape = LevelShape::kPolynomial;
   configuration.preprocessing.refine.factor = 2;
-  ScanPredictor predictor(configuration);
-  EXPECT_TRUE(predictor.lastRecord().steps.empty());
-  predictor.predict(rough());
-  ASSERT_EQ(predictor.lastRecord().steps.size(), 3u);
-  EXPECT_EQ(predictor.lastRecord().steps[0].name, "offset");
-  EXPECT_EQ(predictor.lastRecord().steps[1].name, "level");
-  EXPECT_EQ(predictor.lastRecord().steps[2].name, "refine");
-  predictor.convergence(rough());
-  EXPECT_EQ(predictor.lastRecord().steps.size(), 3u);
+  const PreparedScan prepared = ScanPreparer(configuration).prepare(rough());
+  ASSERT_EQ(prepared.record.steps.size(), 3u);
+  EXPECT_EQ(prepared.record.steps[0].name, "offset");
+  EXPECT_EQ(prepared.record.steps[1].name, "level");
+  EXPECT_EQ(prepared.record.steps[2].name, "refine");
+  EXPECT_TRUE(ScanPreparer(pressed()).prepare(rough()).record.steps.empty());
 }
 
 TEST(ScanPredictor, MapsOfARefinedScanHaveItsOwnSizeAndFrame) {
@@ -76,7 +73,7 @@ TEST(ScanPredictor, MapsOfARefinedScanHaveItsOwnSizeAndFrame) {
     EXPECT_NEAR(refined.median_contact_pixels * kPitch * kPitch, refined.contact_area, 1e-12 * refined.contact_area);
     // Untouched pixels keep their heights to the bit; what went down lies where the contact is.
     const cv::Mat untouched = refined.contact_map == 0;
-    cv::Mat change = refining.prepared(scan).asDouble().heights() - refined.deformed_lower;
+    cv::Mat change = refining.preparer().prepare(scan).surfaces.lower.asDouble().heights() - refined.deformed_lower;
     EXPECT_GT(change.at<double>(23, 50), 0.0);
     change.setTo(0.0, refined.contact_map != 0);
     EXPECT_EQ(cv::countNonZero(change), 0);
@@ -137,15 +134,15 @@ TEST(CounterSurface, APoseGivenLaterIsThatOfTheConfiguration) {
     pose.offset_y = 33e-9;
     ScanPredictor moved(configuration);
     const Prediction before = moved.predict(scan);
-    moved.setCounterSurfacePose(pose);
+    moved.preparer().setCounterSurfacePose(pose);
     const Prediction after = moved.predict(scan);
     configuration.counter_surface.pose = pose;
     EXPECT_EQ(after.pull_off_force, ScanPredictor(configuration).predict(scan).pull_off_force);
     EXPECT_NE(after.deformed_upper.at<double>(0, 0), before.deformed_upper.at<double>(0, 0));
 
     pose.tilt_x = 2.0;
-    EXPECT_THROW(moved.setCounterSurfacePose(pose), OptionsError);
-    EXPECT_EQ(moved.configuration().counter_surface.pose.tilt_x, 0.005);
+    EXPECT_THROW(moved.preparer().setCounterSurfacePose(pose), OptionsError);
+    EXPECT_EQ(moved.preparer().counterSurfacePose().tilt_x, 0.005);
     EXPECT_EQ(moved.predict(scan).pull_off_force, after.pull_off_force);
   }
 }
@@ -312,7 +309,7 @@ TEST(Decimated, TakesMeansOfBlocksAndLeavesOutTheRest) {
 TEST(Convergence, FullResolutionIsThePredictionAndAResolvedSphereHardlyMoves) {
   const HeightMap sphere = analytic::paraboloid(240, 240, 2e-9, 2e-9, 1e-6, 0.7e-9, 0.3e-9);
   ScanPredictor predictor(pressed(1e-6));
-  const std::vector<ConvergenceRow> rows = predictor.convergence(sphere);
+  const std::vector<ConvergenceRow> rows = predictor.convergence(predictor.preparer().prepare(sphere));
   ASSERT_EQ(rows.size(), 3u);
   EXPECT_EQ(rows[0].pull_off_force, predictor.predict(sphere).pull_off_force);
   EXPECT_EQ(rows[0].pull_off_force_ratio, 1.0);
@@ -332,13 +329,15 @@ TEST(Convergence, AllResolutionsSeeTheSameAreaAndTheSameCounterSurface) {
   Configuration configuration = pressed();
   configuration.counter_surface.type = CounterSurfaceType::kGaussian;
   ScanPredictor predictor(configuration);
-  const std::vector<ConvergenceRow> rows = predictor.convergence(rough(4, 131, 130));
+  const std::vector<ConvergenceRow> rows = predictor.convergence(predictor.preparer().prepare(rough(4, 131, 130)));
   for (const ConvergenceRow& row : rows) {
     EXPECT_EQ(row.rows * row.decimation, 128);
     EXPECT_EQ(row.cols * row.decimation, 128);
     EXPECT_EQ(row.status, Status::kEquilibrium);
   }
-  EXPECT_THROW(predictor.convergence(analytic::paraboloid(15, 64, kPitch, kPitch, 1e-6)), SurfaceError);
+  ScanPredictor on_a_plane(pressed());
+  const PreparedScan small = on_a_plane.preparer().prepare(analytic::paraboloid(15, 64, kPitch, kPitch, 1e-6));
+  EXPECT_THROW(on_a_plane.convergence(small), SurfaceError);
 }
 
 // ------------------------------------------------------------------ roughness

@@ -1,7 +1,6 @@
-#include "mems_stiction/ros/running_options.hpp"
+#include "mems_stiction/ros/reconfigure_conversion.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "mems_stiction/base/errors.hpp"
 
@@ -80,39 +79,19 @@ class Reader : public OptionVisitor {
 
 }  // namespace
 
-RunningOptions::RunningOptions(const Configuration& configuration)
-    : interface(configuration.model.interface),
-      capillary(configuration.model.capillary),
-      load(configuration.model.load),
-      device(configuration.device) {}
-
-void RunningOptions::describe(OptionVisitor& visitor) {
-  interface.describe(visitor);
-  capillary.describe(visitor);
-  load.describe(visitor);
-  device.describe(visitor);
-}
-
-void RunningOptions::applyTo(Configuration& configuration) const {
-  configuration.model.interface = interface;
-  configuration.model.capillary = capillary;
-  configuration.model.load = load;
-  configuration.device = device;
-}
-
-dynamic_reconfigure::Config reconfigureMessage(const RunningOptions& options) {
+dynamic_reconfigure::Config reconfigureMessage(const RunningSettings& settings) {
   dynamic_reconfigure::Config message;
   Writer writer(message);
-  describeConst(options, writer);
+  describeConst(settings, writer);
   return message;
 }
 
-void applyReconfigure(const dynamic_reconfigure::Config& message, RunningOptions& options) {
-  RunningOptions changed = options;
+void applyReconfigure(const dynamic_reconfigure::Config& message, RunningSettings& settings) {
+  RunningSettings changed = settings;
   Reader reader(message);
   changed.describe(reader);
   if (!reader.violations().empty()) throw OptionsError(reader.violations());
-  options = changed;
+  settings = changed;
 }
 
 }  // namespace mems_stiction
