@@ -12,7 +12,7 @@
 /// until the gap reaches w/s0 (Dugdale's crack tip). The prefactor p falls from 2 (DMT, mu < 0.1) to 1.5 (JKR, mu > 5).
 /// The fit holds for all lambda, within 1.7 % of the exact value (the worst is near lambda = 0.25).
 /// maugis::pullOffPrefactor() is that exact value by a numerical search: a few microseconds a call, for judging the fit
-/// and for few asperities. Plastic flow, roughness on the asperity and neighbors are in neither.
+/// and for few asperities. Plastic flow, roughness on the asperity and neighbours are in neither.
 /// Sources: Tabor, J. Colloid Interface Sci. 58 (1977) 2; Maugis, J. Colloid Interface Sci. 150 (1992) 243; Carpick,
 /// Ogletree and Salmeron, J. Colloid Interface Sci. 211 (1999) 395.
 ///
