@@ -26,11 +26,11 @@ MEMS_STICTION_VECTORIZED void markBorders(const std::int32_t* above, const std::
 
 }  // namespace
 
-void SurroundingsTable::begin(const GapField& field, const GapOrder& order, DaleMap& dales) {
+void SurroundingsTable::start(const GapField& field, const GapOrder& order, DaleMap& dales) {
   field_ = &field;
   order_ = &order;
   dales_ = &dales;
-  begin_ = end_ = 0;
+  first_place_ = end_place_ = 0;
   is_border_.resize(static_cast<std::size_t>(field.cols()));
   for (std::vector<double>* gaps : {row_gaps_, row_gaps_ + 1, row_gaps_ + 2, &no_row_}) {
     gaps->assign(static_cast<std::size_t>(field.cols()) + 2, GapField::kInvalidGap);
@@ -38,17 +38,12 @@ void SurroundingsTable::begin(const GapField& field, const GapOrder& order, Dale
   for (std::vector<std::int32_t>& cells : row_cells_) cells.resize(static_cast<std::size_t>(field.cols()));
 }
 
-CellSurroundings SurroundingsTable::look(const GridCell& cell) const {
-  const int cols = field_->cols();
-  CellSurroundings around = field_->readGaps([&](const auto& gaps) {
-    const auto gapAt = [&](bool is_in_frame, int index) { return is_in_frame ? gaps[index] : GapField::kInvalidGap; };
-    CellSurroundings found;
-    found.gaps[kLeft] = gapAt(cell.col > 0, cell.index - 1);
-    found.gaps[kRight] = gapAt(cell.col + 1 < cols, cell.index + 1);
-    found.gaps[kTop] = gapAt(cell.row > 0, cell.index - cols);
-    found.gaps[kBottom] = gapAt(cell.row + 1 < field_->rows(), cell.index + cols);
-    return found;
-  });
+CellSurroundings SurroundingsTable::lookUp(const GridCell& cell) const {
+  CellSurroundings around;
+  for (const Side side : kSides) {
+    const GridCell neighbour = cell.neighbour(side, field_->cols());
+    around.gaps[side] = field_->contains(neighbour) ? field_->gap(neighbour.index) : GapField::kInvalidGap;
+  }
   around.cell = cell.index;
   around.dale_and_border = static_cast<std::uint32_t>(dales_->find(cell)) << 1U | 1U;
   return around;
@@ -57,24 +52,26 @@ CellSurroundings SurroundingsTable::look(const GridCell& cell) const {
 void SurroundingsTable::collectFrom(int place) {
   const auto capacity = static_cast<int>(kWindowShare * field_->cellCount());
   first_group_ = order_->groupOfPlace(place);
-  begin_ = order_->groupStart(first_group_);
+  first_place_ = order_->groupStart(first_group_);
   end_group_ = first_group_ + 1;
-  while (end_group_ < order_->groupCount() && order_->groupStart(end_group_ + 1) - begin_ <= capacity) ++end_group_;
-  end_ = order_->groupStart(end_group_);
-  if (end_ - begin_ > capacity) {  // one group that is too large for the window: looked up cell by cell
-    begin_ = end_;
+  while (end_group_ < order_->groupCount() && order_->groupStart(end_group_ + 1) - first_place_ <= capacity)
+    ++end_group_;
+  end_place_ = order_->groupStart(end_group_);
+  if (end_place_ - first_place_ > capacity) {  // one group that is too large for the window: looked up cell by cell
+    first_place_ = end_place_;
     return;
   }
-  if (table_.capacity() < static_cast<std::size_t>(end_ - begin_)) table_.reserve(static_cast<std::size_t>(capacity));
-  table_.resize(static_cast<std::size_t>(end_ - begin_));
+  if (table_.capacity() < static_cast<std::size_t>(end_place_ - first_place_))
+    table_.reserve(static_cast<std::size_t>(capacity));
+  table_.resize(static_cast<std::size_t>(end_place_ - first_place_));
   next_place_.resize(static_cast<std::size_t>(end_group_ - first_group_));
   for (int group = first_group_; group < end_group_; ++group) {
-    next_place_[static_cast<std::size_t>(group - first_group_)] = order_->groupStart(group) - begin_;
+    next_place_[static_cast<std::size_t>(group - first_group_)] = order_->groupStart(group) - first_place_;
   }
-  int count = chooseCells(0, row_cells_[0]);
+  int count = readRow(0, row_cells_[0]);
   for (int row = 0; row < field_->rows(); ++row) {
     // the dales of the next row first: a cell asks for those of its neighbours
-    const int next_count = chooseCells(row + 1, row_cells_[(row + 1) % 2]);
+    const int next_count = readRow(row + 1, row_cells_[(row + 1) % 2]);
     collectRow(row, row_cells_[row % 2], count);
     count = next_count;
   }
@@ -85,7 +82,7 @@ const double* SurroundingsTable::gapsOf(int row) const {
   return (is_in_frame ? row_gaps_[row % kRowsKept] : no_row_).data() + 1;
 }
 
-int SurroundingsTable::chooseCells(int row, std::vector<std::int32_t>& cells) {
+int SurroundingsTable::readRow(int row, std::vector<std::int32_t>& cells) {
   if (row == field_->rows()) return 0;
   double* gaps = row_gaps_[row % kRowsKept].data() + 1;
   field_->gapsOfRow(row, gaps);
@@ -121,14 +118,14 @@ MEMS_STICTION_VECTORIZED void SurroundingsTable::collectRow(int row, const std::
     around.cell = first_cell + col;
     const std::int32_t dale = dales[col];
     std::uint32_t is_border = is_border_[static_cast<std::size_t>(col)];
-    if (is_border != 0) {  // only neighbours that come into contact before matter; left and top are first of equal gaps
-      const auto joins = [&](bool comes_before, std::int32_t other) {
-        return static_cast<std::uint32_t>(comes_before) & static_cast<std::uint32_t>(other != dale);
-      };
-      is_border = joins(around.gaps[kLeft] <= line[col], dales[std::max(col - 1, 0)]) |
-                  joins(around.gaps[kRight] < line[col], dales[std::min(col + 1, cols - 1)]) |
-                  joins(around.gaps[kTop] <= line[col], dales_above[col]) |
-                  joins(around.gaps[kBottom] < line[col], dales_below[col]);
+    if (is_border != 0) {  // only neighbours that come into contact before matter
+      const std::int32_t dales_around[] = {dales[std::max(col - 1, 0)], dales[std::min(col + 1, cols - 1)],
+                                           dales_above[col], dales_below[col]};
+      is_border = 0;
+      for (const Side side : kSides) {
+        is_border |= static_cast<std::uint32_t>(comesFirst(side, around.gaps[side], line[col])) &
+                     static_cast<std::uint32_t>(dales_around[side] != dale);
+      }
     }
     around.dale_and_border = static_cast<std::uint32_t>(dale) << 1U | is_border;
   }

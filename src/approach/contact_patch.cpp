@@ -5,42 +5,51 @@
 namespace mems_stiction {
 namespace {
 
-bool isDeeper(const ExtremeCell& cell, const ExtremeCell& other) {
-  return comesBefore(cell.gap, cell.cell, other.gap, other.cell);
+bool isApart(double gap) { return gap < GapField::kInvalidGap; }
+
+/// +1 for an edge that comes in with a cell, -1 for one that goes, 0 for none. Which one is random: without a branch.
+double signOfEdge(Side side, double neighbour_gap, double gap) {
+  return static_cast<int>(isApart(neighbour_gap)) - 2 * static_cast<int>(comesFirst(side, neighbour_gap, gap));
 }
 
 }  // namespace
 
-void BoundarySums::addEdge(const GapField& field, int row, int col, int neighbour_row, int neighbour_col, int sign) {
-  const int cell = row * field.cols() + col;
-  const int neighbour = neighbour_row * field.cols() + neighbour_col;
-  const double edge_x = col + neighbour_col;
-  const double edge_y = row + neighbour_row;
-  count += sign;
-  x += sign * edge_x;
-  y += sign * edge_y;
-  xx += sign * edge_x * edge_x;
-  xy += sign * edge_x * edge_y;
-  yy += sign * edge_y * edge_y;
-  const double edge_gap = sign * 0.5 * (field.gap(cell) + field.gap(neighbour));
+void BoundarySums::addEdges(const GridCell& cell, double own, const double (&gaps)[4]) {
+  double signs[4];
+  double edges[4];
+  for (const Side side : kSides) {
+    signs[side] = signOfEdge(side, gaps[side], own);
+    edges[side] = signs[side] * 0.5 * (own + (isApart(gaps[side]) ? gaps[side] : 0.0));
+  }
+  // All edges are half a pixel pitch, one unit, from the cell's centre: moments follow from few products.
+  const double centre_x = 2.0 * cell.col;
+  const double centre_y = 2.0 * cell.row;
+  const double horizontal = signs[kLeft] + signs[kRight];
+  const double vertical = signs[kTop] + signs[kBottom];
+  const double rightwards = signs[kRight] - signs[kLeft];
+  const double downwards = signs[kBottom] - signs[kTop];
+  const double edge_count = horizontal + vertical;
+  const double edge_gap = (edges[kLeft] + edges[kRight]) + (edges[kTop] + edges[kBottom]);
+  const double edge_x = edge_count * centre_x + rightwards;
+  const double edge_y = edge_count * centre_y + downwards;
+  count += edge_count;
   gap += edge_gap;
-  x_gap += edge_x * edge_gap;
-  y_gap += edge_y * edge_gap;
-  if (field.upperIsFlat()) return;  // the lower surface is then the gap, turned over
-  const double edge_lower = sign * 0.5 * (field.lowerHeight(cell) + field.lowerHeight(neighbour));
-  lower += edge_lower;
-  x_lower += edge_x * edge_lower;
-  y_lower += edge_y * edge_lower;
+  x += edge_x;
+  x_gap += edge_gap * centre_x + (edges[kRight] - edges[kLeft]);
+  y += edge_y;
+  y_gap += edge_gap * centre_y + (edges[kBottom] - edges[kTop]);
+  xx += (edge_x + rightwards) * centre_x + horizontal;
+  yy += (edge_y + downwards) * centre_y + vertical;
+  xy += edge_x * centre_y + downwards * centre_x;
 }
 
-void BoundarySums::addLowerEdges(const GapField& field, const GridCell& cell, const EdgeChanges& changes,
-                                 std::size_t lane) {
-  const int neighbours[4] = {cell.index - 1, cell.index + 1, cell.index - field.cols(), cell.index + field.cols()};
+void BoundarySums::addLowerEdges(const GapField& field, const GridCell& cell, double own, const double (&gaps)[4]) {
   const double cell_lower = field.lowerHeight(cell.index);
   double edges[4];
-  for (std::size_t side = 0; side < 4; ++side) {
-    const double sign = changes.signs[side][lane];
-    edges[side] = sign == 0.0 ? 0.0 : sign * 0.5 * (cell_lower + field.lowerHeight(neighbours[side]));
+  for (const Side side : kSides) {
+    const double sign = signOfEdge(side, gaps[side], own);
+    const int neighbour = cell.neighbour(side, field.cols()).index;
+    edges[side] = sign == 0.0 ? 0.0 : sign * 0.5 * (cell_lower + field.lowerHeight(neighbour));
   }
   const double edge_sum = edges[kLeft] + edges[kRight] + edges[kTop] + edges[kBottom];
   lower += edge_sum;
@@ -64,17 +73,40 @@ BoundarySums& BoundarySums::operator+=(const BoundarySums& other) {
   return *this;
 }
 
-void ContactPatch::merge(const ContactPatch& other) {
-  const auto mergeSide = [&](Side side, std::int32_t& bound, std::int32_t other_bound, bool other_is_further) {
-    if (other_is_further || (bound == other_bound && isDeeper(other.extreme[side], extreme[side]))) {
-      bound = other_bound;
-      extreme.set(side, other.extreme[side]);
+void ContactPatch::extend(Side side, std::int32_t& bound, std::int32_t place, const ExtremeCell& cell) {
+  const std::int32_t beyond = side == kLeft || side == kTop ? bound - place : place - bound;
+  ExtremeCell& known = extreme[side];
+  if (beyond < 0 || (beyond == 0 && !comesBefore(cell.gap, cell.cell, known.gap, known.cell))) return;
+  bound = place;
+  known = cell;
+}
+
+void ContactPatch::addCell(const GridCell& cell, double gap, const double (&gaps)[4]) {
+  if (area == 0) {
+    min_col = max_col = cell.col;
+    min_row = max_row = cell.row;
+    deepest = cell.index;
+    deepest_gap = latest_gap = gap;
+    for (const Side side : kSides) extreme[side] = {cell.index, gap, gaps[side]};
+  } else {
+    extend(kLeft, min_col, cell.col, {cell.index, gap, gaps[kLeft]});
+    extend(kRight, max_col, cell.col, {cell.index, gap, gaps[kRight]});
+    extend(kTop, min_row, cell.row, {cell.index, gap, gaps[kTop]});
+    extend(kBottom, max_row, cell.row, {cell.index, gap, gaps[kBottom]});
+    if (comesBefore(gap, cell.index, deepest_gap, deepest)) {
+      deepest = cell.index;
+      deepest_gap = gap;
     }
-  };
-  mergeSide(kLeft, min_col, other.min_col, other.min_col < min_col);
-  mergeSide(kRight, max_col, other.max_col, other.max_col > max_col);
-  mergeSide(kTop, min_row, other.min_row, other.min_row < min_row);
-  mergeSide(kBottom, max_row, other.max_row, other.max_row > max_row);
+    latest_gap = std::max(latest_gap, gap);
+  }
+  ++area;
+}
+
+void ContactPatch::merge(const ContactPatch& other) {
+  extend(kLeft, min_col, other.min_col, other.extreme[kLeft]);
+  extend(kRight, max_col, other.max_col, other.extreme[kRight]);
+  extend(kTop, min_row, other.min_row, other.extreme[kTop]);
+  extend(kBottom, max_row, other.max_row, other.extreme[kBottom]);
   if (comesBefore(other.deepest_gap, other.deepest, deepest_gap, deepest)) {
     deepest = other.deepest;
     deepest_gap = other.deepest_gap;

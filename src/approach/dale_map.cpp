@@ -4,7 +4,7 @@
 
 namespace mems_stiction {
 
-void DaleMap::begin(const GapField& field) {
+void DaleMap::start(const GapField& field) {
   field_ = &field;
   count_ = 0;
   dale_.assign(static_cast<std::size_t>(field.cellCount()), kUnknown);
@@ -14,14 +14,17 @@ template <typename Scalar>
 GridCell DaleMap::below(const GridCell& cell, const StoredGaps<Scalar>& gaps) const {
   const int cols = field_->cols();
   const double gap = gaps[cell.index];
-  // of equal gaps the smaller index comes first
-  if (cell.col > 0 && gaps[cell.index - 1] <= gap) return {cell.row, cell.col - 1, cell.index - 1};
-  if (cell.row > 0 && gaps[cell.index - cols] <= gap) return {cell.row - 1, cell.col, cell.index - cols};
-  const double right = cell.col + 1 < cols ? gaps[cell.index + 1] : GapField::kInvalidGap;
-  const double bottom = cell.row + 1 < field_->rows() ? gaps[cell.index + cols] : GapField::kInvalidGap;
-  if (right < gap && right <= bottom) return {cell.row, cell.col + 1, cell.index + 1};
-  if (bottom < gap) return {cell.row + 1, cell.col, cell.index + cols};
-  return cell;
+  const GridCell left = cell.neighbour(kLeft, cols);
+  const GridCell top = cell.neighbour(kTop, cols);
+  if (cell.col > 0 && comesFirst(kLeft, gaps[left.index], gap)) return left;
+  if (cell.row > 0 && comesFirst(kTop, gaps[top.index], gap)) return top;
+  const GridCell right = cell.neighbour(kRight, cols);
+  const GridCell bottom = cell.neighbour(kBottom, cols);
+  const double right_gap = cell.col + 1 < cols ? gaps[right.index] : GapField::kInvalidGap;
+  const double bottom_gap = cell.row + 1 < field_->rows() ? gaps[bottom.index] : GapField::kInvalidGap;
+  const bool right_is_lower = !comesBefore(bottom_gap, bottom.index, right_gap, right.index);
+  if (right_is_lower && comesFirst(kRight, right_gap, gap)) return right;
+  return comesFirst(kBottom, bottom_gap, gap) ? bottom : cell;
 }
 
 template <typename Scalar>
@@ -51,10 +54,9 @@ void DaleMap::findInRow(int row, const std::int32_t* cols, int count, const doub
     const std::int32_t col = cols[i];
     if (dale[col] != kUnknown) continue;
     // the first steps of below(), where they lead to a cell whose dale is known
-    const bool is_left_below = gaps[col - 1] <= gaps[col];
-    const std::int32_t down_left = dale[std::max(col - 1, 0)];
-    const std::int32_t down_above = gaps_above[col] <= gaps[col] ? dale_above[col] : kUnknown;
-    const std::int32_t known = is_left_below ? down_left : down_above;
+    const std::int32_t left = dale[std::max(col - 1, 0)];
+    const std::int32_t top = comesFirst(kTop, gaps_above[col], gaps[col]) ? dale_above[col] : kUnknown;
+    const std::int32_t known = comesFirst(kLeft, gaps[col - 1], gaps[col]) ? left : top;
     if (known != kUnknown) {
       dale[col] = known;
     } else {

@@ -34,72 +34,44 @@ void requireSameGrid(const HeightMap& lower, const HeightMap& upper) {
 /// Sums over valid heights, in fixed lanes. They are taken from a level that is one of the heights: it can stand for what
 /// is left out, and adds nothing.
 struct HeightSums {
-  explicit HeightSums(double level_in) : level(level_in), highest(Lanes{} + level_in), lowest(Lanes{} + level_in) {}
+  explicit HeightSums(double level_in) : level(level_in), highest(level_in), lowest(level_in) {}
 
-  bool isFinite() const { return std::isfinite(sumOf(squares)); }
+  MEMS_STICTION_INLINE void add(const Lanes& heights) {
+    const LaneMask is_valid = heights - heights == 0.0;
+    const Lanes valid = select(is_valid, heights, level);
+    const Lanes excess = valid - level;
+    counts += select(is_valid, Lanes(1.0), 0.0);
+    sum += excess;
+    squares += excess * excess;
+    highest = select(valid > highest, valid, highest);
+    lowest = select(valid < lowest, valid, lowest);
+  }
+
+  std::size_t count() const { return static_cast<std::size_t>(counts.sum()); }
 
   double level;  ///< [m]
-  std::size_t count = 0;
-  Lanes sum{};
-  Lanes squares{};
+  Lanes counts = 0.0;
+  Lanes sum = 0.0;
+  Lanes squares = 0.0;
   Lanes highest;
   Lanes lowest;
 };
 
-MEMS_STICTION_INLINE void loadHeights(const double* line, Lanes& heights) { load(line, heights); }
-MEMS_STICTION_INLINE void loadHeights(const float* line, Lanes& heights) {
-  float __attribute__((vector_size(kLanes * sizeof(float)))) single;
-  std::memcpy(&single, line, sizeof single);
-  heights = __builtin_convertvector(single, Lanes);
-}
-
-MEMS_STICTION_INLINE void addLanes(const Lanes& heights, HeightSums& sums) {
-  const Lanes excess = heights - sums.level;
-  sums.sum += excess;
-  sums.squares += excess * excess;
-  sums.highest = heights > sums.highest ? heights : sums.highest;
-  sums.lowest = heights < sums.lowest ? heights : sums.lowest;
-}
-
-/// All heights of a row; the sums are finite if all of them are valid.
 template <typename Scalar>
-MEMS_STICTION_INLINE void addAll(const Scalar* line, std::size_t size, HeightSums& sums) {
+MEMS_STICTION_INLINE void addHeights(const Scalar* line, std::size_t size, HeightSums& sums) {
+  constexpr double kNoHeight = std::numeric_limits<double>::quiet_NaN();
   HeightSums local = sums;
-  Lanes heights;
-  std::size_t i = 0;
-  for (; i + kLanes <= size; i += kLanes) {
-    loadHeights(line + i, heights);
-    addLanes(heights, local);
-  }
-  if (i < size) {
-    heights = Lanes{} + local.level;
-    for (std::size_t lane = 0; i < size; ++i, ++lane) heights[lane] = line[i];
-    addLanes(heights, local);
-  }
-  local.count += size;
+  const std::size_t in_lanes = size / Lanes::kCount * Lanes::kCount;
+  for (std::size_t i = 0; i < in_lanes; i += Lanes::kCount) local.add(Lanes::load(line + i));
+  if (in_lanes < size) local.add(Lanes::loadFirst(line + in_lanes, size - in_lanes, kNoHeight));
   sums = local;
 }
 
 MEMS_STICTION_VECTORIZED void addRow(const float* line, std::size_t size, HeightSums& sums) {
-  addAll(line, size, sums);
+  addHeights(line, size, sums);
 }
 MEMS_STICTION_VECTORIZED void addRow(const double* line, std::size_t size, HeightSums& sums) {
-  addAll(line, size, sums);
-}
-
-/// The valid heights of a row; the others become -infinity.
-template <typename Scalar>
-void addValid(Scalar* line, std::size_t size, HeightSums& sums) {
-  for (std::size_t i = 0; i < size; ++i) {
-    if (std::isfinite(line[i])) {
-      Lanes heights = Lanes{} + sums.level;
-      heights[i % kLanes] = line[i];
-      addLanes(heights, sums);
-      ++sums.count;
-    } else {
-      line[i] = -std::numeric_limits<Scalar>::infinity();
-    }
-  }
+  addHeights(line, size, sums);
 }
 
 template <typename Scalar>
@@ -129,35 +101,36 @@ void GapField::fillRelief(LargePageVector<Scalar>& relief, const RowSource& fill
   const auto cols = static_cast<std::size_t>(cols_);
   relief.resize(static_cast<std::size_t>(cellCount()));
   HeightSums sums(std::numeric_limits<double>::quiet_NaN());
+  const auto isFinite = [](Scalar height) { return std::isfinite(height); };
   Scalar* line = relief.data();
   for (int row = 0; row < rows_; ++row, line += cols) {
     fill_row(row, line);
-    if (sums.count == 0) {  // the level is the first valid height
-      const Scalar* valid = std::find_if(line, line + cols, [](Scalar height) { return std::isfinite(height); });
+    const std::size_t count_before = sums.count();
+    if (count_before == 0) {  // the level is the first valid height
+      const Scalar* valid = std::find_if(line, line + cols, isFinite);
       if (valid != line + cols) sums = HeightSums(*valid);
     }
-    const HeightSums before = sums;
     addRow(line, cols, sums);
-    if (sums.isFinite()) continue;
-    sums = before;
-    addValid(line, cols, sums);
+    if (sums.count() - count_before == cols) continue;
+    std::replace_if(
+        line, line + cols, [&](Scalar height) { return !isFinite(height); }, -std::numeric_limits<Scalar>::infinity());
   }
-  if (sums.count == 0) {
+  if (sums.count() == 0) {
     throw SurfaceError(upper_is_flat_ ? "the height map has no valid pixel"
                                       : "no pixel is valid in both the scan and the counter-surface");
   }
-  const auto count = static_cast<double>(sums.count);
-  valid_count_ = static_cast<int>(sums.count);
-  top_ = largestOf(sums.highest);
-  largest_gap_ = top_ - smallestOf(sums.lowest);
+  const auto count = static_cast<double>(sums.count());
+  valid_count_ = static_cast<int>(sums.count());
+  top_ = sums.highest.largest();
+  largest_gap_ = top_ - sums.lowest.smallest();
   if (!(largest_gap_ <= kLargestRange)) {
     throw SurfaceError(std::string(upper_is_flat_ ? "the heights lie" : "scan minus counter-surface lies") +
-                       " between " + numberText(smallestOf(sums.lowest)) + " and " + numberText(top_) +
+                       " between " + numberText(sums.lowest.smallest()) + " and " + numberText(top_) +
                        " m, which is not allowed: the range must be <= " + numberText(kLargestRange) + " m");
   }
-  const double mean_excess = sumOf(sums.sum) / count;
+  const double mean_excess = sums.sum.sum() / count;
   mean_gap_ = (top_ - sums.level) - mean_excess;
-  rms_gap_ = std::sqrt(std::max(0.0, sumOf(sums.squares) / count - mean_excess * mean_excess));
+  rms_gap_ = std::sqrt(std::max(0.0, sums.squares.sum() / count - mean_excess * mean_excess));
 }
 
 void GapField::compute(const SurfacePair& surfaces) {
@@ -229,14 +202,7 @@ MEMS_STICTION_VECTORIZED int columnsBelow(double limit, const double* gaps, int 
   std::int32_t* next = columns;
   std::int32_t col = 0;
   for (; col + kBlock <= cols; col += kBlock, gaps += kBlock) {
-    Lanes low;
-    Lanes high;
-    load(gaps, low);
-    load(gaps + kLanes, high);
-    const LaneMask below_low = low < limit;
-    const LaneMask below_high = high < limit;
-    const LaneMask sums = below_low + below_high;  // minus their number
-    const std::int64_t count = -(sums[0] + sums[1] + sums[2] + sums[3]);
+    const int count = (Lanes::load(gaps) < limit).count() + (Lanes::load(gaps + Lanes::kCount) < limit).count();
     if (count == 0) continue;
     if (count == kBlock) {
       for (std::int32_t i = 0; i < kBlock; ++i) next[i] = col + i;

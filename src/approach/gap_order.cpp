@@ -227,7 +227,7 @@ int GapOrder::groupOfPlace(int place) const {
   return static_cast<int>(end - group_end_.begin());
 }
 
-int GapOrder::countBelow(double approach) {
+int GapOrder::sortBelow(double approach) {
   const int group_count = groupCount();
   if (approach >= group_count * group_width_ && ordered_buckets_ < bucket_count_) {
     return static_cast<int>(cells_.size());

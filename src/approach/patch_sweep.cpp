@@ -15,12 +15,12 @@ constexpr double kShareLookedUp = 1.0 / 64.0;
 
 }  // namespace
 
-void PatchSweep::begin(const GapField& field, const GapOrder& order, Connectivity connectivity) {
+void PatchSweep::start(const GapField& field, const GapOrder& order, Connectivity connectivity) {
   field_ = &field;
   order_ = &order;
   connectivity_ = connectivity;
-  dales_.begin(field);
-  surroundings_.begin(field, order, dales_);
+  dales_.start(field);
+  surroundings_.start(field, order, dales_);
   restart();
 }
 
@@ -71,27 +71,18 @@ MEMS_STICTION_INLINE void PatchSweep::prefetchPatch(int place) const {
   for (const std::ptrdiff_t offset : {-field_->cols(), 0, field_->cols()}) __builtin_prefetch(dale + offset);
 }
 
-void PatchSweep::prefetchCentre(std::int32_t id) const {
-  const ContactPatch& known = patch(id);
-  const int row = (known.min_row + known.max_row) / 2;
-  const int col = (known.min_col + known.max_col) / 2;
-  const std::ptrdiff_t cell = static_cast<std::ptrdiff_t>(row) * field_->cols() + col;
-  field_->prefetch(cell);
-  __builtin_prefetch(dales_.data() + cell);
-}
-
 void PatchSweep::advanceTo(int count) {
   if (count < inserted_) restart();
   const auto looked_up = static_cast<int>(kShareLookedUp * field_->cellCount());
   while (inserted_ < count) {
-    if (count > looked_up && order_->contactLimit() - inserted_ > looked_up && inserted_ >= surroundings_.end()) {
+    if (count > looked_up && order_->contactLimit() - inserted_ > looked_up && inserted_ >= surroundings_.endPlace()) {
       surroundings_.collectFrom(inserted_);
       makeRoom();
     }
-    if (inserted_ < surroundings_.begin()) {
-      insertLookedUp(std::min(count, surroundings_.begin()));
-    } else if (inserted_ < surroundings_.end()) {
-      insertCollected(std::min(count, surroundings_.end()));
+    if (inserted_ < surroundings_.firstPlace()) {
+      insertLookedUp(std::min(count, surroundings_.firstPlace()));
+    } else if (inserted_ < surroundings_.endPlace()) {
+      insertCollected(std::min(count, surroundings_.endPlace()));
     } else {
       insertLookedUp(count);
     }
@@ -106,78 +97,48 @@ MEMS_STICTION_INLINE void PatchSweep::markChanged(std::int32_t id) {
   flag = 1;
 }
 
-MEMS_STICTION_INLINE void PatchSweep::insert(const OrderedCell* const (&cells)[kLanes],
-                                             const CellSurroundings* const (&around)[kLanes], int count) {
-  const IntegerLanes index{cells[0]->cell, cells[1]->cell, cells[2]->cell, cells[3]->cell};
-  const IntegerLanes row{cells[0]->row, cells[1]->row, cells[2]->row, cells[3]->row};
-  const IntegerLanes col = index - row * field_->cols();
-  const Lanes gap{cells[0]->gap, cells[1]->gap, cells[2]->gap, cells[3]->gap};
-  Lanes neighbours[4];
-  load(around[0]->gaps, neighbours[0]);
-  load(around[1]->gaps, neighbours[1]);
-  load(around[2]->gaps, neighbours[2]);
-  load(around[3]->gaps, neighbours[3]);
-  transpose(neighbours[0], neighbours[1], neighbours[2], neighbours[3]);
-  const Lanes row_lanes = __builtin_convertvector(row, Lanes);
-  const Lanes col_lanes = __builtin_convertvector(col, Lanes);
-  const EdgeChanges changes(gap, neighbours, col_lanes, row_lanes);
-
-  for (int lane = 0; lane < count; ++lane) {
-    const CellSurroundings& surroundings = *around[lane];
-    std::int32_t id = patchOfDale(surroundings.dale());
-    if (surroundings.isBorder() || connectivity_ == Connectivity::kEight) id = join(id, *cells[lane], surroundings);
-    ContactPatch& patch = patches_[static_cast<std::size_t>(id)];
-    if (patch.area == 0) {
-      live_place_[static_cast<std::size_t>(id)] = static_cast<std::int32_t>(live_.size());
-      live_.push_back(id);
-    }
-    const GridCell cell{row[lane], col[lane], index[lane]};
-    patch.addCell(cell, cells[lane]->gap, surroundings.gaps);
-    patch.boundary.addEdges(changes, static_cast<std::size_t>(lane));
-    if (!field_->upperIsFlat()) {
-      patch.boundary.addLowerEdges(*field_, cell, changes, static_cast<std::size_t>(lane));
-    }
-    markChanged(id);
+MEMS_STICTION_INLINE void PatchSweep::insert(const OrderedCell& ordered, const CellSurroundings& around) {
+  const GridCell cell = gridCell(ordered);
+  std::int32_t id = patchOfDale(around.dale());
+  if (around.isBorder() || connectivity_ == Connectivity::kEight) id = join(id, cell, ordered.gap, around);
+  ContactPatch& patch = patches_[static_cast<std::size_t>(id)];
+  if (patch.area == 0) {
+    live_place_[static_cast<std::size_t>(id)] = static_cast<std::int32_t>(live_.size());
+    live_.push_back(id);
   }
-  inserted_ += count;
+  patch.addCell(cell, ordered.gap, around.gaps);
+  patch.boundary.addEdges(cell, ordered.gap, around.gaps);
+  if (!field_->upperIsFlat()) patch.boundary.addLowerEdges(*field_, cell, ordered.gap, around.gaps);
+  markChanged(id);
+  ++inserted_;
+}
+
+void PatchSweep::insertNextLookedUp() {
+  const OrderedCell& next = order_->cells()[static_cast<std::size_t>(inserted_)];
+  const CellSurroundings around = surroundings_.lookUp(gridCell(next));
+  if (dales_.count() > patchIdEnd()) makeRoom();
+  insert(next, around);
 }
 
 void PatchSweep::insertLookedUp(int stop) {
   const auto ahead_end = static_cast<int>(order_->cells().size()) - kPrefetchDistance;
-  CellSurroundings looked_up[kLanes];
   while (inserted_ < stop) {
-    const int count = std::min(stop - inserted_, static_cast<int>(kLanes));
-    const OrderedCell* next = order_->cells().data() + inserted_;
-    for (int i = 0; i < count; ++i) {
-      if (inserted_ + i < ahead_end) prefetchCell(inserted_ + i + kPrefetchDistance);
-      looked_up[i] = surroundings_.look(gridCell(next[i]));
-    }
-    if (dales_.count() > patchIdEnd()) makeRoom();
-    const int last = count - 1;
-    const int used[kLanes] = {0, std::min(1, last), std::min(2, last), last};
-    insert({next, next + used[1], next + used[2], next + used[3]},
-           {looked_up, looked_up + used[1], looked_up + used[2], looked_up + used[3]}, count);
+    if (inserted_ < ahead_end) prefetchCell(inserted_ + kPrefetchDistance);
+    insertNextLookedUp();
   }
 }
 
-MEMS_STICTION_VECTORIZED void PatchSweep::insertCollected(int stop) {
-  constexpr int kCount = kLanes;
-  const int ahead_end = stop - kPrefetchDistance - kCount;
-  while (inserted_ + kCount <= stop) {
-    if (inserted_ < ahead_end) {
-      for (int i = 0; i < kCount; ++i) prefetchPatch(inserted_ + i + kPrefetchDistance);
+void PatchSweep::insertCollected(int stop) {
+  while (inserted_ < stop) {
+    if (inserted_ + kPrefetchDistance < stop) prefetchPatch(inserted_ + kPrefetchDistance);
+    const OrderedCell& next = order_->cells()[static_cast<std::size_t>(inserted_)];
+    const CellSurroundings& around = surroundings_.collected(inserted_);
+    if (around.cell == next.cell) {
+      insert(next, around);
+    } else {  // its group has been sorted since
+      insertNextLookedUp();
     }
-    const OrderedCell* next = order_->cells().data() + inserted_;
-    const CellSurroundings* around = &surroundings_.collected(inserted_);
-    const auto isCollected = [&](int i) { return static_cast<int>(around[i].cell == next[i].cell); };
-    const int are_collected = isCollected(0) & isCollected(1) & isCollected(2) & isCollected(3);
-    if (are_collected == 0) {  // their group has been sorted since
-      insertLookedUp(inserted_ + kCount);
-      continue;
-    }
-    insert({next, next + 1, next + 2, next + 3}, {around, around + 1, around + 2, around + 3}, kCount);
   }
-  insertLookedUp(stop);
 }
 
 std::int32_t PatchSweep::patchOf(const GridCell& cell) {
@@ -229,27 +190,23 @@ std::int32_t PatchSweep::unite(std::int32_t a, std::int32_t b) {
   return a;
 }
 
-std::int32_t PatchSweep::join(std::int32_t id, const OrderedCell& ordered, const CellSurroundings& around) {
-  const int cols = field_->cols();
-  const int col = ordered.cell - ordered.row * cols;
-  const auto joinNeighbour = [&](int row_step, int col_step, double gap) {
-    const GridCell neighbour{ordered.row + row_step, col + col_step, ordered.cell + row_step * cols + col_step};
-    if (!comesBefore(gap, neighbour.index, ordered.gap, ordered.cell)) return;
+std::int32_t PatchSweep::join(std::int32_t id, const GridCell& cell, double gap, const CellSurroundings& around) {
+  const auto joinNeighbour = [&](const GridCell& neighbour) {
     const std::int32_t dale = dales_.find(neighbour);
     if (dale >= patchIdEnd()) makeRoom();
     const std::int32_t neighbour_id = patchOfDale(dale);
     if (neighbour_id != id) id = unite(id, neighbour_id);
   };
-  joinNeighbour(0, -1, around.gaps[kLeft]);
-  joinNeighbour(0, 1, around.gaps[kRight]);
-  joinNeighbour(-1, 0, around.gaps[kTop]);
-  joinNeighbour(1, 0, around.gaps[kBottom]);
+  const int cols = field_->cols();
+  for (const Side side : kSides) {
+    if (comesFirst(side, around.gaps[side], gap)) joinNeighbour(cell.neighbour(side, cols));
+  }
   if (connectivity_ == Connectivity::kFour) return id;
-  for (const int row_step : {-1, 1}) {
-    for (const int col_step : {-1, 1}) {
-      const int row = ordered.row + row_step;
-      if (row < 0 || row >= field_->rows() || col + col_step < 0 || col + col_step >= cols) continue;
-      joinNeighbour(row_step, col_step, field_->gap(row * cols + col + col_step));
+  for (const Side vertical : {kTop, kBottom}) {
+    for (const Side horizontal : {kLeft, kRight}) {
+      const GridCell corner = cell.neighbour(vertical, cols).neighbour(horizontal, cols);
+      if (!field_->contains(corner)) continue;
+      if (comesBefore(field_->gap(corner.index), corner.index, gap, cell.index)) joinNeighbour(corner);
     }
   }
   return id;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "mems_stiction/approach/cap_couple.hpp"
 #include "mems_stiction/equilibrium/level_search.hpp"
 
 namespace mems_stiction {
@@ -26,11 +25,9 @@ void ApproachSearch::run(const GapField& field, GapOrder& order, Connectivity co
   field_ = &field;
   order_ = &order;
   setting_ = &setting;
-  sweep_.begin(field, order, connectivity);
-  centres_.clear();
+  sweep_.start(field, order, connectivity);
   loads_.prepare(order);
   search(state);
-  keepCaps();
 }
 
 void ApproachSearch::search(EquilibriumState& state) {
@@ -47,7 +44,7 @@ void ApproachSearch::search(EquilibriumState& state) {
     const int previous_count = state.contact_count;
     const double previous_approach = state.approach;
     double approach = state.steps * setting.step;
-    int contact_count = order.countBelow(approach);
+    int contact_count = order.sortBelow(approach);
     const bool reaches_limit = contact_count >= order.contactLimit();
     if (reaches_limit) {
       approach = limit_gap;
@@ -71,13 +68,10 @@ void ApproachSearch::search(EquilibriumState& state) {
 }
 
 void ApproachSearch::moveTo(double approach, int contact_count, EquilibriumState& state) {
-  if (contact_count < sweep_.contactCount()) centres_.clear();  // the sweep starts over, with new patches
   sweep_.advanceTo(contact_count);
+  caps_.resize(sweep_.livePatches().size());
   responses_.resize(sweep_.livePatches().size());
-  centres_.resize(static_cast<std::size_t>(sweep_.patchIdEnd()));
-  const std::vector<std::int32_t>& changed = sweep_.takeChangedPatches();
-  updateCentres(changed);
-  updateResponses(changed);
+  for (const std::int32_t id : sweep_.takeChangedPatches()) describe(id);
   state.approach = approach;
   state.contact_count = contact_count;
   state.load = loads_.at(approach, contact_count, setting_->forces, setting_->mechanical_load);
@@ -85,47 +79,16 @@ void ApproachSearch::moveTo(double approach, int contact_count, EquilibriumState
   state.balance = forceBalance(responses_, state.load.total(), setting_->law);
 }
 
-void ApproachSearch::updateCentres(const std::vector<std::int32_t>& changed) {
-  moved_patches_.clear();
-  for (const std::int32_t id : changed) {
-    KnownCentre& known = centres_[static_cast<std::size_t>(id)];
-    const ContactPatch& patch = sweep_.patch(id);
-    const Box box{patch.min_col, patch.max_col, patch.min_row, patch.max_row};
-    if (known.is_settled && box == known.box) continue;
-    known.box = box;
-    sweep_.prefetchCentre(id);
-    moved_patches_.push_back(id);
-  }
-  for (const std::int32_t id : moved_patches_) {
-    KnownCentre& known = centres_[static_cast<std::size_t>(id)];
-    const ContactPatch& patch = sweep_.patch(id);
-    known.centre = boxCentre(patch, *field_);
-    known.is_settled = sweep_.patchOf(known.centre.cell) == id;
-    if (!known.is_settled) known.centre = deepestCentre(patch, *field_);
-  }
+void ApproachSearch::describe(std::int32_t patch_id) {
+  const auto place = static_cast<std::size_t>(sweep_.livePlace(patch_id));
+  caps_[place] = capCouple(sweep_.patch(patch_id), *field_, centreOf(patch_id), setting_->cutoff_distance);
+  responses_[place] = AsperityResponse(caps_[place], setting_->law);
 }
 
-void ApproachSearch::updateResponses(const std::vector<std::int32_t>& changed) {
-  for (std::size_t i = 0; i < changed.size(); i += kLanes) {
-    CentredPatch patches[kLanes];
-    AsperityResponse* responses[kLanes];
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      const std::int32_t id = changed[std::min(i + lane, changed.size() - 1)];  // the last one fills up the lanes
-      patches[lane] = centred(id);
-      responses[lane] = &responses_[static_cast<std::size_t>(sweep_.livePlace(id))];
-    }
-    CapLanes caps;
-    capCouples(patches, *field_, setting_->smallest_height, caps);
-    findResponses(caps, setting_->law, responses);
-  }
-}
-
-void ApproachSearch::keepCaps() {
-  caps_.clear();
-  for (const std::int32_t id : sweep_.livePatches()) {
-    const CentredPatch patch = centred(id);
-    caps_.push_back(capCouple(*patch.patch, *field_, *patch.centre, setting_->smallest_height));
-  }
+PatchCentre ApproachSearch::centreOf(std::int32_t patch_id) {
+  const ContactPatch& patch = sweep_.patch(patch_id);
+  const PatchCentre centre = boxCentre(patch, *field_);
+  return sweep_.patchOf(centre.cell) == patch_id ? centre : deepestCentre(patch, *field_);
 }
 
 bool ApproachSearch::nothingResists() const {

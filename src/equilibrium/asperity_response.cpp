@@ -9,20 +9,9 @@ namespace mems_stiction {
 namespace {
 
 /// V_i of (6). The volume of a spherical cap has the first power of the height as last factor; (6) prints the second.
-MEMS_STICTION_INLINE void findSharingWeights(const CapLanes& caps, Formulation formulation, Lanes& weights) {
-  weights = (3.0 * caps.base_radius * caps.base_radius + caps.height * caps.height) * caps.height;
-  if (formulation == Formulation::kPrinted) weights *= caps.height;
-}
-
-/// AsperityLaw::plasticityIndexOf() of four asperities.
-MEMS_STICTION_INLINE void findPlasticityIndices(const AsperityLaw& law, const Lanes& radii, Lanes& indices) {
-  if (law.deformation == Deformation::kElastic) {
-    indices = Lanes{};
-  } else if (law.formulation == Formulation::kPrinted) {
-    indices = law.contact_modulus / law.hardness * (law.composite_rms_height / radii);
-  } else {
-    mems_stiction::findPlasticityIndices(law.contact_modulus, law.hardness, law.composite_rms_height, radii, indices);
-  }
+double loadWeight(const CapCouple& caps, Formulation formulation) {
+  const double volume = (3.0 * caps.cap_radius * caps.cap_radius + caps.height * caps.height) * caps.height;
+  return formulation == Formulation::kPrinted ? volume * caps.height : volume;
 }
 
 }  // namespace
@@ -38,38 +27,19 @@ AsperityLaw::AsperityLaw(const ContactPair& pair, double work_of_adhesion_in, do
       deformation(deformation_in) {}
 
 double AsperityLaw::plasticityIndexOf(double radius) const {
-  Lanes indices;
-  findPlasticityIndices(*this, Lanes{} + radius, indices);
-  return indices[0];
+  if (deformation == Deformation::kElastic) return 0.0;
+  if (formulation == Formulation::kPrinted) return contact_modulus / hardness * (composite_rms_height / radius);
+  return plasticityIndex(contact_modulus, hardness, composite_rms_height, radius);
 }
 
-MEMS_STICTION_VECTORIZED void findResponses(const CapLanes& caps, const AsperityLaw& law,
-                                            AsperityResponse* const (&responses)[kLanes]) {
-  const Lanes& rc = caps.base_radius;
-  Lanes volume, plasticity_index, elastic_share;
-  findSharingWeights(caps, law.formulation, volume);
-  findPlasticityIndices(law, caps.composite_radius, plasticity_index);
-  findRegimeFactors(plasticity_index, elastic_share);
-  const Lanes imposed_load = law.stiffness * rc * rc * rc / caps.composite_radius;
-  const Lanes yield_load = law.hardness * kPi * rc * rc;
-  for (std::size_t i = 0; i < kLanes; ++i) {
-    AsperityResponse& response = *responses[i];
-    response.radius = caps.composite_radius[i];
-    response.base_radius = rc[i];
-    response.volume = volume[i];
-    response.cos_tilt = caps.cos_tilt[i];
-    response.imposed_load = imposed_load[i];
-    response.yield_load = yield_load[i];
-    response.elastic_share = elastic_share[i];
-  }
-}
-
-AsperityResponse::AsperityResponse(const CapCouple& caps, const AsperityLaw& law) {
-  const Lanes zero{};
-  const CapLanes lanes{zero + caps.base_radius, zero + caps.height, zero + caps.composite_radius,
-                       zero + caps.squared_slope, zero + caps.cos_tilt};
-  findResponses(lanes, law, {this, this, this, this});
-}
+AsperityResponse::AsperityResponse(const CapCouple& caps, const AsperityLaw& law)
+    : radius(caps.composite_radius),
+      cap_radius(caps.cap_radius),
+      load_weight(loadWeight(caps, law.formulation)),
+      cos_tilt(caps.cos_tilt),
+      imposed_load(law.stiffness * cap_radius * cap_radius * cap_radius / radius),
+      yield_load(law.hardness * kPi * cap_radius * cap_radius),
+      elastic_share(regimeFactor(law.plasticityIndexOf(radius))) {}
 
 double AsperityResponse::carriedLoad() const {
   return elastic_share * imposed_load + (1.0 - elastic_share) * std::min(imposed_load, yield_load);

@@ -14,9 +14,9 @@ Asperity asperityAt(const ContactPatch& patch, const CapCouple& caps, const Aspe
   Asperity asperity;
   asperity.x = caps.centre.col * field.pitchX();
   asperity.y = caps.centre.row * field.pitchY();
-  asperity.cap_radius = caps.base_radius;
+  asperity.cap_radius = caps.cap_radius;
   asperity.composite_radius = caps.composite_radius;
-  asperity.load = load_share * response.volume;
+  asperity.load = load_share * response.load_weight;
   const double apparent_load =
       jkr::apparentLoad(asperity.load * caps.cos_tilt, law.work_of_adhesion, caps.composite_radius);
   asperity.contact_radius = jkr::contactRadius(apparent_load, caps.composite_radius, law.contact_modulus);

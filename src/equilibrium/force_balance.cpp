@@ -4,7 +4,7 @@ namespace mems_stiction {
 namespace {
 
 double axialLoad(const AsperityResponse& asperity, const ForceBalance& balance) {
-  return balance.load_share * asperity.volume * asperity.cos_tilt;
+  return balance.load_share * asperity.load_weight * asperity.cos_tilt;
 }
 
 }  // namespace
@@ -12,13 +12,13 @@ double axialLoad(const AsperityResponse& asperity, const ForceBalance& balance) 
 ForceBalance forceBalance(const std::vector<AsperityResponse>& responses, double normal_load, const AsperityLaw& law) {
   ForceBalance balance;
   balance.normal_load = normal_load;
-  double volume = 0.0;
+  double weight = 0.0;
   for (const AsperityResponse& asperity : responses) {
-    volume += asperity.volume;
+    weight += asperity.load_weight;
     balance.carried_load += asperity.carriedLoad();
     balance.plastic_force += (1.0 - asperity.elastic_share) * asperity.yield_load;
   }
-  balance.load_share = normal_load / volume;
+  balance.load_share = normal_load / weight;
   balance.is_equilibrium = balance.carried_load >= normal_load && generalizedForce(responses, balance, law) <= 0.0;
   return balance;
 }

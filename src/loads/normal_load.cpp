@@ -31,6 +31,20 @@ GapMoments merged(const GapMoments& a, const GapMoments& b) {
   return sum;
 }
 
+/// The denominator of (2), of one gap or of several; gaps below the cut-off count as the cut-off.
+template <typename Real>
+MEMS_STICTION_INLINE Real cubedDistance(const Real& gap, double cutoff) {
+  const Real distance = select(gap > cutoff, gap, Real(cutoff));
+  return distance * distance * distance;
+}
+
+/// The denominator of (3), of one gap or of several.
+template <typename Real>
+MEMS_STICTION_INLINE Real squaredDistance(const Real& gap, double insulator) {
+  const Real distance = gap + insulator;
+  return distance * distance;
+}
+
 }  // namespace
 
 CellForces::CellForces(const InterfaceOptions& interface, double voltage, double cell_area)
@@ -39,35 +53,27 @@ CellForces::CellForces(const InterfaceOptions& interface, double voltage, double
       electrostatic_factor_(0.5 * kVacuumPermittivity * cell_area * voltage * voltage),
       insulator_(interface.insulator_thickness / interface.insulator_relative_permittivity) {}
 
-double CellForces::vanDerWaals(double gap) const {
-  const double distance = std::max(gap, cutoff_);
-  return van_der_waals_factor_ / (distance * distance * distance);
-}
+double CellForces::vanDerWaals(double gap) const { return van_der_waals_factor_ / cubedDistance(gap, cutoff_); }
 
 double CellForces::electrostatic(double gap) const {
   if (!hasElectrostatic()) return 0.0;
-  const double distance = gap + insulator_;
-  return electrostatic_factor_ / (distance * distance);
+  return electrostatic_factor_ / squaredDistance(gap, insulator_);
 }
 
 double CellForces::electrostaticInContact() const { return electrostatic(0.0); }
 
 MEMS_STICTION_VECTORIZED void CellForces::addCells(const OrderedCell* cells, std::size_t count, double approach,
                                                    NormalLoad& load) const {
-  const Lanes zero{};
-  const Lanes cutoff = zero + cutoff_;
-  Lanes inverse_cubes{};
-  Lanes inverse_squares{};
-  const std::size_t in_lanes = count / kLanes * kLanes;
-  for (std::size_t i = 0; i < in_lanes; i += kLanes) {
-    const Lanes gap = Lanes{cells[i].gap, cells[i + 1].gap, cells[i + 2].gap, cells[i + 3].gap} - approach;
-    const Lanes distance = gap > cutoff ? gap : cutoff;
-    const Lanes insulated = gap + insulator_;
-    inverse_cubes += 1.0 / (distance * distance * distance);
-    inverse_squares += 1.0 / (insulated * insulated);
+  Lanes inverse_cubes = 0.0;
+  Lanes inverse_squares = 0.0;
+  const std::size_t in_lanes = count / Lanes::kCount * Lanes::kCount;
+  for (std::size_t i = 0; i < in_lanes; i += Lanes::kCount) {
+    const Lanes gap = Lanes(cells[i].gap, cells[i + 1].gap, cells[i + 2].gap, cells[i + 3].gap) - approach;
+    inverse_cubes += 1.0 / cubedDistance(gap, cutoff_);
+    inverse_squares += 1.0 / squaredDistance(gap, insulator_);
   }
-  load.van_der_waals += van_der_waals_factor_ * sumOf(inverse_cubes);
-  if (hasElectrostatic()) load.electrostatic += electrostatic_factor_ * sumOf(inverse_squares);
+  load.van_der_waals += van_der_waals_factor_ * inverse_cubes.sum();
+  if (hasElectrostatic()) load.electrostatic += electrostatic_factor_ * inverse_squares.sum();
   for (std::size_t i = in_lanes; i < count; ++i) {
     load.van_der_waals += vanDerWaals(cells[i].gap - approach);
     load.electrostatic += electrostatic(cells[i].gap - approach);

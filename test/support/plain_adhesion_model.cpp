@@ -10,6 +10,7 @@
 #include "mems_stiction/equilibrium/approach_search.hpp"
 #include "mems_stiction/equilibrium/asperity_summary.hpp"
 #include "mems_stiction/equilibrium/level_search.hpp"
+#include "support/frame_gaps.hpp"
 
 namespace mems_stiction {
 namespace plain {
@@ -33,13 +34,27 @@ void forEachContactCell(const cv::Mat& labels, Visitor&& visit) {
   }
 }
 
+/// The edge between a cell in contact and its neighbour.
+void addEdge(const GapField& field, cv::Point cell, cv::Point neighbour, BoundarySums& sums) {
+  const int cells[] = {cell.y * field.cols() + cell.x, neighbour.y * field.cols() + neighbour.x};
+  const double x = cell.x + neighbour.x;
+  const double y = cell.y + neighbour.y;
+  const double gap = 0.5 * (field.gap(cells[0]) + field.gap(cells[1]));
+  sums += {1.0, gap, x, x * gap, y, y * gap, x * x, y * y, x * y, 0.0, 0.0, 0.0};
+  if (field.upperIsFlat()) return;  // the lower surface is then the gap, turned over
+  const double lower = 0.5 * (field.lowerHeight(cells[0]) + field.lowerHeight(cells[1]));
+  sums.lower += lower;
+  sums.x_lower += x * lower;
+  sums.y_lower += y * lower;
+}
+
 void measureBoundary(const GapField& field, const cv::Mat& labels, std::vector<ContactPatch>& patches) {
   forEachContactCell(labels, [&](int row, int col, int label) {
     for (const cv::Point step : {cv::Point(-1, 0), cv::Point(1, 0), cv::Point(0, -1), cv::Point(0, 1)}) {
       const cv::Point neighbour = cv::Point(col, row) + step;
       if (!cv::Rect(0, 0, labels.cols, labels.rows).contains(neighbour)) continue;
       if (labels.at<int>(neighbour) > 0 || !field.isValid(neighbour.y * labels.cols + neighbour.x)) continue;
-      patches[static_cast<std::size_t>(label - 1)].boundary.addEdge(field, row, col, neighbour.y, neighbour.x, 1);
+      addEdge(field, {col, row}, neighbour, patches[static_cast<std::size_t>(label - 1)].boundary);
     }
   });
 }
@@ -82,18 +97,16 @@ State stateAt(const Problem& problem, double approach, Touch touch) {
 
 /// The first gap level at which at least the limiting share of the valid cells touches.
 double limitGap(const GapField& field, double max_contact_fraction) {
-  std::vector<double> gaps;
-  std::copy_if(field.gaps().begin(), field.gaps().end(), std::back_inserter(gaps),
-               [](double gap) { return gap != GapField::kInvalidGap; });
-  std::sort(gaps.begin(), gaps.end());
-  const auto wanted = static_cast<std::size_t>(std::max(1.0, std::ceil(max_contact_fraction * gaps.size())));
+  std::vector<double> gaps = frameGaps(field);
+  std::sort(gaps.begin(), gaps.end());  // those that are not valid last
+  const auto wanted = static_cast<std::size_t>(std::max(1.0, std::ceil(max_contact_fraction * field.validCount())));
   return gaps[wanted - 1];
 }
 
 /// The first level in (previous, step_end] that is in equilibrium, or the end of the step.
 State refined(const Problem& problem, const State& step_end, double previous_approach, double step) {
   std::set<double> gaps;
-  for (const double gap : problem.field.gaps()) {
+  for (const double gap : frameGaps(problem.field)) {
     if (touches(gap, step_end.approach, step_end.touch) && gap >= previous_approach) gaps.insert(gap);
   }
   // Gaps within a millionth of a step of the smallest among them are one level: they differ by round-off.
@@ -119,7 +132,7 @@ State refined(const Problem& problem, const State& step_end, double previous_app
 double meanGapApart(const GapField& field, const State& state) {
   double sum = 0.0;
   int apart = 0;
-  for (const double gap : field.gaps()) {
+  for (const double gap : frameGaps(field)) {
     if (gap == GapField::kInvalidGap || touches(gap, state.approach, state.touch)) continue;
     sum += gap - state.approach;
     ++apart;
@@ -191,7 +204,7 @@ Labelling labelPatches(const GapField& field, double approach, Touch touch, Conn
     patch.min_row = stats.at<int>(label, cv::CC_STAT_TOP);
     patch.max_row = patch.min_row + stats.at<int>(label, cv::CC_STAT_HEIGHT) - 1;
     patch.deepest = -1;
-    for (const Side side : {kLeft, kRight, kTop, kBottom}) patch.extreme.set(side, {-1, 0.0, 0.0});
+    for (const Side side : kSides) patch.extreme[side] = {-1, 0.0, 0.0};
     labelling.contact_count += patch.area;
   }
   forEachContactCell(labelling.labels, [&](int row, int col, int label) {
@@ -204,7 +217,7 @@ Labelling labelPatches(const GapField& field, double approach, Touch touch, Conn
     const auto take = [&](Side side, bool applies, int row_step, int col_step) {
       const int best = patch.extreme[side].cell;
       if (!applies || (best >= 0 && !isDeeper(field, cell, best))) return;
-      patch.extreme.set(side, {cell, field.gap(cell), gapAt(row + row_step, col + col_step)});
+      patch.extreme[side] = {cell, field.gap(cell), gapAt(row + row_step, col + col_step)};
     };
     take(kLeft, col == patch.min_col, 0, -1);
     take(kRight, col == patch.max_col, 0, 1);
@@ -222,7 +235,7 @@ NormalLoad sumLoads(const GapField& field, double approach, Touch touch, const C
                     double mechanical_load) {
   NormalLoad load;
   load.mechanical = mechanical_load;
-  for (const double gap : field.gaps()) {
+  for (const double gap : frameGaps(field)) {
     if (gap == GapField::kInvalidGap) continue;
     if (touches(gap, approach, touch)) {
       load.electrostatic += forces.electrostaticInContact();

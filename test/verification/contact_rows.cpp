@@ -29,7 +29,7 @@ AsperityLaw lawOf(Formulation formulation) {
 
 AsperityResponse sphereAt(double contact_radius, double elastic_share, Formulation formulation) {
   CapCouple caps;
-  caps.base_radius = contact_radius;
+  caps.cap_radius = contact_radius;
   caps.composite_radius = kRadius;
   caps.height = contact_radius * contact_radius / (2.0 * kRadius);
   AsperityResponse response(caps, lawOf(formulation));

@@ -17,14 +17,13 @@
 ///
 /// Where it is degenerate: fewer than 4 edges or edges on one line give a level base plane; a summit that is not above
 /// its base plane counts as flat; caps lower than a tenth of the patch's largest interference say nothing about its
-/// shape (the centre is not the summit), and the interference itself is taken for the cap height, at least one
-/// interatomic distance, so that no radius is infinite.
+/// shape (the centre is not the summit), and the interference itself is taken for the cap height, at least the
+/// cut-off distance, so that no radius is infinite.
 
 #include <cmath>
 
 #include "mems_stiction/approach/contact_patch.hpp"
 #include "mems_stiction/approach/gap_field.hpp"
-#include "mems_stiction/base/lanes.hpp"
 
 namespace mems_stiction {
 
@@ -36,7 +35,7 @@ struct PatchCentre {
 
 /// Two spherical caps in place of one patch.
 struct CapCouple {
-  double base_radius = 0.0;       ///< rc [m]
+  double cap_radius = 0.0;        ///< rc, of the base of both caps [m]
   double height = 0.0;            ///< delta_c of both caps together [m], > 0
   double composite_radius = 0.0;  ///< R_i of (5) [m]
   double squared_slope = 0.0;     ///< tan(theta)^2
@@ -46,21 +45,6 @@ struct CapCouple {
   double tilt() const { return std::atan(std::sqrt(squared_slope)); }  ///< theta [rad]
 };
 
-/// The couples of four patches, one in each lane.
-struct CapLanes {
-  Lanes base_radius;
-  Lanes height;
-  Lanes composite_radius;
-  Lanes squared_slope;
-  Lanes cos_tilt;
-};
-
-/// A patch to be described by caps, with the summit that they are to have.
-struct CentredPatch {
-  const ContactPatch* patch;
-  const PatchCentre* centre;
-};
-
 /// The cell in the middle of the patch's bounding box. A side with an even number of cells has two middles: the deepest
 /// of them, so that a mirrored frame has the mirrored centre.
 PatchCentre boxCentre(const ContactPatch& patch, const GapField& field);
@@ -68,12 +52,9 @@ PatchCentre boxCentre(const ContactPatch& patch, const GapField& field);
 PatchCentre deepestCentre(const ContactPatch& patch, const GapField& field);
 
 /// - @p centre boxCentre() if that belongs to the patch, otherwise deepestCentre().
-/// - @p smallest_height cap height of a patch without any relief [m], > 0
+/// - @p cutoff_distance D0, cap height of a patch without any relief [m], > 0
 /// Depends on the patch's cells only, not on how far the approach has gone since they came in.
 CapCouple capCouple(const ContactPatch& patch, const GapField& field, const PatchCentre& centre,
-                    double smallest_height);
-/// The same for four patches at once, bit for bit: divisions and roots are what takes its time, and four take no longer
-/// than one.
-void capCouples(const CentredPatch (&patches)[kLanes], const GapField& field, double smallest_height, CapLanes& caps);
+                    double cutoff_distance);
 
 }  // namespace mems_stiction

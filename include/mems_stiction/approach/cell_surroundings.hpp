@@ -33,31 +33,34 @@ struct CellSurroundings {
 class SurroundingsTable {
  public:
   /// Nothing is collected yet. Field and order must outlive the table's use; memory is reused.
-  void begin(const GapField& field, const GapOrder& order, DaleMap& dales);
+  void start(const GapField& field, const GapOrder& order, DaleMap& dales);
 
   /// Collects the window that starts at the group of this place.
   void collectFrom(int place);
-  /// Places of the window.
-  int begin() const { return begin_; }
-  int end() const { return end_; }
+  /// First place of the window.
+  int firstPlace() const { return first_place_; }
+  /// The place after its last one.
+  int endPlace() const { return end_place_; }
   /// Of the cell at a place of the window; somebody else's if its group has been sorted since.
-  const CellSurroundings& collected(int place) const { return table_[static_cast<std::size_t>(place - begin_)]; }
+  const CellSurroundings& collected(int place) const { return table_[static_cast<std::size_t>(place - first_place_)]; }
 
-  /// Surroundings of any valid cell, from the field.
-  CellSurroundings look(const GridCell& cell) const;
+  /// Of any valid cell, looked up in the field.
+  CellSurroundings lookUp(const GridCell& cell) const;
 
  private:
-  /// Gaps of a row that was chosen from lately, or of one off the frame, from one cell before the first.
+  /// Gaps of a row that was read lately, or of one off the frame, from one cell before the first [m].
   const double* gapsOf(int row) const;
-  /// Columns of a row's cells that come into contact in the window; makes their dales known. None off the frame.
-  int chooseCells(int row, std::vector<std::int32_t>& cells);
+  /// Reads the gaps of a row and makes the dales of those cells known that may come into contact in the window.
+  /// - @p cells their columns; none off the frame
+  /// @return how many there are
+  int readRow(int row, std::vector<std::int32_t>& cells);
   void collectRow(int row, const std::vector<std::int32_t>& cells, int count);
 
   const GapField* field_ = nullptr;
   const GapOrder* order_ = nullptr;
   DaleMap* dales_ = nullptr;
-  int begin_ = 0;
-  int end_ = 0;
+  int first_place_ = 0;
+  int end_place_ = 0;
   int first_group_ = 0;
   int end_group_ = 0;
   LargePageVector<CellSurroundings> table_;

@@ -4,7 +4,7 @@
 /// The dales of the gap (ISO 25178-2: the regions around the pits, from which paths lead down to the pit): each cell
 /// follows one downward path, to the left or up if that leads down, else to the lower one of right and below.
 ///
-/// Gaps are compared together with the cell's index, so that no two cells are equal. A cell that comes into contact in
+/// Down is to cells that come into contact before (cell_order.hpp), and no two cells are equal. A cell that comes into contact in
 /// the order of the gap then either starts a patch, as the pit of a dale, or touches the patch of its own dale: which
 /// patch a cell joins first is known before the approach begins, and patches meet only where dales do.
 
@@ -20,7 +20,7 @@ namespace mems_stiction {
 class DaleMap {
  public:
   /// Forgets all dales. The field must outlive the map's use; memory is reused.
-  void begin(const GapField& field);
+  void start(const GapField& field);
 
   /// Dale of a valid cell; follows the path downward when it is not known yet.
   std::int32_t find(const GridCell& cell) { return at(cell) == kUnknown ? follow(cell) : at(cell); }

@@ -3,32 +3,16 @@
 /// @file
 /// The gap between two surfaces at first touch: g = z2 - z1 - min(z2 - z1) >= 0 (section 2 of the paper).
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
 #include <limits>
 #include <vector>
 
+#include "mems_stiction/approach/cell_order.hpp"
 #include "mems_stiction/base/large_pages.hpp"
 #include "mems_stiction/surface/surface_pair.hpp"
 
 namespace mems_stiction {
-
-/// A cell of the frame by row and column, and by its index row cols + col: each form where the other would cost a
-/// division.
-struct GridCell {
-  int row = 0;
-  int col = 0;
-  int index = 0;
-};
-
-/// The order in which cells come into contact: by gap [m], then by index, so that no two are equal.
-inline bool comesBefore(double gap, int cell, double other_gap, int other) {
-  return gap < other_gap || (gap == other_gap && cell < other);
-}
-
-class GapRange;
 
 /// The gaps of a frame by cell index, read from its relief as it is stored.
 template <typename Scalar>
@@ -55,6 +39,10 @@ class GapField {
   double cellArea() const { return pitch_x_ * pitch_y_; }
   int cellCount() const { return rows_ * cols_; }
   int validCount() const { return valid_count_; }
+  /// Whether a cell lies in the frame; its index need not fit.
+  bool contains(const GridCell& cell) const {
+    return cell.row >= 0 && cell.row < rows_ && cell.col >= 0 && cell.col < cols_;
+  }
   GridCell cellAt(int row, int col) const { return {row, col, row * cols_ + col}; }
   GridCell cellAt(int index) const { return {index / cols_, index % cols_, index}; }
 
@@ -69,8 +57,6 @@ class GapField {
     return is_single_ ? read(StoredGaps<float>{single_relief_.data(), top_})
                       : read(StoredGaps<double>{relief_.data(), top_});
   }
-  /// Of all cells, row by row; each is worked out when it is read.
-  GapRange gaps() const;
   /// - @p gaps room for cols() of them [m]
   void gapsOfRow(int row, double* gaps) const;
   /// Asks for the memory that gap() of this cell will read; a cell off the frame is allowed.
@@ -118,51 +104,6 @@ class GapField {
   LargePageVector<float> single_relief_;  ///< in its place, if is_single_
   std::vector<double> lower_;
 };
-
-/// The gaps of a field in the order of the frame [m].
-class GapRange {
- public:
-  /// Forward iterator over the gaps; reading one subtracts the relief from its highest point.
-  class iterator {
-   public:
-    using iterator_category = std::forward_iterator_tag;
-    using value_type = double;
-    using difference_type = std::ptrdiff_t;
-    using pointer = const double*;
-    using reference = double;
-
-    iterator() = default;
-    iterator(const GapField& field, int cell) : field_(&field), cell_(cell) {}
-    double operator*() const { return field_->gap(cell_); }
-    iterator& operator++() {
-      ++cell_;
-      return *this;
-    }
-    iterator operator++(int) {
-      const iterator before = *this;
-      ++*this;
-      return before;
-    }
-    bool operator==(const iterator& other) const { return cell_ == other.cell_; }
-    bool operator!=(const iterator& other) const { return cell_ != other.cell_; }
-
-   private:
-    const GapField* field_ = nullptr;
-    int cell_ = 0;
-  };
-  using const_iterator = iterator;
-  using value_type = double;
-
-  explicit GapRange(const GapField& field) : field_(&field) {}
-  iterator begin() const { return {*field_, 0}; }
-  iterator end() const { return {*field_, field_->cellCount()}; }
-  bool operator==(const GapRange& other) const { return std::equal(begin(), end(), other.begin(), other.end()); }
-
- private:
-  const GapField* field_;
-};
-
-inline GapRange GapField::gaps() const { return GapRange(*this); }
 
 /// Columns of a row's cells with a gap below the limit, in ascending order.
 /// - @p gaps of the row's `cols` cells [m]

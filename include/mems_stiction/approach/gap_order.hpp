@@ -35,9 +35,8 @@ struct GapMoments {
 class GapOrder {
  public:
   /// - @p max_contact_fraction contact is searched up to this share of the valid cells, in (0, 1].
-  /// - @p step delta of the approach [m]: countBelow() of its multiples costs nothing. 0, or a step that is tiny
-  /// against the
-  ///        range of the gap, gives groups of one bucket.
+  /// - @p step delta of the approach [m]: sortBelow() its multiples costs nothing. 0, or a step that is tiny against
+  ///   the range of the gap, gives groups of one bucket.
   void build(const GapField& field, double max_contact_fraction, double step = 0.0);
 
   /// In order of group; at least contactLimit() of them, and some more beyond. Cells of equal gaps stand in the order of
@@ -46,8 +45,9 @@ class GapOrder {
   /// Number of cells in contact at the first gap level that reaches the contact fraction limit. The cells up to there
   /// are those of the smallest gaps, and the last one has that gap.
   int contactLimit() const { return contact_limit_; }
-  /// Number of ordered cells with gap < approach; these are the first cells then.
-  int countBelow(double approach);
+  /// Brings the ordered cells with gap < approach to the front, all before the others.
+  /// @return their number
+  int sortBelow(double approach);
   /// Number of valid cells with gap < limit, wherever the limit lies: exact where the cells are ordered, from the
   /// counts of the buckets beyond.
   double cellsBelow(double limit) const;

@@ -23,7 +23,7 @@ namespace mems_stiction {
 class PatchSweep {
  public:
   /// Starts with no cell in contact. The field and the order must outlive the sweep's use; memory is reused.
-  void begin(const GapField& field, const GapOrder& order, Connectivity connectivity);
+  void start(const GapField& field, const GapOrder& order, Connectivity connectivity);
 
   /// Brings the first `count` cells of the order into contact; starts over if fewer are asked for than are in. The
   /// patches are those of a moment of the approach when all cells up to some gap are in: a step of the order, or a
@@ -41,9 +41,6 @@ class PatchSweep {
   /// them after a restart).
   const std::vector<std::int32_t>& takeChangedPatches();
 
-  /// Asks for the memory that finding the patch's centre needs.
-  void prefetchCentre(std::int32_t id) const;
-
   /// Place of a live patch in livePatches().
   std::int32_t livePlace(std::int32_t id) const { return live_place_[static_cast<std::size_t>(id)]; }
 
@@ -58,10 +55,11 @@ class PatchSweep {
   /// The next cells up to this place.
   void insertLookedUp(int stop);
   void insertCollected(int stop);
-  /// The next cells, at most kLanes of them; where there are fewer, the last lanes repeat one.
-  void insert(const OrderedCell* const (&cells)[kLanes], const CellSurroundings* const (&around)[kLanes], int count);
+  void insertNextLookedUp();
+  /// Brings the next cell of the order into contact.
+  void insert(const OrderedCell& ordered, const CellSurroundings& around);
   /// The patch of the cell's dale together with those that the cell touches.
-  std::int32_t join(std::int32_t id, const OrderedCell& cell, const CellSurroundings& around);
+  std::int32_t join(std::int32_t id, const GridCell& cell, double gap, const CellSurroundings& around);
   std::int32_t unite(std::int32_t a, std::int32_t b);
   std::int32_t patchOfDale(std::int32_t dale) const { return patch_of_dale_[static_cast<std::size_t>(dale)]; }
   GridCell gridCell(const OrderedCell& cell) const {

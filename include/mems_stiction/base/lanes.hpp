@@ -1,10 +1,13 @@
 #pragma once
 
 /// @file
-/// Four doubles that are added, compared and chosen side by side, in the instructions that the processor has.
+/// Four numbers that a pass over the frame takes at once, in the instructions that the processor has. A formula reads as
+/// for one number, and may be a template of both:
+///
+///     template <typename Real>
+///     MEMS_STICTION_INLINE Real cutOff(const Real& gap, double limit) { return select(gap > limit, gap, Real(limit)); }
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -13,50 +16,88 @@
 
 namespace mems_stiction {
 
-constexpr std::size_t kLanes = 4;
-using Lanes = double __attribute__((vector_size(kLanes * sizeof(double))));
-/// What comparing two Lanes gives: all bits set where it holds, none elsewhere.
-using LaneMask = std::int64_t __attribute__((vector_size(kLanes * sizeof(std::int64_t))));
-using IntegerLanes = std::int32_t __attribute__((vector_size(kLanes * sizeof(std::int32_t))));
+/// In which of the lanes a comparison holds.
+class LaneMask {
+ public:
+  using Vector = std::int64_t __attribute__((vector_size(32)));  ///< all bits set where it holds, none elsewhere
 
-/// By reference: how lanes are returned would depend on the instructions that a file is compiled for.
-inline void load(const double* values, Lanes& lanes) { std::memcpy(&lanes, values, sizeof lanes); }
-/// value(i) for each lane i.
-template <typename Value>
-MEMS_STICTION_INLINE void fill(const Value& value, Lanes& lanes) {
-  lanes = Lanes{static_cast<double>(value(0)), static_cast<double>(value(1)), static_cast<double>(value(2)),
-                static_cast<double>(value(3))};
-}
+  MEMS_STICTION_INLINE explicit LaneMask(const Vector& bits) : bits_(bits) {}
+  // Written out, here and below: how else the class is handed over depends on the instructions a file is compiled for.
+  MEMS_STICTION_INLINE LaneMask(const LaneMask& other) : bits_(other.bits_) {}
+  LaneMask& operator=(const LaneMask& other) = default;
 
-MEMS_STICTION_INLINE void takeRoot(const Lanes& lanes, Lanes& roots) {
-  fill([&](int i) { return std::sqrt(lanes[i]); }, roots);
-}
+  MEMS_STICTION_INLINE const Vector& bits() const { return bits_; }
+  /// In how many lanes it holds.
+  MEMS_STICTION_INLINE int count() const { return -static_cast<int>(bits_[0] + bits_[1] + bits_[2] + bits_[3]); }
 
-/// Four of the eight values of a (0 to 3) and b (4 to 7).
-template <int first, int second, int third, int fourth>
-MEMS_STICTION_INLINE void pick(const Lanes& a, const Lanes& b, Lanes& picked) {
-#if defined(__clang__)
-  picked = __builtin_shufflevector(a, b, first, second, third, fourth);
-#else  // the name that GCC before 12 knows
-  picked = __builtin_shuffle(a, b, LaneMask{first, second, third, fourth});
-#endif
-}
+ private:
+  Vector bits_;
+};
 
-/// Rows become columns: a[i], b[i], c[i], d[i] become the i-th of them.
-inline void transpose(Lanes& a, Lanes& b, Lanes& c, Lanes& d) {
-  Lanes even_ab, odd_ab, even_cd, odd_cd;
-  pick<0, 4, 2, 6>(a, b, even_ab);
-  pick<1, 5, 3, 7>(a, b, odd_ab);
-  pick<0, 4, 2, 6>(c, d, even_cd);
-  pick<1, 5, 3, 7>(c, d, odd_cd);
-  pick<0, 1, 4, 5>(even_ab, even_cd, a);
-  pick<0, 1, 4, 5>(odd_ab, odd_cd, b);
-  pick<2, 3, 6, 7>(even_ab, even_cd, c);
-  pick<2, 3, 6, 7>(odd_ab, odd_cd, d);
-}
+/// Four doubles. Every operator is that of the four numbers, to the bit.
+class Lanes {
+ public:
+  static constexpr std::size_t kCount = 4;
 
-inline double sumOf(const Lanes& lanes) { return lanes[0] + lanes[1] + lanes[2] + lanes[3]; }
-inline double smallestOf(const Lanes& lanes) { return std::min({lanes[0], lanes[1], lanes[2], lanes[3]}); }
-inline double largestOf(const Lanes& lanes) { return std::max({lanes[0], lanes[1], lanes[2], lanes[3]}); }
+  /// The same number in all lanes.
+  MEMS_STICTION_INLINE Lanes(double value) : values_{value, value, value, value} {}  // NOLINT: as double from int
+  MEMS_STICTION_INLINE Lanes(double a, double b, double c, double d) : values_{a, b, c, d} {}
+  MEMS_STICTION_INLINE Lanes(const Lanes& other) : values_(other.values_) {}
+  Lanes& operator=(const Lanes& other) = default;
+
+  /// From memory.
+  MEMS_STICTION_INLINE static Lanes load(const double* values) {
+    Vector loaded;
+    std::memcpy(&loaded, values, sizeof loaded);
+    return Lanes(loaded);
+  }
+  MEMS_STICTION_INLINE static Lanes load(const float* values) {
+    float __attribute__((vector_size(kCount * sizeof(float)))) loaded;
+    std::memcpy(&loaded, values, sizeof loaded);
+    return Lanes(__builtin_convertvector(loaded, Vector));
+  }
+  /// The first `count` lanes from memory, the others `rest`.
+  template <typename Scalar>
+  MEMS_STICTION_INLINE static Lanes loadFirst(const Scalar* values, std::size_t count, double rest) {
+    Lanes lanes(rest);
+    for (std::size_t i = 0; i < count; ++i) lanes.values_[i] = values[i];
+    return lanes;
+  }
+
+  MEMS_STICTION_INLINE double operator[](std::size_t lane) const { return values_[lane]; }
+  MEMS_STICTION_INLINE double sum() const { return values_[0] + values_[1] + values_[2] + values_[3]; }
+  MEMS_STICTION_INLINE double smallest() const { return std::min({values_[0], values_[1], values_[2], values_[3]}); }
+  MEMS_STICTION_INLINE double largest() const { return std::max({values_[0], values_[1], values_[2], values_[3]}); }
+
+  MEMS_STICTION_INLINE Lanes& operator+=(const Lanes& other) {
+    values_ += other.values_;
+    return *this;
+  }
+  friend MEMS_STICTION_INLINE Lanes operator+(const Lanes& a, const Lanes& b) { return Lanes(a.values_ + b.values_); }
+  friend MEMS_STICTION_INLINE Lanes operator-(const Lanes& a, const Lanes& b) { return Lanes(a.values_ - b.values_); }
+  friend MEMS_STICTION_INLINE Lanes operator*(const Lanes& a, const Lanes& b) { return Lanes(a.values_ * b.values_); }
+  friend MEMS_STICTION_INLINE Lanes operator/(const Lanes& a, const Lanes& b) { return Lanes(a.values_ / b.values_); }
+  friend MEMS_STICTION_INLINE LaneMask operator<(const Lanes& a, const Lanes& b) {
+    return LaneMask(a.values_ < b.values_);
+  }
+  friend MEMS_STICTION_INLINE LaneMask operator>(const Lanes& a, const Lanes& b) { return b < a; }
+  friend MEMS_STICTION_INLINE LaneMask operator==(const Lanes& a, const Lanes& b) {
+    return LaneMask(a.values_ == b.values_);
+  }
+
+  /// In each lane what `a` has where the mask holds, else what `b` has.
+  friend MEMS_STICTION_INLINE Lanes select(const LaneMask& mask, const Lanes& a, const Lanes& b) {
+    return Lanes(mask.bits() ? a.values_ : b.values_);
+  }
+
+ private:
+  using Vector = double __attribute__((vector_size(kCount * sizeof(double))));
+  MEMS_STICTION_INLINE explicit Lanes(const Vector& values) : values_(values) {}
+
+  Vector values_;
+};
+
+/// The same for one number.
+MEMS_STICTION_INLINE double select(bool condition, double a, double b) { return condition ? a : b; }
 
 }  // namespace mems_stiction

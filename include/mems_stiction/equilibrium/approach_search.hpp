@@ -10,14 +10,13 @@
 ///   - in equilibrium;
 ///   - bonded, at the first level whose contact fraction reaches the limit;
 ///   - without equilibrium, after max_steps, or at that limit when to the letter of the paper nothing resists (all
-///   asperities
-///     plastic in Formulation::kPrinted).
+///     asperities plastic in Formulation::kPrinted).
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "mems_stiction/approach/approach_options.hpp"
+#include "mems_stiction/approach/cap_couple.hpp"
 #include "mems_stiction/approach/patch_sweep.hpp"
 #include "mems_stiction/equilibrium/equilibrium_state.hpp"
 #include "mems_stiction/loads/capillary.hpp"
@@ -36,7 +35,7 @@ struct SearchSetting {
   double mechanical_load = 0.0;  ///< [N]
   double step = 0.0;             ///< delta [m], > 0
   int max_steps = 0;
-  double smallest_height = 0.0;  ///< of a cap without relief [m], > 0
+  double cutoff_distance = 0.0;  ///< D0 [m], > 0
   bool keep_curve = false;
   CapillaryForce capillary;  ///< of condensed water
 };
@@ -61,15 +60,10 @@ class ApproachSearch {
   void moveTo(double approach, int contact_count, EquilibriumState& state);
   /// Replaces the state by the first level in equilibrium after `previous_count` cells, if there is one.
   void refine(int previous_count, EquilibriumState& state);
-  /// Centres of patches that have changed; looked up again only where the bounding box has.
-  void updateCentres(const std::vector<std::int32_t>& changed);
-  /// Responses of patches that have changed, four at a time.
-  void updateResponses(const std::vector<std::int32_t>& changed);
-  CentredPatch centred(std::int32_t patch_id) const {
-    return {&sweep_.patch(patch_id), &centres_[static_cast<std::size_t>(patch_id)].centre};
-  }
-  /// Describes the patches of the state that was found.
-  void keepCaps();
+  /// Caps and response of a patch that has changed.
+  void describe(std::int32_t patch_id);
+  /// The centre of the patch's box if it belongs to the patch, else its deepest cell.
+  PatchCentre centreOf(std::int32_t patch_id);
   /// To the letter of the paper nothing resists a plastic asperity: when all are, no extremum can come.
   bool nothingResists() const;
   void record(EquilibriumState& state) const;
@@ -79,15 +73,6 @@ class ApproachSearch {
   const SearchSetting* setting_ = nullptr;
   PatchSweep sweep_;
   GapLoads loads_;
-  using Box = std::array<std::int32_t, 4>;
-  struct KnownCentre {
-    PatchCentre centre;
-    Box box;
-    bool is_settled = false;  ///< the box's centre belongs to the patch, and will as long as the box stays
-  };
-
-  std::vector<KnownCentre> centres_;         ///< by patch id
-  std::vector<std::int32_t> moved_patches_;  ///< those with another bounding box
   std::vector<CapCouple> caps_;
   std::vector<AsperityResponse> responses_;
   std::vector<std::int32_t> level_ends_;

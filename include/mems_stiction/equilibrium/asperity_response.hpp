@@ -47,8 +47,8 @@ struct AsperityLaw {
 /// Everything about one asperity that does not depend on the load.
 struct AsperityResponse {
   double radius = 0.0;         ///< R_i [m]
-  double base_radius = 0.0;    ///< rc [m]
-  double volume = 0.0;         ///< V_i of (6), the weight of its share of the load [m^3] (printed: [m^4])
+  double cap_radius = 0.0;     ///< rc [m]
+  double load_weight = 0.0;    ///< V_i of (6), the caps' volume, by which it shares the load [m^3] (printed: [m^4])
   double cos_tilt = 1.0;       ///< cos(theta)
   double imposed_load = 0.0;   ///< P1 [N]
   double yield_load = 0.0;     ///< Ha pi rc^2 [N]
@@ -61,8 +61,5 @@ struct AsperityResponse {
   /// dE_t/dD under the load P0 that acts along its axis [N]; positive pulls the surfaces together.
   double generalizedForce(double axial_load, const AsperityLaw& law) const;
 };
-
-/// The responses of four asperities at once, bit for bit those of one at a time.
-void findResponses(const CapLanes& caps, const AsperityLaw& law, AsperityResponse* const (&responses)[kLanes]);
 
 }  // namespace mems_stiction

@@ -52,8 +52,6 @@ class CapillaryForce {
 
   /// Of a filled cell [N]. @param cell_area [m^2]
   double forcePerCell(double cell_area) const { return pressure_ * cell_area; }
-  /// Of a cell apart by gap [m]: [N].
-  double forcePerCell(double cell_area, double gap) const { return gap < gap_limit_ ? forcePerCell(cell_area) : 0.0; }
 
  private:
   double kelvin_radius_ = 0.0;

@@ -15,9 +15,8 @@
 ///     const double phi = plasticityIndex(pair.contact_modulus, pair.hardness, composite_rms_height, radius);
 ///     const double stored_share = regimeFactor(phi);
 
+#include <algorithm>
 #include <cmath>
-
-#include "mems_stiction/base/lanes.hpp"
 
 namespace mems_stiction {
 
@@ -26,40 +25,19 @@ inline constexpr double kElasticLimit = 0.6;
 /// Plasticity indices above it are fully plastic [-].
 inline constexpr double kPlasticLimit = 1.1;
 
-/// phi of (9) [-], of four asperities.
+/// phi of (9) [-].
 /// @param contact_modulus E [Pa], > 0
 /// @param hardness Ha of the softer body [Pa], > 0
 /// @param composite_rms_height sigma of the pair [m], >= 0
-/// @param radii composite radii of the asperities [m], > 0
-/// @param[out] indices phi of each asperity
-MEMS_STICTION_INLINE void findPlasticityIndices(double contact_modulus, double hardness, double composite_rms_height,
-                                                const Lanes& radii, Lanes& indices) {
-  Lanes roots;
-  takeRoot(composite_rms_height / radii, roots);
-  indices = contact_modulus / hardness * roots;
-}
-/// phi of (9) [-], of one asperity; its parameters are those of findPlasticityIndices.
+/// @param radius composite radius R of the asperity [m], > 0
 inline double plasticityIndex(double contact_modulus, double hardness, double composite_rms_height, double radius) {
-  Lanes indices;
-  findPlasticityIndices(contact_modulus, hardness, composite_rms_height, Lanes{} + radius, indices);
-  return indices[0];
+  return contact_modulus / hardness * std::sqrt(composite_rms_height / radius);
 }
 
-/// chi of (10.2), the elastic share [-], of four asperities: 1 elastic, 0 fully plastic.
-/// @param plasticity_indices phi of (9) [-]
-/// @param[out] factors chi of each asperity
-MEMS_STICTION_INLINE void findRegimeFactors(const Lanes& plasticity_indices, Lanes& factors) {
-  // neighbouring asperities differ: the line between the limits, cut off without a branch
-  const Lanes zero{};
-  const Lanes line = (kPlasticLimit - plasticity_indices) / (kPlasticLimit - kElasticLimit);
-  const Lanes share = line > 1.0 ? zero + 1.0 : line;
-  factors = share < 0.0 ? zero : share;
-}
-/// chi of (10.2) [-], of one asperity.
+/// chi of (10.2), the elastic share [-]: 1 elastic, 0 fully plastic.
+/// @param plasticity_index phi of (9) [-]
 inline double regimeFactor(double plasticity_index) {
-  Lanes factors;
-  findRegimeFactors(Lanes{} + plasticity_index, factors);
-  return factors[0];
+  return std::clamp((kPlasticLimit - plasticity_index) / (kPlasticLimit - kElasticLimit), 0.0, 1.0);
 }
 
 }  // namespace mems_stiction

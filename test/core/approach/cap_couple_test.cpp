@@ -16,7 +16,7 @@ namespace {
 using plain::Touch;
 
 constexpr double kNm = 1e-9;
-constexpr double kSmallestHeight = 0.165 * kNm;
+constexpr double kCutoffDistance = 0.165 * kNm;
 constexpr double kRoundOff = 1e-9;  // relative, of sums and differences of nanometres
 constexpr double kDegree = kPi / 180.0;
 
@@ -27,7 +27,7 @@ std::vector<CapCouple> allCaps(const GapField& field, double approach, Touch tou
     PatchCentre centre = boxCentre(labelling.patches[i], field);
     const bool is_inside = labelling.labels.at<int>(centre.cell.row, centre.cell.col) == static_cast<int>(i) + 1;
     if (!is_inside) centre = deepestCentre(labelling.patches[i], field);
-    caps.push_back(capCouple(labelling.patches[i], field, centre, kSmallestHeight));
+    caps.push_back(capCouple(labelling.patches[i], field, centre, kCutoffDistance));
   }
   return caps;
 }
@@ -60,14 +60,14 @@ HeightMap negative(const HeightMap& surface) {
   return {heights, surface.pitchX(), surface.pitchY()};
 }
 
-double radiusOfCaps(double base_radius, double height) {
-  return (base_radius * base_radius + height * height) / (2.0 * height);
+double radiusOfCaps(double cap_radius, double height) {
+  return (cap_radius * cap_radius + height * height) / (2.0 * height);
 }
 
 /// Largest relative error of R and of rc over many places on the pixel grid.
 struct CapErrors {
   double radius = 0.0;
-  double base_radius = 0.0;
+  double cap_radius = 0.0;
 };
 
 CapErrors errorsAt(double pixels_per_radius, double pitch_ratio) {
@@ -85,7 +85,7 @@ CapErrors errorsAt(double pixels_per_radius, double pitch_ratio) {
     const double apex_gap = field.lowerHeight(0) + field.gap(0);  // 0: the level is the highest pixel
     const CapCouple caps = onlyCaps(field, rc * rc / (2 * kRadius) + apex_gap);
     errors.radius = std::max(errors.radius, std::abs(caps.composite_radius / kRadius - 1.0));
-    errors.base_radius = std::max(errors.base_radius, std::abs(caps.base_radius / rc - 1.0));
+    errors.cap_radius = std::max(errors.cap_radius, std::abs(caps.cap_radius / rc - 1.0));
   }
   return errors;
 }
@@ -103,8 +103,8 @@ TEST_P(ParaboloidOnFlat, hasItsRadiusOnceItSpansPixels) {
 }
 
 TEST_P(ParaboloidOnFlat, hasABaseRadiusThatConverges) {
-  EXPECT_LT(errorsAt(25, GetParam()).base_radius, 0.03);
-  EXPECT_LT(errorsAt(50, GetParam()).base_radius, 0.015);
+  EXPECT_LT(errorsAt(25, GetParam()).cap_radius, 0.03);
+  EXPECT_LT(errorsAt(50, GetParam()).cap_radius, 0.015);
 }
 
 TEST(CapCouple, combinesTwoSpheresToTheirCompositeRadius) {
@@ -127,7 +127,7 @@ TEST(CapCouple, isTheSameWhicheverSurfaceIsOnTop) {
   const CapCouple turned = onlyCaps(between(negative(upper), negative(lower)), 1 * kNm);
   EXPECT_NEAR(caps.composite_radius, turned.composite_radius, kRoundOff * caps.composite_radius);
   EXPECT_NEAR(caps.height, turned.height, kRoundOff * caps.height);
-  EXPECT_EQ(caps.base_radius, turned.base_radius);
+  EXPECT_EQ(caps.cap_radius, turned.cap_radius);
 }
 
 TEST(CapCouple, hasTheSameCapsAgainstAFlatAsAgainstNoSurface) {
@@ -176,7 +176,7 @@ TEST(CapCouple, countsAHollowSurfaceAsFlat) {
 TEST(CapCouple, ofOneRaisedPixelFollowsTheFormulas) {
   // edges at half the height, the outline half a pixel beyond the centre on every side
   const CapCouple caps = onlyCaps(againstPlane(analytic::flatWithBump(7, 9, 10 * kNm, 16 * kNm, 4 * kNm)), 1 * kNm);
-  EXPECT_NEAR(caps.base_radius, (10 + 16) / 4.0 * kNm, kRoundOff * kNm);
+  EXPECT_NEAR(caps.cap_radius, (10 + 16) / 4.0 * kNm, kRoundOff * kNm);
   EXPECT_NEAR(caps.height, 2 * kNm, kRoundOff * kNm);
   EXPECT_NEAR(caps.composite_radius, radiusOfCaps(6.5 * kNm, 2 * kNm), kRoundOff * caps.composite_radius);
   EXPECT_EQ(caps.centre.index, 3 * 9 + 4);
@@ -187,7 +187,7 @@ TEST(CapCouple, ofAPlateauHasTheMeanOfBothSides) {
   cv::Mat1d heights(8, 12, 0.0);
   heights(cv::Rect(3, 2, 6, 3)) = 4.0;  // 6 columns, 3 rows
   const CapCouple caps = onlyCaps(againstPlane(frame(heights, 10 * kNm, 16 * kNm)), 1 * kNm);
-  EXPECT_NEAR(caps.base_radius, (6 * 10 + 3 * 16) / 4.0 * kNm, kRoundOff * kNm);
+  EXPECT_NEAR(caps.cap_radius, (6 * 10 + 3 * 16) / 4.0 * kNm, kRoundOff * kNm);
   EXPECT_NEAR(caps.height, 2 * kNm, kRoundOff * kNm);
 }
 
@@ -218,7 +218,7 @@ TEST(CapCouple, takesTheInterferenceWhereTheCentreIsNotTheSummit) {
   const CapCouple caps = onlyCaps(againstPlane(frame(heights)), 6 * kNm);
   EXPECT_EQ(caps.centre.index, 4 * 9 + 4);
   EXPECT_NEAR(caps.height, 5 * kNm, 0.05 * kNm);  // edges of the crater's rim, if there are any, move the mean little
-  EXPECT_NEAR(caps.composite_radius, radiusOfCaps(caps.base_radius, caps.height), kRoundOff * caps.composite_radius);
+  EXPECT_NEAR(caps.composite_radius, radiusOfCaps(caps.cap_radius, caps.height), kRoundOff * caps.composite_radius);
 }
 
 TEST(CapCouple, takesTheInterferenceAlsoWhereTheUpperSurfaceHasALowCap) {
@@ -230,15 +230,14 @@ TEST(CapCouple, takesTheInterferenceAlsoWhereTheUpperSurfaceHasALowCap) {
   const CapCouple caps = onlyCaps(between(frame(lower), frame(upper)), 6 * kNm);
   EXPECT_EQ(caps.centre.index, 4 * 9 + 4);
   EXPECT_NEAR(caps.height, 5 * kNm, 0.05 * kNm);
-  EXPECT_NEAR(caps.composite_radius, radiusOfCaps(caps.base_radius, caps.height), kRoundOff * caps.composite_radius);
+  EXPECT_NEAR(caps.composite_radius, radiusOfCaps(caps.cap_radius, caps.height), kRoundOff * caps.composite_radius);
 }
 
 TEST(CapCouple, ofAPlaneHasAFiniteRadius) {
   const CapCouple caps = onlyCaps(againstPlane(analytic::flat(20, 30, 10 * kNm, 8 * kNm)), 0.0, Touch::kUpTo);
-  EXPECT_NEAR(caps.base_radius, (30 * 10 + 20 * 8) / 4.0 * kNm, kRoundOff * kNm);
-  EXPECT_EQ(caps.height, kSmallestHeight);
-  EXPECT_NEAR(caps.composite_radius, radiusOfCaps(caps.base_radius, kSmallestHeight),
-              kRoundOff * caps.composite_radius);
+  EXPECT_NEAR(caps.cap_radius, (30 * 10 + 20 * 8) / 4.0 * kNm, kRoundOff * kNm);
+  EXPECT_EQ(caps.height, kCutoffDistance);
+  EXPECT_NEAR(caps.composite_radius, radiusOfCaps(caps.cap_radius, kCutoffDistance), kRoundOff * caps.composite_radius);
   EXPECT_EQ(caps.tilt(), 0.0);
   EXPECT_EQ(caps.cos_tilt, 1.0);
 }
@@ -280,14 +279,14 @@ TEST(CapCouple, endsAtTheCellsEdgeAtTheFramesBorder) {
   const GapField field =
       againstPlane(analytic::paraboloid(91, cols, pitch, pitch, kRadius, -0.5 * (cols - 1) * pitch));  // cut in half
   const CapCouple caps = onlyCaps(field, rc * rc / (2 * kRadius));
-  EXPECT_NEAR(caps.base_radius, (rc + 0.5 * pitch + 2 * rc) / 4, 0.03 * rc);
+  EXPECT_NEAR(caps.cap_radius, (rc + 0.5 * pitch + 2 * rc) / 4, 0.03 * rc);
 }
 
 TEST(CapCouple, endsAtTheCellsEdgeBesideInvalidPixels) {
   const HeightMap bump = analytic::flatWithBump(7, 7, 10 * kNm, 10 * kNm, 4 * kNm);
   const CapCouple open = onlyCaps(againstPlane(bump), 1 * kNm);
   const CapCouple beside = onlyCaps(againstPlane(analytic::withInvalidPixel(bump, 3, 4)), 1 * kNm);
-  EXPECT_NEAR(beside.base_radius, open.base_radius, kRoundOff * kNm);  // half a pixel either way
+  EXPECT_NEAR(beside.cap_radius, open.cap_radius, kRoundOff * kNm);  // half a pixel either way
   EXPECT_NEAR(beside.height, open.height, kRoundOff * kNm);
   EXPECT_EQ(beside.tilt(), 0.0);  // three edges are left
 }
@@ -301,7 +300,7 @@ TEST(CapCouple, doesNotDependOnThePlaceInTheFrame) {
   ASSERT_EQ(caps.size(), 2u);
   EXPECT_NEAR(caps[0].composite_radius, caps[1].composite_radius, kRoundOff * caps[0].composite_radius);
   EXPECT_NEAR(caps[0].tilt(), caps[1].tilt(), 1e-9);
-  EXPECT_NEAR(caps[0].base_radius, caps[1].base_radius, kRoundOff * kNm);
+  EXPECT_NEAR(caps[0].cap_radius, caps[1].cap_radius, kRoundOff * kNm);
 }
 
 /// Hills with and without neighbours, at the frame's border, with a crater, in one line of edges, bent, and without any
@@ -328,34 +327,18 @@ HeightMap frameOfAllKinds() {
   return frame(heights, 10 * kNm, 16 * kNm);
 }
 
-TEST(CapCouple, isTheSameForFourPatchesAtOnce) {
+TEST(CapCouple, isFiniteForEveryKindOfPatch) {
   const HeightMap lower = frameOfAllKinds();
   const HeightMap upper = negative(analytic::paraboloid(24, 40, 10 * kNm, 16 * kNm, 100e-6));
   for (const GapField& field : {againstPlane(lower), between(lower, upper)}) {
-    const std::vector<ContactPatch> patches =
-        plain::labelPatches(field, 8.5 * kNm, Touch::kBelow, Connectivity::kFour).patches;
-    ASSERT_EQ(patches.size(), 11u);
-    for (std::size_t first = 0; first < patches.size(); ++first) {
-      for (const std::size_t stride : {1u, 2u, 5u}) {
-        PatchCentre centres[kLanes];
-        CentredPatch four[kLanes];
-        for (std::size_t lane = 0; lane < kLanes; ++lane) {
-          const ContactPatch& patch = patches[(first + lane * stride) % patches.size()];
-          centres[lane] = lane % 2 == 0 ? boxCentre(patch, field) : deepestCentre(patch, field);
-          four[lane] = {&patch, &centres[lane]};
-        }
-        CapLanes lanes;
-        capCouples(four, field, kSmallestHeight, lanes);
-        for (std::size_t lane = 0; lane < kLanes; ++lane) {
-          const CapCouple alone = capCouple(*four[lane].patch, field, centres[lane], kSmallestHeight);
-          EXPECT_EQ(lanes.base_radius[lane], alone.base_radius);
-          EXPECT_EQ(lanes.height[lane], alone.height);
-          EXPECT_EQ(lanes.composite_radius[lane], alone.composite_radius);
-          EXPECT_EQ(lanes.squared_slope[lane], alone.squared_slope);
-          EXPECT_EQ(lanes.cos_tilt[lane], alone.cos_tilt);
-          EXPECT_TRUE(std::isfinite(alone.composite_radius));
-        }
-      }
+    const std::vector<CapCouple> all = allCaps(field, 8.5 * kNm);
+    ASSERT_EQ(all.size(), 11u);
+    for (const CapCouple& caps : all) {
+      EXPECT_TRUE(std::isfinite(caps.composite_radius));
+      EXPECT_GT(caps.composite_radius, 0.0);
+      EXPECT_GT(caps.cap_radius, 0.0);
+      EXPECT_GT(caps.height, 0.0);
+      EXPECT_GT(caps.cos_tilt, 0.0);
     }
   }
 }
@@ -367,10 +350,10 @@ TEST(CapCouple, ofAPatchWithoutEdgesHasItsInterferenceForHeight) {
   for (const GapField& field :
        {againstPlane(frame(heights)), between(frame(heights), analytic::flatWithBump(5, 7, 10 * kNm, 10 * kNm, kNm))}) {
     const CapCouple caps = onlyCaps(field, 2 * kNm);
-    EXPECT_EQ(caps.height, kSmallestHeight);  // all of its gap is one
+    EXPECT_EQ(caps.height, kCutoffDistance);  // all of its gap is one
     EXPECT_EQ(caps.squared_slope, 0.0);
     EXPECT_EQ(caps.cos_tilt, 1.0);
-    EXPECT_NEAR(caps.base_radius, 5 * kNm, kRoundOff * kNm);
+    EXPECT_NEAR(caps.cap_radius, 5 * kNm, kRoundOff * kNm);
   }
 }
 

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "support/analytic_surfaces.hpp"
+#include "support/frame_gaps.hpp"
 #include "support/sample_frames.hpp"
 
 namespace mems_stiction {
@@ -77,6 +78,7 @@ TEST_P(OrderedFrame, sortsTheCellsByGapThenIndexWhereAsked) {
 }
 
 TEST_P(OrderedFrame, keepsTheCellsOfOneStepTogetherAndInTheOrderOfTheFrame) {
+  const std::vector<double> gaps = frameGaps(field_);
   const double range = std::max(field_.largestGap(), 1e-9);
   for (const double step : {range / 37.3, range / 8.0, 3.0 * range}) {
     GapOrder order;
@@ -84,9 +86,8 @@ TEST_P(OrderedFrame, keepsTheCellsOfOneStepTogetherAndInTheOrderOfTheFrame) {
     int before = 0;
     for (int k = 1; before < order.contactLimit(); ++k) {
       const double approach = k * step;
-      const int below = order.countBelow(approach);
-      const auto expected =
-          std::count_if(field_.gaps().begin(), field_.gaps().end(), [=](double gap) { return gap < approach; });
+      const int below = order.sortBelow(approach);
+      const auto expected = std::count_if(gaps.begin(), gaps.end(), [=](double gap) { return gap < approach; });
       ASSERT_EQ(below, std::min<std::ptrdiff_t>(expected, static_cast<std::ptrdiff_t>(order.cells().size())));
       for (int i = before; i < below; ++i) {
         ASSERT_LT(order.cells()[static_cast<std::size_t>(i)].gap, approach);
@@ -127,15 +128,15 @@ TEST_P(OrderedFrame, limitsContactAtTheFirstLevelThatReachesTheFraction) {
 }
 
 TEST_P(OrderedFrame, countsTheCellsBelowAnApproach) {
+  const std::vector<double> gaps = frameGaps(field_);
   GapOrder order;
   order.build(field_, 1.0);
   for (int k = 0; k <= 20; ++k) {
     const double approach = field_.largestGap() * k / 20;
-    const auto below =
-        std::count_if(field_.gaps().begin(), field_.gaps().end(), [approach](double gap) { return gap < approach; });
-    EXPECT_EQ(order.countBelow(approach), below);
+    const auto below = std::count_if(gaps.begin(), gaps.end(), [approach](double gap) { return gap < approach; });
+    EXPECT_EQ(order.sortBelow(approach), below);
   }
-  EXPECT_EQ(order.countBelow(0.0), 0);  // touching at D = 0 is not interference yet
+  EXPECT_EQ(order.sortBelow(0.0), 0);  // touching at D = 0 is not interference yet
 }
 
 TEST_P(OrderedFrame, keepsTheMomentsOfEveryBucket) {
@@ -159,7 +160,7 @@ TEST_P(OrderedFrame, keepsTheMomentsOfEveryBucket) {
             static_cast<std::size_t>(order.bucketCount()));
   EXPECT_EQ(count, field_.validCount());
   double expected_squares = 0.0;
-  for (const double gap : field_.gaps()) expected_squares += gap == GapField::kInvalidGap ? 0.0 : gap * gap;
+  for (const double gap : frameGaps(field_)) expected_squares += gap == GapField::kInvalidGap ? 0.0 : gap * gap;
   // relative: the round-off of some ten thousand additions; cells of the tail stand at the middle of their bucket
   const double tolerance = order.tailMoments().empty() ? 1e-12 : 0.5 * order.bucketWidth() / field_.largestGap();
   EXPECT_NEAR(sum, field_.meanGap() * count, tolerance * count * field_.largestGap());

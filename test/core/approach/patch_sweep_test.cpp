@@ -49,7 +49,7 @@ void expectSamePatch(const ContactPatch& patch, const ContactPatch& expected, co
   EXPECT_EQ(patch.max_col, expected.max_col);
   EXPECT_EQ(patch.min_row, expected.min_row);
   EXPECT_EQ(patch.max_row, expected.max_row);
-  for (const Side side : {kLeft, kRight, kTop, kBottom}) {
+  for (const Side side : kSides) {
     EXPECT_EQ(patch.extreme[side].cell, expected.extreme[side].cell);
     EXPECT_EQ(patch.extreme[side].gap, expected.extreme[side].gap);
     EXPECT_EQ(patch.extreme[side].outside, expected.extreme[side].outside);
@@ -104,7 +104,7 @@ class SweptFrame : public testing::TestWithParam<Case> {
   void SetUp() override {
     field_ = GetParam().frame.gapField();
     order_.build(field_, 1.0);
-    sweep_.begin(field_, order_, GetParam().connectivity);
+    sweep_.start(field_, order_, GetParam().connectivity);
   }
 
   void expectPlainPatchesAt(double approach, plain::Touch touch) {
@@ -125,7 +125,7 @@ TEST_P(SweptFrame, hasThePatchesOfARelabelledFrameAtEveryStep) {
   constexpr int kSteps = 40;
   const double step = std::max(field_.largestGap(), 1e-9) / kSteps;
   for (int k = 1; k <= kSteps + 1 && !HasFailure(); ++k) {
-    sweep_.advanceTo(order_.countBelow(k * step));
+    sweep_.advanceTo(order_.sortBelow(k * step));
     expectPlainPatchesAt(k * step, plain::Touch::kBelow);
   }
   EXPECT_EQ(sweep_.contactCount(), field_.validCount());
@@ -146,7 +146,7 @@ TEST_P(SweptFrame, hasThePatchesOfARelabelledFrameAtGapLevels) {
 TEST_P(SweptFrame, startsOverWhenAskedForFewerCells) {
   const double halfway = 0.5 * field_.largestGap();
   sweep_.advanceTo(field_.validCount());
-  sweep_.advanceTo(order_.countBelow(halfway));
+  sweep_.advanceTo(order_.sortBelow(halfway));
   expectPlainPatchesAt(halfway, plain::Touch::kBelow);
   sweep_.advanceTo(0);
   EXPECT_TRUE(sweep_.livePatches().empty());
@@ -158,11 +158,11 @@ TEST_P(SweptFrame, leavesNoTraceOfThePreviousFrame) {
   const GapField other = samples::Frame{"", samples::whiteNoise(33, 90, 1e-9, 2e-9, 4e-9, 12), {}}.gapField();
   GapOrder other_order;
   other_order.build(other, 1.0);
-  sweep_.begin(other, other_order, Connectivity::kEight);
+  sweep_.start(other, other_order, Connectivity::kEight);
   sweep_.advanceTo(other.validCount() / 3);
   const double halfway = 0.5 * field_.largestGap();
-  sweep_.begin(field_, order_, GetParam().connectivity);
-  sweep_.advanceTo(order_.countBelow(halfway));
+  sweep_.start(field_, order_, GetParam().connectivity);
+  sweep_.advanceTo(order_.sortBelow(halfway));
   expectPlainPatchesAt(halfway, plain::Touch::kBelow);
 }
 
@@ -170,7 +170,7 @@ TEST_P(SweptFrame, reportsEveryPatchThatChangedOrMovedAndNoOther) {
   std::map<std::int32_t, std::pair<std::int32_t, std::int32_t>> known;  // area and place
   const double step = std::max(field_.largestGap(), 1e-9) / 30;
   for (int k = 1; k <= 30; ++k) {
-    sweep_.advanceTo(order_.countBelow(k * step));
+    sweep_.advanceTo(order_.sortBelow(k * step));
     const std::vector<std::int32_t> reported = sweep_.takeChangedPatches();
     const std::set<std::int32_t> changed(reported.begin(), reported.end());
     EXPECT_EQ(changed.size(), reported.size());  // once each

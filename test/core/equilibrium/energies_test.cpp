@@ -14,7 +14,7 @@ namespace {
 struct Sphere {
   double radius;
   double work_of_adhesion;
-  double base_radius;
+  double cap_radius;
 };
 
 // From a hard nanometre asperity to a micrometre ball: nothing is near one.
@@ -30,11 +30,11 @@ AsperityLaw lawOf(const Sphere& sphere, Formulation formulation) {
   return law;
 }
 
-AsperityResponse responseOf(const Sphere& sphere, double base_radius, double elastic_share, const AsperityLaw& law) {
+AsperityResponse responseOf(const Sphere& sphere, double cap_radius, double elastic_share, const AsperityLaw& law) {
   CapCouple caps;
-  caps.base_radius = base_radius;
+  caps.cap_radius = cap_radius;
   caps.composite_radius = sphere.radius;
-  caps.height = base_radius * base_radius / (2.0 * sphere.radius);
+  caps.height = cap_radius * cap_radius / (2.0 * sphere.radius);
   AsperityResponse response(caps, law);
   response.elastic_share = elastic_share;
   return response;
@@ -42,9 +42,9 @@ AsperityResponse responseOf(const Sphere& sphere, double base_radius, double ela
 
 /// dE_t/dD at a fixed load along rc drc/dD = R, by central differences.
 double slopeOfTotal(const Sphere& sphere, double elastic_share, double load, const AsperityLaw& law) {
-  const double step = 1e-4 * sphere.base_radius * sphere.base_radius / sphere.radius;
+  const double step = 1e-4 * sphere.cap_radius * sphere.cap_radius / sphere.radius;
   const auto totalAt = [&](double advance) {
-    const double rc = std::sqrt(sphere.base_radius * sphere.base_radius + 2.0 * sphere.radius * advance);
+    const double rc = std::sqrt(sphere.cap_radius * sphere.cap_radius + 2.0 * sphere.radius * advance);
     return asperityEnergies(responseOf(sphere, rc, elastic_share, law), load, law).total();
   };
   return (totalAt(step) - totalAt(-step)) / (2.0 * step);
@@ -56,7 +56,7 @@ constexpr double kDifference = 1e-6;
 TEST(Energies, haveTheGeneralizedForceOfAnElasticAsperityAsSlope) {
   for (const Sphere& sphere : kSpheres) {
     const AsperityLaw law = lawOf(sphere, Formulation::kCorrected);
-    const AsperityResponse response = responseOf(sphere, sphere.base_radius, 1.0, law);
+    const AsperityResponse response = responseOf(sphere, sphere.cap_radius, 1.0, law);
     for (const double share : {0.0, 0.2, 0.9, 1.0, 1.7}) {
       const double load = share * response.imposed_load;
       const double scale = response.imposed_load + kPi * sphere.work_of_adhesion * sphere.radius;
@@ -69,7 +69,7 @@ TEST(Energies, haveThePrintedForceAsSlopeInEveryRegime) {
   for (const Sphere& sphere : kSpheres) {
     const AsperityLaw law = lawOf(sphere, Formulation::kPrinted);
     for (const double chi : {1.0, 0.4, 0.0}) {
-      const AsperityResponse response = responseOf(sphere, sphere.base_radius, chi, law);
+      const AsperityResponse response = responseOf(sphere, sphere.cap_radius, chi, law);
       for (const double share : {0.0, 0.2, 1.0}) {
         const double load = share * response.imposed_load;
         const double scale = response.imposed_load + kPi * sphere.work_of_adhesion * sphere.radius;
@@ -120,9 +120,9 @@ TEST(ForceBalance, sharesTheLoadByVolumeAlongEachAxis) {
   const TwoAsperities two;
   const double load = 3e-6;
   const ForceBalance balance = forceBalance(two.responses, load, two.law);
-  const double volume = two.responses[0].volume + two.responses[1].volume;
-  const double first = load * two.responses[0].volume / volume;
-  const double second = load * two.responses[1].volume / volume;
+  const double volume = two.responses[0].load_weight + two.responses[1].load_weight;
+  const double first = load * two.responses[0].load_weight / volume;
+  const double second = load * two.responses[1].load_weight / volume;
   EXPECT_NEAR(balance.load_share, load / volume, 1e-12 * load / volume);
   const double force =
       two.responses[0].generalizedForce(first, two.law) + two.responses[1].generalizedForce(0.5 * second, two.law);

@@ -60,7 +60,7 @@ class LoadedFrame : public testing::TestWithParam<samples::Frame> {
     constexpr int kApproaches = 25;
     for (int k = 0; k <= kApproaches; ++k) {
       const double approach = limit_gap * k / kApproaches;
-      expectSum(loads.at(approach, order.countBelow(approach), forces, 3e-7),
+      expectSum(loads.at(approach, order.sortBelow(approach), forces, 3e-7),
                 plain::sumLoads(field_, approach, plain::Touch::kBelow, forces, 3e-7), approach);
     }
     expectSum(loads.at(limit_gap, order.contactLimit(), forces, 3e-7),

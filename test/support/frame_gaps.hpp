@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include "mems_stiction/approach/gap_field.hpp"
+
+namespace mems_stiction {
+
+/// The gaps of all cells in the order of the frame [m]; infinite where a cell is not valid.
+inline std::vector<double> frameGaps(const GapField& field) {
+  std::vector<double> gaps;
+  for (int cell = 0; cell < field.cellCount(); ++cell) gaps.push_back(field.gap(cell));
+  return gaps;
+}
+
+}  // namespace mems_stiction
