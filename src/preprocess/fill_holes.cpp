@@ -1,8 +1,10 @@
 #include "mems_stiction/preprocess/fill_holes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,7 +13,6 @@
 #include <opencv2/imgproc.hpp>
 
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/height_map/validity.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -51,22 +52,26 @@ class Plate {
 
   void add(int row, int col, const Difference& difference) {
     const cv::Rect frame(0, 0, heights_.cols, heights_.rows);
-    std::vector<std::pair<int, double>> unknown;
+    std::array<std::pair<int, double>, 4> unknown;  // no difference has more terms
+    std::size_t count = 0;
     double known = 0.0;
     for (const Difference::Term& term : difference.terms) {
       const cv::Point at(col + term.col, row + term.row);
       if (!frame.contains(at)) return;
       const int number = numbers_.at<int>(at);
       if (number >= 0) {
-        unknown.emplace_back(number, term.factor);
+        unknown[count++] = {number, term.factor};
       } else {
         known += term.factor * (heights_.at<double>(at) - origin_);
       }
     }
-    if (unknown.empty() || std::isnan(known)) return;
-    for (const auto& [number, factor] : unknown) {
+    if (std::isnan(known)) return;
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto [number, factor] = unknown[i];
       right_[number] -= factor * known;
-      for (const auto& [other, other_factor] : unknown) triplets_.emplace_back(number, other, factor * other_factor);
+      for (std::size_t j = 0; j < count; ++j) {
+        triplets_.emplace_back(number, unknown[j].first, factor * unknown[j].second);
+      }
     }
   }
 
@@ -93,6 +98,82 @@ class Plate {
   std::vector<Eigen::Triplet<double>> triplets_;
 };
 
+/// The pixels from which a difference can reach one of these: up to two rows above and two columns left of it. In the
+/// order of the frame, each once.
+std::vector<cv::Point> anchorsOf(const std::vector<cv::Point>& pixels) {
+  std::vector<cv::Point> anchors;
+  for (const cv::Point& pixel : pixels) {
+    for (int row = std::max(0, pixel.y - 2); row <= pixel.y; ++row) {
+      for (int col = std::max(0, pixel.x - 2); col <= pixel.x; ++col) anchors.emplace_back(col, row);
+    }
+  }
+  const auto comes_before = [](const cv::Point& a, const cv::Point& b) {
+    return a.y < b.y || (a.y == b.y && a.x < b.x);
+  };
+  std::sort(anchors.begin(), anchors.end(), comes_before);
+  anchors.erase(std::unique(anchors.begin(), anchors.end()), anchors.end());
+  return anchors;
+}
+
+/// @param pixels that get a height; the other missing ones stay NaN
+void fillAll(cv::Mat& heights, const std::vector<cv::Point>& pixels, double pitch_x, double pitch_y) {
+  if (pixels.empty()) return;
+  cv::Mat numbers(heights.size(), CV_32SC1, cv::Scalar(-1));
+  for (std::size_t index = 0; index < pixels.size(); ++index) numbers.at<int>(pixels[index]) = static_cast<int>(index);
+
+  CleaningMemory memory;
+  const double origin = meansOf(heights, memory).height;
+  Plate plate(heights, numbers, static_cast<int>(pixels.size()), origin);
+  const std::vector<Difference> all = differences(pitch_x, pitch_y);
+  for (const cv::Point& anchor : anchorsOf(pixels)) {
+    for (const Difference& difference : all) plate.add(anchor.y, anchor.x, difference);
+  }
+  const Eigen::VectorXd filled = plate.solve();
+  for (std::size_t index = 0; index < pixels.size(); ++index) {
+    heights.at<double>(pixels[index]) = origin + filled[static_cast<Eigen::Index>(index)];
+  }
+}
+
+std::vector<cv::Point> missingPixels(const cv::Mat& heights) {
+  std::vector<cv::Point> missing;
+  for (int row = 0; row < heights.rows; ++row) {
+    const double* line = heights.ptr<double>(row);
+    if (countAbove(0.0, line, static_cast<std::size_t>(heights.cols)).invalid == 0) continue;
+    for (int col = 0; col < heights.cols; ++col) {
+      if (std::isnan(line[col])) missing.emplace_back(col, row);
+    }
+  }
+  return missing;
+}
+
+/// Those of the missing pixels, in their order, that belong to a 4-connected hole of so many pixels or fewer.
+std::vector<cv::Point> pixelsOfSmallHoles(const cv::Mat& heights, const std::vector<cv::Point>& missing, int max_hole) {
+  enum : uchar { kUnseen, kSeen, kSmall };
+  cv::Mat state(heights.size(), CV_8UC1, cv::Scalar(kUnseen));
+  const cv::Rect frame(0, 0, heights.cols, heights.rows);
+  std::vector<cv::Point> hole;
+  for (const cv::Point& first : missing) {
+    if (state.at<uchar>(first) != kUnseen) continue;
+    state.at<uchar>(first) = kSeen;
+    hole.assign(1, first);
+    for (std::size_t next = 0; next < hole.size(); ++next) {
+      for (const cv::Point& step : {cv::Point(1, 0), cv::Point(-1, 0), cv::Point(0, 1), cv::Point(0, -1)}) {
+        const cv::Point neighbour = hole[next] + step;
+        if (!frame.contains(neighbour) || state.at<uchar>(neighbour) != kUnseen) continue;
+        if (!std::isnan(heights.at<double>(neighbour))) continue;
+        state.at<uchar>(neighbour) = kSeen;
+        hole.push_back(neighbour);
+      }
+    }
+    if (hole.size() > static_cast<std::size_t>(max_hole)) continue;
+    for (const cv::Point& pixel : hole) state.at<uchar>(pixel) = kSmall;
+  }
+  std::vector<cv::Point> small;
+  std::copy_if(missing.begin(), missing.end(), std::back_inserter(small),
+               [&](const cv::Point& pixel) { return state.at<uchar>(pixel) == kSmall; });
+  return small;
+}
+
 }  // namespace
 
 void FillOptions::describe(OptionVisitor& visitor, const std::string& prefix) {
@@ -107,30 +188,21 @@ void FillOptions::describe(OptionVisitor& visitor, const std::string& prefix) {
 void fillPixels(cv::Mat& heights, const cv::Mat& wanted, double pitch_x, double pitch_y) {
   std::vector<cv::Point> pixels;
   cv::findNonZero(wanted, pixels);
-  if (pixels.empty()) return;
-  cv::Mat numbers(heights.size(), CV_32SC1, cv::Scalar(-1));
-  for (std::size_t index = 0; index < pixels.size(); ++index) numbers.at<int>(pixels[index]) = static_cast<int>(index);
-
-  const double origin = heightStatistics(HeightMap(heights, pitch_x, pitch_y)).mean;
-  Plate plate(heights, numbers, static_cast<int>(pixels.size()), origin);
-  // Anchors from which a difference can reach a wanted pixel: two rows above and two columns left of it.
-  cv::Mat anchors;
-  cv::dilate(wanted, anchors, cv::Mat::ones(3, 3, CV_8UC1), cv::Point(0, 0));
-  std::vector<cv::Point> anchor_pixels;
-  cv::findNonZero(anchors, anchor_pixels);
-  const std::vector<Difference> all = differences(pitch_x, pitch_y);
-  for (const cv::Point& anchor : anchor_pixels) {
-    for (const Difference& difference : all) plate.add(anchor.y, anchor.x, difference);
-  }
-  const Eigen::VectorXd filled = plate.solve();
-  for (std::size_t index = 0; index < pixels.size(); ++index) {
-    heights.at<double>(pixels[index]) = origin + filled[static_cast<Eigen::Index>(index)];
-  }
+  fillAll(heights, pixels, pitch_x, pitch_y);
 }
 
 HeightMap withFilledHoles(const HeightMap& surface, const FillOptions& options) {
-  cv::Mat heights = ownedHeights(surface);
-  const double fraction = invalidFraction(surface);
+  WorkingSurface work(surface);
+  fillHoles(work, options);
+  return work.surface();
+}
+
+HeightChange fillHoles(WorkingSurface& surface, const FillOptions& options) {
+  cv::Mat& heights = surface.heights;
+  const std::vector<cv::Point> missing = missingPixels(heights);
+  HeightChange change;
+  if (missing.empty()) return change;
+  const double fraction = static_cast<double>(missing.size()) / static_cast<double>(heights.total());
   if (fraction >= 1.0) throw SurfaceError("the height map has no valid pixel");
   if (fraction > options.max_fraction) {
     char text[32];
@@ -138,23 +210,11 @@ HeightMap withFilledHoles(const HeightMap& surface, const FillOptions& options) 
     throw SurfaceError(std::string("a fraction of ") + text + " of the pixels is missing, more than the limit of " +
                        numberText(options.max_fraction) + " (preprocessing/fill/max_fraction)");
   }
-  const cv::Mat missing = ~validMask(heights);
-  cv::Mat labels;
-  cv::Mat statistics;
-  cv::Mat centroids;
-  const int holes = cv::connectedComponentsWithStats(missing, labels, statistics, centroids, 4, CV_32S);
-  std::vector<bool> small(static_cast<std::size_t>(holes), false);
-  for (int hole = 1; hole < holes; ++hole) {
-    small[static_cast<std::size_t>(hole)] = statistics.at<int>(hole, cv::CC_STAT_AREA) <= options.max_hole;
-  }
-  cv::Mat wanted(heights.size(), CV_8UC1, cv::Scalar(0));
-  for (int row = 0; row < heights.rows; ++row) {
-    for (int col = 0; col < heights.cols; ++col) {
-      if (small[static_cast<std::size_t>(labels.at<int>(row, col))]) wanted.at<uchar>(row, col) = 255;
-    }
-  }
-  fillPixels(heights, wanted, surface.pitchX(), surface.pitchY());
-  return {heights, surface.pitchX(), surface.pitchY()};
+  const std::vector<cv::Point> wanted = pixelsOfSmallHoles(heights, missing, options.max_hole);
+  fillAll(heights, wanted, surface.pitch_x, surface.pitch_y);
+  change.changed_pixels = static_cast<long long>(wanted.size());
+  change.invalid_pixels = static_cast<long long>(missing.size() - wanted.size());
+  return change;
 }
 
 }  // namespace mems_stiction

@@ -1,6 +1,5 @@
 #include "mems_stiction/preprocess/level_options.hpp"
 
-#include "mems_stiction/height_map/validity.hpp"
 #include "mems_stiction/preprocess/level.hpp"
 #include "mems_stiction/preprocess/polynomial_level.hpp"
 
@@ -15,16 +14,18 @@ void LevelOptions::describe(OptionVisitor& visitor, const std::string& prefix) {
 }
 
 HeightMap levelledBy(const HeightMap& surface, const LevelOptions& options) {
+  WorkingSurface work(surface);
+  if (options.shape != LevelShape::kNone) levelBy(work, options);
+  return work.surface();
+}
+
+HeightChange levelBy(WorkingSurface& surface, const LevelOptions& options) {
+  if (options.shape == LevelShape::kPlane && !options.robust) return level(surface);
+  const int degree = options.shape == LevelShape::kPlane ? 1 : 2;
   const FitWeights weights = options.robust ? FitWeights::kRobust : FitWeights::kEqual;
-  switch (options.shape) {
-    case LevelShape::kNone:
-      break;
-    case LevelShape::kPlane:
-      return options.robust ? without(fitPolynomial(surface, 1, weights), surface) : levelled(surface);
-    case LevelShape::kPolynomial:
-      return without(fitPolynomial(surface, 2, weights), surface);
-  }
-  return {ownedHeights(surface), surface.pitchX(), surface.pitchY()};
+  const PolynomialSurface fit =
+      fitPolynomial(surface.heights, surface.pitch_x, surface.pitch_y, degree, weights, surface.memory);
+  return subtract(fit, surface);
 }
 
 }  // namespace mems_stiction

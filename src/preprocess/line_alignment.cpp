@@ -1,55 +1,59 @@
 #include "mems_stiction/preprocess/line_alignment.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <limits>
 #include <vector>
 
-#include "mems_stiction/base/median.hpp"
 #include "mems_stiction/height_map/validity.hpp"
 #include "mems_stiction/preprocess/polynomial_level.hpp"
 
 namespace mems_stiction {
 namespace {
 
-void subtractMedians(cv::Mat& heights) {
-  std::vector<double> values;
+/// Each line less its median. Curves run over column numbers.
+void takeMedians(WorkingSurface& surface, double mean) {
+  const cv::Mat& heights = surface.heights;
+  CleaningMemory& memory = surface.memory;
+  const auto cols = static_cast<std::size_t>(heights.cols);
+  double* differences = roomFor(cols, memory.distances);
   for (int row = 0; row < heights.rows; ++row) {
-    double* line = heights.ptr<double>(row);
-    values.clear();
-    std::copy_if(line, line + heights.cols, std::back_inserter(values),
-                 [](double height) { return !std::isnan(height); });
-    const double shift = medianOf(values);
-    for (int col = 0; col < heights.cols; ++col) line[col] -= shift;
+    LineCurve& curve = memory.curves[static_cast<std::size_t>(row)];
+    subtractTo(heights.ptr<double>(row), mean, cols, differences);
+    curve.a = memory.medians.median(differences, cols);
   }
 }
 
-void subtractMedianDifferences(cv::Mat& heights) {
-  std::vector<double> differences;
+void takeMedianDifferences(WorkingSurface& surface) {
+  const cv::Mat& heights = surface.heights;
+  CleaningMemory& memory = surface.memory;
+  const auto cols = static_cast<std::size_t>(heights.cols);
+  double* differences = roomFor(cols, memory.distances);
   for (int row = 1; row < heights.rows; ++row) {
-    double* line = heights.ptr<double>(row);
-    // The nearest line above that shares valid pixels with this one; it is in its place already.
+    // The nearest line above that shares valid pixels with this one.
     for (int other = row - 1; other >= 0; --other) {
-      const double* above = heights.ptr<double>(other);
-      differences.clear();
-      for (int col = 0; col < heights.cols; ++col) {
-        const double difference = line[col] - above[col];
-        if (!std::isnan(difference)) differences.push_back(difference);
-      }
-      if (differences.empty()) continue;
-      const double shift = medianOf(differences);
-      for (int col = 0; col < heights.cols; ++col) line[col] -= shift;
+      subtractTo(heights.ptr<double>(row), heights.ptr<double>(other), cols, differences);
+      if (countAbove(0.0, differences, cols).invalid == heights.cols) continue;
+      memory.curves[static_cast<std::size_t>(row)].a =
+          memory.curves[static_cast<std::size_t>(other)].a + memory.medians.median(differences, cols);
       break;
     }
   }
 }
 
-void subtractPolynomials(cv::Mat& heights, double pitch_x, double pitch_y, int degree) {
-  for (int row = 0; row < heights.rows; ++row) {
-    cv::Mat row_heights = heights.row(row);
-    if (cv::countNonZero(validMask(row_heights)) == 0) continue;
-    const HeightMap line(row_heights, pitch_x, pitch_y);
-    without(fitPolynomial(line, degree, FitWeights::kRobust), line).heights().copyTo(row_heights);
+void takePolynomials(WorkingSurface& surface, int degree) {
+  const double pitch_x = surface.pitch_x;
+  for (int row = 0; row < surface.heights.rows; ++row) {
+    const cv::Mat line = surface.heights.row(row);
+    if (cv::countNonZero(validMask(line)) == 0) continue;
+    const PolynomialSurface fit =
+        fitPolynomial(line, pitch_x, surface.pitch_y, degree, FitWeights::kRobust, surface.memory);
+    // From places u = scale column + shift to columns.
+    const LineCurve curve = curveAt(fit, 0.0);
+    const double scale = pitch_x / fit.unit;
+    const double shift = -fit.center_x / fit.unit;
+    surface.memory.curves[static_cast<std::size_t>(row)] = {curve.origin, curve.a + shift * (curve.b + shift * curve.c),
+                                                            scale * (curve.b + 2.0 * shift * curve.c),
+                                                            scale * scale * curve.c};
   }
 }
 
@@ -67,24 +71,48 @@ void LineAlignmentOptions::describe(OptionVisitor& visitor, const std::string& p
 }
 
 HeightMap withAlignedLines(const HeightMap& surface, const LineAlignmentOptions& options) {
-  const double mean = heightStatistics(surface).mean;
-  cv::Mat heights = ownedHeights(surface);
-  heights -= mean;  // before the differences, so that an offset of millimetres costs no digits
+  WorkingSurface work(surface);
+  alignLines(work, options);
+  return work.surface();
+}
+
+HeightChange alignLines(WorkingSurface& surface, const LineAlignmentOptions& options) {
+  cv::Mat& heights = surface.heights;
+  std::vector<LineCurve>& curves = surface.memory.curves;
+  const double mean = meansOf(heights, surface.memory).height;
+  LineCurve level;
+  level.origin = mean;  // before the differences, so that an offset of millimetres costs no digits
+  curves.assign(static_cast<std::size_t>(heights.rows), level);
   switch (options.method) {
     case LineAlignment::kNone:
       break;
     case LineAlignment::kMedian:
-      subtractMedians(heights);
+      takeMedians(surface, mean);
       break;
     case LineAlignment::kMedianDifference:
-      subtractMedianDifferences(heights);
+      takeMedianDifferences(surface);
       break;
     case LineAlignment::kPolynomial:
-      subtractPolynomials(heights, surface.pitchX(), surface.pitchY(), options.degree);
+      takePolynomials(surface, options.degree);
       break;
   }
-  heights += mean - heightStatistics(HeightMap(heights, surface.pitchX(), surface.pitchY())).mean;
-  return {heights, surface.pitchX(), surface.pitchY()};
+
+  const std::vector<double>& columns = columnNumbers(heights.cols, surface.memory);
+  double count = 0.0;
+  double left = 0.0;
+  for (int row = 0; row < heights.rows; ++row) {
+    const LineCurve& curve = curves[static_cast<std::size_t>(row)];
+    const PlaceSums sums = sumsOf(heights.ptr<double>(row), columns.data(), columns.size(), curve.origin);
+    count += sums.count;
+    left += sums.h - (curve.a * sums.count + curve.b * sums.p + curve.c * sums.pp);
+  }
+  ChangeSums changes;
+  for (int row = 0; row < heights.rows; ++row) {
+    LineCurve curve = curves[static_cast<std::size_t>(row)];
+    curve.a += left / count - mean;
+    subtractCurve(curve, columns.data(), columns.size(), heights.ptr<double>(row), changes);
+  }
+  return heightChange(changes, static_cast<long long>(heights.total()));
 }
 
 }  // namespace mems_stiction

@@ -1,12 +1,10 @@
 #include "mems_stiction/preprocess/pipeline.hpp"
 
-#include <cmath>
 #include <cstdio>
 
 #include <opencv2/imgproc.hpp>
 
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/height_map/validity.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -45,59 +43,45 @@ class ParameterText : public OptionVisitor {
   std::string text_;
 };
 
-void measureChange(const HeightMap& before, const HeightMap& after, PreprocessStep& step) {
-  cv::Mat old_heights;
-  before.heights().convertTo(old_heights, CV_64F);
-  if (old_heights.size() != after.heights().size()) {
-    cv::resize(old_heights, old_heights, after.heights().size(), 0.0, 0.0, cv::INTER_NEAREST);
-  }
-  const cv::Mat& heights = after.heights();
-  double squares = 0.0;
-  long long common = 0;
-  for (int row = 0; row < heights.rows; ++row) {
-    const double* old_line = old_heights.ptr<double>(row);
-    const double* line = heights.ptr<double>(row);
-    for (int col = 0; col < heights.cols; ++col) {
-      const bool was_valid = std::isfinite(old_line[col]);
-      const bool is_valid = std::isfinite(line[col]);
-      if (!is_valid) ++step.invalid_pixels;
-      if (was_valid && is_valid) {
-        const double change = line[col] - old_line[col];
-        squares += change * change;
-        ++common;
-        if (change != 0.0) ++step.changed_pixels;
-      } else if (was_valid != is_valid) {
-        ++step.changed_pixels;
-      }
-    }
-  }
-  if (common > 0) step.rms_change = std::sqrt(squares / static_cast<double>(common));
+bool isWanted(const StageOffsetOptions& options) { return options.enabled; }
+bool isWanted(const LineAlignmentOptions& options) { return options.method != LineAlignment::kNone; }
+bool isWanted(const SpikeOptions& options) { return options.enabled; }
+bool isWanted(const FillOptions& options) { return options.enabled; }
+bool isWanted(const TipOptions& options) { return options.radius > 0.0; }
+bool isWanted(const LevelOptions& options) { return options.shape != LevelShape::kNone; }
+bool isWanted(const LowPassOptions& options) { return options.cutoff_wavelength > 0.0; }
+bool isWanted(const RefineOptions& options) { return options.factor > 1; }
+
+template <typename StepOptions>
+void addStep(const char* name, StepOptions& options, std::vector<PreprocessStep>& steps) {
+  if (!isWanted(options)) return;
+  ParameterText parameters(name);
+  options.describe(parameters);
+  PreprocessStep step;
+  step.name = name;
+  step.parameters = parameters.text();
+  steps.push_back(step);
 }
 
-/// Runs steps one after the other on one surface and keeps the record.
-class Pipeline {
- public:
-  explicit Pipeline(const HeightMap& scan) { prepared_.surface = scan; }
-
-  template <typename StepOptions, typename Apply>
-  void run(bool wanted, const std::string& name, const StepOptions& options, Apply apply) {
-    if (!wanted) return;
-    PreprocessStep step;
-    step.name = name;
-    ParameterText parameters(name);
-    describeConst(options, parameters);
-    step.parameters = parameters.text();
-    const HeightMap after = apply(prepared_.surface);
-    measureChange(prepared_.surface, after, step);
-    prepared_.surface = after;
-    prepared_.record.steps.push_back(step);
+/// A step has made a new surface, which takes the place of the one in work.
+HeightChange replace(WorkingSurface& surface, const HeightMap& after) {
+  cv::Mat before = surface.heights;
+  const cv::Mat& heights = after.heights();
+  if (before.size() != heights.size()) cv::resize(before, before, heights.size(), 0.0, 0.0, cv::INTER_NEAREST);
+  HeightChange change;
+  ChangeSums changes;
+  const auto cols = static_cast<std::size_t>(heights.cols);
+  for (int row = 0; row < heights.rows; ++row) {
+    addChanges(before.ptr<double>(row), heights.ptr<double>(row), cols, changes);
+    change.invalid_pixels += countAbove(0.0, heights.ptr<double>(row), cols).invalid;
   }
-
-  CleanedScan& prepared() { return prepared_; }
-
- private:
-  CleanedScan prepared_;
-};
+  change.rms_change = changes.rms();
+  change.changed_pixels = changes.changed;
+  surface.heights = heights;
+  surface.pitch_x = after.pitchX();
+  surface.pitch_y = after.pitchY();
+  return change;
+}
 
 }  // namespace
 
@@ -114,31 +98,47 @@ void PipelineOptions::describe(OptionVisitor& visitor) {
 
 std::vector<std::string> PipelineOptions::validate() const { return rangeViolations(*this); }
 
-CleanedScan cleanScan(const HeightMap& scan, const PipelineOptions& options) {
+ScanCleaner::ScanCleaner(const PipelineOptions& options) : options_(options) {
   std::vector<std::string> violations = options.validate();
   if (!violations.empty()) throw OptionsError(std::move(violations));
+  std::vector<PreprocessStep>& steps = cleaned_.record.steps;
+  addStep("offset", options_.offset, steps);
+  addStep("lines", options_.lines, steps);
+  addStep("spikes", options_.spikes, steps);
+  addStep("fill", options_.fill, steps);
+  addStep("tip", options_.tip, steps);
+  addStep("level", options_.level, steps);
+  addStep("low_pass", options_.low_pass, steps);
+  addStep("refine", options_.refine, steps);
+}
 
-  Pipeline pipeline(scan);
-  pipeline.run(options.offset.enabled, "offset", options.offset,
-               [](const HeightMap& surface) { return withoutStageOffset(surface); });
-  pipeline.run(options.lines.method != LineAlignment::kNone, "lines", options.lines,
-               [&](const HeightMap& surface) { return withAlignedLines(surface, options.lines); });
-  pipeline.run(options.spikes.enabled, "spikes", options.spikes,
-               [&](const HeightMap& surface) { return withoutSpikes(surface, options.spikes); });
-  pipeline.run(options.fill.enabled, "fill", options.fill,
-               [&](const HeightMap& surface) { return withFilledHoles(surface, options.fill); });
-  pipeline.run(options.tip.radius > 0.0, "tip", options.tip, [&](const HeightMap& surface) {
-    const TipCorrection correction = tipCorrected(surface, options.tip);
-    pipeline.prepared().record.tip_unreached_fraction = correction.unreached_fraction;
-    return correction.surface;
-  });
-  pipeline.run(options.level.shape != LevelShape::kNone, "level", options.level,
-               [&](const HeightMap& surface) { return levelledBy(surface, options.level); });
-  pipeline.run(options.low_pass.cutoff_wavelength > 0.0, "low_pass", options.low_pass,
-               [&](const HeightMap& surface) { return lowPassed(surface, options.low_pass); });
-  pipeline.run(options.refine.factor > 1, "refine", options.refine,
-               [&](const HeightMap& surface) { return refined(surface, options.refine); });
-  return pipeline.prepared();
+const CleanedScan& ScanCleaner::clean(const HeightMap& scan) {
+  cleaned_.surface = HeightMap();  // lets go of the memory
+  if (cleaned_.record.steps.empty()) {
+    cleaned_.surface = scan;
+    return cleaned_;
+  }
+  work_.take(scan);
+  auto step = cleaned_.record.steps.begin();
+  const auto note = [&](const HeightChange& change) { static_cast<HeightChange&>(*step++) = change; };
+  if (isWanted(options_.offset)) note(subtractStageOffset(work_));
+  if (isWanted(options_.lines)) note(alignLines(work_, options_.lines));
+  if (isWanted(options_.spikes)) note(removeSpikes(work_, options_.spikes));
+  if (isWanted(options_.fill)) note(fillHoles(work_, options_.fill));
+  if (isWanted(options_.tip)) {
+    const TipCorrection correction = tipCorrected(work_.surface(), options_.tip);
+    cleaned_.record.tip_unreached_fraction = correction.unreached_fraction;
+    note(replace(work_, correction.surface));
+  }
+  if (isWanted(options_.level)) note(levelBy(work_, options_.level));
+  if (isWanted(options_.low_pass)) note(replace(work_, lowPassed(work_.surface(), options_.low_pass)));
+  if (isWanted(options_.refine)) note(replace(work_, refined(work_.surface(), options_.refine)));
+  cleaned_.surface = work_.surface();
+  return cleaned_;
+}
+
+CleanedScan cleanScan(const HeightMap& scan, const PipelineOptions& options) {
+  return ScanCleaner(options).clean(scan);
 }
 
 std::vector<std::string> recordLines(const PreprocessRecord& record) {

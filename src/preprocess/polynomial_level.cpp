@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include <Eigen/Dense>
 
-#include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/median.hpp"
-#include "mems_stiction/height_map/validity.hpp"
+#include "mems_stiction/base/lanes.hpp"
+#include "mems_stiction/base/vectorized.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -20,133 +20,316 @@ constexpr double kHuber = 1.345;
 constexpr double kTukey = 4.685;
 constexpr int kHuberRounds = 8;
 constexpr int kTukeyRounds = 30;
+constexpr double kRest = 1e-4;        ///< step that ends the rounds, in units of the noise
+constexpr int kStrides[] = {16, 4};   ///< pixels from one of a sample to the next
+constexpr int kSmallestSample = 256;  ///< valid pixels that a sample must have
 
-Vector6 terms(double u, double v, int degree) {
-  Vector6 basis = Vector6::Zero();
-  basis[0] = 1.0;
-  if (degree >= 1) {
-    basis[1] = u;
-    basis[2] = v;
+enum class Weighting { kAlike, kByHuber, kByTukey };
+
+/// Powers of u and v in each term.
+constexpr int kPowerU[] = {0, 1, 0, 2, 1, 0};
+constexpr int kPowerV[] = {0, 0, 1, 0, 1, 2};
+
+int termCount(int degree) { return (degree + 1) * (degree + 2) / 2; }
+
+/// Sums over one row: weight w times powers of u, and times those and the height.
+struct RowMoments {
+  double weights[5] = {};
+  double heights[3] = {};
+};
+
+template <Weighting weighting>
+MEMS_STICTION_INLINE void weigh(const Lanes& residual, double scale, Lanes& weight) {
+  const Lanes one = Lanes{} + 1.0;
+  if (weighting == Weighting::kByHuber) {
+    const Lanes distance = (residual < 0.0 ? -residual : residual) / scale;
+    weight = distance > kHuber ? kHuber / distance : one;
+  } else if (weighting == Weighting::kByTukey) {
+    const Lanes distance = residual / (kTukey * scale);
+    const Lanes share = one - distance * distance;
+    weight = share > 0.0 ? share * share : Lanes{};
+  } else {
+    weight = one;
   }
-  if (degree >= 2) {
-    basis[3] = u * u;
-    basis[4] = u * v;
-    basis[5] = v * v;
-  }
-  return basis;
 }
 
-/// visit(u, v, height less origin) for every valid pixel.
-template <typename Visit>
-void forEachValid(const cv::Mat& heights, const HeightMap& grid, const PolynomialSurface& frame, Visit visit) {
-  for (int row = 0; row < heights.rows; ++row) {
-    const double* line = heights.ptr<double>(row);
-    const double v = (row * grid.pitchY() - frame.center_y) / frame.unit;
-    for (int col = 0; col < heights.cols; ++col) {
-      if (!std::isnan(line[col]))
-        visit((col * grid.pitchX() - frame.center_x) / frame.unit, v, line[col] - frame.origin);
+struct MomentLanes {
+  Lanes w{}, wu{}, wuu{}, wuuu{}, wuuuu{}, wh{}, whu{}, whuu{};
+
+  RowMoments sums() const {
+    return {{sumOf(w), sumOf(wu), sumOf(wuu), sumOf(wuuu), sumOf(wuuuu)}, {sumOf(wh), sumOf(whu), sumOf(whuu)}};
+  }
+};
+
+template <Weighting weighting>
+MEMS_STICTION_INLINE void addMoments(const LineCurve& curve, double scale, const Lanes& all_heights, const Lanes& u,
+                                     MomentLanes& sums) {
+  const Lanes height = all_heights == all_heights ? all_heights - curve.origin : Lanes{};
+  Lanes weight;
+  weigh<weighting>(height - (curve.a + u * (curve.b + curve.c * u)), scale, weight);
+  weight = all_heights == all_heights ? weight : Lanes{};
+  const Lanes wu = weight * u;
+  const Lanes wuu = wu * u;
+  sums.w += weight;
+  sums.wu += wu;
+  sums.wuu += wuu;
+  sums.wuuu += wuu * u;
+  sums.wuuuu += wuu * u * u;
+  sums.wh += weight * height;
+  sums.whu += wu * height;
+  sums.whuu += wuu * height;
+}
+
+template <Weighting weighting>
+MEMS_STICTION_INLINE RowMoments momentsOf(const double* line, const double* places, std::size_t size,
+                                          const LineCurve& curve, double scale) {
+  const LineCurve local = curve;
+  MomentLanes sums;
+  Lanes heights, u;
+  std::size_t i = 0;
+  for (; i + kLanes <= size; i += kLanes) {
+    load(line + i, heights);
+    load(places + i, u);
+    addMoments<weighting>(local, scale, heights, u, sums);
+  }
+  if (i < size) {
+    heights = Lanes{} + std::numeric_limits<double>::quiet_NaN();
+    u = Lanes{};
+    for (std::size_t lane = 0; i + lane < size; ++lane) {
+      heights[lane] = line[i + lane];
+      u[lane] = places[i + lane];
+    }
+    addMoments<weighting>(local, scale, heights, u, sums);
+  }
+  return sums.sums();
+}
+
+MEMS_STICTION_VECTORIZED RowMoments rowMoments(const double* line, const double* places, std::size_t size,
+                                               const LineCurve& curve, double scale, Weighting weighting) {
+  switch (weighting) {
+    case Weighting::kAlike:
+      return momentsOf<Weighting::kAlike>(line, places, size, curve, scale);
+    case Weighting::kByHuber:
+      return momentsOf<Weighting::kByHuber>(line, places, size, curve, scale);
+    case Weighting::kByTukey:
+      break;
+  }
+  return momentsOf<Weighting::kByTukey>(line, places, size, curve, scale);
+}
+
+/// Median of all heights, whose rows follow each other or are one.
+double medianOf(const cv::Mat& heights, CleaningMemory& memory) {
+  return memory.medians.median(heights.ptr<double>(), heights.total());
+}
+
+/// Normal equations of the terms, gathered row by row.
+class NormalEquations {
+ public:
+  void add(const RowMoments& row, double v) {
+    const double powers[] = {1.0, v, v * v, v * v * v, v * v * v * v};
+    for (int j = 0; j < 5; ++j) {
+      for (int i = 0; i + j < 5; ++i) weights_[i][j] += row.weights[i] * powers[j];
+      for (int i = 0; i + j < 3; ++i) heights_[i][j] += row.heights[i] * powers[j];
     }
   }
+
+  Vector6 solve(int degree) const {
+    Matrix6 normal = Matrix6::Zero();
+    Vector6 moment = Vector6::Zero();
+    for (int term = 0; term < termCount(degree); ++term) {
+      moment[term] = heights_[kPowerU[term]][kPowerV[term]];
+      for (int other = 0; other < termCount(degree); ++other) {
+        normal(term, other) = weights_[kPowerU[term] + kPowerU[other]][kPowerV[term] + kPowerV[other]];
+      }
+    }
+    // Rank-revealing: what the pixels do not determine stays 0.
+    Eigen::CompleteOrthogonalDecomposition<Matrix6> decomposition;
+    decomposition.setThreshold(1e-12);
+    decomposition.compute(normal);
+    return decomposition.solve(moment);
+  }
+
+ private:
+  double weights_[5][5] = {};
+  double heights_[3][3] = {};
+};
+
+/// The pixels of a frame, or some at equal distances.
+struct PixelGrid {
+  cv::Mat heights;
+  double first_x, first_y;  ///< [m]
+  double pitch_x, pitch_y;  ///< [m]
+};
+
+PixelGrid allPixels(const cv::Mat& heights, double pitch_x, double pitch_y) {
+  return {heights, 0.0, 0.0, pitch_x, pitch_y};
 }
 
-/// Where the coordinates are centered, and what they are divided by.
-PolynomialSurface frameOf(const cv::Mat& heights, const HeightMap& grid, int degree) {
+/// Copies every `stride`-th pixel of every `stride`-th row, with as much of the frame left over on either side.
+PixelGrid sampleOf(const cv::Mat& heights, double pitch_x, double pitch_y, int stride, std::vector<double>& memory) {
+  const int first = stride / 2;
+  const int rows = heights.rows / stride;
+  const int cols = heights.cols / stride;
+  memory.resize(static_cast<std::size_t>(rows) * static_cast<std::size_t>(cols));
+  const cv::Mat sample(rows, cols, CV_64FC1, memory.data());
+  double* target = memory.data();
+  for (int row = 0; row < rows; ++row) {
+    const double* source = heights.ptr<double>(first + row * stride) + first;
+    for (int col = 0; col < cols; ++col) *target++ = source[col * stride];
+  }
+  return {sample, first * pitch_x, first * pitch_y, stride * pitch_x, stride * pitch_y};
+}
+
+bool hasEnoughValid(const std::vector<double>& heights) {
+  return std::count_if(heights.begin(), heights.end(), [](double height) { return !std::isnan(height); }) >=
+         kSmallestSample;
+}
+
+/// Where the coordinates are centred, and what they are divided by.
+PolynomialSurface frameOf(const cv::Mat& heights, double pitch_x, double pitch_y, int degree, CleaningMemory& memory) {
+  const SurfaceMeans means = meansOf(heights, memory, " to level by");
   PolynomialSurface frame;
   frame.degree = degree;
-  frame.unit = 0.5 * std::max(heights.cols * grid.pitchX(), heights.rows * grid.pitchY());
-  std::vector<double> sample;
-  double sum_row = 0.0;
-  double sum_col = 0.0;
-  for (int row = 0; row < heights.rows; ++row) {
-    const double* line = heights.ptr<double>(row);
-    for (int col = 0; col < heights.cols; ++col) {
-      if (std::isnan(line[col])) continue;
-      sum_row += row;
-      sum_col += col;
-      sample.push_back(line[col]);
-    }
-  }
-  if (sample.empty()) throw SurfaceError("the height map has no valid pixel to level by");
-  const double count = static_cast<double>(sample.size());
-  frame.center_x = sum_col / count * grid.pitchX();
-  frame.center_y = sum_row / count * grid.pitchY();
-  frame.origin = medianOf(sample);
+  frame.unit = 0.5 * std::max(heights.cols * pitch_x, heights.rows * pitch_y);
+  frame.center_x = means.col * pitch_x;
+  frame.center_y = means.row * pitch_y;
   return frame;
 }
 
-/// @param scale residuals beyond it lose weight [m]; 0 = equal weights
-Vector6 solve(const cv::Mat& heights, const HeightMap& grid, const PolynomialSurface& current, double scale,
-              bool biweight) {
-  Matrix6 normal = Matrix6::Zero();
-  Vector6 moment = Vector6::Zero();
-  forEachValid(heights, grid, current, [&](double u, double v, double height) {
-    const Vector6 basis = terms(u, v, current.degree);
-    double weight = 1.0;
-    if (scale > 0.0) {
-      const double residual = std::fabs(height - current.coefficients.dot(basis)) / scale;
-      if (biweight) {
-        const double share = residual < kTukey ? 1.0 - (residual / kTukey) * (residual / kTukey) : 0.0;
-        weight = share * share;
-      } else if (residual > kHuber) {
-        weight = kHuber / residual;
-      }
-    }
-    normal.noalias() += (weight * basis) * basis.transpose();
-    moment += (weight * height) * basis;
-  });
-  // Rank-revealing: what the pixels do not determine stays 0.
-  Eigen::CompleteOrthogonalDecomposition<Matrix6> decomposition;
-  decomposition.setThreshold(1e-12);
-  decomposition.compute(normal);
-  return decomposition.solve(moment);
-}
+/// The rounds of a fit over one grid.
+class Rounds {
+ public:
+  Rounds(const PixelGrid& grid, PolynomialSurface& fit, CleaningMemory& memory)
+      : grid_(grid), fit_(fit), memory_(memory) {
+    findPlaces(fit, grid.first_x, grid.pitch_x, grid.heights.cols, memory.places);
+  }
 
-double noiseOf(const cv::Mat& heights, const HeightMap& grid, const PolynomialSurface& current) {
-  std::vector<double> residuals;
-  residuals.reserve(heights.total());
-  forEachValid(heights, grid, current, [&](double u, double v, double height) {
-    residuals.push_back(std::fabs(height - current.coefficients.dot(terms(u, v, current.degree))));
-  });
-  return 1.4826 * medianOf(residuals);
-}
+  void solve(Weighting weighting) {
+    NormalEquations equations;
+    for (int row = 0; row < grid_.heights.rows; ++row) {
+      equations.add(rowMoments(grid_.heights.ptr<double>(row), memory_.places.data(), memory_.places.size(),
+                               curveAt(fit_, yOf(row)), fit_.noise, weighting),
+                    (yOf(row) - fit_.center_y) / fit_.unit);
+    }
+    const Vector6 next = equations.solve(fit_.degree);
+    step_ = (next - fit_.coefficients).cwiseAbs().maxCoeff();
+    fit_.coefficients = next;
+  }
+
+  void findNoise() {
+    const std::size_t cols = memory_.places.size();
+    double* distances = roomFor(grid_.heights.total(), memory_.distances);
+    for (int row = 0; row < grid_.heights.rows; ++row) {
+      distancesFrom(curveAt(fit_, yOf(row)), memory_.places.data(), grid_.heights.ptr<double>(row), cols,
+                    distances + static_cast<std::size_t>(row) * cols);
+    }
+    fit_.noise = 1.4826 * memory_.medians.median(distances, grid_.heights.total());
+  }
+
+  /// Until the fit rests, with the noise after every round.
+  void reweight(int huber_rounds) {
+    for (int round = 0; round < huber_rounds + kTukeyRounds && !isExact(); ++round) {
+      const bool is_tukey = round >= huber_rounds;
+      solve(is_tukey ? Weighting::kByTukey : Weighting::kByHuber);
+      findNoise();
+      if (is_tukey && step_ < kRest * fit_.noise) break;
+    }
+  }
+
+  /// Until the fit rests, with the noise that it has.
+  void settle() {
+    for (int round = 0; round < kTukeyRounds && !isExact(); ++round) {
+      solve(Weighting::kByTukey);
+      if (step_ < kRest * fit_.noise) break;
+    }
+  }
+
+ private:
+  /// A noise at the rounding of the polynomial itself.
+  bool isExact() const { return !(fit_.noise > 1e-13 * fit_.coefficients.cwiseAbs().maxCoeff()); }
+  double yOf(int row) const { return grid_.first_y + row * grid_.pitch_y; }
+
+  const PixelGrid& grid_;
+  PolynomialSurface& fit_;
+  CleaningMemory& memory_;
+  double step_ = 0.0;
+};
 
 }  // namespace
 
 double PolynomialSurface::height(double x, double y) const {
-  return origin + coefficients.dot(terms((x - center_x) / unit, (y - center_y) / unit, degree));
+  const LineCurve curve = curveAt(*this, y);
+  const double u = (x - center_x) / unit;
+  return curve.origin + (curve.a + u * (curve.b + curve.c * u));
 }
 
 PolynomialSurface fitPolynomial(const HeightMap& surface, int degree, FitWeights weights) {
-  const cv::Mat heights = ownedHeights(surface);
-  PolynomialSurface fit = frameOf(heights, surface, degree);
-  fit.coefficients = solve(heights, surface, fit, 0.0, false);
-  fit.noise = noiseOf(heights, surface, fit);
-  if (weights == FitWeights::kEqual) return fit;
+  WorkingSurface work(surface);
+  return fitPolynomial(work.heights, work.pitch_x, work.pitch_y, degree, weights, work.memory);
+}
 
-  for (int round = 0; round < kHuberRounds + kTukeyRounds; ++round) {
-    // A noise at the rounding of the polynomial itself: the fit is exact.
-    if (!(fit.noise > 1e-13 * fit.coefficients.cwiseAbs().maxCoeff())) break;
-    const bool biweight = round >= kHuberRounds;
-    const Vector6 next = solve(heights, surface, fit, fit.noise, biweight);
-    const double step = (next - fit.coefficients).cwiseAbs().maxCoeff();
-    fit.coefficients = next;
-    fit.noise = noiseOf(heights, surface, fit);
-    if (biweight && step < 1e-4 * fit.noise) break;
-  }
+PolynomialSurface fitPolynomial(const cv::Mat& heights, double pitch_x, double pitch_y, int degree, FitWeights weights,
+                                CleaningMemory& memory) {
+  PolynomialSurface fit = frameOf(heights, pitch_x, pitch_y, degree, memory);
+  fit.origin = medianOf(heights, memory);
+  const PixelGrid grid = allPixels(heights, pitch_x, pitch_y);
+  Rounds rounds(grid, fit, memory);
+  rounds.solve(Weighting::kAlike);
+  rounds.findNoise();
+  if (weights == FitWeights::kRobust) rounds.reweight(kHuberRounds);
   return fit;
 }
 
-HeightMap without(const PolynomialSurface& polynomial, const HeightMap& surface) {
-  cv::Mat heights = ownedHeights(surface);
-  for (int row = 0; row < heights.rows; ++row) {
-    double* line = heights.ptr<double>(row);
-    for (int col = 0; col < heights.cols; ++col) {
-      const double u = (col * surface.pitchX() - polynomial.center_x) / polynomial.unit;
-      const double v = (row * surface.pitchY() - polynomial.center_y) / polynomial.unit;
-      line[col] = (line[col] - polynomial.origin) - polynomial.coefficients.dot(terms(u, v, polynomial.degree));
-    }
+PolynomialSurface fitPolynomialBySamples(const cv::Mat& heights, double pitch_x, double pitch_y, int degree,
+                                         CleaningMemory& memory) {
+  PolynomialSurface fit = frameOf(heights, pitch_x, pitch_y, degree, memory);
+  bool is_started = false;
+  for (const int stride : kStrides) {
+    const PixelGrid sample = sampleOf(heights, pitch_x, pitch_y, stride, memory.sample);
+    if (!hasEnoughValid(memory.sample)) continue;
+    if (!is_started) fit.origin = medianOf(sample.heights, memory);
+    Rounds rounds(sample, fit, memory);
+    if (!is_started) rounds.solve(Weighting::kAlike);
+    rounds.findNoise();
+    rounds.reweight(is_started ? 0 : kHuberRounds);
+    is_started = true;
   }
-  return {heights, surface.pitchX(), surface.pitchY()};
+  if (!is_started) return fitPolynomial(heights, pitch_x, pitch_y, degree, FitWeights::kRobust, memory);
+  const PixelGrid grid = allPixels(heights, pitch_x, pitch_y);
+  Rounds(grid, fit, memory).settle();
+  return fit;
+}
+
+LineCurve curveAt(const PolynomialSurface& polynomial, double y) {
+  const double v = (y - polynomial.center_y) / polynomial.unit;
+  const auto& terms = polynomial.coefficients;
+  return {polynomial.origin, terms[0] + v * (terms[2] + v * terms[5]), terms[1] + v * terms[4], terms[3]};
+}
+
+void findPlaces(const PolynomialSurface& polynomial, double first_x, double pitch_x, int cols,
+                std::vector<double>& places) {
+  places.resize(static_cast<std::size_t>(cols));
+  for (int col = 0; col < cols; ++col) {
+    places[static_cast<std::size_t>(col)] = (first_x + col * pitch_x - polynomial.center_x) / polynomial.unit;
+  }
+}
+
+HeightChange subtract(const PolynomialSurface& polynomial, WorkingSurface& surface) {
+  cv::Mat& heights = surface.heights;
+  std::vector<double>& places = surface.memory.places;
+  findPlaces(polynomial, 0.0, surface.pitch_x, heights.cols, places);
+  ChangeSums changes;
+  for (int row = 0; row < heights.rows; ++row) {
+    subtractCurve(curveAt(polynomial, row * surface.pitch_y), places.data(), places.size(), heights.ptr<double>(row),
+                  changes);
+  }
+  return heightChange(changes, static_cast<long long>(heights.total()));
+}
+
+HeightMap without(const PolynomialSurface& polynomial, const HeightMap& surface) {
+  WorkingSurface work(surface);
+  subtract(polynomial, work);
+  return work.surface();
 }
 
 }  // namespace mems_stiction

@@ -6,57 +6,45 @@
 #include <limits>
 #include <vector>
 
-#include <opencv2/core.hpp>
-
-#include "mems_stiction/base/median.hpp"
-#include "mems_stiction/height_map/validity.hpp"
+#include "mems_stiction/base/value_range.hpp"
 #include "mems_stiction/preprocess/polynomial_level.hpp"
 
 namespace mems_stiction {
 namespace {
 
-/// The heights with a margin all around in which the surface goes on by its reflection through the border pixels, which
-/// keeps planes: windows at the border are as balanced as others.
-cv::Mat withMargin(const cv::Mat& heights, int margin) {
-  const int rows = std::min(margin, heights.rows - 1);
-  const int cols = std::min(margin, heights.cols - 1);
-  cv::Mat mirrored;
-  cv::Mat border;
-  cv::copyMakeBorder(heights, mirrored, 0, 0, cols, cols, cv::BORDER_REFLECT_101);
-  cv::copyMakeBorder(heights, border, 0, 0, cols, cols, cv::BORDER_REPLICATE);
-  cv::Mat wide = 2.0 * border - mirrored;
-  heights.copyTo(wide(cv::Rect(cols, 0, heights.cols, heights.rows)));
-  cv::copyMakeBorder(wide, mirrored, rows, rows, 0, 0, cv::BORDER_REFLECT_101);
-  cv::copyMakeBorder(wide, border, rows, rows, 0, 0, cv::BORDER_REPLICATE);
-  cv::Mat all = 2.0 * border - mirrored;
-  wide.copyTo(all(cv::Rect(0, rows, wide.cols, wide.rows)));
-  return all;
+/// Rounding of the heights and of what is computed from them [m].
+double roundingOf(const ValueRange& range) {
+  return 1e-9 * (range.highest - range.lowest) + 1e-15 * std::max(std::fabs(range.highest), std::fabs(range.lowest));
 }
 
-/// Height less the median of the valid heights in the window; NaN where invalid.
-cv::Mat localResiduals(const cv::Mat& heights, int half) {
-  const cv::Mat wide = withMargin(heights, half);
-  const int margin_rows = (wide.rows - heights.rows) / 2;
-  const int margin_cols = (wide.cols - heights.cols) / 2;
-  cv::Mat residuals(heights.size(), CV_64FC1, cv::Scalar(std::numeric_limits<double>::quiet_NaN()));
-  cv::parallel_for_(cv::Range(0, heights.rows), [&](const cv::Range& rows) {
-    std::vector<double> window;
-    for (int row = rows.start; row < rows.end; ++row) {
-      for (int col = 0; col < heights.cols; ++col) {
-        const double height = heights.at<double>(row, col);
-        if (std::isnan(height)) continue;
-        window.clear();
-        for (int near_row = row - margin_rows; near_row <= row + margin_rows; ++near_row) {
-          const double* line = wide.ptr<double>(near_row + margin_rows) + margin_cols;
-          for (int near = col - margin_cols; near <= col + margin_cols; ++near) {
-            if (!std::isnan(line[near])) window.push_back(line[near]);
-          }
-        }
-        residuals.at<double>(row, col) = height - medianOf(window);
-      }
-    }
-  });
-  return residuals;
+/// Height less the median of its window, on the surface less its robust polynomial; NaN where invalid.
+/// @return rounding of the heights [m]
+double findResiduals(WorkingSurface& surface, int half) {
+  const cv::Mat& heights = surface.heights;
+  CleaningMemory& memory = surface.memory;
+  const PolynomialSurface fit = fitPolynomialBySamples(heights, surface.pitch_x, surface.pitch_y, 2, memory);
+  findPlaces(fit, 0.0, surface.pitch_x, heights.cols, memory.places);
+  memory.windows.setFrame(heights.rows, heights.cols, half);
+  ValueRange range;
+  for (int row = 0; row < heights.rows; ++row) {
+    const double* line = heights.ptr<double>(row);
+    addToRange(line, memory.places.size(), range);
+    flattenLine(curveAt(fit, row * surface.pitch_y), memory.places.data(), line, memory.places.size(),
+                memory.windows.row(row));
+  }
+  memory.windows.findResiduals(roomFor(heights.total(), memory.distances));
+  return roundingOf(range);
+}
+
+/// The median distance; that of the distances beyond rounding where most are not.
+double typicalDistance(const double* distances, std::size_t count, double rounding, MedianFinder& medians) {
+  const double deviation = medians.median(distances, count);
+  if (deviation > rounding) return deviation;
+  std::vector<double> beyond;
+  std::copy_if(distances, distances + count, std::back_inserter(beyond),
+               [=](double distance) { return distance > rounding; });
+  // Fewer than one pixel in 50 differs from a surface that is smooth to rounding: those are the spikes.
+  return beyond.size() > count / 50 ? medianOf(beyond) : rounding;
 }
 
 }  // namespace
@@ -69,35 +57,35 @@ void SpikeOptions::describe(OptionVisitor& visitor, const std::string& prefix) {
 }
 
 HeightMap withoutSpikes(const HeightMap& surface, const SpikeOptions& options) {
-  const HeightMap flat = without(fitPolynomial(surface, 2, FitWeights::kRobust), surface);
-  const cv::Mat residuals = localResiduals(flat.heights(), options.window / 2);
+  WorkingSurface work(surface);
+  removeSpikes(work, options);
+  return work.surface();
+}
 
-  std::vector<double> values;
-  std::copy_if(residuals.begin<double>(), residuals.end<double>(), std::back_inserter(values),
-               [](double residual) { return !std::isnan(residual); });
-  const double center = medianOf(values);
-  for (double& value : values) value = std::fabs(value - center);
-  const HeightStatistics statistics = heightStatistics(surface);
-  const double rounding =
-      1e-9 * (statistics.max - statistics.min) + 1e-15 * std::max(std::fabs(statistics.max), std::fabs(statistics.min));
-  double deviation = medianOf(values);
-  if (deviation <= rounding) {
-    values.erase(std::remove_if(values.begin(), values.end(), [=](double value) { return value <= rounding; }),
-                 values.end());
-    // Fewer than one pixel in 50 differs from a surface that is smooth to rounding: those are the spikes.
-    deviation = values.size() > residuals.total() / 50 ? medianOf(values) : rounding;
-  }
-  const double limit = std::max(options.threshold * 1.4826 * deviation, rounding);
+HeightChange removeSpikes(WorkingSurface& surface, const SpikeOptions& options) {
+  cv::Mat& heights = surface.heights;
+  MedianFinder& medians = surface.memory.medians;
+  const double rounding = findResiduals(surface, options.window / 2);
+  double* distances = surface.memory.distances.data();
+  const std::size_t count = heights.total();
+  makeDistances(medians.median(distances, count), distances, count);
+  const double typical = typicalDistance(distances, count, rounding, medians);
+  const double limit = std::max(options.threshold * 1.4826 * typical, rounding);
 
-  cv::Mat heights = ownedHeights(surface);
+  HeightChange change;
+  const auto cols = static_cast<std::size_t>(heights.cols);
   for (int row = 0; row < heights.rows; ++row) {
-    const double* residual = residuals.ptr<double>(row);
+    const double* distance = distances + static_cast<std::size_t>(row) * cols;
+    const LimitCount spikes = countAbove(limit, distance, cols);
+    change.changed_pixels += spikes.above;
+    change.invalid_pixels += spikes.above + spikes.invalid;
+    if (spikes.above == 0) continue;
     double* line = heights.ptr<double>(row);
-    for (int col = 0; col < heights.cols; ++col) {
-      if (std::fabs(residual[col] - center) > limit) line[col] = std::numeric_limits<double>::quiet_NaN();
+    for (std::size_t col = 0; col < cols; ++col) {
+      if (distance[col] > limit) line[col] = std::numeric_limits<double>::quiet_NaN();
     }
   }
-  return {heights, surface.pitchX(), surface.pitchY()};
+  return change;
 }
 
 }  // namespace mems_stiction

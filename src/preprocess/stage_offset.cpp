@@ -1,7 +1,5 @@
 #include "mems_stiction/preprocess/stage_offset.hpp"
 
-#include "mems_stiction/height_map/validity.hpp"
-
 namespace mems_stiction {
 
 void StageOffsetOptions::describe(OptionVisitor& visitor, const std::string& prefix) {
@@ -9,11 +7,30 @@ void StageOffsetOptions::describe(OptionVisitor& visitor, const std::string& pre
 }
 
 HeightMap withoutStageOffset(const HeightMap& surface) {
-  cv::Mat heights = ownedHeights(surface);
-  heights -= heightStatistics(surface).mean;
+  WorkingSurface work(surface);
+  subtractStageOffset(work);
+  return work.surface();
+}
+
+HeightChange subtractStageOffset(WorkingSurface& surface) {
+  cv::Mat& heights = surface.heights;
+  const double mean = meansOf(heights, surface.memory).height;
+  const std::vector<double>& columns = columnNumbers(heights.cols, surface.memory);
   // The sum of many large heights rounds off; that of the small ones which are left does not.
-  heights -= heightStatistics(HeightMap(heights, surface.pitchX(), surface.pitchY())).mean;
-  return {heights, surface.pitchX(), surface.pitchY()};
+  PlaceSums left;
+  for (int row = 0; row < heights.rows; ++row) {
+    const PlaceSums sums = sumsOf(heights.ptr<double>(row), columns.data(), columns.size(), mean);
+    left.count += sums.count;
+    left.h += sums.h;
+  }
+  LineCurve offset;
+  offset.origin = mean;
+  offset.a = left.h / left.count;
+  ChangeSums changes;
+  for (int row = 0; row < heights.rows; ++row) {
+    subtractCurve(offset, columns.data(), columns.size(), heights.ptr<double>(row), changes);
+  }
+  return heightChange(changes, static_cast<long long>(heights.total()));
 }
 
 }  // namespace mems_stiction

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "mems_stiction/prediction/adhesion_model.hpp"
+#include "mems_stiction/preprocess/pipeline.hpp"
 #include "mems_stiction/surface/gaussian_surface.hpp"
 #include "support/allocation_count.hpp"
 #include "support/analytic_surfaces.hpp"
@@ -62,6 +63,23 @@ TEST_P(RepeatedFrame, AgainstARoughCounterSurfaceAllocatesNothing) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Outputs, RepeatedFrame, testing::Values(false, true));
+
+TEST(RepeatedScan, IsCleanedWithoutAllocation) {
+  const HeightMap scan = frame(1);
+  PipelineOptions options;
+  options.offset.enabled = true;
+  options.lines.method = LineAlignment::kMedian;
+  options.spikes.enabled = true;
+  options.spikes.threshold = 20.0;  // finds none: filling holes allocates
+  options.fill.enabled = true;
+  options.level.shape = LevelShape::kPlane;
+  ScanCleaner cleaner(options);
+  ASSERT_EQ(cleaner.clean(scan).record.steps[2].changed_pixels, 0);
+  startCountingAllocations();
+  cleaner.clean(scan);
+  const AllocationCount count = stopCountingAllocations();
+  EXPECT_EQ(count.calls, 0);
+}
 
 TEST(Memory, OfAPredictionStaysBelow64BytesAPixelBeyondTheInput) {
   const HeightMap scan = frame(1);

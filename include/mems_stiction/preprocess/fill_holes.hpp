@@ -12,6 +12,7 @@
 
 #include "mems_stiction/base/option_visitor.hpp"
 #include "mems_stiction/height_map/height_map.hpp"
+#include "mems_stiction/preprocess/working_surface.hpp"
 
 namespace mems_stiction {
 
@@ -28,6 +29,8 @@ struct FillOptions {
 /// rows x cols, CV_64FC1, metres; the pixels of larger holes are NaN.
 /// @throw SurfaceError naming the fraction and the limit if too much is missing, or if no pixel is valid.
 HeightMap withFilledHoles(const HeightMap& surface, const FillOptions& options);
+/// The same where the heights lie.
+HeightChange fillHoles(WorkingSurface& surface, const FillOptions& options);
 
 /// Fills the marked pixels, whatever their number.
 /// - @p heights rows x cols CV_64FC1 [m], NaN where missing

@@ -15,6 +15,7 @@
 ///     const HeightMap flat = levelled(scan);
 
 #include "mems_stiction/height_map/height_map.hpp"
+#include "mems_stiction/preprocess/working_surface.hpp"
 
 namespace mems_stiction {
 
@@ -38,5 +39,7 @@ Plane leastSquaresPlane(const HeightMap& surface);
 /// pixels are NaN.
 /// @throw SurfaceError if no pixel is valid.
 HeightMap levelled(const HeightMap& surface);
+/// The same where the heights lie.
+HeightChange level(WorkingSurface& surface);
 
 }  // namespace mems_stiction

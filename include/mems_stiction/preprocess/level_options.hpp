@@ -5,6 +5,7 @@
 
 #include "mems_stiction/base/option_visitor.hpp"
 #include "mems_stiction/height_map/height_map.hpp"
+#include "mems_stiction/preprocess/working_surface.hpp"
 
 namespace mems_stiction {
 
@@ -26,5 +27,7 @@ struct LevelOptions {
 /// rows x cols, CV_64FC1, metres; invalid pixels are NaN. The plane without `robust` is that of level.hpp.
 /// @throw SurfaceError if no pixel is valid.
 HeightMap levelledBy(const HeightMap& surface, const LevelOptions& options);
+/// The same where the heights lie; the shape is not `none`.
+HeightChange levelBy(WorkingSurface& surface, const LevelOptions& options);
 
 }  // namespace mems_stiction

@@ -14,6 +14,7 @@
 
 #include "mems_stiction/base/option_visitor.hpp"
 #include "mems_stiction/height_map/height_map.hpp"
+#include "mems_stiction/preprocess/working_surface.hpp"
 
 namespace mems_stiction {
 
@@ -31,5 +32,7 @@ struct LineAlignmentOptions {
 /// rows x cols, CV_64FC1, metres; invalid pixels are NaN.
 /// @throw SurfaceError if no pixel is valid.
 HeightMap withAlignedLines(const HeightMap& surface, const LineAlignmentOptions& options);
+/// The same where the heights lie.
+HeightChange alignLines(WorkingSurface& surface, const LineAlignmentOptions& options);
 
 }  // namespace mems_stiction

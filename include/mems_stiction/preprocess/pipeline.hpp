@@ -18,7 +18,10 @@
 ///
 ///     PipelineOptions options;
 ///     options.level.shape = LevelShape::kPlane;
-///     const CleanedScan cleaned = cleanScan(scan, options);
+///     const CleanedScan prepared = cleanScan(scan, options);
+///
+/// For scan after scan, a ScanCleaner takes no memory after the first one of a size, but for `fill` where holes are
+/// filled, and for `tip`, `low_pass` and `refine`.
 
 #include <string>
 #include <utility>
@@ -33,6 +36,7 @@
 #include "mems_stiction/preprocess/spike_removal.hpp"
 #include "mems_stiction/preprocess/stage_offset.hpp"
 #include "mems_stiction/preprocess/tip_correction.hpp"
+#include "mems_stiction/preprocess/working_surface.hpp"
 
 namespace mems_stiction {
 
@@ -52,13 +56,10 @@ struct PipelineOptions {
   std::vector<std::string> validate() const;
 };
 
-/// What one step did.
-struct PreprocessStep {
-  std::string name;              ///< of the table above
-  std::string parameters;        ///< "threshold=6 window=5"
-  double rms_change = 0.0;       ///< root mean square of the change of height over pixels valid before and after [m]
-  long long changed_pixels = 0;  ///< whose height or validity changed; on the finer grid for `refine`
-  long long invalid_pixels = 0;  ///< after the step
+/// What one step did; changed_pixels of `refine` counts those of the finer grid.
+struct PreprocessStep : HeightChange {
+  std::string name;        ///< of the table above
+  std::string parameters;  ///< "threshold=6 window=5"
 };
 
 /// What the steps that ran did to one scan.
@@ -73,9 +74,29 @@ struct CleanedScan {
   PreprocessRecord record;
 };
 
-/// Without any step the surface is the scan itself, to the bit, and shares its pixels.
-/// @throw OptionsError with the lines of validate(), if there are any.
-/// @throw SurfaceError if no pixel is valid, or more are missing than fill/max_fraction allows.
+/// Cleans scan after scan in the same memory. One object serves one thread at a time.
+class ScanCleaner {
+ public:
+  ScanCleaner() = default;
+  /// @throw OptionsError with the lines of validate(), if there are any.
+  explicit ScanCleaner(const PipelineOptions& options);
+
+  const PipelineOptions& options() const { return options_; }
+
+  /// The result stays until the next scan; whoever copies its surface may hold that for longer: pixels that somebody
+  /// holds are never written to again. Without any step the surface is the scan itself, to the bit, and shares its
+  /// pixels.
+  /// @throw SurfaceError if no pixel is valid, or more are missing than fill/max_fraction allows.
+  const CleanedScan& clean(const HeightMap& scan);
+
+ private:
+  PipelineOptions options_;
+  WorkingSurface work_;
+  CleanedScan cleaned_;
+};
+
+/// One scan by itself, as ScanCleaner does it.
+/// @throw OptionsError, SurfaceError as ScanCleaner does.
 CleanedScan cleanScan(const HeightMap& scan, const PipelineOptions& options);
 
 /// "spikes (threshold=6 window=5): rms change 1.2e-10 m, 14 pixels changed" per step, for people and logs.

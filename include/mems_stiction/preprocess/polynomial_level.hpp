@@ -15,6 +15,7 @@
 #include <Eigen/Core>
 
 #include "mems_stiction/height_map/height_map.hpp"
+#include "mems_stiction/preprocess/working_surface.hpp"
 
 namespace mems_stiction {
 
@@ -39,6 +40,25 @@ struct PolynomialSurface {
 /// - @p degree 0, 1 or 2
 /// @throw SurfaceError if no pixel is valid.
 PolynomialSurface fitPolynomial(const HeightMap& surface, int degree, FitWeights weights);
+
+/// The same for heights in work (@p heights all of them or some lines), in the memory of their steps.
+PolynomialSurface fitPolynomial(const cv::Mat& heights, double pitch_x, double pitch_y, int degree, FitWeights weights,
+                                CleaningMemory& memory);
+/// The robust polynomial from coarse samples to all pixels: every 16th pixel of every 16th row, then every fourth of every
+/// fourth, each until it rests; then all of them with the noise of the last sample. Its rest is that of the other to
+/// about the last step of either, 1e-4 noise, in a fiftieth of the time. Features whose period is that of the samples
+/// can lead it to another.
+PolynomialSurface fitPolynomialBySamples(const cv::Mat& heights, double pitch_x, double pitch_y, int degree,
+                                         CleaningMemory& memory);
+
+/// The polynomial along the row at y [m], over the places u of its pixels.
+LineCurve curveAt(const PolynomialSurface& polynomial, double y);
+/// u of the columns at first_x, first_x + pitch_x, ... [m]
+void findPlaces(const PolynomialSurface& polynomial, double first_x, double pitch_x, int cols,
+                std::vector<double>& places);
+
+/// Subtracts a polynomial where the heights lie.
+HeightChange subtract(const PolynomialSurface& polynomial, WorkingSurface& surface);
 
 /// The surface less a polynomial: rows x cols, CV_64FC1, metres; invalid pixels are NaN.
 HeightMap without(const PolynomialSurface& polynomial, const HeightMap& surface);

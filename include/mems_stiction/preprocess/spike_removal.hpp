@@ -10,9 +10,13 @@
 /// heights), the median runs over those that differ. Assumptions: a spike covers less than half a window. On Gaussian
 /// roughness a threshold of 6 removes two pixels in 10^9; surfaces that carry real particles of a few pixels lose them:
 /// choose a smaller window or a higher threshold.
+/// The polynomial rests to 1e-4 of its noise (fitPolynomialBySamples), which moves a residual by its slope over a window,
+/// some 1e-6 of the noise. Where heights are counted in steps as coarse as the roughness, distances come in clusters, and
+/// whether one that meets the limit is taken can hang on that.
 
 #include "mems_stiction/base/option_visitor.hpp"
 #include "mems_stiction/height_map/height_map.hpp"
+#include "mems_stiction/preprocess/working_surface.hpp"
 
 namespace mems_stiction {
 
@@ -29,5 +33,7 @@ struct SpikeOptions {
 /// rows x cols, CV_64FC1, metres; invalid pixels and spikes are NaN.
 /// @throw SurfaceError if no pixel is valid.
 HeightMap withoutSpikes(const HeightMap& surface, const SpikeOptions& options);
+/// The same where the heights lie.
+HeightChange removeSpikes(WorkingSurface& surface, const SpikeOptions& options);
 
 }  // namespace mems_stiction

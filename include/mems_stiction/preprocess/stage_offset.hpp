@@ -8,6 +8,7 @@
 
 #include "mems_stiction/base/option_visitor.hpp"
 #include "mems_stiction/height_map/height_map.hpp"
+#include "mems_stiction/preprocess/working_surface.hpp"
 
 namespace mems_stiction {
 
@@ -22,5 +23,7 @@ struct StageOffsetOptions {
 /// The surface less its mean height: rows x cols, CV_64FC1, metres; invalid pixels are NaN.
 /// @throw SurfaceError if no pixel is valid.
 HeightMap withoutStageOffset(const HeightMap& surface);
+/// The same where the heights lie.
+HeightChange subtractStageOffset(WorkingSurface& surface);
 
 }  // namespace mems_stiction

@@ -1,0 +1,72 @@
+#pragma once
+
+/// @file
+/// A surface while it is cleaned: steps change its heights where they lie, and write beside them into memory that stays
+/// from scan to scan.
+
+#include <cstddef>
+#include <vector>
+
+#include "mems_stiction/base/median.hpp"
+#include "mems_stiction/height_map/height_map.hpp"
+#include "mems_stiction/preprocess/height_lines.hpp"
+#include "mems_stiction/preprocess/window_median.hpp"
+
+namespace mems_stiction {
+
+/// What one step did to a surface.
+struct HeightChange {
+  double rms_change = 0.0;       ///< root mean square of the change of height over pixels valid before and after [m]
+  long long changed_pixels = 0;  ///< whose height or validity changed
+  long long invalid_pixels = 0;  ///< after the step
+};
+
+/// Of a step that leaves invalid pixels invalid. @param pixels of the frame, valid or not
+HeightChange heightChange(const ChangeSums& changes, long long pixels);
+
+/// What steps write down beside the heights.
+struct CleaningMemory {
+  MedianFinder medians;
+  WindowMedian windows;
+  std::vector<double> places;     ///< of the columns, in the unit of the step
+  std::vector<double> distances;  ///< of all pixels from what they are compared with [m]
+  std::vector<double> sample;     ///< of the heights [m]
+  std::vector<LineCurve> curves;  ///< what comes off each line
+};
+
+/// Room for so many values, whatever they are. Memory never shrinks, so that no step clears what another one needs.
+double* roomFor(std::size_t count, std::vector<double>& memory);
+
+/// Heights in work, with the memory of the steps.
+struct WorkingSurface {
+  WorkingSurface() = default;
+  explicit WorkingSurface(const HeightMap& surface) { take(surface); }
+
+  /// Copies the heights of a scan. Memory that somebody else holds, such as a surface that was handed out, is left alone;
+  /// otherwise it is used again.
+  void take(const HeightMap& surface);
+  /// Shares the heights.
+  HeightMap surface() const { return {heights, pitch_x, pitch_y}; }
+
+  cv::Mat heights;       ///< rows x cols CV_64FC1 [m], invalid pixels NaN
+  double pitch_x = 0.0;  ///< [m]
+  double pitch_y = 0.0;  ///< [m]
+  CleaningMemory memory;
+};
+
+/// 0, 1, 2 ... for every column.
+const std::vector<double>& columnNumbers(int cols, CleaningMemory& memory);
+
+/// Number, centroid and mean height of the valid pixels.
+struct SurfaceMeans {
+  double count = 0.0;
+  double row = 0.0;
+  double col = 0.0;
+  double height = 0.0;  ///< [m]
+};
+
+/// Sums run about the first valid height: the mean of equal heights is that height, to the bit.
+/// @throw SurfaceError if no pixel is valid, whose message ends in @p purpose.
+SurfaceMeans meansOf(const cv::Mat& heights, CleaningMemory& memory, const char* purpose = "");
+
+}  // namespace mems_stiction
