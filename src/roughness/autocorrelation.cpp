@@ -8,25 +8,16 @@
 #include "mems_stiction/base/constants.hpp"
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/base/value_range.hpp"
 #include "mems_stiction/height_map/validity.hpp"
+#include "mems_stiction/preprocess/working_surface.hpp"
+#include "mems_stiction/roughness/half_spectrum.hpp"
 
 namespace mems_stiction {
 namespace {
 
 constexpr int kDirections = 360;  // half a turn: acf is symmetrical
 constexpr double kStepsPerPixel = 4.0;
-
-/// Sum of values(x) values(x + lag) over a frame of the given size, which pads with zeros; lag 0 at (0, 0), wrapped.
-cv::Mat pairSums(const cv::Mat& values, const cv::Size& frame) {
-  cv::Mat padded(frame, CV_64FC1, cv::Scalar(0.0));
-  values.copyTo(padded(cv::Rect(0, 0, values.cols, values.rows)));
-  cv::Mat spectrum;
-  cv::dft(padded, spectrum, cv::DFT_COMPLEX_OUTPUT);
-  cv::mulSpectrums(spectrum, spectrum, spectrum, 0, true);
-  cv::Mat sums;
-  cv::dft(spectrum, sums, cv::DFT_INVERSE | cv::DFT_SCALE | cv::DFT_REAL_OUTPUT);
-  return sums;
-}
 
 /// Bilinear. @param x, y in pixels from lag 0; within the map
 double valueAt(const cv::Mat& acf, double x, double y) {
@@ -42,49 +33,52 @@ double valueAt(const cv::Mat& acf, double x, double y) {
          v * ((1.0 - u) * acf.at<double>(bottom, left) + u * acf.at<double>(bottom, right));
 }
 
-}  // namespace
-
-cv::Mat autocorrelation(const HeightMap& surface, FrameBoundary boundary) {
-  const HeightStatistics statistics = heightStatistics(surface);
-  cv::Mat heights = ownedHeights(surface);
-  heights -= statistics.mean;
-  const cv::Mat valid = validMask(heights);
-  heights.setTo(0.0, ~valid);
-  const int half_rows = heights.rows / 2;
-  const int half_cols = heights.cols / 2;
-  cv::Mat acf(2 * half_rows + 1, 2 * half_cols + 1, CV_64FC1, cv::Scalar(0.0));
-  const double range = statistics.max - statistics.min;
-  if (range == 0.0) return acf;
-  heights /= range;
-
-  cv::Size frame = heights.size();
-  if (boundary == FrameBoundary::kOpen) {
-    frame.width = cv::getOptimalDFTSize(heights.cols + half_cols);
-    frame.height = cv::getOptimalDFTSize(heights.rows + half_rows);
+/// @return lags up to half_rows, half_cols, at most half of the frame
+cv::Mat autocorrelationUpTo(int half_rows, int half_cols, const HeightMap& surface, FrameBoundary boundary) {
+  WorkingSurface work(surface);
+  cv::Mat& heights = work.heights;
+  const double mean = meansOf(heights, work.memory).height;
+  ValueRange range;
+  for (int row = 0; row < heights.rows; ++row) {
+    addToRange(heights.ptr<double>(row), static_cast<std::size_t>(heights.cols), range);
   }
-  cv::Mat shares;
-  valid.convertTo(shares, CV_64F, 1.0 / 255.0);
-  const cv::Mat products = pairSums(heights, frame);
-  const cv::Mat pairs = pairSums(shares, frame);
-  const double variance = products.at<double>(0, 0) / std::round(pairs.at<double>(0, 0));
-  for (int row = -half_rows; row <= half_rows; ++row) {
-    for (int col = -half_cols; col <= half_cols; ++col) {
-      const int from_row = (row + frame.height) % frame.height;
-      const int from_col = (col + frame.width) % frame.width;
-      const double count = std::round(pairs.at<double>(from_row, from_col));  // a whole number but for round-off
-      acf.at<double>(row + half_rows, col + half_cols) =
-          count > 0.0 ? products.at<double>(from_row, from_col) / count / variance
-                      : std::numeric_limits<double>::quiet_NaN();
+  if (range.highest == range.lowest) {
+    return cv::Mat(2 * half_rows + 1, 2 * half_cols + 1, CV_64FC1, cv::Scalar(0.0));
+  }
+  const cv::Size frame =
+      boundary == FrameBoundary::kPeriodic
+          ? heights.size()
+          : cv::Size(cv::getOptimalDFTSize(heights.cols + half_cols), cv::getOptimalDFTSize(heights.rows + half_rows));
+  const bool is_whole = range.count == static_cast<long long>(heights.total());
+  cv::Mat pairs;
+  if (!is_whole) {
+    const cv::Mat valid = validMask(heights);
+    cv::Mat shares;
+    valid.convertTo(shares, CV_64F, 1.0 / 255.0);
+    pairs = pairSums(shares, frame, half_rows, half_cols);
+    heights.setTo(mean, ~valid);
+  }
+  heights -= mean;
+  heights /= range.highest - range.lowest;
+  cv::Mat acf = pairSums(heights, frame, half_rows, half_cols);
+  const auto countAt = [&](int row, int col) {
+    if (!is_whole) return std::round(pairs.at<double>(row, col));  // a whole number but for round-off
+    if (boundary == FrameBoundary::kPeriodic) return static_cast<double>(heights.total());
+    return static_cast<double>(heights.rows - std::abs(row - half_rows)) * (heights.cols - std::abs(col - half_cols));
+  };
+  const double variance = acf.at<double>(half_rows, half_cols) / countAt(half_rows, half_cols);
+  for (int row = 0; row < acf.rows; ++row) {
+    double* line = acf.ptr<double>(row);
+    for (int col = 0; col < acf.cols; ++col) {
+      const double count = countAt(row, col);
+      line[col] = count > 0.0 ? line[col] / count / variance : std::numeric_limits<double>::quiet_NaN();
     }
   }
   return acf;
 }
 
-SpatialParameters spatialParameters(const HeightMap& surface, FrameBoundary boundary, double s) {
-  if (!Range::openWithin(0.0, 1.0).contains(s)) {
-    throw OptionsError({"s: " + numberText(s) + " is not allowed, must be in (0, 1)"});
-  }
-  const cv::Mat acf = autocorrelation(surface, boundary);
+/// @param acf lags up to some of the surface's size
+SpatialParameters parametersOf(const cv::Mat& acf, const HeightMap& surface, double s) {
   SpatialParameters found;
   if (acf.at<double>(acf.rows / 2, acf.cols / 2) == 0.0) return found;
   found.decayed = true;
@@ -121,6 +115,25 @@ SpatialParameters spatialParameters(const HeightMap& surface, FrameBoundary boun
   }
   found.str = found.longest > 0.0 ? found.sal / found.longest : 0.0;
   return found;
+}
+
+}  // namespace
+
+cv::Mat autocorrelation(const HeightMap& surface, FrameBoundary boundary) {
+  return autocorrelationUpTo(surface.rows() / 2, surface.cols() / 2, surface, boundary);
+}
+
+SpatialParameters spatialParameters(const HeightMap& surface, FrameBoundary boundary, double s) {
+  if (!Range::openWithin(0.0, 1.0).contains(s)) {
+    throw OptionsError({"s: " + numberText(s) + " is not allowed, must be in (0, 1)"});
+  }
+  if (boundary == FrameBoundary::kOpen) {
+    // Most surfaces forget themselves within short lags, which a smaller transform gives.
+    const cv::Mat near = autocorrelationUpTo(surface.rows() / 8, surface.cols() / 8, surface, boundary);
+    const SpatialParameters found = parametersOf(near, surface, s);
+    if (found.decayed) return found;
+  }
+  return parametersOf(autocorrelation(surface, boundary), surface, s);
 }
 
 }  // namespace mems_stiction

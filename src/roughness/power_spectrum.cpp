@@ -7,7 +7,9 @@
 #include "mems_stiction/base/constants.hpp"
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
-#include "mems_stiction/height_map/validity.hpp"
+#include "mems_stiction/base/value_range.hpp"
+#include "mems_stiction/preprocess/working_surface.hpp"
+#include "mems_stiction/roughness/half_spectrum.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -31,32 +33,36 @@ struct Weighted {
 };
 
 Weighted weightedHeights(const HeightMap& surface, SpectrumWindow window) {
-  Weighted weighted;
-  const HeightStatistics statistics = heightStatistics(surface);
-  weighted.heights = ownedHeights(surface) - statistics.mean;
-  const double range = statistics.max - statistics.min;
-  weighted.unit = range > 0.0 ? range : 1.0;
-
+  WorkingSurface work(surface);
+  cv::Mat& heights = work.heights;
+  const double mean = meansOf(heights, work.memory).height;
   const std::vector<double> window_x = axisWindow(surface.cols(), window);
   const std::vector<double> window_y = axisWindow(surface.rows(), window);
-  cv::Mat weights(surface.rows(), surface.cols(), CV_64FC1);
+  Weighted weighted;
+  ValueRange range;
   double sum = 0.0;
   double products = 0.0;
-  for (int row = 0; row < surface.rows(); ++row) {
-    double* line = weighted.heights.ptr<double>(row);
-    double* weight = weights.ptr<double>(row);
-    for (int col = 0; col < surface.cols(); ++col) {
-      const bool valid = !std::isnan(line[col]);
-      weight[col] = valid ? window_y[static_cast<std::size_t>(row)] * window_x[static_cast<std::size_t>(col)] : 0.0;
-      if (!valid) line[col] = 0.0;
-      sum += weight[col];
-      products += weight[col] * line[col];
-      weighted.squared_weights += weight[col] * weight[col];
+  for (int row = 0; row < heights.rows; ++row) {
+    const double* line = heights.ptr<double>(row);
+    const double weight = window_y[static_cast<std::size_t>(row)];
+    addToRange(line, window_x.size(), range);
+    const PlaceSums sums = sumsOf(line, window_x.data(), window_x.size(), mean);
+    sum += weight * sums.p;
+    products += weight * sums.ph;
+    weighted.squared_weights += weight * weight * sums.pp;
+  }
+  const bool is_flat = range.highest == range.lowest;  // the mean of equal numbers can round off
+  weighted.unit = is_flat ? 1.0 : range.highest - range.lowest;
+  const double weighted_mean = mean + products / sum;
+  for (int row = 0; row < heights.rows; ++row) {
+    double* line = heights.ptr<double>(row);
+    const double weight = is_flat ? 0.0 : window_y[static_cast<std::size_t>(row)] / weighted.unit;
+    for (std::size_t col = 0; col < window_x.size(); ++col) {
+      const double height = (line[col] - weighted_mean) * (weight * window_x[col]);
+      line[col] = height == height ? height : 0.0;
     }
   }
-  weighted.heights -= range > 0.0 ? products / sum : 0.0;
-  if (range == 0.0) weighted.heights.setTo(0.0);  // the mean of equal numbers can round off
-  cv::multiply(weighted.heights, weights, weighted.heights, 1.0 / weighted.unit);
+  weighted.heights = heights;
   return weighted;
 }
 
@@ -76,8 +82,7 @@ PowerSpectrum powerSpectrum(const HeightMap& surface, SpectrumWindow window) {
                        std::to_string(rows));
   }
   const Weighted weighted = weightedHeights(surface, window);
-  cv::Mat transform;
-  cv::dft(weighted.heights, transform, cv::DFT_COMPLEX_OUTPUT);
+  const cv::Mat transform = halfSpectrum(weighted.heights, weighted.heights.size());
 
   // C = |F dx dy|^2/(dx dy sum of w^2); integral d^2q/(2 pi)^2 = sum over wave vectors/(N dx dy)
   const double density = weighted.unit * weighted.unit * surface.cellArea() / weighted.squared_weights;
@@ -90,22 +95,24 @@ PowerSpectrum powerSpectrum(const HeightMap& surface, SpectrumWindow window) {
   double zeroth = 0.0;
   double second = 0.0;
   double fourth = 0.0;
-  for (int row = 0; row < rows; ++row) {
-    const cv::Vec2d* line = transform.ptr<cv::Vec2d>(row);
-    const double q_y = waveNumber(row, rows, surface.pitchY());
-    for (int col = 0; col < cols; ++col) {
+  for (int col = 0; col < transform.rows; ++col) {
+    const cv::Vec2d* line = transform.ptr<cv::Vec2d>(col);
+    const double q_x = waveNumber(col, cols, surface.pitchX()) / width;
+    const int twins = col > 0 && 2 * col < cols ? 2 : 1;  // this one and its mirror image
+    for (int row = 0; row < rows; ++row) {
       if (row == 0 && col == 0) continue;
-      const double q = std::hypot(waveNumber(col, cols, surface.pitchX()), q_y);
-      const double power = density * line[col].dot(line[col]);
-      const double square = (q / width) * (q / width);
+      const double q_y = waveNumber(row, rows, surface.pitchY()) / width;
+      const double square = q_x * q_x + q_y * q_y;
+      const double q = std::sqrt(square);
+      const double power = twins * density * line[row].dot(line[row]);
       zeroth += power;
       second += power * square;
       fourth += power * square * square;
-      const auto ring = static_cast<std::size_t>(std::lround(q / width));
-      if (q > nyquist * (1.0 + 1e-12) || ring >= rings.size()) continue;
-      rings[ring].wave_number += q;
+      const auto ring = static_cast<std::size_t>(q + 0.5);
+      if (q > nyquist / width * (1.0 + 1e-12) || ring >= rings.size()) continue;
+      rings[ring].wave_number += twins * q * width;
       rings[ring].density += power;
-      ++rings[ring].count;
+      rings[ring].count += twins;
     }
   }
 

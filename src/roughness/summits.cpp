@@ -2,45 +2,57 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "mems_stiction/base/constants.hpp"
-#include "mems_stiction/height_map/validity.hpp"
+#include "mems_stiction/base/vectorized.hpp"
+#include "mems_stiction/preprocess/working_surface.hpp"
 
 namespace mems_stiction {
+namespace {
+
+/// Which pixels of a row are above their neighbours: 1, else 0; -1 where one of the nine is invalid. The borders stay.
+MEMS_STICTION_VECTORIZED void findSummits(const double* above, const double* line, const double* below,
+                                          std::size_t size, std::int64_t* found) {
+  for (std::size_t col = 1; col + 1 < size; ++col) {
+    const double z = line[col];
+    const double highest_before =
+        std::max(std::max(above[col - 1], above[col]), std::max(above[col + 1], line[col - 1]));
+    const double highest_after =
+        std::max(std::max(line[col + 1], below[col - 1]), std::max(below[col], below[col + 1]));
+    const double sum = ((above[col - 1] + above[col]) + (above[col + 1] + line[col - 1])) +
+                       ((line[col + 1] + below[col - 1]) + (below[col] + below[col + 1])) + z;
+    const std::int64_t is_summit = (z >= highest_before) & (z > highest_after);
+    found[col] = sum == sum ? is_summit : -1;
+  }
+}
+
+}  // namespace
 
 SummitParameters summitParameters(const HeightMap& surface) {
-  const cv::Mat heights = ownedHeights(surface) - heightStatistics(surface).mean;
+  WorkingSurface work(surface);
+  const cv::Mat& heights = work.heights;
+  const double mean_height = meansOf(heights, work.memory).height;
   const double per_x = 1.0 / (surface.pitchX() * surface.pitchX());
   const double per_y = 1.0 / (surface.pitchY() * surface.pitchY());
   SummitParameters found;
   long long examined = 0;
   double curvatures = 0.0;
   std::vector<double> summits;
+  std::vector<std::int64_t> is_summit(static_cast<std::size_t>(heights.cols));
   for (int row = 1; row + 1 < heights.rows; ++row) {
     const double* above = heights.ptr<double>(row - 1);
     const double* line = heights.ptr<double>(row);
     const double* below = heights.ptr<double>(row + 1);
-    for (int col = 1; col + 1 < heights.cols; ++col) {
+    findSummits(above, line, below, is_summit.size(), is_summit.data());
+    for (std::size_t col = 1; col + 1 < is_summit.size(); ++col) {
+      examined += is_summit[col] >= 0;
+      if (is_summit[col] <= 0) continue;
       const double z = line[col];
-      const double before[] = {above[col - 1], above[col], above[col + 1], line[col - 1]};
-      const double after[] = {line[col + 1], below[col - 1], below[col], below[col + 1]};
-      double sum = z;
-      bool highest = true;
-      for (const double neighbour : before) {
-        sum += neighbour;
-        highest = highest && z >= neighbour;
-      }
-      for (const double neighbour : after) {
-        sum += neighbour;
-        highest = highest && z > neighbour;
-      }
-      if (std::isnan(sum)) continue;
-      ++examined;
-      if (!highest) continue;
       curvatures +=
           0.5 * ((2.0 * z - line[col - 1] - line[col + 1]) * per_x + (2.0 * z - above[col] - below[col]) * per_y);
-      summits.push_back(z);
+      summits.push_back(z - mean_height);
     }
   }
   if (summits.empty()) return found;
