@@ -13,6 +13,9 @@ import sys
 REQUIRED_RATIO = {"gaussian/1024/200": 50, "gaussian/1024/1000": 150}
 REQUIRED_OUTPUT_COST = 1.6
 REQUIRED_GROWTH = 5.0
+# Cleaning and prediction of a scan against its prediction alone, and roughness by itself.
+REQUIRED_CLEANING = {"offset": 1.5, "lines": 1.5, "fill": 1.5, "level": 1.5, "afm_recipe": 3.0}
+REQUIRED_ROUGHNESS = 3.0
 REQUIRED_SPEED_UP = 1.6
 
 
@@ -56,6 +59,22 @@ def print_core(times):
     print("2048 x 2048 against 1024 x 1024: %.2f (%s)" % (growth, verdict(growth, REQUIRED_GROWTH, False)))
 
 
+def print_cleaning(times):
+    alone = times["predict/gaussian/1024/200"]
+    print()
+    print("Before the prediction, gaussian/1024: with the prediction against the prediction alone")
+    print("%-24s %10s %8s  %s" % ("step", "ms", "ratio", "required"))
+    for name, time in times.items():
+        if name.startswith("clean/"):
+            step = name[len("clean/"):]
+            required = REQUIRED_CLEANING.get(step)
+            print("%-24s %10.2f %8.2f  %s" % (
+                step, time, time / alone, verdict(time / alone, required, False) if required else ""))
+    roughness = times["spatial_roughness"]
+    print("%-24s %10.2f %8.2f  %s (by itself)" % (
+        "spatial_roughness", roughness, roughness / alone, verdict(roughness / alone, REQUIRED_ROUGHNESS, False)))
+
+
 def print_in_flight(times):
     # Each model does the same number of frames: twice the frames in the time of one.
     speed_up = 2.0 * times["in_flight/1"] / times["in_flight/2"]
@@ -77,7 +96,8 @@ def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
     folder = pathlib.Path(sys.argv[1])
-    print_core(times_of(folder / "predict.json"))
+    core = times_of(folder / "predict.json")
+    print_core(core)
     print_in_flight(times_of(folder / "in_flight.json"))
     callgrind = folder / "callgrind.txt"
     if callgrind.exists():
@@ -86,6 +106,7 @@ def main():
             count = int(counted.group(1))
             (folder / "instructions.json").write_text(json.dumps({"gaussian/512/200": count}) + "\n")
             print("instructions, gaussian/512/200: %.1f million" % (count / 1e6))
+    print_cleaning(core)
     latency = folder / "latency.json"
     if latency.exists():
         print_latency(json.loads(latency.read_text()))

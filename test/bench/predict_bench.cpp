@@ -1,4 +1,4 @@
-/// How fast is a prediction? Every case runs in one process on one core beside its baselines: the labelling that a
+/// How fast is a prediction, and what comes before it? Every case runs in one process on one core beside its baselines: the labelling that a
 /// frame-by-frame approach would spend in connectedComponentsWithStats alone, and one pass over the frame's memory.
 /// scripts/bench makes the table of ratios from its JSON.
 
@@ -14,6 +14,7 @@
 #include "bench/frames.hpp"
 #include "bench/settings.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
+#include "mems_stiction/roughness/spatial_roughness.hpp"
 
 namespace mems_stiction {
 namespace bench {
@@ -31,6 +32,26 @@ void predict(benchmark::State& state, const Case& setting, bool all_outputs) {
   state.counters["steps"] = prediction.steps;
   state.counters["patches"] = prediction.asperity_count;
   state.counters["contact_fraction"] = prediction.contact_fraction;
+}
+
+/// Cleaning and prediction of scan after scan, as they arrive.
+void cleanAndPredict(benchmark::State& state, const Recipe& recipe) {
+  cv::setNumThreads(1);
+  const Case setting{Frame::kGaussian, 1024, 200};
+  const HeightMap& frame = frameOf(setting.frame, setting.size);
+  AdhesionModel model(optionsFor(setting, false));
+  ScanPreparer preparer(recipe.cleaning);
+  Prediction prediction;
+  for (auto _ : state) {
+    model.predict(preparer.prepare(frame).surface, prediction);
+    benchmark::DoNotOptimize(prediction.pull_off_force);
+  }
+}
+
+void describeRoughness(benchmark::State& state) {
+  cv::setNumThreads(1);
+  const HeightMap& frame = frameOf(Frame::kGaussian, 1024);
+  for (auto _ : state) benchmark::DoNotOptimize(spatialRoughness(frame, {}));
 }
 
 /// The whole frame is labelled anew at each step, and nothing else is done.
@@ -108,6 +129,11 @@ void registerAll() {
         ->Unit(benchmark::kMillisecond)
         ->Iterations(1);
   }
+  for (const Recipe& recipe : cleaningRecipes()) {
+    registerCase(
+        "clean/" + recipe.name, [recipe](benchmark::State& state) { cleanAndPredict(state, recipe); }, 0.3);
+  }
+  registerCase("spatial_roughness", describeRoughness, 0.3);
   for (const int size : {256, 512, 1024, 2048}) {
     registerCase(
         "pass/" + std::to_string(size), [size](benchmark::State& state) { pass(state, size); }, 0.1);

@@ -30,5 +30,25 @@ Options optionsFor(const Case& setting, bool all_outputs) {
   return options;
 }
 
+std::vector<Recipe> cleaningRecipes() {
+  Recipe offset{"offset", {}};
+  offset.cleaning.offset.enabled = true;
+  Recipe lines{"lines", {}};
+  lines.cleaning.lines.method = LineAlignment::kMedian;
+  Recipe spikes{"spikes", {}};
+  spikes.cleaning.spikes.enabled = true;
+  Recipe fill{"fill", {}};
+  fill.cleaning.fill.enabled = true;
+  Recipe level{"level", {}};
+  level.cleaning.level.shape = LevelShape::kPlane;
+  Recipe all{"afm_recipe", {}};
+  all.cleaning.offset = offset.cleaning.offset;
+  all.cleaning.lines = lines.cleaning.lines;
+  all.cleaning.spikes = spikes.cleaning.spikes;
+  all.cleaning.fill = fill.cleaning.fill;
+  all.cleaning.level = level.cleaning.level;
+  return {offset, lines, spikes, fill, level, all};
+}
+
 }  // namespace bench
 }  // namespace mems_stiction
