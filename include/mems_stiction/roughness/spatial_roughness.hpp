@@ -4,7 +4,7 @@
 /// How far a surface's roughness reaches sideways, in one table: autocorrelation, spectrum, summits, self-affinity.
 ///
 /// Heights and their meaning: autocorrelation.hpp, power_spectrum.hpp (Hann window: a measured frame does not wrap
-/// around), summits.hpp. Levelling is the caller's. Takes about as long as a prediction, hence off by default.
+/// around), summits.hpp. Levelling is the caller's. Takes up to twice as long as a prediction, hence off by default.
 /// Outside: with a side below 8 pixels the spectral figures and Hurst's exponent are NaN, and the exponent too where
 /// fewer than three rings of the spectrum lie in its range.
 
