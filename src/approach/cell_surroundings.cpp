@@ -38,15 +38,15 @@ void SurroundingsTable::start(const GapField& field, const GapOrder& order, Dale
   for (std::vector<std::int32_t>& cells : row_cells_) cells.resize(static_cast<std::size_t>(field.cols()));
 }
 
-CellSurroundings SurroundingsTable::lookUp(const GridCell& cell) const {
-  CellSurroundings around;
+const CellSurroundings& SurroundingsTable::lookUp(const OrderedCell& ordered) {
+  const GridCell cell = ordered.inGrid(field_->cols());
   for (const Side side : kSides) {
     const GridCell neighbour = cell.neighbour(side, field_->cols());
-    around.gaps[side] = field_->contains(neighbour) ? field_->gap(neighbour.index) : GapField::kInvalidGap;
+    looked_up_.gaps[side] = field_->contains(neighbour) ? field_->gap(neighbour.index) : GapField::kInvalidGap;
   }
-  around.cell = cell.index;
-  around.dale_and_border = static_cast<std::uint32_t>(dales_->find(cell)) << 1U | 1U;
-  return around;
+  looked_up_.cell = cell.index;
+  looked_up_.dale_and_border = static_cast<std::uint32_t>(dales_->find(cell)) << 1U | 1U;
+  return looked_up_;
 }
 
 void SurroundingsTable::collectFrom(int place) {

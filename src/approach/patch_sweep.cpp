@@ -2,13 +2,9 @@
 
 #include <algorithm>
 
-#include "mems_stiction/base/vectorized.hpp"
-
 namespace mems_stiction {
 namespace {
 
-/// How far ahead of the sweep memory is asked for: its order is random in the frame, but known.
-constexpr int kPrefetchDistance = 16;
 /// The first cells of a sweep, and the last ones that are past a window of the table, are looked up one by one if they
 /// are no more than this share of the frame: most sweeps end before it, and a window costs a pass over the frame.
 constexpr double kShareLookedUp = 1.0 / 64.0;
@@ -32,7 +28,7 @@ void PatchSweep::restart() {
   patches_.clear();
   live_.clear();
   live_place_.clear();
-  changed_count_ = 0;
+  changed_.clear();
   is_changed_.clear();
   makeRoom();
 }
@@ -42,7 +38,6 @@ void PatchSweep::makeRoom() {
   patches_.resize(count);
   live_place_.resize(count);
   is_changed_.resize(count);
-  changed_.resize(count + 1);
   dale_count_.resize(count, 1);
   for (auto id = static_cast<std::int32_t>(patch_of_dale_.size()); id < dales_.count(); ++id) {
     patch_of_dale_.push_back(id);
@@ -50,55 +45,29 @@ void PatchSweep::makeRoom() {
   }
 }
 
-// Inline: a function that only asks for memory has no effect that the compiler knows, and a call of it is left out.
-MEMS_STICTION_INLINE void PatchSweep::prefetchCell(int place) const {
-  const OrderedCell& cell = order_->cells()[static_cast<std::size_t>(place)];
-  const std::int32_t* dale = dales_.data() + cell.cell;
-  for (const std::ptrdiff_t offset : {-field_->cols(), 0, field_->cols()}) {
-    __builtin_prefetch(dale + offset);
-    field_->prefetch(cell.cell + offset);
-  }
-}
-
-MEMS_STICTION_INLINE void PatchSweep::prefetchPatch(int place) const {
-  const CellSurroundings& around = surroundings_.collected(place);
-  const ContactPatch& patch = patches_[static_cast<std::size_t>(patchOfDale(around.dale()))];
-  const char* lines = reinterpret_cast<const char*>(&patch);
-  for (std::size_t offset = 0; offset < sizeof(ContactPatch); offset += kCacheLine)
-    __builtin_prefetch(lines + offset, 1);
-  if (!around.isBorder()) return;
-  const std::int32_t* dale = dales_.data() + around.cell;
-  for (const std::ptrdiff_t offset : {-field_->cols(), 0, field_->cols()}) __builtin_prefetch(dale + offset);
-}
-
 void PatchSweep::advanceTo(int count) {
   if (count < inserted_) restart();
   const auto looked_up = static_cast<int>(kShareLookedUp * field_->cellCount());
   while (inserted_ < count) {
-    if (count > looked_up && order_->contactLimit() - inserted_ > looked_up && inserted_ >= surroundings_.endPlace()) {
+    const bool is_past_window = inserted_ >= surroundings_.endPlace();
+    if (is_past_window && count > looked_up && order_->contactLimit() - inserted_ > looked_up) {
       surroundings_.collectFrom(inserted_);
-      makeRoom();
     }
-    if (inserted_ < surroundings_.firstPlace()) {
-      insertLookedUp(std::min(count, surroundings_.firstPlace()));
-    } else if (inserted_ < surroundings_.endPlace()) {
-      insertCollected(std::min(count, surroundings_.endPlace()));
-    } else {
-      insertLookedUp(count);
-    }
+    insertNext();
   }
 }
 
-MEMS_STICTION_INLINE void PatchSweep::markChanged(std::int32_t id) {
-  std::int32_t& flag = is_changed_[static_cast<std::size_t>(id)];
-  // written without a branch: there is room for every patch
-  changed_[changed_count_] = id;
-  changed_count_ += flag == 0 ? 1 : 0;
-  flag = 1;
+void PatchSweep::markChanged(std::int32_t id) {
+  std::uint8_t& is_changed = is_changed_[static_cast<std::size_t>(id)];
+  if (is_changed == 0) changed_.push_back(id);
+  is_changed = 1;
 }
 
-MEMS_STICTION_INLINE void PatchSweep::insert(const OrderedCell& ordered, const CellSurroundings& around) {
-  const GridCell cell = gridCell(ordered);
+void PatchSweep::insertNext() {
+  const OrderedCell& ordered = order_->cells()[static_cast<std::size_t>(inserted_)];
+  const CellSurroundings& around = surroundings_.at(inserted_);
+  if (dales_.count() > patchIdEnd()) makeRoom();
+  const GridCell cell = ordered.inGrid(field_->cols());
   std::int32_t id = patchOfDale(around.dale());
   if (around.isBorder() || connectivity_ == Connectivity::kEight) id = join(id, cell, ordered.gap, around);
   ContactPatch& patch = patches_[static_cast<std::size_t>(id)];
@@ -113,34 +82,6 @@ MEMS_STICTION_INLINE void PatchSweep::insert(const OrderedCell& ordered, const C
   ++inserted_;
 }
 
-void PatchSweep::insertNextLookedUp() {
-  const OrderedCell& next = order_->cells()[static_cast<std::size_t>(inserted_)];
-  const CellSurroundings around = surroundings_.lookUp(gridCell(next));
-  if (dales_.count() > patchIdEnd()) makeRoom();
-  insert(next, around);
-}
-
-void PatchSweep::insertLookedUp(int stop) {
-  const auto ahead_end = static_cast<int>(order_->cells().size()) - kPrefetchDistance;
-  while (inserted_ < stop) {
-    if (inserted_ < ahead_end) prefetchCell(inserted_ + kPrefetchDistance);
-    insertNextLookedUp();
-  }
-}
-
-void PatchSweep::insertCollected(int stop) {
-  while (inserted_ < stop) {
-    if (inserted_ + kPrefetchDistance < stop) prefetchPatch(inserted_ + kPrefetchDistance);
-    const OrderedCell& next = order_->cells()[static_cast<std::size_t>(inserted_)];
-    const CellSurroundings& around = surroundings_.collected(inserted_);
-    if (around.cell == next.cell) {
-      insert(next, around);
-    } else {  // its group has been sorted since
-      insertNextLookedUp();
-    }
-  }
-}
-
 std::int32_t PatchSweep::patchOf(const GridCell& cell) {
   const std::int32_t dale = dales_.at(cell);
   if (dale < 0 || dale >= patchIdEnd()) return -1;
@@ -151,12 +92,11 @@ std::int32_t PatchSweep::patchOf(const GridCell& cell) {
 
 const std::vector<std::int32_t>& PatchSweep::takeChangedPatches() {
   changed_live_.clear();
-  for (std::size_t i = 0; i < changed_count_; ++i) {
-    const std::int32_t id = changed_[i];
+  for (const std::int32_t id : changed_) {
     is_changed_[static_cast<std::size_t>(id)] = 0;
     if (patchOfDale(id) == id) changed_live_.push_back(id);
   }
-  changed_count_ = 0;
+  changed_.clear();
   return changed_live_;
 }
 

@@ -37,17 +37,21 @@ class SurroundingsTable {
 
   /// Collects the window that starts at the group of this place.
   void collectFrom(int place);
-  /// First place of the window.
-  int firstPlace() const { return first_place_; }
   /// The place after its last one.
   int endPlace() const { return end_place_; }
-  /// Of the cell at a place of the window; somebody else's if its group has been sorted since.
-  const CellSurroundings& collected(int place) const { return table_[static_cast<std::size_t>(place - first_place_)]; }
-
-  /// Of any valid cell, looked up in the field.
-  CellSurroundings lookUp(const GridCell& cell) const;
+  /// Of the cell at any place of the order: from the window, or looked up in the field if it is not there, or if its
+  /// group has been sorted since. Valid until the next call.
+  const CellSurroundings& at(int place) {
+    const OrderedCell& cell = order_->cells()[static_cast<std::size_t>(place)];
+    if (place >= first_place_ && place < end_place_) {
+      const CellSurroundings& collected = table_[static_cast<std::size_t>(place - first_place_)];
+      if (collected.cell == cell.cell) return collected;
+    }
+    return lookUp(cell);
+  }
 
  private:
+  const CellSurroundings& lookUp(const OrderedCell& cell);
   /// Gaps of a row that was read lately, or of one off the frame, from one cell before the first [m].
   const double* gapsOf(int row) const;
   /// Reads the gaps of a row and makes the dales of those cells known that may come into contact in the window.
@@ -70,6 +74,7 @@ class SurroundingsTable {
   std::vector<double> no_row_;               ///< the gaps above and below the frame
   std::vector<std::int32_t> row_cells_[2];
   std::vector<std::uint8_t> is_border_;
+  CellSurroundings looked_up_;
 };
 
 }  // namespace mems_stiction

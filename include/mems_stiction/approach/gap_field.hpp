@@ -59,14 +59,6 @@ class GapField {
   }
   /// - @p gaps room for cols() of them [m]
   void gapsOfRow(int row, double* gaps) const;
-  /// Asks for the memory that gap() of this cell will read; a cell off the frame is allowed.
-  void prefetch(std::ptrdiff_t cell) const {
-    if (is_single_) {
-      __builtin_prefetch(single_relief_.data() + cell);
-    } else {
-      __builtin_prefetch(relief_.data() + cell);
-    }
-  }
   bool isValid(int cell) const { return gap(cell) < kInvalidGap; }
   double largestGap() const { return largest_gap_; }
   double meanGap() const { return mean_gap_; }

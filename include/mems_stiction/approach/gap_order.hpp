@@ -22,6 +22,9 @@ struct OrderedCell {
   double gap;  ///< [m]
   std::int32_t cell;
   std::int32_t row;
+
+  /// - @p cols of the frame
+  GridCell inGrid(int cols) const { return {row, cell - row * cols, cell}; }
 };
 
 /// Gaps of one bucket, or of several neighbouring ones.

@@ -52,22 +52,13 @@ class PatchSweep {
   void restart();
   /// A patch for every dale that is known.
   void makeRoom();
-  /// The next cells up to this place.
-  void insertLookedUp(int stop);
-  void insertCollected(int stop);
-  void insertNextLookedUp();
   /// Brings the next cell of the order into contact.
-  void insert(const OrderedCell& ordered, const CellSurroundings& around);
+  void insertNext();
   /// The patch of the cell's dale together with those that the cell touches.
   std::int32_t join(std::int32_t id, const GridCell& cell, double gap, const CellSurroundings& around);
   std::int32_t unite(std::int32_t a, std::int32_t b);
   std::int32_t patchOfDale(std::int32_t dale) const { return patch_of_dale_[static_cast<std::size_t>(dale)]; }
-  GridCell gridCell(const OrderedCell& cell) const {
-    return {cell.row, cell.cell - cell.row * field_->cols(), cell.cell};
-  }
   void markChanged(std::int32_t id);
-  void prefetchCell(int place) const;
-  void prefetchPatch(int place) const;
 
   const GapField* field_ = nullptr;
   const GapOrder* order_ = nullptr;
@@ -81,10 +72,9 @@ class PatchSweep {
   std::vector<ContactPatch> patches_;     ///< per dale; of area 0 before its first cell comes into contact
   std::vector<std::int32_t> live_;
   std::vector<std::int32_t> live_place_;
-  std::vector<std::int32_t> changed_;  ///< the first changed_count_, and room for one more than there are patches
-  std::size_t changed_count_ = 0;
+  std::vector<std::int32_t> changed_;  ///< since takeChangedPatches()
   std::vector<std::int32_t> changed_live_;
-  std::vector<std::int32_t> is_changed_;  ///< not bytes: the compiler would let a write to one change anything
+  std::vector<std::uint8_t> is_changed_;
 };
 
 }  // namespace mems_stiction
