@@ -1,7 +1,10 @@
 #include "mems_stiction/approach/gap_field.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -124,6 +127,72 @@ TEST(GapField, keepsNothingOfThePreviousFrame) {
   EXPECT_EQ(used.meanGap(), fresh.meanGap());
   EXPECT_EQ(used.largestGap(), fresh.largestGap());
   EXPECT_TRUE(used.upperIsFlat());
+}
+
+/// Whole metres, so that every sum is exact in whatever order; some are not valid.
+template <typename Scalar>
+cv::Mat_<Scalar> wholeHeights(int rows, int cols) {
+  cv::Mat_<Scalar> heights(rows, cols);
+  for (int row = 0; row < rows; ++row) {
+    for (int col = 0; col < cols; ++col) {
+      const int number = (31 * row + 17 * col + row * col) % 101;
+      heights(row, col) = number % 13 == 5 ? static_cast<Scalar>(kNan) : static_cast<Scalar>(number - 40);
+    }
+  }
+  return heights;
+}
+
+template <typename Scalar>
+void expectSumsOfHeights(int rows, int cols) {
+  const cv::Mat_<Scalar> heights = wholeHeights<Scalar>(rows, cols);
+  GapField field;
+  field.compute(map(heights));
+  double first = kNan;
+  double highest = -kInfinity;
+  double lowest = kInfinity;
+  double count = 0.0;
+  double sum = 0.0;
+  double squares = 0.0;
+  for (const double height : heights) {
+    if (std::isnan(height)) continue;
+    if (std::isnan(first)) first = height;
+    highest = std::max(highest, height);
+    lowest = std::min(lowest, height);
+    count += 1.0;
+    sum += height - first;
+    squares += (height - first) * (height - first);
+  }
+  const double mean = sum / count;
+  EXPECT_EQ(field.validCount(), count);
+  EXPECT_EQ(field.largestGap(), highest - lowest);
+  EXPECT_EQ(field.meanGap(), (highest - first) - mean);
+  EXPECT_EQ(field.rmsGap(), std::sqrt(squares / count - mean * mean));
+}
+
+TEST(GapField, sumsSeveralHeightsAtOnceAsOneAfterTheOther) {
+  for (int cols = 1; cols <= 13; ++cols) {
+    for (const int rows : {1, 2, 9}) {
+      SCOPED_TRACE(std::to_string(rows) + " x " + std::to_string(cols));
+      expectSumsOfHeights<double>(rows, cols);
+      expectSumsOfHeights<float>(rows, cols);
+    }
+  }
+}
+
+TEST(ColumnsBelow, areThoseOfOneComparisonAfterTheOther) {
+  for (int cols = 0; cols <= 40; ++cols) {
+    std::vector<double> gaps;
+    for (int col = 0; col < cols; ++col) gaps.push_back(col % 11 == 7 ? kInfinity : (37 * col) % 29);
+    for (const double limit : {0.0, 1.0, 14.0, 28.0, 29.0, kInfinity}) {
+      std::vector<std::int32_t> expected;
+      for (int col = 0; col < cols; ++col) {
+        if (gaps[static_cast<std::size_t>(col)] < limit) expected.push_back(col);
+      }
+      std::vector<std::int32_t> columns(static_cast<std::size_t>(cols) + 1);
+      columns.resize(static_cast<std::size_t>(columnsBelow(limit, gaps.data(), cols, columns.data())));
+      EXPECT_EQ(columns, expected) << cols << " columns below " << limit;
+    }
+  }
 }
 
 TEST(GapField, refusesSurfacesWithoutAValidPixel) {

@@ -104,6 +104,32 @@ TEST_P(LoadedFrame, hasTheFieldOfAThinInsulatorToo) {
   }
 }
 
+TEST(CellForces, ofSeveralCellsAtOnceAreThoseOfOneAfterTheOther) {
+  // factors of one, so that it does not matter to the bit whether they are multiplied before or after the sum
+  InterfaceOptions interface = insulated();
+  interface.hamaker_constant = 6.0 * kPi;
+  interface.cutoff_distance = 0.3;
+  const CellForces van_der_waals(interface, 0.0, 1.0);
+  const CellForces electrostatic(interface, 1.0, 2.0 / kVacuumPermittivity);
+  ASSERT_EQ(van_der_waals.vanDerWaals(1.0), 1.0);
+  constexpr double kApproach = 0.7;
+  std::vector<OrderedCell> cells;
+  NormalLoad expected;
+  for (int count = 0; count < 8; ++count) {  // of more the sums run in another order
+    NormalLoad load;
+    van_der_waals.addCells(cells.data(), cells.size(), kApproach, load);
+    EXPECT_EQ(load.van_der_waals, expected.van_der_waals) << count << " cells";
+    EXPECT_EQ(load.electrostatic, 0.0);
+    NormalLoad field_load;
+    electrostatic.addCells(cells.data(), cells.size(), kApproach, field_load);
+    EXPECT_DOUBLE_EQ(field_load.electrostatic, expected.electrostatic) << count << " cells";
+    const double gap = kApproach + 0.11 * (count + 1);  // two of them below the cut-off
+    cells.push_back({gap, count, 0});
+    expected.van_der_waals += van_der_waals.vanDerWaals(gap - kApproach);
+    expected.electrostatic += electrostatic.electrostatic(gap - kApproach);
+  }
+}
+
 TEST(CellForces, areThoseOfParallelPlates) {
   const InterfaceOptions interface = insulated();
   const double area = 20e-18;
