@@ -6,25 +6,20 @@
 namespace mems_stiction {
 
 MEMS_STICTION_VECTORIZED void addToRange(const double* values, std::size_t size, ValueRange& range) {
-  Lanes lowest = Lanes{} + range.lowest;
-  Lanes highest = Lanes{} + range.highest;
-  LaneMask count{};
-  Lanes lanes;
+  Lanes lowest = range.lowest;
+  Lanes highest = range.highest;
+  Lanes count;
+  const auto add = [&](const Lanes& lanes) {
+    lowest = select(lanes < lowest, lanes, lowest);
+    highest = select(lanes > highest, lanes, highest);
+    count += oneWhere(isNumber(lanes));
+  };
   std::size_t i = 0;
-  for (; i + kLanes <= size; i += kLanes) {
-    load(values + i, lanes);
-    lowest = lanes < lowest ? lanes : lowest;
-    highest = lanes > highest ? lanes : highest;
-    count -= lanes == lanes;
-  }
-  for (; i < size; ++i) {
-    lowest[0] = values[i] < lowest[0] ? values[i] : lowest[0];
-    highest[0] = values[i] > highest[0] ? values[i] : highest[0];
-    count[0] += values[i] == values[i];
-  }
-  range.lowest = smallestOf(lowest);
-  range.highest = largestOf(highest);
-  range.count += count[0] + count[1] + count[2] + count[3];
+  for (; i + Lanes::kCount <= size; i += Lanes::kCount) add(Lanes::load(values + i));
+  if (i < size) add(Lanes::loadFirst(values + i, size - i, std::numeric_limits<double>::quiet_NaN()));
+  range.lowest = lowest.smallest();
+  range.highest = highest.largest();
+  range.count += static_cast<long long>(count.sum());
 }
 
 }  // namespace mems_stiction

@@ -12,10 +12,16 @@
 namespace mems_stiction {
 namespace {
 
+/// The larger memory of two lists goes to `user`.
+template <typename List>
+void giveLarger(List& other, List& user) {
+  if (other.capacity() > user.capacity()) other.swap(user);
+}
+
 /// What an earlier prediction holds becomes the solution's memory, and every figure as in a new one.
 void handOver(Prediction& prediction, ContactSolution& solution) {
-  prediction.asperities.swap(solution.asperities);
-  prediction.energy_curve.swap(solution.energy_curve);
+  giveLarger(prediction.asperities, solution.asperities);
+  giveLarger(prediction.energy_curve, solution.energy_curve);
   solution.contact_map = std::move(prediction.contact_map);
   solution.displaced_lower = std::move(prediction.deformed_lower);
   solution.displaced_upper = std::move(prediction.deformed_upper);

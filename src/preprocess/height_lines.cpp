@@ -19,58 +19,50 @@ MEMS_STICTION_INLINE void widen(const Scalar* source, std::size_t size, double* 
   }
 }
 
-/// Visits the values of up to two lines in lanes; those behind the end are NaN.
+/// Visits the values of two lines in lanes; those behind the end are NaN.
 template <typename Visit>
 MEMS_STICTION_INLINE void forLanes(const double* first, const double* second, std::size_t size, const Visit& visit) {
-  Lanes a, b;
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   std::size_t i = 0;
-  for (; i + kLanes <= size; i += kLanes) {
-    load(first + i, a);
-    load(second + i, b);
-    visit(i, kLanes, a, b);
+  for (; i + Lanes::kCount <= size; i += Lanes::kCount) {
+    visit(i, Lanes::kCount, Lanes::load(first + i), Lanes::load(second + i));
   }
   if (i == size) return;
-  a = b = Lanes{} + std::numeric_limits<double>::quiet_NaN();
-  for (std::size_t lane = 0; i + lane < size; ++lane) {
-    a[lane] = first[i + lane];
-    b[lane] = second[i + lane];
-  }
-  visit(i, size - i, a, b);
+  const std::size_t rest = size - i;
+  visit(i, rest, Lanes::loadFirst(first + i, rest, kNan), Lanes::loadFirst(second + i, rest, kNan));
 }
 
 MEMS_STICTION_INLINE void store(const Lanes& lanes, std::size_t count, double* values) {
-  if (count == kLanes) {
-    std::memcpy(values, &lanes, sizeof lanes);
+  if (count == Lanes::kCount) {
+    lanes.store(values);
   } else {
-    for (std::size_t lane = 0; lane < count; ++lane) values[lane] = lanes[lane];
+    lanes.storeFirst(count, values);
   }
 }
 
-MEMS_STICTION_INLINE void lessCurve(const LineCurve& curve, const Lanes& heights, const Lanes& places, Lanes& flat) {
-  flat = (heights - curve.origin) - (curve.a + places * (curve.b + curve.c * places));
+template <typename Real>
+MEMS_STICTION_INLINE Real lessCurve(const LineCurve& curve, const Real& height, const Real& place) {
+  return (height - curve.origin) - (curve.a + place * (curve.b + curve.c * place));
 }
-
-MEMS_STICTION_INLINE long long countOf(const LaneMask& counts) { return counts[0] + counts[1] + counts[2] + counts[3]; }
 
 /// Changes of the valid pixels among up to four.
 struct ChangeLanes {
-  Lanes squares{};
-  LaneMask count{};
-  LaneMask changed{};
+  Lanes squares;
+  Lanes count;
+  Lanes changed;
 
+  MEMS_STICTION_INLINE void add(const Lanes& before, const Lanes& after) {
+    const Lanes change = after - before;
+    squares += select(isNumber(change), change * change, 0.0);
+    count += oneWhere(isNumber(change));
+    changed += oneWhere((change < 0.0) | (change > 0.0));
+  }
   void addTo(ChangeSums& sums) const {
-    sums.squares += sumOf(squares);
-    sums.count += countOf(count);
-    sums.changed += countOf(changed);
+    sums.squares += squares.sum();
+    sums.count += static_cast<long long>(count.sum());
+    sums.changed += static_cast<long long>(changed.sum());
   }
 };
-
-MEMS_STICTION_INLINE void addChange(const Lanes& before, const Lanes& after, ChangeLanes& sums) {
-  const Lanes change = after - before;
-  sums.squares += change == change ? change * change : Lanes{};
-  sums.count -= change == change;
-  sums.changed -= (change < 0.0) | (change > 0.0);
-}
 
 }  // namespace
 
@@ -83,17 +75,18 @@ MEMS_STICTION_VECTORIZED void widenLine(const double* source, std::size_t size, 
 }
 
 MEMS_STICTION_VECTORIZED PlaceSums sumsOf(const double* line, const double* places, std::size_t size, double origin) {
-  Lanes count{}, p{}, pp{}, h{}, ph{};
+  Lanes count, p, pp, h, ph;
   forLanes(line, places, size, [&](std::size_t, std::size_t, const Lanes& heights, const Lanes& all_places) {
-    const Lanes height = heights == heights ? heights - origin : Lanes{};
-    const Lanes place = heights == heights ? all_places : Lanes{};
-    count += heights == heights ? Lanes{} + 1.0 : Lanes{};
+    const LaneMask is_valid = isNumber(heights);
+    const Lanes height = select(is_valid, heights - origin, 0.0);
+    const Lanes place = select(is_valid, all_places, 0.0);
+    count += oneWhere(is_valid);
     p += place;
     pp += place * place;
     h += height;
     ph += place * height;
   });
-  return {sumOf(count), sumOf(p), sumOf(pp), sumOf(h), sumOf(ph)};
+  return {count.sum(), p.sum(), pp.sum(), h.sum(), ph.sum()};
 }
 
 MEMS_STICTION_VECTORIZED void subtractCurve(const LineCurve& curve, const double* places, std::size_t size,
@@ -101,9 +94,8 @@ MEMS_STICTION_VECTORIZED void subtractCurve(const LineCurve& curve, const double
   const LineCurve local = curve;
   ChangeLanes sums;
   forLanes(line, places, size, [&](std::size_t i, std::size_t count, const Lanes& heights, const Lanes& all_places) {
-    Lanes flat;
-    lessCurve(local, heights, all_places, flat);
-    addChange(heights, flat, sums);
+    const Lanes flat = lessCurve(local, heights, all_places);
+    sums.add(heights, flat);
     store(flat, count, line + i);
   });
   sums.addTo(changes);
@@ -113,21 +105,17 @@ MEMS_STICTION_VECTORIZED void flattenLine(const LineCurve& curve, const double* 
                                           std::size_t size, double* flat) {
   const LineCurve local = curve;
   forLanes(line, places, size, [&](std::size_t i, std::size_t count, const Lanes& heights, const Lanes& all_places) {
-    Lanes lanes;
-    lessCurve(local, heights, all_places, lanes);
-    store(lanes, count, flat + i);
+    store(lessCurve(local, heights, all_places), count, flat + i);
   });
 }
 
 MEMS_STICTION_VECTORIZED void addChanges(const double* before, const double* after, std::size_t size,
                                          ChangeSums& changes) {
   ChangeLanes sums;
-  LaneMask appeared{};
   forLanes(before, after, size, [&](std::size_t, std::size_t, const Lanes& old_heights, const Lanes& heights) {
-    addChange(old_heights, heights, sums);
-    appeared -= (old_heights == old_heights) ^ (heights == heights);
+    sums.add(old_heights, heights);
+    sums.changed += oneWhere(isNumber(old_heights) ^ isNumber(heights));
   });
-  sums.changed += appeared;
   sums.addTo(changes);
 }
 
@@ -135,7 +123,7 @@ MEMS_STICTION_VECTORIZED void distancesFrom(const LineCurve& curve, const double
                                             std::size_t size, double* distances) {
   const LineCurve local = curve;
   for (std::size_t i = 0; i < size; ++i) {
-    distances[i] = std::fabs((line[i] - local.origin) - (local.a + places[i] * (local.b + local.c * places[i])));
+    distances[i] = std::fabs(lessCurve(local, line[i], places[i]));
   }
 }
 
@@ -153,16 +141,14 @@ MEMS_STICTION_VECTORIZED void makeDistances(double from, double* values, std::si
 }
 
 MEMS_STICTION_VECTORIZED LimitCount countAbove(double limit, const double* values, std::size_t size) {
-  LaneMask above{};
-  LaneMask invalid{};
-  Lanes lanes;
+  Lanes above, invalid;
   std::size_t i = 0;
-  for (; i + kLanes <= size; i += kLanes) {
-    load(values + i, lanes);
-    above -= lanes > limit;
-    invalid -= lanes != lanes;
+  for (; i + Lanes::kCount <= size; i += Lanes::kCount) {
+    const Lanes lanes = Lanes::load(values + i);
+    above += oneWhere(lanes > limit);
+    invalid += select(isNumber(lanes), Lanes(0.0), Lanes(1.0));
   }
-  LimitCount count{countOf(above), countOf(invalid)};
+  LimitCount count{static_cast<long long>(above.sum()), static_cast<long long>(invalid.sum())};
   for (; i < size; ++i) {
     count.above += values[i] > limit;
     count.invalid += std::isnan(values[i]);

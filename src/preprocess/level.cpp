@@ -41,8 +41,8 @@ Plane planeOf(WorkingSurface& surface) {
   plane.mean_height = means.height;
   plane.slope_x = slope.x();
   plane.slope_y = slope.y();
-  plane.center_x = means.col * surface.pitch_x;
-  plane.center_y = means.row * surface.pitch_y;
+  plane.centre_x = means.col * surface.pitch_x;
+  plane.centre_y = means.row * surface.pitch_y;
   return plane;
 }
 
@@ -64,14 +64,14 @@ HeightChange level(WorkingSurface& surface) {
   const Plane plane = planeOf(surface);
   std::vector<double>& places = surface.memory.places;
   for (int col = 0; col < heights.cols; ++col) {
-    places[static_cast<std::size_t>(col)] = col * surface.pitch_x - plane.center_x;
+    places[static_cast<std::size_t>(col)] = col * surface.pitch_x - plane.centre_x;
   }
   LineCurve line;
   line.origin = plane.mean_height;
   line.b = plane.slope_x;
   ChangeSums changes;
   for (int row = 0; row < heights.rows; ++row) {
-    line.a = plane.slope_y * (row * surface.pitch_y - plane.center_y);
+    line.a = plane.slope_y * (row * surface.pitch_y - plane.centre_y);
     subtractCurve(line, places.data(), places.size(), heights.ptr<double>(row), changes);
   }
   return heightChange(changes, static_cast<long long>(heights.total()));

@@ -50,7 +50,7 @@ void takePolynomials(WorkingSurface& surface, int degree) {
     // From places u = scale column + shift to columns.
     const LineCurve curve = curveAt(fit, 0.0);
     const double scale = pitch_x / fit.unit;
-    const double shift = -fit.center_x / fit.unit;
+    const double shift = -fit.centre_x / fit.unit;
     surface.memory.curves[static_cast<std::size_t>(row)] = {curve.origin, curve.a + shift * (curve.b + shift * curve.c),
                                                             scale * (curve.b + 2.0 * shift * curve.c),
                                                             scale * scale * curve.c};

@@ -39,35 +39,34 @@ struct RowMoments {
 };
 
 template <Weighting weighting>
-MEMS_STICTION_INLINE void weigh(const Lanes& residual, double scale, Lanes& weight) {
-  const Lanes one = Lanes{} + 1.0;
+MEMS_STICTION_INLINE Lanes weightOf(const Lanes& residual, double scale) {
   if (weighting == Weighting::kByHuber) {
-    const Lanes distance = (residual < 0.0 ? -residual : residual) / scale;
-    weight = distance > kHuber ? kHuber / distance : one;
-  } else if (weighting == Weighting::kByTukey) {
-    const Lanes distance = residual / (kTukey * scale);
-    const Lanes share = one - distance * distance;
-    weight = share > 0.0 ? share * share : Lanes{};
-  } else {
-    weight = one;
+    const Lanes distance = select(residual < 0.0, 0.0 - residual, residual) / scale;
+    return select(distance > kHuber, kHuber / distance, 1.0);
   }
+  if (weighting == Weighting::kByTukey) {
+    const Lanes distance = residual / (kTukey * scale);
+    const Lanes share = 1.0 - distance * distance;
+    return select(share > 0.0, share * share, 0.0);
+  }
+  return 1.0;
 }
 
 struct MomentLanes {
-  Lanes w{}, wu{}, wuu{}, wuuu{}, wuuuu{}, wh{}, whu{}, whuu{};
+  Lanes w, wu, wuu, wuuu, wuuuu, wh, whu, whuu;
 
   RowMoments sums() const {
-    return {{sumOf(w), sumOf(wu), sumOf(wuu), sumOf(wuuu), sumOf(wuuuu)}, {sumOf(wh), sumOf(whu), sumOf(whuu)}};
+    return {{w.sum(), wu.sum(), wuu.sum(), wuuu.sum(), wuuuu.sum()}, {wh.sum(), whu.sum(), whuu.sum()}};
   }
 };
 
 template <Weighting weighting>
 MEMS_STICTION_INLINE void addMoments(const LineCurve& curve, double scale, const Lanes& all_heights, const Lanes& u,
                                      MomentLanes& sums) {
-  const Lanes height = all_heights == all_heights ? all_heights - curve.origin : Lanes{};
-  Lanes weight;
-  weigh<weighting>(height - (curve.a + u * (curve.b + curve.c * u)), scale, weight);
-  weight = all_heights == all_heights ? weight : Lanes{};
+  const LaneMask is_valid = isNumber(all_heights);
+  const Lanes height = select(is_valid, all_heights - curve.origin, 0.0);
+  const Lanes residual = height - (curve.a + u * (curve.b + curve.c * u));
+  const Lanes weight = select(is_valid, weightOf<weighting>(residual, scale), 0.0);
   const Lanes wu = weight * u;
   const Lanes wuu = wu * u;
   sums.w += weight;
@@ -85,21 +84,14 @@ MEMS_STICTION_INLINE RowMoments momentsOf(const double* line, const double* plac
                                           const LineCurve& curve, double scale) {
   const LineCurve local = curve;
   MomentLanes sums;
-  Lanes heights, u;
   std::size_t i = 0;
-  for (; i + kLanes <= size; i += kLanes) {
-    load(line + i, heights);
-    load(places + i, u);
-    addMoments<weighting>(local, scale, heights, u, sums);
+  for (; i + Lanes::kCount <= size; i += Lanes::kCount) {
+    addMoments<weighting>(local, scale, Lanes::load(line + i), Lanes::load(places + i), sums);
   }
   if (i < size) {
-    heights = Lanes{} + std::numeric_limits<double>::quiet_NaN();
-    u = Lanes{};
-    for (std::size_t lane = 0; i + lane < size; ++lane) {
-      heights[lane] = line[i + lane];
-      u[lane] = places[i + lane];
-    }
-    addMoments<weighting>(local, scale, heights, u, sums);
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+    addMoments<weighting>(local, scale, Lanes::loadFirst(line + i, size - i, kNan),
+                          Lanes::loadFirst(places + i, size - i, 0.0), sums);
   }
   return sums.sums();
 }
@@ -191,8 +183,8 @@ PolynomialSurface frameOf(const cv::Mat& heights, double pitch_x, double pitch_y
   PolynomialSurface frame;
   frame.degree = degree;
   frame.unit = 0.5 * std::max(heights.cols * pitch_x, heights.rows * pitch_y);
-  frame.center_x = means.col * pitch_x;
-  frame.center_y = means.row * pitch_y;
+  frame.centre_x = means.col * pitch_x;
+  frame.centre_y = means.row * pitch_y;
   return frame;
 }
 
@@ -209,7 +201,7 @@ class Rounds {
     for (int row = 0; row < grid_.heights.rows; ++row) {
       equations.add(rowMoments(grid_.heights.ptr<double>(row), memory_.places.data(), memory_.places.size(),
                                curveAt(fit_, yOf(row)), fit_.noise, weighting),
-                    (yOf(row) - fit_.center_y) / fit_.unit);
+                    (yOf(row) - fit_.centre_y) / fit_.unit);
     }
     const Vector6 next = equations.solve(fit_.degree);
     step_ = (next - fit_.coefficients).cwiseAbs().maxCoeff();
@@ -259,7 +251,7 @@ class Rounds {
 
 double PolynomialSurface::height(double x, double y) const {
   const LineCurve curve = curveAt(*this, y);
-  const double u = (x - center_x) / unit;
+  const double u = (x - centre_x) / unit;
   return curve.origin + (curve.a + u * (curve.b + curve.c * u));
 }
 
@@ -301,7 +293,7 @@ PolynomialSurface fitPolynomialBySamples(const cv::Mat& heights, double pitch_x,
 }
 
 LineCurve curveAt(const PolynomialSurface& polynomial, double y) {
-  const double v = (y - polynomial.center_y) / polynomial.unit;
+  const double v = (y - polynomial.centre_y) / polynomial.unit;
   const auto& terms = polynomial.coefficients;
   return {polynomial.origin, terms[0] + v * (terms[2] + v * terms[5]), terms[1] + v * terms[4], terms[3]};
 }
@@ -310,7 +302,7 @@ void findPlaces(const PolynomialSurface& polynomial, double first_x, double pitc
                 std::vector<double>& places) {
   places.resize(static_cast<std::size_t>(cols));
   for (int col = 0; col < cols; ++col) {
-    places[static_cast<std::size_t>(col)] = (first_x + col * pitch_x - polynomial.center_x) / polynomial.unit;
+    places[static_cast<std::size_t>(col)] = (first_x + col * pitch_x - polynomial.centre_x) / polynomial.unit;
   }
 }
 

@@ -13,8 +13,8 @@ namespace {
 
 // Written so that the compiler finds one instruction for the smaller, and one for the larger.
 MEMS_STICTION_INLINE void order(Lanes& a, Lanes& b) {
-  const Lanes low = a < b ? a : b;
-  b = a > b ? a : b;
+  const Lanes low = select(a < b, a, b);
+  b = select(a > b, a, b);
   a = low;
 }
 
@@ -27,30 +27,29 @@ struct Five {
 };
 
 MEMS_STICTION_INLINE void loadAll(const double* values, std::size_t apart, Three& all) {
-  load(values, all.a);
-  load(values + apart, all.b);
-  load(values + 2 * apart, all.c);
+  all.a = Lanes::load(values);
+  all.b = Lanes::load(values + apart);
+  all.c = Lanes::load(values + 2 * apart);
 }
 MEMS_STICTION_INLINE void loadAll(const double* values, std::size_t apart, Five& all) {
-  load(values, all.a);
-  load(values + apart, all.b);
-  load(values + 2 * apart, all.c);
-  load(values + 3 * apart, all.d);
-  load(values + 4 * apart, all.e);
+  all.a = Lanes::load(values);
+  all.b = Lanes::load(values + apart);
+  all.c = Lanes::load(values + 2 * apart);
+  all.d = Lanes::load(values + 3 * apart);
+  all.e = Lanes::load(values + 4 * apart);
 }
 
-MEMS_STICTION_INLINE void store(const Lanes& lanes, double* values) { std::memcpy(values, &lanes, sizeof lanes); }
 MEMS_STICTION_INLINE void storeAll(const Three& all, std::size_t apart, double* values) {
-  store(all.a, values);
-  store(all.b, values + apart);
-  store(all.c, values + 2 * apart);
+  all.a.store(values);
+  all.b.store(values + apart);
+  all.c.store(values + 2 * apart);
 }
 MEMS_STICTION_INLINE void storeAll(const Five& all, std::size_t apart, double* values) {
-  store(all.a, values);
-  store(all.b, values + apart);
-  store(all.c, values + 2 * apart);
-  store(all.d, values + 3 * apart);
-  store(all.e, values + 4 * apart);
+  all.a.store(values);
+  all.b.store(values + apart);
+  all.c.store(values + 2 * apart);
+  all.d.store(values + 3 * apart);
+  all.e.store(values + 4 * apart);
 }
 
 MEMS_STICTION_INLINE void sort(Three& all) {
@@ -70,11 +69,11 @@ MEMS_STICTION_INLINE void sort(Five& all) {
   order(all.b, all.c);
 }
 
-MEMS_STICTION_INLINE void larger(const Lanes& a, Lanes& b) { b = a > b ? a : b; }
-MEMS_STICTION_INLINE void smaller(const Lanes& a, Lanes& b) { b = a < b ? a : b; }
+MEMS_STICTION_INLINE Lanes larger(const Lanes& a, const Lanes& b) { return select(a > b, a, b); }
+MEMS_STICTION_INLINE Lanes smaller(const Lanes& a, const Lanes& b) { return select(a < b, a, b); }
 
 /// Of a window whose first column is at `sorted`: the smallest values of its columns, then the next ones, and so on.
-MEMS_STICTION_INLINE void medianOf(const double* sorted, std::size_t stride, const Three&, Lanes& median) {
+MEMS_STICTION_INLINE Lanes medianOf(const double* sorted, std::size_t stride, const Three&) {
   Three lowest, middle, highest;
   loadAll(sorted, 1, lowest);
   loadAll(sorted + stride, 1, middle);
@@ -84,9 +83,9 @@ MEMS_STICTION_INLINE void medianOf(const double* sorted, std::size_t stride, con
   sort(highest);
   Three diagonal = {lowest.c, middle.b, highest.a};
   sort(diagonal);
-  median = diagonal.b;
+  return diagonal.b;
 }
-MEMS_STICTION_INLINE void medianOf(const double* sorted, std::size_t stride, const Five&, Lanes& median) {
+MEMS_STICTION_INLINE Lanes medianOf(const double* sorted, std::size_t stride, const Five&) {
   Five diagonal;
   Lanes above, below;
   Five row;
@@ -96,48 +95,45 @@ MEMS_STICTION_INLINE void medianOf(const double* sorted, std::size_t stride, con
   diagonal.a = row.e;
   loadAll(sorted + stride, 1, row);
   sort(row);
-  larger(row.c, above);
+  above = larger(row.c, above);
   diagonal.b = row.d;
   below = row.e;
   loadAll(sorted + 2 * stride, 1, row);
   sort(row);
-  larger(row.b, above);
+  above = larger(row.b, above);
   diagonal.c = row.c;
-  smaller(row.d, below);
+  below = smaller(row.d, below);
   loadAll(sorted + 3 * stride, 1, row);
   sort(row);
-  larger(row.a, above);
+  above = larger(row.a, above);
   diagonal.d = row.b;
-  smaller(row.c, below);
+  below = smaller(row.c, below);
   loadAll(sorted + 4 * stride, 1, row);
   sort(row);
   diagonal.e = row.a;
-  smaller(row.b, below);
+  below = smaller(row.b, below);
   sort(diagonal);
   Three middle = {above, diagonal.c, below};
   sort(middle);
-  median = middle.b;
+  return middle.b;
 }
 
 /// Residuals of one row. @param top the first row of the windows; @param sorted room for one row of sorted columns
 template <typename Column>
 MEMS_STICTION_INLINE void residualsOf(const double* top, std::size_t stride, double* sorted, const double* heights,
                                       std::size_t cols, double* residuals) {
-  for (std::size_t col = 0; col < stride; col += kLanes) {
+  for (std::size_t col = 0; col < stride; col += Lanes::kCount) {
     Column column;
     loadAll(top + col, stride, column);
     sort(column);
     storeAll(column, stride, sorted + col);
   }
-  for (std::size_t col = 0; col < cols; col += kLanes) {
-    Lanes median, height;
-    medianOf(sorted + col, stride, Column(), median);
-    load(heights + col, height);
-    const Lanes residual = height - median;
-    if (col + kLanes <= cols) {
-      store(residual, residuals + col);
+  for (std::size_t col = 0; col < cols; col += Lanes::kCount) {
+    const Lanes residual = Lanes::load(heights + col) - medianOf(sorted + col, stride, Column());
+    if (col + Lanes::kCount <= cols) {
+      residual.store(residuals + col);
     } else {
-      for (std::size_t lane = 0; col + lane < cols; ++lane) residuals[col + lane] = residual[lane];
+      residual.storeFirst(cols - col, residuals + col);
     }
   }
 }
@@ -159,7 +155,7 @@ void WindowMedian::setFrame(int rows, int cols, int half) {
   half_ = half;
   margin_rows_ = std::min(half, rows - 1);
   margin_cols_ = std::min(half, cols - 1);
-  stride_ = (static_cast<std::size_t>(cols + 2 * margin_cols_) / kLanes + 2) * kLanes;
+  stride_ = (static_cast<std::size_t>(cols + 2 * margin_cols_) / Lanes::kCount + 2) * Lanes::kCount;
   wide_.resize(static_cast<std::size_t>(rows + 2 * margin_rows_) * stride_);
   has_hole_.resize(static_cast<std::size_t>(rows + 2 * margin_rows_));
   sorted_.resize((2 * static_cast<std::size_t>(half) + 1) * stride_);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 #include <string>
+#include <utility>
 
 #include "mems_stiction/base/errors.hpp"
 
@@ -21,6 +22,9 @@ double firstValid(const cv::Mat& heights) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
+/// Whether somebody else shows these pixels.
+bool isHeld(const cv::Mat& heights) { return heights.u != nullptr && heights.u->refcount > 1; }
+
 }  // namespace
 
 HeightChange heightChange(const ChangeSums& changes, long long pixels) {
@@ -34,7 +38,8 @@ double* roomFor(std::size_t count, std::vector<double>& memory) {
 
 void WorkingSurface::take(const HeightMap& surface) {
   const cv::Mat& source = surface.heights();
-  if (heights.u != nullptr && heights.u->refcount > 1) heights.release();
+  if (isHeld(heights)) std::swap(heights, spare);
+  if (isHeld(heights)) heights.release();
   heights.create(source.size(), CV_64FC1);
   for (int row = 0; row < source.rows; ++row) {
     const auto size = static_cast<std::size_t>(source.cols);

@@ -16,7 +16,7 @@ bool haveSameGrid(const HeightMap& a, const HeightMap& b) {
 
 CounterSurfaceSource::CounterSurfaceSource(const CounterSurfaceOptions& options, const ScanOptions& scan,
                                            const PipelineOptions& cleaning)
-    : options_(options), scan_(scan), cleaning_(cleaning) {}
+    : options_(options), scan_(scan), cleaner_(cleaning) {}
 
 void CounterSurfaceSource::load() {
   if (options_.type != CounterSurfaceType::kFile || !surface_.empty()) return;
@@ -80,9 +80,9 @@ const HeightMap& CounterSurfaceSource::unplaced(const HeightMap& scan) {
 HeightMap CounterSurfaceSource::mounted(const HeightMap& measured) {
   ++cleanings_;
   // A tip erodes from above: what is stated as mounted is cleaned as it was measured.
-  const bool is_upside_down = cleaning_.tip.radius > 0.0 && options_.facing == CounterSurfaceFacing::kDown;
-  const HeightMap cleaned = is_upside_down ? turnedOver(cleanScan(turnedOver(measured), cleaning_).surface)
-                                           : cleanScan(measured, cleaning_).surface;
+  const bool is_upside_down = cleaner_.options().tip.radius > 0.0 && options_.facing == CounterSurfaceFacing::kDown;
+  const HeightMap cleaned =
+      is_upside_down ? turnedOver(cleaner_.clean(turnedOver(measured)).surface) : cleaner_.clean(measured).surface;
   return mountedCounterSurface(cleaned, options_.facing);
 }
 

@@ -27,11 +27,11 @@ PipelineOptions refinementAlone(const PipelineOptions& options) {
 }  // namespace
 
 ScanPreparer::ScanPreparer(const Configuration& configuration)
-    : cleaning_(withoutRefinement(checked(configuration).preprocessing)),
+    : cleaner_(withoutRefinement(checked(configuration).preprocessing)),
       refinement_(refinementAlone(configuration.preprocessing)),
       with_roughness_(configuration.model.output.roughness),
       spatial_roughness_(configuration.spatial_roughness),
-      counter_surface_(configuration.counter_surface, configuration.scan, cleaning_) {
+      counter_surface_(configuration.counter_surface, configuration.scan, cleaner_.options()) {
   try {
     counter_surface_.load();
   } catch (const OptionsError&) {
@@ -60,9 +60,9 @@ PreparedScan ScanPreparer::ready(const SurfacePair& surfaces) const {
 
 PreparedScan ScanPreparer::prepare(const HeightMap& scan) {
   ++scans_cleaned_;
-  CleanedScan cleaned = cleanScan(scan, cleaning_);
+  const CleanedScan& cleaned = cleaner_.clean(scan);
   PreparedScan prepared = ready({cleaned.surface, counter_surface_.over(cleaned.surface)});
-  PreprocessRecord& record = cleaned.record;
+  PreprocessRecord record = cleaned.record;
   record.steps.insert(record.steps.end(), prepared.record.steps.begin(), prepared.record.steps.end());
   prepared.record = std::move(record);
   if (with_roughness_) prepared.roughness = arealParameters(prepared.model_surfaces.lower);

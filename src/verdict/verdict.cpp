@@ -60,9 +60,9 @@ Finding judged(const std::string& name, double value, double lowest, double high
 
 /// What there is to say where the contacts are not listed, so that nothing tells how far the figures may be off.
 Finding withoutContacts(const std::string& what, const Prediction& prediction) {
-  return {Sticks::kUnknown, what + " needs the list of contacts: " +
-                                (prediction.has_asperities ? "output/asperities is off"
-                                                           : "this approach/formulation tells none apart")};
+  return {Sticks::kUnknown,
+          what + " needs the list of contacts: " +
+              (prediction.has_asperities ? "output/asperities is off" : "this approach/formulation tells none apart")};
 }
 
 Finding springFinding(const Prediction& prediction, const DeviceOptions& device, const AdhesionSpread& spread,

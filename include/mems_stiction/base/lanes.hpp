@@ -27,6 +27,15 @@ class LaneMask {
   LaneMask& operator=(const LaneMask& other) = default;
 
   MEMS_STICTION_INLINE const Vector& bits() const { return bits_; }
+  /// Where one of them holds, not both.
+  friend MEMS_STICTION_INLINE LaneMask operator^(const LaneMask& a, const LaneMask& b) {
+    return LaneMask(a.bits_ ^ b.bits_);
+  }
+  /// Where either holds.
+  friend MEMS_STICTION_INLINE LaneMask operator|(const LaneMask& a, const LaneMask& b) {
+    return LaneMask(a.bits_ | b.bits_);
+  }
+
   /// In how many lanes it holds.
   MEMS_STICTION_INLINE int count() const { return -static_cast<int>(bits_[0] + bits_[1] + bits_[2] + bits_[3]); }
 
@@ -39,6 +48,8 @@ class Lanes {
  public:
   static constexpr std::size_t kCount = 4;
 
+  /// 0 in all lanes.
+  MEMS_STICTION_INLINE Lanes() : values_{} {}
   /// The same number in all lanes.
   MEMS_STICTION_INLINE Lanes(double value) : values_{value, value, value, value} {}  // NOLINT: as double from int
   MEMS_STICTION_INLINE Lanes(double a, double b, double c, double d) : values_{a, b, c, d} {}
@@ -62,6 +73,13 @@ class Lanes {
     Lanes lanes(rest);
     for (std::size_t i = 0; i < count; ++i) lanes.values_[i] = values[i];
     return lanes;
+  }
+
+  /// To memory.
+  MEMS_STICTION_INLINE void store(double* values) const { std::memcpy(values, &values_, sizeof values_); }
+  /// The first `count` lanes to memory.
+  MEMS_STICTION_INLINE void storeFirst(std::size_t count, double* values) const {
+    for (std::size_t i = 0; i < count; ++i) values[i] = values_[i];
   }
 
   MEMS_STICTION_INLINE double operator[](std::size_t lane) const { return values_[lane]; }
@@ -96,6 +114,11 @@ class Lanes {
 
   Vector values_;
 };
+
+/// Where a number is one, not NaN.
+MEMS_STICTION_INLINE LaneMask isNumber(const Lanes& lanes) { return lanes == lanes; }
+/// 1 where the mask holds, else 0: for counting.
+MEMS_STICTION_INLINE Lanes oneWhere(const LaneMask& mask) { return select(mask, Lanes(1.0), Lanes(0.0)); }
 
 /// The same for one number.
 MEMS_STICTION_INLINE double select(bool condition, double a, double b) { return condition ? a : b; }

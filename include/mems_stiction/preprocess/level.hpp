@@ -3,7 +3,7 @@
 /// @file
 /// How does a scan lie, and what is left when its tilt is taken off?
 ///
-///     z(x, y) ~ mean_height + slope_x (x - center_x) + slope_y (y - center_y),  least squares in z over the valid
+///     z(x, y) ~ mean_height + slope_x (x - centre_x) + slope_y (y - centre_y),  least squares in z over the valid
 ///     pixels
 ///
 /// Coordinates are those of the grid: x = column * pitch_x, y = row * pitch_y. The fit runs about the centroid of the
@@ -24,11 +24,11 @@ struct Plane {
   double mean_height = 0.0;  ///< height at the centroid of the valid pixels [m]
   double slope_x = 0.0;      ///< dz/dx [-]
   double slope_y = 0.0;      ///< dz/dy [-]
-  double center_x = 0.0;     ///< centroid of the valid pixels [m]
-  double center_y = 0.0;     ///< [m]
+  double centre_x = 0.0;     ///< centroid of the valid pixels [m]
+  double centre_y = 0.0;     ///< [m]
 
   double height(double x, double y) const {
-    return mean_height + (slope_x * (x - center_x) + slope_y * (y - center_y));
+    return mean_height + (slope_x * (x - centre_x) + slope_y * (y - centre_y));
   }
 };
 

@@ -3,7 +3,7 @@
 /// @file
 /// How does a scan lie and bend, apart from its features?
 ///
-///     z(x, y) ~ sum of c_ij u^i v^j over i + j <= degree;  u = (x - center_x)/unit, v = (y - center_y)/unit
+///     z(x, y) ~ sum of c_ij u^i v^j over i + j <= degree;  u = (x - centre_x)/unit, v = (y - centre_y)/unit
 ///
 /// Least squares over the valid pixels, or robust: iterated reweighting, first with Huber's weights (k = 1.345), then
 /// with Tukey's biweight (c = 4.685), residuals in units of 1.4826 times the median of their absolute values. Both
@@ -28,8 +28,8 @@ enum class FitWeights {
 struct PolynomialSurface {
   int degree = 0;         ///< 0, 1 or 2
   double origin = 0.0;    ///< added to the sum [m]
-  double center_x = 0.0;  ///< centroid of the valid pixels [m]
-  double center_y = 0.0;  ///< [m]
+  double centre_x = 0.0;  ///< centroid of the valid pixels [m]
+  double centre_y = 0.0;  ///< [m]
   double unit = 1.0;      ///< half of the frame's longer side [m]
   double noise = 0.0;     ///< 1.4826 x median of the absolute residuals [m]
   Eigen::Matrix<double, 6, 1> coefficients = Eigen::Matrix<double, 6, 1>::Zero();  ///< of 1, u, v, u^2, u v, v^2 [m]

@@ -43,7 +43,7 @@ struct WorkingSurface {
   explicit WorkingSurface(const HeightMap& surface) { take(surface); }
 
   /// Copies the heights of a scan. Memory that somebody else holds, such as a surface that was handed out, is left alone;
-  /// otherwise it is used again.
+  /// otherwise it is used again. There is room for two, so that a surface may be held until the next one is there.
   void take(const HeightMap& surface);
   /// Shares the heights.
   HeightMap surface() const { return {heights, pitch_x, pitch_y}; }
@@ -51,6 +51,7 @@ struct WorkingSurface {
   cv::Mat heights;       ///< rows x cols CV_64FC1 [m], invalid pixels NaN
   double pitch_x = 0.0;  ///< [m]
   double pitch_y = 0.0;  ///< [m]
+  cv::Mat spare;         ///< memory of the surface before
   CleaningMemory memory;
 };
 

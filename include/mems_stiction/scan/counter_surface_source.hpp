@@ -53,7 +53,7 @@ class CounterSurfaceSource {
 
   CounterSurfaceOptions options_;
   ScanOptions scan_;
-  PipelineOptions cleaning_;
+  ScanCleaner cleaner_;
   HeightMap measured_;          ///< beside the scans, as it came
   HeightMap mounted_measured_;  ///< the same before its pose; empty: not asked for yet
   HeightMap surface_;           ///< mounted, before its pose; of type file, or the generated one of the latest grid

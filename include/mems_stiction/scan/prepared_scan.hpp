@@ -67,7 +67,7 @@ class ScanPreparer {
   /// Empty stays empty.
   HeightMap refinedUpper(const HeightMap& upper) const;
 
-  PipelineOptions cleaning_;    ///< all steps but refinement
+  ScanCleaner cleaner_;         ///< all steps but refinement
   PipelineOptions refinement_;  ///< refinement alone
   bool with_roughness_;
   SpatialRoughnessOptions spatial_roughness_;

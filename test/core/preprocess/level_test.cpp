@@ -28,7 +28,7 @@ TEST(LeastSquaresPlane, findsSlopesAndHeightOfAPlane) {
   EXPECT_NEAR(plane.slope_x, 0.012, 1e-12);  // round-off of sums over 920 pixels of heights up to 5 um
   EXPECT_NEAR(plane.slope_y, -0.3, 1e-12);
   EXPECT_NEAR(plane.mean_height, 5e-6, 1e-18);
-  EXPECT_NEAR(plane.center_x, 0.5 * 39 * kPitchX, 1e-20);
+  EXPECT_NEAR(plane.centre_x, 0.5 * 39 * kPitchX, 1e-20);
   EXPECT_NEAR(plane.height(0.0, 0.0), 5e-6 - 0.012 * 19.5 * kPitchX + 0.3 * 11.0 * kPitchY, 1e-18);
 }
 
@@ -41,7 +41,7 @@ TEST(Levelled, leavesNothingOfAPlane) {
 }
 
 TEST(Levelled, givesBackARoughnessThatHasNoTiltOfItsOwn) {
-  // cosine-like along y and symmetrical caps have no tilt: a centered paraboloid less its mean is already level
+  // cosine-like along y and symmetrical caps have no tilt: a centred paraboloid less its mean is already level
   const HeightMap cap = analytic::paraboloid(41, 64, kPitchX, kPitchY, 2e-6);
   const HeightMap tilted = analytic::sum(cap, analytic::tiltedPlane(41, 64, kPitchX, kPitchY, 0.05, -0.02, 3e-7));
   EXPECT_LT(largestDifference(levelled(tilted), levelled(cap)), 1e-20);
