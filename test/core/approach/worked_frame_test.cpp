@@ -48,9 +48,9 @@ class WorkedFrame : public testing::Test {
     table_.begin(field_, order_, dales_);
   }
 
-  /// What lies around the cell at a place of the order.
+  /// What lies around the cell at a place of the order, from the window that starts with its group.
   CellSurroundings surroundings(int place) {
-    if (place >= table_.end()) table_.collectFrom(place);
+    if (place == order_.groupStart(order_.groupOfPlace(place))) table_.collectFrom(place);
     return table_.collected(place);
   }
 
