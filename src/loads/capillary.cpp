@@ -21,7 +21,7 @@ void CapillaryOptions::describe(OptionVisitor& visitor) {
                  "surface tension of the condensed liquid");
   visitor.number("interface/contact_angle", contact_angle, "rad", Range::within(0.0, 0.5 * kPi),
                  "contact angle of the condensed liquid on both surfaces");
-  visitor.number("interface/temperature", temperature, "K", Range::positive(), "temperature of vapor and surfaces");
+  visitor.number("interface/temperature", temperature, "K", Range::positive(), "temperature of vapour and surfaces");
   visitor.number("interface/molar_volume", molar_volume, "m^3/mol", Range::positive(),
                  "molar volume of the condensed liquid");
 }

@@ -10,7 +10,7 @@
 ///
 /// p falls and d_K grows with humidity, p d_K = 2 gamma cos(theta) does not change: the energy that separation costs
 /// per area of filled gap. A sphere on a flat gives F_c = 4 pi gamma R cos(theta), at every humidity. Assumptions:
-/// equilibrium with the vapor, one contact angle on both surfaces, the gap varies slowly over d_K. Menisci take
+/// equilibrium with the vapour, one contact angle on both surfaces, the gap varies slowly over d_K. Menisci take
 /// milliseconds to hours to form: a fast contact feels less. Below some 10 % humidity d_K is a molecule or two and a
 /// continuum's pressure an extrapolation; near saturation d_K diverges, so the humidity stays below 1. Off by default:
 /// the interfacial energy of the model may already hold the water. With this term on, interface/work_of_adhesion must
@@ -30,7 +30,7 @@ namespace mems_stiction {
 /// that wets the surfaces.
 struct CapillaryOptions {
   double relative_humidity = 0.0;   ///< RH [-], in [0, 1); 0 switches the term off
-  double surface_tension = 0.0720;  ///< gamma of liquid against vapor [N/m], > 0
+  double surface_tension = 0.0720;  ///< gamma of liquid against vapour [N/m], > 0
   double contact_angle = 0.0;       ///< theta [rad], in [0, pi/2]
   double temperature = 298.15;      ///< T [K], > 0
   double molar_volume = 18.07e-6;   ///< V_m of the liquid [m^3/mol], > 0

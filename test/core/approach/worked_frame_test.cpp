@@ -44,8 +44,8 @@ class WorkedFrame : public testing::Test {
                              7.4, 6.3, 7.8, 9.1);
     field_.compute({HeightMap(heights * 1e-9, 20e-9, 20e-9), {}});
     order_.build(field_, 1.0, kStep);
-    dales_.begin(field_);
-    table_.begin(field_, order_, dales_);
+    dales_.start(field_);
+    table_.start(field_, order_, dales_);
   }
 
   /// What lies around the cell at a place of the order, from the window that starts with its group.
@@ -98,12 +98,12 @@ TEST_F(WorkedFrame, HasTheOrderAndSurroundingsOfThePage) {
 
 TEST_F(WorkedFrame, HasThePatchesOfThePage) {
   PatchSweep sweep;
-  sweep.begin(field_, order_, Connectivity::kFour);
+  sweep.start(field_, order_, Connectivity::kFour);
   std::string heading;
   std::string frames[4];
   std::string figures = "\nD     cells in  patch  cells  rows  columns  edges  deepest cell\n";
   for (int step = 1; step <= kSteps; ++step) {
-    sweep.advanceTo(order_.countBelow(step * kStep));
+    sweep.advanceTo(order_.sortBelow(step * kStep));
     heading += format("%-16s", format("D = %d nm", step).c_str());
     for (int row = 0; row < field_.rows(); ++row) {
       for (int col = 0; col < field_.cols(); ++col) {

@@ -48,7 +48,7 @@ TEST(CapillaryForce, costsTwiceTheSurfaceTensionAtEveryHumidity) {
 }
 
 TEST(CapillaryForce, pressureIsTheWorkOfBringingVaporToTheLiquid) {
-  // second route: a mole of liquid under tension p has the vapor's chemical potential, p V_m = R T ln(1/RH);
+  // second route: a mole of liquid under tension p has the vapour's chemical potential, p V_m = R T ln(1/RH);
   // 50 % at 25 degrees: 95.1 MPa
   EXPECT_NEAR(CapillaryForce(humid(0.5)).pressure(), 95.1e6, 0.05e6);
 }
