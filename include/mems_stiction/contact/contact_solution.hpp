@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// What a solver answers, whichever it is. Summary, maps, verdict and station take it from here.
+/// What a solver answers, whichever it is. The figures and maps of a Prediction follow from it.
 ///
 /// A figure that a solver does not have is NaN, a map that it does not have, or that was not asked for, is empty, and
 /// `has_asperities` says whether it parts the contact into asperities at all.
