@@ -85,7 +85,7 @@ class Plate {
     factorization.setPivotThreshold(0.0);  // positive definite
     factorization.compute(normal);
     if (factorization.info() != Eigen::Success) {
-      throw SurfaceError("missing pixels cannot be filled: no valid neighbor");
+      throw SurfaceError("missing pixels cannot be filled: no valid neighbour");
     }
     return factorization.solve(right_);
   }

@@ -22,8 +22,8 @@ struct PlaceSums {
   double ph = 0.0;
 };
 
-/// @param places one of each pixel, in the unit of the caller
-/// @param origin subtracted from each height [m]
+/// - @p places one of each pixel, in the unit of the caller
+/// - @p origin subtracted from each height [m]
 PlaceSums sumsOf(const double* line, const double* places, std::size_t size, double origin);
 
 /// What comes off a line: origin first, so that small differences keep their digits, then a + b p + c p^2 [m].

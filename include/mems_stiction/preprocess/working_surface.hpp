@@ -21,7 +21,8 @@ struct HeightChange {
   long long invalid_pixels = 0;  ///< after the step
 };
 
-/// Of a step that leaves invalid pixels invalid. @param pixels of the frame, valid or not
+/// Of a step that leaves invalid pixels invalid.
+/// - @p pixels of the frame, valid or not
 HeightChange heightChange(const ChangeSums& changes, long long pixels);
 
 /// What steps write down beside the heights.

@@ -24,7 +24,7 @@ class ReconfigureServer {
 
   /// Serves under the names of the private namespace; its parameters, a mirror that nobody reads, stand in
   /// `reconfigure` there, where they cannot be taken for settings.
-  /// @param settings outlive the server
+  /// - @p settings outlive the server
   ReconfigureServer(const ros::NodeHandle& private_handle, const SettingsOwner& settings, Change change);
 
   /// Held from reading the settings to changing them, so that a change by a service and one by reconfigure do not undo

@@ -70,7 +70,7 @@ TEST(SpikeRemoval, findsOneSpikeOnAPerfectPlane) {
 
 TEST(SpikeRemoval, doesNotTakeTheSingleCountsOfACoarseInstrument) {
   cv::Mat heights = gaussianSurface(rough()).heights();
-  const double count = 7e-9;  // more than two rms heights: most neighbors read the same
+  const double count = 7e-9;  // more than two rms heights: most neighbours read the same
   for (auto pixel = heights.begin<double>(); pixel != heights.end<double>(); ++pixel) {
     *pixel = std::round(*pixel / count) * count;
   }

@@ -113,7 +113,7 @@ TEST(TipCorrection, isNeverBelowTheSurfaceAndDrawsTheSameImage) {
   cv::minMaxLoc(cv::abs(tipImaged(corrected.surface, tip).heights() - image.heights()), nullptr, &largest);
   EXPECT_LT(largest, 1e-20);
 
-  // What counts as reached is the surface; what does not is far above it. Pixels that share a touch with a neighbor on
+  // What counts as reached is the surface; what does not is far above it. Pixels that share a touch with a neighbour on
   // a steep flank are the few exceptions.
   const cv::Mat error = corrected.surface.heights() - surface.heights();
   const double wrong = cv::countNonZero((error > 0.2 * options.rms_height) & corrected.reached);
