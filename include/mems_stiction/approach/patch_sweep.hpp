@@ -29,13 +29,10 @@ class PatchSweep {
   /// patches are those of a moment of the approach when all cells up to some gap are in: a step of the order, or a
   /// level of a group that is sorted.
   void advanceTo(int count);
-  int contactCount() const { return inserted_; }
 
   /// Ids of the patches that exist now, in an order that depends only on the cells in contact and their order.
   const std::vector<std::int32_t>& livePatches() const { return live_; }
   const ContactPatch& patch(std::int32_t id) const { return patches_[static_cast<std::size_t>(id)]; }
-  /// One more than the largest patch id so far.
-  int patchIdEnd() const { return static_cast<int>(patches_.size()); }
 
   /// Ids of the live patches that have changed, or moved to another place in livePatches(), since the last call (all of
   /// them after a restart).
@@ -50,6 +47,8 @@ class PatchSweep {
 
  private:
   void restart();
+  /// One more than the largest patch id so far.
+  int patchIdEnd() const { return static_cast<int>(patches_.size()); }
   /// A patch for every dale that is known.
   void makeRoom();
   /// Brings the next cell of the order into contact.

@@ -27,7 +27,7 @@ std::vector<int> pitsOf(const GapField& field) {
   const int cols = field.cols();
   std::vector<int> pits(gaps.size(), -1);
   for (const int cell : order) {  // the lowest first: what lies below a cell is known
-    if (!field.isValid(cell)) break;
+    if (!isValid(field, cell)) break;
     const auto rankOf = [&](bool is_in_frame, int other) { return is_in_frame ? rank[other] : field.cellCount(); };
     const int left = rankOf(cell % cols > 0, cell - 1);
     const int right = rankOf(cell % cols + 1 < cols, cell + 1);
@@ -45,7 +45,7 @@ void expectDales(DaleMap& dales, const GapField& field, const std::vector<int>& 
   std::map<int, std::int32_t> dale_of_pit;
   std::set<std::int32_t> numbers;
   for (int cell = 0; cell < field.cellCount(); ++cell) {
-    if (!field.isValid(cell)) continue;
+    if (!isValid(field, cell)) continue;
     const std::int32_t dale = dales.find(field.cellAt(cell));
     ASSERT_EQ(dale_of_pit.emplace(pits[static_cast<std::size_t>(cell)], dale).first->second, dale) << "cell " << cell;
     numbers.insert(dale);
@@ -75,7 +75,7 @@ TEST_P(MappedFrame, hasOneDaleForEachPit) { expectDales(dales_, field_, pits_); 
 
 TEST_P(MappedFrame, hasTheSameDalesInWhateverOrderTheyAreAskedFor) {
   for (int cell = field_.cellCount() - 1; cell >= 0; cell -= 3) {
-    if (field_.isValid(cell)) dales_.find(field_.cellAt(cell));
+    if (isValid(field_, cell)) dales_.find(field_.cellAt(cell));
   }
   expectDales(dales_, field_, pits_);
 }
@@ -89,7 +89,7 @@ TEST_P(MappedFrame, hasTheSameDalesWhenFoundRowByRow) {
     field_.gapsOfRow(row, line.data() + 1);
     std::vector<std::int32_t> valid;
     for (int col = 0; col < cols; ++col) {
-      if (field_.isValid(row * cols + col) && (row + col) % 5 != 0) valid.push_back(col);
+      if (isValid(field_, row * cols + col) && (row + col) % 5 != 0) valid.push_back(col);
     }
     dales_.findInRow(row, valid.data(), static_cast<int>(valid.size()), line.data() + 1, above.data() + 1);
     for (const std::int32_t col : valid) ASSERT_NE(dales_.at(field_.cellAt(row, col)), DaleMap::kUnknown);

@@ -107,7 +107,7 @@ TEST(GapField, leavesOutPixelsThatAreInvalidInEitherSurface) {
   field.compute({lower, map((cv::Mat1d(1, 6) << 9e-9, 9e-9, kInfinity, 9e-9, kNan, 9e-9))});
   EXPECT_EQ(field.validCount(), 2);
   for (const int cell : {1, 2, 3, 4}) {
-    EXPECT_FALSE(field.isValid(cell));
+    EXPECT_FALSE(isValid(field, cell));
     EXPECT_EQ(field.gap(cell), GapField::kInvalidGap);
     EXPECT_TRUE(std::isfinite(field.lowerHeight(cell)));
   }

@@ -17,7 +17,7 @@ namespace {
 std::vector<OrderedCell> sortedCells(const GapField& field) {
   std::vector<OrderedCell> cells;
   for (int cell = 0; cell < field.cellCount(); ++cell) {
-    if (field.isValid(cell)) cells.push_back({field.gap(cell), cell, cell / field.cols()});
+    if (isValid(field, cell)) cells.push_back({field.gap(cell), cell, cell / field.cols()});
   }
   std::stable_sort(cells.begin(), cells.end(), [](const auto& a, const auto& b) { return a.gap < b.gap; });
   return cells;

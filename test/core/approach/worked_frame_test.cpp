@@ -51,7 +51,7 @@ class WorkedFrame : public testing::Test {
   /// What lies around the cell at a place of the order, from the window that starts with its group.
   CellSurroundings surroundings(int place) {
     if (place == order_.groupStart(order_.groupOfPlace(place))) table_.collectFrom(place);
-    return table_.collected(place);
+    return table_.at(place);
   }
 
   GapField field_;
