@@ -103,7 +103,8 @@ TEST_F(WorkedFrame, HasThePatchesOfThePage) {
   std::string frames[4];
   std::string figures = "\nD     cells in  patch  cells  rows  columns  edges  deepest cell\n";
   for (int step = 1; step <= kSteps; ++step) {
-    sweep.advanceTo(order_.sortBelow(step * kStep));
+    const int count = order_.sortBelow(step * kStep);
+    sweep.advanceTo(count);
     heading += format("%-16s", format("D = %d nm", step).c_str());
     for (int row = 0; row < field_.rows(); ++row) {
       for (int col = 0; col < field_.cols(); ++col) {
@@ -112,7 +113,7 @@ TEST_F(WorkedFrame, HasThePatchesOfThePage) {
       }
       frames[row] += "    ";
     }
-    std::string before = format("%d nm  %8d", step, sweep.contactCount());
+    std::string before = format("%d nm  %8d", step, count);
     for (const std::int32_t id : sweep.livePatches()) {
       const ContactPatch& patch = sweep.patch(id);
       const GridCell deepest = field_.cellAt(patch.deepest);
