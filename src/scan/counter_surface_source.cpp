@@ -83,6 +83,7 @@ HeightMap CounterSurfaceSource::mounted(const HeightMap& measured) {
   const bool is_upside_down = cleaner_.options().tip.radius > 0.0 && options_.facing == CounterSurfaceFacing::kDown;
   const HeightMap cleaned =
       is_upside_down ? turnedOver(cleaner_.clean(turnedOver(measured)).surface) : cleaner_.clean(measured).surface;
+  cleaner_.letGo();
   return mountedCounterSurface(cleaned, options_.facing);
 }
 

@@ -60,9 +60,10 @@ PreparedScan ScanPreparer::ready(const SurfacePair& surfaces) const {
 
 PreparedScan ScanPreparer::prepare(const HeightMap& scan) {
   ++scans_cleaned_;
-  const CleanedScan& cleaned = cleaner_.clean(scan);
+  CleanedScan cleaned = cleaner_.clean(scan);
+  cleaner_.letGo();
   PreparedScan prepared = ready({cleaned.surface, counter_surface_.over(cleaned.surface)});
-  PreprocessRecord record = cleaned.record;
+  PreprocessRecord& record = cleaned.record;
   record.steps.insert(record.steps.end(), prepared.record.steps.begin(), prepared.record.steps.end());
   prepared.record = std::move(record);
   if (with_roughness_) prepared.roughness = arealParameters(prepared.model_surfaces.lower);

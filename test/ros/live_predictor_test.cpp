@@ -106,6 +106,8 @@ TEST(LivePredictor, AccumulatedDeformationIsTheNextScansSurface) {
   ASSERT_GT(first.plastic_count + first.elasto_plastic_count, 0);
   const Prediction second = predictor.predictScan(scan, OutputOptions()).prediction;
 
+  // What is shown is what was predicted: the mark of the first contact, taken off and added in double.
+  EXPECT_LT(cv::norm(predictor.lastSurface().heights(), first.deformed_lower, cv::NORM_INF), 1e-21);
   ScanPredictor fresh(configuration);
   const Prediction expected =
       fresh.predict(HeightMap(first.deformed_lower, scan.surface.pitchX(), scan.surface.pitchY()));

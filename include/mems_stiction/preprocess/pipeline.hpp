@@ -88,6 +88,8 @@ class ScanCleaner {
   /// pixels.
   /// @throw SurfaceError if no pixel is valid, or more are missing than fill/max_fraction allows.
   const CleanedScan& clean(const HeightMap& scan);
+  /// Ends the hold on the last surface, which without any step is the scan that somebody may wait to be free of.
+  void letGo() { cleaned_.surface = HeightMap(); }
 
  private:
   PipelineOptions options_;

@@ -21,7 +21,6 @@ struct RunningSettings {
   LoadOptions load;
   DeviceOptions device;
 
-  RunningSettings() = default;
   explicit RunningSettings(const Configuration& configuration);
 
   void describe(OptionVisitor& visitor);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/preprocess/refine.hpp"
@@ -50,6 +51,22 @@ TEST(PreparedScan, OfAScanThatNeedsNothingIsTheScan) {
   EXPECT_TRUE(prepared.surfaces.upperIsPlane());
   EXPECT_TRUE(prepared.model_surfaces.upperIsPlane());
   EXPECT_TRUE(prepared.record.steps.empty());
+}
+
+TEST(ScanPreparer, HoldsNoScanForLongerThanItTakes) {
+  Configuration configuration;
+  configuration.counter_surface.type = CounterSurfaceType::kTopic;
+  ScanPreparer preparer(configuration);
+  preparer.setMeasuredCounterSurface(rough(2));
+  const auto message = std::make_shared<HeightMap>(rough(1));
+  preparer.prepare({message->heights(), message->pitchX(), message->pitchY(), message});
+  EXPECT_EQ(message.use_count(), 1);
+  const auto counter_message = std::make_shared<HeightMap>(rough(3));
+  preparer.setMeasuredCounterSurface(
+      {counter_message->heights(), counter_message->pitchX(), counter_message->pitchY(), counter_message});
+  EXPECT_EQ(preparer.prepare(rough(1)).surfaces.upper.heights().data, counter_message->heights().data);
+  preparer.setMeasuredCounterSurface(rough(2));
+  EXPECT_EQ(counter_message.use_count(), 1);
 }
 
 TEST(PreparedScan, RefinesBothSurfacesForTheModelAlone) {
