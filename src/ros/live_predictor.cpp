@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/prediction/deformed_surfaces.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -90,6 +91,7 @@ PredictedScan LivePredictor::predictScan(const ReceivedScan& scan, const OutputO
 
   const PreparedScan prepared = prepare(scan, wear_);
   PredictedScan predicted = judged(prepared, *settings);
+  if (accumulate_deformation_) requireDeformedSurfaces(predicted.prediction);
   last_ = LastScan{scan, prepared, wear_};
   if (accumulate_deformation_) {
     wear_ = deepened(wear_, prepared.surfaces.lower.asDouble().heights(), predicted.prediction.deformed_lower);

@@ -5,6 +5,7 @@
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
+#include "mems_stiction/prediction/deformed_surfaces.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -57,6 +58,7 @@ ContactCyclesResult cycleContacts(const Options& options, const SurfacePair& sur
   for (int cycle = 1; cycle <= count; ++cycle) {
     if (control.isCancelled()) return result;
     const Prediction prediction = model.predict(result.surfaces);
+    requireDeformedSurfaces(prediction);
     const Verdict verdict = verdictOf(prediction, device, uncertainty, options, grid.cellArea());
 
     ContactCycle row;

@@ -11,6 +11,7 @@
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/height_map/scan_file.hpp"
 #include "mems_stiction/height_map/scan_sanity.hpp"
+#include "mems_stiction/prediction/deformed_surfaces.hpp"
 #include "mems_stiction/scan/configuration_yaml.hpp"
 #include "mems_stiction/scan/record.hpp"
 #include "mems_stiction/scan/scan_predictor.hpp"
@@ -103,6 +104,7 @@ void predictScan(const std::string& path, const Arguments& arguments, const Scan
   try {
     const PreparedScan prepared = predictor.preparer().prepare(scan.surface);
     prediction = predictor.predict(prepared);
+    if (!arguments.deformed.empty()) requireDeformedSurfaces(prediction);
     extras.preprocessing = prepared.record;
     if (arguments.convergence) extras.convergence = predictor.convergence(prepared);
   } catch (const SurfaceError& error) {

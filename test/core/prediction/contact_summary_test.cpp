@@ -2,9 +2,16 @@
 
 #include "mems_stiction/prediction/contact_summary.hpp"
 
+#include <cmath>
+#include <vector>
+
 #include <gtest/gtest.h>
 
+#include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
+#include "mems_stiction/prediction/deformed_surfaces.hpp"
+#include "mems_stiction/prediction/prediction_fields.hpp"
+#include "mems_stiction/verdict/verdict.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/sphere_contact.hpp"
 
@@ -56,6 +63,53 @@ TEST(ContactSummary, takesTheMeanOfTheMiddleTwoAsMedianOfAnEvenNumber) {
   EXPECT_DOUBLE_EQ(found.median_tabor_parameter, 0.5 * (first.tabor_parameter + second.tabor_parameter));
   EXPECT_NEAR(found.median_contact_pixels, 0.5 * (first.area + second.area) / (kNm * kNm), 1e-6);  // whole numbers
   EXPECT_GT(second.composite_radius / first.composite_radius + first.composite_radius / second.composite_radius, 2.1);
+}
+
+/// A solver that knows the state and what parts it, and nothing of single contacts.
+Prediction ofASolverWithoutAsperities(const HeightMap& surface, const Options& options) {
+  GapField gap;
+  gap.compute(surface);
+  const SurfacePair surfaces = surface;
+  ContactSolution solution;
+  solution.status = Status::kEquilibrium;
+  solution.approach = 2 * kNm;
+  solution.contact_cells = 50;
+  solution.pull_off_force = 3e-7;
+  std::vector<double> values;
+  Prediction prediction;
+  summarizeContact({surfaces, gap, gap.rmsGap(), options}, solution, values, prediction);
+  return prediction;
+}
+
+TEST(ContactSummary, saysOfFiguresThatASolverDoesNotHaveThatTheyAreUnknown) {
+  const Prediction found = ofASolverWithoutAsperities(sphere(), contactOnly(1e-6, kWork));
+  EXPECT_EQ(found.pull_off_force, 3e-7);
+  EXPECT_DOUBLE_EQ(found.contact_area, 50 * kNm * kNm);
+  for (const double unknown :
+       {found.pull_off_force_jkr, found.pull_off_force_transition, found.contact_area_jkr, found.adhesion_parameter,
+        found.total_energy, found.bonding_energy, found.plastic_work, found.max_tilt, found.median_tabor_parameter,
+        found.median_contact_pixels, found.median_composite_radius, found.mean_gap}) {
+    EXPECT_TRUE(std::isnan(unknown));
+  }
+  EXPECT_EQ(found.asperity_count, 0);
+  EXPECT_FALSE(found.listsContacts());
+  EXPECT_STREQ(word(found.bonding_regime), "UNKNOWN");
+  EXPECT_STREQ(word(found.contact_theory), "UNKNOWN");
+  EXPECT_THROW(requireDeformedSurfaces(found), SurfaceError);
+}
+
+TEST(ContactSummary, aSolverWithoutAsperitiesGivesAMarginOfUnknownSpread) {
+  const Options options = contactOnly(1e-6, kWork);
+  const Prediction found = ofASolverWithoutAsperities(sphere(), options);
+  DeviceOptions device;
+  device.spring_stiffness = 1.0;
+  device.travel = 1e-6;
+  device.contact_area = found.nominal_area;
+  const Verdict verdict = verdictOf(found, device, UncertaintyOptions(), options, kNm * kNm);
+  EXPECT_EQ(verdict.sticks, Sticks::kUnknown);
+  EXPECT_DOUBLE_EQ(verdict.margin, 1e-6 / 3e-7);
+  EXPECT_TRUE(std::isnan(verdict.margin_lower));
+  EXPECT_TRUE(std::isnan(verdict.margin_upper));
 }
 
 }  // namespace

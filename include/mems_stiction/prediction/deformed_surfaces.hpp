@@ -1,0 +1,17 @@
+#pragma once
+
+/// @file
+/// For whoever goes on with the surfaces after contact.
+
+#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/prediction/prediction.hpp"
+
+namespace mems_stiction {
+
+/// @throw SurfaceError if there are none: the solver does not give them.
+inline void requireDeformedSurfaces(const Prediction& prediction) {
+  if (!prediction.deformed_lower.empty() && !prediction.deformed_upper.empty()) return;
+  throw SurfaceError("there are no surfaces after contact: this approach/formulation does not give them");
+}
+
+}  // namespace mems_stiction
