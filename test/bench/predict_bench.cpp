@@ -40,10 +40,10 @@ void cleanAndPredict(benchmark::State& state, const Recipe& recipe) {
   const Case setting{Frame::kGaussian, 1024, 200};
   const HeightMap& frame = frameOf(setting.frame, setting.size);
   AdhesionModel model(optionsFor(setting, false));
-  ScanPreparer preparer(recipe.cleaning);
+  ScanCleaner cleaner(recipe.cleaning);
   Prediction prediction;
   for (auto _ : state) {
-    model.predict(preparer.prepare(frame).surface, prediction);
+    model.predict(cleaner.clean(frame).surface, prediction);
     benchmark::DoNotOptimize(prediction.pull_off_force);
   }
 }
