@@ -11,9 +11,9 @@ struct Entry {
   std::unique_ptr<ContactSolver> (*make)();
 };
 
-template <typename Solver, auto... arguments>
+template <typename Solver, auto... Arguments>
 std::unique_ptr<ContactSolver> make() {
-  return std::make_unique<Solver>(arguments...);
+  return std::make_unique<Solver>(Arguments...);
 }
 
 /// A line per solver, the default first.

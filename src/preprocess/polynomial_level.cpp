@@ -38,13 +38,13 @@ struct RowMoments {
   double heights[3] = {};
 };
 
-template <Weighting weighting>
+template <Weighting Kind>
 MEMS_STICTION_INLINE Lanes weightOf(const Lanes& residual, double scale) {
-  if (weighting == Weighting::kByHuber) {
+  if (Kind == Weighting::kByHuber) {
     const Lanes distance = select(residual < 0.0, 0.0 - residual, residual) / scale;
     return select(distance > kHuber, kHuber / distance, 1.0);
   }
-  if (weighting == Weighting::kByTukey) {
+  if (Kind == Weighting::kByTukey) {
     const Lanes distance = residual / (kTukey * scale);
     const Lanes share = 1.0 - distance * distance;
     return select(share > 0.0, share * share, 0.0);
@@ -60,13 +60,13 @@ struct MomentLanes {
   }
 };
 
-template <Weighting weighting>
+template <Weighting Kind>
 MEMS_STICTION_INLINE void addMoments(const LineCurve& curve, double scale, const Lanes& all_heights, const Lanes& u,
                                      MomentLanes& sums) {
   const LaneMask is_valid = isNumber(all_heights);
   const Lanes height = select(is_valid, all_heights - curve.origin, 0.0);
   const Lanes residual = height - (curve.a + u * (curve.b + curve.c * u));
-  const Lanes weight = select(is_valid, weightOf<weighting>(residual, scale), 0.0);
+  const Lanes weight = select(is_valid, weightOf<Kind>(residual, scale), 0.0);
   const Lanes wu = weight * u;
   const Lanes wuu = wu * u;
   sums.w += weight;
@@ -79,19 +79,19 @@ MEMS_STICTION_INLINE void addMoments(const LineCurve& curve, double scale, const
   sums.whuu += wuu * height;
 }
 
-template <Weighting weighting>
+template <Weighting Kind>
 MEMS_STICTION_INLINE RowMoments momentsOf(const double* line, const double* places, std::size_t size,
                                           const LineCurve& curve, double scale) {
   const LineCurve local = curve;
   MomentLanes sums;
   std::size_t i = 0;
   for (; i + Lanes::kCount <= size; i += Lanes::kCount) {
-    addMoments<weighting>(local, scale, Lanes::load(line + i), Lanes::load(places + i), sums);
+    addMoments<Kind>(local, scale, Lanes::load(line + i), Lanes::load(places + i), sums);
   }
   if (i < size) {
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-    addMoments<weighting>(local, scale, Lanes::loadFirst(line + i, size - i, kNan),
-                          Lanes::loadFirst(places + i, size - i, 0.0), sums);
+    addMoments<Kind>(local, scale, Lanes::loadFirst(line + i, size - i, kNan),
+                     Lanes::loadFirst(places + i, size - i, 0.0), sums);
   }
   return sums.sums();
 }

@@ -156,8 +156,9 @@ void WindowMedian::setFrame(int rows, int cols, int half) {
   margin_rows_ = std::min(half, rows - 1);
   margin_cols_ = std::min(half, cols - 1);
   stride_ = (static_cast<std::size_t>(cols + 2 * margin_cols_) / Lanes::kCount + 2) * Lanes::kCount;
-  wide_.resize(static_cast<std::size_t>(rows + 2 * margin_rows_) * stride_);
-  has_hole_.resize(static_cast<std::size_t>(rows + 2 * margin_rows_));
+  const std::size_t wide_rows = static_cast<std::size_t>(rows) + 2 * static_cast<std::size_t>(margin_rows_);
+  wide_.resize(wide_rows * stride_);
+  has_hole_.resize(wide_rows);
   sorted_.resize((2 * static_cast<std::size_t>(half) + 1) * stride_);
 }
 
@@ -181,10 +182,9 @@ void WindowMedian::fillMargins() {
       wideRow(rows_ - 1 + k)[col] = reflect(wideRow(rows_ - 1)[col], wideRow(rows_ - 1 - k)[col]);
     }
   }
-  for (int row = -margin_rows_; row < rows_ + margin_rows_; ++row) {
-    const double* line = wideRow(row);
-    has_hole_[static_cast<std::size_t>(row + margin_rows_)] =
-        std::any_of(line, line + width, [](double height) { return std::isnan(height); });
+  for (std::size_t row = 0; row < has_hole_.size(); ++row) {
+    const double* line = wide_.data() + row * stride_;
+    has_hole_[row] = std::any_of(line, line + width, [](double height) { return std::isnan(height); });
   }
 }
 

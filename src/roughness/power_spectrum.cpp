@@ -108,7 +108,7 @@ PowerSpectrum powerSpectrum(const HeightMap& surface, SpectrumWindow window) {
       zeroth += power;
       second += power * square;
       fourth += power * square * square;
-      const auto ring = static_cast<std::size_t>(q + 0.5);
+      const auto ring = static_cast<std::size_t>(std::lround(q));
       if (q > nyquist / width * (1.0 + 1e-12) || ring >= rings.size()) continue;
       rings[ring].wave_number += twins * q * width;
       rings[ring].density += power;

@@ -23,7 +23,7 @@ class LaneMask {
 
   MEMS_STICTION_INLINE explicit LaneMask(const Vector& bits) : bits_(bits) {}
   // Written out, here and below: how else the class is handed over depends on the instructions a file is compiled for.
-  MEMS_STICTION_INLINE LaneMask(const LaneMask& other) : bits_(other.bits_) {}
+  MEMS_STICTION_INLINE LaneMask(const LaneMask& other) : bits_(other.bits_) {}  // NOLINT(modernize-use-equals-default)
   LaneMask& operator=(const LaneMask& other) = default;
 
   MEMS_STICTION_INLINE const Vector& bits() const { return bits_; }
@@ -53,7 +53,7 @@ class Lanes {
   /// The same number in all lanes.
   MEMS_STICTION_INLINE Lanes(double value) : values_{value, value, value, value} {}  // NOLINT: as double from int
   MEMS_STICTION_INLINE Lanes(double a, double b, double c, double d) : values_{a, b, c, d} {}
-  MEMS_STICTION_INLINE Lanes(const Lanes& other) : values_(other.values_) {}
+  MEMS_STICTION_INLINE Lanes(const Lanes& other) : values_(other.values_) {}  // NOLINT(modernize-use-equals-default)
   Lanes& operator=(const Lanes& other) = default;
 
   /// From memory.
