@@ -93,6 +93,7 @@ PredictedScan LivePredictor::predictScan(const ReceivedScan& scan, const OutputO
   PredictedScan predicted = judged(prepared, *settings);
   if (accumulate_deformation_) requireDeformedSurfaces(predicted.prediction);
   last_ = LastScan{scan, prepared, wear_};
+  last_->prepared.preparation_time = 0.0;  // later predictions of this scan do not prepare it
   if (accumulate_deformation_) {
     wear_ = deepened(wear_, prepared.surfaces.lower.asDouble().heights(), predicted.prediction.deformed_lower);
   }

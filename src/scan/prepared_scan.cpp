@@ -1,5 +1,6 @@
 #include "mems_stiction/scan/prepared_scan.hpp"
 
+#include <chrono>
 #include <utility>
 
 #include "mems_stiction/base/errors.hpp"
@@ -59,6 +60,7 @@ PreparedScan ScanPreparer::ready(const SurfacePair& surfaces) const {
 }
 
 PreparedScan ScanPreparer::prepare(const HeightMap& scan) {
+  const auto start = std::chrono::steady_clock::now();
   ++scans_cleaned_;
   CleanedScan cleaned = cleaner_.clean(scan);
   cleaner_.letGo();
@@ -70,6 +72,7 @@ PreparedScan ScanPreparer::prepare(const HeightMap& scan) {
   if (spatial_roughness_.enabled) {
     prepared.spatial_roughness = spatialRoughness(prepared.surfaces.lower, spatial_roughness_);
   }
+  prepared.preparation_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return prepared;
 }
 

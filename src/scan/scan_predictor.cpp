@@ -87,6 +87,7 @@ Prediction ScanPredictor::predict(const PreparedScan& prepared) {
   prediction.roughness = prepared.roughness;
   prediction.spatial_roughness = prepared.spatial_roughness;
   flagResolution(min_contact_pixels_, tip_radius_, prediction);
+  prediction.processing_time += prepared.preparation_time;
   return prediction;
 }
 

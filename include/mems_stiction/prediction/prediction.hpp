@@ -68,7 +68,7 @@ struct Prediction {
   double rms_height = 0.0;            ///< Sq of the lower surface [m]
   ArealParameters roughness;          ///< of the lower surface
   double invalid_fraction = 0.0;      ///< share of pixels that are invalid in either surface [-]
-  double processing_time = 0.0;       ///< wall time inside predict() [s]
+  double processing_time = 0.0;       ///< wall time of this prediction, its preparation included [s]
 
   /// Whether `asperities` lists every contact: it does not if the solver knows none, or output/asperities is off.
   bool listsContacts() const { return has_asperities && static_cast<int>(asperities.size()) == asperity_count; }

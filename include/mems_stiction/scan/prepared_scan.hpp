@@ -31,6 +31,7 @@ struct PreparedScan {
   PreprocessRecord record;             ///< what was done to the scan
   ArealParameters roughness;           ///< of model_surfaces.lower, if output/roughness asks for it
   SpatialRoughness spatial_roughness;  ///< of surfaces.lower; NaN unless output/spatial_roughness asks for it
+  double preparation_time = 0.0;       ///< wall time of prepare() [s], part of the time of the scan's prediction
 };
 
 /// Prepares scan after scan with one configuration. One object serves one thread at a time.

@@ -342,6 +342,16 @@ TEST(Convergence, AllResolutionsSeeTheSameAreaAndTheSameCounterSurface) {
 
 // ------------------------------------------------------------------ roughness
 
+TEST(ScanPredictor, TheTimeOfAPredictionContainsThatOfItsPreparation) {
+  ScanPredictor predictor(pressed());
+  PreparedScan prepared = predictor.preparer().prepare(rough());
+  EXPECT_GT(prepared.preparation_time, 0.0);
+  prepared.preparation_time = 1000.0;  // longer than any prediction of a small frame
+  EXPECT_GT(predictor.predict(prepared).processing_time, 1000.0);
+  prepared.preparation_time = 0.0;
+  EXPECT_LT(predictor.predict(prepared).processing_time, 1000.0);
+}
+
 TEST(SpatialRoughness, IsThatOfTheCleanedScanWhenAskedFor) {
   const HeightMap scan = rough(5, 256, 256);
   Configuration configuration = pressed();
