@@ -1,0 +1,29 @@
+#pragma once
+
+/// @file
+/// How the half-space is solved, beside what it consists of.
+
+#include "mems_stiction/base/option_visitor.hpp"
+
+namespace mems_stiction {
+
+/// What lies beyond the frame: copies of it, or a free, flat half-space.
+enum class HalfSpaceBoundary { kPeriodic, kFree };
+
+/// Settings of HalfSpaceSolver; keys half_space/...
+struct HalfSpaceOptions {
+  double range = 0.0;  ///< z0 of the traction law [m], >= 0; 0 derives it from work of adhesion and Hamaker constant
+  bool attraction = true;  ///< false: surfaces only repel each other, closer than z0
+  bool flow = true;        ///< false: no pressure is too high
+  HalfSpaceBoundary boundary = HalfSpaceBoundary::kPeriodic;
+  double step = 0.4;           ///< usual change of the height between two states, of z0 [-], in [0.01, 2]
+  double tolerance = 1e-4;     ///< largest residual of an equilibrium, of 8 Gamma/(3 z0) [-], in [1e-6, 1e-3]
+  int max_states = 2000;       ///< solved on the path before it is given up, in [10, 1000000]
+  int max_newton_steps = 300;  ///< of one state, in [10, 100000]
+  int max_pixels = 4194304;    ///< larger frames are refused, >= 1
+  int threads = 1;             ///< in [1, 64]; results do not depend on it
+
+  void describe(OptionVisitor& visitor);
+};
+
+}  // namespace mems_stiction

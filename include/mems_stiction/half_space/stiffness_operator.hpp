@@ -1,0 +1,80 @@
+#pragma once
+
+/// @file
+/// Which traction holds a displacement of an elastic half-space, and roughly which displacement answers a traction?
+///
+///     periodic:  t_q = (E/2) |q| u_q,  0 for q = 0: the mean displacement is the rigid body's
+///     free:      u = G * t,  G(x, y) = 1/(pi E) times the integral of 1/r over a cell   (Love; Johnson (3.25))
+///                K_q = 1/G_q on a frame padded to twice its size
+///
+/// Both are products in Fourier space: rows are transformed, two at a time, then columns are transformed, multiplied and
+/// transformed back while they lie in the cache, then rows back. E is the contact modulus of the pair, u the sum of both
+/// bodies' displacements. Sources: Johnson, Contact Mechanics (1985), chapter 3; Stanley and Kato, J. Tribology 119
+/// (1997) 481 for the periodic form; Hockney, Methods Comput. Phys. 9 (1970) 135 for the padding.
+///
+///     SpectrumMemory memory;
+///     StiffnessOperator<float> stiffness(grid, contact_modulus, threads, memory);
+///     stiffness.precondition(shift, residual, direction);
+
+#include <memory>
+#include <vector>
+
+#include "mems_stiction/base/large_pages.hpp"
+#include "mems_stiction/half_space/half_space_grid.hpp"
+
+namespace mems_stiction {
+
+/// Memory for the half spectrum of a frame, which operators that do not work at the same time can share.
+struct SpectrumMemory {
+  LargePageVector<unsigned char> bytes;
+};
+
+/// K and (K + shift)^-1 on arrays of the grid, Scalar float or double. The same bits for any number of threads.
+template <typename Scalar>
+class StiffnessOperator {
+ public:
+  /// - @p contact_modulus [Pa], > 0
+  /// - @p threads >= 1
+  /// - @p memory is made large enough; it must outlive the operator
+  StiffnessOperator(const HalfSpaceGrid& grid, double contact_modulus, int threads, SpectrumMemory& memory);
+  ~StiffnessOperator();
+  StiffnessOperator(const StiffnessOperator&) = delete;
+  StiffnessOperator& operator=(const StiffnessOperator&) = delete;
+
+  /// traction = K displacement; [m] to [Pa]. The arrays may be one.
+  void multiply(const Scalar* displacement, Scalar* traction);
+  /// displacement = (K + shift)^-1 traction, its mean 0 where K does not resist the mean. The arrays may be one.
+  /// - @p shift [Pa/m], > 0
+  /// @return sum of traction times displacement, in the precision of eight lanes a row, added in double
+  double precondition(double shift, const Scalar* traction, Scalar* displacement);
+
+  /// The smallest stiffness against a displacement that is not uniform [Pa/m]; of a 1 x 1 frame infinity.
+  double smallest() const { return smallest_; }
+  /// Whether K resists a uniform displacement: with free edges.
+  bool resistsMean() const { return grid_.boundary == HalfSpaceBoundary::kFree; }
+
+ private:
+  struct Plans;
+  /// after_rows(first, second) is called when both rows of `to` are done.
+  template <typename Multiplier, typename AfterRows>
+  void apply(const Scalar* from, Scalar* to, const Multiplier& multiplier, const AfterRows& after_rows);
+  void fillPeriodic(double contact_modulus);
+  void fillFree(double contact_modulus);
+  /// Complex numbers of a row of the half spectrum.
+  Scalar* spectrumOf(std::size_t row);
+  /// Where the stiffness of wave numbers (row, col) stands.
+  Scalar& entry(int row, int col);
+
+  HalfSpaceGrid grid_;
+  int threads_;
+  int blocks_;  ///< of columns of the half spectrum
+  double smallest_;
+  LargePageVector<Scalar> stiffness_;          ///< column by column of the half spectrum [Pa/m]
+  SpectrumMemory* memory_;                     ///< rows x blocks of complex numbers
+  std::size_t pad_size_;                       ///< of each pad
+  std::vector<LargePageVector<Scalar>> pads_;  ///< for what each thread transforms
+  std::vector<double> row_products_;
+  std::unique_ptr<Plans> plans_;
+};
+
+}  // namespace mems_stiction

@@ -1,0 +1,98 @@
+#pragma once
+
+/// @file
+/// With which traction do two surfaces a gap apart attract or repel each other, and what does that cost per area?
+///
+///     t(g) = (8 Gamma/(3 z0)) [(z0/g)^3 - (z0/g)^9]                   attraction and repulsion: zero at z0, integral
+///                                                                     from there Gamma, largest 1.026 Gamma/z0
+///     z0   = sqrt(H/(16 pi Gamma))                                    so that it falls off as H/(6 pi g^3)
+///          + eps0 U^2/(2 (g + t/eps_r)^2)                             field over an insulator
+///          + p where z0 < g < z0 + d_K                                condensed water (loads/capillary.hpp)
+///     t >= -Ha                                                        beyond, the softer body flows
+///
+/// Attraction is positive; the energy is minus the work that separation to infinity takes. Assumptions: the traction at
+/// a place depends on the gap there alone (Derjaguin); smooth electrodes without charge in the insulator; water in
+/// equilibrium with the vapour, its front smeared over a quarter of z0 as a sharp one has no derivative. Gaps narrower
+/// than where t = -Ha (or, without a hardness, than 0.45 z0, hundreds of GPa for any solid) take the traction on as a
+/// straight line, so that it is finite for every gap. Electric field and water change the gap of zero traction by less
+/// than z0/100; g counts from the centres of the outermost atoms, so the insulator's thickness includes z0.
+/// Sources: Israelachvili, Intermolecular and Surface Forces (3rd ed., 2011), chapter 13; Persson and Scaraggi, J. Chem.
+/// Phys. 141 (2014) 124701 for rough surfaces under such a law; loads/normal_load.hpp for (3).
+///
+///     TractionLawOptions options;
+///     const TractionLaw law(options);
+///     const double pull = law.at(gap).traction;
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "mems_stiction/loads/capillary.hpp"
+
+namespace mems_stiction {
+
+/// What acts across the gap.
+struct TractionLawOptions {
+  double work_of_adhesion = 0.05;    ///< Gamma of the flat interface [J/m^2], > 0
+  double hamaker_constant = 65e-21;  ///< H [J], > 0 where range is 0
+  double range = 0.0;                ///< z0 [m]; 0 derives it from Gamma and H
+  bool attracts = true;              ///< false: no attraction, the surfaces repel closer than z0
+  double hardness = std::numeric_limits<double>::infinity();  ///< Ha of the softer body [Pa], > 0; infinity: elastic
+  double voltage = 0.0;                                       ///< U [V]
+  double insulator_thickness = 0.0;                           ///< t [m], > 0 when the voltage is not 0
+  double insulator_relative_permittivity = 3.9;               ///< eps_r [-], >= 1
+  CapillaryOptions water;                                     ///< relative_humidity 0: none
+
+  /// One line per violated constraint, empty when all is well.
+  std::vector<std::string> validate() const;
+};
+
+/// t(g), its derivative and its energy.
+class TractionLaw {
+ public:
+  /// Of one gap.
+  struct Point {
+    double traction;  ///< t [Pa], positive attracts
+    double slope;     ///< dt/dg [Pa/m]
+    double energy;    ///< integral of t from infinity to g [J/m^2]
+  };
+
+  /// @param options fit for use: validate() is empty
+  explicit TractionLaw(const TractionLawOptions& options);
+
+  Point at(double gap) const;
+  /// The same of `count` gaps [m]; infinite ones have no traction.
+  void atRow(int count, const double* gaps, double* traction, double* slope, double* energy) const;
+
+  /// Slope of the line from a gap with its traction to where the surfaces repel each other with -other_traction, by the
+  /// first part of the law [Pa/m].
+  double secant(double gap, double traction, double other_traction) const;
+
+  double range() const { return range_; }             ///< z0 [m]
+  double stress() const { return stress_; }           ///< 8 Gamma/(3 z0) [Pa]
+  bool flows() const { return flows_; }               ///< whether a hardness limits the repulsion
+  double closestGap() const { return closest_gap_; }  ///< where t = -Ha; narrower gaps flow [m]
+  double contactGap() const { return contact_gap_; }  ///< narrower gaps repel [m]; z0 but for field and water
+  /// The widest gap at which something has an edge: beyond it there are tails only [m].
+  double reach() const;
+
+ private:
+  /// The first part of t, no closer than the closest gap; returns the smallest gap, or the closest if that is smaller.
+  double nineThree(int count, const double* gaps, double* traction, double* slope, double* energy) const;
+  /// Where t falls to -pressure, between a narrow gap that repels more and z0 [m].
+  double gapOfPressure(double pressure, double narrow) const;
+  void addField(int count, const double* gaps, double* traction, double* slope, double* energy) const;
+
+  double range_;
+  double stress_;
+  bool attracts_;
+  bool flows_ = false;
+  double closest_gap_;
+  double contact_gap_;
+  double slope_of_line_ = 0.0;  ///< of t for narrower gaps [Pa/m]
+  double field_factor_;         ///< eps0 U^2/2 [N]
+  double insulator_;            ///< t/eps_r [m]
+  CapillaryForce water_;
+};
+
+}  // namespace mems_stiction

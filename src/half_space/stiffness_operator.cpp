@@ -1,0 +1,353 @@
+#include "mems_stiction/half_space/stiffness_operator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <initializer_list>
+#include <limits>
+#include <mutex>
+
+#include <fftw3.h>
+
+#include "mems_stiction/base/constants.hpp"
+#include "mems_stiction/base/vectorized.hpp"
+#include "mems_stiction/half_space/row_work.hpp"
+#include "row_pairs.hpp"
+
+namespace mems_stiction {
+namespace {
+
+/// Columns that are gathered together: their complex numbers fill one or two cache lines.
+constexpr std::size_t kBlock = 8;
+
+/// FFTW's planner is not to be called by two threads at once.
+std::mutex& plannerMutex() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+/// FFTW's names for one precision: transforms of one row or column, from one array into another. Plans are estimated,
+/// never timed, so that they are the same in every run.
+template <typename Scalar>
+struct Fftw;
+
+template <>
+struct Fftw<double> {
+  using Complex = fftw_complex;
+  using Plan = fftw_plan;
+  static Plan plan(int length, Complex* from, Complex* to, int sign) {
+    return fftw_plan_dft_1d(length, from, to, sign, FFTW_ESTIMATE);
+  }
+  static void execute(Plan plan, Complex* from, Complex* to) { fftw_execute_dft(plan, from, to); }
+  static void destroy(Plan plan) { fftw_destroy_plan(plan); }
+};
+
+template <>
+struct Fftw<float> {
+  using Complex = fftwf_complex;
+  using Plan = fftwf_plan;
+  static Plan plan(int length, Complex* from, Complex* to, int sign) {
+    return fftwf_plan_dft_1d(length, from, to, sign, FFTW_ESTIMATE);
+  }
+  static void execute(Plan plan, Complex* from, Complex* to) { fftwf_execute_dft(plan, from, to); }
+  static void destroy(Plan plan) { fftwf_destroy_plan(plan); }
+};
+
+/// Each complex number of a column times the real factor that its wave number has.
+template <typename Scalar, typename Multiplier>
+MEMS_STICTION_INLINE void multiplyColumn(std::size_t count, const Scalar* stiffness, const Multiplier& multiplier,
+                                         Scalar* column) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const Scalar factor = multiplier(stiffness[i]);
+    column[2 * i] *= factor;
+    column[2 * i + 1] *= factor;
+  }
+}
+
+/// K, with the transforms' factor.
+template <typename Scalar>
+struct TimesStiffness {
+  Scalar scale;
+  Scalar operator()(Scalar stiffness) const { return scale * stiffness; }
+};
+
+/// 1/(K + shift), with the transforms' factor.
+template <typename Scalar>
+struct OverStiffness {
+  Scalar scale;
+  Scalar shift;
+  Scalar operator()(Scalar stiffness) const { return scale / (stiffness + shift); }
+};
+
+MEMS_STICTION_VECTORIZED void scaleColumn(std::size_t count, const float* stiffness,
+                                          const TimesStiffness<float>& multiplier, float* column) {
+  multiplyColumn(count, stiffness, multiplier, column);
+}
+MEMS_STICTION_VECTORIZED void scaleColumn(std::size_t count, const double* stiffness,
+                                          const TimesStiffness<double>& multiplier, double* column) {
+  multiplyColumn(count, stiffness, multiplier, column);
+}
+MEMS_STICTION_VECTORIZED void scaleColumn(std::size_t count, const float* stiffness,
+                                          const OverStiffness<float>& multiplier, float* column) {
+  multiplyColumn(count, stiffness, multiplier, column);
+}
+MEMS_STICTION_VECTORIZED void scaleColumn(std::size_t count, const double* stiffness,
+                                          const OverStiffness<double>& multiplier, double* column) {
+  multiplyColumn(count, stiffness, multiplier, column);
+}
+
+/// sum of a b in eight lanes.
+template <typename Scalar>
+MEMS_STICTION_INLINE double dotLanes(std::size_t count, const Scalar* a, const Scalar* b) {
+  constexpr std::size_t kDotLanes = 8;
+  Scalar lanes[kDotLanes] = {};
+  std::size_t i = 0;
+  for (; i + kDotLanes <= count; i += kDotLanes) {
+    for (std::size_t lane = 0; lane < kDotLanes; ++lane) lanes[lane] += a[i + lane] * b[i + lane];
+  }
+  double sum = 0.0;
+  for (const Scalar lane : lanes) sum += static_cast<double>(lane);
+  for (; i < count; ++i) sum += static_cast<double>(a[i]) * static_cast<double>(b[i]);
+  return sum;
+}
+MEMS_STICTION_VECTORIZED double dotRow(std::size_t count, const float* a, const float* b) {
+  return dotLanes(count, a, b);
+}
+MEMS_STICTION_VECTORIZED double dotRow(std::size_t count, const double* a, const double* b) {
+  return dotLanes(count, a, b);
+}
+
+/// Integral of 1/r over the quarter between the axes and (x, y), seen from the origin, signed [m].
+double cornerIntegral(double x, double y) {
+  const double r = std::hypot(x, y);
+  // asinh keeps its digits where r and the other coordinate nearly cancel
+  const double along_x = y != 0.0 ? y * std::asinh(x / std::abs(y)) : 0.0;
+  const double along_y = x != 0.0 ? x * std::asinh(y / std::abs(x)) : 0.0;
+  return r > 0.0 ? along_x + along_y : 0.0;
+}
+
+/// Displacement [m] at a distance (x, y) from the middle of a cell under 1 Pa.
+double loveInfluence(double x, double y, double pitch_x, double pitch_y, double contact_modulus) {
+  const double left = x - 0.5 * pitch_x;
+  const double right = x + 0.5 * pitch_x;
+  const double below = y - 0.5 * pitch_y;
+  const double above = y + 0.5 * pitch_y;
+  const double integral = cornerIntegral(right, above) - cornerIntegral(left, above) - cornerIntegral(right, below) +
+                          cornerIntegral(left, below);
+  return integral / (kPi * contact_modulus);
+}
+
+}  // namespace
+
+template <typename Scalar>
+struct StiffnessOperator<Scalar>::Plans {
+  using Library = Fftw<Scalar>;
+  using Complex = typename Library::Complex;
+
+  /// The array only shows the alignment that all share; nothing is written to it.
+  Plans(const HalfSpaceGrid& grid, Scalar* from, Scalar* to) {
+    auto* const source = reinterpret_cast<Complex*>(from);
+    auto* const target = reinterpret_cast<Complex*>(to);
+    const std::lock_guard<std::mutex> lock(plannerMutex());
+    rows_forward = Library::plan(grid.cols, source, target, FFTW_FORWARD);
+    rows_backward = Library::plan(grid.cols, source, target, FFTW_BACKWARD);
+    columns_forward = Library::plan(grid.rows, source, target, FFTW_FORWARD);
+    columns_backward = Library::plan(grid.rows, source, target, FFTW_BACKWARD);
+  }
+  ~Plans() {
+    const std::lock_guard<std::mutex> lock(plannerMutex());
+    for (const auto plan : {rows_forward, rows_backward, columns_forward, columns_backward}) Library::destroy(plan);
+  }
+  Plans(const Plans&) = delete;
+  Plans& operator=(const Plans&) = delete;
+
+  static void execute(typename Library::Plan plan, Scalar* from, Scalar* to) {
+    Library::execute(plan, reinterpret_cast<Complex*>(from), reinterpret_cast<Complex*>(to));
+  }
+
+  typename Library::Plan rows_forward;
+  typename Library::Plan rows_backward;
+  typename Library::Plan columns_forward;
+  typename Library::Plan columns_backward;
+};
+
+template <typename Scalar>
+StiffnessOperator<Scalar>::StiffnessOperator(const HalfSpaceGrid& grid, double contact_modulus, int threads,
+                                             SpectrumMemory& memory)
+    : grid_(grid),
+      threads_(threads),
+      blocks_((grid.cols / 2 + static_cast<int>(kBlock)) / static_cast<int>(kBlock)),
+      smallest_(std::numeric_limits<double>::infinity()),
+      memory_(&memory) {
+  const auto rows = static_cast<std::size_t>(grid_.rows);
+  const auto cols = static_cast<std::size_t>(grid_.cols);
+  const std::size_t block_size = rows * kBlock;
+  stiffness_.assign(static_cast<std::size_t>(blocks_) * block_size, Scalar(1));
+  const std::size_t bytes = 2 * sizeof(Scalar) * static_cast<std::size_t>(blocks_) * block_size;
+  if (memory.bytes.size() < bytes) memory.bytes.resize(bytes);
+  // two joined rows and their spectrum, or a block of columns and the spectrum of one; each on a cache line of its own
+  pad_size_ = 2 * std::max(2 * (cols + kBlock), (kBlock + 1) * (rows + kBlock));
+  pads_.resize(static_cast<std::size_t>(threads_));
+  for (auto& pad : pads_) pad.resize(pad_size_);
+  plans_ = std::make_unique<Plans>(grid_, pads_.front().data(), pads_.front().data() + pad_size_ / 2);
+  if (grid_.boundary == HalfSpaceBoundary::kPeriodic) {
+    fillPeriodic(contact_modulus);
+  } else {
+    fillFree(contact_modulus);
+  }
+}
+
+template <typename Scalar>
+StiffnessOperator<Scalar>::~StiffnessOperator() = default;
+
+template <typename Scalar>
+Scalar* StiffnessOperator<Scalar>::spectrumOf(std::size_t row) {
+  return reinterpret_cast<Scalar*>(memory_->bytes.data()) + row * 2 * static_cast<std::size_t>(blocks_) * kBlock;
+}
+
+template <typename Scalar>
+Scalar& StiffnessOperator<Scalar>::entry(int row, int col) {
+  return stiffness_[static_cast<std::size_t>(col) * static_cast<std::size_t>(grid_.rows) +
+                    static_cast<std::size_t>(row)];
+}
+
+template <typename Scalar>
+void StiffnessOperator<Scalar>::fillPeriodic(double contact_modulus) {
+  for (int row = 0; row < grid_.rows; ++row) {
+    const double q_y = 2.0 * kPi * std::min(row, grid_.rows - row) / (grid_.rows * grid_.pitch_y);
+    for (int col = 0; col <= grid_.cols / 2; ++col) {
+      const double q_x = 2.0 * kPi * col / (grid_.cols * grid_.pitch_x);
+      const double stiffness = 0.5 * contact_modulus * std::hypot(q_x, q_y);
+      entry(row, col) = static_cast<Scalar>(stiffness);
+      if (row + col > 0) smallest_ = std::min(smallest_, stiffness);
+    }
+  }
+}
+
+template <typename Scalar>
+void StiffnessOperator<Scalar>::fillFree(double contact_modulus) {
+  // in double whatever the Scalar: the small compliances of short waves are differences of large numbers
+  using Library = Fftw<double>;
+  const std::size_t half = static_cast<std::size_t>(grid_.cols) / 2 + 1;
+  LargePageVector<double> influence(static_cast<std::size_t>(grid_.rows) * static_cast<std::size_t>(grid_.cols));
+  LargePageVector<double> compliance(2 * half * static_cast<std::size_t>(grid_.rows));
+  auto* const transformed = reinterpret_cast<Library::Complex*>(compliance.data());
+  const auto cols = static_cast<std::size_t>(grid_.cols);
+  const auto rowOf = [&](int row) { return influence.data() + static_cast<std::size_t>(row) * cols; };
+  forEachRow(grid_.rows / 2 + 1, threads_, [&](int row) {
+    double* const line = rowOf(row);
+    for (int col = 0; col <= grid_.cols / 2; ++col) {
+      line[col] =
+          loveInfluence(col * grid_.pitch_x, row * grid_.pitch_y, grid_.pitch_x, grid_.pitch_y, contact_modulus);
+    }
+    for (int col = grid_.cols / 2 + 1; col < grid_.cols; ++col) line[col] = line[grid_.cols - col];
+  });
+  for (int row = grid_.rows / 2 + 1; row < grid_.rows; ++row) std::copy_n(rowOf(grid_.rows - row), cols, rowOf(row));
+  Library::Plan plan = nullptr;
+  {
+    const std::lock_guard<std::mutex> lock(plannerMutex());
+    plan = fftw_plan_dft_r2c_2d(grid_.rows, grid_.cols, influence.data(), transformed, FFTW_ESTIMATE);
+  }
+  fftw_execute(plan);
+  {
+    const std::lock_guard<std::mutex> lock(plannerMutex());
+    fftw_destroy_plan(plan);
+  }
+  for (int row = 0; row < grid_.rows; ++row) {
+    for (int col = 0; col <= grid_.cols / 2; ++col) {
+      const double stiffness =
+          1.0 / transformed[static_cast<std::size_t>(row) * half + static_cast<std::size_t>(col)][0];
+      entry(row, col) = static_cast<Scalar>(stiffness);
+      smallest_ = std::min(smallest_, stiffness);
+    }
+  }
+}
+
+template <typename Scalar>
+template <typename Multiplier, typename AfterRows>
+void StiffnessOperator<Scalar>::apply(const Scalar* from, Scalar* to, const Multiplier& multiplier,
+                                      const AfterRows& after_rows) {
+  const auto rows = static_cast<std::size_t>(grid_.rows);
+  const auto cols = static_cast<std::size_t>(grid_.cols);
+  const std::size_t row_size = 2 * static_cast<std::size_t>(blocks_) * kBlock;
+  const std::size_t second_pad = 2 * (cols + kBlock - cols % kBlock);
+  const int pairs = (grid_.rows + 1) / 2;
+  const auto forEachPair = [&](const auto& work) {
+    forParts(threads_, [&](int part) {
+      Scalar* const pad = pads_[static_cast<std::size_t>(part)].data();
+      const int end = pairs * (part + 1) / threads_;
+      for (int pair = pairs * part / threads_; pair < end; ++pair) {
+        // the last row of an odd number is joined with itself
+        const int second = std::min(2 * pair + 1, grid_.rows - 1);
+        work(2 * static_cast<std::size_t>(pair), static_cast<std::size_t>(second), pad, pad + second_pad);
+      }
+    });
+  };
+  const auto stride = static_cast<std::size_t>(grid_.stride);
+  forEachPair([&](std::size_t first, std::size_t second, Scalar* joined, Scalar* spectrum) {
+    row_pairs::join(cols, from + first * stride, from + second * stride, joined);
+    Plans::execute(plans_->rows_forward, joined, spectrum);
+    row_pairs::splitSpectrum(cols, spectrum, spectrumOf(first), spectrumOf(second));
+  });
+  forParts(threads_, [&](int part) {
+    Scalar* const block = pads_[static_cast<std::size_t>(part)].data();
+    const std::size_t column_size = 2 * (rows + kBlock - rows % kBlock);
+    Scalar* const spectrum = block + kBlock * column_size;
+    const int end = blocks_ * (part + 1) / threads_;
+    for (int i = blocks_ * part / threads_; i < end; ++i) {
+      const auto first_column = static_cast<std::size_t>(i) * kBlock;
+      Scalar* const first = spectrumOf(0) + 2 * first_column;
+      for (std::size_t row = 0; row < rows; ++row) {
+        for (std::size_t k = 0; k < kBlock; ++k) {
+          std::memcpy(block + k * column_size + 2 * row, first + row * row_size + 2 * k, 2 * sizeof(Scalar));
+        }
+      }
+      for (std::size_t k = 0; k < kBlock; ++k) {
+        Scalar* const column = block + k * column_size;
+        Plans::execute(plans_->columns_forward, column, spectrum);
+        scaleColumn(rows, stiffness_.data() + (first_column + k) * rows, multiplier, spectrum);
+        if (first_column + k == 0 && !resistsMean()) spectrum[0] = spectrum[1] = Scalar(0);
+        Plans::execute(plans_->columns_backward, spectrum, column);
+      }
+      for (std::size_t row = 0; row < rows; ++row) {
+        for (std::size_t k = 0; k < kBlock; ++k) {
+          std::memcpy(first + row * row_size + 2 * k, block + k * column_size + 2 * row, 2 * sizeof(Scalar));
+        }
+      }
+    }
+  });
+  forEachPair([&](std::size_t first, std::size_t second, Scalar* joined, Scalar* spectrum) {
+    row_pairs::joinSpectra(cols, spectrumOf(first), spectrumOf(second), spectrum);
+    Plans::execute(plans_->rows_backward, spectrum, joined);
+    row_pairs::split(cols, joined, to + first * stride, to + second * stride);
+    after_rows(first, second);
+  });
+}
+
+template <typename Scalar>
+void StiffnessOperator<Scalar>::multiply(const Scalar* displacement, Scalar* traction) {
+  const double scale = 0.5 / (static_cast<double>(grid_.rows) * grid_.cols);  // spectra come twice
+  apply(displacement, traction, TimesStiffness<Scalar>{static_cast<Scalar>(scale)}, [](std::size_t, std::size_t) {});
+}
+
+template <typename Scalar>
+double StiffnessOperator<Scalar>::precondition(double shift, const Scalar* traction, Scalar* displacement) {
+  const double scale = 0.5 / (static_cast<double>(grid_.rows) * grid_.cols);
+  const auto cols = static_cast<std::size_t>(grid_.cols);
+  const auto stride = static_cast<std::size_t>(grid_.stride);
+  row_products_.resize(static_cast<std::size_t>(grid_.rows));
+  apply(traction, displacement, OverStiffness<Scalar>{static_cast<Scalar>(scale), static_cast<Scalar>(shift)},
+        [&](std::size_t first, std::size_t second) {
+          for (const std::size_t row : {first, second}) {
+            row_products_[row] = dotRow(cols, traction + row * stride, displacement + row * stride);
+          }
+        });
+  double product = 0.0;
+  for (const double of_row : row_products_) product += of_row;
+  return product;
+}
+
+template class StiffnessOperator<float>;
+template class StiffnessOperator<double>;
+
+}  // namespace mems_stiction

@@ -1,0 +1,191 @@
+#include "mems_stiction/half_space/traction_law.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mems_stiction/base/constants.hpp"
+#include "mems_stiction/base/lanes.hpp"
+
+namespace mems_stiction {
+namespace {
+
+/// Closest gap of a law without a hardness, of z0: there it repels with 1300 times 8 Gamma/(3 z0).
+constexpr double kClosestGap = 0.45;
+constexpr int kSecantIterations = 4;
+/// Width over which the water's pressure sets in, of z0.
+constexpr double kWaterFront = 0.25;
+
+/// 9-3 attraction and repulsion; x = z0/g.
+template <typename Number>
+MEMS_STICTION_INLINE void setNineThree(double stress, double range, const Number& x, Number& traction, Number& slope,
+                                       Number& energy) {
+  const Number x2 = x * x;
+  const Number x3 = x2 * x;
+  const Number x6 = x3 * x3;
+  traction = stress * (x3 - x6 * x3);
+  slope = stress / range * (9.0 * x6 - 3.0) * (x2 * x2);
+  energy = stress * range * (0.125 * x6 - 0.5) * x2;
+}
+
+/// Smooth step from 0 to 1 over [-1/2, 1/2] with its derivative and its integral from -infinity.
+struct Step {
+  double value;
+  double slope;
+  double integral;
+};
+Step smoothStep(double x) {
+  if (x <= -0.5) return {0.0, 0.0, 0.0};
+  if (x >= 0.5) return {1.0, 0.0, x};
+  const double s = x + 0.5;
+  return {s * s * (3.0 - 2.0 * s), 6.0 * s * (1.0 - s), s * s * s * (1.0 - 0.5 * s)};
+}
+
+}  // namespace
+
+std::vector<std::string> TractionLawOptions::validate() const {
+  std::vector<std::string> violations;
+  const auto require = [&](bool holds, const std::string& name, double value, const std::string& allowed) {
+    if (!holds) violations.push_back(name + ": " + numberText(value) + " is not allowed, must be " + allowed);
+  };
+  const Range positive = Range::positive();
+  require(positive.contains(work_of_adhesion), "interface/work_of_adhesion", work_of_adhesion,
+          "> 0 J/m^2 for a traction between the surfaces");
+  require(Range::nonNegative().contains(range), "half_space/range", range, ">= 0 m");
+  if (range == 0.0) {
+    require(positive.contains(hamaker_constant), "interface/hamaker_constant", hamaker_constant,
+            "> 0 J where half_space/range is 0");
+  }
+  require(hardness > 0.0, "hardness", hardness, "> 0 Pa");
+  require(Range::any().contains(voltage), "load/voltage", voltage, "finite");
+  if (voltage != 0.0) {
+    require(positive.contains(insulator_thickness), "interface/insulator_thickness", insulator_thickness,
+            "> 0 m when the voltage is not 0");
+    require(insulator_relative_permittivity >= 1.0, "interface/insulator_relative_permittivity",
+            insulator_relative_permittivity, ">= 1");
+  }
+  const std::vector<std::string> of_water = rangeViolations(water);
+  violations.insert(violations.end(), of_water.begin(), of_water.end());
+  return violations;
+}
+
+TractionLaw::TractionLaw(const TractionLawOptions& options)
+    : range_(options.range > 0.0 ? options.range
+                                 : std::sqrt(options.hamaker_constant / (16.0 * kPi * options.work_of_adhesion))),
+      stress_(8.0 * options.work_of_adhesion / (3.0 * range_)),
+      attracts_(options.attracts),
+      closest_gap_(kClosestGap * range_),
+      contact_gap_(range_),
+      field_factor_(0.5 * kVacuumPermittivity * options.voltage * options.voltage),
+      insulator_(options.insulator_thickness / options.insulator_relative_permittivity),
+      water_(options.water) {
+  const Point closest = at(closest_gap_);
+  const double narrowest = closest_gap_;
+  slope_of_line_ = closest.slope;
+  contact_gap_ = gapOfPressure(0.0, narrowest);
+  if (-closest.traction <= options.hardness) return;
+  flows_ = true;
+  slope_of_line_ = 0.0;
+  closest_gap_ = gapOfPressure(options.hardness, narrowest);
+}
+
+double TractionLaw::gapOfPressure(double pressure, double narrow) const {
+  // t rises without a turn as far as z0: bisection to the last bit
+  double wide = range_;
+  while (true) {
+    const double middle = 0.5 * (narrow + wide);
+    if (middle <= narrow || middle >= wide) return wide;
+    (-at(middle).traction > pressure ? narrow : wide) = middle;
+  }
+}
+
+double TractionLaw::reach() const { return range_ * (water_.isOn() ? 1.0 + kWaterFront : 1.0) + water_.gapLimit(); }
+
+double TractionLaw::secant(double gap, double traction, double other_traction) const {
+  // y = (z0/g)^3 solves y^3 - y = -t/stress; from above Newton's method does not turn back
+  const double pressure = std::max(0.0, -other_traction / stress_);
+  double y = std::cbrt(pressure) + 1.0;
+  for (int i = 0; i < kSecantIterations; ++i) y -= (y * y * y - y - pressure) / (3.0 * y * y - 1.0);
+  const double other_gap = std::max(range_ / std::cbrt(y), closest_gap_);
+  return (other_traction - traction) / (other_gap - gap);
+}
+
+TractionLaw::Point TractionLaw::at(double gap) const {
+  Point point{};
+  atRow(1, &gap, &point.traction, &point.slope, &point.energy);
+  return point;
+}
+
+void TractionLaw::atRow(int count, const double* gaps, double* traction, double* slope, double* energy) const {
+  const double smallest = nineThree(count, gaps, traction, slope, energy);
+  if (field_factor_ > 0.0 || water_.isOn()) addField(count, gaps, traction, slope, energy);
+  if (smallest >= closest_gap_) return;
+  for (int i = 0; i < count; ++i) {
+    const double excess = closest_gap_ - gaps[i];
+    if (excess <= 0.0) continue;
+    energy[i] += excess * (0.5 * slope_of_line_ * excess - traction[i]);
+    traction[i] -= slope_of_line_ * excess;
+    slope[i] = slope_of_line_;
+  }
+}
+
+MEMS_STICTION_VECTORIZED double TractionLaw::nineThree(int count, const double* gaps, double* traction, double* slope,
+                                                       double* energy) const {
+  const Lanes closest(closest_gap_);
+  const double energy_at_range = 0.375 * stress_ * range_;
+  Lanes smallest = closest;
+  Lanes t, dt, e;
+  const auto evaluate = [&](const Lanes& gap) __attribute__((always_inline)) {
+    smallest = select(gap < smallest, gap, smallest);
+    Lanes x = range_ / select(gap > closest, gap, closest);
+    if (attracts_) {
+      setNineThree(stress_, range_, x, t, dt, e);
+      return;
+    }
+    const LaneMask repels = x > 1.0;
+    x = select(repels, x, 1.0);
+    setNineThree(stress_, range_, x, t, dt, e);
+    dt = select(repels, dt, 0.0);
+    e += energy_at_range;
+  };
+  const auto size = static_cast<std::size_t>(count);
+  std::size_t i = 0;
+  for (; i + Lanes::kCount <= size; i += Lanes::kCount) {
+    evaluate(Lanes::load(gaps + i));
+    t.store(traction + i);
+    dt.store(slope + i);
+    e.store(energy + i);
+  }
+  if (i < size) {
+    const std::size_t rest = size - i;
+    evaluate(Lanes::loadFirst(gaps + i, rest, range_));
+    t.storeFirst(rest, traction + i);
+    dt.storeFirst(rest, slope + i);
+    e.storeFirst(rest, energy + i);
+  }
+  return smallest.smallest();
+}
+
+void TractionLaw::addField(int count, const double* gaps, double* traction, double* slope, double* energy) const {
+  const double front = kWaterFront * range_;
+  const double outer = range_ + water_.gapLimit();
+  for (int i = 0; i < count; ++i) {
+    if (!std::isfinite(gaps[i])) continue;
+    const double gap = std::max(gaps[i], closest_gap_);
+    if (field_factor_ > 0.0) {
+      const double inverse = 1.0 / (gap + insulator_);
+      const double pressure = field_factor_ * inverse * inverse;
+      traction[i] += pressure;
+      slope[i] -= 2.0 * pressure * inverse;
+      energy[i] -= field_factor_ * inverse;
+    }
+    if (water_.isOn()) {
+      const Step inner = smoothStep((range_ - gap) / front);
+      const Step filled = smoothStep((outer - gap) / front);
+      traction[i] += water_.pressure() * (filled.value - inner.value);
+      slope[i] -= water_.pressure() / front * (filled.slope - inner.slope);
+      energy[i] -= water_.pressure() * front * (filled.integral - inner.integral);
+    }
+  }
+}
+
+}  // namespace mems_stiction

@@ -1,0 +1,159 @@
+/// The traction between two surfaces against its own integral, derivative and limits, in SI.
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "mems_stiction/base/constants.hpp"
+#include "mems_stiction/half_space/traction_law.hpp"
+#include "mems_stiction/mechanics/surface_forces.hpp"
+
+namespace mems_stiction {
+namespace {
+
+TEST(TractionLaw, WorkOfSeparationIsTheWorkOfAdhesion) {
+  const TractionLaw law{TractionLawOptions()};
+  EXPECT_NEAR(law.at(law.range()).energy, -0.05, 1e-15);
+  EXPECT_NEAR(law.at(law.range()).traction, 0.0, 1e-6);  // of 1e9 Pa
+}
+
+TEST(TractionLaw, FallsOffAsTheHamakerConstantSays) {
+  const TractionLaw law{TractionLawOptions()};
+  const double gap = 300.0 * law.range();  // (z0/g)^6 is below round-off
+  EXPECT_NEAR(law.at(gap).traction / surface_forces::vanDerWaalsPressure(gap, 65e-21), 1.0, 1e-12);
+}
+
+TEST(TractionLaw, IsStrongestAtTheSixthRootOfThree) {
+  TractionLawOptions options;
+  options.range = 3e-10;
+  const TractionLaw law(options);
+  const auto strongest = law.at(std::pow(3.0, 1.0 / 6.0) * 3e-10);
+  EXPECT_NEAR(strongest.slope, 0.0, 1e-12 * law.stress() / 3e-10);
+  EXPECT_NEAR(strongest.traction, 16.0 * 0.05 / (9.0 * std::sqrt(3.0) * 3e-10), 1e-6);
+}
+
+void expectDerivatives(const TractionLawOptions& options) {
+  const TractionLaw law(options);
+  const double z0 = law.range();
+  for (double gap = 0.3 * z0; gap < 12.0 * z0; gap *= 1.013) {
+    const double h = 1e-5 * z0;
+    const auto below = law.at(gap - h);
+    const auto above = law.at(gap + h);
+    const auto here = law.at(gap);
+    // central differences: error h^2 of the third derivative; kinks only where a straight line begins
+    if (std::abs(gap - law.closestGap()) < 2.0 * h) continue;
+    const double scale = std::abs(here.traction) + law.stress();
+    EXPECT_NEAR((above.energy - below.energy) / (2.0 * h), here.traction, 1e-6 * scale) << gap / z0;
+    EXPECT_NEAR((above.traction - below.traction) / (2.0 * h), here.slope, 1e-6 * (std::abs(here.slope) + scale / z0))
+        << gap / z0;
+  }
+}
+
+TEST(TractionLaw, DerivativesAreThoseOfItsParts) {
+  TractionLawOptions options;
+  expectDerivatives(options);
+  options.hardness = 3e9;
+  expectDerivatives(options);
+  options.voltage = 40.0;
+  options.insulator_thickness = 2e-9;
+  expectDerivatives(options);
+  options.water.relative_humidity = 0.3;
+  expectDerivatives(options);
+}
+
+TEST(TractionLaw, WaterAddsItsEnergyPerArea) {
+  TractionLawOptions dry;
+  TractionLawOptions wet = dry;
+  wet.water.relative_humidity = 0.5;
+  const CapillaryForce water(wet.water);
+  const TractionLaw law(wet);
+  // in contact there is no water, but it was there on the way: p d_K
+  EXPECT_NEAR(law.at(0.8 * law.range()).energy - TractionLaw(dry).at(0.8 * law.range()).energy,
+              -water.pressure() * water.gapLimit(), 1e-12);
+  const double inside = law.range() + 0.5 * water.gapLimit();
+  EXPECT_NEAR(law.at(inside).traction - TractionLaw(dry).at(inside).traction, water.pressure(), 1e-3);
+  EXPECT_GT(law.reach(), law.range() + water.gapLimit());
+}
+
+TEST(TractionLaw, VoltageAddsTheFieldsPressure) {
+  TractionLawOptions options;
+  const TractionLaw without(options);
+  options.voltage = 25.0;
+  options.insulator_thickness = 50e-9;
+  const TractionLaw with(options);
+  EXPECT_NEAR(with.at(4e-9).traction - without.at(4e-9).traction,
+              surface_forces::electrostaticPressure(4e-9, 25.0, 50e-9, 3.9), 1e-6);
+  EXPECT_LT(with.contactGap(), without.contactGap());
+}
+
+TEST(TractionLaw, RepelsNoHarderThanTheHardness) {
+  TractionLawOptions options;
+  options.hardness = 5e9;
+  const TractionLaw law(options);
+  EXPECT_TRUE(law.flows());
+  EXPECT_NEAR(law.at(law.closestGap()).traction, -5e9, 1.0);
+  EXPECT_NEAR(law.at(0.1 * law.range()).traction, -5e9, 1.0);
+  EXPECT_EQ(law.at(0.1 * law.range()).slope, 0.0);
+}
+
+TEST(TractionLaw, WithoutAttractionActsBelowItsRangeOnly) {
+  TractionLawOptions options;
+  options.attracts = false;
+  const TractionLaw law(options);
+  const TractionLaw full{TractionLawOptions()};
+  EXPECT_EQ(law.at(1.01 * law.range()).traction, 0.0);
+  EXPECT_NEAR(law.at(1.01 * law.range()).energy, 0.0, 1e-17);
+  EXPECT_EQ(law.at(0.9 * law.range()).traction, full.at(0.9 * law.range()).traction);
+}
+
+TEST(TractionLaw, InfiniteGapsHaveNoTraction) {
+  TractionLawOptions options;
+  options.voltage = 5.0;
+  options.insulator_thickness = 1e-9;
+  options.water.relative_humidity = 0.5;
+  const auto point = TractionLaw(options).at(std::numeric_limits<double>::infinity());
+  EXPECT_EQ(point.traction, 0.0);
+  EXPECT_EQ(point.slope, 0.0);
+  EXPECT_EQ(point.energy, 0.0);
+}
+
+TEST(TractionLaw, RowsAreTheirCells) {
+  TractionLawOptions options;
+  options.hardness = 5e9;
+  const TractionLaw law(options);
+  double gaps[11], traction[11], slope[11], energy[11];
+  for (int i = 0; i < 11; ++i) gaps[i] = (0.2 + 0.23 * i) * law.range();
+  law.atRow(11, gaps, traction, slope, energy);
+  for (int i = 0; i < 11; ++i) {
+    EXPECT_EQ(traction[i], law.at(gaps[i]).traction);
+    EXPECT_EQ(slope[i], law.at(gaps[i]).slope);
+    EXPECT_EQ(energy[i], law.at(gaps[i]).energy);
+  }
+}
+
+TEST(TractionLaw, SecantEndsWhereTheOtherTractionIs) {
+  const TractionLaw law{TractionLawOptions()};
+  const double gap = 0.7 * law.range();
+  const double other = 0.85 * law.range();
+  const double expected = (law.at(other).traction - law.at(gap).traction) / (other - gap);
+  EXPECT_NEAR(law.secant(gap, law.at(gap).traction, law.at(other).traction) / expected, 1.0, 1e-3);
+}
+
+TEST(TractionLaw, ImpossibleInterfacesAreNamed) {
+  TractionLawOptions options;
+  EXPECT_TRUE(options.validate().empty());
+  options.work_of_adhesion = 0.0;
+  options.hamaker_constant = 0.0;
+  options.voltage = 1.0;
+  const auto violations = options.validate();
+  ASSERT_EQ(violations.size(), 3U);
+  EXPECT_NE(violations[0].find("interface/work_of_adhesion: 0 "), std::string::npos);
+  EXPECT_NE(violations[1].find("interface/hamaker_constant: 0 "), std::string::npos);
+  EXPECT_NE(violations[2].find("interface/insulator_thickness: 0 "), std::string::npos);
+  options.range = 1e-10;
+  EXPECT_EQ(options.validate().size(), 2U);
+}
+
+}  // namespace
+}  // namespace mems_stiction
