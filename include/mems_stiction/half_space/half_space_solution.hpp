@@ -1,0 +1,67 @@
+#pragma once
+
+/// @file
+/// What the half-space answers.
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "mems_stiction/half_space/force_point.hpp"
+#include "mems_stiction/height_map/height_map.hpp"
+
+namespace mems_stiction {
+
+enum class HalfSpaceStatus : std::uint8_t {
+  kSolved,          ///< came to rest and came apart: all figures hold
+  kLoadNotReached,  ///< the surfaces are flat against each other and still carry less than the mechanical load
+  kNotConverged,    ///< one state found no equilibrium within max_newton_steps
+  kTooManyStates,   ///< max_states did not suffice
+  kCancelled
+};
+
+/// The answer. Figures that were not reached are NaN; the curves hold every state that was solved. Forces and areas are
+/// of the frame; attraction is positive.
+struct HalfSpaceSolution {
+  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+  HalfSpaceStatus status = HalfSpaceStatus::kCancelled;
+  std::string message;  ///< the status in a sentence
+
+  double pull_off_force = kNone;        ///< largest force of the retraction [N]
+  double pull_off_uncertainty = kNone;  ///< by which finer steps may exceed it [N]
+  double pull_off_height = kNone;       ///< where the upper body is then, over first touch [m]
+  double work_of_adhesion = kNone;      ///< apparent: from zero force to apart, per area of the frame [J/m^2]
+  double hysteresis = kNone;            ///< work of the retraction less that of the approach, per area [J/m^2]
+  double rest_height = kNone;           ///< of the upper body at rest under the mechanical load [m]
+  double rest_force = kNone;            ///< there; minus the mechanical load [N]
+  double contact_area = kNone;          ///< at rest, cells that repel each other [m^2]
+  double contact_fraction = kNone;      ///< the same over the area of the valid cells [-]
+  int contact_count = 0;                ///< at rest, connected groups of them
+  double mean_gap = kNone;              ///< at rest, of the valid cells [m]
+  double flowed_volume = kNone;         ///< that both surfaces have lost [m^3]
+  double range = kNone;                 ///< z0 [m]
+  double cohesive_length = kNone;       ///< E z0^2/Gamma: over which contacts part [m]
+  bool is_converged = false;            ///< every state is an equilibrium to half_space/tolerance
+  bool is_resolved = false;             ///< pixels are small enough for the cohesive length
+  bool is_step_converged = false;       ///< finer steps change the pull-off force by less than 2 %
+  double residual = kNone;              ///< the largest of all states [-]
+  int state_count = 0;                  ///< solved
+  int newton_steps = 0;
+  int products = 0;                ///< pairs of Fourier transforms
+  int jumps = 0;                   ///< places where the curve is not continuous, both ways
+  double processing_time = kNone;  ///< that the solution took [s]
+
+  std::vector<ForcePoint> approach;    ///< from apart to rest
+  std::vector<ForcePoint> retraction;  ///< from rest to apart
+
+  cv::Mat pressure;          ///< at rest, positive where surfaces repel [Pa]; CV_32FC1, NaN where not valid
+  cv::Mat gap;               ///< at rest, z0 where the traction vanishes [m]; CV_32FC1, NaN where not valid
+  HeightMap deformed_lower;  ///< after contact: what flowed is missing [m]
+  HeightMap deformed_upper;  ///< the same of the upper surface; empty if it is flat and harder
+};
+
+}  // namespace mems_stiction

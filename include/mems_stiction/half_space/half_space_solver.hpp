@@ -1,0 +1,51 @@
+#pragma once
+
+/// @file
+/// What does the mechanics of the whole surface say about its adhesion?
+///
+/// Both surfaces as one elastic half-space with the composite roughness, a traction between them that depends on the
+/// gap (traction_law.hpp), equilibrium by minimising the energy (contact_minimiser.hpp), heights from apart to rest
+/// under the mechanical load and back (contact_path.hpp). Assumptions: slopes are small, bodies are thick against the
+/// frame, no friction, no time. Pixels must resolve the length over which a contact parts, E z0^2/Gamma, or its edge is
+/// held by the lattice: is_resolved says so. One-pixel contacts are flat punches: no better than the scan.
+/// The asperity model answers the same question a thousand times faster, with what it assumes about contacts.
+/// Sources: see the parts; Medina and Dini, Int. J. Solids Struct. 51 (2014) 2620 for spheres that jump under such a law.
+///
+///     HalfSpaceProblem problem;
+///     problem.surfaces = scan;  // against a plane
+///     const HalfSpaceSolution solution = HalfSpaceSolver(HalfSpaceOptions()).solve(problem);
+///     if (solution.status == HalfSpaceStatus::kSolved) use(solution.pull_off_force);
+
+#include <atomic>
+#include <cstddef>
+#include <functional>
+
+#include "mems_stiction/half_space/half_space_options.hpp"
+#include "mems_stiction/half_space/half_space_problem.hpp"
+#include "mems_stiction/half_space/half_space_solution.hpp"
+
+namespace mems_stiction {
+
+/// How a caller watches and stops a solution.
+struct HalfSpaceControl {
+  std::function<void(const ForcePoint&)> on_state;  ///< after each height; may be empty, must not throw
+  const std::atomic<bool>* cancel = nullptr;        ///< looked at after each transform; may be null
+};
+
+/// Solves one problem after the other with the same settings; for any number of threads at a time.
+class HalfSpaceSolver {
+ public:
+  /// @throw OptionsError for options out of range
+  explicit HalfSpaceSolver(const HalfSpaceOptions& options);
+
+  const HalfSpaceOptions& options() const { return options_; }
+
+  /// @throw OptionsError for a work of adhesion, Hamaker constant, material or load that has no solution;
+  ///        SurfaceError for a frame without a valid pixel, of more than max_pixels, or grids that differ
+  HalfSpaceSolution solve(const HalfSpaceProblem& problem, const HalfSpaceControl& control = HalfSpaceControl()) const;
+
+ private:
+  HalfSpaceOptions options_;
+};
+
+}  // namespace mems_stiction

@@ -1,0 +1,120 @@
+#include "conjugate_rows.hpp"
+
+namespace mems_stiction {
+namespace conjugate_rows {
+namespace {
+
+constexpr std::size_t kLanes = 8;
+using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
+using Mask = int __attribute__((vector_size(kLanes * sizeof(int))));
+
+/// Eight values from `from`, or as many as there are, the others 0.
+MEMS_STICTION_INLINE void take(const float* from, std::size_t available, Lanes& lanes) {
+  if (available >= kLanes) {
+    std::memcpy(&lanes, from, sizeof lanes);
+  } else {
+    lanes = Lanes{};
+    std::memcpy(&lanes, from, available * sizeof(float));
+  }
+}
+
+MEMS_STICTION_INLINE void put(const Lanes& lanes, std::size_t available, float* to) {
+  std::memcpy(to, &lanes, available >= kLanes ? sizeof lanes : available * sizeof(float));
+}
+
+MEMS_STICTION_INLINE double sumOf(const Lanes& lanes) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < kLanes; ++i) sum += static_cast<double>(lanes[i]);
+  return sum;
+}
+
+MEMS_STICTION_INLINE void raiseTo(const Lanes& values, Lanes& largest) {
+  const Lanes magnitude = values < 0.0F ? -values : values;
+  largest = magnitude > largest ? magnitude : largest;
+}
+
+MEMS_STICTION_INLINE double largestOf(const Lanes& lanes) {
+  float largest = lanes[0];
+  for (std::size_t i = 1; i < kLanes; ++i) largest = lanes[i] > largest ? lanes[i] : largest;
+  return static_cast<double>(largest);
+}
+
+}  // namespace
+
+MEMS_STICTION_VECTORIZED Sums turn(std::size_t count, float ratio, float shift, float mean, const float* smoothed,
+                                   const float* residual, const float* slope, float* search, float* search_traction) {
+  Lanes products{};
+  Lanes sums{};
+  Lanes z, r, d, p, kp;
+  for (std::size_t i = 0; i < count; i += kLanes) {
+    const std::size_t rest = count - i;
+    take(smoothed + i, rest, z);
+    take(residual + i, rest, r);
+    take(slope + i, rest, d);
+    take(search + i, rest, p);
+    take(search_traction + i, rest, kp);
+    p = z + ratio * p;
+    kp = ((r - mean) - shift * z) + ratio * kp;
+    const Lanes q = kp + d * p;
+    products += p * q;
+    sums += q;
+    put(p, rest, search + i);
+    put(kp, rest, search_traction + i);
+  }
+  return {sumOf(products), sumOf(sums), 0.0};
+}
+
+MEMS_STICTION_VECTORIZED Sums advance(std::size_t count, float length, const float* slope, const float* search,
+                                      const float* search_traction, float* step, float* /*first_residual*/,
+                                      float* residual) {
+  Lanes largest{};
+  Lanes d, p, kp, s, r;
+  for (std::size_t i = 0; i < count; i += kLanes) {
+    const std::size_t rest = count - i;
+    take(slope + i, rest, d);
+    take(search + i, rest, p);
+    take(search_traction + i, rest, kp);
+    take(step + i, rest, s);
+    take(residual + i, rest, r);
+    s += length * p;
+    r -= length * (kp + d * p);
+    raiseTo(s, largest);
+    put(s, rest, step + i);
+    put(r, rest, residual + i);
+  }
+  return {0.0, 0.0, largestOf(largest)};
+}
+
+Sums begin(std::size_t count, float length, const float* slope, const float* search, const float* search_traction,
+           float* step, float* first_residual, float* residual) {
+  std::memcpy(first_residual, residual, count * sizeof(float));
+  std::memset(step, 0, count * sizeof(float));
+  return advance(count, length, slope, search, search_traction, step, first_residual, residual);
+}
+
+MEMS_STICTION_VECTORIZED Sums finish(std::size_t count, const float* slope, const float* step, const float* residual,
+                                     float* first_residual) {
+  Lanes d, s, r, first;
+  for (std::size_t i = 0; i < count; i += kLanes) {
+    const std::size_t rest = count - i;
+    take(slope + i, rest, d);
+    take(step + i, rest, s);
+    take(residual + i, rest, r);
+    take(first_residual + i, rest, first);
+    put((first - r) - d * s, rest, first_residual + i);
+  }
+  return {};
+}
+
+MEMS_STICTION_VECTORIZED Sums largest(std::size_t count, const float* values) {
+  Lanes most{};
+  Lanes lanes;
+  for (std::size_t i = 0; i < count; i += kLanes) {
+    take(values + i, count - i, lanes);
+    raiseTo(lanes, most);
+  }
+  return {0.0, 0.0, largestOf(most)};
+}
+
+}  // namespace conjugate_rows
+}  // namespace mems_stiction

@@ -1,0 +1,273 @@
+#include "mems_stiction/half_space/contact_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace mems_stiction {
+namespace {
+
+/// Smallest step, of the usual one, and smallest where the largest force of the retraction may depend on it. The largest
+/// step.
+constexpr double kSmallestStep = 0.5;
+constexpr double kFinestStep = 0.03125;
+constexpr double kLargestStep = 8.0;
+/// Distance of the curve's points, those between solved states included, of the usual step.
+constexpr double kPointDistance = 0.25;
+/// Share of the largest force that steps over a jump may miss before they become finer.
+constexpr double kNegligibleMiss = 0.005;
+/// How far the mean force of a step may lie from the mean of its ends, of the force: wanted, and more than that is taken
+/// back. A parabola with that sag errs by a quarter of it where the curve is smooth.
+constexpr double kWantedSag = 0.01;
+constexpr double kLargestSag = 0.03;
+/// The smallest step that misses more than this goes over a jump.
+constexpr double kJumpSag = 0.06;
+/// Steps are compared with limits but for rounding.
+constexpr double kStepTolerance = 1.001;
+/// Usual step for which they hold, of z0.
+constexpr double kUsualStep = 0.4;
+/// Steps grow and shrink by no more than this at once.
+constexpr double kLargestChange = 2.0;
+/// Newton steps of a state that does not follow smoothly: the next step is no longer.
+constexpr int kManyNewtonSteps = 12;
+/// The present change is continued over no more than this many times its length.
+constexpr double kLongestContinuation = 4.0;
+/// Force that may be left at rest, of the force.
+constexpr double kRestForce = 1e-3;
+/// A state beyond rest counts as rest when it is no farther from the last one than this, of the usual step.
+constexpr double kRestStep = 1e-5;
+constexpr int kCrossingHalvings = 30;
+/// Height at which the approach begins, of z0, at least, and over that at which a flat of the frame's size would jump.
+constexpr double kStartHeight = 4.0;
+constexpr double kStartMargin = 1.25;
+
+/// Share of a step over which the bodies attract each other.
+double attractingShare(const StepParabola& parabola) {
+  if (parabola.begin > 0.0) return parabola.end > 0.0 ? 1.0 : parabola.crossing(0.0, 0.0, 1.0);
+  return parabola.end > 0.0 ? 1.0 - parabola.crossing(0.0, 1.0, 0.0) : 0.0;
+}
+
+}  // namespace
+
+void ForceCurve::add(const ForcePoint& point) {
+  if (points.empty() || point.force > largest_force) {
+    largest_force = point.force;
+    largest_height = point.height;
+  }
+  points.push_back(point);
+}
+
+StepParabola::StepParabola(const ForcePoint& from, const ForcePoint& to)
+    : begin(from.force), end(to.force), mean((to.energy - from.energy) / (to.height - from.height)) {}
+
+double StepParabola::crossing(double force, double from, double to) const {
+  for (int halvings = 0; halvings < kCrossingHalvings; ++halvings) {
+    const double middle = 0.5 * (from + to);
+    (at(middle) > force ? from : to) = middle;
+  }
+  return 0.5 * (from + to);
+}
+
+ContactPath::ContactPath(ContactMinimiser& minimiser, const PathSettings& settings)
+    : minimiser_(minimiser), settings_(settings), step_(settings.step * minimiser.law().range()) {}
+
+double ContactPath::startHeight() const {
+  const TractionLaw& law = minimiser_.law();
+  const double z0 = law.range();
+  // -t' = (8 Gamma/z0^2) (z0/g)^4 equals the stiffness of the longest wave
+  const double softest = std::isfinite(minimiser_.smallestStiffness()) ? minimiser_.smallestStiffness() : 0.0;
+  const double jump = softest > 0.0 ? std::pow(3.0 * law.stress() / (z0 * softest), 0.25) : 0.0;
+  return z0 * std::max(kStartHeight, kStartMargin * jump) + (law.reach() - z0);
+}
+
+double ContactPath::largestLoad() const {
+  if (approach_.points.empty()) return minimiser_.largestLoad();
+  double load = 0.0;
+  for (const ForcePoint& point : approach_.points) load = std::max(load, -point.force);
+  return load;
+}
+
+double ContactPath::forceScale() const { return std::max(std::abs(present_.force), strongest_); }
+
+double ContactPath::sagOf(const ForcePoint& next) const {
+  const StepParabola parabola(present_, next);
+  // of the smaller one: a step from a large load to none must not miss the attraction
+  const double scale = std::max({strongest_, next.force, std::min(std::abs(present_.force), std::abs(next.force))});
+  return scale > 0.0 ? std::abs(parabola.mean - 0.5 * (parabola.begin + parabola.end)) / scale : 0.0;
+}
+
+PathStatus ContactPath::attempt(double height, ForcePoint& next, ContactState& state) {
+  const double move = height - present_.height;
+  const double share =
+      last_move_ != 0.0 ? std::clamp(move / last_move_, -kLongestContinuation, kLongestContinuation) : 0.0;
+  minimiser_.moveOn(share);
+  state = minimiser_.solve(height);
+  ++states_;
+  newton_steps_ += state.newton_steps;
+  products_ += state.products;
+  if (minimiser_.isCancelled()) return PathStatus::kCancelled;
+  if (!state.is_converged) return PathStatus::kNotConverged;
+  const ContactMinimiser::Contact contact = minimiser_.contactAt(height);
+  next = {height, state.force, state.energy, contact.cells * minimiser_.grid().cellArea(), contact.mean_gap, true};
+  largest_residual_ = std::max(largest_residual_, state.residual);
+  return PathStatus::kDone;
+}
+
+double ContactPath::continued(double move) const {
+  if (last_move_ == 0.0) return present_.force;
+  const double rise = last_parabola_.slope() + 2.0 * last_parabola_.bend();  // at its end
+  return present_.force + std::max(0.0, rise * move / last_move_);
+}
+
+void ContactPath::keep(const ForcePoint& next, bool is_jump, ForceCurve& curve) {
+  const double move = next.height - present_.height;
+  const StepParabola parabola(present_, next);
+  const double attracting = attractingShare(parabola);
+  if (is_jump) {
+    ++curve.jumps;
+    curve.work += 0.5 * (parabola.begin + parabola.end) * move;
+    curve.attracting_work += 0.5 * (std::max(0.0, parabola.begin) + std::max(0.0, parabola.end)) * attracting * move;
+    curve.missed_force = std::max(curve.missed_force, continued(move));
+  } else {
+    curve.work += parabola.mean * move;
+    if (parabola.begin > 0.0) curve.attracting_work += parabola.workTo(attracting) * move;
+    if (parabola.begin <= 0.0) curve.attracting_work += (parabola.mean - parabola.workTo(1.0 - attracting)) * move;
+    const double usual = settings_.step * minimiser_.law().range();
+    const int pieces = static_cast<int>(std::ceil(std::abs(move) / (kPointDistance * usual)));
+    std::vector<double> shares;  // of the step, where points are
+    for (int piece = 1; piece < pieces; ++piece) shares.push_back(static_cast<double>(piece) / pieces);
+    const double vertex = parabola.bend() < 0.0 ? -0.5 * parabola.slope() / parabola.bend() : -1.0;
+    if (vertex > 0.0 && vertex < 1.0) shares.insert(std::upper_bound(shares.begin(), shares.end(), vertex), vertex);
+    for (const double x : shares) {
+      ForcePoint between = present_;
+      between.height += x * move;
+      between.force = parabola.at(x);
+      between.energy += parabola.workTo(x) * move;
+      between.contact_area += x * (next.contact_area - present_.contact_area);
+      between.mean_gap += x * (next.mean_gap - present_.mean_gap);
+      between.is_solved = false;
+      curve.add(between);
+    }
+  }
+  curve.add(next);
+  present_ = next;
+  last_move_ = is_jump ? 0.0 : move;
+  last_parabola_ = parabola;
+  strongest_ = std::max(strongest_, next.force);
+  present_.energy -= minimiser_.keepFlow(next.height);
+  if (settings_.on_state) settings_.on_state(next);
+}
+
+double ContactPath::stepTo(double force) const {
+  const double tried = step_ / std::abs(last_move_);
+  if (last_move_ == 0.0 || !(last_parabola_.at(1.0 + tried) < force)) return step_;
+  return (last_parabola_.crossing(force, 1.0, 1.0 + tried) - 1.0) * std::abs(last_move_);
+}
+
+PathStatus ContactPath::advance(double direction, double farthest, double least_force, ForceCurve& curve) {
+  const double usual = settings_.step * minimiser_.law().range();
+  const double smallest = kSmallestStep * usual;
+  while (true) {
+    if (states_ >= settings_.max_states) return PathStatus::kTooManyStates;
+    double step = std::min(std::max(stepTo(least_force), kRestStep * usual), farthest);
+    const double to_jump = is_before_jump_ ? direction * (jump_height_ - present_.height) : 0.0;
+    if (is_before_jump_) step = std::min(step, to_jump <= kStepTolerance * finest_ ? to_jump : 0.5 * to_jump);
+    const double move = direction * step;
+    ForcePoint next;
+    ContactState state;
+    const PathStatus status = attempt(present_.height + move, next, state);
+    if (status == PathStatus::kCancelled) return status;
+    if (status == PathStatus::kNotConverged) {
+      if (step <= kFinestStep * usual) return status;
+      minimiser_.takeBack();
+      step_ = step / kLargestChange;
+      continue;
+    }
+    // finer usual steps are to miss less, too
+    const double sag = sagOf(next) * kUsualStep / settings_.step;
+    const double at_most = std::max({curve.largest_force, next.force, 0.0});
+    const bool may_miss = direction > 0.0 && continued(move) > (1.0 + kNegligibleMiss) * at_most;
+    // pressed surfaces seldom jump, but their force rises steeply
+    const bool is_pressed = std::min(present_.force, next.force) < 0.0;
+    const double finest = may_miss || is_pressed ? kFinestStep * usual : smallest;
+    // a jump loses energy: the mean of both forces does more work than the energies tell
+    const StepParabola parabola(present_, next);
+    const bool loses = (0.5 * (parabola.begin + parabola.end) - parabola.mean) * direction > 0.0;
+    const bool is_jump = loses && sagOf(next) > kJumpSag;
+    if (sag > kLargestSag && step > kStepTolerance * finest) {
+      minimiser_.takeBack();
+      if (is_jump) {
+        is_before_jump_ = true;
+        jump_height_ = present_.height + move;
+        finest_ = finest;
+      }
+      step_ = std::max(finest, step * std::clamp(std::sqrt(kWantedSag / sag), 0.25, 0.5));
+      continue;
+    }
+    if (next.force < least_force - kRestForce * std::max(forceScale(), -least_force) && step > kRestStep * usual) {
+      minimiser_.takeBack();
+      step_ = step * std::clamp(StepParabola(present_, next).crossing(least_force, 0.0, 1.0), 0.05, 0.95);
+      farthest = step;
+      continue;
+    }
+    keep(next, is_jump, curve);
+    is_before_jump_ = is_before_jump_ && direction * (jump_height_ - present_.height) > 0.0;
+    double change = std::clamp(std::sqrt(kWantedSag / std::max(sag, 1e-12)), 1.0 / kLargestChange, kLargestChange);
+    if (state.newton_steps > kManyNewtonSteps) change = std::min(change, 1.0);
+    step_ = std::clamp(step * change, smallest, kLargestStep * usual);
+    return PathStatus::kDone;
+  }
+}
+
+PathStatus ContactPath::begin(double height) {
+  while (true) {
+    ForcePoint first;
+    ContactState state;
+    last_move_ = 0.0;
+    present_.height = height;
+    const PathStatus status = attempt(height, first, state);
+    if (status != PathStatus::kDone) return status;
+    if (first.contact_area == 0.0) {
+      present_ = first;
+      strongest_ = std::max(0.0, first.force);
+      approach_.add(first);
+      if (settings_.on_state) settings_.on_state(first);
+      return PathStatus::kDone;
+    }
+    minimiser_.takeBack();
+    height *= kLargestChange;
+    if (states_ >= settings_.max_states) return PathStatus::kTooManyStates;
+  }
+}
+
+PathStatus ContactPath::approach(double load) {
+  if (load > minimiser_.largestLoad()) return PathStatus::kLoadNotReached;
+  PathStatus status = begin(startHeight());
+  double lowest = -minimiser_.largestRelief() - kStartHeight * minimiser_.law().range();
+  if (std::isfinite(minimiser_.smallestStiffness())) {
+    lowest -= load / (minimiser_.grid().frameArea() * minimiser_.smallestStiffness());
+  }
+  while (status == PathStatus::kDone) {
+    if (present_.height <= lowest) return PathStatus::kLoadNotReached;
+    status = advance(-1.0, std::max(present_.height - lowest, step_), -load, approach_);
+    if (present_.force + load <= kRestForce * std::max(forceScale(), load)) break;
+  }
+  return status;
+}
+
+PathStatus ContactPath::retract() {
+  const double end = approach_.points.front().height;
+  retraction_.add(present_);
+  step_ = settings_.step * minimiser_.law().range();
+  is_before_jump_ = false;
+  PathStatus status = PathStatus::kDone;
+  while (status == PathStatus::kDone && (present_.height < end || present_.contact_area > 0.0)) {
+    const double left = end - present_.height;
+    status =
+        advance(1.0, left > 0.0 ? left : kLargestStep * step_, -std::numeric_limits<double>::infinity(), retraction_);
+  }
+  retraction_.missed_force = std::max(0.0, retraction_.missed_force - retraction_.largest_force);
+  return status;
+}
+
+}  // namespace mems_stiction

@@ -1,0 +1,148 @@
+#include "evaluation_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "mems_stiction/base/lanes.hpp"
+
+namespace mems_stiction {
+namespace evaluation_rows {
+namespace {
+
+/// Cells that are worked on together: their intermediate values stay in the first cache.
+constexpr int kTile = 256;
+constexpr int kLanes = static_cast<int>(Lanes::kCount);
+static_assert(kTile % kLanes == 0, "tiles are whole lanes");
+
+/// Residual from which on a secant is worth its while, of 8 Gamma/(3 z0).
+constexpr double kSecantShare = 0.05;
+
+struct Tile {
+  alignas(64) double gaps[kTile];
+  alignas(64) double traction[kTile];
+  alignas(64) double slope[kTile];
+  alignas(64) double energy[kTile];
+};
+
+MEMS_STICTION_VECTORIZED void setGaps(int count, double level, const double* relief, double length,
+                                      const double* displacement, const float* step, double* gaps) {
+  for (int i = 0; i < count; ++i) {
+    gaps[i] = level + relief[i] - (displacement[i] + length * static_cast<double>(step[i]));
+  }
+}
+
+/// Residuals into `arrays` and sums in fixed lanes; the tile is filled up with what adds nothing.
+MEMS_STICTION_VECTORIZED void addTile(int count, double length, const RowArrays& arrays, Tile& tile, Sums& sums) {
+  alignas(64) double displacement[kTile];
+  alignas(64) double elastic[kTile];
+  for (int i = 0; i < count; ++i) {
+    displacement[i] = arrays.displacement[i] + length * static_cast<double>(arrays.step[i]);
+    elastic[i] = arrays.elastic_traction[i] + length * static_cast<double>(arrays.step_traction[i]);
+  }
+  int end = count;
+  for (; end % kLanes != 0; ++end) {
+    displacement[end] = tile.slope[end] = tile.energy[end] = 0.0;
+    tile.traction[end] = tile.traction[count - 1];
+    elastic[end] = elastic[count - 1];
+  }
+  Lanes traction, elastic_energy, energy, positive, residual, squared;
+  Lanes highest(sums.highest);
+  Lanes lowest(sums.lowest);
+  for (int i = 0; i < end; i += kLanes) {
+    Lanes t = Lanes::load(tile.traction + i);
+    const Lanes dt = Lanes::load(tile.slope + i);
+    const Lanes ku = Lanes::load(elastic + i);
+    const Lanes r = t - ku;
+    elastic_energy += Lanes::load(displacement + i) * ku;
+    energy += Lanes::load(tile.energy + i);
+    positive += select(dt > 0.0, dt, 0.0);
+    highest = select(r > highest, r, highest);
+    lowest = select(r < lowest, r, lowest);
+    r.store(elastic + i);
+    Lanes counted = r;
+    if (i + kLanes > count) {
+      const auto left = static_cast<std::size_t>(count - i);
+      t = Lanes::loadFirst(tile.traction + i, left, 0.0);
+      counted = Lanes::loadFirst(elastic + i, left, 0.0);
+    }
+    traction += t;
+    residual += counted;
+    squared += counted * counted;
+  }
+  for (int i = 0; i < count; ++i) {
+    arrays.residual[i] = static_cast<float>(elastic[i]);
+    arrays.slope[i] = static_cast<float>(tile.slope[i]);
+  }
+  sums.traction += traction.sum();
+  sums.elastic += elastic_energy.sum();
+  sums.energy += energy.sum();
+  sums.positive_slope += positive.sum();
+  sums.residual += residual.sum();
+  sums.residual_squared += squared.sum();
+  sums.highest = highest.largest();
+  sums.lowest = lowest.smallest();
+}
+
+/// Where repulsion and elastic traction differ, the slope of the line between both: the tangent of (z0/g)^9 would take
+/// a step for each factor of three in the traction.
+void useSecants(const TractionLaw& law, int count, double length, const RowArrays& arrays, Tile& tile) {
+  const double least = kSecantShare * law.stress();
+  for (int i = 0; i < count; ++i) {
+    if (!(tile.gaps[i] < law.contactGap())) continue;
+    const double elastic = arrays.elastic_traction[i] + length * static_cast<double>(arrays.step_traction[i]);
+    const double wanted = std::min(elastic, 0.0);
+    if (std::abs(wanted - tile.traction[i]) < least) continue;
+    const double secant = law.secant(tile.gaps[i], tile.traction[i], wanted);
+    if (secant > 0.0) tile.slope[i] = secant;
+  }
+}
+
+RowArrays shifted(const RowArrays& arrays, int cells) {
+  return {arrays.displacement + cells,  arrays.elastic_traction + cells, arrays.step + cells,
+          arrays.step_traction + cells, arrays.residual + cells,         arrays.slope + cells};
+}
+
+}  // namespace
+
+Sums& Sums::operator+=(const Sums& other) {
+  traction += other.traction;
+  elastic += other.elastic;
+  energy += other.energy;
+  positive_slope += other.positive_slope;
+  residual += other.residual;
+  residual_squared += other.residual_squared;
+  highest = std::max(highest, other.highest);
+  lowest = std::min(lowest, other.lowest);
+  return *this;
+}
+
+Sums evaluate(const TractionLaw& law, int count, double level, const double* relief, double length,
+              const RowArrays& arrays) {
+  Sums sums;
+  Tile tile;
+  for (int begin = 0; begin < count; begin += kTile) {
+    const int size = std::min(kTile, count - begin);
+    const RowArrays part = shifted(arrays, begin);
+    setGaps(size, level, relief + begin, length, part.displacement, part.step, tile.gaps);
+    law.atRow(size, tile.gaps, tile.traction, tile.slope, tile.energy);
+    useSecants(law, size, length, part, tile);
+    addTile(size, length, part, tile, sums);
+  }
+  return sums;
+}
+
+Sums evaluateFree(int count, double length, const RowArrays& arrays) {
+  Sums sums;
+  Tile tile;
+  std::fill_n(tile.traction, kTile, 0.0);
+  std::fill_n(tile.slope, kTile, 0.0);
+  std::fill_n(tile.energy, kTile, 0.0);
+  for (int begin = 0; begin < count; begin += kTile) {
+    addTile(std::min(kTile, count - begin), length, shifted(arrays, begin), tile, sums);
+  }
+  return sums;
+}
+
+}  // namespace evaluation_rows
+}  // namespace mems_stiction

@@ -1,0 +1,44 @@
+#pragma once
+
+/// @file
+/// One row's share of the energy of a contact, of its residual and of the derivative of its tractions.
+
+#include <limits>
+
+#include "mems_stiction/half_space/traction_law.hpp"
+
+namespace mems_stiction {
+namespace evaluation_rows {
+
+/// What rows add to an evaluation; per cell, without the cell's area.
+struct Sums {
+  double traction = 0.0;
+  double elastic = 0.0;  ///< u K u
+  double energy = 0.0;   ///< phi
+  double positive_slope = 0.0;
+  double residual = 0.0;
+  double residual_squared = 0.0;
+  double highest = -std::numeric_limits<double>::infinity();  ///< residual
+  double lowest = std::numeric_limits<double>::infinity();    ///< residual
+
+  Sums& operator+=(const Sums& other);
+};
+
+/// The arrays of a row: u, K u, a step s and K s; and what is written, t - K (u + length s) and t'.
+struct RowArrays {
+  const double* displacement;
+  const double* elastic_traction;
+  const float* step;
+  const float* step_traction;
+  float* residual;
+  float* slope;
+};
+
+/// Cells of the frame, with relief and a traction. @param level height of the upper body over first touch [m]
+Sums evaluate(const TractionLaw& law, int count, double level, const double* relief, double length,
+              const RowArrays& arrays);
+/// Cells beyond the frame: nothing acts on them.
+Sums evaluateFree(int count, double length, const RowArrays& arrays);
+
+}  // namespace evaluation_rows
+}  // namespace mems_stiction

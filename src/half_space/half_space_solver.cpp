@@ -1,0 +1,226 @@
+#include "mems_stiction/half_space/half_space_solver.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include "mems_stiction/approach/gap_field.hpp"
+#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/deformation/modified_topography.hpp"
+#include "mems_stiction/half_space/contact_groups.hpp"
+#include "mems_stiction/half_space/contact_minimiser.hpp"
+#include "mems_stiction/half_space/contact_path.hpp"
+#include "mems_stiction/half_space/half_space_grid.hpp"
+#include "mems_stiction/half_space/traction_law.hpp"
+#include "mems_stiction/height_map/validity.hpp"
+
+namespace mems_stiction {
+namespace {
+
+/// Pixels that the cohesive length must have.
+constexpr double kPixelsPerCohesiveLength = 2.0;
+/// Pull-off forces that finer steps change by less than this are converged in the step.
+constexpr double kStepConvergence = 0.02;
+/// A plasticity index at which (12) lets all of the interference flow.
+constexpr double kFullyPlastic = 2.0;
+
+void check(const HalfSpaceProblem& problem, const TractionLawOptions& law) {
+  OptionValidator validator;
+  describeConst(problem.lower_material, validator, "lower");
+  describeConst(problem.upper_material, validator, "upper");
+  describeConst(problem.interface, validator);
+  describeConst(problem.load, validator);
+  std::vector<std::string> violations = validator.violations();
+  const std::vector<std::string> of_law = law.validate();
+  violations.insert(violations.end(), of_law.begin(), of_law.end());
+  if (!violations.empty()) throw OptionsError(std::move(violations));
+}
+
+TractionLawOptions lawOptions(const HalfSpaceOptions& options, const HalfSpaceProblem& problem) {
+  TractionLawOptions law;
+  law.work_of_adhesion = problem.interface.work_of_adhesion;
+  law.hamaker_constant = problem.interface.hamaker_constant;
+  law.range = options.range;
+  law.attracts = options.attraction;
+  if (options.flow) law.hardness = std::min(problem.lower_material.hardness, problem.upper_material.hardness);
+  law.voltage = problem.load.voltage;
+  law.insulator_thickness = problem.interface.insulator_thickness;
+  law.insulator_relative_permittivity = problem.interface.insulator_relative_permittivity;
+  law.water = problem.capillary;
+  return law;
+}
+
+/// The composite gap at first touch, infinite where it is not known.
+LargePageVector<double> reliefOf(const SurfacePair& surfaces) {
+  GapField field;
+  field.compute(surfaces);
+  LargePageVector<double> relief(static_cast<std::size_t>(field.cellCount()));
+  const auto cols = static_cast<std::size_t>(field.cols());
+  for (int row = 0; row < field.rows(); ++row) {
+    field.gapsOfRow(row, relief.data() + static_cast<std::size_t>(row) * cols);
+  }
+  return relief;
+}
+
+/// The heights less what flowed of them, times `share`.
+HeightMap deformed(const HeightMap& surface, const LargePageVector<float>& flowed, double share) {
+  cv::Mat heights = ownedHeights(surface);
+  for (int row = 0; row < heights.rows && !flowed.empty(); ++row) {
+    const float* const lost = flowed.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(heights.cols);
+    double* const height = heights.ptr<double>(row);
+    for (int col = 0; col < heights.cols; ++col) height[col] -= share * static_cast<double>(lost[col]);
+  }
+  return HeightMap(heights, surface.pitchX(), surface.pitchY());
+}
+
+std::string sentenceOf(PathStatus status, const HalfSpaceProblem& problem, const HalfSpaceOptions& options,
+                       const ContactPath& path) {
+  const std::string where = "at height " + numberText(path.present().height) + " m";
+  switch (status) {
+    case PathStatus::kDone:
+      return "came to rest and came apart";
+    case PathStatus::kLoadNotReached:
+      return "load/mechanical_load of " + numberText(problem.load.mechanical_load) +
+             " N is not reached: the surfaces carry no more than " + numberText(path.largestLoad()) + " N";
+    case PathStatus::kNotConverged:
+      return "no equilibrium within half_space/max_newton_steps = " + std::to_string(options.max_newton_steps) +
+             " next to the one " + where;
+    case PathStatus::kTooManyStates:
+      return "half_space/max_states = " + std::to_string(options.max_states) + " did not suffice; the path ends " +
+             where;
+    case PathStatus::kCancelled:
+      break;
+  }
+  return "cancelled " + where;
+}
+
+HalfSpaceStatus statusOf(PathStatus status) {
+  switch (status) {
+    case PathStatus::kDone:
+      return HalfSpaceStatus::kSolved;
+    case PathStatus::kLoadNotReached:
+      return HalfSpaceStatus::kLoadNotReached;
+    case PathStatus::kNotConverged:
+      return HalfSpaceStatus::kNotConverged;
+    case PathStatus::kTooManyStates:
+      return HalfSpaceStatus::kTooManyStates;
+    case PathStatus::kCancelled:
+      break;
+  }
+  return HalfSpaceStatus::kCancelled;
+}
+
+/// What the state at rest says.
+void takeRest(const ContactPath& path, const ContactMinimiser& minimiser, HalfSpaceSolution& solution) {
+  const ForcePoint& rest = path.present();
+  solution.rest_height = rest.height;
+  solution.rest_force = rest.force;
+  solution.contact_area = rest.contact_area;
+  solution.contact_fraction = rest.contact_area / minimiser.validArea();
+  solution.mean_gap = rest.mean_gap;
+  minimiser.maps(rest.height, solution.gap, solution.pressure);
+  const cv::Mat contact = solution.gap < minimiser.law().contactGap();
+  solution.contact_count = countContactGroups(contact, minimiser.grid().boundary == HalfSpaceBoundary::kPeriodic);
+}
+
+/// What the whole path says.
+void takePath(const ContactPath& path, double area, HalfSpaceSolution& solution) {
+  const ForceCurve& retraction = path.retractionCurve();
+  const ForceCurve& approach = path.approachCurve();
+  solution.pull_off_force = retraction.largest_force;
+  solution.pull_off_height = retraction.largest_height;
+  solution.pull_off_uncertainty = retraction.missed_force;
+  solution.is_step_converged = retraction.missed_force < kStepConvergence * retraction.largest_force;
+  solution.work_of_adhesion = (retraction.attracting_work - retraction.points.back().energy) / area;
+  const double both_ways =
+      retraction.work - retraction.points.back().energy + approach.work + approach.points.front().energy;
+  solution.hysteresis = both_ways / area;
+  solution.is_converged = true;
+}
+
+/// Every state that was solved, and what it took.
+void takeRecord(const ContactPath& path, HalfSpaceSolution& solution) {
+  solution.approach = path.approachCurve().points;
+  solution.retraction = path.retractionCurve().points;
+  solution.jumps = path.approachCurve().jumps + path.retractionCurve().jumps;
+  solution.residual = path.largestResidual();
+  solution.state_count = path.stateCount();
+  solution.newton_steps = path.newtonSteps();
+  solution.products = path.products();
+}
+
+/// The surfaces after contact: what flowed is shared by the bodies as (12) says.
+void takeSurfaces(const HalfSpaceProblem& problem, const LargePageVector<float>& flowed, HalfSpaceSolution& solution) {
+  const DeformationShare share(problem.lower_material, problem.upper_material, problem.interface.hardness_ratio_limit,
+                               Formulation::kCorrected, Deformation::kThreeRegimes);
+  double depth = 0.0;
+  for (const float lost : flowed) depth += static_cast<double>(lost);
+  const HeightMap& lower = problem.surfaces.lower;
+  solution.flowed_volume = depth * lower.cellArea();
+  solution.deformed_lower = deformed(lower, flowed, share.lower(kFullyPlastic));
+  const double upper_share = share.upper(kFullyPlastic);
+  if (!problem.surfaces.upperIsPlane()) {
+    solution.deformed_upper = deformed(problem.surfaces.upper, flowed, -upper_share);
+  } else if (!flowed.empty() && upper_share > 0.0) {
+    const cv::Mat plane = cv::Mat::zeros(lower.rows(), lower.cols(), CV_64FC1);
+    solution.deformed_upper = deformed(HeightMap(plane, lower.pitchX(), lower.pitchY()), flowed, -upper_share);
+  }
+}
+
+}  // namespace
+
+HalfSpaceSolver::HalfSpaceSolver(const HalfSpaceOptions& options) : options_(options) {
+  std::vector<std::string> violations = rangeViolations(options);
+  if (!violations.empty()) throw OptionsError(std::move(violations));
+}
+
+HalfSpaceSolution HalfSpaceSolver::solve(const HalfSpaceProblem& problem, const HalfSpaceControl& control) const {
+  const auto begin = std::chrono::steady_clock::now();
+  const TractionLawOptions law_options = lawOptions(options_, problem);
+  check(problem, law_options);
+  const HeightMap& lower = problem.surfaces.lower;
+  if (lower.empty()) throw SurfaceError("the height map has no valid pixel");
+  const auto pixels = static_cast<std::size_t>(lower.rows()) * static_cast<std::size_t>(lower.cols());
+  if (pixels > static_cast<std::size_t>(options_.max_pixels)) {
+    throw SurfaceError("a frame of " + std::to_string(lower.rows()) + " x " + std::to_string(lower.cols()) +
+                       " pixels is larger than half_space/max_pixels = " + std::to_string(options_.max_pixels));
+  }
+  const ContactPair pair(problem.lower_material, problem.upper_material);
+  const TractionLaw law(law_options);
+  const HalfSpaceGrid grid(lower.rows(), lower.cols(), lower.pitchX(), lower.pitchY(), options_.boundary);
+  MinimiserSettings minimiser_settings;
+  minimiser_settings.tolerance = options_.tolerance;
+  minimiser_settings.max_newton_steps = options_.max_newton_steps;
+  minimiser_settings.threads = options_.threads;
+  minimiser_settings.cancel = control.cancel;
+  PathSettings path_settings;
+  path_settings.step = options_.step;
+  path_settings.max_states = options_.max_states;
+  path_settings.on_state = control.on_state;
+
+  HalfSpaceSolution solution;
+  solution.range = law.range();
+  solution.cohesive_length = pair.contact_modulus * law.range() * law.range() / problem.interface.work_of_adhesion;
+  solution.is_resolved = solution.cohesive_length >= kPixelsPerCohesiveLength * std::max(grid.pitch_x, grid.pitch_y);
+  LargePageVector<float> flowed;
+  {
+    ContactMinimiser minimiser(grid, law, pair.contact_modulus, reliefOf(problem.surfaces), minimiser_settings);
+    ContactPath path(minimiser, path_settings);
+    PathStatus status = path.approach(problem.load.mechanical_load);
+    if (status == PathStatus::kDone) {
+      takeRest(path, minimiser, solution);
+      status = path.retract();
+    }
+    if (status == PathStatus::kDone) takePath(path, grid.frameArea(), solution);
+    solution.status = statusOf(status);
+    solution.message = sentenceOf(status, problem, options_, path);
+    takeRecord(path, solution);
+    flowed = minimiser.flowed();
+  }  // its memory is not needed for the surfaces
+  if (solution.status == HalfSpaceStatus::kSolved) takeSurfaces(problem, flowed, solution);
+  solution.processing_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return solution;
+}
+
+}  // namespace mems_stiction

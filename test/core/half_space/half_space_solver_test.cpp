@@ -1,0 +1,356 @@
+/// The half-space against closed forms of whole surfaces, in SI, and what it says when there is no solution.
+
+#include <atomic>
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "mems_stiction/base/constants.hpp"
+#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/half_space/half_space_solver.hpp"
+#include "mems_stiction/mechanics/hertz.hpp"
+#include "support/analytic_surfaces.hpp"
+
+namespace mems_stiction {
+namespace {
+
+constexpr double kModulus = 88.8e9;
+constexpr double kRange = 1.608e-10;
+
+/// A lower body with this contact modulus against a rigid upper one.
+HalfSpaceProblem problemOf(const HeightMap& lower, double contact_modulus = kModulus) {
+  HalfSpaceProblem problem;
+  problem.surfaces.lower = lower;
+  problem.lower_material.youngs_modulus = contact_modulus;
+  problem.lower_material.poisson_ratio = 0.0;
+  problem.upper_material.youngs_modulus = 1e30;
+  return problem;
+}
+
+HalfSpaceOptions elastic() {
+  HalfSpaceOptions options;
+  options.range = kRange;
+  options.flow = false;
+  return options;
+}
+
+HalfSpaceSolution solve(const HalfSpaceProblem& problem, const HalfSpaceOptions& options = elastic()) {
+  return HalfSpaceSolver(options).solve(problem);
+}
+
+/// Cosines of a few waves: a rough surface that is a formula.
+HeightMap waves(int rows, int cols, double pitch_x, double pitch_y, double amplitude) {
+  cv::Mat heights(rows, cols, CV_64FC1);
+  for (int row = 0; row < rows; ++row) {
+    for (int col = 0; col < cols; ++col) {
+      const double x = 2.0 * kPi * col / cols;
+      const double y = 2.0 * kPi * row / rows;
+      heights.at<double>(row, col) = amplitude * (std::cos(x + 0.3) + std::cos(y) + 0.5 * std::cos(2.0 * x - y) +
+                                                  0.4 * std::cos(3.0 * y + 2.0 * x));
+    }
+  }
+  return HeightMap(heights, pitch_x, pitch_y);
+}
+
+TEST(HalfSpaceSolver, FlatOnFlatIsTheLawItself) {
+  const HeightMap flat = analytic::flat(12, 15, 2e-9, 3e-9);
+  const HalfSpaceSolution solution = solve(problemOf(flat));
+  ASSERT_EQ(solution.status, HalfSpaceStatus::kSolved) << solution.message;
+  const double area = 12 * 15 * 6e-18;
+  // the parabola between steps of 0.2 z0
+  EXPECT_NEAR(solution.pull_off_force / (16.0 * 0.05 / (9.0 * std::sqrt(3.0) * kRange) * area), 1.0, 5e-3);
+  // rest lies within a thousandth of the largest force of z0, the work is quadratic there
+  EXPECT_NEAR(solution.work_of_adhesion / 0.05, 1.0, 1e-4);
+  EXPECT_NEAR(solution.rest_height / kRange, 1.0, 1e-3);
+  EXPECT_NEAR(solution.hysteresis, 0.0, 1e-10);
+  EXPECT_EQ(solution.jumps, 0);
+}
+
+TEST(HalfSpaceSolver, HertzsSphereWithoutAttraction) {
+  const double radius = 200e-9;
+  const HeightMap sphere = analytic::paraboloid(63, 63, 1e-9, 1e-9, radius);
+  HalfSpaceOptions options = elastic();
+  options.attraction = false;
+  options.range = 5e-12;  // a wall, beside depths of 1 nm
+  options.boundary = HalfSpaceBoundary::kFree;
+  options.step = 2.0;
+  HalfSpaceProblem problem = problemOf(sphere);
+  problem.load.mechanical_load = hertz::load(1e-9, radius, kModulus);
+  const HalfSpaceSolution solution = solve(problem, options);
+  ASSERT_EQ(solution.status, HalfSpaceStatus::kSolved) << solution.message;
+  EXPECT_NEAR(-solution.rest_height / 1e-9, 1.0, 0.01);  // of it z0 0.5 %, the pitch of a/14 the rest
+  const double contact = hertz::contactRadius(problem.load.mechanical_load, radius, kModulus);
+  EXPECT_NEAR(solution.contact_area / (kPi * contact * contact), 1.0, 0.05);  // a rim of half a pixel in a/14
+  EXPECT_EQ(solution.contact_count, 1);
+  const double peak = hertz::maximumPressure(problem.load.mechanical_load, radius, kModulus);
+  EXPECT_NEAR(solution.pressure.at<float>(31, 31) / peak, 1.0, 0.01);
+}
+
+TEST(HalfSpaceSolver, WestergaardsWavyWall) {
+  const int cols = 256;
+  const double pitch = 1e-9;
+  const double length = cols * pitch;
+  const double amplitude = 1e-9;
+  const HeightMap wave = analytic::sine(2, cols, pitch, pitch, amplitude, 1);
+  const double full = kPi * kModulus * amplitude / length;  // mean pressure that closes the gap
+  for (const double share : {0.2, 0.5}) {
+    HalfSpaceOptions options = elastic();
+    options.attraction = false;
+    options.range = 2e-12;
+    options.step = 2.0;
+    HalfSpaceProblem problem = problemOf(wave);
+    problem.load.mechanical_load = share * full * 2 * cols * pitch * pitch;
+    const HalfSpaceSolution solution = solve(problem, options);
+    ASSERT_EQ(solution.status, HalfSpaceStatus::kSolved) << solution.message;
+    // p/p* = sin^2(pi a/length), Johnson (13.11), contact from -a to a; one pixel on each side
+    const double half_width = length / kPi * std::asin(std::sqrt(share));
+    EXPECT_NEAR(solution.contact_area / (2.0 * pitch), 2.0 * half_width, 3.0 * pitch);
+  }
+}
+
+TEST(HalfSpaceSolver, ForcesScaleWithModulusAndAdhesionTogether) {
+  const HeightMap lower = waves(24, 30, 5e-9, 5e-9, 0.4e-9);
+  const HalfSpaceSolution one = solve(problemOf(lower));
+  HalfSpaceProblem problem = problemOf(lower, 1e-3 * kModulus);
+  problem.interface.work_of_adhesion *= 1e-3;
+  const HalfSpaceSolution thousandth = solve(problem);
+  ASSERT_EQ(one.status, HalfSpaceStatus::kSolved);
+  EXPECT_NEAR(thousandth.pull_off_force / (1e-3 * one.pull_off_force), 1.0, 1e-3);
+  EXPECT_NEAR(thousandth.work_of_adhesion / (1e-3 * one.work_of_adhesion), 1.0, 1e-3);
+  EXPECT_EQ(thousandth.contact_area, one.contact_area);
+}
+
+TEST(HalfSpaceSolver, ForcesScaleWithTheSizeOfEverything) {
+  const HalfSpaceSolution one = solve(problemOf(waves(24, 30, 5e-9, 5e-9, 0.4e-9)));
+  const double scale = 1e4;
+  HalfSpaceProblem problem = problemOf(waves(24, 30, 5e-9 * scale, 5e-9 * scale, 0.4e-9 * scale));
+  problem.interface.work_of_adhesion *= scale;
+  HalfSpaceOptions options = elastic();
+  options.range *= scale;
+  const HalfSpaceSolution large = solve(problem, options);
+  EXPECT_NEAR(large.pull_off_force / (scale * scale * one.pull_off_force), 1.0, 1e-3);
+  EXPECT_NEAR(large.work_of_adhesion / (scale * one.work_of_adhesion), 1.0, 1e-3);
+  EXPECT_NEAR(large.mean_gap / (scale * one.mean_gap), 1.0, 1e-3);
+}
+
+TEST(HalfSpaceSolver, PitchAndSizeDescribeTheSameSurface) {
+  // one surface on 60 x 45 pixels and on 40 x 90
+  const HalfSpaceSolution one = solve(problemOf(waves(60, 45, 4e-9, 3e-9, 0.4e-9)));
+  const HalfSpaceSolution other = solve(problemOf(waves(40, 90, 2e-9, 4.5e-9, 0.4e-9)));
+  ASSERT_EQ(one.status, HalfSpaceStatus::kSolved);
+  // summits fall on other places of the grid, by up to 2 % of z0
+  EXPECT_NEAR(one.pull_off_force / other.pull_off_force, 1.0, 0.02);
+  EXPECT_NEAR(one.work_of_adhesion / other.work_of_adhesion, 1.0, 0.02);
+}
+
+TEST(HalfSpaceSolver, PrimeSizesAreSolvedToo) {
+  const HalfSpaceSolution prime = solve(problemOf(waves(31, 37, 4e-9, 4e-9, 0.4e-9)));
+  const HalfSpaceSolution even = solve(problemOf(waves(62, 74, 2e-9, 2e-9, 0.4e-9)));
+  ASSERT_EQ(prime.status, HalfSpaceStatus::kSolved);
+  EXPECT_NEAR(prime.pull_off_force / even.pull_off_force, 1.0, 0.02);  // as above
+}
+
+TEST(HalfSpaceSolver, TwoSurfacesAreTheirComposite) {
+  const HeightMap lower = waves(24, 30, 5e-9, 5e-9, 0.4e-9);
+  const HeightMap bump = analytic::flatWithBump(24, 30, 5e-9, 5e-9, 0.5e-9, 6);
+  cv::Mat turned = -bump.heights();
+  HalfSpaceProblem pair = problemOf(lower);
+  pair.surfaces.upper = HeightMap(turned, 5e-9, 5e-9);
+  const HalfSpaceSolution two = solve(pair);
+  const HalfSpaceSolution one = solve(problemOf(analytic::sum(lower, bump)));
+  ASSERT_EQ(two.status, HalfSpaceStatus::kSolved);
+  EXPECT_NEAR(two.pull_off_force / one.pull_off_force, 1.0, 1e-9);  // heights differ by round-off
+}
+
+TEST(HalfSpaceSolver, FarEdgesDoNotMatterToASinglePeak) {
+  const HeightMap sphere = analytic::paraboloid(64, 64, 1e-9, 1e-9, 30e-9);
+  HalfSpaceOptions options = elastic();
+  const HalfSpaceSolution periodic = solve(problemOf(sphere), options);
+  options.boundary = HalfSpaceBoundary::kFree;
+  const HalfSpaceSolution free = solve(problemOf(sphere), options);
+  ASSERT_EQ(free.status, HalfSpaceStatus::kSolved) << free.message;
+  EXPECT_NEAR(free.pull_off_force / periodic.pull_off_force, 1.0, 5e-3);
+}
+
+TEST(HalfSpaceSolver, InvalidPixelsNeverTouch) {
+  const HeightMap flat = analytic::flat(6, 5, 1e-9, 1e-9);
+  const HalfSpaceSolution whole = solve(problemOf(flat));
+  const HalfSpaceSolution solution = solve(problemOf(analytic::withInvalidPixel(flat, 3, 2)));
+  ASSERT_EQ(solution.status, HalfSpaceStatus::kSolved);
+  EXPECT_TRUE(std::isnan(solution.gap.at<float>(3, 2)));
+  EXPECT_TRUE(std::isnan(solution.pressure.at<float>(3, 2)));
+  EXPECT_TRUE(std::isnan(solution.deformed_lower.height(3, 2)));
+  // the others pull as before but for the few picometres by which the surface gives way around the hole
+  EXPECT_NEAR(solution.pull_off_force / whole.pull_off_force, 29.0 / 30.0, 0.01);
+}
+
+TEST(HalfSpaceSolver, MechanicalLoadIsReachedAndLeavesElasticSurfacesAsTheyWere) {
+  HalfSpaceProblem problem = problemOf(waves(32, 32, 5e-9, 5e-9, 1e-9));
+  const HalfSpaceSolution unloaded = solve(problem);
+  problem.load.mechanical_load = 2e-6;
+  const HalfSpaceSolution loaded = solve(problem);
+  ASSERT_EQ(loaded.status, HalfSpaceStatus::kSolved) << loaded.message;
+  EXPECT_NEAR(loaded.rest_force / -2e-6, 1.0, 2e-3);
+  EXPECT_GT(loaded.contact_area, unloaded.contact_area);
+  EXPECT_NEAR(loaded.pull_off_force / unloaded.pull_off_force, 1.0, 5e-3);  // other heights on the same curve
+  EXPECT_NEAR(loaded.work_of_adhesion / unloaded.work_of_adhesion, 1.0, 5e-3);
+  EXPECT_EQ(loaded.flowed_volume, 0.0);
+}
+
+TEST(HalfSpaceSolver, PressureBeyondTheHardnessChangesTheSurface) {
+  HalfSpaceProblem problem = problemOf(analytic::paraboloid(48, 48, 1e-9, 1e-9, 60e-9));
+  problem.lower_material.hardness = problem.upper_material.hardness = 2e9;
+  problem.load.mechanical_load = 2e-7;
+  HalfSpaceOptions options = elastic();
+  const HalfSpaceSolution unharmed = solve(problem, options);
+  options.flow = true;
+  const HalfSpaceSolution flowed = solve(problem, options);
+  ASSERT_EQ(flowed.status, HalfSpaceStatus::kSolved) << flowed.message;
+  double highest = 0.0, lost = 0.0;
+  for (int row = 0; row < 48; ++row) {
+    for (int col = 0; col < 48; ++col) {
+      highest = std::max(highest, static_cast<double>(flowed.pressure.at<float>(row, col)));
+      lost += problem.surfaces.lower.height(row, col) - flowed.deformed_lower.height(row, col);
+      lost += flowed.deformed_upper.height(row, col);
+    }
+  }
+  EXPECT_NEAR(highest / 2e9, 1.0, 1e-6);  // a float
+  EXPECT_NEAR(lost * 1e-18 / flowed.flowed_volume, 1.0, 1e-6);
+  EXPECT_GT(flowed.flowed_volume, 0.0);
+  EXPECT_GT(flowed.contact_area, unharmed.contact_area);
+  // the flattened peak meets the upper surface with more of its area
+  EXPECT_GT(flowed.pull_off_force, 1.1 * unharmed.pull_off_force);
+  EXPECT_GT(flowed.hysteresis, 0.0);
+}
+
+TEST(HalfSpaceSolver, VoltageAndWaterPullHarder) {
+  HalfSpaceProblem problem = problemOf(waves(24, 24, 5e-9, 5e-9, 1e-9));
+  const HalfSpaceSolution dry = solve(problem);
+  problem.load.voltage = 20.0;
+  problem.interface.insulator_thickness = 20e-9;
+  const HalfSpaceSolution charged = solve(problem);
+  ASSERT_EQ(charged.status, HalfSpaceStatus::kSolved) << charged.message;
+  EXPECT_GT(charged.pull_off_force, dry.pull_off_force);
+  problem.load.voltage = 0.0;
+  problem.capillary.relative_humidity = 0.4;
+  const HalfSpaceSolution wet = solve(problem);
+  ASSERT_EQ(wet.status, HalfSpaceStatus::kSolved) << wet.message;
+  EXPECT_GT(wet.pull_off_force, dry.pull_off_force);
+}
+
+TEST(HalfSpaceSolver, BitsDoNotDependOnTheThreads) {
+  const HalfSpaceProblem problem = problemOf(waves(45, 50, 5e-9, 5e-9, 0.4e-9));
+  HalfSpaceOptions options = elastic();
+  const HalfSpaceSolution one = solve(problem, options);
+  options.threads = 3;
+  const HalfSpaceSolution three = solve(problem, options);
+  ASSERT_EQ(one.retraction.size(), three.retraction.size());
+  for (std::size_t i = 0; i < one.retraction.size(); ++i) {
+    EXPECT_EQ(one.retraction[i].height, three.retraction[i].height);
+    EXPECT_EQ(one.retraction[i].force, three.retraction[i].force);
+  }
+  EXPECT_EQ(one.pull_off_force, three.pull_off_force);
+  EXPECT_EQ(cv::norm(one.gap, three.gap, cv::NORM_INF), 0.0);
+}
+
+TEST(HalfSpaceSolver, HalvingTheStepChangesThePullOffForceByLessThanTwoPercent) {
+  for (const double modulus : {10e9, 88.8e9}) {
+    const HalfSpaceProblem problem = problemOf(waves(48, 48, 3e-9, 3e-9, 0.5e-9), modulus);
+    HalfSpaceOptions options = elastic();
+    const HalfSpaceSolution usual = solve(problem, options);
+    options.step *= 0.5;
+    const HalfSpaceSolution half = solve(problem, options);
+    EXPECT_TRUE(usual.is_step_converged);
+    EXPECT_NEAR(half.pull_off_force / usual.pull_off_force, 1.0, 0.02);
+  }
+}
+
+TEST(HalfSpaceSolver, UnresolvedCohesiveZonesAreSaid) {
+  EXPECT_TRUE(solve(problemOf(waves(16, 16, 5e-9, 5e-9, 1e-9))).is_resolved);  // 46 nm
+  EXPECT_FALSE(solve(problemOf(waves(16, 16, 30e-9, 5e-9, 1e-9))).is_resolved);
+}
+
+TEST(HalfSpaceSolver, LoadBeyondTheHardnessIsNotReached) {
+  HalfSpaceProblem problem = problemOf(waves(16, 16, 5e-9, 5e-9, 1e-9));
+  problem.load.mechanical_load = 1.1 * 12e9 * 16 * 16 * 25e-18;
+  HalfSpaceOptions options = elastic();
+  options.flow = true;
+  const HalfSpaceSolution solution = solve(problem, options);
+  EXPECT_EQ(solution.status, HalfSpaceStatus::kLoadNotReached);
+  EXPECT_NE(solution.message.find("load/mechanical_load"), std::string::npos);
+  EXPECT_TRUE(std::isnan(solution.pull_off_force));
+  EXPECT_TRUE(std::isnan(solution.contact_area));
+}
+
+TEST(HalfSpaceSolver, LimitsOfTheSearchAreStatuses) {
+  HalfSpaceOptions options = elastic();
+  options.max_states = 10;
+  const HalfSpaceSolution few = solve(problemOf(waves(16, 16, 5e-9, 5e-9, 1e-9)), options);
+  EXPECT_EQ(few.status, HalfSpaceStatus::kTooManyStates);
+  EXPECT_NE(few.message.find("half_space/max_states = 10"), std::string::npos);
+  EXPECT_TRUE(std::isnan(few.pull_off_force));
+  EXPECT_FALSE(few.is_converged);
+}
+
+TEST(HalfSpaceSolver, CancelEndsTheSearchWithWhatItHas) {
+  std::atomic<bool> cancel{false};
+  int states = 0;
+  HalfSpaceControl control;
+  control.cancel = &cancel;
+  control.on_state = [&](const ForcePoint&) {
+    if (++states == 3) cancel = true;
+  };
+  const HalfSpaceSolution solution =
+      HalfSpaceSolver(elastic()).solve(problemOf(waves(16, 16, 5e-9, 5e-9, 1e-9)), control);
+  EXPECT_EQ(solution.status, HalfSpaceStatus::kCancelled);
+  EXPECT_EQ(states, 3);
+  EXPECT_TRUE(std::isnan(solution.pull_off_force));
+  EXPECT_FALSE(solution.approach.empty());
+}
+
+std::string errorOf(const HalfSpaceProblem& problem, const HalfSpaceOptions& options = elastic()) {
+  try {
+    HalfSpaceSolver(options).solve(problem);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(HalfSpaceSolver, ImpossibleProblemsAreRefusedByName) {
+  const HeightMap lower = waves(16, 16, 5e-9, 5e-9, 1e-9);
+  HalfSpaceProblem problem = problemOf(lower);
+  problem.interface.work_of_adhesion = 0.0;
+  EXPECT_NE(errorOf(problem).find("interface/work_of_adhesion: 0"), std::string::npos);
+  problem = problemOf(lower);
+  problem.interface.hamaker_constant = 0.0;
+  HalfSpaceOptions options = elastic();
+  options.range = 0.0;
+  EXPECT_NE(errorOf(problem, options).find("interface/hamaker_constant: 0"), std::string::npos);
+  EXPECT_EQ(errorOf(problem), "");  // the range is stated
+  problem = problemOf(lower, 0.0);
+  EXPECT_NE(errorOf(problem).find("lower/youngs_modulus: 0"), std::string::npos);
+  problem = problemOf(HeightMap(cv::Mat(4, 4, CV_64FC1, cv::Scalar(std::nan(""))), 1e-9, 1e-9));
+  EXPECT_NE(errorOf(problem).find("no valid pixel"), std::string::npos);
+  options = elastic();
+  options.max_pixels = 255;
+  EXPECT_NE(errorOf(problemOf(lower), options).find("half_space/max_pixels = 255"), std::string::npos);
+}
+
+TEST(HalfSpaceSolver, OptionsOutOfRangeAreRefusedByName) {
+  HalfSpaceOptions options;
+  options.step = 0.0;
+  options.threads = 0;
+  try {
+    HalfSpaceSolver solver(options);
+    FAIL() << "accepted";
+  } catch (const OptionsError& error) {
+    ASSERT_EQ(error.violations().size(), 2U);
+    EXPECT_NE(error.violations()[0].find("half_space/step"), std::string::npos);
+    EXPECT_NE(error.violations()[1].find("half_space/threads"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace mems_stiction
