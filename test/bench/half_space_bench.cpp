@@ -1,0 +1,117 @@
+/// How fast is the half-space? Times in pairs, one forward and one inverse real transform of the frame in double
+/// precision by FFTW in the same run on the same core, so that the figures do not depend on the machine.
+///
+///     half_space_bench [SEED]
+///
+/// prints one row per piece of work, with the limit that it must keep; the exit status is 1 when one does not.
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fftw3.h>
+#include <opencv2/core.hpp>
+
+#include "mems_stiction/half_space/half_space_solver.hpp"
+#include "mems_stiction/surface/gaussian_surface.hpp"
+
+namespace mems_stiction {
+namespace {
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+/// What this process has worked, so that others on the same core do not count [s].
+double worked() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+/// Median time of one forward and one inverse real transform [s].
+double pairTime(int size) {
+  constexpr int kRepetitions = 41;
+  const auto half = static_cast<std::size_t>(size / 2 + 1);
+  std::vector<double> heights(static_cast<std::size_t>(size) * static_cast<std::size_t>(size), 1.0);
+  std::vector<double> spectrum(2 * half * static_cast<std::size_t>(size));
+  auto* const complex = reinterpret_cast<fftw_complex*>(spectrum.data());
+  const fftw_plan forward = fftw_plan_dft_r2c_2d(size, size, heights.data(), complex, FFTW_ESTIMATE);
+  const fftw_plan inverse = fftw_plan_dft_c2r_2d(size, size, complex, heights.data(), FFTW_ESTIMATE);
+  std::vector<double> times;
+  for (int i = 0; i < kRepetitions; ++i) {
+    std::fill(heights.begin(), heights.end(), static_cast<double>(i));
+    const double begin = worked();
+    fftw_execute(forward);
+    fftw_execute(inverse);
+    times.push_back(worked() - begin);
+  }
+  fftw_destroy_plan(forward);
+  fftw_destroy_plan(inverse);
+  std::nth_element(times.begin(), times.begin() + kRepetitions / 2, times.end());
+  return times[kRepetitions / 2];
+}
+
+HalfSpaceProblem silicon(int size, double correlation_length, double rms_height, int seed) {
+  GaussianSurfaceOptions surface;
+  surface.rows = surface.cols = size;
+  surface.pitch_x = surface.pitch_y = 5e-9;
+  surface.correlation_length_x = surface.correlation_length_y = correlation_length;
+  surface.rms_height = rms_height;
+  surface.seed = seed;
+  HalfSpaceProblem problem;
+  problem.surfaces.lower = gaussianSurface(surface);
+  return problem;
+}
+
+struct Run {
+  double seconds;         ///< passed
+  double worked_seconds;  ///< of all threads
+  double pairs;           ///< worked
+  HalfSpaceSolution solution;
+};
+
+Run run(const HalfSpaceProblem& problem, int threads) {
+  HalfSpaceOptions options;
+  options.threads = threads;
+  const double pair_before = pairTime(problem.surfaces.lower.rows());
+  const double begin = now();
+  const double begin_worked = worked();
+  HalfSpaceSolution solution = HalfSpaceSolver(options).solve(problem);
+  const double seconds = now() - begin;
+  const double worked_seconds = worked() - begin_worked;
+  const double pair = 0.5 * (pair_before + pairTime(problem.surfaces.lower.rows()));
+  std::printf("  %d x %d: %.2f s, %d states, %d Newton steps, %d products, %d jumps; a pair takes %.2f ms\n",
+              problem.surfaces.lower.rows(), problem.surfaces.lower.cols(), worked_seconds, solution.state_count,
+              solution.newton_steps, solution.products, solution.jumps, 1e3 * pair);
+  return {seconds, worked_seconds, worked_seconds / pair, std::move(solution)};
+}
+
+bool print(const std::string& work, double figure, const std::string& unit, double limit, bool is_upper_limit) {
+  const bool holds = is_upper_limit ? figure <= limit : figure >= limit;
+  std::printf("%-62s %8.2f %-6s %s %6.1f  %s\n", work.c_str(), figure, unit.c_str(),
+              is_upper_limit ? "<=" : ">=", limit, holds ? "ok" : "MISSED");
+  return holds;
+}
+
+bool sameBits(const HalfSpaceSolution& a, const HalfSpaceSolution& b) {
+  return a.pull_off_force == b.pull_off_force && cv::norm(a.gap, b.gap, cv::NORM_INF) == 0.0;
+}
+
+int measure(int seed) {
+  const HalfSpaceProblem rough = silicon(512, 100e-9, 3e-9, seed);
+  const Run one = run(rough, 1);
+  bool holds = print("512 x 512, l 100 nm, sigma 3 nm, whole path", one.pairs, "pairs", 500.0, true);
+  const Run two = run(rough, 2);
+  holds &= print("the same with two threads", one.seconds / two.seconds, "times", 1.5, false);
+  holds &= print("the same bits with two threads", sameBits(one.solution, two.solution) ? 1.0 : 0.0, "", 1.0, false);
+  const Run large = run(silicon(1024, 100e-9, 3e-9, seed), 1);
+  holds &= print("1024 x 1024 over 512 x 512", large.worked_seconds / one.worked_seconds, "times", 5.0, true);
+  const Run smooth = run(silicon(512, 300e-9, 1e-9, seed), 1);
+  holds &= print("512 x 512, l 300 nm, sigma 1 nm, whole path", smooth.pairs, "pairs", 6000.0, true);
+  return holds ? EXIT_SUCCESS : EXIT_FAILURE;
+}
+
+}  // namespace
+}  // namespace mems_stiction
+
+int main(int argc, char** argv) { return mems_stiction::measure(argc > 1 ? std::atoi(argv[1]) : 1); }
