@@ -13,13 +13,15 @@ void Configuration::describe(OptionVisitor& visitor) {
   counter_surface.describe(visitor);
   device.describe(visitor);
   uncertainty.describe(visitor);
+  half_space.describe(visitor);
 }
 
 std::vector<std::string> Configuration::validate() const {
   std::vector<std::string> violations = model.validate();
   for (const std::vector<std::string>& of_section :
        {rangeViolations(spatial_roughness), rangeViolations(scan), rangeViolations(resolution),
-        rangeViolations(preprocessing), rangeViolations(counter_surface), rangeViolations(uncertainty)}) {
+        rangeViolations(preprocessing), rangeViolations(counter_surface), rangeViolations(uncertainty),
+        rangeViolations(half_space)}) {
     violations.insert(violations.end(), of_section.begin(), of_section.end());
   }
   const std::vector<std::string> of_device = device.validate();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/half_space/half_space_options.hpp"
 #include "mems_stiction/height_map/raw_scan.hpp"
 #include "mems_stiction/prediction/options.hpp"
 #include "mems_stiction/preprocess/pipeline.hpp"
@@ -28,6 +29,7 @@ struct Configuration {
   CounterSurfaceOptions counter_surface;
   DeviceOptions device;
   UncertaintyOptions uncertainty;
+  HalfSpaceOptions half_space;
 
   void describe(OptionVisitor& visitor);
   /// One line per violated constraint; empty when all is well.
