@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "mems_stiction/base/option_yaml.hpp"
+#include "mems_stiction/half_space/half_space_fields.hpp"
 #include "mems_stiction/prediction/prediction_fields.hpp"
 
 namespace mems_stiction {
@@ -104,6 +105,7 @@ void addJsonList(nlohmann::json& record, const char* name, const Items& items, V
 
 const auto kVisitStep = [](const auto& item, auto&& fields) { visitStepFields(item, fields); };
 const auto kVisitPoint = [](const auto& item, auto&& fields) { visitEnergyPointFields(item, fields); };
+const auto kVisitCurvePoint = [](const auto& item, auto&& fields) { visitCurvePointFields(item, fields); };
 const auto kVisitRow = [](const auto& item, auto&& fields) { visitConvergenceFields(item, fields); };
 
 }  // namespace
@@ -127,6 +129,12 @@ std::string yamlRecord(const std::string& file, const HeightMap& scan, const Pre
   }
   addYamlList(emitter, "convergence", extras.convergence, kVisitRow);
   addYamlList(emitter, "energy_curve", prediction.energy_curve, kVisitPoint);
+  if (extras.half_space) {
+    emitter << YAML::Key << "half_space" << YAML::Value << YAML::BeginMap;
+    visitHalfSpaceFields(*extras.half_space, fields);
+    addYamlList(emitter, "curve", curveOf(*extras.half_space), kVisitCurvePoint);
+    emitter << YAML::EndMap;
+  }
   emitter << YAML::EndMap;
   std::string text = std::string(emitter.c_str()) + "\n";
   if (!extras.convergence.empty()) text += convergenceTable(extras.convergence, "# ");
@@ -153,6 +161,12 @@ std::string jsonRecord(const std::string& file, const HeightMap& scan, const Pre
   }
   addJsonList(record, "convergence", extras.convergence, kVisitRow);
   addJsonList(record, "energy_curve", prediction.energy_curve, kVisitPoint);
+  if (extras.half_space) {
+    nlohmann::json half_space;
+    visitHalfSpaceFields(*extras.half_space, JsonFields(half_space));
+    addJsonList(half_space, "curve", curveOf(*extras.half_space), kVisitCurvePoint);
+    record["half_space"] = half_space;
+  }
   // A file name need not be UTF-8; a bad byte becomes U+FFFD instead of an exception.
   return record.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }

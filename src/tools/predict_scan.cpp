@@ -8,11 +8,13 @@
 #include <vector>
 
 #include "command_line.hpp"
+#include "half_space_run.hpp"
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/height_map/scan_file.hpp"
 #include "mems_stiction/height_map/scan_sanity.hpp"
 #include "mems_stiction/prediction/deformed_surfaces.hpp"
 #include "mems_stiction/scan/configuration_yaml.hpp"
+#include "mems_stiction/scan/half_space_scan.hpp"
 #include "mems_stiction/scan/record.hpp"
 #include "mems_stiction/scan/scan_predictor.hpp"
 
@@ -28,7 +30,9 @@ struct Arguments {
   std::optional<double> step;
   std::string channel;
   std::string deformed;
+  std::string curve;
   bool json = false;
+  bool half_space = false;
   bool convergence = false;
   std::vector<std::string> scans;
 };
@@ -70,6 +74,12 @@ void describe(CLI::App& app, Arguments& arguments) {
   app.add_option("-d,--deformed", arguments.deformed,
                  "write the surface after contact as a float TIFF in metres; for one scan")
       ->type_name("OUT.tiff");
+  app.add_flag("--half-space", arguments.half_space,
+               "solve the whole surface as one elastic half-space too, to see how far the asperity model is from it; "
+               "takes seconds to minutes, doc/half_space.md");
+  app.add_option("--curve", arguments.curve,
+                 "write force over height of the half-space, both ways, as CSV; for one scan")
+      ->type_name("OUT.csv");
   app.footer(
       "Exit status: 0 all scans predicted, 2 bad input (one line on stderr names the file and the cause; the other\n"
       "scans of the call are still predicted).\n\n"
@@ -89,12 +99,19 @@ Configuration configurationOf(const Arguments& arguments) {
     throw OptionsError({"--deformed: one file cannot hold the surfaces of " + std::to_string(arguments.scans.size()) +
                         " scans; give one scan"});
   }
+  if (!arguments.curve.empty() && !arguments.half_space) {
+    throw OptionsError({"--curve: only the half-space has a curve; give --half-space too"});
+  }
+  if (!arguments.curve.empty() && arguments.scans.size() > 1) {
+    throw OptionsError({"--curve: one file cannot hold the curves of " + std::to_string(arguments.scans.size()) +
+                        " scans; give one scan"});
+  }
   return configuration;
 }
 
 /// @throw Error in one line, with the file's name
 void predictScan(const std::string& path, const Arguments& arguments, const ScanFileOptions& file_options,
-                 const ScanOptions& scan_options, ScanPredictor& predictor) {
+                 const ScanOptions& scan_options, const HalfSpaceSolver& half_space, ScanPredictor& predictor) {
   const ScanFile scan = openScanFile(path, scan_options, file_options);
   for (const std::string& warning : scanWarnings(scan.surface)) std::cerr << path << ": warning: " << warning << "\n";
 
@@ -107,10 +124,17 @@ void predictScan(const std::string& path, const Arguments& arguments, const Scan
     if (!arguments.deformed.empty()) requireDeformedSurfaces(prediction);
     extras.preprocessing = prepared.record;
     if (arguments.convergence) extras.convergence = predictor.convergence(prepared);
+    if (arguments.half_space) {
+      extras.half_space = solveWithProgress(half_space, halfSpaceProblem(prepared, predictor.options()));
+    }
   } catch (const SurfaceError& error) {
     throw SurfaceError(path + ": " + error.what());
   }
   if (!arguments.deformed.empty()) writeHeightTiff(arguments.deformed, prediction.deformed_lower);
+  if (extras.half_space && extras.half_space->status != HalfSpaceStatus::kSolved) {
+    std::cerr << path << ": warning: half-space: " << extras.half_space->message << "\n";
+  }
+  if (!arguments.curve.empty()) writeCurve(arguments.curve, *extras.half_space);
   if (arguments.json) {
     std::cout << jsonRecord(path, scan.surface, prediction, extras) << std::endl;
   } else {
@@ -120,6 +144,7 @@ void predictScan(const std::string& path, const Arguments& arguments, const Scan
 
 int run(const Arguments& arguments) {
   std::optional<ScanPredictor> predictor;
+  std::optional<HalfSpaceSolver> half_space;
   ScanOptions scan_options;
   ScanFileOptions file_options;
   file_options.import.channel = arguments.channel;
@@ -130,13 +155,14 @@ int run(const Arguments& arguments) {
     configuration.model.output.contact_map = false;
     configuration.model.output.roughness = true;
     predictor.emplace(configuration);
+    half_space.emplace(configuration.half_space);
     scan_options = configuration.scan;
   } catch (const Error& error) {
     complain("predict_scan", error.what());
     return kBadInput;
   }
   return forEachScan("predict_scan", arguments.scans, [&](const std::string& path) {
-    predictScan(path, arguments, file_options, scan_options, *predictor);
+    predictScan(path, arguments, file_options, scan_options, *half_space, *predictor);
   });
 }
 

@@ -2,13 +2,13 @@
 
 /// How far a long run is and when it will end: in place on a terminal, a line every half minute elsewhere.
 
-#include <unistd.h>
-
 #include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <string>
+
+#include "status_line.hpp"
 
 namespace mems_stiction {
 
@@ -16,15 +16,10 @@ class ProgressBar {
  public:
   /// @param total rows of the run; @param done rows that were there before it
   ProgressBar(std::size_t total, std::size_t done) : total_(total), before_(done) {}
-  ~ProgressBar() {
-    if (on_terminal_) std::fputs("\r\033[K", stderr);
-  }
-  ProgressBar(const ProgressBar&) = delete;
-  ProgressBar& operator=(const ProgressBar&) = delete;
 
   void show(std::size_t done, std::size_t failed) {
     const auto now = Clock::now();
-    const double wait = on_terminal_ ? 0.1 : 30.0;
+    const double wait = line_.onTerminal() ? 0.1 : 30.0;
     if (std::chrono::duration<double>(now - shown_).count() < wait) return;
     shown_ = now;
     const double elapsed = std::chrono::duration<double>(now - start_).count();
@@ -34,15 +29,15 @@ class ProgressBar {
       const double rest = elapsed / static_cast<double>(done - before_) * static_cast<double>(total_ - done);
       text += ", " + clock(rest) + " left";
     }
-    if (on_terminal_) {
+    if (line_.onTerminal()) {
       constexpr std::size_t kWidth = 30;
       const std::size_t filled = total_ > 0 ? kWidth * done / total_ : kWidth;
       const std::string bar = std::string(filled, '#') + std::string(kWidth - filled, '.');
-      std::fprintf(stderr, "\r\033[K[%s] %s", bar.c_str(), text.c_str());
+      line_.show("[" + bar + "] " + text);
     } else {
       std::fprintf(stderr, "%s\n", text.c_str());
+      std::fflush(stderr);
     }
-    std::fflush(stderr);
   }
 
  private:
@@ -56,9 +51,9 @@ class ProgressBar {
   }
 
   std::size_t total_, before_;
-  bool on_terminal_ = isatty(STDERR_FILENO) != 0;
+  StatusLine line_;
   Clock::time_point start_ = Clock::now();
-  Clock::time_point shown_ = on_terminal_ ? Clock::time_point{} : start_;
+  Clock::time_point shown_ = line_.onTerminal() ? Clock::time_point{} : start_;
 };
 
 }  // namespace mems_stiction

@@ -4,7 +4,9 @@
 #include <sys/wait.h>
 #include <yaml-cpp/yaml.h>
 
+#include <chrono>
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -12,8 +14,12 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "mems_stiction/base/constants.hpp"
+#include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/half_space/half_space_fields.hpp"
+#include "mems_stiction/half_space/half_space_solver.hpp"
 #include "mems_stiction/height_map/scan_file.hpp"
 #include "mems_stiction/mechanics/material.hpp"
+#include "mems_stiction/scan/half_space_scan.hpp"
 #include "mems_stiction/scan/scan_predictor.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/scratch_folder.hpp"
@@ -124,7 +130,8 @@ TEST_F(PredictScan, BadSettingsAreOneLineEach) {
   for (const std::string& arguments :
        {"--pitch 0 " + scan, "--pitch 2e-9x " + scan, "--pitch 20e-9 --load -1 " + scan,
         "--pitch 20e-9 --voltage 5 " + scan, "--config " + broken + " " + scan, "--config /nonexistent.yaml " + scan,
-        "--pitch 20e-9 --deformed x.tiff " + scan + " " + scan, scan}) {
+        "--pitch 20e-9 --deformed x.tiff " + scan + " " + scan, scan,
+        "--pitch 20e-9 --half-space --curve x.csv " + scan + " " + scan, "--pitch 20e-9 --curve x.csv " + scan}) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.status, 2) << arguments;
     EXPECT_EQ(outcome.errors.size(), 1u) << arguments;
@@ -172,11 +179,147 @@ TEST_F(PredictScan, TheRecordSaysHowTheScanWasCleanedAndHowFarItsRoughnessReache
   EXPECT_FALSE(YAML::Load(run("--pitch 20e-9 " + sphere()).output)["roughness"]["sal"].IsDefined());
 }
 
+/// A sphere on 32 x 32 pixels, so that a solution takes milliseconds; lifted and tilted, so that it must be cleaned.
+class PredictScanHalfSpace : public PredictScan {
+ protected:
+  std::string scan() const {
+    cv::Mat heights = analytic::paraboloid(32, 32, kPitch, kPitch, 100e-9).heights().clone();
+    for (int row = 0; row < heights.rows; ++row) heights.row(row) += 1e-6 + 0.05e-9 * row;
+    writeHeightTiff(folder_.file("scan.tiff"), heights);
+    return folder_.file("scan.tiff");
+  }
+
+  std::string arguments() const {
+    return "-c " +
+           folder_.write("c.yaml",
+                         "lower: {hardness: 5e9}\nload: {mechanical_load: 1e-7}\npreprocessing: {level: plane, refine: "
+                         "{factor: 2}}\nhalf_space: {boundary: free, step: 0.5}\n") +
+           " --pitch 2e-9 --half-space " + scan();
+  }
+
+  /// What the library says of the same.
+  HalfSpaceSolution expected() const {
+    Configuration configuration;
+    configuration.model.lower.hardness = 5e9;
+    configuration.model.load.mechanical_load = 1e-7;
+    configuration.preprocessing.level.shape = LevelShape::kPlane;
+    configuration.preprocessing.refine.factor = 2;
+    configuration.half_space.boundary = HalfSpaceBoundary::kFree;
+    configuration.half_space.step = 0.5;
+    ScanOptions options;
+    options.pitch_x = options.pitch_y = kPitch;
+    const PreparedScan prepared = ScanPreparer(configuration).prepare(readScanFile(scan(), options));
+    return HalfSpaceSolver(configuration.half_space).solve(halfSpaceProblem(prepared, configuration.model));
+  }
+
+  static constexpr double kPitch = 2e-9;
+};
+
+TEST_F(PredictScanHalfSpace, RecordHasTheLibrarysSolution) {
+  const HalfSpaceSolution expected = this->expected();
+  ASSERT_EQ(expected.status, HalfSpaceStatus::kSolved) << expected.message;
+  const Outcome outcome = run("--json " + arguments());
+  ASSERT_EQ(outcome.status, 0);
+  EXPECT_TRUE(outcome.errors.empty()) << outcome.errors.front();
+  const nlohmann::json record = nlohmann::json::parse(outcome.output);
+  EXPECT_EQ(record["status"], "EQUILIBRIUM") << "the prediction is there as without it";
+  const nlohmann::json half_space = record["half_space"];
+  EXPECT_EQ(half_space["status"], "SOLVED");
+  EXPECT_EQ(half_space["pull_off_force"].get<double>(), expected.pull_off_force);
+  EXPECT_EQ(half_space["contact_area"].get<double>(), expected.contact_area);
+  EXPECT_EQ(half_space["contact_fraction"].get<double>(), expected.contact_area / (64 * 64 * 1e-18));
+  EXPECT_EQ(half_space["mean_gap"].get<double>(), expected.mean_gap);
+  EXPECT_EQ(half_space["apparent_work_of_adhesion"].get<double>(), expected.work_of_adhesion);
+  EXPECT_EQ(half_space["adhesion_hysteresis"].get<double>(), expected.hysteresis);
+  EXPECT_EQ(half_space["is_converged"].get<bool>(), expected.is_converged);
+  EXPECT_EQ(half_space["is_resolved"].get<bool>(), expected.is_resolved);
+  EXPECT_EQ(half_space["iterations"].get<int>(), expected.newton_steps);
+  EXPECT_GT(half_space["processing_time"].get<double>(), 0.0);
+  const std::vector<CurvePoint> curve = curveOf(expected);
+  ASSERT_EQ(half_space["curve"].size(), curve.size());
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    EXPECT_EQ(half_space["curve"][i]["height"].get<double>(), curve[i].height) << i;
+    EXPECT_EQ(half_space["curve"][i]["force"].get<double>(), curve[i].force) << i;
+    EXPECT_EQ(half_space["curve"][i]["direction"], word(curve[i].direction)) << i;
+  }
+
+  const YAML::Node yaml = YAML::Load(run(arguments()).output)["half_space"];
+  EXPECT_EQ(yaml["pull_off_force"].as<double>(), expected.pull_off_force);
+  EXPECT_EQ(yaml["curve"].size(), curve.size());
+  EXPECT_EQ(yaml["curve"][0]["direction"].as<std::string>(), "APPROACH");
+  EXPECT_FALSE(YAML::Load(run("--pitch 20e-9 " + sphere()).output)["half_space"].IsDefined());
+}
+
+TEST_F(PredictScanHalfSpace, CurveFileHasThePullOffForceAsItsLargestAttraction) {
+  const HalfSpaceSolution expected = this->expected();
+  ASSERT_EQ(run("--curve " + folder_.file("curve.csv") + " " + arguments()).status, 0);
+  std::istringstream lines(ScratchFolder::read(folder_.file("curve.csv")));
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(line, "height,force,direction");
+  double largest = 0.0;
+  double height = 0.0;
+  std::size_t count = 0;
+  for (; std::getline(lines, line); ++count) {
+    const std::size_t first = line.find(',');
+    const std::size_t second = line.find(',', first + 1);
+    const double force = std::stod(line.substr(first + 1));
+    if (line.substr(second + 1) != "RETRACTION" || force <= largest) continue;
+    largest = force;
+    height = std::stod(line);
+  }
+  EXPECT_EQ(count, expected.approach.size() + expected.retraction.size());
+  EXPECT_EQ(largest, expected.pull_off_force);
+  EXPECT_EQ(height, expected.pull_off_height);
+}
+
+TEST_F(PredictScanHalfSpace, WhatHasNoSolutionIsNullWithItsReasonOnStandardError) {
+  const Outcome outcome = run("--json -c " + folder_.write("few.yaml", "half_space: {max_states: 10}\n") +
+                              " --pitch 2e-9 --half-space " + scan());
+  ASSERT_EQ(outcome.status, 0) << "the prediction is as good as without it";
+  const nlohmann::json half_space = nlohmann::json::parse(outcome.output)["half_space"];
+  EXPECT_EQ(half_space["status"], "TOO_MANY_STATES");
+  EXPECT_TRUE(half_space["pull_off_force"].is_null());
+  EXPECT_FALSE(half_space["is_converged"].get<bool>());
+  EXPECT_GT(half_space["curve"].size(), 0u);
+  ASSERT_EQ(outcome.errors.size(), 1u);
+  EXPECT_NE(outcome.errors[0].find("half_space/max_states = 10"), std::string::npos) << outcome.errors[0];
+}
+
+TEST_F(PredictScanHalfSpace, WhatItCannotBeAskedIsOneLine) {
+  const std::string no_adhesion = folder_.write("c.yaml", "interface: {work_of_adhesion: 0}\n");
+  const std::string too_small = folder_.write("d.yaml", "half_space: {max_pixels: 1023}\n");
+  for (const std::string& configuration : {no_adhesion, too_small}) {
+    EXPECT_EQ(run("-c " + configuration + " --pitch 2e-9 " + scan()).status, 0) << "without --half-space";
+    const Outcome outcome = run("-c " + configuration + " --pitch 2e-9 --half-space " + scan());
+    EXPECT_EQ(outcome.status, 2) << configuration;
+    EXPECT_EQ(outcome.errors.size(), 1u) << configuration;
+    EXPECT_TRUE(outcome.output.empty()) << configuration;
+  }
+}
+
+TEST_F(PredictScanHalfSpace, InterruptEndsIt) {
+  // a minute of work, so that it is interrupted in the middle
+  writeHeightTiff(folder_.file("large.tiff"), analytic::paraboloid(1024, 1024, 5e-9, 5e-9, 10e-6).heights());
+  const std::string command = "timeout --preserve-status -s INT 1 " + std::string(MEMS_STICTION_PREDICT_SCAN) + " -c " +
+                              folder_.write("fine.yaml", "half_space: {step: 0.01, max_states: 1000000}\n") +
+                              " --pitch 5e-9 --half-space " + folder_.file("large.tiff") + " >" + folder_.file("out");
+  const auto before = std::signal(SIGINT, SIG_DFL);  // a shell that put this test into the background ignores it
+  const auto begin = std::chrono::steady_clock::now();
+  const int status = std::system(command.c_str());
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  std::signal(SIGINT, before);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 128 + SIGINT);
+  EXPECT_LT(seconds, 20.0) << "a transform of this frame takes a hundredth of a second; the rest is for busy machines";
+  EXPECT_TRUE(ScratchFolder::read(folder_.file("out")).empty());
+}
+
 TEST_F(PredictScan, HelpNamesEveryOption) {
   const Outcome outcome = run("--help");
   EXPECT_EQ(outcome.status, 0);
-  for (const char* option :
-       {"--config", "--pitch", "--voltage", "--load", "--step", "--json", "--deformed", "--convergence", "SCAN"}) {
+  for (const char* option : {"--config", "--pitch", "--voltage", "--load", "--step", "--json", "--deformed",
+                             "--convergence", "--half-space", "--curve", "SCAN"}) {
     EXPECT_NE(outcome.output.find(option), std::string::npos) << option;
   }
 }

@@ -1,0 +1,35 @@
+#pragma once
+
+/// One line in place on the terminal of the standard error, gone at the end. Elsewhere there is none.
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <string>
+
+namespace mems_stiction {
+
+class StatusLine {
+ public:
+  StatusLine() = default;
+  ~StatusLine() {
+    if (is_shown_) std::fputs("\r\033[K", stderr);
+  }
+  StatusLine(const StatusLine&) = delete;
+  StatusLine& operator=(const StatusLine&) = delete;
+
+  bool onTerminal() const { return on_terminal_; }
+  /// In place of what is shown; nothing if there is no terminal.
+  void show(const std::string& text) {
+    if (!on_terminal_) return;
+    is_shown_ = true;
+    std::fprintf(stderr, "\r\033[K%s", text.c_str());
+    std::fflush(stderr);
+  }
+
+ private:
+  bool on_terminal_ = isatty(STDERR_FILENO) != 0;
+  bool is_shown_ = false;
+};
+
+}  // namespace mems_stiction
