@@ -1,6 +1,7 @@
 #include "mems_stiction/prediction/contact_solvers.hpp"
 
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/option_visitor.hpp"
 #include "mems_stiction/equilibrium/asperity_solver.hpp"
 
 namespace mems_stiction {
@@ -39,9 +40,10 @@ std::unique_ptr<ContactSolver> makeContactSolver(const std::string& formulation)
   for (const Entry& entry : kSolvers) {
     if (formulation == entry.formulation) return entry.make();
   }
-  std::string line = "approach/formulation: '" + formulation + "' is not allowed, must be one of:";
-  for (const std::string& name : formulationNames()) line += " " + name;
-  throw OptionsError({line});
+  OptionValidator validator;
+  std::string name = formulation;  // choice() shows a mutable value; the validator only reads it
+  validator.choice("approach/formulation", name, formulationNames(), "");
+  throw OptionsError(validator.violations());
 }
 
 }  // namespace mems_stiction

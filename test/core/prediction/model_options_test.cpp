@@ -86,5 +86,16 @@ TEST(ModelOptions, stayWhenNewOnesAreRefused) {
   EXPECT_EQ(violationsOf(bad).size(), 2u);  // all of them at once
 }
 
+TEST(ContactSolvers, refuseAnUnknownFormulationInTheWordsOfTheOptions) {
+  Options options;
+  options.formulation = "printd";
+  try {
+    makeContactSolver(options.formulation);
+    FAIL() << "no error";
+  } catch (const OptionsError& error) {
+    EXPECT_EQ(error.violations(), options.validate());
+  }
+}
+
 }  // namespace
 }  // namespace mems_stiction
