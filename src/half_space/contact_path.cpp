@@ -30,6 +30,8 @@ constexpr double kUsualStep = 0.4;
 constexpr double kLargestChange = 2.0;
 /// Newton steps of a state that does not follow smoothly: the next step is no longer.
 constexpr int kManyNewtonSteps = 12;
+/// Heights that differ by less, of the usual step, are the same but for rounding.
+constexpr double kSameHeight = 1e-6;
 /// The present change is continued over no more than this many times its length.
 constexpr double kLongestContinuation = 4.0;
 /// Force that may be left at rest, of the force.
@@ -134,9 +136,11 @@ void ContactPath::keep(const ForcePoint& next, bool is_jump, ForceCurve& curve) 
     if (parabola.begin <= 0.0) curve.attracting_work += (parabola.mean - parabola.workTo(1.0 - attracting)) * move;
     const double usual = settings_.step * minimiser_.law().range();
     const int pieces = static_cast<int>(std::ceil(std::abs(move) / (kPointDistance * usual)));
+    // energies that do not belong to the forces tell of several branches, not of a parabola
+    const bool is_smooth = sagOf(next) <= kJumpSag;
     std::vector<double> shares;  // of the step, where points are
-    for (int piece = 1; piece < pieces; ++piece) shares.push_back(static_cast<double>(piece) / pieces);
-    const double vertex = parabola.bend() < 0.0 ? -0.5 * parabola.slope() / parabola.bend() : -1.0;
+    for (int piece = 1; is_smooth && piece < pieces; ++piece) shares.push_back(static_cast<double>(piece) / pieces);
+    const double vertex = is_smooth && parabola.bend() < 0.0 ? -0.5 * parabola.slope() / parabola.bend() : -1.0;
     if (vertex > 0.0 && vertex < 1.0) shares.insert(std::upper_bound(shares.begin(), shares.end(), vertex), vertex);
     for (const double x : shares) {
       ForcePoint between = present_;
@@ -211,7 +215,7 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
       continue;
     }
     keep(next, is_jump, curve);
-    is_before_jump_ = is_before_jump_ && direction * (jump_height_ - present_.height) > 0.0;
+    is_before_jump_ = is_before_jump_ && direction * (jump_height_ - present_.height) > kSameHeight * usual;
     double change = std::clamp(std::sqrt(kWantedSag / std::max(sag, 1e-12)), 1.0 / kLargestChange, kLargestChange);
     if (state.newton_steps > kManyNewtonSteps) change = std::min(change, 1.0);
     step_ = std::clamp(step * change, smallest, kLargestStep * usual);

@@ -266,6 +266,23 @@ TEST(HalfSpaceSolver, HalvingTheStepChangesThePullOffForceByLessThanTwoPercent) 
   }
 }
 
+TEST(HalfSpaceSolver, NoPointOfTheCurveExceedsTheStrengthOfTheLaw) {
+  // brittle contacts whose curves jump many times; the strength of the law is 1.026 Gamma/z0
+  for (const double amplitude : {0.05e-9, 0.1e-9, 0.2e-9, 0.4e-9}) {
+    for (const double step : {0.2, 0.4}) {
+      HalfSpaceProblem problem = problemOf(waves(40, 40, 1.5e-9, 1.5e-9, amplitude), 10e9);
+      problem.interface.work_of_adhesion = 0.1;
+      HalfSpaceOptions options = elastic();
+      options.step = step;
+      const HalfSpaceSolution solution = solve(problem, options);
+      const double area = 40 * 40 * 1.5e-9 * 1.5e-9;
+      const double strength = 1.0264 * problem.interface.work_of_adhesion / kRange * area;
+      for (const ForcePoint& point : solution.retraction) EXPECT_LE(point.force, strength);
+      EXPECT_LE(solution.pull_off_force, strength);
+    }
+  }
+}
+
 TEST(HalfSpaceSolver, UnresolvedCohesiveZonesAreSaid) {
   EXPECT_TRUE(solve(problemOf(waves(16, 16, 5e-9, 5e-9, 1e-9))).is_resolved);  // 46 nm
   EXPECT_FALSE(solve(problemOf(waves(16, 16, 30e-9, 5e-9, 1e-9))).is_resolved);
