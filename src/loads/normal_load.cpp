@@ -1,35 +1,11 @@
 #include "mems_stiction/loads/normal_load.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "mems_stiction/base/constants.hpp"
 #include "mems_stiction/base/lanes.hpp"
 #include "mems_stiction/base/vectorized.hpp"
 
 namespace mems_stiction {
 namespace {
-
-/// A bucket may stand for its cells when its gap is at least this many times its width.
-constexpr double kGapsPerWidth = 12.0;
-/// Buckets next to the contact whose cells are summed one by one: enough for the Taylor series beyond, and, while they
-/// are wide, as many as reach the cut-off, where the integrand has a kink.
-constexpr std::size_t kTailLevel = 4;
-static_assert(1 << kTailLevel == GapOrder::kBucketsPerTailBucket, "the tail's buckets are a level of the pyramid");
-constexpr double kFewestNearBuckets = kGapsPerWidth;
-constexpr double kMostNearBuckets = 64.0;
-
-GapMoments merged(const GapMoments& a, const GapMoments& b) {
-  if (a.count == 0.0) return b;
-  if (b.count == 0.0) return a;
-  GapMoments sum;
-  sum.count = a.count + b.count;
-  sum.mean = (a.count * a.mean + b.count * b.mean) / sum.count;
-  const double distance = b.mean - a.mean;
-  sum.variance =
-      (a.count * a.variance + b.count * b.variance + a.count * b.count / sum.count * distance * distance) / sum.count;
-  return sum;
-}
 
 /// The denominator of (2), of one gap or of several; gaps below the cut-off count as the cut-off.
 template <typename Real>
@@ -93,63 +69,18 @@ double CellForces::electrostatic(const GapMoments& gaps, double approach) const 
          (1.0 + 3.0 * gaps.variance / (distance * distance));
 }
 
-void GapLoads::prepare(const GapOrder& order) {
-  order_ = &order;
-  std::size_t level_count = 1;
-  while ((order.bucketCount() >> level_count) > 0) ++level_count;
-  coarser_levels_.resize(level_count - 1);
-  for (std::size_t level = 1; level < level_count; ++level) {
-    const std::vector<GapMoments>& finer = momentsOf(level - 1);
-    std::vector<GapMoments>& coarser = coarser_levels_[level - 1];
-    coarser.resize((finer.size() + 1) / 2);
-    for (std::size_t i = 0; i < coarser.size(); ++i) {
-      coarser[i] = 2 * i + 1 < finer.size() ? merged(finer[2 * i], finer[2 * i + 1]) : finer[2 * i];
-    }
-    if (1 << level == GapOrder::kBucketsPerTailBucket) {
-      coarser.insert(coarser.end(), order.tailMoments().begin(), order.tailMoments().end());
-    }
-  }
-}
-
-const std::vector<GapMoments>& GapLoads::momentsOf(std::size_t level) const {
-  return level == 0 ? order_->orderedMoments() : coarser_levels_[level - 1];
-}
-
 MEMS_STICTION_VECTORIZED NormalLoad GapLoads::at(double approach, int contact_count, const CellForces& forces,
                                                  double mechanical_load) const {
-  const int bucket_count = order_->bucketCount();
-  const double width = order_->bucketWidth();
-  const LargePageVector<OrderedCell>& cells = order_->cells();
-
   NormalLoad load;
   load.mechanical = mechanical_load;
   load.electrostatic = contact_count * forces.electrostaticInContact();
-
-  const double cutoff_in_widths = forces.cutoff() / width;
-  const int near_buckets =
-      static_cast<int>(std::ceil(std::clamp(cutoff_in_widths, kFewestNearBuckets, kMostNearBuckets)));
-  // a group is near as a whole: its cells are not in order
-  const double past_near = std::min<double>(approach / width + 1.0 + near_buckets, bucket_count);
-  int bucket = order_->groupStartFrom(static_cast<int>(past_near));
-  const int near_end = order_->cellsBefore(bucket);
-  forces.addCells(cells.data() + contact_count, static_cast<std::size_t>(std::max(near_end - contact_count, 0)),
-                  approach, load);
-  while (bucket < bucket_count) {
-    const double gap_in_widths = bucket - approach / width;
-    std::size_t level = bucket < order_->orderedBuckets() ? 0 : kTailLevel;
-    while (level < coarser_levels_.size() && bucket % (2 << level) == 0) {
-      const double wider = 2 << level;
-      const bool has_kink = gap_in_widths < cutoff_in_widths && cutoff_in_widths < gap_in_widths + wider;
-      if (has_kink || gap_in_widths < kGapsPerWidth * wider) break;
-      ++level;
-    }
-    const GapMoments& gaps = momentsOf(level)[static_cast<std::size_t>(bucket >> level)];
-    if (gaps.count > 0.0) {
-      load.van_der_waals += forces.vanDerWaals(gaps, approach);
-      load.electrostatic += forces.electrostatic(gaps, approach);
-    }
-    bucket += 1 << level;
-  }
+  pyramid_.visit(
+      approach, contact_count, {forces.cutoff(), 0.0},
+      [&](const OrderedCell* cells, std::size_t count) { forces.addCells(cells, count, approach, load); },
+      [&](const GapMoments& gaps) {
+        load.van_der_waals += forces.vanDerWaals(gaps, approach);
+        load.electrostatic += forces.electrostatic(gaps, approach);
+      });
   return load;
 }
 

@@ -10,9 +10,7 @@
 /// (2) diverges at the edge of the contact; atoms are finite, so gaps below the cut-off D0 count as D0. (3) is printed
 /// with t for t/eps_r: eps_r = 1 is that case.
 
-#include <vector>
-
-#include "mems_stiction/approach/gap_order.hpp"
+#include "mems_stiction/approach/gap_pyramid.hpp"
 #include "mems_stiction/loads/interface.hpp"
 
 namespace mems_stiction {
@@ -52,23 +50,18 @@ class CellForces {
   double insulator_;  ///< t/eps_r [m]
 };
 
-/// Both sums at any approach from the ordered gaps, without a pass over the frame: cells near contact one by one, the
-/// rest from a pyramid of histogram buckets, each level twice as wide, so that a bucket is never wider than an eighth
-/// of its gap. Agrees with the sum over cells to 1e-3 relative (tested).
+/// Both sums at any approach, without a pass over the frame (gap_pyramid.hpp). Agrees with the sum over cells to 1e-3
+/// relative (tested).
 class GapLoads {
  public:
   /// Prepares the sums for a frame; keeps a reference to the order. Memory is reused.
-  void prepare(const GapOrder& order);
+  void prepare(const GapOrder& order) { pyramid_.prepare(order); }
 
   /// Loads when the first `contact_count` ordered cells are in contact and the others are apart by gap - approach.
   NormalLoad at(double approach, int contact_count, const CellForces& forces, double mechanical_load) const;
 
  private:
-  const GapOrder* order_ = nullptr;
-  /// momentsOf(k)[i]: buckets i 2^k .. (i + 1) 2^k - 1 together; level 0 is the order's own.
-  const std::vector<GapMoments>& momentsOf(std::size_t level) const;
-
-  std::vector<std::vector<GapMoments>> coarser_levels_;  ///< from level 1 on
+  GapPyramid pyramid_;
 };
 
 }  // namespace mems_stiction
