@@ -1,42 +1,18 @@
 #include "mems_stiction/equilibrium/contact_maps.hpp"
 
-#include <algorithm>
 #include <cmath>
 
+#include "mems_stiction/contact/prepared_maps.hpp"
+
 namespace mems_stiction {
-namespace {
-
-/// The surfaces before contact; a plane is level at 0.
-void copySurfaces(const SurfacePair& surfaces, int rows, int cols, ContactSolution& solution) {
-  makeWritable(solution.displaced_lower, rows, cols, CV_64FC1);
-  makeWritable(solution.displaced_upper, rows, cols, CV_64FC1);
-  surfaces.lower.heights().convertTo(solution.displaced_lower, CV_64F);
-  if (surfaces.upperIsPlane()) {
-    std::fill_n(solution.displaced_upper.ptr<double>(), solution.displaced_upper.total(), 0.0);
-  } else {
-    surfaces.upper.heights().convertTo(solution.displaced_upper, CV_64F);
-  }
-}
-
-}  // namespace
-
 void ContactMaps::fill(const ContactProblem& problem, const EquilibriumState& state, ApproachSearch& search,
                        const AsperityLaw& law, ContactSolution& solution) {
   const GapField& field = problem.gap;
   const ContactSettings& settings = problem.settings;
   const bool wants_map = settings.output.contact_map;
   const bool wants_surfaces = settings.output.deformed_surfaces;
-  if (!wants_map) solution.contact_map.release();
-  if (!wants_surfaces) {
-    solution.displaced_lower.release();
-    solution.displaced_upper.release();
-  }
+  prepareMaps(problem, solution);
   if (!wants_map && !wants_surfaces) return;
-  if (wants_map) {
-    makeWritable(solution.contact_map, field.rows(), field.cols(), CV_8UC1);
-    std::fill_n(solution.contact_map.ptr<std::uint8_t>(), solution.contact_map.total(), std::uint8_t{0});
-  }
-  if (wants_surfaces) copySurfaces(problem.surfaces, field.rows(), field.cols(), solution);
 
   const DeformationShare share(settings.lower, settings.upper, settings.interface.hardness_ratio_limit, law.formulation,
                                law.deformation);
