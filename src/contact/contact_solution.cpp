@@ -8,8 +8,10 @@ void ContactSolution::resetKeepingMemory() {
   ContactSolution fresh;
   fresh.asperities.swap(asperities);
   fresh.energy_curve.swap(energy_curve);
+  fresh.curve.swap(curve);
   fresh.asperities.clear();
   fresh.energy_curve.clear();
+  fresh.curve.clear();
   std::swap(fresh.contact_map, contact_map);
   std::swap(fresh.displaced_lower, displaced_lower);
   std::swap(fresh.displaced_upper, displaced_upper);

@@ -22,6 +22,7 @@ void giveLarger(List& other, List& user) {
 void handOver(Prediction& prediction, ContactSolution& solution) {
   giveLarger(prediction.asperities, solution.asperities);
   giveLarger(prediction.energy_curve, solution.energy_curve);
+  giveLarger(prediction.curve, solution.curve);
   solution.contact_map = std::move(prediction.contact_map);
   solution.displaced_lower = std::move(prediction.deformed_lower);
   solution.displaced_upper = std::move(prediction.deformed_upper);
@@ -29,8 +30,10 @@ void handOver(Prediction& prediction, ContactSolution& solution) {
   Prediction fresh;
   fresh.asperities.swap(prediction.asperities);
   fresh.energy_curve.swap(prediction.energy_curve);
+  fresh.curve.swap(prediction.curve);
   fresh.asperities.clear();
   fresh.energy_curve.clear();
+  fresh.curve.clear();
   prediction = std::move(fresh);
 }
 

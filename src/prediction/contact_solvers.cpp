@@ -3,6 +3,7 @@
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
 #include "mems_stiction/equilibrium/asperity_solver.hpp"
+#include "mems_stiction/separation/separation_solver.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -19,6 +20,7 @@ std::unique_ptr<ContactSolver> make() {
 
 /// A line per solver, the default first.
 constexpr Entry kSolvers[] = {
+    {"consistent", make<SeparationSolver>},
     {"corrected", make<AsperitySolver, Formulation::kCorrected>},
     {"printed", make<AsperitySolver, Formulation::kPrinted>},
 };

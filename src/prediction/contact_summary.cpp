@@ -79,10 +79,10 @@ void summarizeContact(const ContactProblem& problem, ContactSolution& solution, 
   prediction.pull_off_force_jkr = solution.pull_off_force_jkr;
   prediction.pull_off_force_transition = solution.pull_off_force_transition;
 
-  prediction.contact_area = solution.contact_cells * gap.cellArea();
+  prediction.contact_area = solution.contact_area;
   prediction.contact_area_jkr = solution.contact_area_jkr;
   prediction.nominal_area = gap.validCount() * gap.cellArea();
-  prediction.contact_fraction = static_cast<double>(solution.contact_cells) / gap.validCount();
+  prediction.contact_fraction = prediction.contact_area / prediction.nominal_area;
   prediction.approach = solution.approach;
   prediction.mean_gap = solution.mean_gap;
 
@@ -90,12 +90,19 @@ void summarizeContact(const ContactProblem& problem, ContactSolution& solution, 
   prediction.mechanical_energy = solution.energies.mechanical;
   prediction.surface_energy = solution.energies.surface;
   prediction.elastic_energy = solution.energies.elastic;
-  prediction.total_energy = solution.energies.total();
+  // of solvers that follow the curve, the energy of the bond is what it costs to part the surfaces
+  prediction.apparent_work_of_adhesion = solution.apparent_work_of_adhesion;
+  prediction.total_energy = std::isnan(solution.apparent_work_of_adhesion)
+                                ? solution.energies.total()
+                                : solution.apparent_work_of_adhesion * prediction.nominal_area;
   prediction.plastic_work = solution.energies.plastic_work;
   prediction.bonding_energy = prediction.total_energy / prediction.nominal_area;
   prediction.normalized_bonding_energy =
       work_of_adhesion > 0.0 ? prediction.bonding_energy / work_of_adhesion : kUnknown;
 
+  prediction.contact_stiffness = solution.contact_stiffness;
+  prediction.flattening_energy = solution.flattening_energy;
+  prediction.is_conforming = solution.is_conforming;
   prediction.adhesion_parameter = solution.adhesion_parameter;
   prediction.bonding_regime = bondingRegimeOf(prediction.adhesion_parameter);
   prediction.composite_rms_height = problem.composite_rms_height;
@@ -104,6 +111,7 @@ void summarizeContact(const ContactProblem& problem, ContactSolution& solution, 
 
   if (settings.output.asperities) prediction.asperities.swap(solution.asperities);
   prediction.energy_curve.swap(solution.energy_curve);
+  prediction.curve.swap(solution.curve);
   std::swap(prediction.contact_map, solution.contact_map);
   std::swap(prediction.deformed_lower, solution.displaced_lower);
   std::swap(prediction.deformed_upper, solution.displaced_upper);

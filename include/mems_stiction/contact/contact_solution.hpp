@@ -37,6 +37,13 @@ struct EnergyPoint {
   double total_energy = 0.0;       ///< (8) [J]
 };
 
+/// One point of the force between the surfaces over their displacement.
+struct SeparationPoint {
+  double displacement = 0.0;   ///< D of the upper surface past first touch, below zero apart [m]
+  double force = 0.0;          ///< attraction positive [N]
+  bool is_separation = false;  ///< of the way out, which differs from the way in where surfaces flow or conform
+};
+
 /// One contact at equilibrium.
 struct Asperity {
   double x = 0.0, y = 0.0, z = 0.0;  ///< centre: col pitch_x, row pitch_y, height of the lower surface [m]
@@ -69,22 +76,27 @@ struct ContactSolution {
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
   Status status = Status::kNoEquilibrium;
-  int steps = 0;               ///< that the solver took
-  double approach = kUnknown;  ///< D from first touch [m]
-  double mean_gap = kUnknown;  ///< over the cells out of contact [m]; 0 when every cell touches
-  int contact_cells = 0;       ///< cells that touch
-  NormalLoad load;             ///< what presses the surfaces together, by its causes
+  int steps = 0;                   ///< that the solver took
+  double approach = kUnknown;      ///< D from first touch [m]
+  double mean_gap = kUnknown;      ///< over the cells out of contact [m]; 0 when every cell touches
+  double contact_area = kUnknown;  ///< real area of contact [m^2]
+  NormalLoad load;                 ///< what presses the surfaces together, by its causes
   ContactEnergies energies;
 
   double pull_off_force = kUnknown;             ///< [N]
   double pull_off_force_jkr = kUnknown;         ///< the part of the contacts by JKR [N]
   double pull_off_force_transition = kUnknown;  ///< the same with the JKR-DMT transition's prefactors [N]
+  double apparent_work_of_adhesion = kUnknown;  ///< of drawing the surfaces apart, per area [J/m^2]
+  double contact_stiffness = kUnknown;          ///< -dF/dD at rest [N/m]
+  double flattening_energy = kUnknown;          ///< that pressing the surfaces flat would store, per area [J/m^2]
+  bool is_conforming = false;                   ///< the surfaces lie against each other nearly everywhere
   double contact_area_jkr = kUnknown;           ///< sum pi a_i^2 [m^2]
   double adhesion_parameter = kUnknown;         ///< (14) [-]; infinite without work of adhesion
 
   bool has_asperities = false;  ///< false: `asperities` is empty because the solver knows none
   std::vector<Asperity> asperities;
   std::vector<EnergyPoint> energy_curve;  ///< if output.energy_curve asks for it
+  std::vector<SeparationPoint> curve;     ///< force over displacement; empty if the solver does not follow it
 
   // Maps, rows x cols of the frame, if `output` asks for them.
   cv::Mat contact_map;      ///< CV_8UC1, values of Regime

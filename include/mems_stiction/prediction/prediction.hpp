@@ -34,11 +34,13 @@ struct Prediction {
   double normal_load = 0.0;          ///< F = F_w + F_e + F_m + F_c [N]
   double capillary_force = 0.0;      ///< F_c of condensed water; 0 unless interface/relative_humidity is set [N]
 
-  double pull_off_force = 0.0;             ///< (11): pull_off_force_jkr + van_der_waals_force + capillary_force [N]
+  /// Largest force while the surfaces are drawn apart; of the paper's formulations (11): pull_off_force_jkr +
+  /// van_der_waals_force + capillary_force [N]
+  double pull_off_force = 0.0;
   double pull_off_force_jkr = 0.0;         ///< (3/2) pi Gamma sum R_i [N]
   double pull_off_force_transition = 0.0;  ///< the same sum with the JKR-DMT transition's prefactor of each contact [N]
 
-  double contact_area = 0.0;      ///< cells in contact [m^2]
+  double contact_area = 0.0;      ///< real area of contact; of the paper's formulations all cells that overlap [m^2]
   double contact_area_jkr = 0.0;  ///< sum pi a_i^2 [m^2]
   double nominal_area = 0.0;      ///< valid cells [m^2]
   double contact_fraction = 0.0;  ///< contact_area / nominal_area [-]
@@ -52,6 +54,11 @@ struct Prediction {
   double plastic_work = 0.0;               ///< dissipated in flow along the approach [J]
   double bonding_energy = 0.0;             ///< E_t / nominal area [J/m^2]
   double normalized_bonding_energy = 0.0;  ///< bonding_energy / Gamma [-]; NaN when Gamma = 0
+
+  double apparent_work_of_adhesion = 0.0;  ///< of drawing the surfaces apart, per nominal area [J/m^2]
+  double contact_stiffness = 0.0;          ///< -dF/dD at rest [N/m]
+  double flattening_energy = 0.0;          ///< that pressing the surfaces flat would store, per area [J/m^2]
+  bool is_conforming = false;              ///< flattening costs less than adhesion gives: flat nearly everywhere
 
   double adhesion_parameter = 0.0;  ///< (14) [-]; infinite when Gamma = 0
   BondingRegime bonding_regime = BondingRegime::kNonBonding;
@@ -74,10 +81,11 @@ struct Prediction {
   bool listsContacts() const { return has_asperities && static_cast<int>(asperities.size()) == asperity_count; }
   std::vector<Asperity> asperities;
   std::vector<EnergyPoint> energy_curve;
-  cv::Mat deformed_lower;  ///< rows x cols CV_64FC1 [m], NaN where invalid
-  cv::Mat deformed_upper;  ///< the same in the upper surface's own z [m]
-  cv::Mat contact_map;     ///< rows x cols CV_8UC1, values of Regime
-  cv::Mat pressure;        ///< rows x cols CV_64FC1 [Pa], repulsion positive; empty if the solver does not know it
+  std::vector<SeparationPoint> curve;  ///< force over displacement; empty if the formulation does not follow it
+  cv::Mat deformed_lower;              ///< rows x cols CV_64FC1 [m], NaN where invalid
+  cv::Mat deformed_upper;              ///< the same in the upper surface's own z [m]
+  cv::Mat contact_map;                 ///< rows x cols CV_8UC1, values of Regime
+  cv::Mat pressure;  ///< rows x cols CV_64FC1 [Pa], repulsion positive; empty if the solver does not know it
 
   double median_contact_pixels = 0.0;  ///< pixels of the scan in half of the contacts or fewer [-]; NaN without contact
   double median_composite_radius = 0.0;  ///< median of R_i of (5) [m]; NaN without contact

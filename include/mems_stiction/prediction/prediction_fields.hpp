@@ -135,6 +135,10 @@ void visitPredictionFields(PredictionType& prediction, Visitor&& visit) {
   visit("bonding_energy", prediction.bonding_energy, "J/m^2");
   visit("normalized_bonding_energy", prediction.normalized_bonding_energy, "");
 
+  visit("apparent_work_of_adhesion", prediction.apparent_work_of_adhesion, "J/m^2");
+  visit("contact_stiffness", prediction.contact_stiffness, "N/m");
+  visit("flattening_energy", prediction.flattening_energy, "J/m^2");
+  visit("is_conforming", prediction.is_conforming, "");
   visit("adhesion_parameter", prediction.adhesion_parameter, "");
   visit("bonding_regime", prediction.bonding_regime, "");
   visit("asperity_count", prediction.asperity_count, "");

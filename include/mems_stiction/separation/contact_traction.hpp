@@ -1,0 +1,60 @@
+#pragma once
+
+/// @file
+/// The law of adhesion as the separation curve counts it: from the plane of contact, d = 0.
+///
+///     t(d) = (8 Gamma/(3 z0)) [ (z0/(d + z0))^3 - (z0/(d + z0))^9 ],   z0 = sqrt(H/(16 pi Gamma))
+///     w(d) = integral of t from d on = (8 Gamma/3) [ x^2/2 - x^8/8 ],  x = z0/(d + z0);  w(0) = Gamma
+///
+/// Attraction is positive. Far away t is Hamaker's H/(6 pi (d + z0)^3); t is largest, 1.026 Gamma/z0, at d = 0.2 z0, and
+/// 0 in contact. Surfaces that are pressed together by p come closer than the plane of contact by s with
+/// p = (8 Gamma/(3 z0)) [ (z0/(z0 - s))^9 - (z0/(z0 - s))^3 ]: a layer in series with the bodies, stiffer than they are
+/// but for contacts smaller than some E z0^2/Gamma.
+///
+/// Assumption: the traction at a place depends on the gap there alone (Derjaguin). Sources: Israelachvili,
+/// Intermolecular and Surface Forces (3rd ed., 2011), chapter 13; half_space/traction_law.hpp is the same law, counted
+/// from the centres of the outermost atoms.
+///
+///     const ContactTraction law(interface);
+///     const double pull = law.traction(gap - approach);
+
+#include "mems_stiction/loads/interface.hpp"
+
+namespace mems_stiction {
+
+class ContactTraction {
+ public:
+  /// Without work of adhesion nothing attracts, and the layer is rigid. Without a Hamaker constant z0 is
+  /// interface/equilibrium_distance.
+  explicit ContactTraction(const InterfaceOptions& interface);
+
+  double workOfAdhesion() const { return work_of_adhesion_; }  ///< Gamma [J/m^2]
+  double range() const { return range_; }                      ///< z0 [m], > 0
+  double stress() const { return stress_; }                    ///< 8 Gamma/(3 z0) [Pa]
+  bool attracts() const { return stress_ > 0.0; }
+  /// Largest traction: what no interface exceeds, 1.026 Gamma/z0 [Pa].
+  double strength() const;
+
+  /// t of one gap [Pa] or of several; @param gap d [m], >= 0
+  template <typename Real>
+  Real traction(const Real& gap) const {
+    const Real x = range_ / (gap + range_);
+    const Real cube = x * x * x;
+    return stress_ * (cube - cube * cube * cube);
+  }
+  /// d^2t/dd^2 [Pa/m^2]
+  double curvature(double gap) const;
+  /// w [J/m^2]
+  double energy(double gap) const;
+
+  /// What the bodies and the layer carry together, when the bodies alone would carry `elastic_pressure` [Pa] at this
+  /// depth of overlap [m]: the layer takes a part s of the depth, and both carry the same.
+  double pressureInSeries(double elastic_pressure, double depth) const;
+
+ private:
+  double work_of_adhesion_;
+  double range_;
+  double stress_;
+};
+
+}  // namespace mems_stiction

@@ -1,0 +1,33 @@
+#pragma once
+
+/// @file
+/// The whole curve of one frame: from apart to rest, with its largest force and its work.
+
+#include <vector>
+
+#include "mems_stiction/contact/contact_solution.hpp"
+#include "mems_stiction/separation/separation_trace.hpp"
+
+namespace mems_stiction {
+
+/// From apart to rest.
+struct SeparationCurve {
+  std::vector<SeparationState> states;  ///< by ascending approach; the last one is at rest
+  Status status = Status::kNoEquilibrium;
+  double pull_off_force = 0.0;     ///< largest force on the way [N]
+  double pull_off_approach = 0.0;  ///< where [m]
+  double elastic_energy = 0.0;     ///< integral of what the patches carry, from first touch to rest [J]
+  double work = 0.0;               ///< integral of the attracting part of the curve, from rest to apart [J]
+
+  const SeparationState& rest() const { return states.back(); }
+};
+
+/// Follows the curve until the surfaces come to rest under settings.load.mechanical_load: the largest approach at which
+/// F + F_m >= 0. Bonded, when they have not until the contact fraction reaches its limit; without equilibrium, when
+/// approach/max_steps end first. The trace stands at rest then.
+void followCurve(SeparationTrace& trace, const ContactSettings& settings, SeparationCurve& curve);
+
+/// The same from a given approach outwards, of surfaces that have flowed: states by ascending approach up to `rest` [m].
+void followCurveUpTo(SeparationTrace& trace, double rest, SeparationCurve& curve);
+
+}  // namespace mems_stiction

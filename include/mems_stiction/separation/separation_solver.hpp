@@ -1,0 +1,53 @@
+#pragma once
+
+/// @file
+/// The solver of the separation curve: the force between the surfaces at each displacement, adhesion counted once.
+///
+/// Rest is where the curve carries the mechanical load, the pull-off force its largest value on the way out, the
+/// apparent work of adhesion its area. Surfaces that have flowed on the way in come apart along the curve of the changed
+/// surfaces; surfaces whose flattening costs less than adhesion gives come apart along that of conforming ones
+/// (conforming_contact.hpp). Equations, derivation, limits: doc/separation_curve.md.
+///
+/// Forces (1.5 pi Gamma R) and areas of the paper's asperities by JKR are NaN; contacts have what the patches have: real
+/// area, radius, load, regime by flow, Tabor's parameter, but no tilt.
+///
+///     SeparationSolver solver;
+///     solver.solve({surfaces, gap, composite_rms_height, settings}, solution);
+
+#include <vector>
+
+#include "mems_stiction/contact/contact_solver.hpp"
+#include "mems_stiction/separation/conforming_contact.hpp"
+#include "mems_stiction/separation/separation_curve.hpp"
+
+namespace mems_stiction {
+
+class SeparationSolver : public ContactSolver {
+ public:
+  void solve(const ContactProblem& problem, ContactSolution& solution) override;
+
+ private:
+  /// One contact at rest.
+  struct Contact {
+    PatchLoad load;
+    double area = 0.0;  ///< real [m^2]
+  };
+
+  void takeRest(const ContactProblem& problem, ContactSolution& solution);
+  void listContacts(const ContactProblem& problem, ContactSolution& solution);
+  void fillMaps(const ContactProblem& problem, ContactSolution& solution);
+  /// The way out of surfaces that have flowed, if they have.
+  void partFlowed(const ContactProblem& problem, ContactSolution& solution);
+  /// The way out of surfaces that conform, if they do.
+  void partConforming(const ContactProblem& problem, ContactSolution& solution);
+
+  SeparationTrace trace_;
+  SeparationCurve curve_;
+  std::vector<Contact> contacts_;  ///< by id of the patch
+  double flowed_share_ = 0.0;      ///< largest share of an overlap that has flowed [-]
+  GapField changed_gap_;           ///< of the surfaces that have flowed
+  SeparationTrace changed_trace_;
+  SeparationCurve changed_curve_;
+};
+
+}  // namespace mems_stiction

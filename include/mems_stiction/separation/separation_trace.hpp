@@ -1,0 +1,99 @@
+#pragma once
+
+/// @file
+/// The force between two surfaces at each approach, from the gap alone: the separation curve (doc/separation_curve.md).
+///
+///     F(D) = s(D) sum over cells apart t(d) dA + F_e(D) + F_c(D) - sum over patches P_i(D),   d = g - D
+///
+/// D is the displacement of the upper surface past first touch, below zero apart. F > 0 attracts. P_i is what a patch
+/// carries: Hertz by volume and area (overlap_patch.hpp) in series with the layer of the law (contact_traction.hpp), and
+/// no more than flow allows. s(D) <= 1 is what the bodies' bending leaves of the attraction:
+///
+///     s = 1 - sum over summits in reach  v_i (1 - c(mu_i)/2) (3/5 + (2/5) v_i)/sqrt(n_i)
+///
+/// over the patches of the surfaces brought z0 closer, those in reach of the attraction. v_i is a patch's share of the
+/// sum of 2 pi R w(gap at its summit), R = A^2/(4 pi V) its radius, n_i the summits in it, mu_i Tabor's parameter of one
+/// of them, and c pi Gamma R the pull-off force of one sphere between DMT (c = 2) and JKR (3/2). A bent summit holds on
+/// longer: where many share the load, the neighbours make up for two fifths of what each loses.
+
+#include <optional>
+
+#include "mems_stiction/approach/gap_field.hpp"
+#include "mems_stiction/approach/gap_order.hpp"
+#include "mems_stiction/approach/gap_pyramid.hpp"
+#include "mems_stiction/contact/contact_settings.hpp"
+#include "mems_stiction/loads/capillary.hpp"
+#include "mems_stiction/separation/attraction_sum.hpp"
+#include "mems_stiction/separation/overlap_sweep.hpp"
+
+namespace mems_stiction {
+
+/// The forces at one approach [N].
+struct SeparationState {
+  double approach = 0.0;       ///< D [m]
+  int contact_count = 0;       ///< cells that overlap
+  double adhesion = 0.0;       ///< of the cells apart
+  double electrostatic = 0.0;  ///< of all cells
+  double capillary = 0.0;      ///< of condensed water
+  double carried = 0.0;        ///< by all patches
+
+  double force() const { return adhesion + electrostatic + capillary - carried; }
+};
+
+/// What one patch carries at an approach.
+struct PatchLoad {
+  double elastic = 0.0;  ///< without flow [N]
+  double carried = 0.0;  ///< with it [N]
+  /// What flow has left of the overlap [-]: 1 elastic.
+  double elasticShare() const { return elastic > 0.0 ? carried / elastic : 1.0; }
+};
+
+/// Goes through the approaches of one frame, upward only. Keeps its memory between frames.
+class SeparationTrace {
+ public:
+  /// Starts apart. Field and settings must outlive the trace's use.
+  /// - @p flows whether the hardness limits what patches carry
+  void start(const GapField& field, const ContactSettings& settings, bool flows);
+
+  /// The forces at an approach that is no smaller than the last one [m].
+  SeparationState at(double approach);
+  /// The attraction with its energies, at the approach of the last call of at().
+  Attraction energiesAt(const SeparationState& state) const;
+  /// Back to apart.
+  void restart();
+
+  const ContactTraction& law() const { return attraction_->law(); }
+  /// Number of cells in contact at which approach/max_contact_fraction is reached.
+  int contactLimit() const;
+  /// Where it is reached [m].
+  double limitApproach();
+  OverlapSweep& contacts() { return contacts_; }
+  PatchLoad loadOf(const OverlapPatch& patch, double approach) const;
+  /// c of a summit of radius R: its pull-off force is c pi Gamma R [-], between DMT (2) and JKR (1.5).
+  double pullOffPrefactor(double radius) const;
+  double contactModulus() const { return contact_modulus_; }
+  double hardness() const { return hardness_; }
+
+ private:
+  /// Brings enough cells into order for this approach.
+  void orderUpTo(double approach);
+  void build(double fraction);
+  /// s(D)
+  double bendingFactor(double approach) const;
+
+  const GapField* field_ = nullptr;
+  const ContactSettings* settings_ = nullptr;
+  std::optional<AttractionSum> attraction_;
+  CapillaryForce water_;
+  double contact_modulus_ = 0.0;
+  double hardness_ = 0.0;       ///< infinite if nothing flows [Pa]
+  double load_factor_ = 0.0;    ///< 0.6 E sqrt(pi dA) [N/m]
+  double maugis_factor_ = 0.0;  ///< lambda^3 per R [1/m]
+  double ordered_fraction_ = 0.0;
+  GapOrder order_;
+  GapPyramid pyramid_;
+  OverlapSweep contacts_;
+  OverlapSweep in_reach_;
+};
+
+}  // namespace mems_stiction

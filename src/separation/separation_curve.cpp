@@ -1,0 +1,143 @@
+#include "mems_stiction/separation/separation_curve.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mems_stiction {
+namespace {
+
+/// Approaches before first touch, of z0, where the curve begins; from the last one on it has steps of kStep z0.
+constexpr double kApart[] = {-12.0, -8.0, -6.0, -4.5, -3.5, -2.8, -2.2, -1.8, -1.5, -1.2, -1.0};
+constexpr double kStep = 0.1;
+/// Steps grow with the approach, so that few of them go deep.
+constexpr double kStepPerApproach = 0.05;
+/// The surfaces are at rest for good when what carries exceeds what presses by this factor.
+constexpr double kCarriesEnough = 1.5;
+constexpr int kRestSearches = 3;
+
+/// The vertex of the parabola through three points of the curve, if it lies between them; else the middle one.
+void takeMaximum(const std::vector<SeparationState>& states, SeparationCurve& curve) {
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < states.size(); ++i) {
+    if (states[i].force() > states[best].force()) best = i;
+  }
+  curve.pull_off_force = std::max(0.0, states[best].force());
+  curve.pull_off_approach = states[best].approach;
+  if (best == 0 || best + 1 == states.size() || !(curve.pull_off_force > 0.0)) return;
+  const SeparationState& before = states[best - 1];
+  const SeparationState& after = states[best + 1];
+  const double middle = states[best].approach;
+  const double rise = (states[best].force() - before.force()) / (middle - before.approach);
+  const double fall = (after.force() - states[best].force()) / (after.approach - middle);
+  const double bend = (fall - rise) / (after.approach - before.approach);
+  if (!(bend < 0.0)) return;
+  const double slope = rise + bend * (middle - before.approach);
+  const double move = std::clamp(-0.5 * slope / bend, before.approach - middle, after.approach - middle);
+  curve.pull_off_approach = middle + move;
+  curve.pull_off_force = states[best].force() + move * (slope + bend * move);
+}
+
+/// Integral over a step of a line from `from` to `to`, of its part above 0.
+double positivePart(double from, double to, double length) {
+  if (from >= 0.0 && to >= 0.0) return 0.5 * (from + to) * length;
+  if (from <= 0.0 && to <= 0.0) return 0.0;
+  const double positive = std::max(from, to);
+  return 0.5 * positive * length * positive / std::abs(from - to);
+}
+
+/// Integrals along the states; the part before the first one by its energies.
+void takeWork(const Attraction& at_first, SeparationCurve& curve) {
+  curve.elastic_energy = 0.0;
+  curve.work = at_first.adhesion_energy + at_first.electrostatic_energy;
+  for (std::size_t i = 1; i < curve.states.size(); ++i) {
+    const SeparationState& from = curve.states[i - 1];
+    const SeparationState& to = curve.states[i];
+    const double length = to.approach - from.approach;
+    curve.elastic_energy += 0.5 * (from.carried + to.carried) * length;
+    curve.work += positivePart(from.force(), to.force(), length);
+  }
+}
+
+double nextApproach(double approach, double range) {
+  return approach + std::max(kStep * range, kStepPerApproach * approach);
+}
+
+/// Where F + F_m falls to 0 between two states, by the forces' line.
+double crossing(const SeparationState& above, const SeparationState& below, double load) {
+  const double excess = above.force() + load;
+  const double lack = -(below.force() + load);
+  const double share = excess + lack > 0.0 ? excess / (excess + lack) : 1.0;
+  return above.approach + share * (below.approach - above.approach);
+}
+
+/// Puts the state of rest at the end: the crossing after the last state that does not carry the load.
+void settle(SeparationTrace& trace, double load, SeparationCurve& curve) {
+  std::vector<SeparationState>& states = curve.states;
+  std::size_t last = states.size() - 1;
+  while (last > 0 && states[last].force() + load < 0.0) --last;
+  if (last + 1 == states.size()) return;
+  SeparationState above = states[last];
+  SeparationState below = states[last + 1];
+  states.resize(last + 1);
+  for (int search = 0; search < kRestSearches; ++search) {
+    trace.restart();
+    const SeparationState found = trace.at(crossing(above, below, load));
+    (found.force() + load >= 0.0 ? above : below) = found;
+    if (std::abs(found.force() + load) <= 1e-3 * std::max(found.carried, load) || search + 1 == kRestSearches) {
+      states.push_back(found);
+      break;
+    }
+  }
+}
+
+}  // namespace
+
+void followCurve(SeparationTrace& trace, const ContactSettings& settings, SeparationCurve& curve) {
+  const double range = trace.law().range();
+  const double load = settings.load.mechanical_load;
+  curve.states.clear();
+  for (const double apart : kApart) curve.states.push_back(trace.at(apart * range));
+  const Attraction at_first = [&] {
+    SeparationState first = curve.states.front();
+    return trace.energiesAt(first);
+  }();
+  curve.status = Status::kNoEquilibrium;
+  int steps = 0;
+  while (steps++ < settings.approach.max_steps) {
+    curve.states.push_back(trace.at(nextApproach(curve.states.back().approach, range)));
+    const SeparationState& state = curve.states.back();
+    const double pressing = state.adhesion + state.electrostatic + state.capillary + load;
+    if (state.force() + load < 0.0 && state.carried > kCarriesEnough * pressing) {
+      curve.status = Status::kEquilibrium;
+      break;
+    }
+    if (state.contact_count >= trace.contactLimit()) {
+      const double limit = trace.limitApproach();
+      curve.states.pop_back();
+      trace.restart();
+      curve.states.push_back(trace.at(limit));
+      curve.status = curve.states.back().force() + load < 0.0 ? Status::kEquilibrium : Status::kBonded;
+      break;
+    }
+  }
+  if (curve.status == Status::kEquilibrium) settle(trace, load, curve);
+  takeMaximum(curve.states, curve);
+  takeWork(at_first, curve);
+}
+
+void followCurveUpTo(SeparationTrace& trace, double rest, SeparationCurve& curve) {
+  const double range = trace.law().range();
+  curve.states.clear();
+  for (const double apart : kApart) {
+    if (apart * range < rest) curve.states.push_back(trace.at(apart * range));
+  }
+  if (curve.states.empty()) curve.states.push_back(trace.at(rest));
+  const Attraction at_first = trace.energiesAt(curve.states.front());
+  while (curve.states.back().approach < rest) {
+    curve.states.push_back(trace.at(std::min(nextApproach(curve.states.back().approach, range), rest)));
+  }
+  takeMaximum(curve.states, curve);
+  takeWork(at_first, curve);
+}
+
+}  // namespace mems_stiction

@@ -1,0 +1,230 @@
+#include "mems_stiction/separation/separation_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mems_stiction/base/constants.hpp"
+#include "mems_stiction/contact/prepared_maps.hpp"
+#include "mems_stiction/deformation/modified_topography.hpp"
+#include "mems_stiction/mechanics/plasticity.hpp"
+#include "mems_stiction/mechanics/transition.hpp"
+#include "mems_stiction/separation/flattening.hpp"
+
+namespace mems_stiction {
+namespace {
+
+/// Flattening that costs less than this share of the work of adhesion is what surfaces do: below it the conforming
+/// branch is nearer to the half-space than the patches are, above it the patches (doc/separation_curve.md).
+constexpr double kConformingShare = 0.4;
+/// A contact of which flow has taken less than this share of the overlap counts as elastic, one that carries more than
+/// this share of what it can as plastic.
+constexpr double kElasticShare = 0.97;
+constexpr double kPlasticShare = 0.95;
+/// Surfaces change when flow has taken more than this of any overlap.
+constexpr double kNoticeableFlow = 1e-3;
+/// A plasticity index at which (12) lets all of the interference flow.
+constexpr double kFullyPlastic = 2.0;
+
+/// Real area of a patch that overlaps over `area`: half of it while it is elastic (Hertz), more where adhesion widens
+/// the contact (JKR), all of it when what it carries is all that flow allows. The load that widens it is P (DMT) to
+/// JKR's P1 of what presses beside the contact's own rim, as far as Tabor's parameter has come from one to the other.
+double realArea(const PatchLoad& load, double area, double rim_force, double prefactor, double hardness) {
+  const double fullness = std::isfinite(hardness) ? std::min(1.0, load.carried / (hardness * area)) : 0.0;
+  double widening = 1.0;
+  if (load.carried > 0.0) {
+    const double outer = std::max(load.carried - rim_force, 0.0);  // rim_force is DMT's 2 pi Gamma R
+    const double jkr_load = outer + 1.5 * rim_force + std::sqrt(3.0 * rim_force * outer + 2.25 * rim_force * rim_force);
+    const double jkr_share = 2.0 * (2.0 - prefactor);
+    widening = std::pow(1.0 + jkr_share * std::max(jkr_load / load.carried - 1.0, 0.0), 2.0 / 3.0);
+  }
+  return area * std::max(0.5 * std::min(widening, 2.0), fullness);
+}
+
+Regime regimeOf(const PatchLoad& load, double area, double hardness) {
+  if (load.elasticShare() >= kElasticShare) return Regime::kElastic;
+  return load.carried >= kPlasticShare * hardness * area ? Regime::kPlastic : Regime::kElastoPlastic;
+}
+
+void appendCurve(const SeparationCurve& curve, bool is_separation, std::vector<SeparationPoint>& points) {
+  const auto add = [&](const SeparationState& state) {
+    points.push_back({state.approach, state.force(), is_separation});
+  };
+  if (is_separation) {
+    std::for_each(curve.states.rbegin(), curve.states.rend(), add);
+  } else {
+    std::for_each(curve.states.begin(), curve.states.end(), add);
+  }
+}
+
+}  // namespace
+
+void SeparationSolver::solve(const ContactProblem& problem, ContactSolution& solution) {
+  solution.resetKeepingMemory();
+  trace_.start(problem.gap, problem.settings, true);
+  followCurve(trace_, problem.settings, curve_);
+  appendCurve(curve_, false, solution.curve);
+  solution.status = curve_.status;
+  solution.steps = static_cast<int>(curve_.states.size());
+  solution.pull_off_force = curve_.pull_off_force;
+  solution.apparent_work_of_adhesion = curve_.work / (problem.gap.validCount() * problem.gap.cellArea());
+  takeRest(problem, solution);
+  listContacts(problem, solution);
+  fillMaps(problem, solution);
+  partFlowed(problem, solution);
+  solution.flattening_energy = flatteningEnergy(problem.gap, trace_.contactModulus());
+  partConforming(problem, solution);
+}
+
+void SeparationSolver::takeRest(const ContactProblem& problem, ContactSolution& solution) {
+  const GapField& field = problem.gap;
+  const SeparationState& rest = curve_.rest();
+  solution.approach = rest.approach;
+  solution.load.van_der_waals = rest.adhesion;
+  solution.load.electrostatic = rest.electrostatic;
+  solution.load.mechanical = problem.settings.load.mechanical_load;
+  solution.load.capillary = rest.capillary;
+  solution.energies.elastic = curve_.elastic_energy;
+  solution.energies.surface = trace_.energiesAt(rest).adhesion_energy;
+  if (curve_.states.size() > 1) {
+    const SeparationState& before = curve_.states[curve_.states.size() - 2];
+    solution.contact_stiffness = (before.force() - rest.force()) / (rest.approach - before.approach);
+  }
+
+  OverlapSweep& sweep = trace_.contacts();
+  contacts_.assign(sweep.idEnd(), {});
+  solution.contact_area = 0.0;
+  flowed_share_ = 0.0;
+  double touching = 0.0;
+  for (const std::int32_t id : sweep.livePatches()) {
+    const OverlapPatch& patch = sweep.patch(id);
+    Contact& contact = contacts_[static_cast<std::size_t>(id)];
+    const double area = patch.cells * field.cellArea();
+    contact.load = trace_.loadOf(patch, rest.approach);
+    const double radius = patch.radius(rest.approach, field.cellArea());
+    contact.area = realArea(contact.load, area, 2.0 * kPi * trace_.law().workOfAdhesion() * radius,
+                            trace_.pullOffPrefactor(radius / patch.summits), trace_.hardness());
+    solution.contact_area += contact.area;
+    flowed_share_ = std::max(flowed_share_, 1.0 - contact.load.elasticShare());
+    touching += patch.gap_sum;
+  }
+  const int apart = field.validCount() - rest.contact_count;
+  solution.mean_gap = apart > 0 ? (field.meanGap() * field.validCount() - touching) / apart - rest.approach : 0.0;
+}
+
+void SeparationSolver::listContacts(const ContactProblem& problem, ContactSolution& solution) {
+  const GapField& field = problem.gap;
+  const ContactSettings& settings = problem.settings;
+  const ContactPair pair(settings.lower, settings.upper);
+  const double gamma = settings.interface.work_of_adhesion;
+  const double sigma = problem.composite_rms_height;
+  const double approach = curve_.rest().approach;
+  double parameters = 0.0;
+  OverlapSweep& sweep = trace_.contacts();
+  for (const std::int32_t id : sweep.livePatches()) {
+    const OverlapPatch& patch = sweep.patch(id);
+    const Contact& contact = contacts_[static_cast<std::size_t>(id)];
+    const double area = patch.cells * field.cellArea();
+    const GridCell cell = field.cellAt(patch.first_cell);
+    Asperity asperity;
+    asperity.x = cell.col * field.pitchX();
+    asperity.y = cell.row * field.pitchY();
+    asperity.z = problem.surfaces.lower.height(cell.row, cell.col);
+    asperity.cap_radius = std::sqrt(area / kPi);
+    asperity.composite_radius = patch.radius(approach, field.cellArea());
+    asperity.load = contact.load.carried;
+    asperity.contact_radius = std::sqrt(contact.area / kPi);
+    asperity.tilt = ContactSolution::kUnknown;
+    asperity.plasticity_index = plasticityIndex(pair.contact_modulus, pair.hardness, sigma, asperity.composite_radius);
+    asperity.tabor_parameter =
+        taborParameter(asperity.composite_radius, gamma, pair.contact_modulus, trace_.law().range());
+    asperity.area = contact.area;
+    asperity.regime = regimeOf(contact.load, area, trace_.hardness());
+    parameters += pair.contact_modulus / gamma * std::sqrt(sigma * sigma * sigma / asperity.composite_radius);
+    solution.asperities.push_back(asperity);
+  }
+  solution.has_asperities = true;
+  solution.adhesion_parameter = gamma > 0.0 ? parameters / static_cast<double>(solution.asperities.size())
+                                            : std::numeric_limits<double>::infinity();
+}
+
+void SeparationSolver::fillMaps(const ContactProblem& problem, ContactSolution& solution) {
+  const GapField& field = problem.gap;
+  const ContactSettings& settings = problem.settings;
+  const bool wants_map = settings.output.contact_map;
+  const bool wants_surfaces = settings.output.deformed_surfaces;
+  prepareMaps(problem, solution);
+  if (!wants_map && !wants_surfaces) return;
+
+  const DeformationShare share(settings.lower, settings.upper, settings.interface.hardness_ratio_limit,
+                               Formulation::kCorrected, settings.deformation);
+  OverlapSweep& sweep = trace_.contacts();
+  const double approach = curve_.rest().approach;
+  for (const std::int32_t cell : sweep.insertedCells()) {
+    const std::int32_t id = sweep.patchOf(cell);
+    const OverlapPatch& patch = sweep.patch(id);
+    const Contact& contact = contacts_[static_cast<std::size_t>(id)];
+    const GridCell place = field.cellAt(cell);
+    const double overlap = approach - field.gap(cell);
+    if (wants_map) {
+      // the deepest cells, as many as the real area has: those of a paraboloid whose overlap exceeds this
+      const double area = patch.cells * field.cellArea();
+      const double least = 2.0 * patch.depth(approach) * (1.0 - contact.area / area);
+      if (overlap >= least || cell == patch.first_cell) {
+        solution.contact_map.at<std::uint8_t>(place.row, place.col) =
+            static_cast<std::uint8_t>(regimeOf(contact.load, area, trace_.hardness()));
+      }
+    }
+    if (wants_surfaces) {
+      const double flowed = (1.0 - contact.load.elasticShare()) * overlap;
+      solution.displaced_lower.at<double>(place.row, place.col) -= share.lower(kFullyPlastic) * flowed;
+      solution.displaced_upper.at<double>(place.row, place.col) += share.upper(kFullyPlastic) * flowed;
+    }
+  }
+}
+
+void SeparationSolver::partFlowed(const ContactProblem& problem, ContactSolution& solution) {
+  if (flowed_share_ < kNoticeableFlow) return;
+  const GapField& field = problem.gap;
+  const double approach = curve_.rest().approach;
+  cv::Mat relief(field.rows(), field.cols(), CV_64FC1);
+  for (int row = 0; row < field.rows(); ++row) field.gapsOfRow(row, relief.ptr<double>(row));
+  OverlapSweep& sweep = trace_.contacts();
+  for (const std::int32_t cell : sweep.insertedCells()) {
+    const double kept = contacts_[static_cast<std::size_t>(sweep.patchOf(cell))].load.elasticShare();
+    double& gap = relief.at<double>(cell / field.cols(), cell % field.cols());
+    gap = approach - kept * (approach - gap);
+  }
+  double first_touch = 0.0;
+  cv::minMaxLoc(relief, &first_touch, nullptr);
+  relief = -relief;
+  SurfacePair changed;
+  changed.lower = HeightMap(relief, field.pitchX(), field.pitchY());
+  changed_gap_.compute(changed);
+  changed_trace_.start(changed_gap_, problem.settings, false);
+  followCurveUpTo(changed_trace_, approach - first_touch, changed_curve_);
+  for (SeparationState& state : changed_curve_.states) state.approach += first_touch;
+  appendCurve(changed_curve_, true, solution.curve);
+  solution.pull_off_force = changed_curve_.pull_off_force;
+  solution.apparent_work_of_adhesion = changed_curve_.work / (field.validCount() * field.cellArea());
+}
+
+void SeparationSolver::partConforming(const ContactProblem& problem, ContactSolution& solution) {
+  const double gamma = problem.settings.interface.work_of_adhesion;
+  if (!(solution.flattening_energy < kConformingShare * gamma)) return;
+  const double area = problem.gap.validCount() * problem.gap.cellArea();
+  const ConformingContact conforming = conformingContact(problem.gap, trace_.law(), solution.flattening_energy,
+                                                         problem.settings.load.mechanical_load / area);
+  if (!(conforming.work > 0.0)) return;
+  solution.is_conforming = true;
+  solution.status = Status::kBonded;
+  solution.pull_off_force = conforming.strength * area;
+  solution.apparent_work_of_adhesion = conforming.work;
+  solution.contact_area = conforming.states.front().contact_fraction * area;
+  const auto is_way_out = [](const SeparationPoint& point) { return point.is_separation; };
+  solution.curve.erase(std::remove_if(solution.curve.begin(), solution.curve.end(), is_way_out), solution.curve.end());
+  for (const ConformingState& state : conforming.states) {
+    solution.curve.push_back({state.approach, state.traction * area, true});
+  }
+}
+
+}  // namespace mems_stiction
