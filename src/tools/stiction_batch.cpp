@@ -56,7 +56,7 @@ int run(const BatchArguments& arguments) {
   }
   std::cout << arguments.output << ": " << rows.done() << " rows, " << before << " of them from before, "
             << failed_count << " scans failed in this run";
-  if (arguments.half_space) std::cout << ", " << unsolved_count << " more without a half-space";
+  if (arguments.half_space) std::cout << ", half-space not solved for " << unsolved_count << " others";
   std::cout << "\n";
   return 0;
 }
