@@ -11,9 +11,9 @@ import numpy as np
 
 COLUMNS = ("height", "force", "direction")
 DIRECTIONS = ("APPROACH", "RETRACTION")
-# A step is a jump if the force changes by this share of all that it spans, so many times as steeply as in the steps around.
-JUMP_SHARE = 0.01
-JUMP_STEEPNESS = 3.0
+# A step is a jump if the force changes by this share of all that it spans, so many times as steeply as on both sides.
+JUMP_SHARE = 0.02
+JUMP_STEEPNESS = 4.0
 APART_SHARE = 0.5  # of the largest attraction: less is left when the surfaces are apart
 
 
@@ -34,15 +34,14 @@ class Way:
     def jumps(self):
         """The steps over which the force is not continuous: place i stands for the step from point i to i + 1. A file does
         not say where they are, but a path that is followed in small steps is steep nowhere else."""
-        if len(self) < 4:
-            return []
         force = np.abs(np.diff(self.forces))
         steepness = force / np.maximum(np.abs(np.diff(self.heights)), 1e-30)
         found = []
-        for place in np.flatnonzero(force > JUMP_SHARE * np.ptp(self.forces)):
-            around = np.delete(steepness, place)[max(0, place - 2):place + 2]
-            if steepness[place] > JUMP_STEEPNESS * np.median(around):
-                found.append(int(place))
+        for place in range(1, len(force) - 1):
+            # On each side the flatter of two steps, as another jump may be next to this one.
+            around = max(steepness[max(0, place - 2):place].min(), steepness[place + 1:place + 3].min())
+            if force[place] > JUMP_SHARE * np.ptp(self.forces) and steepness[place] > JUMP_STEEPNESS * around:
+                found.append(place)
         return found
 
 
