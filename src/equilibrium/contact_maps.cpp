@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mems_stiction/height_map/shared_pixels.hpp"
+
 namespace mems_stiction {
 namespace {
 
