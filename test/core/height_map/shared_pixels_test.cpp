@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <opencv2/core.hpp>
+
 #include "mems_stiction/height_map/shared_pixels.hpp"
 
 namespace mems_stiction {
