@@ -25,7 +25,8 @@ def _scale(values, unit):
 
 
 def draw_curves(axes, curves):
-    """Retraction as a line over a broad, pale one for the approach, a dot for each state, jumps dotted, the pull-off force with its value."""
+    """Retraction as a line over a broad, pale one for the approach, a dot for each state, jumps dotted, the pull-off force
+    with its value."""
     ways = [way for curve in curves for way in (curve.approach, curve.retraction) if len(way)]
     heights = np.concatenate([way.heights for way in ways])
     forces = np.concatenate([way.forces for way in ways])

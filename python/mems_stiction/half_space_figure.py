@@ -82,11 +82,12 @@ def half_space_words(result):
     if result["half_space_reason"]:
         sentences.append("Not solved: %s." % result["half_space_reason"].rstrip("."))
     if "half_space_status" in result:
-        sentences.append("Converged: every state is an equilibrium." if result["half_space_is_converged"]
-                         else "Not converged: there is no answer to rely on.")
-        sentences.append("Resolved: pixels are small enough for the length over which contacts part." if result["half_space_is_resolved"]
-                         else "Not resolved: pixels are too large for the length over which contacts part, so the grid holds "
-                         "the edges of contacts, and the pull-off force is too large as a rule.")
+        sentences.append("Converged: every state is an equilibrium." if result["half_space_is_converged"] else
+                         "Not converged: there is no answer to rely on.")
+        sentences.append("Resolved: pixels are small enough for the length over which contacts part."
+                         if result["half_space_is_resolved"] else
+                         "Not resolved: pixels are too large for the length over which contacts part, so the grid holds the "
+                         "edges of contacts, and the pull-off force is too large as a rule.")
     return " ".join(sentences)
 
 

@@ -191,7 +191,8 @@ def table_row(row, drawn, judge):
         entry.update(status=STATES[row["status"]][1], pull_off=bound + text_of(row["pull_off_force"], "N"),
                      contact=percent(row["contact_fraction"]), contacts=row["asperity_count"],
                      regimes="%d / %d / %d" % (row["elastic_count"], row["elasto_plastic_count"], row["plastic_count"]),
-                     half_space=_half_space_cell(row), rms=text_of(row["rms_height"], "m"), sticks=row.get("sticks"), ratio=_ratio_with_interval(row, judge))
+                     rms=text_of(row["rms_height"], "m"), sticks=row.get("sticks"), ratio=_ratio_with_interval(row, judge),
+                     half_space=_half_space_cell(row))
     return entry
 
 
