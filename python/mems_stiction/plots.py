@@ -81,7 +81,7 @@ def save_picture(picture, path):
     _draw_heights(figure, figure.add_subplot(grid[0]), picture)
     contact_axes = figure.add_subplot(grid[1])
     section = _section(picture)
-    _draw_contacts(contact_axes, picture, section)
+    draw_contacts(contact_axes, picture, section)
     _draw_section(figure.add_subplot(grid[2]), picture, section)
     figure.savefig(path)
     plt.close(figure)
@@ -98,7 +98,8 @@ def _caption(picture):
     return "   |   ".join(parts)
 
 
-def _map_axes(axes, picture, title):
+def map_axes(axes, picture, title):
+    """Title and label of a map. Returns its extent and the factor from metres."""
     width, height = picture.extent
     scale, unit = length_scale(max(width, height))
     axes.set_anchor("N")
@@ -107,12 +108,13 @@ def _map_axes(axes, picture, title):
     return (0, width * scale, height * scale, 0), scale
 
 
-def _beside(axes):
+def beside(axes):
+    """Room for a colour bar."""
     return make_axes_locatable(axes).append_axes("right", size="4.5%", pad=0.1)
 
 
 def _draw_heights(figure, axes, picture):
-    extent, _ = _map_axes(axes, picture, "Height")
+    extent, _ = map_axes(axes, picture, "Height")
     axes.set_ylabel("y [%s]" % length_scale(max(picture.extent))[1])
     finite = picture.heights[np.isfinite(picture.heights)]
     scale, unit = length_scale(finite.max() - finite.min())
@@ -121,17 +123,24 @@ def _draw_heights(figure, axes, picture):
     axes.set_facecolor("#e8d5e8")
     image = axes.imshow((picture.heights - middle) * scale, extent=extent, cmap="viridis", vmin=(low - middle) * scale,
                         vmax=(high - middle) * scale, interpolation="nearest")
-    bar = figure.colorbar(image, cax=_beside(axes), extend="both")
+    bar = figure.colorbar(image, cax=beside(axes), extend="both")
     bar.set_label("height above mean [%s]" % unit)
 
 
-def _draw_contacts(axes, picture, section):
-    extent, scale = _map_axes(axes, picture, "Contact by regime")
+def draw_relief(axes, picture, extent):
+    """The heights in pale greys, so that colours stand out from valleys and from peaks."""
     finite = picture.heights[np.isfinite(picture.heights)]
     low, high = np.percentile(finite, [1, 99])
-    # Pale greys, so that the colours stand out from valleys and from peaks.
-    axes.imshow(picture.heights, extent=extent, cmap="gray", vmin=low - 0.9 * (high - low), vmax=high + 0.15 * (high - low),
+    span = high - low or 1.0  # a plane
+    axes.imshow(picture.heights, extent=extent, cmap="gray", vmin=low - 0.9 * span, vmax=high + 0.15 * span,
                 interpolation="nearest")
+
+
+def draw_contacts(axes, picture, section=None, title="Contact by regime", legend_at=0.47):
+    """Contacts in the colours of their regimes over the heights; the line of the cross-section. The legend stands below,
+    around this share of the figure's width."""
+    extent, scale = map_axes(axes, picture, title)
+    draw_relief(axes, picture, extent)
     colours = ListedColormap([colour for _, _, colour in REGIMES])
     shown = np.ma.masked_equal(picture.contact_map, 0)
     axes.imshow(shown, extent=extent, cmap=colours, vmin=0.5, vmax=3.5, interpolation="nearest")
@@ -151,12 +160,12 @@ def _draw_contacts(axes, picture, section):
                   color="black", linewidth=1.6)
     axes.set_xlim(extent[0], extent[1])
     axes.set_ylim(extent[2], extent[3])
-    _beside(axes).set_axis_off()  # the two maps keep the same size
+    beside(axes).set_axis_off()  # the two maps keep the same size
     counts = (picture.prediction.elastic_count, picture.prediction.elasto_plastic_count, picture.prediction.plastic_count)
     handles = [Patch(color=colour, label="%s (%d)" % (label, count)) for (_, label, colour), count in zip(REGIMES, counts)]
     if section is not None:
         handles.append(plt.Line2D([], [], color="black", linewidth=1.6, label="cross-section"))
-    axes.figure.legend(handles=handles, loc="lower center", bbox_to_anchor=(0.47, 0.01), ncol=4, fontsize=9, frameon=False,
+    axes.figure.legend(handles=handles, loc="lower center", bbox_to_anchor=(legend_at, 0.01), ncol=4, fontsize=9, frameon=False,
                        handlelength=1.2, columnspacing=1.2)
 
 
@@ -202,7 +211,8 @@ def _draw_section(axes, picture, section):
     relief = zero - np.nanmin(before)
     deepest = -min(relief, max(10 * np.nanmax(before - counter), relief / 3))
     low, high = deepest * z_scale, max(0.0, np.nanmax(counter - zero) * z_scale)
-    axes.set_ylim(low - 0.03 * (high - low), high + 0.42 * (high - low))
+    span = high - low or 1.0  # two planes
+    axes.set_ylim(low - 0.03 * span, high + 0.42 * span)
     axes.set_xlim(x[0] * x_scale, x[-1] * x_scale)
     axes.set_xlabel("x from the contact's centre [%s]" % x_unit)
     axes.set_ylabel("height from the peak [%s]" % z_unit)

@@ -19,6 +19,7 @@ import matplotlib
 import numpy as np
 import yaml
 
+from mems_stiction.half_space_figure import half_space_figure, half_space_words, pull_off_ratio
 from mems_stiction.plots import ScanPicture, save_picture, with_unit
 from mems_stiction.quantities import percent, ratio
 from mems_stiction.report_figures import number, scan_figure, trend_figure
@@ -41,6 +42,15 @@ FIGURES = (("pull-off force", "pull_off_force", "N"), ("of contacts, by JKR", "p
            ("peel number", "peel_number", ""), ("peel number, 95 % from", "peel_number_lower", ""),
            ("peel number, 95 % to", "peel_number_upper", ""), ("detachment length", "detachment_length", "m"),
            ("free length while stuck", "unstuck_length", "m"))
+HALF_SPACE_FIGURES = (("pull-off force, prediction", "pull_off_force", "N"),
+                      ("pull-off force, half-space", "half_space_pull_off_force", "N"),
+                      ("contact area, prediction", "contact_area", "m^2"),
+                      ("contact area, half-space", "half_space_contact_area", "m^2"),
+                      ("mean gap, prediction", "mean_gap", "m"), ("mean gap, half-space", "half_space_mean_gap", "m"),
+                      ("apparent work of adhesion, half-space", "half_space_apparent_work_of_adhesion", "J/m^2"),
+                      ("adhesion hysteresis, half-space", "half_space_adhesion_hysteresis", "J/m^2"),
+                      ("time of the solution", "half_space_processing_time", "s"))
+ROUNDING = 1e-6  # of the work of adhesion: less hysteresis is none
 FLAGS = {"bonded": "contacts percolate, the pull-off force is a lower bound",
          "no_equilibrium": "the search ended before the equilibrium", "tabor": "JKR is not the theory for these asperities",
          "plasticity": "most of the adhesion is of contacts that flow",
@@ -55,6 +65,8 @@ SOURCES = (
     "Interface Sci. 150 (1992) 243.",
     "Adhesion parameter and its regimes: Gui et al., J. Appl. Phys. 85 (1999) 7448.",
     "Peel numbers of beams: de Boer and Michalske, J. Appl. Phys. 86 (1999) 817; Mastrangelo and Hsu, J. MEMS 2 (1993) 33 and 44.",
+    "Half-space, where it was solved: Muller, Yushchenko, Derjaguin, J. Colloid Interface Sci. 77 (1980) 91; Persson, "
+    "Scaraggi, J. Chem. Phys. 141 (2014) 124701; as implemented: doc/half_space.md.",
     "Roughness: ISO 25178-2.",
     "Material constants: the comments of the configuration below; defaults and their sources: config/stiction.yaml.",
 )
@@ -120,14 +132,48 @@ def scan_section(row, folder):
     with open(str(folder / "result.json"), encoding="utf-8") as stream:
         result = json.load(stream)
     stream = io.BytesIO()
-    save_picture(picture_of(folder, result, scan_name(row)), stream)
-    bound = "≥ " if result["status"] == "BONDED" else ""
-    figures = [(label, (bound if "pull_off_force" in key else "") + text_of(result[key], unit)) for label, key, unit in FIGURES
-               if key in result and text_of(result[key], unit) != "not stated"]
+    picture = picture_of(folder, result, scan_name(row))
+    save_picture(picture, stream)
     return {"number": row["number"], "name": scan_name(row), "maps": embedded(stream.getvalue()),
-            "details": embedded(scan_figure(result)), "figures": figures,
+            "details": embedded(scan_figure(result)), "figures": _figures(result, FIGURES),
+            "half_space": _half_space(picture, result, folder),
             "warnings": [row["warnings"]] if row["warnings"] else [], "sticks": result.get("sticks"),
             "verdict": _sentence(result.get("verdict_reason", "")), "flags": _flags(result.get("regime_flag_names", ""))}
+
+
+def _figures(result, wanted):
+    """Pairs of label and text of those that the result has."""
+    bound = "≥ " if result["status"] == "BONDED" else ""
+    return [(label, (bound if key.startswith("pull_off_force") else "") + text_of(result[key], unit))
+            for label, key, unit in wanted if key in result and text_of(result[key], unit) != "not stated"]
+
+
+def _half_space(picture, result, folder):
+    """What the page shows of the half-space; None if it was not asked for."""
+    if "half_space_reason" not in result:
+        return None
+    image, path = "", folder / "half_space_pressure.npy"
+    if "half_space_curve" in result:
+        image = embedded(half_space_figure(picture, np.load(str(path)) if path.exists() else None, result))
+    work = number(result.get("half_space_apparent_work_of_adhesion"))
+    if abs(number(result.get("half_space_adhesion_hysteresis"))) < ROUNDING * work:
+        result = dict(result, half_space_adhesion_hysteresis=0.0)
+    figures = _figures(result, HALF_SPACE_FIGURES)
+    ratio_text = _half_space_ratio(result)
+    if ratio_text:
+        figures.insert(2, ("prediction / half-space", ratio_text))
+    return {"words": half_space_words(result), "image": image, "figures": figures}
+
+
+def _half_space_ratio(row):
+    value = pull_off_ratio(row)
+    return "" if math.isnan(value) else ("≥ " if row["status"] == "BONDED" else "") + ratio(value)
+
+
+def _half_space_cell(row):
+    """The pull-off force of the half-space for the table, and how many times as large the prediction's is."""
+    force = text_of(row.get("half_space_pull_off_force"), "N")
+    return "not solved" if force == "not stated" else "%s (%s)" % (force, _half_space_ratio(row))
 
 
 def _flags(names):
@@ -145,7 +191,8 @@ def table_row(row, drawn, judge):
         entry.update(status=STATES[row["status"]][1], pull_off=bound + text_of(row["pull_off_force"], "N"),
                      contact=percent(row["contact_fraction"]), contacts=row["asperity_count"],
                      regimes="%d / %d / %d" % (row["elastic_count"], row["elasto_plastic_count"], row["plastic_count"]),
-                     rms=text_of(row["rms_height"], "m"), sticks=row.get("sticks"), ratio=_ratio_with_interval(row, judge))
+                     rms=text_of(row["rms_height"], "m"), sticks=row.get("sticks"), ratio=_ratio_with_interval(row, judge),
+                     half_space=_half_space_cell(row))
     return entry
 
 
@@ -191,6 +238,7 @@ def page(title, rows, sections, settings_text, configuration_path, date=None):
     return environment.from_string(PAGE).render(
         title=title, version=settings["version"], summary=summary(rows, drawn),
         date=date or datetime.datetime.now().strftime("%Y-%m-%d %H:%M"),
+        has_half_space=any("half_space_reason" in row for row in predicted),
         has_device=any("sticks" in row for row in predicted), judged_by=judged_by(predicted).replace("_", " "),
         table=[table_row(row, drawn, judged_by(predicted)) for row in rows],
         bounded=any(row["status"] == "BONDED" for row in predicted),

@@ -41,14 +41,16 @@ PAGE = """<!DOCTYPE html>
 
 <h2>Scans</h2>
 <div class="wide"><table class="overview">
-<thead><tr><th class="n">number</th><th>scan</th><th>state</th>{% if has_device %}<th>sticks</th><th class="n">{{ judged_by }}</th>{% endif %}<th class="n">pull-off force</th><th class="n">contact fraction</th><th class="n">contacts</th><th class="n">elastic / mixed / plastic</th><th class="n">rms height</th></tr></thead>
+<thead><tr><th class="n">number</th><th>scan</th><th>state</th>{% if has_device %}<th>sticks</th><th class="n">{{ judged_by }}</th>{% endif %}<th class="n">pull-off force</th>{% if has_half_space %}<th class="n">of the half-space</th>{% endif %}<th class="n">contact fraction</th><th class="n">contacts</th><th class="n">elastic / mixed / plastic</th><th class="n">rms height</th></tr></thead>
 <tbody>
 {% for row in table %}<tr><td class="n">{% if row.anchor %}<a href="#scan{{ row.number }}">{{ row.number }}</a>{% else %}{{ row.number }}{% endif %}</td><td class="path">{{ row.name }}</td>
-{%- if row.reason %}<td colspan="{{ 8 if has_device else 6 }}">not predicted: {{ row.reason }}</td>
-{%- else %}<td>{{ row.status }}</td>{% if has_device %}<td class="{{ row.sticks }}">{{ row.sticks }}</td><td class="n">{{ row.ratio }}</td>{% endif %}<td class="n">{{ row.pull_off }}</td><td class="n">{{ row.contact }}</td><td class="n">{{ row.contacts }}</td><td class="n">{{ row.regimes }}</td><td class="n">{{ row.rms }}</td>{% endif %}</tr>
+{%- if row.reason %}<td colspan="{{ (8 if has_device else 6) + (1 if has_half_space else 0) }}">not predicted: {{ row.reason }}</td>
+{%- else %}<td>{{ row.status }}</td>{% if has_device %}<td class="{{ row.sticks }}">{{ row.sticks }}</td><td class="n">{{ row.ratio }}</td>{% endif %}<td class="n">{{ row.pull_off }}</td>{% if has_half_space %}<td class="n">{{ row.half_space }}</td>{% endif %}<td class="n">{{ row.contact }}</td><td class="n">{{ row.contacts }}</td><td class="n">{{ row.regimes }}</td><td class="n">{{ row.rms }}</td>{% endif %}</tr>
 {% endfor %}</tbody>
 </table></div>
 {% if bounded %}<p class="quiet">&ge; marks lower bounds: bonded surfaces hold over the whole area.</p>{% endif %}
+
+{% if has_half_space %}<p class="quiet">Of the half-space: the whole surface solved as one elastic half-space; in brackets, how many times as large the prediction is.</p>{% endif %}
 
 {% if trends %}<h2>Trends</h2>
 <img class="tall" alt="Trends over the scans" src="{{ trends }}">{% endif %}
@@ -60,6 +62,10 @@ PAGE = """<!DOCTYPE html>
 <img alt="Heights, contact map and cross-section" src="{{ scan.maps }}">
 <div class="figures">{% for label, value in scan.figures %}<div><span>{{ label }}</span><span>{{ value }}</span></div>{% endfor %}</div>
 <img class="tall" alt="Energy, forces, loads, plasticity" src="{{ scan.details }}">
+{% if scan.half_space %}<h3>The whole surface as one elastic half-space</h3>
+<p>{{ scan.half_space.words }}</p>
+{% if scan.half_space.image %}<img alt="Contacts of the asperity model and of the half-space, force over height" src="{{ scan.half_space.image }}">{% endif %}
+<div class="figures">{% for label, value in scan.half_space.figures %}<div><span>{{ label }}</span><span>{{ value }}</span></div>{% endfor %}</div>{% endif %}
 </div>
 {% endfor %}
 

@@ -19,10 +19,4 @@ void ContactSolution::resetKeepingMemory() {
   *this = std::move(fresh);
 }
 
-void makeWritable(cv::Mat& map, int rows, int cols, int type) {
-  const bool is_shared = map.u != nullptr && map.u->refcount > 1;
-  if (is_shared) map.release();
-  map.create(rows, cols, type);
-}
-
 }  // namespace mems_stiction

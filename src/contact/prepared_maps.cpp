@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "mems_stiction/height_map/shared_pixels.hpp"
+
 namespace mems_stiction {
 
 void prepareMaps(const ContactProblem& problem, ContactSolution& solution) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/height_map/shared_pixels.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -21,9 +22,6 @@ double firstValid(const cv::Mat& heights) {
   }
   return std::numeric_limits<double>::quiet_NaN();
 }
-
-/// Whether somebody else shows these pixels.
-bool isHeld(const cv::Mat& heights) { return heights.u != nullptr && heights.u->refcount > 1; }
 
 }  // namespace
 
@@ -39,8 +37,7 @@ double* roomFor(std::size_t count, std::vector<double>& memory) {
 void WorkingSurface::take(const HeightMap& surface) {
   const cv::Mat& source = surface.heights();
   if (isHeld(heights)) std::swap(heights, spare);
-  if (isHeld(heights)) heights.release();
-  heights.create(source.size(), CV_64FC1);
+  makeWritable(heights, source.rows, source.cols, CV_64FC1);
   for (int row = 0; row < source.rows; ++row) {
     const auto size = static_cast<std::size_t>(source.cols);
     if (source.depth() == CV_32F) {

@@ -10,6 +10,7 @@
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
 #include "mems_stiction/half_space/half_space_fields.hpp"
+#include "mems_stiction/height_map/scan_file.hpp"
 #include "status_line.hpp"
 
 namespace mems_stiction {
@@ -43,19 +44,14 @@ class Interruption {
   struct sigaction before_ {};
 };
 
-/// "half-space: retraction, 12 heights, 0.35 nm, 0.041 uN"
+/// From two seconds on, in place on the terminal.
 class Progress {
  public:
   void show(const ForcePoint& point) {
+    const std::string text = text_.next(point);
     const auto now = Clock::now();
-    ++heights_;
-    const bool is_higher = point.height > height_;
-    height_ = point.height;
     if (seconds(now - begin_) < kPatience || seconds(now - shown_) < kPeriod) return;
     shown_ = now;
-    char text[128];
-    std::snprintf(text, sizeof text, "half-space: %s, %d heights, %.3g nm, %.3g uN",
-                  is_higher ? "retraction" : "approach", heights_, 1e9 * point.height, 1e6 * point.force);
     line_.show(text);
   }
 
@@ -64,13 +60,38 @@ class Progress {
   static double seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
 
   StatusLine line_;
+  HalfSpaceText text_;
   Clock::time_point begin_ = Clock::now();
   Clock::time_point shown_{};
-  double height_ = 0.0;
-  int heights_ = 0;
 };
 
+void writeCurve(const std::string& path, const HalfSpaceSolution& solution) {
+  std::ofstream file(path);
+  file << "height,force,direction\n";
+  for (const CurvePoint& point : curveOf(solution)) {
+    file << numberText(point.height) << ',' << numberText(point.force) << ',' << word(point.direction) << '\n';
+  }
+  file.close();
+  if (!file) throw FileError(path + ": cannot be written");
+}
+
+void writeMap(const std::string& path, const cv::Mat& map, const HalfSpaceSolution& solution) {
+  if (path.empty()) return;
+  if (map.empty()) throw FileError(path + ": not written: half-space: " + solution.message);
+  writeHeightTiff(path, map);
+}
+
 }  // namespace
+
+std::string HalfSpaceText::next(const ForcePoint& point) {
+  ++heights_;
+  const bool is_higher = point.height > height_;
+  height_ = point.height;
+  char text[128];
+  std::snprintf(text, sizeof text, "half-space: %s, %d heights, %.3g nm, %.3g uN",
+                is_higher && heights_ > 1 ? "retraction" : "approach", heights_, 1e9 * point.height, 1e6 * point.force);
+  return text;
+}
 
 HalfSpaceSolution solveWithProgress(const HalfSpaceSolver& solver, const HalfSpaceProblem& problem) {
   const Interruption interruption;  // outlives the line on the terminal, which is gone when the program ends
@@ -81,14 +102,21 @@ HalfSpaceSolution solveWithProgress(const HalfSpaceSolver& solver, const HalfSpa
   return solver.solve(problem, control);
 }
 
-void writeCurve(const std::string& path, const HalfSpaceSolution& solution) {
-  std::ofstream file(path);
-  file << "height,force,direction\n";
-  for (const CurvePoint& point : curveOf(solution)) {
-    file << numberText(point.height) << ',' << numberText(point.force) << ',' << word(point.direction) << '\n';
+std::vector<std::pair<std::string, std::string>> HalfSpaceFiles::wanted() const {
+  std::vector<std::pair<std::string, std::string>> files;
+  for (const auto& [option, path] :
+       {std::make_pair("--curve", curve), std::make_pair("--half-space-pressure", pressure),
+        std::make_pair("--half-space-gap", gap), std::make_pair("--half-space-deformed", deformed)}) {
+    if (!path.empty()) files.emplace_back(option, path);
   }
-  file.close();
-  if (!file) throw FileError(path + ": cannot be written");
+  return files;
+}
+
+void writeFiles(const HalfSpaceFiles& files, const HalfSpaceSolution& solution) {
+  if (!files.curve.empty()) writeCurve(files.curve, solution);
+  writeMap(files.pressure, solution.pressure, solution);
+  writeMap(files.gap, solution.gap, solution);
+  writeMap(files.deformed, solution.deformed_lower.heights(), solution);
 }
 
 }  // namespace mems_stiction

@@ -1,19 +1,45 @@
 #pragma once
 
-/// A solution of the half-space as a program gives it: with progress, with Ctrl-C, and with its curve in a file.
+/// A solution of the half-space as a program gives it: with progress, with Ctrl-C, and with its curve and maps in files.
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "mems_stiction/half_space/half_space_solver.hpp"
 
 namespace mems_stiction {
 
+/// How far a solution is, in words.
+class HalfSpaceText {
+ public:
+  /// "half-space: retraction, 12 heights, 0.35 nm, 0.041 uN"
+  /// @param point the next height that was solved
+  std::string next(const ForcePoint& point);
+
+ private:
+  double height_ = 0.0;
+  int heights_ = 0;
+};
+
 /// On a terminal it says how far it is, from two seconds on. Ctrl-C ends the program.
 /// @throw as HalfSpaceSolver::solve()
 HalfSpaceSolution solveWithProgress(const HalfSpaceSolver& solver, const HalfSpaceProblem& problem);
 
-/// Both ways as CSV: height [m], force [N], direction; a line of names first.
-/// @throw FileError
-void writeCurve(const std::string& path, const HalfSpaceSolution& solution);
+/// Where the curve and the maps of one solution go; names that are empty are not written.
+struct HalfSpaceFiles {
+  std::string curve;
+  std::string pressure;
+  std::string gap;
+  std::string deformed;
+
+  /// Options and names of those that are to be written.
+  std::vector<std::pair<std::string, std::string>> wanted() const;
+};
+
+/// The curve as CSV: height [m], force [N], direction; a line of names first. Maps as float TIFF: pressure [Pa] and gap
+/// [m] at rest, the lower surface after contact [m].
+/// @throw FileError if one cannot be written, or the solution does not have it
+void writeFiles(const HalfSpaceFiles& files, const HalfSpaceSolution& solution);
 
 }  // namespace mems_stiction

@@ -9,7 +9,7 @@
 namespace mems_stiction {
 
 /// Format version 1.0: the shape, then the pixels row by row.
-/// @param pixels CV_8UC1 or CV_64FC1
+/// @param pixels CV_8UC1, CV_32FC1 or CV_64FC1
 /// @throw FileError
 void writeNpy(const std::string& path, const cv::Mat& pixels);
 

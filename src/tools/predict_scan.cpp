@@ -30,7 +30,7 @@ struct Arguments {
   std::optional<double> step;
   std::string channel;
   std::string deformed;
-  std::string curve;
+  HalfSpaceFiles half_space_files;
   bool json = false;
   bool half_space = false;
   bool convergence = false;
@@ -77,9 +77,17 @@ void describe(CLI::App& app, Arguments& arguments) {
   app.add_flag("--half-space", arguments.half_space,
                "solve the whole surface as one elastic half-space too, to see how far the asperity model is from it; "
                "takes seconds to minutes, doc/half_space.md");
-  app.add_option("--curve", arguments.curve,
-                 "write force over height of the half-space, both ways, as CSV; for one scan")
+  HalfSpaceFiles& files = arguments.half_space_files;
+  app.add_option("--curve", files.curve,
+                 "write force over height of the half-space, both ways, as CSV; for one scan. plot_curve draws it")
       ->type_name("OUT.csv");
+  app.add_option("--half-space-pressure", files.pressure,
+                 "write the pressure between the surfaces at rest in pascals, positive in contact; for one scan")
+      ->type_name("OUT.tiff");
+  app.add_option("--half-space-gap", files.gap, "write the gap at rest in metres; for one scan")->type_name("OUT.tiff");
+  app.add_option("--half-space-deformed", files.deformed,
+                 "as --deformed, by the half-space: what flowed is missing; for one scan")
+      ->type_name("OUT.tiff");
   app.footer(
       "Exit status: 0 all scans predicted, 2 bad input (one line on stderr names the file and the cause; the other\n"
       "scans of the call are still predicted).\n\n"
@@ -99,12 +107,14 @@ Configuration configurationOf(const Arguments& arguments) {
     throw OptionsError({"--deformed: one file cannot hold the surfaces of " + std::to_string(arguments.scans.size()) +
                         " scans; give one scan"});
   }
-  if (!arguments.curve.empty() && !arguments.half_space) {
-    throw OptionsError({"--curve: only the half-space has a curve; give --half-space too"});
-  }
-  if (!arguments.curve.empty() && arguments.scans.size() > 1) {
-    throw OptionsError({"--curve: one file cannot hold the curves of " + std::to_string(arguments.scans.size()) +
-                        " scans; give one scan"});
+  for (const auto& [option, path] : arguments.half_space_files.wanted()) {
+    if (!arguments.half_space) {
+      throw OptionsError({option + ": only the half-space has it; give --half-space too"});
+    }
+    if (arguments.scans.size() > 1) {
+      throw OptionsError({option + ": " + path + " cannot hold what belongs to " +
+                          std::to_string(arguments.scans.size()) + " scans; give one scan"});
+    }
   }
   return configuration;
 }
@@ -134,7 +144,7 @@ void predictScan(const std::string& path, const Arguments& arguments, const Scan
   if (extras.half_space && extras.half_space->status != HalfSpaceStatus::kSolved) {
     std::cerr << path << ": warning: half-space: " << extras.half_space->message << "\n";
   }
-  if (!arguments.curve.empty()) writeCurve(arguments.curve, *extras.half_space);
+  if (extras.half_space) writeFiles(arguments.half_space_files, *extras.half_space);
   if (arguments.json) {
     std::cout << jsonRecord(path, scan.surface, prediction, extras) << std::endl;
   } else {

@@ -17,7 +17,8 @@ class ProgressBar {
   /// @param total rows of the run; @param done rows that were there before it
   ProgressBar(std::size_t total, std::size_t done) : total_(total), before_(done) {}
 
-  void show(std::size_t done, std::size_t failed) {
+  /// @param doing what the present scan is at; may be empty
+  void show(std::size_t done, std::size_t failed, const std::string& doing = "") {
     const auto now = Clock::now();
     const double wait = line_.onTerminal() ? 0.1 : 30.0;
     if (std::chrono::duration<double>(now - shown_).count() < wait) return;
@@ -29,6 +30,7 @@ class ProgressBar {
       const double rest = elapsed / static_cast<double>(done - before_) * static_cast<double>(total_ - done);
       text += ", " + clock(rest) + " left";
     }
+    if (!doing.empty()) text += "; " + doing;
     if (line_.onTerminal()) {
       constexpr std::size_t kWidth = 30;
       const std::size_t filled = total_ > 0 ? kWidth * done / total_ : kWidth;

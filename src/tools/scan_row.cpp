@@ -118,7 +118,7 @@ std::map<std::string, std::string> columnUnits(bool with_verdict) {
 }
 
 void writeFullResult(const std::string& folder, const RowFields& fields, const HeightMap& prepared,
-                     const Prediction& prediction) {
+                     const Prediction& prediction, const NamedMaps& more) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw FileError(folder + ": cannot be made: " + error.message());
@@ -126,6 +126,7 @@ void writeFullResult(const std::string& folder, const RowFields& fields, const H
   writeNpy(folder + "/deformed.npy", prediction.deformed_lower);
   writeNpy(folder + "/counter_deformed.npy", prediction.deformed_upper);
   writeNpy(folder + "/contact_map.npy", prediction.contact_map);
+  for (const auto& [name, map] : more) writeNpy(folder + "/" + name + ".npy", map);
   nlohmann::json result;
   for (const auto& [name, value] : fields) result[name] = value;
   result["processing_time"] = prediction.processing_time;

@@ -5,7 +5,10 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include <opencv2/core.hpp>
 
 #include "batch_rows.hpp"
 #include "mems_stiction/height_map/height_map.hpp"
@@ -38,11 +41,15 @@ std::vector<std::string> columnNames(bool with_verdict);
 /// The unit of every column that has one.
 std::map<std::string, std::string> columnUnits(bool with_verdict);
 
+/// Maps of the size of the scan, by the names of their files.
+using NamedMaps = std::vector<std::pair<std::string, cv::Mat>>;
+
 /// Writes heights.npy, deformed.npy, counter_deformed.npy (float64 [m], NaN where invalid), contact_map.npy (uint8) and,
 /// last, result.json: figures, asperities and energy curve by columns. Makes the folder.
 /// @param prepared the scan that the model got, before contact
+/// @param more maps to write too, as writeNpy() takes them
 /// @throw FileError
 void writeFullResult(const std::string& folder, const RowFields& fields, const HeightMap& prepared,
-                     const Prediction& prediction);
+                     const Prediction& prediction, const NamedMaps& more = {});
 
 }  // namespace mems_stiction

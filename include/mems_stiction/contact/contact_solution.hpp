@@ -108,7 +108,4 @@ struct ContactSolution {
   void resetKeepingMemory();
 };
 
-/// A map of this size and type that nobody else holds: the one that is there, if it can be written over.
-void makeWritable(cv::Mat& map, int rows, int cols, int type);
-
 }  // namespace mems_stiction

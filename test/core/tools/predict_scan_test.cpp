@@ -131,7 +131,9 @@ TEST_F(PredictScan, BadSettingsAreOneLineEach) {
        {"--pitch 0 " + scan, "--pitch 2e-9x " + scan, "--pitch 20e-9 --load -1 " + scan,
         "--pitch 20e-9 --voltage 5 " + scan, "--config " + broken + " " + scan, "--config /nonexistent.yaml " + scan,
         "--pitch 20e-9 --deformed x.tiff " + scan + " " + scan, scan,
-        "--pitch 20e-9 --half-space --curve x.csv " + scan + " " + scan, "--pitch 20e-9 --curve x.csv " + scan}) {
+        "--pitch 20e-9 --half-space --curve x.csv " + scan + " " + scan, "--pitch 20e-9 --curve x.csv " + scan,
+        "--pitch 20e-9 --half-space --half-space-gap x.tiff " + scan + " " + scan,
+        "--pitch 20e-9 --half-space-pressure x.tiff " + scan}) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.status, 2) << arguments;
     EXPECT_EQ(outcome.errors.size(), 1u) << arguments;
@@ -192,7 +194,7 @@ class PredictScanHalfSpace : public PredictScan {
   std::string arguments() const {
     return "-c " +
            folder_.write("c.yaml",
-                         "lower: {hardness: 5e9}\nload: {mechanical_load: 1e-7}\npreprocessing: {level: plane, refine: "
+                         "lower: {hardness: 1e9}\nload: {mechanical_load: 1e-7}\npreprocessing: {level: plane, refine: "
                          "{factor: 2}}\nhalf_space: {boundary: free, step: 0.5}\n") +
            " --pitch 2e-9 --half-space " + scan();
   }
@@ -200,7 +202,7 @@ class PredictScanHalfSpace : public PredictScan {
   /// What the library says of the same.
   HalfSpaceSolution expected() const {
     Configuration configuration;
-    configuration.model.lower.hardness = 5e9;
+    configuration.model.lower.hardness = 1e9;
     configuration.model.load.mechanical_load = 1e-7;
     configuration.preprocessing.level.shape = LevelShape::kPlane;
     configuration.preprocessing.refine.factor = 2;
@@ -273,6 +275,37 @@ TEST_F(PredictScanHalfSpace, CurveFileHasThePullOffForceAsItsLargestAttraction) 
   EXPECT_EQ(height, expected.pull_off_height);
 }
 
+TEST_F(PredictScanHalfSpace, MapFilesAreTheLibrarysMaps) {
+  const HalfSpaceSolution expected = this->expected();
+  const std::string pressure_file = folder_.file("pressure.tiff");
+  const std::string gap_file = folder_.file("gap.tiff");
+  const std::string deformed_file = folder_.file("deformed.tiff");
+  ASSERT_EQ(run("--half-space-pressure " + pressure_file + " --half-space-gap " + gap_file + " --half-space-deformed " +
+                deformed_file + " " + arguments())
+                .status,
+            0);
+  const cv::Mat pressure = cv::imread(pressure_file, cv::IMREAD_UNCHANGED);
+  EXPECT_EQ(cv::norm(pressure, expected.pressure, cv::NORM_INF), 0.0);
+  EXPECT_EQ(cv::norm(cv::imread(gap_file, cv::IMREAD_UNCHANGED), expected.gap, cv::NORM_INF), 0.0);
+  EXPECT_DOUBLE_EQ(cv::countNonZero(pressure > 0.0) * 1e-18, expected.contact_area);
+  cv::Mat deformed;
+  cv::imread(deformed_file, cv::IMREAD_UNCHANGED).convertTo(deformed, CV_64F);
+  // the heights of 1 um less the plane have 10 nm; single precision keeps their 1e-7th part
+  EXPECT_LT(cv::norm(deformed, expected.deformed_lower.asDouble().heights(), cv::NORM_INF), 1e-15);
+  EXPECT_GT(expected.flowed_volume, 0.0) << "or there is nothing to see";
+}
+
+TEST_F(PredictScanHalfSpace, AMapThatThereIsNotIsOneLine) {
+  const Outcome outcome =
+      run("--half-space-gap " + folder_.file("gap.tiff") + " -c " +
+          folder_.write("few.yaml", "half_space: {max_states: 10}\n") + " --pitch 2e-9 --half-space " + scan());
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_TRUE(outcome.output.empty());
+  ASSERT_FALSE(outcome.errors.empty());
+  EXPECT_NE(outcome.errors.back().find("gap.tiff: not written"), std::string::npos) << outcome.errors.back();
+  EXPECT_NE(outcome.errors.back().find("half_space/max_states = 10"), std::string::npos) << outcome.errors.back();
+}
+
 TEST_F(PredictScanHalfSpace, WhatHasNoSolutionIsNullWithItsReasonOnStandardError) {
   const Outcome outcome = run("--json -c " + folder_.write("few.yaml", "half_space: {max_states: 10}\n") +
                               " --pitch 2e-9 --half-space " + scan());
@@ -318,8 +351,9 @@ TEST_F(PredictScanHalfSpace, InterruptEndsIt) {
 TEST_F(PredictScan, HelpNamesEveryOption) {
   const Outcome outcome = run("--help");
   EXPECT_EQ(outcome.status, 0);
-  for (const char* option : {"--config", "--pitch", "--voltage", "--load", "--step", "--json", "--deformed",
-                             "--convergence", "--half-space", "--curve", "SCAN"}) {
+  for (const char* option :
+       {"--config", "--pitch", "--voltage", "--load", "--step", "--json", "--deformed", "--convergence", "--half-space",
+        "--curve", "--half-space-pressure", "--half-space-gap", "--half-space-deformed", "SCAN"}) {
     EXPECT_NE(outcome.output.find(option), std::string::npos) << option;
   }
 }

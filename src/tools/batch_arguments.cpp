@@ -1,0 +1,84 @@
+#include "batch_arguments.hpp"
+
+#include <fstream>
+#include <sstream>
+
+#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/scan/configuration_yaml.hpp"
+
+namespace mems_stiction {
+
+void describe(CLI::App& app, BatchArguments& arguments) {
+  app.description(
+      "Predicts every scan of many bags and scan files and writes one row for each, in SI units, with the field names\n"
+      "of mems_stiction/StictionPrediction. Called again after an interruption it goes on where it was. A scan that\n"
+      "cannot be predicted is a row with its reason.");
+  app.add_option("INPUT", arguments.inputs, "bags, and scan files of every kind that predict_scan reads")
+      ->type_name("");
+  app.add_option("--inputs-from", arguments.input_list, "a file with one more INPUT on each line")->type_name("FILE");
+  app.add_option("-o,--output", arguments.output, "the rows; beside them OUT.settings.yaml, what they were made with")
+      ->required()
+      ->type_name("OUT.csv|OUT.jsonl");
+  app.add_option("-c,--config", arguments.configuration, "every key is explained in config/stiction.yaml")
+      ->type_name("FILE.yaml");
+  app.add_option_function<double>(
+         "-u,--voltage", [&arguments](const double& value) { arguments.voltage = value; },
+         "voltage between the surfaces [V]")
+      ->type_name("V");
+  app.add_option_function<double>(
+         "-l,--load", [&arguments](const double& value) { arguments.load = value; },
+         "external force pressing the scanned area together [N]")
+      ->type_name("N");
+  app.add_flag("--half-space", arguments.half_space,
+               "columns half_space_... too: each scan as one elastic half-space, seconds to minutes each, "
+               "doc/half_space.md; half_space_reason says what has no solution, and why");
+  app.add_option("-s,--shard", arguments.shard, "part I of N parts of about the same number of scans")
+      ->type_name("I/N")
+      ->capture_default_str();
+  app.add_flag("-m,--merge", arguments.merge,
+               "INPUTs are the rows of all shards: joins them to what one run writes, byte for byte");
+  app.add_option("-d,--dump", arguments.dump,
+                 "also write surfaces, contacts and curves of each scan into FOLDER/NUMBER (.npy and JSON)")
+      ->type_name("FOLDER");
+  app.add_option("--topic", arguments.topic, "of the scans in bags; scan_info is looked for beside it")
+      ->capture_default_str();
+  app.footer(
+      "Exit status: 0 every scan has its row (the last line says how many failed), 2 bad input.\n\n"
+      "Example: stiction_batch --config device.yaml --shard 1/2 -o part1.csv 2026-*.bag   # and 2/2 elsewhere\n"
+      "         stiction_batch --merge -o all.csv part1.csv part2.csv");
+}
+
+Shard shardOf(const std::string& text) {
+  Shard shard;
+  char slash = 0;
+  std::istringstream stream(text);
+  if (text.find('-') != std::string::npos || !(stream >> shard.index >> slash >> shard.count) || slash != '/' ||
+      stream.peek() != EOF || shard.index < 1 || shard.index > shard.count) {
+    throw OptionsError({"--shard: '" + text + "' is not allowed, must be I/N with 1 <= I <= N, as in 1/4"});
+  }
+  return shard;
+}
+
+std::vector<std::string> inputsOf(const BatchArguments& arguments) {
+  std::vector<std::string> inputs = arguments.inputs;
+  if (!arguments.input_list.empty()) {
+    std::ifstream stream(arguments.input_list);
+    if (!stream) throw FileError(arguments.input_list + ": cannot be read");
+    for (std::string line; std::getline(stream, line);) {
+      if (!line.empty()) inputs.push_back(line);
+    }
+  }
+  if (inputs.empty()) throw OptionsError({"INPUT: no bag and no scan file is given"});
+  return inputs;
+}
+
+Configuration configurationOf(const BatchArguments& arguments) {
+  Configuration configuration;
+  if (!arguments.configuration.empty()) configuration = loadConfiguration(arguments.configuration);
+  if (arguments.voltage) configuration.model.load.voltage = *arguments.voltage;
+  if (arguments.load) configuration.model.load.mechanical_load = *arguments.load;
+  configuration.check();
+  return configuration;
+}
+
+}  // namespace mems_stiction

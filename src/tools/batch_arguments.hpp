@@ -1,0 +1,45 @@
+#pragma once
+
+/// What stiction_batch is told.
+
+#include <CLI/CLI.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mems_stiction/scan/configuration.hpp"
+
+namespace mems_stiction {
+
+struct BatchArguments {
+  std::string configuration;
+  std::optional<double> voltage;
+  std::optional<double> load;
+  std::string shard = "1/1";
+  std::string output;
+  std::string dump;
+  std::string topic = "height";
+  std::string input_list;
+  bool half_space = false;
+  bool merge = false;
+  std::vector<std::string> inputs;
+};
+
+void describe(CLI::App& app, BatchArguments& arguments);
+
+/// Part `index` of `count` parts.
+struct Shard {
+  std::size_t index = 1, count = 1;
+};
+
+/// @throw OptionsError
+Shard shardOf(const std::string& text);
+
+/// INPUTs of the command line and of its list. @throw FileError, OptionsError
+std::vector<std::string> inputsOf(const BatchArguments& arguments);
+
+/// The configuration file with the command line's values in it. @throw FileError, OptionsError
+Configuration configurationOf(const BatchArguments& arguments);
+
+}  // namespace mems_stiction

@@ -1,0 +1,166 @@
+#include "batch_scans.hpp"
+
+#include <iomanip>
+#include <sstream>
+#include <utility>
+
+#include "half_space_run.hpp"
+#include "mems_stiction/height_map/scan_file.hpp"
+#include "mems_stiction/height_map/scan_sanity.hpp"
+#include "mems_stiction/scan/half_space_scan.hpp"
+
+namespace mems_stiction {
+namespace {
+
+bool isBag(const std::string& path) {
+  for (const char* end : {".bag", ".bag.active"}) {
+    const std::string suffix = end;
+    if (path.size() > suffix.size() && path.compare(path.size() - suffix.size(), suffix.size(), suffix) == 0)
+      return true;
+  }
+  return false;
+}
+
+/// What is wrong, in words even if the error has none.
+std::string reasonOf(const std::exception& error) {
+  const std::string reason = error.what();
+  return reason.empty() ? "unknown error" : reason;
+}
+
+void append(const RowFields& more, RowFields& fields) { fields.insert(fields.end(), more.begin(), more.end()); }
+
+}  // namespace
+
+BatchScans::BatchScans(const BatchArguments& arguments, std::vector<std::string> inputs,
+                       const Configuration& configuration)
+    : arguments_(arguments),
+      inputs_(std::move(inputs)),
+      configuration_(configuration),
+      predictor_(configuration),
+      half_space_(configuration.half_space) {
+  for (std::size_t input = 0; input < inputs_.size(); ++input) list(input);
+}
+
+std::vector<std::string> BatchScans::columns() const {
+  std::vector<std::string> names = columnNames(hasDevice());
+  if (arguments_.half_space) {
+    for (std::string& name : halfSpaceColumnNames()) names.push_back(std::move(name));
+  }
+  return names;
+}
+
+std::map<std::string, std::string> BatchScans::units() const {
+  std::map<std::string, std::string> units = columnUnits(hasDevice());
+  if (arguments_.half_space) units.merge(halfSpaceColumnUnits());
+  return units;
+}
+
+BatchRow BatchScans::row(std::size_t number, const std::function<void(const std::string&)>& tell) {
+  const Item& item = items_[number - 1];
+  ScanOrigin origin;
+  origin.number = number;
+  origin.file = inputs_[item.input];
+  origin.scan = item.scan;
+  std::string reason = item.reason;
+  RowFields figures;
+  if (reason.empty()) {
+    try {
+      figures = predict(item, origin);
+    } catch (const std::exception& error) {
+      reason = reasonOf(error);
+    }
+  }
+  BatchRow row;
+  row.is_predicted = reason.empty();
+  row.fields = originFields(origin, reason);
+  append(figures, row.fields);
+  HalfSpaceAnswer half_space;
+  if (row.is_predicted && arguments_.half_space) {
+    half_space = solve(tell);
+    row.is_solved = half_space.reason.empty();
+    append(halfSpaceFields(half_space), row.fields);
+  }
+  if (row.is_predicted && !arguments_.dump.empty()) dump(number, row.fields, half_space.solution);
+  return row;
+}
+
+void BatchScans::list(std::size_t input) {
+  if (!isBag(inputs_[input])) {
+    items_.push_back({input, 0, ""});
+    return;
+  }
+  try {
+    const ScanBagReader& bag = open(input);
+    for (std::size_t scan = 1; scan <= bag.count(); ++scan) items_.push_back({input, scan, ""});
+    if (bag.wasCutOff()) {
+      items_.push_back({input, 0,
+                        "the bag was cut off; the " + std::to_string(bag.count()) +
+                            " scans before the cut have their rows, what came later is lost"});
+    }
+  } catch (const std::exception& error) {
+    items_.push_back({input, 0, error.what()});
+  }
+}
+
+const ScanBagReader& BatchScans::open(std::size_t input) {
+  if (!bag_ || bag_input_ != input) {
+    bag_.reset();
+    bag_ = std::make_unique<ScanBagReader>(inputs_[input], arguments_.topic, configuration_.scan);
+    bag_input_ = input;
+  }
+  return *bag_;
+}
+
+RowFields BatchScans::predict(const Item& item, ScanOrigin& origin) {
+  HeightMap counter_surface;
+  if (item.scan == 0) {
+    const ScanFile file = openScanFile(inputs_[item.input], configuration_.scan);
+    surface_ = file.surface;
+    origin.channel = file.channel;
+  } else {
+    const bool wants_counter = configuration_.counter_surface.type == CounterSurfaceType::kTopic;
+    const BagScan of_bag = open(item.input).read(item.scan - 1, wants_counter);
+    surface_ = of_bag.scan.surface;
+    if (of_bag.counter_surface) counter_surface = of_bag.counter_surface->surface;
+    origin.name = of_bag.scan.header.frame_id;
+    std::ostringstream stamp;
+    stamp << of_bag.scan.header.stamp;
+    origin.stamp = stamp.str();
+  }
+  predictor_.preparer().setMeasuredCounterSurface(counter_surface);
+  prepared_ = predictor_.preparer().prepare(surface_);
+  prediction_ = predictor_.predict(prepared_);
+  std::optional<Verdict> verdict;
+  if (hasDevice()) {
+    verdict = verdictOf(prediction_, configuration_.device, configuration_.uncertainty, configuration_.model,
+                        surface_.cellArea());
+  }
+  return figureFields(surface_, scanWarnings(surface_), prediction_, verdict);
+}
+
+HalfSpaceAnswer BatchScans::solve(const std::function<void(const std::string&)>& tell) const {
+  HalfSpaceAnswer answer;
+  try {
+    HalfSpaceText text;
+    HalfSpaceControl control;
+    control.on_state = [&](const ForcePoint& point) { tell(text.next(point)); };
+    answer.solution = half_space_.solve(halfSpaceProblem(prepared_, predictor_.options()), control);
+    if (answer.solution->status != HalfSpaceStatus::kSolved) answer.reason = answer.solution->message;
+  } catch (const std::exception& error) {
+    answer.reason = reasonOf(error);
+  }
+  return answer;
+}
+
+void BatchScans::dump(std::size_t number, RowFields fields, const std::optional<HalfSpaceSolution>& half_space) const {
+  std::ostringstream folder;
+  folder << arguments_.dump << "/" << std::setw(6) << std::setfill('0') << number;
+  NamedMaps maps;
+  if (half_space) {
+    append(halfSpaceExtras(*half_space), fields);
+    maps = halfSpaceMaps(*half_space);
+  }
+  writeFullResult(folder.str(), fields, prepared_.surfaces.lower, prediction_, maps);
+}
+
+}  // namespace mems_stiction

@@ -1,0 +1,53 @@
+#include "batch_settings.hpp"
+
+#include <fstream>
+#include <sstream>
+
+#include <yaml-cpp/yaml.h>
+#include <opencv2/core/version.hpp>
+
+#include "batch_rows.hpp"
+#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/scan/configuration_yaml.hpp"
+
+namespace mems_stiction {
+
+std::string settingsText(std::size_t total, const std::vector<std::string>& inputs, const std::string& topic,
+                         const std::map<std::string, std::string>& units, const Configuration& configuration) {
+  YAML::Emitter emitter;
+  emitter << YAML::BeginMap << YAML::Key << "version" << YAML::Value << YAML::DoubleQuoted << MEMS_STICTION_VERSION;
+  emitter << YAML::Key << "opencv_version" << YAML::Value << YAML::DoubleQuoted << CV_VERSION;
+  emitter << YAML::Key << "total" << YAML::Value << total;
+  emitter << YAML::Key << "topic" << YAML::Value << YAML::DoubleQuoted << topic;
+  emitter << YAML::Key << "inputs" << YAML::Value << YAML::BeginSeq;
+  for (const std::string& input : inputs) emitter << YAML::DoubleQuoted << input;
+  emitter << YAML::EndSeq << YAML::Key << "units" << YAML::Value << YAML::BeginMap;
+  for (const auto& [name, unit] : units) {
+    emitter << YAML::Key << name << YAML::Value << YAML::DoubleQuoted << unit;
+  }
+  emitter << YAML::EndMap << YAML::EndMap;
+  std::string text = "# What the rows beside this file were made with.\n" + std::string(emitter.c_str());
+  text += "\nconfiguration:\n";
+  std::istringstream lines(toYaml(configuration));
+  for (std::string line; std::getline(lines, line);) text += line.empty() ? "\n" : "  " + line + "\n";
+  return text;
+}
+
+void checkSettings(const std::string& path, const std::string& settings) {
+  const std::string settings_path = settingsPathOf(path);
+  if (std::ifstream(settings_path)) {
+    if (readWhole(settings_path) != settings) {
+      throw FileError(path + ": holds rows of other inputs, settings or another version (" + settings_path +
+                      "): give the same ones to go on, or write another file");
+    }
+    return;
+  }
+  if (std::ifstream(path) && !readWhole(path).empty()) {
+    throw FileError(path + ": exists, and " + settings_path + ", which says what it was made with, is missing");
+  }
+  writeWhole(settings_path, settings);
+}
+
+std::size_t totalOf(const std::string& settings) { return YAML::Load(settings)["total"].as<std::size_t>(); }
+
+}  // namespace mems_stiction

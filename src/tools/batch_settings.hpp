@@ -1,0 +1,25 @@
+#pragma once
+
+/// What the rows of a file were made with, kept beside them, so that rows of different settings never mix.
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "mems_stiction/scan/configuration.hpp"
+
+namespace mems_stiction {
+
+/// What must be the same for rows to stand in one file. Shards have the same.
+/// @param total rows of all shards @param units of the columns
+std::string settingsText(std::size_t total, const std::vector<std::string>& inputs, const std::string& topic,
+                         const std::map<std::string, std::string>& units, const Configuration& configuration);
+
+/// Writes the settings beside the rows, or compares them with what is there.
+/// @throw FileError if the file of rows holds those of other settings
+void checkSettings(const std::string& path, const std::string& settings);
+
+/// The total of settingsText().
+std::size_t totalOf(const std::string& settings);
+
+}  // namespace mems_stiction

@@ -1,0 +1,77 @@
+#include "half_space_row.hpp"
+
+#include <cstring>
+#include <type_traits>
+
+#include "mems_stiction/base/one_line.hpp"
+#include "mems_stiction/half_space/half_space_fields.hpp"
+
+namespace mems_stiction {
+namespace {
+
+const std::string kPrefix = "half_space_";
+const char* const kWallTime = "processing_time";
+
+template <typename Value>
+nlohmann::json jsonOf(const Value& value) {
+  if constexpr (std::is_enum_v<Value>) {
+    return word(value);
+  } else {
+    return value;
+  }
+}
+
+template <typename Visitor>
+void visitFigures(const HalfSpaceSolution& solution, Visitor&& visit) {
+  visitHalfSpaceFields(solution, [&](const char* name, const auto& value, const char* unit) {
+    if (std::strcmp(name, kWallTime) != 0) visit(kPrefix + name, value, unit);
+  });
+}
+
+}  // namespace
+
+RowFields halfSpaceFields(const HalfSpaceAnswer& answer) {
+  RowFields fields = {{kPrefix + "reason", oneLine(answer.reason)}};
+  if (answer.solution) {
+    visitFigures(*answer.solution, [&](const std::string& name, const auto& value, const char*) {
+      fields.emplace_back(name, jsonOf(value));
+    });
+  }
+  return fields;
+}
+
+std::vector<std::string> halfSpaceColumnNames() {
+  std::vector<std::string> names;
+  for (const auto& field : halfSpaceFields({HalfSpaceSolution(), ""})) names.push_back(field.first);
+  return names;
+}
+
+std::map<std::string, std::string> halfSpaceColumnUnits() {
+  std::map<std::string, std::string> units;
+  visitFigures({}, [&](const std::string& name, const auto&, const char* unit) {
+    if (*unit != '\0') units[name] = unit;
+  });
+  return units;
+}
+
+RowFields halfSpaceExtras(const HalfSpaceSolution& solution) {
+  nlohmann::json columns = nlohmann::json::object();
+  for (const CurvePoint& point : curveOf(solution)) {
+    visitCurvePointFields(
+        point, [&](const char* name, const auto& value, const char*) { columns[name].push_back(jsonOf(value)); });
+  }
+  return {{kPrefix + kWallTime, solution.processing_time}, {kPrefix + "curve", columns}};
+}
+
+NamedMaps halfSpaceMaps(const HalfSpaceSolution& solution) {
+  NamedMaps maps;
+  for (const auto& [name, map] : NamedMaps{{"pressure", solution.pressure},
+                                           {"gap", solution.gap},
+                                           {"deformed", solution.deformed_lower.heights()},
+                                           {"counter_deformed", solution.deformed_upper.heights()}}) {
+    if (!map.empty()) maps.emplace_back(kPrefix + name, map);
+  }
+  return maps;
+}
+
+}  // namespace mems_stiction

@@ -1,0 +1,183 @@
+"""stiction_batch --half-space and the report on it: the record's figures for many scans, and why where there are none."""
+
+import csv
+import json
+import pathlib
+import re
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+import numpy as np
+from mems_stiction.half_space_figure import contact_groups, pull_off_ratio
+from roslib.packages import find_node
+
+CONFIG = "scan: {pitch_x: 2.0e-9, pitch_y: 2.0e-9}\n"
+FIGURES = ("status", "pull_off_force", "contact_area", "contact_fraction", "mean_gap", "apparent_work_of_adhesion",
+           "adhesion_hysteresis", "is_converged", "is_resolved", "iterations")
+
+
+def program(name):
+    return find_node("mems_stiction", name)[0]
+
+
+def run(command):
+    return subprocess.run([str(part) for part in command], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                          stdin=subprocess.DEVNULL, universal_newlines=True, timeout=120)
+
+
+def sphere(pixels, radius=100e-9, pitch=2e-9):
+    offset = (np.arange(pixels) - (pixels - 1) / 2) * pitch
+    return -(offset[:, None]**2 + offset[None, :]**2) / (2 * radius)
+
+
+class HalfSpaceBatchTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.config = self.folder / "c.yaml"
+        self.config.write_text(CONFIG)
+        self.small = self.folder / "small.txt"
+        np.savetxt(str(self.small), sphere(32))
+        self.large = self.folder / "large.txt"
+        np.savetxt(str(self.large), sphere(48))
+
+    def batch(self, rows, *arguments, **changes):
+        done = run([program("stiction_batch"), "-c", self.config, "-o", self.folder / rows] + list(arguments)
+                   + list(changes.get("inputs", [self.small, self.large])))
+        self.assertEqual(done.returncode, changes.get("status", 0), done.stderr)
+        return done
+
+    def rows(self, name):
+        with open(str(self.folder / name), newline="") as stream:
+            return list(csv.DictReader(stream))
+
+    def test_the_figures_are_those_of_predict_scan_to_the_last_bit(self):
+        self.batch("rows.jsonl", "--half-space")
+        done = run([program("predict_scan"), "--half-space", "--json", "-c", self.config, self.small, self.large])
+        records = [json.loads(line) for line in done.stdout.splitlines()]
+        rows = [json.loads(line) for line in (self.folder / "rows.jsonl").read_text().splitlines()]
+        for row, record in zip(rows, records):
+            self.assertEqual({name: row["half_space_" + name] for name in FIGURES},
+                             {name: record["half_space"][name] for name in FIGURES})
+            self.assertEqual((row["half_space_status"], row["half_space_reason"]), ("SOLVED", ""))
+            self.assertEqual(row["pull_off_force"], record["pull_off_force"])
+            self.assertNotIn("half_space_processing_time", row)
+        self.assertEqual(len(rows), 2)
+
+    def test_without_it_rows_are_what_they_were(self):
+        self.batch("plain.csv")
+        self.batch("more.csv", "--half-space")
+        self.assertFalse([name for name in self.rows("plain.csv")[0] if name.startswith("half_space")])
+        for plain, more in zip(self.rows("plain.csv"), self.rows("more.csv")):
+            self.assertEqual(plain, {name: more[name] for name in plain})
+
+    def test_what_has_no_solution_has_its_reason_and_its_prediction(self):
+        self.config.write_text(CONFIG + "half_space: {max_pixels: 1500}\n")
+        done = self.batch("rows.csv", "--half-space", inputs=[self.small, self.large, self.folder / "none.txt"])
+        solved, refused, missing = self.rows("rows.csv")
+        self.assertEqual((solved["half_space_status"], solved["half_space_reason"]), ("SOLVED", ""))
+        self.assertIn("half_space/max_pixels = 1500", refused["half_space_reason"])
+        self.assertEqual(refused["reason"], "")
+        self.assertGreater(float(refused["pull_off_force"]), 0.0)
+        self.assertEqual({refused["half_space_" + name] for name in FIGURES}, {""})
+        self.assertIn("no such file", missing["reason"])
+        self.assertEqual({missing["half_space_" + name] for name in FIGURES + ("reason",)}, {""})
+        self.assertIn("1 scans failed in this run, half-space not solved for 1 others", done.stdout)
+
+    def test_a_path_that_is_given_up_is_nan_never_a_number(self):
+        self.config.write_text(CONFIG + "half_space: {max_states: 10}\n")
+        self.batch("rows.csv", "--half-space", inputs=[self.small])
+        row = self.rows("rows.csv")[0]
+        self.assertEqual((row["half_space_status"], row["half_space_is_converged"]), ("TOO_MANY_STATES", "false"))
+        self.assertEqual({row["half_space_" + name] for name in FIGURES[1:7]}, {"nan"})
+        self.assertIn("half_space/max_states = 10", row["half_space_reason"])
+
+    def test_rows_with_and_without_it_do_not_mix_and_shards_join(self):
+        self.batch("one.csv", "--half-space")
+        self.assertIn("other inputs, settings", self.batch("one.csv", status=2).stderr)
+        for index in (1, 2):
+            self.batch("part%d.csv" % index, "--half-space", "--shard", "%d/2" % index)
+        done = run([program("stiction_batch"), "--merge", "-o", self.folder / "all.csv", self.folder / "part2.csv",
+                    self.folder / "part1.csv"])
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual((self.folder / "all.csv").read_bytes(), (self.folder / "one.csv").read_bytes())
+
+    def test_interrupted_in_a_solution_it_ends_soon_and_goes_on_with_that_scan(self):
+        # A minute of work for the second scan, so that it is interrupted in the middle.
+        np.savetxt(str(self.large), sphere(700, radius=10e-6, pitch=5e-9), fmt="%.9g")
+        self.config.write_text("scan: {pitch_x: 5.0e-9, pitch_y: 5.0e-9}\nhalf_space: {step: 0.01, max_states: 1000000}\n")
+        path = self.folder / "rows.csv"
+        command = [str(part) for part in (program("stiction_batch"), "-c", self.config, "--half-space", "-o", path, self.small,
+                                          self.large)]
+        for _ in range(2):
+            process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                                       preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
+            deadline = time.monotonic() + 60
+            while process.poll() is None and (not path.exists() or path.read_bytes().count(b"\n") < 2):
+                self.assertLess(time.monotonic(), deadline)
+                time.sleep(0.01)
+            time.sleep(0.5)
+            began = time.monotonic()
+            process.send_signal(signal.SIGINT)
+            self.assertEqual(process.wait(timeout=60), -signal.SIGINT)
+            self.assertLess(time.monotonic() - began, 5.0)  # at once; the rest is for busy machines
+            rows = self.rows("rows.csv")
+            self.assertEqual([row["half_space_status"] for row in rows], ["SOLVED"])
+
+    def test_the_folder_of_a_scan_has_curve_and_maps_at_rest(self):
+        self.batch("rows.jsonl", "--half-space", "--dump", self.folder / "dump", inputs=[self.small])
+        folder = self.folder / "dump/000001"
+        result = json.loads((folder / "result.json").read_text())
+        pressure, gap, deformed, before = (np.load(str(folder / (name + ".npy"))) for name in (
+            "half_space_pressure", "half_space_gap", "half_space_deformed", "heights"))
+        self.assertEqual({pressure.shape, gap.shape, deformed.shape}, {(32, 32)})
+        self.assertAlmostEqual((pressure > 0).sum() * 4e-18 / result["half_space_contact_area"], 1.0, places=12)
+        self.assertAlmostEqual(gap.mean(dtype=float) / result["half_space_mean_gap"], 1.0, places=5)  # single precision
+        self.assertTrue((deformed <= before).all())
+        curve = result["half_space_curve"]
+        retraction = [force for force, way in zip(curve["force"], curve["direction"]) if way == "RETRACTION"]
+        self.assertEqual(max(retraction), result["half_space_pull_off_force"])
+        self.assertEqual(len(curve["height"]), len(curve["force"]))
+
+    def test_the_report_shows_both_forces_their_ratio_and_what_was_not_solved(self):
+        self.config.write_text(CONFIG + "half_space: {max_pixels: 1500}\n")
+        done = run([program("stiction_report"), "--half-space", "-c", self.config, "-o", self.folder / "r.html", self.small,
+                    self.large])
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        text = (self.folder / "r.html").read_text(encoding="utf-8")
+        self.assertEqual(text.count("data:image/png;base64,"), 2 * 2 + 1 + 1)  # two a scan, one of a half-space, the trends
+        plain = re.sub(r"<[^>]+>", " ", re.sub(r'src="[^"]*"', "", text))
+        for expected in ("Converged: every state is an equilibrium.", "esolved: pixels are", "pull-off force, half-space",
+                         "prediction / half-space", "Not solved: ", "half_space/max_pixels = 1500", "not solved"):
+            self.assertIn(expected, plain)
+        row = self.rows("r.csv")[0]
+        ratio = float(row["pull_off_force"]) / float(row["half_space_pull_off_force"])
+        self.assertIn("(%.3g)" % ratio, plain)
+        self.assertEqual(len(json.loads((self.folder / "r.json").read_text())["scans"]), 2)
+
+    def test_a_report_without_it_does_not_speak_of_it(self):
+        run([program("stiction_report"), "-c", self.config, "-o", self.folder / "r.html", self.small])
+        text = (self.folder / "r.html").read_text(encoding="utf-8")
+        self.assertNotIn("of the half-space", text)
+        self.assertEqual(text.count("data:image/png;base64,"), 2)
+
+
+class HalfSpaceFigureTest(unittest.TestCase):
+    def test_cells_that_share_a_side_are_one_group(self):
+        contact = np.array([[1, 1, 0, 0], [0, 1, 0, 1], [1, 0, 0, 1]], dtype=bool)
+        groups = sorted(sorted(group) for group in contact_groups(contact))
+        self.assertEqual(groups, [[(0, 0), (0, 1), (1, 1)], [(1, 3), (2, 3)], [(2, 0)]])
+
+    def test_without_a_force_there_is_no_ratio(self):
+        self.assertEqual(pull_off_ratio({"pull_off_force": 6.0, "half_space_pull_off_force": 2.0}), 3.0)
+        for row in ({"pull_off_force": 6.0}, {"pull_off_force": 6.0, "half_space_pull_off_force": None},
+                    {"pull_off_force": 6.0, "half_space_pull_off_force": 0.0}):
+            self.assertTrue(np.isnan(pull_off_ratio(row)))
+
+
+if __name__ == "__main__":
+    unittest.main()
