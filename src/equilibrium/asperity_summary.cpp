@@ -25,6 +25,8 @@ Asperity asperityAt(const ContactPatch& patch, const CapCouple& caps, const Aspe
   asperity.tabor_parameter =
       taborParameter(caps.composite_radius, law.work_of_adhesion, law.contact_modulus, interface.equilibrium_distance);
   asperity.area = patch.area * field.cellArea();
+  asperity.is_at_border = patch.min_col == 0 || patch.max_col == field.cols() - 1 || patch.min_row == 0 ||
+                          patch.max_row == field.rows() - 1;
   asperity.regime = regimeOf(asperity.plasticity_index);
   return asperity;
 }

@@ -102,6 +102,9 @@ void summarizeContact(const ContactProblem& problem, ContactSolution& solution, 
 
   prediction.contact_stiffness = solution.contact_stiffness;
   prediction.flattening_energy = solution.flattening_energy;
+  prediction.adhesion_exponent = solution.adhesion_exponent;
+  prediction.modulus_exponent = solution.modulus_exponent;
+  prediction.flattening_ratio = work_of_adhesion > 0.0 ? solution.flattening_energy / work_of_adhesion : kUnknown;
   prediction.is_conforming = solution.is_conforming;
   prediction.adhesion_parameter = solution.adhesion_parameter;
   prediction.bonding_regime = bondingRegimeOf(prediction.adhesion_parameter);

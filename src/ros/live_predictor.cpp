@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/height_map/scan_sanity.hpp"
 #include "mems_stiction/prediction/deformed_surfaces.hpp"
 
 namespace mems_stiction {
@@ -72,12 +73,15 @@ const PreparedScan& LivePredictor::lastPrepared() {
   return last_->prepared;
 }
 
-PredictedScan LivePredictor::judged(const PreparedScan& prepared, const Configuration& settings) {
+PredictedScan LivePredictor::judged(const PreparedScan& prepared, const Configuration& settings,
+                                    const std::vector<std::string>& warnings) {
   PredictedScan predicted;
   predicted.prediction = predictor_.predict(prepared);
   predicted.verdict = verdictOf(predicted.prediction, settings.device, settings.uncertainty, predictor_.options(),
                                 prepared.surfaces.lower.cellArea());
   predicted.preprocessing = prepared.record;
+  predicted.formulation = predictor_.options().formulation;
+  predicted.warnings = warnings;
   return predicted;
 }
 
@@ -90,9 +94,10 @@ PredictedScan LivePredictor::predictScan(const ReceivedScan& scan, const OutputO
   predictor_.setOptions(options);
 
   const PreparedScan prepared = prepare(scan, wear_);
-  PredictedScan predicted = judged(prepared, *settings);
+  std::vector<std::string> warnings = scanWarnings(scan.surface);
+  PredictedScan predicted = judged(prepared, *settings, warnings);
   if (accumulate_deformation_) requireDeformedSurfaces(predicted.prediction);
-  last_ = LastScan{scan, prepared, wear_};
+  last_ = LastScan{scan, prepared, std::move(warnings), wear_};
   last_->prepared.preparation_time = 0.0;  // later predictions of this scan do not prepare it
   if (accumulate_deformation_) {
     wear_ = deepened(wear_, prepared.surfaces.lower.asDouble().heights(), predicted.prediction.deformed_lower);
@@ -106,7 +111,7 @@ std::optional<PredictedScan> LivePredictor::predictLastScan() {
   Options options = settings->model;
   options.output = figuresOnly();
   predictor_.setOptions(options);
-  return judged(lastPrepared(), *settings);
+  return judged(lastPrepared(), *settings, last_->warnings);
 }
 
 PredictedScan LivePredictor::predictOnce(const ReceivedScan& scan, double voltage, double mechanical_load) {
@@ -116,7 +121,7 @@ PredictedScan LivePredictor::predictOnce(const ReceivedScan& scan, double voltag
   options.load.voltage = voltage;
   options.load.mechanical_load = mechanical_load;
   predictor_.setOptions(options);  // refuses before the scan is touched
-  return judged(prepare(scan, cv::Mat()), *settings);
+  return judged(prepare(scan, cv::Mat()), *settings, scanWarnings(scan.surface));
 }
 
 StationCase LivePredictor::stationCase(const ReceivedScan* given) {

@@ -29,6 +29,9 @@ static_assert(static_cast<std::uint32_t>(kTaborFlag) == StictionPrediction::FLAG
 static_assert(static_cast<std::uint32_t>(kPlasticityFlag) == StictionPrediction::FLAG_PLASTICITY, "regime_flags");
 static_assert(static_cast<std::uint32_t>(kResolutionFlag) == StictionPrediction::FLAG_RESOLUTION, "regime_flags");
 static_assert(static_cast<std::uint32_t>(kFewContactsFlag) == StictionPrediction::FLAG_FEW_CONTACTS, "regime_flags");
+static_assert(static_cast<std::uint32_t>(kNearBondingFlag) == StictionPrediction::FLAG_NEAR_BONDING, "regime_flags");
+static_assert(static_cast<std::uint32_t>(kBorderFlag) == StictionPrediction::FLAG_BORDER, "regime_flags");
+static_assert(static_cast<std::uint32_t>(kOnePixelFlag) == StictionPrediction::FLAG_ONE_PIXEL, "regime_flags");
 
 std::uint32_t count(int value) { return static_cast<std::uint32_t>(value); }
 
@@ -78,6 +81,27 @@ void fillVerdict(const Verdict& verdict, StictionPrediction& message) {
   message.unstuck_length = verdict.unstuck_length;
   message.pull_in_voltage = verdict.pull_in_voltage;
   message.regime_flags = verdict.regime_flags;
+}
+
+/// At most so many points of a curve; of a longer one, every other, fourth, ... and its largest force.
+constexpr std::size_t kMostCurvePoints = 512;
+
+std::vector<SeparationPoint> curveMessage(const std::vector<SeparationCurvePoint>& curve) {
+  const std::size_t every = (curve.size() + kMostCurvePoints - 2) / (kMostCurvePoints - 1);
+  std::size_t largest = 0;
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    if (curve[i].force > curve[largest].force) largest = i;
+  }
+  std::vector<SeparationPoint> points;
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    if (i % every != 0 && i != largest) continue;
+    SeparationPoint point;
+    point.displacement = curve[i].displacement;
+    point.force = curve[i].force;
+    point.is_separation = static_cast<std::uint8_t>(curve[i].is_separation);
+    points.push_back(point);
+  }
+  return points;
 }
 
 AsperityContact contactMessage(const Asperity& asperity) {
@@ -156,6 +180,15 @@ StictionPrediction predictionMessage(const PredictedScan& scan, const std_msgs::
   message.preprocessing = recordLines(scan.preprocessing);
   message.tip_unreached_fraction = scan.preprocessing.tip_unreached_fraction;
   fillVerdict(scan.verdict, message);
+  message.formulation = scan.formulation;
+  message.warnings = scan.warnings;
+  message.contact_stiffness = prediction.contact_stiffness;
+  message.flattening_energy = prediction.flattening_energy;
+  message.flattening_ratio = prediction.flattening_ratio;
+  message.adhesion_exponent = prediction.adhesion_exponent;
+  message.modulus_exponent = prediction.modulus_exponent;
+  message.is_conforming = static_cast<std::uint8_t>(prediction.is_conforming);
+  message.curve = curveMessage(prediction.curve);
   return message;
 }
 

@@ -8,7 +8,6 @@
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/one_line.hpp"
-#include "mems_stiction/height_map/scan_sanity.hpp"
 #include "mems_stiction/ros/prediction_conversion.hpp"
 #include "mems_stiction/ros/topic_names.hpp"
 
@@ -219,7 +218,7 @@ void StictionServer::predictAndPublish(const sensor_msgs::ImageConstPtr& image, 
     publisher_.publish(predicted, scan);
     if (publisher_.isPreviewWanted()) publisher_.publishPreview(predictor_.lastSurface(), scan.header);
     accounting_.predicted((ros::WallTime::now() - arrival).toSec(), predicted.prediction.processing_time);
-    for (const std::string& line : scanWarnings(scan.surface)) accounting_.warn(scan.header, line);
+    for (const std::string& line : predicted.warnings) accounting_.warn(scan.header, line);
   } catch (const std::exception& error) {
     accounting_.rejected(image->header, oneLine(error.what()));
   }

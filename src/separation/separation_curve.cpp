@@ -23,6 +23,8 @@ void takeMaximum(const std::vector<SeparationState>& states, SeparationCurve& cu
   }
   curve.pull_off_force = std::max(0.0, states[best].force());
   curve.pull_off_approach = states[best].approach;
+  curve.pull_off_adhesion = states[best].adhesion;
+  curve.pull_off_carried = states[best].carried;
   if (best == 0 || best + 1 == states.size() || !(curve.pull_off_force > 0.0)) return;
   const SeparationState& before = states[best - 1];
   const SeparationState& after = states[best + 1];

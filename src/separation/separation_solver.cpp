@@ -45,7 +45,7 @@ Regime regimeOf(const PatchLoad& load, double area, double hardness) {
   return load.carried >= kPlasticShare * hardness * area ? Regime::kPlastic : Regime::kElastoPlastic;
 }
 
-void appendCurve(const SeparationCurve& curve, bool is_separation, std::vector<SeparationPoint>& points) {
+void appendCurve(const SeparationCurve& curve, bool is_separation, std::vector<SeparationCurvePoint>& points) {
   const auto add = [&](const SeparationState& state) {
     points.push_back({state.approach, state.force(), is_separation});
   };
@@ -54,6 +54,13 @@ void appendCurve(const SeparationCurve& curve, bool is_separation, std::vector<S
   } else {
     std::for_each(curve.states.begin(), curve.states.end(), add);
   }
+}
+
+/// At its maximum the force is stationary in the displacement, so it changes with a constant as its parts do there.
+void takeExponents(const SeparationCurve& curve, ContactSolution& solution) {
+  if (!(curve.pull_off_force > 0.0)) return;
+  solution.adhesion_exponent = curve.pull_off_adhesion / curve.pull_off_force;
+  solution.modulus_exponent = -curve.pull_off_carried / curve.pull_off_force;
 }
 
 }  // namespace
@@ -67,6 +74,7 @@ void SeparationSolver::solve(const ContactProblem& problem, ContactSolution& sol
   solution.steps = static_cast<int>(curve_.states.size());
   solution.pull_off_force = curve_.pull_off_force;
   solution.apparent_work_of_adhesion = curve_.work / (problem.gap.validCount() * problem.gap.cellArea());
+  takeExponents(curve_, solution);
   takeRest(problem, solution);
   listContacts(problem, solution);
   fillMaps(problem, solution);
@@ -107,6 +115,12 @@ void SeparationSolver::takeRest(const ContactProblem& problem, ContactSolution& 
     flowed_share_ = std::max(flowed_share_, 1.0 - contact.load.elasticShare());
     touching += patch.gap_sum;
   }
+  for (const std::int32_t cell : sweep.insertedCells()) {
+    const GridCell place = field.cellAt(cell);
+    if (place.row == 0 || place.col == 0 || place.row == field.rows() - 1 || place.col == field.cols() - 1) {
+      contacts_[static_cast<std::size_t>(sweep.patchOf(cell))].is_at_border = true;
+    }
+  }
   const int apart = field.validCount() - rest.contact_count;
   solution.mean_gap = apart > 0 ? (field.meanGap() * field.validCount() - touching) / apart - rest.approach : 0.0;
 }
@@ -138,6 +152,7 @@ void SeparationSolver::listContacts(const ContactProblem& problem, ContactSoluti
     asperity.tabor_parameter =
         taborParameter(asperity.composite_radius, gamma, pair.contact_modulus, trace_.law().range());
     asperity.area = contact.area;
+    asperity.is_at_border = contact.is_at_border;
     asperity.regime = regimeOf(contact.load, area, trace_.hardness());
     parameters += pair.contact_modulus / gamma * std::sqrt(sigma * sigma * sigma / asperity.composite_radius);
     solution.asperities.push_back(asperity);
@@ -205,6 +220,7 @@ void SeparationSolver::partFlowed(const ContactProblem& problem, ContactSolution
   for (SeparationState& state : changed_curve_.states) state.approach += first_touch;
   appendCurve(changed_curve_, true, solution.curve);
   solution.pull_off_force = changed_curve_.pull_off_force;
+  takeExponents(changed_curve_, solution);
   solution.apparent_work_of_adhesion = changed_curve_.work / (field.validCount() * field.cellArea());
 }
 
@@ -218,9 +234,11 @@ void SeparationSolver::partConforming(const ContactProblem& problem, ContactSolu
   solution.is_conforming = true;
   solution.status = Status::kBonded;
   solution.pull_off_force = conforming.strength * area;
+  solution.adhesion_exponent = 1.0;  // nearly the strength of the law
+  solution.modulus_exponent = 0.0;
   solution.apparent_work_of_adhesion = conforming.work;
   solution.contact_area = conforming.states.front().contact_fraction * area;
-  const auto is_way_out = [](const SeparationPoint& point) { return point.is_separation; };
+  const auto is_way_out = [](const SeparationCurvePoint& point) { return point.is_separation; };
   solution.curve.erase(std::remove_if(solution.curve.begin(), solution.curve.end(), is_way_out), solution.curve.end());
   for (const ConformingState& state : conforming.states) {
     solution.curve.push_back({state.approach, state.traction * area, true});

@@ -66,10 +66,20 @@ HeldState HeldContact::advance(double voltage, double mechanical_load) {
       state.is_searched = true;
       state.electrostatic_force = contact_.electrostatic_force;
       state.normal_load = contact_.normal_load;
+      state.contact_area = contact_.contact_area;
       state.contact_area_jkr = contact_.contact_area_jkr;
       return state;
     }
   }
+  if (contact_.followsCurve()) {
+    const Prediction now = model_.predict(surfaces_);
+    state.electrostatic_force = now.electrostatic_force;
+    state.normal_load = now.normal_load;
+    state.contact_area = now.contact_area;
+    state.contact_area_jkr = now.contact_area_jkr;
+    return state;
+  }
+  state.contact_area = contact_.contact_area;
   state.electrostatic_force = field_factor_ * voltage * voltage;
   const double attraction = contact_.normal_load - contact_.electrostatic_force - contact_.mechanical_load;
   state.normal_load = attraction + state.electrostatic_force + mechanical_load;

@@ -70,19 +70,21 @@ class Loop {
     const Prediction& contact = contact_.contact();
     if (state.is_searched) verdict_ = verdictOf(contact, device_, uncertainty_, options_, cell_area_);
     row.status = contact.status;
+    row.is_lower_bound = contact.isLowerBound();
     row.pull_off_force = contact.pull_off_force;
     row.van_der_waals_force = contact.van_der_waals_force;
     row.electrostatic_force = state.electrostatic_force;
     row.normal_load = state.normal_load;
-    row.contact_area = contact.contact_area;
+    row.contact_area = state.contact_area;
     row.contact_area_jkr = state.contact_area_jkr;
-    row.contact_fraction = contact.contact_fraction;
+    row.contact_fraction = state.contact_area / contact.nominal_area;
     row.asperity_count = contact.asperity_count;
     row.approach = contact.approach;
     row.sticks = verdict_.sticks;
     row.margin = verdict_.margin;
     row.margin_lower = verdict_.margin_lower;
-    if (std::isnan(verdict_.margin) || contact.status != Status::kEquilibrium) return;
+    const bool is_known = contact.status == Status::kEquilibrium || contact.followsCurve();
+    if (std::isnan(verdict_.margin) || !is_known) return;
     const double pressing = state.mechanical_load * device_.contact_area / contact.nominal_area;
     row.holding_margin = verdict_.restoring_force / (verdict_.device_pull_off_force + pressing +
                                                      holdingField(device_, options_.interface, state, contact));
@@ -111,7 +113,7 @@ LoadSweepSummary summarized(double mechanical_load, const std::vector<LoadSweepR
     if (std::isnan(row.margin)) continue;
     is_safe = is_safe && row.sticks == Sticks::kNo;
     if (is_safe) summary.highest_safe_voltage = row.voltage;
-    const bool releases_here = row.margin >= 1.0 && row.status == Status::kEquilibrium;
+    const bool releases_here = row.margin >= 1.0 && row.status != Status::kNoEquilibrium && !row.is_lower_bound;
     if (releases && !releases_here) summary.lowest_sticking_voltage = row.voltage;
     releases = releases && releases_here;
     if (releases) summary.highest_releasing_voltage = row.voltage;

@@ -38,7 +38,8 @@ void visitFigures(const HeightMap& scan, const std::vector<std::string>& warning
   visit("pitch_x", scan.pitchX(), "m");
   visit("pitch_y", scan.pitchY(), "m");
   visitPredictionFields(prediction, [&](const char* name, const auto& value, const char* unit) {
-    if (std::strcmp(name, "processing_time") != 0) visit(name, value, unit);
+    const bool verdict_has_it = verdict && std::strcmp(name, "apparent_work_of_adhesion") == 0;
+    if (std::strcmp(name, "processing_time") != 0 && !verdict_has_it) visit(name, value, unit);
   });
   visitRoughnessFields(prediction.roughness, visit);
   visitSpatialRoughnessFields(prediction.spatial_roughness, visit);

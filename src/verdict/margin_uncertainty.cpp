@@ -10,6 +10,7 @@
 #include "mems_stiction/mechanics/jkr.hpp"
 #include "mems_stiction/mechanics/plasticity.hpp"
 #include "mems_stiction/mechanics/surface_forces.hpp"
+#include "mems_stiction/verdict/regime_flags.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -76,9 +77,56 @@ class ContactList {
   double square_sum_ = 0.0;
 };
 
+/// How far the separation curve lies from the half-space: standard deviation of the logarithm of their ratio, by what
+/// flattening costs over what adhesion gives (doc/trust.md).
+struct ModelError {
+  double pull_off;
+  double work;
+};
+
+ModelError modelError(const Prediction& prediction) {
+  if (prediction.is_conforming) return {0.20, 0.15};
+  if (prediction.flattening_ratio < kNearBonding) return {0.30, 0.20};
+  return {0.08, 0.06};
+}
+
+/// Samples of a prediction by the separation curve: its exponents move it with the constants.
+AdhesionSpread curveSpread(const Prediction& prediction, const UncertaintyOptions& uncertainty) {
+  AdhesionSpread spread;
+  if (!prediction.listsContacts() || !(prediction.pull_off_force > 0.0)) return spread;
+  double radius_sum = 0.0;
+  double square_sum = 0.0;
+  for (const Asperity& asperity : prediction.asperities) {
+    radius_sum += asperity.composite_radius;
+    square_sum += asperity.composite_radius * asperity.composite_radius;
+  }
+  const bool is_local = uncertainty.scan_sampling && !prediction.is_conforming && radius_sum > 0.0;
+  const double sampling = is_local ? std::sqrt(square_sum) / radius_sum : 0.0;
+  const ModelError error = modelError(prediction);
+  NormalNumbers numbers(uncertainty.seed);
+  for (int i = 0; i < uncertainty.samples; ++i) {
+    const double work = numbers.factor(uncertainty.work_of_adhesion);
+    numbers.factor(uncertainty.hardness);
+    const double modulus = numbers.factor(uncertainty.youngs_modulus);
+    const double pitch = numbers.factor(uncertainty.pitch);
+    numbers.factor(uncertainty.cutoff_distance);
+    const double place = numbers.factor(sampling);
+    const double model = numbers.next();
+    const double constants =
+        std::pow(work, prediction.adhesion_exponent) * std::pow(modulus, prediction.modulus_exponent);
+    // radii go with the square of the pitch, as the nominal area does
+    spread.pull_off.push_back(place * constants * std::exp(error.pull_off * model));
+    spread.apparent_work.push_back(place * constants * std::exp(error.work * model) / pitch);
+  }
+  std::sort(spread.pull_off.begin(), spread.pull_off.end());
+  std::sort(spread.apparent_work.begin(), spread.apparent_work.end());
+  return spread;
+}
+
 }  // namespace
 
 double apparentWorkOfAdhesion(const Prediction& prediction, const Options& options) {
+  if (prediction.followsCurve()) return prediction.apparent_work_of_adhesion;
   if (!prediction.listsContacts()) return kUnknown;
   const double work = options.interface.work_of_adhesion;
   const double modulus = ContactPair(options.lower, options.upper).contact_modulus;
@@ -93,6 +141,7 @@ double apparentWorkOfAdhesion(const Prediction& prediction, const Options& optio
 
 AdhesionSpread adhesionSpread(const Prediction& prediction, const Options& options,
                               const UncertaintyOptions& uncertainty) {
+  if (prediction.followsCurve()) return curveSpread(prediction, uncertainty);
   AdhesionSpread spread;
   if (!prediction.listsContacts()) return spread;
   const ContactPair pair(options.lower, options.upper);

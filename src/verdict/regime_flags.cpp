@@ -6,10 +6,14 @@ namespace mems_stiction {
 namespace {
 
 constexpr double kLargeShare = 0.5;
+/// Contacts of one pixel have no larger area, of pixels.
+constexpr double kOneCell = 1.05;
 
 struct Shares {
   double flowing = 0.0;  ///< of contacts that are not elastic [-]
   double small = 0.0;    ///< of contacts of few pixels [-]
+  double border = 0.0;   ///< of contacts at the frame's border [-]
+  double single = 0.0;   ///< of contacts of one pixel [-]
 };
 
 Shares sharesOf(const Prediction& prediction, double cell_area) {
@@ -20,6 +24,7 @@ Shares sharesOf(const Prediction& prediction, double cell_area) {
     shares.flowing =
         static_cast<double>(prediction.asperity_count - prediction.elastic_count) / prediction.asperity_count;
     shares.small = mean_area < smallest_area ? 1.0 : 0.0;
+    shares.single = mean_area < kOneCell * cell_area ? 1.0 : 0.0;
     return shares;
   }
   double sum = 0.0;
@@ -27,9 +32,13 @@ Shares sharesOf(const Prediction& prediction, double cell_area) {
     sum += asperity.composite_radius;
     if (asperity.regime != Regime::kElastic) shares.flowing += asperity.composite_radius;
     if (asperity.area < smallest_area) shares.small += asperity.composite_radius;
+    if (asperity.area < kOneCell * cell_area) shares.single += asperity.composite_radius;
+    if (asperity.is_at_border) shares.border += asperity.composite_radius;
   }
   shares.flowing /= sum;
   shares.small /= sum;
+  shares.border /= sum;
+  shares.single /= sum;
   return shares;
 }
 
@@ -39,20 +48,29 @@ std::uint32_t regimeFlags(const Prediction& prediction, double cell_area) {
   std::uint32_t flags = 0;
   if (prediction.status == Status::kBonded) flags |= kBondedFlag;
   if (prediction.status == Status::kNoEquilibrium) flags |= kNoEquilibriumFlag;
+  if (prediction.flattening_ratio < kNearBonding) flags |= kNearBondingFlag;
   if (!prediction.has_asperities) return flags;  // nothing is known of single contacts
   if (prediction.asperity_count == 0) return flags | kFewContactsFlag;
-  if (prediction.contact_theory != ContactTheory::kJkr) flags |= kTaborFlag;
+  if (!prediction.followsCurve() && prediction.contact_theory != ContactTheory::kJkr) flags |= kTaborFlag;
   const Shares shares = sharesOf(prediction, cell_area);
   if (shares.flowing > kLargeShare) flags |= kPlasticityFlag;
   if (shares.small > kLargeShare) flags |= kResolutionFlag;
+  if (shares.border > kLargeShare) flags |= kBorderFlag;
+  if (shares.single > kLargeShare) flags |= kOnePixelFlag;
   if (prediction.asperity_count < kFewestContacts) flags |= kFewContactsFlag;
   return flags;
 }
 
 std::string regimeFlagNames(std::uint32_t flags) {
-  const std::pair<RegimeFlag, const char*> names[] = {
-      {kBondedFlag, "bonded"},         {kNoEquilibriumFlag, "no_equilibrium"}, {kTaborFlag, "tabor"},
-      {kPlasticityFlag, "plasticity"}, {kResolutionFlag, "resolution"},        {kFewContactsFlag, "few_contacts"}};
+  const std::pair<RegimeFlag, const char*> names[] = {{kBondedFlag, "bonded"},
+                                                      {kNoEquilibriumFlag, "no_equilibrium"},
+                                                      {kTaborFlag, "tabor"},
+                                                      {kPlasticityFlag, "plasticity"},
+                                                      {kResolutionFlag, "resolution"},
+                                                      {kFewContactsFlag, "few_contacts"},
+                                                      {kNearBondingFlag, "near_bonding"},
+                                                      {kBorderFlag, "border"},
+                                                      {kOnePixelFlag, "one_pixel"}};
   std::string text;
   for (const auto& entry : names) {
     if ((flags & entry.first) == 0) continue;

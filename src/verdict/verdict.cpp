@@ -65,6 +65,25 @@ Finding withoutContacts(const std::string& what, const Prediction& prediction) {
               (prediction.has_asperities ? "output/asperities is off" : "this approach/formulation tells none apart")};
 }
 
+/// Why a scan can carry no plain "no", and what to do; empty if it can.
+std::string whatLacks(const Prediction& prediction, std::uint32_t flags) {
+  if ((flags & kOnePixelFlag) != 0) {
+    return "the answer rests on contacts of one pixel: scan a smaller area with finer pixels, or set "
+           "preprocessing/refine";
+  }
+  if ((flags & kBorderFlag) != 0) {
+    return "the answer rests on a contact at the border of the frame, whose summit may lie outside: scan another "
+           "place, "
+           "or a larger one";
+  }
+  if (prediction.has_asperities && prediction.asperity_count < kFewestContactsForStatement) {
+    return "the answer rests on " + std::to_string(prediction.asperity_count) +
+           (prediction.asperity_count == 1 ? " contact" : " contacts") +
+           ": scan a larger area or more places, another may have higher summits";
+  }
+  return "";
+}
+
 Finding springFinding(const Prediction& prediction, const DeviceOptions& device, const AdhesionSpread& spread,
                       Verdict& verdict) {
   const double scale = device.contact_area / prediction.nominal_area;
@@ -85,7 +104,7 @@ Finding springFinding(const Prediction& prediction, const DeviceOptions& device,
       0.5 * verdict.margin *
       (1.0 / quantile(spread.pull_off, kStandardLower) - 1.0 / quantile(spread.pull_off, kStandardUpper));
   const double lowest = std::min(verdict.margin_lower, verdict.margin_transition);
-  return judged("margin", verdict.margin, lowest, verdict.margin_upper, prediction.status == Status::kBonded);
+  return judged("margin", verdict.margin, lowest, verdict.margin_upper, prediction.isLowerBound());
 }
 
 Finding beamFinding(const Prediction& prediction, const DeviceOptions& device, const AdhesionSpread& spread,
@@ -106,7 +125,7 @@ Finding beamFinding(const Prediction& prediction, const DeviceOptions& device, c
     verdict.peel_number_upper = std::max(at_least, at_most);
   }
   return judged("peel number", verdict.peel_number, verdict.peel_number_lower, verdict.peel_number_upper,
-                prediction.status == Status::kBonded && !is_measured);
+                prediction.isLowerBound() && !is_measured);
 }
 
 }  // namespace
@@ -155,6 +174,13 @@ Verdict verdictOf(const Prediction& prediction, const DeviceOptions& device, con
   }
   verdict.sticks = finding.sticks;
   verdict.reason = finding.reason;
+  const std::string lack = finding.sticks == Sticks::kNo && prediction.pull_off_force > 0.0
+                               ? whatLacks(prediction, verdict.regime_flags)
+                               : "";
+  if (!lack.empty()) {
+    verdict.sticks = Sticks::kUnknown;
+    verdict.reason = finding.reason + "; but " + lack;
+  }
   return verdict;
 }
 

@@ -38,7 +38,7 @@ struct EnergyPoint {
 };
 
 /// One point of the force between the surfaces over their displacement.
-struct SeparationPoint {
+struct SeparationCurvePoint {
   double displacement = 0.0;   ///< D of the upper surface past first touch, below zero apart [m]
   double force = 0.0;          ///< attraction positive [N]
   bool is_separation = false;  ///< of the way out, which differs from the way in where surfaces flow or conform
@@ -54,7 +54,8 @@ struct Asperity {
   double tilt = 0.0;                 ///< theta [rad]
   double plasticity_index = 0.0;     ///< phi of (9) [-]
   double tabor_parameter = 0.0;      ///< mu [-]
-  double area = 0.0;                 ///< cells in contact [m^2]
+  double area = 0.0;                 ///< in contact [m^2]
+  bool is_at_border = false;         ///< reaches the frame's border: its summit may lie outside
   Regime regime = Regime::kElastic;
 };
 
@@ -89,6 +90,8 @@ struct ContactSolution {
   double apparent_work_of_adhesion = kUnknown;  ///< of drawing the surfaces apart, per area [J/m^2]
   double contact_stiffness = kUnknown;          ///< -dF/dD at rest [N/m]
   double flattening_energy = kUnknown;          ///< that pressing the surfaces flat would store, per area [J/m^2]
+  double adhesion_exponent = kUnknown;          ///< d ln(pull-off force)/d ln(Gamma) [-]
+  double modulus_exponent = kUnknown;           ///< d ln(pull-off force)/d ln(E) [-]
   bool is_conforming = false;                   ///< the surfaces lie against each other nearly everywhere
   double contact_area_jkr = kUnknown;           ///< sum pi a_i^2 [m^2]
   double adhesion_parameter = kUnknown;         ///< (14) [-]; infinite without work of adhesion
@@ -96,7 +99,7 @@ struct ContactSolution {
   bool has_asperities = false;  ///< false: `asperities` is empty because the solver knows none
   std::vector<Asperity> asperities;
   std::vector<EnergyPoint> energy_curve;  ///< if output.energy_curve asks for it
-  std::vector<SeparationPoint> curve;     ///< force over displacement; empty if the solver does not follow it
+  std::vector<SeparationCurvePoint> curve;          ///< force over displacement; empty if the solver does not follow it
 
   // Maps, rows x cols of the frame, if `output` asks for them.
   cv::Mat contact_map;      ///< CV_8UC1, values of Regime

@@ -4,6 +4,7 @@
 /// The answer of the model for one pair of surfaces. Field names are those of msg/StictionPrediction.msg and of the
 /// records that predict_scan prints.
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -24,6 +25,8 @@ enum class ContactTheory : std::uint8_t { kDmt = 0, kTransition = 1, kJkr = 2, k
 
 /// Everything that AdhesionModel::predict() finds out about one pair of surfaces.
 struct Prediction {
+  static constexpr double kUnknown = ContactSolution::kUnknown;
+
   Status status = Status::kNoEquilibrium;
   int steps = 0;  ///< steps of the approach that were taken
 
@@ -55,10 +58,13 @@ struct Prediction {
   double bonding_energy = 0.0;             ///< E_t / nominal area [J/m^2]
   double normalized_bonding_energy = 0.0;  ///< bonding_energy / Gamma [-]; NaN when Gamma = 0
 
-  double apparent_work_of_adhesion = 0.0;  ///< of drawing the surfaces apart, per nominal area [J/m^2]
-  double contact_stiffness = 0.0;          ///< -dF/dD at rest [N/m]
-  double flattening_energy = 0.0;          ///< that pressing the surfaces flat would store, per area [J/m^2]
-  bool is_conforming = false;              ///< flattening costs less than adhesion gives: flat nearly everywhere
+  double apparent_work_of_adhesion = kUnknown;  ///< of drawing the surfaces apart, per nominal area [J/m^2]
+  double contact_stiffness = kUnknown;          ///< -dF/dD at rest [N/m]
+  double flattening_energy = kUnknown;          ///< that pressing the surfaces flat would store, per area [J/m^2]
+  double flattening_ratio = kUnknown;           ///< flattening_energy/Gamma [-]
+  double adhesion_exponent = kUnknown;          ///< d ln(pull_off_force)/d ln(work of adhesion) [-]
+  double modulus_exponent = kUnknown;           ///< d ln(pull_off_force)/d ln(contact modulus) [-]
+  bool is_conforming = false;                   ///< flattening costs less than adhesion gives: flat nearly everywhere
 
   double adhesion_parameter = 0.0;  ///< (14) [-]; infinite when Gamma = 0
   BondingRegime bonding_regime = BondingRegime::kNonBonding;
@@ -77,14 +83,19 @@ struct Prediction {
   double invalid_fraction = 0.0;      ///< share of pixels that are invalid in either surface [-]
   double processing_time = 0.0;       ///< wall time of this prediction, its preparation included [s]
 
+  /// Whether the solver has followed the force between the surfaces over their displacement.
+  bool followsCurve() const { return !std::isnan(apparent_work_of_adhesion); }
+  /// Whether the pull-off force is a lower bound: the paper's search ended before the contacts stopped growing. The
+  /// separation curve knows bonded surfaces by the strength of the law and by what flattening them costs.
+  bool isLowerBound() const { return status == Status::kBonded && !followsCurve(); }
   /// Whether `asperities` lists every contact: it does not if the solver knows none, or output/asperities is off.
   bool listsContacts() const { return has_asperities && static_cast<int>(asperities.size()) == asperity_count; }
   std::vector<Asperity> asperities;
   std::vector<EnergyPoint> energy_curve;
-  std::vector<SeparationPoint> curve;  ///< force over displacement; empty if the formulation does not follow it
-  cv::Mat deformed_lower;              ///< rows x cols CV_64FC1 [m], NaN where invalid
-  cv::Mat deformed_upper;              ///< the same in the upper surface's own z [m]
-  cv::Mat contact_map;                 ///< rows x cols CV_8UC1, values of Regime
+  std::vector<SeparationCurvePoint> curve;  ///< force over displacement; empty if the formulation does not follow it
+  cv::Mat deformed_lower;         ///< rows x cols CV_64FC1 [m], NaN where invalid
+  cv::Mat deformed_upper;         ///< the same in the upper surface's own z [m]
+  cv::Mat contact_map;            ///< rows x cols CV_8UC1, values of Regime
   cv::Mat pressure;  ///< rows x cols CV_64FC1 [Pa], repulsion positive; empty if the solver does not know it
 
   double median_contact_pixels = 0.0;  ///< pixels of the scan in half of the contacts or fewer [-]; NaN without contact

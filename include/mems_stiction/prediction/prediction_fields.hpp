@@ -138,6 +138,9 @@ void visitPredictionFields(PredictionType& prediction, Visitor&& visit) {
   visit("apparent_work_of_adhesion", prediction.apparent_work_of_adhesion, "J/m^2");
   visit("contact_stiffness", prediction.contact_stiffness, "N/m");
   visit("flattening_energy", prediction.flattening_energy, "J/m^2");
+  visit("flattening_ratio", prediction.flattening_ratio, "");
+  visit("adhesion_exponent", prediction.adhesion_exponent, "");
+  visit("modulus_exponent", prediction.modulus_exponent, "");
   visit("is_conforming", prediction.is_conforming, "");
   visit("adhesion_parameter", prediction.adhesion_parameter, "");
   visit("bonding_regime", prediction.bonding_regime, "");

@@ -10,6 +10,8 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "mems_stiction/ros/image_conversion.hpp"
 #include "mems_stiction/ros/predicted_scan.hpp"
@@ -70,9 +72,10 @@ class LivePredictor {
   struct LastScan {
     ReceivedScan received;
     PreparedScan prepared;
-    cv::Mat wear_before;             ///< what had been pressed in when it came
-    bool is_reset = false;           ///< the wear has been forgotten since
-    bool has_newer_counter = false;  ///< another counter-surface has come since
+    std::vector<std::string> warnings;  ///< about it, in words
+    cv::Mat wear_before;                ///< what had been pressed in when it came
+    bool is_reset = false;              ///< the wear has been forgotten since
+    bool has_newer_counter = false;     ///< another counter-surface has come since
   };
 
   PreparedScan prepare(const ReceivedScan& scan, const cv::Mat& wear);
@@ -81,7 +84,8 @@ class LivePredictor {
   void setPoseOf(const ReceivedScan& scan);
   void requireCounterSurface() const;
   /// The prediction with `options` set before, and its verdict.
-  PredictedScan judged(const PreparedScan& prepared, const Configuration& settings);
+  PredictedScan judged(const PreparedScan& prepared, const Configuration& settings,
+                       const std::vector<std::string>& warnings);
 
   SettingsOwner settings_;
   ScanPredictor predictor_;

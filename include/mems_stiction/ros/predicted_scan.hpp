@@ -3,6 +3,9 @@
 /// @file
 /// All that is said about one scan.
 
+#include <string>
+#include <vector>
+
 #include "mems_stiction/prediction/prediction.hpp"
 #include "mems_stiction/preprocess/pipeline.hpp"
 #include "mems_stiction/verdict/verdict.hpp"
@@ -12,8 +15,10 @@ namespace mems_stiction {
 /// A prediction with what belongs to it in the message.
 struct PredictedScan {
   Prediction prediction;
-  Verdict verdict;                 ///< on the device, from this prediction
-  PreprocessRecord preprocessing;  ///< what was done to the scan before
+  Verdict verdict;                    ///< on the device, from this prediction
+  PreprocessRecord preprocessing;     ///< what was done to the scan before
+  std::string formulation;            ///< approach/formulation
+  std::vector<std::string> warnings;  ///< about the scan, in words
 };
 
 }  // namespace mems_stiction

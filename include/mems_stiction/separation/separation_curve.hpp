@@ -16,6 +16,8 @@ struct SeparationCurve {
   Status status = Status::kNoEquilibrium;
   double pull_off_force = 0.0;     ///< largest force on the way [N]
   double pull_off_approach = 0.0;  ///< where [m]
+  double pull_off_adhesion = 0.0;  ///< of which the cells apart attract [N]
+  double pull_off_carried = 0.0;   ///< and the patches carry [N]
   double elastic_energy = 0.0;     ///< integral of what the patches carry, from first touch to rest [J]
   double work = 0.0;               ///< integral of the attracting part of the curve, from rest to apart [J]
 

@@ -31,6 +31,7 @@ class SeparationSolver : public ContactSolver {
   struct Contact {
     PatchLoad load;
     double area = 0.0;  ///< real [m^2]
+    bool is_at_border = false;
   };
 
   void takeRest(const ContactProblem& problem, ContactSolution& solution);

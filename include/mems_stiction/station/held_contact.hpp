@@ -14,6 +14,9 @@
 ///     - an elastic contact's radius follows (7) down its new share P0; what has flowed keeps its radius:
 ///       a^2 = chi a(P0)^2 + (1 - chi) a(largest)^2.
 ///
+/// The separation curve knows what an elastic contact is at each load: it is read off again there, and only what holds
+/// the surfaces, which flow and conforming have increased, stays that of the largest load.
+///
 /// A load beyond the largest so far searches the equilibrium of the undeformed surfaces again: loading passes the
 /// smaller states on its way, and their plastic flow is contained in that of the larger. Should a search end at a
 /// smaller approach, the held contact stays.
@@ -28,6 +31,7 @@ struct HeldState {
   double mechanical_load = 0.0;      ///< [N]
   double electrostatic_force = 0.0;  ///< at this voltage [N]
   double normal_load = 0.0;          ///< F_w + F_e + F_m + F_c [N]
+  double contact_area = 0.0;         ///< real area [m^2]; of the paper's formulations that of the largest load
   double contact_area_jkr = 0.0;     ///< sum pi a_i^2 at this load [m^2]
   bool is_searched = false;          ///< the equilibrium was searched at this load; else the contact was held
 };

@@ -53,6 +53,7 @@ struct LoadSweepRow {
   double mechanical_load = 0.0;  ///< [N]
   SweepDirection direction = SweepDirection::kUp;
   Status status = Status::kNoEquilibrium;  ///< of the search that made the contact
+  bool is_lower_bound = false;             ///< the pull-off force: the search ended before contacts stopped growing
   bool is_open = false;                    ///< the device has come off on the way down
   double pull_off_force = 0.0;             ///< [N]
   double van_der_waals_force = 0.0;        ///< [N]

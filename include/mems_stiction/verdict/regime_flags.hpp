@@ -18,10 +18,17 @@ enum RegimeFlag : std::uint32_t {
   kPlasticityFlag = 8,     ///< more than half of the adhesion is of contacts that flow: their radii have changed
   kResolutionFlag = 16,    ///< more than half of the adhesion is of contacts of few pixels: a finer pitch may change it
   kFewContactsFlag = 32,   ///< so few contacts that another place of the surface may differ much
+  kNearBondingFlag = 64,   ///< flattening costs no more than twice what adhesion gives: contacts may grow together
+  kBorderFlag = 128,       ///< more than half of the adhesion is of contacts at the frame's border
+  kOnePixelFlag = 256,     ///< more than half of the adhesion is of contacts of one pixel
 };
 
 /// Contacts of fewer cells (five across) do not show their curvature.
 inline constexpr double kFewestCellsPerContact = 20.0;
+/// Fewer contacts than this say nothing of another place.
+inline constexpr int kFewestContactsForStatement = 3;
+/// Flattening energy over the work of adhesion below which contacts may grow together [-].
+inline constexpr double kNearBonding = 2.0;
 /// Fewer contacts than this scatter by a third and more from place to place.
 inline constexpr int kFewestContacts = 10;
 

@@ -15,7 +15,8 @@
 ///     no        the whole interval is above 1, also with the pull-off prefactors of the JKR-DMT transition
 ///     yes       the whole interval is below 1
 ///     marginal  1 lies within
-///     unknown   the device is not stated, the search found no equilibrium, or the surfaces bond (the forces are then
+///     unknown   the answer would be no, but rests on contacts of one pixel, at the frame's border, or on fewer than
+///               three; the device is not stated, the search found no equilibrium, or the surfaces bond (the forces are then
 ///               lower bounds: they can say "yes", not "no")
 ///
 /// With a spring and a beam stated, the worse of both counts: yes, unknown, marginal, no.
