@@ -72,7 +72,7 @@ class Progress {
 
 }  // namespace
 
-HalfSpaceSolution solveWithProgress(const HalfSpaceSolver& solver, const HalfSpaceProblem& problem) {
+SolvedHalfSpace solveWithProgress(const HalfSpaceSolver& solver, const HalfSpaceProblem& problem) {
   const Interruption interruption;  // outlives the line on the terminal, which is gone when the program ends
   Progress progress;
   HalfSpaceControl control;
@@ -81,7 +81,7 @@ HalfSpaceSolution solveWithProgress(const HalfSpaceSolver& solver, const HalfSpa
   return solver.solve(problem, control);
 }
 
-void writeCurve(const std::string& path, const HalfSpaceSolution& solution) {
+void writeCurve(const std::string& path, const SolvedHalfSpace& solution) {
   std::ofstream file(path);
   file << "height,force,direction\n";
   for (const CurvePoint& point : curveOf(solution)) {

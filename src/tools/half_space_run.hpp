@@ -10,10 +10,10 @@ namespace mems_stiction {
 
 /// On a terminal it says how far it is, from two seconds on. Ctrl-C ends the program.
 /// @throw as HalfSpaceSolver::solve()
-HalfSpaceSolution solveWithProgress(const HalfSpaceSolver& solver, const HalfSpaceProblem& problem);
+SolvedHalfSpace solveWithProgress(const HalfSpaceSolver& solver, const HalfSpaceProblem& problem);
 
 /// Both ways as CSV: height [m], force [N], direction; a line of names first.
 /// @throw FileError
-void writeCurve(const std::string& path, const HalfSpaceSolution& solution);
+void writeCurve(const std::string& path, const SolvedHalfSpace& solution);
 
 }  // namespace mems_stiction

@@ -5,7 +5,7 @@
 /// both answer the same question.
 ///
 ///     const HalfSpaceSolver solver(configuration.half_space);
-///     const HalfSpaceSolution solution = solver.solve(halfSpaceProblem(prepared, configuration.model));
+///     const SolvedHalfSpace solution = solver.solve(halfSpaceProblem(prepared, configuration.model));
 
 #include "mems_stiction/half_space/half_space_problem.hpp"
 #include "mems_stiction/prediction/options.hpp"
