@@ -26,7 +26,8 @@ const cv::Scalar kGrid(74, 63, 58);
 const cv::Scalar kApproachColour(255, 178, 127);
 const cv::Scalar kRetractionColour(5, 183, 242);
 const cv::Scalar kWarning(79, 90, 255);
-constexpr double kLetters = 0.55;
+constexpr double kLetters = 0.7;
+constexpr int kLineHeight = 30;  // [pixels]
 
 enum class Align { kLeft, kMiddle, kRight };
 
@@ -47,7 +48,7 @@ int writeWrapped(cv::Mat& picture, const std::string& text, cv::Point at, int wi
     const std::string longer = line.empty() ? word : line + " " + word;
     if (!line.empty() && cv::getTextSize(longer, cv::FONT_HERSHEY_SIMPLEX, kLetters, 1, nullptr).width > width) {
       write(picture, line, at, colour);
-      at.y += 24;
+      at.y += kLineHeight;
       line = word;
     } else {
       line = longer;
@@ -55,7 +56,7 @@ int writeWrapped(cv::Mat& picture, const std::string& text, cv::Point at, int wi
     begin = end + 1;
   }
   write(picture, line, at, colour);
-  return at.y + 24;
+  return at.y + kLineHeight;
 }
 
 /// A power of 1000 and the letter for it.
@@ -157,13 +158,13 @@ void drawPlot(cv::Mat& picture, const HalfSpaceSolution& solution, const cv::Rec
   cv::rectangle(picture, frame, kQuiet);
   write(picture, std::string("height over first touch [") + x.letter() + "m]",
         {frame.x + frame.width / 2, frame.y + frame.height + 52}, kText, Align::kMiddle);
-  write(picture, std::string("force [") + y.letter() + "N], attraction is positive", {20, frame.y - 14}, kText);
+  write(picture, std::string("force [") + y.letter() + "N], attraction is positive", {20, frame.y - 20}, kText);
 
   drawCurve(picture, solution, HalfSpacePoint::APPROACH, x, y, kApproachColour, 5);  // seen on both sides of the other
   drawCurve(picture, solution, HalfSpacePoint::RETRACTION, x, y, kRetractionColour, 2);
   const int right = frame.x + frame.width;
-  write(picture, "retraction", {right, frame.y - 14}, kRetractionColour, Align::kRight);
-  write(picture, "approach", {right - 110, frame.y - 14}, kApproachColour, Align::kRight);
+  write(picture, "retraction", {right, frame.y - 20}, kRetractionColour, Align::kRight);
+  write(picture, "approach", {right - 140, frame.y - 20}, kApproachColour, Align::kRight);
   if (std::isnan(solution.pull_off_force)) return;
   const double mark_x = x.pixel(solution.pull_off_height);
   const double mark_y = y.pixel(solution.pull_off_force);
@@ -243,7 +244,7 @@ sensor_msgs::ImagePtr curvePicture(const HalfSpaceSolution& solution) {
   if (is_solved && !solution.is_resolved) {
     write(picture, "pixels are too coarse for the edges of contacts", {kSize.width - 40, top}, kWarning, Align::kRight);
   }
-  top += 52;
+  top += 58;
   drawPlot(picture, solution, cv::Rect(100, top, kSize.width - 140, kSize.height - top - 70));
   return imageOf(picture, solution.header);
 }
