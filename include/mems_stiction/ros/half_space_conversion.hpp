@@ -20,7 +20,7 @@ HalfSpaceSolution halfSpaceMessage(const SolvedHalfSpace& solved, const LoadOpti
                                    const std_msgs::Header& header);
 
 /// REFUSED, with every figure NaN.
-/// @param reason becomes the message, on one line
+/// - @p reason becomes the message, on one line
 HalfSpaceSolution refusedMessage(const std::string& reason, const LoadOptions& load, const std_msgs::Header& header);
 
 }  // namespace mems_stiction

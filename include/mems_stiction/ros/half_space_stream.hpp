@@ -44,7 +44,7 @@ class HalfSpaceStream {
   bool isModelMapWanted() const { return publisher_.areBothMapsWanted(); }
 
   /// Takes the place of a scan that waits. Copies no pixels but the map's.
-  /// @param model_map contact map of the prediction; may be empty
+  /// - @p model_map contact map of the prediction; may be empty
   void offer(const StationCase& predicted, const cv::Mat& model_map);
 
   /// One status with every count; WARN if a scan since the last report has no solution.
