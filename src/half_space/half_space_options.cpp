@@ -3,6 +3,8 @@
 namespace mems_stiction {
 
 void HalfSpaceOptions::describe(OptionVisitor& visitor) {
+  visitor.flag("half_space/enabled", enabled,
+               "whether the node solves the newest scan so beside its predictions; programs are asked by --half-space");
   visitor.number("half_space/range", range, "m", Range::nonNegative(),
                  "z0, the gap at which the traction between the surfaces changes sign; 0 = from "
                  "interface/work_of_adhesion and interface/hamaker_constant");

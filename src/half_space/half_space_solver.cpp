@@ -112,7 +112,7 @@ HalfSpaceStatus statusOf(PathStatus status) {
 }
 
 /// What the state at rest says.
-void takeRest(const ContactPath& path, const ContactMinimiser& minimiser, HalfSpaceSolution& solution) {
+void takeRest(const ContactPath& path, const ContactMinimiser& minimiser, SolvedHalfSpace& solution) {
   const ForcePoint& rest = path.present();
   solution.rest_height = rest.height;
   solution.rest_force = rest.force;
@@ -125,7 +125,7 @@ void takeRest(const ContactPath& path, const ContactMinimiser& minimiser, HalfSp
 }
 
 /// What the whole path says.
-void takePath(const ContactPath& path, double area, HalfSpaceSolution& solution) {
+void takePath(const ContactPath& path, double area, SolvedHalfSpace& solution) {
   const ForceCurve& retraction = path.retractionCurve();
   const ForceCurve& approach = path.approachCurve();
   solution.pull_off_force = retraction.largest_force;
@@ -140,7 +140,7 @@ void takePath(const ContactPath& path, double area, HalfSpaceSolution& solution)
 }
 
 /// Every state that was solved, and what it took.
-void takeRecord(const ContactPath& path, HalfSpaceSolution& solution) {
+void takeRecord(const ContactPath& path, SolvedHalfSpace& solution) {
   solution.approach = path.approachCurve().points;
   solution.retraction = path.retractionCurve().points;
   solution.jumps = path.approachCurve().jumps + path.retractionCurve().jumps;
@@ -151,7 +151,7 @@ void takeRecord(const ContactPath& path, HalfSpaceSolution& solution) {
 }
 
 /// The surfaces after contact: what flowed is shared by the bodies as (12) says.
-void takeSurfaces(const HalfSpaceProblem& problem, const LargePageVector<float>& flowed, HalfSpaceSolution& solution) {
+void takeSurfaces(const HalfSpaceProblem& problem, const LargePageVector<float>& flowed, SolvedHalfSpace& solution) {
   const DeformationShare share(problem.lower_material, problem.upper_material, problem.interface.hardness_ratio_limit,
                                Formulation::kCorrected, Deformation::kThreeRegimes);
   double depth = 0.0;
@@ -175,7 +175,7 @@ HalfSpaceSolver::HalfSpaceSolver(const HalfSpaceOptions& options) : options_(opt
   if (!violations.empty()) throw OptionsError(std::move(violations));
 }
 
-HalfSpaceSolution HalfSpaceSolver::solve(const HalfSpaceProblem& problem, const HalfSpaceControl& control) const {
+SolvedHalfSpace HalfSpaceSolver::solve(const HalfSpaceProblem& problem, const HalfSpaceControl& control) const {
   const auto begin = std::chrono::steady_clock::now();
   const TractionLawOptions law_options = lawOptions(options_, problem);
   check(problem, law_options);
@@ -199,7 +199,7 @@ HalfSpaceSolution HalfSpaceSolver::solve(const HalfSpaceProblem& problem, const 
   path_settings.max_states = options_.max_states;
   path_settings.on_state = control.on_state;
 
-  HalfSpaceSolution solution;
+  SolvedHalfSpace solution;
   solution.range = law.range();
   solution.cohesive_length = pair.contact_modulus * law.range() * law.range() / problem.interface.work_of_adhesion;
   solution.is_resolved = solution.cohesive_length >= kPixelsPerCohesiveLength * std::max(grid.pitch_x, grid.pitch_y);

@@ -12,29 +12,10 @@
 #include <sensor_msgs/point_cloud2_iterator.h>
 #include <std_msgs/ColorRGBA.h>
 
+#include "mems_stiction/ros/regime_colour.hpp"
+
 namespace mems_stiction {
 namespace {
-
-struct Colour {
-  std::uint8_t red, green, blue;
-};
-
-constexpr char kLegend[] = "grey: apart   blue: elastic   yellow: elasto-plastic   red: plastic";
-
-/// The colours of kLegend, as in all our pictures: told apart without red-green vision too.
-Colour colourOf(Regime regime) {
-  switch (regime) {
-    case Regime::kElastic:
-      return {47, 127, 209};
-    case Regime::kElastoPlastic:
-      return {242, 183, 5};
-    case Regime::kPlastic:
-      return {209, 50, 47};
-    case Regime::kApart:
-      break;
-  }
-  return {190, 190, 190};
-}
 
 /// Low dark, high bright, over three rms heights to either side.
 Colour greyOf(double above_mean, double rms_height) {
@@ -184,7 +165,7 @@ visualization_msgs::MarkerArray asperityMarkers(const Prediction& prediction, co
   text.pose.orientation.w = 1.0;
   text.scale.z = kTextHeight;
   text.color.r = text.color.g = text.color.b = text.color.a = 1.0F;
-  text.text = view.text() + "\n" + kLegend;
+  text.text = view.text() + "\n" + kRegimeLegend;
   array.markers.push_back(text);
 
   for (const Asperity* asperity : shown) {

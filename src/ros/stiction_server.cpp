@@ -6,9 +6,7 @@
 #include <boost/bind/bind.hpp>
 #include <boost/make_shared.hpp>
 
-#include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/one_line.hpp"
-#include "mems_stiction/ros/prediction_conversion.hpp"
 #include "mems_stiction/ros/topic_names.hpp"
 
 namespace mems_stiction {
@@ -42,6 +40,11 @@ StictionServer::StictionServer(const ros::NodeHandle& handle, const ros::NodeHan
       accounting_(ros::WallDuration(options_.warning_period)),
       predictor_(configuration.core, options_.accumulate_deformation),
       publisher_(handle_, options_.display, [this] { worker_.push([this] { showLastScan(); }); }),
+      half_space_(!configuration.core.half_space.enabled
+                      ? nullptr
+                      : std::make_unique<HalfSpaceStream>(
+                            handle_, configuration.core.half_space,
+                            [this](const auto& header, const auto& text) { accounting_.warn(header, text); })),
       worker_(capacityOf(options_)),
       counter_surface_frame_(options_.transform.frame.empty()
                                  ? nullptr
@@ -59,14 +62,18 @@ StictionServer::StictionServer(const ros::NodeHandle& handle, const ros::NodeHan
       transport_(handle_),
       reconfigure_(service_handle_, predictor_.settings(), [this](const auto& settings) { change(settings); }),
       actions_(service_handle_, [this](const auto& height, const auto& info) { return findCase(height, info); }),
+      half_space_calls_(service_handle_, configuration.core.half_space,
+                        [this](const auto& height, const auto& info) { return findCase(height, info); }),
       diagnostics_(handle_, private_handle_, name),
       topic_spinner_(1, &topic_queue_),
       service_spinner_(kServiceThreads, &service_queue_) {
   advertiseServices();
   subscribe();
   startTimers();
+  if (half_space_) half_space_->start();
   worker_.start();
   actions_.start();
+  half_space_calls_.start();
   service_spinner_.start();
   topic_spinner_.start();
 }
@@ -75,18 +82,13 @@ StictionServer::~StictionServer() {
   // Long runs and the worker first: a service that waits for them gets its refusal, so that the spinners can end.
   stopping_ = true;
   actions_.stop();
+  half_space_calls_.stop();
   worker_.stop();
+  if (half_space_) half_space_->stop();
   service_spinner_.stop();
   topic_spinner_.stop();
   const ScanCounts counts = accounting_.counts();
   if (counts.waiting() > 0) ROS_INFO_STREAM(counts.waiting() << " scans were still waiting at shutdown");
-}
-
-void StictionServer::advertiseServices() {
-  services_ = {service_handle_.advertiseService(kSetLoadService, &StictionServer::setLoad, this),
-               service_handle_.advertiseService(kGetLoadService, &StictionServer::getLoad, this),
-               service_handle_.advertiseService(kPredictService, &StictionServer::predict, this),
-               service_handle_.advertiseService(kResetSurfaceService, &StictionServer::resetSurface, this)};
 }
 
 void StictionServer::subscribe() {
@@ -118,6 +120,7 @@ void StictionServer::subscribe() {
 void StictionServer::startTimers() {
   diagnostics_.setHardwareID("none");
   diagnostics_.add("scans", this, &StictionServer::report);
+  if (half_space_) diagnostics_.add("half_space", half_space_.get(), &HalfSpaceStream::report);
   diagnostic_timer_ = handle_.createWallTimer(ros::WallDuration(options_.diagnostic_period),
                                               [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
   pairing_timer_ = handle_.createWallTimer(ros::WallDuration(0.2 * options_.pairing_timeout), [this](const auto&) {
@@ -214,8 +217,11 @@ void StictionServer::predictAndPublish(const sensor_msgs::ImageConstPtr& image, 
   try {
     ReceivedScan scan = receive(image, info.get());
     scan.counter_surface_pose = pose;
-    const PredictedScan predicted = predictor_.predictScan(scan, publisher_.demanded());
+    OutputOptions demanded = publisher_.demanded();
+    if (half_space_ && half_space_->isModelMapWanted()) demanded.contact_map = true;
+    const PredictedScan predicted = predictor_.predictScan(scan, demanded);
     publisher_.publish(predicted, scan);
+    if (half_space_) half_space_->offer(predictor_.stationCase(nullptr), predicted.prediction.contact_map);
     if (publisher_.isPreviewWanted()) publisher_.publishPreview(predictor_.lastSurface(), scan.header);
     accounting_.predicted((ros::WallTime::now() - arrival).toSec(), predicted.prediction.processing_time);
     for (const std::string& line : predicted.warnings) accounting_.warn(scan.header, line);
@@ -236,78 +242,6 @@ void StictionServer::takeCounterSurface(const sensor_msgs::ImageConstPtr& image,
   } catch (const std::exception& error) {
     accounting_.counterSurfaceRejected(image->header, oneLine(error.what()));
   }
-}
-
-bool StictionServer::setLoad(SetLoad::Request& request, SetLoad::Response& response) {
-  // What is returned when there is no prediction: NO_EQUILIBRIUM and zeros.
-  response.prediction = predictionMessage(PredictedScan(), std_msgs::Header());
-  try {
-    const boost::recursive_mutex::scoped_lock lock(reconfigure_.mutex());
-    RunningSettings settings = predictor_.settings().current();
-    const LoadOptions before = settings.load;
-    settings.load.voltage = request.voltage;
-    settings.load.mechanical_load = request.mechanical_load;
-    change(settings);
-    reconfigure_.show();
-    worker_.call([&] {
-      response.success = true;
-      response.message = "from " + numberText(before.voltage) + " V, " + numberText(before.mechanical_load) + " N";
-      try {
-        if (const std::optional<PredictedScan> predicted = predictor_.predictLastScan()) {
-          response.prediction = predictionMessage(*predicted, predictor_.lastScan()->header);
-        } else {
-          response.message += "; no scan yet, so there is no prediction";
-        }
-      } catch (const std::exception& error) {
-        response.message += "; the last scan cannot be predicted: " + oneLine(error.what());
-      }
-    });
-  } catch (const std::future_error&) {
-    response.success = false;
-    response.message = kShuttingDown;
-  } catch (const std::exception& error) {
-    response.success = false;
-    response.message = oneLine(error.what());
-  }
-  return true;
-}
-
-bool StictionServer::getLoad(GetLoad::Request& /*request*/, GetLoad::Response& response) {
-  const LoadOptions load = predictor_.settings().current().load;
-  response.voltage = load.voltage;
-  response.mechanical_load = load.mechanical_load;
-  response.max_voltage = load.max_voltage;
-  response.max_mechanical_load = load.max_mechanical_load;
-  return true;
-}
-
-bool StictionServer::predict(Predict::Request& request, Predict::Response& response) {
-  response.prediction = predictionMessage(PredictedScan(), request.height.header);
-  try {
-    const ReceivedScan scan = receiveByCall(std::move(request.height), request.scan_info);
-    worker_.call([&] {
-      const PredictedScan predicted = predictor_.predictOnce(scan, request.voltage, request.mechanical_load);
-      response.prediction = predictionMessage(predicted, scan.header);
-    });
-    response.success = true;
-  } catch (const std::future_error&) {
-    response.message = kShuttingDown;
-  } catch (const std::exception& error) {
-    response.message = oneLine(error.what());
-  }
-  return true;
-}
-
-bool StictionServer::resetSurface(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
-  try {
-    worker_.call([this] { predictor_.resetSurface(); });
-    response.success = true;
-    response.message = options_.accumulate_deformation ? "the next scan is taken as it was made"
-                                                       : "nothing to forget: accumulate_deformation is false";
-  } catch (const std::future_error&) {
-    response.message = kShuttingDown;
-  }
-  return true;
 }
 
 }  // namespace mems_stiction

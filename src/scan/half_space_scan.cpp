@@ -1,6 +1,17 @@
 #include "mems_stiction/scan/half_space_scan.hpp"
 
+#include <algorithm>
+
+#include "mems_stiction/mechanics/regime.hpp"
+#include "mems_stiction/scan/block_maxima.hpp"
+
 namespace mems_stiction {
+namespace {
+
+/// Share of the hardness from which on a pressure is the hardness: balance of tractions and single precision.
+constexpr double kAtHardness = 0.999;
+
+}  // namespace
 
 HalfSpaceProblem halfSpaceProblem(const PreparedScan& prepared, const Options& options) {
   HalfSpaceProblem problem;
@@ -11,6 +22,16 @@ HalfSpaceProblem halfSpaceProblem(const PreparedScan& prepared, const Options& o
   problem.capillary = options.capillary;
   problem.load = options.load;
   return problem;
+}
+
+cv::Mat halfSpaceContactMap(const SolvedHalfSpace& solved, const HalfSpaceProblem& problem,
+                            const HalfSpaceOptions& options, int refinement) {
+  if (solved.pressure.empty()) return cv::Mat();
+  cv::Mat map = cv::Mat::zeros(solved.pressure.size(), CV_8UC1);
+  map.setTo(static_cast<int>(Regime::kElastic), solved.pressure > 0.0);  // NaN is not
+  const double hardness = std::min(problem.lower_material.hardness, problem.upper_material.hardness);
+  if (options.flow) map.setTo(static_cast<int>(Regime::kPlastic), solved.pressure > kAtHardness * hardness);
+  return refinement > 1 ? blockMaxima(map, refinement) : map;
 }
 
 }  // namespace mems_stiction

@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/scan/block_maxima.hpp"
 #include "mems_stiction/scan/resolution.hpp"
 
 namespace mems_stiction {
@@ -24,17 +25,6 @@ cv::Mat blockMeans(const cv::Mat& cells, int factor) {
   cv::Mat means;
   cv::resize(cells, means, cells.size() / factor, 0.0, 0.0, cv::INTER_AREA);
   return means;
-}
-
-/// Largest values in blocks of factor x factor cells.
-cv::Mat blockMaxima(const cv::Mat& cells, int factor) {
-  cv::Mat maxima(cells.size() / factor, CV_8UC1, cv::Scalar(0));
-  for (int row = 0; row < cells.rows; ++row) {
-    const std::uint8_t* source = cells.ptr<std::uint8_t>(row);
-    std::uint8_t* target = maxima.ptr<std::uint8_t>(row / factor);
-    for (int col = 0; col < cells.cols; ++col) target[col / factor] = std::max(target[col / factor], source[col]);
-  }
-  return maxima;
 }
 
 HeightMap cropped(const HeightMap& surface, int multiple) {

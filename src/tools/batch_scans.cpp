@@ -152,7 +152,7 @@ HalfSpaceAnswer BatchScans::solve(const std::function<void(const std::string&)>&
   return answer;
 }
 
-void BatchScans::dump(std::size_t number, RowFields fields, const std::optional<HalfSpaceSolution>& half_space) const {
+void BatchScans::dump(std::size_t number, RowFields fields, const std::optional<SolvedHalfSpace>& half_space) const {
   std::ostringstream folder;
   folder << arguments_.dump << "/" << std::setw(6) << std::setfill('0') << number;
   NamedMaps maps;

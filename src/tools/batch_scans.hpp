@@ -55,7 +55,7 @@ class BatchScans {
   const ScanBagReader& open(std::size_t input);
   RowFields predict(const Item& item, ScanOrigin& origin);
   HalfSpaceAnswer solve(const std::function<void(const std::string&)>& tell) const;
-  void dump(std::size_t number, RowFields fields, const std::optional<HalfSpaceSolution>& half_space) const;
+  void dump(std::size_t number, RowFields fields, const std::optional<SolvedHalfSpace>& half_space) const;
 
   const BatchArguments& arguments_;
   std::vector<std::string> inputs_;

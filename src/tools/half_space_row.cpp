@@ -22,7 +22,7 @@ nlohmann::json jsonOf(const Value& value) {
 }
 
 template <typename Visitor>
-void visitFigures(const HalfSpaceSolution& solution, Visitor&& visit) {
+void visitFigures(const SolvedHalfSpace& solution, Visitor&& visit) {
   visitHalfSpaceFields(solution, [&](const char* name, const auto& value, const char* unit) {
     if (std::strcmp(name, kWallTime) != 0) visit(kPrefix + name, value, unit);
   });
@@ -42,7 +42,7 @@ RowFields halfSpaceFields(const HalfSpaceAnswer& answer) {
 
 std::vector<std::string> halfSpaceColumnNames() {
   std::vector<std::string> names;
-  for (const auto& field : halfSpaceFields({HalfSpaceSolution(), ""})) names.push_back(field.first);
+  for (const auto& field : halfSpaceFields({SolvedHalfSpace(), ""})) names.push_back(field.first);
   return names;
 }
 
@@ -54,7 +54,7 @@ std::map<std::string, std::string> halfSpaceColumnUnits() {
   return units;
 }
 
-RowFields halfSpaceExtras(const HalfSpaceSolution& solution) {
+RowFields halfSpaceExtras(const SolvedHalfSpace& solution) {
   nlohmann::json columns = nlohmann::json::object();
   for (const CurvePoint& point : curveOf(solution)) {
     visitCurvePointFields(
@@ -63,7 +63,7 @@ RowFields halfSpaceExtras(const HalfSpaceSolution& solution) {
   return {{kPrefix + kWallTime, solution.processing_time}, {kPrefix + "curve", columns}};
 }
 
-NamedMaps halfSpaceMaps(const HalfSpaceSolution& solution) {
+NamedMaps halfSpaceMaps(const SolvedHalfSpace& solution) {
   NamedMaps maps;
   for (const auto& [name, map] : NamedMaps{{"pressure", solution.pressure},
                                            {"gap", solution.gap},

@@ -15,7 +15,7 @@ namespace mems_stiction {
 
 /// A solution, as far as it came, and why there is none.
 struct HalfSpaceAnswer {
-  std::optional<HalfSpaceSolution> solution;  ///< nothing if it could not be asked
+  std::optional<SolvedHalfSpace> solution;  ///< nothing if it could not be asked
   std::string reason;                         ///< empty if it is solved
 };
 
@@ -30,9 +30,9 @@ std::vector<std::string> halfSpaceColumnNames();
 std::map<std::string, std::string> halfSpaceColumnUnits();
 
 /// half_space_processing_time [s], and half_space_curve by columns.
-RowFields halfSpaceExtras(const HalfSpaceSolution& solution);
+RowFields halfSpaceExtras(const SolvedHalfSpace& solution);
 
 /// half_space_pressure, half_space_gap, half_space_deformed and half_space_counter_deformed, as far as there are.
-NamedMaps halfSpaceMaps(const HalfSpaceSolution& solution);
+NamedMaps halfSpaceMaps(const SolvedHalfSpace& solution);
 
 }  // namespace mems_stiction

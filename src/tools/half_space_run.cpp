@@ -65,7 +65,7 @@ class Progress {
   Clock::time_point shown_{};
 };
 
-void writeCurve(const std::string& path, const HalfSpaceSolution& solution) {
+void writeCurve(const std::string& path, const SolvedHalfSpace& solution) {
   std::ofstream file(path);
   file << "height,force,direction\n";
   for (const CurvePoint& point : curveOf(solution)) {
@@ -75,7 +75,7 @@ void writeCurve(const std::string& path, const HalfSpaceSolution& solution) {
   if (!file) throw FileError(path + ": cannot be written");
 }
 
-void writeMap(const std::string& path, const cv::Mat& map, const HalfSpaceSolution& solution) {
+void writeMap(const std::string& path, const cv::Mat& map, const SolvedHalfSpace& solution) {
   if (path.empty()) return;
   if (map.empty()) throw FileError(path + ": not written: half-space: " + solution.message);
   writeHeightTiff(path, map);
@@ -93,7 +93,7 @@ std::string HalfSpaceText::next(const ForcePoint& point) {
   return text;
 }
 
-HalfSpaceSolution solveWithProgress(const HalfSpaceSolver& solver, const HalfSpaceProblem& problem) {
+SolvedHalfSpace solveWithProgress(const HalfSpaceSolver& solver, const HalfSpaceProblem& problem) {
   const Interruption interruption;  // outlives the line on the terminal, which is gone when the program ends
   Progress progress;
   HalfSpaceControl control;
@@ -112,7 +112,7 @@ std::vector<std::pair<std::string, std::string>> HalfSpaceFiles::wanted() const 
   return files;
 }
 
-void writeFiles(const HalfSpaceFiles& files, const HalfSpaceSolution& solution) {
+void writeFiles(const HalfSpaceFiles& files, const SolvedHalfSpace& solution) {
   if (!files.curve.empty()) writeCurve(files.curve, solution);
   writeMap(files.pressure, solution.pressure, solution);
   writeMap(files.gap, solution.gap, solution);

@@ -24,7 +24,7 @@ class HalfSpaceText {
 
 /// On a terminal it says how far it is, from two seconds on. Ctrl-C ends the program.
 /// @throw as HalfSpaceSolver::solve()
-HalfSpaceSolution solveWithProgress(const HalfSpaceSolver& solver, const HalfSpaceProblem& problem);
+SolvedHalfSpace solveWithProgress(const HalfSpaceSolver& solver, const HalfSpaceProblem& problem);
 
 /// Where the curve and the maps of one solution go; names that are empty are not written.
 struct HalfSpaceFiles {
@@ -40,6 +40,6 @@ struct HalfSpaceFiles {
 /// The curve as CSV: height [m], force [N], direction; a line of names first. Maps as float TIFF: pressure [Pa] and gap
 /// [m] at rest, the lower surface after contact [m].
 /// @throw FileError if one cannot be written, or the solution does not have it
-void writeFiles(const HalfSpaceFiles& files, const HalfSpaceSolution& solution);
+void writeFiles(const HalfSpaceFiles& files, const SolvedHalfSpace& solution);
 
 }  // namespace mems_stiction

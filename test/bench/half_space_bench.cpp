@@ -67,7 +67,7 @@ struct Run {
   double seconds;         ///< passed
   double worked_seconds;  ///< of all threads
   double pairs;           ///< worked
-  HalfSpaceSolution solution;
+  SolvedHalfSpace solution;
 };
 
 Run run(const HalfSpaceProblem& problem, int threads) {
@@ -76,7 +76,7 @@ Run run(const HalfSpaceProblem& problem, int threads) {
   const double pair_before = pairTime(problem.surfaces.lower.rows());
   const double begin = now();
   const double begin_worked = worked();
-  HalfSpaceSolution solution = HalfSpaceSolver(options).solve(problem);
+  SolvedHalfSpace solution = HalfSpaceSolver(options).solve(problem);
   const double seconds = now() - begin;
   const double worked_seconds = worked() - begin_worked;
   const double pair = 0.5 * (pair_before + pairTime(problem.surfaces.lower.rows()));
@@ -93,7 +93,7 @@ bool print(const std::string& work, double figure, const std::string& unit, doub
   return holds;
 }
 
-bool sameBits(const HalfSpaceSolution& a, const HalfSpaceSolution& b) {
+bool sameBits(const SolvedHalfSpace& a, const SolvedHalfSpace& b) {
   return a.pull_off_force == b.pull_off_force && cv::norm(a.gap, b.gap, cv::NORM_INF) == 0.0;
 }
 

@@ -75,10 +75,10 @@ class RosApiTest(unittest.TestCase):
         listed = dict(rows("Subscribed"))
         listed.update(rows("Published"))
         self.assertEqual(set(self.names("Topic")), {name for name in listed if not name.startswith("/")})
-        publisher = source("src/ros/result_publisher.cpp")
+        publisher = source("src/ros/result_publisher.cpp") + source("src/ros/half_space_publisher.cpp")
         constants = dict(re.findall(r'(k\w+Topic)\[\] = "([^"]+)"', source("include/mems_stiction/ros/topic_names.hpp")))
         advertised = re.findall(r"(?:advertise<([\w:]+)>|transport_\.(advertise))\(\s*(k\w+)", publisher)
-        self.assertGreaterEqual(len(advertised), 8)
+        self.assertGreaterEqual(len(advertised), 12)
         for kind, by_transport, constant in advertised:
             expected = "sensor_msgs/Image" if by_transport else kind.replace("::", "/")
             self.assertEqual(rows("Published")[constants[constant]].split("/")[-1], expected.split("/")[-1])
@@ -94,7 +94,7 @@ class RosApiTest(unittest.TestCase):
 
     def test_diagnostics(self):
         added = []
-        for path in ("src/ros/scan_accounting.cpp", "src/ros/stiction_server.cpp"):
+        for path in ("src/ros/scan_accounting.cpp", "src/ros/stiction_server.cpp", "src/ros/half_space_stream.cpp"):
             added += re.findall(r'status\.add\("([^"]+)"', source(path))
         listed = re.findall(r"^\| `([^`]+)` \|", section("Diagnostics"), re.MULTILINE)
         self.assertEqual(listed, added)

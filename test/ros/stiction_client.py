@@ -151,7 +151,7 @@ def _write_grid(path, heights):
     path.write_text("".join(" ".join(repr(float(height)) for height in row) + "\n" for row in heights))
 
 
-def predict_scan(heights, load, voltage=0.0, counter=None):
+def predict_scan(heights, load, voltage=0.0, counter=None, arguments=()):
     """The record of the command line for the same heights [m] at the rostests' settings, counter-surface [m] or none."""
     program = find_node("mems_stiction", "predict_scan")[0]
     config = (pathlib.Path(__file__).parent / "station.yaml").read_text()
@@ -165,7 +165,7 @@ def predict_scan(heights, load, voltage=0.0, counter=None):
                 folder / "counter.txt", PITCH, PITCH)
         (folder / "config.yaml").write_text(config)
         done = subprocess.run([program, "--json", "--config", folder / "config.yaml", "--pitch", repr(PITCH), "--load", repr(load),
-                               "--voltage", repr(voltage), folder / "scan.txt"], check=True, timeout=60, stdout=subprocess.PIPE)
+                               "--voltage", repr(voltage), *arguments, folder / "scan.txt"], check=True, timeout=60, stdout=subprocess.PIPE)
     return json.loads(done.stdout)
 
 

@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// One table of the figures of a HalfSpaceSolution that records hold: name, member, unit. Figures that the asperity
+/// One table of the figures of a SolvedHalfSpace that records hold: name, member, unit. Figures that the asperity
 /// model has too have its names (prediction/prediction_fields.hpp).
 ///
 ///     visitHalfSpaceFields(solution, [&](const char* name, const auto& value, const char* unit) { print(...); });
@@ -47,7 +47,7 @@ inline const char* word(CurveDirection direction) {
 }
 
 /// The points of both ways in the order in which they were met; the one at rest is there twice.
-inline std::vector<CurvePoint> curveOf(const HalfSpaceSolution& solution) {
+inline std::vector<CurvePoint> curveOf(const SolvedHalfSpace& solution) {
   std::vector<CurvePoint> curve;
   for (const ForcePoint& point : solution.approach) {
     curve.push_back({point.height, point.force, CurveDirection::kApproach});
@@ -62,7 +62,7 @@ inline std::vector<CurvePoint> curveOf(const HalfSpaceSolution& solution) {
 /// @param solution as solved, or as far as it came
 /// @param visit called with (name, value, unit) for each figure
 template <typename Visitor>
-void visitHalfSpaceFields(const HalfSpaceSolution& solution, Visitor&& visit) {
+void visitHalfSpaceFields(const SolvedHalfSpace& solution, Visitor&& visit) {
   visit("status", solution.status, "");
   visit("pull_off_force", solution.pull_off_force, "N");
   visit("contact_area", solution.contact_area, "m^2");

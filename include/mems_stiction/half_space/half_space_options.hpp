@@ -12,7 +12,8 @@ enum class HalfSpaceBoundary { kPeriodic, kFree };
 
 /// Settings of HalfSpaceSolver; keys half_space/...
 struct HalfSpaceOptions {
-  double range = 0.0;  ///< z0 of the traction law [m], >= 0; 0 derives it from work of adhesion and Hamaker constant
+  bool enabled = false;  ///< whether a running node solves the newest scan beside its predictions
+  double range = 0.0;    ///< z0 of the traction law [m], >= 0; 0 derives it from work of adhesion and Hamaker constant
   bool attraction = true;  ///< false: surfaces only repel each other, closer than z0
   bool flow = true;        ///< false: no pressure is too high
   HalfSpaceBoundary boundary = HalfSpaceBoundary::kPeriodic;

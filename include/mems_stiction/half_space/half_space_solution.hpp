@@ -25,7 +25,7 @@ enum class HalfSpaceStatus : std::uint8_t {
 
 /// The answer. Figures that were not reached are NaN; the curves hold every state that was solved. Forces and areas are
 /// of the frame; attraction is positive.
-struct HalfSpaceSolution {
+struct SolvedHalfSpace {
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
   HalfSpaceStatus status = HalfSpaceStatus::kCancelled;

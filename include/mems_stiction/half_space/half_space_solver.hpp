@@ -13,7 +13,7 @@
 ///
 ///     HalfSpaceProblem problem;
 ///     problem.surfaces = scan;  // against a plane
-///     const HalfSpaceSolution solution = HalfSpaceSolver(HalfSpaceOptions()).solve(problem);
+///     const SolvedHalfSpace solution = HalfSpaceSolver(HalfSpaceOptions()).solve(problem);
 ///     if (solution.status == HalfSpaceStatus::kSolved) use(solution.pull_off_force);
 
 #include <atomic>
@@ -42,7 +42,7 @@ class HalfSpaceSolver {
 
   /// @throw OptionsError for a work of adhesion, Hamaker constant, material or load that has no solution;
   ///        SurfaceError for a frame without a valid pixel, of more than max_pixels, or grids that differ
-  HalfSpaceSolution solve(const HalfSpaceProblem& problem, const HalfSpaceControl& control = HalfSpaceControl()) const;
+  SolvedHalfSpace solve(const HalfSpaceProblem& problem, const HalfSpaceControl& control = HalfSpaceControl()) const;
 
  private:
   HalfSpaceOptions options_;

@@ -3,9 +3,10 @@
 /// @file
 /// The one implementation behind node and nodelet: connects topics and services with the worker that owns the core.
 ///
-/// Threads: one for topics, transforms and timers, one for the core (WorkQueue), two for services, one for each action. A
-/// service that needs the core is run by the worker before the scans that wait; an action takes from it what it needs
-/// and then works by itself.
+/// Threads: one for topics, transforms and timers, one for the core (WorkQueue), two for services, one for each action,
+/// one for ~solve_half_space, one that solves the newest scan as a half-space. A service that needs the core is run by the
+/// worker before the scans that wait; an action, and the half-space, take from it what they need and then work by
+/// themselves.
 
 #include <atomic>
 #include <memory>
@@ -23,6 +24,8 @@
 #include "mems_stiction/Predict.h"
 #include "mems_stiction/SetLoad.h"
 #include "mems_stiction/ros/counter_surface_frame.hpp"
+#include "mems_stiction/ros/half_space_calls.hpp"
+#include "mems_stiction/ros/half_space_stream.hpp"
 #include "mems_stiction/ros/live_predictor.hpp"
 #include "mems_stiction/ros/reconfigure_server.hpp"
 #include "mems_stiction/ros/result_publisher.hpp"
@@ -87,6 +90,7 @@ class StictionServer {
   ScanAccounting accounting_;
   LivePredictor predictor_;  ///< touched by the worker only, but for what is for every thread
   ResultPublisher publisher_;
+  std::unique_ptr<HalfSpaceStream> half_space_;  ///< null: half_space/enabled is not set
   WorkQueue worker_;
   std::atomic<bool> stopping_{false};
 
@@ -102,6 +106,7 @@ class StictionServer {
   std::vector<ros::ServiceServer> services_;
   ReconfigureServer reconfigure_;
   StationActions actions_;
+  HalfSpaceCalls half_space_calls_;
   diagnostic_updater::Updater diagnostics_;
   ros::WallTimer diagnostic_timer_;
   ros::WallTimer pairing_timer_;

@@ -22,16 +22,22 @@ inline constexpr char kAsperitiesTopic[] = "asperities";
 inline constexpr char kSurfacePointsTopic[] = "surface_points";
 inline constexpr char kAsperityMarkersTopic[] = "asperity_markers";
 inline constexpr char kPreviewTopic[] = "preview";
+inline constexpr char kHalfSpaceTopic[] = "half_space";
+inline constexpr char kHalfSpaceContactMapTopic[] = "half_space_contact_map";
+inline constexpr char kHalfSpaceCurveTopic[] = "half_space_curve";
+inline constexpr char kContactMapsTopic[] = "contact_maps";
 
 // Services, in the node's private namespace
 inline constexpr char kSetLoadService[] = "set_load";
 inline constexpr char kGetLoadService[] = "get_load";
 inline constexpr char kPredictService[] = "predict";
 inline constexpr char kResetSurfaceService[] = "reset_surface";
+inline constexpr char kSolveHalfSpaceService[] = "solve_half_space";
 
 // Actions, there too
 inline constexpr char kSweepLoadAction[] = "sweep_load";
 inline constexpr char kCycleContactAction[] = "cycle_contact";
+inline constexpr char kHalfSpaceAction[] = "half_space";
 
 /// Where dynamic_reconfigure mirrors what is set, there too; no setting of ours.
 inline constexpr char kReconfigureParameters[] = "reconfigure";

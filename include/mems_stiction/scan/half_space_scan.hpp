@@ -5,9 +5,13 @@
 /// both answer the same question.
 ///
 ///     const HalfSpaceSolver solver(configuration.half_space);
-///     const HalfSpaceSolution solution = solver.solve(halfSpaceProblem(prepared, configuration.model));
+///     const SolvedHalfSpace solution = solver.solve(halfSpaceProblem(prepared, configuration.model));
 
+#include <opencv2/core.hpp>
+
+#include "mems_stiction/half_space/half_space_options.hpp"
 #include "mems_stiction/half_space/half_space_problem.hpp"
+#include "mems_stiction/half_space/half_space_solution.hpp"
 #include "mems_stiction/prediction/options.hpp"
 #include "mems_stiction/scan/prepared_scan.hpp"
 
@@ -15,5 +19,12 @@ namespace mems_stiction {
 
 /// Materials, interface, water and loads are those of `options`; its approach is not: the half-space has its own.
 HalfSpaceProblem halfSpaceProblem(const PreparedScan& prepared, const Options& options);
+
+/// Where the surfaces repel each other at rest, with the values of the model's contact map (mechanics/regime.hpp): apart,
+/// elastic, or plastic where the pressure is the hardness of the softer body. CV_8UC1 of the scan's own size: of a
+/// refined scan the severest within each pixel. Empty if there is no rest.
+/// - @p refinement of the prepared scan
+cv::Mat halfSpaceContactMap(const SolvedHalfSpace& solved, const HalfSpaceProblem& problem,
+                            const HalfSpaceOptions& options, int refinement);
 
 }  // namespace mems_stiction

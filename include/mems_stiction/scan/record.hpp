@@ -17,10 +17,10 @@ namespace mems_stiction {
 
 /// What a record may hold beside the prediction; each is left out when empty.
 struct RecordExtras {
-  std::string channel;                          ///< which channel of the file
-  PreprocessRecord preprocessing;               ///< a list of maps: step, parameters, rms_change, changed_pixels, ...
-  std::vector<ConvergenceRow> convergence;      ///< a list of maps, one per resolution
-  std::optional<HalfSpaceSolution> half_space;  ///< a map of its figures, with the list of maps `curve`
+  std::string channel;                        ///< which channel of the file
+  PreprocessRecord preprocessing;             ///< a list of maps: step, parameters, rms_change, changed_pixels, ...
+  std::vector<ConvergenceRow> convergence;    ///< a list of maps, one per resolution
+  std::optional<SolvedHalfSpace> half_space;  ///< a map of its figures, with the list of maps `curve`
 };
 
 /// One YAML document, from its "---" to the end of its last line. Numbers that are not finite are .nan, .inf, -.inf.

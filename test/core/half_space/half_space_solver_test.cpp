@@ -35,7 +35,7 @@ HalfSpaceOptions elastic() {
   return options;
 }
 
-HalfSpaceSolution solve(const HalfSpaceProblem& problem, const HalfSpaceOptions& options = elastic()) {
+SolvedHalfSpace solve(const HalfSpaceProblem& problem, const HalfSpaceOptions& options = elastic()) {
   return HalfSpaceSolver(options).solve(problem);
 }
 
@@ -55,7 +55,7 @@ HeightMap waves(int rows, int cols, double pitch_x, double pitch_y, double ampli
 
 TEST(HalfSpaceSolver, FlatOnFlatIsTheLawItself) {
   const HeightMap flat = analytic::flat(12, 15, 2e-9, 3e-9);
-  const HalfSpaceSolution solution = solve(problemOf(flat));
+  const SolvedHalfSpace solution = solve(problemOf(flat));
   ASSERT_EQ(solution.status, HalfSpaceStatus::kSolved) << solution.message;
   const double area = 12 * 15 * 6e-18;
   // the parabola between steps of 0.2 z0
@@ -77,7 +77,7 @@ TEST(HalfSpaceSolver, HertzsSphereWithoutAttraction) {
   options.step = 2.0;
   HalfSpaceProblem problem = problemOf(sphere);
   problem.load.mechanical_load = hertz::load(1e-9, radius, kModulus);
-  const HalfSpaceSolution solution = solve(problem, options);
+  const SolvedHalfSpace solution = solve(problem, options);
   ASSERT_EQ(solution.status, HalfSpaceStatus::kSolved) << solution.message;
   EXPECT_NEAR(-solution.rest_height / 1e-9, 1.0, 0.01);  // of it z0 0.5 %, the pitch of a/14 the rest
   const double contact = hertz::contactRadius(problem.load.mechanical_load, radius, kModulus);
@@ -101,7 +101,7 @@ TEST(HalfSpaceSolver, WestergaardsWavyWall) {
     options.step = 2.0;
     HalfSpaceProblem problem = problemOf(wave);
     problem.load.mechanical_load = share * full * 2 * cols * pitch * pitch;
-    const HalfSpaceSolution solution = solve(problem, options);
+    const SolvedHalfSpace solution = solve(problem, options);
     ASSERT_EQ(solution.status, HalfSpaceStatus::kSolved) << solution.message;
     // p/p* = sin^2(pi a/length), Johnson (13.11), contact from -a to a; one pixel on each side
     const double half_width = length / kPi * std::asin(std::sqrt(share));
@@ -111,10 +111,10 @@ TEST(HalfSpaceSolver, WestergaardsWavyWall) {
 
 TEST(HalfSpaceSolver, ForcesScaleWithModulusAndAdhesionTogether) {
   const HeightMap lower = waves(24, 30, 5e-9, 5e-9, 0.4e-9);
-  const HalfSpaceSolution one = solve(problemOf(lower));
+  const SolvedHalfSpace one = solve(problemOf(lower));
   HalfSpaceProblem problem = problemOf(lower, 1e-3 * kModulus);
   problem.interface.work_of_adhesion *= 1e-3;
-  const HalfSpaceSolution thousandth = solve(problem);
+  const SolvedHalfSpace thousandth = solve(problem);
   ASSERT_EQ(one.status, HalfSpaceStatus::kSolved);
   EXPECT_NEAR(thousandth.pull_off_force / (1e-3 * one.pull_off_force), 1.0, 1e-3);
   EXPECT_NEAR(thousandth.work_of_adhesion / (1e-3 * one.work_of_adhesion), 1.0, 1e-3);
@@ -122,13 +122,13 @@ TEST(HalfSpaceSolver, ForcesScaleWithModulusAndAdhesionTogether) {
 }
 
 TEST(HalfSpaceSolver, ForcesScaleWithTheSizeOfEverything) {
-  const HalfSpaceSolution one = solve(problemOf(waves(24, 30, 5e-9, 5e-9, 0.4e-9)));
+  const SolvedHalfSpace one = solve(problemOf(waves(24, 30, 5e-9, 5e-9, 0.4e-9)));
   const double scale = 1e4;
   HalfSpaceProblem problem = problemOf(waves(24, 30, 5e-9 * scale, 5e-9 * scale, 0.4e-9 * scale));
   problem.interface.work_of_adhesion *= scale;
   HalfSpaceOptions options = elastic();
   options.range *= scale;
-  const HalfSpaceSolution large = solve(problem, options);
+  const SolvedHalfSpace large = solve(problem, options);
   EXPECT_NEAR(large.pull_off_force / (scale * scale * one.pull_off_force), 1.0, 1e-3);
   EXPECT_NEAR(large.work_of_adhesion / (scale * one.work_of_adhesion), 1.0, 1e-3);
   EXPECT_NEAR(large.mean_gap / (scale * one.mean_gap), 1.0, 1e-3);
@@ -136,8 +136,8 @@ TEST(HalfSpaceSolver, ForcesScaleWithTheSizeOfEverything) {
 
 TEST(HalfSpaceSolver, PitchAndSizeDescribeTheSameSurface) {
   // one surface on 60 x 45 pixels and on 40 x 90
-  const HalfSpaceSolution one = solve(problemOf(waves(60, 45, 4e-9, 3e-9, 0.4e-9)));
-  const HalfSpaceSolution other = solve(problemOf(waves(40, 90, 2e-9, 4.5e-9, 0.4e-9)));
+  const SolvedHalfSpace one = solve(problemOf(waves(60, 45, 4e-9, 3e-9, 0.4e-9)));
+  const SolvedHalfSpace other = solve(problemOf(waves(40, 90, 2e-9, 4.5e-9, 0.4e-9)));
   ASSERT_EQ(one.status, HalfSpaceStatus::kSolved);
   // summits fall on other places of the grid, by up to 2 % of z0
   EXPECT_NEAR(one.pull_off_force / other.pull_off_force, 1.0, 0.02);
@@ -145,8 +145,8 @@ TEST(HalfSpaceSolver, PitchAndSizeDescribeTheSameSurface) {
 }
 
 TEST(HalfSpaceSolver, PrimeSizesAreSolvedToo) {
-  const HalfSpaceSolution prime = solve(problemOf(waves(31, 37, 4e-9, 4e-9, 0.4e-9)));
-  const HalfSpaceSolution even = solve(problemOf(waves(62, 74, 2e-9, 2e-9, 0.4e-9)));
+  const SolvedHalfSpace prime = solve(problemOf(waves(31, 37, 4e-9, 4e-9, 0.4e-9)));
+  const SolvedHalfSpace even = solve(problemOf(waves(62, 74, 2e-9, 2e-9, 0.4e-9)));
   ASSERT_EQ(prime.status, HalfSpaceStatus::kSolved);
   EXPECT_NEAR(prime.pull_off_force / even.pull_off_force, 1.0, 0.02);  // as above
 }
@@ -157,8 +157,8 @@ TEST(HalfSpaceSolver, TwoSurfacesAreTheirComposite) {
   cv::Mat turned = -bump.heights();
   HalfSpaceProblem pair = problemOf(lower);
   pair.surfaces.upper = HeightMap(turned, 5e-9, 5e-9);
-  const HalfSpaceSolution two = solve(pair);
-  const HalfSpaceSolution one = solve(problemOf(analytic::sum(lower, bump)));
+  const SolvedHalfSpace two = solve(pair);
+  const SolvedHalfSpace one = solve(problemOf(analytic::sum(lower, bump)));
   ASSERT_EQ(two.status, HalfSpaceStatus::kSolved);
   EXPECT_NEAR(two.pull_off_force / one.pull_off_force, 1.0, 1e-9);  // heights differ by round-off
 }
@@ -166,17 +166,17 @@ TEST(HalfSpaceSolver, TwoSurfacesAreTheirComposite) {
 TEST(HalfSpaceSolver, FarEdgesDoNotMatterToASinglePeak) {
   const HeightMap sphere = analytic::paraboloid(64, 64, 1e-9, 1e-9, 30e-9);
   HalfSpaceOptions options = elastic();
-  const HalfSpaceSolution periodic = solve(problemOf(sphere), options);
+  const SolvedHalfSpace periodic = solve(problemOf(sphere), options);
   options.boundary = HalfSpaceBoundary::kFree;
-  const HalfSpaceSolution free = solve(problemOf(sphere), options);
+  const SolvedHalfSpace free = solve(problemOf(sphere), options);
   ASSERT_EQ(free.status, HalfSpaceStatus::kSolved) << free.message;
   EXPECT_NEAR(free.pull_off_force / periodic.pull_off_force, 1.0, 5e-3);
 }
 
 TEST(HalfSpaceSolver, InvalidPixelsNeverTouch) {
   const HeightMap flat = analytic::flat(6, 5, 1e-9, 1e-9);
-  const HalfSpaceSolution whole = solve(problemOf(flat));
-  const HalfSpaceSolution solution = solve(problemOf(analytic::withInvalidPixel(flat, 3, 2)));
+  const SolvedHalfSpace whole = solve(problemOf(flat));
+  const SolvedHalfSpace solution = solve(problemOf(analytic::withInvalidPixel(flat, 3, 2)));
   ASSERT_EQ(solution.status, HalfSpaceStatus::kSolved);
   EXPECT_TRUE(std::isnan(solution.gap.at<float>(3, 2)));
   EXPECT_TRUE(std::isnan(solution.pressure.at<float>(3, 2)));
@@ -187,9 +187,9 @@ TEST(HalfSpaceSolver, InvalidPixelsNeverTouch) {
 
 TEST(HalfSpaceSolver, MechanicalLoadIsReachedAndLeavesElasticSurfacesAsTheyWere) {
   HalfSpaceProblem problem = problemOf(waves(32, 32, 5e-9, 5e-9, 1e-9));
-  const HalfSpaceSolution unloaded = solve(problem);
+  const SolvedHalfSpace unloaded = solve(problem);
   problem.load.mechanical_load = 2e-6;
-  const HalfSpaceSolution loaded = solve(problem);
+  const SolvedHalfSpace loaded = solve(problem);
   ASSERT_EQ(loaded.status, HalfSpaceStatus::kSolved) << loaded.message;
   EXPECT_NEAR(loaded.rest_force / -2e-6, 1.0, 2e-3);
   EXPECT_GT(loaded.contact_area, unloaded.contact_area);
@@ -203,9 +203,9 @@ TEST(HalfSpaceSolver, PressureBeyondTheHardnessChangesTheSurface) {
   problem.lower_material.hardness = problem.upper_material.hardness = 2e9;
   problem.load.mechanical_load = 2e-7;
   HalfSpaceOptions options = elastic();
-  const HalfSpaceSolution unharmed = solve(problem, options);
+  const SolvedHalfSpace unharmed = solve(problem, options);
   options.flow = true;
-  const HalfSpaceSolution flowed = solve(problem, options);
+  const SolvedHalfSpace flowed = solve(problem, options);
   ASSERT_EQ(flowed.status, HalfSpaceStatus::kSolved) << flowed.message;
   double highest = 0.0, lost = 0.0;
   for (int row = 0; row < 48; ++row) {
@@ -226,15 +226,15 @@ TEST(HalfSpaceSolver, PressureBeyondTheHardnessChangesTheSurface) {
 
 TEST(HalfSpaceSolver, VoltageAndWaterPullHarder) {
   HalfSpaceProblem problem = problemOf(waves(24, 24, 5e-9, 5e-9, 1e-9));
-  const HalfSpaceSolution dry = solve(problem);
+  const SolvedHalfSpace dry = solve(problem);
   problem.load.voltage = 20.0;
   problem.interface.insulator_thickness = 20e-9;
-  const HalfSpaceSolution charged = solve(problem);
+  const SolvedHalfSpace charged = solve(problem);
   ASSERT_EQ(charged.status, HalfSpaceStatus::kSolved) << charged.message;
   EXPECT_GT(charged.pull_off_force, dry.pull_off_force);
   problem.load.voltage = 0.0;
   problem.capillary.relative_humidity = 0.4;
-  const HalfSpaceSolution wet = solve(problem);
+  const SolvedHalfSpace wet = solve(problem);
   ASSERT_EQ(wet.status, HalfSpaceStatus::kSolved) << wet.message;
   EXPECT_GT(wet.pull_off_force, dry.pull_off_force);
 }
@@ -242,9 +242,9 @@ TEST(HalfSpaceSolver, VoltageAndWaterPullHarder) {
 TEST(HalfSpaceSolver, BitsDoNotDependOnTheThreads) {
   const HalfSpaceProblem problem = problemOf(waves(45, 50, 5e-9, 5e-9, 0.4e-9));
   HalfSpaceOptions options = elastic();
-  const HalfSpaceSolution one = solve(problem, options);
+  const SolvedHalfSpace one = solve(problem, options);
   options.threads = 3;
-  const HalfSpaceSolution three = solve(problem, options);
+  const SolvedHalfSpace three = solve(problem, options);
   ASSERT_EQ(one.retraction.size(), three.retraction.size());
   for (std::size_t i = 0; i < one.retraction.size(); ++i) {
     EXPECT_EQ(one.retraction[i].height, three.retraction[i].height);
@@ -258,9 +258,9 @@ TEST(HalfSpaceSolver, HalvingTheStepChangesThePullOffForceByLessThanTwoPercent) 
   for (const double modulus : {10e9, 88.8e9}) {
     const HalfSpaceProblem problem = problemOf(waves(48, 48, 3e-9, 3e-9, 0.5e-9), modulus);
     HalfSpaceOptions options = elastic();
-    const HalfSpaceSolution usual = solve(problem, options);
+    const SolvedHalfSpace usual = solve(problem, options);
     options.step *= 0.5;
-    const HalfSpaceSolution half = solve(problem, options);
+    const SolvedHalfSpace half = solve(problem, options);
     EXPECT_TRUE(usual.is_step_converged);
     EXPECT_NEAR(half.pull_off_force / usual.pull_off_force, 1.0, 0.02);
   }
@@ -274,7 +274,7 @@ TEST(HalfSpaceSolver, NoPointOfTheCurveExceedsTheStrengthOfTheLaw) {
       problem.interface.work_of_adhesion = 0.1;
       HalfSpaceOptions options = elastic();
       options.step = step;
-      const HalfSpaceSolution solution = solve(problem, options);
+      const SolvedHalfSpace solution = solve(problem, options);
       const double area = 40 * 40 * 1.5e-9 * 1.5e-9;
       const double strength = 1.0264 * problem.interface.work_of_adhesion / kRange * area;
       for (const ForcePoint& point : solution.retraction) EXPECT_LE(point.force, strength);
@@ -293,7 +293,7 @@ TEST(HalfSpaceSolver, LoadBeyondTheHardnessIsNotReached) {
   problem.load.mechanical_load = 1.1 * 12e9 * 16 * 16 * 25e-18;
   HalfSpaceOptions options = elastic();
   options.flow = true;
-  const HalfSpaceSolution solution = solve(problem, options);
+  const SolvedHalfSpace solution = solve(problem, options);
   EXPECT_EQ(solution.status, HalfSpaceStatus::kLoadNotReached);
   EXPECT_NE(solution.message.find("load/mechanical_load"), std::string::npos);
   EXPECT_TRUE(std::isnan(solution.pull_off_force));
@@ -303,7 +303,7 @@ TEST(HalfSpaceSolver, LoadBeyondTheHardnessIsNotReached) {
 TEST(HalfSpaceSolver, LimitsOfTheSearchAreStatuses) {
   HalfSpaceOptions options = elastic();
   options.max_states = 10;
-  const HalfSpaceSolution few = solve(problemOf(waves(16, 16, 5e-9, 5e-9, 1e-9)), options);
+  const SolvedHalfSpace few = solve(problemOf(waves(16, 16, 5e-9, 5e-9, 1e-9)), options);
   EXPECT_EQ(few.status, HalfSpaceStatus::kTooManyStates);
   EXPECT_NE(few.message.find("half_space/max_states = 10"), std::string::npos);
   EXPECT_TRUE(std::isnan(few.pull_off_force));
@@ -318,7 +318,7 @@ TEST(HalfSpaceSolver, CancelEndsTheSearchWithWhatItHas) {
   control.on_state = [&](const ForcePoint&) {
     if (++states == 3) cancel = true;
   };
-  const HalfSpaceSolution solution =
+  const SolvedHalfSpace solution =
       HalfSpaceSolver(elastic()).solve(problemOf(waves(16, 16, 5e-9, 5e-9, 1e-9)), control);
   EXPECT_EQ(solution.status, HalfSpaceStatus::kCancelled);
   EXPECT_EQ(states, 3);

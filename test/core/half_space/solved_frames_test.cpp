@@ -48,7 +48,7 @@ TEST(SolvedFrames, CurvesAndFiguresAreThoseOfAnotherSolver) {
     options.range = reference["z0"];
     options.flow = false;
     options.step = 0.1;  // by default one height of the 180 is off by 2 %, where the curve falls by half within 0.2 z0
-    const HalfSpaceSolution solution = HalfSpaceSolver(options).solve(problem);
+    const SolvedHalfSpace solution = HalfSpaceSolver(options).solve(problem);
     ASSERT_EQ(solution.status, HalfSpaceStatus::kSolved) << solution.message;
     const double pull_off = frame["pull_off_force"];
     for (const char* const direction : {"approach", "retraction"}) {

@@ -31,7 +31,7 @@ double pullOff(double tabor, int pixels, double pitch) {
   HalfSpaceOptions options;
   options.range = kRange;
   options.flow = false;
-  const HalfSpaceSolution solution = HalfSpaceSolver(options).solve(problem);
+  const SolvedHalfSpace solution = HalfSpaceSolver(options).solve(problem);
   EXPECT_EQ(solution.status, HalfSpaceStatus::kSolved) << solution.message;
   EXPECT_TRUE(solution.is_resolved);
   return solution.pull_off_force / (kPi * kWork * kRadius);

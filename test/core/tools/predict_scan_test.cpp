@@ -200,7 +200,7 @@ class PredictScanHalfSpace : public PredictScan {
   }
 
   /// What the library says of the same.
-  HalfSpaceSolution expected() const {
+  SolvedHalfSpace expected() const {
     Configuration configuration;
     configuration.model.lower.hardness = 1e9;
     configuration.model.load.mechanical_load = 1e-7;
@@ -218,7 +218,7 @@ class PredictScanHalfSpace : public PredictScan {
 };
 
 TEST_F(PredictScanHalfSpace, RecordHasTheLibrarysSolution) {
-  const HalfSpaceSolution expected = this->expected();
+  const SolvedHalfSpace expected = this->expected();
   ASSERT_EQ(expected.status, HalfSpaceStatus::kSolved) << expected.message;
   const Outcome outcome = run("--json " + arguments());
   ASSERT_EQ(outcome.status, 0);
@@ -253,7 +253,7 @@ TEST_F(PredictScanHalfSpace, RecordHasTheLibrarysSolution) {
 }
 
 TEST_F(PredictScanHalfSpace, CurveFileHasThePullOffForceAsItsLargestAttraction) {
-  const HalfSpaceSolution expected = this->expected();
+  const SolvedHalfSpace expected = this->expected();
   ASSERT_EQ(run("--curve " + folder_.file("curve.csv") + " " + arguments()).status, 0);
   std::istringstream lines(ScratchFolder::read(folder_.file("curve.csv")));
   std::string line;
@@ -276,7 +276,7 @@ TEST_F(PredictScanHalfSpace, CurveFileHasThePullOffForceAsItsLargestAttraction) 
 }
 
 TEST_F(PredictScanHalfSpace, MapFilesAreTheLibrarysMaps) {
-  const HalfSpaceSolution expected = this->expected();
+  const SolvedHalfSpace expected = this->expected();
   const std::string pressure_file = folder_.file("pressure.tiff");
   const std::string gap_file = folder_.file("gap.tiff");
   const std::string deformed_file = folder_.file("deformed.tiff");

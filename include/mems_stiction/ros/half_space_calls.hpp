@@ -1,0 +1,52 @@
+#pragma once
+
+/// @file
+/// The half-space of one scan on demand: the service ~solve_half_space, which waits for the answer, and the action
+/// ~half_space with progress and cancel. Each has a thread of its own, so that neither predictions nor other services
+/// wait for it; one call and one goal at a time.
+
+#include <atomic>
+
+#include <ros/callback_queue.h>
+#include <ros/node_handle.h>
+#include <ros/spinner.h>
+
+#include "mems_stiction/HalfSpaceAction.h"
+#include "mems_stiction/HalfSpaceSolution.h"
+#include "mems_stiction/SolveHalfSpace.h"
+#include "mems_stiction/half_space/half_space_solver.hpp"
+#include "mems_stiction/ros/long_run.hpp"
+#include "mems_stiction/ros/station_actions.hpp"
+
+namespace mems_stiction {
+
+/// Service and action.
+class HalfSpaceCalls {
+ public:
+  HalfSpaceCalls(const ros::NodeHandle& private_handle, const HalfSpaceOptions& options, FindCase find_case);
+  ~HalfSpaceCalls();
+  HalfSpaceCalls(const HalfSpaceCalls&) = delete;
+  HalfSpaceCalls& operator=(const HalfSpaceCalls&) = delete;
+
+  void start();
+  /// Ends what runs after its present transform; it is answered as cancelled.
+  void stop();
+
+ private:
+  /// - @p asked goal or request, which have the same fields
+  template <typename Asked>
+  HalfSpaceSolution solve(const Asked& asked, const HalfSpaceControl& control);
+  bool serve(SolveHalfSpace::Request& request, SolveHalfSpace::Response& response);
+  bool run(const HalfSpaceGoal& goal, HalfSpaceResult& result);
+
+  const HalfSpaceSolver solver_;
+  FindCase find_case_;
+  std::atomic<bool> stopping_{false};
+  LongRun<HalfSpaceAction> action_;
+  ros::CallbackQueue queue_;
+  ros::NodeHandle handle_;
+  ros::ServiceServer service_;
+  ros::AsyncSpinner spinner_;
+};
+
+}  // namespace mems_stiction

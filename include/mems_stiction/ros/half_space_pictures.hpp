@@ -1,0 +1,23 @@
+#pragma once
+
+/// @file
+/// The half-space's answer as pictures for a screen; bgr8, of a size that does not depend on the scan. For looking at, not
+/// for measuring.
+
+#include <sensor_msgs/Image.h>
+#include <opencv2/core.hpp>
+
+#include "mems_stiction/HalfSpaceSolution.h"
+
+namespace mems_stiction {
+
+/// Force over height: approach and retraction, with axes, the pull-off marked and the figures above; without a curve the
+/// sentence that says why.
+sensor_msgs::ImagePtr curvePicture(const HalfSpaceSolution& solution);
+
+/// Both contact maps of one scan side by side, in the colours of the regimes.
+/// - @p model_map, @p half_space_map CV_8UC1 with the values of mechanics/regime.hpp, or empty
+sensor_msgs::ImagePtr contactMapsPicture(const cv::Mat& model_map, const cv::Mat& half_space_map,
+                                         const std_msgs::Header& header);
+
+}  // namespace mems_stiction

@@ -1,0 +1,83 @@
+#pragma once
+
+/// @file
+/// half_space/enabled: the half-space beside the predictions. A thread of its own solves the newest scan, publishes it,
+/// and takes the scan that is the newest then; scans between are skipped. It solves what was predicted, the prepared scan
+/// and the settings of its prediction, whatever changes meanwhile: a solution that runs while a load is set is finished,
+/// and so belongs to the prediction of its stamp.
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include <diagnostic_updater/DiagnosticStatusWrapper.h>
+#include <ros/node_handle.h>
+#include <opencv2/core.hpp>
+
+#include "mems_stiction/half_space/half_space_solver.hpp"
+#include "mems_stiction/ros/half_space_publisher.hpp"
+#include "mems_stiction/ros/live_predictor.hpp"
+
+namespace mems_stiction {
+
+/// Solves the newest of the scans that it is offered.
+class HalfSpaceStream {
+ public:
+  /// Called for each scan without a solution, on the thread of the half-space.
+  using Warn = std::function<void(const std_msgs::Header& header, const std::string& text)>;
+
+  HalfSpaceStream(const ros::NodeHandle& handle, const HalfSpaceOptions& options, Warn warn);
+  ~HalfSpaceStream() { stop(); }
+  HalfSpaceStream(const HalfSpaceStream&) = delete;
+  HalfSpaceStream& operator=(const HalfSpaceStream&) = delete;
+
+  void start();
+  /// Gives up what is being solved, which is not published, and joins the thread.
+  void stop();
+
+  /// Whether offer() wants the model's contact map.
+  bool isModelMapWanted() const { return publisher_.areBothMapsWanted(); }
+
+  /// Takes the place of a scan that waits. Copies no pixels but the map's.
+  /// - @p model_map contact map of the prediction; may be empty
+  void offer(const StationCase& predicted, const cv::Mat& model_map);
+
+  /// One status with every count; WARN if a scan since the last report has no solution.
+  void report(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+ private:
+  struct Task {
+    StationCase predicted;
+    cv::Mat model_map;
+  };
+  /// Since start.
+  struct Counts {
+    std::uint64_t offered = 0;  ///< solved + skipped + failed + the one at hand and the one that waits
+    std::uint64_t solved = 0;
+    std::uint64_t skipped = 0;  ///< a newer scan came before their turn
+    std::uint64_t failed = 0;   ///< published with another status
+  };
+
+  void loop();
+  void solve(const Task& task);
+
+  const HalfSpaceSolver solver_;
+  HalfSpacePublisher publisher_;
+  Warn warn_;
+  std::atomic<bool> stopping_{false};
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::optional<Task> waiting_;
+  Counts counts_;
+  std::uint64_t reported_failed_ = 0;
+  std::string last_failure_;
+  double last_time_ = 0.0;  ///< of a solution [s]
+  std::thread thread_;
+};
+
+}  // namespace mems_stiction

@@ -1,0 +1,130 @@
+#include "mems_stiction/ros/half_space_calls.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <future>
+#include <utility>
+
+#include "mems_stiction/ros/background_thread.hpp"
+#include "mems_stiction/ros/half_space_conversion.hpp"
+#include "mems_stiction/ros/topic_names.hpp"
+#include "mems_stiction/scan/half_space_scan.hpp"
+
+namespace mems_stiction {
+namespace {
+
+static_assert(static_cast<int>(HalfSpaceFeedback::APPROACH) == HalfSpacePoint::APPROACH, "phase");
+static_assert(static_cast<int>(HalfSpaceFeedback::RETRACTION) == HalfSpacePoint::RETRACTION, "phase");
+
+constexpr std::uint32_t kServiceThreads = 1;
+constexpr std::chrono::milliseconds kFeedbackPeriod{50};
+
+/// How far the path is. Where it will come to rest is not known on the way down, where the share approaches a half.
+class PathProgress {
+ public:
+  HalfSpaceFeedback after(const ForcePoint& point) {
+    HalfSpaceFeedback feedback;
+    if (!has_begun_) start_ = lowest_ = point.height;
+    has_begun_ = true;
+    const bool comes_down = point.height <= lowest_;
+    lowest_ = std::min(lowest_, point.height);
+    const double fallen = start_ - lowest_;
+    if (comes_down) {
+      progress_ = 0.5 * fallen / (fallen + start_);
+    } else {
+      progress_ = std::clamp(0.5 + 0.5 * (point.height - lowest_) / fallen, progress_, 1.0);
+    }
+    feedback.phase = comes_down ? HalfSpaceFeedback::APPROACH : HalfSpaceFeedback::RETRACTION;
+    feedback.progress = progress_;
+    feedback.height = point.height;
+    feedback.force = point.force;
+    return feedback;
+  }
+
+ private:
+  bool has_begun_ = false;
+  double start_ = 0.0;   ///< where nothing touches [m], > 0
+  double lowest_ = 0.0;  ///< so far [m]
+  double progress_ = 0.0;
+};
+
+}  // namespace
+
+HalfSpaceCalls::HalfSpaceCalls(const ros::NodeHandle& private_handle, const HalfSpaceOptions& options,
+                               FindCase find_case)
+    : solver_(options),
+      find_case_(std::move(find_case)),
+      action_(private_handle, kHalfSpaceAction, [this](const auto& goal, auto& result) { return run(goal, result); }),
+      handle_(private_handle),
+      spinner_(kServiceThreads, &queue_) {
+  handle_.setCallbackQueue(&queue_);
+  service_ = handle_.advertiseService(kSolveHalfSpaceService, &HalfSpaceCalls::serve, this);
+}
+
+HalfSpaceCalls::~HalfSpaceCalls() {
+  stop();
+  spinner_.stop();
+}
+
+void HalfSpaceCalls::start() {
+  action_.start();
+  spinner_.start();
+}
+
+void HalfSpaceCalls::stop() {
+  stopping_ = true;
+  action_.stop();
+}
+
+template <typename Asked>
+HalfSpaceSolution HalfSpaceCalls::solve(const Asked& asked, const HalfSpaceControl& control) {
+  yieldToOtherThreads();
+  std_msgs::Header header = asked.height.header;
+  LoadOptions load;
+  load.voltage = asked.voltage;
+  load.mechanical_load = asked.mechanical_load;
+  try {
+    const StationCase station_case = find_case_(asked.height, asked.scan_info);
+    header = station_case.header;
+    Options options = station_case.settings->model;
+    if (!std::isnan(asked.voltage)) options.load.voltage = asked.voltage;
+    if (!std::isnan(asked.mechanical_load)) options.load.mechanical_load = asked.mechanical_load;
+    load = options.load;
+    options.check();
+    return halfSpaceMessage(solver_.solve(halfSpaceProblem(station_case.scan, options), control), load, header);
+  } catch (const std::future_error&) {
+    return refusedMessage(kShuttingDown, load, header);
+  } catch (const std::exception& error) {
+    return refusedMessage(error.what(), load, header);
+  }
+}
+
+bool HalfSpaceCalls::serve(SolveHalfSpace::Request& request, SolveHalfSpace::Response& response) {
+  HalfSpaceControl control;
+  control.cancel = &stopping_;
+  response.solution = solve(request, control);
+  response.success = response.solution.status == HalfSpaceSolution::SOLVED;
+  response.message = stopping_ ? kShuttingDown : response.solution.message;
+  return true;
+}
+
+bool HalfSpaceCalls::run(const HalfSpaceGoal& goal, HalfSpaceResult& result) {
+  PathProgress progress;
+  std::chrono::steady_clock::time_point told;
+  HalfSpaceControl control;
+  control.cancel = &action_.cancel();
+  control.on_state = [&](const ForcePoint& point) {
+    const HalfSpaceFeedback feedback = progress.after(point);
+    const auto now = std::chrono::steady_clock::now();
+    if (now - told < kFeedbackPeriod) return;
+    told = now;
+    action_.publishFeedback(feedback);
+  };
+  result.solution = solve(goal, control);
+  const bool is_solved = result.solution.status == HalfSpaceSolution::SOLVED;
+  if (!is_solved && result.solution.status != HalfSpaceSolution::CANCELLED) result.message = result.solution.message;
+  return is_solved;
+}
+
+}  // namespace mems_stiction

@@ -1,0 +1,85 @@
+#include "mems_stiction/ros/half_space_conversion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "mems_stiction/base/one_line.hpp"
+
+namespace mems_stiction {
+namespace {
+
+// The message states the same numbers as the core's enumeration.
+static_assert(static_cast<int>(HalfSpaceStatus::kSolved) == HalfSpaceSolution::SOLVED, "status");
+static_assert(static_cast<int>(HalfSpaceStatus::kLoadNotReached) == HalfSpaceSolution::LOAD_NOT_REACHED, "status");
+static_assert(static_cast<int>(HalfSpaceStatus::kNotConverged) == HalfSpaceSolution::NOT_CONVERGED, "status");
+static_assert(static_cast<int>(HalfSpaceStatus::kTooManyStates) == HalfSpaceSolution::TOO_MANY_STATES, "status");
+static_assert(static_cast<int>(HalfSpaceStatus::kCancelled) == HalfSpaceSolution::CANCELLED, "status");
+
+constexpr std::int32_t kUnknownCount = -1;
+
+void addPoints(const std::vector<ForcePoint>& points, std::uint8_t direction, std::vector<HalfSpacePoint>& curve) {
+  if (points.empty()) return;
+  const auto largest = static_cast<std::size_t>(
+      std::max_element(points.begin(), points.end(),
+                       [](const ForcePoint& left, const ForcePoint& right) { return left.force < right.force; }) -
+      points.begin());
+  // the last and the largest one may come on top of every stride-th
+  const std::size_t stride = points.size() <= kMostCurvePoints ? 1 : points.size() / (kMostCurvePoints - 2) + 1;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (i % stride != 0 && i != largest && i + 1 != points.size()) continue;
+    HalfSpacePoint point;
+    point.height = points[i].height;
+    point.force = points[i].force;
+    point.direction = direction;
+    curve.push_back(point);
+  }
+}
+
+}  // namespace
+
+HalfSpaceSolution halfSpaceMessage(const SolvedHalfSpace& solved, const LoadOptions& load,
+                                   const std_msgs::Header& header) {
+  HalfSpaceSolution message;
+  message.header = header;
+  message.status = static_cast<std::uint8_t>(solved.status);
+  message.message = oneLine(solved.message);
+  message.voltage = load.voltage;
+  message.mechanical_load = load.mechanical_load;
+
+  message.pull_off_force = solved.pull_off_force;
+  message.pull_off_uncertainty = solved.pull_off_uncertainty;
+  message.pull_off_height = solved.pull_off_height;
+  message.apparent_work_of_adhesion = solved.work_of_adhesion;
+  message.adhesion_hysteresis = solved.hysteresis;
+
+  message.rest_height = solved.rest_height;
+  message.contact_area = solved.contact_area;
+  message.contact_fraction = solved.contact_fraction;
+  message.contact_count = std::isnan(solved.contact_area) ? kUnknownCount : solved.contact_count;
+  message.mean_gap = solved.mean_gap;
+  message.flowed_volume = solved.flowed_volume;
+
+  message.is_converged = static_cast<std::uint8_t>(solved.is_converged);
+  message.is_resolved = static_cast<std::uint8_t>(solved.is_resolved);
+  message.is_step_converged = static_cast<std::uint8_t>(solved.is_step_converged);
+  message.cohesive_length = solved.cohesive_length;
+  message.range = solved.range;
+  message.jumps = static_cast<std::uint32_t>(solved.jumps);
+  message.states = static_cast<std::uint32_t>(solved.state_count);
+  message.iterations = static_cast<std::uint32_t>(solved.newton_steps);
+  message.processing_time = solved.processing_time;
+
+  addPoints(solved.approach, HalfSpacePoint::APPROACH, message.curve);
+  addPoints(solved.retraction, HalfSpacePoint::RETRACTION, message.curve);
+  return message;
+}
+
+HalfSpaceSolution refusedMessage(const std::string& reason, const LoadOptions& load, const std_msgs::Header& header) {
+  HalfSpaceSolution message = halfSpaceMessage(SolvedHalfSpace(), load, header);
+  message.status = HalfSpaceSolution::REFUSED;
+  message.message = oneLine(reason);
+  return message;
+}
+
+}  // namespace mems_stiction

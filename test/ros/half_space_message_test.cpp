@@ -1,0 +1,173 @@
+/// The half-space's message and pictures hold what was solved, and no figure where nothing was.
+
+#include <cmath>
+#include <set>
+#include <sstream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "mems_stiction/half_space/half_space_fields.hpp"
+#include "mems_stiction/ros/half_space_conversion.hpp"
+#include "mems_stiction/ros/half_space_pictures.hpp"
+
+namespace mems_stiction {
+namespace {
+
+SolvedHalfSpace solvedWithCurve(int points) {
+  SolvedHalfSpace solved;
+  solved.status = HalfSpaceStatus::kSolved;
+  solved.pull_off_force = 2e-7;
+  solved.pull_off_height = 3e-10;
+  solved.contact_area = 4e-16;
+  solved.contact_count = 7;
+  for (int i = 0; i < points; ++i) {
+    ForcePoint point;
+    point.height = 1e-9 - 2e-9 * i / points;
+    point.force = i == points / 3 ? 2e-7 : 1e-7 * std::sin(0.001 * i);
+    solved.approach.push_back(point);
+    point.height = -point.height;
+    solved.retraction.push_back(point);
+  }
+  return solved;
+}
+
+LoadOptions someLoad() {
+  LoadOptions load;
+  load.voltage = 3.0;
+  load.mechanical_load = 2e-6;
+  return load;
+}
+
+/// As ROS prints a value.
+std::string text(double value) {
+  std::ostringstream stream;
+  stream << value;
+  return stream.str();
+}
+std::string text(bool value) { return value ? "1" : "0"; }
+std::string text(int value) { return std::to_string(value); }
+std::string text(HalfSpaceStatus value) { return std::to_string(static_cast<int>(value)); }
+
+TEST(HalfSpaceMessage, HoldsEveryFieldOfTheRecord) {
+  SolvedHalfSpace solved = solvedWithCurve(10);
+  solved.status = HalfSpaceStatus::kNotConverged;
+  solved.message = "a sentence";
+  solved.contact_fraction = 0.25;
+  solved.mean_gap = 1.5e-9;
+  solved.work_of_adhesion = 0.001;
+  solved.hysteresis = 0.002;
+  solved.is_converged = solved.is_resolved = true;
+  solved.newton_steps = 111;
+  solved.processing_time = 0.5;
+  std_msgs::Header header;
+  header.frame_id = "stage";
+  const HalfSpaceSolution message = halfSpaceMessage(solved, someLoad(), header);
+  std::ostringstream stream;
+  stream << message;
+  std::set<std::string> lines;
+  std::string line;
+  for (std::istringstream reader(stream.str()); std::getline(reader, line);) lines.insert(line);
+  int visited = 0;
+  visitHalfSpaceFields(solved, [&](const char* name, const auto& value, const char*) {
+    EXPECT_TRUE(lines.count(std::string(name) + ": " + text(value))) << name << " in\n" << stream.str();
+    ++visited;
+  });
+  EXPECT_EQ(visited, 11);
+  EXPECT_EQ(message.header.frame_id, "stage");
+  EXPECT_EQ(message.message, "a sentence");
+  EXPECT_EQ(message.voltage, 3.0);
+  EXPECT_EQ(message.mechanical_load, 2e-6);
+  EXPECT_EQ(message.contact_count, 7);
+
+  const std::vector<CurvePoint> curve = curveOf(solved);
+  ASSERT_EQ(message.curve.size(), curve.size());
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    EXPECT_EQ(message.curve[i].height, curve[i].height);
+    EXPECT_EQ(message.curve[i].force, curve[i].force);
+    EXPECT_EQ(message.curve[i].direction, static_cast<int>(curve[i].direction));
+  }
+}
+
+TEST(HalfSpaceMessage, ALongCurveKeepsItsEndsAndItsLargestForce) {
+  for (const int points : {4096, 4097, 8190, 8191, 100000}) {
+    const SolvedHalfSpace solved = solvedWithCurve(points);
+    const HalfSpaceSolution message = halfSpaceMessage(solved, someLoad(), {});
+    ASSERT_LE(message.curve.size(), 2 * kMostCurvePoints) << points;
+    ASSERT_GT(message.curve.size(), kMostCurvePoints / 2)
+        << points;  // a stride of 2 halves the shortest that is too long
+    EXPECT_EQ(message.curve.front().height, solved.approach.front().height);
+    EXPECT_EQ(message.curve.back().height, solved.retraction.back().height);
+    int largest = 0;
+    for (const HalfSpacePoint& point : message.curve) largest += point.force == 2e-7 ? 1 : 0;
+    EXPECT_EQ(largest, 2) << points;
+  }
+}
+
+TEST(HalfSpaceMessage, ARefusalHasNoFigures) {
+  const HalfSpaceSolution message = refusedMessage("two\nlines", someLoad(), {});
+  EXPECT_EQ(message.status, HalfSpaceSolution::REFUSED);
+  EXPECT_EQ(message.message, "two; lines");
+  for (const double figure : {message.pull_off_force, message.pull_off_uncertainty, message.pull_off_height,
+                              message.apparent_work_of_adhesion, message.adhesion_hysteresis, message.rest_height,
+                              message.contact_area, message.contact_fraction, message.mean_gap, message.flowed_volume,
+                              message.cohesive_length, message.range, message.processing_time}) {
+    EXPECT_TRUE(std::isnan(figure));
+  }
+  EXPECT_EQ(message.contact_count, -1);
+  EXPECT_FALSE(message.is_converged || message.is_resolved || message.is_step_converged);
+  EXPECT_TRUE(message.curve.empty());
+}
+
+/// How many pixels of a bgr8 picture have this colour.
+int pixelsOf(const sensor_msgs::Image& image, int red, int green, int blue) {
+  int count = 0;
+  for (std::size_t i = 0; i + 2 < image.data.size(); i += 3) {
+    count += image.data[i] == blue && image.data[i + 1] == green && image.data[i + 2] == red ? 1 : 0;
+  }
+  return count;
+}
+
+TEST(HalfSpacePictures, EachWayOfTheCurveHasItsColour) {
+  const HalfSpaceSolution message = halfSpaceMessage(solvedWithCurve(400), someLoad(), {});
+  const sensor_msgs::ImagePtr picture = curvePicture(message);
+  EXPECT_EQ(picture->encoding, "bgr8");
+  // Lines two pixels wide across a plot of 860 pixels; where they cross one hides the other.
+  EXPECT_GT(pixelsOf(*picture, 127, 178, 255), 400);
+  EXPECT_GT(pixelsOf(*picture, 242, 183, 5), 400);
+  const sensor_msgs::ImagePtr refused = curvePicture(refusedMessage("no valid pixel", someLoad(), {}));
+  EXPECT_EQ(pixelsOf(*refused, 127, 178, 255) + pixelsOf(*refused, 242, 183, 5), 0);
+  EXPECT_EQ(refused->data.size(), picture->data.size());
+}
+
+TEST(HalfSpacePictures, CurvesWithoutExtentAreDrawn) {
+  SolvedHalfSpace solved;
+  solved.approach.resize(1);
+  EXPECT_FALSE(curvePicture(halfSpaceMessage(solved, someLoad(), {}))->data.empty());
+  solved.approach.resize(3);
+  solved.approach[1].force = 1e-30;
+  EXPECT_FALSE(curvePicture(halfSpaceMessage(solved, someLoad(), {}))->data.empty());
+}
+
+TEST(HalfSpacePictures, BothMapsStandSideBySide) {
+  cv::Mat model = cv::Mat::zeros(40, 80, CV_8UC1);
+  model.colRange(0, 20).setTo(2);
+  cv::Mat half_space = cv::Mat::zeros(40, 80, CV_8UC1);
+  half_space.colRange(0, 40).setTo(1);
+  const sensor_msgs::ImagePtr both = contactMapsPicture(model, half_space, {});
+  // 480 x 240 pixels each: a quarter of the one is yellow, half of the other is blue.
+  EXPECT_EQ(pixelsOf(*both, 242, 183, 5), 120 * 240);
+  EXPECT_EQ(pixelsOf(*both, 47, 127, 209), 240 * 240);
+  const sensor_msgs::ImagePtr one = contactMapsPicture(cv::Mat(), half_space, {});
+  EXPECT_EQ(pixelsOf(*one, 242, 183, 5), 0);
+  EXPECT_EQ(pixelsOf(*one, 47, 127, 209), 240 * 240);
+}
+
+TEST(HalfSpacePictures, AContactOfOnePixelOfALargeScanIsSeen) {
+  cv::Mat map = cv::Mat::zeros(2048, 2047, CV_8UC1);
+  map.at<std::uint8_t>(1023, 701) = 3;
+  EXPECT_GE(pixelsOf(*contactMapsPicture(map, cv::Mat(), {}), 209, 50, 47), 1);
+}
+
+}  // namespace
+}  // namespace mems_stiction
