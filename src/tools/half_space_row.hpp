@@ -16,7 +16,7 @@ namespace mems_stiction {
 /// A solution, as far as it came, and why there is none.
 struct HalfSpaceAnswer {
   std::optional<SolvedHalfSpace> solution;  ///< nothing if it could not be asked
-  std::string reason;                         ///< empty if it is solved
+  std::string reason;                       ///< empty if it is solved
 };
 
 /// half_space_reason, then the figures by the names of the record's half_space with half_space_ before them; those that

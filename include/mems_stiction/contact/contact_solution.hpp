@@ -98,8 +98,8 @@ struct ContactSolution {
 
   bool has_asperities = false;  ///< false: `asperities` is empty because the solver knows none
   std::vector<Asperity> asperities;
-  std::vector<EnergyPoint> energy_curve;  ///< if output.energy_curve asks for it
-  std::vector<SeparationCurvePoint> curve;          ///< force over displacement; empty if the solver does not follow it
+  std::vector<EnergyPoint> energy_curve;    ///< if output.energy_curve asks for it
+  std::vector<SeparationCurvePoint> curve;  ///< force over displacement; empty if the solver does not follow it
 
   // Maps, rows x cols of the frame, if `output` asks for them.
   cv::Mat contact_map;      ///< CV_8UC1, values of Regime

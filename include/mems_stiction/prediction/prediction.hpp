@@ -93,9 +93,9 @@ struct Prediction {
   std::vector<Asperity> asperities;
   std::vector<EnergyPoint> energy_curve;
   std::vector<SeparationCurvePoint> curve;  ///< force over displacement; empty if the formulation does not follow it
-  cv::Mat deformed_lower;         ///< rows x cols CV_64FC1 [m], NaN where invalid
-  cv::Mat deformed_upper;         ///< the same in the upper surface's own z [m]
-  cv::Mat contact_map;            ///< rows x cols CV_8UC1, values of Regime
+  cv::Mat deformed_lower;                   ///< rows x cols CV_64FC1 [m], NaN where invalid
+  cv::Mat deformed_upper;                   ///< the same in the upper surface's own z [m]
+  cv::Mat contact_map;                      ///< rows x cols CV_8UC1, values of Regime
   cv::Mat pressure;  ///< rows x cols CV_64FC1 [Pa], repulsion positive; empty if the solver does not know it
 
   double median_contact_pixels = 0.0;  ///< pixels of the scan in half of the contacts or fewer [-]; NaN without contact
