@@ -20,8 +20,6 @@ constexpr double kConformingShare = 0.4;
 /// this share of what it can as plastic.
 constexpr double kElasticShare = 0.97;
 constexpr double kPlasticShare = 0.95;
-/// Surfaces change when flow has taken more than this of any overlap.
-constexpr double kNoticeableFlow = 1e-3;
 /// A plasticity index at which (12) lets all of the interference flow.
 constexpr double kFullyPlastic = 2.0;
 
@@ -101,7 +99,7 @@ void SeparationSolver::takeRest(const ContactProblem& problem, ContactSolution& 
   OverlapSweep& sweep = trace_.contacts();
   contacts_.assign(sweep.idEnd(), {});
   solution.contact_area = 0.0;
-  flowed_share_ = 0.0;
+  has_flowed_ = false;
   double touching = 0.0;
   for (const std::int32_t id : sweep.livePatches()) {
     const OverlapPatch& patch = sweep.patch(id);
@@ -112,7 +110,10 @@ void SeparationSolver::takeRest(const ContactProblem& problem, ContactSolution& 
     contact.area = realArea(contact.load, area, 2.0 * kPi * trace_.law().workOfAdhesion() * radius,
                             trace_.pullOffPrefactor(radius / patch.summits), trace_.hardness());
     solution.contact_area += contact.area;
-    flowed_share_ = std::max(flowed_share_, 1.0 - contact.load.elasticShare());
+    const double area_share = std::max(0.5, contact.load.carried / (trace_.hardness() * area));
+    contact.kept = KeptOverlap(contact.load.elastic / (trace_.hardness() * area), area_share,
+                               patch.depth(rest.approach), rest.approach - patch.first_gap);
+    has_flowed_ = has_flowed_ || contact.kept.isChanged();
     touching += patch.gap_sum;
   }
   for (const std::int32_t cell : sweep.insertedCells()) {
@@ -190,7 +191,7 @@ void SeparationSolver::fillMaps(const ContactProblem& problem, ContactSolution& 
       }
     }
     if (wants_surfaces) {
-      const double flowed = (1.0 - contact.load.elasticShare()) * overlap;
+      const double flowed = overlap - contact.kept.of(overlap);
       solution.displaced_lower.at<double>(place.row, place.col) -= share.lower(kFullyPlastic) * flowed;
       solution.displaced_upper.at<double>(place.row, place.col) += share.upper(kFullyPlastic) * flowed;
     }
@@ -198,16 +199,16 @@ void SeparationSolver::fillMaps(const ContactProblem& problem, ContactSolution& 
 }
 
 void SeparationSolver::partFlowed(const ContactProblem& problem, ContactSolution& solution) {
-  if (flowed_share_ < kNoticeableFlow) return;
+  if (!has_flowed_) return;
   const GapField& field = problem.gap;
   const double approach = curve_.rest().approach;
   cv::Mat relief(field.rows(), field.cols(), CV_64FC1);
   for (int row = 0; row < field.rows(); ++row) field.gapsOfRow(row, relief.ptr<double>(row));
   OverlapSweep& sweep = trace_.contacts();
   for (const std::int32_t cell : sweep.insertedCells()) {
-    const double kept = contacts_[static_cast<std::size_t>(sweep.patchOf(cell))].load.elasticShare();
+    const Contact& contact = contacts_[static_cast<std::size_t>(sweep.patchOf(cell))];
     double& gap = relief.at<double>(cell / field.cols(), cell % field.cols());
-    gap = approach - kept * (approach - gap);
+    gap = approach - contact.kept.of(approach - gap);
   }
   double first_touch = 0.0;
   cv::minMaxLoc(relief, &first_touch, nullptr);

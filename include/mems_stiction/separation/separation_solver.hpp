@@ -18,6 +18,7 @@
 
 #include "mems_stiction/contact/contact_solver.hpp"
 #include "mems_stiction/separation/conforming_contact.hpp"
+#include "mems_stiction/separation/kept_overlap.hpp"
 #include "mems_stiction/separation/separation_curve.hpp"
 
 namespace mems_stiction {
@@ -30,6 +31,7 @@ class SeparationSolver : public ContactSolver {
   /// One contact at rest.
   struct Contact {
     PatchLoad load;
+    KeptOverlap kept;
     double area = 0.0;  ///< real [m^2]
     bool is_at_border = false;
   };
@@ -45,8 +47,8 @@ class SeparationSolver : public ContactSolver {
   SeparationTrace trace_;
   SeparationCurve curve_;
   std::vector<Contact> contacts_;  ///< by id of the patch
-  double flowed_share_ = 0.0;      ///< largest share of an overlap that has flowed [-]
-  GapField changed_gap_;           ///< of the surfaces that have flowed
+  bool has_flowed_ = false;
+  GapField changed_gap_;  ///< of the surfaces that have flowed
   SeparationTrace changed_trace_;
   SeparationCurve changed_curve_;
 };
