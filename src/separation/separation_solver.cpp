@@ -107,8 +107,9 @@ void SeparationSolver::takeRest(const ContactProblem& problem, ContactSolution& 
     const double area = patch.cells * field.cellArea();
     contact.load = trace_.loadOf(patch, rest.approach);
     const double radius = patch.radius(rest.approach, field.cellArea());
-    contact.area = realArea(contact.load, area, 2.0 * kPi * trace_.law().workOfAdhesion() * radius,
-                            trace_.pullOffPrefactor(radius / patch.summits), trace_.hardness());
+    contact.area =
+        realArea(contact.load, area, 2.0 * kPi * trace_.law().workOfAdhesion() * radius / std::sqrt(patch.summits),
+                 trace_.pullOffPrefactor(radius / patch.summits), trace_.hardness());
     solution.contact_area += contact.area;
     const double area_share = std::max(0.5, contact.load.carried / (trace_.hardness() * area));
     contact.kept = KeptOverlap(contact.load.elastic / (trace_.hardness() * area), area_share,
