@@ -320,6 +320,20 @@ TEST(HalfSpaceSolver, CancelEndsTheSearchWithWhatItHas) {
   EXPECT_FALSE(solution.approach.empty());
 }
 
+TEST(HalfSpaceSolver, CancelledBeforeItBeginsItSolvesNothing) {
+  const std::atomic<bool> cancel{true};
+  HalfSpaceControl control;
+  control.cancel = &cancel;
+  for (const HalfSpaceBoundary boundary : {HalfSpaceBoundary::kPeriodic, HalfSpaceBoundary::kFree}) {
+    HalfSpaceOptions options = elastic();
+    options.boundary = boundary;
+    const HalfSpaceSolution solution =
+        HalfSpaceSolver(options).solve(problemOf(waves(16, 16, 5e-9, 5e-9, 1e-9)), control);
+    EXPECT_EQ(solution.status, HalfSpaceStatus::kCancelled);
+    EXPECT_EQ(solution.state_count, 0);
+  }
+}
+
 std::string errorOf(const HalfSpaceProblem& problem, const HalfSpaceOptions& options = elastic()) {
   try {
     HalfSpaceSolver(options).solve(problem);
