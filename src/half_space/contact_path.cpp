@@ -9,7 +9,7 @@ namespace {
 
 /// Smallest step, of the usual one, and smallest where the largest force of the retraction may depend on it. The largest
 /// step.
-constexpr double kSmallestStep = 0.5;
+constexpr double kSmallestStep = 0.25;
 constexpr double kFinestStep = 0.03125;
 constexpr double kLargestStep = 8.0;
 /// Distance of the curve's points, those between solved states included, of the usual step.
