@@ -20,6 +20,9 @@ constexpr double kNegligibleMiss = 0.005;
 /// back. A parabola with that sag errs by a quarter of it where the curve is smooth.
 constexpr double kWantedSag = 0.01;
 constexpr double kLargestSag = 0.03;
+/// A change of slope from one step to the next, over the step and of the force, counts as a sag of this share:
+/// a step over a jump may by chance have the mean of its ends, but not the slope with which it began.
+constexpr double kKinkShare = 0.1;
 /// The smallest step that misses more than this goes over a jump.
 constexpr double kJumpSag = 0.06;
 /// Steps are compared with limits but for rounding.
@@ -94,6 +97,14 @@ double ContactPath::sagOf(const ForcePoint& next) const {
   // of the smaller one: a step from a large load to none must not miss the attraction
   const double scale = std::max({strongest_, next.force, std::min(std::abs(present_.force), std::abs(next.force))});
   return scale > 0.0 ? std::abs(parabola.mean - 0.5 * (parabola.begin + parabola.end)) / scale : 0.0;
+}
+
+double ContactPath::kinkOf(const ForcePoint& next) const {
+  const double scale = std::max(strongest_, next.force);
+  if (last_move_ == 0.0 || !(scale > 0.0)) return 0.0;
+  const double begun = (last_parabola_.slope() + 2.0 * last_parabola_.bend()) / last_move_;
+  const double move = next.height - present_.height;
+  return std::abs(StepParabola(present_, next).slope() - begun * move) / std::max(scale, std::abs(next.force));
 }
 
 PathStatus ContactPath::attempt(double height, ForcePoint& next, ContactState& state) {
@@ -184,7 +195,7 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
       continue;
     }
     // finer usual steps are to miss less, too
-    const double sag = sagOf(next) * kUsualStep / settings_.step;
+    const double sag = std::max(sagOf(next), kKinkShare * kinkOf(next)) * kUsualStep / settings_.step;
     const double at_most = std::max({curve.largest_force, next.force, 0.0});
     const bool may_miss = direction > 0.0 && continued(move) > (1.0 + kNegligibleMiss) * at_most;
     // pressed surfaces seldom jump, but their force rises steeply
