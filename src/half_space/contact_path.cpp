@@ -126,8 +126,13 @@ PathStatus ContactPath::attempt(double height, ForcePoint& next, ContactState& s
 
 double ContactPath::continued(double move) const {
   if (last_move_ == 0.0) return present_.force;
-  const double rise = last_parabola_.slope() + 2.0 * last_parabola_.bend();  // at its end
-  return present_.force + std::max(0.0, rise * move / last_move_);
+  // at its end; over small steps energies say little about it, but no monotonous parabola is steeper there than this
+  const double change = 2.0 * std::abs(last_parabola_.end - last_parabola_.begin);
+  const double rise = std::min(last_parabola_.slope() + 2.0 * last_parabola_.bend(), change);
+  const double bend = std::min(0.0, last_parabola_.bend());
+  double further = std::max(0.0, move / last_move_);
+  if (rise + 2.0 * bend * further < 0.0) further = std::max(0.0, -0.5 * rise / bend);  // where it is highest
+  return present_.force + std::max(0.0, further * (rise + bend * further));
 }
 
 void ContactPath::keep(const ForcePoint& next, bool is_jump, ForceCurve& curve) {
