@@ -207,8 +207,7 @@ HalfSpaceSolution HalfSpaceSolver::solve(const HalfSpaceProblem& problem, const 
   {
     ContactMinimiser minimiser(grid, law, pair.contact_modulus, reliefOf(problem.surfaces), minimiser_settings);
     ContactPath path(minimiser, path_settings);
-    PathStatus status =
-        minimiser.isSetUp() ? path.approach(problem.load.mechanical_load) : PathStatus::kCancelled;
+    PathStatus status = minimiser.isSetUp() ? path.approach(problem.load.mechanical_load) : PathStatus::kCancelled;
     if (status == PathStatus::kDone) {
       takeRest(path, minimiser, solution);
       status = path.retract();

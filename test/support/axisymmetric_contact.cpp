@@ -57,8 +57,8 @@ class Rings {
     for (Eigen::Index i = 0; i < count; ++i) {
       const double r = std::sqrt(2.0 * relief_[i]);
       for (Eigen::Index j = 0; j < count; ++j) {
-        compliance_(i, j) = underDisc(r, edges[static_cast<std::size_t>(j) + 1]) -
-                            underDisc(r, edges[static_cast<std::size_t>(j)]);
+        compliance_(i, j) =
+            underDisc(r, edges[static_cast<std::size_t>(j) + 1]) - underDisc(r, edges[static_cast<std::size_t>(j)]);
       }
     }
   }
@@ -69,8 +69,7 @@ class Rings {
   bool solve(double tabor, double height, Eigen::ArrayXd& gaps) const {
     const double softness = 8.0 / 3.0 * std::pow(tabor, 1.5);
     for (int step = 0; step < kMostNewtonSteps; ++step) {
-      const Eigen::ArrayXd out =
-          gaps - height - relief_ + softness * (compliance_ * traction(gaps).matrix()).array();
+      const Eigen::ArrayXd out = gaps - height - relief_ + softness * (compliance_ * traction(gaps).matrix()).array();
       if (!out.isFinite().all()) return false;
       if (out.abs().maxCoeff() < kTolerance) return true;
       const Eigen::ArrayXd slope = 9.0 * gaps.pow(-10) - 3.0 * gaps.pow(-4);

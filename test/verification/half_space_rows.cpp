@@ -68,8 +68,8 @@ std::vector<Row> hertzRows() {
   return onGrids(
       {limit("a sphere without attraction: depth", "m", "Hertz: (3 F/(4 E sqrt(R)))^(2/3)", depth, 5e-3, why,
              {0.5, "the wall's z0 stays: between no order and the second"}),
-       limit("a sphere without attraction: largest pressure", "Pa", "Hertz: 3 F/(2 pi a^2)",
-             1.5 * load / (kPi * a * a), 5e-3, why, {0.5, "as above"}),
+       limit("a sphere without attraction: largest pressure", "Pa", "Hertz: 3 F/(2 pi a^2)", 1.5 * load / (kPi * a * a),
+             5e-3, why, {0.5, "as above"}),
        limit("a sphere without attraction: area of the cells", "m^2", "Hertz: pi R d", kPi * a * a, 3e-2,
              "half a pixel of the radius' 20", {0.5, "a rim of pixels"})},
       {"pixels per contact radius", {5, 10, 20}, 2}, [&](double pixels, const Phase& phase) -> std::vector<double> {
@@ -164,9 +164,8 @@ std::vector<Row> sphereRows() {
   const std::vector<Row> on_grids =
       onGrids({limit("a sphere at Tabor's parameter 1: pull-off with the pitch", "pi Gamma R", kRings,
                      axisymmetric::pullOff(1.0), 5e-3, "steps of the height", {1.0, "to the floor that steps leave"})},
-              {"pixels per cohesive length", {0.5, 1, 2}, 3}, [](double pixels, const Phase& phase) {
-                return std::vector<double>{spherePullOff(1.0, pixels, phase)};
-              });
+              {"pixels per cohesive length", {0.5, 1, 2}, 3},
+              [](double pixels, const Phase& phase) { return std::vector<double>{spherePullOff(1.0, pixels, phase)}; });
   rows.insert(rows.end(), on_grids.begin(), on_grids.end());
   return rows;
 }

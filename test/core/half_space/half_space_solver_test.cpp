@@ -11,6 +11,7 @@
 #include "mems_stiction/half_space/half_space_solver.hpp"
 #include "mems_stiction/mechanics/hertz.hpp"
 #include "support/analytic_surfaces.hpp"
+#include "support/half_space_cases.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -18,22 +19,11 @@ namespace {
 constexpr double kModulus = 88.8e9;
 constexpr double kRange = 1.608e-10;
 
-/// A lower body with this contact modulus against a rigid upper one.
 HalfSpaceProblem problemOf(const HeightMap& lower, double contact_modulus = kModulus) {
-  HalfSpaceProblem problem;
-  problem.surfaces.lower = lower;
-  problem.lower_material.youngs_modulus = contact_modulus;
-  problem.lower_material.poisson_ratio = 0.0;
-  problem.upper_material.youngs_modulus = 1e30;
-  return problem;
+  return half_space_cases::onRigidPlane(lower, contact_modulus);
 }
 
-HalfSpaceOptions elastic() {
-  HalfSpaceOptions options;
-  options.range = kRange;
-  options.flow = false;
-  return options;
-}
+HalfSpaceOptions elastic() { return half_space_cases::elastic(kRange); }
 
 HalfSpaceSolution solve(const HalfSpaceProblem& problem, const HalfSpaceOptions& options = elastic()) {
   return HalfSpaceSolver(options).solve(problem);

@@ -24,7 +24,8 @@ HeightMap middleOf(const std::string& file) {
 
 TEST(MeasuredScans, AreSolvedWithinWhatTheLawAllows) {
   const char* const folder = std::getenv("MEMS_STICTION_SCANS");
-  if (folder == nullptr || *folder == '\0') GTEST_SKIP() << "MEMS_STICTION_SCANS is not set to a folder of vendor scans";
+  if (folder == nullptr || *folder == '\0')
+    GTEST_SKIP() << "MEMS_STICTION_SCANS is not set to a folder of vendor scans";
   for (const char* const name : {"di-3.di", "di-5.di", "di-6.di", "top-1.top", "example_ps.tiff"}) {
     SCOPED_TRACE(name);
     HalfSpaceProblem problem;
