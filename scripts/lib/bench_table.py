@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Prints what scripts/bench measured as tables.
 
-usage: bench_table.py FOLDER   with predict.json, in_flight.json and, where they were made, callgrind.txt and latency.json
+usage: bench_table.py FOLDER   with predict.json, in_flight.json, half_space.json and, where they were made, callgrind.txt
+                               and latency.json
 """
 
 import json
@@ -82,6 +83,14 @@ def print_in_flight(times):
           % (speed_up, verdict(speed_up, REQUIRED_SPEED_UP, True)))
 
 
+def print_half_space(rows):
+    print()
+    print("The half-space; a pair is one forward and one inverse real transform of the frame in the same run")
+    for row in rows:
+        print("%-48s %10.2f %-6s %s" % (row["work"], row["figure"], row["unit"],
+                                        verdict(row["figure"], row["limit"], row["at_least"])))
+
+
 def print_latency(rows):
     print()
     print("Replay of 1024 x 1024 scans, from the arrival of a scan to that of its prediction at one listener [ms]")
@@ -107,6 +116,7 @@ def main():
             (folder / "instructions.json").write_text(json.dumps({"gaussian/512/200": count}) + "\n")
             print("instructions, gaussian/512/200: %.1f million" % (count / 1e6))
     print_cleaning(core)
+    print_half_space(json.loads((folder / "half_space.json").read_text()))
     latency = folder / "latency.json"
     if latency.exists():
         print_latency(json.loads(latency.read_text()))

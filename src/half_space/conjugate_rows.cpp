@@ -8,12 +8,12 @@ constexpr std::size_t kLanes = 8;
 using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
 using Mask = int __attribute__((vector_size(kLanes * sizeof(int))));
 
-/// Eight values from `from`, or as many as there are, the others 0.
-MEMS_STICTION_INLINE void take(const float* from, std::size_t available, Lanes& lanes) {
+/// Eight values from `from`, or as many as there are, the others `filler`.
+MEMS_STICTION_INLINE void take(const float* from, std::size_t available, Lanes& lanes, float filler = 0.0F) {
   if (available >= kLanes) {
     std::memcpy(&lanes, from, sizeof lanes);
   } else {
-    lanes = Lanes{};
+    lanes = Lanes{} + filler;
     std::memcpy(&lanes, from, available * sizeof(float));
   }
 }
@@ -49,7 +49,7 @@ MEMS_STICTION_VECTORIZED Sums turn(std::size_t count, float ratio, float shift, 
   for (std::size_t i = 0; i < count; i += kLanes) {
     const std::size_t rest = count - i;
     take(smoothed + i, rest, z);
-    take(residual + i, rest, r);
+    take(residual + i, rest, r, mean);  // lanes beyond the row add nothing to the sums
     take(slope + i, rest, d);
     take(search + i, rest, p);
     take(search_traction + i, rest, kp);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -59,27 +60,27 @@ ContactMinimiser::ContactMinimiser(const HalfSpaceGrid& grid, const TractionLaw&
     : grid_(grid),
       law_(law),
       settings_(settings),
-      stiffness_(grid, contact_modulus, settings.threads, spectrum_),
-      exact_stiffness_(grid, contact_modulus, settings.threads, spectrum_),
-      relief_(std::move(relief)),
-      displacement_(grid.size(), 0.0),
-      elastic_traction_(grid.size(), 0.0),
-      residual_(grid.size(), 0.0F),
-      slope_(grid.size(), 0.0F),
-      smoothed_(grid.size(), 0.0F),
-      search_(grid.size(), 0.0F),
-      search_traction_(grid.size(), 0.0F),
-      step_(grid.size(), 0.0F),
-      step_traction_(grid.size(), 0.0F),
-      change_(grid.size(), 0.0F),
-      change_traction_(stiffness_.resistsMean() ? 0 : grid.size(), 0.0F),
-      last_change_(grid.size(), 0.0F),
-      last_change_traction_(change_traction_.size(), 0.0F) {
+      stiffness_(grid, contact_modulus, settings.threads, spectrum_, settings.cancel),
+      exact_stiffness_(grid, contact_modulus, settings.threads, spectrum_, settings.cancel),
+      relief_(std::move(relief)) {
   for (const double relief_here : relief_) {
     if (!std::isfinite(relief_here)) continue;
     largest_relief_ = std::max(largest_relief_, relief_here);
     ++valid_count_;
   }
+  for (auto* const array : {&displacement_, &elastic_traction_}) {
+    if (!isCancelled()) array->assign(grid.size(), 0.0);
+  }
+  for (auto* const array : {&residual_, &slope_, &smoothed_, &search_, &search_traction_, &step_, &step_traction_,
+                            &change_, &last_change_}) {
+    if (!isCancelled()) array->assign(grid.size(), 0.0F);
+  }
+  if (isCancelled()) return;
+  if (!stiffness_.resistsMean()) {
+    change_traction_.assign(grid.size(), 0.0F);
+    last_change_traction_.assign(grid.size(), 0.0F);
+  }
+  is_set_up_ = true;
 }
 
 void ContactMinimiser::moveOn(double share) {

@@ -9,7 +9,7 @@ namespace {
 
 /// Smallest step, of the usual one, and smallest where the largest force of the retraction may depend on it. The largest
 /// step.
-constexpr double kSmallestStep = 0.5;
+constexpr double kSmallestStep = 0.25;
 constexpr double kFinestStep = 0.03125;
 constexpr double kLargestStep = 8.0;
 /// Distance of the curve's points, those between solved states included, of the usual step.
@@ -20,6 +20,9 @@ constexpr double kNegligibleMiss = 0.005;
 /// back. A parabola with that sag errs by a quarter of it where the curve is smooth.
 constexpr double kWantedSag = 0.01;
 constexpr double kLargestSag = 0.03;
+/// A change of slope from one step to the next, over the step and of the force, counts as a sag of this share:
+/// a step over a jump may by chance have the mean of its ends, but not the slope with which it began.
+constexpr double kKinkShare = 0.1;
 /// The smallest step that misses more than this goes over a jump.
 constexpr double kJumpSag = 0.06;
 /// Steps are compared with limits but for rounding.
@@ -98,6 +101,14 @@ double ContactPath::sagOf(const ForcePoint& next) const {
   return scale > 0.0 ? std::abs(parabola.mean - 0.5 * (parabola.begin + parabola.end)) / scale : 0.0;
 }
 
+double ContactPath::kinkOf(const ForcePoint& next) const {
+  const double scale = std::max(strongest_, next.force);
+  if (last_move_ == 0.0 || !(scale > 0.0)) return 0.0;
+  const double begun = (last_parabola_.slope() + 2.0 * last_parabola_.bend()) / last_move_;
+  const double move = next.height - present_.height;
+  return std::abs(StepParabola(present_, next).slope() - begun * move) / std::max(scale, std::abs(next.force));
+}
+
 PathStatus ContactPath::attempt(double height, ForcePoint& next, ContactState& state) {
   const double move = height - present_.height;
   const double share =
@@ -117,8 +128,13 @@ PathStatus ContactPath::attempt(double height, ForcePoint& next, ContactState& s
 
 double ContactPath::continued(double move) const {
   if (last_move_ == 0.0) return present_.force;
-  const double rise = last_parabola_.slope() + 2.0 * last_parabola_.bend();  // at its end
-  return present_.force + std::max(0.0, rise * move / last_move_);
+  // at its end; over small steps energies say little about it, but no monotonous parabola is steeper there than this
+  const double change = 2.0 * std::abs(last_parabola_.end - last_parabola_.begin);
+  const double rise = std::min(last_parabola_.slope() + 2.0 * last_parabola_.bend(), change);
+  const double bend = std::min(0.0, last_parabola_.bend());
+  double further = std::max(0.0, move / last_move_);
+  if (rise + 2.0 * bend * further < 0.0) further = std::max(0.0, -0.5 * rise / bend);  // where it is highest
+  return present_.force + std::max(0.0, further * (rise + bend * further));
 }
 
 void ContactPath::keep(const ForcePoint& next, bool is_jump, ForceCurve& curve) {
@@ -188,7 +204,7 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
       continue;
     }
     // finer usual steps are to miss less, too
-    const double sag = sagOf(next) * kUsualStep / settings_.step;
+    const double sag = std::max(sagOf(next), kKinkShare * kinkOf(next)) * kUsualStep / settings_.step;
     const double at_most = std::max({curve.largest_force, next.force, 0.0});
     const bool may_miss = direction > 0.0 && continued(move) > (1.0 + kNegligibleMiss) * at_most;
     // pressed surfaces seldom jump, but their force rises steeply

@@ -207,7 +207,7 @@ SolvedHalfSpace HalfSpaceSolver::solve(const HalfSpaceProblem& problem, const Ha
   {
     ContactMinimiser minimiser(grid, law, pair.contact_modulus, reliefOf(problem.surfaces), minimiser_settings);
     ContactPath path(minimiser, path_settings);
-    PathStatus status = path.approach(problem.load.mechanical_load);
+    PathStatus status = minimiser.isSetUp() ? path.approach(problem.load.mechanical_load) : PathStatus::kCancelled;
     if (status == PathStatus::kDone) {
       takeRest(path, minimiser, solution);
       status = path.retract();

@@ -137,6 +137,38 @@ double loveInfluence(double x, double y, double pitch_x, double pitch_y, double 
   return integral / (kPi * contact_modulus);
 }
 
+/// Fourier transform of even real sequences, which is real and even, too: of both only the first half is given.
+class EvenTransform {
+ public:
+  explicit EvenTransform(int length) : length_(length), half_(static_cast<std::size_t>(length) / 2 + 1) {
+    std::vector<double> values(static_cast<std::size_t>(length_));
+    std::vector<double> spectrum(2 * half_);
+    const std::lock_guard<std::mutex> lock(plannerMutex());
+    plan_ = fftw_plan_dft_r2c_1d(length_, values.data(), reinterpret_cast<fftw_complex*>(spectrum.data()),
+                                 FFTW_ESTIMATE | FFTW_UNALIGNED);
+  }
+  ~EvenTransform() {
+    const std::lock_guard<std::mutex> lock(plannerMutex());
+    fftw_destroy_plan(plan_);
+  }
+  EvenTransform(const EvenTransform&) = delete;
+  EvenTransform& operator=(const EvenTransform&) = delete;
+
+  /// Every from_step-th value to every to_step-th; both may be one.
+  void apply(const double* from, std::size_t from_step, double* to, std::size_t to_step) const {
+    std::vector<double> values(static_cast<std::size_t>(length_));
+    std::vector<double> spectrum(2 * half_);
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = from[std::min(i, values.size() - i) * from_step];
+    fftw_execute_dft_r2c(plan_, values.data(), reinterpret_cast<fftw_complex*>(spectrum.data()));
+    for (std::size_t i = 0; i < half_; ++i) to[i * to_step] = spectrum[2 * i];
+  }
+
+ private:
+  int length_;
+  std::size_t half_;
+  fftw_plan plan_;
+};
+
 }  // namespace
 
 template <typename Scalar>
@@ -173,7 +205,7 @@ struct StiffnessOperator<Scalar>::Plans {
 
 template <typename Scalar>
 StiffnessOperator<Scalar>::StiffnessOperator(const HalfSpaceGrid& grid, double contact_modulus, int threads,
-                                             SpectrumMemory& memory)
+                                             SpectrumMemory& memory, const std::atomic<bool>* cancel)
     : grid_(grid),
       threads_(threads),
       blocks_((grid.cols / 2 + static_cast<int>(kBlock)) / static_cast<int>(kBlock)),
@@ -193,7 +225,7 @@ StiffnessOperator<Scalar>::StiffnessOperator(const HalfSpaceGrid& grid, double c
   if (grid_.boundary == HalfSpaceBoundary::kPeriodic) {
     fillPeriodic(contact_modulus);
   } else {
-    fillFree(contact_modulus);
+    fillFree(contact_modulus, cancel);
   }
 }
 
@@ -225,38 +257,37 @@ void StiffnessOperator<Scalar>::fillPeriodic(double contact_modulus) {
 }
 
 template <typename Scalar>
-void StiffnessOperator<Scalar>::fillFree(double contact_modulus) {
-  // in double whatever the Scalar: the small compliances of short waves are differences of large numbers
-  using Library = Fftw<double>;
-  const std::size_t half = static_cast<std::size_t>(grid_.cols) / 2 + 1;
-  LargePageVector<double> influence(static_cast<std::size_t>(grid_.rows) * static_cast<std::size_t>(grid_.cols));
-  LargePageVector<double> compliance(2 * half * static_cast<std::size_t>(grid_.rows));
-  auto* const transformed = reinterpret_cast<Library::Complex*>(compliance.data());
-  const auto cols = static_cast<std::size_t>(grid_.cols);
-  const auto rowOf = [&](int row) { return influence.data() + static_cast<std::size_t>(row) * cols; };
-  forEachRow(grid_.rows / 2 + 1, threads_, [&](int row) {
-    double* const line = rowOf(row);
-    for (int col = 0; col <= grid_.cols / 2; ++col) {
-      line[col] =
-          loveInfluence(col * grid_.pitch_x, row * grid_.pitch_y, grid_.pitch_x, grid_.pitch_y, contact_modulus);
-    }
-    for (int col = grid_.cols / 2 + 1; col < grid_.cols; ++col) line[col] = line[grid_.cols - col];
+void StiffnessOperator<Scalar>::fillFree(double contact_modulus, const std::atomic<bool>* cancel) {
+  // In double whatever the Scalar: the small compliances of short waves are differences of large numbers. The influence
+  // is even in both directions, so that its transforms are real and half of the lines say all.
+  const int half_rows = grid_.rows / 2 + 1;
+  const int half_cols = grid_.cols / 2 + 1;
+  const auto width = static_cast<std::size_t>(half_cols);
+  const auto isCancelled = [cancel] { return cancel != nullptr && cancel->load(); };
+  LargePageVector<double> of_rows(static_cast<std::size_t>(half_rows) * width);
+  {
+    const EvenTransform transform(grid_.cols);
+    forEachRow(half_rows, threads_, [&](int row) {
+      if (isCancelled()) return;
+      std::vector<double> line(width);
+      for (int col = 0; col < half_cols; ++col) {
+        line[static_cast<std::size_t>(col)] =
+            loveInfluence(col * grid_.pitch_x, row * grid_.pitch_y, grid_.pitch_x, grid_.pitch_y, contact_modulus);
+      }
+      transform.apply(line.data(), 1, of_rows.data() + static_cast<std::size_t>(row) * width, 1);
+    });
+  }
+  const EvenTransform transform(grid_.rows);
+  forEachRow(half_cols, threads_, [&](int col) {
+    if (isCancelled()) return;
+    double* const column = of_rows.data() + col;
+    transform.apply(column, width, column, width);
   });
-  for (int row = grid_.rows / 2 + 1; row < grid_.rows; ++row) std::copy_n(rowOf(grid_.rows - row), cols, rowOf(row));
-  Library::Plan plan = nullptr;
-  {
-    const std::lock_guard<std::mutex> lock(plannerMutex());
-    plan = fftw_plan_dft_r2c_2d(grid_.rows, grid_.cols, influence.data(), transformed, FFTW_ESTIMATE);
-  }
-  fftw_execute(plan);
-  {
-    const std::lock_guard<std::mutex> lock(plannerMutex());
-    fftw_destroy_plan(plan);
-  }
+  if (isCancelled()) return;
   for (int row = 0; row < grid_.rows; ++row) {
-    for (int col = 0; col <= grid_.cols / 2; ++col) {
-      const double stiffness =
-          1.0 / transformed[static_cast<std::size_t>(row) * half + static_cast<std::size_t>(col)][0];
+    const double* const line = of_rows.data() + static_cast<std::size_t>(std::min(row, grid_.rows - row)) * width;
+    for (int col = 0; col < half_cols; ++col) {
+      const double stiffness = 1.0 / line[col];
       entry(row, col) = static_cast<Scalar>(stiffness);
       smallest_ = std::min(smallest_, stiffness);
     }

@@ -43,6 +43,32 @@ inline double jkrContactRadius(double load, double radius, double work_of_adhesi
   return 0.5 * (lower + upper) * units.length();
 }
 
+/// Maugis' pull-off force over pi w R at his transition parameter, the load prescribed: his equations (6.24) and (6.25)
+/// in his units, solved by bisection for m = c/a at each contact radius a; the largest attraction of all a.
+inline double maugisPullOff(double transition_parameter) {
+  constexpr int kRadii = 2000;
+  constexpr double kLargestRadius = 2.0;  // JKR's is 1.145 at pull-off
+  const double lambda = transition_parameter;
+  double largest = 0.0;
+  for (int i = 1; i <= kRadii; ++i) {
+    const double a = kLargestRadius * i / kRadii;
+    double lower = 1.0;
+    double upper = 1e6;
+    for (int halvings = 0; halvings < 200; ++halvings) {
+      const double m = 0.5 * (lower + upper);
+      const double root = std::sqrt(m * m - 1.0);
+      const double angle = std::acos(1.0 / m);
+      const double spent = 0.5 * lambda * a * a * (root + (m * m - 2.0) * angle) +
+                           4.0 / 3.0 * lambda * lambda * a * (root * angle - m + 1.0);
+      (spent < 1.0 ? lower : upper) = m;
+    }
+    const double m = 0.5 * (lower + upper);
+    const double force = a * a * a - lambda * a * a * (std::sqrt(m * m - 1.0) + m * m * std::acos(1.0 / m));
+    largest = std::fmax(largest, -force);
+  }
+  return largest;
+}
+
 }  // namespace closed_form
 }  // namespace verification
 }  // namespace mems_stiction

@@ -18,6 +18,7 @@ std::vector<Section> allSections() {
           roughSurfacesSection(),
           roughnessSection(),
           capillarySection(),
+          halfSpaceSection(),
           devicesSection(),
           inputDigitsSection()};
 }

@@ -21,6 +21,7 @@ Section deformedSurfacesSection();
 Section roughSurfacesSection();
 Section roughnessSection();
 Section capillarySection();
+Section halfSpaceSection();
 Section devicesSection();
 Section inputDigitsSection();
 

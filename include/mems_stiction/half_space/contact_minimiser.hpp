@@ -54,6 +54,9 @@ class ContactMinimiser {
   ContactMinimiser(const HalfSpaceGrid& grid, const TractionLaw& law, double contact_modulus,
                    LargePageVector<double> relief, const MinimiserSettings& settings);
 
+  /// False if it was cancelled while it set itself up: then only what follows from the frame may be asked for.
+  bool isSetUp() const { return is_set_up_; }
+
   /// The equilibrium next to the present displacement; what came before is left in place if cancelled.
   ContactState solve(double height);
 
@@ -127,6 +130,7 @@ class ContactMinimiser {
   LargePageVector<float> last_change_traction_;
   LargePageVector<float> flowed_;
   int products_ = 0;
+  bool is_set_up_ = false;
 };
 
 }  // namespace mems_stiction

@@ -95,6 +95,9 @@ class ContactPath {
   PathStatus advance(double direction, double farthest, double least_force, ForceCurve& curve);
   double forceScale() const;
   double sagOf(const ForcePoint& next) const;
+  /// How far the slope at the begin of the step to `next` lies from that at the end of the last one, over the step and
+  /// of the force; 0 where there is none to go on from.
+  double kinkOf(const ForcePoint& next) const;
 
   ContactMinimiser& minimiser_;
   PathSettings settings_;

@@ -16,6 +16,7 @@
 ///     StiffnessOperator<float> stiffness(grid, contact_modulus, threads, memory);
 ///     stiffness.precondition(shift, residual, direction);
 
+#include <atomic>
 #include <memory>
 #include <vector>
 
@@ -36,7 +37,10 @@ class StiffnessOperator {
   /// - @p contact_modulus [Pa], > 0
   /// - @p threads >= 1
   /// - @p memory is made large enough; it must outlive the operator
-  StiffnessOperator(const HalfSpaceGrid& grid, double contact_modulus, int threads, SpectrumMemory& memory);
+  /// - @p cancel looked at after each row of the set-up, which for free edges takes seconds at some million pixels; may
+  ///   be null. An operator whose set-up was cancelled is not to be used
+  StiffnessOperator(const HalfSpaceGrid& grid, double contact_modulus, int threads, SpectrumMemory& memory,
+                    const std::atomic<bool>* cancel = nullptr);
   ~StiffnessOperator();
   StiffnessOperator(const StiffnessOperator&) = delete;
   StiffnessOperator& operator=(const StiffnessOperator&) = delete;
@@ -59,7 +63,7 @@ class StiffnessOperator {
   template <typename Multiplier, typename AfterRows>
   void apply(const Scalar* from, Scalar* to, const Multiplier& multiplier, const AfterRows& after_rows);
   void fillPeriodic(double contact_modulus);
-  void fillFree(double contact_modulus);
+  void fillFree(double contact_modulus, const std::atomic<bool>* cancel);
   /// Complex numbers of a row of the half spectrum.
   Scalar* spectrumOf(std::size_t row);
   /// Where the stiffness of wave numbers (row, col) stands.

@@ -12,6 +12,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "mems_stiction/half_space/half_space_solver.hpp"
+#include "support/half_space_cases.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -37,16 +38,11 @@ TEST(SolvedFrames, CurvesAndFiguresAreThoseOfAnotherSolver) {
   ASSERT_FALSE(reference["frames"].empty());
   for (const auto& [name, frame] : reference["frames"].items()) {
     SCOPED_TRACE(name);
-    HalfSpaceProblem problem;
-    problem.surfaces.lower = HeightMap(cv::imread(std::string(folder) + "/" + name + ".tiff", cv::IMREAD_UNCHANGED),
-                                       frame["pitch"], frame["pitch"]);
-    problem.lower_material.youngs_modulus = frame["contact_modulus"];
-    problem.lower_material.poisson_ratio = 0.0;
-    problem.upper_material.youngs_modulus = 1e30;
-    problem.interface.work_of_adhesion = reference["work_of_adhesion"];
-    HalfSpaceOptions options;
-    options.range = reference["z0"];
-    options.flow = false;
+    const HeightMap heights(cv::imread(std::string(folder) + "/" + name + ".tiff", cv::IMREAD_UNCHANGED),
+                            frame["pitch"], frame["pitch"]);
+    const HalfSpaceProblem problem =
+        half_space_cases::onRigidPlane(heights, frame["contact_modulus"], reference["work_of_adhesion"]);
+    HalfSpaceOptions options = half_space_cases::elastic(reference["z0"]);
     options.step = 0.1;  // by default one height of the 180 is off by 2 %, where the curve falls by half within 0.2 z0
     const SolvedHalfSpace solution = HalfSpaceSolver(options).solve(problem);
     ASSERT_EQ(solution.status, HalfSpaceStatus::kSolved) << solution.message;

@@ -9,6 +9,7 @@
 #include "mems_stiction/mechanics/jkr.hpp"
 #include "mems_stiction/mechanics/transition.hpp"
 #include "support/analytic_surfaces.hpp"
+#include "support/half_space_cases.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -22,15 +23,9 @@ double modulusOf(double tabor) { return std::sqrt(kRadius * kWork * kWork / std:
 
 /// Over pi Gamma R.
 double pullOff(double tabor, int pixels, double pitch) {
-  HalfSpaceProblem problem;
-  problem.surfaces.lower = analytic::paraboloid(pixels, pixels, pitch, pitch, kRadius);
-  problem.lower_material.youngs_modulus = modulusOf(tabor);
-  problem.lower_material.poisson_ratio = 0.0;
-  problem.upper_material.youngs_modulus = 1e30;
-  problem.interface.work_of_adhesion = kWork;
-  HalfSpaceOptions options;
-  options.range = kRange;
-  options.flow = false;
+  const HalfSpaceProblem problem = half_space_cases::onRigidPlane(
+      analytic::paraboloid(pixels, pixels, pitch, pitch, kRadius), modulusOf(tabor), kWork);
+  const HalfSpaceOptions options = half_space_cases::elastic(kRange);
   const SolvedHalfSpace solution = HalfSpaceSolver(options).solve(problem);
   EXPECT_EQ(solution.status, HalfSpaceStatus::kSolved) << solution.message;
   EXPECT_TRUE(solution.is_resolved);

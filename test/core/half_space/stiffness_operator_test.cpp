@@ -1,5 +1,6 @@
 /// The elastic half-space in Fourier space against waves and against sums of single loads.
 
+#include <atomic>
 #include <cmath>
 #include <random>
 
@@ -134,6 +135,15 @@ TEST_P(StiffnessOfFrame, FreeBoundaryAddsTheLoadsOfAllCells) {
       ASSERT_NEAR(displacement[grid.offset(row) + static_cast<std::size_t>(col)], expected, 0.02 * own);
     }
   }
+}
+
+TEST(StiffnessOperator, SetUpOfFreeEdgesEndsWhenCancelled) {
+  const HalfSpaceGrid grid(40, 30, 1e-9, 1e-9, HalfSpaceBoundary::kFree);
+  SpectrumMemory memory;
+  std::atomic<bool> cancel{false};
+  EXPECT_TRUE(std::isfinite(StiffnessOperator<float>(grid, kModulus, 1, memory, &cancel).smallest()));
+  cancel = true;
+  EXPECT_TRUE(std::isinf(StiffnessOperator<float>(grid, kModulus, 1, memory, &cancel).smallest()));
 }
 
 TEST(StiffnessOperator, BitsDoNotDependOnTheThreads) {

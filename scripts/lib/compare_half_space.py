@@ -1,0 +1,214 @@
+"""The half-space of predict_scan against tamaas, ContactMechanics and Adhesion on the same frames; run by
+scripts/compare_half_space. Prints a Markdown table; exit status 1 when a row is out."""
+
+import argparse
+import csv
+import json
+import pathlib
+import resource
+import subprocess
+import time
+
+import numpy as np
+import tamaas
+import tifffile
+from Adhesion.Interactions import VDW82
+from Adhesion.System import SmoothContactSystem
+from Adhesion.System import make_system as make_adhesive_system
+from ContactMechanics import PeriodicFFTElasticHalfSpace
+from ContactMechanics import make_system as make_hard_system
+from SurfaceTopography import Topography
+
+SIZE = 128
+PITCH = 5e-9
+MODULUS = 88.8e9  # contact modulus [Pa]
+WORK = 0.05  # Gamma [J/m^2]
+RANGE = 1.608e-10  # z0 [m]
+STRESS = 8 * WORK / (3 * RANGE)
+TOLERANCE = 1e-4  # largest residual, of STRESS: half_space/tolerance
+STEP = 0.2  # between two heights, of z0
+WALL = 1e-11  # z0 where nothing attracts [m]
+
+SETTINGS = """
+lower: {{youngs_modulus: {modulus}, poisson_ratio: 0.0}}
+upper: {{youngs_modulus: 1.0e+30, poisson_ratio: 0.0}}
+interface: {{work_of_adhesion: {work}}}
+half_space: {{range: {range}, flow: false, attraction: {attraction}, step: {step}, tolerance: {tolerance}}}
+"""
+
+HEADING = """
+## The half-space against other programs
+
+Written by `scripts/compare_half_space`, on periodic Gaussian frames of 128 x 128 pixels, 5 nm: tamaas 2.9.0 (Polonsky
+and Keer), ContactMechanics 1.8.3 (constrained conjugate gradients) and Adhesion 0.93 (L-BFGS-B, the same law as its
+VDW82). Without attraction the wall here is as soft as z0 = 0.01 nm, theirs is hard; Adhesion's mean displacement counts
+as height. Its retraction is sampled at every 0.2 z0, the largest force by a parabola.
+
+"""
+
+
+def rough_frame(rms_height, correlation_length, seed):
+    """Gaussian heights [m] with a Gaussian autocorrelation, periodic; the highest point is at 0."""
+    q = 2 * np.pi * np.fft.fftfreq(SIZE, PITCH)
+    white = np.fft.fft2(np.random.default_rng(seed).standard_normal((SIZE, SIZE)))
+    heights = np.fft.ifft2(white * np.exp(-(q[:, None] ** 2 + q[None, :] ** 2) * correlation_length ** 2 / 8)).real
+    heights = (heights - heights.mean()) / heights.std() * rms_height
+    return (heights - heights.max()).astype(np.float32).astype(float)  # what a float32 TIFF keeps
+
+
+class Ours:
+    """predict_scan --half-space."""
+
+    def __init__(self, program, folder):
+        self.program, self.folder = program, folder
+
+    def solve(self, heights, load=0.0, attraction=True):
+        scan = self.folder / "frame.tiff"
+        settings = self.folder / "frame_settings.yaml"
+        curve = self.folder / "curve.csv"
+        tifffile.imwrite(scan, heights.astype(np.float32))
+        settings.write_text(SETTINGS.format(modulus=MODULUS, work=WORK, range=RANGE if attraction else WALL, step=STEP if attraction else 2.0,
+                                            attraction=str(attraction).lower(), tolerance=TOLERANCE))
+        self.command = [self.program, "--json", "--config", settings, "--pitch", str(PITCH), "--load", str(load), scan]
+        command = [*self.command, "--half-space", "--curve", curve]
+        record = json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)["half_space"]
+        with open(curve, newline="", encoding="utf-8") as file:
+            record["curve"] = [(float(row["height"]), float(row["force"]), row["direction"]) for row in csv.DictReader(file)]
+        return record
+
+    def seconds(self):
+        """CPU time that the half-space adds to the last prediction, the least of three."""
+        def of(command):
+            begin = resource.getrusage(resource.RUSAGE_CHILDREN)
+            subprocess.run(command, check=True, capture_output=True)
+            end = resource.getrusage(resource.RUSAGE_CHILDREN)
+            return end.ru_utime + end.ru_stime - begin.ru_utime - begin.ru_stime
+        return min(of([*self.command, "--half-space"]) - of(self.command) for _ in range(3))
+
+
+def tamaas_area(heights, load):
+    """Contact area [m^2] by Polonsky and Keer's conjugate gradients."""
+    length = SIZE * PITCH
+    # lengths in pixels and pressures in E, as its tolerances are absolute
+    model = tamaas.ModelFactory.createModel(tamaas.model_type.basic_2d, [SIZE, SIZE], [SIZE, SIZE])
+    model.E, model.nu = 1.0, 0.0
+    solver = tamaas.PolonskyKeerRey(model, heights / PITCH, 1e-12)
+    solver.max_iter = 10000
+    solver.solve(load / length ** 2 / MODULUS)
+    return tamaas.Statistics2D.contact(model.traction) * length ** 2
+
+
+def contact_mechanics_area(heights, load):
+    """Contact area [m^2] by its constrained conjugate gradients."""
+    substrate = PeriodicFFTElasticHalfSpace((SIZE, SIZE), 1.0, (SIZE, SIZE))
+    system = make_hard_system(interaction="hardwall", substrate=substrate, surface=Topography(heights / PITCH, (SIZE, SIZE)))
+    system.minimize_proxy(external_force=load / MODULUS / PITCH ** 2, pentol=1e-8, maxiter=10000)
+    return np.count_nonzero(system.contact_zone) * PITCH ** 2
+
+
+def adhesion_curve(heights, lowest, highest):
+    """Adhesion with the same law and L-BFGS-B, lengths in z0 and pressures in STRESS.
+
+    @return (Z [m], F [N]) of the way down from `highest` to `lowest` [m] and of that back, and seconds. Its mean
+    displacement has a stiffness of its own, so that Z = -offset + mean displacement is the height of predict_scan.
+    """
+    unit = PITCH / RANGE
+    substrate = PeriodicFFTElasticHalfSpace((SIZE, SIZE), MODULUS / STRESS, (SIZE * unit, SIZE * unit))
+    interaction = VDW82(c_sr=1 / 8, hamaker=6 * np.pi)  # -1/(2 r^2) + 1/(8 r^8): t = r^-3 - r^-9
+    system = make_adhesive_system(surface=Topography(heights / RANGE, (SIZE * unit, SIZE * unit)), interaction=interaction,
+                                  substrate=substrate, system_class=SmoothContactSystem)
+    offsets = np.arange(-highest / RANGE, -lowest / RANGE, STEP)
+    displacement = np.zeros((SIZE, SIZE))
+    branches = []
+    begin = time.process_time()
+    for way in (offsets, offsets[::-1]):
+        points = []
+        for offset in way:
+            # its first guess must not lie beyond the surface
+            gap = displacement - heights / RANGE - offset
+            displacement = displacement + np.maximum(0.0, 0.6 - gap)
+            result = system.minimize_proxy(offset=offset, initial_displacements=displacement, method="L-BFGS-B", tol=None,
+                                           lbounds=heights / RANGE + offset + 0.5,
+                                           options={"gtol": TOLERANCE * unit ** 2, "ftol": 0, "maxcor": 10, "maxiter": 20000,
+                                                    "maxfun": 40000})
+            displacement = np.asarray(result.x).reshape(SIZE, SIZE)
+            force = -float(system.compute_normal_force()) * STRESS * RANGE ** 2
+            points.append(((-offset + displacement.mean()) * RANGE, force, np.abs(result.jac).max() / unit ** 2))
+        branches.append(points)
+    return branches, time.process_time() - begin
+
+
+def largest(points):
+    """Largest force [N], on the parabola through the largest of the points and its neighbours."""
+    heights, forces = np.array([p[0] for p in points]), np.array([p[1] for p in points])
+    i = int(np.clip(forces.argmax(), 1, len(forces) - 2))
+    a, b, c = np.polyfit(heights[i - 1:i + 2] / RANGE, forces[i - 1:i + 2], 2)
+    return max(forces.max(), c - b * b / (4 * a) if a < 0 else 0.0)
+
+
+def area_rows(ours):
+    heights = rough_frame(1e-9, 60e-9, 1)
+    slope = np.sqrt(np.mean((np.diff(heights, axis=1, append=heights[:, :1]) / PITCH) ** 2) * 2)
+    for share in (0.005, 0.02, 0.05, 0.1):
+        load = share * MODULUS * slope * (SIZE * PITCH) ** 2
+        found = ours.solve(heights, load, attraction=False)["contact_area"]
+        for name, area in (("tamaas", tamaas_area(heights, load)), ("ContactMechanics", contact_mechanics_area(heights, load))):
+            yield (f"contact area without attraction at p/(E rms slope) = {share:g}, {name}", "m^2", found, area,
+                   max(0.02, PITCH ** 2 / area), "2 % or a cell")
+
+
+def adhesion_rows(ours):
+    for name, rms_height, length in (("l 60 nm, sigma 1 nm", 1e-9, 60e-9), ("l 100 nm, sigma 3 nm", 3e-9, 100e-9)):
+        heights = rough_frame(rms_height, length, 1)
+        found = ours.solve(heights)
+        curve = found["curve"]
+        lowest = min(height for height, _, _ in curve)
+        highest = max(height for height, _, _ in curve)
+        branches, seconds = adhesion_curve(heights, lowest, highest)
+        pull_off = largest(branches[1])
+        yield (f"pull-off force, {name}, Adhesion", "N", found["pull_off_force"], pull_off, 0.02, "2 %: steps of 0.2 z0")
+        worst = 0.0
+        for direction, points in zip(("APPROACH", "RETRACTION"), branches):
+            way = sorted((height, force) for height, force, towards in curve if towards == direction)
+            at, forces = np.array(way).T
+            for height, force, _ in points:
+                if at[0] <= height <= at[-1]:
+                    worst = max(worst, abs(np.interp(height, at, forces) - force) / pull_off)
+        yield f"largest difference along the curve, {name}, Adhesion", "of the pull-off force", worst, 0.0, 0.02, "as above"
+        residual = max(point[2] for points in branches for point in points)
+        own = ours.seconds()
+        print(f"  {name}: Adhesion {seconds:.1f} s for {sum(map(len, branches))} heights, residual {residual:.1e}; "
+              f"predict_scan {own:.3f} s, {found['iterations']} Newton steps")
+        yield (f"time of Adhesion over ours, {name}", "", seconds / own, 40.0, None,
+               "CPU time of both ways in steps of 0.2 z0, residual 1e-4, one thread")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--predict-scan", required=True)
+    parser.add_argument("--folder", required=True, type=pathlib.Path)
+    parser.add_argument("--output", type=pathlib.Path)
+    arguments = parser.parse_args()
+    tamaas.set_log_level(tamaas.LogLevel.error)
+    ours = Ours(arguments.predict_scan, arguments.folder)
+    lines = ["| quantity | unit | here | the other | error | tolerance | why | |", "|---|---|---|---|---|---|---|---|"]
+    is_out = False
+    for rows in (area_rows(ours), adhesion_rows(ours)):
+        for quantity, unit, here, other, tolerance, why in rows:
+            if tolerance is None:
+                holds = here >= other
+                figures = f"{here:.0f} | at least {other:g} | | "
+            else:
+                error = abs(here / other - 1) if other else abs(here)
+                holds = error <= tolerance
+                figures = f"{here:.4g} | {other:.4g} | {error:.1e} | {tolerance:.1e}"
+            lines.append(f"| {quantity} | {unit} | {figures} | {why} | {'ok' if holds else '**out**'} |")
+            is_out = is_out or not holds
+            print(lines[-1], flush=True)
+    if arguments.output:
+        arguments.output.write_text(HEADING + "\n".join(lines) + "\n", encoding="utf-8")
+    return 1 if is_out else 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
