@@ -141,7 +141,7 @@ double meanGapApart(const GapField& field, const State& state) {
 }
 
 Formulation formulationOf(const Options& options) {
-  return options.formulation == "printed" ? Formulation::kPrinted : Formulation::kCorrected;
+  return options.formulation == "printed" ? Formulation::kPrinted : Formulation::kPaper;
 }
 
 void summarize(const Problem& problem, const State& state, Prediction& prediction) {

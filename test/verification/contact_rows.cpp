@@ -149,8 +149,8 @@ Section equilibriumSection() {
   const double a = closed_form::jkrContactRadius(load, kRadius, kWork, kModulus);
   const double in_units = a / units.length();
   const double energy_unit = units.force() * units.approach();
-  const AsperityLaw law = lawOf(Formulation::kCorrected);
-  const AsperityResponse sphere = sphereAt(a, 1.0, Formulation::kCorrected);
+  const AsperityLaw law = lawOf(Formulation::kPaper);
+  const AsperityResponse sphere = sphereAt(a, 1.0, Formulation::kPaper);
   const Energies energies = asperityEnergies(sphere, load, law);
   const double surface = in_units * in_units;  // in energy units: pi w a^2
   Section section{"Energies and equilibrium of one asperity", {}};
@@ -161,7 +161,7 @@ Section equilibriumSection() {
       exact("(10.2), elastic energy", "J", "JKR's work and surface energy, by hand", energies.elastic,
             (closed_form::jkrWork(in_units) + surface) * energy_unit),
       exact("(10.2) at chi = 0.25", "J", "a quarter of it",
-            asperityEnergies(sphereAt(a, 0.25, Formulation::kCorrected), load, law).elastic,
+            asperityEnergies(sphereAt(a, 0.25, Formulation::kPaper), load, law).elastic,
             0.25 * (closed_form::jkrWork(in_units) + surface) * energy_unit),
       near("generalised force where (7) holds", "pi w R", "0", sphere.generalizedForce(load, law) / units.force(), 0.0,
            1e-11, "round-off of terms of 10"),
@@ -171,7 +171,7 @@ Section equilibriumSection() {
     const char* name;
     double share;
     Formulation formulation;
-  } slopes[] = {{"dE_t/dD, elastic, off equilibrium", 1.0, Formulation::kCorrected},
+  } slopes[] = {{"dE_t/dD, elastic, off equilibrium", 1.0, Formulation::kPaper},
                 {"dE_t/dD as printed, chi = 1", 1.0, Formulation::kPrinted},
                 {"dE_t/dD as printed, chi = 0.4", 0.4, Formulation::kPrinted},
                 {"dE_t/dD as printed, chi = 0", 0.0, Formulation::kPrinted}};
@@ -190,7 +190,7 @@ Section equilibriumSection() {
     const double axial = 0.2 * imposed;
     const double elastic = -((imposed - axial) * (imposed - axial) / imposed - 6.0 * units.force()) / 3.0;
     const double plastic = axial + 2.0 * units.force() - yield;  // above the elastic one only when deep
-    const AsperityResponse mixed = sphereAt(rc, 0.8, Formulation::kCorrected);
+    const AsperityResponse mixed = sphereAt(rc, 0.8, Formulation::kPaper);
     const std::string depth = is_deep ? " deep in flow" : " in early flow";
     section.rows.push_back(exact("generalised force" + depth + ", chi = 0.8", "N",
                                  is_deep ? "0.8 r_e + 0.2 r_p, by hand" : "r_e: no more than elastic",
@@ -204,18 +204,18 @@ Section equilibriumSection() {
 
 Section deformedSurfacesSection() {
   const double log_ratio = std::log(1.05) / std::log(1.0 / 0.9);
-  const DeformationShare softer = shareOf(10e9, 10.5e9, Formulation::kCorrected);
+  const DeformationShare softer = shareOf(10e9, 10.5e9, Formulation::kPaper);
   Section section{"Surfaces after contact", {}};
   section.rows = {
       exact("share of the lower body, equal hardness", "", "1/2",
-            shareOf(12e9, 12e9, Formulation::kCorrected).lower(2.0), 0.5),
+            shareOf(12e9, 12e9, Formulation::kPaper).lower(2.0), 0.5),
       exact("share of the lower body, 5 % softer", "", "1/2 + ln(1.05)/(2 |ln 0.9|)", softer.lower(2.0),
             0.5 + 0.5 * log_ratio),
       exact("share of the upper body, same", "", "the rest", softer.upper(2.0), 0.5 - 0.5 * log_ratio),
       exact("(13), share of the lower body, 12 times softer", "", "1",
-            shareOf(1e9, 12e9, Formulation::kCorrected).lower(2.0), 1.0),
+            shareOf(1e9, 12e9, Formulation::kPaper).lower(2.0), 1.0),
       near("(13), share of the lower body, 12 times harder", "", "0",
-           shareOf(12e9, 1e9, Formulation::kCorrected).lower(2.0), 0.0, kRoundOff, kRoundOffReason),
+           shareOf(12e9, 1e9, Formulation::kPaper).lower(2.0), 0.0, kRoundOff, kRoundOffReason),
       exact("share at phi = 0.8, 5 % softer", "", "2 (0.8 - 0.6) of it", softer.lower(0.8),
             0.4 * (0.5 + 0.5 * log_ratio)),
       near("share at phi = 0.6", "", "0", softer.lower(0.6), 0.0, kRoundOff, kRoundOffReason),

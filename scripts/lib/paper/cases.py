@@ -21,6 +21,7 @@ from paper.theory import SUMMITS
 REPOSITORY = pathlib.Path(__file__).resolve().parents[3]
 CORRELATION_PIXELS = 10
 BASE_RMS_HEIGHT = 1e-9  # of each surface as drawn; cases scale it
+PAPERS_MODEL = {"approach/formulation": "paper"}
 NO_VAN_DER_WAALS = {"interface/hamaker_constant": 0.0}
 ALL_ELASTIC = {"approach/deformation": "elastic"}
 # Gui et al.: bonding below the first, non-bonding above the second.
@@ -135,7 +136,7 @@ def scale_for(composite_rms_height):
 
 def case(name, material, composite_rms_height, settings, dump=None):
     wanted = {"name": name, "scale": scale_for(composite_rms_height), "config": str(REPOSITORY / material.config),
-              "settings": settings}
+              "settings": {**PAPERS_MODEL, **settings}}
     if dump is not None:
         wanted["dump"] = str(dump / name.replace("/", "_"))
     return wanted

@@ -19,7 +19,7 @@ constexpr double kContactFractionLimit = 0.5;
 struct Search {
   explicit Search(const GapField& field_in, double mechanical_load = 0.0)
       : field(field_in),
-        setting{AsperityLaw(ContactPair(Material(), Material()), 0.05, 3 * kNm, Formulation::kCorrected,
+        setting{AsperityLaw(ContactPair(Material(), Material()), 0.05, 3 * kNm, Formulation::kPaper,
                             Deformation::kThreeRegimes),
                 CellForces(InterfaceOptions(), 0.0, field_in.cellArea()),
                 mechanical_load,

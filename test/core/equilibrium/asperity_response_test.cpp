@@ -20,7 +20,7 @@ struct Sphere {
 };
 
 AsperityLaw lawOf(double work_of_adhesion, double plasticity_index, double radius,
-                  Formulation formulation = Formulation::kCorrected) {
+                  Formulation formulation = Formulation::kPaper) {
   AsperityLaw law;
   law.contact_modulus = 88.8e9;
   law.stiffness = 4.0 / 3.0 * law.contact_modulus;
@@ -47,7 +47,7 @@ TEST(AsperityLaw, takesItsConstantsFromBothBodies) {
   soft.youngs_modulus = 78e9;
   soft.poisson_ratio = 0.44;
   soft.hardness = 1e9;
-  const AsperityLaw law(ContactPair(Material(), soft), 0.2, 3e-9, Formulation::kCorrected, Deformation::kThreeRegimes);
+  const AsperityLaw law(ContactPair(Material(), soft), 0.2, 3e-9, Formulation::kPaper, Deformation::kThreeRegimes);
   const double modulus = 1.0 / ((1 - 0.22 * 0.22) / 169e9 + (1 - 0.44 * 0.44) / 78e9);
   EXPECT_NEAR(law.contact_modulus, modulus, kRoundOff * modulus);
   EXPECT_NEAR(law.stiffness, 4.0 / 3.0 * modulus, kRoundOff * modulus);
@@ -64,7 +64,7 @@ TEST(AsperityLaw, losesTheRootInPrint) {
 }
 
 TEST(AsperityLaw, knowsNoPlasticityWhenAllIsElastic) {
-  const AsperityLaw law(ContactPair(Material(), Material()), 0.05, 1e-6, Formulation::kCorrected,
+  const AsperityLaw law(ContactPair(Material(), Material()), 0.05, 1e-6, Formulation::kPaper,
                         Deformation::kElastic);
   EXPECT_EQ(law.plasticityIndexOf(1e-9), 0.0);
 }
@@ -197,7 +197,7 @@ TEST(AsperityResponse, takesWhatTheCapsAndTheLawSay) {
   for (const double radius : {4e-6, 1e-6, 0.1e-6, 1.0}) {
     CapCouple caps = capsOf(20e-9, radius);
     caps.cos_tilt = 0.9;
-    for (const Formulation formulation : {Formulation::kCorrected, Formulation::kPrinted}) {
+    for (const Formulation formulation : {Formulation::kPaper, Formulation::kPrinted}) {
       for (const Deformation deformation : {Deformation::kThreeRegimes, Deformation::kElastic}) {
         AsperityLaw law = lawOf(0.05, 0.85, 1e-6, formulation);
         law.deformation = deformation;

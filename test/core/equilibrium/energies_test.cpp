@@ -55,7 +55,7 @@ constexpr double kDifference = 1e-6;
 
 TEST(Energies, haveTheGeneralizedForceOfAnElasticAsperityAsSlope) {
   for (const Sphere& sphere : kSpheres) {
-    const AsperityLaw law = lawOf(sphere, Formulation::kCorrected);
+    const AsperityLaw law = lawOf(sphere, Formulation::kPaper);
     const AsperityResponse response = responseOf(sphere, sphere.cap_radius, 1.0, law);
     for (const double share : {0.0, 0.2, 0.9, 1.0, 1.7}) {
       const double load = share * response.imposed_load;
@@ -81,7 +81,7 @@ TEST(Energies, haveThePrintedForceAsSlopeInEveryRegime) {
 
 TEST(Energies, areJkrsAtEquilibrium) {
   for (const Sphere& sphere : kSpheres) {
-    const AsperityLaw law = lawOf(sphere, Formulation::kCorrected);
+    const AsperityLaw law = lawOf(sphere, Formulation::kPaper);
     const double load = kPi * sphere.work_of_adhesion * sphere.radius;
     const double a = jkr::equilibriumContactRadius(load, sphere.work_of_adhesion, sphere.radius, law.contact_modulus);
     const Energies energies = asperityEnergies(responseOf(sphere, a, 1.0, law), load, law);
@@ -97,7 +97,7 @@ TEST(Energies, areJkrsAtEquilibrium) {
 
 TEST(Energies, storeNothingInAPlasticAsperity) {
   const Sphere& sphere = kSpheres[0];
-  const AsperityLaw law = lawOf(sphere, Formulation::kCorrected);
+  const AsperityLaw law = lawOf(sphere, Formulation::kPaper);
   const Energies plastic = asperityEnergies(responseOf(sphere, 30e-9, 0.0, law), 1e-6, law);
   const Energies elastic = asperityEnergies(responseOf(sphere, 30e-9, 1.0, law), 1e-6, law);
   const Energies mixed = asperityEnergies(responseOf(sphere, 30e-9, 0.25, law), 1e-6, law);
@@ -109,7 +109,7 @@ TEST(Energies, storeNothingInAPlasticAsperity) {
 
 /// Two asperities of different volume and tilt.
 struct TwoAsperities {
-  AsperityLaw law = lawOf(kSpheres[0], Formulation::kCorrected);
+  AsperityLaw law = lawOf(kSpheres[0], Formulation::kPaper);
   std::vector<AsperityResponse> responses = {responseOf(kSpheres[0], 30e-9, 1.0, law),
                                              responseOf(kSpheres[0], 50e-9, 0.4, law)};
 
@@ -140,7 +140,7 @@ TEST(ForceBalance, sharesTheLoadByVolumeAlongEachAxis) {
 
 TEST(ForceBalance, needsBothToCarryTheLoadAndToResist) {
   const Sphere& sphere = kSpheres[0];
-  const AsperityLaw law = lawOf(sphere, Formulation::kCorrected);
+  const AsperityLaw law = lawOf(sphere, Formulation::kPaper);
   const double load = 1e-6;
   const double apparent = jkr::apparentLoad(load, law.work_of_adhesion, sphere.radius);
   const double equilibrium = jkr::contactRadius(apparent, sphere.radius, law.contact_modulus);

@@ -40,7 +40,7 @@ Options optionsOf(const Setting& setting) {
 std::vector<Setting> settings() {
   std::vector<Setting> all;
   for (const Connectivity connectivity : {Connectivity::kFour, Connectivity::kEight}) {
-    for (const char* formulation : {"corrected", "printed"}) {
+    for (const char* formulation : {"paper", "printed"}) {
       for (const Deformation deformation : {Deformation::kThreeRegimes, Deformation::kElastic}) {
         for (const double hardness : {12e9, 4e9, 0.5e9}) {
           all.push_back({connectivity, formulation, deformation, hardness, hardness > 1e9 ? 1e-6 : 0.0});
