@@ -20,7 +20,7 @@ constexpr double kNm = 1e-9;
 
 struct Setting {
   Connectivity connectivity = Connectivity::kFour;
-  std::string formulation = kDefaultFormulation;
+  std::string formulation = "paper";
   Deformation deformation = Deformation::kThreeRegimes;
   double hardness = 12e9;
   double load = 1e-6;

@@ -134,6 +134,14 @@ TEST(Configuration, WrongTypesNameKeyValueAndWhatIsAllowed) {
   EXPECT_TRUE(mentions(refusal("[1, 2]"), "must be a map"));
 }
 
+TEST(Configuration, AFormulationOfEarlierVersionsIsRefusedWithWhatServesInstead) {
+  const std::string text = refusal("approach: {formulation: corrected}");
+  EXPECT_TRUE(mentions(text, "approach/formulation: 'corrected' is no longer there")) << text;
+  EXPECT_TRUE(mentions(text, "`consistent`")) << text;
+  EXPECT_TRUE(mentions(text, "`paper`")) << text;
+  EXPECT_FALSE(mentions(refusal("approach/formulation: printd"), "no longer")) << text;
+}
+
 TEST(Configuration, UnphysicalValuesAreRefused) {
   EXPECT_TRUE(mentions(refusal("lower/youngs_modulus: -1"), "lower/youngs_modulus: -1 Pa is not allowed, must be > 0"));
   EXPECT_TRUE(mentions(refusal("lower/poisson_ratio: 0.6"), "lower/poisson_ratio: 0.6"));
