@@ -218,7 +218,7 @@ class ShippedPage(unittest.TestCase):
         self.assertNotIn("quick trial", page)
         for name in re.findall(r"\]\((figures/[^)]+)\)", page):
             self.assertLess((REPOSITORY / "doc" / name).stat().st_size, 300e3, name)
-        full = cases.Study(12, 2048, False)
+        full = cases.Study(12, 1024, False)
         self.assertIn("%d × %d pixels, %d pairs" % (full.size, full.size, full.seeds), page)
 
 

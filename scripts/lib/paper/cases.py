@@ -87,6 +87,7 @@ WITH_AND_WITHOUT_REGIMES = (("regimes", "elastic"), ("regimes_vdw", "elastic_vdw
 
 # Closest where the model goes from bonded to few contacts.
 PARAMETERS = (0.1, 0.3, 1.0, 2.0, 3.0, 5.0, 7.0, 9.0, 12.0, 14.0, 17.0, 20.0, 25.0, 30.0, 40.0, 55.0, 75.0, 100.0)
+ROUGH_PARAMETERS = (55.0, 100.0)  # where the regimes' part is told one by one
 QUICK_PARAMETERS = (0.1, 1.0, 5.0, 12.0, 25.0, 50.0, 100.0)
 
 
