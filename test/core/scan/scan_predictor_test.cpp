@@ -221,7 +221,7 @@ TEST(CounterSurface, AFileIsTheMeasuredSurfaceOfATopic) {
 
 TEST(CounterSurface, AFileThatCannotBeUsedIsRefusedAtTheStart) {
   const ScratchFolder folder;
-  Configuration configuration;
+  Configuration configuration = paperConfiguration();
   configuration.counter_surface.type = CounterSurfaceType::kFile;
   configuration.counter_surface.file = folder.file("none.tiff");
   try {
@@ -278,7 +278,7 @@ TEST(Resolution, FewPixelsAndBluntTipsSetTheirFlags) {
 
 TEST(Resolution, TheDefaultLimitIsWhereASpheresRadiusIsWithinFivePercent) {
   // What config/stiction.yaml says about 12 pixels.
-  Configuration configuration;
+  Configuration configuration = paperConfiguration();
   configuration.model.interface.hamaker_constant = 0.0;
   configuration.model.deformation = Deformation::kElastic;
   ScanPredictor predictor(configuration);
