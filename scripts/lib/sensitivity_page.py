@@ -63,12 +63,12 @@ SETTINGS = {
         "How refinement draws between pixels, both with factor 2.",
         "Both agree within the scan-to-scan spread; cubic has no ripples beside steps.", ""),
     "approach/formulation": (
-        "Equations as corrected, or to the letter of the paper.",
+        "What the authors compute, roots and exponents restored, or the print to the letter.",
         "A choice of model, not of digits: [theory](theory.md#what-differs-from-the-printed-paper) gives the reasons.", ""),
     "approach/deformation": (
         "Elastic, elasto-plastic and plastic asperities, or all of them elastic.",
         "A choice of model too: real surfaces flow.",
-        "It matters where the pressure of an elastic contact would exceed the hardness, and nowhere else: a plasticity index above 1 alone moves nothing."),
+        "It matters wherever contacts have a plasticity index above 0.6: chi takes their stored energy away whatever the pressure."),
 }
 YARDSTICKS = {"interface/work_of_adhesion": "work of adhesion", "hardness": "hardness of both bodies",
               "youngs_modulus": "Young's modulus of both bodies"}

@@ -92,7 +92,6 @@ PatchCentre ApproachSearch::centreOf(std::int32_t patch_id) {
 }
 
 bool ApproachSearch::nothingResists() const {
-  if (setting_->law.formulation != Formulation::kPrinted) return false;
   return std::all_of(responses_.begin(), responses_.end(),
                      [](const AsperityResponse& asperity) { return asperity.elastic_share == 0.0; });
 }

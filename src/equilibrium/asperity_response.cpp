@@ -47,15 +47,10 @@ double AsperityResponse::carriedLoad() const {
 
 double AsperityResponse::generalizedForce(double axial_load, const AsperityLaw& law) const {
   const double adhesion = 2.0 * kPi * law.work_of_adhesion * radius;
-  if (law.formulation == Formulation::kPrinted) {
-    const double squared = axial_load * axial_load / imposed_load;
-    return (2.0 * axial_load - 2.0 * squared - elastic_share * (imposed_load - squared)) / 3.0 + adhesion;
-  }
   const double excess = imposed_load - axial_load;
   const double elastic = adhesion - excess * excess / imposed_load / 3.0;
-  if (elastic_share == 1.0) return elastic;
-  const double plastic = axial_load + adhesion - yield_load;
-  return elastic_share * elastic + (1.0 - elastic_share) * std::max(elastic, plastic);
+  const double plastic = adhesion + 2.0 * axial_load * excess / imposed_load / 3.0;
+  return elastic_share * elastic + (1.0 - elastic_share) * plastic;
 }
 
 }  // namespace mems_stiction

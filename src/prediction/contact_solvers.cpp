@@ -1,5 +1,7 @@
 #include "mems_stiction/prediction/contact_solvers.hpp"
 
+#include <utility>
+
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
 #include "mems_stiction/equilibrium/asperity_solver.hpp"
@@ -21,8 +23,18 @@ std::unique_ptr<ContactSolver> make() {
 /// A line per solver, the default first.
 constexpr Entry kSolvers[] = {
     {"consistent", make<SeparationSolver>},
-    {"corrected", make<AsperitySolver, Formulation::kCorrected>},
+    {"paper", make<AsperitySolver, Formulation::kPaper>},
     {"printed", make<AsperitySolver, Formulation::kPrinted>},
+};
+
+struct Retired {
+  const char* formulation;
+  const char* successors;
+};
+
+/// A line per name that settings of earlier versions may hold.
+constexpr Retired kRetired[] = {
+    {"corrected", "`consistent` is the default, `paper` is nearest to what it was"},
 };
 
 }  // namespace
@@ -38,6 +50,15 @@ const std::vector<std::string>& formulationNames() {
   return names;
 }
 
+std::string retirement(const std::string& formulation) {
+  for (const Retired& entry : kRetired) {
+    if (formulation == entry.formulation) {
+      return "approach/formulation: '" + formulation + "' is no longer there: " + entry.successors;
+    }
+  }
+  return "";
+}
+
 std::unique_ptr<ContactSolver> makeContactSolver(const std::string& formulation) {
   for (const Entry& entry : kSolvers) {
     if (formulation == entry.formulation) return entry.make();
@@ -45,7 +66,10 @@ std::unique_ptr<ContactSolver> makeContactSolver(const std::string& formulation)
   OptionValidator validator;
   std::string name = formulation;  // choice() shows a mutable value; the validator only reads it
   validator.choice("approach/formulation", name, formulationNames(), "");
-  throw OptionsError(validator.violations());
+  std::vector<std::string> violations = validator.violations();
+  const std::string reason = retirement(formulation);
+  if (!reason.empty()) violations.push_back(reason);
+  throw OptionsError(std::move(violations));
 }
 
 }  // namespace mems_stiction

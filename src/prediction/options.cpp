@@ -12,7 +12,7 @@ void Options::describe(OptionVisitor& visitor) {
   load.describe(visitor);
   approach.describe(visitor);
   visitor.choice("approach/formulation", formulation, formulationNames(),
-                 "equations as corrected, or to the letter of the paper");
+                 "which solver: the separation curve, or the paper with roots and exponents restored, or to the letter");
   visitor.enumeration("approach/deformation", deformation,
                       {{"three_regimes", Deformation::kThreeRegimes}, {"elastic", Deformation::kElastic}},
                       "elastic, elasto-plastic and plastic asperities, or all of them elastic");
@@ -21,6 +21,8 @@ void Options::describe(OptionVisitor& visitor) {
 
 std::vector<std::string> Options::validate() const {
   std::vector<std::string> violations = rangeViolations(*this);
+  const std::string reason = retirement(formulation);
+  if (!reason.empty()) violations.push_back(reason);
   if (load.voltage != 0.0 && interface.insulator_thickness == 0.0) {
     violations.push_back("interface/insulator_thickness: 0 m is not allowed with load/voltage " +
                          numberText(load.voltage) +

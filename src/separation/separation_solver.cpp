@@ -173,7 +173,7 @@ void SeparationSolver::fillMaps(const ContactProblem& problem, ContactSolution& 
   if (!wants_map && !wants_surfaces) return;
 
   const DeformationShare share(settings.lower, settings.upper, settings.interface.hardness_ratio_limit,
-                               Formulation::kCorrected, settings.deformation);
+                               Formulation::kPaper, settings.deformation);
   OverlapSweep& sweep = trace_.contacts();
   const double approach = curve_.rest().approach;
   for (const std::int32_t cell : sweep.insertedCells()) {

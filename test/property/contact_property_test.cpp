@@ -7,6 +7,7 @@
 
 #include "mems_stiction/approach/gap_field.hpp"
 #include "mems_stiction/base/constants.hpp"
+#include "mems_stiction/mechanics/plasticity.hpp"
 #include "mems_stiction/scan/scan_predictor.hpp"
 #include "property/rough_pairs.hpp"
 #include "support/frame_gaps.hpp"
@@ -59,21 +60,20 @@ RC_GTEST_PROP(Monotony, moreWorkOfAdhesionHoldsMore, (PairCase pair_case, const 
   RC_ASSERT(more > less);
 }
 
-/// Does an asperity press harder than JKR's apparent load of its radius?
+/// Does an asperity press so hard that more load makes it resist the more? dr/dP0 = (2/3) [1 - (2 - chi) P0/P1].
 bool hasOverloadedAsperity(const Prediction& prediction, const Options& options) {
   const double stiffness = 4.0 / 3.0 * ContactPair(options.lower, options.upper).contact_modulus;
   for (const Asperity& asperity : prediction.asperities) {
     const double imposed = stiffness * std::pow(asperity.cap_radius, 3) / asperity.composite_radius;
-    if (asperity.load * std::cos(asperity.tilt) > imposed) return true;
+    const double chi = regimeFactor(asperity.plasticity_index);
+    if ((2.0 - chi) * asperity.load * std::cos(asperity.tilt) > imposed) return true;
   }
   return false;
 }
 
-RC_GTEST_PROP(Monotony, moreLoadTouchesMore, (const PairCase& pair_case, SettingCase setting)) {
-  // dr/dP0 = (2/3) (P1 - P0)/P1 of an elastic asperity: a load pulls together as long as P0 < P1. One that carries more
-  // than P1 by (6) resists the more, and then a larger load may rest on less area (3 of 10000 surfaces). To the letter
-  // of the paper a plastic asperity does from P1/2 on, so that formulation is left out.
-  setting.is_printed = false;
+RC_GTEST_PROP(Monotony, moreLoadTouchesMore, (const PairCase& pair_case, const SettingCase& setting)) {
+  // a load pulls an asperity together as long as P0 < P1/(2 - chi). One that carries more by (6) resists the more, and
+  // then a larger load may rest on less area
   const SurfacePair pair = pairOf(pair_case);
   Options options = optionsOf(setting);
   const Prediction less = predict(options, pair);
@@ -88,11 +88,12 @@ RC_GTEST_PROP(Monotony, moreLoadTouchesMore, (const PairCase& pair_case, Setting
 
 /// A property that sees one kind of surface only says little about the others.
 TEST(RoughPairs, coverEveryOutcome) {
-  int equilibria = 0, bonded = 0, elastic = 0, plastic = 0, several = 0;
+  int equilibria = 0, bonded = 0, restless = 0, elastic = 0, plastic = 0, several = 0;
   const auto count = [&](const PairCase& pair_case, const SettingCase& setting) {
     const Prediction found = predict(optionsOf(setting), pairOf(pair_case));
     equilibria += found.status == Status::kEquilibrium ? 1 : 0;
     bonded += found.status == Status::kBonded ? 1 : 0;
+    restless += found.status == Status::kNoEquilibrium ? 1 : 0;
     elastic += found.elastic_count > 0 ? 1 : 0;
     plastic += found.plastic_count + found.elasto_plastic_count > 0 ? 1 : 0;
     several += found.asperity_count >= 3 ? 1 : 0;
@@ -103,9 +104,10 @@ TEST(RoughPairs, coverEveryOutcome) {
     count(rc::gen::arbitrary<PairCase>()(random, rc::kNominalSize).value(),
           rc::gen::arbitrary<SettingCase>()(random, rc::kNominalSize).value());
   }
-  // measured: 91, 9, 80, 25 and 40 % of 4000
+  // measured: 87, 9, 3, 84, 25 and 46 % of 4000
   EXPECT_GT(equilibria, kCases / 2);
   EXPECT_GT(bonded, kCases / 50);
+  EXPECT_GT(restless, 0);
   EXPECT_GT(elastic, kCases / 2);
   EXPECT_GT(plastic, kCases / 10);
   EXPECT_GT(several, kCases / 5);

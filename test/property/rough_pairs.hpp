@@ -83,7 +83,7 @@ inline Options optionsOf(const SettingCase& c) {
   options.interface.hamaker_constant = 1e-21 * c.hamaker;
   options.interface.insulator_thickness = 50 * kNm;
   options.load.voltage = c.voltage;
-  options.formulation = c.is_printed ? "printed" : "corrected";
+  options.formulation = c.is_printed ? "printed" : "paper";
   options.deformation = c.is_elastic ? Deformation::kElastic : Deformation::kThreeRegimes;
   options.approach.connectivity = c.joins_corners ? Connectivity::kEight : Connectivity::kFour;
   options.output.roughness = false;

@@ -25,10 +25,10 @@ ReceivedScan roughScan(int seed = 3) {
   return scanOf(gaussianSurface(options));
 }
 
-/// Soft, so that contacts leave their mark.
+/// Soft, so that contacts leave their mark; hard enough that they come to rest.
 Configuration softConfiguration() {
   Configuration configuration;
-  configuration.model.lower.hardness = 5e8;
+  configuration.model.lower.hardness = 8e9;
   configuration.model.load.mechanical_load = 2e-6;
   configuration.model.interface.insulator_thickness = 100e-9;
   return configuration;

@@ -51,6 +51,13 @@ TEST(Parameters, EveryBadKeyIsNamedAtOnce) {
   EXPECT_NE(text.find("newest"), std::string::npos) << text;
 }
 
+TEST(Parameters, AFormulationOfEarlierVersionsIsRefusedWithWhatServesInstead) {
+  const std::string text = violations("{approach: {formulation: corrected}}");
+  EXPECT_NE(text.find("approach/formulation: 'corrected' is no longer there"), std::string::npos) << text;
+  EXPECT_NE(text.find("`paper`"), std::string::npos) << text;
+  EXPECT_EQ(violations("{approach: {formulation: paper}}"), "");
+}
+
 TEST(Parameters, ImageTransportMayKeepItsOwnKeys) {
   EXPECT_EQ(violations("{image_transport: raw, deformed_height: {disable_pub_plugins: [image_transport/theora]}, "
                        "contact_map: {compressed: {format: png}}}"),

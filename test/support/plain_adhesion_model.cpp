@@ -141,7 +141,7 @@ double meanGapApart(const GapField& field, const State& state) {
 }
 
 Formulation formulationOf(const Options& options) {
-  return options.formulation == "printed" ? Formulation::kPrinted : Formulation::kCorrected;
+  return options.formulation == "printed" ? Formulation::kPrinted : Formulation::kPaper;
 }
 
 void summarize(const Problem& problem, const State& state, Prediction& prediction) {
@@ -278,8 +278,7 @@ Prediction predict(const Options& options, const SurfacePair& surfaces) {
       const bool all_plastic =
           std::all_of(state.responses.begin(), state.responses.end(),
                       [](const AsperityResponse& asperity) { return asperity.elastic_share == 0.0; });
-      const bool is_printed = formulationOf(options) == Formulation::kPrinted;
-      prediction.status = is_printed && all_plastic ? Status::kNoEquilibrium : Status::kBonded;
+      prediction.status = all_plastic ? Status::kNoEquilibrium : Status::kBonded;
     }
     prediction.plastic_work += state.balance.plastic_force * (state.approach - previous_approach);
   }

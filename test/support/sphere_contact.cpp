@@ -1,4 +1,5 @@
 #include "support/sphere_contact.hpp"
+#include "support/paper_options.hpp"
 
 #include "support/analytic_surfaces.hpp"
 
@@ -13,7 +14,7 @@ HeightMap sphereOn(const SphereGrid& grid, double radius, double contact_radius,
 }
 
 Options contactOnly(double mechanical_load, double work_of_adhesion) {
-  Options options;  // both bodies as in material.hpp
+  Options options = paperOptions();  // both bodies as in material.hpp
   options.interface.work_of_adhesion = work_of_adhesion;
   options.interface.hamaker_constant = 0.0;
   options.load.mechanical_load = mechanical_load;

@@ -59,8 +59,9 @@ DeformationShare shareOf(double lower_hardness, double upper_hardness, Formulati
 Section capsSection() {
   // one raised pixel of height h on a flat, pitch p: the outline lies half a pixel out, at half the height
   const double height = 6e-9, pitch = 10e-9;
-  const Prediction raised =
-      AdhesionModel(contactOnly(1e-9, kWork)).predict(analytic::flatWithBump(20, 30, pitch, pitch, height));
+  Options elastic = contactOnly(1e-9, kWork);
+  elastic.deformation = Deformation::kElastic;  // so steep a pixel would flow and never come to rest
+  const Prediction raised = AdhesionModel(elastic).predict(analytic::flatWithBump(20, 30, pitch, pitch, height));
   const double rc = 0.5 * pitch, cap = 0.5 * height;
   const double radius = (rc * rc + cap * cap) / (2.0 * cap);
   Section section{"Caps and single figures", {}};
@@ -111,10 +112,17 @@ Section plasticitySection() {
       exact("chi at phi = 0.6", "", "(10.2)", regimeFactor(0.6), 1.0),
       near("chi at phi = 1.1", "", "(10.2)", regimeFactor(1.1), 0.0, kRoundOff, kRoundOffReason),
   };
-  // soft enough that flow decides: P1 >> Ha pi rc^2
-  const double load = 5e-5, hardness = 0.3e9, work = 0.2, radius = 2e-6;
-  const double area = (load + 2.0 * closed_form::kPi * work * radius) / hardness;
-  const double a = std::sqrt(area / closed_form::kPi);
+  // half elastic by (9) with the rms height of a frame of four contact radii: r = 0 is
+  // chi P1^2 - 2 b P1 + (2 - chi) P0^2 = 0 with b = P0 + 3 pi w R
+  const double load = 5e-5, hardness = 6.8e9, work = 0.2, radius = 2e-6;
+  const auto chiOf = [=](const Prediction& found) {
+    return 1.0 - 2.0 * (kModulus / hardness * std::sqrt(found.composite_rms_height / radius) - 0.6);
+  };
+  const auto restOf = [=](double chi) {
+    const double b = load + 3.0 * closed_form::kPi * work * radius;
+    return std::cbrt(radius / kStiffness * (b + std::sqrt(b * b - chi * (2.0 - chi) * load * load)) / chi);
+  };
+  const double a = restOf(0.5);
   const auto predict = [=](double pixels, double step, const Phase& phase) {
     Options options = contactOnly(load, work);
     options.lower.hardness = hardness;
@@ -122,24 +130,35 @@ Section plasticitySection() {
     return AdhesionModel(options).predict(sphereOn({"", 4, 4, 0, 1.0, phase.x, phase.y}, radius, a, pixels));
   };
   const std::vector<Row> area_row =
-      onGrids({limit("contact area of a soft sphere", "m^2", "Bowden and Tabor: (F + 2 pi w R)/Ha", area, 2e-3,
+      onGrids({limit("contact area of an elasto-plastic sphere over that where r = 0", "", "(10.2), by hand", 1.0, 2e-3,
                      "twice that of a radius known to a tenth of a pixel of 100",
                      {1.2, "a rim of pixels: between first and second order"})},
               {"pixels per contact radius", {12.5, 25, 50, 100}},
               [&](double pixels, const Phase& phase) -> std::vector<double> {
                 const Prediction found = predict(pixels, 0.0, phase);
-                return {found.plastic_count == 1 ? found.contact_area : 0.0};
+                const double rest = restOf(chiOf(found));
+                return {found.elasto_plastic_count == 1 ? found.contact_area / (closed_form::kPi * rest * rest) : 0.0};
               });
   const std::vector<Row> work_row = onGrids(
-      {limit("work of flow over Ha times the cap's volume", "", "pi D^2 (R - D/3) of a sphere", 1.0, 5e-3,
+      {limit("work of flow over (1 - chi) Ha times the cap's volume", "", "pi D^2 (R - D/3) of a sphere", 1.0, 5e-3,
              "a step of 320, and the outline's tenth of a pixel of 60", {0.9, "rectangles, a step wide"})},
       {"steps until equilibrium", {40, 80, 160, 320}, 2}, [&](double steps, const Phase& phase) -> std::vector<double> {
         const Prediction found = predict(60, 0.5 * a * a / radius / steps, phase);
         const double depth = found.approach;
-        return {found.plastic_work / (hardness * closed_form::kPi * depth * depth * (radius - depth / 3.0))};
+        const double cap = closed_form::kPi * depth * depth * (radius - depth / 3.0);
+        return {found.plastic_work / ((1.0 - chiOf(found)) * hardness * cap)};
       });
   section.rows.push_back(area_row[0]);
   section.rows.push_back(work_row[0]);
+  int at_rest = 0;
+  for (const double soft : {0.05e9, 0.3e9, 1e9}) {
+    Options options = contactOnly(load, work);
+    options.lower.hardness = soft;
+    const Prediction found = AdhesionModel(options).predict(sphereOn({"", 4, 4, 0, 1.0, 0.5, 0.5}, radius, a, 25));
+    if (found.status != Status::kNoEquilibrium || found.plastic_count != 1) ++at_rest;
+  }
+  section.rows.push_back(always("a fully plastic sphere does not come to rest", "(10.2): nothing resists", at_rest,
+                                "holds for each of 3 hardnesses"));
   return section;
 }
 
@@ -149,8 +168,8 @@ Section equilibriumSection() {
   const double a = closed_form::jkrContactRadius(load, kRadius, kWork, kModulus);
   const double in_units = a / units.length();
   const double energy_unit = units.force() * units.approach();
-  const AsperityLaw law = lawOf(Formulation::kCorrected);
-  const AsperityResponse sphere = sphereAt(a, 1.0, Formulation::kCorrected);
+  const AsperityLaw law = lawOf(Formulation::kPaper);
+  const AsperityResponse sphere = sphereAt(a, 1.0, Formulation::kPaper);
   const Energies energies = asperityEnergies(sphere, load, law);
   const double surface = in_units * in_units;  // in energy units: pi w a^2
   Section section{"Energies and equilibrium of one asperity", {}};
@@ -161,7 +180,7 @@ Section equilibriumSection() {
       exact("(10.2), elastic energy", "J", "JKR's work and surface energy, by hand", energies.elastic,
             (closed_form::jkrWork(in_units) + surface) * energy_unit),
       exact("(10.2) at chi = 0.25", "J", "a quarter of it",
-            asperityEnergies(sphereAt(a, 0.25, Formulation::kCorrected), load, law).elastic,
+            asperityEnergies(sphereAt(a, 0.25, Formulation::kPaper), load, law).elastic,
             0.25 * (closed_form::jkrWork(in_units) + surface) * energy_unit),
       near("generalised force where (7) holds", "pi w R", "0", sphere.generalizedForce(load, law) / units.force(), 0.0,
            1e-11, "round-off of terms of 10"),
@@ -171,10 +190,11 @@ Section equilibriumSection() {
     const char* name;
     double share;
     Formulation formulation;
-  } slopes[] = {{"dE_t/dD, elastic, off equilibrium", 1.0, Formulation::kCorrected},
+  } slopes[] = {{"dE_t/dD, elastic, off equilibrium", 1.0, Formulation::kPaper},
+                {"dE_t/dD, chi = 0.4", 0.4, Formulation::kPaper},
+                {"dE_t/dD, chi = 0", 0.0, Formulation::kPaper},
                 {"dE_t/dD as printed, chi = 1", 1.0, Formulation::kPrinted},
-                {"dE_t/dD as printed, chi = 0.4", 0.4, Formulation::kPrinted},
-                {"dE_t/dD as printed, chi = 0", 0.0, Formulation::kPrinted}};
+                {"dE_t/dD as printed, chi = 0.4", 0.4, Formulation::kPrinted}};
   for (const auto& slope : slopes) {
     const double rc = 0.8 * a;
     const double force = sphereAt(rc, slope.share, slope.formulation).generalizedForce(load, lawOf(slope.formulation));
@@ -182,47 +202,52 @@ Section equilibriumSection() {
                                 slopeOfEnergy(rc, slope.share, load, slope.formulation) / units.force(), 1e-6,
                                 "a step of 1e-4: its square"));
   }
-  // yielding, chi = 0.8: r = chi r_e + (1 - chi) max(r_e, r_p) and the load carried, from areas and pressures
+  // yielding, chi = 0.8: (10.2) to the letter and the load carried, from areas and pressures
   for (const bool is_deep : {false, true}) {
     const double rc = is_deep ? 1.8e-6 : 0.9e-6;
     const double imposed = kStiffness * rc * rc * rc / kRadius;
     const double yield = kHardness * closed_form::kPi * rc * rc;
     const double axial = 0.2 * imposed;
-    const double elastic = -((imposed - axial) * (imposed - axial) / imposed - 6.0 * units.force()) / 3.0;
-    const double plastic = axial + 2.0 * units.force() - yield;  // above the elastic one only when deep
-    const AsperityResponse mixed = sphereAt(rc, 0.8, Formulation::kCorrected);
+    const AsperityResponse mixed = sphereAt(rc, 0.8, Formulation::kPaper);
     const std::string depth = is_deep ? " deep in flow" : " in early flow";
-    section.rows.push_back(exact("generalised force" + depth + ", chi = 0.8", "N",
-                                 is_deep ? "0.8 r_e + 0.2 r_p, by hand" : "r_e: no more than elastic",
+    // P0 = 0.2 P1: 2 P0 - 2 P0^2/P1 = 0.32 P1, P1 - P0^2/P1 = 0.96 P1
+    section.rows.push_back(exact("generalised force" + depth + ", chi = 0.8", "N", "(0.32 - 0.8 0.96) P1/3 + 2 pi w R",
                                  mixed.generalizedForce(axial, law),
-                                 is_deep ? 0.8 * elastic + 0.2 * plastic : elastic));
+                                 (0.32 - 0.8 * 0.96) * imposed / 3.0 + 2.0 * units.force()));
     section.rows.push_back(exact("load carried" + depth + ", chi = 0.8", "N", "0.8 P1 + 0.2 Ha pi rc^2",
                                  mixed.carriedLoad(), 0.8 * imposed + 0.2 * yield));
   }
+  // under P1/3 a half elastic asperity rests without adhesion, as Hertz does under P1
+  AsperityLaw dry = law;
+  dry.work_of_adhesion = 0.0;
+  section.rows.push_back(
+      near("generalised force under P1/3, chi = 0.5, no adhesion", "P1", "P1 = (2 - chi)/chi P0",
+           sphereAt(a, 0.5, Formulation::kPaper).generalizedForce(sphere.imposed_load / 3.0, dry) / sphere.imposed_load,
+           0.0, kRoundOff, kRoundOffReason));
   return section;
 }
 
 Section deformedSurfacesSection() {
   const double log_ratio = std::log(1.05) / std::log(1.0 / 0.9);
-  const DeformationShare softer = shareOf(10e9, 10.5e9, Formulation::kCorrected);
+  const DeformationShare softer = shareOf(10e9, 10.5e9, Formulation::kPaper);
   Section section{"Surfaces after contact", {}};
   section.rows = {
-      exact("share of the lower body, equal hardness", "", "1/2",
-            shareOf(12e9, 12e9, Formulation::kCorrected).lower(2.0), 0.5),
+      exact("share of the lower body, equal hardness", "", "1/2", shareOf(12e9, 12e9, Formulation::kPaper).lower(2.0),
+            0.5),
       exact("share of the lower body, 5 % softer", "", "1/2 + ln(1.05)/(2 |ln 0.9|)", softer.lower(2.0),
             0.5 + 0.5 * log_ratio),
       exact("share of the upper body, same", "", "the rest", softer.upper(2.0), 0.5 - 0.5 * log_ratio),
       exact("(13), share of the lower body, 12 times softer", "", "1",
-            shareOf(1e9, 12e9, Formulation::kCorrected).lower(2.0), 1.0),
+            shareOf(1e9, 12e9, Formulation::kPaper).lower(2.0), 1.0),
       near("(13), share of the lower body, 12 times harder", "", "0",
-           shareOf(12e9, 1e9, Formulation::kCorrected).lower(2.0), 0.0, kRoundOff, kRoundOffReason),
+           shareOf(12e9, 1e9, Formulation::kPaper).lower(2.0), 0.0, kRoundOff, kRoundOffReason),
       exact("share at phi = 0.8, 5 % softer", "", "2 (0.8 - 0.6) of it", softer.lower(0.8),
             0.4 * (0.5 + 0.5 * log_ratio)),
       near("share at phi = 0.6", "", "0", softer.lower(0.6), 0.0, kRoundOff, kRoundOffReason),
       exact("(12) as printed, 5 % softer", "", "1/2 + 1/(4 (1 + ln(1.05)/|ln 0.9|))",
             shareOf(10e9, 10.5e9, Formulation::kPrinted).lower(2.0), 0.5 + 0.25 / (1.0 + log_ratio)),
   };
-  // a soft sphere pressed into a flat: the cap it loses
+  // a soft sphere pressed into a flat, as far as the search goes: the cap it loses
   Options options = contactOnly(2e-6, kWork);
   options.lower.hardness = 0.3e9;
   const double pitch = 1e-9;

@@ -9,6 +9,7 @@
 #include "mems_stiction/verdict/beam_adhesion.hpp"
 #include "mems_stiction/verdict/device_options.hpp"
 #include "support/analytic_surfaces.hpp"
+#include "support/paper_options.hpp"
 #include "verification/closed_forms.hpp"
 #include "verification/grid_convergence.hpp"
 #include "verification/sections.hpp"
@@ -81,7 +82,7 @@ Section capillarySection() {
       "pull of water on a sphere of 2 um, 70 %", "N", "4 pi gamma R", 4.0 * closed_form::kPi * 0.072 * 2e-6, 2e-3,
       "two rims of 240 pixels, known to a quarter of one", {1.2, "rims of pixels: between first and second order"})};
   rows = onGrids(rows, {"columns", {60, 120, 240, 480}}, [](double cols, const Phase& phase) -> std::vector<double> {
-    Options options;
+    Options options = paperOptions();
     options.interface.hamaker_constant = 0.0;
     options.capillary = humid(0.7, 0.0);
     const double pitch = 450e-9 / cols;

@@ -5,6 +5,7 @@
 #include "mems_stiction/loads/normal_load.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
 #include "support/analytic_surfaces.hpp"
+#include "support/paper_options.hpp"
 #include "support/pinned_surface.hpp"
 #include "verification/closed_forms.hpp"
 #include "verification/grid_convergence.hpp"
@@ -112,10 +113,11 @@ std::vector<Row> sphereRows() {
 std::vector<Row> bumpRows() {
   const int rows = 40, cols = 91;
   const double pitch_x = 5e-9, pitch_y = 12e-9, height = 50e-9;
-  Options options;
+  Options options = paperOptions();
   options.interface = insulated();
   options.load.voltage = kVoltage;
   options.load.max_voltage = 100.0;
+  options.deformation = Deformation::kElastic;  // so steep a bump would flow until the flat touches too
   const Prediction found =
       AdhesionModel(options).predict(analytic::flatWithBump(rows, cols, pitch_x, pitch_y, height, 5));
   const double cell = pitch_x * pitch_y;

@@ -9,8 +9,7 @@
 /// on delta. The search ends
 ///   - in equilibrium;
 ///   - bonded, at the first level whose contact fraction reaches the limit;
-///   - without equilibrium, after max_steps, or at that limit when to the letter of the paper nothing resists (all
-///     asperities plastic in Formulation::kPrinted).
+///   - without equilibrium, after max_steps, or at that limit when all asperities are plastic, so that nothing resists.
 
 #include <cstdint>
 #include <vector>

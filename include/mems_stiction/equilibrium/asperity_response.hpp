@@ -8,17 +8,15 @@
 ///
 ///     P1 = K rc^3/R,                       K = 4E/3
 ///
-/// and the generalised force along the approach is, for an elastic asperity under its share P0 = F_i cos(theta) of the
-/// load,
+/// and the generalised force along the approach, under its share P0 = F_i cos(theta) of the load, is the derivative of
+/// (8) with (10), where chi of (10.2) takes stored energy away and nothing takes its place:
 ///
-///     r_e = -(1/3) [ (P1 - P0)^2/P1 - 6 pi Gamma R ],                  zero where (7) holds
-///     r_p = P0 + 2 pi Gamma R - Ha pi rc^2,                            fully plastic: Bowden and Tabor's contact
-///     r   = chi r_e + (1 - chi) max(r_e, r_p).
+///     r = (1/3) [ 2 P0 - 2 P0^2/P1 - chi (P1 - P0^2/P1) + 6 pi Gamma R ]
+///       = chi r_e + (1 - chi) r_p
+///     r_e = -(1/3) [ (P1 - P0)^2/P1 - 6 pi Gamma R ],                  elastic: zero where (7) holds
+///     r_p =  (1/3) [ 2 P0 (P1 - P0)/P1 + 6 pi Gamma R ],               plastic: above zero wherever P1 > P0
 ///
 /// The load that it can carry is chi P1 + (1 - chi) min(P1, Ha pi rc^2).
-///
-/// With Formulation::kPrinted the force is the derivative of (8) with (10) to the letter, where nothing resists a
-/// plastic asperity: r = (1/3) [2 P0 - 2 P0^2/P1 - chi (P1 - P0^2/P1) + 6 pi Gamma R].
 
 #include "mems_stiction/approach/cap_couple.hpp"
 #include "mems_stiction/mechanics/formulation.hpp"
@@ -33,7 +31,7 @@ struct AsperityLaw {
   double hardness = 0.0;              ///< Ha [Pa]
   double work_of_adhesion = 0.0;      ///< Gamma [J/m^2]
   double composite_rms_height = 0.0;  ///< sigma [m]
-  Formulation formulation = Formulation::kCorrected;
+  Formulation formulation = Formulation::kPaper;
   Deformation deformation = Deformation::kThreeRegimes;
 
   AsperityLaw() = default;

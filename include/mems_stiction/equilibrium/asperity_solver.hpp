@@ -8,7 +8,7 @@
 /// parameter tells how far it does). Outside: the status says so, forces are then lower bounds.
 /// Source: Deladi, Krijnen, Tas, Elwenspoek 2002; doc/theory.md has every equation as implemented.
 ///
-///     AsperitySolver solver(Formulation::kCorrected);
+///     AsperitySolver solver(Formulation::kPaper);
 ///     solver.solve({surfaces, gap, composite_rms_height, settings}, solution);
 
 #include "mems_stiction/approach/gap_order.hpp"

@@ -5,8 +5,9 @@
 
 namespace mems_stiction {
 
-/// Which reading of the paper's equations (6), (9), (10), (12) and (13) is used; doc/theory.md has the table.
-enum class Formulation { kCorrected, kPrinted };
+/// Which reading of the paper's equations (6), (9), (12) and (13) is used: what the authors compute, with the roots and
+/// exponents that the print lost, or the print to the letter. doc/theory.md has the table.
+enum class Formulation { kPaper, kPrinted };
 
 /// Whether hardness plays a part. kElastic keeps every asperity in the elastic regime (chi = 1), as the theories that
 /// the paper compares with do.

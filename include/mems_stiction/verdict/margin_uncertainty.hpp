@@ -21,10 +21,10 @@
 /// surfaces near bonding more sensitive than said here), the change of the shares of large and small contacts, and
 /// steps of the contact count when there are few. F_w ~ c^-2 is the edge of a contact, a gap that grows evenly from 0.
 /// Condensed water goes with the contacts that it surrounds.
-/// Judged by searching again with each constant changed (tested): on Gaussian surfaces with 30 contacts and more, the
-/// powers with which the pull-off force goes with the constants agree within 0.3 for most, within 0.7 at worst
-/// (hardness of surfaces half elastic, half plastic). With a few contacts the search goes in steps, and this is the
-/// smooth mean at best. A single contact that carries more than it must does not react at all: this is then wider than
+/// Judged by searching again with each constant changed (tested): on Gaussian surfaces with 30 elastic contacts and
+/// more, the powers with which the pull-off force goes with the constants agree within 0.3. Contacts that flow resist
+/// less than the load that they carry (asperity_response.hpp): there the search moves by several times more, with
+/// powers of 4 of pitch and cut-off. With a few contacts the search goes in steps, and this is the smooth mean at best. A single contact that carries more than it must does not react at all: this is then wider than
 /// what the search would say.
 ///
 /// With scan_sampling, a further factor has the variance sum R_i^2/(sum R_i)^2: a scan is one sample of the surface,

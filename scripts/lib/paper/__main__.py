@@ -41,7 +41,7 @@ def parse():
     parser = argparse.ArgumentParser(prog="reproduce_paper", description="Figures like the paper's, and the page around them.")
     parser.add_argument("--program", type=pathlib.Path, required=True, metavar="FILE", help="paper_study, built")
     parser.add_argument("--seeds", type=int, metavar="N", help="pairs of surfaces per point of figures 6 and 7 (12; quick: 3)")
-    parser.add_argument("--size", type=int, metavar="N", help="rows and columns of their surfaces (2048; quick: 256)")
+    parser.add_argument("--size", type=int, metavar="N", help="rows and columns of their surfaces (1024; quick: 256)")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N", help="pairs at the same time (all processors)")
     parser.add_argument("--quick", action="store_true", help="a trial of a few seconds: few, small surfaces")
     parser.add_argument("--doc", type=pathlib.Path, metavar="FOLDER",
@@ -58,7 +58,7 @@ def parse():
     if arguments.seeds is None:
         arguments.seeds = 3 if arguments.quick else 12
     if arguments.size is None:
-        arguments.size = 256 if arguments.quick else 2048
+        arguments.size = 256 if arguments.quick else 1024
     return arguments
 
 

@@ -21,6 +21,7 @@ from paper.theory import SUMMITS
 REPOSITORY = pathlib.Path(__file__).resolve().parents[3]
 CORRELATION_PIXELS = 10
 BASE_RMS_HEIGHT = 1e-9  # of each surface as drawn; cases scale it
+PAPERS_MODEL = {"approach/formulation": "paper"}
 NO_VAN_DER_WAALS = {"interface/hamaker_constant": 0.0}
 ALL_ELASTIC = {"approach/deformation": "elastic"}
 # Gui et al.: bonding below the first, non-bonding above the second.
@@ -86,6 +87,7 @@ WITH_AND_WITHOUT_REGIMES = (("regimes", "elastic"), ("regimes_vdw", "elastic_vdw
 
 # Closest where the model goes from bonded to few contacts.
 PARAMETERS = (0.1, 0.3, 1.0, 2.0, 3.0, 5.0, 7.0, 9.0, 12.0, 14.0, 17.0, 20.0, 25.0, 30.0, 40.0, 55.0, 75.0, 100.0)
+ROUGH_PARAMETERS = (55.0, 100.0)  # where the regimes' part is told one by one
 QUICK_PARAMETERS = (0.1, 1.0, 5.0, 12.0, 25.0, 50.0, 100.0)
 
 
@@ -135,7 +137,7 @@ def scale_for(composite_rms_height):
 
 def case(name, material, composite_rms_height, settings, dump=None):
     wanted = {"name": name, "scale": scale_for(composite_rms_height), "config": str(REPOSITORY / material.config),
-              "settings": settings}
+              "settings": {**PAPERS_MODEL, **settings}}
     if dump is not None:
         wanted["dump"] = str(dump / name.replace("/", "_"))
     return wanted

@@ -223,10 +223,7 @@ def compare(facts, material, field):
     return "; ".join(said) or "no such pair", numbers
 
 
-def reason_for_equal(material):
-    slope = 3 * math.pi * material.hardness / (4 / 3 * material.contact_modulus)
-    return " Equal where no contact is steep enough: under adhesion alone an asperity resists by flow less than elastically only beyond " \
-        "rc/R = 3π Ha/K = %.2f." % slope
+EQUAL = " Equal where what the few contacts that are not elastic no longer store does not move the level at which the pair rests."
 
 
 def larger_area(facts, material):
@@ -234,7 +231,7 @@ def larger_area(facts, material):
     return Row("larger_area_" + material.name, "conclusions 4, fig. 7",
                "If asperities do not deform elastically, the real contact area is larger than in the elastic case: %s." % material.name,
                "Every pair of figure 7 with a contact that is not elastic, against the same pair all-elastic.",
-               said + "." + (reason_for_equal(material) if equal else ""), verdict(larger > 0 and smaller == 0, larger > smaller))
+               said + "." + (EQUAL if equal else ""), verdict(larger > 0 and smaller == 0, larger > smaller))
 
 
 def higher_pull_off(facts, material):
@@ -244,16 +241,30 @@ def higher_pull_off(facts, material):
                "The same pairs.", said + "." + note, verdict(larger > 0 and smaller == 0, larger > smaller))
 
 
+def at_rough_ends(facts, material):
+    """Medians over the pairs with van der Waals attraction, where roughness is large: with the regimes over all-elastic."""
+    regimes, elastic = cases.WITH_AND_WITHOUT_REGIMES[1]
+    said = []
+    for wanted in cases.ROUGH_PARAMETERS:
+        place = int(np.argmin(np.abs(np.log(facts.sweep.parameters / wanted))))
+        get = lambda series, field: facts.sweep.values(material, series, field)[place]  # noqa: E731
+        steps = (get(regimes, "approach") - get(elastic, "approach")) / (get(elastic, "composite_rms_height") / 50)
+        area, force = (np.median(get(regimes, field) / get(elastic, field)) for field in ("contact_area", "pull_off_force"))
+        said.append("%s steps later, %s times the contact and %s times the pull-off force at θ = %s" % (
+            number_text(float(np.median(steps))), number_text(float(area)), number_text(float(force)), number_text(facts.sweep.parameters[place])))
+    return "; ".join(said)
+
+
 def stops_later(facts, material):
     steps = np.concatenate([Pairs(facts, material, with_van_der_waals).steps() for with_van_der_waals in (False, True)])
     later = steps[steps > 0]
     return Row("stops_later_" + material.name, "3",
                "With plastic asperities the iteration stops a few steps later than with elastic ones only: %s." % material.name,
                "The pairs of figures 6 and 7 with contacts that are not elastic.",
-               "Of %d pairs %d stop later%s, %d at the same place, %d earlier." % (
+               "Of %d pairs %d stop later%s, %d at the same place, %d earlier. With van der Waals attraction, medians: %s." % (
                    len(steps), len(later), " (median %s steps of σ/50, most %s)" % (
                        number_text(float(np.median(later))), number_text(float(later.max()))) if len(later) else "",
-                   np.sum(steps == 0), np.sum(steps < 0)),
+                   np.sum(steps == 0), np.sum(steps < 0), at_rough_ends(facts, material)),
                verdict(len(later) > 0 and not np.any(steps < 0), len(later) > 0))
 
 

@@ -19,7 +19,7 @@ constexpr double kContactFractionLimit = 0.5;
 struct Search {
   explicit Search(const GapField& field_in, double mechanical_load = 0.0)
       : field(field_in),
-        setting{AsperityLaw(ContactPair(Material(), Material()), 0.05, 3 * kNm, Formulation::kCorrected,
+        setting{AsperityLaw(ContactPair(Material(), Material()), 0.05, 3 * kNm, Formulation::kPaper,
                             Deformation::kThreeRegimes),
                 CellForces(InterfaceOptions(), 0.0, field_in.cellArea()),
                 mechanical_load,
@@ -134,12 +134,34 @@ TEST(ApproachSearch, endsWithoutEquilibriumWhenTheStepsAreUsedUp) {
   EXPECT_EQ(state.approach, 7 * search.setting.step);
 }
 
-TEST(ApproachSearch, endsWithoutEquilibriumWhereToTheLetterNothingResists) {
-  Search search(roughField(), 1.0);
-  search.setting.law.formulation = Formulation::kPrinted;
-  search.setting.law.hardness = 1e6;  // [Pa]: everything flows
-  EXPECT_EQ(search.run().status, Status::kNoEquilibrium);
-  EXPECT_EQ(search.state.contact_count, search.order.contactLimit());
+TEST(ApproachSearch, endsWithoutEquilibriumWhereEverythingFlowsAndNothingResists) {
+  for (const Formulation formulation : {Formulation::kPaper, Formulation::kPrinted}) {
+    for (const double load : {0.0, 1e-6, 1.0}) {
+      Search search(roughField(), load);
+      search.setting.law.formulation = formulation;
+      search.setting.law.hardness = 1e6;  // [Pa]
+      EXPECT_EQ(search.run().status, Status::kNoEquilibrium) << load;
+      EXPECT_EQ(search.state.contact_count, search.order.contactLimit()) << load;
+      EXPECT_FALSE(search.state.balance.is_equilibrium) << load;
+    }
+  }
+}
+
+TEST(ApproachSearch, goesOnWhereStoredEnergyIsTakenAway) {
+  Search search(roughField(), 2e-6);
+  search.setting.law.deformation = Deformation::kElastic;
+  const EquilibriumState elastic = search.run();
+  ASSERT_EQ(elastic.status, Status::kEquilibrium);
+  search.setting.law.deformation = Deformation::kThreeRegimes;
+  double previous = elastic.approach;
+  // chi falls with the hardness: each rests later than the harder one, until nothing is left to rest on
+  for (const double hardness : {8e9, 6e9}) {
+    search.setting.law.hardness = hardness;
+    const EquilibriumState& state = search.run();
+    EXPECT_EQ(state.status, Status::kEquilibrium) << hardness;
+    EXPECT_GT(state.approach, previous) << hardness;
+    previous = state.approach;
+  }
 }
 
 TEST(ApproachSearch, describesThePatchesThatItEndedIn) {

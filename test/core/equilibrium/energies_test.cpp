@@ -53,35 +53,42 @@ double slopeOfTotal(const Sphere& sphere, double elastic_share, double load, con
 // Step 1e-4 of the depth: the difference leaves out terms of its square, and keeps twelve digits of the energies.
 constexpr double kDifference = 1e-6;
 
-TEST(Energies, haveTheGeneralizedForceOfAnElasticAsperityAsSlope) {
+TEST(Energies, haveTheGeneralizedForceAsSlopeInEveryRegime) {
   for (const Sphere& sphere : kSpheres) {
-    const AsperityLaw law = lawOf(sphere, Formulation::kCorrected);
-    const AsperityResponse response = responseOf(sphere, sphere.cap_radius, 1.0, law);
-    for (const double share : {0.0, 0.2, 0.9, 1.0, 1.7}) {
-      const double load = share * response.imposed_load;
-      const double scale = response.imposed_load + kPi * sphere.work_of_adhesion * sphere.radius;
-      EXPECT_NEAR(slopeOfTotal(sphere, 1.0, load, law), response.generalizedForce(load, law), kDifference * scale);
+    for (const Formulation formulation : {Formulation::kPaper, Formulation::kPrinted}) {
+      const AsperityLaw law = lawOf(sphere, formulation);
+      for (const double chi : {1.0, 0.7, 0.4, 0.0}) {
+        const AsperityResponse response = responseOf(sphere, sphere.cap_radius, chi, law);
+        for (const double share : {0.0, 0.2, 0.9, 1.0, 1.7}) {
+          const double load = share * response.imposed_load;
+          const double scale = response.imposed_load + kPi * sphere.work_of_adhesion * sphere.radius;
+          EXPECT_NEAR(slopeOfTotal(sphere, chi, load, law), response.generalizedForce(load, law), kDifference * scale);
+        }
+      }
     }
   }
 }
 
-TEST(Energies, haveThePrintedForceAsSlopeInEveryRegime) {
+TEST(Energies, areLargestWhereAMixedAsperityRests) {
   for (const Sphere& sphere : kSpheres) {
-    const AsperityLaw law = lawOf(sphere, Formulation::kPrinted);
-    for (const double chi : {1.0, 0.4, 0.0}) {
-      const AsperityResponse response = responseOf(sphere, sphere.cap_radius, chi, law);
-      for (const double share : {0.0, 0.2, 1.0}) {
-        const double load = share * response.imposed_load;
-        const double scale = response.imposed_load + kPi * sphere.work_of_adhesion * sphere.radius;
-        EXPECT_NEAR(slopeOfTotal(sphere, chi, load, law), response.generalizedForce(load, law), kDifference * scale);
-      }
+    const AsperityLaw law = lawOf(sphere, Formulation::kPaper);
+    const double unit = kPi * sphere.work_of_adhesion * sphere.radius;
+    for (const double chi : {1.0, 0.6, 0.3}) {
+      const double load = 2 * unit;
+      const double b = load + 3 * unit;
+      const double apparent = (b + std::sqrt(b * b - chi * (2 - chi) * load * load)) / chi;  // r = 0
+      const double rest = jkr::contactRadius(apparent, sphere.radius, law.contact_modulus);
+      const auto totalAt = [&](double rc) {
+        return asperityEnergies(responseOf(sphere, rc, chi, law), load, law).total();
+      };
+      for (const double aside : {0.9, 0.99, 1.01, 1.1}) EXPECT_GT(totalAt(rest), totalAt(aside * rest)) << chi;
     }
   }
 }
 
 TEST(Energies, areJkrsAtEquilibrium) {
   for (const Sphere& sphere : kSpheres) {
-    const AsperityLaw law = lawOf(sphere, Formulation::kCorrected);
+    const AsperityLaw law = lawOf(sphere, Formulation::kPaper);
     const double load = kPi * sphere.work_of_adhesion * sphere.radius;
     const double a = jkr::equilibriumContactRadius(load, sphere.work_of_adhesion, sphere.radius, law.contact_modulus);
     const Energies energies = asperityEnergies(responseOf(sphere, a, 1.0, law), load, law);
@@ -97,7 +104,7 @@ TEST(Energies, areJkrsAtEquilibrium) {
 
 TEST(Energies, storeNothingInAPlasticAsperity) {
   const Sphere& sphere = kSpheres[0];
-  const AsperityLaw law = lawOf(sphere, Formulation::kCorrected);
+  const AsperityLaw law = lawOf(sphere, Formulation::kPaper);
   const Energies plastic = asperityEnergies(responseOf(sphere, 30e-9, 0.0, law), 1e-6, law);
   const Energies elastic = asperityEnergies(responseOf(sphere, 30e-9, 1.0, law), 1e-6, law);
   const Energies mixed = asperityEnergies(responseOf(sphere, 30e-9, 0.25, law), 1e-6, law);
@@ -109,7 +116,7 @@ TEST(Energies, storeNothingInAPlasticAsperity) {
 
 /// Two asperities of different volume and tilt.
 struct TwoAsperities {
-  AsperityLaw law = lawOf(kSpheres[0], Formulation::kCorrected);
+  AsperityLaw law = lawOf(kSpheres[0], Formulation::kPaper);
   std::vector<AsperityResponse> responses = {responseOf(kSpheres[0], 30e-9, 1.0, law),
                                              responseOf(kSpheres[0], 50e-9, 0.4, law)};
 
@@ -140,7 +147,7 @@ TEST(ForceBalance, sharesTheLoadByVolumeAlongEachAxis) {
 
 TEST(ForceBalance, needsBothToCarryTheLoadAndToResist) {
   const Sphere& sphere = kSpheres[0];
-  const AsperityLaw law = lawOf(sphere, Formulation::kCorrected);
+  const AsperityLaw law = lawOf(sphere, Formulation::kPaper);
   const double load = 1e-6;
   const double apparent = jkr::apparentLoad(load, law.work_of_adhesion, sphere.radius);
   const double equilibrium = jkr::contactRadius(apparent, sphere.radius, law.contact_modulus);

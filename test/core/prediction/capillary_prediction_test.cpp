@@ -7,6 +7,7 @@
 #include "mems_stiction/base/constants.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
 #include "support/analytic_surfaces.hpp"
+#include "support/paper_options.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 constexpr double kNm = 1e-9;
 
 Options humid(double relative_humidity) {
-  Options options;
+  Options options = paperOptions();
   options.interface.hamaker_constant = 0.0;
   options.capillary.relative_humidity = relative_humidity;
   return options;
@@ -35,7 +36,7 @@ TEST(CapillaryPrediction, ofASphereIsFourPiGammaR) {
 
 TEST(CapillaryPrediction, isOffByDefault) {
   const HeightMap sphere = analytic::paraboloid(101, 101, 1 * kNm, 1 * kNm, 2e-6);
-  EXPECT_EQ(AdhesionModel(Options()).predict(sphere).capillary_force, 0.0);
+  EXPECT_EQ(AdhesionModel(paperOptions()).predict(sphere).capillary_force, 0.0);
 }
 
 }  // namespace

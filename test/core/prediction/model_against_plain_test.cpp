@@ -20,7 +20,7 @@ constexpr double kNm = 1e-9;
 
 struct Setting {
   Connectivity connectivity = Connectivity::kFour;
-  std::string formulation = kDefaultFormulation;
+  std::string formulation = "paper";
   Deformation deformation = Deformation::kThreeRegimes;
   double hardness = 12e9;
   double load = 1e-6;
@@ -40,7 +40,7 @@ Options optionsOf(const Setting& setting) {
 std::vector<Setting> settings() {
   std::vector<Setting> all;
   for (const Connectivity connectivity : {Connectivity::kFour, Connectivity::kEight}) {
-    for (const char* formulation : {"corrected", "printed"}) {
+    for (const char* formulation : {"paper", "printed"}) {
       for (const Deformation deformation : {Deformation::kThreeRegimes, Deformation::kElastic}) {
         for (const double hardness : {12e9, 4e9, 0.5e9}) {
           all.push_back({connectivity, formulation, deformation, hardness, hardness > 1e9 ? 1e-6 : 0.0});
@@ -169,6 +169,8 @@ TEST(RingAgainstPlain, isTheSameWhereTheSearchGoesBack) {
     Options options = optionsOf(setting);
     options.interface.hamaker_constant = 0.0;
     options.interface.work_of_adhesion = 1e-4;
+    options.deformation =
+        Deformation::kElastic;  // so steep a ring would flow, and nothing stop the search within a step
     const Prediction fast = AdhesionModel(options).predict(surface);
     expectSame(fast, plain::predict(options, surface), kSame);
     if (HasFailure()) FAIL() << "load " << load;

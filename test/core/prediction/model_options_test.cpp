@@ -87,14 +87,34 @@ TEST(ModelOptions, stayWhenNewOnesAreRefused) {
 }
 
 TEST(ContactSolvers, refuseAnUnknownFormulationInTheWordsOfTheOptions) {
-  Options options;
-  options.formulation = "printd";
-  try {
-    makeContactSolver(options.formulation);
-    FAIL() << "no error";
-  } catch (const OptionsError& error) {
-    EXPECT_EQ(error.violations(), options.validate());
+  for (const char* name : {"printd", "corrected", ""}) {
+    Options options;
+    options.formulation = name;
+    try {
+      makeContactSolver(options.formulation);
+      FAIL() << "no error: " << name;
+    } catch (const OptionsError& error) {
+      EXPECT_EQ(error.violations(), options.validate()) << name;
+    }
   }
+}
+
+TEST(ContactSolvers, sayWhatServesInPlaceOfAFormulationOfEarlierVersions) {
+  const std::string reason = retirement("corrected");
+  for (const char* part : {"approach/formulation", "'corrected'", "`consistent`", "`paper`"}) {
+    EXPECT_NE(reason.find(part), std::string::npos) << reason;
+  }
+  Options options;
+  options.formulation = "corrected";
+  const std::vector<std::string> violations = violationsOf(options);
+  ASSERT_EQ(violations.size(), 2u);
+  EXPECT_NE(violations[0].find("must be one of"), std::string::npos);
+  EXPECT_EQ(violations[1], reason);
+}
+
+TEST(ContactSolvers, sayNothingMoreOfOtherNames) {
+  for (const std::string& name : formulationNames()) EXPECT_EQ(retirement(name), "");
+  EXPECT_EQ(retirement("printd"), "");
 }
 
 }  // namespace

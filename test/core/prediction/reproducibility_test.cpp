@@ -9,13 +9,14 @@
 
 #include "mems_stiction/prediction/adhesion_model.hpp"
 #include "support/analytic_surfaces.hpp"
+#include "support/paper_options.hpp"
 #include "support/sample_frames.hpp"
 
 namespace mems_stiction {
 namespace {
 
 Options richOptions() {
-  Options options;
+  Options options = paperOptions();
   options.lower.hardness = 3e9;
   options.load.mechanical_load = 2e-6;
   options.load.voltage = 5.0;

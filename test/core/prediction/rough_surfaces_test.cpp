@@ -7,6 +7,7 @@
 
 #include "mems_stiction/base/constants.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
+#include "support/paper_options.hpp"
 #include "support/sample_frames.hpp"
 
 namespace mems_stiction {
@@ -20,7 +21,7 @@ HeightMap surfaceOf(double rms_height, int seed) {
 }
 
 Options optionsOf(Deformation deformation, double load = 0.0, double hardness = 12e9) {
-  Options options;
+  Options options = paperOptions();
   options.interface.hamaker_constant = 0.0;
   options.deformation = deformation;
   options.load.mechanical_load = load;
@@ -87,7 +88,8 @@ TEST(RoughSurfaces, touchLessAndLessBetweenBondingAndNonBonding) {
 }
 
 TEST_P(RoughSurface, neverSticksLessWithTheRegimesOnThanAllElastic) {
-  int larger = 0;
+  int larger = 0, with_flow = 0;
+  double ratios = 0.0, pairs = 0.0;
   for (const double load : {0.0, 1e-6, 2e-5}) {
     for (const double hardness : {12e9, 2e9}) {
       for (const double rms_height : {0.3, 0.7, 1.5, 3.0, 6.0}) {
@@ -97,19 +99,24 @@ TEST_P(RoughSurface, neverSticksLessWithTheRegimesOnThanAllElastic) {
             predict(optionsOf(Deformation::kElastic, load, hardness), rms_height * kNm, GetParam());
         EXPECT_GE(regimes.contact_area, elastic.contact_area) << load << " " << hardness << " " << rms_height;
         EXPECT_GE(regimes.approach, elastic.approach) << load << " " << hardness << " " << rms_height;
-        // R of a patch scatters with its pixels; the pull-off follows it
-        EXPECT_GE(regimes.pull_off_force, 0.9 * elastic.pull_off_force) << load << " " << hardness << " " << rms_height;
+        // R of a patch scatters with its pixels, and the pull-off follows it: contacts of a few by a fifth
+        EXPECT_GE(regimes.pull_off_force, 0.8 * elastic.pull_off_force) << load << " " << hardness << " " << rms_height;
+        ratios += regimes.pull_off_force / elastic.pull_off_force;
+        pairs += 1.0;
         if (regimes.contact_area > elastic.contact_area) {
           ++larger;
-          EXPECT_GT(regimes.elasto_plastic_count + regimes.plastic_count, 0);
           EXPECT_GT(regimes.plastic_work, 0.0);
+          // the larger contact may have the larger radius of an elastic one: what flowed then flowed on the way
+          if (regimes.elasto_plastic_count + regimes.plastic_count > 0) ++with_flow;
         }
         EXPECT_EQ(elastic.plastic_work, 0.0);
         EXPECT_EQ(elastic.elastic_count, elastic.asperity_count);
       }
     }
   }
-  EXPECT_GT(larger, 0);
+  EXPECT_GT(larger, 10);
+  EXPECT_GT(with_flow, larger / 2);
+  EXPECT_GT(ratios, 1.2 * pairs);  // and holds more, in the mean
 }
 
 TEST_P(RoughSurface, pressesTogetherWithTheLoad) {

@@ -6,6 +6,7 @@
 
 #include "mems_stiction/base/constants.hpp"
 #include "mems_stiction/mechanics/jkr.hpp"
+#include "mems_stiction/mechanics/plasticity.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/sphere_contact.hpp"
@@ -92,23 +93,51 @@ TEST(SphereOnFlat, isHertzAsAdhesionVanishes) {
   }
 }
 
-TEST(SphereOnFlat, isBowdenAndTaborWhenSoft) {
-  // work of adhesion per modulus so small, and the load so large, that flow decides: P1 >> Ha pi rc^2
-  const double load = 5e-5;
-  Options options = silicon(load);
-  options.lower.hardness = 0.3e9;
-  options.interface.work_of_adhesion = 0.2;
-  const double radius = 0.5e-6;
-  const double adhesion = 2 * kPi * 0.2 * radius;
-  const double area = (load + adhesion) / 0.3e9;
-  const double a = std::sqrt(area / kPi);
-  const double pitch = a / 30;
-  const Prediction prediction =
-      AdhesionModel(options).predict(analytic::paraboloid(121, 120, pitch, pitch, radius, 0.2 * pitch));
-  ASSERT_EQ(prediction.status, Status::kEquilibrium);
-  EXPECT_EQ(prediction.plastic_count, 1);
-  EXPECT_NEAR(prediction.contact_area, area, 0.05 * area);  // 30 pixels per radius
-  EXPECT_NEAR(prediction.plastic_work, 0.5 * 0.3e9 * area * prediction.approach, 0.1 * prediction.plastic_work);
+/// chi of a sphere in a frame: by (9) with the rms height of that frame.
+double elasticShareOf(const Prediction& prediction, double radius, double hardness) {
+  return regimeFactor(plasticityIndex(contactModulus(), hardness, prediction.composite_rms_height, radius));
+}
+
+TEST(SphereOnFlat, restsOnALargerContactWhenPartlyPlastic) {
+  // chi P1^2 - 2 b P1 + (2 - chi) P0^2 = 0 with b = P0 + 3 pi Gamma R; chi from the frame, which is two radii of an
+  // elastic contact wide
+  const double load = 5e-5, work_of_adhesion = 0.2;
+  const double pitch = jkrRadius(load, kRadius, work_of_adhesion) / 25;
+  const HeightMap surface = analytic::sphere(120, 120, pitch, pitch, kRadius, 0.3 * pitch, 0.2 * pitch);
+  double previous = 0.0;
+  for (const double hardness : {8e9, 7e9, 6e9}) {
+    Options options = contactOnly(load, work_of_adhesion);
+    options.lower.hardness = hardness;
+    const Prediction prediction = AdhesionModel(options).predict(surface);
+    ASSERT_EQ(prediction.status, Status::kEquilibrium) << hardness;
+    ASSERT_EQ(prediction.elasto_plastic_count, 1) << hardness;
+    const double chi = elasticShareOf(prediction, kRadius, hardness);
+    const double b = load + 3 * kPi * work_of_adhesion * kRadius;
+    const double apparent = (b + std::sqrt(b * b - chi * (2 - chi) * load * load)) / chi;
+    const double a = jkr::contactRadius(apparent, kRadius, contactModulus());
+    EXPECT_NEAR(prediction.asperities[0].cap_radius, a, 0.03 * a) << hardness;  // 25 pixels and more
+    EXPECT_NEAR(prediction.contact_area, kPi * a * a, 0.06 * kPi * a * a) << hardness;
+    EXPECT_NEAR(prediction.pull_off_force, 1.5 * kPi * work_of_adhesion * kRadius, 0.03 * prediction.pull_off_force);
+    const double cap = kPi * kRadius * prediction.approach * prediction.approach;  // volume that flowed
+    EXPECT_NEAR(prediction.plastic_work, (1 - chi) * hardness * cap, 0.1 * prediction.plastic_work) << hardness;
+    EXPECT_GT(prediction.contact_area, previous) << hardness;
+    previous = prediction.contact_area;
+  }
+}
+
+TEST(SphereOnFlat, neverRestsWhenFullyPlastic) {
+  for (const double load : {0.0, 5e-5}) {
+    Options options = contactOnly(load, 0.2);
+    options.lower.hardness = 0.3e9;
+    const double pitch = 5e-9;
+    const Prediction prediction =
+        AdhesionModel(options).predict(analytic::paraboloid(121, 120, pitch, pitch, 0.5e-6, 0.2 * pitch));
+    EXPECT_EQ(prediction.status, Status::kNoEquilibrium) << load;
+    EXPECT_EQ(prediction.plastic_count, 1);
+    EXPECT_NEAR(prediction.contact_fraction, 0.5, 0.01);  // where the search ends: a ring of pixels more
+    const double cap = kPi * 0.5e-6 * prediction.approach * prediction.approach;
+    EXPECT_NEAR(prediction.plastic_work, 0.3e9 * cap, 0.1 * prediction.plastic_work);
+  }
 }
 
 TEST(SphereArray, isNTimesOneSphere) {

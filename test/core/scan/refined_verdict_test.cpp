@@ -9,6 +9,7 @@
 #include "mems_stiction/surface/gaussian_surface.hpp"
 #include "mems_stiction/verdict/regime_flags.hpp"
 #include "mems_stiction/verdict/verdict.hpp"
+#include "support/paper_options.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -39,7 +40,7 @@ struct Answer {
 };
 
 Answer answerWith(int refinement) {
-  Configuration configuration;
+  Configuration configuration = paperConfiguration();
   configuration.preprocessing.refine.factor = refinement;
   configuration.model.load.mechanical_load = 2e-6;
   configuration.device.spring_stiffness = 2.0;

@@ -13,6 +13,7 @@
 #include "mems_stiction/preprocess/tip_correction.hpp"
 #include "mems_stiction/surface/gaussian_surface.hpp"
 #include "support/analytic_surfaces.hpp"
+#include "support/paper_options.hpp"
 #include "support/scratch_folder.hpp"
 
 namespace mems_stiction {
@@ -20,8 +21,10 @@ namespace {
 
 constexpr double kPitch = 5e-9;
 
+/// All contacts elastic: how far plastic ones grow hangs on the last pixel of them.
 Configuration pressed(double load = 1e-6) {
-  Configuration configuration;
+  Configuration configuration = paperConfiguration();
+  configuration.model.deformation = Deformation::kElastic;
   configuration.model.load.mechanical_load = load;
   return configuration;
 }
@@ -56,6 +59,7 @@ TEST(ScanPredictor, MapsOfARefinedScanHaveItsOwnSizeAndFrame) {
   // A sphere whose apex lies on a pixel, away from the middle: where it is found must not depend on the refinement.
   const HeightMap scan = analytic::paraboloid(61, 81, kPitch, kPitch, 1e-6, 10 * kPitch, -7 * kPitch);
   Configuration configuration = pressed(2e-7);
+  configuration.model.deformation = Deformation::kThreeRegimes;  // so that something goes down
   const Prediction plain = ScanPredictor(configuration).predict(scan);
   for (const int factor : {2, 3}) {
     configuration.preprocessing.refine.factor = factor;
@@ -66,7 +70,7 @@ TEST(ScanPredictor, MapsOfARefinedScanHaveItsOwnSizeAndFrame) {
     EXPECT_EQ(refined.deformed_upper.size(), scan.heights().size());
     EXPECT_EQ(refined.contact_map.size(), scan.heights().size());
     EXPECT_NEAR(refined.nominal_area / plain.nominal_area, 1.0, 1e-12);
-    EXPECT_NEAR(refined.pull_off_force / plain.pull_off_force, 1.0, 0.1);
+    EXPECT_NEAR(refined.pull_off_force / plain.pull_off_force, 1.0, 0.15);  // chi follows the radius, the contact chi
     ASSERT_EQ(refined.asperities.size(), 1u);
     EXPECT_NEAR(refined.asperities[0].x, plain.asperities[0].x, 0.51 * kPitch);
     EXPECT_NEAR(refined.asperities[0].y, plain.asperities[0].y, 0.51 * kPitch);
@@ -217,7 +221,7 @@ TEST(CounterSurface, AFileIsTheMeasuredSurfaceOfATopic) {
 
 TEST(CounterSurface, AFileThatCannotBeUsedIsRefusedAtTheStart) {
   const ScratchFolder folder;
-  Configuration configuration;
+  Configuration configuration = paperConfiguration();
   configuration.counter_surface.type = CounterSurfaceType::kFile;
   configuration.counter_surface.file = folder.file("none.tiff");
   try {
@@ -274,7 +278,7 @@ TEST(Resolution, FewPixelsAndBluntTipsSetTheirFlags) {
 
 TEST(Resolution, TheDefaultLimitIsWhereASpheresRadiusIsWithinFivePercent) {
   // What config/stiction.yaml says about 12 pixels.
-  Configuration configuration;
+  Configuration configuration = paperConfiguration();
   configuration.model.interface.hamaker_constant = 0.0;
   configuration.model.deformation = Deformation::kElastic;
   ScanPredictor predictor(configuration);

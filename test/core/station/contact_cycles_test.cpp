@@ -10,6 +10,7 @@
 #include "mems_stiction/prediction/adhesion_model.hpp"
 #include "mems_stiction/surface/gaussian_surface.hpp"
 #include "support/analytic_surfaces.hpp"
+#include "support/paper_options.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -26,7 +27,7 @@ HeightMap rough() {
 }
 
 Options pressed(double hardness) {
-  Options options;
+  Options options = paperOptions();
   options.lower.hardness = options.upper.hardness = hardness;
   options.load.mechanical_load = 3e-5;
   return options;
@@ -71,12 +72,16 @@ TEST(ContactCycles, eachStartsFromTheSurfacesThatTheLastOneLeft) {
   EXPECT_EQ(cv::norm(two.surfaces.lower.heights(), next.surfaces.lower.heights(), cv::NORM_INF), 0.0);
 }
 
-TEST(ContactCycles, softSurfacesFlattenGrowTheirContactAndShakeDown) {
-  const ContactCyclesResult result = cycled(pressed(3e9), rough(), 30);
+TEST(ContactCycles, softSurfacesFlattenHoldMoreAndShakeDown) {
+  const ContactCyclesResult result = cycled(pressed(9e9), rough(), 30);
   ASSERT_TRUE(result.is_complete);
   const ContactCycle& first = result.cycles.front();
   const ContactCycle& last = result.cycles.back();
-  EXPECT_GT(last.contact_area, first.contact_area);
+  Options elastic = pressed(9e9);
+  elastic.deformation = Deformation::kElastic;
+  EXPECT_GT(first.contact_area, 1.5 * cycled(elastic, rough(), 1).cycles[0].contact_area);
+  // flattened contacts are elastic: they need less area from the second time on, and keep it
+  EXPECT_NEAR(last.contact_area, result.cycles[1].contact_area, 0.03 * last.contact_area);
   EXPECT_GT(last.pull_off_force, first.pull_off_force);
   EXPECT_LT(last.rms_height, first.rms_height);
   EXPECT_LT(last.largest_change, 0.01 * first.largest_change);

@@ -12,6 +12,7 @@
 #include "mems_stiction/station/held_contact.hpp"
 #include "mems_stiction/surface/gaussian_surface.hpp"
 #include "support/analytic_surfaces.hpp"
+#include "support/paper_options.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -20,7 +21,7 @@ constexpr double kNm = 1e-9;
 constexpr double kRoundOff = 1e-12;
 
 Options insulated() {
-  Options options;
+  Options options = paperOptions();
   options.interface.insulator_thickness = 50 * kNm;
   return options;
 }
@@ -45,7 +46,7 @@ DeviceOptions deviceFor(const HeightMap& scan, double force) {
 }
 
 TEST(HeldContact, elasticContactFollowsJkrDown) {
-  Options options;
+  Options options = paperOptions();
   options.interface.hamaker_constant = 0.0;
   options.deformation = Deformation::kElastic;
   HeldContact held(options, sphere());
@@ -68,7 +69,7 @@ TEST(HeldContact, elasticContactFollowsJkrDown) {
 }
 
 TEST(HeldContact, flattenedContactKeepsItsArea) {
-  Options options;
+  Options options = paperOptions();
   options.lower.hardness = 0.5e9;
   options.interface.hamaker_constant = 0.0;
   HeldContact held(options, sphere());
@@ -175,10 +176,10 @@ TEST(LoadSweep, opensOnTheWayDownWhereTheSpringOvercomesAdhesionAndField) {
 
 TEST(LoadSweep, mechanicalLoadHoldsTheDeviceToo) {
   const HeightMap scan = sphere();
-  const LoadSweepResult plain = sweepLoads(Options(), scan, upTo(0.0, 1, {1e-6}), DeviceOptions(), {}, {});
+  const LoadSweepResult plain = sweepLoads(paperOptions(), scan, upTo(0.0, 1, {1e-6}), DeviceOptions(), {}, {});
   const double pull_off = plain.rows[0].pull_off_force;
   const LoadSweepResult result =
-      sweepLoads(Options(), scan, upTo(0.0, 1, {1e-6}), deviceFor(scan, pull_off + 1e-6), {}, {});
+      sweepLoads(paperOptions(), scan, upTo(0.0, 1, {1e-6}), deviceFor(scan, pull_off + 1e-6), {}, {});
   EXPECT_NEAR(result.rows[0].holding_margin, 1.0, kRoundOff);
   EXPECT_NEAR(result.rows[0].margin, (pull_off + 1e-6) / pull_off, 1e-9);
 }
@@ -240,7 +241,7 @@ TEST(LoadSweep, refusesARequestOutOfRangeBeforeAnyWork) {
   EXPECT_NE(violations({-1.0}, {0.0}, insulated()).find("voltages: -1 V"), std::string::npos);
   EXPECT_NE(violations({0.0}, {std::nan("")}, insulated()).find("mechanical_loads: nan"), std::string::npos);
   EXPECT_NE(violations({2000.0}, {0.0}, insulated()).find("load/voltage: 2000"), std::string::npos);
-  EXPECT_NE(violations({5.0}, {0.0}, Options()).find("interface/insulator_thickness"), std::string::npos);
+  EXPECT_NE(violations({5.0}, {0.0}, paperOptions()).find("interface/insulator_thickness"), std::string::npos);
 }
 
 }  // namespace

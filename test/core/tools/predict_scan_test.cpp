@@ -144,6 +144,16 @@ TEST_F(PredictScan, BadSettingsAreOneLineEach) {
   EXPECT_EQ(run("--load heavy " + scan).status, 2);
 }
 
+TEST_F(PredictScan, AFormulationOfEarlierVersionsIsRefusedWithWhatServesInstead) {
+  const std::string old = folder_.write("old.yaml", "approach: {formulation: corrected}\n");
+  const Outcome outcome = run("--pitch 20e-9 --config " + old + " " + sphere());
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_TRUE(outcome.output.empty());
+  ASSERT_EQ(outcome.errors.size(), 1u);
+  EXPECT_NE(outcome.errors[0].find("must be one of: "), std::string::npos) << outcome.errors[0];
+  EXPECT_NE(outcome.errors[0].find("'corrected' is no longer there: "), std::string::npos) << outcome.errors[0];
+}
+
 TEST_F(PredictScan, UnitSlipsAreWarnedOfOnStandardError) {
   const Outcome outcome = run("--pitch 20 " + sphere());
   EXPECT_EQ(outcome.status, 0);
@@ -224,7 +234,11 @@ TEST_F(PredictScanHalfSpace, RecordHasTheLibrarysSolution) {
   ASSERT_EQ(outcome.status, 0);
   EXPECT_TRUE(outcome.errors.empty()) << outcome.errors.front();
   const nlohmann::json record = nlohmann::json::parse(outcome.output);
-  EXPECT_EQ(record["status"], "EQUILIBRIUM") << "the prediction is there as without it";
+  std::string without_it = arguments();
+  without_it.erase(without_it.find("--half-space"), std::string("--half-space").size());
+  const nlohmann::json without = nlohmann::json::parse(run("--json " + without_it).output);
+  EXPECT_EQ(record["status"], without["status"]);
+  EXPECT_EQ(record["pull_off_force"], without["pull_off_force"]);
   const nlohmann::json half_space = record["half_space"];
   EXPECT_EQ(half_space["status"], "SOLVED");
   EXPECT_EQ(half_space["pull_off_force"].get<double>(), expected.pull_off_force);
@@ -360,8 +374,9 @@ TEST_F(PredictScan, HelpNamesEveryOption) {
 
 TEST_F(PredictScan, SphereOnFlatGivesThePullOffOfJkr) {
   // No van der Waals forces, so that the pull-off is JKR's alone; 25 pixels across the contact radius.
-  const std::string configuration = folder_.write(
-      "jkr.yaml", "interface: {hamaker_constant: 0, work_of_adhesion: 0.1}\napproach: {deformation: elastic}\n");
+  const std::string configuration = folder_.write("jkr.yaml",
+                                                  "interface: {hamaker_constant: 0, work_of_adhesion: 0.1}\napproach: "
+                                                  "{formulation: paper, deformation: elastic}\n");
   constexpr double kRadius = 2e-6;
   constexpr double kWork = 0.1;
   const double modulus = 4.0 / 3.0 * ContactPair(Material(), Material()).contact_modulus;

@@ -9,6 +9,7 @@
 #include "mems_stiction/mechanics/jkr.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
 #include "mems_stiction/surface/gaussian_surface.hpp"
+#include "support/paper_options.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -190,11 +191,11 @@ class SearchedAgain {
 
  private:
   HeightMap surface_;
-  Options options_;
+  Options options_ = paperOptions();
 };
 
 TEST(AdhesionSpread, agreesWithSearchingAgainWhereContactsAreMany) {
-  for (const double hardness : {12e9, 3e9}) {  // elasto-plastic; fully plastic
+  for (const double hardness : {50e9, 25e9}) {  // contacts that flow grow by more than a first order
     const SearchedAgain searched(hardness);
     const Powers powers = searched.powers();
     const Prediction prediction = searched.predict(searched.options());

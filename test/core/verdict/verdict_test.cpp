@@ -11,6 +11,7 @@
 #include "mems_stiction/verdict/regime_flags.hpp"
 #include "mems_stiction/verdict/verdict_fields.hpp"
 #include "support/analytic_surfaces.hpp"
+#include "support/paper_options.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -21,7 +22,7 @@ constexpr double kCell = 4e-18;
 
 /// 20 spheres on a flat without van der Waals forces: pull-off 20 (3/2) pi w R.
 struct Spheres {
-  Options options;
+  Options options = paperOptions();
   HeightMap surface = analytic::sphereArray(4 * 90, 5 * 90, 2 * kNm, 2 * kNm, {kRadius}, 5, 4);
   Prediction prediction;
 
