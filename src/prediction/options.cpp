@@ -11,8 +11,9 @@ void Options::describe(OptionVisitor& visitor) {
   capillary.describe(visitor);
   load.describe(visitor);
   approach.describe(visitor);
-  visitor.choice("approach/formulation", formulation, formulationNames(),
-                 "which solver: the separation curve, or the paper with roots and exponents restored, or to the letter");
+  visitor.choice(
+      "approach/formulation", formulation, formulationNames(),
+      "which solver: the separation curve, or the paper with roots and exponents restored, or to the letter");
   visitor.enumeration("approach/deformation", deformation,
                       {{"three_regimes", Deformation::kThreeRegimes}, {"elastic", Deformation::kElastic}},
                       "elastic, elasto-plastic and plastic asperities, or all of them elastic");

@@ -144,8 +144,7 @@ TEST(HalfSpaceSolver, PrimeSizesAreSolvedToo) {
 TEST(HalfSpaceSolver, AnyNumberOfColumnsTakesAsFewProducts) {
   // a soft sphere that jumps; rows of 68 pixels end within a vector of eight, rows of 72 do not
   const SolvedHalfSpace one = solve(problemOf(analytic::paraboloid(68, 68, 5e-10, 5e-10, 50e-9, 15e-11, 1e-10), 2e9));
-  const SolvedHalfSpace other =
-      solve(problemOf(analytic::paraboloid(72, 72, 5e-10, 5e-10, 50e-9, 15e-11, 1e-10), 2e9));
+  const SolvedHalfSpace other = solve(problemOf(analytic::paraboloid(72, 72, 5e-10, 5e-10, 50e-9, 15e-11, 1e-10), 2e9));
   ASSERT_EQ(one.status, HalfSpaceStatus::kSolved) << one.message;
   ASSERT_EQ(other.status, HalfSpaceStatus::kSolved) << other.message;
   EXPECT_NEAR(one.pull_off_force / other.pull_off_force, 1.0, 0.02);  // the frame's edges lie elsewhere
