@@ -6,9 +6,9 @@
 #include "mems_stiction/base/constants.hpp"
 #include "mems_stiction/contact/prepared_maps.hpp"
 #include "mems_stiction/deformation/modified_topography.hpp"
+#include "mems_stiction/height_map/shared_pixels.hpp"
 #include "mems_stiction/mechanics/plasticity.hpp"
 #include "mems_stiction/mechanics/transition.hpp"
-#include "mems_stiction/separation/flattening.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -77,7 +77,7 @@ void SeparationSolver::solve(const ContactProblem& problem, ContactSolution& sol
   listContacts(problem, solution);
   fillMaps(problem, solution);
   partFlowed(problem, solution);
-  solution.flattening_energy = flatteningEnergy(problem.gap, trace_.contactModulus());
+  solution.flattening_energy = flattening_.of(problem.gap, trace_.contactModulus());
   partConforming(problem, solution);
 }
 
@@ -203,7 +203,8 @@ void SeparationSolver::partFlowed(const ContactProblem& problem, ContactSolution
   if (!has_flowed_) return;
   const GapField& field = problem.gap;
   const double approach = curve_.rest().approach;
-  cv::Mat relief(field.rows(), field.cols(), CV_64FC1);
+  makeWritable(changed_relief_, field.rows(), field.cols(), CV_64FC1);
+  cv::Mat& relief = changed_relief_;
   for (int row = 0; row < field.rows(); ++row) field.gapsOfRow(row, relief.ptr<double>(row));
   OverlapSweep& sweep = trace_.contacts();
   for (const std::int32_t cell : sweep.insertedCells()) {
@@ -213,7 +214,7 @@ void SeparationSolver::partFlowed(const ContactProblem& problem, ContactSolution
   }
   double first_touch = 0.0;
   cv::minMaxLoc(relief, &first_touch, nullptr);
-  relief = -relief;
+  cv::subtract(cv::Scalar(0.0), relief, relief);
   SurfacePair changed;
   changed.lower = HeightMap(relief, field.pitchX(), field.pitchY());
   changed_gap_.compute(changed);

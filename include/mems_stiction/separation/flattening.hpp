@@ -12,12 +12,41 @@
 /// columns; beyond a quarter of the frame it is taken as constant. Surfaces that give less than Gamma can lie against
 /// each other everywhere.
 
+#include <vector>
+
 #include "mems_stiction/approach/gap_field.hpp"
 
 namespace mems_stiction {
 
-/// U/A [J/m^2].
-/// - @p contact_modulus E [Pa], > 0
-double flatteningEnergy(const GapField& field, double contact_modulus);
+/// Mean squared differences of lines at some distances.
+class StructureFunction {
+ public:
+  /// Forgets all lines; the next ones have this length [cells].
+  void start(int length);
+  void add(const std::vector<double>& line);
+  /// Integral of S(r)/(2 r^2) dr [m]; S grows as r^2 up to the first distance.
+  double integral(double pitch) const;
+
+ private:
+  struct Lag {
+    int cells;
+    double sum;
+    long long count;
+  };
+  std::vector<Lag> lags_;
+};
+
+/// Keeps its memory between frames.
+class FlatteningEnergy {
+ public:
+  /// U/A [J/m^2].
+  /// - @p contact_modulus E [Pa], > 0
+  double of(const GapField& field, double contact_modulus);
+
+ private:
+  StructureFunction along_rows_;
+  StructureFunction along_columns_;
+  std::vector<double> line_;
+};
 
 }  // namespace mems_stiction

@@ -18,6 +18,7 @@
 
 #include "mems_stiction/contact/contact_solver.hpp"
 #include "mems_stiction/separation/conforming_contact.hpp"
+#include "mems_stiction/separation/flattening.hpp"
 #include "mems_stiction/separation/kept_overlap.hpp"
 #include "mems_stiction/separation/separation_curve.hpp"
 
@@ -48,6 +49,8 @@ class SeparationSolver : public ContactSolver {
   SeparationCurve curve_;
   std::vector<Contact> contacts_;  ///< by id of the patch
   bool has_flowed_ = false;
+  FlatteningEnergy flattening_;
+  cv::Mat changed_relief_;
   GapField changed_gap_;  ///< of the surfaces that have flowed
   SeparationTrace changed_trace_;
   SeparationCurve changed_curve_;
