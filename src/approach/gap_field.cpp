@@ -144,6 +144,19 @@ void GapField::compute(const SurfacePair& surfaces) {
   }
 }
 
+double GapField::compute(const GapField& grid, const LargePageVector<double>& gaps) {
+  rows_ = grid.rows_;
+  cols_ = grid.cols_;
+  pitch_x_ = grid.pitch_x_;
+  pitch_y_ = grid.pitch_y_;
+  upper_is_flat_ = true;
+  fillRelief(relief_, [&](int row, double* line) {
+    const double* const from = gaps.data() + static_cast<std::ptrdiff_t>(row) * cols_;
+    std::transform(from, from + cols_, line, [](double gap) { return -gap; });
+  });
+  return -top_;
+}
+
 void GapField::computeAgainstPlane(const HeightMap& lower) {
   const auto copyInto = [&](auto& relief) {
     fillRelief(relief, [&](int row, auto* line) {

@@ -40,6 +40,7 @@ void AsperitySolver::solve(const ContactProblem& problem, ContactSolution& solut
   solution.approach = state_.approach;
   solution.mean_gap = meanGapApart(state_, problem.gap, order_);
   solution.contact_area = state_.contact_count * problem.gap.cellArea();
+  solution.contact_fraction = static_cast<double>(state_.contact_count) / problem.gap.validCount();
   solution.load = state_.load;
   const Energies energies = totalEnergies(search_.responses(), state_.balance, setting.law);
   solution.energies = {energies.mechanical, energies.surface, energies.elastic, state_.plastic_work};

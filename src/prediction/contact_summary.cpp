@@ -82,7 +82,7 @@ void summarizeContact(const ContactProblem& problem, ContactSolution& solution, 
   prediction.contact_area = solution.contact_area;
   prediction.contact_area_jkr = solution.contact_area_jkr;
   prediction.nominal_area = gap.validCount() * gap.cellArea();
-  prediction.contact_fraction = prediction.contact_area / prediction.nominal_area;
+  prediction.contact_fraction = solution.contact_fraction;
   prediction.approach = solution.approach;
   prediction.mean_gap = solution.mean_gap;
 

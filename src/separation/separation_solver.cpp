@@ -6,7 +6,6 @@
 #include "mems_stiction/base/constants.hpp"
 #include "mems_stiction/contact/prepared_maps.hpp"
 #include "mems_stiction/deformation/modified_topography.hpp"
-#include "mems_stiction/height_map/shared_pixels.hpp"
 #include "mems_stiction/mechanics/plasticity.hpp"
 #include "mems_stiction/mechanics/transition.hpp"
 
@@ -79,6 +78,7 @@ void SeparationSolver::solve(const ContactProblem& problem, ContactSolution& sol
   partFlowed(problem, solution);
   solution.flattening_energy = flattening_.of(problem.gap, trace_.contactModulus());
   partConforming(problem, solution);
+  solution.contact_fraction = solution.contact_area / (problem.gap.validCount() * problem.gap.cellArea());
 }
 
 void SeparationSolver::takeRest(const ContactProblem& problem, ContactSolution& solution) {
@@ -203,21 +203,17 @@ void SeparationSolver::partFlowed(const ContactProblem& problem, ContactSolution
   if (!has_flowed_) return;
   const GapField& field = problem.gap;
   const double approach = curve_.rest().approach;
-  makeWritable(changed_relief_, field.rows(), field.cols(), CV_64FC1);
-  cv::Mat& relief = changed_relief_;
-  for (int row = 0; row < field.rows(); ++row) field.gapsOfRow(row, relief.ptr<double>(row));
+  changed_gaps_.resize(static_cast<std::size_t>(field.cellCount()));
+  for (int row = 0; row < field.rows(); ++row) {
+    field.gapsOfRow(row, changed_gaps_.data() + static_cast<std::ptrdiff_t>(row) * field.cols());
+  }
   OverlapSweep& sweep = trace_.contacts();
   for (const std::int32_t cell : sweep.insertedCells()) {
     const Contact& contact = contacts_[static_cast<std::size_t>(sweep.patchOf(cell))];
-    double& gap = relief.at<double>(cell / field.cols(), cell % field.cols());
+    double& gap = changed_gaps_[static_cast<std::size_t>(cell)];
     gap = approach - contact.kept.of(approach - gap);
   }
-  double first_touch = 0.0;
-  cv::minMaxLoc(relief, &first_touch, nullptr);
-  cv::subtract(cv::Scalar(0.0), relief, relief);
-  SurfacePair changed;
-  changed.lower = HeightMap(relief, field.pitchX(), field.pitchY());
-  changed_gap_.compute(changed);
+  const double first_touch = changed_gap_.compute(field, changed_gaps_);
   changed_trace_.start(changed_gap_, problem.settings, false);
   followCurveUpTo(changed_trace_, approach - first_touch, changed_curve_);
   for (SeparationState& state : changed_curve_.states) state.approach += first_touch;

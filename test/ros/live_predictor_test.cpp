@@ -98,7 +98,8 @@ TEST(LivePredictor, ASinglePredictionEqualsTheScansAndLeavesNoTrace) {
 }
 
 TEST(LivePredictor, AccumulatedDeformationIsTheNextScansSurface) {
-  const Configuration configuration = softConfiguration();
+  Configuration configuration = softConfiguration();
+  configuration.model.load.mechanical_load = 1e-4;
   LivePredictor predictor(configuration, true);
   const ReceivedScan scan = roughScan();
   const PredictedScan first_scan = predictor.predictScan(scan, OutputOptions());
@@ -112,7 +113,7 @@ TEST(LivePredictor, AccumulatedDeformationIsTheNextScansSurface) {
   const Prediction expected =
       fresh.predict(HeightMap(first.deformed_lower, scan.surface.pitchX(), scan.surface.pitchY()));
   EXPECT_NEAR(second.pull_off_force, expected.pull_off_force, 1e-9 * expected.pull_off_force);
-  EXPECT_NE(second.pull_off_force, first.pull_off_force);
+  EXPECT_NE(second.approach, first.approach) << "first touch is another now";
 
   predictor.resetSurface();
   expectSame(predictor.predictScan(scan, OutputOptions()), first_scan);
@@ -328,7 +329,9 @@ TEST(PredictionConversion, CarriesEveryContact) {
 }
 
 TEST(DisplayConversion, KeepsToItsLimitsAndLeavesInvalidCellsOut) {
-  LivePredictor predictor(softConfiguration(), false);
+  Configuration configuration = softConfiguration();
+  configuration.model.load.mechanical_load = 1e-4;  // more contacts than discs
+  LivePredictor predictor(configuration, false);
   ReceivedScan scan = roughScan();
   cv::Mat heights = scan.surface.heights().clone();
   heights.rowRange(0, 10).setTo(std::nan(""));

@@ -32,6 +32,10 @@ class GapField {
   /// @throw SurfaceError if the grids differ or no pixel is valid in both, or if gaps lie more than 1e100 m apart.
   void compute(const SurfacePair& surfaces);
 
+  /// The same grid with other gaps against a plane, cell by cell in its order [m], infinite where not valid.
+  /// @return the smallest of them: gaps count from there [m]
+  double compute(const GapField& grid, const LargePageVector<double>& gaps);
+
   int rows() const { return rows_; }
   int cols() const { return cols_; }
   double pitchX() const { return pitch_x_; }

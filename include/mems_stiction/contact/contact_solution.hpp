@@ -80,7 +80,8 @@ struct ContactSolution {
   int steps = 0;                   ///< that the solver took
   double approach = kUnknown;      ///< D from first touch [m]
   double mean_gap = kUnknown;      ///< over the cells out of contact [m]; 0 when every cell touches
-  double contact_area = kUnknown;  ///< real area of contact [m^2]
+  double contact_area = kUnknown;      ///< real area of contact [m^2]
+  double contact_fraction = kUnknown;  ///< the same over the area of the valid cells [-]
   NormalLoad load;                 ///< what presses the surfaces together, by its causes
   ContactEnergies energies;
 

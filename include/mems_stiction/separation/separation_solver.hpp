@@ -50,7 +50,7 @@ class SeparationSolver : public ContactSolver {
   std::vector<Contact> contacts_;  ///< by id of the patch
   bool has_flowed_ = false;
   FlatteningEnergy flattening_;
-  cv::Mat changed_relief_;
+  LargePageVector<double> changed_gaps_;
   GapField changed_gap_;  ///< of the surfaces that have flowed
   SeparationTrace changed_trace_;
   SeparationCurve changed_curve_;

@@ -73,7 +73,8 @@ Prediction ofASolverWithoutAsperities(const HeightMap& surface, const Options& o
   ContactSolution solution;
   solution.status = Status::kEquilibrium;
   solution.approach = 2 * kNm;
-  solution.contact_cells = 50;
+  solution.contact_area = 50 * gap.cellArea();
+  solution.contact_fraction = 50.0 / gap.validCount();
   solution.pull_off_force = 3e-7;
   std::vector<double> values;
   Prediction prediction;

@@ -104,7 +104,7 @@ TEST_F(PredictScan, ConfigurationFileAndOptionsMeet) {
 
 TEST_F(PredictScan, WritesTheDeformedSurface) {
   const std::string out = folder_.file("deformed.tiff");
-  ASSERT_EQ(run("--pitch 20e-9 --load 1e-5 --deformed " + out + " " + sphere()).status, 0);
+  ASSERT_EQ(run("--pitch 20e-9 --load 0.1 --deformed " + out + " " + sphere()).status, 0);
   const cv::Mat deformed = cv::imread(out, cv::IMREAD_UNCHANGED);
   ASSERT_EQ(deformed.type(), CV_32FC1);
   EXPECT_EQ(deformed.size(), cv::Size(101, 101));
