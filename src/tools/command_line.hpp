@@ -4,6 +4,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cerrno>
+#include <cstring>
 #include <exception>
 #include <iostream>
 #include <sstream>
@@ -13,7 +15,7 @@
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/one_line.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
-#include "mems_stiction/height_map/scan_file.hpp"
+#include "mems_stiction/import/scan_file.hpp"
 
 namespace mems_stiction {
 
@@ -22,6 +24,11 @@ constexpr int kBadInput = 2;
 
 inline void complain(const std::string& program, const std::string& what) {
   std::cerr << program << ": " << oneLine(what) << "\n";
+}
+
+/// One line about a scan that goes on.
+inline void warn(const std::string& path, const std::string& what) {
+  std::cerr << oneLine(path) << ": warning: " << oneLine(what) << "\n";
 }
 
 /// "M" or "MX,MY" into both pitches. @throw OptionsError
@@ -66,7 +73,10 @@ int runProgram(const std::string& program, int argc, char** argv, Describe&& des
     } catch (const CLI::ParseError& error) {
       return app.exit(error) == 0 ? 0 : kBadInput;
     }
-    return run(arguments);
+    const int status = run(arguments);
+    if (std::cout.flush()) return status;
+    complain(program, "the standard output cannot be written: " + std::string(std::strerror(errno)));
+    return kBadInput;
   } catch (const std::exception& error) {
     complain(program, error.what());
     return kBadInput;

@@ -10,7 +10,7 @@
 
 #include "command_line.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/height_map/scan_file.hpp"
+#include "mems_stiction/import/scan_file.hpp"
 #include "mems_stiction/ros/image_conversion.hpp"
 #include "mems_stiction/ros/topic_names.hpp"
 #include "mems_stiction/surface/gaussian_surface.hpp"

@@ -1,4 +1,4 @@
-#include "mems_stiction/height_map/gwy_file.hpp"
+#include "mems_stiction/import/gwy_file.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,8 @@
 #include <random>
 
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/height_map/gwyddion_import.hpp"
+#include "mems_stiction/import/channel_choice.hpp"
+#include "mems_stiction/import/scan_file.hpp"
 #include "support/scratch_folder.hpp"
 
 namespace mems_stiction {
@@ -70,7 +71,7 @@ std::string example() {
 }
 
 TEST(GwyFile, ChannelsCarrySizeUnitAndTitle) {
-  const std::vector<GwyChannel> channels = parseGwy(example());
+  const std::vector<FileChannel> channels = parseGwy(example());
   ASSERT_EQ(channels.size(), 2u);
   EXPECT_EQ(channels[0].id, 0);
   EXPECT_EQ(channels[0].title, "ZSensor");
@@ -139,7 +140,7 @@ TEST(GwyFile, EveryFlippedByteIsReadOrRefused) {
       std::string damaged = whole;
       damaged[at] = static_cast<char>(value);
       try {
-        for (const GwyChannel& channel : parseGwy(damaged)) EXPECT_FALSE(channel.values.empty());
+        for (const FileChannel& channel : parseGwy(damaged)) EXPECT_FALSE(channel.values.empty());
       } catch (const FileError&) {
         // Refused by name: as good as read.
       }
@@ -164,18 +165,18 @@ TEST(GwyFile, ErrorsNameTheFile) {
   const ScratchFolder folder;
   const std::string path = folder.write("cut.gwy", example().substr(0, 100));
   try {
-    readGwyFile(path);
+    readScanFile(path);
     FAIL();
   } catch (const FileError& error) {
     EXPECT_EQ(std::string(error.what()).find(path + ": "), 0u) << error.what();
   }
-  EXPECT_THROW(readGwyFile(folder.file("none.gwy")), FileError);
+  EXPECT_THROW(readScanFile(folder.file("none.gwy")), FileError);
 }
 
 // ---- Which channel is the height?
 
-GwyChannel channel(int id, const std::string& title, const std::string& unit_z = "m") {
-  GwyChannel result;
+FileChannel channel(int id, const std::string& title, const std::string& unit_z = "m") {
+  FileChannel result;
   result.id = id;
   result.title = title;
   result.values = cv::Mat::zeros(4, 4, CV_64FC1);
@@ -204,8 +205,8 @@ TEST(ChannelChoice, OtherUnitsAreNotTaken) {
 }
 
 TEST(ChannelChoice, MayBeNamedByTitleOrNumber) {
-  const std::vector<GwyChannel> channels = {channel(0, "ZSensor"), channel(3, "Deflection"),
-                                            channel(5, "Phase", "deg")};
+  const std::vector<FileChannel> channels = {channel(0, "ZSensor"), channel(3, "Deflection"),
+                                             channel(5, "Phase", "deg")};
   EXPECT_EQ(chooseHeightChannel(channels, "Deflection"), 1u);
   EXPECT_EQ(chooseHeightChannel(channels, "3"), 1u);
   EXPECT_THROW(chooseHeightChannel(channels, "Phase"), FileError);
@@ -219,7 +220,7 @@ TEST(ChannelChoice, MayBeNamedByTitleOrNumber) {
 }
 
 TEST(ChannelChoice, ASurfaceHasTwoPixelsEachWayAndAPitch) {
-  GwyChannel bad = channel(0, "Height");
+  FileChannel bad = channel(0, "Height");
   bad.width = 0.0;
   EXPECT_THROW(surfaceOfChannel(bad), FileError);
   bad = channel(0, "Height");

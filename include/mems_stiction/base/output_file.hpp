@@ -1,0 +1,15 @@
+#pragma once
+
+/// @file
+/// Files that are either written whole or not at all.
+
+#include <string>
+
+namespace mems_stiction {
+
+/// Writes beside the file, flushes to the disk, and gives it the name when everything is there: an interruption or a
+/// full disk leaves what was there before. Pipes and devices are written to directly.
+/// @throw FileError naming the file and the cause
+void writeFile(const std::string& path, const std::string& bytes);
+
+}  // namespace mems_stiction

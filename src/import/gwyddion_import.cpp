@@ -1,0 +1,87 @@
+#include "mems_stiction/import/gwyddion_import.hpp"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "mems_stiction/base/child_process.hpp"
+#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/import/file_bytes.hpp"
+#include "mems_stiction/import/gwy_file.hpp"
+
+namespace mems_stiction {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder of our own that goes with the object.
+class PrivateFolder {
+ public:
+  PrivateFolder() {
+    std::string pattern = (fs::temp_directory_path() / "mems_stiction.XXXXXX").string();
+    if (mkdtemp(pattern.data()) == nullptr) throw FileError(pattern + ": the temporary folder cannot be made");
+    path_ = pattern;
+  }
+  ~PrivateFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  PrivateFolder(const PrivateFolder&) = delete;
+  PrivateFolder& operator=(const PrivateFolder&) = delete;
+
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+/// What gwyddion said first, without the file's name; empty if it said nothing.
+std::string complaint(const fs::path& log, const std::string& scan_path) {
+  std::ifstream stream(log);
+  for (std::string line; std::getline(stream, line);) {
+    if (line.compare(0, scan_path.size() + 2, scan_path + ": ") == 0) line.erase(0, scan_path.size() + 2);
+    if (!line.empty()) return line;
+  }
+  return "";
+}
+
+}  // namespace
+
+std::vector<FileChannel> channelsByGwyddion(const std::string& path, const ImportOptions& options) {
+  const PrivateFolder folder;
+  const std::string scan_path = fs::absolute(path).string();
+  const fs::path converted = folder.path() / "scan.gwy";
+  const fs::path log = folder.path() / "log";
+  // No display is needed, and none may be touched. gwyddion reads modules from its HOME and writes settings to it.
+  const std::vector<std::string> environment =
+      environmentWithout({"DISPLAY", "WAYLAND_DISPLAY", "HOME", "XDG_CONFIG_HOME", "LC_ALL", "LANGUAGE"},
+                         {"HOME=" + folder.path().string(), "LC_ALL=C.UTF-8"});
+  const ChildResult result =
+      runChild({options.program, "--no-log-to-file", "--convert-to-gwy=" + converted.string(), scan_path}, environment,
+               log.string(), options.timeout);
+  if (!result.started) {
+    throw FileError(path + ": needs the program " + options.program +
+                    " to be read, which is not installed (Debian package: gwyddion)");
+  }
+  if (result.timed_out) {
+    throw FileError(path + ": gwyddion did not finish within " + numberText(options.timeout) + " s and was stopped");
+  }
+  if (result.signal != 0) {
+    throw FileError(path + ": gwyddion crashed on this file (" + strsignal(result.signal) + "): it is damaged");
+  }
+  if (result.exit_code != 0 || !fs::exists(converted)) {
+    const std::string cause = complaint(log, scan_path);
+    throw FileError(path + ": gwyddion cannot read it: " +
+                    (cause.empty() ? "exit status " + std::to_string(result.exit_code) : cause));
+  }
+  try {
+    return parseGwy(readFileBytes(converted.string()));
+  } catch (const FileError& error) {
+    throw FileError(path + ": what gwyddion made of it cannot be read: " + error.what());
+  }
+}
+
+}  // namespace mems_stiction
