@@ -60,8 +60,11 @@ std::string textTag(TIFF* tiff, ttag_t name) {
   return TIFFGetField(tiff, name, &text) == 1 && text != nullptr ? text : "";
 }
 
-/// Tags that libtiff does not know come with a count.
-std::string countedTextTag(TIFF* tiff, ttag_t name) {
+/// A tag that libtiff does not know comes with a count, unless another library of this process has introduced it.
+std::string privateTextTag(TIFF* tiff, ttag_t name) {
+  const TIFFField* field = TIFFFindField(tiff, name, TIFF_ASCII);
+  if (field == nullptr) return "";
+  if (TIFFFieldPassCount(field) == 0) return textTag(tiff, name);
   std::uint32_t count = 0;
   const char* text = nullptr;
   if (TIFFGetField(tiff, name, &count, &text) != 1 || text == nullptr) return "";
@@ -229,8 +232,8 @@ cv::Mat upright(const cv::Mat& pixels, int orientation) {
 TiffNotes notesOf(TIFF* tiff) {
   TiffNotes notes;
   notes.description = textTag(tiff, TIFFTAG_IMAGEDESCRIPTION);
-  notes.gdal_metadata = countedTextTag(tiff, kGdalMetadata);
-  notes.gdal_missing = countedTextTag(tiff, kGdalMissing);
+  notes.gdal_metadata = privateTextTag(tiff, kGdalMetadata);
+  notes.gdal_missing = privateTextTag(tiff, kGdalMissing);
   notes.resolution_x = static_cast<double>(tag<float>(tiff, TIFFTAG_XRESOLUTION, 0.0F));
   notes.resolution_y = static_cast<double>(tag<float>(tiff, TIFFTAG_YRESOLUTION, 0.0F));
   const int unit = tag<std::uint16_t>(tiff, TIFFTAG_RESOLUTIONUNIT, RESUNIT_NONE);
