@@ -97,6 +97,16 @@ TEST(GwyFile, MaskedPixelsAreInvalid) {
   EXPECT_EQ(values.at<double>(1, 2), 6e-9) << "a mask of 0.5 is not above 0.5";
 }
 
+TEST(GwyFile, ThatAMaskCountsAsMissingIsSaidAndCanBeSwitchedOff) {
+  const std::vector<FileChannel> masked = parseGwy(example());
+  ASSERT_EQ(masked[0].notes.size(), 1u);
+  EXPECT_EQ(masked[0].notes[0].find("1 pixels under the mask"), 0u) << masked[0].notes[0];
+  EXPECT_TRUE(masked[1].notes.empty());
+  const std::vector<FileChannel> whole = parseGwy(example(), true);
+  EXPECT_EQ(whole[0].values.at<double>(0, 1), 2e-9);
+  EXPECT_TRUE(whole[0].notes.empty());
+}
+
 TEST(GwyFile, PitchIsSizeOverPixels) {
   const HeightMap surface = surfaceOfChannel(parseGwy(example())[0]);
   EXPECT_EQ(surface.pitchX(), 3e-6 / 3);
@@ -196,6 +206,29 @@ TEST(ChannelChoice, ClosedLoopSensorGoesBeforeHeight) {
 TEST(ChannelChoice, MetresThatAreNotHeightsAreNotTaken) {
   EXPECT_EQ(chooseHeightChannel({channel(0, "AmplitudeError"), channel(1, "Deflection"), channel(2, "Height")}), 2u);
   EXPECT_THROW(chooseHeightChannel({channel(0, "AmplitudeError"), channel(1, "Deflection")}), FileError);
+}
+
+TEST(ChannelChoice, SensorsOfEveryMakerGoBeforeTheirOpenLoops) {
+  EXPECT_EQ(chooseHeightChannel({channel(0, "Z-Axis forward"), channel(1, "Z-AxisSensor forward")}), 1u);
+  EXPECT_EQ(chooseHeightChannel({channel(0, "Height"), channel(1, "Height (measured)")}), 1u);
+  EXPECT_EQ(chooseHeightChannel({channel(0, "Height"), channel(1, "Height Sensor")}), 1u);
+}
+
+TEST(ChannelChoice, ForwardGoesBeforeBackward) {
+  EXPECT_EQ(chooseHeightChannel({channel(0, "Height (Backward)"), channel(1, "Height (Forward)")}), 1u);
+  EXPECT_EQ(chooseHeightChannel({channel(0, "Topography [<-]"), channel(1, "Topography [->]")}), 1u);
+  EXPECT_EQ(chooseHeightChannel({channel(0, "HeightRetrace"), channel(1, "HeightTrace")}), 1u);
+  EXPECT_EQ(chooseHeightChannel({channel(0, "Z bwd"), channel(1, "Z fwd")}), 1u);
+  // The sensor of the way back is still the sensor.
+  EXPECT_EQ(chooseHeightChannel({channel(0, "Height trace"), channel(1, "ZSensor retrace")}), 1u);
+}
+
+TEST(ChannelChoice, NamesOfSignalsInMetresAreNamesOfSamples) {
+  EXPECT_EQ(chooseHeightChannel({channel(0, "Phase")}), 0u) << "interferometers call their heights so";
+  EXPECT_EQ(chooseHeightChannel({channel(0, "Adhesion sample 4")}), 0u);
+  EXPECT_THROW(chooseHeightChannel({channel(0, "Adhesion")}), FileError);
+  EXPECT_THROW(chooseHeightChannel({channel(0, "Current (forward)")}), FileError);
+  EXPECT_EQ(chooseHeightChannel({channel(0, "Phase"), channel(1, "Height")}), 1u);
 }
 
 TEST(ChannelChoice, OtherUnitsAreNotTaken) {
