@@ -1,7 +1,6 @@
 #include "mems_stiction/base/output_file.hpp"
 
 #include <fcntl.h>
-#include <stdlib.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -11,6 +10,7 @@
 #include <filesystem>
 
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/interruption.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -52,14 +52,20 @@ void writeFile(const std::string& path, const std::string& bytes) {
   // A link stays a link: the file behind it is replaced.
   std::error_code ignored;
   const std::string target = exists ? std::filesystem::canonical(path, ignored).string() : path;
-  std::string partial = (ignored ? path : target) + ".XXXXXX";
-  const int descriptor = mkostemp(partial.data(), O_CLOEXEC);
-  if (descriptor < 0) fail(path);
-  const mode_t mask = umask(0);
-  umask(mask);
-  const mode_t mode = exists ? status.st_mode & 07777 : 0666 & ~mask;
+  int descriptor = -1;
+  const ScratchPath scratch([&] {
+    // Not mkostemp(): the file is to have the mode that the process's mask gives.
+    std::string name;
+    for (int attempt = 0; descriptor < 0 && (attempt == 0 || errno == EEXIST); ++attempt) {
+      name = (ignored ? path : target) + "." + std::to_string(getpid()) + "." + std::to_string(attempt);
+      descriptor = open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    }
+    if (descriptor < 0) fail(path);
+    return name;
+  });
+  const std::string& partial = scratch.path();
   int state = writeAll(descriptor, bytes);
-  if (state == 0) state = fchmod(descriptor, mode);
+  if (state == 0 && exists) state = fchmod(descriptor, status.st_mode & 07777);
   if (state == 0) state = fsync(descriptor);
   int cause = errno;
   if (close(descriptor) != 0 && state == 0) {

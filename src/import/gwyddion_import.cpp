@@ -8,6 +8,7 @@
 
 #include "mems_stiction/base/child_process.hpp"
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/interruption.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
 #include "mems_stiction/import/file_bytes.hpp"
 #include "mems_stiction/import/gwy_file.hpp"
@@ -20,22 +21,23 @@ namespace fs = std::filesystem;
 /// A folder of our own that goes with the object.
 class PrivateFolder {
  public:
-  PrivateFolder() {
-    std::string pattern = (fs::temp_directory_path() / "mems_stiction.XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) throw FileError(pattern + ": the temporary folder cannot be made");
-    path_ = pattern;
-  }
+  PrivateFolder()
+      : scratch_([] {
+          std::string pattern = (fs::temp_directory_path() / "mems_stiction.XXXXXX").string();
+          if (mkdtemp(pattern.data()) == nullptr) throw FileError(pattern + ": the temporary folder cannot be made");
+          return pattern;
+        }) {}
   ~PrivateFolder() {
     std::error_code ignored;
-    fs::remove_all(path_, ignored);
+    fs::remove_all(scratch_.path(), ignored);
   }
   PrivateFolder(const PrivateFolder&) = delete;
   PrivateFolder& operator=(const PrivateFolder&) = delete;
 
-  const fs::path& path() const { return path_; }
+  fs::path path() const { return scratch_.path(); }
 
  private:
-  fs::path path_;
+  ScratchPath scratch_;
 };
 
 /// What gwyddion said first, without the file's name; empty if it said nothing.
@@ -55,10 +57,11 @@ std::vector<FileChannel> channelsByGwyddion(const std::string& path, const Impor
   const std::string scan_path = fs::absolute(path).string();
   const fs::path converted = folder.path() / "scan.gwy";
   const fs::path log = folder.path() / "log";
-  // No display is needed, and none may be touched. gwyddion reads modules from its HOME and writes settings to it.
-  const std::vector<std::string> environment =
-      environmentWithout({"DISPLAY", "WAYLAND_DISPLAY", "HOME", "XDG_CONFIG_HOME", "LC_ALL", "LANGUAGE"},
-                         {"HOME=" + folder.path().string(), "LC_ALL=C.UTF-8"});
+  // No display is needed, and none may be touched. gwyddion reads modules from its HOME and writes settings to it. Its
+  // threads take longer to start than a small file takes to read.
+  const std::vector<std::string> environment = environmentWithout(
+      {"DISPLAY", "WAYLAND_DISPLAY", "HOME", "XDG_CONFIG_HOME", "LC_ALL", "LANGUAGE", "OMP_NUM_THREADS"},
+      {"HOME=" + folder.path().string(), "LC_ALL=C.UTF-8", "OMP_NUM_THREADS=1"});
   const ChildResult result =
       runChild({options.program, "--no-log-to-file", "--convert-to-gwy=" + converted.string(), scan_path}, environment,
                log.string(), options.timeout);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/interruption.hpp"
 #include "mems_stiction/base/one_line.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
 #include "mems_stiction/import/scan_file.hpp"
@@ -64,6 +65,7 @@ int forEachScan(const std::string& program, const std::vector<std::string>& scan
 /// The whole of main(): describe(app, arguments), parse, run(arguments). @return the exit status
 template <typename Arguments, typename Describe, typename Run>
 int runProgram(const std::string& program, int argc, char** argv, Describe&& describe, Run&& run) {
+  cleanUpWhenInterrupted();
   try {
     CLI::App app;
     Arguments arguments;
