@@ -42,7 +42,7 @@ void writeDirectly(const std::string& path, const std::string& bytes) {
 
 }  // namespace
 
-void writeFile(const std::string& path, const std::string& bytes) {
+void writeFile(const std::string& path, const std::string& bytes, OutputSafety safety) {
   struct stat status {};
   const bool exists = stat(path.c_str(), &status) == 0;
   if (exists && !S_ISREG(status.st_mode)) {
@@ -66,7 +66,7 @@ void writeFile(const std::string& path, const std::string& bytes) {
   const std::string& partial = scratch.path();
   int state = writeAll(descriptor, bytes);
   if (state == 0 && exists) state = fchmod(descriptor, status.st_mode & 07777);
-  if (state == 0) state = fsync(descriptor);
+  if (state == 0 && safety == OutputSafety::kOnDisk) state = fsync(descriptor);
   int cause = errno;
   if (close(descriptor) != 0 && state == 0) {
     state = -1;

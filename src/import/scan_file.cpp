@@ -6,9 +6,11 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/option_yaml.hpp"
+#include "mems_stiction/height_map/validity.hpp"
 #include "mems_stiction/import/channel_choice.hpp"
 #include "mems_stiction/import/file_bytes.hpp"
 #include "mems_stiction/import/scan_formats.hpp"
@@ -120,6 +122,23 @@ HeightMap surfaceOf(const std::string& path, const FileChannel& channel, const S
   return heightMapFromPixels(channel.values, settings);
 }
 
+/// Largest number that programs write for a height; beyond it they write "none": 1e38, FLT_MAX, DBL_MAX and the like [m].
+constexpr double kLargestHeight = 1e20;
+
+/// @return the surface without such numbers
+HeightMap withoutSentinels(const HeightMap& surface, std::vector<std::string>& notes) {
+  const cv::Mat above = surface.heights() > kLargestHeight;
+  const cv::Mat below = surface.heights() < -kLargestHeight;
+  cv::Mat beyond = above | below;
+  beyond &= validMask(surface.heights());
+  const int count = cv::countNonZero(beyond);
+  if (count == 0) return surface;
+  cv::Mat heights = ownedHeights(surface);
+  heights.setTo(std::numeric_limits<double>::quiet_NaN(), beyond);
+  notes.push_back(std::to_string(count) + " heights beyond 1e20 m count as missing");
+  return {heights, surface.pitchX(), surface.pitchY()};
+}
+
 /// A single channel without a title needs no name.
 std::string nameOf(const FileChannel& channel, std::size_t count) {
   return channel.takes_settings && count == 1 && channel.title.empty() ? "" : channelName(channel);
@@ -145,6 +164,7 @@ ScanFile openScanFile(const std::string& path, const ScanOptions& scan, const Sc
     const std::vector<FileChannel> channels = readChannels(path, options.import);
     const FileChannel& channel = channels.at(chooseHeightChannel(channels, options.import.channel));
     ScanFile file{surfaceOf(path, channel, scan, options), nameOf(channel, channels.size()), channel.notes};
+    file.surface = withoutSentinels(file.surface, file.notes);
     notePitch(channel, file.surface, file.notes);
     return file;
   });

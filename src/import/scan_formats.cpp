@@ -37,13 +37,13 @@ std::string extension(const std::string& path) {
 
 /// Some instruments write a picture of the scan, with the heights in tags of their own.
 Channels readTiff(const std::string& path, const std::string& bytes, const ImportOptions& options) {
-  if (hasParkTags(bytes)) return channelsByGwyddion(path, options);
+  if (hasParkTags(bytes)) return channelsByGwyddion(path, bytes, options);
   Channels channels = parseTiff(bytes);
   const bool is_picture = std::all_of(channels.begin(), channels.end(),
                                       [](const FileChannel& channel) { return channel.values.channels() > 2; });
   if (!is_picture) return channels;
   try {
-    Channels inside = channelsByGwyddion(path, options);
+    Channels inside = channelsByGwyddion(path, bytes, options);
     chooseHeightChannel(inside, options.channel);
     return inside;
   } catch (const FileError&) {
@@ -54,7 +54,7 @@ Channels readTiff(const std::string& path, const std::string& bytes, const Impor
 Channels readNetcdf(const std::string& path, const std::string& bytes, const ImportOptions& options) {
   if (auto heights = parseNetcdfHeights(bytes)) return {*heights};
   const std::string unit = gxsmOtherUnit(bytes);
-  Channels channels = channelsByGwyddion(path, options);
+  Channels channels = channelsByGwyddion(path, bytes, options);
   if (unit.empty()) return channels;
   for (FileChannel& channel : channels) channel.unit_z = unit;
   return channels;
@@ -99,7 +99,7 @@ std::vector<FileChannel> readChannels(const std::string& path, const ImportOptio
     if (name_end == image) throw FileError("is not a " + name_end.substr(1) + " image: damaged, or misnamed");
   }
   if (beginsWithOneOf(bytes, {"PK\3\4"})) checkZip(bytes);
-  return channelsByGwyddion(path, options);
+  return channelsByGwyddion(path, bytes, options);
 }
 
 }  // namespace mems_stiction

@@ -17,12 +17,14 @@
 #include "command_line.hpp"
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/height_map/scan_sanity.hpp"
+#include "mems_stiction/import/import_cache.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 #include "mems_stiction/scan/configuration_yaml.hpp"
 #include "mems_stiction/scan/scan_predictor.hpp"
 #include "progress_bar.hpp"
 #include "scan_bag_reader.hpp"
 #include "scan_row.hpp"
+#include "scans_ahead.hpp"
 
 namespace {
 
@@ -38,6 +40,9 @@ struct Arguments {
   std::string topic = "height";
   std::string input_list;
   bool merge = false;
+  bool no_cache = false;
+  bool clear_cache = false;
+  bool ignore_mask = false;
   std::vector<std::string> inputs;
 };
 
@@ -72,6 +77,11 @@ void describe(CLI::App& app, Arguments& arguments) {
       ->type_name("FOLDER");
   app.add_option("--topic", arguments.topic, "of the scans in bags; scan_info is looked for beside it")
       ->capture_default_str();
+  app.add_flag("--ignore-mask", arguments.ignore_mask,
+               "pixels under the mask of a .gwy file are heights as the others, not missing");
+  app.add_flag("--no-cache", arguments.no_cache,
+               "convert instrument makers' files anew, and do not keep what was converted in ~/.cache/mems_stiction");
+  app.add_flag("--clear-cache", arguments.clear_cache, "first remove all that is kept there");
   app.footer(
       "Exit status: 0 every scan has its row (the last line says how many failed), 2 bad input.\n\n"
       "Example: stiction_batch --config device.yaml --shard 1/2 -o part1.csv 2026-*.bag   # and 2/2 elsewhere\n"
@@ -113,11 +123,25 @@ struct Item {
 class Batch {
  public:
   Batch(const Arguments& arguments, std::vector<std::string> inputs, const Configuration& configuration)
-      : arguments_(arguments), inputs_(std::move(inputs)), configuration_(configuration), predictor_(configuration) {
+      : arguments_(arguments),
+        inputs_(std::move(inputs)),
+        configuration_(configuration),
+        predictor_(configuration),
+        ahead_(configuration.scan, fileOptions(arguments)) {
     for (std::size_t input = 0; input < inputs_.size(); ++input) list(input);
   }
 
   std::size_t size() const { return items_.size(); }
+  /// Which rows will be asked for, in this order: their files are read ahead.
+  void expect(const std::vector<std::size_t>& numbers, std::size_t first) {
+    std::vector<std::string> paths;
+    for (std::size_t i = first; i < numbers.size(); ++i) {
+      const Item& item = items_[numbers[i] - 1];
+      if (item.scan == 0 && item.reason.empty()) paths.push_back(inputs_[item.input]);
+    }
+    ahead_.expect(std::move(paths));
+  }
+
   bool hasDevice() const { return configuration_.device.isStated(); }
 
   /// @param number from 1 @param failed whether there is no prediction
@@ -149,6 +173,13 @@ class Batch {
   }
 
  private:
+  static ScanFileOptions fileOptions(const Arguments& arguments) {
+    ScanFileOptions options;
+    options.import.use_cache = !arguments.no_cache;
+    options.import.ignore_mask = arguments.ignore_mask;
+    return options;
+  }
+
   void list(std::size_t input) {
     if (!isBag(inputs_[input])) {
       items_.push_back({input, 0, ""});
@@ -178,9 +209,11 @@ class Batch {
 
   RowFields predict(const Item& item, ScanOrigin& origin) {
     HeightMap counter_surface;
+    std::vector<std::string> warnings;
     if (item.scan == 0) {
-      const ScanFile file = openScanFile(inputs_[item.input], configuration_.scan);
+      const ScanFile file = ahead_.take(inputs_[item.input]);
       surface_ = file.surface;
+      warnings = file.notes;
       origin.channel = file.channel;
     } else {
       const bool wants_counter = configuration_.counter_surface.type == CounterSurfaceType::kTopic;
@@ -200,13 +233,15 @@ class Batch {
       verdict = verdictOf(prediction_, configuration_.device, configuration_.uncertainty, configuration_.model,
                           surface_.cellArea());
     }
-    return figureFields(surface_, scanWarnings(surface_), prediction_, verdict);
+    for (const std::string& warning : scanWarnings(surface_)) warnings.push_back(warning);
+    return figureFields(surface_, warnings, prediction_, verdict);
   }
 
   const Arguments& arguments_;
   std::vector<std::string> inputs_;
   const Configuration& configuration_;
   ScanPredictor predictor_;
+  ScansAhead ahead_;
   std::vector<Item> items_;
   std::unique_ptr<ScanBagReader> bag_;  ///< the one that was opened last
   std::size_t bag_input_ = 0;
@@ -236,6 +271,7 @@ std::string settingsText(const Batch& batch, const std::vector<std::string>& inp
   emitter << YAML::Key << "opencv_version" << YAML::Value << YAML::DoubleQuoted << CV_VERSION;
   emitter << YAML::Key << "total" << YAML::Value << batch.size();
   emitter << YAML::Key << "topic" << YAML::Value << YAML::DoubleQuoted << arguments.topic;
+  if (arguments.ignore_mask) emitter << YAML::Key << "ignore_mask" << YAML::Value << true;
   emitter << YAML::Key << "inputs" << YAML::Value << YAML::BeginSeq;
   for (const std::string& input : inputs) emitter << YAML::DoubleQuoted << input;
   emitter << YAML::EndSeq << YAML::Key << "units" << YAML::Value << YAML::BeginMap;
@@ -277,6 +313,7 @@ Configuration configurationOf(const Arguments& arguments) {
 
 int run(const Arguments& arguments) {
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);  // we name what is wrong ourselves
+  if (arguments.clear_cache) clearImportCache();
   const Shard shard = shardOf(arguments.shard);
   const RowFormat format = rowFormatOf(arguments.output);
   const std::vector<std::string> inputs = inputsOf(arguments);
@@ -297,6 +334,7 @@ int run(const Arguments& arguments) {
 
   RowFile rows(arguments.output, format, headingText(format, columns), numbers);
   const std::size_t before = rows.done();
+  batch.expect(numbers, before);
   std::size_t failed_count = 0;
   {
     ProgressBar progress(numbers.size(), before);

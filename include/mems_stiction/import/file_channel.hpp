@@ -31,6 +31,7 @@ struct ImportOptions {
   std::string program = "gwyddion";  ///< looked up in PATH
   double timeout = 60.0;             ///< for one file [s]; usual files take 0.02 to 0.2 s
   std::string channel;               ///< title or number of the channel to take; empty = the likeliest height channel
+  bool use_cache = false;            ///< keep what gwyddion makes of a file for the next time, import_cache.hpp
   bool ignore_mask = false;          ///< pixels under the mask of a .gwy file are heights as the others
 };
 

@@ -12,7 +12,9 @@
 namespace mems_stiction {
 
 /// Every image channel of the file, whatever its unit.
+/// - @p bytes the file's content, by which a conversion is kept and found again if ImportOptions say so
 /// @throw FileError in one line with the file and the cause: not installed, crashed, failed, timed out, unreadable.
-std::vector<FileChannel> channelsByGwyddion(const std::string& path, const ImportOptions& options = {});
+std::vector<FileChannel> channelsByGwyddion(const std::string& path, const std::string& bytes,
+                                            const ImportOptions& options);
 
 }  // namespace mems_stiction
