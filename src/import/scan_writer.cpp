@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <limits>
 #include <vector>
-
-#include <opencv2/imgcodecs.hpp>
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/one_line.hpp"
@@ -27,29 +26,47 @@ double singleSpacing(const HeightStatistics& statistics) {
   return static_cast<double>(std::nextafter(largest, std::numeric_limits<float>::infinity())) - largest;
 }
 
-/// @throw FileError without a file name
+/// A little-endian TIFF of one strip of floating-point numbers (TIFF 6.0, section 2), uncompressed: every reader takes it,
+/// and nothing is lost.
 std::string tiffOf(const cv::Mat& pixels) {
-  std::vector<unsigned char> bytes;
-  try {
-    // Uncompressed: every reader takes it, and nothing is lost.
-    if (cv::imencode(".tiff", pixels, bytes, {cv::IMWRITE_TIFF_COMPRESSION, 1})) {
-      return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-    }
-  } catch (const cv::Exception& error) {
-    throw FileError("cannot be written: " + error.err);
+  const cv::Mat whole = pixels.isContinuous() ? pixels : pixels.clone();
+  const std::size_t size = whole.total() * whole.elemSize();
+  if (size > std::numeric_limits<std::uint32_t>::max() - 1024) throw FileError("too many pixels for a TIFF");
+  constexpr std::uint32_t kShort = 3;
+  constexpr std::uint32_t kLong = 4;
+  struct Entry {
+    std::uint32_t tag, type, value;
+  };
+  const auto rows = static_cast<std::uint32_t>(whole.rows);
+  const auto bits = static_cast<std::uint32_t>(8 * whole.elemSize());
+  const std::vector<Entry> entries = {{256, kLong, static_cast<std::uint32_t>(whole.cols)},
+                                      {257, kLong, rows},
+                                      {258, kShort, bits},
+                                      {259, kShort, 1},  // no compression
+                                      {262, kShort, 1},  // black is zero
+                                      {273, kLong, 8},   // where the pixels begin
+                                      {277, kShort, 1},
+                                      {278, kLong, rows},
+                                      {279, kLong, static_cast<std::uint32_t>(size)},
+                                      {339, kShort, 3}};  // floating-point numbers
+  std::string bytes("II*\0", 4);
+  const auto append = [&bytes](std::uint32_t number, int count) {
+    for (int i = 0; i < count; ++i) bytes += static_cast<char>(number >> (8 * i) & 0xFF);
+  };
+  append(static_cast<std::uint32_t>(8 + size), 4);
+  bytes.append(reinterpret_cast<const char*>(whole.data), size);
+  append(static_cast<std::uint32_t>(entries.size()), 2);
+  for (const Entry& entry : entries) {
+    append(entry.tag, 2);
+    append(entry.type, 2);
+    append(1, 4);
+    append(entry.value, 4);
   }
-  throw FileError("cannot be written as TIFF");
+  append(0, 4);  // no further page
+  return bytes;
 }
 
-void writePixels(const std::string& path, const cv::Mat& pixels) {
-  std::string bytes;
-  try {
-    bytes = tiffOf(pixels);
-  } catch (const FileError& error) {
-    throw FileError(path + ": " + error.what());
-  }
-  writeFile(path, bytes);
-}
+void writePixels(const std::string& path, const cv::Mat& pixels) { writeFile(path, tiffOf(pixels)); }
 
 std::string checksum(const std::string& bytes) {
   char text[16];
@@ -97,12 +114,7 @@ void writeScan(const std::string& path, const HeightMap& surface, const std::str
   cv::Mat pixels;
   heights.convertTo(pixels, CV_32F);
   if (!isSame(heights, pixels)) pixels = heights;
-  std::string bytes;
-  try {
-    bytes = tiffOf(pixels);
-  } catch (const FileError& error) {
-    throw FileError(path + ": " + error.what());
-  }
+  const std::string bytes = tiffOf(pixels);
   const std::string lines = "# " + oneLine(note) +
                             "\n# Heights in metres: height = pixel x height_scale + height_offset.\n" +
                             "pitch_x: " + yamlNumber(surface.pitchX()) + "\npitch_y: " + yamlNumber(surface.pitchY()) +

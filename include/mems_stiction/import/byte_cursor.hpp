@@ -42,9 +42,8 @@ class ByteCursor {
 
   /// Up to a NUL, which is read too.
   std::string text() {
-    const void* end = size_ == 0 ? nullptr : std::memchr(data_, '\0', size_);
-    if (end == nullptr) take(size_ + 1);
-    const auto length = static_cast<std::size_t>(static_cast<const char*>(end) - data_);
+    const auto length = static_cast<std::size_t>(std::find(data_, data_ + size_, '\0') - data_);
+    if (length == size_) take(size_ + 1);
     std::string value(data_, length);
     take(length + 1);
     return value;

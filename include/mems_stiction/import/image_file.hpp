@@ -1,7 +1,8 @@
 #pragma once
 
 /// @file
-/// PNG and OpenEXR images of heights, by OpenCV, after a look at their headers.
+/// PNG and OpenEXR images of heights, by libpng and OpenEXR. OpenCV scales counts of few bits, reads other channels than
+/// those there are, and loads a hundred libraries before main() begins.
 
 #include <string>
 
@@ -14,8 +15,8 @@ namespace mems_stiction {
 /// @throw FileError without a file name: damaged, too many pixels.
 FileChannel parsePng(const std::string& bytes);
 
-/// The file's single channel, whatever letter it has for a name.
-/// @throw FileError without a file name: several channels, a name that OpenCV cannot be given, damaged, too many pixels.
+/// The file's single channel, whatever its name.
+/// @throw FileError without a file name: several channels, damaged, too many pixels.
 FileChannel parseExr(const std::string& bytes);
 
 }  // namespace mems_stiction

@@ -1,10 +1,7 @@
 #include "mems_stiction/import/image_file.hpp"
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 #include <zlib.h>
-
-#include <opencv2/imgcodecs.hpp>
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/import/channel_choice.hpp"
@@ -91,19 +88,8 @@ std::string exr(const std::vector<std::string>& channels, std::int32_t cols, std
   return bytes;
 }
 
-/// False where OpenCV was built without OpenEXR.
-bool hasOpenExr() {
-  setenv("OPENCV_IO_ENABLE_OPENEXR", "1", 1);
-  try {
-    return cv::haveImageWriter("a.exr");
-  } catch (const cv::Exception&) {
-    return false;
-  }
-}
-
-TEST(ExrFile, ASingleChannelIsReadWhateverItsLetter) {
-  if (!hasOpenExr()) GTEST_SKIP() << "this OpenCV has no OpenEXR";
-  for (const std::string name : {"Y", "Z", "R", "h"}) {
+TEST(ExrFile, ASingleChannelIsReadWhateverItsName) {
+  for (const std::string name : {"Y", "Z", "R", "height"}) {
     const cv::Mat values = parseExr(exr({name}, 5, 4)).values;
     ASSERT_EQ(values.size(), cv::Size(5, 4)) << name;
     for (int row = 0; row < 4; ++row) {
@@ -115,7 +101,6 @@ TEST(ExrFile, ASingleChannelIsReadWhateverItsLetter) {
 
 TEST(ExrFile, OtherChannelsAreRefusedByName) {
   EXPECT_NE(refusal(parseExr, exr({"A", "Z"}, 5, 4)).find("2 channels per pixel (A, Z)"), std::string::npos);
-  EXPECT_NE(refusal(parseExr, exr({"height"}, 5, 4)).find("'height' has a name of several letters"), std::string::npos);
 }
 
 TEST(ExrFile, TheSizeInTheHeaderIsReadBeforeMemoryIsTaken) {
