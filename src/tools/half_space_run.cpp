@@ -4,11 +4,11 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
-#include <fstream>
 #include <string>
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/base/output_file.hpp"
 #include "mems_stiction/half_space/half_space_fields.hpp"
 #include "status_line.hpp"
 
@@ -31,16 +31,23 @@ class Interruption {
     action.sa_flags = static_cast<int>(SA_RESETHAND);
     sigaction(SIGINT, &action, &before_);
     if (before_.sa_handler == SIG_IGN) sigaction(SIGINT, &before_, nullptr);
+    // The program's own thread for interruptions gets them only while this one does not take them.
+    sigset_t one;
+    sigemptyset(&one);
+    sigaddset(&one, SIGINT);
+    pthread_sigmask(SIG_UNBLOCK, &one, &mask_before_);
   }
   ~Interruption() {
     sigaction(SIGINT, &before_, nullptr);
     if (is_interrupted) std::raise(SIGINT);
+    pthread_sigmask(SIG_SETMASK, &mask_before_, nullptr);
   }
   Interruption(const Interruption&) = delete;
   Interruption& operator=(const Interruption&) = delete;
 
  private:
   struct sigaction before_ {};
+  sigset_t mask_before_{};
 };
 
 /// "half-space: retraction, 12 heights, 0.35 nm, 0.041 uN"
@@ -82,13 +89,11 @@ HalfSpaceSolution solveWithProgress(const HalfSpaceSolver& solver, const HalfSpa
 }
 
 void writeCurve(const std::string& path, const HalfSpaceSolution& solution) {
-  std::ofstream file(path);
-  file << "height,force,direction\n";
+  std::string text = "height,force,direction\n";
   for (const CurvePoint& point : curveOf(solution)) {
-    file << numberText(point.height) << ',' << numberText(point.force) << ',' << word(point.direction) << '\n';
+    text += numberText(point.height) + "," + numberText(point.force) + "," + word(point.direction) + "\n";
   }
-  file.close();
-  if (!file) throw FileError(path + ": cannot be written");
+  writeFile(path, text);
 }
 
 }  // namespace mems_stiction

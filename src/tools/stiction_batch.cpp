@@ -16,6 +16,7 @@
 #include "batch_rows.hpp"
 #include "command_line.hpp"
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/output_file.hpp"
 #include "mems_stiction/height_map/scan_sanity.hpp"
 #include "mems_stiction/import/import_cache.hpp"
 #include "mems_stiction/import/scan_file.hpp"
@@ -299,7 +300,7 @@ void checkSettings(const std::string& path, const std::string& settings) {
   if (std::ifstream(path) && !readWhole(path).empty()) {
     throw FileError(path + ": exists, and " + settings_path + ", which says what it was made with, is missing");
   }
-  writeWhole(settings_path, settings);
+  writeFile(settings_path, settings);
 }
 
 Configuration configurationOf(const Arguments& arguments) {
@@ -361,7 +362,7 @@ int merge(const Arguments& arguments) {
   }
   const auto total = YAML::Load(settings)["total"].as<std::size_t>();
   mergeRows(shards, arguments.output, total);
-  writeWhole(settingsPathOf(arguments.output), settings);
+  writeFile(settingsPathOf(arguments.output), settings);
   std::cout << arguments.output << ": " << total << " rows of " << shards.size() << " shards\n";
   return 0;
 }
