@@ -246,10 +246,19 @@ bool isAside(TIFF* tiff) {
   return (tag<std::uint32_t>(tiff, TIFFTAG_SUBFILETYPE, 0) & (FILETYPE_REDUCEDIMAGE | FILETYPE_MASK)) != 0;
 }
 
+/// The page's name, or a description that is one: a short line that no program wrote for itself.
+std::string titleOf(TIFF* tiff) {
+  std::string title = textTag(tiff, TIFFTAG_PAGENAME);
+  if (!title.empty()) return title;
+  title = textTag(tiff, TIFFTAG_IMAGEDESCRIPTION);
+  const bool is_for_programs = title.size() > 60 || title.find_first_of("{}<>=\n\r") != std::string::npos;
+  return is_for_programs ? "" : title;
+}
+
 FileChannel channelOf(TIFF* tiff, int page, int pages, const std::string& page_zero_description) {
   FileChannel channel;
   channel.id = page;
-  channel.title = textTag(tiff, TIFFTAG_PAGENAME);
+  channel.title = titleOf(tiff);
   channel.takes_settings = true;
   const Layout layout = layoutOf(tiff);
   const int photometric = tag<std::uint16_t>(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);

@@ -119,7 +119,9 @@ int run(const Arguments& arguments) {
   ScanBag bag(arguments.bag, arguments.rate);
   for (const std::string& path : arguments.scans) {
     try {
-      bag.write(readScanFile(path, {}, file_options), stemOf(path));
+      const ScanFile scan = openScanFile(path, {}, file_options);
+      for (const std::string& note : scan.notes) warn(path, note);
+      bag.write(scan.surface, stemOf(path));
     } catch (const Error& error) {
       complain("make_scan_bag", error.what());
       status = kBadInput;

@@ -210,6 +210,14 @@ TEST_F(TiffFile, SeveralPagesAreNamedAndNoneIsTakenUnasked) {
   EXPECT_EQ(chooseHeightChannel(channels, "2"), 2u);
 }
 
+TEST_F(TiffFile, PagesThatAreNamedHeightAreTaken) {
+  Page phase = floatPage();
+  phase.tags = [](TIFF* tiff) { TIFFSetField(tiff, TIFFTAG_IMAGEDESCRIPTION, "Amplitude"); };
+  Page height = floatPage();
+  height.tags = [](TIFF* tiff) { TIFFSetField(tiff, TIFFTAG_IMAGEDESCRIPTION, "Height"); };
+  EXPECT_EQ(chooseHeightChannel(parseTiff(write({phase, height}))), 1u);
+}
+
 TEST_F(TiffFile, TheMissingValueOfGdalIsMissing) {
   Page page = floatPage();
   page.tags = [](TIFF* tiff) { TIFFSetField(tiff, 42113, "12"); };
