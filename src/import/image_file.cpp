@@ -174,6 +174,7 @@ FileChannel parsePng(const std::string& bytes) {
   channel.values = cv::Mat::zeros(static_cast<int>(rows), static_cast<int>(cols), CV_MAKETYPE(depth, samples));
   if (samples > 1) return channel;  // a picture: listed, not read
   std::vector<png_bytep> lines;
+  lines.reserve(rows);
   for (int row = 0; row < channel.values.rows; ++row) lines.push_back(channel.values.ptr(row));
   if (!readPngPixels(reader, lines.data())) throw FileError(damaged);
   return channel;

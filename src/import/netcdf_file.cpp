@@ -198,7 +198,7 @@ std::string gxsmOtherUnit(const std::string& bytes) {
     const Variable* variable = file.find(name);
     if (variable == nullptr) continue;
     for (const char* attribute : {"unit", "units", "var_unit", "var_units", "ZSrcUnit"}) {
-      const std::string unit = textOf(*variable, attribute);
+      std::string unit = textOf(*variable, attribute);
       if (!unit.empty() && unit != "1" && !lengthUnit(unit)) return unit;
     }
   }

@@ -17,7 +17,7 @@ std::string entry(const std::string& header, const std::string& key) {
   const std::size_t at = header.find("'" + key + "'");
   const std::size_t colon = at == std::string::npos ? at : header.find(':', at);
   if (colon == std::string::npos) throw FileError("the .npy header does not state '" + key + "'");
-  const std::size_t begin = std::min(header.find_first_not_of(" ", colon + 1), header.size());
+  const std::size_t begin = std::min(header.find_first_not_of(' ', colon + 1), header.size());
   const std::size_t end = header[begin] == '(' ? header.find(')', begin) : header.find(',', begin);
   return header.substr(begin, end - begin);
 }
