@@ -83,7 +83,7 @@ void checkZip(const std::string& bytes) {
   cursor.take(4);
   const auto start = cursor.number<std::uint32_t>();
   cursor.take(cursor.number<std::uint16_t>());  // the archive's comment
-  if (start == kNarrowLimit) return;  // a directory of the 64-bit kind: no scan is that large
+  if (start == kNarrowLimit) return;            // a directory of the 64-bit kind: no scan is that large
   ByteCursor directory = from(bytes, start);
   std::uint64_t total = 0;
   for (int i = 0; i < count; ++i) {
