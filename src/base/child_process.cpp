@@ -1,16 +1,20 @@
 #include "mems_stiction/base/child_process.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
-#include <thread>
+#include <cstdint>
+
+#include "mems_stiction/base/interruption.hpp"
 
 extern char** environ;
 
@@ -25,15 +29,41 @@ std::vector<char*> pointers(const std::vector<std::string>& texts) {
   return result;
 }
 
-/// Waits until the child has ended or the deadline has passed. @return true if it has ended.
-bool waitUntil(pid_t child, std::chrono::steady_clock::time_point deadline, int& status) {
-  auto pause = std::chrono::milliseconds(1);
+/// Most memory that a child may map [bytes]: a damaged file must not take the machine's.
+constexpr rlim_t kChildMemory = rlim_t{8} << 30;
+
+/// A descriptor that can be read when the child has ended, closed with the object; invalid on old kernels.
+class ChildEnd {
+ public:
+  explicit ChildEnd(pid_t child) : descriptor_(static_cast<int>(syscall(SYS_pidfd_open, child, 0))) {}
+  ~ChildEnd() {
+    if (descriptor_ >= 0) close(descriptor_);
+  }
+  ChildEnd(const ChildEnd&) = delete;
+  ChildEnd& operator=(const ChildEnd&) = delete;
+
+  /// Returns when the child has ended, or at the latest when the time is over; sooner without a descriptor.
+  void await(std::chrono::milliseconds left) const {
+    pollfd entry{descriptor_, POLLIN, 0};
+    const auto time = descriptor_ >= 0 ? left : std::min(left, std::chrono::milliseconds(5));
+    poll(&entry, descriptor_ >= 0 ? 1 : 0, static_cast<int>(std::clamp<std::int64_t>(time.count(), 0, 1 << 30)));
+  }
+
+ private:
+  int descriptor_;
+};
+
+/// Waits until the child has ended or the deadline has passed. @return true if it has ended; it is not reaped then
+bool waitUntil(pid_t child, std::chrono::steady_clock::time_point deadline) {
+  const ChildEnd end(child);
   for (;;) {
-    const pid_t ended = waitpid(child, &status, WNOHANG);
-    if (ended == child || (ended < 0 && errno != EINTR)) return true;
-    if (std::chrono::steady_clock::now() >= deadline) return false;
-    std::this_thread::sleep_for(pause);
-    pause = std::min(2 * pause, std::chrono::milliseconds(20));
+    siginfo_t information{};
+    const int state = waitid(P_PID, static_cast<id_t>(child), &information, WEXITED | WNOHANG | WNOWAIT);
+    if (state != 0 && errno != EINTR) return true;
+    if (state == 0 && information.si_pid == child) return true;
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now());
+    if (left.count() <= 0) return false;
+    end.await(left);
   }
 }
 
@@ -59,28 +89,32 @@ ChildResult runChild(const std::vector<std::string>& arguments, const std::vecto
   posix_spawnattr_setsigmask(&attributes, &none);
   posix_spawnattr_setsigdefault(&attributes, &all);
 
-  pid_t child = -1;
-  const int error = posix_spawnp(&child, arguments.front().c_str(), &actions, &attributes, pointers(arguments).data(),
-                                 pointers(environment).data());
+  const RunningChild running([&] {
+    pid_t started = -1;
+    const int error = posix_spawnp(&started, arguments.front().c_str(), &actions, &attributes,
+                                   pointers(arguments).data(), pointers(environment).data());
+    return error == 0 ? started : -1;
+  });
+  const pid_t child = running.id();
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
 
   ChildResult result;
-  if (error != 0) return result;
+  if (child < 0) return result;
   result.started = true;
   const rlimit no_core{0, 0};  // a crash must not leave a core file in the caller's folder
   prlimit(child, RLIMIT_CORE, &no_core, nullptr);
+  const rlimit memory{kChildMemory, kChildMemory};
+  prlimit(child, RLIMIT_AS, &memory, nullptr);
   const auto deadline =
       std::chrono::steady_clock::now() +
       std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(timeout));
+  result.timed_out = !waitUntil(child, deadline);
+  if (result.timed_out) kill(-child, SIGKILL);
   int status = 0;
-  if (!waitUntil(child, deadline, status)) {
-    result.timed_out = true;
-    kill(-child, SIGKILL);
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-    }
-    return result;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
+  if (result.timed_out) return result;
   if (WIFEXITED(status)) result.exit_code = WEXITSTATUS(status);
   if (WIFSIGNALED(status)) result.signal = WTERMSIG(status);
   return result;

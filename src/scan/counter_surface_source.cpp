@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/height_map/scan_file.hpp"
+#include "mems_stiction/import/scan_file.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -42,6 +42,11 @@ void describe(CLI::App& app, BatchArguments& arguments) {
       ->type_name("FOLDER");
   app.add_option("--topic", arguments.topic, "of the scans in bags; scan_info is looked for beside it")
       ->capture_default_str();
+  app.add_flag("--ignore-mask", arguments.ignore_mask,
+               "pixels under the mask of a .gwy file are heights as the others, not missing");
+  app.add_flag("--no-cache", arguments.no_cache,
+               "convert instrument makers' files anew, and do not keep what was converted in ~/.cache/mems_stiction");
+  app.add_flag("--clear-cache", arguments.clear_cache, "first remove all that is kept there");
   app.footer(
       "Exit status: 0 every scan has its row (the last line says how many failed), 2 bad input.\n\n"
       "Example: stiction_batch --config device.yaml --shard 1/2 -o part1.csv 2026-*.bag   # and 2/2 elsewhere\n"

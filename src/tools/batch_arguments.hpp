@@ -23,6 +23,9 @@ struct BatchArguments {
   std::string input_list;
   bool half_space = false;
   bool merge = false;
+  bool no_cache = false;
+  bool clear_cache = false;
+  bool ignore_mask = false;
   std::vector<std::string> inputs;
 };
 

@@ -14,6 +14,7 @@
 #include <map>
 
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/output_file.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -152,14 +153,6 @@ std::string readWhole(const std::string& path) {
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-void writeWhole(const std::string& path, const std::string& text) {
-  const std::string partial = path + "." + std::to_string(::getpid()) + ".part";
-  std::ofstream stream(partial, std::ios::binary | std::ios::trunc);
-  stream << text;
-  stream.close();
-  if (!stream || std::rename(partial.c_str(), path.c_str()) != 0) failWithSystemsReason(path);
-}
-
 void mergeRows(const std::vector<std::string>& shards, const std::string& path, std::size_t total) {
   const RowFormat format = rowFormatOf(path);
   std::string heading;
@@ -192,7 +185,7 @@ void mergeRows(const std::vector<std::string>& shards, const std::string& path, 
   }
   std::string text = heading.empty() ? "" : heading + "\n";
   for (const auto& row : rows) text += row.second + "\n";
-  writeWhole(path, text);
+  writeFile(path, text);
 }
 
 }  // namespace mems_stiction

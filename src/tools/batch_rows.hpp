@@ -55,8 +55,6 @@ std::string settingsPathOf(const std::string& rows_path);
 
 /// The whole file. @throw FileError
 std::string readWhole(const std::string& path);
-/// Under another name first, so that it is there as a whole or not at all. @throw FileError
-void writeWhole(const std::string& path, const std::string& text);
 
 /// Joins shards to the file that one run writes, byte for byte.
 /// @param total rows that one run writes

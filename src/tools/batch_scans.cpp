@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "half_space_run.hpp"
-#include "mems_stiction/height_map/scan_file.hpp"
 #include "mems_stiction/height_map/scan_sanity.hpp"
 #include "mems_stiction/scan/half_space_scan.hpp"
 
@@ -27,6 +26,13 @@ std::string reasonOf(const std::exception& error) {
   return reason.empty() ? "unknown error" : reason;
 }
 
+ScanFileOptions fileOptions(const BatchArguments& arguments) {
+  ScanFileOptions options;
+  options.import.use_cache = !arguments.no_cache;
+  options.import.ignore_mask = arguments.ignore_mask;
+  return options;
+}
+
 void append(const RowFields& more, RowFields& fields) { fields.insert(fields.end(), more.begin(), more.end()); }
 
 }  // namespace
@@ -37,8 +43,18 @@ BatchScans::BatchScans(const BatchArguments& arguments, std::vector<std::string>
       inputs_(std::move(inputs)),
       configuration_(configuration),
       predictor_(configuration),
-      half_space_(configuration.half_space) {
+      half_space_(configuration.half_space),
+      ahead_(configuration.scan, fileOptions(arguments)) {
   for (std::size_t input = 0; input < inputs_.size(); ++input) list(input);
+}
+
+void BatchScans::expect(const std::vector<std::size_t>& numbers, std::size_t first) {
+  std::vector<std::string> paths;
+  for (std::size_t i = first; i < numbers.size(); ++i) {
+    const Item& item = items_[numbers[i] - 1];
+    if (item.scan == 0 && item.reason.empty()) paths.push_back(inputs_[item.input]);
+  }
+  ahead_.expect(std::move(paths));
 }
 
 std::vector<std::string> BatchScans::columns() const {
@@ -113,9 +129,11 @@ const ScanBagReader& BatchScans::open(std::size_t input) {
 
 RowFields BatchScans::predict(const Item& item, ScanOrigin& origin) {
   HeightMap counter_surface;
+  std::vector<std::string> warnings;
   if (item.scan == 0) {
-    const ScanFile file = openScanFile(inputs_[item.input], configuration_.scan);
+    const ScanFile file = ahead_.take(inputs_[item.input]);
     surface_ = file.surface;
+    warnings = file.notes;
     origin.channel = file.channel;
   } else {
     const bool wants_counter = configuration_.counter_surface.type == CounterSurfaceType::kTopic;
@@ -135,7 +153,8 @@ RowFields BatchScans::predict(const Item& item, ScanOrigin& origin) {
     verdict = verdictOf(prediction_, configuration_.device, configuration_.uncertainty, configuration_.model,
                         surface_.cellArea());
   }
-  return figureFields(surface_, scanWarnings(surface_), prediction_, verdict);
+  for (const std::string& warning : scanWarnings(surface_)) warnings.push_back(warning);
+  return figureFields(surface_, warnings, prediction_, verdict);
 }
 
 HalfSpaceAnswer BatchScans::solve(const std::function<void(const std::string&)>& tell) const {

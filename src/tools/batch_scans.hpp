@@ -16,6 +16,7 @@
 #include "mems_stiction/scan/scan_predictor.hpp"
 #include "scan_bag_reader.hpp"
 #include "scan_row.hpp"
+#include "scans_ahead.hpp"
 
 namespace mems_stiction {
 
@@ -35,6 +36,10 @@ class BatchScans {
   std::size_t size() const { return items_.size(); }
   std::vector<std::string> columns() const;
   std::map<std::string, std::string> units() const;
+
+  /// Which rows will be asked for, in this order: their files are read ahead.
+  /// @param first place in `numbers` of the first that will
+  void expect(const std::vector<std::size_t>& numbers, std::size_t first);
 
   /// Predicts a scan; what is wrong with it is in its row. Writes its folder if arguments.dump says so.
   /// @param number from 1 to size()
@@ -62,6 +67,7 @@ class BatchScans {
   const Configuration& configuration_;
   ScanPredictor predictor_;
   HalfSpaceSolver half_space_;
+  ScansAhead ahead_;
   std::vector<Item> items_;
   std::unique_ptr<ScanBagReader> bag_;  ///< the one that was opened last
   std::size_t bag_input_ = 0;

@@ -8,17 +8,19 @@
 
 #include "batch_rows.hpp"
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/output_file.hpp"
 #include "mems_stiction/scan/configuration_yaml.hpp"
 
 namespace mems_stiction {
 
-std::string settingsText(std::size_t total, const std::vector<std::string>& inputs, const std::string& topic,
+std::string settingsText(std::size_t total, const std::vector<std::string>& inputs, const BatchArguments& arguments,
                          const std::map<std::string, std::string>& units, const Configuration& configuration) {
   YAML::Emitter emitter;
   emitter << YAML::BeginMap << YAML::Key << "version" << YAML::Value << YAML::DoubleQuoted << MEMS_STICTION_VERSION;
   emitter << YAML::Key << "opencv_version" << YAML::Value << YAML::DoubleQuoted << CV_VERSION;
   emitter << YAML::Key << "total" << YAML::Value << total;
-  emitter << YAML::Key << "topic" << YAML::Value << YAML::DoubleQuoted << topic;
+  emitter << YAML::Key << "topic" << YAML::Value << YAML::DoubleQuoted << arguments.topic;
+  if (arguments.ignore_mask) emitter << YAML::Key << "ignore_mask" << YAML::Value << true;
   emitter << YAML::Key << "inputs" << YAML::Value << YAML::BeginSeq;
   for (const std::string& input : inputs) emitter << YAML::DoubleQuoted << input;
   emitter << YAML::EndSeq << YAML::Key << "units" << YAML::Value << YAML::BeginMap;
@@ -45,7 +47,7 @@ void checkSettings(const std::string& path, const std::string& settings) {
   if (std::ifstream(path) && !readWhole(path).empty()) {
     throw FileError(path + ": exists, and " + settings_path + ", which says what it was made with, is missing");
   }
-  writeWhole(settings_path, settings);
+  writeFile(settings_path, settings);
 }
 
 std::size_t totalOf(const std::string& settings) { return YAML::Load(settings)["total"].as<std::size_t>(); }

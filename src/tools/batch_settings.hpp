@@ -6,13 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "batch_arguments.hpp"
 #include "mems_stiction/scan/configuration.hpp"
 
 namespace mems_stiction {
 
 /// What must be the same for rows to stand in one file. Shards have the same.
 /// @param total rows of all shards @param units of the columns
-std::string settingsText(std::size_t total, const std::vector<std::string>& inputs, const std::string& topic,
+std::string settingsText(std::size_t total, const std::vector<std::string>& inputs, const BatchArguments& arguments,
                          const std::map<std::string, std::string>& units, const Configuration& configuration);
 
 /// Writes the settings beside the rows, or compares them with what is there.

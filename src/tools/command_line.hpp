@@ -4,6 +4,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cerrno>
+#include <cstring>
 #include <exception>
 #include <iostream>
 #include <sstream>
@@ -11,9 +13,10 @@
 #include <vector>
 
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/interruption.hpp"
 #include "mems_stiction/base/one_line.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
-#include "mems_stiction/height_map/scan_file.hpp"
+#include "mems_stiction/import/scan_file.hpp"
 
 namespace mems_stiction {
 
@@ -22,6 +25,11 @@ constexpr int kBadInput = 2;
 
 inline void complain(const std::string& program, const std::string& what) {
   std::cerr << program << ": " << oneLine(what) << "\n";
+}
+
+/// One line about a scan that goes on.
+inline void warn(const std::string& path, const std::string& what) {
+  std::cerr << oneLine(path) << ": warning: " << oneLine(what) << "\n";
 }
 
 /// "M" or "MX,MY" into both pitches. @throw OptionsError
@@ -57,6 +65,7 @@ int forEachScan(const std::string& program, const std::vector<std::string>& scan
 /// The whole of main(): describe(app, arguments), parse, run(arguments). @return the exit status
 template <typename Arguments, typename Describe, typename Run>
 int runProgram(const std::string& program, int argc, char** argv, Describe&& describe, Run&& run) {
+  cleanUpWhenInterrupted();
   try {
     CLI::App app;
     Arguments arguments;
@@ -66,7 +75,10 @@ int runProgram(const std::string& program, int argc, char** argv, Describe&& des
     } catch (const CLI::ParseError& error) {
       return app.exit(error) == 0 ? 0 : kBadInput;
     }
-    return run(arguments);
+    const int status = run(arguments);
+    if (std::cout.flush()) return status;
+    complain(program, "the standard output cannot be written: " + std::string(std::strerror(errno)));
+    return kBadInput;
   } catch (const std::exception& error) {
     complain(program, error.what());
     return kBadInput;

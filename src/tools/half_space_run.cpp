@@ -4,13 +4,13 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
-#include <fstream>
 #include <string>
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/base/output_file.hpp"
 #include "mems_stiction/half_space/half_space_fields.hpp"
-#include "mems_stiction/height_map/scan_file.hpp"
+#include "mems_stiction/import/scan_file.hpp"
 #include "status_line.hpp"
 
 namespace mems_stiction {
@@ -32,16 +32,23 @@ class Interruption {
     action.sa_flags = static_cast<int>(SA_RESETHAND);
     sigaction(SIGINT, &action, &before_);
     if (before_.sa_handler == SIG_IGN) sigaction(SIGINT, &before_, nullptr);
+    // The program's own thread for interruptions gets them only while this one does not take them.
+    sigset_t one;
+    sigemptyset(&one);
+    sigaddset(&one, SIGINT);
+    pthread_sigmask(SIG_UNBLOCK, &one, &mask_before_);
   }
   ~Interruption() {
     sigaction(SIGINT, &before_, nullptr);
     if (is_interrupted) std::raise(SIGINT);
+    pthread_sigmask(SIG_SETMASK, &mask_before_, nullptr);
   }
   Interruption(const Interruption&) = delete;
   Interruption& operator=(const Interruption&) = delete;
 
  private:
   struct sigaction before_ {};
+  sigset_t mask_before_{};
 };
 
 /// From two seconds on, in place on the terminal.
@@ -66,13 +73,12 @@ class Progress {
 };
 
 void writeCurve(const std::string& path, const SolvedHalfSpace& solution) {
-  std::ofstream file(path);
-  file << "height,force,direction\n";
+  std::string text = "height,force,direction
+";
   for (const CurvePoint& point : curveOf(solution)) {
-    file << numberText(point.height) << ',' << numberText(point.force) << ',' << word(point.direction) << '\n';
+    text += numberText(point.height) + "," + numberText(point.force) + "," + word(point.direction) + "\n";
   }
-  file.close();
-  if (!file) throw FileError(path + ": cannot be written");
+  writeFile(path, text);
 }
 
 void writeMap(const std::string& path, const cv::Mat& map, const SolvedHalfSpace& solution) {

@@ -10,9 +10,10 @@
 
 #include "command_line.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/height_map/scan_file.hpp"
 #include "mems_stiction/height_map/scan_sanity.hpp"
 #include "mems_stiction/height_map/validity.hpp"
+#include "mems_stiction/import/scan_file.hpp"
+#include "mems_stiction/import/scan_writer.hpp"
 
 namespace {
 
@@ -24,6 +25,7 @@ struct Arguments {
   std::string channel;
   std::string pitch;  ///< "M" or "MX,MY"
   bool list = false;
+  bool ignore_mask = false;
   std::vector<std::string> scans;
 };
 
@@ -32,8 +34,8 @@ void describe(CLI::App& app, Arguments& arguments) {
       "Turns scans into float TIFFs in metres with their pitch beside them (NAME.tiff, NAME.tiff.yaml), to the last\n"
       "bit. predict_scan and make_scan_bag read those without the program gwyddion.");
   app.add_option("SCAN", arguments.scans,
-                 "instrument makers' files (read by the program gwyddion), .gwy, TIFF, PNG or EXR images of heights, "
-                 "text grids")
+                 "instrument makers' files (most are read by the program gwyddion), .gwy, TIFF, PNG or EXR images of "
+                 "heights, .npy, text grids and lists of x, y, z")
       ->required()
       ->type_name("");
   app.add_option("-o,--output", arguments.output, "folder to write to; made if it does not exist")
@@ -43,6 +45,8 @@ void describe(CLI::App& app, Arguments& arguments) {
                "write nothing; print the channels of each file with size, pitch and unit, the one that would be taken "
                "marked with *");
   app.add_option("--channel", arguments.channel, "title or number of the channel to take")->type_name("NAME");
+  app.add_flag("--ignore-mask", arguments.ignore_mask,
+               "pixels under the mask of a .gwy file are heights as the others, not missing");
   app.add_option("-p,--pitch", arguments.pitch,
                  "distance of neighbouring pixels [m]; MX,MY where columns and rows differ. Goes before what files say")
       ->type_name("M");
@@ -54,21 +58,27 @@ void describe(CLI::App& app, Arguments& arguments) {
 
 std::string unitText(const std::string& unit) { return unit.empty() ? "no unit" : unit; }
 
+/// At least as wide.
+std::string padded(std::string text, std::size_t width, bool to_right = false) {
+  if (text.size() < width) text.insert(to_right ? 0 : text.size(), width - text.size(), ' ');
+  return text;
+}
+
 void printChannels(const std::string& path, const ScanFileOptions& options) {
   const std::vector<ScanChannel> channels = listScanChannels(path, {}, options);
-  std::cout << path << "\n";
+  std::cout << oneLine(path) << "\n";
   for (const ScanChannel& channel : channels) {
-    const std::string size = std::to_string(channel.cols) + " x " + std::to_string(channel.rows);
-    char pitch[80] = "pitch not stated";
+    std::string pitch = "pitch not stated";
     if (channel.pitch_x > 0.0 && channel.pitch_y > 0.0) {
-      std::snprintf(pitch, sizeof pitch, "pitch %.6g x %.6g %s", channel.pitch_x, channel.pitch_y,
-                    unitText(channel.unit_xy).c_str());
+      char numbers[60];
+      std::snprintf(numbers, sizeof numbers, "pitch %.6g x %.6g ", channel.pitch_x, channel.pitch_y);
+      pitch = numbers + unitText(oneLine(channel.unit_xy));
     }
-    char line[400];
-    std::snprintf(line, sizeof line, "  %c %-28s %13s pixels  %-34s heights in %s", channel.is_chosen ? '*' : ' ',
-                  channel.name.empty() ? "(single channel)" : channel.name.c_str(), size.c_str(), pitch,
-                  unitText(channel.unit_z).c_str());
-    std::cout << line << "\n";
+    const std::string size = std::to_string(channel.cols) + " x " + std::to_string(channel.rows);
+    std::cout << "  " << (channel.is_chosen ? '*' : ' ') << " "
+              << padded(channel.name.empty() ? "(single channel)" : oneLine(channel.name), 28) << " "
+              << padded(size, 13, true) << " pixels  " << padded(pitch, 34) << " heights in "
+              << unitText(oneLine(channel.unit_z)) << (channel.is_unit_assumed ? " (unit not stated)" : "") << "\n";
   }
   std::cout << std::flush;
 }
@@ -92,9 +102,15 @@ class Importer {
         throw FileError(path + ": " + target.string() + " is a scan of this call; choose another --output");
       }
     }
+    if (!isAsWritten(target.string())) {
+      throw FileError(
+          path + ": " + target.string() +
+          " or its .yaml is there and is not as import_scan wrote it: remove both, or choose another --output");
+    }
     const std::string of_channel = scan.channel.empty() ? "" : ", channel " + scan.channel;
     writeScan(target.string(), scan.surface, fs::path(path).filename().string() + of_channel);
-    for (const std::string& warning : scanWarnings(scan.surface)) std::cerr << path << ": warning: " << warning << "\n";
+    for (const std::string& note : scan.notes) warn(path, note);
+    for (const std::string& warning : scanWarnings(scan.surface)) warn(path, warning);
     report(path, target.string(), scan);
   }
 
@@ -104,8 +120,8 @@ class Importer {
     char figures[160];
     std::snprintf(figures, sizeof figures, "%d x %d pixels of %.6g x %.6g m, %.3g %% missing", surface.cols(),
                   surface.rows(), surface.pitchX(), surface.pitchY(), 100.0 * invalidFraction(surface));
-    std::cout << path << (scan.channel.empty() ? "" : " [" + scan.channel + "]") << " -> " << target << ": " << figures
-              << std::endl;
+    std::cout << oneLine(path) << (scan.channel.empty() ? "" : " [" + oneLine(scan.channel) + "]") << " -> "
+              << oneLine(target) << ": " << figures << std::endl;
   }
 
   const Arguments& arguments_;
@@ -115,6 +131,7 @@ class Importer {
 int run(const Arguments& arguments) {
   ScanFileOptions options;
   options.import.channel = arguments.channel;
+  options.import.ignore_mask = arguments.ignore_mask;
   try {
     applyPitch(arguments.pitch, options);
     if (!arguments.list) {

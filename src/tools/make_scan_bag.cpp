@@ -10,7 +10,7 @@
 
 #include "command_line.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/height_map/scan_file.hpp"
+#include "mems_stiction/import/scan_file.hpp"
 #include "mems_stiction/ros/image_conversion.hpp"
 #include "mems_stiction/ros/topic_names.hpp"
 #include "mems_stiction/surface/gaussian_surface.hpp"
@@ -119,7 +119,9 @@ int run(const Arguments& arguments) {
   ScanBag bag(arguments.bag, arguments.rate);
   for (const std::string& path : arguments.scans) {
     try {
-      bag.write(readScanFile(path, {}, file_options), stemOf(path));
+      const ScanFile scan = openScanFile(path, {}, file_options);
+      for (const std::string& note : scan.notes) warn(path, note);
+      bag.write(scan.surface, stemOf(path));
     } catch (const Error& error) {
       complain("make_scan_bag", error.what());
       status = kBadInput;

@@ -1,6 +1,6 @@
 #include "npy_file.hpp"
 
-#include "batch_rows.hpp"
+#include "mems_stiction/base/output_file.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -21,7 +21,7 @@ void writeNpy(const std::string& path, const cv::Mat& pixels) {
   text += static_cast<char>(header.size() >> 8);
   text += header;
   text.append(reinterpret_cast<const char*>(whole.data), whole.total() * whole.elemSize());
-  writeWhole(path, text);
+  writeFile(path, text, OutputSafety::kWhole);
 }
 
 }  // namespace mems_stiction

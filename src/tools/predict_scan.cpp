@@ -10,8 +10,9 @@
 #include "command_line.hpp"
 #include "half_space_run.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/height_map/scan_file.hpp"
 #include "mems_stiction/height_map/scan_sanity.hpp"
+#include "mems_stiction/import/scan_file.hpp"
+#include "mems_stiction/import/scan_writer.hpp"
 #include "mems_stiction/prediction/deformed_surfaces.hpp"
 #include "mems_stiction/scan/configuration_yaml.hpp"
 #include "mems_stiction/scan/half_space_scan.hpp"
@@ -32,6 +33,7 @@ struct Arguments {
   std::string deformed;
   HalfSpaceFiles half_space_files;
   bool json = false;
+  bool ignore_mask = false;
   bool half_space = false;
   bool convergence = false;
   std::vector<std::string> scans;
@@ -41,10 +43,11 @@ void describe(CLI::App& app, Arguments& arguments) {
   app.description(
       "Predicts whether the scanned surface sticks to its counter-surface: pull-off force, contact area, regimes.\n"
       "Prints one record per scan in SI units, with the field names of mems_stiction/StictionPrediction.");
-  app.add_option("SCAN", arguments.scans,
-                 "TIFF, PNG or EXR image of heights, text grid (.txt, .asc, .csv), .gwy, or an instrument maker's file "
-                 "(those need the program gwyddion). Settings beside a scan: SCAN.yaml, with pitch_x, pitch_y, "
-                 "height_scale, ...")
+  app.add_option(
+         "SCAN", arguments.scans,
+         "TIFF, PNG or EXR image of heights, .npy, text (.txt, .asc, .csv, .xyz), .gwy, or an instrument maker's file "
+         "(those need the program gwyddion). Settings beside a scan: SCAN.yaml, with pitch_x, pitch_y, "
+         "height_scale, ...")
       ->required()
       ->type_name("");
   app.add_option("-c,--config", arguments.configuration,
@@ -68,6 +71,8 @@ void describe(CLI::App& app, Arguments& arguments) {
   app.add_option("--channel", arguments.channel,
                  "title or number of the channel to take from an instrument maker's file")
       ->type_name("NAME");
+  app.add_flag("--ignore-mask", arguments.ignore_mask,
+               "pixels under the mask of a .gwy file are heights as the others, not missing");
   app.add_flag("-j,--json", arguments.json, "one JSON object per line instead of YAML documents");
   app.add_flag("--convergence", arguments.convergence,
                "predict at full, half and quarter resolution too, and print how pull-off force and contact area move");
@@ -123,7 +128,8 @@ Configuration configurationOf(const Arguments& arguments) {
 void predictScan(const std::string& path, const Arguments& arguments, const ScanFileOptions& file_options,
                  const ScanOptions& scan_options, const HalfSpaceSolver& half_space, ScanPredictor& predictor) {
   const ScanFile scan = openScanFile(path, scan_options, file_options);
-  for (const std::string& warning : scanWarnings(scan.surface)) std::cerr << path << ": warning: " << warning << "\n";
+  for (const std::string& note : scan.notes) warn(path, note);
+  for (const std::string& warning : scanWarnings(scan.surface)) warn(path, warning);
 
   Prediction prediction;
   RecordExtras extras;
@@ -142,7 +148,7 @@ void predictScan(const std::string& path, const Arguments& arguments, const Scan
   }
   if (!arguments.deformed.empty()) writeHeightTiff(arguments.deformed, prediction.deformed_lower);
   if (extras.half_space && extras.half_space->status != HalfSpaceStatus::kSolved) {
-    std::cerr << path << ": warning: half-space: " << extras.half_space->message << "\n";
+    warn(path, "half-space: " + extras.half_space->message);
   }
   if (extras.half_space) writeFiles(arguments.half_space_files, *extras.half_space);
   if (arguments.json) {
@@ -158,6 +164,7 @@ int run(const Arguments& arguments) {
   ScanOptions scan_options;
   ScanFileOptions file_options;
   file_options.import.channel = arguments.channel;
+  file_options.import.ignore_mask = arguments.ignore_mask;
   try {
     applyPitch(arguments.pitch, file_options);
     Configuration configuration = configurationOf(arguments);

@@ -7,6 +7,7 @@
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/one_line.hpp"
+#include "mems_stiction/base/output_file.hpp"
 #include "mems_stiction/prediction/prediction_fields.hpp"
 #include "mems_stiction/verdict/regime_flags.hpp"
 #include "mems_stiction/verdict/verdict_fields.hpp"
@@ -133,7 +134,8 @@ void writeFullResult(const std::string& folder, const RowFields& fields, const H
   result["processing_time"] = prediction.processing_time;
   result["asperities"] = asperityColumns(prediction.asperities);
   result["energy_curve"] = energyColumns(prediction.energy_curve);
-  writeWhole(folder + "/result.json", result.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  writeFile(folder + "/result.json", result.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n",
+            OutputSafety::kWhole);
 }
 
 }  // namespace mems_stiction

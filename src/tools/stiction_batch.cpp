@@ -13,6 +13,8 @@
 #include "batch_settings.hpp"
 #include "command_line.hpp"
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/output_file.hpp"
+#include "mems_stiction/import/import_cache.hpp"
 #include "progress_bar.hpp"
 
 namespace {
@@ -21,6 +23,7 @@ using namespace mems_stiction;
 
 int run(const BatchArguments& arguments) {
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);  // we name what is wrong ourselves
+  if (arguments.clear_cache) clearImportCache();
   const Shard shard = shardOf(arguments.shard);
   const RowFormat format = rowFormatOf(arguments.output);
   const std::vector<std::string> inputs = inputsOf(arguments);
@@ -35,12 +38,13 @@ int run(const BatchArguments& arguments) {
 
   BatchScans scans(arguments, inputs, configuration);
   const std::vector<std::string> columns = scans.columns();
-  checkSettings(arguments.output, settingsText(scans.size(), inputs, arguments.topic, scans.units(), stated));
+  checkSettings(arguments.output, settingsText(scans.size(), inputs, arguments, scans.units(), stated));
   std::vector<std::size_t> numbers;
   for (std::size_t number = shard.index; number <= scans.size(); number += shard.count) numbers.push_back(number);
 
   RowFile rows(arguments.output, format, headingText(format, columns), numbers);
   const std::size_t before = rows.done();
+  scans.expect(numbers, before);
   std::size_t failed_count = 0;
   std::size_t unsolved_count = 0;
   {
@@ -72,7 +76,7 @@ int merge(const BatchArguments& arguments) {
   }
   const std::size_t total = totalOf(settings);
   mergeRows(shards, arguments.output, total);
-  writeWhole(settingsPathOf(arguments.output), settings);
+  writeFile(settingsPathOf(arguments.output), settings);
   std::cout << arguments.output << ": " << total << " rows of " << shards.size() << " shards\n";
   return 0;
 }

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/height_map/scan_file.hpp"
+#include "mems_stiction/import/scan_file.hpp"
 #include "mems_stiction/scan/prepared_scan.hpp"
 #include "mems_stiction/surface/gaussian_surface.hpp"
 #include "mems_stiction/surface/self_affine_surface.hpp"

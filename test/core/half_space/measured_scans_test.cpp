@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "mems_stiction/half_space/half_space_solver.hpp"
-#include "mems_stiction/height_map/scan_file.hpp"
+#include "mems_stiction/import/scan_file.hpp"
 #include "mems_stiction/preprocess/level.hpp"
 
 namespace mems_stiction {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "mems_stiction/height_map/scan_file.hpp"
 #include "mems_stiction/height_map/validity.hpp"
+#include "mems_stiction/import/scan_file.hpp"
 #include "mems_stiction/preprocess/pipeline.hpp"
 #include "mems_stiction/roughness/areal_parameters.hpp"
 #include "mems_stiction/roughness/autocorrelation.hpp"

@@ -8,8 +8,9 @@
 #include <opencv2/imgproc.hpp>
 
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/height_map/scan_file.hpp"
 #include "mems_stiction/height_map/validity.hpp"
+#include "mems_stiction/import/scan_file.hpp"
+#include "mems_stiction/import/scan_writer.hpp"
 #include "mems_stiction/preprocess/tip_correction.hpp"
 #include "mems_stiction/surface/gaussian_surface.hpp"
 #include "support/analytic_surfaces.hpp"

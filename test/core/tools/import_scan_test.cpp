@@ -12,7 +12,8 @@
 #include <sstream>
 #include <vector>
 
-#include "mems_stiction/height_map/scan_file.hpp"
+#include "mems_stiction/import/scan_file.hpp"
+#include "mems_stiction/import/scan_writer.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/scratch_folder.hpp"
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/height_map/scan_file.hpp"
 #include "mems_stiction/height_map/scan_sanity.hpp"
+#include "mems_stiction/import/scan_file.hpp"
 #include "mems_stiction/preprocess/level.hpp"
 #include "mems_stiction/roughness/areal_parameters.hpp"
 

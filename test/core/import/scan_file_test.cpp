@@ -1,4 +1,4 @@
-#include "mems_stiction/height_map/scan_file.hpp"
+#include "mems_stiction/import/scan_file.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,9 @@
 
 #include "mems_stiction/base/child_process.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/height_map/text_grid.hpp"
-#include "mems_stiction/height_map/tiff_tags.hpp"
+#include "mems_stiction/import/scan_writer.hpp"
+#include "mems_stiction/import/text_grid.hpp"
+#include "mems_stiction/import/tiff_tags.hpp"
 #include "support/scratch_folder.hpp"
 
 namespace mems_stiction {
@@ -103,7 +104,7 @@ TEST(ScanFile, ReadsTextWithEverySeparator) {
 
 TEST(TextGrid, CellsThatAreNotMeasuredAreNaN) {
   const ScratchFolder folder;
-  const cv::Mat grid = readTextGrid(folder.write("a.csv", "1e-9,nan,3\n,NaN,6\n7,,9\n"));
+  const cv::Mat grid = parseTextGrid("1e-9,nan,3\n,NaN,6\n7,,9\n").values;
   ASSERT_EQ(grid.size(), cv::Size(3, 3));
   EXPECT_EQ(grid.at<double>(0, 0), 1e-9);
   EXPECT_TRUE(std::isnan(grid.at<double>(0, 1)));
@@ -237,9 +238,9 @@ TEST(ScanFile, HeightTiffThatCannotBeWrittenIsNamed) {
 TEST(TiffTags, PlainTiffHasNoneOfPark) {
   const ScratchFolder folder;
   ASSERT_TRUE(cv::imwrite(folder.file("plain.tiff"), example(CV_32FC1)));
-  EXPECT_FALSE(hasParkTags(folder.file("plain.tiff")));
-  EXPECT_FALSE(hasParkTags(folder.file("none.tiff")));
-  EXPECT_FALSE(hasParkTags(folder.write("short.tiff", std::string("II*\0\xff\xff\xff\x7f", 8))));
+  EXPECT_FALSE(hasParkTags(ScratchFolder::read(folder.file("plain.tiff"))));
+  EXPECT_FALSE(hasParkTags(""));
+  EXPECT_FALSE(hasParkTags(std::string("II*\0\xff\xff\xff\x7f", 8)));
 }
 
 // ---- The child process: each way that it can end is one clear line.
@@ -247,14 +248,15 @@ TEST(TiffTags, PlainTiffHasNoneOfPark) {
 std::string importRefusal(const std::string& program, double timeout = 10.0) {
   const ScratchFolder folder;
   const std::string path = folder.write("scan.di", "not really");
-  ImportOptions options;
+  ScanFileOptions file_options;
+  ImportOptions& options = file_options.import;
   options.program = program.empty() || program[0] != '#' ? program : folder.write("program", program);
   if (!program.empty() && program[0] == '#') {
     std::filesystem::permissions(options.program, std::filesystem::perms::owner_all);
   }
   options.timeout = timeout;
   try {
-    importByGwyddion(path, options);
+    openScanFile(path, {}, file_options);
   } catch (const FileError& error) {
     EXPECT_EQ(std::string(error.what()).find(path + ": "), 0u) << error.what();
     EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();

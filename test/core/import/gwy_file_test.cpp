@@ -1,4 +1,4 @@
-#include "mems_stiction/height_map/gwy_file.hpp"
+#include "mems_stiction/import/gwy_file.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,69 +8,18 @@
 #include <random>
 
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/height_map/gwyddion_import.hpp"
+#include "mems_stiction/import/channel_choice.hpp"
+#include "mems_stiction/import/scan_file.hpp"
+#include "support/gwy_bytes.hpp"
 #include "support/scratch_folder.hpp"
 
 namespace mems_stiction {
 namespace {
 
-// ---- A writer of the container, by its documentation: name, type letter, little-endian value.
-
-std::string littleEndian(std::uint64_t value, int bytes) {
-  std::string text;
-  for (int i = 0; i < bytes; ++i) text += static_cast<char>(value >> (8 * i) & 0xFF);
-  return text;
-}
-
-std::string realBytes(double value) {
-  std::uint64_t bits = 0;
-  std::memcpy(&bits, &value, sizeof bits);
-  return littleEndian(bits, 8);
-}
-
-std::string named(const std::string& name, char type) { return name + '\0' + type; }
-std::string integer(const std::string& name, std::uint32_t value) { return named(name, 'i') + littleEndian(value, 4); }
-std::string real(const std::string& name, double value) { return named(name, 'd') + realBytes(value); }
-std::string text(const std::string& name, const std::string& value) { return named(name, 's') + value + '\0'; }
-std::string body(const std::string& type, const std::string& content) {
-  return type + '\0' + littleEndian(content.size(), 4) + content;
-}
-std::string object(const std::string& name, const std::string& type, const std::string& content) {
-  return named(name, 'o') + body(type, content);
-}
-std::string reals(const std::string& name, const std::vector<double>& values) {
-  std::string bytes = named(name, 'D') + littleEndian(values.size(), 4);
-  for (const double value : values) bytes += realBytes(value);
-  return bytes;
-}
-std::string unit(const std::string& name, const std::string& symbol) {
-  return object(name, "GwySIUnit", text("unitstr", symbol));
-}
-
-std::string field(const std::string& name, std::uint32_t cols, std::uint32_t rows, const std::vector<double>& values,
-                  const std::string& unit_z = "m") {
-  return object(name, "GwyDataField",
-                integer("xres", cols) + integer("yres", rows) + real("xreal", 3e-6) + real("yreal", 4e-6) +
-                    unit("si_unit_xy", "m") + unit("si_unit_z", unit_z) + reals("data", values));
-}
-
-std::string file(const std::string& content) { return "GWYP" + body("GwyContainer", content); }
-
-/// Two channels, a mask, and components of every other type that a reader must step over.
-std::string example() {
-  return file(named("/0/data/visible", 'b') + '\1' + named("flag", 'c') + 'x' + named("/big", 'q') +
-              littleEndian(1, 8) + named("counts", 'I') + littleEndian(2, 4) + littleEndian(7, 8) + named("wide", 'Q') +
-              littleEndian(1, 4) + littleEndian(7, 8) + named("bytes", 'C') + littleEndian(3, 4) + "abc" +
-              named("names", 'S') + littleEndian(2, 4) + std::string("one\0two\0", 8) + named("objects", 'O') +
-              littleEndian(2, 4) + body("GwySIUnit", text("unitstr", "V")) + body("Other", "") +
-              object("/0/meta", "GwyContainer", text("Instrument", "none")) +
-              field("/10/data", 3, 2, {1, 2, 3, 4, 5, 6}, "V") + text("/0/data/title", "ZSensor") +
-              field("/0/data", 3, 2, {1e-9, 2e-9, 3e-9, 4e-9, 5e-9, 6e-9}) +
-              field("/0/mask", 3, 2, {0, 1, 0, 0, 0, 0.5}, ""));
-}
+using namespace gwy_bytes;
 
 TEST(GwyFile, ChannelsCarrySizeUnitAndTitle) {
-  const std::vector<GwyChannel> channels = parseGwy(example());
+  const std::vector<FileChannel> channels = parseGwy(example());
   ASSERT_EQ(channels.size(), 2u);
   EXPECT_EQ(channels[0].id, 0);
   EXPECT_EQ(channels[0].title, "ZSensor");
@@ -94,6 +43,16 @@ TEST(GwyFile, MaskedPixelsAreInvalid) {
   const cv::Mat values = parseGwy(example())[0].values;
   EXPECT_TRUE(std::isnan(values.at<double>(0, 1)));
   EXPECT_EQ(values.at<double>(1, 2), 6e-9) << "a mask of 0.5 is not above 0.5";
+}
+
+TEST(GwyFile, ThatAMaskCountsAsMissingIsSaidAndCanBeSwitchedOff) {
+  const std::vector<FileChannel> masked = parseGwy(example());
+  ASSERT_EQ(masked[0].notes.size(), 1u);
+  EXPECT_EQ(masked[0].notes[0].find("1 pixels under the mask"), 0u) << masked[0].notes[0];
+  EXPECT_TRUE(masked[1].notes.empty());
+  const std::vector<FileChannel> whole = parseGwy(example(), true);
+  EXPECT_EQ(whole[0].values.at<double>(0, 1), 2e-9);
+  EXPECT_TRUE(whole[0].notes.empty());
 }
 
 TEST(GwyFile, PitchIsSizeOverPixels) {
@@ -139,7 +98,7 @@ TEST(GwyFile, EveryFlippedByteIsReadOrRefused) {
       std::string damaged = whole;
       damaged[at] = static_cast<char>(value);
       try {
-        for (const GwyChannel& channel : parseGwy(damaged)) EXPECT_FALSE(channel.values.empty());
+        for (const FileChannel& channel : parseGwy(damaged)) EXPECT_FALSE(channel.values.empty());
       } catch (const FileError&) {
         // Refused by name: as good as read.
       }
@@ -164,18 +123,18 @@ TEST(GwyFile, ErrorsNameTheFile) {
   const ScratchFolder folder;
   const std::string path = folder.write("cut.gwy", example().substr(0, 100));
   try {
-    readGwyFile(path);
+    readScanFile(path);
     FAIL();
   } catch (const FileError& error) {
     EXPECT_EQ(std::string(error.what()).find(path + ": "), 0u) << error.what();
   }
-  EXPECT_THROW(readGwyFile(folder.file("none.gwy")), FileError);
+  EXPECT_THROW(readScanFile(folder.file("none.gwy")), FileError);
 }
 
 // ---- Which channel is the height?
 
-GwyChannel channel(int id, const std::string& title, const std::string& unit_z = "m") {
-  GwyChannel result;
+FileChannel channel(int id, const std::string& title, const std::string& unit_z = "m") {
+  FileChannel result;
   result.id = id;
   result.title = title;
   result.values = cv::Mat::zeros(4, 4, CV_64FC1);
@@ -197,6 +156,29 @@ TEST(ChannelChoice, MetresThatAreNotHeightsAreNotTaken) {
   EXPECT_THROW(chooseHeightChannel({channel(0, "AmplitudeError"), channel(1, "Deflection")}), FileError);
 }
 
+TEST(ChannelChoice, SensorsOfEveryMakerGoBeforeTheirOpenLoops) {
+  EXPECT_EQ(chooseHeightChannel({channel(0, "Z-Axis forward"), channel(1, "Z-AxisSensor forward")}), 1u);
+  EXPECT_EQ(chooseHeightChannel({channel(0, "Height"), channel(1, "Height (measured)")}), 1u);
+  EXPECT_EQ(chooseHeightChannel({channel(0, "Height"), channel(1, "Height Sensor")}), 1u);
+}
+
+TEST(ChannelChoice, ForwardGoesBeforeBackward) {
+  EXPECT_EQ(chooseHeightChannel({channel(0, "Height (Backward)"), channel(1, "Height (Forward)")}), 1u);
+  EXPECT_EQ(chooseHeightChannel({channel(0, "Topography [<-]"), channel(1, "Topography [->]")}), 1u);
+  EXPECT_EQ(chooseHeightChannel({channel(0, "HeightRetrace"), channel(1, "HeightTrace")}), 1u);
+  EXPECT_EQ(chooseHeightChannel({channel(0, "Z bwd"), channel(1, "Z fwd")}), 1u);
+  // The sensor of the way back is still the sensor.
+  EXPECT_EQ(chooseHeightChannel({channel(0, "Height trace"), channel(1, "ZSensor retrace")}), 1u);
+}
+
+TEST(ChannelChoice, NamesOfSignalsInMetresAreNamesOfSamples) {
+  EXPECT_EQ(chooseHeightChannel({channel(0, "Phase")}), 0u) << "interferometers call their heights so";
+  EXPECT_EQ(chooseHeightChannel({channel(0, "Adhesion sample 4")}), 0u);
+  EXPECT_THROW(chooseHeightChannel({channel(0, "Adhesion")}), FileError);
+  EXPECT_THROW(chooseHeightChannel({channel(0, "Current (forward)")}), FileError);
+  EXPECT_EQ(chooseHeightChannel({channel(0, "Phase"), channel(1, "Height")}), 1u);
+}
+
 TEST(ChannelChoice, OtherUnitsAreNotTaken) {
   EXPECT_EQ(chooseHeightChannel({channel(0, "Height", "V"), channel(1, "Height")}), 1u);
   EXPECT_THROW(chooseHeightChannel({channel(0, "Height", "V")}), FileError);
@@ -204,8 +186,8 @@ TEST(ChannelChoice, OtherUnitsAreNotTaken) {
 }
 
 TEST(ChannelChoice, MayBeNamedByTitleOrNumber) {
-  const std::vector<GwyChannel> channels = {channel(0, "ZSensor"), channel(3, "Deflection"),
-                                            channel(5, "Phase", "deg")};
+  const std::vector<FileChannel> channels = {channel(0, "ZSensor"), channel(3, "Deflection"),
+                                             channel(5, "Phase", "deg")};
   EXPECT_EQ(chooseHeightChannel(channels, "Deflection"), 1u);
   EXPECT_EQ(chooseHeightChannel(channels, "3"), 1u);
   EXPECT_THROW(chooseHeightChannel(channels, "Phase"), FileError);
@@ -219,7 +201,7 @@ TEST(ChannelChoice, MayBeNamedByTitleOrNumber) {
 }
 
 TEST(ChannelChoice, ASurfaceHasTwoPixelsEachWayAndAPitch) {
-  GwyChannel bad = channel(0, "Height");
+  FileChannel bad = channel(0, "Height");
   bad.width = 0.0;
   EXPECT_THROW(surfaceOfChannel(bad), FileError);
   bad = channel(0, "Height");

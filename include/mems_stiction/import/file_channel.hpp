@@ -1,0 +1,38 @@
+#pragma once
+
+/// @file
+/// One channel of a scan file, as the file states it: what every reader returns.
+
+#include <string>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+namespace mems_stiction {
+
+/// Values on a grid with what the file says of them. Lengths are converted to metres where the file states their unit.
+struct FileChannel {
+  int id = 0;           ///< number of the channel in its file
+  std::string title;    ///< UTF-8; empty if the file gives none
+  cv::Mat values;       ///< rows x cols [unit_z], row 0 is the top; NaN = missing; CV_64FC1, or what ScanOptions scale
+  double width = 0.0;   ///< of the whole image along x [unit_xy]; 0 = not stated
+  double height = 0.0;  ///< of the whole image along y [unit_xy]; 0 = not stated
+  std::string unit_xy;  ///< "m", or another; empty = not stated: a width > 0 is then in the unit of the values
+  std::string unit_z;
+  /// The format has no fixed units (images, text, arrays): what the file does not state, ScanOptions and sidecar do.
+  bool takes_settings = false;
+  /// The pitch is from a field that programs fill without being asked (dots per inch): ScanOptions go before it.
+  bool is_pitch_a_guess = false;
+  std::vector<std::string> notes;  ///< what the user should know of how it was read, a line each
+};
+
+/// Which channel to take, and how to read it.
+struct ImportOptions {
+  std::string program = "gwyddion";  ///< looked up in PATH
+  double timeout = 60.0;             ///< for one file [s]; usual files take 0.02 to 0.2 s
+  std::string channel;               ///< title or number of the channel to take; empty = the likeliest height channel
+  bool use_cache = false;            ///< keep what gwyddion makes of a file for the next time, import_cache.hpp
+  bool ignore_mask = false;          ///< pixels under the mask of a .gwy file are heights as the others
+};
+
+}  // namespace mems_stiction

@@ -1,0 +1,57 @@
+#pragma once
+
+/// @file
+/// A scan from any file that we can read. doc/scans.md lists the formats.
+///
+/// What a format or a file states of pitch and unit holds. Images, arrays and text often state nothing: then ScanOptions
+/// do. The sidecar is a YAML file beside such a scan, "scan.tiff.yaml" or "scan.yaml" for "scan.tiff", with keys of
+/// ScanOptions, with or without "scan/" before them; it goes before the file and ScanOptions, a pitch in ScanFileOptions
+/// before all.
+
+#include <string>
+#include <vector>
+
+#include "mems_stiction/height_map/height_map.hpp"
+#include "mems_stiction/height_map/raw_scan.hpp"
+#include "mems_stiction/import/file_channel.hpp"
+
+namespace mems_stiction {
+
+/// What goes before what a file says about itself.
+struct ScanFileOptions {
+  double pitch_x = 0.0;  ///< instead of every other statement of the pitch [m]; 0 = none
+  double pitch_y = 0.0;  ///< the same for rows [m]
+  ImportOptions import;  ///< which channel, and for files that gwyddion reads
+};
+
+/// A file as heights in metres, and where they came from.
+struct ScanFile {
+  HeightMap surface;               ///< [m]
+  std::string channel;             ///< the channel that was chosen, "0: ZSensor"; empty where a file has one only
+  std::vector<std::string> notes;  ///< what the user should know of how it was read, a line each
+};
+
+/// @throw FileError in one line with the file and the cause: missing, empty, cut off, not a height map, without pitch.
+/// @throw OptionsError if a sidecar has an unknown key or a value out of range; each line names the sidecar.
+ScanFile openScanFile(const std::string& path, const ScanOptions& scan = {}, const ScanFileOptions& options = {});
+
+/// One channel of a scan file.
+struct ScanChannel {
+  std::string name;  ///< "0: ZSensor"; empty for files that have one channel without a name
+  int rows = 0, cols = 0;
+  double pitch_x = 0.0, pitch_y = 0.0;  ///< [unit_xy]; 0 = not stated
+  std::string unit_xy;                  ///< "m", or another; empty = none
+  std::string unit_z;
+  bool is_unit_assumed = false;  ///< nobody states the unit of the heights: they count as metres
+  bool is_chosen = false;        ///< openScanFile() takes this one
+};
+
+/// Every channel of the file, also those that are not heights. Images and text grids have one.
+/// @throw FileError in one line with the file and the cause; OptionsError for a bad sidecar.
+std::vector<ScanChannel> listScanChannels(const std::string& path, const ScanOptions& scan = {},
+                                          const ScanFileOptions& options = {});
+
+/// The surface alone. @throw as openScanFile().
+HeightMap readScanFile(const std::string& path, const ScanOptions& scan = {}, const ScanFileOptions& options = {});
+
+}  // namespace mems_stiction

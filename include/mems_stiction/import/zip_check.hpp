@@ -1,0 +1,14 @@
+#pragma once
+
+/// @file
+/// Is a zip archive (x3p, plux and others) whole? Readers of vendor files do not compare checksums.
+
+#include <string>
+
+namespace mems_stiction {
+
+/// Unpacks every entry and compares size and CRC-32 with those the archive states.
+/// @throw FileError without a file name, naming the entry, if one differs or unpacks to more than kMaxFileBytes.
+void checkZip(const std::string& bytes);
+
+}  // namespace mems_stiction

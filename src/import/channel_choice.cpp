@@ -1,0 +1,187 @@
+#include "mems_stiction/import/channel_choice.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <tuple>
+
+#include "mems_stiction/base/errors.hpp"
+
+namespace mems_stiction {
+namespace {
+
+using Words = std::vector<std::string>;
+
+bool isIn(const Words& words, const std::string& word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+bool containsAny(const std::string& text, const Words& parts) {
+  return std::any_of(parts.begin(), parts.end(),
+                     [&text](const std::string& part) { return text.find(part) != std::string::npos; });
+}
+
+/// Small letters; everything else becomes a single blank.
+std::string lettersOf(const std::string& title) {
+  std::string text;
+  for (const char c : title) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= 0x80 || std::isalnum(byte) != 0) {
+      text += static_cast<char>(std::tolower(byte));
+    } else if (!text.empty() && text.back() != ' ') {
+      text += ' ';
+    }
+  }
+  if (!text.empty() && text.back() == ' ') text.pop_back();
+  return text;
+}
+
+Words wordsOf(const std::string& letters) {
+  Words words(1);
+  for (const char c : letters) {
+    if (c == ' ') {
+      words.emplace_back();
+    } else {
+      words.back() += c;
+    }
+  }
+  return words;
+}
+
+/// Pixels of one number each, or (height, quality).
+bool isOneValue(const FileChannel& channel) {
+  return channel.values.channels() == 1 || channel.values.type() == CV_32FC2;
+}
+
+bool isLength(const FileChannel& channel) {
+  if (!isOneValue(channel)) return false;
+  const auto is_metre = [&channel](const std::string& unit) {
+    return unit == "m" || (channel.takes_settings && unit.empty());
+  };
+  return is_metre(channel.unit_xy) && is_metre(channel.unit_z);
+}
+
+/// Lower is likelier to be the height; kOtherSignal is never taken by itself.
+enum Likelihood { kSensor, kHeight, kUnknown, kOtherSignal };
+
+/// Signals that other channels carry in metres are told by one word anywhere. Signals that have another unit by nature
+/// can be in metres only by their file's mistake: they are told by a title that says nothing else, so that "Adhesion
+/// sample 4" may be a height.
+bool isOtherSignal(const std::string& letters) {
+  if (containsAny(letters, {"error", "deflection", "amplitude", "deformation", "indentation"})) return true;
+  static const Words kSignals = {"friction", "lateral", "current",     "potential", "adhesion",  "stiffness",
+                                 "modulus",  "force",   "dissipation", "peak",      "intensity", "log",
+                                 "dmt",      "sneddon", "voltage",     "peakforce", "frequency", "shift",
+                                 "df",       "i",       "quality"};
+  static const Words kManner = {"forward", "backward", "trace", "retrace", "fwd", "bwd", "left", "right", "channel"};
+  bool is_signal = false;
+  for (const std::string& word : wordsOf(letters)) {
+    if (isIn(kSignals, word)) {
+      is_signal = true;
+    } else if (!isIn(kManner, word) && word.find_first_not_of("0123456789") != std::string::npos) {
+      return false;
+    }
+  }
+  return is_signal;
+}
+
+Likelihood likelihood(const FileChannel& channel) {
+  const std::string letters = lettersOf(channel.title);
+  if (isOtherSignal(letters)) return kOtherSignal;
+  const Words words = wordsOf(letters);
+  const bool is_height =
+      letters == "z" || containsAny(letters, {"height", "topo", "depth", "surface", "z axis", "zaxis"});
+  if (containsAny(letters,
+                  {"zsensor", "z sensor", "height sensor", "heightsensor", "axissensor", "axis sensor", "z height"}) ||
+      (is_height && (isIn(words, "measured") || isIn(words, "sensor") || containsAny(letters, {"closed loop"})))) {
+    return kSensor;
+  }
+  return is_height ? kHeight : kUnknown;
+}
+
+bool isBackward(const FileChannel& channel) {
+  if (channel.title.find("<-") != std::string::npos || channel.title.find("\xE2\x86\x90") != std::string::npos) {
+    return true;
+  }
+  static const Words kBackward = {"backward", "backwards", "bwd", "back", "bw", "retrace", "reverse", "rev", "rl"};
+  const Words words = wordsOf(lettersOf(channel.title));
+  return std::any_of(words.begin(), words.end(), [](const std::string& word) {
+    return isIn(kBackward, word) || containsAny(word, {"retrace", "backward"});
+  });
+}
+
+/// "0: Height [m], 1: Phase [deg]"
+std::string list(const std::vector<FileChannel>& channels) {
+  std::string text;
+  for (const FileChannel& channel : channels) {
+    text += (text.empty() ? "" : ", ") + channelName(channel) + " ";
+    if (!channel.takes_settings) {
+      text += "[" + (channel.unit_z.empty() ? "no unit" : channel.unit_z) + "]";
+    } else {
+      text += "[" + std::to_string(channel.values.cols) + " x " + std::to_string(channel.values.rows) +
+              (channel.unit_z.empty() ? "" : ", " + channel.unit_z) +
+              (isOneValue(channel) ? "]" : ", " + std::to_string(channel.values.channels()) + " values per pixel]");
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string channelName(const FileChannel& channel) {
+  return std::to_string(channel.id) + ": " + (channel.title.empty() ? "(no title)" : channel.title);
+}
+
+std::size_t chooseHeightChannel(const std::vector<FileChannel>& channels, const std::string& wanted) {
+  if (channels.empty()) throw FileError("the file has no image channel");
+  if (!wanted.empty()) {
+    for (const bool by_number : {true, false}) {
+      for (std::size_t i = 0; i < channels.size(); ++i) {
+        if (wanted != (by_number ? std::to_string(channels[i].id) : channels[i].title)) continue;
+        if (isLength(channels[i])) return i;
+        throw FileError("the channel " + channelName(channels[i]) +
+                        " is not in metres along x, y and z; there are: " + list(channels));
+      }
+    }
+    throw FileError("there is no channel '" + wanted + "'; there are: " + list(channels));
+  }
+  const auto rank = [&channels](std::size_t i) {
+    return std::make_tuple(likelihood(channels[i]), isBackward(channels[i]));
+  };
+  std::size_t best = channels.size();
+  std::size_t equals = 0;
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    if (!isLength(channels[i]) || likelihood(channels[i]) == kOtherSignal) continue;
+    if (best == channels.size() || rank(i) < rank(best)) {
+      best = i;
+      equals = 1;
+    } else if (rank(i) == rank(best)) {
+      ++equals;
+    }
+  }
+  if (best == channels.size() && channels.size() == 1 && !isOneValue(channels[0])) {
+    throw FileError(std::to_string(channels[0].values.channels()) +
+                    " channels per pixel are a picture, a height map has 1");
+  }
+  if (best == channels.size()) {
+    throw FileError("the file has no channel of heights in metres over metres; there are: " + list(channels));
+  }
+  if (equals > 1 && channels[best].takes_settings) {
+    throw FileError("the file does not say which of its images the heights are: name one with --channel; there are: " +
+                    list(channels));
+  }
+  return best;
+}
+
+HeightMap surfaceOfChannel(const FileChannel& channel) {
+  if (channel.values.rows < 2 || channel.values.cols < 2) {
+    throw FileError("the channel " + channelName(channel) + " has only " + std::to_string(channel.values.cols) + " x " +
+                    std::to_string(channel.values.rows) + " pixels");
+  }
+  try {
+    return {channel.values, channel.width / channel.values.cols, channel.height / channel.values.rows};
+  } catch (const SurfaceError& error) {
+    throw FileError("the channel " + channelName(channel) + ": " + error.what());
+  }
+}
+
+}  // namespace mems_stiction

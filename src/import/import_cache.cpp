@@ -1,0 +1,133 @@
+#include "mems_stiction/import/import_cache.hpp"
+
+#include <stdlib.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <vector>
+
+#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/output_file.hpp"
+#include "mems_stiction/import/file_bytes.hpp"
+
+namespace mems_stiction {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t kMostKept = std::uintmax_t{1} << 30;  // [bytes]
+constexpr const char* kEnding = ".gwy";
+
+/// Hash of 128 bits (FNV-1a, draft-eastlake-fnv): content is told apart, not protected against forgers.
+std::string hashOf(const std::string& bytes) {
+  __extension__ using Wide = unsigned __int128;
+  constexpr Wide kPrime = (Wide{1} << 88) + 0x13B;
+  Wide hash = Wide{0x6C62272E07BB0142} << 64 | Wide{0x62B821756295C58D};
+  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * kPrime;
+  char text[40];
+  std::snprintf(text, sizeof text, "%016llx%016llx", static_cast<unsigned long long>(hash >> 64),
+                static_cast<unsigned long long>(hash));
+  return text;
+}
+
+/// Path, size and time of the program in PATH: another version may read otherwise.
+std::string installed(const std::string& program) {
+  const char* path = getenv("PATH");
+  std::string folders = program.find('/') == std::string::npos && path != nullptr ? path : "";
+  for (std::size_t at = 0; at <= folders.size();) {
+    const std::size_t end = std::min(folders.find(':', at), folders.size());
+    const std::string candidate = folders.empty() ? program : folders.substr(at, end - at) + "/" + program;
+    struct stat status {};
+    if (stat(candidate.c_str(), &status) == 0 && S_ISREG(status.st_mode)) {
+      return candidate + " " + std::to_string(status.st_size) + " " + std::to_string(status.st_mtim.tv_sec) + "." +
+             std::to_string(status.st_mtim.tv_nsec);
+    }
+    at = end + 1;
+  }
+  return program;
+}
+
+struct Kept {
+  fs::path path;
+  fs::file_time_type time;
+  std::uintmax_t size = 0;
+};
+
+std::vector<Kept> allKept(const std::string& folder) {
+  std::vector<Kept> all;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (entry.path().extension() != kEnding || !entry.is_regular_file(error)) continue;
+    all.push_back({entry.path(), entry.last_write_time(error), entry.file_size(error)});
+  }
+  return all;
+}
+
+void removeOldest(const std::string& folder) {
+  std::vector<Kept> all = allKept(folder);
+  std::uintmax_t total = 0;
+  for (const Kept& kept : all) total += kept.size;
+  if (total <= kMostKept) return;
+  std::sort(all.begin(), all.end(), [](const Kept& a, const Kept& b) { return a.time < b.time; });
+  for (const Kept& kept : all) {
+    if (total <= kMostKept / 2) return;
+    std::error_code ignored;
+    fs::remove(kept.path, ignored);
+    total -= kept.size;
+  }
+}
+
+}  // namespace
+
+std::optional<std::string> importCacheFolder() {
+  const char* cache = getenv("XDG_CACHE_HOME");
+  if (cache != nullptr && cache[0] == '/') return std::string(cache) + "/mems_stiction";
+  const char* home = getenv("HOME");
+  if (home == nullptr || home[0] != '/') return std::nullopt;
+  return std::string(home) + "/.cache/mems_stiction";
+}
+
+std::string importCacheKey(const std::string& bytes, const std::string& name_end, const std::string& program) {
+  return hashOf(hashOf(bytes) + " " + std::to_string(bytes.size()) + " " + name_end + " " + installed(program));
+}
+
+std::optional<std::string> keptConversion(const std::string& key) {
+  const auto folder = importCacheFolder();
+  if (!folder) return std::nullopt;
+  try {
+    std::string text = readFileBytes(*folder + "/" + key + kEnding);
+    const std::string stated = text.substr(0, key.size());
+    text.erase(0, key.size());
+    if (hashOf(text) == stated) return text;
+  } catch (const FileError&) {
+    // None is kept.
+  }
+  return std::nullopt;
+}
+
+void keepConversion(const std::string& key, const std::string& gwy) {
+  const auto folder = importCacheFolder();
+  if (!folder) return;
+  std::error_code error;
+  fs::create_directories(*folder, error);
+  try {
+    writeFile(*folder + "/" + key + kEnding, hashOf(gwy) + gwy, OutputSafety::kWhole);
+    removeOldest(*folder);
+  } catch (const FileError&) {
+    // Converted again next time.
+  }
+}
+
+void clearImportCache() {
+  const auto folder = importCacheFolder();
+  if (!folder) return;
+  for (const Kept& kept : allKept(*folder)) {
+    std::error_code ignored;
+    fs::remove(kept.path, ignored);
+  }
+}
+
+}  // namespace mems_stiction

@@ -1,0 +1,84 @@
+#include "mems_stiction/import/length_unit.hpp"
+
+#include <map>
+
+#include "mems_stiction/import/plain_number.hpp"
+
+namespace mems_stiction {
+namespace {
+
+std::string trimmed(const std::string& text) {
+  const char* around = " \t\r\n[]()\"'";
+  const std::size_t begin = text.find_first_not_of(around);
+  if (begin == std::string::npos) return "";
+  return text.substr(begin, text.find_last_not_of(around) - begin + 1);
+}
+
+void replaceAll(std::string& text, const std::string& what, const std::string& with) {
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size())) {
+    text.replace(at, what.size(), with);
+  }
+}
+
+bool isUtf8(const std::string& text) {
+  for (std::size_t at = 0; at < text.size();) {
+    const auto lead = static_cast<unsigned char>(text[at]);
+    std::size_t more = 0;
+    if (lead >= 0x80) {
+      if (lead < 0xC2 || lead > 0xF4) return false;
+      more = lead < 0xE0 ? 1 : lead < 0xF0 ? 2 : 3;
+    }
+    if (at + more >= text.size() && more > 0) return false;
+    for (std::size_t i = 1; i <= more; ++i) {
+      if ((static_cast<unsigned char>(text[at + i]) & 0xC0) != 0x80) return false;
+    }
+    at += more + 1;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::optional<double> lengthUnit(const std::string& text) {
+  std::string unit = trimmed(text);
+  for (const char* micro : {"\xC2\xB5", "\xCE\xBC", "\\u00B5", "\\u00b5", "&#181;", "&micro;"}) {
+    replaceAll(unit, micro, "u");
+  }
+  for (const char* angstrom : {"\xC3\x85", "\xE2\x84\xAB"}) replaceAll(unit, angstrom, "A");
+  static const std::map<std::string, double> kUnits = {
+      {"m", 1.0},           {"meter", 1.0},        {"meters", 1.0},      {"metre", 1.0},        {"metres", 1.0},
+      {"cm", 1e-2},         {"mm", 1e-3},          {"millimeter", 1e-3}, {"millimeters", 1e-3}, {"millimetre", 1e-3},
+      {"um", 1e-6},         {"micron", 1e-6},      {"microns", 1e-6},    {"micrometer", 1e-6},  {"micrometers", 1e-6},
+      {"micrometre", 1e-6}, {"micrometres", 1e-6}, {"nm", 1e-9},         {"nanometer", 1e-9},   {"nanometers", 1e-9},
+      {"nanometre", 1e-9},  {"nanometres", 1e-9},  {"pm", 1e-12},        {"A", 1e-10},          {"Ang", 1e-10},
+      {"ang", 1e-10},       {"Angstrom", 1e-10},   {"angstrom", 1e-10},  {"AA", 1e-10},         {"inch", 0.0254},
+      {"fm", 1e-15}};
+  const auto found = kUnits.find(unit);
+  if (found == kUnits.end()) return std::nullopt;
+  return found->second;
+}
+
+std::optional<StatedLength> statedLength(const std::string& text) {
+  const std::string plain = trimmed(text);
+  const std::size_t end = numberEnd(plain, 0);
+  if (end == 0) return std::nullopt;
+  return StatedLength{plainNumber(plain.substr(0, end)), trimmed(plain.substr(end))};
+}
+
+std::string toUtf8(const std::string& text) {
+  if (isUtf8(text)) return text;
+  std::string result;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    auto byte = static_cast<unsigned char>(text[at]);
+    if (byte == 0xE6 && at + 1 < text.size() && text[at + 1] == 'm') byte = 0xB5;
+    if (byte < 0x80) {
+      result += static_cast<char>(byte);
+    } else {
+      result += static_cast<char>(0xC0 | byte >> 6);
+      result += static_cast<char>(0x80 | (byte & 0x3F));
+    }
+  }
+  return result;
+}
+
+}  // namespace mems_stiction

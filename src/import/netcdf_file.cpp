@@ -1,0 +1,208 @@
+#include "mems_stiction/import/netcdf_file.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <vector>
+
+#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/import/byte_cursor.hpp"
+#include "mems_stiction/import/file_bytes.hpp"
+#include "mems_stiction/import/length_unit.hpp"
+
+namespace mems_stiction {
+namespace {
+
+constexpr const char* kWhat = "the NetCDF file";
+constexpr std::uint32_t kMostEntries = 100'000;
+
+enum Type { kByte = 1, kChar, kShort, kInt, kFloat, kDouble };
+
+std::size_t sizeOf(std::uint32_t type) {
+  constexpr std::size_t kSizes[] = {1, 1, 2, 4, 4, 8};
+  if (type < kByte || type > kDouble) throw FileError("the NetCDF file has a type that is not known: damaged");
+  return kSizes[type - 1];
+}
+
+double numberOf(ByteCursor& cursor, std::uint32_t type) {
+  switch (type) {
+    case kShort:
+      return cursor.number<std::int16_t>();
+    case kInt:
+      return cursor.number<std::int32_t>();
+    case kFloat:
+      return static_cast<double>(cursor.number<float>());
+    case kDouble:
+      return cursor.number<double>();
+    default:
+      return cursor.number<std::int8_t>();
+  }
+}
+
+struct Attribute {
+  std::string text;     ///< of characters
+  double number = 0.0;  ///< the first of numbers
+};
+using Attributes = std::map<std::string, Attribute>;
+
+struct Variable {
+  std::vector<std::uint32_t> dimensions;
+  Attributes attributes;
+  std::uint32_t type = 0;
+  std::uint64_t begin = 0;
+};
+
+/// The header of the file; values are read when somebody asks for them.
+class Netcdf {
+ public:
+  explicit Netcdf(const std::string& bytes) : bytes_(bytes) {
+    ByteCursor cursor(bytes.data(), bytes.size(), kWhat, ByteOrder::kBig);
+    cursor.take(3);
+    const int version = cursor.number<std::uint8_t>();
+    if (version != 1 && version != 2)
+      throw FileError("a NetCDF file of version " + std::to_string(version) + " is not read");
+    cursor.take(4);  // records
+    for (std::uint32_t left = count(cursor); left > 0; --left) {
+      dimension_names_.push_back(name(cursor));
+      lengths_.push_back(cursor.number<std::uint32_t>());
+    }
+    attributes(cursor);
+    for (std::uint32_t left = count(cursor); left > 0; --left) {
+      const std::string variable_name = name(cursor);
+      Variable variable;
+      for (std::uint32_t axes = limited(cursor.number<std::uint32_t>()); axes > 0; --axes) {
+        variable.dimensions.push_back(cursor.number<std::uint32_t>());
+        if (variable.dimensions.back() >= lengths_.size()) throw FileError("the NetCDF file has a damaged header");
+      }
+      variable.attributes = attributes(cursor);
+      variable.type = cursor.number<std::uint32_t>();
+      cursor.take(4);
+      variable.begin = version == 1 ? cursor.number<std::uint32_t>() : cursor.number<std::uint64_t>();
+      variables_[variable_name] = variable;
+    }
+  }
+
+  const Variable* find(const std::string& variable) const {
+    const auto found = variables_.find(variable);
+    return found == variables_.end() ? nullptr : &found->second;
+  }
+
+  std::uint64_t length(const Variable& variable, std::size_t axis) const { return lengths_[variable.dimensions[axis]]; }
+
+  const std::string& dimension(const Variable& variable, std::size_t axis) const {
+    return dimension_names_[variable.dimensions[axis]];
+  }
+
+  /// Its numbers, the last dimension fastest. @throw FileError if they lie beyond the end of the file
+  ByteCursor data(const Variable& variable, std::uint64_t numbers) const {
+    ByteCursor cursor(bytes_.data(), bytes_.size(), kWhat, ByteOrder::kBig);
+    if (variable.begin > bytes_.size()) throw FileError("the NetCDF file is cut off");
+    cursor.take(static_cast<std::size_t>(variable.begin));
+    return cursor.array(static_cast<std::size_t>(numbers), sizeOf(variable.type));
+  }
+
+ private:
+  static std::uint32_t limited(std::uint32_t number) {
+    if (number > kMostEntries) throw FileError("the NetCDF file has a damaged header");
+    return number;
+  }
+  static std::uint32_t count(ByteCursor& cursor) {
+    cursor.take(4);  // which list
+    return limited(cursor.number<std::uint32_t>());
+  }
+  static std::string name(ByteCursor& cursor) {
+    const std::size_t length = limited(cursor.number<std::uint32_t>());
+    std::string text(cursor.take(length), length);
+    cursor.take((4 - length % 4) % 4);
+    return text;
+  }
+  static Attributes attributes(ByteCursor& cursor) {
+    Attributes result;
+    for (std::uint32_t left = count(cursor); left > 0; --left) {
+      Attribute& attribute = result[name(cursor)];
+      const auto type = cursor.number<std::uint32_t>();
+      const auto elements = cursor.number<std::uint32_t>();
+      ByteCursor value = cursor.array(elements, sizeOf(type));
+      const std::size_t size = value.size();
+      if (type == kChar) {
+        attribute.text = toUtf8(value.field(size));
+      } else if (elements > 0) {
+        attribute.number = numberOf(value, type);
+      }
+      cursor.take((4 - size % 4) % 4);
+    }
+    return result;
+  }
+
+  const std::string& bytes_;
+  std::vector<std::string> dimension_names_;
+  std::vector<std::uint32_t> lengths_;
+  std::map<std::string, Variable> variables_;
+};
+
+std::string textOf(const Variable& variable, const std::string& attribute) {
+  const auto found = variable.attributes.find(attribute);
+  return found == variable.attributes.end() ? "" : found->second.text;
+}
+
+/// Physical size along an axis in metres; 0 = not stated.
+double sizeAlong(const Netcdf& file, const char* axis) {
+  const Variable* variable = file.find(axis);
+  if (variable == nullptr || variable->attributes.count("length") == 0) return 0.0;
+  const auto unit = lengthUnit(textOf(*variable, "unit"));
+  return unit ? variable->attributes.at("length").number * *unit : 0.0;
+}
+
+}  // namespace
+
+std::optional<FileChannel> parseNetcdfHeights(const std::string& bytes) {
+  const Netcdf file(bytes);
+  const Variable* heights = file.find("heights");
+  if (heights == nullptr) return std::nullopt;
+  if (heights->dimensions.size() != 2 || file.dimension(*heights, 0) != "x" || file.dimension(*heights, 1) != "y") {
+    throw FileError("the variable 'heights' of the NetCDF file is no surface over x and y");
+  }
+  const std::uint64_t cols = file.length(*heights, 0);
+  const std::uint64_t rows = file.length(*heights, 1);
+  checkPixelCount(cols, rows);
+  FileChannel channel;
+  channel.takes_settings = true;
+  channel.title = "heights";
+  channel.width = sizeAlong(file, "x");
+  channel.height = sizeAlong(file, "y");
+  if (channel.width > 0.0 && channel.height > 0.0) channel.unit_xy = "m";
+  // Where heights state no unit it is that of x and y.
+  std::string unit_text = textOf(*heights, "unit");
+  if (unit_text.empty() && file.find("x") != nullptr) unit_text = textOf(*file.find("x"), "unit");
+  const auto unit = lengthUnit(unit_text);
+  channel.unit_z = unit ? "m" : unit_text;
+
+  channel.values.create(static_cast<int>(rows), static_cast<int>(cols), CV_64FC1);
+  ByteCursor data = file.data(*heights, cols * rows);
+  const Variable* mask = file.find("mask");
+  ByteCursor masked = mask == nullptr ? data : file.data(*mask, cols * rows);
+  for (int col = 0; col < channel.values.cols; ++col) {
+    for (int row = 0; row < channel.values.rows; ++row) {
+      const double value = numberOf(data, heights->type) * unit.value_or(1.0);
+      const bool is_missing = mask != nullptr && numberOf(masked, mask->type) != 0.0;
+      channel.values.at<double>(row, col) = is_missing ? std::numeric_limits<double>::quiet_NaN() : value;
+    }
+  }
+  return channel;
+}
+
+std::string gxsmOtherUnit(const std::string& bytes) {
+  const Netcdf file(bytes);
+  for (const char* name : {"FloatField", "H", "rangez", "dz"}) {
+    const Variable* variable = file.find(name);
+    if (variable == nullptr) continue;
+    for (const char* attribute : {"unit", "units", "var_unit", "var_units", "ZSrcUnit"}) {
+      std::string unit = textOf(*variable, attribute);
+      if (!unit.empty() && unit != "1" && !lengthUnit(unit)) return unit;
+    }
+  }
+  return "";
+}
+
+}  // namespace mems_stiction

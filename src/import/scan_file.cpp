@@ -1,0 +1,212 @@
+#include "mems_stiction/import/scan_file.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/option_yaml.hpp"
+#include "mems_stiction/height_map/validity.hpp"
+#include "mems_stiction/import/channel_choice.hpp"
+#include "mems_stiction/import/file_bytes.hpp"
+#include "mems_stiction/import/scan_formats.hpp"
+
+namespace mems_stiction {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Settings, and whether the sidecar says what a pixel is worth.
+struct Settings {
+  ScanOptions options;
+  bool has_scale = false;
+};
+
+/// The sidecar's settings over those given. Both spellings, "pitch_x" and "scan/pitch_x", are the same key.
+Settings withSidecar(const std::string& path, const ScanOptions& given) {
+  for (const std::string& sidecar : {path + ".yaml", fs::path(path).replace_extension(".yaml").string()}) {
+    std::error_code error;
+    if (sidecar == path || !fs::is_regular_file(sidecar, error)) continue;
+    Settings settings{given, false};
+    ScanOptions& options = settings.options;
+    std::vector<std::string> lines;
+    try {
+      const YAML::Node tree = YAML::LoadFile(sidecar);
+      YAML::Node scan(YAML::NodeType::Map);
+      if (tree.IsMap()) {
+        for (const auto& entry : tree) {
+          const std::string key = entry.first.Scalar();
+          const bool is_bare = key != "scan" && key.find('/') == std::string::npos;
+          scan.force_insert(is_bare ? "scan/" + key : key, entry.second);
+        }
+      } else if (!tree.IsNull()) {
+        scan = tree;
+      }
+      const YAML::Node nested = scan["scan"];
+      settings.has_scale = scan["scan/height_scale"].IsDefined() ||
+                           (nested.IsDefined() && nested.IsMap() && nested["height_scale"].IsDefined());
+      lines = readYaml(scan, [&options](OptionVisitor& visitor) { options.describe(visitor); });
+    } catch (const YAML::Exception& yaml_error) {
+      throw FileError(sidecar + ": not valid YAML: " + yaml_error.what());
+    }
+    if (options.height_scale == 0.0) lines.emplace_back("scan/height_scale: 0 is not allowed, must not be 0");
+    for (std::string& line : lines) line.insert(0, sidecar + ": ");
+    if (!lines.empty()) throw OptionsError(std::move(lines));
+    return settings;
+  }
+  return {given, false};
+}
+
+/// What a file states goes before the settings, its sidecar before the file.
+/// @throw FileError without a file name where file and sidecar both state the unit of the heights
+Settings settingsFor(const std::string& path, const FileChannel& channel, const ScanOptions& given) {
+  ScanOptions stated = given;
+  if (channel.unit_z == "m") {
+    stated.height_scale = 1.0;
+    stated.height_offset = 0.0;
+  }
+  const bool has_pitch = channel.unit_xy == "m";
+  const bool is_pitch_given = given.pitch_x > 0.0 && given.pitch_y > 0.0;
+  if (has_pitch && !(channel.is_pitch_a_guess && is_pitch_given)) {
+    stated.pitch_x = channel.width / channel.values.cols;
+    stated.pitch_y = channel.height / channel.values.rows;
+  }
+  Settings settings = withSidecar(path, stated);
+  ScanOptions& options = settings.options;
+  if (channel.unit_z == "m" && options.height_scale != 1.0) {
+    throw FileError("the file states the unit of its heights, its sidecar a height_scale of " +
+                    numberText(options.height_scale) + ": heights are in metres already, remove it");
+  }
+  if (!has_pitch && channel.width > 0.0) {  // in the unit of the values
+    const double unit = std::abs(options.height_scale);
+    if (!(options.pitch_x > 0.0)) options.pitch_x = channel.width / channel.values.cols * unit;
+    if (!(options.pitch_y > 0.0)) options.pitch_y = channel.height / channel.values.rows * unit;
+  }
+  return settings;
+}
+
+void checkPitchStated(const std::string& path, const ScanOptions& settings) {
+  if (settings.pitch_x != 0.0 && settings.pitch_y != 0.0) return;
+  throw FileError(path +
+                  ": its pixel pitch is not stated: give --pitch, or scan/pitch_x and scan/pitch_y in the "
+                  "configuration or in " +
+                  fs::path(path).filename().string() + ".yaml");
+}
+
+/// A pitch that is given by hand and one in the file that differ by more than a hundredth: perhaps a slip.
+void notePitch(const FileChannel& channel, const HeightMap& surface, std::vector<std::string>& notes) {
+  if (channel.unit_xy != "m" || channel.is_pitch_a_guess) return;
+  const double stated_x = channel.width / channel.values.cols;
+  const double stated_y = channel.height / channel.values.rows;
+  const auto differs = [](double taken, double stated) { return std::abs(taken - stated) > 0.01 * stated; };
+  if (!differs(surface.pitchX(), stated_x) && !differs(surface.pitchY(), stated_y)) return;
+  notes.push_back("the file states a pitch of " + numberText(stated_x) + " x " + numberText(stated_y) + " m, " +
+                  numberText(surface.pitchX()) + " x " + numberText(surface.pitchY()) + " m is given and taken");
+}
+
+HeightMap surfaceOf(const std::string& path, const FileChannel& channel, const ScanOptions& given,
+                    const ScanFileOptions& options) {
+  if (!channel.takes_settings) {
+    const HeightMap surface = surfaceOfChannel(channel);
+    return {surface.heights(), options.pitch_x > 0.0 ? options.pitch_x : surface.pitchX(),
+            options.pitch_y > 0.0 ? options.pitch_y : surface.pitchY()};
+  }
+  ScanOptions settings = settingsFor(path, channel, given).options;
+  if (options.pitch_x > 0.0) settings.pitch_x = options.pitch_x;
+  if (options.pitch_y > 0.0) settings.pitch_y = options.pitch_y;
+  checkPitchStated(path, settings);
+  return heightMapFromPixels(channel.values, settings);
+}
+
+/// Largest number that programs write for a height; beyond it they write "none": 1e38, FLT_MAX, DBL_MAX and the like [m].
+constexpr double kLargestHeight = 1e20;
+
+/// @return the surface without such numbers
+HeightMap withoutSentinels(const HeightMap& surface, std::vector<std::string>& notes) {
+  const cv::Mat above = surface.heights() > kLargestHeight;
+  const cv::Mat below = surface.heights() < -kLargestHeight;
+  cv::Mat beyond = above | below;
+  beyond &= validMask(surface.heights());
+  const int count = cv::countNonZero(beyond);
+  if (count == 0) return surface;
+  cv::Mat heights = ownedHeights(surface);
+  heights.setTo(std::numeric_limits<double>::quiet_NaN(), beyond);
+  notes.push_back(std::to_string(count) + " heights beyond 1e20 m count as missing");
+  return {heights, surface.pitchX(), surface.pitchY()};
+}
+
+/// A single channel without a title needs no name.
+std::string nameOf(const FileChannel& channel, std::size_t count) {
+  return channel.takes_settings && count == 1 && channel.title.empty() ? "" : channelName(channel);
+}
+
+/// Adds the name of the file to what is said without it.
+template <typename Function>
+auto naming(const std::string& path, Function&& function) {
+  try {
+    return function();
+  } catch (const FileError& error) {
+    const std::string text = error.what();
+    throw FileError(text.compare(0, path.size(), path) == 0 ? text : path + ": " + text);
+  } catch (const SurfaceError& error) {
+    throw FileError(path + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+ScanFile openScanFile(const std::string& path, const ScanOptions& scan, const ScanFileOptions& options) {
+  return naming(path, [&] {
+    const std::vector<FileChannel> channels = readChannels(path, options.import);
+    const FileChannel& channel = channels.at(chooseHeightChannel(channels, options.import.channel));
+    ScanFile file{surfaceOf(path, channel, scan, options), nameOf(channel, channels.size()), channel.notes};
+    file.surface = withoutSentinels(file.surface, file.notes);
+    notePitch(channel, file.surface, file.notes);
+    return file;
+  });
+}
+
+std::vector<ScanChannel> listScanChannels(const std::string& path, const ScanOptions& scan,
+                                          const ScanFileOptions& options) {
+  return naming(path, [&] {
+    const std::vector<FileChannel> channels = readChannels(path, options.import);
+    if (channels.empty()) throw FileError("the file has no image channel");
+    std::vector<ScanChannel> list;
+    for (const FileChannel& channel : channels) {
+      ScanChannel entry;
+      entry.name = nameOf(channel, channels.size());
+      entry.rows = channel.values.rows;
+      entry.cols = channel.values.cols;
+      entry.pitch_x = entry.cols > 0 ? channel.width / entry.cols : 0.0;
+      entry.pitch_y = entry.rows > 0 ? channel.height / entry.rows : 0.0;
+      entry.unit_xy = channel.unit_xy;
+      entry.unit_z = channel.unit_z;
+      if (channel.takes_settings) {
+        const Settings settings = settingsFor(path, channel, scan);
+        const double scale = settings.options.height_scale;
+        entry.pitch_x = options.pitch_x > 0.0 ? options.pitch_x : settings.options.pitch_x;
+        entry.pitch_y = options.pitch_y > 0.0 ? options.pitch_y : settings.options.pitch_y;
+        entry.unit_xy = "m";
+        if (channel.unit_z.empty()) entry.unit_z = scale == 1.0 ? "m" : numberText(scale) + " m";
+        entry.is_unit_assumed = channel.unit_z.empty() && scale == 1.0 && !settings.has_scale;
+      }
+      list.push_back(entry);
+    }
+    try {
+      list[chooseHeightChannel(channels, options.import.channel)].is_chosen = true;
+    } catch (const FileError&) {
+      // None can be taken: the list shows why.
+    }
+    return list;
+  });
+}
+
+HeightMap readScanFile(const std::string& path, const ScanOptions& scan, const ScanFileOptions& options) {
+  return openScanFile(path, scan, options).surface;
+}
+
+}  // namespace mems_stiction

@@ -1,0 +1,163 @@
+#include "mems_stiction/import/sur_file.hpp"
+
+#include <zlib.h>
+
+#include <cstdint>
+#include <limits>
+
+#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/import/byte_cursor.hpp"
+#include "mems_stiction/import/file_bytes.hpp"
+#include "mems_stiction/import/length_unit.hpp"
+#include "mems_stiction/import/plain_number.hpp"
+
+namespace mems_stiction {
+namespace {
+
+constexpr const char* kWhat = "the .sur file";
+constexpr int kNotMeasured = -2;  // beyond the smallest value
+
+/// Kinds of object that begin with a surface.
+enum Kind { kProfile = 1, kSurface = 2, kSurfaceSeries = 5, kColourSurface = 12 };
+
+/// What one of the file's objects states in its 512 bytes.
+struct Header {
+  bool is_compressed = false;
+  int objects = 0, kind = 0, special_points = 0, bits = 0, inversion = 0, comment = 0, hidden = 0;
+  std::int32_t smallest = 0, cols = 0, rows = 0;
+  double step_x = 0.0, step_y = 0.0, step_z = 0.0;
+  std::string name, maker, title, unit_x, unit_y, unit_z;
+};
+
+Header readHeader(ByteCursor& file) {
+  ByteCursor cursor = file.part(512);
+  Header header;
+  const std::string code = cursor.field(12);
+  header.is_compressed = code == "DSCOMPRESSED";
+  if (!header.is_compressed && code != "DIGITAL SURF") throw FileError("the .sur file has a damaged header");
+  if (cursor.number<std::int16_t>() != 0) throw FileError("a .sur file of Macintosh byte order is not read");
+  header.objects = cursor.number<std::int16_t>();
+  cursor.take(2);
+  header.kind = cursor.number<std::int16_t>();
+  header.name = cursor.field(30);
+  header.maker = cursor.field(30);
+  cursor.take(6);
+  header.special_points = cursor.number<std::int16_t>();
+  cursor.take(10);
+  header.bits = cursor.number<std::int16_t>();
+  header.smallest = cursor.number<std::int32_t>();
+  cursor.take(4);
+  header.cols = cursor.number<std::int32_t>();
+  header.rows = cursor.number<std::int32_t>();
+  cursor.take(4);
+  header.step_x = static_cast<double>(cursor.number<float>());
+  header.step_y = static_cast<double>(cursor.number<float>());
+  header.step_z = static_cast<double>(cursor.number<float>());
+  cursor.take(32);
+  header.title = toUtf8(cursor.field(16));
+  header.unit_x = toUtf8(cursor.field(16));
+  header.unit_y = toUtf8(cursor.field(16));
+  header.unit_z = toUtf8(cursor.field(16));
+  cursor.take(3 * 16 + 3 * 4 + 2);
+  header.inversion = cursor.number<std::int16_t>();
+  cursor.take(2 + 12 + 14 + 4 + 4 + 6);
+  header.comment = cursor.number<std::uint16_t>();
+  header.hidden = cursor.number<std::uint16_t>();
+  if (header.cols <= 0 || header.rows <= 0 || (header.bits != 16 && header.bits != 32)) {
+    throw FileError("the .sur file has a damaged header");
+  }
+  checkPixelCount(static_cast<std::uint64_t>(header.cols), static_cast<std::uint64_t>(header.rows));
+  return header;
+}
+
+/// The numbers of a compressed object: a count of streams, their sizes unpacked and packed, then the streams.
+std::string unpacked(ByteCursor& file, std::uint64_t size) {
+  const auto count = file.number<std::uint32_t>();
+  ByteCursor sizes = file.array(count, 8);
+  std::string data(static_cast<std::size_t>(size), '\0');
+  std::uint64_t done = 0;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const auto raw = sizes.number<std::uint32_t>();
+    const auto packed = sizes.number<std::uint32_t>();
+    const char* stream = file.take(packed);
+    uLongf got = raw;
+    if (raw > size - done ||
+        uncompress(reinterpret_cast<Bytef*>(&data[static_cast<std::size_t>(done)]), &got,
+                   reinterpret_cast<const Bytef*>(stream), packed) != Z_OK ||
+        got != raw) {
+      throw FileError("the .sur file's compressed data are damaged");
+    }
+    done += raw;
+  }
+  if (done != size) throw FileError("the .sur file has fewer numbers than its header states");
+  return data;
+}
+
+double unitOf(const std::string& text, const char* axis) {
+  const auto unit = lengthUnit(text);
+  if (!unit)
+    throw FileError(std::string("the .sur file states ") + axis + " in '" + shownPiece(text) + "', which is no length");
+  return *unit;
+}
+
+/// The next object of the file.
+FileChannel readObject(ByteCursor& file, const Header& header) {
+  file.take(static_cast<std::size_t>(header.comment) + static_cast<std::size_t>(header.hidden));
+  const auto points = static_cast<std::uint64_t>(header.cols) * static_cast<std::uint64_t>(header.rows);
+  const std::uint64_t size = points * static_cast<std::uint64_t>(header.bits / 8);
+  const std::string data =
+      header.is_compressed ? unpacked(file, size) : std::string(file.take(static_cast<std::size_t>(size)), size);
+  const auto unit_z = lengthUnit(header.unit_z);
+  const bool is_turned = header.inversion >= 1 && header.inversion <= 3;
+  const double scale = header.step_z * unit_z.value_or(1.0) * (is_turned ? -1.0 : 1.0);
+  FileChannel channel;
+  channel.title = header.title;
+  channel.unit_xy = "m";
+  channel.unit_z = unit_z ? "m" : header.unit_z;
+  channel.width = header.step_x * unitOf(header.unit_x, "x") * header.cols;
+  channel.height = header.step_y * unitOf(header.unit_y, "y") * header.rows;
+  channel.values.create(header.rows, header.cols, CV_64FC1);
+  ByteCursor cursor(data.data(), data.size(), kWhat);
+  const std::int64_t missing = std::int64_t{header.smallest} + kNotMeasured;
+  for (int i = 0; i < header.rows; ++i) {
+    double* line = channel.values.ptr<double>(header.inversion == 3 ? header.rows - 1 - i : i);
+    for (int j = 0; j < header.cols; ++j) {
+      const std::int64_t value = header.bits == 16 ? cursor.number<std::int16_t>() : cursor.number<std::int32_t>();
+      const bool is_missing = header.special_points == 1 && value == missing;
+      line[header.inversion == 2 ? header.cols - 1 - j : j] =
+          is_missing ? std::numeric_limits<double>::quiet_NaN() : static_cast<double>(value) * scale;
+    }
+  }
+  return channel;
+}
+
+/// Gwyddion calls the surfaces that it writes profiles.
+bool isSurface(const Header& header) {
+  return header.kind == kSurface || header.kind == kSurfaceSeries || header.kind == kColourSurface ||
+         (header.kind == kProfile && header.rows > 1 && header.name == "SCRATCH" && header.maker == "csm");
+}
+
+}  // namespace
+
+std::vector<FileChannel> parseSur(const std::string& bytes) {
+  ByteCursor file(bytes.data(), bytes.size(), kWhat);
+  std::vector<FileChannel> channels;
+  Header header = readHeader(file);
+  if (!isSurface(header)) {
+    throw FileError("the .sur file holds an object of kind " + std::to_string(header.kind) + ", not a surface");
+  }
+  const bool is_series = header.kind == kSurfaceSeries;
+  const int objects = is_series ? std::max(1, header.objects) : 1;
+  for (int i = 0; i < objects; ++i) {
+    if (i > 0) header = readHeader(file);
+    channels.push_back(readObject(file, header));
+    channels.back().id = i;
+    channels.back().takes_settings = false;
+  }
+  if (is_series && channels.size() > 1) {
+    channels.front().notes.push_back("the first of " + std::to_string(channels.size()) + " surfaces of a series");
+  }
+  return channels;
+}
+
+}  // namespace mems_stiction

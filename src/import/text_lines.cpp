@@ -1,0 +1,119 @@
+#include "mems_stiction/import/text_lines.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdint>
+
+#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/import/length_unit.hpp"
+
+namespace mems_stiction {
+namespace {
+
+bool startsWith(const std::string& text, const std::string& start) { return text.compare(0, start.size(), start) == 0; }
+
+void appendUtf8(std::string& text, std::uint32_t code) {
+  if (code < 0x80) {
+    text += static_cast<char>(code);
+  } else if (code < 0x800) {
+    text += static_cast<char>(0xC0 | code >> 6);
+    text += static_cast<char>(0x80 | (code & 0x3F));
+  } else {
+    text += static_cast<char>(0xE0 | code >> 12);
+    text += static_cast<char>(0x80 | (code >> 6 & 0x3F));
+    text += static_cast<char>(0x80 | (code & 0x3F));
+  }
+}
+
+/// Characters beyond the basic plane are not in any number or unit: their halves pass as they are.
+std::string fromUtf16(const std::string& bytes, bool is_big_endian) {
+  std::string text;
+  text.reserve(bytes.size() / 2);
+  for (std::size_t at = 0; at + 1 < bytes.size(); at += 2) {
+    const auto first = static_cast<unsigned char>(bytes[at]);
+    const auto second = static_cast<unsigned char>(bytes[at + 1]);
+    const std::uint32_t code = is_big_endian ? first << 8 | second : second << 8 | first;
+    if (code != 0xFEFF) appendUtf8(text, code);
+  }
+  return text;
+}
+
+std::string decoded(const std::string& bytes) {
+  if (startsWith(bytes, "\xEF\xBB\xBF")) return bytes.substr(3);
+  const bool is_wide = bytes.size() >= 4;
+  if (startsWith(bytes, "\xFF\xFE") || (is_wide && bytes[0] != 0 && bytes[1] == 0 && bytes[2] != 0 && bytes[3] == 0)) {
+    return fromUtf16(bytes, false);
+  }
+  if (startsWith(bytes, "\xFE\xFF") || (is_wide && bytes[0] == 0 && bytes[1] != 0 && bytes[2] == 0 && bytes[3] != 0)) {
+    return fromUtf16(bytes, true);
+  }
+  return bytes;
+}
+
+bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v'; }
+
+/// Where the comment begins; the size of the text if there is none.
+std::size_t commentStart(const std::string& text) {
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    if ((text[at] == '#' || text[at] == '%') && (at == 0 || isBlank(text[at - 1]))) return at;
+  }
+  return text.size();
+}
+
+/// Spaces alone: a tab at either end may stand for an empty cell.
+std::string trimmed(const std::string& text) {
+  std::size_t begin = 0;
+  std::size_t end = text.size();
+  while (end > begin && isBlank(text[end - 1]) && text[end - 1] != '\t') --end;
+  while (begin < end && isBlank(text[begin]) && text[begin] != '\t') ++begin;
+  return text.substr(begin, end - begin);
+}
+
+bool isEmpty(const std::string& text) { return text.find_first_not_of(" \t\r\f\v") == std::string::npos; }
+
+/// A letter that does not begin "nan" or "inf".
+bool isHeading(const std::string& text) {
+  const std::size_t at = text.find_first_not_of(" \t\"'");
+  if (at == std::string::npos) return false;
+  const auto first = static_cast<unsigned char>(text[at]);
+  if (first >= 0x80 || first == '[' || first == '(') return true;
+  if (std::isalpha(first) == 0) return false;
+  std::string start = text.substr(at, 3);
+  for (char& c : start) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return start != "nan" && start != "inf";
+}
+
+}  // namespace
+
+TextLines textLines(const std::string& bytes) {
+  const std::string text = decoded(bytes);
+  const char line_end = text.find('\n') == std::string::npos ? '\r' : '\n';
+  TextLines lines;
+  lines.ends_with_line_end = !text.empty() && text.back() == line_end;
+  bool begins_block = true;
+  int number = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find(line_end, at), text.size());
+    std::string line = text.substr(at, end - at);
+    at = end + 1;
+    ++number;
+    if (line.find('\0') != std::string::npos) {
+      throw FileError("line " + std::to_string(number) + ": binary data where numbers are expected");
+    }
+    const std::size_t comment = commentStart(line);
+    const std::string content = trimmed(line.substr(0, comment));
+    if (isEmpty(content)) {
+      begins_block = true;
+      if (comment < line.size()) lines.heading.push_back({number, toUtf8(line.substr(comment))});
+    } else if (lines.data.empty() && isHeading(content)) {
+      lines.heading.push_back({number, toUtf8(content)});
+    } else {
+      if (begins_block) lines.blocks.push_back(lines.data.size());
+      begins_block = false;
+      lines.data.push_back({number, content});
+    }
+  }
+  return lines;
+}
+
+}  // namespace mems_stiction

@@ -1,0 +1,34 @@
+#include "mems_stiction/import/tiff_tags.hpp"
+
+#include <cstdint>
+
+#include "mems_stiction/import/byte_cursor.hpp"
+
+namespace mems_stiction {
+namespace {
+
+constexpr std::uint16_t kParkTag = 50432;
+constexpr std::uint32_t kParkMagic = 0x0E031301;
+
+}  // namespace
+
+bool hasParkTags(const std::string& bytes) {
+  try {
+    const ByteOrder order = !bytes.empty() && bytes[0] == 'M' ? ByteOrder::kBig : ByteOrder::kLittle;
+    ByteCursor cursor(bytes.data(), bytes.size(), "the TIFF file", order);
+    cursor.take(4);
+    const auto directory = cursor.number<std::uint32_t>();
+    if (directory < 8) return false;
+    cursor.take(directory - 8);
+    for (auto left = cursor.number<std::uint16_t>(); left > 0; --left) {
+      const auto tag = cursor.number<std::uint16_t>();
+      cursor.take(6);  // type and count
+      if (cursor.number<std::uint32_t>() == kParkMagic && tag == kParkTag) return true;
+    }
+  } catch (const FileError&) {
+    // Cut off: no such tags before the cut.
+  }
+  return false;
+}
+
+}  // namespace mems_stiction

@@ -1,0 +1,132 @@
+#include "mems_stiction/import/wsxm_file.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <map>
+
+#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/import/byte_cursor.hpp"
+#include "mems_stiction/import/file_bytes.hpp"
+#include "mems_stiction/import/length_unit.hpp"
+#include "mems_stiction/import/plain_number.hpp"
+
+namespace mems_stiction {
+namespace {
+
+constexpr const char* kEnd = "[Header end]";
+
+std::string trimmed(const std::string& text) {
+  const std::size_t begin = text.find_first_not_of(" \t\r");
+  return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
+}
+
+/// "Section/Key" to value.
+std::map<std::string, std::string> readHeader(const std::string& bytes, std::size_t end) {
+  std::map<std::string, std::string> header;
+  std::string section;
+  for (std::size_t at = 0; at < end;) {
+    const std::size_t stop = std::min(bytes.find('\n', at), end);
+    const std::string line = trimmed(toUtf8(bytes.substr(at, stop - at)));
+    at = stop + 1;
+    if (!line.empty() && line[0] == '[') section = line.substr(1, line.find(']') - 1);
+    const std::size_t colon = line.find(": ");
+    if (colon != std::string::npos) header[section + "/" + line.substr(0, colon)] = trimmed(line.substr(colon + 1));
+  }
+  return header;
+}
+
+const std::string& entry(const std::map<std::string, std::string>& header, const std::string& key) {
+  const auto found = header.find(key);
+  if (found == header.end()) throw FileError("the WSxM header does not state '" + key + "'");
+  return found->second;
+}
+
+std::uint64_t countOf(const std::map<std::string, std::string>& header, const std::string& key) {
+  const double count = plainNumber(entry(header, key));
+  if (!(count >= 1.0 && count <= 1e9)) throw FileError("the WSxM header states " + key + " " + entry(header, key));
+  return static_cast<std::uint64_t>(count);
+}
+
+/// A side of the image [m]. @throw FileError
+double sideOf(const std::map<std::string, std::string>& header, const std::string& key) {
+  const auto stated = statedLength(entry(header, key));
+  const auto unit = stated ? lengthUnit(stated->unit) : std::nullopt;
+  if (!unit || !(stated->number > 0.0)) {
+    throw FileError("the WSxM header states " + key + " '" + shownPiece(entry(header, key)) + "', which is no length");
+  }
+  return stated->number * *unit;
+}
+
+enum class NumberType { kShort, kFloat, kDouble };
+
+NumberType typeOf(const std::map<std::string, std::string>& header) {
+  const auto found = header.find("General Info/Image Data Type");
+  if (found == header.end() || found->second == "short" || found->second == "integer") return NumberType::kShort;
+  if (found->second == "float") return NumberType::kFloat;
+  if (found->second == "double") return NumberType::kDouble;
+  throw FileError("the WSxM data type '" + shownPiece(found->second) + "' is not known");
+}
+
+std::size_t bytesOf(NumberType type) { return type == NumberType::kShort ? 2 : type == NumberType::kFloat ? 4 : 8; }
+
+double next(ByteCursor& cursor, NumberType type) {
+  if (type == NumberType::kShort) return cursor.number<std::int16_t>();
+  return type == NumberType::kFloat ? static_cast<double>(cursor.number<float>()) : cursor.number<double>();
+}
+
+}  // namespace
+
+bool isWsxmImage(const std::string& start) {
+  const std::size_t line = start.find('\n');
+  return start.compare(0, 19, "WSxM file copyright") == 0 && line != std::string::npos &&
+         start.compare(line + 1, 14, "SxM Image file") == 0;
+}
+
+FileChannel parseWsxm(const std::string& bytes) {
+  const std::size_t header_end = bytes.find(kEnd);
+  if (header_end == std::string::npos) throw FileError("the WSxM header has no end: cut off");
+  const auto header = readHeader(bytes, header_end);
+  const std::uint64_t cols = countOf(header, "General Info/Number of columns");
+  const std::uint64_t rows = countOf(header, "General Info/Number of rows");
+  checkPixelCount(cols, rows);
+  const NumberType type = typeOf(header);
+  const std::uint64_t needed = cols * rows * bytesOf(type);
+  const auto stated_size = header.find("/Image header size");
+  const std::size_t line_end = bytes.find('\n', header_end);
+  std::uint64_t begin = stated_size == header.end() ? 0 : static_cast<std::uint64_t>(plainNumber(stated_size->second));
+  if (begin < header_end) begin = line_end == std::string::npos ? bytes.size() : line_end + 1;  // not filled in
+  if (begin > bytes.size() || bytes.size() - begin < needed) {
+    throw FileError("the WSxM file has " + std::to_string(bytes.size()) + " bytes, its header states " +
+                    std::to_string(begin + needed) + ": cut off");
+  }
+
+  FileChannel channel;
+  const auto title = header.find("General Info/Acquisition channel");
+  if (title != header.end()) channel.title = title->second;
+  channel.width = sideOf(header, "Control/X Amplitude");
+  channel.height = header.count("Control/Y Amplitude") != 0 ? sideOf(header, "Control/Y Amplitude") : channel.width;
+  channel.unit_xy = "m";
+  channel.values.create(static_cast<int>(rows), static_cast<int>(cols), CV_64FC1);
+  ByteCursor data(bytes.data() + begin, static_cast<std::size_t>(needed), "the WSxM file");
+  for (int row = channel.values.rows - 1; row >= 0; --row) {
+    double* line = channel.values.ptr<double>(row);
+    for (int col = channel.values.cols - 1; col >= 0; --col) line[col] = next(data, type);
+  }
+
+  const std::string& amplitude_text = entry(header, "General Info/Z Amplitude");
+  const auto amplitude = statedLength(amplitude_text);
+  if (!amplitude) throw FileError("the WSxM header states the z amplitude '" + shownPiece(amplitude_text) + "'");
+  const auto unit = lengthUnit(amplitude->unit);
+  channel.unit_z = unit ? "m" : amplitude->unit;
+  double scale = unit.value_or(1.0);
+  if (type == NumberType::kShort) {
+    double least = 0.0;
+    double most = 0.0;
+    cv::minMaxLoc(channel.values, &least, &most);
+    if (most > least) scale *= amplitude->number / (most - least);
+  }
+  channel.values *= scale;
+  return channel;
+}
+
+}  // namespace mems_stiction

@@ -1,0 +1,111 @@
+#include "mems_stiction/import/file_bytes.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <chrono>
+#include <filesystem>
+
+#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/output_file.hpp"
+#include "mems_stiction/import/scan_file.hpp"
+#include "mems_stiction/import/zip_check.hpp"
+#include "support/binary_writer.hpp"
+#include "support/scratch_folder.hpp"
+
+namespace mems_stiction {
+namespace {
+
+std::string refusal(const std::string& path) {
+  try {
+    readScanFile(path);
+  } catch (const FileError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+bool mentions(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(FileBytes, PipesAndDevicesAreRefusedWithoutWaiting) {
+  const ScratchFolder folder;
+  ASSERT_EQ(mkfifo(folder.file("pipe.di").c_str(), 0600), 0);
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_TRUE(mentions(refusal(folder.file("pipe.di")), "is a pipe, a socket or a device"));
+  EXPECT_TRUE(mentions(refusal("/dev/zero"), "is a pipe, a socket or a device"));
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
+}
+
+TEST(FileBytes, TooLargeAFileIsRefusedBeforeItIsRead) {
+  const ScratchFolder folder;
+  folder.write("large.txt", "1 2\n");
+  std::filesystem::resize_file(folder.file("large.txt"), kMaxFileBytes + 1);  // a hole: no disk is used
+  EXPECT_TRUE(mentions(refusal(folder.file("large.txt")), "more than the"));
+}
+
+// ---- Archives
+
+std::string zip(const std::string& content, std::uint32_t checksum) {
+  const std::string sizes = littleBytes(checksum) + littleBytes(static_cast<std::uint32_t>(content.size())) +
+                            littleBytes(static_cast<std::uint32_t>(content.size()));
+  const std::string stored = std::string(2, '\0') + std::string(2, '\0') + std::string(4, '\0') + sizes;
+  const std::string local = "PK\3\4" + littleBytes(std::uint16_t{20}) + stored + littleBytes(std::uint16_t{1}) +
+                            littleBytes(std::uint16_t{0}) + "a" + content;
+  const std::string entry = "PK\1\2" + littleBytes(std::uint16_t{20}) + littleBytes(std::uint16_t{20}) + stored +
+                            littleBytes(std::uint16_t{1}) + std::string(16, '\0') + "a";
+  return local + entry + "PK\5\6" + std::string(4, '\0') + littleBytes(std::uint16_t{1}) +
+         littleBytes(std::uint16_t{1}) + littleBytes(static_cast<std::uint32_t>(entry.size())) +
+         littleBytes(static_cast<std::uint32_t>(local.size())) + std::string(2, '\0');
+}
+
+TEST(ZipCheck, AnEntryThatDoesNotHaveItsChecksumIsRefused) {
+  const std::string content = "heights of a surface";
+  const auto checksum = static_cast<std::uint32_t>(
+      crc32(0, reinterpret_cast<const Bytef*>(content.data()), static_cast<uInt>(content.size())));
+  EXPECT_NO_THROW(checkZip(zip(content, checksum)));
+  EXPECT_THROW(checkZip(zip(content, checksum ^ 1u)), FileError);
+  const std::string whole = zip(content, checksum);
+  for (std::size_t size = 0; size < whole.size(); ++size)
+    EXPECT_THROW(checkZip(whole.substr(0, size)), FileError) << size;
+}
+
+TEST(ZipCheck, AFlippedByteInAPublicArchiveIsRefused) {
+  const char* folder = std::getenv("MEMS_STICTION_SCANS");
+  if (folder == nullptr) GTEST_SKIP() << "MEMS_STICTION_SCANS is not set to a folder of vendor scans";
+  std::string bytes = ScratchFolder::read(std::string(folder) + "/x3p-2.x3p");
+  EXPECT_NO_THROW(checkZip(bytes));
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 0x10);
+  const ScratchFolder scratch;
+  EXPECT_TRUE(mentions(refusal(scratch.write("flipped.x3p", bytes)), "damaged"));
+}
+
+// ---- Output
+
+TEST(OutputFile, ReplacesTheFileAndKeepsItsMode) {
+  const ScratchFolder folder;
+  const std::string path = folder.write("out", "before");
+  ASSERT_EQ(chmod(path.c_str(), 0640), 0);
+  writeFile(path, "after");
+  EXPECT_EQ(ScratchFolder::read(path), "after");
+  struct stat status {};
+  ASSERT_EQ(stat(path.c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 07777, 0640u);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(std::filesystem::path(path).parent_path()), {}), 1);
+}
+
+TEST(OutputFile, AFullDiskIsAnErrorThatNamesTheFile) {
+  try {
+    writeFile("/dev/full", std::string(100000, 'x'));
+    FAIL();
+  } catch (const FileError& error) {
+    EXPECT_STREQ(error.what(), "/dev/full: cannot be written: No space left on device");
+  }
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
+}
+
+TEST(OutputFile, AFolderThatIsMissingLeavesNothing) { EXPECT_THROW(writeFile("/nonexistent/out", "x"), FileError); }
+
+}  // namespace
+}  // namespace mems_stiction

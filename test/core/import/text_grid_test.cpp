@@ -1,0 +1,299 @@
+#include "mems_stiction/import/text_grid.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/import/scan_file.hpp"
+#include "support/scratch_folder.hpp"
+
+namespace mems_stiction {
+namespace {
+
+/// A rough surface of 5 x 4 heights, each written with three decimals.
+const std::vector<std::vector<std::string>> kNumbers = {{"0.437", "1.041", "-0.250", "0.900"},
+                                                        {"1.500", "0.125", "2.333", "0.700"},
+                                                        {"0.010", "3.141", "0.600", "-1.700"},
+                                                        {"2.718", "0.500", "0.333", "1.250"},
+                                                        {"0.999", "-0.100", "1.800", "0.050"}};
+
+std::string written(const std::string& separator, char decimal = '.', const std::string& line_end = "\n",
+                    const std::string& quote = "") {
+  std::string text;
+  for (const auto& line : kNumbers) {
+    for (std::size_t col = 0; col < line.size(); ++col) {
+      std::string number = line[col];
+      number[number.find('.')] = decimal;
+      text += (col == 0 ? "" : separator) + quote + number + quote;
+    }
+    text += line_end;
+  }
+  return text;
+}
+
+void expectNumbers(const FileChannel& channel, double unit = 1.0) {
+  ASSERT_EQ(channel.values.size(), cv::Size(4, 5));
+  for (int row = 0; row < 5; ++row) {
+    for (int col = 0; col < 4; ++col) {
+      const double expected = std::stod(kNumbers[static_cast<std::size_t>(row)][static_cast<std::size_t>(col)]);
+      EXPECT_DOUBLE_EQ(channel.values.at<double>(row, col), expected * unit) << row << ", " << col;
+    }
+  }
+}
+
+std::string refusal(const std::string& text) {
+  try {
+    parseTextGrid(text);
+  } catch (const FileError& error) {
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+    return error.what();
+  }
+  return "";
+}
+
+bool mentions(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(TextGrid, DecimalCommasAreReadWhereOtherSignsSeparate) {
+  for (const std::string separator : {";", "; ", "\t", " ", "   "}) {
+    SCOPED_TRACE("'" + separator + "'");
+    expectNumbers(parseTextGrid(written(separator, ',')));
+  }
+  expectNumbers(parseTextGrid(written(",", ',', "\n", "\"")));
+}
+
+TEST(TextGrid, DecimalCommasBetweenCommasAreRefused) {
+  EXPECT_TRUE(mentions(refusal(written(",", ',')), "decimal commas"));
+  EXPECT_TRUE(mentions(refusal(written(", ", ',')), "decimal commas"));
+  EXPECT_TRUE(mentions(refusal("437,25,1041,75\n12,50,333,25\n"), "decimal commas")) << "no zero leads there";
+  EXPECT_TRUE(mentions(refusal("1,234.5;2.0\n3.0;4.0\n"), "points and decimal commas"));
+}
+
+TEST(TextGrid, CountsBetweenCommasAreNoDecimals) {
+  const cv::Mat counts = parseTextGrid("12,137,9,205\n14,1,77,13\n250,31,8,6\n").values;
+  ASSERT_EQ(counts.size(), cv::Size(4, 3));
+  EXPECT_EQ(counts.at<double>(0, 1), 137.0);
+  EXPECT_EQ(parseTextGrid("-12,137,-9\n14,-1,77\n").values.size(), cv::Size(3, 2));
+}
+
+TEST(TextGrid, ASeparatorAtTheEndOfEveryLineBeginsNoCell) {
+  for (const std::string separator : {",", ";", "\t"}) {
+    expectNumbers(parseTextGrid(written(separator, '.', separator + "\r\n")));
+  }
+}
+
+TEST(TextGrid, EmptyCellsNeverShiftTheOthers) {
+  EXPECT_TRUE(mentions(refusal("1.5\t2.5\t3.5\n4.5\t\t6.5\n"), "line 2: an empty cell between tabs, column 2"));
+  EXPECT_TRUE(mentions(refusal("1.5\t2.5\t3.5\n\t5.5\t6.5\n"), "line 2: an empty cell between tabs, column 1"));
+  EXPECT_TRUE(mentions(refusal("1.5\t2.5\t3.5\n4.5\t5.5\t\n"), "line 2: an empty cell between tabs, column 3"));
+  const cv::Mat grid = parseTextGrid("1.5;2.5;3.5\n4.5;;6.5\n7.5;8.5;\n").values;
+  EXPECT_TRUE(std::isnan(grid.at<double>(1, 1)));
+  EXPECT_EQ(grid.at<double>(1, 2), 6.5);
+  EXPECT_TRUE(std::isnan(grid.at<double>(2, 2)));
+}
+
+TEST(TextGrid, NumbersOfOtherProgramsThatAreNoneAreRefusedWithLineAndColumn) {
+  EXPECT_TRUE(mentions(refusal("1.5 2.5\n3.5 1.#QNAN\n"), "line 2: '1.#QNAN' is not a number, column 2"));
+  EXPECT_TRUE(mentions(refusal("1.5 -1.#IND\n3.5 4.5\n"), "line 1: '-1.#IND' is not a number, column 2"));
+  EXPECT_TRUE(mentions(refusal("1.5,2.5\n3.5,1e999\n"), "line 2: '1e999' is too large"));
+  EXPECT_TRUE(mentions(refusal("1.5;2.5\n3,5;4 5\n"), "points and decimal commas"));
+}
+
+TEST(TextGrid, InfinitiesAreMissing) {
+  const cv::Mat grid = parseTextGrid("1.5 inf\n-Infinity +INF\n").values;
+  EXPECT_EQ(grid.at<double>(0, 0), 1.5);
+  EXPECT_TRUE(std::isnan(grid.at<double>(0, 1)));
+  EXPECT_TRUE(std::isnan(grid.at<double>(1, 0)));
+  EXPECT_TRUE(std::isnan(grid.at<double>(1, 1)));
+}
+
+TEST(TextGrid, ASecondGridIsRefusedWithItsLine) {
+  EXPECT_TRUE(mentions(refusal(written(" ") + "\n" + written(" ")), "line 7: a second grid begins here"));
+  EXPECT_TRUE(mentions(refusal(written(" ") + "# Channel: Phase\n" + written(" ")), "line 7: a second grid"));
+  expectNumbers(parseTextGrid("\n\n" + written(" ") + "\n\n# the end\n"));
+  expectNumbers(parseTextGrid(written(" ", '.', "\n\n")));
+}
+
+TEST(TextGrid, IndexRowsAndColumnsAreRefused) {
+  std::string with_column;
+  std::string with_both = "0 0 1 2 3 4\n";
+  for (int row = 0; row < 6; ++row) {
+    const std::string numbers = " 0.3 0.1 0.4" + std::to_string(row * row % 5) + " 0.15 0.9\n";
+    with_column += std::to_string(row + 1) + numbers;
+    with_both += std::to_string(row) + numbers;
+  }
+  EXPECT_TRUE(mentions(refusal(with_column), "column 1 holds numbers in equal steps"));
+  EXPECT_TRUE(mentions(refusal(with_both), "line 1: numbers in equal steps"));
+  EXPECT_TRUE(mentions(refusal("0.0 0.039 0.078 0.117 0.156 0.195\n" + with_column.substr(with_column.find('\n') + 1)),
+                       "line 1: numbers in equal steps"));
+}
+
+TEST(TextGrid, ATiltedPlaneHasNoIndices) {
+  std::string plane;
+  for (int row = 0; row < 6; ++row) {
+    for (int col = 0; col < 6; ++col) plane += std::to_string(10 * row + col) + " ";
+    plane += "\n";
+  }
+  EXPECT_EQ(parseTextGrid(plane).values.size(), cv::Size(6, 6));
+}
+
+TEST(TextGrid, ANumberThatWasCutOffIsRefused) {
+  const std::string whole = written(" ");
+  EXPECT_TRUE(mentions(refusal(whole.substr(0, whole.size() - 2)), "line 5: the last number, column 4, is shorter"));
+  EXPECT_TRUE(mentions(refusal(whole.substr(0, whole.size() - 3)), "is shorter"));
+  // Without its line end alone the file is whole, but nobody can know.
+  const FileChannel channel = parseTextGrid(whole.substr(0, whole.size() - 1));
+  expectNumbers(channel);
+  ASSERT_EQ(channel.notes.size(), 1u);
+  EXPECT_TRUE(mentions(channel.notes[0], "has no line end"));
+  EXPECT_TRUE(parseTextGrid(whole).notes.empty());
+}
+
+TEST(TextGrid, EveryEncodingOfTheSameTextIsRead) {
+  const std::string text = "# Width: 4 \xC2\xB5m\n# Height: 5 \xC2\xB5m\n" + written("\t");
+  std::string little("\xFF\xFE", 2);
+  std::string big("\xFE\xFF", 2);
+  std::string latin;
+  for (const char letter : text) {
+    if (letter == '\xC2') continue;  // the micro sign is 0xB5 in Latin-1 and in Unicode
+    little += {letter, '\0'};
+    big += {'\0', letter};
+    latin += letter;
+  }
+  for (const std::string& bytes : {text, "\xEF\xBB\xBF" + text, latin, little, big, little.substr(2)}) {
+    const FileChannel channel = parseTextGrid(bytes);
+    expectNumbers(channel);
+    EXPECT_DOUBLE_EQ(channel.width, 4e-6);
+    EXPECT_DOUBLE_EQ(channel.height, 5e-6);
+  }
+  std::string old = written(" ", '.', "\r");
+  expectNumbers(parseTextGrid(old));
+}
+
+TEST(TextGrid, PercentSignsBeginComments) {
+  expectNumbers(parseTextGrid("% of Matlab\n" + written(" ", '.', " % x\n")));
+}
+
+TEST(TextGrid, HeadingsOfOtherProgramsStateSizeAndUnit) {
+  const FileChannel gwyddion = parseTextGrid(
+      "# Channel: Topography\n# Width: 4.00 \xC2\xB5m\n# Height: 10.00 \xC2\xB5m\n# Value units: m\n" + written("\t"));
+  expectNumbers(gwyddion);
+  EXPECT_EQ(gwyddion.title, "Topography");
+  EXPECT_DOUBLE_EQ(gwyddion.width, 4e-6);
+  EXPECT_DOUBLE_EQ(gwyddion.height, 10e-6);
+  EXPECT_EQ(gwyddion.unit_z, "m");
+  expectNumbers(parseTextGrid("# Value units: nm\n" + written(" ")), 1e-9);
+  expectNumbers(parseTextGrid("x-pixels = 4\ny-pixels = 5\nz-unit = um\n" + written(" ")), 1e-6);
+  EXPECT_TRUE(mentions(refusal("x-pixels = 5\n" + written(" ")), "the heading states 5 x 0 numbers"));
+}
+
+TEST(TextGrid, AUnitThatIsNoLengthIsRefused) {
+  const ScratchFolder folder;
+  ScanOptions options;
+  options.pitch_x = options.pitch_y = 1e-9;
+  const std::string path = folder.write("volts.txt", "# Value units: V\n" + written(" "));
+  try {
+    readScanFile(path, options);
+    FAIL() << "volts were taken for metres";
+  } catch (const FileError& error) {
+    EXPECT_TRUE(mentions(error.what(), "V]")) << error.what();
+  }
+}
+
+TEST(TextGrid, TheStatedWidthGoesBeforeTheConfiguration) {
+  const ScratchFolder folder;
+  ScanOptions options;
+  options.pitch_x = options.pitch_y = 1e-3;
+  const std::string path = folder.write("a.txt", "# Width: 4 nm\n# Height: 5 nm\n" + written(" "));
+  EXPECT_DOUBLE_EQ(readScanFile(path, options).pitchX(), 1e-9);
+  ScanFileOptions by_hand;
+  by_hand.pitch_x = by_hand.pitch_y = 2e-9;
+  const ScanFile scan = openScanFile(path, options, by_hand);
+  EXPECT_EQ(scan.surface.pitchX(), 2e-9);
+  ASSERT_EQ(scan.notes.size(), 1u) << "that the file says otherwise must be said";
+  EXPECT_TRUE(mentions(scan.notes[0], "the file states a pitch of"));
+}
+
+TEST(TextGrid, TheListSaysWhereTheUnitIsNotStated) {
+  const ScratchFolder folder;
+  EXPECT_TRUE(listScanChannels(folder.write("a.txt", written(" "))).at(0).is_unit_assumed);
+  EXPECT_FALSE(listScanChannels(folder.write("b.txt", "# Value units: m\n" + written(" "))).at(0).is_unit_assumed);
+}
+
+TEST(TextGrid, AUnitThatARemarkMentionsIsSaid) {
+  const FileChannel channel = parseTextGrid("# heights in nm\n" + written(" "));
+  ASSERT_EQ(channel.notes.size(), 1u);
+  EXPECT_TRUE(mentions(channel.notes[0], "line 1: 'nm' is not understood"));
+}
+
+TEST(TextGrid, AFileAndASidecarThatBothStateAUnitAreRefused) {
+  const ScratchFolder folder;
+  const std::string path = folder.write("a.txt", "# Value units: nm\n" + written(" "));
+  folder.write("a.txt.yaml", "pitch_x: 1e-9\npitch_y: 1e-9\nheight_scale: 1e-9\n");
+  EXPECT_THROW(readScanFile(path), FileError);
+}
+
+// ---- Lists of points
+
+std::string points(const std::string& heading = "") {
+  std::string text = heading;
+  for (int row = 0; row < 5; ++row) {
+    for (int col = 0; col < 4; ++col) {
+      text += std::to_string(2 * col) + " " + std::to_string(3 * row) + " " +
+              kNumbers[static_cast<std::size_t>(row)][static_cast<std::size_t>(col)] + "\n";
+    }
+  }
+  return text;
+}
+
+TEST(XyzList, ARegularGridIsReadAsOne) {
+  const FileChannel channel = parseTextGrid(points());
+  expectNumbers(channel);
+  EXPECT_DOUBLE_EQ(channel.width, 8.0);
+  EXPECT_DOUBLE_EQ(channel.height, 15.0);
+  const FileChannel with_units = parseTextGrid(points("X [nm] Y [nm] Z [pm]\n"));
+  expectNumbers(with_units, 1e-12);
+  EXPECT_DOUBLE_EQ(with_units.width, 8e-9);
+  EXPECT_EQ(with_units.unit_z, "m");
+}
+
+TEST(XyzList, TheOrderOfTheLinesIsFreeAndMissingPointsAreNaN) {
+  const std::string text = points();
+  std::string reversed;
+  std::size_t end = text.size() - 1;
+  while (end != std::string::npos) {
+    const std::size_t start = text.rfind('\n', end - 1);
+    reversed += text.substr(start + 1, end - start);
+    end = start;
+    if (start == std::string::npos) break;
+  }
+  expectNumbers(parseTextGrid(reversed));
+  const FileChannel holed = parseTextGrid(text.substr(text.find('\n') + 1));
+  EXPECT_TRUE(std::isnan(holed.values.at<double>(0, 0)));
+  EXPECT_EQ(holed.values.at<double>(0, 1), 1.041);
+}
+
+TEST(XyzList, XAndYAreInTheUnitOfTheHeights) {
+  const ScratchFolder folder;
+  ScanOptions options;
+  options.height_scale = 1e-9;
+  const HeightMap surface = readScanFile(folder.write("list.xyz", points()), options);
+  EXPECT_DOUBLE_EQ(surface.pitchX(), 2e-9);
+  EXPECT_DOUBLE_EQ(surface.pitchY(), 3e-9);
+  EXPECT_DOUBLE_EQ(surface.height(0, 1), 1.041e-9);
+}
+
+TEST(XyzList, WhatIsOnNoGridIsRefused) {
+  std::string scattered;
+  std::string profile;
+  for (int i = 0; i < 40; ++i) {
+    scattered += std::to_string(i * 7 % 11 + 0.37 * i) + " " + std::to_string(i * 5 % 13 - 0.11 * i * i) + " 1.5\n";
+    profile += std::to_string(i) + " " + std::to_string(i * i % 7) + "\n";
+  }
+  EXPECT_NE(refusal(scattered), "");
+  EXPECT_TRUE(mentions(refusal(profile), "2 columns of 40 lines are a profile"));
+  EXPECT_TRUE(mentions(refusal(points() + "2 3 9.000\n"), "has the x and y of another one"));
+}
+
+}  // namespace
+}  // namespace mems_stiction

@@ -1,0 +1,203 @@
+/// Formats of instruments and programs that are read here, from bytes by their definitions.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/import/channel_choice.hpp"
+#include "mems_stiction/import/netcdf_file.hpp"
+#include "mems_stiction/import/npy_file.hpp"
+#include "mems_stiction/import/scan_file.hpp"
+#include "mems_stiction/import/sur_file.hpp"
+#include "mems_stiction/import/wsxm_file.hpp"
+#include "support/scan_bytes.hpp"
+#include "support/scratch_folder.hpp"
+
+namespace mems_stiction {
+namespace {
+
+using namespace scan_bytes;
+
+template <typename Function>
+std::string refusal(Function&& read) {
+  try {
+    read();
+  } catch (const FileError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+bool mentions(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+// ---- WSxM
+
+TEST(WsxmFile, TheMicroSignOfLatin1IsRead) {
+  for (const std::string micro : {"\xB5", "\xC2\xB5", "u"}) {
+    const FileChannel channel = parseWsxm(wsxm("double", "2 " + micro + "m", "5 nm", wsxmDoubles()));
+    EXPECT_DOUBLE_EQ(channel.width, 2e-6);
+    EXPECT_EQ(channel.unit_z, "m");
+    // Upside down and mirrored: the first number is the last pixel.
+    EXPECT_DOUBLE_EQ(channel.values.at<double>(1, 2), 0.0);
+    EXPECT_DOUBLE_EQ(channel.values.at<double>(0, 0), 5e-9);
+  }
+}
+
+TEST(WsxmFile, IntegersSpanTheAmplitude) {
+  std::string data;
+  for (const int value : {100, 200, 150, 300, 100, 100}) data += littleBytes(static_cast<std::int16_t>(value));
+  const FileChannel channel = parseWsxm(wsxm("short", "2 nm", "1 nm", data));
+  const double range = channel.values.at<double>(0, 2) - channel.values.at<double>(1, 2);  // 300 - 100
+  EXPECT_NEAR(range, 1e-9, 1e-22);
+}
+
+TEST(WsxmFile, EveryCutIsRefused) {
+  const std::string whole = wsxm("double", "2 nm", "5 nm", wsxmDoubles());
+  for (std::size_t size = 60; size < whole.size(); ++size) {
+    EXPECT_THROW(parseWsxm(whole.substr(0, size)), FileError) << size << " of " << whole.size();
+  }
+}
+
+TEST(WsxmFile, VoltsAreNoHeights) {
+  const FileChannel channel = parseWsxm(wsxm("double", "2 nm", "5 V", wsxmDoubles()));
+  EXPECT_EQ(channel.unit_z, "V");
+  EXPECT_THROW(chooseHeightChannel({channel}), FileError);
+}
+
+// ---- Digital Surf
+
+TEST(SurFile, PointsThatWereNotMeasuredAreMissing) {
+  for (const bool is_compressed : {false, true}) {
+    Sur kind;
+    kind.is_compressed = is_compressed;
+    const auto channels = parseSur(sur(kind));
+    ASSERT_EQ(channels.size(), 1u);
+    const cv::Mat& values = channels[0].values;
+    EXPECT_TRUE(std::isnan(values.at<double>(0, 2)));
+    EXPECT_DOUBLE_EQ(values.at<double>(0, 0), 5e-9);
+    EXPECT_DOUBLE_EQ(values.at<double>(1, 2), 25e-9);
+    EXPECT_DOUBLE_EQ(channels[0].width, 3 * 0.25e-6) << "a micro sign of MS-DOS";
+    EXPECT_DOUBLE_EQ(channels[0].height, 2 * 0.5e-6);
+    EXPECT_EQ(channels[0].title, "Topography");
+  }
+}
+
+TEST(SurFile, WhereAllPointsWereMeasuredNoneIsMissing) {
+  Sur kind;
+  kind.special = 0;
+  EXPECT_DOUBLE_EQ(parseSur(sur(kind))[0].values.at<double>(0, 2), 4e-9);
+}
+
+TEST(SurFile, InvertedSurfacesAreTurnedBack) {
+  Sur kind;
+  kind.inversion = 2;  // heights and columns
+  EXPECT_DOUBLE_EQ(parseSur(sur(kind))[0].values.at<double>(0, 2), -5e-9);
+  kind.inversion = 3;  // heights and rows
+  EXPECT_DOUBLE_EQ(parseSur(sur(kind))[0].values.at<double>(1, 0), -5e-9);
+}
+
+TEST(SurFile, AnotherUnitOrACutIsRefused) {
+  Sur kind;
+  kind.unit_z = "V";
+  EXPECT_THROW(chooseHeightChannel(parseSur(sur(kind))), FileError);
+  for (const bool is_compressed : {false, true}) {
+    kind.is_compressed = is_compressed;
+    const std::string whole = sur(kind);
+    for (std::size_t size = 0; size < whole.size(); size += 7) {
+      EXPECT_THROW(parseSur(whole.substr(0, size)), FileError) << size << " of " << whole.size();
+    }
+  }
+}
+
+TEST(SurFile, ThePublicFileHasTheRoughnessOfOtherReaders) {
+  const char* folder = std::getenv("MEMS_STICTION_SCANS");
+  if (folder == nullptr) GTEST_SKIP() << "MEMS_STICTION_SCANS is not set to a folder of vendor scans";
+  const HeightStatistics statistics = heightStatistics(readScanFile(std::string(folder) + "/misread/sur-2.sur"));
+  EXPECT_EQ(statistics.valid_count, 563 * 484 - 117);
+  EXPECT_NEAR(statistics.rms_height, 17.5e-9, 0.05e-9);  // three digits are listed
+}
+
+// ---- NetCDF
+
+TEST(NetcdfFile, HeightsOverXAndYKeepTheirUnitAndAxes) {
+  const auto channel = parseNetcdfHeights(heights("um"));
+  ASSERT_TRUE(channel.has_value());
+  ASSERT_EQ(channel->values.size(), cv::Size(3, 2));
+  EXPECT_DOUBLE_EQ(channel->values.at<double>(1, 2), 21e-6);
+  EXPECT_DOUBLE_EQ(channel->values.at<double>(0, 1), 10e-6);
+  EXPECT_DOUBLE_EQ(channel->width, 3e-6);
+  EXPECT_DOUBLE_EQ(channel->height, 4e-6);
+}
+
+TEST(NetcdfFile, AUnitThatIsNoLengthIsRefused) {
+  EXPECT_THROW(chooseHeightChannel({*parseNetcdfHeights(heights("V"))}), FileError);
+}
+
+TEST(NetcdfFile, EveryCutIsRefused) {
+  const std::string whole = heights("nm");
+  for (std::size_t size = 4; size < whole.size(); ++size) {
+    EXPECT_THROW(parseNetcdfHeights(whole.substr(0, size)), FileError) << size << " of " << whole.size();
+  }
+}
+
+/// As GXSM writes them: "var_unit" is always Ang, the unit of the signal stands in "unit".
+std::string gxsm(const std::string& unit) {
+  const std::vector<std::string> range = {ncText("unit", "nm"), ncText("var_unit", "Ang")};
+  return netcdf({{"time", 1}, {"value", 1}, {"dimy", 2}, {"dimx", 3}},
+                {{"FloatField", {0, 1, 2, 3}, {ncText("long_name", "FloatField")}, bigDoubles({0, 1, 2, 10, 11, 12})},
+                 {"rangex", {}, range, bigDoubles({300})},
+                 {"rangey", {}, range, bigDoubles({200})},
+                 {"rangez", {}, {ncText("unit", unit), ncText("var_unit", "Ang")}, bigDoubles({1})},
+                 {"dz", {}, {ncText("unit", unit), ncText("var_unit", "Ang")}, bigDoubles({0.5})}});
+}
+
+TEST(NetcdfFile, GxsmCurrentsAndFrequencyShiftsAreNoHeights) {
+  EXPECT_EQ(gxsmOtherUnit(gxsm("nA")), "nA");
+  EXPECT_EQ(gxsmOtherUnit(gxsm("Hz")), "Hz");
+  EXPECT_EQ(gxsmOtherUnit(gxsm("AA")), "");
+  EXPECT_EQ(gxsmOtherUnit(gxsm("nm")), "");
+}
+
+TEST(NetcdfFile, GxsmFilesGoThroughGwyddionWithTheirOwnUnit) {
+  if (std::system("command -v gwyddion >/dev/null 2>&1") != 0) GTEST_SKIP() << "needs the program gwyddion";
+  const ScratchFolder folder;
+  const HeightMap surface = readScanFile(folder.write("height.nc", gxsm("nm")));
+  EXPECT_NEAR(surface.pitchX(), 100e-10, 1e-18);
+  EXPECT_NEAR(surface.height(1, 2) - surface.height(0, 0), 12 * 0.5e-10, 1e-18);
+  EXPECT_TRUE(mentions(refusal([&] { readScanFile(folder.write("current.nc", gxsm("nA"))); }), "[nA]"));
+}
+
+// ---- NumPy
+
+TEST(NpyFile, EveryNumberTypeAndOrderIsRead) {
+  std::string doubles, bigs, floats, halves, shorts, transposed;
+  for (const int value : {1, 2, 3, 4, 5, 6}) {
+    doubles += littleBytes(static_cast<double>(value));
+    bigs += bigBytes(static_cast<double>(value));
+    floats += littleBytes(static_cast<float>(value));
+    shorts += littleBytes(static_cast<std::int16_t>(value));
+  }
+  for (const int half : {0x3C00, 0x4000, 0x4200, 0x4400, 0x4500, 0x4600})
+    halves += littleBytes(static_cast<std::uint16_t>(half));
+  for (const double value : {1.0, 4.0, 2.0, 5.0, 3.0, 6.0}) transposed += littleBytes(value);
+  for (const std::string& bytes : {npy("<f8", doubles), npy(">f8", bigs), npy("<f4", floats), npy("<f2", halves),
+                                   npy("<i2", shorts), npy("<f8", transposed, "(2, 3)", true)}) {
+    const cv::Mat values = parseNpy(bytes).values;
+    ASSERT_EQ(values.size(), cv::Size(3, 2));
+    for (int i = 0; i < 6; ++i) EXPECT_EQ(values.at<double>(i / 3, i % 3), i + 1.0) << bytes.substr(10, 60);
+  }
+}
+
+TEST(NpyFile, WhatIsNoMatrixOfNumbersIsRefused) {
+  EXPECT_TRUE(mentions(refusal([] { parseNpy(npy("<f8", std::string(48, '\0'), "(6,)")); }), "two dimensions"));
+  EXPECT_TRUE(mentions(refusal([] { parseNpy(npy("<f8", std::string(48, '\0'), "(1, 2, 3)")); }), "two dimensions"));
+  EXPECT_TRUE(mentions(refusal([] { parseNpy(npy("<c16", std::string(96, '\0'))); }), "integers or floating-point"));
+  EXPECT_TRUE(mentions(refusal([] { parseNpy(npy("|O", std::string(48, '\0'))); }), "integers or floating-point"));
+  EXPECT_TRUE(mentions(refusal([] { parseNpy(npy("<f8", std::string(47, '\0'))); }), "47 bytes of numbers"));
+  EXPECT_TRUE(mentions(refusal([] { parseNpy(npy("<f8", "", "(30000, 30000)")); }), "30000 x 30000 pixels are more"));
+}
+
+}  // namespace
+}  // namespace mems_stiction
