@@ -73,9 +73,10 @@ class Progress {
 };
 
 void writeCurve(const std::string& path, const SolvedHalfSpace& solution) {
-  std::string text = "height,force,direction
-";
-  for (const CurvePoint& point : curveOf(solution)) {
+  std::string text =
+      "height,force,direction
+      ";
+      for (const CurvePoint& point : curveOf(solution)) {
     text += numberText(point.height) + "," + numberText(point.force) + "," + word(point.direction) + "\n";
   }
   writeFile(path, text);

@@ -77,12 +77,12 @@ struct ContactSolution {
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
   Status status = Status::kNoEquilibrium;
-  int steps = 0;                   ///< that the solver took
-  double approach = kUnknown;      ///< D from first touch [m]
-  double mean_gap = kUnknown;      ///< over the cells out of contact [m]; 0 when every cell touches
+  int steps = 0;                       ///< that the solver took
+  double approach = kUnknown;          ///< D from first touch [m]
+  double mean_gap = kUnknown;          ///< over the cells out of contact [m]; 0 when every cell touches
   double contact_area = kUnknown;      ///< real area of contact [m^2]
   double contact_fraction = kUnknown;  ///< the same over the area of the valid cells [-]
-  NormalLoad load;                 ///< what presses the surfaces together, by its causes
+  NormalLoad load;                     ///< what presses the surfaces together, by its causes
   ContactEnergies energies;
 
   double pull_off_force = kUnknown;             ///< [N]
