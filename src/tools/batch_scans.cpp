@@ -7,6 +7,7 @@
 #include "half_space_run.hpp"
 #include "mems_stiction/height_map/scan_file.hpp"
 #include "mems_stiction/height_map/scan_sanity.hpp"
+#include "mems_stiction/prediction/force_curve.hpp"
 #include "mems_stiction/scan/half_space_scan.hpp"
 
 namespace mems_stiction {
@@ -135,7 +136,7 @@ RowFields BatchScans::predict(const Item& item, ScanOrigin& origin) {
     verdict = verdictOf(prediction_, configuration_.device, configuration_.uncertainty, configuration_.model,
                         surface_.cellArea());
   }
-  return figureFields(surface_, scanWarnings(surface_), prediction_, verdict);
+  return figureFields(surface_, scanWarnings(surface_), prediction_, verdict, configuration_.model.formulation);
 }
 
 HalfSpaceAnswer BatchScans::solve(const std::function<void(const std::string&)>& tell) const {
@@ -160,7 +161,8 @@ void BatchScans::dump(std::size_t number, RowFields fields, const std::optional<
     append(halfSpaceExtras(*half_space), fields);
     maps = halfSpaceMaps(*half_space);
   }
-  writeFullResult(folder.str(), fields, prepared_.surfaces.lower, prediction_, maps);
+  writeFullResult(folder.str(), fields, prepared_.surfaces.lower, prediction_,
+                  curveOf(prediction_, configuration_.model.interface), maps);
 }
 
 }  // namespace mems_stiction

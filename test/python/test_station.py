@@ -13,7 +13,7 @@ NAN = math.nan
 
 def point(voltage, direction=0, **changes):
     values = dict(direction=direction, voltage=voltage, mechanical_load=1e-6, status=0, is_open=False, pull_off_force=2e-7,
-                  electrostatic_force=3e-6, contact_fraction=1e-4, contact_area_jkr=2e-15, margin=12.0, margin_lower=6.0,
+                  electrostatic_force=3e-6, contact_fraction=1e-4, contact_area_jkr=2e-15, contact_area=4e-15, margin=12.0, margin_lower=6.0,
                   holding_margin=0.5, sticks=0)
     values.update(changes)
     return SimpleNamespace(**values)
@@ -27,7 +27,7 @@ def summary(**changes):
 
 
 def cycle(number, **changes):
-    values = dict(cycle=number, status=0, pull_off_force=1e-7 * number, contact_fraction=1e-4, asperity_count=3, plastic_count=1,
+    values = dict(cycle=number, status=0, pull_off_force=1e-7 * number, contact_fraction=1e-4, contact_area_jkr=2e-15, asperity_count=3, plastic_count=1,
                   rms_height=5e-9, largest_change=1e-10, sticks=0, margin=4.0 / number)
     values.update(changes)
     return SimpleNamespace(**values)

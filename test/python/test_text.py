@@ -10,7 +10,8 @@ from mems_stiction.quantities import length_scale, percent, ratio, with_unit
 
 def prediction(**changes):
     values = dict(status=0, pull_off_force=2.3e-6, van_der_waals_force=0.23e-6, electrostatic_force=0.0,
-                  normal_load=1e-6, rms_height=9.96e-9, voltage=0.0, mechanical_load=0.0, contact_area=1e-14, contact_fraction=0.00123,
+                  normal_load=1e-6, rms_height=9.96e-9, voltage=0.0, mechanical_load=0.0, contact_area=1e-14, contact_fraction=0.00123, contact_area_jkr=1e-15,
+                  regime_flags=0, warnings=[],
                   elastic_count=2, elasto_plastic_count=3, plastic_count=4, processing_time=0.0345)
     values.update(changes)
     return SimpleNamespace(**values)
