@@ -3,6 +3,8 @@
 Arrays are rows x columns, heights in metres, NaN where nothing was measured; row 0 is the top.
 """
 
+import textwrap
+
 import matplotlib
 
 matplotlib.use("Agg")
@@ -21,6 +23,7 @@ from mems_stiction.quantities import length_scale, percent  # noqa: E402
 REGIMES = ((1, "elastic", "#2f7fd1"), (2, "elasto-plastic", "#f2b705"), (3, "plastic", "#d1322f"))
 SMALL_CONTACT_SHARE = 3e-4  # contacts that take less of the frame are ringed, or nobody sees them
 MOST_RINGS = 300
+CAPTION_WIDTH = 175  # letters
 
 
 def with_unit(value, unit, digits=3):
@@ -97,7 +100,7 @@ def _caption(picture):
              "normal load %s" % with_unit(prediction.normal_load, "N"), "voltage %s" % with_unit(prediction.voltage, "V")]
     text = "   |   ".join(parts)
     flags = flag_words(flag_names(prediction.regime_flags))
-    return text + ("\nOutside the model's range: " + flags if flags else "")
+    return text + "\n" + textwrap.fill("Outside the model's range: " + flags, CAPTION_WIDTH) if flags else text
 
 
 def map_axes(axes, picture, title):

@@ -134,6 +134,7 @@ const auto kVisitStep = [](const auto& item, auto&& fields) { visitStepFields(it
 const auto kVisitPoint = [](const auto& item, auto&& fields) { visitEnergyPointFields(item, fields); };
 const auto kVisitCurvePoint = [](const auto& item, auto&& fields) { visitCurvePointFields(item, fields); };
 const auto kVisitSeparationPoint = [](const auto& item, auto&& fields) { visitSeparationPointFields(item, fields); };
+const auto kVisitCleaning = [](const auto& item, auto&& fields) { visitCleaningFields(item, fields); };
 const auto kVisitRow = [](const auto& item, auto&& fields) { visitConvergenceFields(item, fields); };
 
 }  // namespace
@@ -157,6 +158,12 @@ std::string yamlRecord(const std::string& file, const HeightMap& scan, const Pre
     fields("tip_unreached_fraction", extras.preprocessing.tip_unreached_fraction, "");
   }
   addYamlList(emitter, "convergence", extras.convergence, kVisitRow);
+  addYamlList(emitter, "cleanings", extras.cleanings, kVisitCleaning);
+  if (!extras.cleanings.empty()) {
+    emitter << YAML::Key << "cleaning_spread" << YAML::Value << YAML::BeginMap;
+    visitSpreadFields(spreadOf(extras.cleanings), fields);
+    emitter << YAML::EndMap;
+  }
   addYamlList(emitter, "energy_curve", prediction.energy_curve, kVisitPoint);
   if (extras.has_curve) addYamlList(emitter, "curve", prediction.curve, kVisitSeparationPoint);
   if (extras.half_space) {
@@ -168,6 +175,7 @@ std::string yamlRecord(const std::string& file, const HeightMap& scan, const Pre
   emitter << YAML::EndMap;
   std::string text = std::string(emitter.c_str()) + "\n";
   if (!extras.convergence.empty()) text += convergenceTable(extras.convergence, "# ");
+  if (!extras.cleanings.empty()) text += cleaningTable(extras.cleanings, "# ");
   return text;
 }
 
@@ -191,6 +199,8 @@ std::string jsonRecord(const std::string& file, const HeightMap& scan, const Pre
     record["tip_unreached_fraction"] = extras.preprocessing.tip_unreached_fraction;
   }
   addJsonList(record, "convergence", extras.convergence, kVisitRow);
+  addJsonList(record, "cleanings", extras.cleanings, kVisitCleaning);
+  if (!extras.cleanings.empty()) visitSpreadFields(spreadOf(extras.cleanings), JsonFields(record["cleaning_spread"]));
   addJsonList(record, "energy_curve", prediction.energy_curve, kVisitPoint);
   if (extras.has_curve) addJsonList(record, "curve", prediction.curve, kVisitSeparationPoint);
   if (extras.half_space) {

@@ -40,6 +40,7 @@ struct Arguments {
   bool record_curve = false;
   bool half_space = false;
   bool convergence = false;
+  bool cleanings = false;
   std::vector<std::string> scans;
 };
 
@@ -86,6 +87,10 @@ void describe(CLI::App& app, Arguments& arguments) {
                "the record holds the formulation's curve: displacement, force, is_separation of each point");
   app.add_flag("--convergence", arguments.convergence,
                "predict at full, half and quarter resolution too, and print how pull-off force and contact area move");
+  app.add_flag(
+      "--cleanings", arguments.cleanings,
+      "predict under each reasonable cleaning too (not levelled, plane, parabola, row medians; with and without "
+      "spikes), and print how pull-off force and margin move");
   app.add_option("-d,--deformed", arguments.deformed,
                  "write the surface after contact as a float TIFF in metres; for one scan")
       ->type_name("OUT.tiff");
@@ -177,6 +182,7 @@ void predictScan(const std::string& path, const Arguments& arguments, const Scan
     if (!curve_files.formulation.empty() || extras.has_curve) requireCurve(prediction, options.formulation);
     extras.preprocessing = prepared.record;
     if (arguments.convergence) extras.convergence = predictor.convergence(prepared);
+    if (arguments.cleanings) extras.cleanings = cleaningSpread(scan.surface, configuration);
     if (arguments.half_space) {
       extras.half_space = solveWithProgress(half_space, halfSpaceProblem(prepared, options));
     }
