@@ -115,13 +115,13 @@ CleaningSpread spreadOf(const std::vector<CleaningRow>& rows) {
 std::string cleaningTable(const std::vector<CleaningRow>& rows, const std::string& indent) {
   std::string text =
       indent +
-      "cleaning                               rms [m]  pull-off [N]  contacts    margin     from       to  sticks\n";
+      "cleaning                                 rms [m]  pull-off [N]  contacts    margin     from       to  sticks\n";
   for (const CleaningRow& row : rows) {
     char line[240];
     if (row.reason.empty()) {
       const std::string note = row.is_reasonable ? "" : "  tilted: does not count";
       const std::string status = row.status == Status::kEquilibrium ? "" : std::string("  ") + word(row.status);
-      std::snprintf(line, sizeof line, "%-34s  %10.3g  %12.4g  %8d  %8.3g %8.3g %8.3g  %s%s%s\n", row.cleaning.c_str(),
+      std::snprintf(line, sizeof line, "%-36s  %10.3g  %12.4g  %8d  %8.3g %8.3g %8.3g  %s%s%s\n", row.cleaning.c_str(),
                     row.rms_height, row.pull_off_force, row.asperity_count, row.margin, row.margin_lower,
                     row.margin_upper, sticksText(row.sticks), status.c_str(), note.c_str());
       text += indent + line;
