@@ -74,7 +74,8 @@ def table_line(name, prediction, with_verdict=False):
     marked so."""
     bound = bound_of(prediction)
     force = prediction.pull_off_force
-    share = percent(prediction.van_der_waals_force / force) if force else "-"
+    # of a formulation that follows the force it is no part of the pull-off force
+    share = percent(prediction.van_der_waals_force / force) if force and not math.isnan(prediction.contact_area_jkr) else "-"
     line = _COLUMNS % (shortened(name), STATUS_NAMES.get(prediction.status, "?"), with_unit(prediction.rms_height, "m"),
                        bound + with_unit(force, "N"), percent(prediction.contact_fraction), prediction.elastic_count,
                        prediction.elasto_plastic_count, prediction.plastic_count, share,

@@ -179,7 +179,7 @@ def _flags(names):
 
 def _limits(row):
     """What speaks against relying on a row: flags in words, and warnings."""
-    return "; ".join(text for text in (_flags(row["regime_flag_names"]), row["warnings"]) if text)
+    return "; ".join(text for text in (_flags(row.get("regime_flag_names", "")), row.get("warnings", "")) if text)
 
 
 def _sentence(text):

@@ -65,6 +65,16 @@ class SweepTextTest(unittest.TestCase):
         self.assertIn("hysteresis, widest at 0 V: JKR contact area 2000 nm^2 on the way up, 8000 nm^2 on the way down", text)
         self.assertIn("Pull-in voltage: not stated", text)
 
+    def test_a_formulation_without_jkr_contacts_shows_the_area_itself(self):
+        points = [point(0.0, contact_area_jkr=NAN, status=1), point(20.0, contact_area_jkr=NAN, contact_area=9e-15),
+                  point(0.0, 1, contact_area_jkr=NAN, contact_area=8e-15)]
+        line = sweep_line(points[0])
+        self.assertIn("4000 nm^2", line)
+        self.assertNotIn(">=", line)
+        text = "\n".join(sweep_sentences(SimpleNamespace(points=points, summaries=[summary()], pull_in_voltage=NAN)))
+        self.assertIn("widest at 0 V: contact area 4000 nm^2 on the way up, 8000 nm^2 on the way down", text)
+        self.assertNotIn("nan", text + line)
+
     def test_no_difference_is_no_hysteresis(self):
         self.assertIsNone(widest_gap([point(0.0), point(20.0), point(0.0, 1)], 1e-6))
         self.assertIsNone(widest_gap([point(0.0)], 1e-6))
