@@ -106,7 +106,7 @@ void drawCurves(cv::Mat& picture, const cv::Rect& frame, const DrawnCurve& curve
   const Axis y(forces.first->force, forces.second->force, frame.y + frame.height, frame.y);
   drawAxes(picture, frame, x, y);
   for (const CurveDirection direction : {CurveDirection::kApproach, CurveDirection::kRetraction}) {
-    drawWay(picture, beside.points, direction, x, y, kBesideColour, 1);
+    drawWay(picture, beside.points, direction, x, y, kBesideColour, 2);
   }
   drawWay(picture, curve.points, CurveDirection::kApproach, x, y, kApproachColour,
           5);  // seen on both sides of the other

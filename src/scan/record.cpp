@@ -148,7 +148,6 @@ std::string yamlRecord(const std::string& file, const HeightMap& scan, const Pre
   if (!extras.channel.empty()) fields("channel", extras.channel, "");
   visitScanFields(scan, fields);
   visitResultFields(scan, prediction, extras, fields);
-  if (!extras.warnings.empty()) emitter << YAML::Key << "warnings" << YAML::Value << extras.warnings;
   emitter << YAML::Key << "roughness" << YAML::Value << YAML::BeginMap;
   visitRoughnessFields(prediction.roughness, fields);
   if (isComputed(prediction.spatial_roughness)) visitSpatialRoughnessFields(prediction.spatial_roughness, fields);
@@ -187,7 +186,6 @@ std::string jsonRecord(const std::string& file, const HeightMap& scan, const Pre
   JsonFields fields(record);
   visitScanFields(scan, fields);
   visitResultFields(scan, prediction, extras, fields);
-  if (!extras.warnings.empty()) record["warnings"] = extras.warnings;
   nlohmann::json roughness;
   visitRoughnessFields(prediction.roughness, JsonFields(roughness));
   if (isComputed(prediction.spatial_roughness)) {

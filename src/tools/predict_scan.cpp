@@ -172,9 +172,8 @@ void predictScan(const std::string& path, const Arguments& arguments, const Scan
   RecordExtras extras;
   extras.channel = scan.channel;
   extras.formulation = options.formulation;
-  extras.warnings = scanWarnings(scan.surface);
   extras.has_curve = arguments.record_curve;
-  for (const std::string& warning : extras.warnings) std::cerr << path << ": warning: " << warning << "\n";
+  for (const std::string& warning : scanWarnings(scan.surface)) std::cerr << path << ": warning: " << warning << "\n";
   try {
     const PreparedScan prepared = predictor.preparer().prepare(scan.surface);
     prediction = predictor.predict(prepared);

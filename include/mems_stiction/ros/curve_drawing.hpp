@@ -24,7 +24,7 @@ struct DrawnCurve {
 /// Both ways of the curve with axes and a legend, and the pull-off marked.
 /// - @p frame of the axes; their numbers and names are outside
 /// - @p curve has a point
-/// - @p beside laid under it as far as the axes reach, in one thin line for each way; may have no point
+/// - @p beside laid under it as far as the axes reach, both ways in one colour; may have no point
 void drawCurves(cv::Mat& picture, const cv::Rect& frame, const DrawnCurve& curve, const DrawnCurve& beside = {});
 
 }  // namespace mems_stiction

@@ -21,7 +21,6 @@ namespace mems_stiction {
 struct RecordExtras {
   std::string channel;                        ///< which channel of the file
   std::string formulation;                    ///< that the prediction is of
-  std::vector<std::string> warnings;          ///< about the scan
   std::optional<Verdict> verdict;             ///< on the device
   bool has_curve = false;                     ///< the prediction's curve, as a list of maps
   PreprocessRecord preprocessing;             ///< a list of maps: step, parameters, rms_change, changed_pixels, ...

@@ -148,13 +148,11 @@ TEST(Record, CurveIsAListWhenItIsAskedFor) {
   EXPECT_EQ(json["curve"][1]["force"].get<double>(), 1e-7);
 }
 
-TEST(Record, FlagsFormulationAndWarningsAreThereWithoutADevice) {
+TEST(Record, FlagsAndFormulationAreThereWithoutADevice) {
   RecordExtras extras;
   extras.formulation = "consistent";
-  extras.warnings = {"pitch: odd"};
   const YAML::Node yaml = YAML::Load(yamlRecord("a", scan(), example(), extras));
   EXPECT_EQ(yaml["formulation"].as<std::string>(), "consistent");
-  EXPECT_EQ(yaml["warnings"][0].as<std::string>(), "pitch: odd");
   EXPECT_EQ(yaml["regime_flags"].as<unsigned>() & 1u, 1u) << "bonded";
   EXPECT_EQ(yaml["regime_flag_names"].as<std::string>().substr(0, 6), "bonded");
   EXPECT_FALSE(yaml["sticks"].IsDefined());
