@@ -151,6 +151,31 @@ TEST_F(PredictScan, BadSettingsAreOneLineEach) {
   EXPECT_EQ(run("--load heavy " + scan).status, 2);
 }
 
+TEST_F(PredictScan, UnitSlipsAreWarnedOfOnStandardError) {
+  const Outcome outcome = run("--pitch 20 " + sphere());
+  EXPECT_EQ(outcome.status, 0);
+  ASSERT_FALSE(outcome.errors.empty());
+  EXPECT_NE(outcome.errors[0].find("warning: pitch_x 20 m"), std::string::npos) << outcome.errors[0];
+  EXPECT_EQ(outcome.output.find("warning"), std::string::npos);
+}
+
+TEST_F(PredictScan, ConvergenceIsAListInBothFormatsAndATableForPeople) {
+  const std::string call = "--convergence --pitch 20e-9 --load 1e-5 " + sphere();
+  const Outcome json = run("--json " + call);
+  ASSERT_EQ(json.status, 0);
+  const nlohmann::json record = nlohmann::json::parse(json.output);
+  ASSERT_EQ(record["convergence"].size(), 3u);
+  EXPECT_EQ(record["convergence"][2]["decimation"], 4);
+  EXPECT_EQ(record["convergence"][2]["cols"], 25);
+  EXPECT_EQ(record["is_resolution_limited"].type(), nlohmann::json::value_t::boolean);
+
+  const Outcome yaml = run(call);
+  EXPECT_NE(yaml.output.find("# half "), std::string::npos) << yaml.output;
+  const YAML::Node document = YAML::Load(yaml.output);
+  EXPECT_EQ(document["convergence"][1]["pull_off_force"].as<double>(),
+            record["convergence"][1]["pull_off_force"].get<double>());
+}
+
 /// Height [m] and force [N] of the points of one direction, in the order of the file.
 std::vector<std::pair<double, double>> pointsOf(const std::string& csv, const std::string& direction) {
   std::istringstream lines(csv);
@@ -217,31 +242,6 @@ TEST_F(PredictScan, CleaningsAreAListWithTheirSpread) {
   EXPECT_EQ(record["cleanings"][0]["pull_off_force"].as<double>(), record["pull_off_force"].as<double>());
   EXPECT_GE(record["cleaning_spread"]["pull_off_factor"].as<double>(), 1.0);
   EXPECT_NE(outcome.output.find("# Over "), std::string::npos);
-}
-
-TEST_F(PredictScan, UnitSlipsAreWarnedOfOnStandardError) {
-  const Outcome outcome = run("--pitch 20 " + sphere());
-  EXPECT_EQ(outcome.status, 0);
-  ASSERT_FALSE(outcome.errors.empty());
-  EXPECT_NE(outcome.errors[0].find("warning: pitch_x 20 m"), std::string::npos) << outcome.errors[0];
-  EXPECT_EQ(outcome.output.find("warning"), std::string::npos);
-}
-
-TEST_F(PredictScan, ConvergenceIsAListInBothFormatsAndATableForPeople) {
-  const std::string call = "--convergence --pitch 20e-9 --load 1e-5 " + sphere();
-  const Outcome json = run("--json " + call);
-  ASSERT_EQ(json.status, 0);
-  const nlohmann::json record = nlohmann::json::parse(json.output);
-  ASSERT_EQ(record["convergence"].size(), 3u);
-  EXPECT_EQ(record["convergence"][2]["decimation"], 4);
-  EXPECT_EQ(record["convergence"][2]["cols"], 25);
-  EXPECT_EQ(record["is_resolution_limited"].type(), nlohmann::json::value_t::boolean);
-
-  const Outcome yaml = run(call);
-  EXPECT_NE(yaml.output.find("# half "), std::string::npos) << yaml.output;
-  const YAML::Node document = YAML::Load(yaml.output);
-  EXPECT_EQ(document["convergence"][1]["pull_off_force"].as<double>(),
-            record["convergence"][1]["pull_off_force"].get<double>());
 }
 
 TEST_F(PredictScan, TheRecordSaysHowTheScanWasCleanedAndHowFarItsRoughnessReaches) {
