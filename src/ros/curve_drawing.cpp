@@ -105,20 +105,21 @@ void drawCurves(cv::Mat& picture, const cv::Rect& frame, const DrawnCurve& curve
   const auto forces = std::minmax_element(shown.begin(), shown.end(), byForce);
   const Axis y(forces.first->force, forces.second->force, frame.y + frame.height, frame.y);
   drawAxes(picture, frame, x, y);
+  const int right = frame.x + frame.width;
+  const cv::Point2d mark(x.pixel(curve.pull_off_height), y.pixel(curve.pull_off_force));
+  const bool is_marked = !std::isnan(curve.pull_off_force);
+  if (is_marked) {  // below the lines, which it would hide
+    writeLabel(picture, "pull-off " + quantity(curve.pull_off_force, "N"),
+               {static_cast<int>(mark.x), static_cast<int>(mark.y) - 16}, frame.x, right);
+  }
   for (const CurveDirection direction : {CurveDirection::kApproach, CurveDirection::kRetraction}) {
     drawWay(picture, beside.points, direction, x, y, kBesideColour, 2);
   }
-  drawWay(picture, curve.points, CurveDirection::kApproach, x, y, kApproachColour,
-          5);  // seen on both sides of the other
+  // seen on both sides of the other
+  drawWay(picture, curve.points, CurveDirection::kApproach, x, y, kApproachColour, 5);
   drawWay(picture, curve.points, CurveDirection::kRetraction, x, y, kRetractionColour, 2);
-  const int right = frame.x + frame.width;
   drawLegend(picture, right, frame.y - 20, beside.points.empty() ? "" : beside.name);
-  if (std::isnan(curve.pull_off_force)) return;
-  const double mark_x = x.pixel(curve.pull_off_height);
-  const double mark_y = y.pixel(curve.pull_off_force);
-  cv::circle(picture, fine(mark_x, mark_y), 7 << kShift, kTextColour, 2, cv::LINE_AA, kShift);
-  writeLabel(picture, "pull-off " + quantity(curve.pull_off_force, "N"),
-             {static_cast<int>(mark_x), static_cast<int>(mark_y) - 16}, frame.x, right);
+  if (is_marked) cv::circle(picture, fine(mark.x, mark.y), 7 << kShift, kTextColour, 2, cv::LINE_AA, kShift);
 }
 
 }  // namespace mems_stiction
