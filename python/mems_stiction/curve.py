@@ -48,18 +48,21 @@ class Way:
 class Curve:
     """Approach and retraction; either may be empty."""
 
-    def __init__(self, name, points):
-        """points: (height, force, direction) in the order in which they were met."""
+    def __init__(self, name, points, pull_off_force=None):
+        """points: (height, force, direction) in the order in which they were met. pull_off_force [N]: as its model states it,
+        where the largest force lies between two points."""
         self.name = name
+        self.pull_off_force = pull_off_force
         self.approach, self.retraction = (
             Way([point[:2] for point in points if point[2] == direction]) for direction in DIRECTIONS)
 
     def pull_off(self):
-        """(height, force) of the largest attraction of the retraction; None where nothing attracts, or there is none."""
+        """(height, force) of the largest attraction of the retraction, or the force that is stated; None where nothing attracts,
+        or there is none."""
         if not len(self.retraction) or self.retraction.forces.max() <= 0:
             return None
         place = int(np.argmax(self.retraction.forces))
-        return float(self.retraction.heights[place]), float(self.retraction.forces[place])
+        return float(self.retraction.heights[place]), self.pull_off_force or float(self.retraction.forces[place])
 
     def came_apart(self):
         """Whether the attraction has fallen off: a path that was broken off ends near its largest."""

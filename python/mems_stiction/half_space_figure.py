@@ -5,11 +5,10 @@
 
 import numpy as np
 
-from mems_stiction.curve import Curve
 from mems_stiction.curve_figure import draw_curves
 from mems_stiction.plots import beside, draw_contacts, draw_relief, map_axes, plt
 from mems_stiction.quantities import length_scale
-from mems_stiction.report_figures import number, png_of, scaled
+from mems_stiction.report_figures import curves_of, number, png_of, scaled
 
 MOST_RINGED_CELLS = 4000  # more contact is seen without rings
 SMALL_GROUP_SHARE = 3e-4  # of the frame
@@ -20,14 +19,14 @@ def half_space_figure(picture, pressure, result):
     figure = plt.figure(figsize=(15, 4.9), dpi=110)
     grid = figure.add_gridspec(1, 2, left=0.045, right=0.595, top=0.92, bottom=0.17, wspace=0.16)
     of_model = figure.add_subplot(grid[0])
-    draw_contacts(of_model, picture, title="Contact: asperity model, by regime", legend_at=0.165)
+    draw_contacts(of_model, picture, title="Contact: prediction, by regime", legend_at=0.165)
     of_model.set_ylabel("y [%s]" % length_scale(max(picture.extent))[1])
     _draw_pressure(figure, figure.add_subplot(grid[1]), picture, pressure)
     axes = figure.add_subplot(figure.add_gridspec(1, 1, left=0.685, right=0.985, top=0.92, bottom=0.17)[0])
-    axes.set_title("Force over height: half-space", fontsize=11)
-    columns = result["half_space_curve"]
-    if columns:
-        draw_curves(axes, [Curve("half-space", list(zip(columns["height"], columns["force"], columns["direction"])))])
+    axes.set_title("Force over height", fontsize=11)
+    curves = curves_of(result)
+    if curves:
+        draw_curves(axes, curves)
     else:
         axes.set_axis_off()
     return png_of(figure)

@@ -3,6 +3,8 @@
 Arrays are rows x columns, heights in metres, NaN where nothing was measured; row 0 is the top.
 """
 
+import textwrap
+
 import matplotlib
 
 matplotlib.use("Agg")
@@ -13,7 +15,7 @@ from matplotlib.colors import ListedColormap  # noqa: E402
 from matplotlib.patches import Patch  # noqa: E402
 from mpl_toolkits.axes_grid1 import make_axes_locatable  # noqa: E402
 
-from mems_stiction.prediction_text import STATUS_NAMES  # noqa: E402
+from mems_stiction.prediction_text import STATUS_NAMES, bound_of, flag_names, flag_words  # noqa: E402
 from mems_stiction import quantities  # noqa: E402
 from mems_stiction.quantities import length_scale, percent  # noqa: E402
 
@@ -21,6 +23,7 @@ from mems_stiction.quantities import length_scale, percent  # noqa: E402
 REGIMES = ((1, "elastic", "#2f7fd1"), (2, "elasto-plastic", "#f2b705"), (3, "plastic", "#d1322f"))
 SMALL_CONTACT_SHARE = 3e-4  # contacts that take less of the frame are ringed, or nobody sees them
 MOST_RINGS = 300
+CAPTION_WIDTH = 175  # letters
 
 
 def with_unit(value, unit, digits=3):
@@ -77,7 +80,7 @@ def save_picture(picture, path):
     grid = figure.add_gridspec(1, 3, width_ratios=(1.0, 1.0, 1.15), left=0.045, right=0.985, top=0.80, bottom=0.17,
                                wspace=0.22)
     figure.suptitle(picture.name, x=0.045, y=0.965, ha="left", fontsize=14, fontweight="bold")
-    figure.text(0.045, 0.88, _caption(picture), fontsize=10.5, color="#333333")
+    figure.text(0.045, 0.925, _caption(picture), fontsize=10.5, color="#333333", va="top")
     _draw_heights(figure, figure.add_subplot(grid[0]), picture)
     contact_axes = figure.add_subplot(grid[1])
     section = _section(picture)
@@ -89,13 +92,15 @@ def save_picture(picture, path):
 
 def _caption(picture):
     prediction = picture.prediction
-    bound = "at least " if prediction.status == 1 else ""
+    bound = bound_of(prediction, "at least ")
     parts = [STATUS_NAMES.get(prediction.status, "?"),
              "pull-off force %s%s" % (bound, with_unit(prediction.pull_off_force, "N")),
              "contact %s of the area" % percent(prediction.contact_fraction),
              "rms height %s" % with_unit(prediction.rms_height, "m"),
              "normal load %s" % with_unit(prediction.normal_load, "N"), "voltage %s" % with_unit(prediction.voltage, "V")]
-    return "   |   ".join(parts)
+    text = "   |   ".join(parts)
+    flags = flag_words(flag_names(prediction.regime_flags))
+    return text + "\n" + textwrap.fill("Outside the model's range: " + flags, CAPTION_WIDTH) if flags else text
 
 
 def map_axes(axes, picture, title):

@@ -6,9 +6,47 @@ from mems_stiction.quantities import area, percent, ratio, with_unit
 
 STATUS_NAMES = {0: "equilibrium", 1: "bonded", 2: "no equilibrium"}
 STICKS_NAMES = {0: "no", 1: "marginal", 2: "yes", 3: "unknown"}
+# Bits of regime_flags: name, and what it means.
+FLAGS = {1: ("bonded", "the surfaces bond"), 2: ("no_equilibrium", "the search ended before the equilibrium"),
+         4: ("tabor", "JKR is not the theory for these asperities"),
+         8: ("plasticity", "most of the adhesion is of contacts that flow"),
+         16: ("resolution", "most of the adhesion is of contacts of few pixels"),
+         32: ("few_contacts", "few contacts: another place of the surface may differ much"),
+         64: ("near_bonding", "little more would press the surfaces flat: contacts may grow together"),
+         128: ("border", "most of the adhesion is of contacts at the frame's border: their summits may lie outside"),
+         256: ("one_pixel", "most of the adhesion is of contacts of one pixel")}
 
 _COLUMNS = "%-18s  %-14s %8s %11s %9s %8s %6s %8s %9s %7s %8s"
 _VERDICT = " %9s  %-8s"
+
+
+def bound_of(result, mark=">= "):
+    """The mark before a pull-off force that is a lower bound: the paper's search of bonded surfaces, which knows a JKR area,
+    ends before the contacts stop growing; the curve of a formulation that follows the force does not."""
+    return mark if result.status == 1 and not math.isnan(result.contact_area_jkr) else ""
+
+
+def flag_names(flags):
+    """The names of the bits that are set, in their order."""
+    return [name for bit, (name, _) in sorted(FLAGS.items()) if flags & bit]
+
+
+def flag_words(names):
+    """What the flags of these names mean, as one text; a name that is not known stands for itself."""
+    meanings = dict(FLAGS.values())
+    return "; ".join(meanings.get(name, name) for name in names)
+
+
+def limits_of(prediction):
+    """What speaks against relying on the prediction, in one line: its flags in words, and the warnings about its scan."""
+    flags = flag_words(flag_names(prediction.regime_flags))
+    return "; ".join((["outside the model's range: " + flags] if flags else [])
+                     + ["warning: " + text for text in prediction.warnings])
+
+
+def contact_area_of(result):
+    """Area [m^2] by the contacts' own theory: of the paper's formulations the JKR contacts, else the area itself."""
+    return result.contact_area if math.isnan(result.contact_area_jkr) else result.contact_area_jkr
 
 
 def has_verdict(prediction):
@@ -32,11 +70,12 @@ def shortened(name, width=18):
 
 def table_line(name, prediction, with_verdict=False):
     """Rms height, pull-off force, contact, contacts per regime, van der Waals share of the pull-off force, load and time of
-    one scan, then the device's margin, or its peel number, and whether it sticks. A bonded surface's force is a lower
-    bound and marked so."""
-    bound = ">= " if prediction.status == 1 else ""
+    one scan, then the device's margin, or its peel number, and whether it sticks, and the names of its flags and its warnings. A force that is a lower bound is
+    marked so."""
+    bound = bound_of(prediction)
     force = prediction.pull_off_force
-    share = percent(prediction.van_der_waals_force / force) if force else "-"
+    # of a formulation that follows the force it is no part of the pull-off force
+    share = percent(prediction.van_der_waals_force / force) if force and not math.isnan(prediction.contact_area_jkr) else "-"
     line = _COLUMNS % (shortened(name), STATUS_NAMES.get(prediction.status, "?"), with_unit(prediction.rms_height, "m"),
                        bound + with_unit(force, "N"), percent(prediction.contact_fraction), prediction.elastic_count,
                        prediction.elasto_plastic_count, prediction.plastic_count, share,
@@ -44,7 +83,8 @@ def table_line(name, prediction, with_verdict=False):
     if with_verdict:
         figure = prediction.peel_number if math.isnan(prediction.margin) else prediction.margin
         line += _VERDICT % (ratio(figure), STICKS_NAMES.get(prediction.sticks, "?"))
-    return line
+    limits = flag_names(prediction.regime_flags) + ["warning: " + text for text in prediction.warnings]
+    return line + ("  " + ", ".join(limits) if limits else "")
 
 
 def load_effect(before, after):

@@ -21,12 +21,13 @@ import yaml
 
 from mems_stiction.half_space_figure import half_space_figure, half_space_words, pull_off_ratio
 from mems_stiction.plots import ScanPicture, save_picture, with_unit
+from mems_stiction.prediction_text import flag_words
 from mems_stiction.quantities import percent, ratio
-from mems_stiction.report_figures import number, scan_figure, trend_figure
+from mems_stiction.report_figures import is_lower_bound, number, scan_figure, trend_figure
 from mems_stiction.report_template import PAGE
 
 STATES = {"EQUILIBRIUM": (0, "equilibrium"), "BONDED": (1, "bonded"), "NO_EQUILIBRIUM": (2, "no equilibrium")}
-FIGURES = (("pull-off force", "pull_off_force", "N"), ("of contacts, by JKR", "pull_off_force_jkr", "N"),
+FIGURES = (("formulation", "formulation", "word"), ("pull-off force", "pull_off_force", "N"), ("of contacts, by JKR", "pull_off_force_jkr", "N"),
            ("of contacts, JKR-DMT transition", "pull_off_force_transition", "N"), ("normal load", "normal_load", "N"),
            ("voltage", "voltage", "V"), ("mechanical load", "mechanical_load", "N"),
            ("contact fraction", "contact_fraction", "%"), ("contact area", "contact_area", "m^2"),
@@ -38,7 +39,8 @@ FIGURES = (("pull-off force", "pull_off_force", "N"), ("of contacts, by JKR", "p
            ("restoring force of the device", "restoring_force", "N"),
            ("pull-off force of the device", "device_pull_off_force", "N"), ("margin", "margin", ""),
            ("margin, 95 % from", "margin_lower", ""), ("margin, 95 % to", "margin_upper", ""),
-           ("pull-in voltage", "pull_in_voltage", "V"), ("apparent work of adhesion", "apparent_work_of_adhesion", "J/m^2"),
+           ("pull-in voltage", "pull_in_voltage", "V"), ("stiffness of the contact", "contact_stiffness", "N/m"),
+           ("flattening energy / work of adhesion", "flattening_ratio", ""), ("apparent work of adhesion", "apparent_work_of_adhesion", "J/m^2"),
            ("peel number", "peel_number", ""), ("peel number, 95 % from", "peel_number_lower", ""),
            ("peel number, 95 % to", "peel_number_upper", ""), ("detachment length", "detachment_length", "m"),
            ("free length while stuck", "unstuck_length", "m"))
@@ -51,11 +53,6 @@ HALF_SPACE_FIGURES = (("pull-off force, prediction", "pull_off_force", "N"),
                       ("adhesion hysteresis, half-space", "half_space_adhesion_hysteresis", "J/m^2"),
                       ("time of the solution", "half_space_processing_time", "s"))
 ROUNDING = 1e-6  # of the work of adhesion: less hysteresis is none
-FLAGS = {"bonded": "contacts percolate, the pull-off force is a lower bound",
-         "no_equilibrium": "the search ended before the equilibrium", "tabor": "JKR is not the theory for these asperities",
-         "plasticity": "most of the adhesion is of contacts that flow",
-         "resolution": "most of the adhesion is of contacts of few pixels",
-         "few_contacts": "few contacts: another place of the surface may differ much"}
 SOURCES = (
     "Adhesion of two rough surfaces, equilibrium, plasticity limits: S. Deladi, G. Krijnen, N. Tas, M. Elwenspoek, "
     "Three dimensional adhesion model for arbitrary rough surfaces (2002); as implemented, and what differs: doc/theory.md.",
@@ -117,7 +114,7 @@ def picture_of(folder, result, title):
     prediction = SimpleNamespace(**{key: number(value) for key, value in result.items()
                                     if value is None or isinstance(value, (int, float))})
     prediction.status = STATES[result["status"]][0]
-    for name in ("elastic_count", "elasto_plastic_count", "plastic_count"):
+    for name in ("elastic_count", "elasto_plastic_count", "plastic_count", "regime_flags"):
         setattr(prediction, name, result[name])
     return ScanPicture(title, arrays["heights"], arrays["deformed"], arrays["counter_deformed"], arrays["contact_map"],
                        asperities, prediction, result["pitch_x"], result["pitch_y"])
@@ -138,12 +135,12 @@ def scan_section(row, folder):
             "details": embedded(scan_figure(result)), "figures": _figures(result, FIGURES),
             "half_space": _half_space(picture, result, folder),
             "warnings": [row["warnings"]] if row["warnings"] else [], "sticks": result.get("sticks"),
-            "verdict": _sentence(result.get("verdict_reason", "")), "flags": _flags(result.get("regime_flag_names", ""))}
+            "verdict": _sentence(result.get("verdict_reason", "")), "flags": _flags(result["regime_flag_names"])}
 
 
 def _figures(result, wanted):
     """Pairs of label and text of those that the result has."""
-    bound = "≥ " if result["status"] == "BONDED" else ""
+    bound = "≥ " if is_lower_bound(result) else ""
     return [(label, (bound if key.startswith("pull_off_force") else "") + text_of(result[key], unit))
             for label, key, unit in wanted if key in result and text_of(result[key], unit) != "not stated"]
 
@@ -167,7 +164,7 @@ def _half_space(picture, result, folder):
 
 def _half_space_ratio(row):
     value = pull_off_ratio(row)
-    return "" if math.isnan(value) else ("≥ " if row["status"] == "BONDED" else "") + ratio(value)
+    return "" if math.isnan(value) else ("≥ " if is_lower_bound(row) else "") + ratio(value)
 
 
 def _half_space_cell(row):
@@ -177,7 +174,12 @@ def _half_space_cell(row):
 
 
 def _flags(names):
-    return "; ".join(FLAGS.get(name, name) for name in names.split(", ") if name)
+    return flag_words([name for name in names.split(", ") if name])
+
+
+def _limits(row):
+    """What speaks against relying on a row: flags in words, and warnings."""
+    return "; ".join(text for text in (_flags(row.get("regime_flag_names", "")), row.get("warnings", "")) if text)
 
 
 def _sentence(text):
@@ -187,12 +189,12 @@ def _sentence(text):
 def table_row(row, drawn, judge):
     entry = {"number": row["number"], "name": scan_name(row), "reason": row["reason"], "anchor": row["number"] in drawn}
     if not row["reason"]:
-        bound = "≥ " if row["status"] == "BONDED" else ""
+        bound = "≥ " if is_lower_bound(row) else ""
         entry.update(status=STATES[row["status"]][1], pull_off=bound + text_of(row["pull_off_force"], "N"),
                      contact=percent(row["contact_fraction"]), contacts=row["asperity_count"],
                      regimes="%d / %d / %d" % (row["elastic_count"], row["elasto_plastic_count"], row["plastic_count"]),
                      rms=text_of(row["rms_height"], "m"), sticks=row.get("sticks"), ratio=_ratio_with_interval(row, judge),
-                     half_space=_half_space_cell(row))
+                     half_space=_half_space_cell(row), limits=_limits(row))
     return entry
 
 
@@ -241,7 +243,7 @@ def page(title, rows, sections, settings_text, configuration_path, date=None):
         has_half_space=any("half_space_reason" in row for row in predicted),
         has_device=any("sticks" in row for row in predicted), judged_by=judged_by(predicted).replace("_", " "),
         table=[table_row(row, drawn, judged_by(predicted)) for row in rows],
-        bounded=any(row["status"] == "BONDED" for row in predicted),
+        bounded=any(is_lower_bound(row) for row in predicted), limited=any(_limits(row) for row in predicted),
         trends=embedded(trend_figure(predicted)) if len(predicted) > 1 else "", scans=sections,
         inputs=settings["inputs"], versions=versions, sources=SOURCES, configuration_file=given,
         configuration_name=str(configuration_path or ""), configuration=re.sub(r"(?m)^  ", "", configuration))

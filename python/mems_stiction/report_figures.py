@@ -6,6 +6,8 @@
 import io
 import math
 
+from mems_stiction.curve import Curve
+from mems_stiction.curve_figure import draw_curves
 from mems_stiction.plots import REGIMES, plt, with_unit
 from mems_stiction.quantities import prefix_for
 
@@ -37,6 +39,20 @@ def number(value):
     return math.nan if value is None else float(value)
 
 
+def is_lower_bound(result):
+    """Whether the pull-off force is one: the paper's search of bonded surfaces, which knows a JKR area, ends before the
+    contacts stop growing."""
+    return result["status"] == "BONDED" and math.isfinite(number(result["contact_area_jkr"]))
+
+
+def curves_of(result):
+    """The curves that a result has: that of its formulation, and that of the half-space."""
+    named = ((result["formulation"], result["force_curve"], result["pull_off_force"]),
+             ("half-space", result.get("half_space_curve"), result.get("half_space_pull_off_force")))
+    return [Curve(name, list(zip(columns["height"], columns["force"], columns["direction"])), force)
+            for name, columns, force in named if columns]
+
+
 def scaled(values, unit):
     """The values in a unit with prefix in which the largest has one to three digits, and that unit."""
     array = np.array([number(value) for value in values])
@@ -48,14 +64,19 @@ def scaled(values, unit):
 
 
 def scan_figure(result):
-    """Energy curve, force budget, distributions of loads and of plasticity indices."""
+    """Force over height, or energy over approach where the formulation has that, force budget, distributions of loads and of plasticity indices."""
     figure, axes = plt.subplots(2, 2, figsize=(13, 8.4), dpi=100)
     figure.subplots_adjust(left=0.06, right=0.985, top=0.95, bottom=0.075, hspace=0.34, wspace=0.38)
-    _draw_energy(axes[0][0], result)
+    (_draw_curve if result["force_curve"] else _draw_energy)(axes[0][0], result)
     _draw_forces(axes[0][1], result)
     _draw_loads(axes[1][0], result)
     _draw_plasticity(axes[1][1], result)
     return png_of(figure)
+
+
+def _draw_curve(axes, result):
+    axes.set_title("Force over height", fontsize=11)
+    draw_curves(axes, curves_of(result)[:1])  # the half-space has a picture of its own
 
 
 def _draw_energy(axes, result):
@@ -110,12 +131,17 @@ def _factor(values):
 
 def _draw_forces(axes, result):
     axes.set_title("Forces on the scanned area", fontsize=11)
-    bound = "at least " if result["status"] == "BONDED" else ""
+    bound = "at least " if is_lower_bound(result) else ""
     rows = [(label, number(result[name]), colour) for label, name, colour in PRESSING]
+    if result["force_curve"]:
+        rows[0] = ("adhesion at rest",) + rows[0][1:]
     rows.append(("normal load, their sum", number(result["normal_load"]), "black"))
-    rows += [(label, number(result[name]), colour) for label, name, colour in HOLDING]
-    rows.append(("pull-off force, their sum", number(result["pull_off_force"]), "black"))
-    places = [0, 1, 2, 3, 4, 6, 7, 8, 9]
+    if result["force_curve"]:  # adhesion is followed as a whole
+        rows.append(("pull-off force, the largest", number(result["pull_off_force"]), "black"))
+    else:
+        rows += [(label, number(result[name]), colour) for label, name, colour in HOLDING]
+        rows.append(("pull-off force, their sum", number(result["pull_off_force"]), "black"))
+    places = [place + (place > len(PRESSING)) for place in range(len(rows))]
     widths, unit = scaled([value for _, value, _ in rows], "N")
     axes.barh(places, widths, color=[colour for _, _, colour in rows], height=0.72)
     longest = max(float(np.nanmax(widths)), 1e-300)
@@ -124,7 +150,7 @@ def _draw_forces(axes, result):
                   va="center", fontsize=9)
     axes.set_yticks(places)
     axes.set_yticklabels([label for label, _, _ in rows], fontsize=9)
-    axes.set_ylim(9.6, -1.3)
+    axes.set_ylim(places[-1] + 0.6, -1.3)
     for place, text in ((-0.85, "press the surfaces together"), (5.15, "hold them together when the load is gone")):
         axes.text(0.004 * longest, place, text, va="center", fontsize=9, style="italic", color=GREY)
     axes.set_xlim(0, 1.3 * longest)
@@ -205,6 +231,7 @@ def trend_figure(rows):
                                     squeeze=False)
     figure.subplots_adjust(left=0.075, right=0.985, top=0.94, bottom=0.19 / ((len(trends) + 1) // 2) + 0.01, hspace=0.42,
                            wspace=0.2)
+    bonded_text = "bonded" + (": a lower bound" if any(is_lower_bound(row) for row in rows) else "")
     for axes, (name, label, unit) in zip(all_axes.flat, trends):
         numbers = np.array([row["number"] for row in rows])
         values, shown_unit = scaled([row.get(name) for row in rows], unit)
@@ -212,7 +239,7 @@ def trend_figure(rows):
         lost = np.array([row["status"] == "NO_EQUILIBRIUM" for row in rows])
         axes.plot(numbers, values, color="#9db7d5", linewidth=1.2, zorder=1)
         for use, marker, colour, text in ((~bonded & ~lost, "o", "#0b4f9e", "equilibrium"),
-                                          (bonded, "^", "#d1322f", "bonded: a lower bound"),
+                                          (bonded, "^", "#d1322f", bonded_text),
                                           (lost, "x", "#7f7f7f", "no equilibrium: not to be used")):
             if use.any():
                 axes.scatter(numbers[use], values[use], marker=marker, color=colour, s=26, zorder=2, label=text)

@@ -17,7 +17,7 @@ PAGE = """<!DOCTYPE html>
   td.n, th.n { text-align: right; white-space: nowrap; }
   .wide { overflow-x: auto; } .overview { font-size: 13px; }
   .path { overflow-wrap: anywhere; } td.path { min-width: 180px; }
-  .quiet { color: #666; }
+  .quiet { color: #666; } td.limits { min-width: 150px; color: #7a5200; }
   .warning { background: #fff6dd; border-left: 4px solid #f2b705; padding: 5px 10px; }
   .no { color: #1b7a3d; font-weight: bold; } .yes { color: #b3201d; font-weight: bold; } .marginal { color: #9a6b00; font-weight: bold; }
   ul { padding-left: 20px; }
@@ -41,14 +41,14 @@ PAGE = """<!DOCTYPE html>
 
 <h2>Scans</h2>
 <div class="wide"><table class="overview">
-<thead><tr><th class="n">number</th><th>scan</th><th>state</th>{% if has_device %}<th>sticks</th><th class="n">{{ judged_by }}</th>{% endif %}<th class="n">pull-off force</th>{% if has_half_space %}<th class="n">of the half-space</th>{% endif %}<th class="n">contact fraction</th><th class="n">contacts</th><th class="n">elastic / mixed / plastic</th><th class="n">rms height</th></tr></thead>
+<thead><tr><th class="n">number</th><th>scan</th><th>state</th>{% if has_device %}<th>sticks</th><th class="n">{{ judged_by }}</th>{% endif %}<th class="n">pull-off force</th>{% if has_half_space %}<th class="n">of the half-space</th>{% endif %}<th class="n">contact fraction</th><th class="n">contacts</th><th class="n">elastic / mixed / plastic</th><th class="n">rms height</th>{% if limited %}<th>outside the model's range; warnings</th>{% endif %}</tr></thead>
 <tbody>
 {% for row in table %}<tr><td class="n">{% if row.anchor %}<a href="#scan{{ row.number }}">{{ row.number }}</a>{% else %}{{ row.number }}{% endif %}</td><td class="path">{{ row.name }}</td>
-{%- if row.reason %}<td colspan="{{ (8 if has_device else 6) + (1 if has_half_space else 0) }}">not predicted: {{ row.reason }}</td>
-{%- else %}<td>{{ row.status }}</td>{% if has_device %}<td class="{{ row.sticks }}">{{ row.sticks }}</td><td class="n">{{ row.ratio }}</td>{% endif %}<td class="n">{{ row.pull_off }}</td>{% if has_half_space %}<td class="n">{{ row.half_space }}</td>{% endif %}<td class="n">{{ row.contact }}</td><td class="n">{{ row.contacts }}</td><td class="n">{{ row.regimes }}</td><td class="n">{{ row.rms }}</td>{% endif %}</tr>
+{%- if row.reason %}<td colspan="{{ (8 if has_device else 6) + (1 if has_half_space else 0) + (1 if limited else 0) }}">not predicted: {{ row.reason }}</td>
+{%- else %}<td>{{ row.status }}</td>{% if has_device %}<td class="{{ row.sticks }}">{{ row.sticks }}</td><td class="n">{{ row.ratio }}</td>{% endif %}<td class="n">{{ row.pull_off }}</td>{% if has_half_space %}<td class="n">{{ row.half_space }}</td>{% endif %}<td class="n">{{ row.contact }}</td><td class="n">{{ row.contacts }}</td><td class="n">{{ row.regimes }}</td><td class="n">{{ row.rms }}</td>{% if limited %}<td class="limits">{{ row.limits }}</td>{% endif %}{% endif %}</tr>
 {% endfor %}</tbody>
 </table></div>
-{% if bounded %}<p class="quiet">&ge; marks lower bounds: bonded surfaces hold over the whole area.</p>{% endif %}
+{% if bounded %}<p class="quiet">&ge; marks lower bounds: the search ended before the contacts stopped growing.</p>{% endif %}
 
 {% if has_half_space %}<p class="quiet">Of the half-space: the whole surface solved as one elastic half-space; in brackets, how many times as large the prediction is.</p>{% endif %}
 
@@ -58,10 +58,11 @@ PAGE = """<!DOCTYPE html>
 {% for scan in scans %}<div class="scan" id="scan{{ scan.number }}">
 <h2>{{ scan.number }}: {{ scan.name }}</h2>
 {% for warning in scan.warnings %}<p class="warning">{{ warning }}</p>{% endfor %}
-{% if scan.verdict %}<p><span class="{{ scan.sticks }}">Sticks: {{ scan.sticks }}.</span> {{ scan.verdict }}{% if scan.flags %} <span class="quiet">Outside the model's range: {{ scan.flags }}.</span>{% endif %}</p>{% endif %}
+{% if scan.verdict %}<p><span class="{{ scan.sticks }}">Sticks: {{ scan.sticks }}.</span> {{ scan.verdict }}</p>{% endif %}
+{% if scan.flags %}<p class="warning">Outside the model's range: {{ scan.flags }}.</p>{% endif %}
 <img alt="Heights, contact map and cross-section" src="{{ scan.maps }}">
 <div class="figures">{% for label, value in scan.figures %}<div><span>{{ label }}</span><span>{{ value }}</span></div>{% endfor %}</div>
-<img class="tall" alt="Energy, forces, loads, plasticity" src="{{ scan.details }}">
+<img class="tall" alt="Energy or force on the approach, forces, loads, plasticity" src="{{ scan.details }}">
 {% if scan.half_space %}<h3>The whole surface as one elastic half-space</h3>
 <p>{{ scan.half_space.words }}</p>
 {% if scan.half_space.image %}<img alt="Contacts of the asperity model and of the half-space, force over height" src="{{ scan.half_space.image }}">{% endif %}

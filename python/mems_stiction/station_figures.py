@@ -3,7 +3,9 @@
 import math
 
 from mems_stiction.plots import plt, with_unit
+from mems_stiction.prediction_text import contact_area_of
 from mems_stiction.quantities import prefix_for
+from mems_stiction.station_text import area_label
 
 import numpy as np
 from matplotlib.ticker import FuncFormatter, MaxNLocator
@@ -17,13 +19,13 @@ def save_sweep(result, path):
     figure, axes = plt.subplots(1, 2, figsize=(13, 5.8), dpi=100)
     figure.subplots_adjust(left=0.07, right=0.985, top=0.92, bottom=0.215, wspace=0.2)
     loads = sorted({point.mechanical_load for point in result.points})
-    _draw_loops(axes[0], result, loads, "contact_area_jkr", "JKR contact area", "m²")
+    _draw_loops(axes[0], result, loads, contact_area_of, area_label(result.points), "m²")
     axes[0].set_title("Contact: hysteresis between the way up and the way down", fontsize=11)
     keys = [plt.Line2D([], [], color=colour, linewidth=4, label="pressed with %s" % with_unit(load, "N"))
             for load, colour in zip(loads, _colours(loads))]
     keys += [plt.Line2D([], [], color="#333333", marker="^", markersize=5, label="voltage up"),
              plt.Line2D([], [], color="#333333", linestyle="--", marker="v", markersize=5, label="voltage down")]
-    if _draw_loops(axes[1], result, loads, "holding_margin", "margin", "-"):
+    if _draw_loops(axes[1], result, loads, lambda point: point.holding_margin, "margin", "-"):
         axes[1].set_title("Margin: the device stays closed below 1", fontsize=11)
         for load, colour in zip(loads, _colours(loads)):
             up = [point for point in result.points if point.mechanical_load == load and point.direction == UP]
@@ -56,9 +58,9 @@ def _colours(loads):
     return [COLOURS[place % len(COLOURS)] for place in range(len(loads))]
 
 
-def _draw_loops(axes, result, loads, name, label, unit):
+def _draw_loops(axes, result, loads, value_of, label, unit):
     """False if there is nothing to draw."""
-    values = [getattr(point, name) for point in result.points]
+    values = [value_of(point) for point in result.points]
     finite = [abs(value) for value in values if math.isfinite(value)]
     if not finite:
         axes.set_axis_off()
@@ -70,7 +72,7 @@ def _draw_loops(axes, result, loads, name, label, unit):
                 for is_up in (True, False)]
         ways[1] = ways[0][-1:] + ways[1]  # the way down starts where the way up has ended
         for points, style, marker in zip(ways, ("-", "--"), ("^", "v")):
-            axes.plot([point.voltage for point in points], [getattr(point, name) * factor for point in points], color=colour,
+            axes.plot([point.voltage for point in points], [value_of(point) * factor for point in points], color=colour,
                       linestyle=style, marker=marker, markersize=5, linewidth=1.6)
     axes.set_xlabel("voltage [V]")
     axes.set_ylabel("%s [%s]" % (label, shown_unit))

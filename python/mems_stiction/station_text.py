@@ -2,7 +2,7 @@
 
 import math
 
-from mems_stiction.prediction_text import STATUS_NAMES, STICKS_NAMES
+from mems_stiction.prediction_text import STATUS_NAMES, STICKS_NAMES, bound_of, contact_area_of
 from mems_stiction.quantities import area, percent, ratio, with_unit
 
 UP = 0  # SweepPoint.UP
@@ -12,7 +12,7 @@ _CYCLE = "%6s  %-14s %11s %10s %9s %9s %11s %12s %9s  %s"
 
 
 def sweep_header():
-    top = _SWEEP % ("", "", "", "", "pull-off", "electro-", "contact", "JKR contact", "", "while", "")
+    top = _SWEEP % ("", "", "", "", "pull-off", "electro-", "contact", "contact", "", "while", "")
     bottom = _SWEEP % ("way", "voltage", "load", "status", "force", "static", "fraction", "area", "margin", "held", "sticks")
     return top.rstrip() + "\n" + bottom
 
@@ -23,11 +23,11 @@ def sweep_line(point):
     if point.is_open:
         return (_SWEEP % (way, with_unit(point.voltage, "V"), with_unit(point.mechanical_load, "N"), "open", "-", "-", "-", "-",
                           "-", "-", "no")).rstrip()
-    bound = ">= " if point.status == 1 else ""
+    bound = bound_of(point)
     return _SWEEP % (way, with_unit(point.voltage, "V"), with_unit(point.mechanical_load, "N"),
                      STATUS_NAMES.get(point.status, "?"), bound + with_unit(point.pull_off_force, "N"),
                      with_unit(point.electrostatic_force, "N"), percent(point.contact_fraction),
-                     area(point.contact_area_jkr), ratio(point.margin), ratio(point.holding_margin),
+                     area(contact_area_of(point)), ratio(point.margin), ratio(point.holding_margin),
                      STICKS_NAMES.get(point.sticks, "?"))
 
 
@@ -47,8 +47,8 @@ def sweep_sentences(result):
             sentences.append("  no hysteresis: the way down is the way up")
         else:
             voltage, up, down = gap
-            sentences.append("  hysteresis, widest at %s: JKR contact area %s on the way up, %s on the way down" % (
-                with_unit(voltage, "V"), area(up), area(down) if down else "0, open"))
+            sentences.append("  hysteresis, widest at %s: %s %s on the way up, %s on the way down" % (
+                with_unit(voltage, "V"), area_label(result.points), area(up), area(down) if down else "0, open"))
     if math.isnan(result.pull_in_voltage):
         sentences.append("Pull-in voltage: not stated (device/spring_stiffness, travel, electrode_area)")
     else:
@@ -61,11 +61,16 @@ def sweep_sentences(result):
     return sentences
 
 
+def area_label(points):
+    """What contact_area_of() is of these points."""
+    return "contact area" if any(math.isnan(point.contact_area_jkr) for point in points) else "JKR contact area"
+
+
 def widest_gap(points, mechanical_load):
-    """(voltage, area up, area down) where the JKR contact areas [m^2] of both ways differ most; None if they do not."""
+    """(voltage, area up, area down) where the contact areas [m^2] of both ways differ most; None if they do not."""
     of_load = [point for point in points if point.mechanical_load == mechanical_load]
-    up = {point.voltage: point.contact_area_jkr for point in of_load if point.direction == UP}
-    gaps = [(point.voltage, up[point.voltage], point.contact_area_jkr) for point in of_load if point.direction != UP]
+    up = {point.voltage: contact_area_of(point) for point in of_load if point.direction == UP}
+    gaps = [(point.voltage, up[point.voltage], contact_area_of(point)) for point in of_load if point.direction != UP]
     widest = max(gaps, key=lambda gap: abs(gap[2] - gap[1]), default=None)
     return widest if widest and widest[1] != widest[2] else None
 
@@ -78,7 +83,7 @@ def cycle_header():
 
 def cycle_line(cycle):
     """`largest change` of either surface's height in this contact."""
-    bound = ">= " if cycle.status == 1 else ""
+    bound = bound_of(cycle)
     return _CYCLE % (cycle.cycle, STATUS_NAMES.get(cycle.status, "?"), bound + with_unit(cycle.pull_off_force, "N"),
                      percent(cycle.contact_fraction), cycle.asperity_count, cycle.plastic_count,
                      with_unit(cycle.rms_height, "m"), with_unit(cycle.largest_change, "m"), ratio(cycle.margin),

@@ -3,6 +3,7 @@
 import math
 
 from mems_stiction.plots import plt, with_unit
+from mems_stiction.prediction_text import bound_of, flag_names, limits_of
 from mems_stiction.quantities import prefix_for
 
 import numpy as np
@@ -13,7 +14,8 @@ NO, MARGINAL, YES, UNKNOWN = range(4)  # StictionPrediction.STICKS_...
 BONDED, NO_EQUILIBRIUM = 1, 2  # StictionPrediction.status
 VERDICTS = ((NO, "releases", "#35c46a", "o"), (MARGINAL, "marginal", "#f2b705", "D"), (YES, "sticks", "#ff5a4f", "s"),
             (UNKNOWN, "not known", "#a8adb8", "o"))
-STATES = (((0,), "equilibrium", LINE, "o"), ((BONDED,), "bonded: at least this", "#ff5a4f", "^"),
+LONGEST_LIMITS = 130  # letters of the line about flags and warnings
+STATES = (((0,), "equilibrium", LINE, "o"), ((BONDED,), "bonded", "#ff5a4f", "^"),
           ((NO_EQUILIBRIUM,), "no equilibrium: do not use", "#a8adb8", "x"))
 SETTINGS = {"text.color": TEXT, "axes.labelcolor": TEXT, "axes.edgecolor": QUIET, "xtick.color": TEXT, "ytick.color": TEXT,
             "axes.facecolor": BACKGROUND, "figure.facecolor": BACKGROUND, "savefig.facecolor": BACKGROUND,
@@ -147,21 +149,29 @@ def _say_latest(figure, decided, hidden):
         _headline(figure, number, "not predicted", UNKNOWN, "its reason: the node's warning and /diagnostics")
         return
     prediction = scan.prediction
-    bound = "at least " if prediction.status == BONDED else ""
+    bound = bound_of(prediction, "at least ")
     force = "pull-off force %s%s" % (bound, with_unit(prediction.pull_off_force, "N"))
+    limits = limits_of(prediction)
+    if len(limits) > LONGEST_LIMITS:
+        limits = ", ".join(flag_names(prediction.regime_flags) + ["warning: " + text for text in prediction.warnings])
     if prediction.status == NO_EQUILIBRIUM:
-        _headline(figure, number, "no equilibrium", UNKNOWN, "the forces are not to be used")
+        _headline(figure, number, "no equilibrium", UNKNOWN, "the forces are not to be used", limits)
     elif math.isnan(prediction.margin) and math.isnan(prediction.peel_number):
-        _headline(figure, number, force, None, "no device stated, so no verdict")
+        _headline(figure, number, force, None, "no device stated, so no verdict", limits)
     else:
         word = {NO: "does not stick", MARGINAL: "marginal", YES: "STICKS"}.get(prediction.sticks, "not known")
-        _headline(figure, number, word, prediction.sticks, prediction.reason)
+        _headline(figure, number, word, prediction.sticks, prediction.reason, limits)
 
 
-def _headline(figure, number, text, verdict, detail):
+def _headline(figure, number, text, verdict, detail, limits=""):
     colours = {value: colour for value, _, colour, _ in VERDICTS}
-    figure.text(0.1, 0.938, "Scan %d: %s" % (number, text), ha="left", va="center", fontsize=27, fontweight="bold",
+    figure.text(0.1, 0.945, "Scan %d: %s" % (number, text), ha="left", va="center", fontsize=27, fontweight="bold",
                 color=colours.get(verdict, TEXT))
-    longest = 92
-    figure.text(0.1, 0.865, detail if len(detail) <= longest else detail[:longest - 3] + "...", ha="left", va="center",
-                fontsize=14, color=TEXT)
+    _line_of_text(figure, 0.885, detail, TEXT, 14, 92)
+    if limits:
+        _line_of_text(figure, 0.848, limits, "#f2b705", 11, LONGEST_LIMITS)
+
+
+def _line_of_text(figure, height, text, colour, size, longest):
+    figure.text(0.1, height, text if len(text) <= longest else text[:longest - 3] + "...", ha="left", va="center",
+                fontsize=size, color=colour)

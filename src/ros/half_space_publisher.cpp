@@ -19,14 +19,14 @@ HalfSpacePublisher::HalfSpacePublisher(const ros::NodeHandle& handle) : transpor
 bool HalfSpacePublisher::areBothMapsWanted() const { return contact_maps_.getNumSubscribers() > 0; }
 
 void HalfSpacePublisher::publish(const HalfSpaceSolution& solution, const cv::Mat& model_map,
-                                 const cv::Mat& half_space_map) const {
+                                 const cv::Mat& half_space_map, const DrawnCurve& model_curve) const {
   if (!half_space_map.empty() && contact_map_.getNumSubscribers() > 0) {
     contact_map_.publish(contactMapImage(half_space_map, solution.header));
   }
   if (areBothMapsWanted()) {
     contact_maps_.publish(contactMapsPicture(model_map, half_space_map, solution.header));
   }
-  if (curve_.getNumSubscribers() > 0) curve_.publish(curvePicture(solution));
+  if (curve_.getNumSubscribers() > 0) curve_.publish(curvePicture(solution, model_curve));
   // Last, so that whoever waits for the solution finds the maps sent.
   solution_.publish(solution);
 }

@@ -26,8 +26,8 @@ void HalfSpaceStream::stop() {
   if (thread_.joinable()) thread_.join();
 }
 
-void HalfSpaceStream::offer(const StationCase& predicted, const cv::Mat& model_map) {
-  std::optional<Task> task(Task{predicted, model_map.clone()});  // the model uses its map's memory again
+void HalfSpaceStream::offer(const StationCase& predicted, const cv::Mat& model_map, const DrawnCurve& model_curve) {
+  std::optional<Task> task(Task{predicted, model_map.clone(), model_curve});  // the model uses its map's memory again
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (waiting_) ++counts_.skipped;
@@ -68,7 +68,7 @@ void HalfSpaceStream::solve(const Task& task) {
   }
   if (stopping_) return;
   const bool is_solved = message.status == HalfSpaceSolution::SOLVED;
-  publisher_.publish(message, task.model_map, map);
+  publisher_.publish(message, task.model_map, map, task.model_curve);
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     ++(is_solved ? counts_.solved : counts_.failed);

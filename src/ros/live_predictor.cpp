@@ -5,6 +5,7 @@
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/height_map/scan_sanity.hpp"
 #include "mems_stiction/prediction/deformed_surfaces.hpp"
+#include "mems_stiction/prediction/force_curve.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -82,6 +83,7 @@ PredictedScan LivePredictor::judged(const PreparedScan& prepared, const Configur
   predicted.preprocessing = prepared.record;
   predicted.formulation = predictor_.options().formulation;
   predicted.warnings = warnings;
+  predicted.curve = curveOf(predicted.prediction, predictor_.options().interface);
   return predicted;
 }
 

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "mems_stiction/ros/display_conversion.hpp"
+#include "mems_stiction/ros/force_curve_picture.hpp"
 #include "mems_stiction/ros/prediction_conversion.hpp"
 #include "mems_stiction/ros/topic_names.hpp"
 
@@ -27,6 +28,7 @@ ResultPublisher::ResultPublisher(const ros::NodeHandle& handle, const DisplayOpt
   asperities_ = node.advertise<AsperityArray>(kAsperitiesTopic, kMapQueue);
   surface_points_ = node.advertise<sensor_msgs::PointCloud2>(kSurfacePointsTopic, kDisplayQueue);
   asperity_markers_ = node.advertise<visualization_msgs::MarkerArray>(kAsperityMarkersTopic, kDisplayQueue);
+  force_curve_ = node.advertise<sensor_msgs::Image>(kForceCurveTopic, kDisplayQueue);
   // Latched for who looks for it, and made anew for whoever comes, since the latched one may be old.
   preview_ = node.advertise<sensor_msgs::Image>(
       kPreviewTopic, kDisplayQueue,
@@ -66,6 +68,7 @@ void ResultPublisher::publish(const PredictedScan& predicted, const ReceivedScan
   if (has_surfaces && hasListener(asperity_markers_)) {
     asperity_markers_.publish(asperityMarkers(prediction, scan.surface, header, display_));
   }
+  if (hasListener(force_curve_)) force_curve_.publish(forceCurvePicture(predicted, header));
   // Last, so that whoever waits for the prediction finds the maps sent.
   prediction_.publish(predictionMessage(predicted, header));
 }

@@ -7,6 +7,7 @@
 #include <boost/make_shared.hpp>
 
 #include "mems_stiction/base/one_line.hpp"
+#include "mems_stiction/ros/force_curve_picture.hpp"
 #include "mems_stiction/ros/topic_names.hpp"
 
 namespace mems_stiction {
@@ -221,7 +222,9 @@ void StictionServer::predictAndPublish(const sensor_msgs::ImageConstPtr& image, 
     if (half_space_ && half_space_->isModelMapWanted()) demanded.contact_map = true;
     const PredictedScan predicted = predictor_.predictScan(scan, demanded);
     publisher_.publish(predicted, scan);
-    if (half_space_) half_space_->offer(predictor_.stationCase(nullptr), predicted.prediction.contact_map);
+    if (half_space_) {
+      half_space_->offer(predictor_.stationCase(nullptr), predicted.prediction.contact_map, drawnCurve(predicted));
+    }
     if (publisher_.isPreviewWanted()) publisher_.publishPreview(predictor_.lastSurface(), scan.header);
     accounting_.predicted((ros::WallTime::now() - arrival).toSec(), predicted.prediction.processing_time);
     for (const std::string& line : predicted.warnings) accounting_.warn(scan.header, line);

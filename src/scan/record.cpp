@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "mems_stiction/base/option_yaml.hpp"
 #include "mems_stiction/half_space/half_space_fields.hpp"
 #include "mems_stiction/prediction/prediction_fields.hpp"
+#include "mems_stiction/verdict/regime_flags.hpp"
+#include "mems_stiction/verdict/verdict_fields.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -21,9 +24,13 @@ class YamlFields {
   void operator()(const char* name, double value, const char* /*unit*/) { pair(name, yamlNumber(value)); }
   void operator()(const char* name, int value, const char* /*unit*/) { pair(name, std::to_string(value)); }
   void operator()(const char* name, long long value, const char* /*unit*/) { pair(name, std::to_string(value)); }
+  void operator()(const char* name, std::uint32_t value, const char* /*unit*/) { pair(name, std::to_string(value)); }
   void operator()(const char* name, bool value, const char* /*unit*/) { pair(name, value ? "true" : "false"); }
   void operator()(const char* name, const std::string& value, const char* /*unit*/) {
     emitter_ << YAML::Key << name << YAML::Value << YAML::DoubleQuoted << value;
+  }
+  void operator()(const char* name, Sticks value, const char* /*unit*/) {
+    (*this)(name, std::string(sticksText(value)), "");
   }
   template <typename Enum>
   void operator()(const char* name, Enum value, const char* /*unit*/) {
@@ -44,8 +51,10 @@ class JsonFields {
   void operator()(const char* name, double value, const char* /*unit*/) { object_[name] = value; }
   void operator()(const char* name, int value, const char* /*unit*/) { object_[name] = value; }
   void operator()(const char* name, long long value, const char* /*unit*/) { object_[name] = value; }
+  void operator()(const char* name, std::uint32_t value, const char* /*unit*/) { object_[name] = value; }
   void operator()(const char* name, bool value, const char* /*unit*/) { object_[name] = value; }
   void operator()(const char* name, const std::string& value, const char* /*unit*/) { object_[name] = value; }
+  void operator()(const char* name, Sticks value, const char* /*unit*/) { object_[name] = sticksText(value); }
   template <typename Enum>
   void operator()(const char* name, Enum value, const char* /*unit*/) {
     object_[name] = word(value);
@@ -62,6 +71,24 @@ void visitScanFields(const HeightMap& scan, Visitor&& visit) {
   visit("cols", scan.cols(), "");
   visit("pitch_x", scan.pitchX(), "m");
   visit("pitch_y", scan.pitchY(), "m");
+}
+
+/// Figures of the prediction and of the verdict, and what limits both.
+template <typename Visitor>
+void visitResultFields(const HeightMap& scan, const Prediction& prediction, const RecordExtras& extras,
+                       Visitor&& visit) {
+  if (!extras.formulation.empty()) visit("formulation", extras.formulation, "");
+  visitPredictionFields(prediction, [&](const char* name, const auto& value, const char* unit) {
+    const bool verdict_has_it = extras.verdict && std::strcmp(name, "apparent_work_of_adhesion") == 0;
+    if (!verdict_has_it) visit(name, value, unit);
+  });
+  const std::uint32_t flags = regimeFlags(prediction, scan.cellArea());
+  visit("regime_flag_names", regimeFlagNames(flags), "");
+  if (extras.verdict) {
+    visitVerdictFields(*extras.verdict, visit);
+  } else {
+    visit("regime_flags", flags, "");
+  }
 }
 
 template <typename Visitor>
@@ -106,6 +133,8 @@ void addJsonList(nlohmann::json& record, const char* name, const Items& items, V
 const auto kVisitStep = [](const auto& item, auto&& fields) { visitStepFields(item, fields); };
 const auto kVisitPoint = [](const auto& item, auto&& fields) { visitEnergyPointFields(item, fields); };
 const auto kVisitCurvePoint = [](const auto& item, auto&& fields) { visitCurvePointFields(item, fields); };
+const auto kVisitSeparationPoint = [](const auto& item, auto&& fields) { visitSeparationPointFields(item, fields); };
+const auto kVisitCleaning = [](const auto& item, auto&& fields) { visitCleaningFields(item, fields); };
 const auto kVisitRow = [](const auto& item, auto&& fields) { visitConvergenceFields(item, fields); };
 
 }  // namespace
@@ -118,7 +147,7 @@ std::string yamlRecord(const std::string& file, const HeightMap& scan, const Pre
   fields("file", file, "");
   if (!extras.channel.empty()) fields("channel", extras.channel, "");
   visitScanFields(scan, fields);
-  visitPredictionFields(prediction, fields);
+  visitResultFields(scan, prediction, extras, fields);
   emitter << YAML::Key << "roughness" << YAML::Value << YAML::BeginMap;
   visitRoughnessFields(prediction.roughness, fields);
   if (isComputed(prediction.spatial_roughness)) visitSpatialRoughnessFields(prediction.spatial_roughness, fields);
@@ -128,7 +157,14 @@ std::string yamlRecord(const std::string& file, const HeightMap& scan, const Pre
     fields("tip_unreached_fraction", extras.preprocessing.tip_unreached_fraction, "");
   }
   addYamlList(emitter, "convergence", extras.convergence, kVisitRow);
+  addYamlList(emitter, "cleanings", extras.cleanings, kVisitCleaning);
+  if (!extras.cleanings.empty()) {
+    emitter << YAML::Key << "cleaning_spread" << YAML::Value << YAML::BeginMap;
+    visitSpreadFields(spreadOf(extras.cleanings), fields);
+    emitter << YAML::EndMap;
+  }
   addYamlList(emitter, "energy_curve", prediction.energy_curve, kVisitPoint);
+  if (extras.has_curve) addYamlList(emitter, "curve", prediction.curve, kVisitSeparationPoint);
   if (extras.half_space) {
     emitter << YAML::Key << "half_space" << YAML::Value << YAML::BeginMap;
     visitHalfSpaceFields(*extras.half_space, fields);
@@ -138,6 +174,7 @@ std::string yamlRecord(const std::string& file, const HeightMap& scan, const Pre
   emitter << YAML::EndMap;
   std::string text = std::string(emitter.c_str()) + "\n";
   if (!extras.convergence.empty()) text += convergenceTable(extras.convergence, "# ");
+  if (!extras.cleanings.empty()) text += cleaningTable(extras.cleanings, "# ");
   return text;
 }
 
@@ -148,7 +185,7 @@ std::string jsonRecord(const std::string& file, const HeightMap& scan, const Pre
   if (!extras.channel.empty()) record["channel"] = extras.channel;
   JsonFields fields(record);
   visitScanFields(scan, fields);
-  visitPredictionFields(prediction, fields);
+  visitResultFields(scan, prediction, extras, fields);
   nlohmann::json roughness;
   visitRoughnessFields(prediction.roughness, JsonFields(roughness));
   if (isComputed(prediction.spatial_roughness)) {
@@ -160,7 +197,10 @@ std::string jsonRecord(const std::string& file, const HeightMap& scan, const Pre
     record["tip_unreached_fraction"] = extras.preprocessing.tip_unreached_fraction;
   }
   addJsonList(record, "convergence", extras.convergence, kVisitRow);
+  addJsonList(record, "cleanings", extras.cleanings, kVisitCleaning);
+  if (!extras.cleanings.empty()) visitSpreadFields(spreadOf(extras.cleanings), JsonFields(record["cleaning_spread"]));
   addJsonList(record, "energy_curve", prediction.energy_curve, kVisitPoint);
+  if (extras.has_curve) addJsonList(record, "curve", prediction.curve, kVisitSeparationPoint);
   if (extras.half_space) {
     nlohmann::json half_space;
     visitHalfSpaceFields(*extras.half_space, JsonFields(half_space));

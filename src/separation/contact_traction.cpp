@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mems_stiction/base/constants.hpp"
+#include "mems_stiction/loads/force_range.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -17,12 +17,9 @@ constexpr int kMostNewtonSteps = 20;
 }  // namespace
 
 ContactTraction::ContactTraction(const InterfaceOptions& interface)
-    : work_of_adhesion_(interface.work_of_adhesion), range_(interface.equilibrium_distance) {
-  if (work_of_adhesion_ > 0.0 && interface.hamaker_constant > 0.0) {
-    range_ = std::sqrt(interface.hamaker_constant / (16.0 * kPi * work_of_adhesion_));
-  }
-  stress_ = 8.0 * work_of_adhesion_ / (3.0 * range_);
-}
+    : work_of_adhesion_(interface.work_of_adhesion),
+      range_(forceRange(interface)),
+      stress_(8.0 * work_of_adhesion_ / (3.0 * range_)) {}
 
 double ContactTraction::strength() const {
   const double x_squared = std::cbrt(1.0 / 3.0);  // (z0/(d + z0))^2 where 3 x^4 = 9 x^10

@@ -6,6 +6,7 @@
 
 #include "half_space_run.hpp"
 #include "mems_stiction/height_map/scan_sanity.hpp"
+#include "mems_stiction/prediction/force_curve.hpp"
 #include "mems_stiction/scan/half_space_scan.hpp"
 
 namespace mems_stiction {
@@ -154,7 +155,7 @@ RowFields BatchScans::predict(const Item& item, ScanOrigin& origin) {
                         surface_.cellArea());
   }
   for (const std::string& warning : scanWarnings(surface_)) warnings.push_back(warning);
-  return figureFields(surface_, warnings, prediction_, verdict);
+  return figureFields(surface_, warnings, prediction_, verdict, configuration_.model.formulation);
 }
 
 HalfSpaceAnswer BatchScans::solve(const std::function<void(const std::string&)>& tell) const {
@@ -179,7 +180,8 @@ void BatchScans::dump(std::size_t number, RowFields fields, const std::optional<
     append(halfSpaceExtras(*half_space), fields);
     maps = halfSpaceMaps(*half_space);
   }
-  writeFullResult(folder.str(), fields, prepared_.surfaces.lower, prediction_, maps);
+  writeFullResult(folder.str(), fields, prepared_.surfaces.lower, prediction_,
+                  curveOf(prediction_, configuration_.model.interface), maps);
 }
 
 }  // namespace mems_stiction

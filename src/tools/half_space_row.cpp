@@ -55,12 +55,7 @@ std::map<std::string, std::string> halfSpaceColumnUnits() {
 }
 
 RowFields halfSpaceExtras(const SolvedHalfSpace& solution) {
-  nlohmann::json columns = nlohmann::json::object();
-  for (const CurvePoint& point : curveOf(solution)) {
-    visitCurvePointFields(
-        point, [&](const char* name, const auto& value, const char*) { columns[name].push_back(jsonOf(value)); });
-  }
-  return {{kPrefix + kWallTime, solution.processing_time}, {kPrefix + "curve", columns}};
+  return {{kPrefix + kWallTime, solution.processing_time}, {kPrefix + "curve", curveColumns(curveOf(solution))}};
 }
 
 NamedMaps halfSpaceMaps(const SolvedHalfSpace& solution) {

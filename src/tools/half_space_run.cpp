@@ -7,10 +7,7 @@
 #include <string>
 
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/option_visitor.hpp"
-#include "mems_stiction/base/output_file.hpp"
-#include "mems_stiction/half_space/half_space_fields.hpp"
-#include "mems_stiction/import/scan_file.hpp"
+#include "mems_stiction/import/scan_writer.hpp"
 #include "status_line.hpp"
 
 namespace mems_stiction {
@@ -72,16 +69,6 @@ class Progress {
   Clock::time_point shown_{};
 };
 
-void writeCurve(const std::string& path, const SolvedHalfSpace& solution) {
-  std::string text =
-      "height,force,direction
-      ";
-      for (const CurvePoint& point : curveOf(solution)) {
-    text += numberText(point.height) + "," + numberText(point.force) + "," + word(point.direction) + "\n";
-  }
-  writeFile(path, text);
-}
-
 void writeMap(const std::string& path, const cv::Mat& map, const SolvedHalfSpace& solution) {
   if (path.empty()) return;
   if (map.empty()) throw FileError(path + ": not written: half-space: " + solution.message);
@@ -109,18 +96,17 @@ SolvedHalfSpace solveWithProgress(const HalfSpaceSolver& solver, const HalfSpace
   return solver.solve(problem, control);
 }
 
-std::vector<std::pair<std::string, std::string>> HalfSpaceFiles::wanted() const {
+std::vector<std::pair<std::string, std::string>> HalfSpaceMapFiles::wanted() const {
   std::vector<std::pair<std::string, std::string>> files;
   for (const auto& [option, path] :
-       {std::make_pair("--curve", curve), std::make_pair("--half-space-pressure", pressure),
-        std::make_pair("--half-space-gap", gap), std::make_pair("--half-space-deformed", deformed)}) {
+       {std::make_pair("--half-space-pressure", pressure), std::make_pair("--half-space-gap", gap),
+        std::make_pair("--half-space-deformed", deformed)}) {
     if (!path.empty()) files.emplace_back(option, path);
   }
   return files;
 }
 
-void writeFiles(const HalfSpaceFiles& files, const SolvedHalfSpace& solution) {
-  if (!files.curve.empty()) writeCurve(files.curve, solution);
+void writeMaps(const HalfSpaceMapFiles& files, const SolvedHalfSpace& solution) {
   writeMap(files.pressure, solution.pressure, solution);
   writeMap(files.gap, solution.gap, solution);
   writeMap(files.deformed, solution.deformed_lower.heights(), solution);

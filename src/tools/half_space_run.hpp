@@ -1,6 +1,6 @@
 #pragma once
 
-/// A solution of the half-space as a program gives it: with progress, with Ctrl-C, and with its curve and maps in files.
+/// A solution of the half-space as a program gives it: with progress, with Ctrl-C, and with its maps in files.
 
 #include <string>
 #include <utility>
@@ -26,20 +26,18 @@ class HalfSpaceText {
 /// @throw as HalfSpaceSolver::solve()
 SolvedHalfSpace solveWithProgress(const HalfSpaceSolver& solver, const HalfSpaceProblem& problem);
 
-/// Where the curve and the maps of one solution go; names that are empty are not written.
-struct HalfSpaceFiles {
-  std::string curve;
+/// Where the maps of one solution go; names that are empty are not written.
+struct HalfSpaceMapFiles {
   std::string pressure;
   std::string gap;
   std::string deformed;
 
-  /// Options and names of those that are to be written.
+  /// Options and names of the maps that are to be written.
   std::vector<std::pair<std::string, std::string>> wanted() const;
 };
 
-/// The curve as CSV: height [m], force [N], direction; a line of names first. Maps as float TIFF: pressure [Pa] and gap
-/// [m] at rest, the lower surface after contact [m].
+/// As float TIFF: pressure [Pa] and gap [m] at rest, the lower surface after contact [m].
 /// @throw FileError if one cannot be written, or the solution does not have it
-void writeFiles(const HalfSpaceFiles& files, const SolvedHalfSpace& solution);
+void writeMaps(const HalfSpaceMapFiles& files, const SolvedHalfSpace& solution);
 
 }  // namespace mems_stiction

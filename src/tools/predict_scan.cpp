@@ -8,12 +8,15 @@
 #include <vector>
 
 #include "command_line.hpp"
+#include "curve_file.hpp"
 #include "half_space_run.hpp"
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/half_space/half_space_fields.hpp"
 #include "mems_stiction/height_map/scan_sanity.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 #include "mems_stiction/import/scan_writer.hpp"
 #include "mems_stiction/prediction/deformed_surfaces.hpp"
+#include "mems_stiction/prediction/force_curve.hpp"
 #include "mems_stiction/scan/configuration_yaml.hpp"
 #include "mems_stiction/scan/half_space_scan.hpp"
 #include "mems_stiction/scan/record.hpp"
@@ -31,11 +34,15 @@ struct Arguments {
   std::optional<double> step;
   std::string channel;
   std::string deformed;
-  HalfSpaceFiles half_space_files;
+  std::string curve;              ///< of the half-space, or of the formulation without it
+  std::string formulation_curve;  ///< with the half-space and without
+  HalfSpaceMapFiles half_space_maps;
   bool json = false;
   bool ignore_mask = false;
+  bool record_curve = false;
   bool half_space = false;
   bool convergence = false;
+  bool cleanings = false;
   std::vector<std::string> scans;
 };
 
@@ -74,18 +81,28 @@ void describe(CLI::App& app, Arguments& arguments) {
   app.add_flag("--ignore-mask", arguments.ignore_mask,
                "pixels under the mask of a .gwy file are heights as the others, not missing");
   app.add_flag("-j,--json", arguments.json, "one JSON object per line instead of YAML documents");
+  app.add_option("--curve", arguments.curve,
+                 "write force over height, both ways, as CSV: that of the formulation, its height z0 - displacement, "
+                 "or with --half-space that of the half-space over the same height; for one scan. plot_curve draws it")
+      ->type_name("OUT.csv");
+  app.add_option("--formulation-curve", arguments.formulation_curve,
+                 "write the formulation's with --half-space too, to be drawn over the half-space's; for one scan")
+      ->type_name("OUT.csv");
+  app.add_flag("--record-curve", arguments.record_curve,
+               "the record holds the formulation's curve: displacement, force, is_separation of each point");
   app.add_flag("--convergence", arguments.convergence,
                "predict at full, half and quarter resolution too, and print how pull-off force and contact area move");
+  app.add_flag(
+      "--cleanings", arguments.cleanings,
+      "predict under each reasonable cleaning too (not levelled, plane, parabola, row medians; with and without "
+      "spikes), and print how pull-off force and margin move");
   app.add_option("-d,--deformed", arguments.deformed,
                  "write the surface after contact as a float TIFF in metres; for one scan")
       ->type_name("OUT.tiff");
   app.add_flag("--half-space", arguments.half_space,
                "solve the whole surface as one elastic half-space too, to see how far the asperity model is from it; "
                "takes seconds to minutes, doc/half_space.md");
-  HalfSpaceFiles& files = arguments.half_space_files;
-  app.add_option("--curve", files.curve,
-                 "write force over height of the half-space, both ways, as CSV; for one scan. plot_curve draws it")
-      ->type_name("OUT.csv");
+  HalfSpaceMapFiles& files = arguments.half_space_maps;
   app.add_option("--half-space-pressure", files.pressure,
                  "write the pressure between the surfaces at rest in pascals, positive in contact; for one scan")
       ->type_name("OUT.tiff");
@@ -99,6 +116,27 @@ void describe(CLI::App& app, Arguments& arguments) {
       "Example: predict_scan --pitch 20e-9 --load 1e-6 surface.tiff");
 }
 
+void requireOneScan(const Arguments& arguments, const std::string& option, const std::string& path) {
+  if (arguments.scans.size() == 1) return;
+  throw OptionsError({option + ": " + path + " cannot hold what belongs to " + std::to_string(arguments.scans.size()) +
+                      " scans; give one scan"});
+}
+
+/// What the half-space's and the formulation's curves are written to; empty: not asked for.
+struct CurveFiles {
+  std::string half_space;
+  std::string formulation;
+};
+
+/// @throw OptionsError if both are one file
+CurveFiles curveFilesOf(const Arguments& arguments) {
+  if (arguments.half_space) return {arguments.curve, arguments.formulation_curve};
+  if (!arguments.curve.empty() && !arguments.formulation_curve.empty()) {
+    throw OptionsError({"--formulation-curve: without --half-space --curve is that curve already; give one of both"});
+  }
+  return {"", arguments.curve + arguments.formulation_curve};
+}
+
 /// The configuration file with the command line's values in it.
 /// @throw OptionsError, FileError
 Configuration configurationOf(const Arguments& arguments) {
@@ -108,49 +146,67 @@ Configuration configurationOf(const Arguments& arguments) {
   if (arguments.load) configuration.model.load.mechanical_load = *arguments.load;
   if (arguments.step) configuration.model.approach.step = *arguments.step;
   configuration.check();
-  if (!arguments.deformed.empty() && arguments.scans.size() > 1) {
-    throw OptionsError({"--deformed: one file cannot hold the surfaces of " + std::to_string(arguments.scans.size()) +
-                        " scans; give one scan"});
+  for (const auto& [option, path] :
+       {std::make_pair("--deformed", arguments.deformed), std::make_pair("--curve", arguments.curve),
+        std::make_pair("--formulation-curve", arguments.formulation_curve)}) {
+    if (!path.empty()) requireOneScan(arguments, option, path);
   }
-  for (const auto& [option, path] : arguments.half_space_files.wanted()) {
+  for (const auto& [option, path] : arguments.half_space_maps.wanted()) {
     if (!arguments.half_space) {
       throw OptionsError({option + ": only the half-space has it; give --half-space too"});
     }
-    if (arguments.scans.size() > 1) {
-      throw OptionsError({option + ": " + path + " cannot hold what belongs to " +
-                          std::to_string(arguments.scans.size()) + " scans; give one scan"});
-    }
+    requireOneScan(arguments, option, path);
   }
   return configuration;
 }
 
+/// @throw SurfaceError if the formulation does not follow the force
+void requireCurve(const Prediction& prediction, const std::string& formulation) {
+  if (prediction.followsCurve()) return;
+  throw SurfaceError("formulation " + formulation + " does not follow the force, so that there is no curve of it");
+}
+
 /// @throw Error in one line, with the file's name
 void predictScan(const std::string& path, const Arguments& arguments, const ScanFileOptions& file_options,
-                 const ScanOptions& scan_options, const HalfSpaceSolver& half_space, ScanPredictor& predictor) {
-  const ScanFile scan = openScanFile(path, scan_options, file_options);
+                 const Configuration& configuration, const HalfSpaceSolver& half_space, ScanPredictor& predictor) {
+  const CurveFiles curve_files = curveFilesOf(arguments);
+  const Options& options = predictor.options();
+  const ScanFile scan = openScanFile(path, configuration.scan, file_options);
   for (const std::string& note : scan.notes) warn(path, note);
-  for (const std::string& warning : scanWarnings(scan.surface)) warn(path, warning);
 
   Prediction prediction;
   RecordExtras extras;
   extras.channel = scan.channel;
+  extras.formulation = options.formulation;
+  extras.has_curve = arguments.record_curve;
+  for (const std::string& warning : scanWarnings(scan.surface)) std::cerr << path << ": warning: " << warning << "\n";
   try {
     const PreparedScan prepared = predictor.preparer().prepare(scan.surface);
     prediction = predictor.predict(prepared);
     if (!arguments.deformed.empty()) requireDeformedSurfaces(prediction);
+    if (!curve_files.formulation.empty() || extras.has_curve) requireCurve(prediction, options.formulation);
     extras.preprocessing = prepared.record;
     if (arguments.convergence) extras.convergence = predictor.convergence(prepared);
+    if (arguments.cleanings) extras.cleanings = cleaningSpread(scan.surface, configuration);
     if (arguments.half_space) {
-      extras.half_space = solveWithProgress(half_space, halfSpaceProblem(prepared, predictor.options()));
+      extras.half_space = solveWithProgress(half_space, halfSpaceProblem(prepared, options));
     }
   } catch (const SurfaceError& error) {
     throw SurfaceError(path + ": " + error.what());
+  }
+  if (configuration.device.isStated()) {
+    extras.verdict =
+        verdictOf(prediction, configuration.device, configuration.uncertainty, options, scan.surface.cellArea());
   }
   if (!arguments.deformed.empty()) writeHeightTiff(arguments.deformed, prediction.deformed_lower);
   if (extras.half_space && extras.half_space->status != HalfSpaceStatus::kSolved) {
     warn(path, "half-space: " + extras.half_space->message);
   }
-  if (extras.half_space) writeFiles(arguments.half_space_files, *extras.half_space);
+  if (!curve_files.formulation.empty()) {
+    writeCurve(curve_files.formulation, curveOf(prediction, options.interface));
+  }
+  if (!curve_files.half_space.empty()) writeCurve(curve_files.half_space, curveOf(*extras.half_space));
+  if (extras.half_space) writeMaps(arguments.half_space_maps, *extras.half_space);
   if (arguments.json) {
     std::cout << jsonRecord(path, scan.surface, prediction, extras) << std::endl;
   } else {
@@ -161,25 +217,25 @@ void predictScan(const std::string& path, const Arguments& arguments, const Scan
 int run(const Arguments& arguments) {
   std::optional<ScanPredictor> predictor;
   std::optional<HalfSpaceSolver> half_space;
-  ScanOptions scan_options;
+  Configuration configuration;
   ScanFileOptions file_options;
   file_options.import.channel = arguments.channel;
   file_options.import.ignore_mask = arguments.ignore_mask;
   try {
     applyPitch(arguments.pitch, file_options);
-    Configuration configuration = configurationOf(arguments);
+    configuration = configurationOf(arguments);
     configuration.model.output.deformed_surfaces = !arguments.deformed.empty();
     configuration.model.output.contact_map = false;
     configuration.model.output.roughness = true;
     predictor.emplace(configuration);
     half_space.emplace(configuration.half_space);
-    scan_options = configuration.scan;
+    curveFilesOf(arguments);
   } catch (const Error& error) {
     complain("predict_scan", error.what());
     return kBadInput;
   }
   return forEachScan("predict_scan", arguments.scans, [&](const std::string& path) {
-    predictScan(path, arguments, file_options, scan_options, *half_space, *predictor);
+    predictScan(path, arguments, file_options, configuration, *half_space, *predictor);
   });
 }
 

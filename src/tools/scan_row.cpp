@@ -30,7 +30,7 @@ nlohmann::json jsonOf(const Value& value) {
 /// Visits every figure of a row with its value and unit.
 template <typename Visitor>
 void visitFigures(const HeightMap& scan, const std::vector<std::string>& warnings, const Prediction& prediction,
-                  const std::optional<Verdict>& verdict, Visitor&& visit) {
+                  const std::optional<Verdict>& verdict, const std::string& formulation, Visitor&& visit) {
   std::string said;
   for (const std::string& warning : warnings) said += (said.empty() ? "" : "; ") + oneLine(warning);
   visit("warnings", said, "");
@@ -38,18 +38,23 @@ void visitFigures(const HeightMap& scan, const std::vector<std::string>& warning
   visit("cols", scan.cols(), "");
   visit("pitch_x", scan.pitchX(), "m");
   visit("pitch_y", scan.pitchY(), "m");
+  visit("formulation", formulation, "");
   visitPredictionFields(prediction, [&](const char* name, const auto& value, const char* unit) {
     const bool verdict_has_it = verdict && std::strcmp(name, "apparent_work_of_adhesion") == 0;
     if (std::strcmp(name, "processing_time") != 0 && !verdict_has_it) visit(name, value, unit);
   });
   visitRoughnessFields(prediction.roughness, visit);
   visitSpatialRoughnessFields(prediction.spatial_roughness, visit);
-  if (!verdict) return;
-  visitVerdictFields(*verdict, [&](const char* name, const auto& value, const char* unit) {
-    // The reason of a row is that of its failure.
-    visit(std::strcmp(name, "reason") == 0 ? "verdict_reason" : name, value, unit);
-  });
-  visit("regime_flag_names", regimeFlagNames(verdict->regime_flags), "");
+  const std::uint32_t flags = regimeFlags(prediction, scan.cellArea());
+  if (verdict) {
+    visitVerdictFields(*verdict, [&](const char* name, const auto& value, const char* unit) {
+      // The reason of a row is that of its failure.
+      visit(std::strcmp(name, "reason") == 0 ? "verdict_reason" : name, value, unit);
+    });
+  } else {
+    visit("regime_flags", flags, "");
+  }
+  visit("regime_flag_names", regimeFlagNames(flags), "");
 }
 
 nlohmann::json asperityColumns(const std::vector<Asperity>& asperities) {
@@ -84,6 +89,15 @@ nlohmann::json energyColumns(const std::vector<EnergyPoint>& curve) {
 
 }  // namespace
 
+nlohmann::json curveColumns(const std::vector<CurvePoint>& curve) {
+  nlohmann::json columns = nlohmann::json::object();
+  for (const CurvePoint& point : curve) {
+    visitCurvePointFields(
+        point, [&](const char* name, const auto& value, const char*) { columns[name].push_back(jsonOf(value)); });
+  }
+  return columns;
+}
+
 RowFields originFields(const ScanOrigin& origin, const std::string& reason) {
   nlohmann::json scan;
   if (origin.scan > 0) scan = origin.scan;
@@ -93,9 +107,9 @@ RowFields originFields(const ScanOrigin& origin, const std::string& reason) {
 }
 
 RowFields figureFields(const HeightMap& scan, const std::vector<std::string>& warnings, const Prediction& prediction,
-                       const std::optional<Verdict>& verdict) {
+                       const std::optional<Verdict>& verdict, const std::string& formulation) {
   RowFields fields;
-  visitFigures(scan, warnings, prediction, verdict,
+  visitFigures(scan, warnings, prediction, verdict, formulation,
                [&](const char* name, const auto& value, const char*) { fields.emplace_back(name, jsonOf(value)); });
   return fields;
 }
@@ -105,7 +119,7 @@ std::vector<std::string> columnNames(bool with_verdict) {
   for (const auto& field : originFields({}, "")) names.push_back(field.first);
   std::optional<Verdict> verdict;
   if (with_verdict) verdict.emplace();
-  for (const auto& field : figureFields({}, {}, {}, verdict)) names.push_back(field.first);
+  for (const auto& field : figureFields({}, {}, {}, verdict, "")) names.push_back(field.first);
   return names;
 }
 
@@ -113,14 +127,14 @@ std::map<std::string, std::string> columnUnits(bool with_verdict) {
   std::optional<Verdict> verdict;
   if (with_verdict) verdict.emplace();
   std::map<std::string, std::string> units;
-  visitFigures({}, {}, {}, verdict, [&](const char* name, const auto&, const char* unit) {
+  visitFigures({}, {}, {}, verdict, "", [&](const char* name, const auto&, const char* unit) {
     if (*unit != '\0') units[name] = unit;
   });
   return units;
 }
 
 void writeFullResult(const std::string& folder, const RowFields& fields, const HeightMap& prepared,
-                     const Prediction& prediction, const NamedMaps& more) {
+                     const Prediction& prediction, const std::vector<CurvePoint>& curve, const NamedMaps& more) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw FileError(folder + ": cannot be made: " + error.message());
@@ -134,6 +148,7 @@ void writeFullResult(const std::string& folder, const RowFields& fields, const H
   result["processing_time"] = prediction.processing_time;
   result["asperities"] = asperityColumns(prediction.asperities);
   result["energy_curve"] = energyColumns(prediction.energy_curve);
+  result["force_curve"] = curveColumns(curve);
   writeFile(folder + "/result.json", result.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n",
             OutputSafety::kWhole);
 }

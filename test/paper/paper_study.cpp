@@ -24,6 +24,7 @@
 #include <nlohmann/json.hpp>
 
 #include "mems_stiction/prediction/adhesion_model.hpp"
+#include "mems_stiction/prediction/force_curve.hpp"
 #include "mems_stiction/scan/configuration_yaml.hpp"
 #include "mems_stiction/surface/counter_surface.hpp"
 #include "tools/command_line.hpp"
@@ -80,11 +81,12 @@ std::string predictCase(const YAML::Node& wanted, const HeightMap& lower, const 
   const double scale = wanted["scale"].as<double>();
   const HeightMap scan = scaled(lower, scale);
   const HeightMap counter = scaled(upper, scale);
-  const Prediction prediction = AdhesionModel(optionsOf(wanted, !dump.empty())).predict({scan, counter});
-  RowFields fields = figureFields(scan, {}, prediction, std::nullopt);
+  const Options options = optionsOf(wanted, !dump.empty());
+  const Prediction prediction = AdhesionModel(options).predict({scan, counter});
+  RowFields fields = figureFields(scan, {}, prediction, std::nullopt, options.formulation);
   fields.insert(fields.begin(), {"case", wanted["name"].as<std::string>()});
   if (!dump.empty()) {
-    writeFullResult(dump, fields, scan, prediction);
+    writeFullResult(dump, fields, scan, prediction, curveOf(prediction, options.interface));
     writeNpy(dump + "/counter_heights.npy", counter.heights());
   }
   return rowText(fields, RowFormat::kJsonLines, {});

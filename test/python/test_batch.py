@@ -93,7 +93,8 @@ class BatchTest(unittest.TestCase):
                     self.folder / "scan.txt"])
         record = json.loads(done.stdout)
         row = json.loads((self.folder / "rows.jsonl").read_text().splitlines()[0])
-        common = set(row) & set(record) - {"file"}
+        common = set(row) & set(record) - {"file", "reason"}  # the reason of a row is that of its failure
+        self.assertEqual(row["verdict_reason"], record["reason"])
         self.assertGreater(len(common), 30)
         self.assertEqual({name: row[name] for name in common}, {name: record[name] for name in common})
 
@@ -258,7 +259,7 @@ class BatchTest(unittest.TestCase):
         self.assertIn("must end in .html", done.stderr)
 
 
-class JudgedByTest(unittest.TestCase):
+class TableRowTest(unittest.TestCase):
     def test_a_beam_without_a_spring_is_judged_by_its_peel_number(self):
         beam = {"margin": None, "peel_number": 3.21, "peel_number_lower": 1.234, "peel_number_upper": 1234.5}
         self.assertEqual(report.judged_by([beam]), "peel_number")
@@ -269,6 +270,16 @@ class JudgedByTest(unittest.TestCase):
                    plastic_count=1, rms_height=1e-9, sticks="no")
         self.assertEqual(report.table_row(row, set(), "peel_number")["ratio"], "3.21 (1.23 to 1230)")
         self.assertEqual(report.table_row(row, set(), "margin")["ratio"], "-")
+
+    def test_lower_bounds_and_limits_are_said_with_the_words_of_the_model_that_has_them(self):
+        row = {"status": "BONDED", "contact_area_jkr": 1e-15, "pull_off_force": 2e-7, "contact_fraction": 0.1, "asperity_count": 3,
+               "elastic_count": 3, "elasto_plastic_count": 0, "plastic_count": 0, "rms_height": 1e-9, "number": 1, "file": "a.txt",
+               "scan": None, "name": "", "channel": "", "reason": "", "regime_flag_names": "few_contacts, border", "warnings": "odd"}
+        self.assertEqual(report.table_row(row, set(), "margin")["pull_off"], "≥ 200 nN")
+        followed = report.table_row(dict(row, contact_area_jkr=None), set(), "margin")
+        self.assertEqual(followed["pull_off"], "200 nN")
+        self.assertEqual(followed["limits"], "few contacts: another place of the surface may differ much; most of the adhesion is of "
+                         "contacts at the frame's border: their summits may lie outside; odd")
 
 
 class ChosenTest(unittest.TestCase):

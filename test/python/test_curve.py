@@ -43,6 +43,11 @@ class CurveTest(unittest.TestCase):
         self.assertFalse(curve.came_apart())
         self.assertIsNone(Curve("a", points()[:40]).pull_off())
 
+    def test_a_stated_pull_off_force_stands_at_the_highest_point(self):
+        height, force = Curve("a", points(), 1.01e-7).pull_off()
+        self.assertAlmostEqual(height, 2e-10, delta=2e-11)  # the points are that far apart
+        self.assertEqual(force, 1.01e-7)
+
     def test_a_jump_is_found_and_a_smooth_curve_has_none(self):
         self.assertEqual(Curve("a", points()).retraction.jumps(), [])
         way = Curve("a", points(jump_at=4e-10)).retraction

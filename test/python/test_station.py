@@ -13,7 +13,7 @@ NAN = math.nan
 
 def point(voltage, direction=0, **changes):
     values = dict(direction=direction, voltage=voltage, mechanical_load=1e-6, status=0, is_open=False, pull_off_force=2e-7,
-                  electrostatic_force=3e-6, contact_fraction=1e-4, contact_area_jkr=2e-15, margin=12.0, margin_lower=6.0,
+                  electrostatic_force=3e-6, contact_fraction=1e-4, contact_area_jkr=2e-15, contact_area=4e-15, margin=12.0, margin_lower=6.0,
                   holding_margin=0.5, sticks=0)
     values.update(changes)
     return SimpleNamespace(**values)
@@ -27,7 +27,7 @@ def summary(**changes):
 
 
 def cycle(number, **changes):
-    values = dict(cycle=number, status=0, pull_off_force=1e-7 * number, contact_fraction=1e-4, asperity_count=3, plastic_count=1,
+    values = dict(cycle=number, status=0, pull_off_force=1e-7 * number, contact_fraction=1e-4, contact_area_jkr=2e-15, asperity_count=3, plastic_count=1,
                   rms_height=5e-9, largest_change=1e-10, sticks=0, margin=4.0 / number)
     values.update(changes)
     return SimpleNamespace(**values)
@@ -64,6 +64,16 @@ class SweepTextTest(unittest.TestCase):
         self.assertIn("opens on the way down at: none of the sweep", text)
         self.assertIn("hysteresis, widest at 0 V: JKR contact area 2000 nm^2 on the way up, 8000 nm^2 on the way down", text)
         self.assertIn("Pull-in voltage: not stated", text)
+
+    def test_a_formulation_without_jkr_contacts_shows_the_area_itself(self):
+        points = [point(0.0, contact_area_jkr=NAN, status=1), point(20.0, contact_area_jkr=NAN, contact_area=9e-15),
+                  point(0.0, 1, contact_area_jkr=NAN, contact_area=8e-15)]
+        line = sweep_line(points[0])
+        self.assertIn("4000 nm^2", line)
+        self.assertNotIn(">=", line)
+        text = "\n".join(sweep_sentences(SimpleNamespace(points=points, summaries=[summary()], pull_in_voltage=NAN)))
+        self.assertIn("widest at 0 V: contact area 4000 nm^2 on the way up, 8000 nm^2 on the way down", text)
+        self.assertNotIn("nan", text + line)
 
     def test_no_difference_is_no_hysteresis(self):
         self.assertIsNone(widest_gap([point(0.0), point(20.0), point(0.0, 1)], 1e-6))

@@ -1,16 +1,19 @@
 """What people read: numbers with prefixes, table lines, the effect of a load."""
 
 import math
+import pathlib
+import re
 import unittest
 from types import SimpleNamespace
 
-from mems_stiction.prediction_text import has_verdict, load_effect, table_header, table_line
+from mems_stiction.prediction_text import FLAGS, flag_names, flag_words, has_verdict, load_effect, table_header, table_line
 from mems_stiction.quantities import length_scale, percent, ratio, with_unit
 
 
 def prediction(**changes):
     values = dict(status=0, pull_off_force=2.3e-6, van_der_waals_force=0.23e-6, electrostatic_force=0.0,
-                  normal_load=1e-6, rms_height=9.96e-9, voltage=0.0, mechanical_load=0.0, contact_area=1e-14, contact_fraction=0.00123,
+                  normal_load=1e-6, rms_height=9.96e-9, voltage=0.0, mechanical_load=0.0, contact_area=1e-14, contact_fraction=0.00123, contact_area_jkr=1e-15,
+                  regime_flags=0, warnings=[],
                   elastic_count=2, elasto_plastic_count=3, plastic_count=4, processing_time=0.0345)
     values.update(changes)
     return SimpleNamespace(**values)
@@ -65,6 +68,24 @@ class PredictionTextTest(unittest.TestCase):
 
     def test_the_force_of_a_bonded_surface_is_marked_as_a_lower_bound(self):
         self.assertIn(">= 2.30 uN", table_line("a", prediction(status=1)))
+
+    def test_a_force_that_was_followed_is_no_lower_bound_and_has_no_shares(self):
+        line = table_line("a", prediction(status=1, contact_area_jkr=math.nan))
+        self.assertIn(" 2.30 uN", line)
+        self.assertNotIn(">=", line)
+        self.assertNotIn("nan", line)
+
+    def test_flags_and_warnings_stand_at_the_end_of_a_line_without_a_device_too(self):
+        line = table_line("a", prediction(regime_flags=32 + 256, warnings=["rows jump"]))
+        self.assertTrue(line.endswith("  few_contacts, one_pixel, warning: rows jump"), line)
+        self.assertEqual(flag_words(flag_names(0)), "")
+        self.assertIn("contacts of one pixel", flag_words(flag_names(256)))
+        self.assertEqual(flag_words(["newer"]), "newer")
+
+    def test_the_flags_are_those_of_the_message(self):
+        source = (pathlib.Path(__file__).resolve().parents[2] / "msg/StictionPrediction.msg").read_text(encoding="utf-8")
+        of_message = {int(value): name.lower() for name, value in re.findall(r"uint32 FLAG_(\w+) = (\d+)", source)}
+        self.assertEqual({bit: name for bit, (name, _) in FLAGS.items()}, of_message)
 
     def test_load_effect_says_what_grew(self):
         text = "\n".join(load_effect(prediction(), prediction(

@@ -209,18 +209,18 @@ class HalfSpaceTest(unittest.TestCase):
         self.assertEqual(self.live(surface).status, HalfSpaceSolution.SOLVED)
 
     def test_5_maps_and_pictures_are_there_for_listeners(self):
-        topics = ("half_space_contact_map", "contact_maps", "half_space_curve")
+        topics = ("half_space_contact_map", "contact_maps", "half_space_curve", "force_curve")
         collectors = [Collector(topic, Image).connect() for topic in topics]
         surface = rough_surface(7, rows=48, cols=64)
         solution = self.live(surface)
-        single, both, curve = [collector.wait(1)[0] for collector in collectors]
-        for message in (single, both, curve):
+        single, both, curve, of_prediction = [collector.wait(1)[0] for collector in collectors]
+        for message in (single, both, curve, of_prediction):
             self.assertEqual(message.header.stamp, solution.header.stamp)
         self.assertEqual((single.encoding, single.height, single.width), ("mono8", 48, 64))
         cells = np.frombuffer(single.data, np.uint8)
         self.assertTrue(set(cells) <= {0, 1, 3})
         self.assertAlmostEqual(np.count_nonzero(cells) * PITCH**2 / solution.contact_area, 1.0, delta=1e-9)
-        for picture in (both, curve):
+        for picture in (both, curve, of_prediction):
             self.assertEqual((picture.encoding, picture.height, picture.width), ("bgr8", 600, 1000))
 
     def test_6_an_action_is_cancelled_within_a_second_while_scans_go_on(self):

@@ -10,19 +10,10 @@
 
 #include <vector>
 
+#include "mems_stiction/contact/curve_point.hpp"
 #include "mems_stiction/half_space/half_space_solution.hpp"
 
 namespace mems_stiction {
-
-/// Which way the upper body went.
-enum class CurveDirection { kApproach, kRetraction };
-
-/// A point of the curve as a record has it.
-struct CurvePoint {
-  double height;  ///< of the upper body over first touch [m]; negative: pressed in
-  double force;   ///< positive pulls the bodies together [N]
-  CurveDirection direction;
-};
 
 /// "SOLVED", "LOAD_NOT_REACHED", "NOT_CONVERGED", "TOO_MANY_STATES", "CANCELLED"
 inline const char* word(HalfSpaceStatus status) {
@@ -39,11 +30,6 @@ inline const char* word(HalfSpaceStatus status) {
       break;
   }
   return "CANCELLED";
-}
-
-/// "APPROACH", "RETRACTION"
-inline const char* word(CurveDirection direction) {
-  return direction == CurveDirection::kApproach ? "APPROACH" : "RETRACTION";
 }
 
 /// The points of both ways in the order in which they were met; the one at rest is there twice.
@@ -74,15 +60,6 @@ void visitHalfSpaceFields(const SolvedHalfSpace& solution, Visitor&& visit) {
   visit("is_resolved", solution.is_resolved, "");
   visit("iterations", solution.newton_steps, "");
   visit("processing_time", solution.processing_time, "s");
-}
-
-/// @param point of curveOf()
-/// @param visit called with (name, value, unit) for each figure
-template <typename Visitor>
-void visitCurvePointFields(const CurvePoint& point, Visitor&& visit) {
-  visit("height", point.height, "m");
-  visit("force", point.force, "N");
-  visit("direction", point.direction, "");
 }
 
 }  // namespace mems_stiction

@@ -177,4 +177,12 @@ void visitEnergyPointFields(Point& point, Visitor&& visit) {
   visit("total_energy", point.total_energy, "J");
 }
 
+/// The fields of one point of the curve.
+template <typename Point, typename Visitor>
+void visitSeparationPointFields(Point& point, Visitor&& visit) {
+  visit("displacement", point.displacement, "m");
+  visit("force", point.force, "N");
+  visit("is_separation", point.is_separation, "");
+}
+
 }  // namespace mems_stiction

@@ -8,12 +8,14 @@
 #include <opencv2/core.hpp>
 
 #include "mems_stiction/HalfSpaceSolution.h"
+#include "mems_stiction/ros/curve_drawing.hpp"
 
 namespace mems_stiction {
 
 /// Force over height: approach and retraction, with axes, the pull-off marked and the figures above; without a curve the
 /// sentence that says why.
-sensor_msgs::ImagePtr curvePicture(const HalfSpaceSolution& solution);
+/// - @p beside the prediction's, laid under it; may have no point
+sensor_msgs::ImagePtr curvePicture(const HalfSpaceSolution& solution, const DrawnCurve& beside = {});
 
 /// Both contact maps of one scan side by side, in the colours of the regimes.
 /// - @p model_map, @p half_space_map CV_8UC1 with the values of mechanics/regime.hpp, or empty

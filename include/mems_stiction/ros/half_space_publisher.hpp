@@ -8,6 +8,7 @@
 #include <opencv2/core.hpp>
 
 #include "mems_stiction/HalfSpaceSolution.h"
+#include "mems_stiction/ros/curve_drawing.hpp"
 
 namespace mems_stiction {
 
@@ -20,7 +21,9 @@ class HalfSpacePublisher {
   bool areBothMapsWanted() const;
 
   /// - @p model_map, @p half_space_map contact maps of the scan; empty: not known
-  void publish(const HalfSpaceSolution& solution, const cv::Mat& model_map, const cv::Mat& half_space_map) const;
+  /// - @p model_curve of the prediction; no point: not known
+  void publish(const HalfSpaceSolution& solution, const cv::Mat& model_map, const cv::Mat& half_space_map,
+               const DrawnCurve& model_curve) const;
 
  private:
   image_transport::ImageTransport transport_;

@@ -45,7 +45,8 @@ class HalfSpaceStream {
 
   /// Takes the place of a scan that waits. Copies no pixels but the map's.
   /// - @p model_map contact map of the prediction; may be empty
-  void offer(const StationCase& predicted, const cv::Mat& model_map);
+  /// - @p model_curve that the prediction has followed; may have no point
+  void offer(const StationCase& predicted, const cv::Mat& model_map, const DrawnCurve& model_curve);
 
   /// One status with every count; WARN if a scan since the last report has no solution.
   void report(diagnostic_updater::DiagnosticStatusWrapper& status);
@@ -54,6 +55,7 @@ class HalfSpaceStream {
   struct Task {
     StationCase predicted;
     cv::Mat model_map;
+    DrawnCurve model_curve;
   };
   /// Since start.
   struct Counts {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "mems_stiction/contact/curve_point.hpp"
 #include "mems_stiction/prediction/prediction.hpp"
 #include "mems_stiction/preprocess/pipeline.hpp"
 #include "mems_stiction/verdict/verdict.hpp"
@@ -19,6 +20,7 @@ struct PredictedScan {
   PreprocessRecord preprocessing;     ///< what was done to the scan before
   std::string formulation;            ///< approach/formulation
   std::vector<std::string> warnings;  ///< about the scan, in words
+  std::vector<CurvePoint> curve;      ///< force over height; empty if the formulation does not follow it
 };
 
 }  // namespace mems_stiction

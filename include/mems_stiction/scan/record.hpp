@@ -11,21 +11,28 @@
 #include "mems_stiction/height_map/height_map.hpp"
 #include "mems_stiction/prediction/prediction.hpp"
 #include "mems_stiction/preprocess/pipeline.hpp"
+#include "mems_stiction/scan/cleaning_spread.hpp"
 #include "mems_stiction/scan/convergence.hpp"
+#include "mems_stiction/verdict/verdict.hpp"
 
 namespace mems_stiction {
 
 /// What a record may hold beside the prediction; each is left out when empty.
 struct RecordExtras {
   std::string channel;                        ///< which channel of the file
+  std::string formulation;                    ///< that the prediction is of
+  std::optional<Verdict> verdict;             ///< on the device
+  bool has_curve = false;                     ///< the prediction's curve, as a list of maps
   PreprocessRecord preprocessing;             ///< a list of maps: step, parameters, rms_change, changed_pixels, ...
   std::vector<ConvergenceRow> convergence;    ///< a list of maps, one per resolution
+  std::vector<CleaningRow> cleanings;         ///< a list of maps, one per cleaning, and a map of their spread
   std::optional<SolvedHalfSpace> half_space;  ///< a map of its figures, with the list of maps `curve`
 };
 
 /// One YAML document, from its "---" to the end of its last line. Numbers that are not finite are .nan, .inf, -.inf.
 /// The energy curve is a list of maps, left out when the prediction has none; spatial roughness is a part of
-/// `roughness`, left out when it was not computed. The convergence is repeated as a table in comments, for people.
+/// `roughness`, left out when it was not computed. Flags of the model's range are there with and without a device. Convergence and cleanings are repeated as tables in comments, for
+/// people.
 /// - @p file the scan's name, as the user wrote it
 std::string yamlRecord(const std::string& file, const HeightMap& scan, const Prediction& prediction,
                        const RecordExtras& extras = {});

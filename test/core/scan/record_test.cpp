@@ -134,5 +134,45 @@ TEST(Record, EnergyCurveIsAListWhenThereIsOne) {
   EXPECT_EQ(json["energy_curve"][1]["total_energy"].get<double>(), 5e-15);
 }
 
+TEST(Record, CurveIsAListWhenItIsAskedFor) {
+  Prediction prediction = example();
+  prediction.curve = {{-1e-10, 2e-7, false}, {-3e-10, 1e-7, true}};
+  EXPECT_FALSE(YAML::Load(yamlRecord("a", scan(), prediction))["curve"].IsDefined());
+  RecordExtras extras;
+  extras.has_curve = true;
+  const YAML::Node yaml = YAML::Load(yamlRecord("a", scan(), prediction, extras));
+  ASSERT_EQ(yaml["curve"].size(), 2u);
+  EXPECT_EQ(yaml["curve"][0]["displacement"].as<double>(), -1e-10);
+  EXPECT_TRUE(yaml["curve"][1]["is_separation"].as<bool>());
+  const nlohmann::json json = nlohmann::json::parse(jsonRecord("a", scan(), prediction, extras));
+  EXPECT_EQ(json["curve"][1]["force"].get<double>(), 1e-7);
+}
+
+TEST(Record, FlagsAndFormulationAreThereWithoutADevice) {
+  RecordExtras extras;
+  extras.formulation = "consistent";
+  const YAML::Node yaml = YAML::Load(yamlRecord("a", scan(), example(), extras));
+  EXPECT_EQ(yaml["formulation"].as<std::string>(), "consistent");
+  EXPECT_EQ(yaml["regime_flags"].as<unsigned>() & 1u, 1u) << "bonded";
+  EXPECT_EQ(yaml["regime_flag_names"].as<std::string>().substr(0, 6), "bonded");
+  EXPECT_FALSE(yaml["sticks"].IsDefined());
+}
+
+TEST(Record, VerdictHasItsFieldsOnce) {
+  RecordExtras extras;
+  extras.verdict.emplace();
+  extras.verdict->sticks = Sticks::kYes;
+  extras.verdict->margin = 0.25;
+  extras.verdict->apparent_work_of_adhesion = 3e-3;
+  const std::string text = yamlRecord("a", scan(), example(), extras);
+  const YAML::Node yaml = YAML::Load(text);
+  EXPECT_EQ(yaml["sticks"].as<std::string>(), "yes");
+  EXPECT_EQ(yaml["margin"].as<double>(), 0.25);
+  EXPECT_EQ(yaml["apparent_work_of_adhesion"].as<double>(), 3e-3);
+  EXPECT_EQ(text.find("apparent_work_of_adhesion"), text.rfind("apparent_work_of_adhesion"));
+  EXPECT_EQ(text.find("regime_flags:"), text.rfind("regime_flags:"));
+  EXPECT_EQ(nlohmann::json::parse(jsonRecord("a", scan(), example(), extras))["sticks"], "yes");
+}
+
 }  // namespace
 }  // namespace mems_stiction

@@ -4,12 +4,14 @@
 #include <sys/wait.h>
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <utility>
 
 #include <opencv2/imgcodecs.hpp>
 
@@ -128,11 +130,16 @@ TEST_F(PredictScan, BadInputIsOneLineAndTheOthersArePredicted) {
 TEST_F(PredictScan, BadSettingsAreOneLineEach) {
   const std::string scan = sphere();
   const std::string broken = folder_.write("broken.yaml", "lower: {youngs_modulos: 1e9}\n");
+  const std::string printed = folder_.write("printed.yaml", "approach: {formulation: printed}\n");
   for (const std::string& arguments :
        {"--pitch 0 " + scan, "--pitch 2e-9x " + scan, "--pitch 20e-9 --load -1 " + scan,
         "--pitch 20e-9 --voltage 5 " + scan, "--config " + broken + " " + scan, "--config /nonexistent.yaml " + scan,
         "--pitch 20e-9 --deformed x.tiff " + scan + " " + scan, scan,
-        "--pitch 20e-9 --half-space --curve x.csv " + scan + " " + scan, "--pitch 20e-9 --curve x.csv " + scan,
+        "--pitch 20e-9 --half-space --curve x.csv " + scan + " " + scan,
+        "--pitch 20e-9 --curve x.csv " + scan + " " + scan,
+        "--pitch 20e-9 --curve x.csv --formulation-curve y.csv " + scan,
+        "--pitch 20e-9 --record-curve -c " + printed + " " + scan,
+        "--pitch 20e-9 --curve x.csv -c " + printed + " " + scan,
         "--pitch 20e-9 --half-space --half-space-gap x.tiff " + scan + " " + scan,
         "--pitch 20e-9 --half-space-pressure x.tiff " + scan}) {
     const Outcome outcome = run(arguments);
@@ -178,6 +185,74 @@ TEST_F(PredictScan, ConvergenceIsAListInBothFormatsAndATableForPeople) {
   const YAML::Node document = YAML::Load(yaml.output);
   EXPECT_EQ(document["convergence"][1]["pull_off_force"].as<double>(),
             record["convergence"][1]["pull_off_force"].get<double>());
+}
+
+/// Height [m] and force [N] of the points of one direction, in the order of the file.
+std::vector<std::pair<double, double>> pointsOf(const std::string& csv, const std::string& direction) {
+  std::istringstream lines(csv);
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(line, "height,force,direction");
+  std::vector<std::pair<double, double>> points;
+  while (std::getline(lines, line)) {
+    const std::size_t first = line.find(',');
+    const std::size_t second = line.find(',', first + 1);
+    if (line.substr(second + 1) == direction) {
+      points.emplace_back(std::stod(line), std::stod(line.substr(first + 1, second - first - 1)));
+    }
+  }
+  return points;
+}
+
+TEST_F(PredictScan, TheFormulationsCurveGoesToRestAndBackOverTheHalfSpacesHeight) {
+  const std::string file = folder_.file("curve.csv");
+  const Outcome outcome = run("--json --record-curve --pitch 20e-9 --curve " + file + " " + sphere());
+  ASSERT_EQ(outcome.status, 0);
+  const nlohmann::json record = nlohmann::json::parse(outcome.output);
+  EXPECT_EQ(record["formulation"], "consistent");
+  const auto approach = pointsOf(ScratchFolder::read(file), "APPROACH");
+  const auto retraction = pointsOf(ScratchFolder::read(file), "RETRACTION");
+  ASSERT_EQ(approach.size(), record["curve"].size());
+  const double range = std::sqrt(65e-21 / (16.0 * kPi * 0.05));  // z0 of the default interface
+  for (std::size_t i = 0; i < approach.size(); ++i) {
+    // numbers are written so that they read back as they were; the difference is rounded once
+    EXPECT_NEAR(approach[i].first, range - record["curve"][i]["displacement"].get<double>(), 1e-22) << i;
+    EXPECT_EQ(approach[i].second, record["curve"][i]["force"].get<double>()) << i;
+  }
+  EXPECT_EQ(std::vector(approach.rbegin(), approach.rend()), retraction) << "nothing flows";
+  double largest = 0.0;
+  for (const auto& point : retraction) largest = std::max(largest, point.second);
+  // the pull-off force is the summit of a parabola through the highest points
+  EXPECT_NEAR(largest / record["pull_off_force"].get<double>(), 1.0, 0.02);
+  EXPECT_LT(retraction.front().first, range) << "at rest contacts are pressed in";
+}
+
+TEST_F(PredictScan, AStatedDeviceIsJudged) {
+  const std::string device =
+      folder_.write("d.yaml", "device: {spring_stiffness: 1.0, travel: 1.0e-6, contact_area: 1.0e-12}\n");
+  const std::string call = " --pitch 20e-9 " + sphere();
+  const YAML::Node record = YAML::Load(run("-c " + device + call).output);
+  const double scale = 1e-12 / record["nominal_area"].as<double>();
+  EXPECT_DOUBLE_EQ(record["margin"].as<double>(), 1e-6 / (record["pull_off_force"].as<double>() * scale));
+  EXPECT_LT(record["margin_lower"].as<double>(), record["margin"].as<double>());
+  EXPECT_GT(record["margin_upper"].as<double>(), record["margin"].as<double>());
+  EXPECT_FALSE(record["sticks"].as<std::string>().empty());
+  EXPECT_FALSE(record["reason"].as<std::string>().empty());
+  EXPECT_NE(record["regime_flag_names"].as<std::string>().find("few_contacts"), std::string::npos);
+  const YAML::Node without = YAML::Load(run(call).output);
+  EXPECT_FALSE(without["margin"].IsDefined());
+  EXPECT_EQ(without["regime_flags"].as<unsigned>(), record["regime_flags"].as<unsigned>());
+}
+
+TEST_F(PredictScan, CleaningsAreAListWithTheirSpread) {
+  const Outcome outcome = run("--cleanings --pitch 20e-9 " + sphere());
+  ASSERT_EQ(outcome.status, 0);
+  const YAML::Node record = YAML::Load(outcome.output);
+  ASSERT_EQ(record["cleanings"].size(), 9u);
+  EXPECT_EQ(record["cleanings"][0]["cleaning"].as<std::string>(), "as configured");
+  EXPECT_EQ(record["cleanings"][0]["pull_off_force"].as<double>(), record["pull_off_force"].as<double>());
+  EXPECT_GE(record["cleaning_spread"]["pull_off_factor"].as<double>(), 1.0);
+  EXPECT_NE(outcome.output.find("# Over "), std::string::npos);
 }
 
 TEST_F(PredictScan, TheRecordSaysHowTheScanWasCleanedAndHowFarItsRoughnessReaches) {
@@ -290,6 +365,24 @@ TEST_F(PredictScanHalfSpace, CurveFileHasThePullOffForceAsItsLargestAttraction) 
   EXPECT_EQ(height, expected.pull_off_height);
 }
 
+TEST_F(PredictScanHalfSpace, TheFormulationsCurveStandsBesideThatOfTheHalfSpace) {
+  const std::string curve = folder_.file("curve.csv");
+  const std::string beside = folder_.file("beside.csv");
+  const Outcome outcome = run("--json --curve " + curve + " --formulation-curve " + beside + " " + arguments());
+  ASSERT_EQ(outcome.status, 0);
+  const nlohmann::json record = nlohmann::json::parse(outcome.output);
+  const auto of_half_space = pointsOf(ScratchFolder::read(curve), "RETRACTION");
+  const auto of_formulation = pointsOf(ScratchFolder::read(beside), "RETRACTION");
+  EXPECT_EQ(of_half_space.size(), expected().retraction.size());
+  const auto highest = [](const std::vector<std::pair<double, double>>& points) {
+    return *std::max_element(points.begin(), points.end(),
+                             [](const auto& left, const auto& right) { return left.second < right.second; });
+  };
+  EXPECT_EQ(highest(of_half_space).second, record["half_space"]["pull_off_force"].get<double>());
+  // both count the height from first touch: for a sphere they part within the range of the forces, 0.16 nm
+  EXPECT_NEAR(highest(of_half_space).first, highest(of_formulation).first, 0.16e-9);
+}
+
 TEST_F(PredictScanHalfSpace, MapFilesAreTheLibrarysMaps) {
   const SolvedHalfSpace expected = this->expected();
   const std::string pressure_file = folder_.file("pressure.tiff");
@@ -368,7 +461,8 @@ TEST_F(PredictScan, HelpNamesEveryOption) {
   EXPECT_EQ(outcome.status, 0);
   for (const char* option :
        {"--config", "--pitch", "--voltage", "--load", "--step", "--json", "--deformed", "--convergence", "--half-space",
-        "--curve", "--half-space-pressure", "--half-space-gap", "--half-space-deformed", "SCAN"}) {
+        "--curve", "--formulation-curve", "--record-curve", "--cleanings", "--half-space-pressure", "--half-space-gap",
+        "--half-space-deformed", "SCAN"}) {
     EXPECT_NE(outcome.output.find(option), std::string::npos) << option;
   }
 }

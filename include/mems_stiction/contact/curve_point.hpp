@@ -1,0 +1,33 @@
+#pragma once
+
+/// @file
+/// Force over height as files and records have it, whichever solver followed it.
+///
+///     visitCurvePointFields(point, [&](const char* name, const auto& value, const char* unit) { print(...); });
+
+namespace mems_stiction {
+
+/// Which way the upper body went.
+enum class CurveDirection { kApproach, kRetraction };
+
+/// A point of the curve.
+struct CurvePoint {
+  double height;  ///< of the upper body over first touch [m]; negative: pressed in
+  double force;   ///< positive pulls the bodies together [N]
+  CurveDirection direction;
+};
+
+/// "APPROACH", "RETRACTION"
+inline const char* word(CurveDirection direction) {
+  return direction == CurveDirection::kApproach ? "APPROACH" : "RETRACTION";
+}
+
+/// @param visit called with (name, value, unit) for each figure
+template <typename Visitor>
+void visitCurvePointFields(const CurvePoint& point, Visitor&& visit) {
+  visit("height", point.height, "m");
+  visit("force", point.force, "N");
+  visit("direction", point.direction, "");
+}
+
+}  // namespace mems_stiction

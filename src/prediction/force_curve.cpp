@@ -1,0 +1,27 @@
+#include "mems_stiction/prediction/force_curve.hpp"
+
+#include <algorithm>
+
+#include "mems_stiction/loads/force_range.hpp"
+
+namespace mems_stiction {
+
+std::vector<CurvePoint> curveOf(const Prediction& prediction, const InterfaceOptions& interface) {
+  const double range = forceRange(interface);
+  const auto add = [range](const SeparationCurvePoint& point, CurveDirection direction, std::vector<CurvePoint>& to) {
+    to.push_back({range - point.displacement, point.force, direction});
+  };
+  std::vector<CurvePoint> curve;
+  for (const SeparationCurvePoint& point : prediction.curve) {
+    add(point, point.is_separation ? CurveDirection::kRetraction : CurveDirection::kApproach, curve);
+  }
+  const bool has_way_out = std::any_of(prediction.curve.begin(), prediction.curve.end(),
+                                       [](const SeparationCurvePoint& point) { return point.is_separation; });
+  if (!has_way_out) {
+    std::for_each(prediction.curve.rbegin(), prediction.curve.rend(),
+                  [&](const SeparationCurvePoint& point) { add(point, CurveDirection::kRetraction, curve); });
+  }
+  return curve;
+}
+
+}  // namespace mems_stiction

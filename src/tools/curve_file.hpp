@@ -1,0 +1,16 @@
+#pragma once
+
+/// Curves of force over height in files, whichever model they are of.
+
+#include <string>
+#include <vector>
+
+#include "mems_stiction/contact/curve_point.hpp"
+
+namespace mems_stiction {
+
+/// CSV that plot_curve reads: a line of names, then height [m], force [N] and direction of each point.
+/// @throw FileError if it cannot be written
+void writeCurve(const std::string& path, const std::vector<CurvePoint>& curve);
+
+}  // namespace mems_stiction
