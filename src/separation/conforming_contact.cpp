@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace mems_stiction {
 namespace {
@@ -14,6 +15,8 @@ constexpr int kLawPoints = 4000;
 constexpr int kReliefClasses = 1024;
 /// Height at which surfaces without relief are past their strength, of z0.
 constexpr double kFarEnough = 2.5;
+/// Cells with a gap up to this count as in contact, of z0: those without relief lie at z0 but for round-off.
+constexpr double kTouching = 1.0 + 1e-9;
 /// Heights of the branch: this many from the deepest to where the last cell lets go.
 constexpr int kHeights = 240;
 
@@ -117,7 +120,7 @@ MeanPoint meanAt(double height, const std::vector<ReliefClass>& relief, const Sp
     const Spring::Point point = spring.at(height + one.height);
     mean.traction += one.share * point.traction;
     mean.energy += one.share * point.energy;
-    if (point.gap < range) mean.contact_fraction += one.share;
+    if (point.gap <= kTouching * range) mean.contact_fraction += one.share;
   }
   return mean;
 }
@@ -129,8 +132,10 @@ ConformingContact conformingContact(const GapField& field, const ContactTraction
   ConformingContact contact;
   const double range = law.range();
   const double variance = field.rmsGap() * field.rmsGap();
-  if (!law.attracts() || !(flattening_energy > 0.0) || !(variance > 0.0)) return contact;
-  const double soft = 2.0 * flattening_energy / variance;
+  if (!law.attracts()) return contact;
+  // surfaces without relief have nothing to give way: springs without end
+  const double soft = variance > 0.0 ? 2.0 * flattening_energy / variance : std::numeric_limits<double>::infinity();
+  if (!(soft > 0.0)) return contact;
   const double brittleness = soft * range * range / law.workOfAdhesion();
   const Spring spring(law, soft * (1.0 + 0.5 / (1.0 + brittleness * brittleness)));
   const std::vector<ReliefClass> relief = reliefClasses(field);

@@ -179,7 +179,7 @@ void predictScan(const std::string& path, const Arguments& arguments, const Scan
   extras.channel = scan.channel;
   extras.formulation = options.formulation;
   extras.has_curve = arguments.record_curve;
-  for (const std::string& warning : scanWarnings(scan.surface)) std::cerr << path << ": warning: " << warning << "\n";
+  for (const std::string& warning : scanWarnings(scan.surface)) warn(path, warning);
   try {
     const PreparedScan prepared = predictor.preparer().prepare(scan.surface);
     prediction = predictor.predict(prepared);

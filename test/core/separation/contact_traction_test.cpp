@@ -1,0 +1,133 @@
+/// The law of adhesion counted from contact, and the layer that it puts between the bodies.
+
+#include "mems_stiction/separation/contact_traction.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "mems_stiction/base/constants.hpp"
+#include "mems_stiction/mechanics/surface_forces.hpp"
+
+namespace mems_stiction {
+namespace {
+
+InterfaceOptions interfaceOf(double work, double hamaker) {
+  InterfaceOptions interface;
+  interface.work_of_adhesion = work;
+  interface.hamaker_constant = hamaker;
+  return interface;
+}
+
+const InterfaceOptions kSilica = interfaceOf(0.05, 65e-21);
+
+TEST(ContactTraction, integratesToTheWorkOfAdhesion) {
+  const ContactTraction law(kSilica);
+  // Simpson's rule over x = z0/(d + z0), in which the integral to infinity is finite and smooth
+  const int parts = 1000;
+  double sum = 0.0;
+  for (int i = 1; i <= parts; ++i) {
+    const double x = static_cast<double>(i) / parts;
+    const double weight = i == parts ? 1.0 : i % 2 == 1 ? 4.0 : 2.0;
+    sum += weight * law.traction(law.range() * (1.0 / x - 1.0)) * law.range() / (x * x);
+  }
+  EXPECT_NEAR(sum / (3.0 * parts) / 0.05, 1.0, 1e-9);
+  EXPECT_NEAR(law.energy(0.0) / 0.05, 1.0, 1e-14);
+}
+
+TEST(ContactTraction, energyAndCurvatureAreItsIntegralAndSecondDerivative) {
+  const ContactTraction law(kSilica);
+  const double h = 1e-4 * law.range();
+  for (const double gap : {0.05, 0.2, 1.0, 7.0}) {
+    const double d = gap * law.range();
+    // central differences: h^2/d^2 = 4e-6 at the closest, and the first derivative vanishes nowhere here
+    EXPECT_NEAR((law.energy(d - h) - law.energy(d + h)) / (2.0 * h) / law.traction(d), 1.0, 1e-5) << gap;
+    const double second = (law.traction(d - h) - 2.0 * law.traction(d) + law.traction(d + h)) / (h * h);
+    EXPECT_NEAR(second / law.curvature(d), 1.0, 1e-4) << gap;
+  }
+}
+
+TEST(ContactTraction, isLargestAtAFifthOfItsRange) {
+  const ContactTraction law(kSilica);
+  double largest = 0.0;
+  double place = 0.0;
+  for (int i = 0; i < 4000; ++i) {
+    const double d = 1e-3 * i * law.range();
+    if (law.traction(d) > largest) {
+      largest = law.traction(d);
+      place = d;
+    }
+  }
+  EXPECT_NEAR(place / law.range(), std::pow(3.0, 1.0 / 6.0) - 1.0, 1e-3);  // the step of the search
+  EXPECT_NEAR(law.strength() / largest, 1.0, 1e-6);
+  EXPECT_NEAR(law.strength() * law.range() / 0.05, 16.0 / (9.0 * std::sqrt(3.0)), 1e-12);  // 1.026
+  EXPECT_EQ(law.traction(0.0), 0.0);
+}
+
+TEST(ContactTraction, isHamakersFarAway) {
+  const ContactTraction law(kSilica);
+  EXPECT_NEAR(law.range(), std::sqrt(65e-21 / (16.0 * kPi * 0.05)), 1e-24);
+  const double gap = 1e-7;  // z0/d = 1.6e-3, of which the third power
+  EXPECT_NEAR(law.traction(gap) / surface_forces::vanDerWaalsPressure(gap, 65e-21), 1.0, 6e-3);
+}
+
+TEST(ContactTraction, withoutWorkOfAdhesionNothingAttractsAndNothingGivesWay) {
+  const ContactTraction law(interfaceOf(0.0, 65e-21));
+  EXPECT_FALSE(law.attracts());
+  EXPECT_EQ(law.traction(1e-10), 0.0);
+  EXPECT_EQ(law.strength(), 0.0);
+  EXPECT_EQ(law.pressureInSeries(3e9, 1e-10), 3e9);
+  EXPECT_EQ(law.pressureInSeries(-1.0, 1e-10), 0.0);
+}
+
+TEST(ContactTraction, withoutHamakerConstantTheRangeIsTheEquilibriumDistance) {
+  InterfaceOptions interface = interfaceOf(0.05, 0.0);
+  interface.equilibrium_distance = 0.3e-9;
+  const ContactTraction law(interface);
+  EXPECT_EQ(law.range(), 0.3e-9);
+  EXPECT_TRUE(law.attracts());
+}
+
+/// The balance of layer and bodies by bisection.
+double bisectedPressure(const ContactTraction& law, double elastic, double depth) {
+  double low = 0.0;
+  double high = std::min(depth, 0.6 * law.range());
+  for (int i = 0; i < 200; ++i) {
+    const double s = 0.5 * (low + high);
+    const double x = law.range() / (law.range() - s);
+    const double layer = law.stress() * (std::pow(x, 9.0) - std::pow(x, 3.0));
+    (layer < elastic * (1.0 - s / depth) ? low : high) = s;
+  }
+  return elastic * (1.0 - 0.5 * (low + high) / depth);
+}
+
+TEST(ContactTraction, layerAndBodiesCarryTheSame) {
+  const ContactTraction law(kSilica);
+  for (const double stiffness : {0.01, 0.3, 3.0, 30.0}) {      // of the bodies against the layer's
+    for (const double depth : {1e-4, 0.03, 0.5, 3.0, 50.0}) {  // of z0
+      const double elastic = stiffness * law.stress() * depth;
+      const double found = law.pressureInSeries(elastic, depth * law.range());
+      EXPECT_NEAR(found / bisectedPressure(law, elastic, depth * law.range()), 1.0, 1e-5) << stiffness << " " << depth;
+      EXPECT_LE(found, elastic);
+    }
+  }
+}
+
+TEST(ContactTraction, shallowOverlapsSeeTheLayersOwnStiffness) {
+  const ContactTraction law(kSilica);
+  const double depth = 1e-6 * law.range();
+  const double layer_stiffness = 6.0 * law.stress() / law.range();  // of t at z0
+  const double body_stiffness = 2.0 * layer_stiffness;
+  // two springs in a row: 2/3 of the softer one; the layer stiffens by 1e-5 of itself
+  EXPECT_NEAR(law.pressureInSeries(body_stiffness * depth, depth) / (layer_stiffness * depth), 2.0 / 3.0, 2e-5);
+}
+
+TEST(ContactTraction, aLayerMuchStifferThanTheBodiesHardlyMatters) {
+  const ContactTraction law(kSilica);
+  const double depth = 10.0 * law.range();
+  const double elastic = 1e-3 * law.stress() * 10.0;
+  EXPECT_NEAR(law.pressureInSeries(elastic, depth) / elastic, 1.0, 1e-3);
+}
+
+}  // namespace
+}  // namespace mems_stiction

@@ -1,0 +1,109 @@
+/// The separation curve against the half-space: frames that an independent solver has solved (their folder is named by
+/// MEMS_STICTION_HALF_SPACE), and frames that nothing here was adjusted to, solved on the spot.
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "mems_stiction/half_space/half_space_solver.hpp"
+#include "mems_stiction/surface/gaussian_surface.hpp"
+#include "mems_stiction/surface/self_affine_surface.hpp"
+#include "support/separation_cases.hpp"
+
+namespace mems_stiction {
+namespace {
+
+using separation_cases::elastic;
+
+TEST(SeparationOfSolvedFrames, pullOffForceIsThatOfTheHalfSpace) {
+  const char* const folder = std::getenv("MEMS_STICTION_HALF_SPACE");
+  if (folder == nullptr) GTEST_SKIP() << "MEMS_STICTION_HALF_SPACE names no folder of solved frames";
+  std::ifstream file(std::string(folder) + "/reference.json");
+  ASSERT_TRUE(file) << folder << "/reference.json cannot be read";
+  const nlohmann::json reference = nlohmann::json::parse(file);
+  for (const auto& [name, frame] : reference["frames"].items()) {
+    SCOPED_TRACE(name);
+    Options options = elastic(frame["contact_modulus"]);
+    options.interface.work_of_adhesion = reference["work_of_adhesion"];
+    options.interface.hamaker_constant = 0.0;
+    options.interface.equilibrium_distance = reference["z0"];
+    const HeightMap surface(cv::imread(std::string(folder) + "/" + name + ".tiff", cv::IMREAD_UNCHANGED),
+                            frame["pitch"], frame["pitch"]);
+    const Prediction prediction = AdhesionModel(options).predict(surface);
+    const double ratio = prediction.pull_off_force / frame["pull_off_force"].get<double>();
+    EXPECT_LT(std::abs(std::log(ratio)), std::log(1.15)) << ratio;
+  }
+}
+
+struct Case {
+  bool is_gaussian;
+  double rms;
+  double length;
+  double modulus;
+  double work;
+  double pressure;
+};
+
+TEST(SeparationOfFreshFrames, mostLieWithinFifteenPercentOfTheHalfSpace) {
+  // from near bonding to single summits, with and without load; pixels resolve the cohesive length
+  const Case cases[] = {{true, 0.5e-9, 30e-9, 80e9, 0.05, 0},   {true, 1e-9, 40e-9, 80e9, 0.05, 0},
+                        {true, 2e-9, 40e-9, 80e9, 0.05, 0},     {true, 1e-9, 30e-9, 30e9, 0.03, 0},
+                        {true, 3e-9, 50e-9, 50e9, 0.05, 2e7},   {true, 1.5e-9, 60e-9, 90e9, 0.1, 5e6},
+                        {false, 1e-9, 60e-9, 80e9, 0.05, 0},    {false, 0.6e-9, 50e-9, 80e9, 0.03, 0},
+                        {false, 2e-9, 80e-9, 80e9, 0.05, 0},    {false, 1e-9, 60e-9, 40e9, 0.02, 1e7},
+                        {true, 0.05e-9, 60e-9, 20e9, 0.05, 0},  {true, 0.1e-9, 60e-9, 10e9, 0.03, 0},
+                        {false, 0.05e-9, 80e-9, 50e9, 0.05, 0}, {false, 4e-9, 80e-9, 100e9, 0.02, 0}};
+  int close = 0;
+  int seed = 100;
+  for (const Case& one : cases) {
+    const int pixels = 64;
+    const double pitch = one.is_gaussian ? one.length / 10.0 : one.length / 20.0;
+    HeightMap surface;
+    if (one.is_gaussian) {
+      GaussianSurfaceOptions options;
+      options.rows = options.cols = pixels;
+      options.pitch_x = options.pitch_y = pitch;
+      options.rms_height = one.rms;
+      options.correlation_length_x = options.correlation_length_y = one.length;
+      options.seed = ++seed;
+      surface = gaussianSurface(options);
+    } else {
+      SelfAffineSurfaceOptions options;
+      options.rows = options.cols = pixels;
+      options.pitch_x = options.pitch_y = pitch;
+      options.rolloff_wavelength = one.length;
+      options.cutoff_wavelength = 4.0 * pitch;
+      options.rms_height = one.rms;
+      options.seed = ++seed;
+      surface = selfAffineSurface(options);
+    }
+    Options options = elastic(one.modulus, one.pressure * pixels * pixels * pitch * pitch);
+    options.interface.work_of_adhesion = one.work;
+    const Prediction prediction = AdhesionModel(options).predict(surface);
+    HalfSpaceProblem problem;
+    problem.surfaces.lower = surface;
+    problem.lower_material = options.lower;
+    problem.upper_material = options.upper;
+    problem.interface = options.interface;
+    problem.load = options.load;
+    HalfSpaceOptions half_space;
+    half_space.flow = false;
+    const SolvedHalfSpace solved = HalfSpaceSolver(half_space).solve(problem);
+    ASSERT_EQ(solved.status, HalfSpaceStatus::kSolved) << solved.message;
+    const double ratio = prediction.pull_off_force / solved.pull_off_force;
+    SCOPED_TRACE(testing::Message() << "seed " << seed << ", ratio " << ratio);
+    std::printf("seed %d res %d ratio %.3f work %.3f area %.3f U/G %.2f n %d\n", seed, solved.is_resolved, ratio,
+                prediction.apparent_work_of_adhesion / solved.work_of_adhesion,
+                prediction.contact_area / solved.contact_area, prediction.flattening_ratio, prediction.asperity_count);
+    close += std::abs(std::log(ratio)) < std::log(1.15) ? 1 : 0;
+  }
+  EXPECT_GE(close, 11);
+}
+
+}  // namespace
+}  // namespace mems_stiction
