@@ -19,7 +19,7 @@ import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
 
 DOCUMENTS = pathlib.Path(__file__).resolve().parents[2] / "doc"
 COLOURS = ("#2f7fd1", "#d1322f", "#7a7a7a", "#f2b705", "#3a9d5d")
-QUANTITIES = (("pull_off_force", "pull-off force"), ("pull_off_force_jkr", "its part of contacts"),
+QUANTITIES = (("pull_off_force", "pull-off force"), ("apparent_work_of_adhesion", "work of adhesion"),
               ("contact_area", "contact area"), ("mean_gap", "mean gap"))
 MOVED = 1e-3  # a scan counts as moved when its pull-off force changes by more than this
 FEWEST_CONTACTS = 10  # as FLAG_FEW_CONTACTS has it
@@ -30,13 +30,13 @@ SETTINGS = {
     "pitch": (
         "Pixels of the scan; coarser ones are means over blocks, as `predict_scan --convergence` makes them. It is no "
         "setting: the scan brings it. *refined by N*: coarse pixels, then `preprocessing/refine/factor: N`.",
-        "", "The mean gap holds longest, then the contact area; the sum of radii, and with it `pull_off_force_jkr`, goes first: "
+        "", "The mean gap holds longest, then the contact area; the pull-off force goes first: "
         "radii need pixels. Aim at {min_contact_pixels:g} pixels in the median contact, below which `is_resolution_limited` is set."),
     "approach/step": (
         "Approach per step; sigma is the composite rms height.",
         "Shorter steps say the same to well within the scan-to-scan spread; longer ones overlook places of rest.",
-        "The equilibrium is searched inside the first step that *ends* at rest, so most scans do not depend on the step at all. "
-        "Those that move came to rest and lost it again within one step, by contacts that merged."),
+        "The separation curve chooses its own, a tenth of z0 and more where the surfaces are deep in contact; `approach/step` is that of "
+        "`formulation: paper`."),
     "approach/max_steps": (
         "Steps after which the search gives up, with the status NO_EQUILIBRIUM.",
         "Far above what a scan needs: it ends only searches whose step was typed wrong.", ""),
@@ -49,11 +49,11 @@ SETTINGS = {
     "interface/cutoff_distance": (
         "The smallest distance D0 [m] in van der Waals sums.",
         "The usual value of the literature; the others tried are those in use.",
-        "It moves more than all other settings together: the attraction along the rim of each contact goes with D0^-2. Unless it was "
-        "measured for the pair, `pull_off_force` has one digit; compare surfaces by `pull_off_force_jkr` as well."),
+        "The separation curve does not have it: it counts attraction from z0 = sqrt(H/(16 pi Gamma)) on, so that it sums to Gamma. Under "
+        "`formulation: paper` it moves the pull-off force more than all other settings together."),
     "interface/equilibrium_distance": (
-        "z0 [m] of Tabor's parameter. The table has `pull_off_force_transition` in place of the part of contacts.",
-        "Middle of the values in use; enters `pull_off_force_transition` and the Tabor parameter only.", ""),
+        "z0 [m] of Tabor's parameter under `formulation: paper`, and of the law where the Hamaker constant is 0.",
+        "Middle of the values in use; the separation curve derives z0 from Hamaker constant and work of adhesion.", ""),
     "preprocessing/refine/factor": (
         "Pixels per pixel, interpolated.",
         "Off: it adds no information, costs its square in time, and fine scans do not need it.",
@@ -63,12 +63,12 @@ SETTINGS = {
         "How refinement draws between pixels, both with factor 2.",
         "Both agree within the scan-to-scan spread; cubic has no ripples beside steps.", ""),
     "approach/formulation": (
-        "What the authors compute, roots and exponents restored, or the print to the letter.",
+        "The separation curve; what the paper's authors compute, roots and exponents restored; or their print to the letter.",
         "A choice of model, not of digits: [theory](theory.md#what-differs-from-the-printed-paper) gives the reasons.", ""),
     "approach/deformation": (
         "Elastic, elasto-plastic and plastic asperities, or all of them elastic.",
         "A choice of model too: real surfaces flow.",
-        "It matters wherever contacts have a plasticity index above 0.6: chi takes their stored energy away whatever the pressure."),
+        "It matters where Hertz's largest pressure exceeds the hardness; under `formulation: paper` wherever the plasticity index is above 0.6."),
 }
 YARDSTICKS = {"interface/work_of_adhesion": "work of adhesion", "hardness": "hardness of both bodies",
               "youngs_modulus": "Young's modulus of both bodies"}
@@ -154,7 +154,7 @@ def surfaces_table(study):
                      "%.0f" % statistics.mean(surface.values("asperity_count")),
                      "%.0f" % statistics.mean(surface.values("median_contact_pixels")),
                      "%.3g ± %s %%" % (mean["pull_off_force"], percent(surface.spread("pull_off_force"), False)),
-                     "%.3g ± %s %%" % (mean["pull_off_force_jkr"], percent(surface.spread("pull_off_force_jkr"), False)),
+                     "%.3g ± %s %%" % (mean["apparent_work_of_adhesion"], percent(surface.spread("apparent_work_of_adhesion"), False)),
                      "%.3g ± %s %%" % (mean["contact_area"], percent(surface.spread("contact_area"), False)),
                      "%.3g ± %s %%" % (1e9 * mean["mean_gap"], percent(surface.spread("mean_gap"), False))])
     return table(["surface", "heights", "scans", "contacts", "pixels per contact", "pull-off force [N]", "its part of contacts [N]",
@@ -192,8 +192,6 @@ def defaults_table(study):
 def setting_section(study, key):
     what, why, more = SETTINGS[key]
     quantities = list(QUANTITIES)
-    if key == "interface/equilibrium_distance":
-        quantities[1] = ("pull_off_force_transition", "with prefactors of the transition")
     lines = ["### %s" % ("pitch" if key == "pitch" else "`%s`" % key), "", what, ""]
     rows = []
     unmoved = []
@@ -294,7 +292,7 @@ def in_short(study):
         if abs(step) < max(spreads) else
         "- **The step is not converged:** shorter ones move the mean pull-off force by %s %%." % percent(step),
         "- **The cut-off distance** is the one setting that decides the first digit of `pull_off_force`: %s to %s %% over the values in use. "
-        "It leaves contact area, gap and `pull_off_force_jkr` nearly alone, unless the surface is so smooth that its own attraction presses it together."
+        "It leaves contact area and gap nearly alone, unless the surface is so smooth that its own attraction presses it together."
         % (min(cutoff, key=number), max(cutoff, key=number)) if max(abs(number(text)) for text in cutoff) > 100 * max(spreads) else
         "- **The cut-off distance** moves `pull_off_force` by %s to %s %% over the values in use, less than another place does."
         % (min(cutoff, key=number), max(cutoff, key=number)),

@@ -140,7 +140,7 @@ std::vector<Case> allCases(const Configuration& configuration, bool has_finer) {
     cases.push_back({"preprocessing/refine/interpolation", value, numerical, value == interpolation,
                      "preprocessing/refine: {factor: 2, interpolation: " + value + "}", 0, 1.0});
   }
-  add(cases, configuration, "approach/formulation", {"paper", "printed"}, Kind::kModel);
+  add(cases, configuration, "approach/formulation", {"consistent", "paper", "printed"}, Kind::kModel);
   add(cases, configuration, "approach/deformation", {"three_regimes", "elastic"}, Kind::kModel);
 
   const UncertaintyOptions& known = configuration.uncertainty;
