@@ -12,9 +12,9 @@
 namespace mems_stiction {
 namespace {
 
-/// The surfaces of a held contact are not asked for, its contacts always.
+/// What shows of a held contact is not asked for, its contacts and the surfaces that it leaves always.
 Options withContacts(Options options) {
-  options.output.deformed_surfaces = false;
+  options.output.deformed_surfaces = true;
   options.output.contact_map = false;
   options.output.roughness = false;
   options.output.energy_curve = false;
@@ -62,6 +62,8 @@ HeldState HeldContact::advance(double voltage, double mechanical_load) {
     }
     if (!has_contact_ || prediction.approach >= contact_.approach) {
       contact_ = std::move(prediction);
+      pressed_ = SurfacePair(HeightMap(contact_.deformed_lower, surfaces_.lower.pitchX(), surfaces_.lower.pitchY()),
+                             HeightMap(contact_.deformed_upper, surfaces_.lower.pitchX(), surfaces_.lower.pitchY()));
       has_contact_ = true;
       state.is_searched = true;
       state.electrostatic_force = contact_.electrostatic_force;
@@ -72,7 +74,7 @@ HeldState HeldContact::advance(double voltage, double mechanical_load) {
     }
   }
   if (contact_.followsCurve()) {
-    const Prediction now = model_.predict(surfaces_);
+    const Prediction now = model_.predict(pressed_);
     state.electrostatic_force = now.electrostatic_force;
     state.normal_load = now.normal_load;
     state.contact_area = now.contact_area;

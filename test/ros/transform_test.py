@@ -16,7 +16,7 @@ from stiction_client import Collector, Counts, Station, image_message, info_mess
 from tf2_msgs.msg import TFMessage
 
 FIRST = dict(offset_x=4.0e-8, offset_y=-2.5e-8, rotation=0.4, tilt_x=0.002, tilt_y=-0.001)
-FIGURES = ("pull_off_force", "normal_load", "contact_area_jkr", "approach", "mean_gap", "total_energy")
+FIGURES = ("pull_off_force", "normal_load", "contact_area", "approach", "mean_gap", "total_energy")
 
 
 def multiplied(a, b):

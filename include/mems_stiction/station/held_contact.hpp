@@ -14,8 +14,8 @@
 ///     - an elastic contact's radius follows (7) down its new share P0; what has flowed keeps its radius:
 ///       a^2 = chi a(P0)^2 + (1 - chi) a(largest)^2.
 ///
-/// The separation curve knows what an elastic contact is at each load: it is read off again there, and only what holds
-/// the surfaces, which flow and conforming have increased, stays that of the largest load.
+/// The separation curve knows what a contact is at each load: it is read off again there, for the surfaces as the largest
+/// load has left them. What holds them, which flow and conforming have increased, stays that of the largest load.
 ///
 /// A load beyond the largest so far searches the equilibrium of the undeformed surfaces again: loading passes the
 /// smaller states on its way, and their plastic flow is contained in that of the larger. Should a search end at a
@@ -57,6 +57,7 @@ class HeldContact {
   double largest_load_ = 0.0;     ///< [N]
   double field_factor_ = 0.0;     ///< F_e/U^2 of the closest approach that was searched with a voltage [N/V^2]
   Prediction contact_;
+  SurfacePair pressed_;  ///< the surfaces as that load has left them
 };
 
 }  // namespace mems_stiction
