@@ -85,9 +85,9 @@ struct ModelError {
 };
 
 ModelError modelError(const Prediction& prediction) {
-  if (prediction.is_conforming) return {0.20, 0.15};
-  if (prediction.flattening_ratio < kNearBonding) return {0.30, 0.20};
-  return {0.08, 0.06};
+  if (prediction.is_conforming) return {0.29, 0.08};
+  if (prediction.flattening_ratio < kNearBonding) return {0.21, 0.15};
+  return {0.08, 0.08};
 }
 
 /// Samples of a prediction by the separation curve: its exponents move it with the constants.

@@ -57,7 +57,8 @@ TEST(SeparationOfFreshFrames, mostLieWithinFifteenPercentOfTheHalfSpace) {
                         {false, 1e-9, 60e-9, 80e9, 0.05, 0},    {false, 0.6e-9, 50e-9, 80e9, 0.03, 0},
                         {false, 2e-9, 80e-9, 80e9, 0.05, 0},    {false, 1e-9, 60e-9, 40e9, 0.02, 1e7},
                         {true, 0.05e-9, 60e-9, 20e9, 0.05, 0},  {true, 0.1e-9, 60e-9, 10e9, 0.03, 0},
-                        {false, 0.05e-9, 80e-9, 50e9, 0.05, 0}, {false, 4e-9, 80e-9, 100e9, 0.02, 0}};
+                        {false, 0.05e-9, 80e-9, 50e9, 0.05, 0}, {false, 4e-9, 80e-9, 100e9, 0.02, 0},
+                        {true, 0.2e-9, 30e-9, 60e9, 0.05, 0}};
   int close = 0;
   int seed = 100;
   for (const Case& one : cases) {
@@ -97,12 +98,9 @@ TEST(SeparationOfFreshFrames, mostLieWithinFifteenPercentOfTheHalfSpace) {
     ASSERT_EQ(solved.status, HalfSpaceStatus::kSolved) << solved.message;
     const double ratio = prediction.pull_off_force / solved.pull_off_force;
     SCOPED_TRACE(testing::Message() << "seed " << seed << ", ratio " << ratio);
-    std::printf("seed %d res %d ratio %.3f work %.3f area %.3f U/G %.2f n %d\n", seed, solved.is_resolved, ratio,
-                prediction.apparent_work_of_adhesion / solved.work_of_adhesion,
-                prediction.contact_area / solved.contact_area, prediction.flattening_ratio, prediction.asperity_count);
     close += std::abs(std::log(ratio)) < std::log(1.15) ? 1 : 0;
   }
-  EXPECT_GE(close, 11);
+  EXPECT_GE(close, 14);  // all but the last, which is near bonding, were within 1.05
 }
 
 }  // namespace

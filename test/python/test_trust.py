@@ -1,0 +1,93 @@
+"""The error map, small: frames are the same in every run, a run goes on where it ended, and doc/trust.md is a page of this study."""
+
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+from roslib.packages import find_node
+
+REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
+LIBRARY = REPOSITORY / "scripts" / "lib"
+sys.path.insert(0, str(LIBRARY))
+
+import trust_frames  # noqa: E402  (the path comes first)
+import trust_page  # noqa: E402
+
+COUNT = 6
+
+
+def run(*command):
+    return subprocess.run([str(part) for part in command], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                          universal_newlines=True, timeout=250)
+
+
+def headings(page):
+    return re.findall(r"^#+ .*$", page, re.MULTILINE)
+
+
+class TrustTest(unittest.TestCase):
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.folder = pathlib.Path(holder.name)
+
+    def run_frames(self, count):
+        done = run(sys.executable, LIBRARY / "trust_run.py", find_node("mems_stiction", "predict_scan")[0], self.folder,
+                   count, "--pixels", "48")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stderr
+
+    def test_quick_map_goes_on_and_gives_the_page(self):
+        self.run_frames(3)
+        path = self.folder / "half_space.jsonl"
+        first = path.read_text()
+        path.write_text(first + '{"frame": {"num')  # as an interrupted run leaves it
+        progress = self.run_frames(COUNT)
+        self.assertTrue(path.read_text().startswith(first))
+        self.assertEqual(len(path.read_text().splitlines()), COUNT)
+        self.assertNotIn("solved 3 of", progress)
+        self.assertIn("solved 4 of %d" % COUNT, progress)
+        done = run(sys.executable, LIBRARY / "trust_page.py", self.folder / "predictions.jsonl", self.folder / "page.md", self.folder / "map.png")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual((self.folder / "map.png").read_bytes()[1:4], b"PNG")
+        shipped = (REPOSITORY / "doc" / "trust.md").read_text(encoding="utf-8")
+        self.assertEqual(headings((self.folder / "page.md").read_text(encoding="utf-8")), headings(shipped))
+        for text in (self.folder / "predictions.jsonl").read_text().splitlines():
+            line = json.loads(text)
+            if line["half_space"]["status"] == "SOLVED" and line["half_space"]["is_resolved"]:
+                ratio = line["consistent"]["pull_off_force"] / line["half_space"]["pull_off_force"]
+                self.assertTrue(0.5 < ratio < 2, (line["frame"], ratio))  # what the map has at worst
+
+    def test_frames_are_the_same_in_every_run(self):
+        none = trust_frames.Scans(None)
+        kinds = set()
+        for number in range(20):
+            frame, heights = trust_frames.draw(number, 48, none)
+            again, same = trust_frames.draw(number, 48, none)
+            self.assertEqual(frame, again)
+            self.assertTrue(np.array_equal(heights, same) and np.isfinite(heights).all())
+            kinds.add(frame["kind"])
+            self.assertTrue(0.1e9 <= frame["modulus"] <= 100e9 and 0.005 <= frame["work"] <= 0.15, frame)
+        self.assertEqual(kinds, {"gaussian", "skewed", "self-affine", "spheres"})
+
+    def test_interval_of_the_code_is_that_of_the_page(self):
+        source = (REPOSITORY / "src" / "verdict" / "margin_uncertainty.cpp").read_text(encoding="utf-8")
+        of_code = re.findall(r"return \{(0\.\d+), (0\.\d+)\};", source.split("ModelError modelError")[1].split("\n}\n")[0])
+        page = (REPOSITORY / "doc" / "trust.md").read_text(encoding="utf-8")
+        table = page.split("## The interval of the margin")[1]
+        of_page = [re.search(r"^\| %s \| \d+ \| (\S+) \| (\S+) \|" % name, table, re.MULTILINE).groups()
+                   for name in (trust_page.CONFORMING, trust_page.NEAR_BONDING, trust_page.SPARSE)]
+        self.assertEqual([tuple(map(float, pair)) for pair in of_code], [tuple(map(float, pair)) for pair in of_page])
+
+    def test_deviation_holds_its_share(self):
+        logs = np.random.default_rng(1).normal(0, 0.2, 20000)
+        self.assertAlmostEqual(trust_page.deviation(logs), 0.2, delta=0.006)  # the quantile of 20000: 1 %
+
+
+if __name__ == "__main__":
+    unittest.main()
