@@ -20,8 +20,6 @@ void OverlapSweep::start(const GapField& field, Connectivity connectivity) {
   parent_.clear();
   live_.clear();
   live_place_.clear();
-  changed_.clear();
-  is_changed_.clear();
 }
 
 int OverlapSweep::advanceTo(double approach, GapOrder& order) {
@@ -63,7 +61,6 @@ void OverlapSweep::insert(const OrderedCell& ordered) {
     patch.first_gap = ordered.gap;
     patches_.push_back(patch);
     parent_.push_back(id);
-    is_changed_.push_back(0);
     live_place_.push_back(static_cast<std::int32_t>(live_.size()));
     live_.push_back(id);
   }
@@ -72,7 +69,6 @@ void OverlapSweep::insert(const OrderedCell& ordered) {
   patch.gap_sum += ordered.gap;
   patch_of_cell_[static_cast<std::size_t>(cell.index)] = id;
   inserted_cells_.push_back(cell.index);
-  markChanged(id);
 }
 
 std::int32_t OverlapSweep::rootOf(std::int32_t id) {
@@ -94,24 +90,7 @@ std::int32_t OverlapSweep::unite(std::int32_t a, std::int32_t b, double gap) {
   live_[static_cast<std::size_t>(place)] = live_.back();
   live_place_[static_cast<std::size_t>(live_.back())] = place;
   live_.pop_back();
-  markChanged(a);
   return a;
-}
-
-void OverlapSweep::markChanged(std::int32_t id) {
-  std::uint8_t& is_changed = is_changed_[static_cast<std::size_t>(id)];
-  if (is_changed == 0) changed_.push_back(id);
-  is_changed = 1;
-}
-
-const std::vector<std::int32_t>& OverlapSweep::takeChangedPatches() {
-  changed_live_.clear();
-  for (const std::int32_t id : changed_) {
-    is_changed_[static_cast<std::size_t>(id)] = 0;
-    if (parent_[static_cast<std::size_t>(id)] == id) changed_live_.push_back(id);
-  }
-  changed_.clear();
-  return changed_live_;
 }
 
 }  // namespace mems_stiction

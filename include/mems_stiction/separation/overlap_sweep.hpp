@@ -30,8 +30,6 @@ class OverlapSweep {
   /// Ids of the patches that exist now; their order depends on the cells alone.
   const std::vector<std::int32_t>& livePatches() const { return live_; }
   const OverlapPatch& patch(std::int32_t id) const { return patches_[static_cast<std::size_t>(id)]; }
-  /// Ids of the live patches that have changed since the last call.
-  const std::vector<std::int32_t>& takeChangedPatches();
   /// One more than the largest id so far.
   std::size_t idEnd() const { return patches_.size(); }
   /// Patch that holds a cell, or -1.
@@ -44,7 +42,6 @@ class OverlapSweep {
   void insert(const OrderedCell& ordered);
   std::int32_t rootOf(std::int32_t id);
   std::int32_t unite(std::int32_t a, std::int32_t b, double gap);
-  void markChanged(std::int32_t id);
 
   const GapField* field_ = nullptr;
   Connectivity connectivity_ = Connectivity::kFour;
@@ -55,9 +52,6 @@ class OverlapSweep {
   std::vector<std::int32_t> parent_;
   std::vector<std::int32_t> live_;
   std::vector<std::int32_t> live_place_;
-  std::vector<std::int32_t> changed_;
-  std::vector<std::int32_t> changed_live_;
-  std::vector<std::uint8_t> is_changed_;
 };
 
 }  // namespace mems_stiction

@@ -157,19 +157,6 @@ TEST(OverlapSweep, radiusAndLoadOfAParaboloidAreHertzs) {
   EXPECT_NEAR(load / (4.0 / 3.0 * std::sqrt(radius) * std::pow(depth, 1.5)), 1.0, 4e-3);
 }
 
-TEST(OverlapSweep, changedPatchesAreToldOnce) {
-  const GapField field = twoSummits();
-  GapOrder order;
-  order.build(field, 1.0);
-  OverlapSweep sweep;
-  sweep.start(field, Connectivity::kFour);
-  sweep.advanceTo(0.7 * kNm, order);
-  EXPECT_EQ(sweep.takeChangedPatches().size(), 2U);
-  EXPECT_TRUE(sweep.takeChangedPatches().empty());
-  sweep.advanceTo(1.5 * kNm, order);
-  EXPECT_EQ(sweep.takeChangedPatches().size(), 1U);
-}
-
 TEST(OverlapSweep, startsAnewOnAnotherFrameAndBack) {
   const std::vector<samples::Frame> frames = samples::allFrames();
   OverlapSweep used;
