@@ -101,6 +101,8 @@ class Surface:
         return [outcome[quantity] / default[quantity] - 1 for outcome, default in zip(case["outcomes"], reference)]
 
     def changes_as_text(self, case, quantity):
+        if any(outcome[quantity] is None for outcome in case["outcomes"]):
+            return "none"  # the formulation does not have it
         changes = self.changes(case, quantity)
         mean, scatter = percent(statistics.mean(changes)), percent(statistics.stdev(changes), sign=False)
         return "0" if (mean, scatter) == ("0", "0") else "%s ± %s" % (mean, scatter)
@@ -157,7 +159,7 @@ def surfaces_table(study):
                      "%.3g ± %s %%" % (mean["apparent_work_of_adhesion"], percent(surface.spread("apparent_work_of_adhesion"), False)),
                      "%.3g ± %s %%" % (mean["contact_area"], percent(surface.spread("contact_area"), False)),
                      "%.3g ± %s %%" % (1e9 * mean["mean_gap"], percent(surface.spread("mean_gap"), False))])
-    return table(["surface", "heights", "scans", "contacts", "pixels per contact", "pull-off force [N]", "its part of contacts [N]",
+    return table(["surface", "heights", "scans", "contacts", "pixels per contact", "pull-off force [N]", "work of adhesion [J/m^2]",
                   "contact area [m^2]", "mean gap [nm]"], rows)
 
 
