@@ -31,8 +31,6 @@ Attraction AttractionSum::all(const GapPyramid& gaps, double approach, int conta
       [&](const OrderedCell* cells, std::size_t count) { addEnergies(cells, count, approach, sum); },
       [&](const GapMoments& bucket) { addEnergies(bucket, approach, sum); });
   sum.adhesion_energy = cell_area_ * (sum.adhesion_energy + contact_count * law_.workOfAdhesion());
-  sum.electrostatic_energy *= cell_area_ * field_factor_;
-  if (field_factor_ > 0.0) sum.electrostatic_energy += contact_count * cell_area_ * field_factor_ / insulator_;
   return sum;
 }
 
@@ -69,14 +67,12 @@ void AttractionSum::addEnergies(const OrderedCell* cells, std::size_t count, dou
   for (std::size_t i = 0; i < count; ++i) {
     const double gap = cells[i].gap - approach;
     sum.adhesion_energy += law_.energy(gap);
-    if (field_factor_ > 0.0) sum.electrostatic_energy += 1.0 / (gap + insulator_);
   }
 }
 
 void AttractionSum::addEnergies(const GapMoments& gaps, double approach, Attraction& sum) const {
   const double gap = gaps.mean - approach;
   sum.adhesion_energy += gaps.count * law_.energy(gap);
-  if (field_factor_ > 0.0) sum.electrostatic_energy += gaps.count / (gap + insulator_);
 }
 
 }  // namespace mems_stiction

@@ -19,9 +19,9 @@ constexpr int kRestSearches = 3;
 void takeMaximum(const std::vector<SeparationState>& states, SeparationCurve& curve) {
   std::size_t best = 0;
   for (std::size_t i = 1; i < states.size(); ++i) {
-    if (states[i].force() > states[best].force()) best = i;
+    if (states[i].partingForce() > states[best].partingForce()) best = i;
   }
-  curve.pull_off_force = std::max(0.0, states[best].force());
+  curve.pull_off_force = std::max(0.0, states[best].partingForce());
   curve.pull_off_approach = states[best].approach;
   curve.pull_off_adhesion = states[best].adhesion;
   curve.pull_off_carried = states[best].carried;
@@ -29,14 +29,14 @@ void takeMaximum(const std::vector<SeparationState>& states, SeparationCurve& cu
   const SeparationState& before = states[best - 1];
   const SeparationState& after = states[best + 1];
   const double middle = states[best].approach;
-  const double rise = (states[best].force() - before.force()) / (middle - before.approach);
-  const double fall = (after.force() - states[best].force()) / (after.approach - middle);
+  const double rise = (states[best].partingForce() - before.partingForce()) / (middle - before.approach);
+  const double fall = (after.partingForce() - states[best].partingForce()) / (after.approach - middle);
   const double bend = (fall - rise) / (after.approach - before.approach);
   if (!(bend < 0.0)) return;
   const double slope = rise + bend * (middle - before.approach);
   const double move = std::clamp(-0.5 * slope / bend, before.approach - middle, after.approach - middle);
   curve.pull_off_approach = middle + move;
-  curve.pull_off_force = states[best].force() + move * (slope + bend * move);
+  curve.pull_off_force = states[best].partingForce() + move * (slope + bend * move);
 }
 
 /// Integral over a step of a line from `from` to `to`, of its part above 0.
@@ -50,13 +50,13 @@ double positivePart(double from, double to, double length) {
 /// Integrals along the states; the part before the first one by its energies.
 void takeWork(const Attraction& at_first, SeparationCurve& curve) {
   curve.elastic_energy = 0.0;
-  curve.work = at_first.adhesion_energy + at_first.electrostatic_energy;
+  curve.work = at_first.adhesion_energy;
   for (std::size_t i = 1; i < curve.states.size(); ++i) {
     const SeparationState& from = curve.states[i - 1];
     const SeparationState& to = curve.states[i];
     const double length = to.approach - from.approach;
     curve.elastic_energy += 0.5 * (from.carried + to.carried) * length;
-    curve.work += positivePart(from.force(), to.force(), length);
+    curve.work += positivePart(from.partingForce(), to.partingForce(), length);
   }
 }
 

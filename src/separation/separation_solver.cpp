@@ -44,7 +44,7 @@ Regime regimeOf(const PatchLoad& load, double area, double hardness) {
 
 void appendCurve(const SeparationCurve& curve, bool is_separation, std::vector<SeparationCurvePoint>& points) {
   const auto add = [&](const SeparationState& state) {
-    points.push_back({state.approach, state.force(), is_separation});
+    points.push_back({state.approach, is_separation ? state.partingForce() : state.force(), is_separation});
   };
   if (is_separation) {
     std::for_each(curve.states.rbegin(), curve.states.rend(), add);
@@ -60,6 +60,11 @@ void takeExponents(const SeparationCurve& curve, ContactSolution& solution) {
   solution.modulus_exponent = -curve.pull_off_carried / curve.pull_off_force;
 }
 
+void dropWayOut(std::vector<SeparationCurvePoint>& points) {
+  const auto is_way_out = [](const SeparationCurvePoint& point) { return point.is_separation; };
+  points.erase(std::remove_if(points.begin(), points.end(), is_way_out), points.end());
+}
+
 }  // namespace
 
 void SeparationSolver::solve(const ContactProblem& problem, ContactSolution& solution) {
@@ -67,6 +72,7 @@ void SeparationSolver::solve(const ContactProblem& problem, ContactSolution& sol
   trace_.start(problem.gap, problem.settings, true);
   followCurve(trace_, problem.settings, curve_);
   appendCurve(curve_, false, solution.curve);
+  if (problem.settings.load.voltage != 0.0) appendCurve(curve_, true, solution.curve);
   solution.status = curve_.status;
   solution.steps = static_cast<int>(curve_.states.size());
   solution.pull_off_force = curve_.pull_off_force;
@@ -217,6 +223,7 @@ void SeparationSolver::partFlowed(const ContactProblem& problem, ContactSolution
   changed_trace_.start(changed_gap_, problem.settings, false);
   followCurveUpTo(changed_trace_, approach - first_touch, changed_curve_);
   for (SeparationState& state : changed_curve_.states) state.approach += first_touch;
+  dropWayOut(solution.curve);
   appendCurve(changed_curve_, true, solution.curve);
   solution.pull_off_force = changed_curve_.pull_off_force;
   takeExponents(changed_curve_, solution);
@@ -237,8 +244,7 @@ void SeparationSolver::partConforming(const ContactProblem& problem, ContactSolu
   solution.modulus_exponent = 0.0;
   solution.apparent_work_of_adhesion = conforming.work;
   solution.contact_area = conforming.states.front().contact_fraction * area;
-  const auto is_way_out = [](const SeparationCurvePoint& point) { return point.is_separation; };
-  solution.curve.erase(std::remove_if(solution.curve.begin(), solution.curve.end(), is_way_out), solution.curve.end());
+  dropWayOut(solution.curve);
   for (const ConformingState& state : conforming.states) {
     solution.curve.push_back({state.approach, state.traction * area, true});
   }

@@ -59,13 +59,13 @@ class StationCheckTest(unittest.TestCase):
         self.assertEqual(done.returncode, FAIL, done.stderr)
         self.assertIn("FAIL: sticks: unknown, ", done.stdout)  # no device is stated
         settings = dynamic_reconfigure.client.Client("stiction_node", timeout=30.0)
-        device = dict(spring_stiffness=10.0, travel=1e-6, contact_area=1e-13)
+        device = dict(spring_stiffness=10.0, travel=1e-6, contact_area=1e-13, mechanical_load=1e-5)  # on several contacts
         for change, status, line in ((device, PASS, "PASS"), (dict(spring_stiffness=1e-6), FAIL, "FAIL: sticks: yes, margin ")):
             settings.update_configuration(change)
             done = self.run_check("--verdict")
             self.assertEqual(done.returncode, status, done.stdout)
             self.assertIn(line, done.stdout)
-        settings.update_configuration({name: 0.0 for name in device})
+        settings.update_configuration(dict({name: 0.0 for name in device}, mechanical_load=1e-6))
 
     def test_what_cannot_be_checked_neither_passes_nor_fails(self):
         for arguments, changes, reason in [

@@ -104,7 +104,8 @@ class ViewsTest(unittest.TestCase):
         trend = Collector("trend", Image).connect()  # of view.launch
         surface = rough_surface(2)
         # A spring of 1 N/m over 1 um is far stronger than 3e-13 m^2 of this surface hold.
-        self.settings.update_configuration(dict(spring_stiffness=1.0, travel=1e-6, contact_area=48 * 64 * 1e-16))
+        self.settings.update_configuration(dict(spring_stiffness=1.0, travel=1e-6, contact_area=48 * 64 * 1e-16,
+                                                mechanical_load=1e-5))  # three contacts carry a statement, one does not
         self.live(surface)
         self.assertEqual(self.predictions.messages[-1].sticks, StictionPrediction.STICKS_NO)
         headline = slice(20, 70)

@@ -37,7 +37,7 @@ struct Prediction {
   double normal_load = 0.0;          ///< F = F_w + F_e + F_m + F_c [N]
   double capillary_force = 0.0;      ///< F_c of condensed water; 0 unless interface/relative_humidity is set [N]
 
-  /// Largest force while the surfaces are drawn apart; of the paper's formulations (11): pull_off_force_jkr +
+  /// Largest force while the surfaces are drawn apart, after voltage and load have gone; of the paper's formulations (11): pull_off_force_jkr +
   /// van_der_waals_force + capillary_force [N]
   double pull_off_force = 0.0;
   double pull_off_force_jkr = 0.0;         ///< (3/2) pi Gamma sum R_i [N]

@@ -11,10 +11,9 @@ namespace mems_stiction {
 
 /// Of a frame at one approach.
 struct Attraction {
-  double adhesion = 0.0;              ///< sum of t(d) dA over the cells apart [N]
-  double electrostatic = 0.0;         ///< sum of eps0 U^2/(2 (d + h/eps_r)^2) dA over all, d = 0 in contact [N]
-  double adhesion_energy = 0.0;       ///< sum of w(d) dA over all cells, Gamma in contact [J]
-  double electrostatic_energy = 0.0;  ///< sum of eps0 U^2/(2 (d + h/eps_r)) dA over all [J]
+  double adhesion = 0.0;         ///< sum of t(d) dA over the cells apart [N]
+  double electrostatic = 0.0;    ///< sum of eps0 U^2/(2 (d + h/eps_r)^2) dA over all, d = 0 in contact [N]
+  double adhesion_energy = 0.0;  ///< sum of w(d) dA over all cells, Gamma in contact [J]
 };
 
 /// Sums over the frame without a pass over it.

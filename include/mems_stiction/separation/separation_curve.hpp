@@ -14,7 +14,7 @@ namespace mems_stiction {
 struct SeparationCurve {
   std::vector<SeparationState> states;  ///< by ascending approach; the last one is at rest
   Status status = Status::kNoEquilibrium;
-  double pull_off_force = 0.0;     ///< largest force on the way [N]
+  double pull_off_force = 0.0;     ///< largest parting force on the way [N]
   double pull_off_approach = 0.0;  ///< where [m]
   double pull_off_adhesion = 0.0;  ///< of which the cells apart attract [N]
   double pull_off_carried = 0.0;   ///< and the patches carry [N]

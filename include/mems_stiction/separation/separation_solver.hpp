@@ -3,8 +3,8 @@
 /// @file
 /// The solver of the separation curve: the force between the surfaces at each displacement, adhesion counted once.
 ///
-/// Rest is where the curve carries the mechanical load, the pull-off force its largest value on the way out, the
-/// apparent work of adhesion its area. Surfaces that have flowed on the way in come apart along the curve of the changed
+/// Rest is where the curve carries the mechanical load. The pull-off force is its largest value on the way out, the
+/// apparent work of adhesion its area, both when the loads that made the contact, voltage too, have been taken away. Surfaces that have flowed on the way in come apart along the curve of the changed
 /// surfaces; surfaces whose flattening costs less than adhesion gives come apart along that of conforming ones
 /// (conforming_contact.hpp). Equations, derivation, limits: doc/separation_curve.md.
 ///

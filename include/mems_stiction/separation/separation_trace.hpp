@@ -38,6 +38,8 @@ struct SeparationState {
   double carried = 0.0;        ///< by all patches
 
   double force() const { return adhesion + electrostatic + capillary - carried; }
+  /// The same when the loads that brought the surfaces together, voltage too, have been taken away.
+  double partingForce() const { return adhesion + capillary - carried; }
 };
 
 /// What one patch carries at an approach.
