@@ -23,7 +23,7 @@ class StationCheckTest(unittest.TestCase):
         rospy.wait_for_service("stiction_node/get_load", timeout=30.0)
         cls.folder = tempfile.TemporaryDirectory()
         cls.bag = os.path.join(cls.folder.name, "scans.bag")
-        make_bag(cls.bag, "--count", "2", "--rows", "64", "--cols", "64", "--rms-height", "5e-9")
+        make_bag(cls.bag, "--count", "2", "--rows", "128", "--cols", "128", "--rms-height", "5e-9")
 
     @classmethod
     def tearDownClass(cls):
@@ -59,7 +59,7 @@ class StationCheckTest(unittest.TestCase):
         self.assertEqual(done.returncode, FAIL, done.stderr)
         self.assertIn("FAIL: sticks: unknown, ", done.stdout)  # no device is stated
         settings = dynamic_reconfigure.client.Client("stiction_node", timeout=30.0)
-        device = dict(spring_stiffness=10.0, travel=1e-6, contact_area=1e-13, mechanical_load=1e-5)  # on several contacts
+        device = dict(spring_stiffness=10.0, travel=1e-6, contact_area=1e-13, mechanical_load=1e-4)  # on ten contacts and more
         for change, status, line in ((device, PASS, "PASS"), (dict(spring_stiffness=1e-6), FAIL, "FAIL: sticks: yes, margin ")):
             settings.update_configuration(change)
             done = self.run_check("--verdict")

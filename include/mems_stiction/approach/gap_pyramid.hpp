@@ -21,6 +21,7 @@ struct PyramidRule {
   double offset = 0.0;  ///< the law varies over gap + offset, not over the gap [m], >= 0
 };
 
+/// Levels of buckets over the gaps of one frame.
 class GapPyramid {
  public:
   /// Prepares the sums for a frame; keeps a reference to the order. Memory is reused.

@@ -22,6 +22,8 @@ inline const char* word(CurveDirection direction) {
   return direction == CurveDirection::kApproach ? "APPROACH" : "RETRACTION";
 }
 
+/// The figures of one point.
+/// @param point of a curve
 /// @param visit called with (name, value, unit) for each figure
 template <typename Visitor>
 void visitCurvePointFields(const CurvePoint& point, Visitor&& visit) {

@@ -11,6 +11,7 @@
 
 namespace mems_stiction {
 
+/// What the heading of a text file states.
 struct TextHeader {
   std::string title;                    ///< "Channel: Height"
   double width = 0.0, height = 0.0;     ///< "Width: 1 µm" [m]; 0 = not stated

@@ -8,11 +8,13 @@
 
 namespace mems_stiction {
 
+/// One line.
 struct TextLine {
   int number = 0;    ///< in the file, from 1
   std::string text;  ///< UTF-8, without comment and without blanks at both ends
 };
 
+/// The lines of a file, heading and data apart.
 struct TextLines {
   std::vector<TextLine> heading;    ///< comments, and lines before the data that begin with a letter
   std::vector<TextLine> data;       ///< lines that begin with a number, a delimiter or a quote

@@ -9,6 +9,7 @@
 
 namespace mems_stiction {
 
+/// Of a picture's pixel, 0 to 255 each.
 struct Colour {
   std::uint8_t red, green, blue;
 };

@@ -29,6 +29,7 @@ struct ConformingState {
   double contact_fraction = 0.0;  ///< cells that repel each other [-]
 };
 
+/// The whole branch.
 struct ConformingContact {
   std::vector<ConformingState> states;  ///< by descending approach, from rest to apart
   double strength = 0.0;                ///< largest traction [Pa]

@@ -22,6 +22,7 @@
 
 namespace mems_stiction {
 
+/// t(d), its integral and what it carries in compression.
 class ContactTraction {
  public:
   /// Without work of adhesion nothing attracts, and the layer is rigid. Without a Hamaker constant z0 is

@@ -18,6 +18,7 @@
 
 namespace mems_stiction {
 
+/// One patch.
 struct OverlapPatch {
   std::int32_t cells = 0;
   std::int32_t summits = 0;     ///< patches that have met in it, 1 if none have

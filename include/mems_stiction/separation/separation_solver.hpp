@@ -24,6 +24,7 @@
 
 namespace mems_stiction {
 
+/// Knows everything of a ContactSolution but the paper's sums by JKR and the pressure.
 class SeparationSolver : public ContactSolver {
  public:
   void solve(const ContactProblem& problem, ContactSolution& solution) override;
