@@ -111,8 +111,9 @@ LoadSweepSummary summarized(double mechanical_load, const std::vector<LoadSweepR
       continue;
     }
     if (std::isnan(row.margin)) continue;
-    is_safe = is_safe && row.sticks == Sticks::kNo;
-    if (is_safe) summary.highest_safe_voltage = row.voltage;
+    // one contact carries no statement, the more that a higher voltage brings do, and they hold the first as well
+    is_safe = is_safe && (row.sticks == Sticks::kNo || row.sticks == Sticks::kUnknown);
+    if (is_safe && row.sticks == Sticks::kNo) summary.highest_safe_voltage = row.voltage;
     const bool releases_here = row.margin >= 1.0 && row.status != Status::kNoEquilibrium && !row.is_lower_bound;
     if (releases && !releases_here) summary.lowest_sticking_voltage = row.voltage;
     releases = releases && releases_here;
