@@ -75,9 +75,10 @@ HeldState HeldContact::advance(double voltage, double mechanical_load) {
   }
   if (contact_.followsCurve()) {
     const Prediction now = model_.predict(pressed_);
+    const double area_as_new = model_.predict(surfaces_).contact_area;
     state.electrostatic_force = now.electrostatic_force;
     state.normal_load = now.normal_load;
-    state.contact_area = now.contact_area;
+    state.contact_area = std::max(now.contact_area, area_as_new);  // what is flatter touches no less
     state.contact_area_jkr = now.contact_area_jkr;
     return state;
   }

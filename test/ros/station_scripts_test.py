@@ -85,12 +85,12 @@ class StationScriptsTest(unittest.TestCase):
         self.assertEqual(len(rows), 9)
         self.assertEqual(float(rows[0]["pull_off_force"]), prediction.pull_off_force)
         self.assertEqual(float(rows[0]["margin"]), prediction.margin)
-        # At the same voltage the flattened contact is no smaller on the way down, but for what flattening rounds.
+        # At the same voltage the flattened contact is no smaller on the way down.
         up = {row["voltage"]: float(row["contact_area"]) for row in rows[:5]}
         closed = [row for row in rows[5:] if row["is_open"] == "0"]
         self.assertTrue(closed)
         for row in closed:
-            self.assertGreater(float(row["contact_area"]), 0.95 * up[row["voltage"]])
+            self.assertGreaterEqual(float(row["contact_area"]), up[row["voltage"]])
         self.assert_picture("sweep.png")
 
     def test_3_cycles_show_what_the_contacts_leave(self):
