@@ -14,6 +14,7 @@
 #include "mems_stiction/half_space/half_space_grid.hpp"
 #include "mems_stiction/half_space/traction_law.hpp"
 #include "mems_stiction/height_map/validity.hpp"
+#include "mems_stiction/mechanics/plasticity.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -22,8 +23,6 @@ namespace {
 constexpr double kPixelsPerCohesiveLength = 2.0;
 /// Pull-off forces that finer steps change by less than this are converged in the step.
 constexpr double kStepConvergence = 0.02;
-/// A plasticity index at which (12) lets all of the interference flow.
-constexpr double kFullyPlastic = 2.0;
 
 void check(const HalfSpaceProblem& problem, const TractionLawOptions& law) {
   OptionValidator validator;
@@ -158,8 +157,8 @@ void takeSurfaces(const HalfSpaceProblem& problem, const LargePageVector<float>&
   for (const float lost : flowed) depth += static_cast<double>(lost);
   const HeightMap& lower = problem.surfaces.lower;
   solution.flowed_volume = depth * lower.cellArea();
-  solution.deformed_lower = deformed(lower, flowed, share.lower(kFullyPlastic));
-  const double upper_share = share.upper(kFullyPlastic);
+  solution.deformed_lower = deformed(lower, flowed, share.lower(kPlasticLimit));
+  const double upper_share = share.upper(kPlasticLimit);
   if (!problem.surfaces.upperIsPlane()) {
     solution.deformed_upper = deformed(problem.surfaces.upper, flowed, -upper_share);
   } else if (!flowed.empty() && upper_share > 0.0) {

@@ -99,10 +99,7 @@ void followCurve(SeparationTrace& trace, const ContactSettings& settings, Separa
   const double load = settings.load.mechanical_load;
   curve.states.clear();
   for (const double apart : kApart) curve.states.push_back(trace.at(apart * range));
-  const Attraction at_first = [&] {
-    SeparationState first = curve.states.front();
-    return trace.energiesAt(first);
-  }();
+  const Attraction at_first = trace.energiesAt(curve.states.front());
   curve.status = Status::kNoEquilibrium;
   int steps = 0;
   while (steps++ < settings.approach.max_steps) {

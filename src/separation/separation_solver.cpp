@@ -19,8 +19,6 @@ constexpr double kConformingShare = 0.4;
 /// this share of what it can as plastic.
 constexpr double kElasticShare = 0.97;
 constexpr double kPlasticShare = 0.95;
-/// A plasticity index at which (12) lets all of the interference flow.
-constexpr double kFullyPlastic = 2.0;
 
 /// Real area of a patch that overlaps over `area`: half of it while it is elastic (Hertz), more where adhesion widens
 /// the contact (JKR), all of it when what it carries is all that flow allows. The load that widens it is P (DMT) to
@@ -116,6 +114,7 @@ void SeparationSolver::takeRest(const ContactProblem& problem, ContactSolution& 
     contact.area =
         realArea(contact.load, area, 2.0 * kPi * trace_.law().workOfAdhesion() * radius / std::sqrt(patch.summits),
                  trace_.pullOffPrefactor(radius / patch.summits), trace_.hardness());
+    contact.regime = regimeOf(contact.load, area, trace_.hardness());
     solution.contact_area += contact.area;
     const double area_share = std::max(0.5, contact.load.carried / (trace_.hardness() * area));
     contact.kept = KeptOverlap(contact.load.elastic / (trace_.hardness() * area), area_share,
@@ -161,7 +160,7 @@ void SeparationSolver::listContacts(const ContactProblem& problem, ContactSoluti
         taborParameter(asperity.composite_radius, gamma, pair.contact_modulus, trace_.law().range());
     asperity.area = contact.area;
     asperity.is_at_border = contact.is_at_border;
-    asperity.regime = regimeOf(contact.load, area, trace_.hardness());
+    asperity.regime = contact.regime;
     parameters += pair.contact_modulus / gamma * std::sqrt(sigma * sigma * sigma / asperity.composite_radius);
     solution.asperities.push_back(asperity);
   }
@@ -193,14 +192,13 @@ void SeparationSolver::fillMaps(const ContactProblem& problem, ContactSolution& 
       const double area = patch.cells * field.cellArea();
       const double least = 2.0 * patch.depth(approach) * (1.0 - contact.area / area);
       if (overlap >= least || cell == patch.first_cell) {
-        solution.contact_map.at<std::uint8_t>(place.row, place.col) =
-            static_cast<std::uint8_t>(regimeOf(contact.load, area, trace_.hardness()));
+        solution.contact_map.at<std::uint8_t>(place.row, place.col) = static_cast<std::uint8_t>(contact.regime);
       }
     }
     if (wants_surfaces) {
       const double flowed = overlap - contact.kept.of(overlap);
-      solution.displaced_lower.at<double>(place.row, place.col) -= share.lower(kFullyPlastic) * flowed;
-      solution.displaced_upper.at<double>(place.row, place.col) += share.upper(kFullyPlastic) * flowed;
+      solution.displaced_lower.at<double>(place.row, place.col) -= share.lower(kPlasticLimit) * flowed;
+      solution.displaced_upper.at<double>(place.row, place.col) += share.upper(kPlasticLimit) * flowed;
     }
   }
 }

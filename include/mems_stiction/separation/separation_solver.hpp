@@ -35,6 +35,7 @@ class SeparationSolver : public ContactSolver {
     PatchLoad load;
     KeptOverlap kept;
     double area = 0.0;  ///< real [m^2]
+    Regime regime = Regime::kElastic;
     bool is_at_border = false;
   };
 
