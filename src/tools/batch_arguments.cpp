@@ -3,6 +3,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "command_line.hpp"
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/scan/configuration_yaml.hpp"
 
@@ -21,14 +22,7 @@ void describe(CLI::App& app, BatchArguments& arguments) {
       ->type_name("OUT.csv|OUT.jsonl");
   app.add_option("-c,--config", arguments.configuration, "every key is explained in config/stiction.yaml")
       ->type_name("FILE.yaml");
-  app.add_option_function<double>(
-         "-u,--voltage", [&arguments](const double& value) { arguments.voltage = value; },
-         "voltage between the surfaces [V]")
-      ->type_name("V");
-  app.add_option_function<double>(
-         "-l,--load", [&arguments](const double& value) { arguments.load = value; },
-         "external force pressing the scanned area together [N]")
-      ->type_name("N");
+  addLoadOptions(app, arguments);
   app.add_flag("--half-space", arguments.half_space,
                "columns half_space_... too: each scan as one elastic half-space, seconds to minutes each, "
                "doc/half_space.md; half_space_reason says what has no solution, and why");

@@ -85,4 +85,17 @@ int runProgram(const std::string& program, int argc, char** argv, Describe&& des
   }
 }
 
+/// -u and -l, into `voltage` and `load` of the arguments: std::optional<double>.
+template <typename Arguments>
+void addLoadOptions(CLI::App& app, Arguments& arguments) {
+  app.add_option_function<double>(
+         "-u,--voltage", [&arguments](const double& value) { arguments.voltage = value; },
+         "voltage between the surfaces [V]")
+      ->type_name("V");
+  app.add_option_function<double>(
+         "-l,--load", [&arguments](const double& value) { arguments.load = value; },
+         "external force pressing the scanned area together [N]")
+      ->type_name("N");
+}
+
 }  // namespace mems_stiction

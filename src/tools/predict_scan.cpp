@@ -63,14 +63,7 @@ void describe(CLI::App& app, Arguments& arguments) {
   app.add_option("-p,--pitch", arguments.pitch,
                  "distance of neighbouring pixels [m]; MX,MY where columns and rows differ. Goes before what files say")
       ->type_name("M");
-  app.add_option_function<double>(
-         "-u,--voltage", [&arguments](const double& value) { arguments.voltage = value; },
-         "voltage between the surfaces [V]")
-      ->type_name("V");
-  app.add_option_function<double>(
-         "-l,--load", [&arguments](const double& value) { arguments.load = value; },
-         "external force pressing the scanned area together [N]")
-      ->type_name("N");
+  addLoadOptions(app, arguments);
   app.add_option_function<double>(
          "-s,--step", [&arguments](const double& value) { arguments.step = value; },
          "approach per step [m]; 0 = automatic")
