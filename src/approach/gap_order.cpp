@@ -60,14 +60,30 @@ MEMS_STICTION_VECTORIZED void findBuckets(const StoredGaps<double>& gaps, std::p
 
 }  // namespace
 
-void GapOrder::build(const GapField& field, double max_contact_fraction, double step) {
+void GapOrder::build(const GapField& field, double max_contact_fraction, double step, DaleMap* dales) {
+  dales_ = dales;
   chooseBuckets(field, step);
   countGaps(field);
-  const int wanted =
-      std::clamp(static_cast<int>(std::ceil(max_contact_fraction * field.validCount())), 1, field.validCount());
+  ordered_buckets_ = 0;
+  group_end_.clear();
+  is_sorted_.clear();
+  ordered_moments_.clear();
+  orderUpTo(field, wantedCells(field, max_contact_fraction));
+}
+
+void GapOrder::extend(const GapField& field, double max_contact_fraction) {
+  orderUpTo(field, wantedCells(field, max_contact_fraction));
+}
+
+int GapOrder::wantedCells(const GapField& field, double max_contact_fraction) const {
+  return std::clamp(static_cast<int>(std::ceil(max_contact_fraction * field.validCount())), 1, field.validCount());
+}
+
+void GapOrder::orderUpTo(const GapField& field, int wanted) {
+  const int first_bucket = ordered_buckets_;
   chooseOrderedBuckets(wanted);
   measureTail();
-  collectCells(field);
+  collectCells(field, first_bucket);
   findContactLimit(wanted);
 }
 
@@ -110,8 +126,9 @@ void GapOrder::chooseOrderedBuckets(int wanted) {
   int total = 0;
   int bucket = 0;
   while (total < wanted) total += bucket_count_of_[static_cast<std::size_t>(bucket++)];
-  ordered_buckets_ = std::min(
+  const int wanted_buckets = std::min(
       roundedUp(bucket + kBucketsBeyondLimit, std::max(kBucketsPerTailBucket, 1 << group_shift_)), bucket_count_);
+  ordered_buckets_ = std::max(ordered_buckets_, wanted_buckets);
 }
 
 void GapOrder::measureTail() {
@@ -126,46 +143,98 @@ void GapOrder::measureTail() {
   }
 }
 
-MEMS_STICTION_VECTORIZED void GapOrder::collectCells(const GapField& field) {
-  group_end_.assign(static_cast<std::size_t>(ordered_buckets_ >> group_shift_), 0);
-  is_sorted_.assign(group_end_.size(), 0);
-  int start = 0;
-  for (int bucket = 0; bucket < ordered_buckets_; ++bucket) {
-    std::int32_t& place = group_end_[static_cast<std::size_t>(bucket >> group_shift_)];
-    if (bucket >> group_shift_ << group_shift_ == bucket) place = start;  // becomes the group's end while it is filled
+int GapOrder::openGroups(int first_bucket, int end_bucket) {
+  int start = groupStart(first_bucket >> group_shift_);
+  for (int bucket = first_bucket; bucket < end_bucket; ++bucket) {
+    const auto group = static_cast<std::size_t>(bucket >> group_shift_);
+    if (bucket >> group_shift_ << group_shift_ == bucket) {
+      group_end_[group] = start;  // becomes the group's end while it is filled
+      is_sorted_[group] = 0;
+    }
     start += bucket_count_of_[static_cast<std::size_t>(bucket)];
+    ordered_moments_[static_cast<std::size_t>(bucket)] = {};
   }
-  cells_.resize(static_cast<std::size_t>(start));
+  return start;
+}
 
-  ordered_moments_.assign(static_cast<std::size_t>(ordered_buckets_), {});
+MEMS_STICTION_INLINE void GapOrder::put(const OrderedCell& cell, int bucket) {
+  OrderedCell& place = cells_[static_cast<std::size_t>(group_end_[static_cast<std::size_t>(bucket >> group_shift_)]++)];
+  place = cell;
+  __builtin_prefetch(&place + kWriteAhead, 1);  // where the group goes on: there are too many for the processor
+}
+
+void GapOrder::closeGroups(int first_bucket, int end_bucket) {
+  // group by group: while the cells come in, the moments of another bucket would be fetched for each
+  for (int place = cellsBefore(first_bucket); place < cellsBefore(end_bucket); ++place) {
+    const double gap = cells_[static_cast<std::size_t>(place)].gap;
+    const int bucket = bucketOf(gap);
+    addGaps(ordered_moments_[static_cast<std::size_t>(bucket)], 1.0, gap - bucket * bucket_width_);
+  }
+  for (int bucket = first_bucket; bucket < end_bucket; ++bucket) {
+    finishMoments(ordered_moments_[static_cast<std::size_t>(bucket)], bucket * bucket_width_);
+  }
+}
+
+MEMS_STICTION_VECTORIZED void GapOrder::changeGaps(double limit, const std::vector<double>& gaps) {
+  const int end_bucket = (std::min(bucketOf(limit) >> group_shift_, groupCount() - 1) + 1) << group_shift_;
+  changed_cells_.assign(cells_.begin(), cells_.begin() + cellsBefore(end_bucket));
+  std::fill_n(bucket_count_of_.begin(), end_bucket, 0);
+  for (std::size_t i = 0; i < changed_cells_.size(); ++i) {
+    if (i < gaps.size()) changed_cells_[i].gap = gaps[i];
+    ++bucket_count_of_[static_cast<std::size_t>(bucketOf(changed_cells_[i].gap))];
+  }
+  openGroups(0, end_bucket);
+  for (const OrderedCell& cell : changed_cells_) put(cell, bucketOf(cell.gap));
+  closeGroups(0, end_bucket);
+}
+
+void GapOrder::collectCells(const GapField& field, int first_bucket) {
+  group_end_.resize(static_cast<std::size_t>(ordered_buckets_ >> group_shift_), 0);
+  is_sorted_.resize(group_end_.size(), 0);
+  ordered_moments_.resize(static_cast<std::size_t>(ordered_buckets_), {});
+  cells_.resize(static_cast<std::size_t>(openGroups(first_bucket, ordered_buckets_)));
   const bool all_are_ordered = ordered_buckets_ == bucket_count_;
+  const double from = first_bucket > 0 ? (first_bucket - 1) * bucket_width_ : 0.0;
   const double limit = all_are_ordered ? GapField::kInvalidGap : (ordered_buckets_ + 1) * bucket_width_;
   row_gaps_.resize(static_cast<std::size_t>(field.cols()));
   near_cells_.resize(static_cast<std::size_t>(field.cols()));
+  row_tags_.assign(static_cast<std::size_t>(field.cols()), {});
   bool any_is_misplaced = false;
-  for (std::int32_t row = 0; row < field.rows(); ++row) {
-    double* gaps = row_gaps_.data();
-    field.gapsOfRow(row, gaps);
-    const int near_count = columnsBelow(limit, gaps, field.cols(), near_cells_.data());
-    const std::int32_t first_cell = row * field.cols();
-    for (int i = 0; i < near_count; ++i) {
-      const std::int32_t col = near_cells_[static_cast<std::size_t>(i)];
-      const double gap = gaps[col];
-      const int bucket = bucketOf(gap);
-      if (bucket >= ordered_buckets_) continue;
-      const std::int32_t place = group_end_[static_cast<std::size_t>(bucket >> group_shift_)]++;
-      OrderedCell& cell = cells_[static_cast<std::size_t>(place)];
-      cell = {gap, first_cell + col, row};
-      __builtin_prefetch(&cell + kWriteAhead, 1);  // where the group goes on: there are too many for the processor
-      const double excess = gap - bucket * bucket_width_;
-      addGaps(ordered_moments_[static_cast<std::size_t>(bucket)], 1.0, excess);
-      if (isNearBorder(excess) && mendedGroup(gap, bucket) != bucket >> group_shift_) any_is_misplaced = true;
+  if (dales_ != nullptr) {
+    dale_rows_.start(field, *dales_, from, limit);
+    while (dale_rows_.next()) {
+      const RowsAround& rows = dale_rows_.around();
+      const std::int32_t* columns = dale_rows_.columns();
+      rows.tagsOf(columns, dale_rows_.count(), row_tags_.data());
+      any_is_misplaced |=
+          collectRow(dale_rows_.row(), rows.gaps, columns, dale_rows_.count(), row_tags_.data(), first_bucket);
+    }
+  } else {
+    for (int row = 0; row < field.rows(); ++row) {
+      field.gapsOfRow(row, row_gaps_.data());
+      const int count = columnsBetween(from, limit, row_gaps_.data(), field.cols(), near_cells_.data());
+      any_is_misplaced |= collectRow(row, row_gaps_.data(), near_cells_.data(), count, row_tags_.data(), first_bucket);
     }
   }
-  for (int bucket = 0; bucket < ordered_buckets_; ++bucket) {
-    finishMoments(ordered_moments_[static_cast<std::size_t>(bucket)], bucket * bucket_width_);
-  }
+  closeGroups(first_bucket, ordered_buckets_);
   if (any_is_misplaced) mendGroups();
+}
+
+MEMS_STICTION_VECTORIZED bool GapOrder::collectRow(int row, const double* gaps, const std::int32_t* columns, int count,
+                                                   const DaleTag* tags, int first_bucket) {
+  bool any_is_misplaced = false;
+  const std::int32_t first_cell = row * static_cast<std::int32_t>(row_gaps_.size());
+  const auto buckets = static_cast<std::uint32_t>(ordered_buckets_ - first_bucket);
+  for (int i = 0; i < count; ++i) {
+    const std::int32_t col = columns[i];
+    const double gap = gaps[col];
+    const int bucket = bucketOf(gap);
+    if (static_cast<std::uint32_t>(bucket - first_bucket) >= buckets) continue;
+    put({gap, first_cell + col, tags[i]}, bucket);
+    const double excess = gap - bucket * bucket_width_;
+    if (isNearBorder(excess) && mendedGroup(gap, bucket) != bucket >> group_shift_) any_is_misplaced = true;
+  }
+  return any_is_misplaced;
 }
 
 int GapOrder::mendedGroup(double gap, int bucket) const {
@@ -260,6 +329,15 @@ double GapOrder::cellsBelow(double limit) const {
     count += covered * bucket_count_of_[static_cast<std::size_t>(bucket)];
   }
   return count;
+}
+
+double GapOrder::lowerEndAt(int place) const {
+  int before = 0;
+  int bucket = 0;
+  while (bucket + 1 < bucket_count_ && before + bucket_count_of_[static_cast<std::size_t>(bucket)] <= place) {
+    before += bucket_count_of_[static_cast<std::size_t>(bucket++)];
+  }
+  return bucket * bucket_width_;
 }
 
 void GapOrder::sortBetween(int begin, int end) {

@@ -81,8 +81,11 @@ void settle(SeparationTrace& trace, double load, SeparationCurve& curve) {
   SeparationState above = states[last];
   SeparationState below = states[last + 1];
   states.resize(last + 1);
+  trace.restart();
+  trace.at(above.approach);
+  trace.keep();
   for (int search = 0; search < kRestSearches; ++search) {
-    trace.restart();
+    if (search > 0) trace.backToKept();
     const SeparationState found = trace.at(crossing(above, below, load));
     (found.force() + load >= 0.0 ? above : below) = found;
     if (std::abs(found.force() + load) <= 1e-3 * std::max(found.carried, load) || search + 1 == kRestSearches) {
@@ -103,7 +106,9 @@ void followCurve(SeparationTrace& trace, const ContactSettings& settings, Separa
   curve.status = Status::kNoEquilibrium;
   int steps = 0;
   while (steps++ < settings.approach.max_steps) {
-    curve.states.push_back(trace.at(nextApproach(curve.states.back().approach, range)));
+    double approach = nextApproach(curve.states.back().approach, range);
+    if (approach >= trace.approachBeforeLimit()) approach = std::min(approach, trace.limitApproach());
+    curve.states.push_back(trace.at(approach));
     const SeparationState& state = curve.states.back();
     const double pressing = state.adhesion + state.electrostatic + state.capillary + load;
     if (state.force() + load < 0.0 && state.carried > kCarriesEnough * pressing) {
@@ -111,11 +116,7 @@ void followCurve(SeparationTrace& trace, const ContactSettings& settings, Separa
       break;
     }
     if (state.contact_count >= trace.contactLimit()) {
-      const double limit = trace.limitApproach();
-      curve.states.pop_back();
-      trace.restart();
-      curve.states.push_back(trace.at(limit));
-      curve.status = curve.states.back().force() + load < 0.0 ? Status::kEquilibrium : Status::kBonded;
+      curve.status = state.force() + load < 0.0 ? Status::kEquilibrium : Status::kBonded;
       break;
     }
   }
@@ -124,16 +125,18 @@ void followCurve(SeparationTrace& trace, const ContactSettings& settings, Separa
   takeWork(at_first, curve);
 }
 
-void followCurveUpTo(SeparationTrace& trace, double rest, SeparationCurve& curve) {
+void followCurveUpTo(SeparationTrace& trace, double first_touch, double rest, SeparationCurve& curve) {
   const double range = trace.law().range();
   curve.states.clear();
   for (const double apart : kApart) {
-    if (apart * range < rest) curve.states.push_back(trace.at(apart * range));
+    const double approach = first_touch + apart * range;
+    if (approach < rest) curve.states.push_back(trace.at(approach));
   }
   if (curve.states.empty()) curve.states.push_back(trace.at(rest));
   const Attraction at_first = trace.energiesAt(curve.states.front());
   while (curve.states.back().approach < rest) {
-    curve.states.push_back(trace.at(std::min(nextApproach(curve.states.back().approach, range), rest)));
+    const double next = first_touch + nextApproach(curve.states.back().approach - first_touch, range);
+    curve.states.push_back(trace.at(std::min(next, rest)));
   }
   takeMaximum(curve.states, curve);
   takeWork(at_first, curve);

@@ -23,7 +23,8 @@ class StructureFunction {
  public:
   /// Forgets all lines; the next ones have this length [cells].
   void start(int length);
-  void add(const std::vector<double>& line);
+  /// - @p line of the length that start() was given [m]; what is not finite is left out
+  void add(const double* line);
   /// Integral of S(r)/(2 r^2) dr [m]; S grows as r^2 up to the first distance.
   double integral(double pitch) const;
 
@@ -31,8 +32,9 @@ class StructureFunction {
   struct Lag {
     int cells;
     double sum;
-    long long count;
+    double count;
   };
+  int length_ = 0;
   std::vector<Lag> lags_;
 };
 
@@ -46,7 +48,8 @@ class FlatteningEnergy {
  private:
   StructureFunction along_rows_;
   StructureFunction along_columns_;
-  std::vector<double> line_;
+  std::vector<double> row_;
+  std::vector<double> columns_;  ///< some columns of the frame, one behind the other
 };
 
 }  // namespace mems_stiction

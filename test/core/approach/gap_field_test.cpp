@@ -189,7 +189,7 @@ TEST(ColumnsBelow, areThoseOfOneComparisonAfterTheOther) {
         if (gaps[static_cast<std::size_t>(col)] < limit) expected.push_back(col);
       }
       std::vector<std::int32_t> columns(static_cast<std::size_t>(cols) + 1);
-      columns.resize(static_cast<std::size_t>(columnsBelow(limit, gaps.data(), cols, columns.data())));
+      columns.resize(static_cast<std::size_t>(columnsBetween(0.0, limit, gaps.data(), cols, columns.data())));
       EXPECT_EQ(columns, expected) << cols << " columns below " << limit;
     }
   }
