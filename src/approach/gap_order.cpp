@@ -165,14 +165,29 @@ MEMS_STICTION_INLINE void GapOrder::put(const OrderedCell& cell, int bucket) {
 
 void GapOrder::closeGroups(int first_bucket, int end_bucket) {
   // group by group: while the cells come in, the moments of another bucket would be fetched for each
-  for (int place = cellsBefore(first_bucket); place < cellsBefore(end_bucket); ++place) {
-    const double gap = cells_[static_cast<std::size_t>(place)].gap;
-    const int bucket = bucketOf(gap);
-    addGaps(ordered_moments_[static_cast<std::size_t>(bucket)], 1.0, gap - bucket * bucket_width_);
+  for (int group = first_bucket >> group_shift_; group < end_bucket >> group_shift_; ++group) {
+    if (group_shift_ == 0) {
+      measureBucket(group);
+    } else {
+      for (int place = groupStart(group); place < groupStart(group + 1); ++place) {
+        const double gap = cells_[static_cast<std::size_t>(place)].gap;
+        const int bucket = bucketOf(gap);
+        addGaps(ordered_moments_[static_cast<std::size_t>(bucket)], 1.0, gap - bucket * bucket_width_);
+      }
+    }
   }
   for (int bucket = first_bucket; bucket < end_bucket; ++bucket) {
     finishMoments(ordered_moments_[static_cast<std::size_t>(bucket)], bucket * bucket_width_);
   }
+}
+
+void GapOrder::measureBucket(int bucket) {
+  const double lower_end = bucket * bucket_width_;
+  GapMoments moments;
+  for (int place = groupStart(bucket); place < groupStart(bucket + 1); ++place) {
+    addGaps(moments, 1.0, cells_[static_cast<std::size_t>(place)].gap - lower_end);
+  }
+  ordered_moments_[static_cast<std::size_t>(bucket)] = moments;
 }
 
 MEMS_STICTION_VECTORIZED void GapOrder::changeGaps(double limit, const std::vector<double>& gaps) {

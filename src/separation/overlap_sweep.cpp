@@ -22,9 +22,10 @@ void OverlapSweep::start(const GapField& field, DaleMap& dales, Connectivity con
   patches_.clear();
   live_.clear();
   live_place_.clear();
+  has_meeting_.clear();
 }
 
-int OverlapSweep::advanceTo(double approach, GapOrder& order) {
+int OverlapSweep::advanceTo(double approach, GapOrder& order, const OverlapSweep* ahead) {
   if (!(approach > approach_)) return inserted_;  // no gap is below 0
   approach_ = approach;
   const int count = order.sortBelow(approach);
@@ -33,6 +34,7 @@ int OverlapSweep::advanceTo(double approach, GapOrder& order) {
   joined_.growTo(dales_->count());
   patches_.resize(dale_count);
   live_place_.resize(dale_count);
+  has_meeting_.resize(static_cast<std::size_t>(order.groupCount()));
   for (int group = order.groupOfPlace(inserted_); inserted_ < count; ++group) {
     const int end = std::min(count, order.groupStart(group + 1));
     const OrderedCell* const cells = order.cells().data();
@@ -42,7 +44,12 @@ int OverlapSweep::advanceTo(double approach, GapOrder& order) {
         __builtin_prefetch(&patches_[static_cast<std::size_t>(patchOf(ahead))], 1);
       }
     }
-    if (patchesMeetBefore(end, order)) {
+    // the same cells in the same order meet in the same places
+    const bool is_known = ahead != nullptr && ahead->inserted_ >= end;
+    const bool has_meeting =
+        is_known ? ahead->has_meeting_[static_cast<std::size_t>(group)] != 0 : patchesMeetBefore(end, order);
+    if (has_meeting) {
+      has_meeting_[static_cast<std::size_t>(group)] = 1;
       order.sortBetween(inserted_, end);
       for (; inserted_ < end; ++inserted_) {
         const OrderedCell& ordered = cells[inserted_];

@@ -82,12 +82,12 @@ SeparationState SeparationTrace::at(double approach) {
   orderUpTo(approach + law().range());
   SeparationState state;
   state.approach = approach;
-  state.contact_count = contacts_.advanceTo(approach, order_);
+  if (law().attracts()) in_reach_.advanceTo(approach + law().range(), order_);
+  state.contact_count = contacts_.advanceTo(approach, order_, law().attracts() ? &in_reach_ : nullptr);
   const Attraction attraction = attraction_->forces(pyramid_, approach, state.contact_count);
   state.electrostatic = attraction.electrostatic;
   state.capillary = capillaryForce(order_, approach, state.contact_count, water_, field_->cellArea());
   if (law().attracts()) {
-    in_reach_.advanceTo(approach + law().range(), order_);
     state.adhesion = attraction.adhesion * patch_forces_->bendingFactor(in_reach_, approach);
   }
   state.carried = patch_forces_->carried(contacts_, approach);

@@ -108,8 +108,10 @@ class GapOrder {
   /// @return the place behind them
   int openGroups(int first_bucket, int end_bucket);
   void put(const OrderedCell& cell, int bucket);
-  /// Of buckets whose cells are all there.
+  /// Takes the moments of buckets whose cells are all there.
   void closeGroups(int first_bucket, int end_bucket);
+  /// The sums of one that is a group.
+  void measureBucket(int bucket);
   /// From this bucket to the last ordered one.
   void collectCells(const GapField& field, int first_bucket);
   /// Puts the cells of a row into their groups.

@@ -25,8 +25,9 @@ class OverlapSweep {
 
   /// Brings the ordered cells with a gap below `approach` [m] in.
   /// - @p order built with the dales
+  /// - @p ahead a sweep of the same order that may have taken these cells already: it knows where patches meet
   /// @return how many are in
-  int advanceTo(double approach, GapOrder& order);
+  int advanceTo(double approach, GapOrder& order, const OverlapSweep* ahead = nullptr);
 
   /// Ids of the patches that exist now; their order depends on the cells alone.
   const std::vector<std::int32_t>& livePatches() const { return live_; }
@@ -56,6 +57,7 @@ class OverlapSweep {
   std::vector<OverlapPatch> patches_;  ///< per dale; without cells before its first one is in
   std::vector<std::int32_t> live_;
   std::vector<std::int32_t> live_place_;
+  std::vector<std::uint8_t> has_meeting_;  ///< per group of the order
 };
 
 }  // namespace mems_stiction

@@ -163,6 +163,42 @@ TEST(OverlapSweep, radiusAndLoadOfAParaboloidAreHertzs) {
   EXPECT_NEAR(load / (4.0 / 3.0 * std::sqrt(radius) * std::pow(depth, 1.5)), 1.0, 4e-3);
 }
 
+TEST_P(SampleFrames, patchesDoNotDependOnTheStepsNorOnASweepAhead) {
+  const GapField field = GetParam().gapField();
+  const double range = std::max(field.largestGap(), 1e-12);
+  DaleMap dales;
+  dales.start(field);
+  GapOrder order;
+  order.build(field, 1.0, 0.0, &dales);
+  OverlapSweep ahead;
+  OverlapSweep behind;
+  ahead.start(field, dales, Connectivity::kFour);
+  behind.start(field, dales, Connectivity::kFour);
+  for (int step = 1; step <= 60; ++step) {
+    ahead.advanceTo((step + 3) * range / 100.0, order);
+    behind.advanceTo(step * range / 100.0, order, &ahead);
+  }
+  const OverlapSweep kept = behind;
+  behind.advanceTo(0.9 * range, order);
+  behind = kept;
+  GapOrder other_order;
+  other_order.build(field, 1.0, 0.0, &dales);
+  OverlapSweep at_once;
+  at_once.start(field, dales, Connectivity::kFour);
+  at_once.advanceTo(60 * range / 100.0, other_order);
+  ASSERT_EQ(behind.livePatches().size(), at_once.livePatches().size());
+  for (const std::int32_t id : at_once.livePatches()) {
+    const OverlapPatch& expected = at_once.patch(id);
+    const OverlapPatch& patch = behind.patch(behind.patchOf(expected.first_cell));
+    ASSERT_EQ(patch.cells, expected.cells);
+    ASSERT_EQ(patch.summits, expected.summits);
+    ASSERT_EQ(patch.first_cell, expected.first_cell);
+    // sums in another order, and kept is what is left of two of them
+    EXPECT_NEAR(patch.gap_sum, expected.gap_sum, 1e-12 * expected.gap_sum);
+    EXPECT_NEAR(patch.kept, expected.kept, 1e-11 * range * std::sqrt(expected.cells));
+  }
+}
+
 TEST(OverlapSweep, startsAnewOnAnotherFrameAndBack) {
   const std::vector<samples::Frame> frames = samples::allFrames();
   OverlapSweep used;
