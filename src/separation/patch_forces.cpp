@@ -55,14 +55,13 @@ struct PatchBlock {
   double weight[kMost];
 };
 
-/// P/(Ha A) with flow, of x = P/(Ha A) without, x beyond the onset [-], of one patch or of several.
-template <typename Real>
-MEMS_STICTION_INLINE Real flowedFullness(const Real& fullness) {
+/// P/(Ha A) with flow, of x = P/(Ha A) without, x beyond the onset [-].
+MEMS_STICTION_INLINE Lanes flowedFullness(const Lanes& fullness) {
   // Under a pressure Ha everywhere the edge of the contact sinks in by (4/pi) Ha a/E, and what touches is that much
   // less than the overlap: y + b sqrt(y) = 1 for y = P/(Ha A), b = 8 sqrt(2)/(3 pi^2)/fullness = 0.382/fullness; with
   // 0.385 the curve has no step at the onset.
-  const Real b = 2.0 / 3.0 * std::sqrt(kFlowOnset) / fullness;
-  const Real root = squareRoot(1.0 + 0.25 * b * b) - 0.5 * b;
+  const Lanes b = 2.0 / 3.0 * std::sqrt(kFlowOnset) / fullness;
+  const Lanes root = squareRoot(1.0 + 0.25 * b * b) - 0.5 * b;
   return root * root;
 }
 
@@ -79,25 +78,27 @@ PatchForces::PatchForces(const ContactSettings& settings, double cell_area, bool
   maugis_factor_ = kMaugisPerTabor * kMaugisPerTabor * kMaugisPerTabor * strain * strain / law_.range();
 }
 
-template <typename Real>
-MEMS_STICTION_INLINE Real PatchForces::elasticLoad(const Real& cells, const Real& gap_sum, const Real& kept,
-                                                   double approach) const {
-  const Real area = cells * cell_area_;
-  const Real load_term = kept + (cells * approach - gap_sum) / squareRoot(cells);
-  const Real pressure = load_factor_ * load_term / area;
-  const Real depth = approach - gap_sum / cells;
-  // round-off may leave none
-  return area * law_.pressureInSeries(pressure, greater(depth, Real(std::numeric_limits<double>::min())));
+MEMS_STICTION_INLINE PatchForces::Loads PatchForces::loadsOf(const Lanes& cells, const Lanes& gap_sum,
+                                                             const Lanes& kept, double approach) const {
+  const Lanes area = cells * cell_area_;
+  const Lanes load_term = kept + (cells * approach - gap_sum) / squareRoot(cells);
+  // round-off may leave no depth
+  const Lanes depth = greater(approach - gap_sum / cells, Lanes(std::numeric_limits<double>::min()));
+  Loads loads;
+  loads.elastic = area * law_.pressureInSeries(load_factor_ * load_term / area, depth);
+  loads.carried = loads.elastic;
+  const Lanes capacity = hardness_ * area;
+  const Lanes fullness = loads.elastic / capacity;
+  const LaneMask flows = fullness > kFlowOnset;
+  if (isAnywhere(flows)) {
+    loads.carried = select(flows, capacity * flowedFullness(greater(fullness, Lanes(kFlowOnset))), loads.elastic);
+  }
+  return loads;
 }
 
 PatchLoad PatchForces::loadOf(const OverlapPatch& patch, double approach) const {
-  PatchLoad load;
-  const double cells = patch.cells;
-  load.elastic = elasticLoad(cells, patch.gap_sum, patch.kept, approach);
-  const double capacity = hardness_ * cells * cell_area_;
-  const double fullness = load.elastic / capacity;
-  load.carried = fullness > kFlowOnset ? capacity * flowedFullness(fullness) : load.elastic;
-  return load;
+  const Loads loads = loadsOf(static_cast<double>(patch.cells), patch.gap_sum, patch.kept, approach);
+  return {loads.elastic[0], loads.carried[0]};
 }
 
 MEMS_STICTION_VECTORIZED double PatchForces::carried(const OverlapSweep& contacts, double approach) const {
@@ -106,21 +107,16 @@ MEMS_STICTION_VECTORIZED double PatchForces::carried(const OverlapSweep& contact
   for (std::size_t place = 0; place < contacts.livePatches().size(); place += PatchBlock::kMost) {
     block.gather(contacts, place);
     for (std::size_t i = 0; i < block.count; i += Lanes::kCount) {
-      const Lanes cells = Lanes::load(block.cells + i);
-      Lanes load = elasticLoad(cells, Lanes::load(block.gap_sum + i), Lanes::load(block.kept + i), approach);
-      const Lanes capacity = hardness_ * cells * cell_area_;
-      const Lanes fullness = load / capacity;
-      const LaneMask flows = fullness > kFlowOnset;
-      if (isAnywhere(flows))
-        load = select(flows, capacity * flowedFullness(greater(fullness, Lanes(kFlowOnset))), load);
-      sum += Lanes::load(block.weight + i) * load;
+      const Loads loads =
+          loadsOf(Lanes::load(block.cells + i), Lanes::load(block.gap_sum + i), Lanes::load(block.kept + i), approach);
+      sum += Lanes::load(block.weight + i) * loads.carried;
     }
   }
   return sum.sum();
 }
 
 double PatchForces::pullOffPrefactor(double radius) const {
-  return maugis::fittedPullOffPrefactorOfPower(std::pow(maugis_factor_ * radius, kPowerOfCube));
+  return maugis::fittedPullOffPrefactorOfPower(power(Lanes(maugis_factor_ * radius), kPowerOfCube)[0]);
 }
 
 MEMS_STICTION_VECTORIZED double PatchForces::bendingFactor(const OverlapSweep& in_reach, double approach) const {

@@ -35,7 +35,6 @@ MEMS_STICTION_INLINE Real greater(const Real& a, const Real& b) {
   return select(a > b, a, b);
 }
 
-MEMS_STICTION_INLINE double squareRoot(double x) { return std::sqrt(x); }
 MEMS_STICTION_INLINE Lanes squareRoot(const Lanes& x) {
   double values[Lanes::kCount];
   x.store(values);

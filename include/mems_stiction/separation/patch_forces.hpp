@@ -4,6 +4,7 @@
 /// What patches carry, one and all, and what the bending of their summits takes from the attraction: equations (S4) to
 /// (S8) of doc/separation_curve.md. Sums over the patches of a sweep take four at a time.
 
+#include "mems_stiction/base/lanes.hpp"
 #include "mems_stiction/contact/contact_settings.hpp"
 #include "mems_stiction/separation/contact_traction.hpp"
 #include "mems_stiction/separation/overlap_sweep.hpp"
@@ -39,9 +40,13 @@ class PatchForces {
   double bendingFactor(const OverlapSweep& in_reach, double approach) const;
 
  private:
-  /// Of one patch or several, by number of cells, sum of their gaps [m] and P0 [m].
-  template <typename Real>
-  Real elasticLoad(const Real& cells, const Real& gap_sum, const Real& kept, double approach) const;
+  /// PatchLoad of four patches.
+  struct Loads {
+    Lanes elastic;
+    Lanes carried;
+  };
+  /// By number of cells, sum of their gaps [m] and P0 [m].
+  Loads loadsOf(const Lanes& cells, const Lanes& gap_sum, const Lanes& kept, double approach) const;
 
   ContactTraction law_;
   double cell_area_;
