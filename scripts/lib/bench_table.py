@@ -15,8 +15,7 @@ import sys
 GROUPS = [
     ("predict", "The separation curve, surfaces that come to rest by themselves",
      {"gaussian/1024/200": 80, "gaussian/1024/1000": 300}),
-    ("predict_loaded", "The separation curve, pressed until 30 % overlap",
-     {"gaussian/1024/200": 80, "gaussian/1024/1000": 300}),
+    ("predict_loaded", "The separation curve, pressed until 30 % overlap", {"gaussian/1024/200": 30}),
     ("predict_paper", "The paper's formulation, pressed until 30 % touch", {"gaussian/1024/200": 30}),
 ]
 # White noise against the Gaussian frame, both pressed.
