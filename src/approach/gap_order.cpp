@@ -132,8 +132,13 @@ void GapOrder::measureTail() {
 void GapOrder::sortGroup(int group) {
   std::uint8_t& is_sorted = is_sorted_[static_cast<std::size_t>(group)];
   if (is_sorted != 0) return;
-  std::sort(cells_.begin() + groupStart(group), cells_.begin() + group_end_[static_cast<std::size_t>(group)],
-            [](const OrderedCell& a, const OrderedCell& b) { return comesBefore(a.gap, a.cell, b.gap, b.cell); });
+  const auto comes_before = [](const OrderedCell& a, const OrderedCell& b) {
+    return comesBefore(a.gap, a.cell, b.gap, b.cell);
+  };
+  const auto begin = cells_.begin() + groupStart(group);
+  const auto end = cells_.begin() + group_end_[static_cast<std::size_t>(group)];
+  // cells of one gap are in order already: a plateau may be the whole frame
+  if (!std::is_sorted(begin, end, comes_before)) std::sort(begin, end, comes_before);
   is_sorted = 1;
 }
 
