@@ -11,8 +11,9 @@ constexpr double kApart[] = {-12.0, -8.0, -6.0, -4.5, -3.5, -2.8, -2.2, -1.8, -1
 constexpr double kStep = 0.1;
 /// Steps grow with the approach, so that few of them go deep.
 constexpr double kStepPerApproach = 0.05;
-/// The surfaces are at rest for good when what carries exceeds what presses by this factor.
-constexpr double kCarriesEnough = 1.5;
+/// A place of rest holds when going on takes a force of this share of the largest attraction so far: lower barriers are
+/// overcome by jumps of single contacts, which the curve does not show.
+constexpr double kBarrier = 0.5;
 constexpr int kRestSearches = 3;
 
 /// The vertex of the parabola through three points of the curve, if it lies between them; else the middle one.
@@ -104,14 +105,15 @@ void followCurve(SeparationTrace& trace, const ContactSettings& settings, Separa
   for (const double apart : kApart) curve.states.push_back(trace.at(apart * range));
   const Attraction at_first = trace.energiesAt(curve.states.front());
   curve.status = Status::kNoEquilibrium;
+  double strongest = 0.0;
   int steps = 0;
   while (steps++ < settings.approach.max_steps) {
     double approach = nextApproach(curve.states.back().approach, range);
     if (approach >= trace.approachBeforeLimit()) approach = std::min(approach, trace.limitApproach());
     curve.states.push_back(trace.at(approach));
     const SeparationState& state = curve.states.back();
-    const double pressing = state.adhesion + state.electrostatic + state.capillary + load;
-    if (state.force() + load < 0.0 && state.carried > kCarriesEnough * pressing) {
+    strongest = std::max(strongest, state.force());
+    if (state.force() + load < -kBarrier * strongest) {
       curve.status = Status::kEquilibrium;
       break;
     }
