@@ -70,6 +70,20 @@ double StructureFunction::integral(double pitch) const {
 }
 
 double FlatteningEnergy::of(const GapField& field, double contact_modulus) {
+  return field.readGaps([&](const auto& gaps) {
+    return measure(field, contact_modulus, [&](std::ptrdiff_t cell) { return gaps[cell]; });
+  });
+}
+
+double FlatteningEnergy::of(const GapField& field, const cv::Mat1d& raised, double contact_modulus) {
+  const double* heights = raised.ptr<double>();
+  return field.readGaps([&](const auto& gaps) {
+    return measure(field, contact_modulus, [&](std::ptrdiff_t cell) { return gaps[cell] + heights[cell]; });
+  });
+}
+
+template <typename ReadCell>
+double FlatteningEnergy::measure(const GapField& field, double contact_modulus, const ReadCell& read) {
   const int rows = field.rows();
   const int cols = field.cols();
   const int row_step = std::max(1, rows / kLines);
@@ -81,18 +95,17 @@ double FlatteningEnergy::of(const GapField& field, double contact_modulus) {
   const int first_col = col_step / 2;
   const int columns = (cols - first_col + col_step - 1) / col_step;
   columns_.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
-  field.readGaps([&](const auto& gaps) {
-    for (int row = 0; row < rows; ++row) {
-      const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(row) * cols + first_col;
-      for (int i = 0; i < columns; ++i) {
-        columns_[static_cast<std::size_t>(i) * static_cast<std::size_t>(rows) + static_cast<std::size_t>(row)] =
-            gaps[first + static_cast<std::ptrdiff_t>(i) * col_step];
-      }
+  for (int row = 0; row < rows; ++row) {
+    const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(row) * cols + first_col;
+    for (int i = 0; i < columns; ++i) {
+      columns_[static_cast<std::size_t>(i) * static_cast<std::size_t>(rows) + static_cast<std::size_t>(row)] =
+          read(first + static_cast<std::ptrdiff_t>(i) * col_step);
     }
-  });
+  }
   for (int i = 0; i < columns; ++i) along_columns_.add(columns_.data() + static_cast<std::ptrdiff_t>(i) * rows);
   for (int row = row_step / 2; row < rows; row += row_step) {
-    field.gapsOfRow(row, row_.data());
+    const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(row) * cols;
+    for (int col = 0; col < cols; ++col) row_[static_cast<std::size_t>(col)] = read(first + col);
     along_rows_.add(row_.data());
   }
   const double both = along_rows_.integral(field.pitchX()) + along_columns_.integral(field.pitchY());

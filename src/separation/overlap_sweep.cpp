@@ -40,8 +40,8 @@ int OverlapSweep::advanceTo(double approach, GapOrder& order, const OverlapSweep
     const OrderedCell* const cells = order.cells().data();
     if (dale_count > kPatchesInCache) {
       for (int place = inserted_; place < end; ++place) {
-        const OrderedCell& ahead = cells[std::min(place + kCellsAhead, count - 1)];
-        __builtin_prefetch(&patches_[static_cast<std::size_t>(patchOf(ahead))], 1);
+        const OrderedCell& later = cells[std::min(place + kCellsAhead, count - 1)];
+        __builtin_prefetch(&patches_[static_cast<std::size_t>(patchOf(later))], 1);
       }
     }
     // the same cells in the same order meet in the same places

@@ -11,9 +11,6 @@ constexpr double kApart[] = {-12.0, -8.0, -6.0, -4.5, -3.5, -2.8, -2.2, -1.8, -1
 constexpr double kStep = 0.1;
 /// Steps grow with the approach, so that few of them go deep.
 constexpr double kStepPerApproach = 0.05;
-/// A place of rest holds when going on takes a force of this share of the largest attraction so far: lower barriers are
-/// overcome by jumps of single contacts, which the curve does not show.
-constexpr double kBarrier = 0.5;
 constexpr int kRestSearches = 3;
 
 /// The vertex of the parabola through three points of the curve, if it lies between them; else the middle one.
@@ -73,15 +70,12 @@ double crossing(const SeparationState& above, const SeparationState& below, doub
   return above.approach + share * (below.approach - above.approach);
 }
 
-/// Puts the state of rest at the end: the crossing after the last state that does not carry the load.
+/// Puts the state of rest at the end: the crossing between the last two states.
 void settle(SeparationTrace& trace, double load, SeparationCurve& curve) {
   std::vector<SeparationState>& states = curve.states;
-  std::size_t last = states.size() - 1;
-  while (last > 0 && states[last].force() + load < 0.0) --last;
-  if (last + 1 == states.size()) return;
-  SeparationState above = states[last];
-  SeparationState below = states[last + 1];
-  states.resize(last + 1);
+  SeparationState below = states.back();
+  states.pop_back();
+  SeparationState above = states.back();
   trace.restart();
   trace.at(above.approach);
   trace.keep();
@@ -105,15 +99,13 @@ void followCurve(SeparationTrace& trace, const ContactSettings& settings, Separa
   for (const double apart : kApart) curve.states.push_back(trace.at(apart * range));
   const Attraction at_first = trace.energiesAt(curve.states.front());
   curve.status = Status::kNoEquilibrium;
-  double strongest = 0.0;
   int steps = 0;
   while (steps++ < settings.approach.max_steps) {
     double approach = nextApproach(curve.states.back().approach, range);
     if (approach >= trace.approachBeforeLimit()) approach = std::min(approach, trace.limitApproach());
     curve.states.push_back(trace.at(approach));
     const SeparationState& state = curve.states.back();
-    strongest = std::max(strongest, state.force());
-    if (state.force() + load < -kBarrier * strongest) {
+    if (state.force() + load < 0.0) {
       curve.status = Status::kEquilibrium;
       break;
     }

@@ -15,6 +15,8 @@ namespace {
 /// Flattening that costs less than this share of the work of adhesion is what surfaces do: below it the conforming
 /// branch is nearer to the half-space than the patches are, above it the patches (doc/separation_curve.md).
 constexpr double kConformingShare = 0.4;
+/// Up to this share, surfaces at rest hold with at least the work of bonded ones (doc/separation_curve.md).
+constexpr double kBondingShare = 1.3;
 /// A contact of which flow has taken less than this share of the overlap counts as elastic, one that carries more than
 /// this share of what it can as plastic.
 constexpr double kElasticShare = 0.97;
@@ -248,22 +250,45 @@ void SeparationSolver::partFlowed(const ContactProblem& problem, ContactSolution
 }
 
 void SeparationSolver::partConforming(const ContactProblem& problem, ContactSolution& solution) {
-  const double gamma = problem.settings.interface.work_of_adhesion;
-  if (!(solution.flattening_energy < kConformingShare * gamma)) return;
+  const double flattening_ratio = solution.flattening_energy / problem.settings.interface.work_of_adhesion;
+  if (!(flattening_ratio < kBondingShare)) return;
+  conforming_.start(problem.gap, trace_.law(), {trace_.patchForces().contactModulus(), solution.flattening_energy});
+  if (!(conforming_.work() > 0.0)) return;
+  // by how much more work bonded surfaces hold than their patches
+  const double stretch = std::max(1.0, conforming_.work() / solution.apparent_work_of_adhesion);
+  if (flattening_ratio < kConformingShare) {
+    takeConforming(problem, stretch, solution);
+  } else if (!has_flowed_) {
+    stretchWayOut(problem, stretch, solution);
+  }
+}
+
+void SeparationSolver::takeConforming(const ContactProblem& problem, double stretch, ContactSolution& solution) {
   const double area = problem.gap.validCount() * problem.gap.cellArea();
-  const ConformingContact conforming = conformingContact(problem.gap, trace_.law(), solution.flattening_energy,
-                                                         problem.settings.load.mechanical_load / area);
-  if (!(conforming.work > 0.0)) return;
+  const ConformingWayOut way_out =
+      conforming_.partFrom(problem.settings.load.mechanical_load / area, stretch * solution.pull_off_force / area);
   solution.is_conforming = true;
   solution.status = Status::kBonded;
-  solution.pull_off_force = conforming.strength * area;
+  solution.pull_off_force = way_out.strength * area;
   solution.adhesion_exponent = 1.0;  // nearly the strength of the law
   solution.modulus_exponent = 0.0;
-  solution.apparent_work_of_adhesion = conforming.work;
-  solution.contact_area = conforming.states.front().contact_fraction * area;
+  solution.apparent_work_of_adhesion = conforming_.work();
+  solution.contact_area = way_out.states.front().contact_fraction * area;
   dropWayOut(solution.curve);
-  for (const ConformingState& state : conforming.states) {
+  for (const ConformingState& state : way_out.states) {
     solution.curve.push_back({state.approach, state.traction * area, true});
+  }
+}
+
+void SeparationSolver::stretchWayOut(const ContactProblem& problem, double stretch, ContactSolution& solution) {
+  if (!(stretch > 1.0)) return;
+  const double strongest = trace_.law().strength() * problem.gap.validCount() * problem.gap.cellArea();
+  solution.apparent_work_of_adhesion *= stretch;
+  solution.pull_off_force = std::min(stretch * solution.pull_off_force, strongest);
+  dropWayOut(solution.curve);
+  appendCurve(curve_, true, solution.curve);
+  for (SeparationCurvePoint& point : solution.curve) {
+    if (point.is_separation) point.force = std::min(stretch * point.force, strongest);
   }
 }
 

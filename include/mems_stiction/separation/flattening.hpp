@@ -14,6 +14,8 @@
 
 #include <vector>
 
+#include <opencv2/core.hpp>
+
 #include "mems_stiction/approach/gap_field.hpp"
 
 namespace mems_stiction {
@@ -44,8 +46,14 @@ class FlatteningEnergy {
   /// U/A [J/m^2].
   /// - @p contact_modulus E [Pa], > 0
   double of(const GapField& field, double contact_modulus);
+  /// The same of the gap with these heights added to it [m], cell by cell.
+  double of(const GapField& field, const cv::Mat1d& raised, double contact_modulus);
 
  private:
+  /// - @p read gives the gap of a cell by its index [m]
+  template <typename ReadCell>
+  double measure(const GapField& field, double contact_modulus, const ReadCell& read);
+
   StructureFunction along_rows_;
   StructureFunction along_columns_;
   std::vector<double> row_;

@@ -50,8 +50,11 @@ class SeparationSolver : public ContactSolver {
   void fillMaps(const ContactProblem& problem, ContactSolution& solution);
   /// The way out of surfaces that have flowed, if they have.
   void partFlowed(const ContactProblem& problem, ContactSolution& solution);
-  /// The way out of surfaces that conform, if they do.
+  /// The way out of surfaces that conform, or are near to it, if they are.
   void partConforming(const ContactProblem& problem, ContactSolution& solution);
+  void takeConforming(const ContactProblem& problem, double stretch, ContactSolution& solution);
+  /// Gives the way out the work of bonded surfaces, forces in proportion.
+  void stretchWayOut(const ContactProblem& problem, double stretch, ContactSolution& solution);
 
   SeparationTrace trace_;
   SeparationCurve curve_;
@@ -60,6 +63,7 @@ class SeparationSolver : public ContactSolver {
   std::vector<double> row_gaps_;
   std::vector<std::int32_t> columns_;
   FlatteningEnergy flattening_;
+  ConformingContact conforming_;
   std::vector<double> changed_gaps_;  ///< of the cells that overlap, when surfaces have flowed [m]
   SeparationCurve changed_curve_;
 };
