@@ -11,7 +11,9 @@ constexpr double kApart[] = {-12.0, -8.0, -6.0, -4.5, -3.5, -2.8, -2.2, -1.8, -1
 constexpr double kStep = 0.1;
 /// Steps grow with the approach, so that few of them go deep.
 constexpr double kStepPerApproach = 0.05;
-constexpr int kRestSearches = 3;
+/// Most places that are tried for it, and what the forces there may lack of what is carried.
+constexpr int kRestSearches = 24;
+constexpr double kRestAccuracy = 1e-3;
 
 /// The vertex of the parabola through three points of the curve, if it lies between them; else the middle one.
 void takeMaximum(const std::vector<SeparationState>& states, SeparationCurve& curve) {
@@ -81,9 +83,13 @@ void settle(SeparationTrace& trace, double load, SeparationCurve& curve) {
   trace.keep();
   for (int search = 0; search < kRestSearches; ++search) {
     if (search > 0) trace.backToKept();
-    const SeparationState found = trace.at(crossing(above, below, load));
-    (found.force() + load >= 0.0 ? above : below) = found;
-    if (std::abs(found.force() + load) <= 1e-3 * std::max(found.carried, load) || search + 1 == kRestSearches) {
+    // every third time the middle: where one side is a wall, the line hardly moves the other
+    const double place = search % 3 == 2 ? 0.5 * (above.approach + below.approach) : crossing(above, below, load);
+    const SeparationState found = trace.at(place);
+    const double excess = found.force() + load;
+    const bool is_rest = std::abs(excess) <= kRestAccuracy * std::max(found.carried, load);
+    (excess >= 0.0 ? above : below) = found;
+    if (is_rest || search + 1 == kRestSearches) {
       states.push_back(found);
       break;
     }

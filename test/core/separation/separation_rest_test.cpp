@@ -31,7 +31,16 @@ TEST(SeparationRest, surfacesThatComeNearSlowlyStopAtTheFirstPlaceOfRest) {
 
 TEST(SeparationRest, aLoadTakesThemPastIt) {
   const Prediction prediction = predictAt(1e-7);
-  EXPECT_GT(prediction.contact_area, 0.4 * kSide * kSide * kPitch * kPitch);
+  EXPECT_GT(prediction.approach, 0.95e-9);  // the plain lies as near as the law lets it
+  EXPECT_GT(prediction.pull_off_force, 10.0 * predictAt(0.0).pull_off_force);
+}
+
+TEST(SeparationRest, forcesBalanceThereThoughOneSideIsAWall) {
+  const double load = 1e-7;
+  const Prediction prediction = predictAt(load);
+  double elastic = 0.0;
+  for (const Asperity& asperity : prediction.asperities) elastic += asperity.load;
+  EXPECT_NEAR(prediction.van_der_waals_force + load, elastic, 2e-3 * elastic);
 }
 
 }  // namespace
