@@ -70,9 +70,10 @@ bool waitUntil(pid_t child, std::chrono::steady_clock::time_point deadline) {
 }  // namespace
 
 pid_t startChild(const std::vector<std::string>& arguments, const std::vector<std::string>& environment,
-                 const std::string& log_path, int input) {
+                 const std::string& log_path, int input, const std::string& folder) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
+  if (!folder.empty()) posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
   if (input >= 0) {
     posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
   } else {
@@ -113,7 +114,7 @@ void setEnd(int status, ChildResult& result) {
 
 ChildResult runChild(const std::vector<std::string>& arguments, const std::vector<std::string>& environment,
                      const std::string& log_path, double timeout) {
-  const RunningChild running([&] { return startChild(arguments, environment, log_path, -1); });
+  const RunningChild running([&] { return startChild(arguments, environment, log_path, -1, ""); });
   const pid_t child = running.id();
   ChildResult result;
   if (child < 0) return result;

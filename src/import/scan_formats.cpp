@@ -37,7 +37,7 @@ std::string extension(const std::string& path) {
 
 /// Some instruments write a picture of the scan, with the heights in tags of their own.
 Channels readTiff(const std::string& path, const std::string& bytes, const ImportOptions& options) {
-  if (hasParkTags(bytes)) return channelsByGwyddion(path, bytes, options);
+  if (hasInstrumentTags(bytes)) return channelsByGwyddion(path, bytes, options);
   Channels channels = parseTiff(bytes);
   const bool is_picture = std::all_of(channels.begin(), channels.end(),
                                       [](const FileChannel& channel) { return channel.values.channels() > 2; });

@@ -71,7 +71,7 @@ class WaitingGwyddion {
           const std::string all = others == nullptr || *others == '\0' ? preload : preload + ":" + others;
           const std::string home = home_.path().string();
           return startChild(gwyddionArguments(program, "scan.gwy", kWaitingFileName),
-                            gwyddionEnvironment(home, {"LD_PRELOAD=" + all}), "/dev/null", connection_.farEnd());
+                            gwyddionEnvironment(home, {"LD_PRELOAD=" + all}), "/dev/null", connection_.farEnd(), home);
         }) {
     connection_.closeFarEnd();
   }
@@ -94,7 +94,8 @@ class WaitingGwyddion {
     }
     ChildResult result;
     result.started = true;
-    const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(timeout));
+    const auto deadline =
+        Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(timeout));
     for (;;) {
       pollfd entry{connection_.nearEnd(), POLLIN, 0};
       const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now()).count();

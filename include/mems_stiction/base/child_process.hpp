@@ -22,9 +22,10 @@ struct ChildResult {
 /// RunningChild is made.
 /// - @p arguments, @p environment, @p log_path as of runChild()
 /// - @p input descriptor that becomes its standard input; -1: there is none
+/// - @p folder where it works; empty: here
 /// @return its id, or -1 if it could not be started
 pid_t startChild(const std::vector<std::string>& arguments, const std::vector<std::string>& environment,
-                 const std::string& log_path, int input);
+                 const std::string& log_path, int input, const std::string& folder);
 
 /// What waitpid() says of a child's end.
 void setEnd(int status, ChildResult& result);
