@@ -36,7 +36,7 @@ struct ImportOptions {
   std::string channel;               ///< title or number of the channel to take; empty = the likeliest height channel
   bool use_cache = false;            ///< keep what gwyddion makes of a file for the next time, import_cache.hpp
   std::shared_ptr<WaitingGwyddions> waiting;  ///< started once for many files; null = the program is started for each
-  bool ignore_mask = false;          ///< pixels under the mask of a .gwy file are heights as the others
+  bool ignore_mask = false;                   ///< pixels under the mask of a .gwy file are heights as the others
 };
 
 }  // namespace mems_stiction
