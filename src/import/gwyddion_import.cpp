@@ -12,6 +12,7 @@
 #include "mems_stiction/import/file_bytes.hpp"
 #include "mems_stiction/import/gwy_file.hpp"
 #include "mems_stiction/import/import_cache.hpp"
+#include "mems_stiction/import/reader_version.hpp"
 #include "mems_stiction/import/waiting_gwyddion.hpp"
 
 namespace mems_stiction {
@@ -83,7 +84,7 @@ std::vector<FileChannel> channelsByGwyddion(const std::string& path, const std::
                                             const ImportOptions& options) {
   std::string key;
   if (options.use_cache) {
-    key = importCacheKey(bytes, fs::path(path).extension().string(), options.program);
+    key = importCacheKey(bytes, fs::path(path).extension().string(), options.program, readerVersion());
     if (const auto kept = keptConversion(key)) return measured(parseGwy(*kept));
   }
   const std::string gwy = converted(path, options);

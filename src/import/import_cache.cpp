@@ -98,8 +98,10 @@ std::optional<std::string> importCacheFolder() {
   return std::string(home) + "/.cache/mems_stiction";
 }
 
-std::string importCacheKey(const std::string& bytes, const std::string& name_end, const std::string& program) {
-  return hashOf(hashOf(bytes) + " " + std::to_string(bytes.size()) + " " + name_end + " " + installed(program));
+std::string importCacheKey(const std::string& bytes, const std::string& name_end, const std::string& program,
+                           const std::string& readers) {
+  return hashOf(hashOf(bytes) + " " + std::to_string(bytes.size()) + " " + name_end + " " + installed(program) + " " +
+                readers);
 }
 
 std::optional<std::string> keptConversion(const std::string& key) {

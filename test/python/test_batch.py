@@ -158,6 +158,9 @@ class BatchTest(unittest.TestCase):
         self.assertIn("not a row of this shard", self.predict("one.csv", "--shard", "2/2", status=2).stderr)
         self.assertIn("--shard", self.predict("two.csv", "--shard", "3/2", status=2).stderr)
         self.assertIn("--output", self.predict("rows.xls", status=2).stderr)
+        settings = self.folder / "one.csv.settings.yaml"
+        settings.write_text(re.sub('readers: "[0-9a-f]{16}"', 'readers: "0123456789abcdef"', settings.read_text()))
+        self.assertIn("another version", self.predict("one.csv", "--shard", "1/2", status=2).stderr)
         self.assertEqual((self.folder / "one.csv").read_bytes(), before)
 
     def test_of_a_bag_that_was_cut_off_the_scans_before_the_cut_are_predicted(self):
