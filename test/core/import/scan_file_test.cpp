@@ -304,6 +304,18 @@ TEST(GwyddionImport, FailureQuotesTheProgram) {
   EXPECT_TRUE(mentions(importRefusal("#!/bin/sh\nexit 0\n"), "cannot read it"));
 }
 
+TEST(GwyddionImport, AnHdf5FileThatItDoesNotKnowIsRefusedWithWhatToDo) {
+  const ScratchFolder folder;
+  ScanFileOptions options;
+  options.import.program = "false";
+  try {
+    openScanFile(folder.write("scan.h5", "\x89HDF\r\n\x1a\n"), {}, options);
+    FAIL();
+  } catch (const FileError& error) {
+    EXPECT_TRUE(mentions(error.what(), "write its array of heights as .npy and give --pitch")) << error.what();
+  }
+}
+
 TEST(GwyddionImport, HangingProgramAndItsChildrenAreStopped) {
   const auto start = std::chrono::steady_clock::now();
   EXPECT_TRUE(mentions(importRefusal("#!/bin/sh\nsleep 30 &\nsleep 30\n", 0.2), "did not finish within 0.2 s"));
