@@ -176,6 +176,7 @@ std::size_t chooseHeightChannel(const std::vector<FileChannel>& channels, const 
     throw FileError("there is no channel '" + wanted + "'; there are: " + list(channels));
   }
   std::vector<Rank> ranks;
+  ranks.reserve(channels.size());
   for (const FileChannel& channel : channels) {
     ranks.emplace_back(channels.size() > 1 && isSteep(channel), likelihood(channel), isBackward(channel));
   }

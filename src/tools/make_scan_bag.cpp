@@ -85,7 +85,7 @@ class ScanBag {
   }
   ~ScanBag() {
     if (is_whole_) return;
-    bag_.release();  // to the end of the process: closing writes, and would fail in the destructor
+    static_cast<void>(bag_.release());  // to the end of the process: closing writes, and would fail in the destructor
     std::error_code ignored;
     fs::remove(partial_.path(), ignored);
   }

@@ -38,6 +38,7 @@ const char* becomeCopy() {
 }  // namespace
 
 /// Stands before the function of libgwymodule with this name.
+// NOLINTNEXTLINE(readability-identifier-naming)
 extern "C" void* gwy_file_load(const char*, int mode, void** error) {
   const auto load = reinterpret_cast<Load>(dlsym(RTLD_NEXT, "gwy_file_load"));
   if (load == nullptr) _exit(127);
