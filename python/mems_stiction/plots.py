@@ -24,11 +24,26 @@ REGIMES = ((1, "elastic", "#2f7fd1"), (2, "elasto-plastic", "#f2b705"), (3, "pla
 SMALL_CONTACT_SHARE = 3e-4  # contacts that take less of the frame are ringed, or nobody sees them
 MOST_RINGS = 300
 CAPTION_WIDTH = 175  # letters
+LEAST_SPAN = 0.05  # of an axis, as a share of the values on it
 
 
 def with_unit(value, unit, digits=3):
     """As people write it: a picture can show what a terminal may not."""
     return quantities.with_unit(value, unit, digits).replace(" u", " µ")
+
+
+def widen(axes, values, share=LEAST_SPAN):
+    """Gives a linear axis of height a least span of that share of the largest of the values that it shows, about their middle: what differs by less is
+    drawn as the level line that it is, not as noise over the whole axis."""
+    finite = np.asarray(values, dtype=float)
+    finite = finite[np.isfinite(finite)]
+    if not finite.size:
+        return
+    least = share * np.abs(finite).max()
+    low, high = axes.get_ylim()
+    if high - low < least:
+        middle = 0.5 * (finite.min() + finite.max())
+        axes.set_ylim(middle - 0.5 * least, middle + 0.5 * least)
 
 
 class ScanPicture:
@@ -209,8 +224,8 @@ def _draw_section(axes, picture, section):
     axes.fill_between(x * x_scale, (after - zero) * z_scale, np.nanmin(before - zero) * z_scale, color="#e9edf2")
     axes.plot(x * x_scale, (counter - zero) * z_scale, color="#555555", linewidth=1.4, linestyle=(0, (5, 2)),
               zorder=3, label="counter-surface at rest")
-    axes.plot(x * x_scale, (before - zero) * z_scale, color="#e07b00", linewidth=2.6, label="scan before contact", **style)
-    axes.plot(x * x_scale, (after - zero) * z_scale, color="#0b4f9e", linewidth=1.4, label="scan after contact" if changed else "scan after contact: unchanged")
+    axes.plot(x * x_scale, (before - zero) * z_scale, color="#e07b00", linewidth=2.6, label="before contact", **style)
+    axes.plot(x * x_scale, (after - zero) * z_scale, color="#0b4f9e", linewidth=1.4, label="after contact" if changed else "after contact: unchanged")
     # Ten times the interference shows what the contact does, a third of the relief where it stands; the rest may leave
     # the picture.
     relief = zero - np.nanmin(before)

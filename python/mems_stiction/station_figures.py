@@ -2,7 +2,7 @@
 
 import math
 
-from mems_stiction.plots import plt, with_unit
+from mems_stiction.plots import plt, widen, with_unit
 from mems_stiction.prediction_text import contact_area_of
 from mems_stiction.quantities import prefix_for
 from mems_stiction.station_text import area_label
@@ -74,6 +74,7 @@ def _draw_loops(axes, result, loads, value_of, label, unit):
         for points, style, marker in zip(ways, ("-", "--"), ("^", "v")):
             axes.plot([point.voltage for point in points], [value_of(point) * factor for point in points], color=colour,
                       linestyle=style, marker=marker, markersize=5, linewidth=1.6)
+    widen(axes, [value * factor for value in values])
     axes.set_xlabel("voltage [V]")
     axes.set_ylabel("%s [%s]" % (label, shown_unit))
     axes.grid(color="#dddddd", linewidth=0.6)
@@ -112,6 +113,7 @@ def save_cycles(result, path):
         axes.set_ylabel("%s [%s]" % (label, unit))
         axes.set_xlabel("number of the contact")
         if axes.get_yscale() == "linear":
+            widen(axes, values)
             axes.ticklabel_format(axis="y", useOffset=False)
         axes.xaxis.set_major_locator(MaxNLocator(integer=True))
         axes.grid(color="#dddddd", linewidth=0.6)
