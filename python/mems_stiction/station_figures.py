@@ -108,7 +108,9 @@ def save_cycles(result, path):
                       linestyle=":", label="lower end of the 95 % interval")
             axes.axhline(1.0, color="#b3201d", linewidth=1.2, linestyle="--", label="1: sticks below")
             _scale_ratio(axes, [cycle.margin_lower for cycle in cycles] + list(values))
-            axes.legend(fontsize=9, framealpha=0.85, edgecolor="none")
+            low, high = axes.get_ylim()  # room for the legend above all lines
+            axes.set_ylim(low, high * (high / low)**0.25 if axes.get_yscale() == "log" else low + 1.3 * (high - low))
+            axes.legend(fontsize=9, framealpha=0.85, edgecolor="none", loc="upper left")
         axes.set_title(label[0].upper() + label[1:], fontsize=11)
         axes.set_ylabel("%s [%s]" % (label, unit))
         axes.set_xlabel("number of the contact")
