@@ -24,6 +24,7 @@ REGIMES = ((1, "elastic", "#2f7fd1"), (2, "elasto-plastic", "#f2b705"), (3, "pla
 SMALL_CONTACT_SHARE = 3e-4  # contacts that take less of the frame are ringed, or nobody sees them
 MOST_RINGS = 300
 CAPTION_WIDTH = 175  # letters
+CAPTION_LINE = 0.033  # height of a line of the caption, as a share of the picture's
 LEAST_SPAN = 0.05  # of an axis, as a share of the values on it
 
 
@@ -92,10 +93,11 @@ def in_frame_of(heights, deformed, contact_map):
 def save_picture(picture, path):
     """Writes the three panels as PNG."""
     figure = plt.figure(figsize=(15, 5.4), dpi=110)
-    grid = figure.add_gridspec(1, 3, width_ratios=(1.0, 1.0, 1.15), left=0.045, right=0.985, top=0.80, bottom=0.17,
-                               wspace=0.22)
+    caption = _caption(picture)
+    top = min(0.80, 0.925 - CAPTION_LINE * (caption.count("\n") + 1) - 0.055)  # below the caption there is a line of titles
+    grid = figure.add_gridspec(1, 3, width_ratios=(1.0, 1.0, 1.15), left=0.045, right=0.985, top=top, bottom=0.17, wspace=0.3)
     figure.suptitle(picture.name, x=0.045, y=0.965, ha="left", fontsize=14, fontweight="bold")
-    figure.text(0.045, 0.925, _caption(picture), fontsize=10.5, color="#333333", va="top")
+    figure.text(0.045, 0.925, caption, fontsize=10.5, color="#333333", va="top")
     _draw_heights(figure, figure.add_subplot(grid[0]), picture)
     contact_axes = figure.add_subplot(grid[1])
     section = _section(picture)

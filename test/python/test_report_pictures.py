@@ -1,5 +1,6 @@
 """What the report draws: bearing curve, spectrum, cleaning steps, energies around the equilibrium; no label lies on another."""
 
+import io
 import itertools
 import json
 import math
@@ -7,10 +8,11 @@ import pathlib
 import subprocess
 import tempfile
 import unittest
+from types import SimpleNamespace
 from unittest import mock
 
 import numpy as np
-from mems_stiction import cleaning_steps, report, report_figures, surface_figures
+from mems_stiction import cleaning_steps, plots, report, report_figures, surface_figures
 from mems_stiction.cleaning_steps import Stage, cleaning_figure, first_steps, rows_of, steps_of
 from mems_stiction.plots import plt, widen
 from mems_stiction.surface_figures import MaterialRatioCurve, profile_spectrum, surface_figure
@@ -101,6 +103,20 @@ class PictureTest(unittest.TestCase):
                     "load": [1.3e-6], "plasticity_index": [0.63], "regime": [1]})))):
             with self.subTest(picture=name):
                 self.assertEqual(collisions(self.drawn(module, draw)), [])
+
+    def test_a_long_caption_leaves_room_for_the_titles(self):
+        heights = rough()
+        contact = SimpleNamespace(x=3e-7, y=2e-7, load=1e-6, cap_radius=2e-8, composite_radius=4.28e-7, plasticity_index=2.24, regime=1, area=1e-16)
+        prediction = SimpleNamespace(status=0, pull_off_force=4e-7, contact_area_jkr=math.nan, contact_fraction=1e-5, rms_height=3e-9, normal_load=1e-6,
+                                     voltage=0.0, regime_flags=511, elastic_count=1, elasto_plastic_count=0, plastic_count=0)
+        regimes = np.zeros(heights.shape, np.uint8)
+        regimes[20, 30] = 1
+        picture = plots.ScanPicture("scan", heights, heights, None, regimes, [contact], prediction, 1e-8, 1e-8)
+        figures = []
+        with mock.patch.object(plots.plt, "close", side_effect=figures.append):
+            plots.save_picture(picture, io.BytesIO())
+        self.addCleanup(plt.close, figures[-1])
+        self.assertEqual(collisions(figures[-1]), [])
 
     def test_each_step_is_shown_with_what_it_did(self):
         figure = self.drawn(cleaning_steps, lambda: cleaning_figure(self.stages(), 1e-8, 1e-8))
