@@ -1,4 +1,4 @@
-"""From the node's topics to a PageState. Starts without a master, and says what it waits for."""
+"""From the node's topics to a PageState. Starts without a master, says what it waits for, and follows a master that is started anew."""
 
 import threading
 import time
@@ -11,7 +11,6 @@ from mems_stiction.msg import (CycleContactActionFeedback, CycleContactActionRes
 from sensor_msgs.msg import Image
 
 LOOK_PERIOD = 1.0  # [s]
-MASTER_TIMEOUT = 5.0  # [s]
 MAP_BUFFER = 2**26  # bytes: the newest map alone is kept
 
 
@@ -20,7 +19,7 @@ class PageListener:
 
     def __init__(self, state, node):
         self._state, self._node = state, node
-        self._prediction = None
+        self._subscribers = []
         self._infos = {}
 
     def start(self):
@@ -28,7 +27,7 @@ class PageListener:
 
     def follow(self):
         master = rosgraph.Master(rospy.get_name())
-        while not rospy.is_shutdown() and not self._has_master(master):
+        while not rospy.is_shutdown() and not master.is_online():
             self._state.set_link("error", "No ROS master at %s: start roscore or a launch file. This page waits." % rosgraph.get_master_uri())
             time.sleep(LOOK_PERIOD)
         rospy.init_node("station_page", anonymous=True, disable_signals=True)
@@ -37,34 +36,33 @@ class PageListener:
             self._look(rosgraph.Master(rospy.get_name()))
             time.sleep(LOOK_PERIOD)
 
-    @staticmethod
-    def _has_master(master):
-        return master.is_online()
-
     def _look(self, master):
         try:
             master.lookupNode(rospy.get_name())
-        except rosgraph.MasterError:
-            return self._state.set_link("error", "The ROS master was started anew and does not know this page: start station_page again.")
+        except rosgraph.MasterError:  # another one, which knows nothing of this node: rospy does not notice
+            for subscriber in self._subscribers:
+                subscriber.unregister()
+            return self._subscribe()
         except OSError:
             return self._state.set_link("error", "The ROS master at %s is gone." % rosgraph.get_master_uri())
-        if self._prediction.get_num_connections():
+        if self._subscribers[0].get_num_connections():
             return self._state.set_link("ok", "Connected to the node.")
         self._state.set_link("error", "No node publishes %s: nothing is predicted. roslaunch mems_stiction stiction.launch starts one." %
-                             self._prediction.resolved_name)
+                             self._subscribers[0].resolved_name)
 
     def _subscribe(self):
-        self._prediction = rospy.Subscriber("prediction", StictionPrediction, self._on_prediction, queue_size=1000)
-        rospy.Subscriber("scan_info", ScanInfo, self._on_info, queue_size=100)
-        rospy.Subscriber("preview", Image, self._on_map, "height", queue_size=1, buff_size=MAP_BUFFER)
-        rospy.Subscriber("contact_map", Image, self._on_map, "contacts", queue_size=1, buff_size=MAP_BUFFER)
-        rospy.Subscriber("half_space", HalfSpaceSolution, self._on_half_space, queue_size=10)
-        rospy.Subscriber("/diagnostics", DiagnosticArray, self._on_diagnostics, queue_size=100)
+        topics = [("prediction", StictionPrediction, self._on_prediction, None, dict(queue_size=1000)),
+                  ("scan_info", ScanInfo, self._on_info, None, dict(queue_size=100)),
+                  ("preview", Image, self._on_map, "height", dict(queue_size=1, buff_size=MAP_BUFFER)),
+                  ("contact_map", Image, self._on_map, "contacts", dict(queue_size=1, buff_size=MAP_BUFFER)),
+                  ("half_space", HalfSpaceSolution, self._on_half_space, None, dict(queue_size=10)),
+                  ("/diagnostics", DiagnosticArray, self._on_diagnostics, None, dict(queue_size=100))]
         for action, kind, feedback, result, take in (
                 ("sweep_load", "sweep", SweepLoadActionFeedback, SweepLoadActionResult, self._state.add_sweep),
                 ("cycle_contact", "cycles", CycleContactActionFeedback, CycleContactActionResult, self._state.add_cycles)):
-            rospy.Subscriber("%s/%s/feedback" % (self._node, action), feedback, self._on_feedback, kind, queue_size=10)
-            rospy.Subscriber("%s/%s/result" % (self._node, action), result, self._on_result, take, queue_size=10)
+            topics += [("%s/%s/feedback" % (self._node, action), feedback, self._on_feedback, kind, dict(queue_size=10)),
+                       ("%s/%s/result" % (self._node, action), result, self._on_result, take, dict(queue_size=10))]
+        self._subscribers = [rospy.Subscriber(name, kind, callback, argument, **settings) for name, kind, callback, argument, settings in topics]
 
     def _on_prediction(self, prediction):
         self._state.add_prediction(prediction.header.stamp.to_nsec(), prediction)

@@ -8,7 +8,7 @@ import re
 import threading
 import time
 
-from mems_stiction.page_words import (curve_of, diagnostics_of, figures_of, finite, flags_of, half_space_of, judged_by, ratio_of,
+from mems_stiction.page_words import (curve_of, diagnostics_of, figures_of, finite, flags_of, half_space_of, judged_by, ratio_of, sentence,
                                       verdict_of, with_micro, with_unit)
 from mems_stiction.station_text import cycle_sentences, sweep_sentences
 
@@ -89,7 +89,7 @@ class PageState:
             self._lost += 1
             self._trend.append({"number": self._count, "lost": reason})
         if count > 0:
-            self._losses.append({"number": self._count, "count": count, "reason": reason})
+            self._losses.append({"number": self._count, "count": count, "reason": sentence(reason)})
             stamp = stamp_of_reason(reason)
             self._loss_is_newest = self._latest is None or stamp is None or stamp > self._latest[1]
 

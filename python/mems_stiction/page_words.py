@@ -86,7 +86,7 @@ def figures_of(prediction):
             ("asperity_count", "contacts", ""), ("rms_height", "rms height Sq", "m"), ("mechanical_load", "mechanical load", "N"),
             ("voltage", "voltage", "V"), ("pull_in_voltage", "pull-in voltage", "V"), ("detachment_length", "detachment length", "m"),
             ("apparent_work_of_adhesion", "apparent work of adhesion", "J/m²"),
-            ("flattening_ratio", "flattening energy / adhesion", "-"), ("processing_time", "computed in", "s")]
+            ("flattening_ratio", "flattening ratio", "-"), ("processing_time", "computed in", "s")]
     figures = [{"name": "status", "label": "state", "text": STATUS_NAMES.get(prediction.status, "?"), "value": None}]
     for name, label, unit in rows:
         value = getattr(prediction, name)

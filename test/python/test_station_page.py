@@ -1,5 +1,6 @@
 """The station's page without a graph: what it keeps, what it says, what it serves, and whom it refuses."""
 
+import asyncio
 import json
 import math
 import os
@@ -7,6 +8,7 @@ import pathlib
 import re
 import socket
 import subprocess
+import tempfile
 import threading
 import time
 import unittest
@@ -15,6 +17,7 @@ import urllib.request
 from types import SimpleNamespace
 
 import numpy as np
+import tornado.websocket
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 from mems_stiction.msg import SeparationPoint, StictionPrediction
 from mems_stiction.page_maps import contact_png, height_png, rings, severest
@@ -57,7 +60,7 @@ class StateTest(unittest.TestCase):
         shown = state.snapshot()
         self.assertEqual((shown["count"], shown["lost"], shown["loss_is_newest"]), (3, 2, True))
         self.assertEqual([row.get("lost") for row in shown["trend"]][1:], ["rejected the scan of stamp 3.000000000: no pitch"] * 2)
-        self.assertEqual(shown["losses"], [{"number": 3, "count": 2, "reason": "rejected the scan of stamp 3.000000000: no pitch"}])
+        self.assertEqual(shown["losses"], [{"number": 3, "count": 2, "reason": "Rejected the scan of stamp 3.000000000: no pitch."}])
         state.add_diagnostics(counts(1, "of the new node"))
         self.assertEqual(state.snapshot()["lost"], 3)
 
@@ -234,6 +237,44 @@ class ProgramTest(unittest.TestCase):
         process.terminate()
         _, errors = process.communicate(timeout=15)
         self.assertEqual((process.returncode, errors), (0, ""))
+
+    def test_it_follows_a_master_that_is_started_anew(self):
+        """As when a launch file that owns the master is stopped and started again."""
+        with socket.socket() as free:
+            free.bind(("127.0.0.1", 0))
+            port = free.getsockname()[1]
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        environment = dict(os.environ, ROS_MASTER_URI="http://localhost:%d" % port, ROS_HOSTNAME="localhost", ROS_LOG_DIR=folder.name)
+        quiet = dict(env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        page = subprocess.Popen([STATION_PAGE, "--port", "0"], stdout=subprocess.PIPE, universal_newlines=True, env=environment)
+        self.addCleanup(page.communicate)
+        self.addCleanup(page.terminate)
+        address = re.search(r"http://(\S+)", page.stdout.readline()).group(1)
+        self.wait(address, lambda state: state["link"]["text"].startswith("No ROS master"))
+        for round_trip in (1, 2):
+            master = subprocess.Popen(["roscore", "-p", str(port)], **quiet)
+            try:
+                self.wait(address, lambda state: state["link"]["text"].startswith("No node publishes /prediction"))
+                subprocess.run(["rostopic", "pub", "-1", "/prediction", "mems_stiction/StictionPrediction", "{}"], check=True, timeout=60, **quiet)
+                self.wait(address, lambda state: state["count"] == round_trip)
+            finally:
+                master.terminate()
+                master.wait(timeout=30)
+            self.wait(address, lambda state: "is gone" in state["link"]["text"])
+
+    def wait(self, address, condition):
+        """Until the state that a browser gets is so."""
+        async def states():
+            connection = await tornado.websocket.websocket_connect("ws://%s/state" % address)
+            for _ in range(200):
+                await connection.write_message("next")
+                state = json.loads(await connection.read_message())
+                if condition(state):
+                    return
+            self.fail("waited in vain; the link says: %s" % state["link"]["text"])
+
+        asyncio.run(asyncio.wait_for(states(), 60))
 
 
 if __name__ == "__main__":

@@ -124,6 +124,7 @@ class Browser:
 
     def close(self):
         self._socket.close()
+        self._loop.run_until_complete(asyncio.sleep(0.1))  # for the goodbye to be heard
         self._process.terminate()
         self._process.wait(timeout=TIMEOUT)
         self._loop.close()

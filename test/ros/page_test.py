@@ -142,12 +142,13 @@ class PageTest(unittest.TestCase):
         shown = self.page.value("state.scan.number")
         self.station.send(np.full((48, 64), np.nan, np.float32))
         self.page.wait("document.querySelector('#word').textContent === 'NOT PREDICTED'")
-        self.assertIn("rejected the scan of stamp", self.page.text("#reason"))
+        self.assertIn("Rejected the scan of stamp", self.page.text("#reason"))
         self.assertIn("the last verdict, of scan %d: " % shown, self.page.text("#scan-name"))
         self.assertIn("1 not predicted", self.page.text("#counts"))
         self.open_tab("node")
-        self.assertIn("scan %d: rejected the scan" % (shown + 1), self.page.text("#losses"))
+        self.assertIn("scan %d: Rejected the scan" % (shown + 1), self.page.text("#losses"))
         self.page.wait("document.querySelector('#diagnostics').innerText.includes('rejected\\t1')")
+        self.page.wait("document.querySelector('#link').className === 'ok'", timeout=10)  # of the report that counted it, 'warn'
         self.live(rough_surface(4))
         self.assertNotEqual(self.page.text("#word"), "NOT PREDICTED")
 

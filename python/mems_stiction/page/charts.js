@@ -28,11 +28,11 @@ function ticksOf(low, high, count) {
   return ticks;
 }
 
-/** 1, 2, 5 of the decades; only 1 where there are many. */
-function logTicksOf(low, high) {
+/** 1, 2, 5 of the decades where `count` ticks have room for them, else 1 alone, or of every so many decades. */
+function logTicksOf(low, high, count) {
   const decades = Math.log10(high / low);
-  const digits = decades > 3 ? [1] : [1, 2, 5];
-  const every = Math.ceil(decades / 6);
+  const digits = 3 * decades > count ? [1] : [1, 2, 5];
+  const every = Math.ceil(decades / count);
   const ticks = [];
   for (let exponent = Math.floor(Math.log10(low)); exponent <= Math.log10(high); exponent += 1) {
     if (exponent % every) continue;
@@ -138,7 +138,7 @@ function drawAxes(svg, chart, place) {
   const [yFactor, yPrefix] = chart.y.unit ? prefixFor(largest(chart.y)) : [1, ""];
   let xTicks = ticksOf(chart.x.low, chart.x.high, (place.right - place.left) / 90);
   if (chart.x.whole) xTicks = xTicks.filter(Number.isInteger);
-  const yTicks = chart.y.log ? logTicksOf(chart.y.low, chart.y.high) : ticksOf(chart.y.low, chart.y.high, (place.bottom - place.top) / 42);
+  const yTicks = chart.y.log ? logTicksOf(chart.y.low, chart.y.high, (place.bottom - place.top) / 24) : ticksOf(chart.y.low, chart.y.high, (place.bottom - place.top) / 42);
   for (const tick of yTicks) {
     const y = place.y(tick);
     svg.append(element("line", {x1: place.left, x2: place.right, y1: y, y2: y, stroke: Math.abs(tick) < 1e-30 ? "#a8adb8" : "#3a3f4a"}));

@@ -4,6 +4,7 @@
 const COLOURS = {releases: "#35c46a", marginal: "#f2b705", sticks: "#ff5a4f", unknown: "#a8adb8", none: "#7fb2ff"};
 const RECONNECT = 1000;  // [ms]
 const SILENCE = 8000;    // [ms] without a state: the server is gone
+const FRESH = 10;        // [s] a warning of the node's diagnostics is shown at the top for so long
 let state = null;
 let received = 0;        // when the state came [ms]
 const shownMaps = {};
@@ -43,8 +44,9 @@ function show() {
 
 function showLink() {
   const isGone = !state || performance.now() - received > SILENCE;
-  byId("link").className = isGone ? "error" : state.link.level;
-  say("link-text", isGone ? "No answer from station_page: what is shown is old." : state.link.text);
+  const warned = !isGone && state.link.level === "ok" && state.diagnostics.find((status) => status.level !== "ok" && status.age < FRESH);
+  byId("link").className = isGone ? "error" : warned ? "warn" : state.link.level;
+  say("link-text", isGone ? "No answer from station_page: what is shown is old." : warned ? `Connected; the node warns: ${warned.message}` : state.link.text);
   return isGone || state.link.level === "error";
 }
 
