@@ -130,8 +130,8 @@ def embedded(png):
     return "data:image/png;base64," + base64.b64encode(png).decode("ascii")
 
 
-def scan_section(row, folder, stages=()):
-    """What the page shows of one scan. `folder` holds its dump; stages: the surfaces between its cleaning steps, where they are to be shown."""
+def scan_section(row, folder, stages=(), why_no_stages=""):
+    """What the page shows of one scan. `folder` holds its dump; stages: the surfaces between its cleaning steps, where they are to be shown, or why they cannot."""
     with open(str(folder / "result.json"), encoding="utf-8") as stream:
         result = json.load(stream)
     stream = io.BytesIO()
@@ -141,6 +141,7 @@ def scan_section(row, folder, stages=()):
     return {"number": row["number"], "name": scan_name(row), "maps": embedded(stream.getvalue()),
             "details": embedded(scan_figure(result)), "figures": _figures(result, FIGURES),
             "half_space": _half_space(picture, result, folder), "cleaning": _cleaning(list(stages), result),
+            "why_no_cleaning": _sentence(why_no_stages),
             "surface": embedded(surface_figure(heights, result["pitch_x"], result["pitch_y"])),
             "surface_figures": _figures(result, SURFACE_FIGURES) + surface_figures_of(heights),
             "warnings": [row["warnings"]] if row["warnings"] else [], "sticks": result.get("sticks"),

@@ -71,6 +71,7 @@ PAGE = """<!DOCTYPE html>
 <table><tr><th></th><th class="n">rms height</th><th class="n">rms of the change</th><th class="n">pixels changed</th><th class="n">not measured</th><th class="n">pull-off force on this surface</th></tr>
 {% for row in scan.cleaning.rows %}<tr><td>{{ row.words }}</td><td class="n">{{ row.rms }}</td><td class="n">{{ row.change }}</td><td class="n">{{ row.changed }}</td><td class="n">{{ row.missing }}</td><td class="n">{{ row.pull_off }}</td></tr>
 {% endfor %}</table>{% endif %}
+{% if scan.why_no_cleaning %}<p class="quiet">What each cleaning step did is not shown: {{ scan.why_no_cleaning }}</p>{% endif %}
 {% if scan.half_space %}<h3>The whole surface as one elastic half-space</h3>
 <p>{{ scan.half_space.words }}</p>
 {% if scan.half_space.image %}<img alt="Contacts of the asperity model and of the half-space, force over height" src="{{ scan.half_space.image }}">{% endif %}

@@ -13,6 +13,7 @@ from unittest import mock
 
 import numpy as np
 from mems_stiction import cleaning_steps, plots, report, report_figures, surface_figures
+from mems_stiction.cleaning_run import CannotShow, stages_of
 from mems_stiction.cleaning_steps import Stage, cleaning_figure, first_steps, rows_of, steps_of
 from mems_stiction.plots import plt, widen
 from mems_stiction.surface_figures import MaterialRatioCurve, profile_spectrum, surface_figure
@@ -246,6 +247,13 @@ class ReportTest(unittest.TestCase):
         without = self.run_program("stiction_report", "-c", self.folder / "clean.yaml", "--steps", 0, "-o", self.folder / "s.html", self.scan)
         self.assertEqual(without.returncode, 0, without.stderr)
         self.assertNotIn("What each cleaning step did", (self.folder / "s.html").read_text(encoding="utf-8"))
+
+    def test_why_steps_are_not_shown_is_said(self):
+        (self.folder / "grid.txt").write_text("nan 1e-9 2e-9\n0 0 1e-9\n" * 4)
+        configuration = {"preprocessing": {"level": "plane", "fill/enabled": True}, "scan": {"pitch_x": 0.0}}
+        with self.assertRaisesRegex(CannotShow, "the scan is not predicted: .*pitch"):
+            stages_of(find_node("mems_stiction", "stiction_batch")[0], {"configuration": configuration, "total": 1}, [str(self.folder / "grid.txt")], 1,
+                      None, self.folder)
 
     def test_a_place_that_cannot_be_written_is_one_line_before_any_work(self):
         (self.folder / "folder.html").mkdir()
