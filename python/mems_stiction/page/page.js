@@ -216,6 +216,7 @@ function showCurve() {
 }
 
 function signedLength(metres) {
+  if (Math.abs(metres) < 5e-14) return "first touch";
   return `${lengthText(Math.abs(metres))} ${metres < 0 ? "apart" : "past first touch"}`;
 }
 
