@@ -3,8 +3,10 @@
 import asyncio
 import base64
 import json
+import os
 import pathlib
 import shutil
+import signal
 import subprocess
 import tempfile
 import time
@@ -27,12 +29,12 @@ class Browser:
         self.errors, self.requests = [], []
         self._number = 0
         self._loop = asyncio.new_event_loop()
-        self._profile = tempfile.TemporaryDirectory(prefix="browser_")
+        self._profile = tempfile.mkdtemp(prefix="browser_")
         self._process = subprocess.Popen(
             [program(), "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--hide-scrollbars",
-             "--remote-debugging-port=0", "--remote-allow-origins=*", "--user-data-dir=" + self._profile.name,
+             "--remote-debugging-port=0", "--remote-allow-origins=*", "--user-data-dir=" + self._profile,
              "--no-first-run", "--disable-background-networking", "--window-size=%d,%d" % (width, height), "about:blank"],
-            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
         self._socket = self._loop.run_until_complete(self._connect())
         for domain in ("Page", "Runtime", "Network", "Log"):
             self._call(domain + ".enable")
@@ -41,7 +43,7 @@ class Browser:
     async def _connect(self):
         from tornado.httpclient import AsyncHTTPClient
 
-        told = pathlib.Path(self._profile.name) / "DevToolsActivePort"
+        told = pathlib.Path(self._profile) / "DevToolsActivePort"
         end = time.monotonic() + TIMEOUT
         while not told.exists() or not told.read_text().strip():
             if self._process.poll() is not None or time.monotonic() > end:
@@ -123,9 +125,10 @@ class Browser:
         pathlib.Path(path).write_bytes(base64.b64decode(picture["data"]))
 
     def close(self):
+        """Ends the browser with all its processes: the program may be a script that starts it."""
         self._socket.close()
         self._loop.run_until_complete(asyncio.sleep(0.1))  # for the goodbye to be heard
-        self._process.terminate()
+        os.killpg(self._process.pid, signal.SIGKILL)
         self._process.wait(timeout=TIMEOUT)
         self._loop.close()
-        self._profile.cleanup()
+        shutil.rmtree(self._profile, ignore_errors=True)

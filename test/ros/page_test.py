@@ -44,15 +44,12 @@ class PageTest(unittest.TestCase):
         cls.solutions = Collector("half_space", HalfSpaceSolution)
         cls.station = Station()
         cls.settings = dynamic_reconfigure.client.Client("stiction_node", timeout=30.0)
-        cls.process, cls.address = started("--stale", "4")
+        process, cls.address = started("--stale", "4")
+        cls.addClassCleanup(process.communicate)
+        cls.addClassCleanup(process.terminate)
         cls.page = browser.Browser(1024, 768)
+        cls.addClassCleanup(cls.page.close)
         cls.page.open(cls.address)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.page.close()
-        cls.process.terminate()
-        cls.process.communicate(timeout=30)
 
     def setUp(self):
         self.page.click("button[data-tab=overview]")
