@@ -176,7 +176,7 @@ class PageTest(unittest.TestCase):
         with Traffic(self.station, [rough_surface(6), rough_surface(7)], period=1 / 30) as traffic:
             shown = self.page.value("new Promise((done) => { let count = 0; const old = window.show; window.show = () => { ++count; old(); };"
                                     "setTimeout(() => { window.show = old; done(count); }, 2000); })")
-        self.assertGreater(len(traffic.sent), 30)
+        self.assertGreater(len(traffic.sent), 20)  # of 60, on a machine with other work
         self.assertTrue(2 <= shown <= 11, shown)  # one in 0.2 s at most
         self.page.wait("state.count === %d" % (before + len(traffic.sent)))
 
