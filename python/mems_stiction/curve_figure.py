@@ -50,7 +50,9 @@ def draw_curves(axes, curves):
         axes.plot([], [], color="#555555", linewidth=1.3, linestyle=":", label="jump")
     if low > forces.min():
         axes.plot([], [], " ", label="pressed further, to %s" % with_unit(float(forces.min()), "N"))
-    axes.margins(x=0.03)
+    shown = heights[forces >= low] * x_scale
+    room = 0.03 * np.ptp(shown) or 0.03 * abs(shown[0]) or 0.03
+    axes.set_xlim(shown.min() - room, shown.max() + room)
     axes.set_ylim((low - 0.05 * (high - low)) * y_scale, (high + 0.08 * (high - low)) * y_scale)
     axes.set_xlabel("height over first touch [%s]; below 0 pressed in" % x_unit)
     axes.set_ylabel("force [%s]; above 0 attraction" % y_unit)
