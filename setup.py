@@ -4,4 +4,5 @@ from distutils.core import setup
 
 from catkin_pkg.python_setup import generate_distutils_setup
 
-setup(**generate_distutils_setup(packages=["mems_stiction"], package_dir={"": "python"}))
+setup(**generate_distutils_setup(packages=["mems_stiction"], package_dir={"": "python"},
+                                package_data={"mems_stiction": ["page/*"]}))

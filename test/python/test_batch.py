@@ -260,7 +260,7 @@ class BatchTest(unittest.TestCase):
         # Nothing from elsewhere: every address is data or a place on the page.
         self.assertEqual([a for a in re.findall(r'(?:src|href)="([^"]{0,40})', text) if not a.startswith(("data:", "#"))], [])
         self.assertEqual(text.count('class="scan"'), 2)
-        self.assertEqual(text.count("data:image/png;base64,"), 2 * 2 + 1)
+        self.assertEqual(text.count("data:image/png;base64,"), 2 * 3 + 1)  # no cleaning step is on
         for expected in ("6 scans, 5 of them predicted", "not predicted: ", "work_of_adhesion", "Johnson, Kendall"):
             self.assertIn(expected, text)
         self.assertEqual((self.folder / "report.pdf").read_bytes()[:5], b"%PDF-")
