@@ -252,6 +252,7 @@ void StiffnessOperator<Scalar>::fillPeriodic(double contact_modulus) {
       const double stiffness = 0.5 * contact_modulus * std::hypot(q_x, q_y);
       entry(row, col) = static_cast<Scalar>(stiffness);
       if (row + col > 0) smallest_ = std::min(smallest_, stiffness);
+      largest_ = std::max(largest_, stiffness);
     }
   }
 }
@@ -290,6 +291,7 @@ void StiffnessOperator<Scalar>::fillFree(double contact_modulus, const std::atom
       const double stiffness = 1.0 / line[col];
       entry(row, col) = static_cast<Scalar>(stiffness);
       smallest_ = std::min(smallest_, stiffness);
+      largest_ = std::max(largest_, stiffness);
     }
   }
 }

@@ -54,6 +54,8 @@ class StiffnessOperator {
 
   /// The smallest stiffness against a displacement that is not uniform [Pa/m]; of a 1 x 1 frame infinity.
   double smallest() const { return smallest_; }
+  /// The largest one [Pa/m].
+  double largest() const { return largest_; }
   /// Whether K resists a uniform displacement: with free edges.
   bool resistsMean() const { return grid_.boundary == HalfSpaceBoundary::kFree; }
 
@@ -73,6 +75,7 @@ class StiffnessOperator {
   int threads_;
   int blocks_;  ///< of columns of the half spectrum
   double smallest_;
+  double largest_ = 0.0;
   LargePageVector<Scalar> stiffness_;          ///< column by column of the half spectrum [Pa/m]
   SpectrumMemory* memory_;                     ///< rows x blocks of complex numbers
   std::size_t pad_size_;                       ///< of each pad
