@@ -207,13 +207,13 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
     const double sag = std::max(sagOf(next), kKinkShare * kinkOf(next)) * kUsualStep / settings_.step;
     const double at_most = std::max({curve.largest_force, next.force, 0.0});
     const bool may_miss = direction > 0.0 && continued(move) > (1.0 + kNegligibleMiss) * at_most;
-    // pressed surfaces seldom jump, but their force rises steeply
-    const bool is_pressed = std::min(present_.force, next.force) < 0.0;
-    const double finest = may_miss || is_pressed ? kFinestStep * usual : smallest;
     // a jump loses energy: the mean of both forces does more work than the energies tell
     const StepParabola parabola(present_, next);
     const bool loses = (0.5 * (parabola.begin + parabola.end) - parabola.mean) * direction > 0.0;
     const bool is_jump = loses && sagOf(next) > kJumpSag;
+    // the force of pressed surfaces rises steeply, but a jump is none the less one in steps that are finer
+    const bool is_pressed = std::min(present_.force, next.force) < 0.0;
+    const double finest = may_miss || (is_pressed && !is_jump) ? kFinestStep * usual : smallest;
     if (sag > kLargestSag && step > kStepTolerance * finest) {
       minimiser_.takeBack();
       if (is_jump) {
