@@ -64,6 +64,67 @@ MEMS_STICTION_VECTORIZED Sums turn(std::size_t count, float ratio, float shift, 
   return {sumOf(products), sumOf(sums), 0.0};
 }
 
+MEMS_STICTION_VECTORIZED Sums weigh(std::size_t count, float yielding, float mean, const float* residual,
+                                    const float* slope, float* smoothed) {
+  Lanes r, d;
+  for (std::size_t i = 0; i < count; i += kLanes) {
+    const std::size_t rest = count - i;
+    take(residual + i, rest, r);
+    take(slope + i, rest, d);
+    put(yielding / (yielding + (d > 0.0F ? d : 0.0F)) * (r - mean), rest, smoothed + i);
+  }
+  return {};
+}
+
+MEMS_STICTION_VECTORIZED Sums combine(std::size_t count, float yielding, float mean, const float* residual,
+                                      const float* slope, float* smoothed) {
+  Lanes products{};
+  Lanes sums{};
+  Lanes z, r, d;
+  for (std::size_t i = 0; i < count; i += kLanes) {
+    const std::size_t rest = count - i;
+    take(smoothed + i, rest, z);
+    take(residual + i, rest, r, mean);  // lanes beyond the row add nothing to the sums
+    take(slope + i, rest, d);
+    const Lanes weight = 1.0F / (yielding + (d > 0.0F ? d : 0.0F));
+    const Lanes share = yielding * weight;
+    z = share * z + (1.0F - share) * weight * (r - mean);
+    products += z * (r - mean);
+    sums += z;
+    put(z, rest, smoothed + i);
+  }
+  return {sumOf(products), sumOf(sums), 0.0};
+}
+
+MEMS_STICTION_VECTORIZED Sums follow(std::size_t count, float ratio, float smoothed_mean, const float* smoothed,
+                                     float* search) {
+  Lanes z, p;
+  for (std::size_t i = 0; i < count; i += kLanes) {
+    const std::size_t rest = count - i;
+    take(smoothed + i, rest, z);
+    take(search + i, rest, p);
+    put((z - smoothed_mean) + ratio * p, rest, search + i);
+  }
+  return {};
+}
+
+MEMS_STICTION_VECTORIZED Sums respond(std::size_t count, const float* slope, const float* search,
+                                      const float* search_traction) {
+  Lanes products{};
+  Lanes sums{};
+  Lanes d, p, kp;
+  for (std::size_t i = 0; i < count; i += kLanes) {
+    const std::size_t rest = count - i;
+    take(slope + i, rest, d);
+    take(search + i, rest, p);
+    take(search_traction + i, rest, kp);
+    const Lanes q = kp + d * p;
+    products += p * q;
+    sums += q;
+  }
+  return {sumOf(products), sumOf(sums), 0.0};
+}
+
 MEMS_STICTION_VECTORIZED Sums advance(std::size_t count, float length, const float* slope, const float* search,
                                       const float* search_traction, float* step, float* /*first_residual*/,
                                       float* residual) {

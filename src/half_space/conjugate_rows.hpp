@@ -31,6 +31,16 @@ struct Sums {
 Sums turn(std::size_t count, float ratio, float shift, float mean, const float* smoothed, const float* residual,
           const float* slope, float* search, float* search_traction);
 
+/// smoothed = S (residual - mean), S = yielding/(yielding + positive t'): what a contact does not hold by itself.
+Sums weigh(std::size_t count, float yielding, float mean, const float* residual, const float* slope, float* smoothed);
+/// smoothed = S smoothed + (1 - S)/(yielding + positive t') (residual - mean).
+/// @return product: smoothed times (residual - mean); sum: of smoothed
+Sums combine(std::size_t count, float yielding, float mean, const float* residual, const float* slope, float* smoothed);
+/// search = (smoothed - smoothed_mean) + ratio search.
+Sums follow(std::size_t count, float ratio, float smoothed_mean, const float* smoothed, float* search);
+/// @return as turn() does, of a search whose elastic traction is known
+Sums respond(std::size_t count, const float* slope, const float* search, const float* search_traction);
+
 /// step += length search; the residual loses length times the whole traction of the search.
 /// @return largest: of |step|
 Sums advance(std::size_t count, float length, const float* slope, const float* search, const float* search_traction,

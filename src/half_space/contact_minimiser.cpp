@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "conjugate_rows.hpp"
 #include "evaluation_rows.hpp"
 #include "mems_stiction/half_space/row_work.hpp"
 
@@ -22,18 +21,6 @@ constexpr int kMostHalvings = 20;
 constexpr double kSufficientDecrease = 1e-4;
 /// Energies that differ by less than this share of their parts are equal but for what single precision adds to K u.
 constexpr double kEnergyNoise = 1e-9;
-/// Iterations of conjugate gradients in one Newton step.
-constexpr int kMostIterations = 200;
-/// How exactly a linear system is solved at first, at most and at least: share of its residual that may stay.
-constexpr double kFirstForcing = 0.1;
-constexpr double kFinestForcing = 1e-3;
-constexpr double kForcingFactor = 0.9;
-/// Shift of the preconditioner, of the mean positive t': the less, the fewer iterations for few, stiff contacts.
-constexpr double kShiftShare = 0.3;
-/// Least shift of the preconditioner, of the smallest stiffness.
-constexpr double kSmallestShift = 0.1;
-/// A system need not be solved for a residual smaller than this share of the tolerance.
-constexpr double kUsefulResidual = 0.3;
 
 }  // namespace
 
@@ -48,13 +35,6 @@ struct ContactMinimiser::Evaluation {
   double mean_slope = 0.0;        ///< of the positive t' [Pa/m]
 };
 
-/// A step along which E falls.
-struct ContactMinimiser::Direction {
-  double decrease = 0.0;  ///< -dE along it, at its begin [J]
-  double longest = 0.0;   ///< largest |s| [m]
-  bool is_unstable = false;
-};
-
 ContactMinimiser::ContactMinimiser(const HalfSpaceGrid& grid, const TractionLaw& law, double contact_modulus,
                                    LargePageVector<double> relief, const MinimiserSettings& settings)
     : grid_(grid),
@@ -62,6 +42,7 @@ ContactMinimiser::ContactMinimiser(const HalfSpaceGrid& grid, const TractionLaw&
       settings_(settings),
       stiffness_(grid, contact_modulus, settings.threads, spectrum_, settings.cancel),
       exact_stiffness_(grid, contact_modulus, settings.threads, spectrum_, settings.cancel),
+      gradients_(grid, stiffness_, settings.threads, settings.cancel, settings.give_way),
       relief_(std::move(relief)) {
   for (const double relief_here : relief_) {
     if (!std::isfinite(relief_here)) continue;
@@ -71,8 +52,8 @@ ContactMinimiser::ContactMinimiser(const HalfSpaceGrid& grid, const TractionLaw&
   for (auto* const array : {&displacement_, &elastic_traction_}) {
     if (!isCancelled()) array->assign(grid.size(), 0.0);
   }
-  for (auto* const array : {&residual_, &slope_, &smoothed_, &search_, &search_traction_, &step_, &step_traction_,
-                            &change_, &last_change_}) {
+  gradients_.allocate();
+  for (auto* const array : {&change_, &last_change_}) {
     if (!isCancelled()) array->assign(grid.size(), 0.0F);
   }
   if (isCancelled()) return;
@@ -202,7 +183,7 @@ void ContactMinimiser::refreshElasticTraction() {
   if (is_fresh_) return;
   exact_stiffness_.multiply(displacement_.data(), elastic_traction_.data());
   is_fresh_ = true;
-  ++products_;
+  ++exact_products_;
 }
 
 ContactMinimiser::Evaluation ContactMinimiser::evaluate(double height, double length) {
@@ -211,9 +192,9 @@ ContactMinimiser::Evaluation ContactMinimiser::evaluate(double height, double le
   const auto sums = sumOverRows(row_sums, grid_.rows, settings_.threads, [&](int row) {
     const std::size_t first = grid_.offset(row);
     const auto arraysFrom = [&](std::size_t cell) {
-      return evaluation_rows::RowArrays{displacement_.data() + cell, elastic_traction_.data() + cell,
-                                        step_.data() + cell,         step_traction_.data() + cell,
-                                        residual_.data() + cell,     slope_.data() + cell};
+      return evaluation_rows::RowArrays{displacement_.data() + cell,  elastic_traction_.data() + cell,
+                                        gradients_.step() + cell,     gradients_.stepTraction() + cell,
+                                        gradients_.residual() + cell, gradients_.slope() + cell};
     };
     if (row >= grid_.frame_rows) return evaluation_rows::evaluateFree(grid_.cols, length, arraysFrom(first));
     auto row_total = evaluation_rows::evaluate(law_, grid_.frame_cols, height,
@@ -224,7 +205,7 @@ ContactMinimiser::Evaluation ContactMinimiser::evaluate(double height, double le
     }
     return row_total;
   });
-  const double cells = static_cast<double>(grid_.rows) * grid_.cols;
+  const double cells = grid_.cellCount();
   Evaluation result;
   result.force = sums.traction * grid_.cellArea();
   result.energy = (0.5 * sums.elastic + sums.energy) * grid_.cellArea();
@@ -237,62 +218,15 @@ ContactMinimiser::Evaluation ContactMinimiser::evaluate(double height, double le
   return result;
 }
 
-ContactMinimiser::Direction ContactMinimiser::findDirection(const Evaluation& at, double forcing) {
-  const auto cols = static_cast<std::size_t>(grid_.cols);
-  std::vector<conjugate_rows::Sums> row_sums;
-  const auto overRows = [&](const auto& work) {
-    return sumOverRows(row_sums, grid_.rows, settings_.threads, [&](int row) { return work(grid_.offset(row)); });
-  };
-  const double cells = static_cast<double>(grid_.rows) * grid_.cols;
-  const double shift = std::max(kShiftShare * at.mean_slope, kSmallestShift * stiffness_.smallest());
-  Direction direction;
-  double mean = at.mean_residual;  // of the residual: K of the smoothed residual has none
-  double product = 0.0;
-  double first_product = 0.0;
-  for (int iteration = 0; iteration < kMostIterations && !isCancelled(); ++iteration) {
-    const double last_product = product;
-    product = stiffness_.precondition(shift, residual_.data(), smoothed_.data());
-    ++products_;
-    if (iteration == 0) first_product = product;
-    if (!(product > forcing * forcing * first_product)) break;
-    const auto ratio = static_cast<float>(iteration == 0 ? 0.0 : product / last_product);
-    const auto turned = overRows([&](std::size_t i) {
-      return conjugate_rows::turn(cols, ratio, static_cast<float>(shift), static_cast<float>(mean),
-                                  smoothed_.data() + i, residual_.data() + i, slope_.data() + i, search_.data() + i,
-                                  search_traction_.data() + i);
-    });
-    const bool is_unstable = !(turned.product > 0.0);
-    double length = product / turned.product;
-    if (is_unstable) {
-      direction.is_unstable = true;
-      const double longest =
-          overRows([&](std::size_t i) { return conjugate_rows::largest(cols, search_.data() + i); }).largest;
-      length = std::max(0.0, kLongestMove * law_.range() - direction.longest) / longest;
-    }
-    direction.longest = overRows([&](std::size_t i) {
-                          const auto advance = iteration == 0 ? conjugate_rows::begin : conjugate_rows::advance;
-                          return advance(cols, static_cast<float>(length), slope_.data() + i, search_.data() + i,
-                                         search_traction_.data() + i, step_.data() + i, step_traction_.data() + i,
-                                         residual_.data() + i);
-                        }).largest;
-    mean -= stiffness_.resistsMean() ? 0.0 : length * turned.sum / cells;
-    direction.decrease += length * product * grid_.cellArea();
-    if (is_unstable || direction.longest > kLongestMove * law_.range()) break;
-  }
-  overRows([&](std::size_t i) {
-    return conjugate_rows::finish(cols, slope_.data() + i, step_.data() + i, residual_.data() + i,
-                                  step_traction_.data() + i);
-  });
-  return direction;
-}
-
 void ContactMinimiser::takeStep(double length) {
   const auto cols = static_cast<std::size_t>(grid_.cols);
   forEachRow(grid_.rows, settings_.threads, [&](int row) {
     const std::size_t first = grid_.offset(row);
+    const float* const step = gradients_.step();
+    const float* const step_traction = gradients_.stepTraction();
     for (std::size_t i = first; i < first + cols; ++i) {
-      const double move = length * static_cast<double>(step_[i]);
-      const double traction = length * static_cast<double>(step_traction_[i]);
+      const double move = length * static_cast<double>(step[i]);
+      const double traction = length * static_cast<double>(step_traction[i]);
       displacement_[i] += move;
       elastic_traction_[i] += traction;
       change_[i] += static_cast<float>(move);
@@ -305,10 +239,9 @@ void ContactMinimiser::takeStep(double length) {
 ContactState ContactMinimiser::solve(double height) {
   ContactState state;
   state.height = height;
-  products_ = 0;
+  const int products_before = products();
   refreshElasticTraction();
   Evaluation now = evaluate(height, 0.0);
-  double forcing = kFirstForcing;
   const double allowed = settings_.tolerance * law_.stress();
   while (!isCancelled()) {
     if (now.largest_residual <= allowed) {
@@ -322,11 +255,15 @@ ContactState ContactMinimiser::solve(double height) {
     }
     if (state.newton_steps == settings_.max_newton_steps) break;
     ++state.newton_steps;
-    const double useful = kUsefulResidual * allowed / now.largest_residual;
-    const Direction direction = findDirection(now, std::max(forcing, std::min(useful, kFirstForcing)));
+    ConjugateGradients::System system;
+    system.mean_residual = now.mean_residual;
+    system.mean_slope = now.mean_slope;
+    system.longest_move = kLongestMove * law_.range();
+    system.useful_residual = allowed / now.largest_residual;
+    const ConjugateGradients::Direction direction = gradients_.find(system);
     state.met_instability = state.met_instability || direction.is_unstable;
     if (!(direction.decrease > 0.0)) break;
-    double length = std::min(1.0, kLongestMove * law_.range() / direction.longest);
+    double length = std::min(1.0, system.longest_move / direction.longest);
     const Evaluation before = now;
     bool is_lower = false;
     for (int halvings = 0; halvings <= kMostHalvings; ++halvings, length *= 0.5) {
@@ -344,13 +281,11 @@ ContactState ContactMinimiser::solve(double height) {
       continue;
     }
     takeStep(length);
-    const double progress = now.residual_norm / before.residual_norm;
-    forcing = std::clamp(kForcingFactor * progress * progress, kFinestForcing, kFirstForcing);
   }
   state.force = now.force;
   state.energy = now.energy;
   state.residual = now.largest_residual / law_.stress();
-  state.products = products_;
+  state.products = products() - products_before;
   return state;
 }
 

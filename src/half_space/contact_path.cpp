@@ -21,8 +21,10 @@ constexpr double kNegligibleMiss = 0.005;
 constexpr double kWantedSag = 0.01;
 constexpr double kLargestSag = 0.03;
 /// A change of slope from one step to the next, over the step and of the force, counts as a sag of this share:
-/// a step over a jump may by chance have the mean of its ends, but not the slope with which it began.
+/// a step over a jump may by chance have the mean of its ends, but not the slope with which it began. The second where
+/// the branch was on its way to the largest force of all.
 constexpr double kKinkShare = 0.1;
+constexpr double kSummitKinkShare = 0.5;
 /// The smallest step that misses more than this goes over a jump.
 constexpr double kJumpSag = 0.06;
 /// Steps are compared with limits but for rounding.
@@ -203,17 +205,18 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
       step_ = step / kLargestChange;
       continue;
     }
-    // finer usual steps are to miss less, too
-    const double sag = std::max(sagOf(next), kKinkShare * kinkOf(next)) * kUsualStep / settings_.step;
     const double at_most = std::max({curve.largest_force, next.force, 0.0});
     const bool may_miss = direction > 0.0 && continued(move) > (1.0 + kNegligibleMiss) * at_most;
-    // pressed surfaces seldom jump, but their force rises steeply
-    const bool is_pressed = std::min(present_.force, next.force) < 0.0;
-    const double finest = may_miss || is_pressed ? kFinestStep * usual : smallest;
+    const double kink = (may_miss ? kSummitKinkShare : kKinkShare) * kinkOf(next);
+    // finer usual steps are to miss less, too
+    const double sag = std::max(sagOf(next), kink) * kUsualStep / settings_.step;
     // a jump loses energy: the mean of both forces does more work than the energies tell
     const StepParabola parabola(present_, next);
     const bool loses = (0.5 * (parabola.begin + parabola.end) - parabola.mean) * direction > 0.0;
     const bool is_jump = loses && sagOf(next) > kJumpSag;
+    // the force of pressed surfaces rises steeply, but a jump is none the less one in steps that are finer
+    const bool is_pressed = std::min(present_.force, next.force) < 0.0;
+    const double finest = may_miss || (is_pressed && !is_jump) ? kFinestStep * usual : smallest;
     if (sag > kLargestSag && step > kStepTolerance * finest) {
       minimiser_.takeBack();
       if (is_jump) {

@@ -193,6 +193,7 @@ SolvedHalfSpace HalfSpaceSolver::solve(const HalfSpaceProblem& problem, const Ha
   minimiser_settings.max_newton_steps = options_.max_newton_steps;
   minimiser_settings.threads = options_.threads;
   minimiser_settings.cancel = control.cancel;
+  minimiser_settings.give_way = control.give_way;
   PathSettings path_settings;
   path_settings.step = options_.step;
   path_settings.max_states = options_.max_states;

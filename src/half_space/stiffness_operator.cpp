@@ -208,9 +208,11 @@ StiffnessOperator<Scalar>::StiffnessOperator(const HalfSpaceGrid& grid, double c
                                              SpectrumMemory& memory, const std::atomic<bool>* cancel)
     : grid_(grid),
       threads_(threads),
+      cancel_(cancel),
       blocks_((grid.cols / 2 + static_cast<int>(kBlock)) / static_cast<int>(kBlock)),
       smallest_(std::numeric_limits<double>::infinity()),
       memory_(&memory) {
+  if (isCancelled()) return;
   const auto rows = static_cast<std::size_t>(grid_.rows);
   const auto cols = static_cast<std::size_t>(grid_.cols);
   const std::size_t block_size = rows * kBlock;
@@ -225,7 +227,7 @@ StiffnessOperator<Scalar>::StiffnessOperator(const HalfSpaceGrid& grid, double c
   if (grid_.boundary == HalfSpaceBoundary::kPeriodic) {
     fillPeriodic(contact_modulus);
   } else {
-    fillFree(contact_modulus, cancel);
+    fillFree(contact_modulus);
   }
 }
 
@@ -252,18 +254,18 @@ void StiffnessOperator<Scalar>::fillPeriodic(double contact_modulus) {
       const double stiffness = 0.5 * contact_modulus * std::hypot(q_x, q_y);
       entry(row, col) = static_cast<Scalar>(stiffness);
       if (row + col > 0) smallest_ = std::min(smallest_, stiffness);
+      largest_ = std::max(largest_, stiffness);
     }
   }
 }
 
 template <typename Scalar>
-void StiffnessOperator<Scalar>::fillFree(double contact_modulus, const std::atomic<bool>* cancel) {
+void StiffnessOperator<Scalar>::fillFree(double contact_modulus) {
   // In double whatever the Scalar: the small compliances of short waves are differences of large numbers. The influence
   // is even in both directions, so that its transforms are real and half of the lines say all.
   const int half_rows = grid_.rows / 2 + 1;
   const int half_cols = grid_.cols / 2 + 1;
   const auto width = static_cast<std::size_t>(half_cols);
-  const auto isCancelled = [cancel] { return cancel != nullptr && cancel->load(); };
   LargePageVector<double> of_rows(static_cast<std::size_t>(half_rows) * width);
   {
     const EvenTransform transform(grid_.cols);
@@ -283,13 +285,13 @@ void StiffnessOperator<Scalar>::fillFree(double contact_modulus, const std::atom
     double* const column = of_rows.data() + col;
     transform.apply(column, width, column, width);
   });
-  if (isCancelled()) return;
-  for (int row = 0; row < grid_.rows; ++row) {
+  for (int row = 0; row < grid_.rows && !isCancelled(); ++row) {
     const double* const line = of_rows.data() + static_cast<std::size_t>(std::min(row, grid_.rows - row)) * width;
     for (int col = 0; col < half_cols; ++col) {
       const double stiffness = 1.0 / line[col];
       entry(row, col) = static_cast<Scalar>(stiffness);
       smallest_ = std::min(smallest_, stiffness);
+      largest_ = std::max(largest_, stiffness);
     }
   }
 }
@@ -307,7 +309,7 @@ void StiffnessOperator<Scalar>::apply(const Scalar* from, Scalar* to, const Mult
     forParts(threads_, [&](int part) {
       Scalar* const pad = pads_[static_cast<std::size_t>(part)].data();
       const int end = pairs * (part + 1) / threads_;
-      for (int pair = pairs * part / threads_; pair < end; ++pair) {
+      for (int pair = pairs * part / threads_; pair < end && !isCancelled(); ++pair) {
         // the last row of an odd number is joined with itself
         const int second = std::min(2 * pair + 1, grid_.rows - 1);
         work(2 * static_cast<std::size_t>(pair), static_cast<std::size_t>(second), pad, pad + second_pad);
@@ -325,7 +327,7 @@ void StiffnessOperator<Scalar>::apply(const Scalar* from, Scalar* to, const Mult
     const std::size_t column_size = 2 * (rows + kBlock - rows % kBlock);
     Scalar* const spectrum = block + kBlock * column_size;
     const int end = blocks_ * (part + 1) / threads_;
-    for (int i = blocks_ * part / threads_; i < end; ++i) {
+    for (int i = blocks_ * part / threads_; i < end && !isCancelled(); ++i) {
       const auto first_column = static_cast<std::size_t>(i) * kBlock;
       Scalar* const first = spectrumOf(0) + 2 * first_column;
       for (std::size_t row = 0; row < rows; ++row) {

@@ -52,8 +52,9 @@ class PathProgress {
 }  // namespace
 
 HalfSpaceCalls::HalfSpaceCalls(const ros::NodeHandle& private_handle, const HalfSpaceOptions& options,
-                               FindCase find_case)
+                               SolutionPause& pause, FindCase find_case)
     : solver_(options),
+      pause_(pause),
       find_case_(std::move(find_case)),
       action_(private_handle, kHalfSpaceAction, [this](const auto& goal, auto& result) { return run(goal, result); }),
       handle_(private_handle),
@@ -103,6 +104,7 @@ HalfSpaceSolution HalfSpaceCalls::solve(const Asked& asked, const HalfSpaceContr
 bool HalfSpaceCalls::serve(SolveHalfSpace::Request& request, SolveHalfSpace::Response& response) {
   HalfSpaceControl control;
   control.cancel = &stopping_;
+  control.give_way = pause_.waiter(stopping_);
   response.solution = solve(request, control);
   response.success = response.solution.status == HalfSpaceSolution::SOLVED;
   response.message = stopping_ ? kShuttingDown : response.solution.message;
@@ -114,6 +116,7 @@ bool HalfSpaceCalls::run(const HalfSpaceGoal& goal, HalfSpaceResult& result) {
   std::chrono::steady_clock::time_point told;
   HalfSpaceControl control;
   control.cancel = &action_.cancel();
+  control.give_way = pause_.waiter(action_.cancel());
   control.on_state = [&](const ForcePoint& point) {
     const HalfSpaceFeedback feedback = progress.after(point);
     const auto now = std::chrono::steady_clock::now();

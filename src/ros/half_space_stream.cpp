@@ -10,8 +10,9 @@
 
 namespace mems_stiction {
 
-HalfSpaceStream::HalfSpaceStream(const ros::NodeHandle& handle, const HalfSpaceOptions& options, Warn warn)
-    : solver_(options), publisher_(handle), warn_(std::move(warn)) {}
+HalfSpaceStream::HalfSpaceStream(const ros::NodeHandle& handle, const HalfSpaceOptions& options, SolutionPause& pause,
+                                 Warn warn)
+    : solver_(options), pause_(pause), publisher_(handle), warn_(std::move(warn)) {}
 
 void HalfSpaceStream::start() {
   thread_ = std::thread([this] { loop(); });
@@ -56,6 +57,7 @@ void HalfSpaceStream::solve(const Task& task) {
   const Options& model = scan.settings->model;
   HalfSpaceControl control;
   control.cancel = &stopping_;
+  control.give_way = pause_.waiter(stopping_);
   HalfSpaceSolution message;
   cv::Mat map;
   try {

@@ -44,7 +44,7 @@ StictionServer::StictionServer(const ros::NodeHandle& handle, const ros::NodeHan
       half_space_(!configuration.core.half_space.enabled
                       ? nullptr
                       : std::make_unique<HalfSpaceStream>(
-                            handle_, configuration.core.half_space,
+                            handle_, configuration.core.half_space, half_space_pause_,
                             [this](const auto& header, const auto& text) { accounting_.warn(header, text); })),
       worker_(capacityOf(options_)),
       counter_surface_frame_(options_.transform.frame.empty()
@@ -63,7 +63,7 @@ StictionServer::StictionServer(const ros::NodeHandle& handle, const ros::NodeHan
       transport_(handle_),
       reconfigure_(service_handle_, predictor_.settings(), [this](const auto& settings) { change(settings); }),
       actions_(service_handle_, [this](const auto& height, const auto& info) { return findCase(height, info); }),
-      half_space_calls_(service_handle_, configuration.core.half_space,
+      half_space_calls_(service_handle_, configuration.core.half_space, half_space_pause_,
                         [this](const auto& height, const auto& info) { return findCase(height, info); }),
       diagnostics_(handle_, private_handle_, name),
       topic_spinner_(1, &topic_queue_),
@@ -215,6 +215,7 @@ void StictionServer::change(const RunningSettings& settings) {
 
 void StictionServer::predictAndPublish(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info,
                                        ros::WallTime arrival, const std::optional<SurfacePose>& pose) {
+  const SolutionPause::Hold hold(half_space_pause_);
   try {
     ReceivedScan scan = receive(image, info.get());
     scan.counter_surface_pose = pose;

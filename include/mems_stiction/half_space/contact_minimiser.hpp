@@ -7,19 +7,18 @@
 ///     E(u) = (1/2) sum u K u dA + sum phi(g) dA,   dphi/dg = t(g)
 ///     0    = K u - t(g), but for its mean where K does not resist one
 ///
-/// Newton's method: (K + t') s = t - K u by conjugate gradients in single precision, left at negative curvature, with
-/// (K + mean positive t')^-1 as preconditioner, which also gives K of each search direction without a transform of its
-/// own; then a step along s that lowers E. What is kept, u and K u, is double, and K u is worked out afresh before a
-/// state counts as equilibrium. Starting from the state before, it goes downhill into the nearest minimum: a stable
-/// state. Sources: Dembo, Eisenstat and Steihaug, SIAM J. Numer. Anal. 19 (1982) 400 and Eisenstat and Walker, SIAM J.
-/// Sci. Comput. 17 (1996) 16 for how exactly each system is solved.
+/// Newton's method: (K + t') s = t - K u as far as it is of use (conjugate_gradients.hpp), then a step along s that
+/// lowers E. What is kept, u and K u, is double, and K u is worked out afresh before a state counts as equilibrium.
+/// Starting from the state before, it goes downhill into the nearest minimum: a stable state.
 
 #include <atomic>
+#include <functional>
 #include <vector>
 
 #include <opencv2/core.hpp>
 
 #include "mems_stiction/base/large_pages.hpp"
+#include "mems_stiction/half_space/conjugate_gradients.hpp"
 #include "mems_stiction/half_space/half_space_grid.hpp"
 #include "mems_stiction/half_space/stiffness_operator.hpp"
 #include "mems_stiction/half_space/traction_law.hpp"
@@ -44,6 +43,7 @@ struct MinimiserSettings {
   int max_newton_steps = 200;
   int threads = 1;
   const std::atomic<bool>* cancel = nullptr;
+  std::function<void()> give_way;  ///< before each product; may be empty
 };
 
 /// Finds equilibria one after the other, each from the one before.
@@ -96,14 +96,13 @@ class ContactMinimiser {
 
  private:
   struct Evaluation;
-  struct Direction;
   /// At u + length s.
   Evaluation evaluate(double height, double length);
   /// Gaps of a row of the frame [m].
   void gapsOfRow(int row, double height, double* gaps) const;
-  Direction findDirection(const Evaluation& at, double forcing);
   void takeStep(double length);
   void refreshElasticTraction();
+  int products() const { return exact_products_ + gradients_.products(); }
 
   HalfSpaceGrid grid_;
   TractionLaw law_;
@@ -111,25 +110,19 @@ class ContactMinimiser {
   SpectrumMemory spectrum_;
   StiffnessOperator<float> stiffness_;
   StiffnessOperator<double> exact_stiffness_;
+  ConjugateGradients gradients_;
   LargePageVector<double> relief_;
   double largest_relief_ = 0.0;
   std::size_t valid_count_ = 0;
   LargePageVector<double> displacement_;      ///< u [m]
   LargePageVector<double> elastic_traction_;  ///< K u [Pa]
   bool is_fresh_ = true;                      ///< elastic_traction_ is K u to double precision
-  LargePageVector<float> residual_;           ///< t - K u [Pa]
-  LargePageVector<float> slope_;              ///< t' of the frame's cells [Pa/m]
-  LargePageVector<float> smoothed_;           ///< the preconditioned residual [m]
-  LargePageVector<float> search_;             ///< conjugate direction [m]
-  LargePageVector<float> search_traction_;    ///< K of it [Pa]
-  LargePageVector<float> step_;               ///< s [m]
-  LargePageVector<float> step_traction_;      ///< K s [Pa]; while s is sought, the residual that it began with
   LargePageVector<float> change_;             ///< of u since moveOn() [m]
   LargePageVector<float> change_traction_;    ///< K of it [Pa]; none with free edges, to save memory
   LargePageVector<float> last_change_;        ///< the one before [m]
   LargePageVector<float> last_change_traction_;
   LargePageVector<float> flowed_;
-  int products_ = 0;
+  int exact_products_ = 0;  ///< of K u
   bool is_set_up_ = false;
 };
 

@@ -19,6 +19,8 @@ struct HalfSpaceGrid {
 
   std::size_t size() const { return static_cast<std::size_t>(rows) * static_cast<std::size_t>(stride); }
   std::size_t offset(int row) const { return static_cast<std::size_t>(row) * static_cast<std::size_t>(stride); }
+  /// Cells that are transformed.
+  double cellCount() const { return static_cast<double>(rows) * cols; }
   double cellArea() const { return pitch_x * pitch_y; }
   double frameArea() const { return cellArea() * frame_rows * frame_cols; }
 

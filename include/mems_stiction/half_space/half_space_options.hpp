@@ -17,12 +17,12 @@ struct HalfSpaceOptions {
   bool attraction = true;  ///< false: surfaces only repel each other, closer than z0
   bool flow = true;        ///< false: no pressure is too high
   HalfSpaceBoundary boundary = HalfSpaceBoundary::kPeriodic;
-  double step = 0.4;           ///< usual change of the height between two states, of z0 [-], in [0.01, 2]
-  double tolerance = 1e-4;     ///< largest residual of an equilibrium, of 8 Gamma/(3 z0) [-], in [1e-6, 1e-3]
-  int max_states = 2000;       ///< solved on the path before it is given up, in [10, 1000000]
-  int max_newton_steps = 300;  ///< of one state, in [10, 100000]
-  int max_pixels = 4194304;    ///< larger frames are refused, >= 1
-  int threads = 1;             ///< in [1, 64]; results do not depend on it
+  double step = 0.4;             ///< usual change of the height between two states, of z0 [-], in [0.01, 2]
+  double tolerance = 1e-4;       ///< largest residual of an equilibrium, of 8 Gamma/(3 z0) [-], in [1e-6, 1e-3]
+  int max_states = 2000;         ///< solved on the path before it is given up, in [10, 1000000]
+  int max_newton_steps = 10000;  ///< of one state, in [10, 100000]
+  int max_pixels = 4194304;      ///< larger frames are refused, >= 1
+  int threads = 1;               ///< in [1, 64]; results do not depend on it
 
   void describe(OptionVisitor& visitor);
 };

@@ -30,6 +30,7 @@ namespace mems_stiction {
 struct HalfSpaceControl {
   std::function<void(const ForcePoint&)> on_state;  ///< after each height; may be empty, must not throw
   const std::atomic<bool>* cancel = nullptr;        ///< looked at after each transform; may be null
+  std::function<void()> give_way;  ///< before each product, which may wait there (solution_pause.hpp); may be empty
 };
 
 /// Solves one problem after the other with the same settings; for any number of threads at a time.

@@ -37,8 +37,8 @@ class StiffnessOperator {
   /// - @p contact_modulus [Pa], > 0
   /// - @p threads >= 1
   /// - @p memory is made large enough; it must outlive the operator
-  /// - @p cancel looked at after each row of the set-up, which for free edges takes seconds at some million pixels; may
-  ///   be null. An operator whose set-up was cancelled is not to be used
+  /// - @p cancel looked at after every few rows, as set-up and products take seconds at some million pixels with free
+  ///   edges; may be null. An operator whose set-up was cancelled is not to be used, nor what a product gave then
   StiffnessOperator(const HalfSpaceGrid& grid, double contact_modulus, int threads, SpectrumMemory& memory,
                     const std::atomic<bool>* cancel = nullptr);
   ~StiffnessOperator();
@@ -54,6 +54,8 @@ class StiffnessOperator {
 
   /// The smallest stiffness against a displacement that is not uniform [Pa/m]; of a 1 x 1 frame infinity.
   double smallest() const { return smallest_; }
+  /// The largest one [Pa/m].
+  double largest() const { return largest_; }
   /// Whether K resists a uniform displacement: with free edges.
   bool resistsMean() const { return grid_.boundary == HalfSpaceBoundary::kFree; }
 
@@ -63,16 +65,20 @@ class StiffnessOperator {
   template <typename Multiplier, typename AfterRows>
   void apply(const Scalar* from, Scalar* to, const Multiplier& multiplier, const AfterRows& after_rows);
   void fillPeriodic(double contact_modulus);
-  void fillFree(double contact_modulus, const std::atomic<bool>* cancel);
+  void fillFree(double contact_modulus);
   /// Complex numbers of a row of the half spectrum.
   Scalar* spectrumOf(std::size_t row);
   /// Where the stiffness of wave numbers (row, col) stands.
   Scalar& entry(int row, int col);
 
+  bool isCancelled() const { return cancel_ != nullptr && cancel_->load(); }
+
   HalfSpaceGrid grid_;
   int threads_;
+  const std::atomic<bool>* cancel_;
   int blocks_;  ///< of columns of the half spectrum
   double smallest_;
+  double largest_ = 0.0;
   LargePageVector<Scalar> stiffness_;          ///< column by column of the half spectrum [Pa/m]
   SpectrumMemory* memory_;                     ///< rows x blocks of complex numbers
   std::size_t pad_size_;                       ///< of each pad

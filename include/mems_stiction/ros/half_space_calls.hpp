@@ -15,6 +15,7 @@
 #include "mems_stiction/HalfSpaceSolution.h"
 #include "mems_stiction/SolveHalfSpace.h"
 #include "mems_stiction/half_space/half_space_solver.hpp"
+#include "mems_stiction/half_space/solution_pause.hpp"
 #include "mems_stiction/ros/long_run.hpp"
 #include "mems_stiction/ros/station_actions.hpp"
 
@@ -23,7 +24,9 @@ namespace mems_stiction {
 /// Service and action.
 class HalfSpaceCalls {
  public:
-  HalfSpaceCalls(const ros::NodeHandle& private_handle, const HalfSpaceOptions& options, FindCase find_case);
+  /// @param pause is given way to; it must outlive the calls
+  HalfSpaceCalls(const ros::NodeHandle& private_handle, const HalfSpaceOptions& options, SolutionPause& pause,
+                 FindCase find_case);
   ~HalfSpaceCalls();
   HalfSpaceCalls(const HalfSpaceCalls&) = delete;
   HalfSpaceCalls& operator=(const HalfSpaceCalls&) = delete;
@@ -40,6 +43,7 @@ class HalfSpaceCalls {
   bool run(const HalfSpaceGoal& goal, HalfSpaceResult& result);
 
   const HalfSpaceSolver solver_;
+  SolutionPause& pause_;
   FindCase find_case_;
   std::atomic<bool> stopping_{false};
   LongRun<HalfSpaceAction> action_;

@@ -20,6 +20,7 @@
 #include <opencv2/core.hpp>
 
 #include "mems_stiction/half_space/half_space_solver.hpp"
+#include "mems_stiction/half_space/solution_pause.hpp"
 #include "mems_stiction/ros/half_space_publisher.hpp"
 #include "mems_stiction/ros/live_predictor.hpp"
 
@@ -31,7 +32,8 @@ class HalfSpaceStream {
   /// Called for each scan without a solution, on the thread of the half-space.
   using Warn = std::function<void(const std_msgs::Header& header, const std::string& text)>;
 
-  HalfSpaceStream(const ros::NodeHandle& handle, const HalfSpaceOptions& options, Warn warn);
+  /// @param pause is given way to; it must outlive the stream
+  HalfSpaceStream(const ros::NodeHandle& handle, const HalfSpaceOptions& options, SolutionPause& pause, Warn warn);
   ~HalfSpaceStream() { stop(); }
   HalfSpaceStream(const HalfSpaceStream&) = delete;
   HalfSpaceStream& operator=(const HalfSpaceStream&) = delete;
@@ -69,6 +71,7 @@ class HalfSpaceStream {
   void solve(const Task& task);
 
   const HalfSpaceSolver solver_;
+  SolutionPause& pause_;
   HalfSpacePublisher publisher_;
   Warn warn_;
   std::atomic<bool> stopping_{false};

@@ -90,6 +90,7 @@ class StictionServer {
   ScanAccounting accounting_;
   LivePredictor predictor_;  ///< touched by the worker only, but for what is for every thread
   ResultPublisher publisher_;
+  SolutionPause half_space_pause_;               ///< held while a scan is predicted
   std::unique_ptr<HalfSpaceStream> half_space_;  ///< null: half_space/enabled is not set
   WorkQueue worker_;
   std::atomic<bool> stopping_{false};

@@ -146,6 +146,20 @@ TEST(StiffnessOperator, SetUpOfFreeEdgesEndsWhenCancelled) {
   EXPECT_TRUE(std::isinf(StiffnessOperator<float>(grid, kModulus, 1, memory, &cancel).smallest()));
 }
 
+TEST(StiffnessOperator, ProductsEndWhenCancelled) {
+  for (const HalfSpaceBoundary boundary : {HalfSpaceBoundary::kPeriodic, HalfSpaceBoundary::kFree}) {
+    const HalfSpaceGrid grid(40, 30, 1e-9, 1e-9, boundary);
+    SpectrumMemory memory;
+    std::atomic<bool> cancel{false};
+    StiffnessOperator<float> stiffness(grid, kModulus, 1, memory, &cancel);
+    const LargePageVector<float> displacement = noise<float>(grid, false);
+    LargePageVector<float> traction(grid.size(), 7.0F);
+    cancel = true;
+    stiffness.multiply(displacement.data(), traction.data());
+    EXPECT_EQ(traction, LargePageVector<float>(grid.size(), 7.0F));  // not a row was written
+  }
+}
+
 TEST(StiffnessOperator, BitsDoNotDependOnTheThreads) {
   for (const HalfSpaceBoundary boundary : {HalfSpaceBoundary::kPeriodic, HalfSpaceBoundary::kFree}) {
     const HalfSpaceGrid grid(45, 70, 1e-9, 1e-9, boundary);

@@ -1,0 +1,58 @@
+#pragma once
+
+/// @file
+/// How does a solution wait while something more urgent is computed, without being starved?
+///
+/// Whoever does urgent work holds the pause meanwhile; solutions ask between their products and sleep until it is let
+/// go. A solution waits no longer at once than nine times as long as it has worked since it waited last, nor longer than
+/// a second, so that it keeps a tenth of the time even where urgent work never ends. It wakes up when it is cancelled.
+///
+///     SolutionPause pause;
+///     control.give_way = pause.waiter(cancel);              // the solving thread
+///     const SolutionPause::Hold hold(pause);                // any other thread
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+
+namespace mems_stiction {
+
+/// Between those who work urgently and the solutions that give way to them; for any number of threads. It must outlive
+/// its holds and waiters.
+class SolutionPause {
+ public:
+  /// Longest wait at once, over the work since the last one.
+  static constexpr int kMostPatience = 9;
+  static constexpr std::chrono::seconds kLongestWait{1};
+  /// A waiter looks at its cancel after no longer than this.
+  static constexpr std::chrono::milliseconds kCancelPeriod{50};
+
+  /// Solutions wait while it lives.
+  class Hold {
+   public:
+    explicit Hold(SolutionPause& pause);
+    ~Hold();
+    Hold(const Hold&) = delete;
+    Hold& operator=(const Hold&) = delete;
+
+   private:
+    SolutionPause& pause_;
+  };
+
+  /// What a solution calls between its products, for HalfSpaceControl::give_way; each solution needs its own.
+  /// @param cancel must outlive the waiter
+  std::function<void()> waiter(const std::atomic<bool>& cancel);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  /// @return whether there was anything to wait for
+  bool wait(Clock::duration longest, const std::atomic<bool>& cancel);
+
+  std::mutex mutex_;
+  std::condition_variable released_;
+  int holds_ = 0;
+};
+
+}  // namespace mems_stiction

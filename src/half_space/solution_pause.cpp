@@ -1,0 +1,35 @@
+#include "mems_stiction/half_space/solution_pause.hpp"
+
+#include <algorithm>
+
+namespace mems_stiction {
+
+SolutionPause::Hold::Hold(SolutionPause& pause) : pause_(pause) {
+  const std::lock_guard<std::mutex> lock(pause_.mutex_);
+  ++pause_.holds_;
+}
+
+SolutionPause::Hold::~Hold() {
+  // told under the lock: a waiter that has seen the end may destroy the pause
+  const std::lock_guard<std::mutex> lock(pause_.mutex_);
+  if (--pause_.holds_ == 0) pause_.released_.notify_all();
+}
+
+std::function<void()> SolutionPause::waiter(const std::atomic<bool>& cancel) {
+  return [this, &cancel, resumed = Clock::now()]() mutable {
+    const Clock::duration patience = kMostPatience * (Clock::now() - resumed);
+    if (wait(std::min<Clock::duration>(patience, kLongestWait), cancel)) resumed = Clock::now();
+  };
+}
+
+bool SolutionPause::wait(Clock::duration longest, const std::atomic<bool>& cancel) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  if (holds_ == 0) return false;
+  const Clock::time_point until = Clock::now() + longest;
+  while (holds_ > 0 && !cancel && Clock::now() < until) {
+    released_.wait_until(lock, std::min(until, Clock::now() + kCancelPeriod));
+  }
+  return true;
+}
+
+}  // namespace mems_stiction
