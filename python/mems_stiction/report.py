@@ -100,6 +100,12 @@ def scan_name(row):
     return name + (" (%s)" % ", ".join(parts) if parts else "")
 
 
+def origin_of(row):
+    """What the row was made of and with, in one line."""
+    words = (("part", "part_id"), ("serial number", "serial_id"), ("settings", "settings_hash"), ("version", "version"))
+    return ", ".join("%s %s" % (word, row[key]) for word, key in words if row.get(key))
+
+
 def chosen(rows, most):
     """The numbers of at most so many rows, evenly spread, the first and the last among them."""
     if len(rows) <= most:
@@ -134,7 +140,7 @@ def scan_section(row, folder):
     return {"number": row["number"], "name": scan_name(row), "maps": embedded(stream.getvalue()),
             "details": embedded(scan_figure(result)), "figures": _figures(result, FIGURES),
             "half_space": _half_space(picture, result, folder),
-            "warnings": [row["warnings"]] if row["warnings"] else [], "sticks": result.get("sticks"),
+            "origin": origin_of(result), "warnings": [row["warnings"]] if row["warnings"] else [], "sticks": result.get("sticks"),
             "verdict": _sentence(result.get("verdict_reason", "")), "flags": _flags(result["regime_flag_names"])}
 
 

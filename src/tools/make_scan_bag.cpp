@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <iostream>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -64,8 +66,18 @@ void describe(CLI::App& app, Arguments& arguments) {
 
 class ScanBag {
  public:
-  ScanBag(const std::string& path, double rate) : period_(1.0 / rate) { bag_.open(path, rosbag::bagmode::Write); }
+  /// @throw FileError if it cannot be written
+  ScanBag(const std::string& path, double rate)
+      : path_(path), period_(1.0 / rate), bag_(std::make_unique<rosbag::Bag>()) {
+    writing([&] { bag_->open(path, rosbag::bagmode::Write); });
+  }
 
+  /// The rest of the bag. @throw FileError if it cannot be written
+  void close() {
+    writing([&] { bag_->close(); });
+  }
+
+  /// @throw FileError if it cannot be written
   void write(const HeightMap& surface, const std::string& frame) {
     std_msgs::Header header;
     header.seq = count_;
@@ -78,15 +90,32 @@ class ScanBag {
     ScanOptions calibration;
     calibration.pitch_x = surface.pitchX();
     calibration.pitch_y = surface.pitchY();
-    bag_.write(kHeightTopic, header.stamp, *heightImage(about_mean, header));
-    bag_.write(kScanInfoTopic, header.stamp, scanInfoMessage(calibration, header));
+    writing([&] {
+      bag_->write(absolute(kHeightTopic), header.stamp, *heightImage(about_mean, header));
+      bag_->write(absolute(kScanInfoTopic), header.stamp, scanInfoMessage(calibration, header));
+    });
   }
 
   std::uint32_t count() const { return count_; }
 
  private:
-  rosbag::Bag bag_;
+  /// As `rosbag record` names topics, so that filters and prefixes find them.
+  static std::string absolute(const std::string& topic) { return "/" + topic; }
+
+  template <typename Action>
+  void writing(Action&& action) {
+    try {
+      action();
+    } catch (const std::exception& error) {
+      // Its destructor would write the rest, and end the program when that fails too: it is never called.
+      static_cast<void>(bag_.release());
+      throw FileError(path_ + ": cannot be written: " + error.what());
+    }
+  }
+
+  std::string path_;
   double period_;
+  std::unique_ptr<rosbag::Bag> bag_;
   std::uint32_t count_ = 0;
 };
 
@@ -118,17 +147,19 @@ int run(const Arguments& arguments) {
   file_options.pitch_x = file_options.pitch_y = arguments.pitch;
   ScanBag bag(arguments.bag, arguments.rate);
   for (const std::string& path : arguments.scans) {
+    std::optional<ScanFile> scan;
     try {
-      const ScanFile scan = openScanFile(path, {}, file_options);
-      for (const std::string& note : scan.notes) warn(path, note);
-      bag.write(scan.surface, stemOf(path));
+      scan = openScanFile(path, {}, file_options);
+      for (const std::string& note : scan->notes) warn(path, note);
     } catch (const Error& error) {
       complain("make_scan_bag", error.what());
       status = kBadInput;
     }
+    if (scan) bag.write(scan->surface, stemOf(path));
   }
   const int default_count = arguments.scans.empty() ? 1 : 0;
   writeGenerated(arguments, arguments.count > 0 ? arguments.count : default_count, bag);
+  bag.close();
   std::cout << arguments.bag << ": " << bag.count() << " scans\n";
   return status;
 }
