@@ -1,5 +1,6 @@
 """Runs one of the node's long actions for a person at a terminal: progress, and Ctrl-C that cancels and keeps what is done."""
 
+import argparse
 import csv
 import sys
 import time
@@ -7,13 +8,17 @@ import time
 import actionlib
 import rospy
 from actionlib import CommState, TerminalState
+from mems_stiction.station_node import CannotRun
 
 DONE, CANCELLED, NOT_RUN = 0, 1, 2  # exit statuses
 SILENCE = 5.0  # after which a node counts as gone [s]
 
 
-class CannotRun(Exception):
-    """The node is not there, or has refused the goal; the text says why."""
+PROVENANCE = ("version", "settings_hash", "scan_name", "part_id", "serial_id")  # fields of every result
+
+
+class NoNumbers(argparse.ArgumentTypeError, ValueError):
+    """Numbers that cannot be read; argparse shows the text."""
 
 
 def run(action, kind, goal, timeout):
@@ -61,21 +66,35 @@ def spread(items, most):
 
 def numbers(text):
     """"0,5,10" or FIRST:LAST:STEP, as in "0:30:2.5", the last one included."""
-    if ":" not in text:
-        return [float(part) for part in text.split(",")]
-    first, last, step = (float(part) for part in text.split(":"))
+    try:
+        if ":" not in text:
+            return [float(part) for part in text.split(",")]
+        first, last, step = (float(part) for part in text.split(":"))
+    except ValueError:
+        raise NoNumbers("'%s' is not allowed, must be numbers with commas between, or FIRST:LAST:STEP" % text)
     if not step > 0:
-        raise ValueError("the step must be > 0")
+        raise NoNumbers("'%s' is not allowed, the step must be > 0" % text)
+    if first > last:
+        raise NoNumbers("'%s' is not allowed: nothing lies from %g up to %g; the way down follows by itself" % (text, first, last))
     count = int((last - first) / step * (1 + 1e-12) + 1e-9) + 1
     return [first + index * step for index in range(count)]
 
 
-def write_csv(messages, path):
-    """One line for each message, with its field names; units stand in the .msg file."""
+def write_csv(messages, path, result):
+    """One line for each message, with its field names, and what the result says of where it comes from; units stand in the
+    .msg file."""
     names = messages[0].__slots__ if messages else []
+    origin = [getattr(result, name) for name in PROVENANCE]
     with open(str(path), "w", encoding="utf-8", newline="") as stream:
         writer = csv.writer(stream, lineterminator="\n")
-        writer.writerow(names)
+        writer.writerow(list(names) + list(PROVENANCE))
         for message in messages:
             writer.writerow([repr(value) if isinstance(value, float) else int(value) for value in
-                             (getattr(message, name) for name in names)])
+                             (getattr(message, name) for name in names)] + origin)
+
+
+def left_out(all_items, most, what):
+    """What to say below a table that does not show all."""
+    if len(all_items) <= most:
+        return ""
+    return "%d of %d %s are shown, evenly spread; --csv writes all." % (most, len(all_items), what)

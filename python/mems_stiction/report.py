@@ -106,6 +106,12 @@ def scan_name(row):
     return name + (" (%s)" % ", ".join(parts) if parts else "")
 
 
+def origin_of(row):
+    """What the row was made of and with, in one line."""
+    words = (("part", "part_id"), ("serial number", "serial_id"), ("settings", "settings_hash"), ("version", "version"))
+    return ", ".join("%s %s" % (word, row[key]) for word, key in words if row.get(key))
+
+
 def chosen(rows, most):
     """The numbers of at most so many rows, evenly spread, the first and the last among them."""
     if len(rows) <= most:
@@ -144,7 +150,7 @@ def scan_section(row, folder, stages=(), why_no_stages=""):
             "why_no_cleaning": _sentence(why_no_stages),
             "surface": embedded(surface_figure(heights, result["pitch_x"], result["pitch_y"])),
             "surface_figures": _figures(result, SURFACE_FIGURES) + surface_figures_of(heights),
-            "warnings": [row["warnings"]] if row["warnings"] else [], "sticks": result.get("sticks"),
+            "origin": origin_of(result), "warnings": [row["warnings"]] if row["warnings"] else [], "sticks": result.get("sticks"),
             "releases": verdict_word(result.get("sticks")),
             "verdict": _sentence(result.get("verdict_reason", "")), "flags": _flags(result["regime_flag_names"])}
 

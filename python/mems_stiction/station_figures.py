@@ -40,6 +40,7 @@ def save_sweep(result, path):
                 for each in axes:
                     each.axvline(result.pull_in_voltage, color="#666666", linewidth=1, linestyle="-.")
     figure.legend(handles=keys, loc="lower center", ncol=5, fontsize=9.5, frameon=False)
+    _sign(figure, result)
     figure.savefig(str(path))
     plt.close(figure)
 
@@ -86,6 +87,14 @@ def _area_unit(largest):
     return (1e18, "nm²") if largest < 1e-14 else (1e12, "µm²")
 
 
+def _sign(figure, result):
+    """Where the picture comes from, in its lower right corner."""
+    words = (("scan", "scan_name"), ("part", "part_id"), ("serial number", "serial_id"), ("settings", "settings_hash"),
+             ("mems_stiction", "version"))
+    text = ", ".join("%s %s" % (word, getattr(result, name)) for word, name in words if getattr(result, name, ""))
+    figure.text(0.995, 0.005, text, ha="right", va="bottom", fontsize=7.5, color="#666666")
+
+
 def save_cycles(result, path):
     """Pull-off force, contact fraction, rms height and margin against the cycle."""
     panels = [("pull_off_force", "pull-off force", "N"), ("contact_fraction", "contact fraction", "%"),
@@ -120,5 +129,6 @@ def save_cycles(result, path):
         axes.xaxis.set_major_locator(MaxNLocator(integer=True))
         axes.grid(color="#dddddd", linewidth=0.6)
         axes.set_axisbelow(True)
+    _sign(figure, result)
     figure.savefig(str(path))
     plt.close(figure)

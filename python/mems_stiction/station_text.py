@@ -51,7 +51,8 @@ def sweep_sentences(result):
             sentences.append("  hysteresis, widest at %s: %s %s on the way up, %s on the way down" % (
                 with_unit(voltage, "V"), area_label(result.points), area(up), area(down) if down else "0, open"))
     if math.isnan(result.pull_in_voltage):
-        sentences.append("Pull-in voltage: not stated (device/spring_stiffness, travel, electrode_area)")
+        reason = getattr(result, "pull_in_reason", "")
+        sentences.append("Pull-in voltage: not stated" + (" (%s)" % reason if reason else ""))
     else:
         sentences.append("Pull-in voltage: %s" % with_unit(result.pull_in_voltage, "V"))
     if all(math.isnan(point.margin) for point in result.points if not point.is_open):

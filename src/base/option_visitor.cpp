@@ -53,6 +53,7 @@ void OptionValidator::choice(const std::string& key, std::string& value, const s
 }
 
 std::string numberText(double value) {
+  if (std::isnan(value)) return "nan";  // printf shows the sign, which means nothing
   char buffer[40];
   for (int digits = 1; digits <= 17; ++digits) {
     std::snprintf(buffer, sizeof buffer, "%.*g", digits, value);

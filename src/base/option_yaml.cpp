@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <locale>
+#include <map>
 #include <numeric>
 #include <sstream>
 
@@ -37,6 +38,11 @@ bool parseNumber(const std::string& text, double& value) {
     value = -std::numeric_limits<double>::infinity();
     return true;
   }
+  // 010 is ten to some readers of YAML and eight to others.
+  const std::size_t digit = text.find_first_not_of("+-");
+  if (text.size() > digit + 1 && text[digit] == '0' && std::isdigit(static_cast<unsigned char>(text[digit + 1])) != 0) {
+    return false;
+  }
   std::istringstream stream(text);
   stream.imbue(std::locale::classic());
   double parsed = 0.0;
@@ -58,16 +64,42 @@ std::string withoutOuterSlashes(const std::string& key) {
   return key.substr(first, key.find_last_not_of('/') - first + 1);
 }
 
-void flatten(const YAML::Node& node, const std::string& prefix, std::vector<Leaf>& leaves) {
+/// Where the text has it: " in line 7"; empty for what came from no text.
+std::string placeOf(const YAML::Node& node) {
+  const YAML::Mark mark = node.Mark();
+  return mark.is_null() ? "" : " in line " + std::to_string(mark.line + 1);
+}
+
+/// YAML forbids a key that one map has twice; programs that take the first, or the last, or both, differ in what they then
+/// read.
+void flatten(const YAML::Node& node, const std::string& prefix, std::vector<Leaf>& leaves,
+             std::vector<std::string>& lines) {
   if (!node.IsMap()) {
     leaves.push_back({prefix, node});
     return;
   }
+  std::map<std::string, YAML::Node> seen;
   for (const auto& entry : node) {
     const std::string name =
         entry.first.IsScalar() ? withoutOuterSlashes(entry.first.Scalar()) : "(a key that is not text)";
-    flatten(entry.second, prefix.empty() ? name : prefix + "/" + name, leaves);
+    const std::string key = prefix.empty() ? name : prefix + "/" + name;
+    const auto [first, is_new] = seen.emplace(name, entry.first);
+    if (!is_new) {
+      lines.push_back(key + ": given" + placeOf(entry.first) + " and before" + placeOf(first->second) +
+                      ", must be given once: put what belongs to it together");
+      continue;
+    }
+    flatten(entry.second, key, leaves, lines);
   }
+}
+
+/// " (write 0.05: ...)" for 0,05; else empty.
+std::string commaHint(const YAML::Node& node) {
+  if (!node.IsScalar() || std::count(node.Scalar().begin(), node.Scalar().end(), ',') != 1) return "";
+  std::string text = node.Scalar();
+  text[text.find(',')] = '.';
+  double number = 0.0;
+  return parseNumber(text, number) ? " (write " + text + ": the decimal sign is a point)" : "";
 }
 
 std::string shown(const YAML::Node& node) {
@@ -120,7 +152,7 @@ class YamlReader : public OptionVisitor {
       lines_.push_back("the configuration must be a map of keys and values, got " + shown(tree));
       return;
     }
-    flatten(tree, "", leaves_);
+    flatten(tree, "", leaves_, lines_);
   }
 
   void number(const std::string& key, double& value, const std::string& unit, const Range& range,
@@ -193,8 +225,12 @@ class YamlReader : public OptionVisitor {
             return key.compare(0, section.size(), section) == 0;
           });
       if (leaf.uses == 0 && !empty_section) {
+        const std::string name = lastPart(leaf.key);
+        const bool is_fraction = leaf.node.IsNull() && !name.empty() &&
+                                 name.find_first_not_of("0123456789") == std::string::npos;  // {voltage: 0,05}
         lines.push_back(leaf.key + ": " + shown(leaf.node) + " is given, but there is no such setting" +
-                        suggestion(leaf.key, known_));
+                        (is_fraction ? " (is it behind a decimal comma? the decimal sign is a point)"
+                                     : suggestion(leaf.key, known_)));
       }
     }
     return lines;
@@ -209,7 +245,9 @@ class YamlReader : public OptionVisitor {
       if (leaf.key != key) continue;
       ++leaf.uses;
       if (found != nullptr) {
-        lines_.push_back(key + ": " + shown(leaf.node) + " is given beside " + shown(*found) + ", must be given once");
+        const std::string place = placeOf(leaf.node);
+        lines_.push_back(key + ": " + shown(leaf.node) + " is given beside " + shown(*found) + placeOf(*found) +
+                         (place.empty() ? "" : " and" + place) + ", must be given once");
       } else {
         found = &leaf.node;
       }
@@ -218,7 +256,7 @@ class YamlReader : public OptionVisitor {
   }
 
   void wrongType(const std::string& key, const YAML::Node& node, const std::string& allowed) {
-    lines_.push_back(key + ": " + shown(node) + " is not allowed, must be " + allowed);
+    lines_.push_back(key + ": " + shown(node) + " is not allowed, must be " + allowed + commaHint(node));
   }
 
   void append(const OptionValidator& validator) {
@@ -281,6 +319,15 @@ std::vector<std::string> readYaml(const YAML::Node& tree, const DescribeFunction
   YamlReader reader(tree);
   describe(reader);
   return reader.violations();
+}
+
+std::vector<std::string> keysOf(const YAML::Node& tree) {
+  std::vector<Leaf> leaves;
+  std::vector<std::string> ignored;
+  if (tree.IsDefined() && tree.IsMap()) flatten(tree, "", leaves, ignored);
+  std::vector<std::string> keys;
+  for (const Leaf& leaf : leaves) keys.push_back(leaf.key);
+  return keys;
 }
 
 void applyYaml(const YAML::Node& tree, const DescribeFunction& describe) {

@@ -27,6 +27,10 @@ void LoadOptions::describe(OptionVisitor& visitor) {
                  "voltage between the surfaces");
   visitor.number("load/mechanical_load", mechanical_load, "N", Range::within(0.0, max_mechanical_load),
                  "external force that presses the scanned area together");
+  visitor.number("load/pressure", pressure, "Pa", Range::nonNegative(),
+                 "instead of mechanical_load: pressure on the nominal area, whatever the size of the scan");
+  visitor.number("load/device_force", device_force, "N", Range::nonNegative(),
+                 "instead of both: force on the whole device; a scan carries its share of device/contact_area");
 }
 
 }  // namespace mems_stiction

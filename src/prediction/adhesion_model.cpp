@@ -59,6 +59,11 @@ class AdhesionModel::Implementation {
 
 void AdhesionModel::Implementation::setOptions(const Options& new_options) {
   new_options.check();
+  if (new_options.load.isPerArea()) {
+    throw OptionsError(
+        {"load/pressure, load/device_force: a model takes load/mechanical_load alone; scale them to the "
+         "frame first (scan/frame_load.hpp)"});
+  }
   if (!solver_ || new_options.formulation != options_.formulation) solver_ = makeContactSolver(new_options.formulation);
   options_ = new_options;
 }

@@ -29,6 +29,12 @@ std::vector<std::string> Options::validate() const {
                          numberText(load.voltage) +
                          " V: bare surfaces in contact short-circuit; must be > 0 m, or the voltage 0 V");
   }
+  const int stated = (load.mechanical_load > 0.0) + (load.pressure > 0.0) + (load.device_force > 0.0);
+  if (stated > 1) {
+    violations.push_back("load/mechanical_load: " + numberText(load.mechanical_load) + " N with load/pressure " +
+                         numberText(load.pressure) + " Pa and load/device_force " + numberText(load.device_force) +
+                         " N is not allowed; one of them presses, the others must be 0");
+  }
   return violations;
 }
 

@@ -134,22 +134,25 @@ void fillAll(cv::Mat& heights, const std::vector<cv::Point>& pixels, double pitc
   }
 }
 
-std::vector<cv::Point> missingPixels(const cv::Mat& heights) {
+std::vector<cv::Point> missingPixels(const cv::Mat& heights, const cv::Mat& outside) {
   std::vector<cv::Point> missing;
   for (int row = 0; row < heights.rows; ++row) {
     const double* line = heights.ptr<double>(row);
     if (countAbove(0.0, line, static_cast<std::size_t>(heights.cols)).invalid == 0) continue;
     for (int col = 0; col < heights.cols; ++col) {
-      if (std::isnan(line[col])) missing.emplace_back(col, row);
+      if (std::isnan(line[col]) && (outside.empty() || outside.at<uchar>(row, col) == 0))
+        missing.emplace_back(col, row);
     }
   }
   return missing;
 }
 
 /// Those of the missing pixels, in their order, that belong to a 4-connected hole of so many pixels or fewer.
-std::vector<cv::Point> pixelsOfSmallHoles(const cv::Mat& heights, const std::vector<cv::Point>& missing, int max_hole) {
+std::vector<cv::Point> pixelsOfSmallHoles(const cv::Mat& heights, const std::vector<cv::Point>& missing,
+                                          const cv::Mat& outside, int max_hole) {
   enum : uchar { kUnseen, kSeen, kSmall };
   cv::Mat state(heights.size(), CV_8UC1, cv::Scalar(kUnseen));
+  if (!outside.empty()) state.setTo(static_cast<int>(kSeen), outside);
   const cv::Rect frame(0, 0, heights.cols, heights.rows);
   std::vector<cv::Point> hole;
   for (const cv::Point& first : missing) {
@@ -197,12 +200,15 @@ HeightMap withFilledHoles(const HeightMap& surface, const FillOptions& options) 
   return work.surface();
 }
 
-HeightChange fillHoles(WorkingSurface& surface, const FillOptions& options) {
+HeightChange fillHoles(WorkingSurface& surface, const FillOptions& options, const cv::Mat& outside) {
   cv::Mat& heights = surface.heights;
-  const std::vector<cv::Point> missing = missingPixels(heights);
+  const std::vector<cv::Point> missing = missingPixels(heights, outside);
+  const long long left_out = outside.empty() ? 0 : cv::countNonZero(outside);
   HeightChange change;
+  change.invalid_pixels = left_out;
   if (missing.empty()) return change;
-  const double fraction = static_cast<double>(missing.size()) / static_cast<double>(heights.total());
+  const double fraction =
+      static_cast<double>(missing.size()) / static_cast<double>(static_cast<long long>(heights.total()) - left_out);
   if (fraction >= 1.0) throw SurfaceError("the height map has no valid pixel");
   if (fraction > options.max_fraction) {
     char text[32];
@@ -210,10 +216,10 @@ HeightChange fillHoles(WorkingSurface& surface, const FillOptions& options) {
     throw SurfaceError(std::string("a fraction of ") + text + " of the pixels is missing, more than the limit of " +
                        numberText(options.max_fraction) + " (preprocessing/fill/max_fraction)");
   }
-  const std::vector<cv::Point> wanted = pixelsOfSmallHoles(heights, missing, options.max_hole);
+  const std::vector<cv::Point> wanted = pixelsOfSmallHoles(heights, missing, outside, options.max_hole);
   fillAll(heights, wanted, surface.pitch_x, surface.pitch_y);
   change.changed_pixels = static_cast<long long>(wanted.size());
-  change.invalid_pixels = static_cast<long long>(missing.size() - wanted.size());
+  change.invalid_pixels += static_cast<long long>(missing.size() - wanted.size());
   return change;
 }
 

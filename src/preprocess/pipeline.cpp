@@ -43,6 +43,7 @@ class ParameterText : public OptionVisitor {
   std::string text_;
 };
 
+bool isWanted(const RegionOptions& options) { return options.isStated(); }
 bool isWanted(const StageOffsetOptions& options) { return options.enabled; }
 bool isWanted(const LineAlignmentOptions& options) { return options.method != LineAlignment::kNone; }
 bool isWanted(const SpikeOptions& options) { return options.enabled; }
@@ -86,6 +87,7 @@ HeightChange replace(WorkingSurface& surface, const HeightMap& after) {
 }  // namespace
 
 void PipelineOptions::describe(OptionVisitor& visitor) {
+  region.describe(visitor);
   offset.describe(visitor);
   lines.describe(visitor);
   spikes.describe(visitor);
@@ -101,7 +103,9 @@ std::vector<std::string> PipelineOptions::validate() const { return rangeViolati
 ScanCleaner::ScanCleaner(const PipelineOptions& options) : options_(options) {
   std::vector<std::string> violations = options.validate();
   if (!violations.empty()) throw OptionsError(std::move(violations));
+  region_ = Region(options.region);
   std::vector<PreprocessStep>& steps = cleaned_.record.steps;
+  addStep("region", options_.region, steps);
   addStep("offset", options_.offset, steps);
   addStep("lines", options_.lines, steps);
   addStep("spikes", options_.spikes, steps);
@@ -121,10 +125,14 @@ const CleanedScan& ScanCleaner::clean(const HeightMap& scan) {
   work_.take(scan);
   auto step = cleaned_.record.steps.begin();
   const auto note = [&](const HeightChange& change) { static_cast<HeightChange&>(*step++) = change; };
+  if (isWanted(options_.region)) {
+    cleaned_.outside = region_.outside(work_.heights.size(), work_.pitch_x, work_.pitch_y);
+    note(leaveOut(work_, cleaned_.outside));
+  }
   if (isWanted(options_.offset)) note(subtractStageOffset(work_));
   if (isWanted(options_.lines)) note(alignLines(work_, options_.lines));
   if (isWanted(options_.spikes)) note(removeSpikes(work_, options_.spikes));
-  if (isWanted(options_.fill)) note(fillHoles(work_, options_.fill));
+  if (isWanted(options_.fill)) note(fillHoles(work_, options_.fill, cleaned_.outside));
   if (isWanted(options_.tip)) {
     const TipCorrection correction = tipCorrected(work_.surface(), options_.tip);
     cleaned_.record.tip_unreached_fraction = correction.unreached_fraction;
@@ -147,11 +155,11 @@ std::vector<std::string> recordLines(const PreprocessRecord& record) {
     char change[32];
     std::snprintf(change, sizeof change, "%.4g", step.rms_change);
     lines.push_back(step.name + (step.parameters.empty() ? "" : " (" + step.parameters + ")") + ": rms change " +
-                    change + " m, " + std::to_string(step.changed_pixels) + " pixels changed");
+                    change + " m; " + std::to_string(step.changed_pixels) + " pixels changed");
     if (step.name == "tip") {
       char fraction[32];
       std::snprintf(fraction, sizeof fraction, "%.4g", record.tip_unreached_fraction);
-      lines.back() += std::string(", fraction not reached ") + fraction;
+      lines.back() += std::string("; fraction not reached ") + fraction;
     }
   }
   return lines;

@@ -9,6 +9,7 @@
 #include "mems_stiction/ros/background_thread.hpp"
 #include "mems_stiction/ros/half_space_conversion.hpp"
 #include "mems_stiction/ros/topic_names.hpp"
+#include "mems_stiction/scan/frame_load.hpp"
 #include "mems_stiction/scan/half_space_scan.hpp"
 
 namespace mems_stiction {
@@ -90,7 +91,8 @@ HalfSpaceSolution HalfSpaceCalls::solve(const Asked& asked, const HalfSpaceContr
     header = station_case.header;
     Options options = station_case.settings->model;
     if (!std::isnan(asked.voltage)) options.load.voltage = asked.voltage;
-    if (!std::isnan(asked.mechanical_load)) options.load.mechanical_load = asked.mechanical_load;
+    if (!std::isnan(asked.mechanical_load)) options.load.setMechanicalLoad(asked.mechanical_load);
+    options = onFrame(options, station_case.settings->device, station_case.scan.surfaces);
     load = options.load;
     options.check();
     return halfSpaceMessage(solver_.solve(halfSpaceProblem(station_case.scan, options), control), load, header);

@@ -6,6 +6,7 @@
 
 #include "mems_stiction/ros/background_thread.hpp"
 #include "mems_stiction/ros/half_space_conversion.hpp"
+#include "mems_stiction/scan/frame_load.hpp"
 #include "mems_stiction/scan/half_space_scan.hpp"
 
 namespace mems_stiction {
@@ -54,13 +55,14 @@ void HalfSpaceStream::loop() {
 
 void HalfSpaceStream::solve(const Task& task) {
   const StationCase& scan = task.predicted;
-  const Options& model = scan.settings->model;
+  Options model = scan.settings->model;
   HalfSpaceControl control;
   control.cancel = &stopping_;
   control.give_way = pause_.waiter(stopping_);
   HalfSpaceSolution message;
   cv::Mat map;
   try {
+    model = onFrame(model, scan.settings->device, scan.scan.surfaces);
     const HalfSpaceProblem problem = halfSpaceProblem(scan.scan, model);
     const SolvedHalfSpace solved = solver_.solve(problem, control);
     message = halfSpaceMessage(solved, model.load, scan.header);

@@ -123,14 +123,24 @@ ScanInfo scanInfoMessage(const ScanOptions& options, const std_msgs::Header& hea
   return info;
 }
 
+ScanIdentity identityOf(const std_msgs::Header& header, const ScanInfo* info) {
+  ScanIdentity identity;
+  if (info != nullptr) identity = {info->scan_name, info->part_id, info->serial_id};
+  if (identity.scan_name.empty()) identity.scan_name = header.frame_id;
+  return identity;
+}
+
 ReceivedScan receiveScan(const sensor_msgs::ImageConstPtr& image, const ScanOptions& options) {
   const HeightEncoding& encoding = checkedEncoding(*image);
   const bool foreign_order = encoding.scalar_size > 1 && (image->is_bigendian != 0) != kThisMachineIsBigEndian;
-  if (foreign_order)
-    return {image->header, heightMapFromPixels(swappedPixels(*image, encoding), options), std::nullopt};
+  if (foreign_order) {
+    return {image->header, heightMapFromPixels(swappedPixels(*image, encoding), options), std::nullopt,
+            identityOf(image->header, nullptr)};
+  }
   const cv_bridge::CvImageConstPtr shown = cv_bridge::toCvShare(image);
   const PixelOwner message(image.get(), [image](const void* /*message*/) {});
-  return {image->header, heightMapFromPixels(shown->image, options, message), std::nullopt};
+  return {image->header, heightMapFromPixels(shown->image, options, message), std::nullopt,
+          identityOf(image->header, nullptr)};
 }
 
 sensor_msgs::ImagePtr heightImage(const cv::Mat& heights, const std_msgs::Header& header) {

@@ -6,6 +6,7 @@
 #include "mems_stiction/height_map/scan_sanity.hpp"
 #include "mems_stiction/prediction/deformed_surfaces.hpp"
 #include "mems_stiction/prediction/force_curve.hpp"
+#include "mems_stiction/scan/plausibility.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -75,14 +76,20 @@ const PreparedScan& LivePredictor::lastPrepared() {
 }
 
 PredictedScan LivePredictor::judged(const PreparedScan& prepared, const Configuration& settings,
-                                    const std::vector<std::string>& warnings) {
+                                    const ScanIdentity& identity, const std::vector<std::string>& warnings) {
   PredictedScan predicted;
+  predictor_.setDevice(settings.device);
   predicted.prediction = predictor_.predict(prepared);
   predicted.verdict = verdictOf(predicted.prediction, settings.device, settings.uncertainty, predictor_.options(),
                                 prepared.surfaces.lower.cellArea());
   predicted.preprocessing = prepared.record;
   predicted.formulation = predictor_.options().formulation;
   predicted.warnings = warnings;
+  for (std::string& line : settingsWarnings(settings)) predicted.warnings.push_back(std::move(line));
+  Configuration used = settings;
+  used.model = predictor_.options();
+  used.counter_surface.pose = predictor_.preparer().counterSurfacePose();  // that of the scan, if it came with one
+  predicted.provenance = provenanceOf(identity, used);
   predicted.curve = curveOf(predicted.prediction, predictor_.options().interface);
   return predicted;
 }
@@ -97,7 +104,7 @@ PredictedScan LivePredictor::predictScan(const ReceivedScan& scan, const OutputO
 
   const PreparedScan prepared = prepare(scan, wear_);
   std::vector<std::string> warnings = scanWarnings(scan.surface);
-  PredictedScan predicted = judged(prepared, *settings, warnings);
+  PredictedScan predicted = judged(prepared, *settings, scan.identity, warnings);
   if (accumulate_deformation_) requireDeformedSurfaces(predicted.prediction);
   last_ = LastScan{scan, prepared, std::move(warnings), wear_};
   last_->prepared.preparation_time = 0.0;  // later predictions of this scan do not prepare it
@@ -113,7 +120,7 @@ std::optional<PredictedScan> LivePredictor::predictLastScan() {
   Options options = settings->model;
   options.output = figuresOnly();
   predictor_.setOptions(options);
-  return judged(lastPrepared(), *settings, last_->warnings);
+  return judged(lastPrepared(), *settings, last_->received.identity, last_->warnings);
 }
 
 PredictedScan LivePredictor::predictOnce(const ReceivedScan& scan, double voltage, double mechanical_load) {
@@ -121,15 +128,15 @@ PredictedScan LivePredictor::predictOnce(const ReceivedScan& scan, double voltag
   Options options = settings->model;
   options.output = figuresOnly();
   options.load.voltage = voltage;
-  options.load.mechanical_load = mechanical_load;
+  options.load.setMechanicalLoad(mechanical_load);
   predictor_.setOptions(options);  // refuses before the scan is touched
-  return judged(prepare(scan, cv::Mat()), *settings, scanWarnings(scan.surface));
+  return judged(prepare(scan, cv::Mat()), *settings, scan.identity, scanWarnings(scan.surface));
 }
 
 StationCase LivePredictor::stationCase(const ReceivedScan* given) {
-  if (given != nullptr) return {given->header, prepare(*given, cv::Mat()), settings_.snapshot()};
+  if (given != nullptr) return {given->header, given->identity, prepare(*given, cv::Mat()), settings_.snapshot()};
   if (!last_) throw SurfaceError("no scan yet, and none was given");
-  return {last_->received.header, lastPrepared(), settings_.snapshot()};
+  return {last_->received.header, last_->received.identity, lastPrepared(), settings_.snapshot()};
 }
 
 void LivePredictor::setCounterSurface(const ReceivedScan& counter_surface) {

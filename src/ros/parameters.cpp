@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
+#include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
+#include <ros/console.h>
 #include <yaml-cpp/yaml.h>
 
 #include "mems_stiction/base/errors.hpp"
@@ -61,6 +65,97 @@ bool belongsToImageTransport(const std::string& key, const YAML::Node& value) {
   });
 }
 
+/// Where launch files put the texts of configuration files, and the names of these files.
+constexpr const char* kFileTexts[] = {"node_config", "config"};
+
+/// Where the node writes down what it took, when no file says what that should be.
+constexpr const char* kTakenParameters = "taken_at_start";
+
+/// One of them.
+struct FileText {
+  std::string name;
+  YAML::Node tree;
+
+  FileText(const std::string& section, const YAML::Node& parameters, std::vector<std::string>& violations)
+      : name(section + "/text") {
+    if (!parameters.IsMap()) {
+      violations.push_back(section + ": must have the keys file and text of a configuration file");
+      return;
+    }
+    std::string text;
+    for (const auto& entry : parameters) {
+      const std::string key = entry.first.Scalar();
+      if ((key != "file" && key != "text") || !entry.second.IsScalar()) {
+        violations.push_back(section + "/" + key + " is given, but there is no such setting");
+      } else {
+        (key == "file" ? name : text) = entry.second.Scalar();
+      }
+    }
+    try {
+      tree = YAML::Load(text);
+    } catch (const YAML::Exception& error) {
+      violations.push_back(name + ": not valid YAML: " + error.what());
+    }
+  }
+};
+
+/// Every key of a tree with its value as text.
+void collect(const YAML::Node& node, const std::string& key, std::map<std::string, std::string>& values) {
+  if (!node.IsMap()) {
+    values[key] = YAML::Dump(node);
+    return;
+  }
+  for (const auto& entry : node) {
+    collect(entry.second, (key.empty() ? "" : key + "/") + entry.first.Scalar(), values);
+  }
+}
+
+/// One line for each parameter that an earlier run has taken and that nobody has set since, while others were set:
+/// nothing tells whether it belongs to them. rosparam and launch files add to what lies there.
+std::vector<std::string> leftOvers(const YAML::Node& ours, const std::string& taken) {
+  std::map<std::string, std::string> now;
+  std::map<std::string, std::string> before;
+  collect(ours, "", now);
+  collect(YAML::Load(taken), "", before);
+  if (before.empty() || now == before) return {};
+  std::vector<std::string> lines;
+  for (const auto& [key, value] : now) {
+    const auto old = before.find(key);
+    if (old == before.end() || old->second != value) continue;
+    lines.push_back(
+        key + ": " + value + " lies there since an earlier run, and others were set since: does it still hold?" +
+        " Clear the node's parameters (rosparam delete, or clear_params=\"true\" in the launch file) before" +
+        " loading new ones, or set it anew to the same value after clearing");
+  }
+  return lines.size() == now.size() ? std::vector<std::string>() : lines;
+}
+
+/// Sets those parameters that are among the keys, with the types of the settings.
+class ParameterWriter : public OptionVisitor {
+ public:
+  ParameterWriter(const ros::NodeHandle& handle, const std::vector<std::string>& keys) : handle_(handle), keys_(keys) {}
+
+  void number(const std::string& key, double& value, const std::string&, const Range&, const std::string&) override {
+    set(key, value);
+  }
+  void integer(const std::string& key, int& value, const Range&, const std::string&) override { set(key, value); }
+  void flag(const std::string& key, bool& value, const std::string&) override { set(key, value); }
+  void text(const std::string& key, std::string& value, const std::string&) override { set(key, value); }
+  void choice(const std::string& key, std::string& value, const std::vector<std::string>&,
+              const std::string&) override {
+    set(key, value);
+  }
+
+ private:
+  template <typename Value>
+  void set(const std::string& key, const Value& value) {
+    if (std::find(keys_.begin(), keys_.end(), key) != keys_.end()) handle_.setParam(key, value);
+  }
+
+  const ros::NodeHandle& handle_;
+  const std::vector<std::string>& keys_;
+};
+
 }  // namespace
 
 void DisplayOptions::describe(OptionVisitor& visitor) {
@@ -96,7 +191,7 @@ void NodeOptions::describe(OptionVisitor& visitor) {
                "each contact leaves its mark on the scans of the same size that follow");
   visitor.number("diagnostic_period", diagnostic_period, "s", Range::positive(), "between messages on /diagnostics");
   visitor.number("warning_period", warning_period, "s", Range::nonNegative(),
-                 "at most one warning about scans in so long a time");
+                 "at most one warning of a kind about scans in so long a time");
   transform.describe(visitor);
   display.describe(visitor);
 }
@@ -113,15 +208,36 @@ YAML::Node yamlFromParameters(XmlRpc::XmlRpcValue tree) {
   return node;
 }
 
-NodeConfiguration nodeConfigurationFromYaml(const YAML::Node& tree) {
+StatedConfiguration statedConfiguration(const YAML::Node& tree) {
+  StatedConfiguration stated;
+  NodeConfiguration& configuration = stated.configuration;
+  const auto describe = [&configuration](OptionVisitor& visitor) { configuration.describe(visitor); };
+  std::vector<std::string> violations;
   YAML::Node ours(YAML::NodeType::Map);
   for (const auto& entry : tree) {
     const std::string key = entry.first.Scalar();
-    if (key != kReconfigureParameters && !belongsToImageTransport(key, entry.second)) ours[key] = entry.second;
+    const bool is_text = std::find(std::begin(kFileTexts), std::end(kFileTexts), key) != std::end(kFileTexts);
+    if (key != kReconfigureParameters && key != kTakenParameters && !is_text &&
+        !belongsToImageTransport(key, entry.second)) {
+      ours[key] = entry.second;
+    }
   }
-  NodeConfiguration configuration;
-  std::vector<std::string> violations =
-      readYaml(ours, [&configuration](OptionVisitor& visitor) { configuration.describe(visitor); });
+  std::set<std::string> in_files;
+  for (const char* section : kFileTexts) {
+    if (!tree[section]) continue;
+    const FileText file(section, tree[section], violations);
+    for (const std::string& line : readYaml(file.tree, describe)) violations.push_back(file.name + ": " + line);
+    for (const std::string& key : keysOf(file.tree)) in_files.insert(key);
+  }
+  if (in_files.empty() && tree[kTakenParameters]) {
+    for (std::string& line : leftOvers(ours, tree[kTakenParameters].Scalar())) violations.push_back(std::move(line));
+  }
+  if (!violations.empty()) throw OptionsError(std::move(violations));
+  if (in_files.empty()) stated.taken = YAML::Dump(ours);
+
+  const std::vector<std::string> beside = keysOf(ours);
+  const std::string before = toYaml(describe);
+  violations = readYaml(ours, describe);
   // Combinations of settings; ranges are found by both and named once.
   for (const std::string& line : configuration.core.validate()) {
     if (std::find(violations.begin(), violations.end(), line) == violations.end()) violations.push_back(line);
@@ -131,8 +247,14 @@ NodeConfiguration nodeConfigurationFromYaml(const YAML::Node& tree) {
                          " is not allowed with a counter_surface/pose other than 0; must be empty, or the pose 0");
   }
   if (!violations.empty()) throw OptionsError(std::move(violations));
-  return configuration;
+
+  if (!in_files.empty() && before != toYaml(describe)) stated.overrides = beside;
+  for (const std::string& key : beside) in_files.erase(key);
+  stated.from_files.assign(in_files.begin(), in_files.end());
+  return stated;
 }
+
+NodeConfiguration nodeConfigurationFromYaml(const YAML::Node& tree) { return statedConfiguration(tree).configuration; }
 
 NodeConfiguration readParameters(const ros::NodeHandle& private_handle) {
   XmlRpc::XmlRpcValue tree;
@@ -140,7 +262,17 @@ NodeConfiguration readParameters(const ros::NodeHandle& private_handle) {
   if (tree.getType() != XmlRpc::XmlRpcValue::TypeStruct) {
     throw OptionsError({private_handle.getNamespace() + ": a single value is not allowed, must be a map of settings"});
   }
-  return nodeConfigurationFromYaml(yamlFromParameters(tree));
+  const StatedConfiguration stated = statedConfiguration(yamlFromParameters(tree));
+  if (!stated.taken.empty()) private_handle.setParam(kTakenParameters, stated.taken);
+  ParameterWriter writer(private_handle, stated.from_files);
+  describeConst(stated.configuration, writer);
+  if (!stated.overrides.empty()) {
+    std::string keys;
+    for (const std::string& key : stated.overrides) keys += " " + key;
+    ROS_INFO_STREAM("parameters under " << private_handle.getNamespace()
+                                        << " that go before the configuration files:" << keys);
+  }
+  return stated.configuration;
 }
 
 }  // namespace mems_stiction

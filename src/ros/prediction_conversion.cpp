@@ -1,5 +1,9 @@
 #include "mems_stiction/ros/prediction_conversion.hpp"
 
+#include <algorithm>
+#include <utility>
+
+#include "mems_stiction/ros/provenance_conversion.hpp"
 #include "mems_stiction/verdict/regime_flags.hpp"
 
 namespace mems_stiction {
@@ -63,9 +67,20 @@ SpatialRoughnessStatistics spatialRoughnessMessage(const SpatialRoughness& rough
   return message;
 }
 
+/// `rostopic echo -p` puts commas between fields and no marks around texts.
+std::string withoutCommas(std::string text) {
+  std::replace(text.begin(), text.end(), ',', ';');
+  return text;
+}
+
+std::vector<std::string> withoutCommas(std::vector<std::string> texts) {
+  for (std::string& text : texts) text = withoutCommas(std::move(text));
+  return texts;
+}
+
 void fillVerdict(const Verdict& verdict, StictionPrediction& message) {
   message.sticks = static_cast<std::uint8_t>(verdict.sticks);
-  message.reason = verdict.reason;
+  message.reason = withoutCommas(verdict.reason);
   message.restoring_force = verdict.restoring_force;
   message.device_pull_off_force = verdict.device_pull_off_force;
   message.margin = verdict.margin;
@@ -177,11 +192,13 @@ StictionPrediction predictionMessage(const PredictedScan& scan, const std_msgs::
   message.is_resolution_limited = static_cast<std::uint8_t>(prediction.is_resolution_limited);
   message.is_tip_limited = static_cast<std::uint8_t>(prediction.is_tip_limited);
 
-  message.preprocessing = recordLines(scan.preprocessing);
+  message.preprocessing = withoutCommas(recordLines(scan.preprocessing));
   message.tip_unreached_fraction = scan.preprocessing.tip_unreached_fraction;
   fillVerdict(scan.verdict, message);
   message.formulation = scan.formulation;
-  message.warnings = scan.warnings;
+  message.warnings = withoutCommas(scan.warnings);
+  message.flags = regimeFlagList(scan.verdict.regime_flags);
+  fillProvenance(scan.provenance, message);
   message.contact_stiffness = prediction.contact_stiffness;
   message.flattening_energy = prediction.flattening_energy;
   message.flattening_ratio = prediction.flattening_ratio;

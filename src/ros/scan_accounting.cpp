@@ -1,6 +1,8 @@
 #include "mems_stiction/ros/scan_accounting.hpp"
 
 #include <algorithm>
+#include <cctype>
+#include <iterator>
 
 #include <diagnostic_msgs/DiagnosticStatus.h>
 #include <ros/console.h>
@@ -13,6 +15,17 @@ std::string named(const char* what, const std_msgs::Header& header, const std::s
   text << what << " of stamp " << header.stamp << ": " << reason;
   return text.str();
 }
+
+/// Warnings of one kind differ in their figures.
+std::string withoutFigures(const std::string& text) {
+  std::string kind;
+  std::copy_if(text.begin(), text.end(), std::back_inserter(kind),
+               [](unsigned char character) { return std::isdigit(character) == 0; });
+  return kind;
+}
+
+/// Reasons may hold names; so many of them are remembered.
+constexpr std::size_t kMostKinds = 100;
 
 }  // namespace
 
@@ -44,14 +57,14 @@ void ScanAccounting::dropped(const std_msgs::Header& header, const std::string& 
   const std::lock_guard<std::mutex> lock(mutex_);
   ++counts_.dropped;
   last_reason_ = named("dropped the scan", header, reason);
-  warnThrottled(last_reason_);
+  warnThrottled(reason, last_reason_);
 }
 
 void ScanAccounting::rejected(const std_msgs::Header& header, const std::string& reason) {
   const std::lock_guard<std::mutex> lock(mutex_);
   ++counts_.rejected;
   last_reason_ = named("rejected the scan", header, reason);
-  warnThrottled(last_reason_);
+  warnThrottled(reason, last_reason_);
 }
 
 void ScanAccounting::counterSurfaceAccepted() {
@@ -63,27 +76,29 @@ void ScanAccounting::counterSurfaceRejected(const std_msgs::Header& header, cons
   const std::lock_guard<std::mutex> lock(mutex_);
   ++counts_.counter_surfaces_rejected;
   last_reason_ = named("rejected the counter-surface", header, reason);
-  warnThrottled(last_reason_);
+  warnThrottled(reason, last_reason_);
 }
 
 void ScanAccounting::warn(const std_msgs::Header& header, const std::string& text) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  warnThrottled(named("the scan", header, text));
+  warnThrottled(text, named("the scan", header, text));
 }
 
-void ScanAccounting::warnThrottled(const std::string& text) {
+void ScanAccounting::warnThrottled(const std::string& kind, const std::string& text) {
+  if (throttles_.size() > kMostKinds) throttles_.clear();
+  Throttle& throttle = throttles_[withoutFigures(kind)];
   const ros::WallTime now = ros::WallTime::now();
-  if (!last_warning_.isZero() && now - last_warning_ < warning_period_) {
-    ++suppressed_warnings_;
+  if (!throttle.last_shown.isZero() && now - throttle.last_shown < warning_period_) {
+    ++throttle.suppressed;
     return;
   }
-  if (suppressed_warnings_ > 0) {
-    ROS_WARN_STREAM(text << " (and " << suppressed_warnings_ << " warnings since the last one shown)");
+  if (throttle.suppressed > 0) {
+    ROS_WARN_STREAM(text << " (and " << throttle.suppressed << " warnings of this kind since the last one shown)");
   } else {
     ROS_WARN_STREAM(text);
   }
-  last_warning_ = now;
-  suppressed_warnings_ = 0;
+  throttle.last_shown = now;
+  throttle.suppressed = 0;
 }
 
 ScanCounts ScanAccounting::counts() const {

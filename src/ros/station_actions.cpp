@@ -4,8 +4,10 @@
 #include <limits>
 #include <utility>
 
+#include "mems_stiction/ros/provenance_conversion.hpp"
 #include "mems_stiction/ros/station_conversion.hpp"
 #include "mems_stiction/ros/topic_names.hpp"
+#include "mems_stiction/scan/frame_load.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -50,11 +52,14 @@ bool StationActions::sweep(const SweepLoadGoal& goal, SweepLoadResult& result) {
   LoadSweepRequest request;
   request.voltages = goal.voltages;
   request.mechanical_loads = goal.mechanical_loads;
-  if (request.mechanical_loads.empty()) request.mechanical_loads = {settings.model.load.mechanical_load};
-  const LoadSweepResult swept = sweepLoads(settings.model, station_case.scan.model_surfaces, request, settings.device,
+  const Options model = onFrame(settings.model, settings.device, station_case.scan.surfaces);
+  if (request.mechanical_loads.empty()) request.mechanical_loads = {model.load.mechanical_load};
+  const LoadSweepResult swept = sweepLoads(model, station_case.scan.model_surfaces, request, settings.device,
                                            settings.uncertainty, controlOf(sweep_));
   result = sweepMessage(swept);
+  result.pull_in_reason = whatPullInLacks(settings.device);
   result.header = station_case.header;
+  fillProvenance(provenanceOf(station_case.identity, settings), result);
   return swept.is_complete;
 }
 
@@ -64,11 +69,12 @@ bool StationActions::cycle(const CycleContactGoal& goal, CycleContactResult& res
   result.header = station_case.header;
   const Configuration& settings = *station_case.settings;
   constexpr std::uint32_t kMost = std::numeric_limits<int>::max();
-  const ContactCyclesResult cycled =
-      cycleContacts(settings.model, station_case.scan.model_surfaces, static_cast<int>(std::min(goal.count, kMost)),
-                    settings.device, settings.uncertainty, controlOf(cycle_));
+  const ContactCyclesResult cycled = cycleContacts(
+      onFrame(settings.model, settings.device, station_case.scan.surfaces), station_case.scan.model_surfaces,
+      static_cast<int>(std::min(goal.count, kMost)), settings.device, settings.uncertainty, controlOf(cycle_));
   result = cyclesMessage(cycled);
   result.header = station_case.header;
+  fillProvenance(provenanceOf(station_case.identity, settings), result);
   return cycled.is_complete;
 }
 

@@ -6,6 +6,7 @@
 #include <boost/bind/bind.hpp>
 #include <boost/make_shared.hpp>
 
+#include "mems_stiction/base/error_text.hpp"
 #include "mems_stiction/base/one_line.hpp"
 #include "mems_stiction/ros/force_curve_picture.hpp"
 #include "mems_stiction/ros/topic_names.hpp"
@@ -184,7 +185,9 @@ void StictionServer::onCounterSurface(const sensor_msgs::ImageConstPtr& image, c
 
 ReceivedScan StictionServer::receive(const sensor_msgs::ImageConstPtr& image, const ScanInfo* info) const {
   const SettingsOwner::Snapshot settings = predictor_.settings().snapshot();
-  return receiveScan(image, info == nullptr ? settings->scan : scanOptions(*info, settings->scan));
+  ReceivedScan scan = receiveScan(image, info == nullptr ? settings->scan : scanOptions(*info, settings->scan));
+  scan.identity = identityOf(image->header, info);
+  return scan;
 }
 
 ReceivedScan StictionServer::receiveByCall(sensor_msgs::Image image, const ScanInfo& info) const {
@@ -230,7 +233,7 @@ void StictionServer::predictAndPublish(const sensor_msgs::ImageConstPtr& image, 
     accounting_.predicted((ros::WallTime::now() - arrival).toSec(), predicted.prediction.processing_time);
     for (const std::string& line : predicted.warnings) accounting_.warn(scan.header, line);
   } catch (const std::exception& error) {
-    accounting_.rejected(image->header, oneLine(error.what()));
+    accounting_.rejected(image->header, oneLine(reasonOf(error)));
   }
 }
 
@@ -244,7 +247,7 @@ void StictionServer::takeCounterSurface(const sensor_msgs::ImageConstPtr& image,
     predictor_.setCounterSurface(receive(image, info.get()));
     accounting_.counterSurfaceAccepted();
   } catch (const std::exception& error) {
-    accounting_.counterSurfaceRejected(image->header, oneLine(error.what()));
+    accounting_.counterSurfaceRejected(image->header, oneLine(reasonOf(error)));
   }
 }
 

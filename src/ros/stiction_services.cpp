@@ -1,7 +1,13 @@
 #include "mems_stiction/ros/stiction_server.hpp"
 
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <optional>
+#include <string>
 #include <utility>
 
+#include "mems_stiction/base/error_text.hpp"
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/one_line.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
@@ -10,35 +16,97 @@
 
 namespace mems_stiction {
 
+namespace {
+
+/// "1e-06 N", "2e+05 Pa", "0.001 N on the device".
+std::string pressingText(const LoadOptions& load) {
+  if (load.pressure > 0.0) return numberText(load.pressure) + " Pa";
+  if (load.device_force > 0.0) return numberText(load.device_force) + " N on the device";
+  return numberText(load.mechanical_load) + " N";
+}
+
+std::string changeText(const std::string& what, const std::string& before, const std::string& after) {
+  return what + (before == after ? " stays at " + after : " from " + before + " to " + after);
+}
+
+std::string loadChange(const LoadOptions& before, const LoadOptions& after) {
+  std::string text = changeText("voltage", numberText(before.voltage) + " V", numberText(after.voltage) + " V") + "; " +
+                     changeText("mechanical load", pressingText(before), pressingText(after));
+  const bool pressed = before.mechanical_load > 0.0 || before.isPerArea();
+  const bool presses = after.mechanical_load > 0.0 || after.isPerArea();
+  if (pressed && !presses && before.voltage != after.voltage) text += " (~set_voltage leaves it as it is)";
+  return text;
+}
+
+std::string figure(double value, const char* unit) {
+  char text[48];
+  std::snprintf(text, sizeof text, "%.3g %s", std::isnan(value) ? std::abs(value) : value, unit);
+  return text;
+}
+
+/// What another load has done to the same scan.
+std::string effect(const Prediction& before, const Prediction& after) {
+  return changeText("pull-off force", figure(before.pull_off_force, "N"), figure(after.pull_off_force, "N")) + "; " +
+         changeText("contact area", figure(before.contact_area, "m^2"), figure(after.contact_area, "m^2")) + "; " +
+         changeText("electrostatic force", figure(before.electrostatic_force, "N"),
+                    figure(after.electrostatic_force, "N"));
+}
+
+}  // namespace
+
 void StictionServer::advertiseServices() {
   services_ = {service_handle_.advertiseService(kSetLoadService, &StictionServer::setLoad, this),
+               service_handle_.advertiseService(kSetVoltageService, &StictionServer::setVoltage, this),
+               service_handle_.advertiseService(kSetMechanicalLoadService, &StictionServer::setMechanicalLoad, this),
                service_handle_.advertiseService(kGetLoadService, &StictionServer::getLoad, this),
                service_handle_.advertiseService(kPredictService, &StictionServer::predict, this),
                service_handle_.advertiseService(kResetSurfaceService, &StictionServer::resetSurface, this)};
 }
 
 bool StictionServer::setLoad(SetLoad::Request& request, SetLoad::Response& response) {
+  changeLoad(
+      [&](LoadOptions& load) {
+        load.voltage = request.voltage;
+        load.setMechanicalLoad(request.mechanical_load);
+      },
+      response);
+  return true;
+}
+
+bool StictionServer::setVoltage(SetVoltage::Request& request, SetVoltage::Response& response) {
+  changeLoad([&](LoadOptions& load) { load.voltage = request.voltage; }, response);
+  return true;
+}
+
+bool StictionServer::setMechanicalLoad(SetMechanicalLoad::Request& request, SetMechanicalLoad::Response& response) {
+  changeLoad([&](LoadOptions& load) { load.setMechanicalLoad(request.mechanical_load); }, response);
+  return true;
+}
+
+template <typename Response>
+void StictionServer::changeLoad(const std::function<void(LoadOptions&)>& set, Response& response) {
   // What is returned when there is no prediction: NO_EQUILIBRIUM and zeros.
   response.prediction = predictionMessage(PredictedScan(), std_msgs::Header());
   try {
     const boost::recursive_mutex::scoped_lock lock(reconfigure_.mutex());
     RunningSettings settings = predictor_.settings().current();
     const LoadOptions before = settings.load;
-    settings.load.voltage = request.voltage;
-    settings.load.mechanical_load = request.mechanical_load;
+    set(settings.load);
+    const std::optional<PredictedScan> old = worker_.call([&] { return lastScanOrNothing(); });
     change(settings);
     reconfigure_.show();
     worker_.call([&] {
       response.success = true;
-      response.message = "from " + numberText(before.voltage) + " V, " + numberText(before.mechanical_load) + " N";
+      response.message = loadChange(before, settings.load);
       try {
         if (const std::optional<PredictedScan> predicted = predictor_.predictLastScan()) {
           response.prediction = predictionMessage(*predicted, predictor_.lastScan()->header);
+          if (old) response.message += "; " + effect(old->prediction, predicted->prediction);
         } else {
           response.message += "; no scan yet, so there is no prediction";
         }
       } catch (const std::exception& error) {
-        response.message += "; the last scan cannot be predicted: " + oneLine(error.what());
+        response.message += "; the last scan cannot be predicted: " + oneLine(reasonOf(error));
       }
     });
   } catch (const std::future_error&) {
@@ -46,9 +114,16 @@ bool StictionServer::setLoad(SetLoad::Request& request, SetLoad::Response& respo
     response.message = kShuttingDown;
   } catch (const std::exception& error) {
     response.success = false;
-    response.message = oneLine(error.what());
+    response.message = oneLine(reasonOf(error));
   }
-  return true;
+}
+
+std::optional<PredictedScan> StictionServer::lastScanOrNothing() {
+  try {
+    return predictor_.predictLastScan();
+  } catch (const Error&) {
+    return std::nullopt;
+  }
 }
 
 bool StictionServer::getLoad(GetLoad::Request& /*request*/, GetLoad::Response& response) {
@@ -57,6 +132,8 @@ bool StictionServer::getLoad(GetLoad::Request& /*request*/, GetLoad::Response& r
   response.mechanical_load = load.mechanical_load;
   response.max_voltage = load.max_voltage;
   response.max_mechanical_load = load.max_mechanical_load;
+  response.pressure = load.pressure;
+  response.device_force = load.device_force;
   return true;
 }
 
@@ -67,12 +144,15 @@ bool StictionServer::predict(Predict::Request& request, Predict::Response& respo
     worker_.call([&] {
       const PredictedScan predicted = predictor_.predictOnce(scan, request.voltage, request.mechanical_load);
       response.prediction = predictionMessage(predicted, scan.header);
+      for (const std::string& warning : predicted.warnings) {
+        response.message += (response.message.empty() ? "" : "; ") + oneLine(warning);
+      }
     });
     response.success = true;
   } catch (const std::future_error&) {
     response.message = kShuttingDown;
   } catch (const std::exception& error) {
-    response.message = oneLine(error.what());
+    response.message = oneLine(reasonOf(error));
   }
   return true;
 }

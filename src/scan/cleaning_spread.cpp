@@ -69,7 +69,7 @@ double factorOf(const std::vector<double>& values) {
 
 std::string numberOf(double value) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
+  std::snprintf(text, sizeof text, "%.3g", std::isnan(value) ? std::abs(value) : value);
   return text;
 }
 

@@ -7,6 +7,7 @@ namespace mems_stiction {
 void Configuration::describe(OptionVisitor& visitor) {
   model.describe(visitor);
   spatial_roughness.describe(visitor);
+  part.describe(visitor);
   scan.describe(visitor);
   resolution.describe(visitor);
   preprocessing.describe(visitor);
@@ -26,6 +27,10 @@ std::vector<std::string> Configuration::validate() const {
   }
   const std::vector<std::string> of_device = device.validate();
   violations.insert(violations.end(), of_device.begin(), of_device.end());
+  if (model.load.device_force > 0.0 && !(device.contact_area > 0.0)) {
+    violations.push_back("load/device_force: " + numberText(model.load.device_force) +
+                         " N is not allowed without device/contact_area; must be 0 N, or the area be stated");
+  }
   if (scan.height_scale == 0.0) {
     violations.emplace_back(
         "scan/height_scale: 0 m per unit of the pixel is not allowed, it makes every surface flat; must not be 0");

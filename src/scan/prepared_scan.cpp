@@ -19,6 +19,12 @@ PipelineOptions withoutRefinement(PipelineOptions options) {
   return options;
 }
 
+/// A region is one of the scan: the counter-surface is another surface.
+PipelineOptions withoutRegion(PipelineOptions options) {
+  options.region = RegionOptions();
+  return options;
+}
+
 PipelineOptions refinementAlone(const PipelineOptions& options) {
   PipelineOptions alone;
   alone.refine = options.refine;
@@ -32,7 +38,7 @@ ScanPreparer::ScanPreparer(const Configuration& configuration)
       refinement_(refinementAlone(configuration.preprocessing)),
       with_roughness_(configuration.model.output.roughness),
       spatial_roughness_(configuration.spatial_roughness),
-      counter_surface_(configuration.counter_surface, configuration.scan, cleaner_.options()) {
+      counter_surface_(configuration.counter_surface, configuration.scan, withoutRegion(cleaner_.options())) {
   try {
     counter_surface_.load();
   } catch (const OptionsError&) {
@@ -68,6 +74,7 @@ PreparedScan ScanPreparer::prepare(const HeightMap& scan) {
   PreprocessRecord& record = cleaned.record;
   record.steps.insert(record.steps.end(), prepared.record.steps.begin(), prepared.record.steps.end());
   prepared.record = std::move(record);
+  prepared.outside = cleaned.outside;
   if (with_roughness_) prepared.roughness = arealParameters(prepared.model_surfaces.lower);
   if (spatial_roughness_.enabled) {
     prepared.spatial_roughness = spatialRoughness(prepared.surfaces.lower, spatial_roughness_);

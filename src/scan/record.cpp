@@ -77,6 +77,11 @@ void visitScanFields(const HeightMap& scan, Visitor&& visit) {
 template <typename Visitor>
 void visitResultFields(const HeightMap& scan, const Prediction& prediction, const RecordExtras& extras,
                        Visitor&& visit) {
+  if (extras.provenance) {
+    visitProvenanceFields(*extras.provenance, [&](const char* name, const std::string& value, const char* unit) {
+      if (!value.empty()) visit(name, value, unit);
+    });
+  }
   if (!extras.formulation.empty()) visit("formulation", extras.formulation, "");
   visitPredictionFields(prediction, [&](const char* name, const auto& value, const char* unit) {
     const bool verdict_has_it = extras.verdict && std::strcmp(name, "apparent_work_of_adhesion") == 0;
@@ -192,6 +197,7 @@ std::string jsonRecord(const std::string& file, const HeightMap& scan, const Pre
     visitSpatialRoughnessFields(prediction.spatial_roughness, JsonFields(roughness));
   }
   record["roughness"] = roughness;
+  if (!extras.warnings.empty()) record["warnings"] = extras.warnings;
   addJsonList(record, "preprocessing", extras.preprocessing.steps, kVisitStep);
   if (hasTipStep(extras.preprocessing)) {
     record["tip_unreached_fraction"] = extras.preprocessing.tip_unreached_fraction;

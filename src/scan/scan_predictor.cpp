@@ -6,6 +6,8 @@
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/scan/block_maxima.hpp"
+#include "mems_stiction/scan/frame_load.hpp"
+#include "mems_stiction/scan/region_border.hpp"
 #include "mems_stiction/scan/resolution.hpp"
 
 namespace mems_stiction {
@@ -17,6 +19,12 @@ constexpr int kSmallestSide = 16;
 /// The preparation has the roughness.
 Options withoutRoughness(Options options) {
   options.output.roughness = false;
+  return options;
+}
+
+/// What the model takes before it knows the frame.
+Options withoutFrameLoad(Options options) {
+  if (options.load.isPerArea()) options.load.setMechanicalLoad(0.0);
   return options;
 }
 
@@ -64,19 +72,27 @@ SurfacePair decimated(const SurfacePair& surfaces, int factor) {
 
 ScanPredictor::ScanPredictor(const Configuration& configuration)
     : preparer_(configuration),
-      model_(withoutRoughness(configuration.model)),
+      options_(withoutRoughness(configuration.model)),
+      device_(configuration.device),
+      model_(withoutFrameLoad(options_)),
       min_contact_pixels_(configuration.resolution.min_contact_pixels),
       tip_radius_(configuration.resolution.tip_radius > 0.0 ? configuration.resolution.tip_radius
                                                             : configuration.preprocessing.tip.radius) {}
 
-void ScanPredictor::setOptions(const Options& options) { model_.setOptions(withoutRoughness(options)); }
+void ScanPredictor::setOptions(const Options& options) {
+  options.check();
+  options_ = withoutRoughness(options);
+  model_.setOptions(withoutFrameLoad(options_));
+}
 
 Prediction ScanPredictor::predict(const PreparedScan& prepared) {
+  if (options_.load.isPerArea()) model_.setOptions(onFrame(options_, device_, prepared.surfaces));
   Prediction prediction = model_.predict(prepared.model_surfaces);
   if (prepared.refinement > 1) bringToScan(prepared, prediction);
   prediction.roughness = prepared.roughness;
   prediction.spatial_roughness = prepared.spatial_roughness;
   flagResolution(min_contact_pixels_, tip_radius_, prediction);
+  if (!prepared.outside.empty()) countRegionAlone(prepared, prediction);
   prediction.processing_time += prepared.preparation_time;
   return prediction;
 }

@@ -42,7 +42,9 @@ void describe(CLI::App& app, BatchArguments& arguments) {
                "convert instrument makers' files anew, and do not keep what was converted in ~/.cache/mems_stiction");
   app.add_flag("--clear-cache", arguments.clear_cache, "first remove all that is kept there");
   app.footer(
-      "Exit status: 0 every scan has its row (the last line says how many failed), 2 bad input.\n\n"
+      "Exit status: 0 every scan has its row (the last line says how many failed), 1 so it has, but no scan of this "
+      "call\n"
+      "could be predicted, 2 bad input.\n\n"
       "Example: stiction_batch --config device.yaml --shard 1/2 -o part1.csv 2026-*.bag   # and 2/2 elsewhere\n"
       "         stiction_batch --merge -o all.csv part1.csv part2.csv");
 }
@@ -74,8 +76,7 @@ std::vector<std::string> inputsOf(const BatchArguments& arguments) {
 Configuration configurationOf(const BatchArguments& arguments) {
   Configuration configuration;
   if (!arguments.configuration.empty()) configuration = loadConfiguration(arguments.configuration);
-  if (arguments.voltage) configuration.model.load.voltage = *arguments.voltage;
-  if (arguments.load) configuration.model.load.mechanical_load = *arguments.load;
+  applyLoads(arguments, configuration.model.load);
   configuration.check();
   return configuration;
 }

@@ -1,14 +1,18 @@
 #include "batch_scans.hpp"
 
+#include <filesystem>
 #include <iomanip>
 #include <sstream>
 #include <utility>
 
 #include "half_space_run.hpp"
+#include "mems_stiction/base/error_text.hpp"
 #include "mems_stiction/height_map/scan_sanity.hpp"
 #include "mems_stiction/import/waiting_gwyddion.hpp"
 #include "mems_stiction/prediction/force_curve.hpp"
+#include "mems_stiction/scan/frame_load.hpp"
 #include "mems_stiction/scan/half_space_scan.hpp"
+#include "mems_stiction/scan/plausibility.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -20,12 +24,6 @@ bool isBag(const std::string& path) {
       return true;
   }
   return false;
-}
-
-/// What is wrong, in words even if the error has none.
-std::string reasonOf(const std::exception& error) {
-  const std::string reason = error.what();
-  return reason.empty() ? "unknown error" : reason;
 }
 
 ScanFileOptions fileOptions(const BatchArguments& arguments) {
@@ -133,6 +131,8 @@ const ScanBagReader& BatchScans::open(std::size_t input) {
 RowFields BatchScans::predict(const Item& item, ScanOrigin& origin) {
   HeightMap counter_surface;
   std::vector<std::string> warnings;
+  ScanIdentity identity;
+  identity.scan_name = std::filesystem::path(inputs_[item.input]).stem().string();
   if (item.scan == 0) {
     const ScanFile file = ahead_.take(inputs_[item.input]);
     surface_ = file.surface;
@@ -144,6 +144,7 @@ RowFields BatchScans::predict(const Item& item, ScanOrigin& origin) {
     surface_ = of_bag.scan.surface;
     if (of_bag.counter_surface) counter_surface = of_bag.counter_surface->surface;
     origin.name = of_bag.scan.header.frame_id;
+    identity = of_bag.scan.identity;
     std::ostringstream stamp;
     stamp << of_bag.scan.header.stamp;
     origin.stamp = stamp.str();
@@ -157,7 +158,9 @@ RowFields BatchScans::predict(const Item& item, ScanOrigin& origin) {
                         surface_.cellArea());
   }
   for (const std::string& warning : scanWarnings(surface_)) warnings.push_back(warning);
-  return figureFields(surface_, warnings, prediction_, verdict, configuration_.model.formulation);
+  for (const std::string& warning : settingsWarnings(configuration_)) warnings.push_back(warning);
+  return figureFields(surface_, warnings, prediction_, verdict, configuration_.model.formulation,
+                      provenanceOf(identity, configuration_));
 }
 
 HalfSpaceAnswer BatchScans::solve(const std::function<void(const std::string&)>& tell) const {
@@ -166,7 +169,8 @@ HalfSpaceAnswer BatchScans::solve(const std::function<void(const std::string&)>&
     HalfSpaceText text;
     HalfSpaceControl control;
     control.on_state = [&](const ForcePoint& point) { tell(text.next(point)); };
-    answer.solution = half_space_.solve(halfSpaceProblem(prepared_, predictor_.options()), control);
+    answer.solution = half_space_.solve(
+        halfSpaceProblem(prepared_, onFrame(configuration_.model, configuration_.device, prepared_.surfaces)), control);
     if (answer.solution->status != HalfSpaceStatus::kSolved) answer.reason = answer.solution->message;
   } catch (const std::exception& error) {
     answer.reason = reasonOf(error);

@@ -11,14 +11,16 @@
 #include "mems_stiction/base/output_file.hpp"
 #include "mems_stiction/import/reader_version.hpp"
 #include "mems_stiction/scan/configuration_yaml.hpp"
+#include "mems_stiction/scan/provenance.hpp"
 
 namespace mems_stiction {
 
 std::string settingsText(std::size_t total, const std::vector<std::string>& inputs, const BatchArguments& arguments,
                          const std::map<std::string, std::string>& units, const Configuration& configuration) {
   YAML::Emitter emitter;
-  emitter << YAML::BeginMap << YAML::Key << "version" << YAML::Value << YAML::DoubleQuoted << MEMS_STICTION_VERSION;
+  emitter << YAML::BeginMap << YAML::Key << "version" << YAML::Value << YAML::DoubleQuoted << packageVersion();
   emitter << YAML::Key << "readers" << YAML::Value << YAML::DoubleQuoted << readerVersion();
+  emitter << YAML::Key << "settings_hash" << YAML::Value << YAML::DoubleQuoted << settingsHash(configuration);
   emitter << YAML::Key << "opencv_version" << YAML::Value << YAML::DoubleQuoted << CV_VERSION;
   emitter << YAML::Key << "total" << YAML::Value << total;
   emitter << YAML::Key << "topic" << YAML::Value << YAML::DoubleQuoted << arguments.topic;

@@ -12,11 +12,13 @@
 #include <string>
 #include <vector>
 
+#include "mems_stiction/base/error_text.hpp"
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/interruption.hpp"
 #include "mems_stiction/base/one_line.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
 #include "mems_stiction/import/scan_file.hpp"
+#include "mems_stiction/loads/interface.hpp"
 
 namespace mems_stiction {
 
@@ -54,7 +56,7 @@ int forEachScan(const std::string& program, const std::vector<std::string>& scan
     try {
       handle(path);
     } catch (const std::exception& error) {
-      const std::string what = error.what();
+      const std::string what = reasonOf(error);
       complain(program, what.find(path) == std::string::npos ? path + ": " + what : what);
       status = kBadInput;
     }
@@ -80,7 +82,7 @@ int runProgram(const std::string& program, int argc, char** argv, Describe&& des
     complain(program, "the standard output cannot be written: " + std::string(std::strerror(errno)));
     return kBadInput;
   } catch (const std::exception& error) {
-    complain(program, error.what());
+    complain(program, reasonOf(error));
     return kBadInput;
   }
 }
@@ -94,8 +96,15 @@ void addLoadOptions(CLI::App& app, Arguments& arguments) {
       ->type_name("V");
   app.add_option_function<double>(
          "-l,--load", [&arguments](const double& value) { arguments.load = value; },
-         "external force pressing the scanned area together [N]")
+         "external force pressing the scanned area together [N]; goes before load/pressure and load/device_force")
       ->type_name("N");
+}
+
+/// What was given by them.
+template <typename Arguments>
+void applyLoads(const Arguments& arguments, LoadOptions& load) {
+  if (arguments.voltage) load.voltage = *arguments.voltage;
+  if (arguments.load) load.setMechanicalLoad(*arguments.load);
 }
 
 }  // namespace mems_stiction

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -105,8 +106,8 @@ class ScanBag {
     calibration.pitch_x = surface.pitchX();
     calibration.pitch_y = surface.pitchY();
     guarded([&] {
-      bag_->write(kHeightTopic, header.stamp, *heightImage(about_mean, header));
-      bag_->write(kScanInfoTopic, header.stamp, scanInfoMessage(calibration, header));
+      bag_->write(absolute(kHeightTopic), header.stamp, *heightImage(about_mean, header));
+      bag_->write(absolute(kScanInfoTopic), header.stamp, scanInfoMessage(calibration, header));
     });
   }
 
@@ -119,6 +120,9 @@ class ScanBag {
   std::uint32_t count() const { return count_; }
 
  private:
+  /// As `rosbag record` names topics, so that filters and prefixes find them.
+  static std::string absolute(const std::string& topic) { return "/" + topic; }
+
   /// @throw std::runtime_error, which ends the program: no scan can be written after it
   template <typename Function>
   void guarded(Function&& function) {
@@ -165,14 +169,15 @@ int run(const Arguments& arguments) {
   file_options.pitch_x = file_options.pitch_y = arguments.pitch;
   ScanBag bag(arguments.bag, arguments.rate);
   for (const std::string& path : arguments.scans) {
+    std::optional<ScanFile> scan;
     try {
-      const ScanFile scan = openScanFile(path, {}, file_options);
-      for (const std::string& note : scan.notes) warn(path, note);
-      bag.write(scan.surface, stemOf(path));
+      scan = openScanFile(path, {}, file_options);
+      for (const std::string& note : scan->notes) warn(path, note);
     } catch (const Error& error) {
       complain("make_scan_bag", error.what());
       status = kBadInput;
     }
+    if (scan) bag.write(scan->surface, stemOf(path));
   }
   const int default_count = arguments.scans.empty() ? 1 : 0;
   writeGenerated(arguments, arguments.count > 0 ? arguments.count : default_count, bag);

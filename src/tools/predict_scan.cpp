@@ -2,9 +2,11 @@
 /// line.
 
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "command_line.hpp"
@@ -18,7 +20,9 @@
 #include "mems_stiction/prediction/deformed_surfaces.hpp"
 #include "mems_stiction/prediction/force_curve.hpp"
 #include "mems_stiction/scan/configuration_yaml.hpp"
+#include "mems_stiction/scan/frame_load.hpp"
 #include "mems_stiction/scan/half_space_scan.hpp"
+#include "mems_stiction/scan/plausibility.hpp"
 #include "mems_stiction/scan/record.hpp"
 #include "mems_stiction/scan/scan_predictor.hpp"
 
@@ -135,8 +139,7 @@ CurveFiles curveFilesOf(const Arguments& arguments) {
 Configuration configurationOf(const Arguments& arguments) {
   Configuration configuration;
   if (!arguments.configuration.empty()) configuration = loadConfiguration(arguments.configuration);
-  if (arguments.voltage) configuration.model.load.voltage = *arguments.voltage;
-  if (arguments.load) configuration.model.load.mechanical_load = *arguments.load;
+  applyLoads(arguments, configuration.model.load);
   if (arguments.step) configuration.model.approach.step = *arguments.step;
   configuration.check();
   for (const auto& [option, path] :
@@ -162,19 +165,26 @@ void requireCurve(const Prediction& prediction, const std::string& formulation) 
 /// @throw Error in one line, with the file's name
 void predictScan(const std::string& path, const Arguments& arguments, const ScanFileOptions& file_options,
                  const Configuration& configuration, const HalfSpaceSolver& half_space, ScanPredictor& predictor) {
+  if (std::filesystem::path(path).extension() == ".bag") {
+    throw FileError(path + ": is a bag; stiction_batch predicts the scans of bags (stiction_report shows them)");
+  }
   const CurveFiles curve_files = curveFilesOf(arguments);
-  const Options& options = predictor.options();
   const ScanFile scan = openScanFile(path, configuration.scan, file_options);
   for (const std::string& note : scan.notes) warn(path, note);
 
   Prediction prediction;
   RecordExtras extras;
   extras.channel = scan.channel;
-  extras.formulation = options.formulation;
+  extras.formulation = configuration.model.formulation;
+  extras.provenance = provenanceOf({std::filesystem::path(path).stem().string(), "", ""}, configuration);
   extras.has_curve = arguments.record_curve;
-  for (const std::string& warning : scanWarnings(scan.surface)) warn(path, warning);
+  extras.warnings = scanWarnings(scan.surface);
+  for (const std::string& warning : extras.warnings) warn(path, warning);
+  for (std::string& warning : settingsWarnings(configuration)) extras.warnings.push_back(std::move(warning));
+  Options options = configuration.model;
   try {
     const PreparedScan prepared = predictor.preparer().prepare(scan.surface);
+    options = onFrame(configuration.model, configuration.device, prepared.surfaces);
     prediction = predictor.predict(prepared);
     if (!arguments.deformed.empty()) requireDeformedSurfaces(prediction);
     if (!curve_files.formulation.empty() || extras.has_curve) requireCurve(prediction, options.formulation);
@@ -223,6 +233,7 @@ int run(const Arguments& arguments) {
     predictor.emplace(configuration);
     half_space.emplace(configuration.half_space);
     curveFilesOf(arguments);
+    for (const std::string& warning : settingsWarnings(configuration)) warn("predict_scan", warning);
   } catch (const Error& error) {
     complain("predict_scan", error.what());
     return kBadInput;

@@ -1,9 +1,14 @@
 #include "scan_bag_reader.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <set>
+#include <vector>
+
+#include <ros/serialization.h>
+#include <boost/make_shared.hpp>
 
 #include "mems_stiction/base/child_process.hpp"
 #include "mems_stiction/base/errors.hpp"
@@ -36,6 +41,27 @@ boost::shared_ptr<const Message> instantiate(const rosbag::MessageInstance& mess
                        ros::message_traits::DataType<Message>::value());
   }
   return content;
+}
+
+/// MD5 sum of ScanInfo before it named scan and part.
+constexpr const char* kUnnamedScanInfo = "e2c5059195594fd4b9cdb74aaee36cf7";
+
+/// scan_info of today, or of bags that were recorded before: what is of today only stands behind the rest.
+boost::shared_ptr<const ScanInfo> instantiateInfo(const rosbag::MessageInstance& message) {
+  if (message.getMD5Sum() != kUnnamedScanInfo) return instantiate<ScanInfo>(message);
+  std::vector<std::uint8_t> bytes(message.size());
+  ros::serialization::OStream written(bytes.data(), message.size());
+  message.write(written);
+  ros::serialization::IStream stream(bytes.data(), message.size());
+  const auto info = boost::make_shared<ScanInfo>();
+  stream.next(info->header);
+  stream.next(info->pitch_x);
+  stream.next(info->pitch_y);
+  stream.next(info->height_scale);
+  stream.next(info->height_offset);
+  stream.next(info->invalid_value);
+  stream.next(info->has_invalid_value);
+  return info;
 }
 
 }  // namespace
@@ -105,8 +131,11 @@ ReceivedScan ScanBagReader::pair(const rosbag::MessageInstance& message, const M
   for (std::ptrdiff_t distance = 0; distance < kNearest; ++distance) {
     for (const std::ptrdiff_t place : {middle + distance, middle - distance - 1}) {
       if (place < 0 || place >= size) continue;
-      const auto info = instantiate<ScanInfo>(infos[static_cast<std::size_t>(place)]);
-      if (info->header.stamp == image->header.stamp) return receiveScan(image, scanOptions(*info, parameters_));
+      const auto info = instantiateInfo(infos[static_cast<std::size_t>(place)]);
+      if (info->header.stamp != image->header.stamp) continue;
+      ReceivedScan scan = receiveScan(image, scanOptions(*info, parameters_));
+      scan.identity = identityOf(image->header, info.get());
+      return scan;
     }
   }
   throw SurfaceError("the bag has no scan_info with the stamp of the scan");

@@ -30,7 +30,8 @@ nlohmann::json jsonOf(const Value& value) {
 /// Visits every figure of a row with its value and unit.
 template <typename Visitor>
 void visitFigures(const HeightMap& scan, const std::vector<std::string>& warnings, const Prediction& prediction,
-                  const std::optional<Verdict>& verdict, const std::string& formulation, Visitor&& visit) {
+                  const std::optional<Verdict>& verdict, const std::string& formulation, const Provenance& provenance,
+                  Visitor&& visit) {
   std::string said;
   for (const std::string& warning : warnings) said += (said.empty() ? "" : "; ") + oneLine(warning);
   visit("warnings", said, "");
@@ -55,6 +56,9 @@ void visitFigures(const HeightMap& scan, const std::vector<std::string>& warning
     visit("regime_flags", flags, "");
   }
   visit("regime_flag_names", regimeFlagNames(flags), "");
+  visitProvenanceFields(provenance, [&](const char* name, const std::string& value, const char* unit) {
+    visit(name, oneLine(value), unit);
+  });
 }
 
 nlohmann::json asperityColumns(const std::vector<Asperity>& asperities) {
@@ -107,9 +111,10 @@ RowFields originFields(const ScanOrigin& origin, const std::string& reason) {
 }
 
 RowFields figureFields(const HeightMap& scan, const std::vector<std::string>& warnings, const Prediction& prediction,
-                       const std::optional<Verdict>& verdict, const std::string& formulation) {
+                       const std::optional<Verdict>& verdict, const std::string& formulation,
+                       const Provenance& provenance) {
   RowFields fields;
-  visitFigures(scan, warnings, prediction, verdict, formulation,
+  visitFigures(scan, warnings, prediction, verdict, formulation, provenance,
                [&](const char* name, const auto& value, const char*) { fields.emplace_back(name, jsonOf(value)); });
   return fields;
 }
@@ -119,7 +124,7 @@ std::vector<std::string> columnNames(bool with_verdict) {
   for (const auto& field : originFields({}, "")) names.push_back(field.first);
   std::optional<Verdict> verdict;
   if (with_verdict) verdict.emplace();
-  for (const auto& field : figureFields({}, {}, {}, verdict, "")) names.push_back(field.first);
+  for (const auto& field : figureFields({}, {}, {}, verdict, "", {})) names.push_back(field.first);
   return names;
 }
 
@@ -127,7 +132,7 @@ std::map<std::string, std::string> columnUnits(bool with_verdict) {
   std::optional<Verdict> verdict;
   if (with_verdict) verdict.emplace();
   std::map<std::string, std::string> units;
-  visitFigures({}, {}, {}, verdict, "", [&](const char* name, const auto&, const char* unit) {
+  visitFigures({}, {}, {}, verdict, "", {}, [&](const char* name, const auto&, const char* unit) {
     if (*unit != '\0') units[name] = unit;
   });
   return units;

@@ -14,6 +14,7 @@
 #include "mems_stiction/contact/curve_point.hpp"
 #include "mems_stiction/height_map/height_map.hpp"
 #include "mems_stiction/prediction/prediction.hpp"
+#include "mems_stiction/scan/provenance.hpp"
 #include "mems_stiction/verdict/verdict.hpp"
 
 namespace mems_stiction {
@@ -35,7 +36,8 @@ RowFields originFields(const ScanOrigin& origin, const std::string& reason);
 /// the same scan gives the same row. Flags of the model's range are there with and without a verdict.
 /// @param formulation that the prediction is of
 RowFields figureFields(const HeightMap& scan, const std::vector<std::string>& warnings, const Prediction& prediction,
-                       const std::optional<Verdict>& verdict, const std::string& formulation);
+                       const std::optional<Verdict>& verdict, const std::string& formulation,
+                       const Provenance& provenance);
 
 /// Every column in order. @param with_verdict whether a device is stated
 std::vector<std::string> columnNames(bool with_verdict);

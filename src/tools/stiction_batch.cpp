@@ -21,6 +21,9 @@ namespace {
 
 using namespace mems_stiction;
 
+/// Exit status when no scan of the call could be predicted.
+constexpr int kNonePredicted = 1;
+
 int run(const BatchArguments& arguments) {
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);  // we name what is wrong ourselves
   if (arguments.clear_cache) clearImportCache();
@@ -62,7 +65,7 @@ int run(const BatchArguments& arguments) {
             << failed_count << " scans failed in this run";
   if (arguments.half_space) std::cout << ", half-space not solved for " << unsolved_count << " others";
   std::cout << "\n";
-  return 0;
+  return failed_count > 0 && failed_count == rows.done() - before ? kNonePredicted : 0;
 }
 
 int merge(const BatchArguments& arguments) {

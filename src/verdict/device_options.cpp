@@ -57,6 +57,16 @@ std::vector<std::string> DeviceOptions::validate() const {
   return violations;
 }
 
+std::string whatPullInLacks(const DeviceOptions& device) {
+  std::string text;
+  for (const auto& [key, value] : {std::make_pair("device/spring_stiffness", device.spring_stiffness),
+                                   std::make_pair("device/travel", device.travel),
+                                   std::make_pair("device/electrode_area", device.electrode_area)}) {
+    if (value <= 0.0) text += (text.empty() ? "" : " and ") + std::string(key);
+  }
+  return text;
+}
+
 double closingVoltage(const DeviceOptions& device, const InterfaceOptions& interface) {
   if (!device.hasSpring() || device.electrode_area <= 0.0) return std::numeric_limits<double>::quiet_NaN();
   const double rest_gap = device.electrode_gap > 0.0 ? device.electrode_gap : device.travel;

@@ -61,7 +61,7 @@ std::uint32_t regimeFlags(const Prediction& prediction, double cell_area) {
   return flags;
 }
 
-std::string regimeFlagNames(std::uint32_t flags) {
+std::vector<std::string> regimeFlagList(std::uint32_t flags) {
   const std::pair<RegimeFlag, const char*> names[] = {{kBondedFlag, "bonded"},
                                                       {kNoEquilibriumFlag, "no_equilibrium"},
                                                       {kTaborFlag, "tabor"},
@@ -71,12 +71,16 @@ std::string regimeFlagNames(std::uint32_t flags) {
                                                       {kNearBondingFlag, "near_bonding"},
                                                       {kBorderFlag, "border"},
                                                       {kOnePixelFlag, "one_pixel"}};
-  std::string text;
+  std::vector<std::string> list;
   for (const auto& entry : names) {
-    if ((flags & entry.first) == 0) continue;
-    if (!text.empty()) text += ", ";
-    text += entry.second;
+    if ((flags & entry.first) != 0) list.emplace_back(entry.second);
   }
+  return list;
+}
+
+std::string regimeFlagNames(std::uint32_t flags) {
+  std::string text;
+  for (const std::string& name : regimeFlagList(flags)) text += (text.empty() ? "" : ", ") + name;
   return text;
 }
 

@@ -156,8 +156,8 @@ Verdict verdictOf(const Prediction& prediction, const DeviceOptions& device, con
   if (device.hasSpring()) verdict.restoring_force = device.restoringForce();
   if (!has_contact && !device.hasBeam()) {
     verdict.reason =
-        "the device is not stated: device/spring_stiffness, device/travel and device/contact_area, or a beam, are "
-        "needed";
+        "the device is not stated: it needs device/spring_stiffness with device/travel and device/contact_area; or a "
+        "beam";
     return verdict;
   }
   if (prediction.status == Status::kNoEquilibrium) {

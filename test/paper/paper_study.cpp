@@ -83,7 +83,7 @@ std::string predictCase(const YAML::Node& wanted, const HeightMap& lower, const 
   const HeightMap counter = scaled(upper, scale);
   const Options options = optionsOf(wanted, !dump.empty());
   const Prediction prediction = AdhesionModel(options).predict({scan, counter});
-  RowFields fields = figureFields(scan, {}, prediction, std::nullopt, options.formulation);
+  RowFields fields = figureFields(scan, {}, prediction, std::nullopt, options.formulation, {});
   fields.insert(fields.begin(), {"case", wanted["name"].as<std::string>()});
   if (!dump.empty()) {
     writeFullResult(dump, fields, scan, prediction, curveOf(prediction, options.interface));

@@ -16,7 +16,9 @@ import unittest
 
 import numpy as np
 import rosbag
+import rospy
 from mems_stiction import report
+from mems_stiction.msg import StictionPrediction
 from roslib.packages import find_node
 
 SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "scripts"
@@ -198,8 +200,55 @@ class BatchTest(unittest.TestCase):
         self.assertEqual((done.returncode, len(done.stderr.splitlines())), (2, 1), done.stderr)
 
     def test_a_bag_without_the_topic_is_a_row_that_names_what_the_bag_has(self):
-        self.predict("rows.csv", "--topic", "other", inputs=[self.inputs / "b.bag"])
-        self.assertIn("no message on topic 'other'; the bag has height, scan_info", self.rows("rows.csv")[0]["reason"])
+        self.predict("rows.csv", "--topic", "other", inputs=[self.inputs / "b.bag"], status=1)
+        self.assertIn("no message on topic 'other'; the bag has /height, /scan_info", self.rows("rows.csv")[0]["reason"])
+
+    def test_names_of_topics_are_absolute_for_those_who_filter_bags(self):
+        with rosbag.Bag(str(self.inputs / "b.bag")) as bag:
+            self.assertEqual(sorted(bag.get_type_and_topic_info().topics), ["/height", "/scan_info"])
+            self.assertEqual(len(list(bag.read_messages(topics=["/height"]))), 3)
+
+    def test_when_no_scan_can_be_predicted_the_status_says_so(self):
+        self.predict("none.csv", inputs=[self.inputs / "broken.tiff", self.inputs / "missing.bag"], status=1)
+        self.assertEqual(len(self.rows("none.csv")), 2)
+        self.predict("one.csv", inputs=[self.inputs / "broken.tiff", self.inputs / "b.bag"], status=0)
+
+    def test_a_row_says_what_it_was_made_of_and_with(self):
+        (self.folder / "part.yaml").write_text(CONFIG + "part: {id: lot 3, serial: 0012}\n")
+        self.predict("part.csv", "--config", self.folder / "part.yaml", inputs=[self.inputs / "b.bag"])
+        self.predict("plain.csv", inputs=[self.inputs / "b.bag"])
+        row, plain = self.rows("part.csv")[0], self.rows("plain.csv")[0]
+        self.assertEqual((row["part_id"], row["serial_id"], row["scan_name"]), ("lot 3", "0012", "scan"))
+        self.assertRegex(row["version"], r"^\d+\.\d+\.\d+$")
+        self.assertEqual(row["settings_hash"], plain["settings_hash"])  # who the part is changes no figure
+        self.predict("other.csv", "--voltage", "0", "--load", "2e-6", inputs=[self.inputs / "b.bag"])
+        self.assertNotEqual(self.rows("other.csv")[0]["settings_hash"], plain["settings_hash"])
+
+    def test_recorded_predictions_come_out_as_a_table(self):
+        bag_path = self.folder / "day.bag"
+        with rosbag.Bag(str(bag_path), "w") as bag:
+            for second, force in ((1, 1e-7 / 3), (2, 2e-7)):
+                message = StictionPrediction(pull_off_force=force, reason="a; b", flags=["border", "one_pixel"], is_conforming=True)
+                message.header.stamp = rospy.Time(second)
+                message.roughness.sq = 3e-9
+                bag.write("/line1/prediction", message, rospy.Time(second + 10))
+        done = run([program("export_predictions"), "-o", self.folder / "day.csv", bag_path])
+        self.assertEqual(done.returncode, 0, done.stderr)
+        rows = self.rows("day.csv")
+        self.assertEqual([float(row["pull_off_force"]) for row in rows], [1e-7 / 3, 2e-7])
+        self.assertEqual((float(rows[0]["time"]), float(rows[0]["stamp"])), (11.0, 1.0))
+        self.assertEqual((rows[0]["flags"], rows[0]["is_conforming"], rows[0]["roughness/sq"]), ("border; one_pixel", "1", "3e-09"))
+        for bags, output in (([self.inputs / "b.bag"], "none.csv"), ([self.inputs / "missing.bag"], "none.csv"), ([bag_path], "no/where.csv")):
+            done = run([program("export_predictions"), "-o", self.folder / output] + bags)
+            self.assertEqual((done.returncode, done.stdout), (2, ""))
+            self.assertRegex(done.stderr, r"^export_predictions: .*\n$")
+
+    def test_a_disk_that_is_full_is_one_line(self):
+        for call in ([program("make_scan_bag"), "-o", "/dev/full"],
+                     [program("make_scan_bag"), "-o", self.folder / "nowhere" / "a.bag"]):
+            done = run(call)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertRegex(done.stderr, r"^make_scan_bag: \S+: cannot be written: .*\n$")
 
     def rewritten(self, name, rename):
         """b.bag with other topics: rename(topic) gives the names that a message is written under."""
@@ -211,18 +260,18 @@ class BatchTest(unittest.TestCase):
         return path
 
     def test_a_bag_without_scan_info_takes_the_pitch_of_the_configuration(self):
-        bag = self.rewritten("bare.bag", lambda topic: ["/line1/height"] if topic == "height" else [])
+        bag = self.rewritten("bare.bag", lambda topic: ["/line1/height"] if topic == "/height" else [])
         (self.folder / "pitch.yaml").write_text(CONFIG + "scan: {pitch_x: 10.0e-9, pitch_y: 10.0e-9}\n")
-        for config, reason in ((self.inputs / "device.yaml", "pitch"), (self.folder / "pitch.yaml", "")):
+        for config, reason, status in ((self.inputs / "device.yaml", "pitch", 1), (self.folder / "pitch.yaml", "", 0)):
             rows = "%s.csv" % config.stem
-            self.predict(rows, "--config", config, "--topic", "line1/height", inputs=[bag])
+            self.predict(rows, "--config", config, "--topic", "line1/height", inputs=[bag], status=status)
             self.assertTrue(all(reason in row["reason"] for row in self.rows(rows)))
         self.predict("whole.csv", inputs=[self.inputs / "b.bag"])
         self.assertEqual([row["pull_off_force"] for row in self.rows("pitch.csv")],
                          [row["pull_off_force"] for row in self.rows("whole.csv")])
 
     def test_a_recorded_counter_surface_is_met(self):
-        bag = self.rewritten("counter.bag", lambda topic: ["counter_" + topic, topic])
+        bag = self.rewritten("counter.bag", lambda topic: ["/counter_" + topic.strip("/"), topic])
         (self.folder / "topic.yaml").write_text(CONFIG + "counter_surface: {type: topic, facing: up}\n")
         self.predict("rows.csv", "--config", self.folder / "topic.yaml", inputs=[bag, self.inputs / "b.bag"])
         rows = self.rows("rows.csv")

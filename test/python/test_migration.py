@@ -2,17 +2,22 @@
 
 import contextlib
 import io
+import json
 import math
 import pathlib
+import subprocess
 import tempfile
 import unittest
 import xml.etree.ElementTree
 
 import genpy.dynamic
+import numpy as np
 import rosbag
 import rospy
-from mems_stiction.msg import StictionPrediction
+from mems_stiction.msg import ScanInfo, SeparationPoint, StictionPrediction
+from roslib.packages import find_node
 from rosbag.migration import MessageMigrator, MessageUpdateRule, checkbag, fixbag2
+from sensor_msgs.msg import Image
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 
@@ -34,12 +39,17 @@ def old_classes():
     return [genpy.dynamic.generate_dynamic(rule.old_type, rule.old_full_text)[rule.old_type] for rule in found]
 
 
+def old_predictions():
+    return [kind for kind in old_classes() if kind._type == "mems_stiction/StictionPrediction"]
+
+
 class MigrationTest(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
-        self.bag = str(pathlib.Path(folder.name) / "old.bag")
-        self.fixed = str(pathlib.Path(folder.name) / "new.bag")
+        self.folder = pathlib.Path(folder.name)
+        self.bag = str(self.folder / "old.bag")
+        self.fixed = str(self.folder / "new.bag")
 
     def record(self, old_class):
         message = old_class()
@@ -51,6 +61,9 @@ class MigrationTest(unittest.TestCase):
         message.spatial_roughness.hurst = 0.8
         message.preprocessing = ["level (shape=plane)"]
         message.regime_flags = 5
+        if "curve" in message.__slots__:
+            message.formulation, message.warnings = "consistent", ["a stage offset"]
+            message.curve = [SeparationPoint(displacement=1e-9, force=2e-7)]
         with rosbag.Bag(self.bag, "w") as bag:
             bag.write("prediction", message, rospy.Time(12, 50))
 
@@ -58,8 +71,8 @@ class MigrationTest(unittest.TestCase):
         return MessageMigrator(rule_files(), plugins=False)
 
     def test_what_was_recorded_stays_and_what_was_not_known_is_nan(self):
-        self.assertEqual(len(old_classes()), 1)
-        for old_class in old_classes():
+        self.assertEqual(len(old_predictions()), 2)
+        for old_class in old_predictions():
             self.record(old_class)
             with contextlib.redirect_stdout(io.StringIO()):
                 self.assertEqual(fixbag2(self.migrator(), self.bag, self.fixed), [])
@@ -73,11 +86,51 @@ class MigrationTest(unittest.TestCase):
             self.assertEqual((message.status, message.pull_off_force), (StictionPrediction.BONDED, 2e-7))
             self.assertEqual((message.roughness.sq, message.spatial_roughness.hurst), (3e-9, 0.8))
             self.assertEqual((message.preprocessing, message.regime_flags), (["level (shape=plane)"], 5))
-            self.assertEqual((message.formulation, message.warnings, message.curve), ("", [], []))
-            self.assertTrue(math.isnan(message.flattening_ratio) and math.isnan(message.contact_stiffness))
+            self.assertEqual((message.version, message.settings_hash, message.part_id, message.flags), ("", "", "", []))
+            if "curve" in old_class.__slots__:
+                self.assertEqual((message.formulation, message.warnings), ("consistent", ["a stage offset"]))
+                self.assertEqual([(point.displacement, point.force) for point in message.curve], [(1e-9, 2e-7)])
+            else:
+                self.assertEqual((message.formulation, message.warnings, message.curve), ("", [], []))
+                self.assertTrue(math.isnan(message.flattening_ratio) and math.isnan(message.contact_stiffness))
+
+    def test_the_calibration_of_an_earlier_scan_stays(self):
+        old = [kind for kind in old_classes() if kind._type == "mems_stiction/ScanInfo"]
+        self.assertEqual(len(old), 1)
+        message = old[0](pitch_x=1e-8, pitch_y=2e-8, height_scale=1e-9, invalid_value=-1.0, has_invalid_value=True)
+        message.header.stamp = rospy.Time(12, 34)
+        with rosbag.Bag(self.bag, "w") as bag:
+            bag.write("/scan_info", message, rospy.Time(12, 50))
+        with contextlib.redirect_stdout(io.StringIO()):
+            self.assertEqual(fixbag2(self.migrator(), self.bag, self.fixed), [])
+        with rosbag.Bag(self.fixed) as bag:
+            (_, new, _), = bag.read_messages()
+        self.assertEqual(new._md5sum, ScanInfo._md5sum)
+        self.assertEqual((new.header.stamp, new.pitch_x, new.pitch_y), (rospy.Time(12, 34), 1e-8, 2e-8))
+        self.assertEqual((new.height_scale, new.invalid_value, new.has_invalid_value), (1e-9, -1.0, True))
+        self.assertEqual((new.scan_name, new.part_id, new.serial_id), ("", "", ""))
+
+    def test_the_batch_reads_scans_that_were_recorded_before(self):
+        old, = (kind for kind in old_classes() if kind._type == "mems_stiction/ScanInfo")
+        heights = np.random.RandomState(1).normal(scale=1e-9, size=(32, 48)).astype(np.float32)
+        rows = {}
+        for name, kind in (("old", old), ("new", ScanInfo)):
+            image = Image(height=32, width=48, encoding="32FC1", step=4 * 48, data=heights.tobytes())
+            info = kind(pitch_x=1e-8, pitch_y=2e-8, height_scale=2.0)
+            image.header.stamp = info.header.stamp = rospy.Time(12, 34)
+            bag_path = self.folder / (name + ".bag")
+            with rosbag.Bag(str(bag_path), "w") as bag:
+                bag.write("/height", image, rospy.Time(12, 50))
+                bag.write("/scan_info", info, rospy.Time(12, 50))
+            subprocess.run([find_node("mems_stiction", "stiction_batch")[0], "-o", str(self.folder / (name + ".jsonl")), str(bag_path)],
+                           check=True, timeout=60, stdout=subprocess.DEVNULL)
+            rows[name] = json.loads((self.folder / (name + ".jsonl")).read_text())
+            rows[name].pop("file")
+        self.assertEqual(rows["new"]["pitch_y"], 2e-8)
+        self.assertEqual(rows["old"], rows["new"])
 
     def test_without_the_rule_the_bag_does_not_play(self):
-        for old_class in old_classes():
+        for old_class in old_predictions():
             self.record(old_class)
             for migrator, plays in ((MessageMigrator([], plugins=False), False), (self.migrator(), True)):
                 invalid_rules = [invalid for _, invalid in checkbag(migrator, self.bag)]

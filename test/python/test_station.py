@@ -39,7 +39,7 @@ class ArgumentsTest(unittest.TestCase):
         self.assertEqual(numbers("0:30:10"), [0.0, 10.0, 20.0, 30.0])
         self.assertEqual(len(numbers("0:1:0.1")), 11)  # 0.1 has no exact form
         self.assertEqual(numbers("0:25:10"), [0.0, 10.0, 20.0])
-        for wrong in ("0:30", "0:30:0", "a,b", ""):
+        for wrong in ("0:30", "0:30:0", "a,b", "", "10:0:5"):
             self.assertRaises(ValueError, numbers, wrong)
 
     def test_long_tables_keep_both_ends(self):

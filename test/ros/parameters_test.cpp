@@ -1,6 +1,7 @@
 #include "mems_stiction/ros/parameters.hpp"
 
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
@@ -74,6 +75,71 @@ TEST(Parameters, TheFrameOfTheCounterSurfaceIsTheNodesAndExcludesAPose) {
   EXPECT_EQ(configuration.node.transform.timeout, 2.0);
   const std::string text = violations("{counter_surface: {frame: chuck, pose: {tilt_x: 0.1}}}");
   EXPECT_NE(text.find("counter_surface/frame"), std::string::npos) << text;
+}
+
+YAML::Node withFile(const std::string& text) {
+  YAML::Node tree;
+  tree["config"]["file"] = "part.yaml";
+  tree["config"]["text"] = text;
+  return tree;
+}
+
+TEST(Parameters, TheTextOfAFileIsReadAsTheCommandLineReadsIt) {
+  const StatedConfiguration stated = statedConfiguration(withFile("part: {id: 0012}\nload: {mechanical_load: 1e-6}\n"));
+  EXPECT_EQ(stated.configuration.core.part.id, "0012");
+  EXPECT_EQ(stated.configuration.core.model.load.mechanical_load, 1e-6);
+  EXPECT_EQ(stated.from_files, (std::vector<std::string>{"load/mechanical_load", "part/id"}));
+  EXPECT_TRUE(stated.overrides.empty());
+}
+
+TEST(Parameters, AKeyThatAFileHasTwiceIsRefusedWithFileAndLines) {
+  try {
+    statedConfiguration(withFile("preprocessing: {level: plane}\npreprocessing: {fill: {enabled: true}}\n"));
+    ADD_FAILURE();
+  } catch (const OptionsError& error) {
+    EXPECT_NE(std::string(error.what()).find("part.yaml: preprocessing: given in line 2 and before in line 1"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(Parameters, WhatIsNoYamlIsNamedByItsFile) {
+  try {
+    statedConfiguration(withFile("load: [1"));
+    ADD_FAILURE();
+  } catch (const OptionsError& error) {
+    EXPECT_EQ(std::string(error.what()).find("part.yaml: not valid YAML"), 0u) << error.what();
+  }
+}
+
+TEST(Parameters, ParametersBesideAFileGoBeforeItAndAreNamed) {
+  YAML::Node tree = withFile("load: {mechanical_load: 1e-6, max_voltage: 20}\n");
+  tree["load"]["mechanical_load"] = "2e-6";
+  const StatedConfiguration stated = statedConfiguration(tree);
+  EXPECT_EQ(stated.configuration.core.model.load.mechanical_load, 2e-6);
+  EXPECT_EQ(stated.overrides, std::vector<std::string>{"load/mechanical_load"});
+  EXPECT_EQ(stated.from_files, std::vector<std::string>{"load/max_voltage"});
+  // What the node itself has put there is the same, and overrides nothing.
+  tree["load"]["mechanical_load"] = "1e-6";
+  EXPECT_TRUE(statedConfiguration(tree).overrides.empty());
+}
+
+TEST(Parameters, WithoutFilesWhatAnEarlierRunHasLeftDoesNotMixWithWhatWasSetSince) {
+  YAML::Node tree = YAML::Load("{load: {mechanical_load: 1e-6, max_voltage: 5}, lower: {hardness: 2e9}}");
+  tree["taken_at_start"] = statedConfiguration(tree).taken;
+  EXPECT_NO_THROW(statedConfiguration(tree));  // started again
+  tree["load"]["max_voltage"] = "6";
+  try {
+    statedConfiguration(tree);
+    ADD_FAILURE();
+  } catch (const OptionsError& error) {
+    ASSERT_EQ(error.violations().size(), 2u) << error.what();
+    EXPECT_EQ(error.violations()[0].find("load/mechanical_load: 1e-6 lies there since an earlier run"), 0u)
+        << error.what();
+    EXPECT_EQ(error.violations()[1].find("lower/hardness"), 0u) << error.what();
+  }
+  const YAML::Node cleared = YAML::Load("{load: {max_voltage: 6}}");
+  EXPECT_EQ(statedConfiguration(cleared).configuration.core.model.load.max_voltage, 6.0);
 }
 
 TEST(Parameters, TheMirrorOfReconfigureIsNoSetting) {

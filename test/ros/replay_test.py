@@ -30,7 +30,7 @@ class ReplayTest(unittest.TestCase):
         make_bag(cls.path, "--count", str(COUNT), "--rows", str(ROWS), "--cols", str(COLS), "--rate", "40",
                  "--rms-height", "1e-9", "8e-9", "--seed", "5")
         with rosbag.Bag(cls.path) as bag:
-            cls.scans = [message for _, message, _ in bag.read_messages(topics=["height"])]
+            cls.scans = [message for _, message, _ in bag.read_messages(topics=["/height"])]
 
     @classmethod
     def tearDownClass(cls):

@@ -52,6 +52,17 @@ TEST_F(ScanPairerTest, PairsByStampInWhicheverOrderTheTopicsDeliver) {
   EXPECT_EQ(pairer_.waiting(), 0U);
 }
 
+TEST_F(ScanPairerTest, NamesTheStampOfAPartnerThatMissesByALittle) {
+  image(1), info(2);
+  wait(6.0);
+  ASSERT_EQ(reasons_.size(), 2U);
+  EXPECT_NE(reasons_[0].find("one came with the stamp 2.000000000, 1 s later"), std::string::npos) << reasons_[0];
+  EXPECT_NE(reasons_[1].find("one came with the stamp 1.000000000, 1 s earlier"), std::string::npos) << reasons_[1];
+  image(10);
+  wait(6.0);
+  EXPECT_EQ(reasons_[2].find("one came"), std::string::npos) << reasons_[2];
+}
+
 TEST_F(ScanPairerTest, RejectsALoneMessageWhenANewerPairPasses) {
   image(1);
   info(2);

@@ -8,7 +8,7 @@ import numpy as np
 import rospy
 import rostest
 from mems_stiction.msg import ScanInfo, StictionPrediction
-from mems_stiction.srv import GetLoad, Predict, SetLoad
+from mems_stiction.srv import GetLoad, Predict, SetLoad, SetMechanicalLoad, SetVoltage
 from std_srvs.srv import Trigger
 from stiction_client import Collector, Counts, Station, figures, image_message, info_message, rough_surface
 
@@ -23,6 +23,8 @@ class ServicesTest(unittest.TestCase):
         for name in ("set_load", "get_load", "predict", "reset_surface"):
             rospy.wait_for_service("stiction_node/" + name, timeout=30.0)
         cls.set_load = rospy.ServiceProxy("stiction_node/set_load", SetLoad)
+        cls.set_voltage = rospy.ServiceProxy("stiction_node/set_voltage", SetVoltage)
+        cls.set_mechanical_load = rospy.ServiceProxy("stiction_node/set_mechanical_load", SetMechanicalLoad)
         cls.get_load = rospy.ServiceProxy("stiction_node/get_load", GetLoad)
         cls.predict = rospy.ServiceProxy("stiction_node/predict", Predict)
         cls.reset_surface = rospy.ServiceProxy("stiction_node/reset_surface", Trigger)
@@ -94,6 +96,42 @@ class ServicesTest(unittest.TestCase):
         after = self.send(surface)
         after.header = before.header
         self.assertEqual(figures(after), figures(before))
+
+    def test_3b_one_load_alone_leaves_the_other_and_says_what_it_changes(self):
+        self.send(rough_surface(3))
+        answer = self.set_voltage(10.0)
+        self.assertTrue(answer.success)
+        self.assert_load(10.0, LOAD)
+        for words in ("voltage from 0 V to 10 V", "mechanical load stays at 1e-06 N", "electrostatic force from 0 N to"):
+            self.assertIn(words, answer.message)
+        self.assertTrue(self.set_mechanical_load(2e-6).success)
+        self.assert_load(10.0, 2e-6)
+        self.assertEqual(self.set_mechanical_load(2e-6).prediction.voltage, 10.0)
+        self.assertIn("~set_voltage leaves it", self.set_load(5.0, 0.0).message)
+        for answer, name in ((self.set_voltage(51.0), "voltage"), (self.set_mechanical_load(math.nan), "mechanical_load")):
+            self.assertFalse(answer.success)
+            self.assertIn(name, answer.message)
+        self.assert_load(5.0, 0.0)
+
+    def test_3c_no_text_breaks_the_columns_of_rostopic_echo(self):
+        prediction = self.send(rough_surface(3))
+        texts = [prediction.reason] + prediction.preprocessing + prediction.warnings + prediction.flags
+        self.assertFalse([text for text in texts if "," in text])
+        self.assertEqual(prediction.scan_name, "scan")
+        self.assertRegex(prediction.settings_hash, "^[0-9a-f]{16}$")
+
+    def test_3d_what_was_scanned_and_slips_of_units_are_in_the_answer(self):
+        info = info_message(rospy.Time(4))
+        info.scan_name, info.part_id, info.serial_id = "place 2", "lot 3", "0012"
+        answer = self.predict(image_message(rough_surface(4), info.header.stamp), info, 0.0, LOAD)
+        self.assertEqual(answer.message, "")
+        prediction = answer.prediction
+        self.assertEqual((prediction.scan_name, prediction.part_id, prediction.serial_id), ("place 2", "lot 3", "0012"))
+        counts = (np.arange(48 * 64) % 251).astype(np.uint8).reshape(48, 64)  # counts that pass for metres
+        answer = self.predict(image_message(counts, info.header.stamp, "mono8"), info, 0.0, LOAD)
+        self.assertTrue(answer.success)
+        self.assertIn("taken for metres", answer.message)
+        self.assertTrue(any("taken for metres" in text for text in answer.prediction.warnings))
 
     def test_4_predict_equals_the_topic_bit_for_bit_and_leaves_no_trace(self):
         surface = rough_surface(4)

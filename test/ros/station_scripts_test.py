@@ -9,6 +9,7 @@ import tempfile
 import time
 import unittest
 
+import dynamic_reconfigure.client
 import rospy
 import rostest
 from mems_stiction.msg import StictionPrediction
@@ -105,6 +106,50 @@ class StationScriptsTest(unittest.TestCase):
         self.assertEqual(float(rows[0]["pull_off_force"]), self.predictions.messages[-1].pull_off_force)
         self.assertGreater(float(rows[0]["largest_change"]), 0.0)
         self.assert_picture("cycles.png")
+
+    def test_3b_a_long_table_says_what_it_does_not_show(self):
+        status, output, errors = run("cycle_contact", "--count", "45", "--csv", self.path("many.csv"))
+        self.assertEqual(status, DONE, errors)
+        self.assertIn("40 of 45 contacts are shown", output)
+        rows = self.rows("many.csv")
+        self.assertEqual(len(rows), 45)
+        self.assertRegex(rows[0]["settings_hash"], "^[0-9a-f]{16}$")
+        self.assertEqual(rows[0]["settings_hash"], self.predictions.messages[-1].settings_hash)
+
+    def test_3c_what_pull_in_lacks_is_named(self):
+        settings = rospy.get_param("stiction_node/device/electrode_area")
+        client = dynamic_reconfigure.client.Client("stiction_node", timeout=30)
+        client.update_configuration({"electrode_area": 0.0})
+        status, output, errors = run("sweep_load", "--voltages", "0")
+        client.update_configuration({"electrode_area": settings})
+        self.assertEqual(status, DONE, errors)
+        self.assertIn("Pull-in voltage: not stated (device/electrode_area)", output)
+
+    def test_3d_a_file_that_cannot_be_written_is_said_before_the_run(self):
+        for option in ("--csv", "--plot"):
+            status, output, errors = run("sweep_load", "--voltages", "0", option, self.path("nowhere/out"))
+            self.assertEqual((status, output), (NOT_RUN, ""))
+            self.assertRegex(errors, r"^sweep_load: %s: \S+ cannot be written: .*\n$" % option)
+
+    def test_3e_without_a_master_the_timeout_holds(self):
+        environment = dict(os.environ, ROS_MASTER_URI="http://localhost:1")
+        for call in (["sweep_load", "--voltages", "0"], ["cycle_contact", "--count", "1"], ["set_load", "--voltage", "1"],
+                     ["print_predictions"]):
+            begin = time.monotonic()
+            done = subprocess.run([find_node("mems_stiction", call[0])[0]] + call[1:] + ["--timeout", "0.5"], env=environment,
+                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True, timeout=60)
+            self.assertNotEqual(done.returncode, 0)
+            self.assertIn("no ROS master at http://localhost:1", done.stderr)
+            self.assertNotIn("Traceback", done.stderr)
+            self.assertLess(time.monotonic() - begin, 30.0)  # a loaded machine starts Python slowly
+
+    def test_3f_set_load_says_what_it_changes(self):
+        status, output, errors = run("set_load", "--voltage", "10")
+        self.assertEqual(status, DONE, errors)
+        for words in ("10.0 V and 1.00 uN from here on, before 0 V and 1.00 uN", "Electrostatic force", "The contact area",
+                      "The pull-off force"):
+            self.assertIn(words, output)
+        self.assertEqual(run("set_load", "--voltage", "0")[0], DONE)
 
     def test_4_ctrl_c_ends_early_and_keeps_what_is_done(self):
         self.station.send(rough_surface(2, rows=128, cols=128))

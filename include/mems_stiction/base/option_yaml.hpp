@@ -5,7 +5,7 @@
 ///
 /// Keys are either nested maps or flat names with slashes: `lower: {hardness: 12e9}` and `lower/hardness: 12e9` are the
 /// same. Every key supplied must belong to exactly one described field, so that a typing error is an error and not a
-/// default. Numbers may be quoted: PyYAML and rosparam hand over `1e-9` as a string.
+/// default. A key that one map has twice is an error that names both lines. Numbers may be quoted: PyYAML and rosparam hand over `1e-9` as a string.
 ///
 ///     applyYaml(YAML::Load(text), [&](OptionVisitor& visitor) {
 ///       configuration.describe(visitor);
@@ -33,7 +33,10 @@ using DescribeFunction = std::function<void(OptionVisitor&)>;
 /// well. A number out of range has been stored; after any violation the fields are not fit for use.
 std::vector<std::string> readYaml(const YAML::Node& tree, const DescribeFunction& describe);
 
-/// The same. @throw OptionsError with the lines of readYaml(), if there are any.
+/// The keys that the tree states, nested ones with slashes, in its order.
+std::vector<std::string> keysOf(const YAML::Node& tree);
+
+/// The same as readYaml(). @throw OptionsError with the lines of readYaml(), if there are any.
 void applyYaml(const YAML::Node& tree, const DescribeFunction& describe);
 
 /// Every described field as nested YAML, its unit, range and meaning beside it as a comment. Reads back by applyYaml().

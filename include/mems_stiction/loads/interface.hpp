@@ -24,10 +24,20 @@ struct InterfaceOptions {
 struct LoadOptions {
   double voltage = 0.0;              ///< U [V], |U| <= max_voltage
   double mechanical_load = 0.0;      ///< F_m, pressing, on the scanned area [N], in [0, max_mechanical_load]
+  double pressure = 0.0;             ///< instead of it: pressing, per nominal area [Pa], >= 0
+  double device_force = 0.0;         ///< instead of both: pressing the whole device together [N], >= 0
   double max_voltage = 1000.0;       ///< [V], > 0
   double max_mechanical_load = 1.0;  ///< [N], > 0
 
   void describe(OptionVisitor& visitor);
+
+  /// Whether the load is stated by what is to be scaled to a frame; models take a mechanical_load alone.
+  bool isPerArea() const { return pressure > 0.0 || device_force > 0.0; }
+  /// In place of whatever pressed before [N].
+  void setMechanicalLoad(double newtons) {
+    mechanical_load = newtons;
+    pressure = device_force = 0.0;
+  }
 };
 
 }  // namespace mems_stiction

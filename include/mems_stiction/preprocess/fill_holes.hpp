@@ -30,7 +30,8 @@ struct FillOptions {
 /// @throw SurfaceError naming the fraction and the limit if too much is missing, or if no pixel is valid.
 HeightMap withFilledHoles(const HeightMap& surface, const FillOptions& options);
 /// The same where the heights lie.
-HeightChange fillHoles(WorkingSurface& surface, const FillOptions& options);
+/// - @p outside not 0 at pixels that do not belong to the frame: they are neither filled nor counted; empty = none
+HeightChange fillHoles(WorkingSurface& surface, const FillOptions& options, const cv::Mat& outside = {});
 
 /// Fills the marked pixels, whatever their number.
 /// - @p heights rows x cols CV_64FC1 [m], NaN where missing

@@ -7,7 +7,8 @@
 ///
 /// | step      | what                              | why here                                                      |
 /// |-----------|-----------------------------------|---------------------------------------------------------------|
-/// | offset    | stage_offset.hpp                  | first, so that everything after it has all its digits         |
+/// | region    | region.hpp                        | first: what does not count bears on no other step             |
+/// | offset    | stage_offset.hpp                  | early, so that everything after it has all its digits         |
 /// | lines     | line_alignment.hpp                | medians do not mind spikes; spikes show only on aligned lines |
 /// | spikes    | spike_removal.hpp                 | leaves holes                                                  |
 /// | fill      | fill_holes.hpp                    | closes missing pixels and those holes                         |
@@ -33,6 +34,7 @@
 #include "mems_stiction/preprocess/line_alignment.hpp"
 #include "mems_stiction/preprocess/low_pass.hpp"
 #include "mems_stiction/preprocess/refine.hpp"
+#include "mems_stiction/preprocess/region.hpp"
 #include "mems_stiction/preprocess/spike_removal.hpp"
 #include "mems_stiction/preprocess/stage_offset.hpp"
 #include "mems_stiction/preprocess/tip_correction.hpp"
@@ -42,6 +44,7 @@ namespace mems_stiction {
 
 /// Settings of every step; each is off by default.
 struct PipelineOptions {
+  RegionOptions region;
   StageOffsetOptions offset;
   LineAlignmentOptions lines;
   SpikeOptions spikes;
@@ -72,13 +75,15 @@ struct PreprocessRecord {
 struct CleanedScan {
   HeightMap surface;
   PreprocessRecord record;
+  cv::Mat outside;  ///< not 0 where a pixel lies outside the region, CV_8UC1; empty without one
 };
 
 /// Cleans scan after scan in the same memory. One object serves one thread at a time.
 class ScanCleaner {
  public:
   ScanCleaner() = default;
-  /// @throw OptionsError with the lines of validate(), if there are any.
+  /// Reads the files of the region.
+  /// @throw OptionsError with the lines of validate(), if there are any, or naming a file that cannot be used.
   explicit ScanCleaner(const PipelineOptions& options);
 
   const PipelineOptions& options() const { return options_; }
@@ -93,6 +98,7 @@ class ScanCleaner {
 
  private:
   PipelineOptions options_;
+  Region region_;
   WorkingSurface work_;
   CleanedScan cleaned_;
 };
@@ -101,7 +107,7 @@ class ScanCleaner {
 /// @throw OptionsError, SurfaceError as ScanCleaner does.
 CleanedScan cleanScan(const HeightMap& scan, const PipelineOptions& options);
 
-/// "spikes (threshold=6 window=5): rms change 1.2e-10 m, 14 pixels changed" per step, for people and logs.
+/// "spikes (threshold=6 window=5): rms change 1.2e-10 m; 14 pixels changed" per step, for people and logs.
 std::vector<std::string> recordLines(const PreprocessRecord& record);
 
 }  // namespace mems_stiction

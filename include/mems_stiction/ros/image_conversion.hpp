@@ -12,6 +12,7 @@
 #include "mems_stiction/ScanInfo.h"
 #include "mems_stiction/height_map/height_map.hpp"
 #include "mems_stiction/height_map/raw_scan.hpp"
+#include "mems_stiction/scan/provenance.hpp"
 #include "mems_stiction/surface/alignment.hpp"
 
 namespace mems_stiction {
@@ -21,6 +22,7 @@ struct ReceivedScan {
   std_msgs::Header header;
   HeightMap surface;                                ///< holds the message, where it shows its pixels
   std::optional<SurfacePose> counter_surface_pose;  ///< at the scan's stamp; none = as configured
+  ScanIdentity identity;                            ///< as the scan states it
 };
 
 /// The encodings that carry heights, for messages: "32FC1, 64FC1, ...".
@@ -32,6 +34,10 @@ ScanOptions scanOptions(const ScanInfo& info, const ScanOptions& parameters);
 
 /// The message that reads back as `options`.
 ScanInfo scanInfoMessage(const ScanOptions& options, const std_msgs::Header& header);
+
+/// What the messages say of what was scanned: without a scan_name the frame_id is it.
+/// - @p info null: there is none.
+ScanIdentity identityOf(const std_msgs::Header& header, const ScanInfo* info);
 
 /// Shares the pixels of 32FC1 and 64FC1 in this machine's byte order with scale 1, offset 0 and no invalid value;
 /// copies otherwise. The image's memory is never written to.

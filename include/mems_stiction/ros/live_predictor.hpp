@@ -23,6 +23,7 @@ namespace mems_stiction {
 /// What a long run on one scan needs, so that it can go its own way while scans are predicted.
 struct StationCase {
   std_msgs::Header header;           ///< of the scan
+  ScanIdentity identity;             ///< what was scanned
   PreparedScan scan;                 ///< as the contacts before have left it, if it is the last one
   SettingsOwner::Snapshot settings;  ///< of the time when it was asked for
 };
@@ -84,7 +85,7 @@ class LivePredictor {
   void setPoseOf(const ReceivedScan& scan);
   void requireCounterSurface() const;
   /// The prediction with `options` set before, and its verdict.
-  PredictedScan judged(const PreparedScan& prepared, const Configuration& settings,
+  PredictedScan judged(const PreparedScan& prepared, const Configuration& settings, const ScanIdentity& identity,
                        const std::vector<std::string>& warnings);
 
   SettingsOwner settings_;

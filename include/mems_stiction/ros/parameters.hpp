@@ -5,6 +5,7 @@
 /// namespace by the same tables and the same reader as a configuration file.
 
 #include <string>
+#include <vector>
 
 #include <ros/node_handle.h>
 #include <xmlrpcpp/XmlRpcValue.h>
@@ -56,7 +57,7 @@ struct NodeOptions {
   double pairing_timeout = 5.0;         ///< how long a scan and its scan_info wait for each other [s], wall time
   bool accumulate_deformation = false;  ///< each contact leaves its mark on the scans that follow
   double diagnostic_period = 1.0;       ///< between messages on /diagnostics [s], wall time
-  double warning_period = 5.0;          ///< at most one warning about scans in so long a time [s], wall time
+  double warning_period = 5.0;          ///< at most one warning of a kind in so long a time [s], wall time
   TransformOptions transform;
   DisplayOptions display;
 
@@ -75,12 +76,28 @@ struct NodeConfiguration {
 /// @throw OptionsError naming the key of a value that YAML has no form for (dates, binary data).
 YAML::Node yamlFromParameters(XmlRpc::XmlRpcValue tree);
 
+/// What a namespace says.
+struct StatedConfiguration {
+  NodeConfiguration configuration;
+  std::vector<std::string> from_files;  ///< keys that the text of a configuration file states, and nothing else
+  std::string taken;                    ///< without files: all that was stated, for the next start to compare with
+  std::vector<std::string> overrides;   ///< keys that stand beside such texts and go before them
+};
+
+/// Texts of configuration files, `node_config/text` and `config/text` (their names: `.../file`), are read as
+/// predict_scan reads the file, the second over the first. The other keys go before both. Without such texts, what an
+/// earlier run has taken and left (`taken_at_start`) must not mix with what was set since.
 /// @param tree a map; keys of image_transport's own (`image_transport`, `<topic>/disable_pub_plugins`,
 ///        `<topic>/<plugin>/...`) and the mirror of dynamic_reconfigure are passed over.
-/// @throw OptionsError one line per unknown key, wrong type, unphysical value or combination.
+/// @throw OptionsError one line per unknown key, key given twice, wrong type, unphysical value or combination; lines
+///        about a file name it.
+StatedConfiguration statedConfiguration(const YAML::Node& tree);
+
+/// The configuration alone.
 NodeConfiguration nodeConfigurationFromYaml(const YAML::Node& tree);
 
-/// Reads the private namespace. @throw OptionsError as above.
+/// Reads the private namespace, and puts what files state beside their texts, where scripts look for it.
+/// @throw OptionsError as above.
 NodeConfiguration readParameters(const ros::NodeHandle& private_handle);
 
 }  // namespace mems_stiction

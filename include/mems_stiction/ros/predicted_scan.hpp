@@ -9,6 +9,7 @@
 #include "mems_stiction/contact/curve_point.hpp"
 #include "mems_stiction/prediction/prediction.hpp"
 #include "mems_stiction/preprocess/pipeline.hpp"
+#include "mems_stiction/scan/provenance.hpp"
 #include "mems_stiction/verdict/verdict.hpp"
 
 namespace mems_stiction {
@@ -19,7 +20,8 @@ struct PredictedScan {
   Verdict verdict;                    ///< on the device, from this prediction
   PreprocessRecord preprocessing;     ///< what was done to the scan before
   std::string formulation;            ///< approach/formulation
-  std::vector<std::string> warnings;  ///< about the scan, in words
+  std::vector<std::string> warnings;  ///< about scan and settings, in words
+  Provenance provenance;              ///< what was scanned, and what it was predicted with
   std::vector<CurvePoint> curve;      ///< force over height; empty if the formulation does not follow it
 };
 

@@ -5,6 +5,7 @@
 /// with a reason and a throttled warning. May be called from every thread.
 
 #include <cstdint>
+#include <map>
 #include <mutex>
 #include <string>
 
@@ -30,7 +31,7 @@ struct ScanCounts {
 /// Counts, warns and reports.
 class ScanAccounting {
  public:
-  /// @param warning_period at most one warning in so long a time.
+  /// @param warning_period at most one warning of a kind in so long a time.
   explicit ScanAccounting(ros::WallDuration warning_period);
 
   void received(const std_msgs::Header& header);
@@ -49,15 +50,21 @@ class ScanAccounting {
   void report(diagnostic_updater::DiagnosticStatusWrapper& status);
 
  private:
-  void warnThrottled(const std::string& text);
+  /// When one kind was shown last, and how many were not since.
+  struct Throttle {
+    ros::WallTime last_shown;
+    std::uint64_t suppressed = 0;
+  };
+
+  /// @param kind the text without the scan; figures in it do not matter
+  void warnThrottled(const std::string& kind, const std::string& text);
 
   const ros::WallDuration warning_period_;
   mutable std::mutex mutex_;
   ScanCounts counts_;
   ScanCounts reported_;
   ros::WallTime last_report_;
-  ros::WallTime last_warning_;
-  std::uint64_t suppressed_warnings_ = 0;
+  std::map<std::string, Throttle> throttles_;  ///< by kind
   std::string last_reason_;
   bool has_previous_ = false;
   std_msgs::Header previous_;

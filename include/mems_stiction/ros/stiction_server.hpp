@@ -9,6 +9,7 @@
 /// themselves.
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,6 +24,8 @@
 #include "mems_stiction/GetLoad.h"
 #include "mems_stiction/Predict.h"
 #include "mems_stiction/SetLoad.h"
+#include "mems_stiction/SetMechanicalLoad.h"
+#include "mems_stiction/SetVoltage.h"
 #include "mems_stiction/ros/counter_surface_frame.hpp"
 #include "mems_stiction/ros/half_space_calls.hpp"
 #include "mems_stiction/ros/half_space_stream.hpp"
@@ -75,6 +78,13 @@ class StictionServer {
   void change(const RunningSettings& settings);
 
   bool setLoad(SetLoad::Request& request, SetLoad::Response& response);
+  bool setVoltage(SetVoltage::Request& request, SetVoltage::Response& response);
+  bool setMechanicalLoad(SetMechanicalLoad::Request& request, SetMechanicalLoad::Response& response);
+  /// @param set makes the load that is asked for of the one that is set @param response as of the three services
+  template <typename Response>
+  void changeLoad(const std::function<void(LoadOptions&)>& set, Response& response);
+  /// On the worker: nothing also when the last scan cannot be predicted.
+  std::optional<PredictedScan> lastScanOrNothing();
   bool getLoad(GetLoad::Request& request, GetLoad::Response& response);
   bool predict(Predict::Request& request, Predict::Response& response);
   bool resetSurface(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);

@@ -30,6 +30,8 @@ inline constexpr char kContactMapsTopic[] = "contact_maps";
 
 // Services, in the node's private namespace
 inline constexpr char kSetLoadService[] = "set_load";
+inline constexpr char kSetVoltageService[] = "set_voltage";
+inline constexpr char kSetMechanicalLoadService[] = "set_mechanical_load";
 inline constexpr char kGetLoadService[] = "get_load";
 inline constexpr char kPredictService[] = "predict";
 inline constexpr char kResetSurfaceService[] = "reset_surface";

@@ -12,6 +12,7 @@
 #include "mems_stiction/prediction/options.hpp"
 #include "mems_stiction/preprocess/pipeline.hpp"
 #include "mems_stiction/roughness/spatial_roughness.hpp"
+#include "mems_stiction/scan/provenance.hpp"
 #include "mems_stiction/scan/resolution.hpp"
 #include "mems_stiction/surface/counter_surface.hpp"
 #include "mems_stiction/verdict/device_options.hpp"
@@ -23,6 +24,7 @@ namespace mems_stiction {
 struct Configuration {
   Options model;
   SpatialRoughnessOptions spatial_roughness;
+  PartOptions part;
   ScanOptions scan;
   ResolutionOptions resolution;
   PipelineOptions preprocessing;

@@ -29,6 +29,7 @@ struct PreparedScan {
   SurfacePair model_surfaces;          ///< the same for the model: on a finer grid if preprocessing/refine asks for it
   int refinement = 1;                  ///< cells of the model along a pixel of the scan [-]
   PreprocessRecord record;             ///< what was done to the scan
+  cv::Mat outside;                     ///< pixels of the scan that preprocessing/region leaves out; empty = none
   ArealParameters roughness;           ///< of model_surfaces.lower, if output/roughness asks for it
   SpatialRoughness spatial_roughness;  ///< of surfaces.lower; NaN unless output/spatial_roughness asks for it
   double preparation_time = 0.0;       ///< wall time of prepare() [s], part of the time of the scan's prediction

@@ -13,6 +13,7 @@
 #include "mems_stiction/preprocess/pipeline.hpp"
 #include "mems_stiction/scan/cleaning_spread.hpp"
 #include "mems_stiction/scan/convergence.hpp"
+#include "mems_stiction/scan/provenance.hpp"
 #include "mems_stiction/verdict/verdict.hpp"
 
 namespace mems_stiction {
@@ -22,6 +23,8 @@ struct RecordExtras {
   std::string channel;                        ///< which channel of the file
   std::string formulation;                    ///< that the prediction is of
   std::optional<Verdict> verdict;             ///< on the device
+  std::optional<Provenance> provenance;       ///< version, hash of the settings, what was scanned
+  std::vector<std::string> warnings;          ///< about scan and settings: a list of texts, in JSON alone
   bool has_curve = false;                     ///< the prediction's curve, as a list of maps
   PreprocessRecord preprocessing;             ///< a list of maps: step, parameters, rms_change, changed_pixels, ...
   std::vector<ConvergenceRow> convergence;    ///< a list of maps, one per resolution

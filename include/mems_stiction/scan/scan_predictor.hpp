@@ -33,10 +33,12 @@ class ScanPredictor {
   const ScanPreparer& preparer() const { return preparer_; }
 
   /// What the model is told beside the surfaces. Roughness is the preparation's: output/roughness is of no effect here.
-  const Options& options() const { return model_.options(); }
+  const Options& options() const { return options_; }
   /// For the next predictions; prepared scans stay good. @throw OptionsError naming each refused value; then nothing
   /// changes.
   void setOptions(const Options& options);
+  /// What load/device_force is scaled with, for the next predictions.
+  void setDevice(const DeviceOptions& device) { device_ = device; }
 
   /// @throw SurfaceError if the two surfaces do not fit.
   Prediction predict(const PreparedScan& prepared);
@@ -53,6 +55,8 @@ class ScanPredictor {
 
  private:
   ScanPreparer preparer_;
+  Options options_;  ///< as they are stated: a load may be per area
+  DeviceOptions device_;
   AdhesionModel model_;
   double min_contact_pixels_;
   double tip_radius_;  ///< of the tip that drew the scan [m]; 0 = not known

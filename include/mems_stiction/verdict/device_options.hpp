@@ -47,5 +47,7 @@ struct DeviceOptions {
 /// gap), the voltage that holds the spring at the end of its travel. NaN when spring, travel or electrode area are not
 /// stated; the electrode's field has no fringes.
 double closingVoltage(const DeviceOptions& device, const InterfaceOptions& interface);
+/// The settings that it lacks: "device/travel", "device/travel and device/electrode_area", ...; empty when it is known.
+std::string whatPullInLacks(const DeviceOptions& device);
 
 }  // namespace mems_stiction

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "mems_stiction/prediction/prediction.hpp"
 
@@ -39,5 +40,7 @@ std::uint32_t regimeFlags(const Prediction& prediction, double cell_area);
 
 /// "bonded, tabor": the names of the flags set, in the order above; empty when none is.
 std::string regimeFlagNames(std::uint32_t flags);
+/// The same one by one.
+std::vector<std::string> regimeFlagList(std::uint32_t flags);
 
 }  // namespace mems_stiction

@@ -121,7 +121,7 @@ TEST(Pipeline, recordsWhatEachStepDidInTheOrderOfTheTable) {
   EXPECT_EQ(prepared.surface.rows(), 192);
   const std::vector<std::string> lines = recordLines(prepared.record);
   ASSERT_EQ(lines.size(), 8u);
-  EXPECT_EQ(lines[2], "spikes (threshold=6 window=5): rms change 0 m, 1 pixels changed");
+  EXPECT_EQ(lines[2], "spikes (threshold=6 window=5): rms change 0 m; 1 pixels changed");
   EXPECT_NE(lines[4].find("fraction not reached"), std::string::npos);
 }
 

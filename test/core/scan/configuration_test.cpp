@@ -180,6 +180,24 @@ TEST(Configuration, AKeyGivenTwiceIsRefused) {
   EXPECT_TRUE(mentions(line, "lower/hardness: '2e9' is given beside '1e9'")) << line;
 }
 
+TEST(Configuration, ASectionGivenTwiceIsRefusedWithBothLines) {
+  const std::string line =
+      refusal("preprocessing:\n  level: plane\nlower: {hardness: 1e9}\npreprocessing:\n  fill: {}\n");
+  EXPECT_TRUE(mentions(line, "preprocessing: given in line 4 and before in line 1")) << line;
+  const std::string inner = refusal("lower:\n  hardness: 1e9\n  hardness: 1e9\n");
+  EXPECT_TRUE(mentions(inner, "lower/hardness: given in line 3 and before in line 2")) << inner;
+}
+
+TEST(Configuration, WhatReadersOfYamlTakeForDifferentNumbersIsRefused) {
+  EXPECT_TRUE(mentions(refusal("lower: {hardness: 010}"), "lower/hardness: '010' is not allowed"));
+  EXPECT_EQ(configurationFromYaml(YAML::Load("load: {max_voltage: 0.5}")).model.load.max_voltage, 0.5);
+}
+
+TEST(Configuration, ADecimalCommaIsNamed) {
+  EXPECT_TRUE(mentions(refusal("load:\n  max_voltage: 0,05\n"), "write 0.05: the decimal sign is a point"));
+  EXPECT_TRUE(mentions(refusal("load: {max_voltage: 0,05}"), "is it behind a decimal comma?"));
+}
+
 TEST(Configuration, OtherTablesUseTheSameReader) {
   Configuration configuration;
   int queue_size = 10;

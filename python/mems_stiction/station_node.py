@@ -1,0 +1,45 @@
+"""How a command line becomes a node: without a master it gives up in time, and what it is to write can be written."""
+
+import os
+import sys
+import time
+
+import rosgraph
+import rospy
+
+
+class CannotRun(Exception):
+    """There is no master, no node, no place to write to, or the node has refused the goal; the text says why."""
+
+
+def become_node(name, timeout, **options):
+    """rospy.init_node() for a node of its own name, which alone would wait for a master for ever."""
+    end = time.monotonic() + timeout
+    while not rosgraph.is_master_online():
+        if time.monotonic() > end:
+            raise CannotRun("no ROS master at %s for %g s: is roscore or roslaunch running?" % (rosgraph.get_master_uri(), timeout))
+        time.sleep(0.1)
+    rospy.init_node(name, anonymous=True, **options)
+
+
+def require_writable(option, path):
+    """Before a long run, not after it."""
+    if not path:
+        return
+    is_new = not os.path.exists(path)
+    try:
+        with open(path, "ab"):
+            pass
+        if is_new:
+            os.remove(path)
+    except OSError as error:
+        raise CannotRun("%s: %s cannot be written: %s" % (option, path, error.strerror or error))
+
+
+def run_program(program, main, status):
+    """The whole of a script: main(), its exit status, and one line for what goes wrong on the way."""
+    try:
+        sys.exit(main())
+    except (CannotRun, OSError) as error:
+        print("%s: %s" % (program, " ".join(str(error).split())), file=sys.stderr)
+        sys.exit(status)
