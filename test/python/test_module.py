@@ -437,7 +437,8 @@ class TypeTest(unittest.TestCase):
         except ImportError:
             self.skipTest("mypy is not installed")
         files = sorted(str(path) for path in (REPOSITORY / "python" / "mems_stiction").glob("_*.py*"))
-        files = [path for path in files if not path.endswith("__init__.py")] + [str(REPOSITORY / "test" / "python" / "module_use.py")]
+        files = [path for path in files if not path.endswith("__init__.py")] + [
+            str(REPOSITORY / "python" / "mems_stiction" / "archive.py"), str(REPOSITORY / "test" / "python" / "module_use.py")]
         with tempfile.TemporaryDirectory() as cache:
             out, err, status = mypy.api.run(["--config-file", str(REPOSITORY / "pyproject.toml"), "--cache-dir", cache] + files)
         self.assertEqual(status, 0, out + err)
