@@ -26,7 +26,7 @@ class CmakeBuild(build_ext):
     def build_extension(self, extension):
         folder = pathlib.Path(os.environ.get("MEMS_STICTION_BUILD_FOLDER", self.build_temp)).resolve()
         settings = {"MEMS_STICTION_WITH_ROS": "OFF", "MEMS_STICTION_BUILD_TESTS": "OFF", "MEMS_STICTION_WITH_PYTHON": "ON",
-                    "PYTHON_EXECUTABLE": sys.executable, "CMAKE_BUILD_WITH_INSTALL_RPATH": "ON", "CMAKE_INSTALL_RPATH": "$ORIGIN"}
+                    "PYTHON_EXECUTABLE": os.path.realpath(sys.executable), "CMAKE_BUILD_WITH_INSTALL_RPATH": "ON", "CMAKE_INSTALL_RPATH": "$ORIGIN"}
         folder.mkdir(parents=True, exist_ok=True)
         subprocess.check_call(["cmake", "-S", str(SOURCE), "-B", str(folder)]
                               + ["-D%s=%s" % setting for setting in settings.items()])
