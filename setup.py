@@ -7,7 +7,6 @@ where that is done and kept, in place of one below build/.
 
 import os
 import pathlib
-import shutil
 import subprocess
 import sys
 import xml.etree.ElementTree
@@ -26,16 +25,14 @@ class CmakeBuild(build_ext):
     def build_extension(self, extension):
         folder = pathlib.Path(os.environ.get("MEMS_STICTION_BUILD_FOLDER", self.build_temp)).resolve()
         settings = {"MEMS_STICTION_WITH_ROS": "OFF", "MEMS_STICTION_BUILD_TESTS": "OFF", "MEMS_STICTION_WITH_PYTHON": "ON",
-                    "PYTHON_EXECUTABLE": os.path.realpath(sys.executable), "CMAKE_BUILD_WITH_INSTALL_RPATH": "ON", "CMAKE_INSTALL_RPATH": "$ORIGIN"}
+                    "PYTHON_EXECUTABLE": os.path.realpath(sys.executable)}
         folder.mkdir(parents=True, exist_ok=True)
         subprocess.check_call(["cmake", "-S", str(SOURCE), "-B", str(folder)]
                               + ["-D%s=%s" % setting for setting in settings.items()])
         subprocess.check_call(["cmake", "--build", str(folder), "--target", "mems_stiction_python",
                                "--parallel", os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL", str(os.cpu_count() or 1))])
-        target = pathlib.Path(self.get_ext_fullpath(extension.name)).resolve()
-        target.parent.mkdir(parents=True, exist_ok=True)
-        for built in (*(folder / "python" / "mems_stiction").glob("_core.*.so"), folder / "libmems_stiction.so"):
-            shutil.copy2(str(built), str(target.parent / built.name))
+        package = pathlib.Path(self.get_ext_fullpath(extension.name)).resolve().parent
+        subprocess.check_call(["cmake", "--install", str(folder), "--component", "wheel", "--prefix", str(package)])
 
 
 setup(name=PACKAGE.findtext("name"), version=PACKAGE.findtext("version"),
