@@ -10,7 +10,7 @@ import numpy as np
 
 from mems_stiction import _core
 from mems_stiction._arrays import Pitch, Surface, array_of, pitch_of, surface_of
-from mems_stiction._settings import Config, Settings
+from mems_stiction._settings import Config, Settings, SurfaceError
 from mems_stiction.quantities import with_unit
 
 
@@ -171,6 +171,21 @@ def clean(heights: Any, pitch: Optional[Pitch] = None, config: Optional[Config] 
     cleaned = Cleaned(surface._replace(core=core), surface.channel)
     cleaned.steps = steps
     return cleaned
+
+
+def generate(shape: Tuple[int, int], pitch: Pitch, config: Optional[Config] = None, **settings: Any) -> Scan:
+    """Random heights of the kind that counter_surface/... describes, as a probe would see them, asperities up.
+
+        generate((256, 256), 10e-9, counter_surface={"type": "self_affine", "seed": 2, "self_affine": {"rms_height": 3e-9}})
+
+    shape: (rows, columns). The same shape, settings and seed give the same surface.
+    Raises OptionsError for another type than gaussian or self_affine, SurfaceError for lengths that the grid cannot have.
+    """
+    rows, columns = (int(count) for count in shape)
+    if rows < 1 or columns < 1:
+        raise SurfaceError("shape: %r is not allowed, must be (rows, columns), both >= 1" % (shape,))
+    checked = Settings(config, **settings)
+    return Scan(Surface(_core.generate(rows, columns, *pitch_of(pitch), checked._configuration), "", False))
 
 
 def roughness(heights: Any, pitch: Optional[Pitch] = None, config: Optional[Config] = None, *, spatial: bool = True,

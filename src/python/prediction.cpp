@@ -2,6 +2,7 @@
 
 #include <pybind11/stl.h>
 
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -23,6 +24,9 @@ namespace {
 
 namespace py = pybind11;
 
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr ArealParameters kNoRoughness = {kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone};
+
 /// A prediction with all that its record holds.
 struct PredictedScan {
   HeightMap scan;        ///< as it came
@@ -38,7 +42,7 @@ using Predicted = std::shared_ptr<PredictedScan>;
 class Predictor {
  public:
   explicit Predictor(Configuration configuration)
-      : configuration_(withRoughness(std::move(configuration))), predictor_(configuration_) {}
+      : configuration_(std::move(configuration)), predictor_(configuration_) {}
 
   /// - @p counter_surface that was measured beside the scan; null: the configured one
   Predicted predict(const HeightMap& scan, const HeightMap* counter_surface) {
@@ -50,6 +54,7 @@ class Predictor {
     predicted->scan = scan;
     predicted->surfaces = prepared.surfaces;
     predicted->prediction = predictor_.predict(prepared);
+    if (!configuration_.model.output.roughness) predicted->prediction.roughness = kNoRoughness;
     predicted->extras.formulation = predictor_.options().formulation;
     predicted->extras.preprocessing = prepared.record;
     if (configuration_.device.isStated()) {
@@ -62,11 +67,6 @@ class Predictor {
   }
 
  private:
-  static Configuration withRoughness(Configuration configuration) {
-    configuration.model.output.roughness = true;
-    return configuration;
-  }
-
   Configuration configuration_;
   ScanPredictor predictor_;
   std::mutex mutex_;

@@ -7,12 +7,14 @@
 #include "bindings.hpp"
 #include "figures.hpp"
 #include "memory.hpp"
+#include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/height_map/scan_sanity.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 #include "mems_stiction/preprocess/pipeline.hpp"
 #include "mems_stiction/roughness/areal_parameters.hpp"
 #include "mems_stiction/roughness/spatial_roughness.hpp"
 #include "mems_stiction/scan/configuration.hpp"
+#include "mems_stiction/surface/counter_surface.hpp"
 #include "preprocess_steps.hpp"
 
 namespace mems_stiction {
@@ -92,6 +94,17 @@ py::dict roughnessUnits() {
   return fields.units;
 }
 
+/// A generated surface as a probe would see it, asperities up.
+HeightMap generated(int rows, int cols, double pitch_x, double pitch_y, const Configuration& configuration) {
+  const CounterSurfaceOptions& options = configuration.counter_surface;
+  if (!options.isGenerated()) {
+    throw OptionsError({"counter_surface/type: only gaussian and self_affine are generated"});
+  }
+  const py::gil_scoped_release unlocked;
+  const HeightMap grid(cv::Mat::zeros(rows, cols, CV_64FC1), pitch_x, pitch_y);
+  return turnedOver(generatedCounterSurface(grid, options));
+}
+
 }  // namespace
 
 void bindScans(py::module& module) {
@@ -104,6 +117,7 @@ void bindScans(py::module& module) {
   module.def("channels", &channelsOf);
   module.def("clean", &cleaned);
   module.def("roughness", &roughnessOf);
+  module.def("generate", &generated);
   module.def("roughness_units", &roughnessUnits);
 }
 

@@ -244,6 +244,26 @@ class ArrayTest(unittest.TestCase):
         self.assertEqual(back.pull_off_force, mems_stiction.predict(cleaned).pull_off_force)
 
 
+class GeneratedTest(unittest.TestCase):
+    def test_surfaces_are_those_that_the_counter_surface_is_made_of(self):
+        for kind in ("gaussian", "self_affine"):
+            settings = {"type": kind, "seed": 3, kind: {"rms_height": 2e-9}}
+            scan = mems_stiction.generate((64, 48), PITCH, counter_surface=settings)
+            self.assertEqual(scan.heights.shape, (64, 48))
+            self.assertAlmostEqual(scan.heights.std() / 2e-9, 1.0, delta=1e-6)  # scaled to it
+            self.assertTrue(np.array_equal(scan.heights, mems_stiction.generate((64, 48), PITCH, counter_surface=settings).heights))
+            flat = np.zeros((64, 48))
+            drawn = mems_stiction.predict(flat, PITCH, counter_surface=settings)
+            given = mems_stiction.predict(flat, PITCH, upper=scan, counter_surface={"facing": "up"})
+            self.assertEqual(without_times(given.to_dict()), without_times(drawn.to_dict()))
+
+    def test_what_cannot_be_generated_is_named(self):
+        with self.assertRaisesRegex(mems_stiction.OptionsError, "counter_surface/type"):
+            mems_stiction.generate((64, 48), PITCH)
+        with self.assertRaisesRegex(mems_stiction.SurfaceError, "shape"):
+            mems_stiction.generate((0, 48), PITCH, counter_surface={"type": "gaussian"})
+
+
 class WrongInputTest(unittest.TestCase):
     def test_each_is_named_with_what_is_allowed(self):
         good = rough(20, 30)
