@@ -258,6 +258,13 @@ class Prediction:
         """The same as a dictionary: for tables and files. None stands for what is not finite."""
         return json.loads(self.json())
 
+    def spread(self, config: Optional[Config] = None, **settings: Any) -> np.ndarray:
+        """Pull-off forces over this one, of samples of the uncertain constants (uncertainty/...), in ascending order: what
+        the margin's interval is made of. Settings are those of the prediction. Empty without a list of contacts."""
+        if self._core is None:
+            raise RuntimeError("a prediction that came from another process has no contacts to draw from")
+        return np.array(self._core.spread(Settings(config, **settings)._configuration))
+
     def save_picture(self, path: Union[str, "os.PathLike[str]"]) -> None:
         """PNG: heights, contacts by regime, cross-section through the contact that carries most."""
         from mems_stiction import _pictures, plots

@@ -188,6 +188,17 @@ def generate(shape: Tuple[int, int], pitch: Pitch, config: Optional[Config] = No
     return Scan(Surface(_core.generate(rows, columns, *pitch_of(pitch), checked._configuration), "", False))
 
 
+def decimate(heights: Any, pitch: Optional[Pitch] = None, *, factor: int) -> Scan:
+    """A coarser scan, as an instrument with larger pixels would see it: means over factor x factor pixels. A block with
+    fewer than half of its pixels measured is missing; rows and columns beyond the last whole block are left out.
+    Raises SurfaceError if there is no whole block.
+    """
+    if not isinstance(factor, (int, np.integer)) or factor < 1:
+        raise SurfaceError("factor: %r is not allowed, must be an integer >= 1" % (factor,))
+    surface = surface_of(heights, pitch, Settings())
+    return Scan(surface._replace(core=_core.decimate(surface.core, int(factor))), surface.channel)
+
+
 def roughness(heights: Any, pitch: Optional[Pitch] = None, config: Optional[Config] = None, *, spatial: bool = True,
               **settings: Any) -> Roughness:
     """Figures of ISO 25178-2, spectrum and summits of a surface as it is given.

@@ -143,6 +143,12 @@ Records heightCurveOf(const Predicted& predicted) {
                    predicted);
 }
 
+/// Pull-off force over the prediction's, of samples of the uncertain constants, ascending; empty without a list of contacts.
+std::vector<double> spreadOf(const PredictedScan& predicted, const Configuration& configuration) {
+  const py::gil_scoped_release unlocked;
+  return adhesionSpread(predicted.prediction, configuration.model, configuration.uncertainty).pull_off;
+}
+
 /// {"prediction": {name: unit}, "verdict": ...}
 py::dict predictionUnits() {
   UnitFields of_prediction, of_verdict;
@@ -182,6 +188,7 @@ void bindPrediction(py::module& module) {
       .def_property_readonly("energy_curve", &energyCurveOf)
       .def_property_readonly("curve", &displacementCurveOf)
       .def_property_readonly("curve_over_height", &heightCurveOf)
+      .def("spread", &spreadOf)
       .def("json", [](const PredictedScan& one, const std::string& file) {
         return jsonRecord(file, one.scan, one.prediction, one.extras);
       });

@@ -14,6 +14,7 @@
 #include "mems_stiction/roughness/areal_parameters.hpp"
 #include "mems_stiction/roughness/spatial_roughness.hpp"
 #include "mems_stiction/scan/configuration.hpp"
+#include "mems_stiction/scan/convergence.hpp"
 #include "mems_stiction/surface/counter_surface.hpp"
 #include "preprocess_steps.hpp"
 
@@ -118,6 +119,7 @@ void bindScans(py::module& module) {
   module.def("clean", &cleaned);
   module.def("roughness", &roughnessOf);
   module.def("generate", &generated);
+  module.def("decimate", [](const HeightMap& scan, int factor) { return decimated(scan, factor); });
   module.def("roughness_units", &roughnessUnits);
 }
 

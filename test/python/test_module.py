@@ -257,6 +257,26 @@ class GeneratedTest(unittest.TestCase):
             given = mems_stiction.predict(flat, PITCH, upper=scan, counter_surface={"facing": "up"})
             self.assertEqual(without_times(given.to_dict()), without_times(drawn.to_dict()))
 
+    def test_a_coarser_scan_is_the_mean_over_blocks(self):
+        heights = rough(40, 51)
+        coarse = mems_stiction.decimate(heights, PITCH, factor=4)
+        expected = heights[:, :48].reshape(10, 4, 12, 4).mean((1, 3))
+        self.assertTrue(np.allclose(coarse.heights, expected, rtol=0, atol=1e-22))  # sums in another order
+        self.assertEqual(coarse.pitch, (4 * PITCH, 4 * PITCH))
+        for factor in (0, 1.5, 64):
+            with self.assertRaises(mems_stiction.SurfaceError):
+                mems_stiction.decimate(heights, PITCH, factor=factor)
+
+    def test_the_spread_is_that_of_the_margin(self):
+        settings = {"device": DEVICE, "load": {"mechanical_load": 1e-6}}
+        prediction = mems_stiction.predict(rough(64, 64, 12e-9, 2), PITCH, settings)
+        spread = prediction.spread(settings)
+        self.assertTrue(np.all(np.diff(spread) >= 0))
+        lower, upper = 1 / np.quantile(spread, (0.975, 0.025))
+        # the margin is interpolated between samples itself, this between their inverses
+        self.assertAlmostEqual(prediction.verdict.margin_lower / prediction.verdict.margin / lower, 1.0, delta=0.02)
+        self.assertAlmostEqual(prediction.verdict.margin_upper / prediction.verdict.margin / upper, 1.0, delta=0.02)
+
     def test_what_cannot_be_generated_is_named(self):
         with self.assertRaisesRegex(mems_stiction.OptionsError, "counter_surface/type"):
             mems_stiction.generate((64, 48), PITCH)
