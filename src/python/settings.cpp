@@ -45,22 +45,26 @@ void bindErrors(py::module& module) {
   const auto bases = [&base](PyObject* other) {
     return py::make_tuple(base, py::reinterpret_borrow<py::object>(other));
   };
-  static py::object error, options_error, surface_error, file_error;
-  error = base;
-  options_error = py::exception<OptionsError>(module, "OptionsError", bases(PyExc_ValueError));
-  surface_error = py::exception<SurfaceError>(module, "SurfaceError", bases(PyExc_ValueError));
-  file_error = py::exception<FileError>(module, "FileError", bases(PyExc_OSError));
+  // Never let go of: they must outlive every exception, and no object of Python may be freed after its interpreter.
+  static PyObject* const error = py::object(base).release().ptr();
+  static PyObject* const options_error =
+      py::exception<OptionsError>(module, "OptionsError", bases(PyExc_ValueError)).release().ptr();
+  static PyObject* const surface_error =
+      py::exception<SurfaceError>(module, "SurfaceError", bases(PyExc_ValueError)).release().ptr();
+  static PyObject* const file_error =
+      py::exception<FileError>(module, "FileError", bases(PyExc_OSError)).release().ptr();
+  // NOLINTNEXTLINE(performance-unnecessary-value-param): the signature is pybind11's
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);
     } catch (const OptionsError& caught) {
-      PyErr_SetString(options_error.ptr(), caught.what());
+      PyErr_SetString(options_error, caught.what());
     } catch (const SurfaceError& caught) {
-      PyErr_SetString(surface_error.ptr(), caught.what());
+      PyErr_SetString(surface_error, caught.what());
     } catch (const FileError& caught) {
-      PyErr_SetString(file_error.ptr(), caught.what());
+      PyErr_SetString(file_error, caught.what());
     } catch (const Error& caught) {
-      PyErr_SetString(error.ptr(), caught.what());
+      PyErr_SetString(error, caught.what());
     }
   });
 }
