@@ -38,7 +38,7 @@ class CmakeBuild(build_ext):
 setup(name=PACKAGE.findtext("name"), version=PACKAGE.findtext("version"),
       description=" ".join(PACKAGE.findtext("description").split()), license=PACKAGE.findtext("license"),
       maintainer=PACKAGE.findtext("maintainer"), maintainer_email=PACKAGE.find("maintainer").get("email"),
-      packages=["mems_stiction"], package_dir={"": "python"}, package_data={"mems_stiction": ["*.pyi", "py.typed"]},
+      packages=["mems_stiction"], package_dir={"": "python"}, package_data={"mems_stiction": ["*.pyi", "py.typed", "page/*"]},
       python_requires=">=3.8", install_requires=["numpy"],
       extras_require={"pictures": ["matplotlib"], "report": ["matplotlib", "jinja2", "pyyaml"]},
       ext_modules=[] if IS_CATKIN else [Extension("mems_stiction._core", [])], cmdclass={"build_ext": CmakeBuild})

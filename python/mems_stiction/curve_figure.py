@@ -48,11 +48,12 @@ def draw_curves(axes, curves):
                       zorder=6, label="%s%s %s at %s" % (ahead, kind, with_unit(peak[1], "N"), with_unit(peak[0], "m")))
     if any(way.jumps() for way in ways):
         axes.plot([], [], color="#555555", linewidth=1.3, linestyle=":", label="jump")
-    axes.margins(x=0.03)
-    axes.set_ylim((low - 0.05 * (high - low)) * y_scale, (high + 0.08 * (high - low)) * y_scale)
     if low > forces.min():
-        axes.text(0.012, 0.015, "pressed further, to %s" % with_unit(float(forces.min()), "N"), transform=axes.transAxes,
-                  fontsize=8.5, color="#555555", va="bottom")
+        axes.plot([], [], " ", label="pressed further, to %s" % with_unit(float(forces.min()), "N"))
+    shown = heights[forces >= low] * x_scale
+    room = 0.03 * np.ptp(shown) or 0.03 * abs(shown[0]) or 0.03
+    axes.set_xlim(shown.min() - room, shown.max() + room)
+    axes.set_ylim((low - 0.05 * (high - low)) * y_scale, (high + 0.08 * (high - low)) * y_scale)
     axes.set_xlabel("height over first touch [%s]; below 0 pressed in" % x_unit)
     axes.set_ylabel("force [%s]; above 0 attraction" % y_unit)
     axes.grid(color="#dddddd", linewidth=0.6)

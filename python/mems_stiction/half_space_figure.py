@@ -22,7 +22,7 @@ def half_space_figure(picture, pressure, result):
     draw_contacts(of_model, picture, title="Contact: prediction, by regime", legend_at=0.165)
     of_model.set_ylabel("y [%s]" % length_scale(max(picture.extent))[1])
     _draw_pressure(figure, figure.add_subplot(grid[1]), picture, pressure)
-    axes = figure.add_subplot(figure.add_gridspec(1, 1, left=0.685, right=0.985, top=0.92, bottom=0.17)[0])
+    axes = figure.add_subplot(figure.add_gridspec(1, 1, left=0.7, right=0.985, top=0.92, bottom=0.17)[0])
     axes.set_title("Force over height", fontsize=11)
     curves = curves_of(result)
     if curves:

@@ -26,11 +26,27 @@ REGIMES = ((1, "elastic", "#2f7fd1"), (2, "elasto-plastic", "#f2b705"), (3, "pla
 SMALL_CONTACT_SHARE = 3e-4  # contacts that take less of the frame are ringed, or nobody sees them
 MOST_RINGS = 300
 CAPTION_WIDTH = 175  # letters
+CAPTION_LINE = 0.033  # height of a line of the caption, as a share of the picture's
+LEAST_SPAN = 0.05  # of an axis, as a share of the values on it
 
 
 def with_unit(value, unit, digits=3):
     """As people write it: a picture can show what a terminal may not."""
     return quantities.with_unit(value, unit, digits).replace(" u", " µ")
+
+
+def widen(axes, values, share=LEAST_SPAN):
+    """Gives a linear axis of height a least span of that share of the largest of the values that it shows, about their middle: what differs by less is
+    drawn as the level line that it is, not as noise over the whole axis."""
+    finite = np.asarray(values, dtype=float)
+    finite = finite[np.isfinite(finite)]
+    if not finite.size:
+        return
+    least = share * np.abs(finite).max()
+    low, high = axes.get_ylim()
+    if high - low < least:
+        middle = 0.5 * (finite.min() + finite.max())
+        axes.set_ylim(middle - 0.5 * least, middle + 0.5 * least)
 
 
 class ScanPicture:
@@ -79,10 +95,11 @@ def in_frame_of(heights, deformed, contact_map):
 def save_picture(picture, path):
     """Writes the three panels as PNG."""
     figure = plt.figure(figsize=(15, 5.4), dpi=110)
-    grid = figure.add_gridspec(1, 3, width_ratios=(1.0, 1.0, 1.15), left=0.045, right=0.985, top=0.80, bottom=0.17,
-                               wspace=0.22)
+    caption = _caption(picture)
+    top = min(0.80, 0.925 - CAPTION_LINE * (caption.count("\n") + 1) - 0.055)  # below the caption there is a line of titles
+    grid = figure.add_gridspec(1, 3, width_ratios=(1.0, 1.0, 1.15), left=0.045, right=0.985, top=top, bottom=0.17, wspace=0.3)
     figure.suptitle(picture.name, x=0.045, y=0.965, ha="left", fontsize=14, fontweight="bold")
-    figure.text(0.045, 0.925, _caption(picture), fontsize=10.5, color="#333333", va="top")
+    figure.text(0.045, 0.925, caption, fontsize=10.5, color="#333333", va="top")
     draw_heights(figure, figure.add_subplot(grid[0]), picture)
     contact_axes = figure.add_subplot(grid[1])
     section = _section(picture)
@@ -211,8 +228,8 @@ def _draw_section(axes, picture, section):
     axes.fill_between(x * x_scale, (after - zero) * z_scale, np.nanmin(before - zero) * z_scale, color="#e9edf2")
     axes.plot(x * x_scale, (counter - zero) * z_scale, color="#555555", linewidth=1.4, linestyle=(0, (5, 2)),
               zorder=3, label="counter-surface at rest")
-    axes.plot(x * x_scale, (before - zero) * z_scale, color="#e07b00", linewidth=2.6, label="scan before contact", **style)
-    axes.plot(x * x_scale, (after - zero) * z_scale, color="#0b4f9e", linewidth=1.4, label="scan after contact" if changed else "scan after contact: unchanged")
+    axes.plot(x * x_scale, (before - zero) * z_scale, color="#e07b00", linewidth=2.6, label="before contact", **style)
+    axes.plot(x * x_scale, (after - zero) * z_scale, color="#0b4f9e", linewidth=1.4, label="after contact" if changed else "after contact: unchanged")
     # Ten times the interference shows what the contact does, a third of the relief where it stands; the rest may leave
     # the picture.
     relief = zero - np.nanmin(before)

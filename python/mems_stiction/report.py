@@ -1,6 +1,6 @@
 """The report on many scans: what stiction_batch dumped, as one HTML page with everything in it, CSV and JSON beside it.
 
-No figure is computed here: all come from the core, by stiction_batch.
+No figure is computed here: all come from the core, by stiction_batch; surface_figures.py has those of the material ratio curve.
 """
 
 import base64
@@ -19,12 +19,14 @@ import matplotlib
 import numpy as np
 import yaml
 
+from mems_stiction.cleaning_steps import cleaning_figure, rows_of
 from mems_stiction.half_space_figure import half_space_figure, half_space_words, pull_off_ratio
 from mems_stiction.plots import ScanPicture, save_picture, with_unit
 from mems_stiction.prediction_text import flag_words
 from mems_stiction.quantities import percent, ratio
 from mems_stiction.report_figures import is_lower_bound, number, scan_figure, trend_figure
 from mems_stiction.report_template import PAGE
+from mems_stiction.surface_figures import surface_figure, surface_figures_of
 
 STATES = {"EQUILIBRIUM": (0, "equilibrium"), "BONDED": (1, "bonded"), "NO_EQUILIBRIUM": (2, "no equilibrium")}
 FIGURES = (("formulation", "formulation", "word"), ("pull-off force", "pull_off_force", "N"), ("of contacts, by JKR", "pull_off_force_jkr", "N"),
@@ -34,8 +36,7 @@ FIGURES = (("formulation", "formulation", "word"), ("pull-off force", "pull_off_
            ("scanned area", "nominal_area", "m^2"), ("approach", "approach", "m"), ("mean gap", "mean_gap", "m"),
            ("bonding energy", "bonding_energy", "J/m^2"), ("adhesion parameter", "adhesion_parameter", ""),
            ("bonding regime", "bonding_regime", "word"), ("median Tabor parameter", "median_tabor_parameter", ""),
-           ("single-asperity theory", "contact_theory", "word"), ("rms height Sq", "sq", "m"), ("skewness Ssk", "ssk", ""),
-           ("kurtosis Sku", "sku", ""), ("rms gradient Sdq", "sdq", ""), ("not measured", "invalid_fraction", "%"),
+           ("single-asperity theory", "contact_theory", "word"), ("not measured", "invalid_fraction", "%"),
            ("restoring force of the device", "restoring_force", "N"),
            ("pull-off force of the device", "device_pull_off_force", "N"), ("margin", "margin", ""),
            ("margin, 95 % from", "margin_lower", ""), ("margin, 95 % to", "margin_upper", ""),
@@ -44,6 +45,11 @@ FIGURES = (("formulation", "formulation", "word"), ("pull-off force", "pull_off_
            ("peel number", "peel_number", ""), ("peel number, 95 % from", "peel_number_lower", ""),
            ("peel number, 95 % to", "peel_number_upper", ""), ("detachment length", "detachment_length", "m"),
            ("free length while stuck", "unstuck_length", "m"))
+SURFACE_FIGURES = (("arithmetical mean height Sa", "sa", "m"), ("root mean square height Sq", "sq", "m"), ("skewness Ssk", "ssk", ""),
+                   ("kurtosis Sku", "sku", ""), ("maximum peak height Sp", "sp", "m"), ("maximum pit height Sv", "sv", "m"),
+                   ("maximum height Sz", "sz", "m"), ("root mean square gradient Sdq", "sdq", ""),
+                   ("developed interfacial area ratio Sdr", "sdr", "%"), ("autocorrelation length Sal", "sal", "m"),
+                   ("texture aspect ratio Str", "str", ""))
 HALF_SPACE_FIGURES = (("pull-off force, prediction", "pull_off_force", "N"),
                       ("pull-off force, half-space", "half_space_pull_off_force", "N"),
                       ("contact area, prediction", "contact_area", "m^2"),
@@ -124,18 +130,38 @@ def embedded(png):
     return "data:image/png;base64," + base64.b64encode(png).decode("ascii")
 
 
-def scan_section(row, folder):
-    """What the page shows of one scan. `folder` holds its dump."""
+def scan_section(row, folder, stages=(), why_no_stages=""):
+    """What the page shows of one scan. `folder` holds its dump; stages: the surfaces between its cleaning steps, where they are to be shown, or why they cannot."""
     with open(str(folder / "result.json"), encoding="utf-8") as stream:
         result = json.load(stream)
     stream = io.BytesIO()
     picture = picture_of(folder, result, scan_name(row))
     save_picture(picture, stream)
+    heights = np.load(str(folder / "heights.npy"))
     return {"number": row["number"], "name": scan_name(row), "maps": embedded(stream.getvalue()),
             "details": embedded(scan_figure(result)), "figures": _figures(result, FIGURES),
-            "half_space": _half_space(picture, result, folder),
+            "half_space": _half_space(picture, result, folder), "cleaning": _cleaning(list(stages), result),
+            "why_no_cleaning": _sentence(why_no_stages),
+            "surface": embedded(surface_figure(heights, result["pitch_x"], result["pitch_y"])),
+            "surface_figures": _figures(result, SURFACE_FIGURES) + surface_figures_of(heights),
             "warnings": [row["warnings"]] if row["warnings"] else [], "sticks": result.get("sticks"),
+            "releases": verdict_word(result.get("sticks")),
             "verdict": _sentence(result.get("verdict_reason", "")), "flags": _flags(result["regime_flag_names"])}
+
+
+def _cleaning(stages, result):
+    """Picture and table of the cleaning steps; None without them."""
+    if not stages:
+        return None
+    rows = [dict(row, rms=text_of(row["rms"], "m"), pull_off=text_of(row["pull_off"], "N"),
+                 change="" if row["change"] is None else text_of(row["change"], "m"),
+                 changed="" if row["changed"] is None else row["changed"]) for row in rows_of(stages)]
+    return {"image": embedded(cleaning_figure(stages, result["pitch_x"], result["pitch_y"])), "rows": rows}
+
+
+def verdict_word(sticks):
+    """The verdict as a part's answer: "no" to the question whether it sticks is "releases"."""
+    return {"no": "releases", "marginal": "marginal", "yes": "sticks"}.get(sticks, "not known")
 
 
 def _figures(result, wanted):
@@ -193,7 +219,7 @@ def table_row(row, drawn, judge):
         entry.update(status=STATES[row["status"]][1], pull_off=bound + text_of(row["pull_off_force"], "N"),
                      contact=percent(row["contact_fraction"]), contacts=row["asperity_count"],
                      regimes="%d / %d / %d" % (row["elastic_count"], row["elasto_plastic_count"], row["plastic_count"]),
-                     rms=text_of(row["rms_height"], "m"), sticks=row.get("sticks"), ratio=_ratio_with_interval(row, judge),
+                     rms=text_of(row["rms_height"], "m"), sticks=row.get("sticks"), releases=verdict_word(row.get("sticks")), ratio=_ratio_with_interval(row, judge),
                      half_space=_half_space_cell(row), limits=_limits(row))
     return entry
 
@@ -219,8 +245,8 @@ def summary(rows, drawn):
         if count:
             parts.append("%d %s." % (count, word))
     if any("sticks" in row for row in predicted):
-        counts = [(word, sum(row["sticks"] == word for row in predicted)) for word in ("no", "marginal", "yes", "unknown")]
-        parts.append("Does the device stick? " + ", ".join("%s: %d" % pair for pair in counts if pair[1]) + ".")
+        counts = [(verdict_word(word), sum(row["sticks"] == word for row in predicted)) for word in ("no", "marginal", "yes", "unknown")]
+        parts.append("The device, by scans: " + ", ".join("%s %d" % pair for pair in counts if pair[1]) + ".")
     if len(drawn) < len(predicted):
         parts.append("Pictures of %d scans, evenly spread; the table and the trends have all." % len(drawn))
     return " ".join(parts)

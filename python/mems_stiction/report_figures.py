@@ -8,7 +8,7 @@ import math
 
 from mems_stiction.curve import Curve
 from mems_stiction.curve_figure import draw_curves
-from mems_stiction.plots import REGIMES, plt, with_unit
+from mems_stiction.plots import REGIMES, plt, widen, with_unit
 from mems_stiction.quantities import prefix_for
 
 import numpy as np
@@ -16,6 +16,7 @@ from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 ELASTIC_LIMIT, PLASTIC_LIMIT = 0.6, 1.1  # of the plasticity index
 GREY = "#555555"
+LAST_STEPS = 30  # of the approach, around the equilibrium
 STEEP_SHARE = 0.15  # of the approach: may leave the picture of the energies
 PRESSING = (("van der Waals", "van_der_waals_force", "#4c78a8"), ("electrostatic", "electrostatic_force", "#f2a33c"),
             ("mechanical", "mechanical_load", "#7f7f7f"), ("capillary", "capillary_force", "#54a89e"))
@@ -64,13 +65,17 @@ def scaled(values, unit):
 
 
 def scan_figure(result):
-    """Force over height, or energy over approach where the formulation has that, force budget, distributions of loads and of plasticity indices."""
-    figure, axes = plt.subplots(2, 2, figsize=(13, 8.4), dpi=100)
-    figure.subplots_adjust(left=0.06, right=0.985, top=0.95, bottom=0.075, hspace=0.34, wspace=0.38)
-    (_draw_curve if result["force_curve"] else _draw_energy)(axes[0][0], result)
-    _draw_forces(axes[0][1], result)
-    _draw_loads(axes[1][0], result)
-    _draw_plasticity(axes[1][1], result)
+    """Force over height, or energy over approach where the formulation has that, with what is around its equilibrium; force budget, distributions of loads
+    and of plasticity indices."""
+    of_energy = (_draw_energy, draw_energy_at_rest)
+    panels = ((_draw_curve,) if result["force_curve"] else of_energy) + (_draw_forces, _draw_loads, _draw_plasticity)
+    rows = (len(panels) + 1) // 2
+    figure, all_axes = plt.subplots(rows, 2, figsize=(13, 4.2 * rows), dpi=100)
+    figure.subplots_adjust(left=0.065, right=0.985, top=1 - 0.1 / rows, bottom=0.15 / rows, hspace=0.34, wspace=0.38)
+    for draw, axes in zip(panels, all_axes.flat):
+        draw(axes, result)
+    for axes in list(all_axes.flat)[len(panels):]:
+        axes.set_axis_off()
     return png_of(figure)
 
 
@@ -113,6 +118,34 @@ def _draw_energy(axes, result):
     axes.grid(color="#dddddd", linewidth=0.6)
     clipped = axes.get_ylim()[1] < axes.dataLim.y1
     axes.legend(fontsize=8.5, framealpha=0.8, edgecolor="none", loc="upper right" if clipped else "best")
+
+
+def draw_energy_at_rest(axes, result):
+    """The total energy alone, over the last steps before the equilibrium: there its extremum is seen, which the whole approach dwarfs."""
+    axes.set_title("Total energy around the equilibrium", fontsize=11)
+    curve = result["energy_curve"]
+    approach, energy = (np.array([number(value) for value in curve.get(name, []) + [result[end]]]) for name, end in (
+        ("approach", "approach"), ("total_energy", "total_energy")))
+    order = np.argsort(approach, kind="stable")[-LAST_STEPS:]
+    if len(order) < 4:
+        return _say(axes, "the search took too few steps")
+    x, x_unit = scaled(approach, "m")
+    y, y_unit = scaled(energy, "J")
+    axes.plot(x[order], y[order], ".-", color="black", linewidth=1.5, markersize=7, label="total $E_t$, step by step")
+    inside = order[1:-1]
+    extrema = [place for before, place, after in zip(order, inside, order[2:]) if (y[place] - y[before]) * (y[after] - y[place]) < 0]
+    if extrema:
+        last = extrema[-1]
+        axes.plot(x[last], y[last], "D", color="#f2b705", markersize=9, markeredgecolor="black", zorder=4,
+                  label="extremum, D = %s" % with_unit(float(approach[last]), "m"))
+    axes.plot(x[-1], y[-1], "o", color="#d1322f", markersize=9, zorder=5, markeredgecolor="white",
+              label="where the search ended, D = %s" % with_unit(float(approach[-1]), "m"))
+    widen(axes, y[order])
+    axes.margins(x=0.06)
+    axes.set_xlabel("approach D from first touch [%s]" % x_unit)
+    axes.set_ylabel("total energy [%s]" % y_unit)
+    axes.grid(color="#dddddd", linewidth=0.6)
+    axes.legend(fontsize=8.5, framealpha=0.8, edgecolor="none", loc="best")
 
 
 def _leave_out_steep_beginning(axes, x, energies):
@@ -193,7 +226,8 @@ def _draw_loads(axes, result):
     if high - low < 1.5:
         axes.xaxis.set_minor_formatter(
             FuncFormatter(lambda value, _: with_unit(value, "N", 1) if "%.0e" % value in _steps(value) else ""))
-        axes.tick_params(axis="x", which="minor", labelsize=9)
+        axes.tick_params(axis="x", which="minor", labelsize=plt.rcParams["xtick.labelsize"], length=plt.rcParams["xtick.major.size"],
+                         pad=plt.rcParams["xtick.major.pad"])
     axes.set_xlabel("load of the contact [N], logarithmic")
 
 

@@ -41,11 +41,11 @@ PAGE = """<!DOCTYPE html>
 
 <h2>Scans</h2>
 <div class="wide"><table class="overview">
-<thead><tr><th class="n">number</th><th>scan</th><th>state</th>{% if has_device %}<th>sticks</th><th class="n">{{ judged_by }}</th>{% endif %}<th class="n">pull-off force</th>{% if has_half_space %}<th class="n">of the half-space</th>{% endif %}<th class="n">contact fraction</th><th class="n">contacts</th><th class="n">elastic / mixed / plastic</th><th class="n">rms height</th>{% if limited %}<th>outside the model's range; warnings</th>{% endif %}</tr></thead>
+<thead><tr><th class="n">number</th><th>scan</th><th>state</th>{% if has_device %}<th>verdict</th><th class="n">{{ judged_by }}</th>{% endif %}<th class="n">pull-off force</th>{% if has_half_space %}<th class="n">of the half-space</th>{% endif %}<th class="n">contact fraction</th><th class="n">contacts</th><th class="n">elastic / mixed / plastic</th><th class="n">rms height</th>{% if limited %}<th>outside the model's range; warnings</th>{% endif %}</tr></thead>
 <tbody>
 {% for row in table %}<tr><td class="n">{% if row.anchor %}<a href="#scan{{ row.number }}">{{ row.number }}</a>{% else %}{{ row.number }}{% endif %}</td><td class="path">{{ row.name }}</td>
 {%- if row.reason %}<td colspan="{{ (8 if has_device else 6) + (1 if has_half_space else 0) + (1 if limited else 0) }}">not predicted: {{ row.reason }}</td>
-{%- else %}<td>{{ row.status }}</td>{% if has_device %}<td class="{{ row.sticks }}">{{ row.sticks }}</td><td class="n">{{ row.ratio }}</td>{% endif %}<td class="n">{{ row.pull_off }}</td>{% if has_half_space %}<td class="n">{{ row.half_space }}</td>{% endif %}<td class="n">{{ row.contact }}</td><td class="n">{{ row.contacts }}</td><td class="n">{{ row.regimes }}</td><td class="n">{{ row.rms }}</td>{% if limited %}<td class="limits">{{ row.limits }}</td>{% endif %}{% endif %}</tr>
+{%- else %}<td>{{ row.status }}</td>{% if has_device %}<td class="{{ row.sticks }}">{{ row.releases }}</td><td class="n">{{ row.ratio }}</td>{% endif %}<td class="n">{{ row.pull_off }}</td>{% if has_half_space %}<td class="n">{{ row.half_space }}</td>{% endif %}<td class="n">{{ row.contact }}</td><td class="n">{{ row.contacts }}</td><td class="n">{{ row.regimes }}</td><td class="n">{{ row.rms }}</td>{% if limited %}<td class="limits">{{ row.limits }}</td>{% endif %}{% endif %}</tr>
 {% endfor %}</tbody>
 </table></div>
 {% if bounded %}<p class="quiet">&ge; marks lower bounds: the search ended before the contacts stopped growing.</p>{% endif %}
@@ -58,11 +58,20 @@ PAGE = """<!DOCTYPE html>
 {% for scan in scans %}<div class="scan" id="scan{{ scan.number }}">
 <h2>{{ scan.number }}: {{ scan.name }}</h2>
 {% for warning in scan.warnings %}<p class="warning">{{ warning }}</p>{% endfor %}
-{% if scan.verdict %}<p><span class="{{ scan.sticks }}">Sticks: {{ scan.sticks }}.</span> {{ scan.verdict }}</p>{% endif %}
+{% if scan.verdict %}<p><span class="{{ scan.sticks }}">{{ scan.releases[0] | upper }}{{ scan.releases[1:] }}.</span> {{ scan.verdict }}</p>{% endif %}
 {% if scan.flags %}<p class="warning">Outside the model's range: {{ scan.flags }}.</p>{% endif %}
 <img alt="Heights, contact map and cross-section" src="{{ scan.maps }}">
 <div class="figures">{% for label, value in scan.figures %}<div><span>{{ label }}</span><span>{{ value }}</span></div>{% endfor %}</div>
 <img class="tall" alt="Energy or force on the approach, forces, loads, plasticity" src="{{ scan.details }}">
+<h3>The surface after cleaning, by ISO 25178-2</h3>
+<img alt="Histogram of the heights, material ratio curve, spectrum" src="{{ scan.surface }}">
+<div class="figures">{% for label, value in scan.surface_figures %}<div><span>{{ label }}</span><span>{{ value }}</span></div>{% endfor %}</div>
+{% if scan.cleaning %}<h3>What each cleaning step did</h3>
+<img alt="The surface after each cleaning step, and what the step changed" src="{{ scan.cleaning.image }}">
+<table><tr><th></th><th class="n">rms height</th><th class="n">rms of the change</th><th class="n">pixels changed</th><th class="n">not measured</th><th class="n">pull-off force on this surface</th></tr>
+{% for row in scan.cleaning.rows %}<tr><td>{{ row.words }}</td><td class="n">{{ row.rms }}</td><td class="n">{{ row.change }}</td><td class="n">{{ row.changed }}</td><td class="n">{{ row.missing }}</td><td class="n">{{ row.pull_off }}</td></tr>
+{% endfor %}</table>{% endif %}
+{% if scan.why_no_cleaning %}<p class="quiet">What each cleaning step did is not shown: {{ scan.why_no_cleaning }}</p>{% endif %}
 {% if scan.half_space %}<h3>The whole surface as one elastic half-space</h3>
 <p>{{ scan.half_space.words }}</p>
 {% if scan.half_space.image %}<img alt="Contacts of the asperity model and of the half-space, force over height" src="{{ scan.half_space.image }}">{% endif %}

@@ -2,7 +2,7 @@
 
 import math
 
-from mems_stiction.plots import plt, with_unit
+from mems_stiction.plots import plt, widen, with_unit
 from mems_stiction.prediction_text import contact_area_of
 from mems_stiction.quantities import prefix_for
 from mems_stiction.station_text import area_label
@@ -74,6 +74,7 @@ def _draw_loops(axes, result, loads, value_of, label, unit):
         for points, style, marker in zip(ways, ("-", "--"), ("^", "v")):
             axes.plot([point.voltage for point in points], [value_of(point) * factor for point in points], color=colour,
                       linestyle=style, marker=marker, markersize=5, linewidth=1.6)
+    widen(axes, [value * factor for value in values])
     axes.set_xlabel("voltage [V]")
     axes.set_ylabel("%s [%s]" % (label, shown_unit))
     axes.grid(color="#dddddd", linewidth=0.6)
@@ -107,11 +108,14 @@ def save_cycles(result, path):
                       linestyle=":", label="lower end of the 95 % interval")
             axes.axhline(1.0, color="#b3201d", linewidth=1.2, linestyle="--", label="1: sticks below")
             _scale_ratio(axes, [cycle.margin_lower for cycle in cycles] + list(values))
-            axes.legend(fontsize=9, framealpha=0.85, edgecolor="none")
+            low, high = axes.get_ylim()  # room for the legend above all lines
+            axes.set_ylim(low, high * (high / low)**0.25 if axes.get_yscale() == "log" else low + 1.3 * (high - low))
+            axes.legend(fontsize=9, framealpha=0.85, edgecolor="none", loc="upper left")
         axes.set_title(label[0].upper() + label[1:], fontsize=11)
         axes.set_ylabel("%s [%s]" % (label, unit))
         axes.set_xlabel("number of the contact")
         if axes.get_yscale() == "linear":
+            widen(axes, values)
             axes.ticklabel_format(axis="y", useOffset=False)
         axes.xaxis.set_major_locator(MaxNLocator(integer=True))
         axes.grid(color="#dddddd", linewidth=0.6)

@@ -6,6 +6,7 @@ from mems_stiction.prediction_text import STATUS_NAMES, STICKS_NAMES, bound_of, 
 from mems_stiction.quantities import area, percent, ratio, with_unit
 
 UP = 0  # SweepPoint.UP
+NO, MARGINAL = 0, 1  # StictionPrediction.STICKS_...
 ROUND_OFF = 1e-9  # of sums over a million cells, with room
 _SWEEP = "%-4s %10s %10s  %-14s %11s %11s %10s %12s %9s %9s  %s"
 _CYCLE = "%6s  %-14s %11s %10s %9s %9s %11s %12s %9s  %s"
@@ -109,6 +110,15 @@ def cycle_sentences(result):
     elif result.first_sticking_cycle:
         sentences.append("The device fails: from contact %d on it sticks." % result.first_sticking_cycle)
     else:
-        sentences.append("The device does not surely stick after any of these contacts; the lowest margin is %s." % ratio(
-            min(cycle.margin for cycle in result.cycles)))
+        sentences.append("%s; the lowest margin is %s." % (_release_after(result.cycles), ratio(min(cycle.margin for cycle in result.cycles))))
     return sentences
+
+
+def _release_after(cycles):
+    """Whether the device comes off after every contact, in words: plainly where no verdict leaves a doubt."""
+    doubts = [cycle for cycle in cycles if cycle.sticks != NO]
+    if not doubts:
+        return "The device releases after each of these contacts"
+    words = "it is marginal" if any(cycle.sticks == MARGINAL for cycle in doubts) else "it is not known"
+    which = "any of these contacts" if len(doubts) == len(cycles) else "%d of these contacts, first after contact %d" % (len(doubts), doubts[0].cycle)
+    return "Whether the device releases: %s after %s" % (words, which)

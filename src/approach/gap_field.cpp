@@ -144,19 +144,6 @@ void GapField::compute(const SurfacePair& surfaces) {
   }
 }
 
-double GapField::compute(const GapField& grid, const LargePageVector<double>& gaps) {
-  rows_ = grid.rows_;
-  cols_ = grid.cols_;
-  pitch_x_ = grid.pitch_x_;
-  pitch_y_ = grid.pitch_y_;
-  upper_is_flat_ = true;
-  fillRelief(relief_, [&](int row, double* line) {
-    const double* const from = gaps.data() + static_cast<std::ptrdiff_t>(row) * cols_;
-    std::transform(from, from + cols_, line, [](double gap) { return -gap; });
-  });
-  return -top_;
-}
-
 void GapField::computeAgainstPlane(const HeightMap& lower) {
   const auto copyInto = [&](auto& relief) {
     fillRelief(relief, [&](int row, auto* line) {
@@ -209,13 +196,16 @@ void GapField::computeBetween(const HeightMap& lower, const HeightMap& upper) {
   }
 }
 
-MEMS_STICTION_VECTORIZED int columnsBelow(double limit, const double* gaps, int cols, std::int32_t* columns) {
-  // Surfaces are smooth on the scale of a few cells: blocks that are wholly above or below the limit are frequent.
+MEMS_STICTION_VECTORIZED int columnsBetween(double from, double limit, const double* gaps, int cols,
+                                            std::int32_t* columns) {
+  // Surfaces are smooth on the scale of a few cells: blocks that are wholly inside or outside are frequent.
   constexpr std::int32_t kBlock = 8;
   std::int32_t* next = columns;
   std::int32_t col = 0;
   for (; col + kBlock <= cols; col += kBlock, gaps += kBlock) {
-    const int count = (Lanes::load(gaps) < limit).count() + (Lanes::load(gaps + Lanes::kCount) < limit).count();
+    const Lanes first = Lanes::load(gaps);
+    const Lanes second = Lanes::load(gaps + Lanes::kCount);
+    const int count = ((first < limit) ^ (first < from)).count() + ((second < limit) ^ (second < from)).count();
     if (count == 0) continue;
     if (count == kBlock) {
       for (std::int32_t i = 0; i < kBlock; ++i) next[i] = col + i;
@@ -224,12 +214,12 @@ MEMS_STICTION_VECTORIZED int columnsBelow(double limit, const double* gaps, int 
     }
     for (std::int32_t i = 0; i < kBlock; ++i) {  // which ones is random: written without a branch
       *next = col + i;
-      next += gaps[i] < limit ? 1 : 0;
+      next += static_cast<int>(gaps[i] < limit) & static_cast<int>(gaps[i] >= from);
     }
   }
   for (; col < cols; ++col, ++gaps) {
     *next = col;
-    next += *gaps < limit ? 1 : 0;
+    next += *gaps < limit && *gaps >= from ? 1 : 0;
   }
   return static_cast<int>(next - columns);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mems_stiction/approach/gap_moment_sums.hpp"
 #include "mems_stiction/base/vectorized.hpp"
 
 namespace mems_stiction {
@@ -11,7 +12,6 @@ namespace {
 constexpr int kMaxBuckets = 1 << 16;
 constexpr int kMinBuckets = 1 << 6;
 constexpr int kCellsPerBucket = 8;
-constexpr std::ptrdiff_t kWriteAhead = 6;
 /// Buckets beyond the contact limit that are ordered too: cells near the contact are summed one by one, and the wider
 /// buckets of the tail start where their width is small against the gap.
 constexpr int kBucketsBeyondLimit = 16 * GapOrder::kBucketsPerTailBucket;
@@ -23,20 +23,6 @@ int bucketCountFor(int valid_cells) {
 }
 
 int roundedUp(int value, int multiple) { return (value + multiple - 1) / multiple * multiple; }
-
-void addGaps(GapMoments& moments, double count, double excess) {
-  moments.count += count;
-  moments.mean += count * excess;
-  moments.variance += count * excess * excess;
-}
-
-/// Sums of gaps about the bucket's lower end become moments; no digits are lost to the size of the gap.
-void finishMoments(GapMoments& moments, double lower_end) {
-  if (moments.count == 0.0) return;
-  const double mean_excess = moments.mean / moments.count;
-  moments.variance = std::max(0.0, moments.variance / moments.count - mean_excess * mean_excess);
-  moments.mean = lower_end + mean_excess;
-}
 
 template <typename Scalar>
 MEMS_STICTION_INLINE void findBucketsOf(const StoredGaps<Scalar>& gaps, std::ptrdiff_t first, std::size_t size,
@@ -60,14 +46,30 @@ MEMS_STICTION_VECTORIZED void findBuckets(const StoredGaps<double>& gaps, std::p
 
 }  // namespace
 
-void GapOrder::build(const GapField& field, double max_contact_fraction, double step) {
+void GapOrder::build(const GapField& field, double max_contact_fraction, double step, DaleMap* dales) {
+  dales_ = dales;
   chooseBuckets(field, step);
   countGaps(field);
-  const int wanted =
-      std::clamp(static_cast<int>(std::ceil(max_contact_fraction * field.validCount())), 1, field.validCount());
+  ordered_buckets_ = 0;
+  group_end_.clear();
+  is_sorted_.clear();
+  ordered_moments_.clear();
+  orderUpTo(field, wantedCells(field, max_contact_fraction));
+}
+
+void GapOrder::extend(const GapField& field, double max_contact_fraction) {
+  orderUpTo(field, wantedCells(field, max_contact_fraction));
+}
+
+int GapOrder::wantedCells(const GapField& field, double max_contact_fraction) const {
+  return std::clamp(static_cast<int>(std::ceil(max_contact_fraction * field.validCount())), 1, field.validCount());
+}
+
+void GapOrder::orderUpTo(const GapField& field, int wanted) {
+  const int first_bucket = ordered_buckets_;
   chooseOrderedBuckets(wanted);
   measureTail();
-  collectCells(field);
+  collectCells(field, first_bucket);
   findContactLimit(wanted);
 }
 
@@ -110,8 +112,9 @@ void GapOrder::chooseOrderedBuckets(int wanted) {
   int total = 0;
   int bucket = 0;
   while (total < wanted) total += bucket_count_of_[static_cast<std::size_t>(bucket++)];
-  ordered_buckets_ = std::min(
+  const int wanted_buckets = std::min(
       roundedUp(bucket + kBucketsBeyondLimit, std::max(kBucketsPerTailBucket, 1 << group_shift_)), bucket_count_);
+  ordered_buckets_ = std::max(ordered_buckets_, wanted_buckets);
 }
 
 void GapOrder::measureTail() {
@@ -126,88 +129,16 @@ void GapOrder::measureTail() {
   }
 }
 
-MEMS_STICTION_VECTORIZED void GapOrder::collectCells(const GapField& field) {
-  group_end_.assign(static_cast<std::size_t>(ordered_buckets_ >> group_shift_), 0);
-  is_sorted_.assign(group_end_.size(), 0);
-  int start = 0;
-  for (int bucket = 0; bucket < ordered_buckets_; ++bucket) {
-    std::int32_t& place = group_end_[static_cast<std::size_t>(bucket >> group_shift_)];
-    if (bucket >> group_shift_ << group_shift_ == bucket) place = start;  // becomes the group's end while it is filled
-    start += bucket_count_of_[static_cast<std::size_t>(bucket)];
-  }
-  cells_.resize(static_cast<std::size_t>(start));
-
-  ordered_moments_.assign(static_cast<std::size_t>(ordered_buckets_), {});
-  const bool all_are_ordered = ordered_buckets_ == bucket_count_;
-  const double limit = all_are_ordered ? GapField::kInvalidGap : (ordered_buckets_ + 1) * bucket_width_;
-  row_gaps_.resize(static_cast<std::size_t>(field.cols()));
-  near_cells_.resize(static_cast<std::size_t>(field.cols()));
-  bool any_is_misplaced = false;
-  for (std::int32_t row = 0; row < field.rows(); ++row) {
-    double* gaps = row_gaps_.data();
-    field.gapsOfRow(row, gaps);
-    const int near_count = columnsBelow(limit, gaps, field.cols(), near_cells_.data());
-    const std::int32_t first_cell = row * field.cols();
-    for (int i = 0; i < near_count; ++i) {
-      const std::int32_t col = near_cells_[static_cast<std::size_t>(i)];
-      const double gap = gaps[col];
-      const int bucket = bucketOf(gap);
-      if (bucket >= ordered_buckets_) continue;
-      const std::int32_t place = group_end_[static_cast<std::size_t>(bucket >> group_shift_)]++;
-      OrderedCell& cell = cells_[static_cast<std::size_t>(place)];
-      cell = {gap, first_cell + col, row};
-      __builtin_prefetch(&cell + kWriteAhead, 1);  // where the group goes on: there are too many for the processor
-      const double excess = gap - bucket * bucket_width_;
-      addGaps(ordered_moments_[static_cast<std::size_t>(bucket)], 1.0, excess);
-      if (isNearBorder(excess) && mendedGroup(gap, bucket) != bucket >> group_shift_) any_is_misplaced = true;
-    }
-  }
-  for (int bucket = 0; bucket < ordered_buckets_; ++bucket) {
-    finishMoments(ordered_moments_[static_cast<std::size_t>(bucket)], bucket * bucket_width_);
-  }
-  if (any_is_misplaced) mendGroups();
-}
-
-int GapOrder::mendedGroup(double gap, int bucket) const {
-  const int group = bucket >> group_shift_;
-  if (!groups_are_steps_) return group;
-  if (gap < groupLowerEnd(group)) return group - 1;
-  return gap >= groupLowerEnd(group + 1) ? std::min(group + 1, groupCount() - 1) : group;
-}
-
-void GapOrder::mendGroups() {
-  double largest_before = -1.0;
-  int place = 0;
-  for (int group = 0; group < groupCount(); ++group) {
-    double smallest = GapField::kInvalidGap;
-    double largest = largest_before;
-    for (; place < group_end_[static_cast<std::size_t>(group)]; ++place) {
-      const double gap = cells_[static_cast<std::size_t>(place)].gap;
-      smallest = std::min(smallest, gap);
-      largest = std::max(largest, gap);
-    }
-    const double boundary = group * group_width_;
-    if (group > 0 && (largest_before >= boundary || smallest < boundary)) mendBoundary(group);
-    largest_before = largest;
-  }
-}
-
-/// The bucket of a gap that is a whole number of steps is a matter of rounding; a step takes what is below its
-/// approach.
-void GapOrder::mendBoundary(int group) {
-  const double boundary = group * group_width_;
-  const auto begin = cells_.begin() + groupStart(group - 1);
-  const auto end = cells_.begin() + group_end_[static_cast<std::size_t>(group)];
-  const auto first_apart =
-      std::stable_partition(begin, end, [boundary](const OrderedCell& cell) { return cell.gap < boundary; });
-  group_end_[static_cast<std::size_t>(group - 1)] = static_cast<std::int32_t>(first_apart - cells_.begin());
-}
-
 void GapOrder::sortGroup(int group) {
   std::uint8_t& is_sorted = is_sorted_[static_cast<std::size_t>(group)];
   if (is_sorted != 0) return;
-  std::sort(cells_.begin() + groupStart(group), cells_.begin() + group_end_[static_cast<std::size_t>(group)],
-            [](const OrderedCell& a, const OrderedCell& b) { return comesBefore(a.gap, a.cell, b.gap, b.cell); });
+  const auto comes_before = [](const OrderedCell& a, const OrderedCell& b) {
+    return comesBefore(a.gap, a.cell, b.gap, b.cell);
+  };
+  const auto begin = cells_.begin() + groupStart(group);
+  const auto end = cells_.begin() + group_end_[static_cast<std::size_t>(group)];
+  // cells of one gap are in order already: a plateau may be the whole frame
+  if (!std::is_sorted(begin, end, comes_before)) std::sort(begin, end, comes_before);
   is_sorted = 1;
 }
 
@@ -260,6 +191,15 @@ double GapOrder::cellsBelow(double limit) const {
     count += covered * bucket_count_of_[static_cast<std::size_t>(bucket)];
   }
   return count;
+}
+
+double GapOrder::lowerEndAt(int place) const {
+  int before = 0;
+  int bucket = 0;
+  while (bucket + 1 < bucket_count_ && before + bucket_count_of_[static_cast<std::size_t>(bucket)] <= place) {
+    before += bucket_count_of_[static_cast<std::size_t>(bucket++)];
+  }
+  return bucket * bucket_width_;
 }
 
 void GapOrder::sortBetween(int begin, int end) {

@@ -22,9 +22,7 @@ void PatchSweep::start(const GapField& field, const GapOrder& order, Connectivit
 
 void PatchSweep::restart() {
   inserted_ = 0;
-  patch_of_dale_.clear();
-  next_dale_.clear();
-  dale_count_.clear();
+  joined_.clear();
   patches_.clear();
   live_.clear();
   live_place_.clear();
@@ -38,11 +36,7 @@ void PatchSweep::makeRoom() {
   patches_.resize(count);
   live_place_.resize(count);
   is_changed_.resize(count);
-  dale_count_.resize(count, 1);
-  for (auto id = static_cast<std::int32_t>(patch_of_dale_.size()); id < dales_.count(); ++id) {
-    patch_of_dale_.push_back(id);
-    next_dale_.push_back(id);
-  }
+  joined_.growTo(dales_.count());
 }
 
 void PatchSweep::advanceTo(int count) {
@@ -67,8 +61,8 @@ void PatchSweep::insertNext() {
   const OrderedCell& ordered = order_->cells()[static_cast<std::size_t>(inserted_)];
   const CellSurroundings& around = surroundings_.at(inserted_);
   if (dales_.count() > patchIdEnd()) makeRoom();
-  const GridCell cell = ordered.inGrid(field_->cols());
-  std::int32_t id = patchOfDale(around.dale());
+  const GridCell cell = field_->cellAt(ordered.cell);
+  std::int32_t id = joined_.patchOf(around.dale());
   if (around.isBorder() || connectivity_ == Connectivity::kEight) id = join(id, cell, ordered.gap, around);
   ContactPatch& patch = patches_[static_cast<std::size_t>(id)];
   if (patch.area == 0) {
@@ -85,7 +79,7 @@ void PatchSweep::insertNext() {
 std::int32_t PatchSweep::patchOf(const GridCell& cell) {
   const std::int32_t dale = dales_.at(cell);
   if (dale < 0 || dale >= patchIdEnd()) return -1;
-  const std::int32_t id = patchOfDale(dale);
+  const std::int32_t id = joined_.patchOf(dale);
   const ContactPatch& patch = patches_[static_cast<std::size_t>(id)];
   return patch.area > 0 && field_->gap(cell.index) <= patch.latest_gap ? id : -1;
 }
@@ -94,21 +88,14 @@ const std::vector<std::int32_t>& PatchSweep::takeChangedPatches() {
   changed_live_.clear();
   for (const std::int32_t id : changed_) {
     is_changed_[static_cast<std::size_t>(id)] = 0;
-    if (patchOfDale(id) == id) changed_live_.push_back(id);
+    if (joined_.patchOf(id) == id) changed_live_.push_back(id);
   }
   changed_.clear();
   return changed_live_;
 }
 
 std::int32_t PatchSweep::unite(std::int32_t a, std::int32_t b) {
-  if (dale_count_[static_cast<std::size_t>(a)] < dale_count_[static_cast<std::size_t>(b)]) std::swap(a, b);
-  dale_count_[static_cast<std::size_t>(a)] += dale_count_[static_cast<std::size_t>(b)];
-  std::int32_t dale = b;
-  do {
-    patch_of_dale_[static_cast<std::size_t>(dale)] = a;
-    dale = next_dale_[static_cast<std::size_t>(dale)];
-  } while (dale != b);
-  std::swap(next_dale_[static_cast<std::size_t>(a)], next_dale_[static_cast<std::size_t>(b)]);
+  if (joined_.unite(a, b) != a) std::swap(a, b);
 
   ContactPatch& patch = patches_[static_cast<std::size_t>(a)];
   const ContactPatch& other = patches_[static_cast<std::size_t>(b)];
@@ -134,7 +121,7 @@ std::int32_t PatchSweep::join(std::int32_t id, const GridCell& cell, double gap,
   const auto joinNeighbour = [&](const GridCell& neighbour) {
     const std::int32_t dale = dales_.find(neighbour);
     if (dale >= patchIdEnd()) makeRoom();
-    const std::int32_t neighbour_id = patchOfDale(dale);
+    const std::int32_t neighbour_id = joined_.patchOf(dale);
     if (neighbour_id != id) id = unite(id, neighbour_id);
   };
   const int cols = field_->cols();

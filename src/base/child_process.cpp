@@ -69,11 +69,16 @@ bool waitUntil(pid_t child, std::chrono::steady_clock::time_point deadline) {
 
 }  // namespace
 
-ChildResult runChild(const std::vector<std::string>& arguments, const std::vector<std::string>& environment,
-                     const std::string& log_path, double timeout) {
+pid_t startChild(const std::vector<std::string>& arguments, const std::vector<std::string>& environment,
+                 const std::string& log_path, int input, const std::string& folder) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  if (!folder.empty()) posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
+  if (input >= 0) {
+    posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
+  } else {
+    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  }
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log_path.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
   // A process group of its own, so that a timeout also ends what the child has started; and default signals, since
@@ -89,23 +94,31 @@ ChildResult runChild(const std::vector<std::string>& arguments, const std::vecto
   posix_spawnattr_setsigmask(&attributes, &none);
   posix_spawnattr_setsigdefault(&attributes, &all);
 
-  const RunningChild running([&] {
-    pid_t started = -1;
-    const int error = posix_spawnp(&started, arguments.front().c_str(), &actions, &attributes,
-                                   pointers(arguments).data(), pointers(environment).data());
-    return error == 0 ? started : -1;
-  });
-  const pid_t child = running.id();
+  pid_t child = -1;
+  const int error = posix_spawnp(&child, arguments.front().c_str(), &actions, &attributes, pointers(arguments).data(),
+                                 pointers(environment).data());
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
-
-  ChildResult result;
-  if (child < 0) return result;
-  result.started = true;
+  if (error != 0) return -1;
   const rlimit no_core{0, 0};  // a crash must not leave a core file in the caller's folder
   prlimit(child, RLIMIT_CORE, &no_core, nullptr);
   const rlimit memory{kChildMemory, kChildMemory};
   prlimit(child, RLIMIT_AS, &memory, nullptr);
+  return child;
+}
+
+void setEnd(int status, ChildResult& result) {
+  if (WIFEXITED(status)) result.exit_code = WEXITSTATUS(status);
+  if (WIFSIGNALED(status)) result.signal = WTERMSIG(status);
+}
+
+ChildResult runChild(const std::vector<std::string>& arguments, const std::vector<std::string>& environment,
+                     const std::string& log_path, double timeout) {
+  const RunningChild running([&] { return startChild(arguments, environment, log_path, -1, ""); });
+  const pid_t child = running.id();
+  ChildResult result;
+  if (child < 0) return result;
+  result.started = true;
   const auto deadline =
       std::chrono::steady_clock::now() +
       std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(timeout));
@@ -114,9 +127,7 @@ ChildResult runChild(const std::vector<std::string>& arguments, const std::vecto
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  if (result.timed_out) return result;
-  if (WIFEXITED(status)) result.exit_code = WEXITSTATUS(status);
-  if (WIFSIGNALED(status)) result.signal = WTERMSIG(status);
+  if (!result.timed_out) setEnd(status, result);
   return result;
 }
 

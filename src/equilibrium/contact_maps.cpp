@@ -29,7 +29,7 @@ void ContactMaps::fill(const ContactProblem& problem, const EquilibriumState& st
   const double past_contact = std::nextafter(state.approach, GapField::kInvalidGap);
   for (int row = 0; row < field.rows(); ++row) {
     field.gapsOfRow(row, gaps_.data());
-    const int count = columnsBelow(past_contact, gaps_.data(), field.cols(), columns_.data());
+    const int count = columnsBetween(0.0, past_contact, gaps_.data(), field.cols(), columns_.data());
     std::uint8_t* map = wants_map ? solution.contact_map.ptr<std::uint8_t>(row) : nullptr;
     double* lower_line = wants_surfaces ? solution.displaced_lower.ptr<double>(row) : nullptr;
     double* upper_line = wants_surfaces ? solution.displaced_upper.ptr<double>(row) : nullptr;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <limits>
 #include <tuple>
 
 #include "mems_stiction/base/errors.hpp"
@@ -60,6 +62,32 @@ bool isLength(const FileChannel& channel) {
   return is_metre(channel.unit_xy) && is_metre(channel.unit_z);
 }
 
+/// Number of times that pixels of a scan are at most as long as wide; an array of curves is no image.
+constexpr double kMostElongated = 1000.0;
+
+bool isImage(const FileChannel& channel) {
+  if (channel.takes_settings) return true;
+  const double ratio = channel.width / channel.values.cols / (channel.height / channel.values.rows);
+  return !(ratio > kMostElongated || ratio < 1.0 / kMostElongated);
+}
+
+/// Heights that span more than the scan is wide are another quantity, whatever title and unit say: volts of a sensor that
+/// was never calibrated. Nothing is said of values without a unit.
+bool isSteep(const FileChannel& channel) {
+  if (channel.takes_settings || channel.values.type() != CV_64FC1) return false;
+  double least = std::numeric_limits<double>::infinity();
+  double most = -least;
+  for (int row = 0; row < channel.values.rows; ++row) {
+    const double* line = channel.values.ptr<double>(row);
+    for (int col = 0; col < channel.values.cols; ++col) {
+      if (!(std::abs(line[col]) < kLargestHeight)) continue;
+      least = std::min(least, line[col]);
+      most = std::max(most, line[col]);
+    }
+  }
+  return most - least > std::max(channel.width, channel.height);
+}
+
 /// Lower is likelier to be the height; kOtherSignal is never taken by itself.
 enum Likelihood { kSensor, kHeight, kUnknown, kOtherSignal };
 
@@ -83,6 +111,9 @@ bool isOtherSignal(const std::string& letters) {
   }
   return is_signal;
 }
+
+/// Lower is taken first: steep, then what the title says, then backward.
+using Rank = std::tuple<bool, Likelihood, bool>;
 
 Likelihood likelihood(const FileChannel& channel) {
   const std::string letters = lettersOf(channel.title);
@@ -144,17 +175,19 @@ std::size_t chooseHeightChannel(const std::vector<FileChannel>& channels, const 
     }
     throw FileError("there is no channel '" + wanted + "'; there are: " + list(channels));
   }
-  const auto rank = [&channels](std::size_t i) {
-    return std::make_tuple(likelihood(channels[i]), isBackward(channels[i]));
-  };
+  std::vector<Rank> ranks;
+  ranks.reserve(channels.size());
+  for (const FileChannel& channel : channels) {
+    ranks.emplace_back(channels.size() > 1 && isSteep(channel), likelihood(channel), isBackward(channel));
+  }
   std::size_t best = channels.size();
   std::size_t equals = 0;
   for (std::size_t i = 0; i < channels.size(); ++i) {
-    if (!isLength(channels[i]) || likelihood(channels[i]) == kOtherSignal) continue;
-    if (best == channels.size() || rank(i) < rank(best)) {
+    if (!isLength(channels[i]) || !isImage(channels[i]) || std::get<Likelihood>(ranks[i]) == kOtherSignal) continue;
+    if (best == channels.size() || ranks[i] < ranks[best]) {
       best = i;
       equals = 1;
-    } else if (rank(i) == rank(best)) {
+    } else if (ranks[i] == ranks[best]) {
       ++equals;
     }
   }
@@ -170,6 +203,16 @@ std::size_t chooseHeightChannel(const std::vector<FileChannel>& channels, const 
                     list(channels));
   }
   return best;
+}
+
+std::string passedOver(const std::vector<FileChannel>& channels, std::size_t chosen) {
+  const Likelihood taken = likelihood(channels[chosen]);
+  for (const FileChannel& channel : channels) {
+    if (!isLength(channel) || !isImage(channel) || likelihood(channel) >= taken || !isSteep(channel)) continue;
+    return channelName(channels[chosen]) + " is taken: the heights of " + channelName(channel) +
+           " span more than the scan is wide";
+  }
+  return "";
 }
 
 HeightMap surfaceOfChannel(const FileChannel& channel) {

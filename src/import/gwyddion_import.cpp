@@ -1,6 +1,5 @@
 #include "mems_stiction/import/gwyddion_import.hpp"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include <filesystem>
@@ -8,63 +7,53 @@
 
 #include "mems_stiction/base/child_process.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/interruption.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/base/private_folder.hpp"
 #include "mems_stiction/import/file_bytes.hpp"
 #include "mems_stiction/import/gwy_file.hpp"
 #include "mems_stiction/import/import_cache.hpp"
+#include "mems_stiction/import/reader_version.hpp"
+#include "mems_stiction/import/waiting_gwyddion.hpp"
 
 namespace mems_stiction {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder of our own that goes with the object.
-class PrivateFolder {
- public:
-  PrivateFolder()
-      : scratch_([] {
-          std::string pattern = (fs::temp_directory_path() / "mems_stiction.XXXXXX").string();
-          if (mkdtemp(pattern.data()) == nullptr) throw FileError(pattern + ": the temporary folder cannot be made");
-          return pattern;
-        }) {}
-  ~PrivateFolder() {
-    std::error_code ignored;
-    fs::remove_all(scratch_.path(), ignored);
-  }
-  PrivateFolder(const PrivateFolder&) = delete;
-  PrivateFolder& operator=(const PrivateFolder&) = delete;
+constexpr const char* kTarget = "scan.gwy";
+constexpr const char* kLog = "log";
 
-  fs::path path() const { return scratch_.path(); }
-
- private:
-  ScratchPath scratch_;
-};
-
-/// What gwyddion said first, without the file's name; empty if it said nothing.
+/// What gwyddion said first, without the file's name and if possible no remark of its libraries; empty if it said nothing.
 std::string complaint(const fs::path& log, const std::string& scan_path) {
   std::ifstream stream(log);
+  std::string remark;
   for (std::string line; std::getline(stream, line);) {
-    if (line.compare(0, scan_path.size() + 2, scan_path + ": ") == 0) line.erase(0, scan_path.size() + 2);
-    if (!line.empty()) return line;
+    for (const std::string& name : {scan_path + ": ", kWaitingFileName + std::string(": ")}) {
+      if (line.compare(0, name.size(), name) == 0) return line.substr(name.size());
+    }
+    const bool is_of_library = line.find("-CRITICAL **") != std::string::npos ||
+                               line.find("-WARNING **") != std::string::npos || line.compare(0, 9, "(process:") == 0;
+    if (!line.empty() && !is_of_library) return line;
+    if (remark.empty()) remark = line;
   }
-  return "";
+  return remark;
+}
+
+/// By a gwyddion that waits, if there is one, else by one of its own.
+ChildResult runGwyddion(const fs::path& folder, const std::string& scan_path, const ImportOptions& options) {
+  if (options.waiting) {
+    if (const auto result = options.waiting->read(folder.string(), scan_path, options.timeout)) return *result;
+  }
+  return runChild(gwyddionArguments(options.program, (folder / kTarget).string(), scan_path),
+                  gwyddionEnvironment(folder.string()), (folder / kLog).string(), options.timeout);
 }
 
 /// The .gwy container that the program makes of the file. @throw FileError naming the file
 std::string converted(const std::string& path, const ImportOptions& options) {
   const PrivateFolder folder;
   const std::string scan_path = fs::absolute(path).string();
-  const fs::path target = folder.path() / "scan.gwy";
-  const fs::path log = folder.path() / "log";
-  // No display is needed, and none may be touched. gwyddion reads modules from its HOME and writes settings to it. Its
-  // threads take longer to start than a small file takes to read.
-  const std::vector<std::string> environment = environmentWithout(
-      {"DISPLAY", "WAYLAND_DISPLAY", "HOME", "XDG_CONFIG_HOME", "LC_ALL", "LANGUAGE", "OMP_NUM_THREADS"},
-      {"HOME=" + folder.path().string(), "LC_ALL=C.UTF-8", "OMP_NUM_THREADS=1"});
-  const ChildResult result =
-      runChild({options.program, "--no-log-to-file", "--convert-to-gwy=" + target.string(), scan_path}, environment,
-               log.string(), options.timeout);
+  const ChildResult result = runGwyddion(folder.path(), scan_path, options);
+  const fs::path target = folder.path() / kTarget;
   if (!result.started) {
     throw FileError(path + ": needs the program " + options.program +
                     " to be read, which is not installed (Debian package: gwyddion)");
@@ -76,7 +65,7 @@ std::string converted(const std::string& path, const ImportOptions& options) {
     throw FileError(path + ": gwyddion crashed on this file (" + strsignal(result.signal) + "): it is damaged");
   }
   if (result.exit_code != 0 || !fs::exists(target)) {
-    const std::string cause = complaint(log, scan_path);
+    const std::string cause = complaint(folder.path() / kLog, scan_path);
     throw FileError(path + ": gwyddion cannot read it: " +
                     (cause.empty() ? "exit status " + std::to_string(result.exit_code) : cause));
   }
@@ -95,7 +84,7 @@ std::vector<FileChannel> channelsByGwyddion(const std::string& path, const std::
                                             const ImportOptions& options) {
   std::string key;
   if (options.use_cache) {
-    key = importCacheKey(bytes, fs::path(path).extension().string(), options.program);
+    key = importCacheKey(bytes, fs::path(path).extension().string(), options.program, readerVersion());
     if (const auto kept = keptConversion(key)) return measured(parseGwy(*kept));
   }
   const std::string gwy = converted(path, options);

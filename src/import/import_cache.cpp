@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <vector>
 
@@ -21,12 +22,19 @@ namespace fs = std::filesystem;
 constexpr std::uintmax_t kMostKept = std::uintmax_t{1} << 30;  // [bytes]
 constexpr const char* kEnding = ".gwy";
 
-/// Hash of 128 bits (FNV-1a, draft-eastlake-fnv): content is told apart, not protected against forgers.
+/// Hash of 128 bits after FNV-1a (draft-eastlake-fnv), eight bytes at a time: content is told apart, not protected against
+/// forgers.
 std::string hashOf(const std::string& bytes) {
   __extension__ using Wide = unsigned __int128;
   constexpr Wide kPrime = (Wide{1} << 88) + 0x13B;
   Wide hash = Wide{0x6C62272E07BB0142} << 64 | Wide{0x62B821756295C58D};
-  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * kPrime;
+  for (std::size_t at = 0; at < bytes.size(); at += sizeof(std::uint64_t)) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes.data() + at, std::min(sizeof word, bytes.size() - at));
+    hash = (hash ^ word) * kPrime;
+    hash ^= hash >> 64;  // products carry upwards alone
+  }
+  hash = (hash ^ bytes.size()) * kPrime;
   char text[40];
   std::snprintf(text, sizeof text, "%016llx%016llx", static_cast<unsigned long long>(hash >> 64),
                 static_cast<unsigned long long>(hash));
@@ -90,8 +98,10 @@ std::optional<std::string> importCacheFolder() {
   return std::string(home) + "/.cache/mems_stiction";
 }
 
-std::string importCacheKey(const std::string& bytes, const std::string& name_end, const std::string& program) {
-  return hashOf(hashOf(bytes) + " " + std::to_string(bytes.size()) + " " + name_end + " " + installed(program));
+std::string importCacheKey(const std::string& bytes, const std::string& name_end, const std::string& program,
+                           const std::string& readers) {
+  return hashOf(hashOf(bytes) + " " + std::to_string(bytes.size()) + " " + name_end + " " + installed(program) + " " +
+                readers);
 }
 
 std::optional<std::string> keptConversion(const std::string& key) {

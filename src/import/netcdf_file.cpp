@@ -16,6 +16,7 @@ namespace {
 
 constexpr const char* kWhat = "the NetCDF file";
 constexpr std::uint32_t kMostEntries = 100'000;
+constexpr std::uint32_t kManyBytes = 0xFFFFFFFC;  // from here on the header does not say how many
 
 enum Type { kByte = 1, kChar, kShort, kInt, kFloat, kDouble };
 
@@ -50,6 +51,8 @@ struct Variable {
   std::vector<std::uint32_t> dimensions;
   Attributes attributes;
   std::uint32_t type = 0;
+  std::uint32_t bytes =
+      0;  ///< of all its numbers, filled up to a multiple of four; the largest number if there are more
   std::uint64_t begin = 0;
 };
 
@@ -77,7 +80,7 @@ class Netcdf {
       }
       variable.attributes = attributes(cursor);
       variable.type = cursor.number<std::uint32_t>();
-      cursor.take(4);
+      variable.bytes = cursor.number<std::uint32_t>();
       variable.begin = version == 1 ? cursor.number<std::uint32_t>() : cursor.number<std::uint64_t>();
       variables_[variable_name] = variable;
     }
@@ -99,6 +102,9 @@ class Netcdf {
     ByteCursor cursor(bytes_.data(), bytes_.size(), kWhat, ByteOrder::kBig);
     if (variable.begin > bytes_.size()) throw FileError("the NetCDF file is cut off");
     cursor.take(static_cast<std::size_t>(variable.begin));
+    const std::uint64_t needed = (numbers * sizeOf(variable.type) + 3) / 4 * 4;
+    if (variable.bytes != needed && variable.bytes < kManyBytes)
+      throw FileError("the NetCDF file has a damaged header");
     return cursor.array(static_cast<std::size_t>(numbers), sizeOf(variable.type));
   }
 

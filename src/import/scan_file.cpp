@@ -122,10 +122,7 @@ HeightMap surfaceOf(const std::string& path, const FileChannel& channel, const S
   return heightMapFromPixels(channel.values, settings);
 }
 
-/// Largest number that programs write for a height; beyond it they write "none": 1e38, FLT_MAX, DBL_MAX and the like [m].
-constexpr double kLargestHeight = 1e20;
-
-/// @return the surface without such numbers
+/// @return the surface without numbers that stand for none
 HeightMap withoutSentinels(const HeightMap& surface, std::vector<std::string>& notes) {
   const cv::Mat above = surface.heights() > kLargestHeight;
   const cv::Mat below = surface.heights() < -kLargestHeight;
@@ -162,9 +159,12 @@ auto naming(const std::string& path, Function&& function) {
 ScanFile openScanFile(const std::string& path, const ScanOptions& scan, const ScanFileOptions& options) {
   return naming(path, [&] {
     const std::vector<FileChannel> channels = readChannels(path, options.import);
-    const FileChannel& channel = channels.at(chooseHeightChannel(channels, options.import.channel));
+    const std::size_t chosen = chooseHeightChannel(channels, options.import.channel);
+    const FileChannel& channel = channels[chosen];
     ScanFile file{surfaceOf(path, channel, scan, options), nameOf(channel, channels.size()), channel.notes};
     file.surface = withoutSentinels(file.surface, file.notes);
+    const std::string passed_over = options.import.channel.empty() ? passedOver(channels, chosen) : "";
+    if (!passed_over.empty()) file.notes.push_back(passed_over);
     notePitch(channel, file.surface, file.notes);
     return file;
   });

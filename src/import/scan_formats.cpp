@@ -37,7 +37,7 @@ std::string extension(const std::string& path) {
 
 /// Some instruments write a picture of the scan, with the heights in tags of their own.
 Channels readTiff(const std::string& path, const std::string& bytes, const ImportOptions& options) {
-  if (hasParkTags(bytes)) return channelsByGwyddion(path, bytes, options);
+  if (hasInstrumentTags(bytes)) return channelsByGwyddion(path, bytes, options);
   Channels channels = parseTiff(bytes);
   const bool is_picture = std::all_of(channels.begin(), channels.end(),
                                       [](const FileChannel& channel) { return channel.values.channels() > 2; });
@@ -60,6 +60,15 @@ Channels readNetcdf(const std::string& path, const std::string& bytes, const Imp
   return channels;
 }
 
+/// HDF5 holds arrays of any meaning under any names: some instruments' layouts are known to gwyddion, no other is guessed.
+Channels readHdf5(const std::string& path, const std::string& bytes, const ImportOptions& options) {
+  try {
+    return channelsByGwyddion(path, bytes, options);
+  } catch (const FileError& error) {
+    throw FileError(std::string(error.what()) + " (an HDF5 file: write its array of heights as .npy and give --pitch)");
+  }
+}
+
 /// OpenCV's and the project's own formats with a signature. @return false if it is none of them
 bool readKnown(const std::string& path, const std::string& bytes, const ImportOptions& options, Channels& channels) {
   if (beginsWithOneOf(bytes, {std::string("II*\0", 4), std::string("MM\0*", 4), std::string("II+\0", 4),
@@ -77,6 +86,8 @@ bool readKnown(const std::string& path, const std::string& bytes, const ImportOp
     channels = parseSur(bytes);
   } else if (isWsxmImage(bytes.substr(0, 200))) {
     channels = {parseWsxm(bytes)};
+  } else if (beginsWithOneOf(bytes, {"\x89HDF\r\n"})) {
+    channels = readHdf5(path, bytes, options);
   } else if (beginsWithOneOf(bytes, {std::string("CDF\1", 4), std::string("CDF\2", 4)})) {
     channels = readNetcdf(path, bytes, options);
   } else {

@@ -49,7 +49,7 @@ Header readHeader(ByteCursor& file) {
   cursor.take(4);
   header.cols = cursor.number<std::int32_t>();
   header.rows = cursor.number<std::int32_t>();
-  cursor.take(4);
+  const auto points = cursor.number<std::int32_t>();
   header.step_x = static_cast<double>(cursor.number<float>());
   header.step_y = static_cast<double>(cursor.number<float>());
   header.step_z = static_cast<double>(cursor.number<float>());
@@ -63,7 +63,8 @@ Header readHeader(ByteCursor& file) {
   cursor.take(2 + 12 + 14 + 4 + 4 + 6);
   header.comment = cursor.number<std::uint16_t>();
   header.hidden = cursor.number<std::uint16_t>();
-  if (header.cols <= 0 || header.rows <= 0 || (header.bits != 16 && header.bits != 32)) {
+  const bool is_count_right = points == 0 || points == std::int64_t{header.cols} * header.rows;
+  if (header.cols <= 0 || header.rows <= 0 || !is_count_right || (header.bits != 16 && header.bits != 32)) {
     throw FileError("the .sur file has a damaged header");
   }
   checkPixelCount(static_cast<std::uint64_t>(header.cols), static_cast<std::uint64_t>(header.rows));

@@ -12,6 +12,7 @@
 #include "mems_stiction/import/file_bytes.hpp"
 #include "mems_stiction/import/half_float.hpp"
 #include "mems_stiction/import/tiff_notes.hpp"
+#include "mems_stiction/import/tiff_tags.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -175,6 +176,23 @@ void unpack(const unsigned char* data, std::size_t line_bytes, const Layout& lay
   }
 }
 
+/// Without compression the bytes of a page follow from its size: where they are others, size or bits are damaged. Strips
+/// and tiles may be padded by a line.
+void checkByteCount(TIFF* tiff, const Layout& layout, std::uint64_t line_bytes) {
+  if (tag<std::uint16_t>(tiff, TIFFTAG_COMPRESSION, COMPRESSION_NONE) != COMPRESSION_NONE || TIFFIsTiled(tiff) != 0) {
+    return;
+  }
+  const std::uint32_t strips = TIFFNumberOfStrips(tiff);
+  std::uint64_t stated = 0;
+  for (std::uint32_t strip = 0; strip < strips; ++strip) stated += TIFFGetStrileByteCount(tiff, strip);
+  const std::uint64_t needed =
+      line_bytes * layout.rows * static_cast<std::uint64_t>(layout.is_separate ? layout.samples : 1);
+  if (stated > needed + line_bytes * strips) {
+    throw FileError("a page states " + std::to_string(stated) + " bytes of pixels, its size needs " +
+                    std::to_string(needed) + ": damaged");
+  }
+}
+
 cv::Mat pixelsOf(TIFF* tiff, const Layout& layout) {
   const std::string damaged = "the image cannot be read: cut off, damaged, or of a compression that libtiff lacks";
   const bool is_tiled = TIFFIsTiled(tiff) != 0;
@@ -188,6 +206,7 @@ cv::Mat pixelsOf(TIFF* tiff, const Layout& layout) {
       static_cast<std::uint64_t>(size) > kMaxFileBytes) {
     throw FileError(damaged);
   }
+  checkByteCount(tiff, layout, static_cast<std::uint64_t>(line_bytes));
   cv::Mat pixels = cv::Mat::zeros(static_cast<int>(layout.rows), static_cast<int>(layout.cols), typeOf(layout));
   std::vector<unsigned char> buffer(static_cast<std::size_t>(size));
   const int planes = layout.is_separate ? layout.samples : 1;
@@ -289,7 +308,7 @@ std::vector<FileChannel> parseTiff(const std::string& bytes) {
   do {
     ++pages;
   } while (pages < kMostPages && TIFFReadDirectory(tiff.get()) != 0);
-  if (TIFFLastDirectory(tiff.get()) == 0)
+  if (TIFFLastDirectory(tiff.get()) == 0 || pageCount(bytes, kMostPages) != pages)
     throw FileError("the list of its pages is damaged, or longer than " + std::to_string(kMostPages));
 
   std::vector<FileChannel> channels;

@@ -99,6 +99,10 @@ FileChannel parseWsxm(const std::string& bytes) {
     throw FileError("the WSxM file has " + std::to_string(bytes.size()) + " bytes, its header states " +
                     std::to_string(begin + needed) + ": cut off");
   }
+  if (bytes.size() - begin - needed >= needed / rows) {  // a line or more
+    throw FileError("the WSxM file has " + std::to_string(bytes.size()) + " bytes, its header states " +
+                    std::to_string(begin + needed) + ": the header is damaged");
+  }
 
   FileChannel channel;
   const auto title = header.find("General Info/Acquisition channel");

@@ -40,9 +40,7 @@ double transitionParameter(double adhesive_stress, double radius, double work_of
 }
 
 double fittedPullOffPrefactor(double transition_parameter) {
-  // (x - 1)/(x + 1) as 1 - 2/(x + 1), which also holds at x = infinity
-  const double x = 4.04 * std::pow(transition_parameter, 1.4);
-  return 1.5 + 0.5 / (x + 1.0);
+  return fittedPullOffPrefactorOfPower(std::pow(transition_parameter, 1.4));
 }
 
 State stateOfRing(double transition_parameter, double ring_extent) {

@@ -1,7 +1,10 @@
 #include "mems_stiction/separation/flattening.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "mems_stiction/base/lanes.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -14,22 +17,38 @@ constexpr int kLagsPerLine = 4;  ///< the longest distance is this part of the l
 }  // namespace
 
 void StructureFunction::start(int length) {
+  length_ = length;
   lags_.clear();
   const int longest = std::min(std::max(1, length / kLagsPerLine), length - 1);
   for (int lag = 1; lag <= longest; lag = std::max(lag + 1, static_cast<int>(lag * kLagGrowth))) {
-    lags_.push_back({lag, 0.0, 0});
+    lags_.push_back({lag, 0.0, 0.0});
   }
 }
 
-void StructureFunction::add(const std::vector<double>& line) {
+MEMS_STICTION_VECTORIZED void StructureFunction::add(const double* line) {
+  const auto length = static_cast<std::size_t>(length_);
   for (Lag& lag : lags_) {
     const auto distance = static_cast<std::size_t>(lag.cells);
-    for (std::size_t i = distance; i < line.size(); ++i) {
-      const double difference = line[i] - line[i - distance];
-      if (!std::isfinite(difference)) continue;
-      lag.sum += difference * difference;
-      ++lag.count;
+    const double* const near = line;
+    const double* const far = line + distance;
+    const std::size_t pairs = length - distance;
+    Lanes sum = 0.0;
+    Lanes count = 0.0;
+    const auto take = [&](const Lanes& difference) {
+      const LaneMask is_known = difference - difference == 0.0;
+      const Lanes known = select(is_known, difference, Lanes(0.0));
+      sum += known * known;
+      count += oneWhere(is_known);
+    };
+    const std::size_t in_lanes = pairs / Lanes::kCount * Lanes::kCount;
+    for (std::size_t i = 0; i < in_lanes; i += Lanes::kCount) take(Lanes::load(far + i) - Lanes::load(near + i));
+    if (in_lanes < pairs) {
+      constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+      take(Lanes::loadFirst(far + in_lanes, pairs - in_lanes, kUnknown) -
+           Lanes::loadFirst(near + in_lanes, pairs - in_lanes, kUnknown));
     }
+    lag.sum += sum.sum();
+    lag.count += count.sum();
   }
 }
 
@@ -38,9 +57,9 @@ double StructureFunction::integral(double pitch) const {
   double last_distance = 0.0;
   double last = 0.0;
   for (const Lag& lag : lags_) {
-    if (lag.count == 0) continue;
+    if (lag.count == 0.0) continue;
     const double distance = lag.cells * pitch;
-    const double value = lag.sum / static_cast<double>(lag.count);
+    const double value = lag.sum / lag.count;
     // S is a line over 1/r between two distances
     sum +=
         last_distance == 0.0 ? 0.5 * value / distance : 0.25 * (last + value) * (1.0 / last_distance - 1.0 / distance);
@@ -51,24 +70,46 @@ double StructureFunction::integral(double pitch) const {
 }
 
 double FlatteningEnergy::of(const GapField& field, double contact_modulus) {
-  along_rows_.start(field.cols());
-  line_.resize(static_cast<std::size_t>(field.cols()));
-  const int row_step = std::max(1, field.rows() / kLines);
-  for (int row = row_step / 2; row < field.rows(); row += row_step) {
-    field.gapsOfRow(row, line_.data());
-    along_rows_.add(line_);
-  }
-  along_columns_.start(field.rows());
-  line_.resize(static_cast<std::size_t>(field.rows()));
-  const int col_step = std::max(1, field.cols() / kLines);
-  for (int col = col_step / 2; col < field.cols(); col += col_step) {
-    for (int row = 0; row < field.rows(); ++row) {
-      line_[static_cast<std::size_t>(row)] = field.gap(field.cellAt(row, col).index);
+  return field.readGaps([&](const auto& gaps) {
+    return measure(field, contact_modulus, [&](std::ptrdiff_t cell) { return gaps[cell]; });
+  });
+}
+
+double FlatteningEnergy::of(const GapField& field, const cv::Mat1d& raised, double contact_modulus) {
+  const double* heights = raised.ptr<double>();
+  return field.readGaps([&](const auto& gaps) {
+    return measure(field, contact_modulus, [&](std::ptrdiff_t cell) { return gaps[cell] + heights[cell]; });
+  });
+}
+
+template <typename ReadCell>
+double FlatteningEnergy::measure(const GapField& field, double contact_modulus, const ReadCell& read) {
+  const int rows = field.rows();
+  const int cols = field.cols();
+  const int row_step = std::max(1, rows / kLines);
+  const int col_step = std::max(1, cols / kLines);
+  along_rows_.start(cols);
+  along_columns_.start(rows);
+  row_.resize(static_cast<std::size_t>(cols));
+  // the columns are read row by row: a look at each row, which is a pass over memory, but in its order
+  const int first_col = col_step / 2;
+  const int columns = (cols - first_col + col_step - 1) / col_step;
+  columns_.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+  for (int row = 0; row < rows; ++row) {
+    const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(row) * cols + first_col;
+    for (int i = 0; i < columns; ++i) {
+      columns_[static_cast<std::size_t>(i) * static_cast<std::size_t>(rows) + static_cast<std::size_t>(row)] =
+          read(first + static_cast<std::ptrdiff_t>(i) * col_step);
     }
-    along_columns_.add(line_);
+  }
+  for (int i = 0; i < columns; ++i) along_columns_.add(columns_.data() + static_cast<std::ptrdiff_t>(i) * rows);
+  for (int row = row_step / 2; row < rows; row += row_step) {
+    const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(row) * cols;
+    for (int col = 0; col < cols; ++col) row_[static_cast<std::size_t>(col)] = read(first + col);
+    along_rows_.add(row_.data());
   }
   const double both = along_rows_.integral(field.pitchX()) + along_columns_.integral(field.pitchY());
-  const int directions = (field.cols() > 1 ? 1 : 0) + (field.rows() > 1 ? 1 : 0);
+  const int directions = (cols > 1 ? 1 : 0) + (rows > 1 ? 1 : 0);
   return directions > 0 ? 0.25 * contact_modulus * both / directions : 0.0;
 }
 

@@ -4,89 +4,138 @@
 #include <utility>
 
 namespace mems_stiction {
+namespace {
 
-void OverlapSweep::start(const GapField& field, Connectivity connectivity) {
+/// More patches than this do not lie in the cache: they are asked for some cells ahead.
+constexpr std::size_t kPatchesInCache = 1 << 14;
+constexpr int kCellsAhead = 16;
+
+}  // namespace
+
+void OverlapSweep::start(const GapField& field, DaleMap& dales, Connectivity connectivity) {
   field_ = &field;
+  dales_ = &dales;
   connectivity_ = connectivity;
-  const auto size = static_cast<std::size_t>(field.cellCount());
-  if (patch_of_cell_.size() != size) {
-    patch_of_cell_.assign(size, -1);
-  } else {
-    for (const std::int32_t cell : inserted_cells_) patch_of_cell_[static_cast<std::size_t>(cell)] = -1;
-  }
   inserted_ = 0;
-  inserted_cells_.clear();
+  approach_ = 0.0;
+  joined_.clear();
   patches_.clear();
-  parent_.clear();
   live_.clear();
   live_place_.clear();
+  has_meeting_.clear();
 }
 
-int OverlapSweep::advanceTo(double approach, GapOrder& order) {
-  if (!(approach > 0.0)) return inserted_;  // no gap is below 0
+int OverlapSweep::advanceTo(double approach, GapOrder& order, const OverlapSweep* ahead) {
+  if (!(approach > approach_)) return inserted_;  // no gap is below 0
+  approach_ = approach;
   const int count = order.sortBelow(approach);
-  if (count > inserted_) {
-    order.sortBetween(inserted_, count);
-    while (inserted_ < count) insert(order.cells()[static_cast<std::size_t>(inserted_++)]);
+  if (count == inserted_) return inserted_;
+  const auto dale_count = static_cast<std::size_t>(dales_->count());
+  joined_.growTo(dales_->count());
+  patches_.resize(dale_count);
+  live_place_.resize(dale_count);
+  has_meeting_.resize(static_cast<std::size_t>(order.groupCount()));
+  for (int group = order.groupOfPlace(inserted_); inserted_ < count; ++group) {
+    const int end = std::min(count, order.groupStart(group + 1));
+    const OrderedCell* const cells = order.cells().data();
+    if (dale_count > kPatchesInCache) {
+      for (int place = inserted_; place < end; ++place) {
+        const OrderedCell& later = cells[std::min(place + kCellsAhead, count - 1)];
+        __builtin_prefetch(&patches_[static_cast<std::size_t>(patchOf(later))], 1);
+      }
+    }
+    // the same cells in the same order meet in the same places
+    const bool is_known = ahead != nullptr && ahead->inserted_ >= end;
+    const bool has_meeting =
+        is_known ? ahead->has_meeting_[static_cast<std::size_t>(group)] != 0 : patchesMeetBefore(end, order);
+    if (has_meeting) {
+      has_meeting_[static_cast<std::size_t>(group)] = 1;
+      order.sortBetween(inserted_, end);
+      for (; inserted_ < end; ++inserted_) {
+        const OrderedCell& ordered = cells[inserted_];
+        insert(join(patchOf(ordered), ordered), ordered);
+      }
+    } else {
+      for (; inserted_ < end; ++inserted_) insert(patchOf(cells[inserted_]), cells[inserted_]);
+    }
   }
   return inserted_;
 }
 
-void OverlapSweep::insert(const OrderedCell& ordered) {
-  std::int32_t id = -1;
-  const GridCell cell = ordered.inGrid(field_->cols());
-  const auto meet = [&](const GridCell& neighbour) {
-    if (!field_->contains(neighbour)) return;
-    const std::int32_t other = patch_of_cell_[static_cast<std::size_t>(neighbour.index)];
-    if (other < 0) return;
-    const std::int32_t root = rootOf(other);
-    if (id < 0) {
-      id = root;
-    } else if (root != id) {
-      id = unite(id, root, ordered.gap);
-    }
-  };
-  for (const Side side : kSides) meet(cell.neighbour(side, field_->cols()));
-  if (connectivity_ == Connectivity::kEight) {
-    for (const Side vertical : {kTop, kBottom}) {
-      const GridCell beside = cell.neighbour(vertical, field_->cols());
-      for (const Side horizontal : {kLeft, kRight}) meet(beside.neighbour(horizontal, field_->cols()));
+bool OverlapSweep::patchesMeetBefore(int end, const GapOrder& order) const {
+  if (connectivity_ == Connectivity::kEight) return true;  // a tag knows nothing of corners
+  const OrderedCell* const cells = order.cells().data();
+  const int cols = field_->cols();
+  const int steps[] = {-1, 1, -cols, cols};
+  const std::int32_t* const dales = dales_->data();
+  for (int place = inserted_; place < end; ++place) {
+    const OrderedCell& ordered = cells[place];
+    if (!ordered.tag.isBorder()) continue;
+    const std::int32_t id = patchOf(ordered);
+    for (const Side side : kSides) {
+      if (ordered.tag.isBorderAt(side) && joined_.patchOf(dales[ordered.cell + steps[side]]) != id) return true;
     }
   }
-  if (id < 0) {
-    id = static_cast<std::int32_t>(patches_.size());
-    OverlapPatch patch;
-    patch.summits = 1;
-    patch.first_cell = cell.index;
-    patch.first_gap = ordered.gap;
-    patches_.push_back(patch);
-    parent_.push_back(id);
-    live_place_.push_back(static_cast<std::int32_t>(live_.size()));
-    live_.push_back(id);
-  }
-  OverlapPatch& patch = patches_[static_cast<std::size_t>(id)];
-  ++patch.cells;
-  patch.gap_sum += ordered.gap;
-  patch_of_cell_[static_cast<std::size_t>(cell.index)] = id;
-  inserted_cells_.push_back(cell.index);
+  return false;
 }
 
-std::int32_t OverlapSweep::rootOf(std::int32_t id) {
-  while (parent_[static_cast<std::size_t>(id)] != id) {
-    std::int32_t& above = parent_[static_cast<std::size_t>(id)];
-    above = parent_[static_cast<std::size_t>(above)];
-    id = above;
+void OverlapSweep::insert(std::int32_t id, const OrderedCell& ordered) {
+  OverlapPatch& patch = patches_[static_cast<std::size_t>(id)];
+  if (patch.cells == 0) {
+    patch.summits = 1;
+    patch.first_cell = ordered.cell;
+    patch.first_gap = ordered.gap;
+    live_place_[static_cast<std::size_t>(id)] = static_cast<std::int32_t>(live_.size());
+    live_.push_back(id);
+  } else if (comesBefore(ordered.gap, ordered.cell, patch.first_gap, patch.first_cell)) {
+    patch.first_cell = ordered.cell;  // of the same group
+    patch.first_gap = ordered.gap;
+  }
+  ++patch.cells;
+  patch.gap_sum += ordered.gap;
+}
+
+std::int32_t OverlapSweep::patchOf(int cell) {
+  if (!(field_->gap(cell) < approach_)) return -1;
+  return joined_.patchOf(dales_->find(field_->cellAt(cell)));
+}
+
+std::int32_t OverlapSweep::join(std::int32_t id, const OrderedCell& ordered) {
+  const int cols = field_->cols();
+  const auto meet = [&](const GridCell& neighbour) {
+    const std::int32_t other = joined_.patchOf(dales_->find(neighbour));
+    if (other != id) id = unite(id, other, ordered.gap);
+  };
+  const GridCell cell = field_->cellAt(ordered.cell);
+  for (const Side side : kSides) {
+    if (ordered.tag.isBorderAt(side)) meet(cell.neighbour(side, cols));
+  }
+  if (connectivity_ == Connectivity::kEight) {
+    for (const Side vertical : {kTop, kBottom}) {
+      const GridCell beside = cell.neighbour(vertical, cols);
+      for (const Side horizontal : {kLeft, kRight}) {
+        const GridCell corner = beside.neighbour(horizontal, cols);
+        if (!field_->contains(corner)) continue;
+        if (comesBefore(field_->gap(corner.index), corner.index, ordered.gap, ordered.cell)) meet(corner);
+      }
+    }
   }
   return id;
 }
 
 std::int32_t OverlapSweep::unite(std::int32_t a, std::int32_t b, double gap) {
-  const std::int32_t cells_a = patch(a).cells;
-  const std::int32_t cells_b = patch(b).cells;
-  if (cells_a < cells_b || (cells_a == cells_b && b < a)) std::swap(a, b);
-  patches_[static_cast<std::size_t>(a)].merge(patch(b), gap);
-  parent_[static_cast<std::size_t>(b)] = a;
+  if (joined_.unite(a, b) != a) std::swap(a, b);
+  OverlapPatch& patch = patches_[static_cast<std::size_t>(a)];
+  const OverlapPatch& other = patches_[static_cast<std::size_t>(b)];
+  if (other.cells == 0) return a;  // a dale whose first cell touches another's at a corner
   const std::int32_t place = live_place_[static_cast<std::size_t>(b)];
+  if (patch.cells == 0) {
+    patch = other;
+    live_[static_cast<std::size_t>(place)] = a;
+    live_place_[static_cast<std::size_t>(a)] = place;
+    return a;
+  }
+  patch.merge(other, gap);
   live_[static_cast<std::size_t>(place)] = live_.back();
   live_place_[static_cast<std::size_t>(live_.back())] = place;
   live_.pop_back();

@@ -11,9 +11,9 @@ constexpr double kApart[] = {-12.0, -8.0, -6.0, -4.5, -3.5, -2.8, -2.2, -1.8, -1
 constexpr double kStep = 0.1;
 /// Steps grow with the approach, so that few of them go deep.
 constexpr double kStepPerApproach = 0.05;
-/// The surfaces are at rest for good when what carries exceeds what presses by this factor.
-constexpr double kCarriesEnough = 1.5;
-constexpr int kRestSearches = 3;
+/// Most places that are tried for it, and what the forces there may lack of what is carried.
+constexpr int kRestSearches = 24;
+constexpr double kRestAccuracy = 1e-3;
 
 /// The vertex of the parabola through three points of the curve, if it lies between them; else the middle one.
 void takeMaximum(const std::vector<SeparationState>& states, SeparationCurve& curve) {
@@ -72,20 +72,24 @@ double crossing(const SeparationState& above, const SeparationState& below, doub
   return above.approach + share * (below.approach - above.approach);
 }
 
-/// Puts the state of rest at the end: the crossing after the last state that does not carry the load.
+/// Puts the state of rest at the end: the crossing between the last two states.
 void settle(SeparationTrace& trace, double load, SeparationCurve& curve) {
   std::vector<SeparationState>& states = curve.states;
-  std::size_t last = states.size() - 1;
-  while (last > 0 && states[last].force() + load < 0.0) --last;
-  if (last + 1 == states.size()) return;
-  SeparationState above = states[last];
-  SeparationState below = states[last + 1];
-  states.resize(last + 1);
+  SeparationState below = states.back();
+  states.pop_back();
+  SeparationState above = states.back();
+  trace.restart();
+  trace.at(above.approach);
+  trace.keep();
   for (int search = 0; search < kRestSearches; ++search) {
-    trace.restart();
-    const SeparationState found = trace.at(crossing(above, below, load));
-    (found.force() + load >= 0.0 ? above : below) = found;
-    if (std::abs(found.force() + load) <= 1e-3 * std::max(found.carried, load) || search + 1 == kRestSearches) {
+    if (search > 0) trace.backToKept();
+    // every third time the middle: where one side is a wall, the line hardly moves the other
+    const double place = search % 3 == 2 ? 0.5 * (above.approach + below.approach) : crossing(above, below, load);
+    const SeparationState found = trace.at(place);
+    const double excess = found.force() + load;
+    const bool is_rest = std::abs(excess) <= kRestAccuracy * std::max(found.carried, load);
+    (excess >= 0.0 ? above : below) = found;
+    if (is_rest || search + 1 == kRestSearches) {
       states.push_back(found);
       break;
     }
@@ -103,19 +107,16 @@ void followCurve(SeparationTrace& trace, const ContactSettings& settings, Separa
   curve.status = Status::kNoEquilibrium;
   int steps = 0;
   while (steps++ < settings.approach.max_steps) {
-    curve.states.push_back(trace.at(nextApproach(curve.states.back().approach, range)));
+    double approach = nextApproach(curve.states.back().approach, range);
+    if (approach >= trace.approachBeforeLimit()) approach = std::min(approach, trace.limitApproach());
+    curve.states.push_back(trace.at(approach));
     const SeparationState& state = curve.states.back();
-    const double pressing = state.adhesion + state.electrostatic + state.capillary + load;
-    if (state.force() + load < 0.0 && state.carried > kCarriesEnough * pressing) {
+    if (state.force() + load < 0.0) {
       curve.status = Status::kEquilibrium;
       break;
     }
     if (state.contact_count >= trace.contactLimit()) {
-      const double limit = trace.limitApproach();
-      curve.states.pop_back();
-      trace.restart();
-      curve.states.push_back(trace.at(limit));
-      curve.status = curve.states.back().force() + load < 0.0 ? Status::kEquilibrium : Status::kBonded;
+      curve.status = state.force() + load < 0.0 ? Status::kEquilibrium : Status::kBonded;
       break;
     }
   }
@@ -124,16 +125,18 @@ void followCurve(SeparationTrace& trace, const ContactSettings& settings, Separa
   takeWork(at_first, curve);
 }
 
-void followCurveUpTo(SeparationTrace& trace, double rest, SeparationCurve& curve) {
+void followCurveUpTo(SeparationTrace& trace, double first_touch, double rest, SeparationCurve& curve) {
   const double range = trace.law().range();
   curve.states.clear();
   for (const double apart : kApart) {
-    if (apart * range < rest) curve.states.push_back(trace.at(apart * range));
+    const double approach = first_touch + apart * range;
+    if (approach < rest) curve.states.push_back(trace.at(approach));
   }
   if (curve.states.empty()) curve.states.push_back(trace.at(rest));
   const Attraction at_first = trace.energiesAt(curve.states.front());
   while (curve.states.back().approach < rest) {
-    curve.states.push_back(trace.at(std::min(nextApproach(curve.states.back().approach, range), rest)));
+    const double next = first_touch + nextApproach(curve.states.back().approach - first_touch, range);
+    curve.states.push_back(trace.at(std::min(next, rest)));
   }
   takeMaximum(curve.states, curve);
   takeWork(at_first, curve);

@@ -15,6 +15,8 @@ namespace {
 /// Flattening that costs less than this share of the work of adhesion is what surfaces do: below it the conforming
 /// branch is nearer to the half-space than the patches are, above it the patches (doc/separation_curve.md).
 constexpr double kConformingShare = 0.4;
+/// Up to this share, surfaces at rest hold with at least the work of bonded ones (doc/separation_curve.md).
+constexpr double kBondingShare = 1.3;
 /// A contact of which flow has taken less than this share of the overlap counts as elastic, one that carries more than
 /// this share of what it can as plastic.
 constexpr double kElasticShare = 0.97;
@@ -30,7 +32,8 @@ double realArea(const PatchLoad& load, double area, double rim_force, double pre
     const double outer = std::max(load.carried - rim_force, 0.0);  // rim_force is DMT's 2 pi Gamma R
     const double jkr_load = outer + 1.5 * rim_force + std::sqrt(3.0 * rim_force * outer + 2.25 * rim_force * rim_force);
     const double jkr_share = 2.0 * (2.0 - prefactor);
-    widening = std::pow(1.0 + jkr_share * std::max(jkr_load / load.carried - 1.0, 0.0), 2.0 / 3.0);
+    const double root = std::cbrt(1.0 + jkr_share * std::max(jkr_load / load.carried - 1.0, 0.0));
+    widening = root * root;
   }
   return area * std::max(0.5 * std::min(widening, 2.0), fullness);
 }
@@ -80,7 +83,7 @@ void SeparationSolver::solve(const ContactProblem& problem, ContactSolution& sol
   listContacts(problem, solution);
   fillMaps(problem, solution);
   partFlowed(problem, solution);
-  solution.flattening_energy = flattening_.of(problem.gap, trace_.contactModulus());
+  solution.flattening_energy = flattening_.of(problem.gap, trace_.patchForces().contactModulus());
   partConforming(problem, solution);
   solution.contact_fraction = solution.contact_area / (problem.gap.validCount() * problem.gap.cellArea());
 }
@@ -100,36 +103,64 @@ void SeparationSolver::takeRest(const ContactProblem& problem, ContactSolution& 
     solution.contact_stiffness = (before.force() - rest.force()) / (rest.approach - before.approach);
   }
 
-  OverlapSweep& sweep = trace_.contacts();
-  contacts_.assign(sweep.idEnd(), {});
+  const OverlapSweep& sweep = trace_.contacts();
+  const PatchForces& forces = trace_.patchForces();
+  contacts_.assign(sweep.livePatches().size(), {});
   solution.contact_area = 0.0;
   has_flowed_ = false;
   double touching = 0.0;
   for (const std::int32_t id : sweep.livePatches()) {
     const OverlapPatch& patch = sweep.patch(id);
-    Contact& contact = contacts_[static_cast<std::size_t>(id)];
+    Contact& contact = contactOf(id);
     const double area = patch.cells * field.cellArea();
-    contact.load = trace_.loadOf(patch, rest.approach);
+    contact.load = forces.loadOf(patch, rest.approach);
     const double radius = patch.radius(rest.approach, field.cellArea());
     contact.area =
         realArea(contact.load, area, 2.0 * kPi * trace_.law().workOfAdhesion() * radius / std::sqrt(patch.summits),
-                 trace_.pullOffPrefactor(radius / patch.summits), trace_.hardness());
-    contact.regime = regimeOf(contact.load, area, trace_.hardness());
+                 forces.pullOffPrefactor(radius / patch.summits), forces.hardness());
+    contact.regime = regimeOf(contact.load, area, forces.hardness());
     solution.contact_area += contact.area;
-    const double area_share = std::max(0.5, contact.load.carried / (trace_.hardness() * area));
-    contact.kept = KeptOverlap(contact.load.elastic / (trace_.hardness() * area), area_share,
+    const double area_share = std::max(0.5, contact.load.carried / (forces.hardness() * area));
+    contact.kept = KeptOverlap(contact.load.elastic / (forces.hardness() * area), area_share,
                                patch.depth(rest.approach), rest.approach - patch.first_gap);
     has_flowed_ = has_flowed_ || contact.kept.isChanged();
     touching += patch.gap_sum;
   }
-  for (const std::int32_t cell : sweep.insertedCells()) {
-    const GridCell place = field.cellAt(cell);
-    if (place.row == 0 || place.col == 0 || place.row == field.rows() - 1 || place.col == field.cols() - 1) {
-      contacts_[static_cast<std::size_t>(sweep.patchOf(cell))].is_at_border = true;
-    }
-  }
+  findBorder(field);
   const int apart = field.validCount() - rest.contact_count;
   solution.mean_gap = apart > 0 ? (field.meanGap() * field.validCount() - touching) / apart - rest.approach : 0.0;
+}
+
+void SeparationSolver::findBorder(const GapField& field) {
+  const auto mark = [&](int row, int col) {
+    const std::int32_t id = trace_.contacts().patchOf(field.cellAt(row, col).index);
+    if (id >= 0) contactOf(id).is_at_border = true;
+  };
+  for (int col = 0; col < field.cols(); ++col) {
+    mark(0, col);
+    mark(field.rows() - 1, col);
+  }
+  for (int row = 0; row < field.rows(); ++row) {
+    mark(row, 0);
+    mark(row, field.cols() - 1);
+  }
+}
+
+template <typename Taker>
+void SeparationSolver::visitOverlaps(const GapField& field, const Taker& take) {
+  const double approach = curve_.rest().approach;
+  OverlapSweep& sweep = trace_.contacts();
+  row_gaps_.resize(static_cast<std::size_t>(field.cols()));
+  columns_.resize(static_cast<std::size_t>(field.cols()));
+  for (int row = 0; row < field.rows(); ++row) {
+    field.gapsOfRow(row, row_gaps_.data());
+    const int count = columnsBetween(0.0, approach, row_gaps_.data(), field.cols(), columns_.data());
+    for (int i = 0; i < count; ++i) {
+      const std::int32_t col = columns_[static_cast<std::size_t>(i)];
+      const std::int32_t id = sweep.patchOf(field.cellAt(row, col).index);
+      take(row, col, approach - row_gaps_[static_cast<std::size_t>(col)], sweep.patch(id), contactOf(id));
+    }
+  }
 }
 
 void SeparationSolver::listContacts(const ContactProblem& problem, ContactSolution& solution) {
@@ -140,10 +171,10 @@ void SeparationSolver::listContacts(const ContactProblem& problem, ContactSoluti
   const double sigma = problem.composite_rms_height;
   const double approach = curve_.rest().approach;
   double parameters = 0.0;
-  OverlapSweep& sweep = trace_.contacts();
+  const OverlapSweep& sweep = trace_.contacts();
   for (const std::int32_t id : sweep.livePatches()) {
     const OverlapPatch& patch = sweep.patch(id);
-    const Contact& contact = contacts_[static_cast<std::size_t>(id)];
+    const Contact& contact = contactOf(id);
     const double area = patch.cells * field.cellArea();
     const GridCell cell = field.cellAt(patch.first_cell);
     Asperity asperity;
@@ -179,48 +210,38 @@ void SeparationSolver::fillMaps(const ContactProblem& problem, ContactSolution& 
 
   const DeformationShare share(settings.lower, settings.upper, settings.interface.hardness_ratio_limit,
                                Formulation::kPaper, settings.deformation);
-  OverlapSweep& sweep = trace_.contacts();
   const double approach = curve_.rest().approach;
-  for (const std::int32_t cell : sweep.insertedCells()) {
-    const std::int32_t id = sweep.patchOf(cell);
-    const OverlapPatch& patch = sweep.patch(id);
-    const Contact& contact = contacts_[static_cast<std::size_t>(id)];
-    const GridCell place = field.cellAt(cell);
-    const double overlap = approach - field.gap(cell);
+  visitOverlaps(field, [&](int row, int col, double overlap, const OverlapPatch& patch, const Contact& contact) {
     if (wants_map) {
       // the deepest cells, as many as the real area has: those of a paraboloid whose overlap exceeds this
       const double area = patch.cells * field.cellArea();
       const double least = 2.0 * patch.depth(approach) * (1.0 - contact.area / area);
-      if (overlap >= least || cell == patch.first_cell) {
-        solution.contact_map.at<std::uint8_t>(place.row, place.col) = static_cast<std::uint8_t>(contact.regime);
+      if (overlap >= least || field.cellAt(row, col).index == patch.first_cell) {
+        solution.contact_map.at<std::uint8_t>(row, col) = static_cast<std::uint8_t>(contact.regime);
       }
     }
     if (wants_surfaces) {
       const double flowed = overlap - contact.kept.of(overlap);
-      solution.displaced_lower.at<double>(place.row, place.col) -= share.lower(kPlasticLimit) * flowed;
-      solution.displaced_upper.at<double>(place.row, place.col) += share.upper(kPlasticLimit) * flowed;
+      solution.displaced_lower.at<double>(row, col) -= share.lower(kPlasticLimit) * flowed;
+      solution.displaced_upper.at<double>(row, col) += share.upper(kPlasticLimit) * flowed;
     }
-  }
+  });
 }
 
 void SeparationSolver::partFlowed(const ContactProblem& problem, ContactSolution& solution) {
   if (!has_flowed_) return;
   const GapField& field = problem.gap;
   const double approach = curve_.rest().approach;
-  changed_gaps_.resize(static_cast<std::size_t>(field.cellCount()));
-  for (int row = 0; row < field.rows(); ++row) {
-    field.gapsOfRow(row, changed_gaps_.data() + static_cast<std::ptrdiff_t>(row) * field.cols());
+  double first_touch = approach;
+  changed_gaps_.resize(static_cast<std::size_t>(curve_.rest().contact_count));
+  for (std::size_t i = 0; i < changed_gaps_.size(); ++i) {
+    const OrderedCell& ordered = trace_.orderedCells()[i];
+    const KeptOverlap& kept = contactOf(trace_.contacts().patchOf(ordered)).kept;
+    changed_gaps_[i] = approach - kept.of(approach - ordered.gap);
+    first_touch = std::min(first_touch, changed_gaps_[i]);
   }
-  OverlapSweep& sweep = trace_.contacts();
-  for (const std::int32_t cell : sweep.insertedCells()) {
-    const Contact& contact = contacts_[static_cast<std::size_t>(sweep.patchOf(cell))];
-    double& gap = changed_gaps_[static_cast<std::size_t>(cell)];
-    gap = approach - contact.kept.of(approach - gap);
-  }
-  const double first_touch = changed_gap_.compute(field, changed_gaps_);
-  changed_trace_.start(changed_gap_, problem.settings, false);
-  followCurveUpTo(changed_trace_, approach - first_touch, changed_curve_);
-  for (SeparationState& state : changed_curve_.states) state.approach += first_touch;
+  trace_.changeGaps(approach, changed_gaps_);
+  followCurveUpTo(trace_, first_touch, approach, changed_curve_);
   dropWayOut(solution.curve);
   appendCurve(changed_curve_, true, solution.curve);
   solution.pull_off_force = changed_curve_.pull_off_force;
@@ -229,22 +250,45 @@ void SeparationSolver::partFlowed(const ContactProblem& problem, ContactSolution
 }
 
 void SeparationSolver::partConforming(const ContactProblem& problem, ContactSolution& solution) {
-  const double gamma = problem.settings.interface.work_of_adhesion;
-  if (!(solution.flattening_energy < kConformingShare * gamma)) return;
+  const double flattening_ratio = solution.flattening_energy / problem.settings.interface.work_of_adhesion;
+  if (!(flattening_ratio < kBondingShare)) return;
+  conforming_.start(problem.gap, trace_.law(), {trace_.patchForces().contactModulus(), solution.flattening_energy});
+  if (!(conforming_.work() > 0.0)) return;
+  // by how much more work bonded surfaces hold than their patches
+  const double stretch = std::max(1.0, conforming_.work() / solution.apparent_work_of_adhesion);
+  if (flattening_ratio < kConformingShare) {
+    takeConforming(problem, stretch, solution);
+  } else if (!has_flowed_) {
+    stretchWayOut(problem, stretch, solution);
+  }
+}
+
+void SeparationSolver::takeConforming(const ContactProblem& problem, double stretch, ContactSolution& solution) {
   const double area = problem.gap.validCount() * problem.gap.cellArea();
-  const ConformingContact conforming = conformingContact(problem.gap, trace_.law(), solution.flattening_energy,
-                                                         problem.settings.load.mechanical_load / area);
-  if (!(conforming.work > 0.0)) return;
+  const ConformingWayOut way_out =
+      conforming_.partFrom(problem.settings.load.mechanical_load / area, stretch * solution.pull_off_force / area);
   solution.is_conforming = true;
   solution.status = Status::kBonded;
-  solution.pull_off_force = conforming.strength * area;
+  solution.pull_off_force = way_out.strength * area;
   solution.adhesion_exponent = 1.0;  // nearly the strength of the law
   solution.modulus_exponent = 0.0;
-  solution.apparent_work_of_adhesion = conforming.work;
-  solution.contact_area = conforming.states.front().contact_fraction * area;
+  solution.apparent_work_of_adhesion = conforming_.work();
+  solution.contact_area = way_out.states.front().contact_fraction * area;
   dropWayOut(solution.curve);
-  for (const ConformingState& state : conforming.states) {
+  for (const ConformingState& state : way_out.states) {
     solution.curve.push_back({state.approach, state.traction * area, true});
+  }
+}
+
+void SeparationSolver::stretchWayOut(const ContactProblem& problem, double stretch, ContactSolution& solution) {
+  if (!(stretch > 1.0)) return;
+  const double strongest = trace_.law().strength() * problem.gap.validCount() * problem.gap.cellArea();
+  solution.apparent_work_of_adhesion *= stretch;
+  solution.pull_off_force = std::min(stretch * solution.pull_off_force, strongest);
+  dropWayOut(solution.curve);
+  appendCurve(curve_, true, solution.curve);
+  for (SeparationCurvePoint& point : solution.curve) {
+    if (point.is_separation) point.force = std::min(stretch * point.force, strongest);
   }
 }
 

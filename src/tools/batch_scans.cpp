@@ -6,6 +6,7 @@
 
 #include "half_space_run.hpp"
 #include "mems_stiction/height_map/scan_sanity.hpp"
+#include "mems_stiction/import/waiting_gwyddion.hpp"
 #include "mems_stiction/prediction/force_curve.hpp"
 #include "mems_stiction/scan/half_space_scan.hpp"
 
@@ -31,6 +32,7 @@ ScanFileOptions fileOptions(const BatchArguments& arguments) {
   ScanFileOptions options;
   options.import.use_cache = !arguments.no_cache;
   options.import.ignore_mask = arguments.ignore_mask;
+  options.import.waiting = std::make_shared<WaitingGwyddions>(options.import.program);
   return options;
 }
 

@@ -9,6 +9,7 @@
 #include "batch_rows.hpp"
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/output_file.hpp"
+#include "mems_stiction/import/reader_version.hpp"
 #include "mems_stiction/scan/configuration_yaml.hpp"
 
 namespace mems_stiction {
@@ -17,6 +18,7 @@ std::string settingsText(std::size_t total, const std::vector<std::string>& inpu
                          const std::map<std::string, std::string>& units, const Configuration& configuration) {
   YAML::Emitter emitter;
   emitter << YAML::BeginMap << YAML::Key << "version" << YAML::Value << YAML::DoubleQuoted << MEMS_STICTION_VERSION;
+  emitter << YAML::Key << "readers" << YAML::Value << YAML::DoubleQuoted << readerVersion();
   emitter << YAML::Key << "opencv_version" << YAML::Value << YAML::DoubleQuoted << CV_VERSION;
   emitter << YAML::Key << "total" << YAML::Value << total;
   emitter << YAML::Key << "topic" << YAML::Value << YAML::DoubleQuoted << arguments.topic;

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "mems_stiction/height_map/validity.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 #include "mems_stiction/import/scan_writer.hpp"
+#include "mems_stiction/import/waiting_gwyddion.hpp"
 
 namespace {
 
@@ -132,6 +134,7 @@ int run(const Arguments& arguments) {
   ScanFileOptions options;
   options.import.channel = arguments.channel;
   options.import.ignore_mask = arguments.ignore_mask;
+  if (arguments.scans.size() > 1) options.import.waiting = std::make_shared<WaitingGwyddions>(options.import.program);
   try {
     applyPitch(arguments.pitch, options);
     if (!arguments.list) {

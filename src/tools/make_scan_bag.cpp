@@ -1,7 +1,15 @@
 /// make_scan_bag: a bag of scans as the node takes them, from generated rough surfaces or from scan files.
 
+#include <unistd.h>
+
+#include <cerrno>
 #include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
 #include <iostream>
+#include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -10,6 +18,7 @@
 
 #include "command_line.hpp"
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/interruption.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 #include "mems_stiction/ros/image_conversion.hpp"
 #include "mems_stiction/ros/topic_names.hpp"
@@ -18,6 +27,7 @@
 namespace {
 
 using namespace mems_stiction;
+namespace fs = std::filesystem;
 
 /// Stamp of the first scan [s]: fixed, so that the same call gives the same bag.
 constexpr double kFirstStamp = 1.0e9;
@@ -62,9 +72,25 @@ void describe(CLI::App& app, Arguments& arguments) {
   app.footer("Exit status: 0, or 2 for bad input (one line on stderr for each; the other scans are still written).");
 }
 
+/// A bag that has its name when it is whole: what was there before stays if it cannot be written.
 class ScanBag {
  public:
-  ScanBag(const std::string& path, double rate) : period_(1.0 / rate) { bag_.open(path, rosbag::bagmode::Write); }
+  ScanBag(const std::string& path, double rate)
+      : path_(path), partial_([&] { return path + "." + std::to_string(getpid()); }), period_(1.0 / rate) {
+    std::error_code error;
+    if (fs::exists(path, error) && !fs::is_regular_file(path, error)) {
+      throw FileError(path + ": is a folder, a pipe or a device; a bag is written to a file");
+    }
+    guarded([&] { bag_->open(partial_.path(), rosbag::bagmode::Write); });
+  }
+  ~ScanBag() {
+    if (is_whole_) return;
+    static_cast<void>(bag_.release());  // to the end of the process: closing writes, and would fail in the destructor
+    std::error_code ignored;
+    fs::remove(partial_.path(), ignored);
+  }
+  ScanBag(const ScanBag&) = delete;
+  ScanBag& operator=(const ScanBag&) = delete;
 
   void write(const HeightMap& surface, const std::string& frame) {
     std_msgs::Header header;
@@ -78,14 +104,35 @@ class ScanBag {
     ScanOptions calibration;
     calibration.pitch_x = surface.pitchX();
     calibration.pitch_y = surface.pitchY();
-    bag_.write(kHeightTopic, header.stamp, *heightImage(about_mean, header));
-    bag_.write(kScanInfoTopic, header.stamp, scanInfoMessage(calibration, header));
+    guarded([&] {
+      bag_->write(kHeightTopic, header.stamp, *heightImage(about_mean, header));
+      bag_->write(kScanInfoTopic, header.stamp, scanInfoMessage(calibration, header));
+    });
+  }
+
+  void finish() {
+    guarded([&] { bag_->close(); });
+    is_whole_ = std::rename(partial_.path().c_str(), path_.c_str()) == 0;
+    if (!is_whole_) throw std::runtime_error(path_ + ": cannot be written: " + std::strerror(errno));
   }
 
   std::uint32_t count() const { return count_; }
 
  private:
-  rosbag::Bag bag_;
+  /// @throw std::runtime_error, which ends the program: no scan can be written after it
+  template <typename Function>
+  void guarded(Function&& function) {
+    try {
+      function();
+    } catch (const rosbag::BagException& error) {
+      throw std::runtime_error(path_ + ": cannot be written: " + error.what());
+    }
+  }
+
+  std::string path_;
+  ScratchPath partial_;
+  std::unique_ptr<rosbag::Bag> bag_ = std::make_unique<rosbag::Bag>();
+  bool is_whole_ = false;
   double period_;
   std::uint32_t count_ = 0;
 };
@@ -129,6 +176,7 @@ int run(const Arguments& arguments) {
   }
   const int default_count = arguments.scans.empty() ? 1 : 0;
   writeGenerated(arguments, arguments.count > 0 ? arguments.count : default_count, bag);
+  bag.finish();
   std::cout << arguments.bag << ": " << bag.count() << " scans\n";
   return status;
 }

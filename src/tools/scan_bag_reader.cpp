@@ -67,16 +67,10 @@ ScanBagReader::ScanBagReader(const std::string& path, const std::string& height_
   counter_infos_ = messagesOf(sibling(height_topic, kCounterScanInfoTopic));
 }
 
-ScanBagReader::TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  if (!path.empty()) fs::remove_all(path, ignored);
-}
-
 void ScanBagReader::openMended() {
   bag_.close();
-  std::string folder = (fs::temp_directory_path() / "stiction_bag_XXXXXX").string();
-  if (mkdtemp(folder.data()) == nullptr) throw FileError(folder + ": cannot be made");
-  mended_folder_.path = folder;
+  mended_folder_ = std::make_unique<PrivateFolder>();
+  const std::string folder = mended_folder_->path().string();
   const std::string cut = path_ + ": the bag was cut off; ";
   const ChildResult result = runChild({"rosbag", "reindex", "--quiet", "--output-dir=" + folder, path_},
                                       environmentWithout({}, {}), folder + "/log", kMendingTimeout);

@@ -11,6 +11,7 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 
+#include "mems_stiction/base/private_folder.hpp"
 #include "mems_stiction/height_map/height_map.hpp"
 #include "mems_stiction/height_map/raw_scan.hpp"
 #include "mems_stiction/ros/image_conversion.hpp"
@@ -32,7 +33,7 @@ class ScanBagReader {
   ScanBagReader(const std::string& path, const std::string& height_topic, const ScanOptions& parameters);
 
   std::size_t count() const { return heights_.size(); }
-  bool wasCutOff() const { return !mended_folder_.path.empty(); }
+  bool wasCutOff() const { return mended_folder_ != nullptr; }
 
   /// A scan without a scan_info of its stamp is refused, unless the bag has no scan_info at all: then the parameters
   /// serve for every scan.
@@ -41,14 +42,6 @@ class ScanBagReader {
   BagScan read(std::size_t index, bool with_counter_surface) const;
 
  private:
-  /// Removed with all that is in it, also when the constructor throws.
-  struct TemporaryFolder {
-    TemporaryFolder() = default;
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    ~TemporaryFolder();
-    std::string path;
-  };
   using Messages = std::vector<rosbag::MessageInstance>;
 
   void openMended();
@@ -57,7 +50,7 @@ class ScanBagReader {
 
   std::string path_;
   ScanOptions parameters_;
-  TemporaryFolder mended_folder_;
+  std::unique_ptr<PrivateFolder> mended_folder_;
   rosbag::Bag bag_;
   std::vector<std::unique_ptr<rosbag::View>> views_;  ///< that the messages below belong to
   Messages heights_, infos_, counter_heights_, counter_infos_;

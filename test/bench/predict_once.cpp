@@ -1,4 +1,4 @@
-/// One prediction of a 512 x 512 Gaussian surface in 200 steps, for instruction counts by callgrind: collection is
+/// One prediction of a 512 x 512 Gaussian surface up to 30 % contact, for instruction counts by callgrind: collection is
 /// toggled at measuredPrediction().
 
 #include <cstdio>
@@ -18,7 +18,7 @@ int main() {
   using namespace mems_stiction;
   const bench::Case setting{bench::Frame::kGaussian, 512, 200};
   const HeightMap& frame = bench::frameOf(setting.frame, setting.size);
-  AdhesionModel model(bench::optionsFor(setting, false));
+  AdhesionModel model(bench::optionsFor(setting, kDefaultFormulation, bench::Pressing::kOverload, false));
   Prediction prediction;
   model.predict(frame, prediction);  // brings the memory in
   measuredPrediction(model, frame, prediction);

@@ -19,11 +19,14 @@ double fullApproach(const HeightMap& frame) {
   return order.cells()[static_cast<std::size_t>(order.contactLimit() - 1)].gap;
 }
 
-Options optionsFor(const Case& setting, bool all_outputs) {
+Options optionsFor(const Case& setting, const std::string& formulation, Pressing pressing, bool all_outputs) {
   Options options;
-  options.load.mechanical_load = kOverload;
-  options.load.voltage = 5.0;
-  options.interface.insulator_thickness = 100e-9;
+  options.formulation = formulation;
+  if (pressing == Pressing::kOverload) {
+    options.load.mechanical_load = kOverload;
+    options.load.voltage = 5.0;
+    options.interface.insulator_thickness = 100e-9;
+  }
   options.approach.max_contact_fraction = kContactFraction;
   options.approach.step = fullApproach(frameOf(setting.frame, setting.size)) / setting.steps;
   options.output = {all_outputs, all_outputs, all_outputs, false, false};

@@ -12,10 +12,16 @@
 namespace mems_stiction {
 namespace bench {
 
+/// What presses the surfaces together.
+enum class Pressing {
+  kAdhesion,  ///< nothing but adhesion: surfaces of silicon as they come to rest, with few contacts
+  kOverload,  ///< a load that no contact carries, and a voltage: contact grows to its limit, 30 %
+};
+
 struct Case {
   Frame frame;
   int size;   ///< rows and columns
-  int steps;  ///< of the approach, up to 30 % contact
+  int steps;  ///< of labelling, and of the paper's approach, up to 30 % contact
 
   std::string name() const { return frameName(frame) + "/" + std::to_string(size) + "/" + std::to_string(steps); }
 };
@@ -23,8 +29,9 @@ struct Case {
 /// Approach at which the frame reaches 30 % contact [m].
 double fullApproach(const HeightMap& frame);
 
-/// Steps that end at fullApproach(), under a load that no contact can carry: every case goes through all of them.
-Options optionsFor(const Case& setting, bool all_outputs);
+/// The paper's steps end at fullApproach().
+/// - @p formulation which solver
+Options optionsFor(const Case& setting, const std::string& formulation, Pressing pressing, bool all_outputs);
 
 /// How a scan is cleaned before its prediction.
 struct Recipe {

@@ -6,6 +6,7 @@ import os
 import pathlib
 import random
 import re
+import resource
 import signal
 import subprocess
 import sys
@@ -158,6 +159,9 @@ class BatchTest(unittest.TestCase):
         self.assertIn("not a row of this shard", self.predict("one.csv", "--shard", "2/2", status=2).stderr)
         self.assertIn("--shard", self.predict("two.csv", "--shard", "3/2", status=2).stderr)
         self.assertIn("--output", self.predict("rows.xls", status=2).stderr)
+        settings = self.folder / "one.csv.settings.yaml"
+        settings.write_text(re.sub('readers: "[0-9a-f]{16}"', 'readers: "0123456789abcdef"', settings.read_text()))
+        self.assertIn("another version", self.predict("one.csv", "--shard", "1/2", status=2).stderr)
         self.assertEqual((self.folder / "one.csv").read_bytes(), before)
 
     def test_of_a_bag_that_was_cut_off_the_scans_before_the_cut_are_predicted(self):
@@ -177,6 +181,21 @@ class BatchTest(unittest.TestCase):
         self.assertIn(len(of_cut) - len(predicted), (1, 2))
         self.assertEqual(predicted, sound[:len(predicted)])
         self.assertEqual(len(rows) - len(of_cut), 3)
+
+    def test_a_bag_that_cannot_be_written_leaves_the_one_before(self):
+        def full():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (100000, 100000))
+
+        bag = self.folder / "full.bag"
+        bag.write_bytes(b"before")
+        done = run([program("make_scan_bag"), "-o", bag, "--rows", 400, "--cols", 400], preexec_fn=full)
+        self.assertEqual((done.returncode, len(done.stderr.splitlines())), (2, 1), done.stderr)
+        self.assertIn("full.bag: cannot be written", done.stderr)
+        self.assertEqual(bag.read_bytes(), b"before")
+        self.assertEqual([path.name for path in self.folder.glob("full.bag*")], ["full.bag"])
+        done = run([program("make_scan_bag"), "-o", "/dev/full"])
+        self.assertEqual((done.returncode, len(done.stderr.splitlines())), (2, 1), done.stderr)
 
     def test_a_bag_without_the_topic_is_a_row_that_names_what_the_bag_has(self):
         self.predict("rows.csv", "--topic", "other", inputs=[self.inputs / "b.bag"])
@@ -252,7 +271,7 @@ class BatchTest(unittest.TestCase):
         # Nothing from elsewhere: every address is data or a place on the page.
         self.assertEqual([a for a in re.findall(r'(?:src|href)="([^"]{0,40})', text) if not a.startswith(("data:", "#"))], [])
         self.assertEqual(text.count('class="scan"'), 2)
-        self.assertEqual(text.count("data:image/png;base64,"), 2 * 2 + 1)
+        self.assertEqual(text.count("data:image/png;base64,"), 2 * 3 + 1)  # no cleaning step is on
         for expected in ("6 scans, 5 of them predicted", "not predicted: ", "work_of_adhesion", "Johnson, Kendall"):
             self.assertIn(expected, text)
         self.assertEqual((self.folder / "report.pdf").read_bytes()[:5], b"%PDF-")

@@ -149,7 +149,7 @@ class HalfSpaceBatchTest(unittest.TestCase):
                     self.large])
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         text = (self.folder / "r.html").read_text(encoding="utf-8")
-        self.assertEqual(text.count("data:image/png;base64,"), 2 * 2 + 1 + 1)  # two a scan, one of a half-space, the trends
+        self.assertEqual(text.count("data:image/png;base64,"), 2 * 3 + 1 + 1)  # three a scan, one of a half-space, the trends
         plain = re.sub(r"<[^>]+>", " ", re.sub(r'src="[^"]*"', "", text))
         for expected in ("Converged: every state is an equilibrium.", "esolved: pixels are", "pull-off force, half-space",
                          "prediction / half-space", "Not solved: ", "half_space/max_pixels = 1500", "not solved"):
@@ -163,7 +163,7 @@ class HalfSpaceBatchTest(unittest.TestCase):
         run([program("stiction_report"), "-c", self.config, "-o", self.folder / "r.html", self.small])
         text = (self.folder / "r.html").read_text(encoding="utf-8")
         self.assertNotIn("of the half-space", text)
-        self.assertEqual(text.count("data:image/png;base64,"), 2)
+        self.assertEqual(text.count("data:image/png;base64,"), 3)
 
 
 class HalfSpaceFigureTest(unittest.TestCase):

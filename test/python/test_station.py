@@ -96,6 +96,13 @@ class CycleTextTest(unittest.TestCase):
         self.assertIn("the pull-off force stays at 100 nN", cycle_sentences(result)[0])
         result.first_sticking_cycle = 0
         self.assertIn("the lowest margin is 1.33", "\n".join(cycle_sentences(result)))
+        self.assertIn("Whether the device releases: it is not known after 2 of these contacts, first after contact 2", cycle_sentences(result)[-1])
+        for one in result.cycles:
+            one.sticks = 1
+        self.assertIn("Whether the device releases: it is marginal after any of these contacts", cycle_sentences(result)[-1])
+        for one in result.cycles:
+            one.sticks = 0
+        self.assertEqual("The device releases after each of these contacts; the lowest margin is 1.33.", cycle_sentences(result)[-1])
         for one in result.cycles:
             one.margin = NAN
         self.assertIn("No device is stated", "\n".join(cycle_sentences(result)))

@@ -12,6 +12,7 @@
 
 #include "mems_stiction/approach/contact_patch.hpp"
 #include "mems_stiction/approach/dale_map.hpp"
+#include "mems_stiction/approach/dale_rows.hpp"
 #include "mems_stiction/approach/gap_field.hpp"
 #include "mems_stiction/approach/gap_order.hpp"
 #include "mems_stiction/base/large_pages.hpp"
@@ -22,11 +23,11 @@ namespace mems_stiction {
 struct CellSurroundings {
   double gaps[4];     ///< of the neighbours, in the order of Side [m]; infinite where there is none
   std::int32_t cell;  ///< whose surroundings they are
-  std::uint32_t dale_and_border;
+  DaleTag tag;
 
-  std::int32_t dale() const { return static_cast<std::int32_t>(dale_and_border >> 1U); }  ///< of the cell
+  std::int32_t dale() const { return tag.dale(); }  ///< of the cell
   /// Whether a neighbour may belong to another dale.
-  bool isBorder() const { return (dale_and_border & 1U) != 0; }
+  bool isBorder() const { return tag.isBorder(); }
 };
 
 /// A window of them, in the order of the approach.
@@ -52,13 +53,7 @@ class SurroundingsTable {
 
  private:
   const CellSurroundings& lookUp(const OrderedCell& cell);
-  /// Gaps of a row that was read lately, or of one off the frame, from one cell before the first [m].
-  const double* gapsOf(int row) const;
-  /// Reads the gaps of a row and makes the dales of those cells known that may come into contact in the window.
-  /// - @p cells their columns; none off the frame
-  /// @return how many there are
-  int readRow(int row, std::vector<std::int32_t>& cells);
-  void collectRow(int row, const std::vector<std::int32_t>& cells, int count);
+  void collectRow();
 
   const GapField* field_ = nullptr;
   const GapOrder* order_ = nullptr;
@@ -69,10 +64,7 @@ class SurroundingsTable {
   int end_group_ = 0;
   LargePageVector<CellSurroundings> table_;
   std::vector<std::int32_t> next_place_;  ///< per group of the window, while it is collected
-  static constexpr int kRowsKept = 3;
-  std::vector<double> row_gaps_[kRowsKept];  ///< of the row, the one above and the one below
-  std::vector<double> no_row_;               ///< the gaps above and below the frame
-  std::vector<std::int32_t> row_cells_[2];
+  DaleRows rows_;
   CellSurroundings looked_up_;
 };
 

@@ -16,6 +16,26 @@
 
 namespace mems_stiction {
 
+/// A cell's dale, and where it touches others.
+class DaleTag {
+ public:
+  DaleTag() = default;
+  /// - @p dale less than 2^28
+  /// - @p sides a bit for each Side where a neighbour that comes into contact before may belong to another dale
+  DaleTag(std::int32_t dale, std::uint32_t sides) : bits_(static_cast<std::uint32_t>(dale) << kSideBits | sides) {}
+
+  std::int32_t dale() const { return static_cast<std::int32_t>(bits_ >> kSideBits); }
+  bool isBorder() const { return (bits_ & kAllSides) != 0; }
+  bool isBorderAt(Side side) const { return (bits_ >> side & 1U) != 0; }
+
+  static constexpr std::uint32_t kAllSides = 15;
+
+ private:
+  static constexpr std::uint32_t kSideBits = 4;
+
+  std::uint32_t bits_ = 0;
+};
+
 /// The dale of each cell, found out as the approach asks for it.
 class DaleMap {
  public:

@@ -32,10 +32,6 @@ class GapField {
   /// @throw SurfaceError if the grids differ or no pixel is valid in both, or if gaps lie more than 1e100 m apart.
   void compute(const SurfacePair& surfaces);
 
-  /// The same grid with other gaps against a plane, cell by cell in its order [m], infinite where not valid.
-  /// @return the smallest of them: gaps count from there [m]
-  double compute(const GapField& grid, const LargePageVector<double>& gaps);
-
   int rows() const { return rows_; }
   int cols() const { return cols_; }
   double pitchX() const { return pitch_x_; }
@@ -100,10 +96,10 @@ class GapField {
   std::vector<double> lower_;
 };
 
-/// Columns of a row's cells with a gap below the limit, in ascending order.
+/// Columns of a row's cells with a gap in [from, limit), in ascending order.
 /// - @p gaps of the row's `cols` cells [m]
 /// - @p columns room for as many
 /// @return how many there are
-int columnsBelow(double limit, const double* gaps, int cols, std::int32_t* columns);
+int columnsBetween(double from, double limit, const double* gaps, int cols, std::int32_t* columns);
 
 }  // namespace mems_stiction

@@ -12,6 +12,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "mems_stiction/approach/dale_map.hpp"
+#include "mems_stiction/approach/dale_rows.hpp"
 #include "mems_stiction/approach/gap_field.hpp"
 #include "mems_stiction/base/large_pages.hpp"
 
@@ -21,10 +23,7 @@ namespace mems_stiction {
 struct OrderedCell {
   double gap;  ///< [m]
   std::int32_t cell;
-  std::int32_t row;
-
-  /// - @p cols of the frame
-  GridCell inGrid(int cols) const { return {row, cell - row * cols, cell}; }
+  DaleTag tag;  ///< if the order was built with dales
 };
 
 /// Gaps of one bucket, or of several neighbouring ones.
@@ -40,7 +39,14 @@ class GapOrder {
   /// - @p max_contact_fraction contact is searched up to this share of the valid cells, in (0, 1].
   /// - @p step delta of the approach [m]: sortBelow() its multiples costs nothing. 0, or a step that is tiny against
   ///   the range of the gap, gives groups of one bucket.
-  void build(const GapField& field, double max_contact_fraction, double step = 0.0);
+  /// - @p dales of the field, if the cells shall bear theirs: nullptr or outlives the order's use.
+  void build(const GapField& field, double max_contact_fraction, double step = 0.0, DaleMap* dales = nullptr);
+  /// The same order up to a larger share of the valid cells; those that are in order stay there.
+  /// - @p field, and max_contact_fraction, as in build(), with a step of 0
+  void extend(const GapField& field, double max_contact_fraction);
+  /// The cells with a gap below `limit` [m], in the order in which they stand, get other ones.
+  /// - @p gaps one for each of them [m], in [0, limit); with a step of 0
+  void changeGaps(double limit, const std::vector<double>& gaps);
 
   /// In order of group; at least contactLimit() of them, and some more beyond. Cells of equal gaps stand in the order of
   /// the frame.
@@ -54,6 +60,8 @@ class GapOrder {
   /// Number of valid cells with gap < limit, wherever the limit lies: exact where the cells are ordered, from the
   /// counts of the buckets beyond.
   double cellsBelow(double limit) const;
+  /// Lower end of the bucket that holds the gap of this place, ordered or not [m].
+  double lowerEndAt(int place) const;
   /// Sorts the groups that reach into these places, by gap, then by cell.
   void sortBetween(int begin, int end);
 
@@ -94,7 +102,24 @@ class GapOrder {
   void countGaps(const GapField& field);
   void chooseOrderedBuckets(int wanted);
   void measureTail();
-  void collectCells(const GapField& field);
+  int wantedCells(const GapField& field, double max_contact_fraction) const;
+  void orderUpTo(const GapField& field, int wanted);
+  /// Makes room for the cells of these buckets; each group's end is its start until they are put there.
+  /// @return the place behind them
+  int openGroups(int first_bucket, int end_bucket);
+  void put(const OrderedCell& cell, int bucket);
+  /// Takes the moments of buckets whose cells are all there.
+  void closeGroups(int first_bucket, int end_bucket);
+  /// The sums of one that is a group.
+  void measureBucket(int bucket);
+  /// From this bucket to the last ordered one.
+  void collectCells(const GapField& field, int first_bucket);
+  /// Puts the cells of a row into their groups.
+  /// - @p gaps of the row's cells [m]
+  /// - @p columns of those that may belong there, @p tags theirs
+  /// @return whether rounding may have put one of them into the wrong group
+  bool collectRow(int row, const double* gaps, const std::int32_t* columns, int count, const DaleTag* tags,
+                  int first_bucket);
   /// Whether rounding may have decided on the bucket of a gap that lies so far beyond the bucket's lower end [m]: the
   /// margin is wider than the rounding of this difference too.
   bool isNearBorder(double excess) const {
@@ -124,6 +149,10 @@ class GapOrder {
   std::vector<double> row_gaps_;
   std::vector<std::int32_t> row_buckets_;
   std::vector<std::int32_t> near_cells_;
+  std::vector<DaleTag> row_tags_;
+  LargePageVector<OrderedCell> changed_cells_;
+  DaleMap* dales_ = nullptr;
+  DaleRows dale_rows_;
   LargePageVector<OrderedCell> cells_;
   std::vector<GapMoments> ordered_moments_;
   std::vector<GapMoments> tail_moments_;

@@ -16,6 +16,7 @@
 #include "mems_stiction/approach/dale_map.hpp"
 #include "mems_stiction/approach/gap_field.hpp"
 #include "mems_stiction/approach/gap_order.hpp"
+#include "mems_stiction/approach/joined_dales.hpp"
 
 namespace mems_stiction {
 
@@ -56,7 +57,6 @@ class PatchSweep {
   /// The patch of the cell's dale together with those that the cell touches.
   std::int32_t join(std::int32_t id, const GridCell& cell, double gap, const CellSurroundings& around);
   std::int32_t unite(std::int32_t a, std::int32_t b);
-  std::int32_t patchOfDale(std::int32_t dale) const { return patch_of_dale_[static_cast<std::size_t>(dale)]; }
   void markChanged(std::int32_t id);
 
   const GapField* field_ = nullptr;
@@ -65,10 +65,8 @@ class PatchSweep {
   int inserted_ = 0;
   DaleMap dales_;
   SurroundingsTable surroundings_;
-  std::vector<std::int32_t> patch_of_dale_;
-  std::vector<std::int32_t> next_dale_;   ///< per dale: the next one of its patch, in a ring
-  std::vector<std::int32_t> dale_count_;  ///< per patch
-  std::vector<ContactPatch> patches_;     ///< per dale; of area 0 before its first cell comes into contact
+  JoinedDales joined_;
+  std::vector<ContactPatch> patches_;  ///< per dale; of area 0 before its first cell comes into contact
   std::vector<std::int32_t> live_;
   std::vector<std::int32_t> live_place_;
   std::vector<std::int32_t> changed_;  ///< since takeChangedPatches()

@@ -3,6 +3,8 @@
 /// @file
 /// Run another program and wait for it, for at most a stated time.
 
+#include <sys/types.h>
+
 #include <string>
 #include <vector>
 
@@ -15,6 +17,18 @@ struct ChildResult {
   int exit_code = -1;      ///< when it ended by itself, else -1
   int signal = 0;          ///< the signal that ended it, else 0
 };
+
+/// Starts a program as the leader of a process group, with limited memory and without core files. To be called while a
+/// RunningChild is made.
+/// - @p arguments, @p environment, @p log_path as of runChild()
+/// - @p input descriptor that becomes its standard input; -1: there is none
+/// - @p folder where it works; empty: here
+/// @return its id, or -1 if it could not be started
+pid_t startChild(const std::vector<std::string>& arguments, const std::vector<std::string>& environment,
+                 const std::string& log_path, int input, const std::string& folder);
+
+/// What waitpid() says of a child's end.
+void setEnd(int status, ChildResult& result);
 
 /// No shell: the arguments reach the program as they are. Input is empty; output and error go to `log_path`.
 /// - @p arguments the program (looked up in PATH) and its arguments

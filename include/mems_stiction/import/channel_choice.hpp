@@ -13,11 +13,18 @@ namespace mems_stiction {
 
 /// Position in `channels` of the one to take: lengths in metres along x, y and z, and a title that says height. A
 /// closed-loop sensor ("ZSensor", "Z-AxisSensor", "Height (measured)") goes before "Height" and "Topography", these
-/// before unknown titles; then forward before backward, then the lower id. Titles of other signals ("AmplitudeError",
-/// "Deflection") are never chosen without being named. Of several pages without a title none is chosen.
+/// before unknown titles; then forward before backward, then the lower id. All of them go before a channel whose heights
+/// span more than the scan is wide. Titles of other signals ("AmplitudeError", "Deflection") and arrays of curves, whose
+/// pixels are a thousand times as long as wide, are never chosen without being named. Of several pages without a title none is chosen.
 /// - @p wanted title or number; empty = as above
 /// @throw FileError without a file name: which channels there are, and why none can be taken.
 std::size_t chooseHeightChannel(const std::vector<FileChannel>& channels, const std::string& wanted = {});
+
+/// Largest number that programs write for a height; beyond it they write "none": 1e38, FLT_MAX, DBL_MAX and the like [m].
+constexpr double kLargestHeight = 1e20;
+
+/// What the user should know where a likelier title was not taken; empty if there is none.
+std::string passedOver(const std::vector<FileChannel>& channels, std::size_t chosen);
 
 /// "0: ZSensor"
 std::string channelName(const FileChannel& channel);

@@ -3,6 +3,7 @@
 /// @file
 /// One channel of a scan file, as the file states it: what every reader returns.
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -26,13 +27,16 @@ struct FileChannel {
   std::vector<std::string> notes;  ///< what the user should know of how it was read, a line each
 };
 
+class WaitingGwyddions;
+
 /// Which channel to take, and how to read it.
 struct ImportOptions {
   std::string program = "gwyddion";  ///< looked up in PATH
   double timeout = 60.0;             ///< for one file [s]; usual files take 0.02 to 0.2 s
   std::string channel;               ///< title or number of the channel to take; empty = the likeliest height channel
   bool use_cache = false;            ///< keep what gwyddion makes of a file for the next time, import_cache.hpp
-  bool ignore_mask = false;          ///< pixels under the mask of a .gwy file are heights as the others
+  std::shared_ptr<WaitingGwyddions> waiting;  ///< started once for many files; null = the program is started for each
+  bool ignore_mask = false;                   ///< pixels under the mask of a .gwy file are heights as the others
 };
 
 }  // namespace mems_stiction

@@ -11,8 +11,10 @@ namespace mems_stiction {
 /// Where conversions are kept: $XDG_CACHE_HOME/mems_stiction or ~/.cache/mems_stiction; none without a home.
 std::optional<std::string> importCacheFolder();
 
-/// Name of what belongs to these bytes, this ending of the file's name and this program as it is installed now.
-std::string importCacheKey(const std::string& bytes, const std::string& name_end, const std::string& program);
+/// Name of what belongs to these bytes, this ending of the file's name, this program as it is installed now, and the
+/// readers of this version.
+std::string importCacheKey(const std::string& bytes, const std::string& name_end, const std::string& program,
+                           const std::string& readers);
 
 /// The .gwy container kept under this name; none if there is none, or if it is not as it was kept.
 std::optional<std::string> keptConversion(const std::string& key);

@@ -44,6 +44,13 @@ double transitionParameter(double adhesive_stress, double radius, double work_of
 /// @param transition_parameter lambda [-], >= 0
 double fittedPullOffPrefactor(double transition_parameter);
 
+/// The same of lambda^1.4, one or several.
+template <typename Real>
+Real fittedPullOffPrefactorOfPower(const Real& transition_parameter_to_1_4) {
+  // (x - 1)/(x + 1) as 1 - 2/(x + 1), which also holds at x = infinity
+  return 1.5 + 0.5 / (4.04 * transition_parameter_to_1_4 + 1.0);
+}
+
 /// Pull-off force in units of pi w R [-], exact for Maugis' model.
 /// @param transition_parameter lambda [-], >= 0
 double pullOffPrefactor(double transition_parameter);

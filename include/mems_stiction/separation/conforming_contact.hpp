@@ -4,21 +4,23 @@
 /// Surfaces that lie against each other everywhere: what it takes to draw them apart.
 ///
 /// Where flattening costs less than adhesion gives, contacts grow together until nothing is left between them, and a sum
-/// over patches says little. Each cell then hangs on a spring, all with the same stiffness k per area:
+/// over patches says little. Each cell then hangs on a spring (spring_contact.hpp), which gives the curve and the work.
+/// The interface breaks
 ///
-///     g = Z + r - u,   k u = t(g),   k = beta 2 U/(A sigma^2)
+/// - as a whole, at the largest traction that the springs of all waves reach, or before that
+/// - from its weakest place: where the long waves (relief_waves.hpp) already pull with p_max, the short ones have
+///   what is left of their own strength, so that the mean traction there is (strength of the short waves) - p_max.
 ///
-/// r is the relief, sigma its rms height, U/A the energy that flattening takes (flattening.hpp): with beta = 1 the
-/// springs store just that when all is flat. A cell stays on its branch while the surfaces are drawn apart, and lets go
-/// where -t'(g) = k. What brittle interfaces tear off in one go is shorter than the roughness: the springs are stiffer
-/// then, beta = 1 + 1/2/(1 + kappa^2), kappa = k z0^2/Gamma, the one number in this room that is not derived but chosen
-/// (1 would be up to 1.5 times too strong there, doc/separation_curve.md).
+/// For one long wave this is the strength of the law less Westergaard's pressure. Derivation and figures:
+/// doc/separation_curve.md.
 
 #include <vector>
 
 #include "mems_stiction/approach/gap_field.hpp"
 #include "mems_stiction/separation/contact_traction.hpp"
-#include "mems_stiction/separation/separation_trace.hpp"
+#include "mems_stiction/separation/flattening.hpp"
+#include "mems_stiction/separation/relief_waves.hpp"
+#include "mems_stiction/separation/spring_contact.hpp"
 
 namespace mems_stiction {
 
@@ -29,17 +31,41 @@ struct ConformingState {
   double contact_fraction = 0.0;  ///< cells that repel each other [-]
 };
 
-/// The whole branch.
-struct ConformingContact {
-  std::vector<ConformingState> states;  ///< by descending approach, from rest to apart
-  double strength = 0.0;                ///< largest traction [Pa]
-  double strength_approach = 0.0;       ///< where [m]
-  double work = 0.0;                    ///< of drawing them apart from rest [J/m^2]; 0: they do not stay together
+/// The bodies as they conform.
+struct ConformingBodies {
+  double contact_modulus = 0.0;    ///< E [Pa], > 0
+  double flattening_energy = 0.0;  ///< U/A [J/m^2], >= 0
 };
 
-/// - @p flattening_energy U/A [J/m^2], >= 0
-/// - @p pressure with which the surfaces are pressed together at rest [Pa], >= 0
-ConformingContact conformingContact(const GapField& field, const ContactTraction& law, double flattening_energy,
-                                    double pressure);
+/// The way out.
+struct ConformingWayOut {
+  std::vector<ConformingState> states;  ///< by descending approach, from rest to where the interface breaks
+  double strength = 0.0;                ///< largest traction [Pa]
+};
+
+/// Bonded surfaces of one frame. Keeps its memory between frames.
+class ConformingContact {
+ public:
+  /// - @p law that attracts
+  void start(const GapField& field, const ContactTraction& law, const ConformingBodies& bodies);
+
+  /// What drawing the bonded surfaces apart takes [J/m^2]; 0 if they do not stay together.
+  double work() const;
+  /// The way out from rest under a pressure [Pa], >= 0.
+  /// - @p least_strength what the contacts hold in any case [Pa]
+  ConformingWayOut partFrom(double pressure, double least_strength);
+
+ private:
+  /// Mean traction at which the weakest place tears [Pa]; negative if flattening alone does it.
+  double weakestPlace(double pressure);
+
+  const GapField* field_ = nullptr;
+  const ContactTraction* law_ = nullptr;
+  ConformingBodies bodies_;
+  std::vector<SpringState> branch_;
+  ReliefWaves waves_;
+  FlatteningEnergy flattening_;  ///< of the short waves
+  std::vector<double> line_;
+};
 
 }  // namespace mems_stiction

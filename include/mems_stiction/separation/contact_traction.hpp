@@ -18,7 +18,9 @@
 ///     const ContactTraction law(interface);
 ///     const double pull = law.traction(gap - approach);
 
+#include "mems_stiction/base/lanes.hpp"
 #include "mems_stiction/loads/interface.hpp"
+#include "mems_stiction/separation/lane_functions.hpp"
 
 namespace mems_stiction {
 
@@ -45,17 +47,59 @@ class ContactTraction {
   }
   /// d^2t/dd^2 [Pa/m^2]
   double curvature(double gap) const;
-  /// w [J/m^2]
-  double energy(double gap) const;
+  /// w [J/m^2] of one gap [m] or of several
+  template <typename Real>
+  Real energy(const Real& gap) const {
+    const Real x = range_ / (gap + range_);
+    const Real square = x * x;
+    return stress_ * range_ * (square / 2.0 - square * square * square * square / 8.0);
+  }
 
   /// What the bodies and the layer carry together, when the bodies alone would carry `elastic_pressure` [Pa] at this
-  /// depth of overlap [m]: the layer takes a part s of the depth, and both carry the same.
-  double pressureInSeries(double elastic_pressure, double depth) const;
+  /// depth of overlap [m], > 0: the layer takes a part s of the depth, and both carry the same. Nothing where the bodies
+  /// pull. Of one patch or of several.
+  template <typename Real>
+  Real pressureInSeries(const Real& elastic_pressure, const Real& depth) const;
 
  private:
+  /// A layer is not pressed thinner than this share of z0 [-]: hundreds of GPa for any solid.
+  static constexpr double kThinnestLayer = 0.4;
+  /// The balance of layer and bodies is found to this share of the depth.
+  static constexpr double kBalance = 1e-6;
+  static constexpr int kMostNewtonSteps = 20;
+
   double work_of_adhesion_;
   double range_;
   double stress_;
 };
+
+template <typename Real>
+MEMS_STICTION_INLINE Real ContactTraction::pressureInSeries(const Real& elastic_pressure, const Real& depth) const {
+  const Real pressure = greater(elastic_pressure, Real(0.0));
+  if (!attracts()) return pressure;
+  // f(s) = layer(s) - pressure (1 - s/depth) rises from s = 0, where it is negative, ever more steeply: Newton's steps
+  // from the right come down to its zero without passing it. The layer alone would give way by more: with y = x^9 and
+  // y^(1/3) <= 1 + (y - 1)/3 by less than what y = 1 + 1.5 pressure/stress gives.
+  const Real thickest = (1.0 - kThinnestLayer) * range_;
+  const Real most = select(depth < thickest, depth, thickest);
+  const Real tolerance = kBalance * select(depth < range_, depth, Real(range_));
+  const Real stiffness = pressure / depth;
+  const Real beyond = range_ * (1.0 - power(1.0 + 1.5 * pressure / stress_, -1.0 / 9.0));
+  Real s = select(beyond < most, beyond, most);
+  for (int step = 0; step < kMostNewtonSteps; ++step) {
+    const Real x = range_ / (range_ - s);
+    const Real cube = x * x * x;
+    const Real ninth = cube * cube * cube;
+    const Real excess = stress_ * (ninth - cube) - (pressure - stiffness * s);
+    const Real slope = stress_ / range_ * (9.0 * ninth - 3.0 * cube) * x + stiffness;
+    Real next = s - excess / slope;
+    next = greater(next, Real(0.0));
+    next = select(next < most, next, most);
+    const Real moved = select(next > s, next - s, s - next);
+    s = next;
+    if (!isAnywhere(moved > tolerance)) break;
+  }
+  return pressure - stiffness * s;
+}
 
 }  // namespace mems_stiction

@@ -14,6 +14,8 @@
 
 #include <vector>
 
+#include <opencv2/core.hpp>
+
 #include "mems_stiction/approach/gap_field.hpp"
 
 namespace mems_stiction {
@@ -23,7 +25,8 @@ class StructureFunction {
  public:
   /// Forgets all lines; the next ones have this length [cells].
   void start(int length);
-  void add(const std::vector<double>& line);
+  /// - @p line of the length that start() was given [m]; what is not finite is left out
+  void add(const double* line);
   /// Integral of S(r)/(2 r^2) dr [m]; S grows as r^2 up to the first distance.
   double integral(double pitch) const;
 
@@ -31,8 +34,9 @@ class StructureFunction {
   struct Lag {
     int cells;
     double sum;
-    long long count;
+    double count;
   };
+  int length_ = 0;
   std::vector<Lag> lags_;
 };
 
@@ -42,11 +46,18 @@ class FlatteningEnergy {
   /// U/A [J/m^2].
   /// - @p contact_modulus E [Pa], > 0
   double of(const GapField& field, double contact_modulus);
+  /// The same of the gap with these heights added to it [m], cell by cell.
+  double of(const GapField& field, const cv::Mat1d& raised, double contact_modulus);
 
  private:
+  /// - @p read gives the gap of a cell by its index [m]
+  template <typename ReadCell>
+  double measure(const GapField& field, double contact_modulus, const ReadCell& read);
+
   StructureFunction along_rows_;
   StructureFunction along_columns_;
-  std::vector<double> line_;
+  std::vector<double> row_;
+  std::vector<double> columns_;  ///< some columns of the frame, one behind the other
 };
 
 }  // namespace mems_stiction

@@ -30,6 +30,7 @@ struct SeparationCurve {
 void followCurve(SeparationTrace& trace, const ContactSettings& settings, SeparationCurve& curve);
 
 /// The same from a given approach outwards, of surfaces that have flowed: states by ascending approach up to `rest` [m].
-void followCurveUpTo(SeparationTrace& trace, double rest, SeparationCurve& curve);
+/// - @p first_touch approach at which they touch [m]
+void followCurveUpTo(SeparationTrace& trace, double first_touch, double rest, SeparationCurve& curve);
 
 }  // namespace mems_stiction

@@ -40,21 +40,31 @@ class SeparationSolver : public ContactSolver {
   };
 
   void takeRest(const ContactProblem& problem, ContactSolution& solution);
+  void findBorder(const GapField& field);
+  /// The contact of a patch of the trace.
+  Contact& contactOf(std::int32_t id) { return contacts_[static_cast<std::size_t>(trace_.contacts().livePlace(id))]; }
+  /// Calls take(row, column, overlap [m], patch, contact) for each cell that overlaps at rest, row by row.
+  template <typename Taker>
+  void visitOverlaps(const GapField& field, const Taker& take);
   void listContacts(const ContactProblem& problem, ContactSolution& solution);
   void fillMaps(const ContactProblem& problem, ContactSolution& solution);
   /// The way out of surfaces that have flowed, if they have.
   void partFlowed(const ContactProblem& problem, ContactSolution& solution);
-  /// The way out of surfaces that conform, if they do.
+  /// The way out of surfaces that conform, or are near to it, if they are.
   void partConforming(const ContactProblem& problem, ContactSolution& solution);
+  void takeConforming(const ContactProblem& problem, double stretch, ContactSolution& solution);
+  /// Gives the way out the work of bonded surfaces, forces in proportion.
+  void stretchWayOut(const ContactProblem& problem, double stretch, ContactSolution& solution);
 
   SeparationTrace trace_;
   SeparationCurve curve_;
-  std::vector<Contact> contacts_;  ///< by id of the patch
+  std::vector<Contact> contacts_;  ///< in the order of the sweep's live patches
   bool has_flowed_ = false;
+  std::vector<double> row_gaps_;
+  std::vector<std::int32_t> columns_;
   FlatteningEnergy flattening_;
-  LargePageVector<double> changed_gaps_;
-  GapField changed_gap_;  ///< of the surfaces that have flowed
-  SeparationTrace changed_trace_;
+  ConformingContact conforming_;
+  std::vector<double> changed_gaps_;  ///< of the cells that overlap, when surfaces have flowed [m]
   SeparationCurve changed_curve_;
 };
 

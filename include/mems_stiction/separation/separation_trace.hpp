@@ -18,6 +18,7 @@
 
 #include <optional>
 
+#include "mems_stiction/approach/dale_map.hpp"
 #include "mems_stiction/approach/gap_field.hpp"
 #include "mems_stiction/approach/gap_order.hpp"
 #include "mems_stiction/approach/gap_pyramid.hpp"
@@ -25,6 +26,7 @@
 #include "mems_stiction/loads/capillary.hpp"
 #include "mems_stiction/separation/attraction_sum.hpp"
 #include "mems_stiction/separation/overlap_sweep.hpp"
+#include "mems_stiction/separation/patch_forces.hpp"
 
 namespace mems_stiction {
 
@@ -42,15 +44,8 @@ struct SeparationState {
   double partingForce() const { return adhesion + capillary - carried; }
 };
 
-/// What one patch carries at an approach.
-struct PatchLoad {
-  double elastic = 0.0;  ///< without flow [N]
-  double carried = 0.0;  ///< with it [N]
-  /// What flow has left of the overlap [-]: 1 elastic.
-  double elasticShare() const { return elastic > 0.0 ? carried / elastic : 1.0; }
-};
-
-/// Goes through the approaches of one frame, upward only. Keeps its memory between frames.
+/// Goes through the approaches of one frame, upward only, or back to one that it has kept. Keeps its memory between
+/// frames.
 class SeparationTrace {
  public:
   /// Starts apart. Field and settings must outlive the trace's use.
@@ -63,39 +58,47 @@ class SeparationTrace {
   Attraction energiesAt(const SeparationState& state) const;
   /// Back to apart.
   void restart();
+  /// Makes it the trace of surfaces that have been changed where they overlap, from apart, without flow.
+  /// - @p approach where the trace stands [m]
+  /// - @p gaps of the overlapping cells, in the order of orderedCells(), below the approach [m]; of cells in one patch
+  ///      the order of the gaps has not changed
+  void changeGaps(double approach, const std::vector<double>& gaps);
+  /// Marks the approach where the trace stands, and goes back to the marked one.
+  void keep();
+  void backToKept();
 
+  const PatchForces& patchForces() const { return *patch_forces_; }
   const ContactTraction& law() const { return attraction_->law(); }
   /// Number of cells in contact at which approach/max_contact_fraction is reached.
   int contactLimit() const;
+  /// An approach that is no larger than where it is reached, and nearly there [m]: costs nothing.
+  double approachBeforeLimit() const { return approach_before_limit_; }
   /// Where it is reached [m].
   double limitApproach();
   OverlapSweep& contacts() { return contacts_; }
-  PatchLoad loadOf(const OverlapPatch& patch, double approach) const;
-  /// c of a summit of radius R: its pull-off force is c pi Gamma R [-], between DMT (2) and JKR (1.5).
-  double pullOffPrefactor(double radius) const;
-  double contactModulus() const { return contact_modulus_; }
-  double hardness() const { return hardness_; }
+  /// The cells that overlap come first.
+  const LargePageVector<OrderedCell>& orderedCells() const { return order_.cells(); }
 
  private:
   /// Brings enough cells into order for this approach.
   void orderUpTo(double approach);
-  void build(double fraction);
-  /// s(D)
-  double bendingFactor(double approach) const;
+  void extend(double fraction);
 
   const GapField* field_ = nullptr;
   const ContactSettings* settings_ = nullptr;
   std::optional<AttractionSum> attraction_;
   CapillaryForce water_;
-  double contact_modulus_ = 0.0;
-  double hardness_ = 0.0;       ///< infinite if nothing flows [Pa]
-  double load_factor_ = 0.0;    ///< 0.6 E sqrt(pi dA) [N/m]
-  double maugis_factor_ = 0.0;  ///< lambda^3 per R [1/m]
+  std::optional<PatchForces> patch_forces_;
+  double approach_before_limit_ = 0.0;
+  double most_fraction_ = 1.0;  ///< of the cells that the curve may need
   double ordered_fraction_ = 0.0;
+  DaleMap dales_;
   GapOrder order_;
   GapPyramid pyramid_;
   OverlapSweep contacts_;
   OverlapSweep in_reach_;
+  OverlapSweep kept_contacts_;
+  OverlapSweep kept_in_reach_;
 };
 
 }  // namespace mems_stiction

@@ -179,18 +179,22 @@ TEST(GapField, sumsSeveralHeightsAtOnceAsOneAfterTheOther) {
   }
 }
 
-TEST(ColumnsBelow, areThoseOfOneComparisonAfterTheOther) {
+TEST(ColumnsBetween, areThoseOfOneComparisonAfterTheOther) {
   for (int cols = 0; cols <= 40; ++cols) {
     std::vector<double> gaps;
     for (int col = 0; col < cols; ++col) gaps.push_back(col % 11 == 7 ? kInfinity : (37 * col) % 29);
-    for (const double limit : {0.0, 1.0, 14.0, 28.0, 29.0, kInfinity}) {
-      std::vector<std::int32_t> expected;
-      for (int col = 0; col < cols; ++col) {
-        if (gaps[static_cast<std::size_t>(col)] < limit) expected.push_back(col);
+    for (const double from : {0.0, 1.0, 14.0}) {
+      for (const double limit : {0.0, 1.0, 14.0, 28.0, 29.0, kInfinity}) {
+        if (limit < from) continue;
+        std::vector<std::int32_t> expected;
+        for (int col = 0; col < cols; ++col) {
+          const double gap = gaps[static_cast<std::size_t>(col)];
+          if (gap >= from && gap < limit) expected.push_back(col);
+        }
+        std::vector<std::int32_t> columns(static_cast<std::size_t>(cols) + 1);
+        columns.resize(static_cast<std::size_t>(columnsBetween(from, limit, gaps.data(), cols, columns.data())));
+        EXPECT_EQ(columns, expected) << cols << " columns from " << from << " to " << limit;
       }
-      std::vector<std::int32_t> columns(static_cast<std::size_t>(cols) + 1);
-      columns.resize(static_cast<std::size_t>(columnsBelow(limit, gaps.data(), cols, columns.data())));
-      EXPECT_EQ(columns, expected) << cols << " columns below " << limit;
     }
   }
 }

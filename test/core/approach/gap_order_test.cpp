@@ -17,7 +17,7 @@ namespace {
 std::vector<OrderedCell> sortedCells(const GapField& field) {
   std::vector<OrderedCell> cells;
   for (int cell = 0; cell < field.cellCount(); ++cell) {
-    if (isValid(field, cell)) cells.push_back({field.gap(cell), cell, cell / field.cols()});
+    if (isValid(field, cell)) cells.push_back({field.gap(cell), cell, {}});
   }
   std::stable_sort(cells.begin(), cells.end(), [](const auto& a, const auto& b) { return a.gap < b.gap; });
   return cells;
@@ -70,10 +70,78 @@ TEST_P(OrderedFrame, sortsTheCellsByGapThenIndexWhereAsked) {
       order.sortBetween(0, static_cast<int>(order.cells().size()));
       for (std::size_t i = 0; i < order.cells().size(); ++i) {
         ASSERT_EQ(order.cells()[i].cell, expected[i].cell) << "place " << i;
-        ASSERT_EQ(order.cells()[i].row, expected[i].cell / field_.cols()) << "place " << i;
         ASSERT_EQ(order.cells()[i].gap, expected[i].gap) << "place " << i;
       }
     }
+  }
+}
+
+TEST_P(OrderedFrame, grownInPartsIsTheOrderMadeAtOnce) {
+  GapOrder grown;
+  grown.build(field_, 1e-9);
+  GapOrder at_once;
+  for (const double fraction : {0.01, 0.3, 0.9, 1.0}) {
+    grown.extend(field_, fraction);
+    at_once.build(field_, fraction);
+    ASSERT_EQ(grown.orderedBuckets(), at_once.orderedBuckets());
+    ASSERT_EQ(grown.cells().size(), at_once.cells().size());
+    EXPECT_EQ(grown.contactLimit(), at_once.contactLimit());
+    const auto count = static_cast<int>(grown.cells().size());
+    grown.sortBetween(0, count);
+    at_once.sortBetween(0, count);
+    for (std::size_t i = 0; i < grown.cells().size(); ++i) {
+      ASSERT_EQ(grown.cells()[i].cell, at_once.cells()[i].cell) << "place " << i;
+    }
+    for (std::size_t i = 0; i < grown.orderedMoments().size(); ++i) {
+      ASSERT_EQ(grown.orderedMoments()[i].count, at_once.orderedMoments()[i].count);
+      ASSERT_EQ(grown.orderedMoments()[i].mean, at_once.orderedMoments()[i].mean);
+    }
+  }
+}
+
+TEST_P(OrderedFrame, cellsBearTheirDaleAndWhereItMeetsOthers) {
+  DaleMap dales;
+  dales.start(field_);
+  GapOrder order;
+  order.build(field_, 0.05, 0.0, &dales);
+  order.extend(field_, 0.4);
+  order.extend(field_, 1.0);
+  for (const OrderedCell& ordered : order.cells()) {
+    const GridCell cell = field_.cellAt(ordered.cell);
+    ASSERT_EQ(ordered.tag.dale(), dales.find(cell));
+    for (const Side side : kSides) {
+      const GridCell neighbour = cell.neighbour(side, field_.cols());
+      const bool comes_before =
+          field_.contains(neighbour) && comesFirst(side, field_.gap(neighbour.index), ordered.gap);
+      ASSERT_EQ(ordered.tag.isBorderAt(side), comes_before && dales.find(neighbour) != ordered.tag.dale());
+    }
+  }
+}
+
+TEST_P(OrderedFrame, changedGapsAreInOrder) {
+  GapOrder order;
+  order.build(field_, 1.0);
+  const double limit = 0.4 * std::max(field_.largestGap(), 1e-12);
+  const int count = order.sortBelow(limit);
+  std::vector<double> gaps;
+  std::map<int, double> gap_of_cell;
+  for (int i = 0; i < count; ++i) {  // some rise, some stay: half the way to the limit where the cell's number is odd
+    const OrderedCell& ordered = order.cells()[static_cast<std::size_t>(i)];
+    gaps.push_back(ordered.cell % 2 == 1 ? 0.5 * (ordered.gap + limit) : ordered.gap);
+    gap_of_cell[ordered.cell] = gaps.back();
+  }
+  order.changeGaps(limit, gaps);
+  ASSERT_EQ(order.sortBelow(limit), count);
+  order.sortBetween(0, count);
+  double counted = 0.0;
+  for (const GapMoments& moments : order.orderedMoments()) counted += moments.count;
+  EXPECT_EQ(counted, static_cast<double>(order.cells().size()));
+  for (int i = 0; i < count; ++i) {
+    const OrderedCell& ordered = order.cells()[static_cast<std::size_t>(i)];
+    ASSERT_EQ(ordered.gap, gap_of_cell.at(ordered.cell));
+    if (i == 0) continue;
+    const OrderedCell& before = order.cells()[static_cast<std::size_t>(i - 1)];
+    ASSERT_TRUE(comesBefore(before.gap, before.cell, ordered.gap, ordered.cell));
   }
 }
 

@@ -85,13 +85,13 @@ TEST_F(WorkedFrame, HasTheOrderAndSurroundingsOfThePage) {
     const OrderedCell& cell = order_.cells()[static_cast<std::size_t>(place)];
     const CellSurroundings around = surroundings(place);
     ASSERT_EQ(around.cell, cell.cell);
-    text +=
-        withoutTrailingSpaces(format(
-            "%5d  %5d  (%d, %d)  %s   %s    %s    %s    %s  %s     %s", place, order_.groupOfPlace(place), cell.row,
-            cell.cell - cell.row * field_.cols(), nanometres(cell.gap).c_str(), nanometres(around.gaps[kLeft]).c_str(),
-            nanometres(around.gaps[kRight]).c_str(), nanometres(around.gaps[kTop]).c_str(),
-            nanometres(around.gaps[kBottom]).c_str(), letter(around.dale()).c_str(), around.isBorder() ? "yes" : "")) +
-        "\n";
+    text += withoutTrailingSpaces(
+                format("%5d  %5d  (%d, %d)  %s   %s    %s    %s    %s  %s     %s", place, order_.groupOfPlace(place),
+                       cell.cell / field_.cols(), cell.cell % field_.cols(), nanometres(cell.gap).c_str(),
+                       nanometres(around.gaps[kLeft]).c_str(), nanometres(around.gaps[kRight]).c_str(),
+                       nanometres(around.gaps[kTop]).c_str(), nanometres(around.gaps[kBottom]).c_str(),
+                       letter(around.dale()).c_str(), around.isBorder() ? "yes" : "")) +
+            "\n";
   }
   documents::expectUpToDate(kPage, "surroundings", fenced(text));
 }

@@ -45,6 +45,14 @@ Example written(const std::string& name, const std::string& bytes, int missing) 
   return {[=](const ScratchFolder& folder) { return folder.write(name, bytes); }, missing};
 }
 
+Example byGwyddion(const std::string& name, const std::string& bytes, int missing = 0) {
+  return {[=](const ScratchFolder& folder) {
+            const bool is_there = std::system("command -v gwyddion >/dev/null 2>&1") == 0;
+            return is_there ? folder.write(name, bytes) : std::string();
+          },
+          missing};
+}
+
 Example published(const std::string& name, int missing = 0) {
   return {[=](const ScratchFolder&) {
             const char* scans = std::getenv("MEMS_STICTION_SCANS");
@@ -66,6 +74,12 @@ std::string npyWithNan() {
   std::string data;
   for (const double value : {1.0, 2.0, std::nan(""), 4.0, 5.0, 6.0}) data += littleBytes(value);
   return npy("<f8", data);
+}
+
+std::string sdf() {
+  return "aISO-1.0\r\nManufacID = maker\r\nCreateDate = 010120260000\r\nModDate = 010120260000\r\nNumPoints = 3\r\n"
+         "NumProfiles = 2\r\nXscale = 1e-6\r\nYscale = 2e-6\r\nZscale = 1e-9\r\nZresolution = -1\r\nCompression = 0\r\n"
+         "DataType = 7\r\nCheckType = 0\r\n*\r\n1 2 3\r\n4 5 7\r\n*\r\n";
 }
 
 std::string wsxmImage() {
@@ -91,6 +105,7 @@ const std::map<std::string, std::vector<Example>> kRows = {
     {"`.opd`", {published("opd-1.opd", 116)}},
     {"`.x3p`", {published("x3p-2.x3p")}},
     {"`.al3d`", {published("al3d-1.al3d")}},
+    {"`.sdf`", {byGwyddion("a.sdf", sdf())}},
     {"`.tiff` of Park", {published("example_ps.tiff")}}};
 
 TEST(FormatsPage, HasARowForEachFormatThatIsTested) {

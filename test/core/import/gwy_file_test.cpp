@@ -179,6 +179,27 @@ TEST(ChannelChoice, NamesOfSignalsInMetresAreNamesOfSamples) {
   EXPECT_EQ(chooseHeightChannel({channel(0, "Phase"), channel(1, "Height")}), 1u);
 }
 
+TEST(ChannelChoice, ASensorInVoltsThatCallsThemMetresIsPassedOver) {
+  std::vector<FileChannel> channels = {channel(0, "HeightTrace"), channel(1, "ZSensorTrace")};
+  channels[1].values.at<double>(1, 1) = 0.6;  // on a scan of a micrometre
+  EXPECT_EQ(chooseHeightChannel(channels), 0u);
+  EXPECT_EQ(passedOver(channels, 0),
+            "0: HeightTrace is taken: the heights of 1: ZSensorTrace span more than the scan is wide");
+  EXPECT_EQ(chooseHeightChannel(channels, "ZSensorTrace"), 1u);
+  channels[1].values.at<double>(1, 1) = 1e38;  // a program's "none"
+  EXPECT_EQ(chooseHeightChannel(channels), 1u);
+  EXPECT_EQ(passedOver(channels, 1), "");
+  EXPECT_EQ(chooseHeightChannel({channels[1]}), 0u) << "what there is alone is taken; the scan's warning says the rest";
+}
+
+TEST(ChannelChoice, ArraysOfCurvesAreNotTaken) {
+  FileChannel curves = channel(0, "Z-Axis Sensor");
+  curves.height = 1.0;  // 4 curves of 4 points a micrometre long
+  EXPECT_EQ(chooseHeightChannel({curves, channel(1, "Z-Axis forward")}), 1u);
+  EXPECT_THROW(chooseHeightChannel({curves}), FileError);
+  EXPECT_EQ(chooseHeightChannel({curves}, "0"), 0u);
+}
+
 TEST(ChannelChoice, OtherUnitsAreNotTaken) {
   EXPECT_EQ(chooseHeightChannel({channel(0, "Height", "V"), channel(1, "Height")}), 1u);
   EXPECT_THROW(chooseHeightChannel({channel(0, "Height", "V")}), FileError);

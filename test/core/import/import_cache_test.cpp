@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "mems_stiction/import/reader_version.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 #include "support/gwy_bytes.hpp"
 #include "support/scratch_folder.hpp"
@@ -70,6 +71,15 @@ TEST_F(ImportCache, WhatIsNotAsItWasKeptIsConvertedAgain) {
   EXPECT_EQ(damaged, 1);
   EXPECT_EQ(heightOf("one"), 1e-9);
   EXPECT_EQ(calls(), 2u);
+}
+
+TEST_F(ImportCache, WhatOlderReadersKeptIsNotFound) {
+  const auto key = [&](const std::string& readers) {
+    return importCacheKey("bytes", ".di", options_.import.program, readers);
+  };
+  EXPECT_EQ(key(readerVersion()), key(readerVersion()));
+  EXPECT_NE(key(readerVersion()), key("0123456789abcdef"));
+  EXPECT_EQ(readerVersion().size(), 16u);
 }
 
 TEST_F(ImportCache, AnotherVersionOfTheProgramConvertsAnew) {

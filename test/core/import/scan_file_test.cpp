@@ -5,6 +5,8 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <utility>
+#include <vector>
 
 #include <opencv2/imgcodecs.hpp>
 
@@ -13,6 +15,7 @@
 #include "mems_stiction/import/scan_writer.hpp"
 #include "mems_stiction/import/text_grid.hpp"
 #include "mems_stiction/import/tiff_tags.hpp"
+#include "support/binary_writer.hpp"
 #include "support/scratch_folder.hpp"
 
 namespace mems_stiction {
@@ -235,12 +238,33 @@ TEST(ScanFile, HeightTiffThatCannotBeWrittenIsNamed) {
   EXPECT_THROW(writeHeightTiff("/nonexistent/out.tiff", example(CV_32FC1)), FileError);
 }
 
-TEST(TiffTags, PlainTiffHasNoneOfPark) {
+/// A directory of these entries; texts that they point to follow it.
+std::string tiffDirectory(const std::vector<std::pair<std::uint16_t, std::uint32_t>>& entries) {
+  std::string bytes =
+      std::string("MM\0*", 4) + bigBytes(std::uint32_t{8}) + bigBytes(static_cast<std::uint16_t>(entries.size()));
+  for (const auto& [tag, value] : entries) {
+    bytes += bigBytes(tag) + bigBytes(std::uint16_t{4}) + bigBytes(std::uint32_t{1}) + bigBytes(value);
+  }
+  return bytes + bigBytes(std::uint32_t{0});
+}
+
+TEST(TiffTags, PagesOfInstrumentsAreToldByTheirTags) {
+  EXPECT_TRUE(hasInstrumentTags(tiffDirectory({{256, 4}, {50432, 0x0E031301}})));
+  EXPECT_FALSE(hasInstrumentTags(tiffDirectory({{256, 4}, {50432, 1}})));
+  EXPECT_TRUE(hasInstrumentTags(tiffDirectory({{256, 4}, {32768, 2}, {32769, 90}})));
+  EXPECT_FALSE(hasInstrumentTags(tiffDirectory({{256, 4}, {32768, 2}})));
+  const std::string directory = tiffDirectory({{270, 26}});
+  ASSERT_EQ(directory.size(), 26u);
+  EXPECT_TRUE(hasInstrumentTags(directory + "<?xml version=\"1.0\"?><TiffTagDescData Version=\"1.0\">"));
+  EXPECT_FALSE(hasInstrumentTags(directory + "<?xml version=\"1.0\"?><OME>"));
+}
+
+TEST(TiffTags, PlainTiffHasNoneOfThem) {
   const ScratchFolder folder;
   ASSERT_TRUE(cv::imwrite(folder.file("plain.tiff"), example(CV_32FC1)));
-  EXPECT_FALSE(hasParkTags(ScratchFolder::read(folder.file("plain.tiff"))));
-  EXPECT_FALSE(hasParkTags(""));
-  EXPECT_FALSE(hasParkTags(std::string("II*\0\xff\xff\xff\x7f", 8)));
+  EXPECT_FALSE(hasInstrumentTags(ScratchFolder::read(folder.file("plain.tiff"))));
+  EXPECT_FALSE(hasInstrumentTags(""));
+  EXPECT_FALSE(hasInstrumentTags(std::string("II*\0\xff\xff\xff\x7f", 8)));
 }
 
 // ---- The child process: each way that it can end is one clear line.
@@ -278,6 +302,18 @@ TEST(GwyddionImport, FailureQuotesTheProgram) {
                        "gwyddion cannot read it: File is cut off."));
   EXPECT_TRUE(mentions(importRefusal("#!/bin/sh\nexit 3\n"), "exit status 3"));
   EXPECT_TRUE(mentions(importRefusal("#!/bin/sh\nexit 0\n"), "cannot read it"));
+}
+
+TEST(GwyddionImport, AnHdf5FileThatItDoesNotKnowIsRefusedWithWhatToDo) {
+  const ScratchFolder folder;
+  ScanFileOptions options;
+  options.import.program = "false";
+  try {
+    openScanFile(folder.write("scan.h5", "\x89HDF\r\n\x1a\n"), {}, options);
+    FAIL();
+  } catch (const FileError& error) {
+    EXPECT_TRUE(mentions(error.what(), "write its array of heights as .npy and give --pitch")) << error.what();
+  }
 }
 
 TEST(GwyddionImport, HangingProgramAndItsChildrenAreStopped) {

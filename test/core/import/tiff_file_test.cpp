@@ -308,12 +308,32 @@ TEST_F(TiffFile, CompressedPagesAreRead) {
   }
 }
 
+/// Where the directory of the first page begins.
+std::size_t directoryAt(const std::string& bytes) {
+  return static_cast<std::size_t>(static_cast<unsigned char>(bytes[4]) | static_cast<unsigned char>(bytes[5]) << 8 |
+                                  static_cast<unsigned char>(bytes[6]) << 16);
+}
+
+TEST_F(TiffFile, ASizeThatDoesNotMatchItsBytesIsRefused) {
+  std::string bytes = write({floatPage()});
+  ASSERT_EQ(parseTiff(bytes).size(), 1u);
+  ASSERT_EQ(bytes[directoryAt(bytes) + 2 + 8], kCols);
+  bytes[directoryAt(bytes) + 2 + 8] = kCols / 2;
+  EXPECT_THROW(parseTiff(bytes), FileError);
+}
+
+TEST_F(TiffFile, APageThatCannotBeFoundIsNotLeftOut) {
+  std::string bytes = write({floatPage(), floatPage()});
+  ASSERT_EQ(parseTiff(bytes).size(), 2u);
+  const std::size_t entries = static_cast<unsigned char>(bytes[directoryAt(bytes)]);
+  bytes[directoryAt(bytes) + 2 + 12 * entries + 2] = '\x7F';  // of the second page's place
+  EXPECT_THROW(parseTiff(bytes), FileError);
+}
+
 TEST_F(TiffFile, TooManyPixelsAreRefusedBeforeMemoryIsTaken) {
   std::string bytes = write({floatPage()});
   // Width and length are the first two entries of the directory, both of type LONG or SHORT.
-  const auto at =
-      static_cast<std::size_t>(static_cast<unsigned char>(bytes[4]) | static_cast<unsigned char>(bytes[5]) << 8 |
-                               static_cast<unsigned char>(bytes[6]) << 16);
+  const std::size_t at = directoryAt(bytes);
   for (const std::size_t entry : {std::size_t{0}, std::size_t{1}}) {
     const std::size_t start = at + 2 + 12 * entry;
     bytes.replace(start + 2, 2, std::string("\4\0", 2));          // LONG

@@ -60,6 +60,13 @@ TEST(WsxmFile, EveryCutIsRefused) {
   }
 }
 
+TEST(WsxmFile, ASizeThatDoesNotMatchTheFileIsRefused) {
+  std::string bytes = wsxm("double", "2 nm", "5 nm", wsxmDoubles());
+  const std::string rows = "Number of rows: ";
+  bytes[bytes.find(rows) + rows.size()] = '1';
+  EXPECT_TRUE(mentions(refusal([&] { parseWsxm(bytes); }), "its header states"));
+}
+
 TEST(WsxmFile, VoltsAreNoHeights) {
   const FileChannel channel = parseWsxm(wsxm("double", "2 nm", "5 V", wsxmDoubles()));
   EXPECT_EQ(channel.unit_z, "V");
@@ -98,6 +105,13 @@ TEST(SurFile, InvertedSurfacesAreTurnedBack) {
   EXPECT_DOUBLE_EQ(parseSur(sur(kind))[0].values.at<double>(1, 0), -5e-9);
 }
 
+TEST(SurFile, ASizeThatDoesNotMatchItsCountIsRefused) {
+  std::string bytes = sur(Sur{});
+  ASSERT_EQ(bytes[108], 3);  // columns; 6 points in all
+  bytes[108] = 2;
+  EXPECT_TRUE(mentions(refusal([&] { parseSur(bytes); }), "damaged header"));
+}
+
 TEST(SurFile, AnotherUnitOrACutIsRefused) {
   Sur kind;
   kind.unit_z = "V";
@@ -133,6 +147,15 @@ TEST(NetcdfFile, HeightsOverXAndYKeepTheirUnitAndAxes) {
 
 TEST(NetcdfFile, AUnitThatIsNoLengthIsRefused) {
   EXPECT_THROW(chooseHeightChannel({*parseNetcdfHeights(heights("V"))}), FileError);
+}
+
+TEST(NetcdfFile, ASizeThatDoesNotMatchItsNumbersIsRefused) {
+  std::string bytes = heights("nm");
+  const std::string x = std::string("\0\0\0\1x\0\0\0", 8);  // the dimension; its length follows
+  const std::size_t at = bytes.find(x) + x.size();
+  ASSERT_EQ(bytes[at + 3], 3);
+  bytes[at + 3] = 2;
+  EXPECT_TRUE(mentions(refusal([&] { parseNetcdfHeights(bytes); }), "damaged header"));
 }
 
 TEST(NetcdfFile, EveryCutIsRefused) {

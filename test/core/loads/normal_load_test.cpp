@@ -124,7 +124,7 @@ TEST(CellForces, ofSeveralCellsAtOnceAreThoseOfOneAfterTheOther) {
     electrostatic.addCells(cells.data(), cells.size(), kApproach, field_load);
     EXPECT_DOUBLE_EQ(field_load.electrostatic, expected.electrostatic) << count << " cells";
     const double gap = kApproach + 0.11 * (count + 1);  // two of them below the cut-off
-    cells.push_back({gap, count, 0});
+    cells.push_back({gap, count, {}});
     expected.van_der_waals += van_der_waals.vanDerWaals(gap - kApproach);
     expected.electrostatic += electrostatic.electrostatic(gap - kApproach);
   }

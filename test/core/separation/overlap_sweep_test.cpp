@@ -32,9 +32,11 @@ TEST_P(SampleFrames, patchesAreThoseOfALabelling) {
   const GapField field = GetParam().gapField();
   for (const Connectivity connectivity : {Connectivity::kFour, Connectivity::kEight}) {
     GapOrder order;
-    order.build(field, 1.0);
+    DaleMap dales;
+    dales.start(field);
+    order.build(field, 1.0, 0.0, &dales);
     OverlapSweep sweep;
-    sweep.start(field, connectivity);
+    sweep.start(field, dales, connectivity);
     for (const double share : {0.02, 0.1, 0.3, 0.5, 0.8, 1.01}) {
       const double approach = share * std::max(field.largestGap(), 1e-12);
       cv::Mat touching(field.rows(), field.cols(), CV_8UC1, cv::Scalar(0));
@@ -90,9 +92,11 @@ GapField twoSummits() {
 TEST(OverlapSweep, loadsAreKeptWherePatchesMeet) {
   const GapField field = twoSummits();
   GapOrder order;
-  order.build(field, 1.0);
+  DaleMap dales;
+  dales.start(field);
+  order.build(field, 1.0, 0.0, &dales);
   OverlapSweep sweep;
-  sweep.start(field, Connectivity::kFour);
+  sweep.start(field, dales, Connectivity::kFour);
   const double ridge = 4.0 * kNm;
   const auto load = [&] {
     double sum = 0.0;
@@ -141,9 +145,11 @@ TEST(OverlapSweep, radiusAndLoadOfAParaboloidAreHertzs) {
   GapField field;
   field.compute(pair);
   GapOrder order;
-  order.build(field, 1.0);
+  DaleMap dales;
+  dales.start(field);
+  order.build(field, 1.0, 0.0, &dales);
   OverlapSweep sweep;
-  sweep.start(field, Connectivity::kFour);
+  sweep.start(field, dales, Connectivity::kFour);
   const double depth = 8.0 * kNm;
   sweep.advanceTo(depth, order);
   ASSERT_EQ(sweep.livePatches().size(), 1U);
@@ -157,20 +163,58 @@ TEST(OverlapSweep, radiusAndLoadOfAParaboloidAreHertzs) {
   EXPECT_NEAR(load / (4.0 / 3.0 * std::sqrt(radius) * std::pow(depth, 1.5)), 1.0, 4e-3);
 }
 
+TEST_P(SampleFrames, patchesDoNotDependOnTheStepsNorOnASweepAhead) {
+  const GapField field = GetParam().gapField();
+  const double range = std::max(field.largestGap(), 1e-12);
+  DaleMap dales;
+  dales.start(field);
+  GapOrder order;
+  order.build(field, 1.0, 0.0, &dales);
+  OverlapSweep ahead;
+  OverlapSweep behind;
+  ahead.start(field, dales, Connectivity::kFour);
+  behind.start(field, dales, Connectivity::kFour);
+  for (int step = 1; step <= 60; ++step) {
+    ahead.advanceTo((step + 3) * range / 100.0, order);
+    behind.advanceTo(step * range / 100.0, order, &ahead);
+  }
+  const OverlapSweep kept = behind;
+  behind.advanceTo(0.9 * range, order);
+  behind = kept;
+  GapOrder other_order;
+  other_order.build(field, 1.0, 0.0, &dales);
+  OverlapSweep at_once;
+  at_once.start(field, dales, Connectivity::kFour);
+  at_once.advanceTo(60 * range / 100.0, other_order);
+  ASSERT_EQ(behind.livePatches().size(), at_once.livePatches().size());
+  for (const std::int32_t id : at_once.livePatches()) {
+    const OverlapPatch& expected = at_once.patch(id);
+    const OverlapPatch& patch = behind.patch(behind.patchOf(expected.first_cell));
+    ASSERT_EQ(patch.cells, expected.cells);
+    ASSERT_EQ(patch.summits, expected.summits);
+    ASSERT_EQ(patch.first_cell, expected.first_cell);
+    // sums in another order, and kept is what is left of two of them
+    EXPECT_NEAR(patch.gap_sum, expected.gap_sum, 1e-12 * expected.gap_sum);
+    EXPECT_NEAR(patch.kept, expected.kept, 1e-11 * range * std::sqrt(expected.cells));
+  }
+}
+
 TEST(OverlapSweep, startsAnewOnAnotherFrameAndBack) {
   const std::vector<samples::Frame> frames = samples::allFrames();
   OverlapSweep used;
   for (const std::size_t i : {0U, 1U, 0U, 0U}) {
     const GapField field = frames[i].gapField();
     GapOrder order;
-    order.build(field, 1.0);
+    DaleMap dales;
+    dales.start(field);
+    order.build(field, 1.0, 0.0, &dales);
     OverlapSweep fresh;
-    used.start(field, Connectivity::kFour);
-    fresh.start(field, Connectivity::kFour);
+    used.start(field, dales, Connectivity::kFour);
+    fresh.start(field, dales, Connectivity::kFour);
     const double approach = 0.4 * field.largestGap();
     ASSERT_EQ(used.advanceTo(approach, order), fresh.advanceTo(approach, order));
     EXPECT_EQ(used.livePatches(), fresh.livePatches());
-    EXPECT_EQ(used.insertedCells(), fresh.insertedCells());
+    for (int cell = 0; cell < field.cellCount(); ++cell) ASSERT_EQ(used.patchOf(cell), fresh.patchOf(cell));
     for (const std::int32_t id : used.livePatches()) EXPECT_EQ(used.patch(id).kept, fresh.patch(id).kept);
   }
 }

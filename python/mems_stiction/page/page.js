@@ -1,0 +1,305 @@
+// The station's page: asks station_page for its state, and shows it. All text goes in as text, never as HTML.
+"use strict";
+
+const COLOURS = {releases: "#35c46a", marginal: "#f2b705", sticks: "#ff5a4f", unknown: "#a8adb8", none: "#7fb2ff"};
+const RECONNECT = 1000;  // [ms]
+const SILENCE = 8000;    // [ms] without a state: the server is gone
+const FRESH = 10;        // [s] a warning of the node's diagnostics is shown at the top for so long
+let state = null;
+let received = 0;        // when the state came [ms]
+const shownMaps = {};
+
+const byId = (id) => document.getElementById(id);
+const say = (id, text) => { if (byId(id).textContent !== text) byId(id).textContent = text; };
+
+function fillList(id, texts) {
+  byId(id).replaceChildren(...texts.map((text) => { const item = document.createElement("li"); item.textContent = text; return item; }));
+}
+
+/** "12 s", "3 min", "2.5 h" */
+function duration(seconds) {
+  if (seconds < 120) return `${Math.round(seconds)} s`;
+  return seconds < 7200 ? `${Math.round(seconds / 60)} min` : `${(seconds / 3600).toFixed(1)} h`;
+}
+
+const sinceState = () => (performance.now() - received) / 1000;
+
+function connect() {
+  const socket = new WebSocket(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/state`);
+  socket.onopen = () => socket.send("next");
+  socket.onmessage = (message) => {
+    state = JSON.parse(message.data);
+    received = performance.now();
+    show();
+    socket.send("next");
+  };
+  socket.onclose = () => { setTimeout(connect, RECONNECT); };
+}
+
+function show() {
+  showVerdict();
+  say("counts", state.count ? `${state.count} scans` + (state.lost ? `, ${state.lost} not predicted` : "") : "");
+  showTab();
+}
+
+function showLink() {
+  const isGone = !state || performance.now() - received > SILENCE;
+  const warned = !isGone && state.link.level === "ok" && state.diagnostics.find((status) => status.level !== "ok" && status.age < FRESH);
+  byId("link").className = isGone ? "error" : warned ? "warn" : state.link.level;
+  say("link-text", isGone ? "No answer from station_page: what is shown is old." : warned ? `Connected; the node warns: ${warned.message}` : state.link.text);
+  return isGone || state.link.level === "error";
+}
+
+function showVerdict() {
+  const scan = state.scan;
+  const box = byId("verdict");
+  const isLost = state.loss_is_newest && state.losses.length > 0;
+  const verdict = isLost ? {level: "unknown", word: "NOT PREDICTED", reason: state.losses[state.losses.length - 1].reason}
+    : scan ? scan.verdict : {level: "none", word: "WAITING", reason: "The verdict appears with the first scan that is predicted."};
+  const shownRatio = !isLost && scan && scan.ratio;
+  box.dataset.level = verdict.level;
+  box.classList.toggle("long", verdict.word.length > 9);
+  say("word", verdict.word);
+  say("reason", verdict.reason);
+  say("scan-name", isLost ? `scan ${state.losses[state.losses.length - 1].number}` + (scan ? `; the last verdict, of scan ${scan.number}: ${scan.verdict.word}` : "")
+    : scan ? `scan ${scan.number}` + (scan.name ? `: ${scan.name}` : "") : "no scan yet");
+  say("ratio-label", shownRatio ? scan.ratio.label : "");
+  say("ratio-value", shownRatio ? scan.ratio.text : "");
+  say("ratio-interval", shownRatio ? scan.ratio.interval : "");
+  const limits = scan && !isLost ? scan.flags.concat(scan.warnings.map((text) => `warning: ${text}`)) : [];
+  say("limits", limits.join(" \u00b7 "));
+  showAge();
+}
+
+function showAge() {
+  const isBroken = showLink();
+  const age = state && state.age !== null ? state.age + sinceState() : null;
+  const isStale = age !== null && (isBroken || age > state.stale_after);
+  const box = byId("verdict");
+  box.className = [isStale ? "stale" : box.dataset.level || "none", box.classList.contains("long") ? "long" : ""].join(" ").trim();
+  say("age", isStale ? `last scan ${duration(age)} ago` : "");
+}
+
+// ---------------------------------------------------------------- tabs
+
+const TABS = {overview: showOverview, maps: showMaps, curve: showCurve, runs: showRuns, node: showNode};
+
+function chosenTab() {
+  const name = location.hash.slice(1);
+  return Object.prototype.hasOwnProperty.call(TABS, name) ? name : "overview";
+}
+
+function showTab() {
+  const chosen = chosenTab();
+  for (const button of document.querySelectorAll("nav button")) button.classList.toggle("chosen", button.dataset.tab === chosen);
+  for (const tab of document.querySelectorAll(".tab")) tab.classList.toggle("chosen", tab.id === `tab-${chosen}`);
+  if (state) TABS[chosen]();
+}
+
+function showOverview() {
+  showTrend();
+  const figures = byId("figures");
+  figures.replaceChildren();
+  for (const figure of state.scan ? state.scan.figures : []) {
+    const label = document.createElement("dt");
+    const text = document.createElement("dd");
+    label.textContent = figure.label;
+    text.textContent = figure.text;
+    text.dataset.name = figure.name;
+    text.dataset.value = String(figure.value);
+    figures.append(label, text);
+  }
+}
+
+function showTrend() {
+  const rows = state.trend;
+  const first = rows.length ? rows[0].number : 1;
+  const x = {label: "number of the scan", low: first - 0.7, high: Math.max(rows.length ? rows[rows.length - 1].number : 1, first + 9) + 0.7, whole: true};
+  const bands = rows.filter((row) => row.lost !== undefined).map((row) => row.number);
+  const valueOf = (row, name) => row.lost === undefined ? row[name] : null;
+  const isDevice = rows.some((row) => valueOf(row, "device_force") !== null);
+  const force = isDevice ? "device_force" : "force";
+  const forces = rows.map((row) => valueOf(row, force));
+  const springs = isDevice ? rows.map((row) => valueOf(row, "restoring_force")) : [];
+  const numbers = rows.map((row) => row.number);
+  const ratios = rows.map((row) => valueOf(row, "ratio"));
+  const hasRatio = ratios.some((value) => value !== null);
+  const line = (values) => values.map((value, place) => [numbers[place], value]);
+  const marks = (values) => rows.map((row, place) => ({x: row.number, y: values[place], colour: COLOURS[row.level] || COLOURS.none}));
+  drawChart(byId("trend-force"), {
+    x: Object.assign({}, x, {label: hasRatio ? "" : x.label}), y: Object.assign({label: isDevice ? "pull-off, device" : "pull-off, scan", unit: "N"}, limitsOf(forces.concat(springs), true)), bands,
+    lines: [{points: line(forces), colour: "#7fb2ff", width: 1.5}, {points: line(springs), colour: "#35c46a", width: 2.5, dash: "8 5"}], marks: marks(forces),
+    texts: springs.length && rows.length && springs[0] ? [{x: first, y: springs[0], text: "restoring force of the spring"}] : [],
+  });
+  byId("trend-ratio").style.display = hasRatio ? "block" : "none";
+  if (!hasRatio) return;
+  const whiskers = rows.map((row) => [row.number, valueOf(row, "lower"), valueOf(row, "upper")]);
+  drawChart(byId("trend-ratio"), {
+    x, y: Object.assign({label: state.scan && state.scan.ratio ? state.scan.ratio.label : "margin"}, limitsOf(ratios.concat(whiskers.flatMap((one) => one.slice(1)), [1]), true)),
+    bands, whiskers, levels: [{y: 1, colour: "#ff5a4f"}], lines: [{points: line(ratios), colour: "#7fb2ff", width: 1.5}], marks: marks(ratios),
+  });
+}
+
+// ---------------------------------------------------------------- maps
+
+const ofScan = (map) => map.number ? `of scan ${map.number}` : "";
+
+function showMaps() {
+  const {height, contacts} = state.maps;
+  const any = contacts || height;
+  if (!any) { say("height-legend", "No map yet."); return; }
+  const [width, length] = (contacts && contacts.size) || [any.columns, any.rows];
+  fitMaps(width / length);
+  say("height-of", height ? ofScan(height) : "");
+  say("contacts-of", contacts ? ofScan(contacts) : "");
+  say("height-legend", `dark: low, bright: high, from 1 % to 99 % of the heights; mauve: not measured` +
+      (contacts && contacts.size ? `; ${lengthText(width)} x ${lengthText(length)}` : ""));
+  if (height) for (const id of ["height", "relief"]) load(id, `map/height.png?${height.id}`);
+  if (contacts) load("contacts", `map/contacts.png?${contacts.id}`);
+  const box = byId("rings");
+  box.setAttribute("viewBox", "0 0 1000 1000");
+  box.setAttribute("preserveAspectRatio", "none");
+  const [rx, ry] = width > length ? [16, 16 * width / length] : [16 * length / width, 16];
+  box.replaceChildren(...state.rings.map(([x, y, regime]) => element("ellipse", {
+    cx: 1000 * x, cy: 1000 * y, rx, ry, fill: "none", "stroke-width": 4, stroke: ["", "#2f9bff", "#ffd23f", "#ff4d4d"][regime]})));
+}
+
+/** As large as the panel and the window allow, in the scan's own aspect. */
+function fitMaps(aspect) {
+  for (const map of document.querySelectorAll(".map")) {
+    const room = Math.max(240, window.innerHeight - map.getBoundingClientRect().top - window.scrollY - 80);
+    map.style.width = `${Math.min(map.parentElement.clientWidth, room * aspect)}px`;
+    map.style.aspectRatio = String(aspect);
+  }
+}
+
+function lengthText(metres) {
+  const [factor, prefix] = prefixFor(metres);
+  return `${Number((metres / factor).toPrecision(3))} ${prefix}m`;
+}
+
+/** A map that is still on its way is not asked for again. */
+function load(id, address) {
+  const image = byId(id);
+  if (shownMaps[id] === address || (image.dataset.address && !image.complete)) return;
+  shownMaps[id] = address;
+  image.dataset.address = address;
+  image.src = address;
+}
+
+// ---------------------------------------------------------------- force curve
+
+function showCurve() {
+  const curve = state.scan && state.scan.curve;
+  const half = state.half_space;
+  const halfCurve = half && half.is_solved && half.in.length + half.out.length ? half : null;
+  say("curve-words", curve ? `Scan ${state.scan.number}, ${curve.formulation}: pull-off force ${curve.text}, at ${signedLength(curve.peak[0])}.` :
+      state.scan ? "This formulation does not follow the force over the height." : "No scan yet.");
+  say("half-space", half ? `Half-space${half.number ? " of scan " + half.number : ""}: ${half.status}. ` +
+      (half.is_solved ? `Pull-off force ${half.text}.` : half.message) + half.notes.map((note) => ` But ${note}.`).join("") : "");
+  const all = [curve, halfCurve].filter(Boolean).flatMap((one) => one.in.concat(one.out));
+  if (!all.length) { byId("force-curve").replaceChildren(); return; }
+  const strongest = Math.max(...all.map((point) => point[1]), 1e-30);
+  const near = all.filter((point) => Math.abs(point[1]) > 0.02 * strongest && point[1] > -1.2 * strongest);
+  const places = (near.length > 1 ? near : all).map((point) => point[0]);
+  const room = 0.05 * (Math.max(...places) - Math.min(...places)) || 1e-10;
+  const forces = all.filter((point) => point[1] > -1.2 * strongest).map((point) => point[1]);
+  const lines = [];
+  if (halfCurve) lines.push({points: half.in, colour: "#8f7fc4", width: 2, dash: "2 5"}, {points: half.out, colour: "#c6a8ff", width: 2.5});
+  if (curve) lines.push({points: curve.in, colour: "#7fb2ff", width: 3}, {points: curve.out, colour: "#f2b705", width: 2.5});
+  drawChart(byId("force-curve"), {
+    x: {label: "displacement past first touch; below 0 apart", unit: "m", low: Math.min(...places) - room, high: Math.max(...places) + room},
+    y: Object.assign({label: "force, above 0 attraction", unit: "N"}, limitsOf(forces, false)), lines,
+    marks: curve ? [{x: curve.peak[0], y: curve.peak[1], colour: "#ff5a4f", radius: 8}] : [],
+    texts: curve ? [{x: curve.peak[0], y: curve.peak[1], text: `pull-off ${curve.text}`}] : [],
+  });
+}
+
+function signedLength(metres) {
+  if (Math.abs(metres) < 5e-14) return "first touch";
+  return `${lengthText(Math.abs(metres))} ${metres < 0 ? "apart" : "past first touch"}`;
+}
+
+// ---------------------------------------------------------------- sweeps, cycles
+
+const LOAD_COLOURS = ["#7fb2ff", "#f2b705", "#35c46a", "#c6a8ff", "#ff9f6e", "#e0e0e0"];
+
+function showRuns() {
+  const {sweep, cycles} = state.runs;
+  showRun("sweep", sweep, "None yet: sweep_load --voltages 0:30:5 makes one.", drawSweep);
+  showRun("cycles", cycles, "None yet: cycle_contact --count 20 makes some.", drawCycles);
+}
+
+function showRun(name, run, none, draw) {
+  const isDone = run && run.points;
+  const running = run && run.progress ? `running, ${run.progress[0]} of ${run.progress[1]}` : "";
+  say(`${name}-age`, running || (isDone ? `${duration(run.age + sinceState())} ago` : ""));
+  const words = isDone ? run.sentences.concat(run.message ? [`Ended early: ${run.message}`] : []) : [running ? "" : none];
+  fillList(`${name}-words`, words.filter(Boolean));
+  byId(`${name}-chart`).style.display = isDone && run.points.length ? "block" : "none";
+  if (isDone && run.points.length) draw(run.points);
+}
+
+function drawSweep(points) {
+  const loads = [...new Set(points.map((point) => point.load))];
+  const hasMargin = points.some((point) => point.held !== null || point.margin !== null);
+  const value = hasMargin ? "held" : "force";
+  const lines = loads.flatMap((load, place) => ["up", "down"].map((way) => ({
+    points: points.filter((point) => point.load === load && point.way === way).map((point) => [point.voltage, point.is_open ? null : point[value]]),
+    colour: LOAD_COLOURS[place % LOAD_COLOURS.length], dash: way === "up" ? "none" : "7 5", width: 2.5})));
+  const voltages = points.map((point) => point.voltage);
+  drawChart(byId("sweep-chart"), {
+    x: {label: "voltage, up as a line, down as dashes", unit: "V", low: 0, high: Math.max(...voltages) * 1.03 || 1},
+    y: Object.assign(hasMargin ? {label: "margin while held"} : {label: "pull-off", unit: "N"},
+                     limitsOf(points.map((point) => point.is_open ? null : point[value]).concat(hasMargin ? [1] : []), true)),
+    lines, levels: hasMargin ? [{y: 1, colour: "#ff5a4f"}] : [],
+    marks: lines.flatMap((line) => line.points.map(([x, y]) => ({x, y, colour: line.colour, radius: 4}))),
+    texts: loads.length < 2 ? [] : loads.map((load) => points.filter((point) => point.load === load && point.way === "up")[0])
+      .filter((first) => first && first[value] !== null).map((first) => ({x: first.voltage, y: first[value], text: `pressed with ${first.load_text}`})),
+  });
+}
+
+function drawCycles(points) {
+  const value = points.some((point) => point.margin !== null) ? "margin" : "force";
+  const last = points[points.length - 1].cycle;
+  const shown = points.map((point) => [point.cycle, point[value]]);
+  const lower = value === "margin" ? points.map((point) => [point.cycle, point.lower]) : [];
+  drawChart(byId("cycles-chart"), {
+    x: {label: "number of the contact", low: 0.5, high: Math.max(last, 5) + 0.5, whole: true},
+    y: Object.assign(value === "margin" ? {label: "margin, dots: 95 %"} : {label: "pull-off", unit: "N"},
+                     limitsOf(shown.concat(lower).map((point) => point[1]).concat(value === "margin" ? [1] : []), true)),
+    lines: [{points: shown, colour: "#7fb2ff", width: 2.5}, {points: lower, colour: "#7fb2ff", width: 2, dash: "2 5"}],
+    levels: value === "margin" ? [{y: 1, colour: "#ff5a4f"}] : [],
+  });
+}
+
+// ---------------------------------------------------------------- the node
+
+function showNode() {
+  fillList("losses", state.losses.length ? state.losses.slice().reverse().map((loss) =>
+    (loss.count > 1 ? `${loss.count} scans, the last ${loss.number}: ` : `scan ${loss.number}: `) + (loss.reason || "no reason given"))
+    : [state.count ? "None: every scan since station_page was started is predicted." : "No scan yet."]);
+  fillList("preprocessing", state.scan && state.scan.preprocessing.length ? state.scan.preprocessing : ["Nothing: it is predicted as it came."]);
+  const box = byId("diagnostics");
+  box.replaceChildren();
+  if (!state.diagnostics.length) box.textContent = "The node has told nothing yet.";
+  for (const status of state.diagnostics) {
+    const heading = document.createElement("p");
+    heading.className = `status ${status.level}`;
+    heading.textContent = `${status.name}: ${status.message} (${duration(status.age + sinceState())} ago)`;
+    const table = document.createElement("table");
+    for (const [key, value] of status.values) {
+      const row = table.insertRow();
+      row.insertCell().textContent = key;
+      row.insertCell().textContent = value;
+    }
+    box.append(heading, table);
+  }
+}
+
+for (const button of document.querySelectorAll("nav button")) button.addEventListener("click", () => { location.hash = button.dataset.tab; });
+window.addEventListener("hashchange", showTab);
+window.addEventListener("resize", () => { if (state) show(); });
+setInterval(showAge, 500);
+showTab();
+connect();

@@ -1,0 +1,98 @@
+"""From the node's topics to a PageState. Starts without a master, says what it waits for, and follows a master that is started anew."""
+
+import threading
+import time
+
+import rosgraph
+import rospy
+from diagnostic_msgs.msg import DiagnosticArray
+from mems_stiction.msg import (CycleContactActionFeedback, CycleContactActionResult, HalfSpaceSolution, ScanInfo, StictionPrediction,
+                               SweepLoadActionFeedback, SweepLoadActionResult)
+from sensor_msgs.msg import Image
+
+LOOK_PERIOD = 1.0  # [s]
+MAP_BUFFER = 2**26  # bytes: the newest map alone is kept
+
+
+class PageListener:
+    """Subscribes as soon as there is a master; `follow` is a thread of its own."""
+
+    def __init__(self, state, node):
+        self._state, self._node = state, node
+        self._subscribers = []
+        self._infos = {}
+
+    def start(self):
+        threading.Thread(target=self.follow, daemon=True).start()
+
+    def follow(self):
+        master = rosgraph.Master(rospy.get_name())
+        while not rospy.is_shutdown() and not master.is_online():
+            self._state.set_link("error", "No ROS master at %s: start roscore or a launch file. This page waits." % rosgraph.get_master_uri())
+            time.sleep(LOOK_PERIOD)
+        rospy.init_node("station_page", anonymous=True, disable_signals=True)
+        self._subscribe()
+        while not rospy.is_shutdown():
+            self._look(rosgraph.Master(rospy.get_name()))
+            time.sleep(LOOK_PERIOD)
+
+    def _look(self, master):
+        try:
+            master.lookupNode(rospy.get_name())
+        except rosgraph.MasterError:  # another one, which knows nothing of this node: rospy does not notice
+            for subscriber in self._subscribers:
+                subscriber.unregister()
+            return self._subscribe()
+        except OSError:
+            return self._state.set_link("error", "The ROS master at %s is gone." % rosgraph.get_master_uri())
+        if self._subscribers[0].get_num_connections():
+            return self._state.set_link("ok", "Connected to the node.")
+        self._state.set_link("error", "No node publishes %s: nothing is predicted. roslaunch mems_stiction stiction.launch starts one." %
+                             self._subscribers[0].resolved_name)
+
+    def _subscribe(self):
+        topics = [("prediction", StictionPrediction, self._on_prediction, None, dict(queue_size=1000)),
+                  ("scan_info", ScanInfo, self._on_info, None, dict(queue_size=100)),
+                  ("preview", Image, self._on_map, "height", dict(queue_size=1, buff_size=MAP_BUFFER)),
+                  ("contact_map", Image, self._on_map, "contacts", dict(queue_size=1, buff_size=MAP_BUFFER)),
+                  ("half_space", HalfSpaceSolution, self._on_half_space, None, dict(queue_size=10)),
+                  ("/diagnostics", DiagnosticArray, self._on_diagnostics, None, dict(queue_size=100))]
+        for action, kind, feedback, result, take in (
+                ("sweep_load", "sweep", SweepLoadActionFeedback, SweepLoadActionResult, self._state.add_sweep),
+                ("cycle_contact", "cycles", CycleContactActionFeedback, CycleContactActionResult, self._state.add_cycles)):
+            topics += [("%s/%s/feedback" % (self._node, action), feedback, self._on_feedback, kind, dict(queue_size=10)),
+                       ("%s/%s/result" % (self._node, action), result, self._on_result, take, dict(queue_size=10))]
+        self._subscribers = [rospy.Subscriber(name, kind, callback, argument, **settings) for name, kind, callback, argument, settings in topics]
+
+    def _on_prediction(self, prediction):
+        self._state.add_prediction(prediction.header.stamp.to_nsec(), prediction)
+
+    def _on_info(self, info):
+        self._infos[info.header.stamp.to_nsec()] = (info.pitch_x, info.pitch_y)
+        while len(self._infos) > 100:
+            del self._infos[next(iter(self._infos))]
+
+    def _on_map(self, image, name):
+        stamp = image.header.stamp.to_nsec()
+        self._state.set_map(name, stamp, image, self._size(stamp, image) if name == "contacts" else None)
+
+    def _size(self, stamp, image):
+        """Width and height of the scan [m] by the pitch that its scan_info or the parameters state; None if neither does."""
+        pitch = self._infos.get(stamp, (0.0, 0.0))
+        if min(pitch) <= 0:
+            pitch = [rospy.get_param_cached(self._node + "/scan/pitch_" + axis, 0.0) for axis in "xy"]
+        return (image.width * pitch[0], image.height * pitch[1]) if min(pitch) > 0 else None
+
+    def _on_half_space(self, solution):
+        self._state.add_half_space(solution.header.stamp.to_nsec(), solution)
+
+    def _on_diagnostics(self, message):
+        for status in message.status:
+            if status.name.split(":")[0].strip("/") == self._node.strip("/"):
+                self._state.add_diagnostics(status)
+
+    def _on_feedback(self, message, kind):
+        self._state.add_progress(kind, message.status.goal_id.id, message.feedback.done, message.feedback.total)
+
+    def _on_result(self, message, take):
+        take(message.status.goal_id.id, message.result)

@@ -1,0 +1,144 @@
+"""The web server of the station's page, by tornado: files of the folder page, maps as PNG, the state over a web socket.
+
+A browser says that it is ready and gets the state once that has changed: a slow one gets fewer, and no other one waits for
+it. The page reads only; nothing of it comes from elsewhere.
+"""
+
+import asyncio
+import errno
+import ipaddress
+import json
+import pathlib
+
+import tornado.httpserver
+import tornado.ioloop
+import tornado.netutil
+import tornado.web
+import tornado.websocket
+
+from mems_stiction.page_maps import contact_png, height_png, rings
+
+FOLDER = pathlib.Path(__file__).resolve().parent / "page"
+SHORTEST_PERIOD = 0.2  # between two states for one browser [s], however fast scans come
+LONGEST_PERIOD = 2.0  # ages are told again [s]
+PICTURES = {"height": height_png, "contacts": contact_png}
+POLICY = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self'; connect-src 'self'"
+LOCAL_NAMES = ("localhost", "127.0.0.1", "[::1]")
+
+
+class CannotServe(Exception):
+    """Why there is no server, in one sentence."""
+
+
+class _Guarded:
+    """For every handler: a site elsewhere cannot read a page on loopback under a name of its own (DNS rebinding)."""
+
+    def prepare(self):
+        host = self.request.host.rsplit(":", 1)[0] if not self.request.host.endswith("]") else self.request.host
+        if self.application.settings["is_local"] and host not in LOCAL_NAMES:
+            self.set_status(403)
+            self.finish("This page is for this machine alone.\n")
+
+    def set_default_headers(self):
+        self.set_header("Content-Security-Policy", POLICY)
+        self.set_header("X-Content-Type-Options", "nosniff")
+        self.set_header("Cache-Control", "no-store")
+
+
+class _PageFile(_Guarded, tornado.web.StaticFileHandler):
+    pass
+
+
+class _Picture(_Guarded, tornado.web.RequestHandler):
+    """/map/height.png, /map/contacts.png: of the newest scan. Drawn once for all browsers."""
+
+    def get(self, name):
+        found = self.application.settings["state"].map_of(name)
+        if found is None:
+            raise tornado.web.HTTPError(404)
+        self.set_header("Content-Type", "image/png")
+        self.write(self.application.settings["drawn"].get(name, *found, PICTURES[name]))
+
+
+class _Drawn:
+    """The last thing that was made of each image."""
+
+    def __init__(self):
+        self._kept = {}
+
+    def get(self, name, stamp, image, make):
+        if self._kept.get(name, (None,))[0] is not image:
+            self._kept[name] = (image, make(image))
+        return self._kept[name][1]
+
+
+class _StateSocket(_Guarded, tornado.websocket.WebSocketHandler):
+    """Each message of the browser asks for the next state."""
+
+    def open(self):
+        self._seen = None
+
+    async def on_message(self, _):
+        state = self.application.settings["state"]
+        waited = 0.0
+        while state.version == self._seen and waited < LONGEST_PERIOD or not waited:
+            await asyncio.sleep(SHORTEST_PERIOD)
+            waited += SHORTEST_PERIOD
+        snapshot = state.snapshot()
+        self._seen = snapshot["version"]
+        found = state.map_of("contacts")
+        snapshot["stale_after"] = self.application.settings["stale_after"]
+        snapshot["rings"] = self.application.settings["drawn"].get("rings", *found, rings) if found else []
+        try:
+            await self.write_message(json.dumps(snapshot, allow_nan=False))
+        except (tornado.websocket.WebSocketClosedError, tornado.iostream.StreamClosedError):
+            pass
+
+
+def application(state, is_local, stale_after):
+    """state: a PageState. stale_after [s]: without a scan for so long, the page marks what it shows as old."""
+    return tornado.web.Application(
+        [(r"/state", _StateSocket), (r"/map/(height|contacts)\.png", _Picture),
+         (r"/()", _PageFile, {"path": str(FOLDER), "default_filename": "index.html"}),
+         (r"/((?:index|page|charts)\.(?:html|css|js))", _PageFile, {"path": str(FOLDER)})],
+        state=state, is_local=is_local, stale_after=stale_after, drawn=_Drawn(), websocket_ping_interval=10.0)
+
+
+def bound_sockets(address, port):
+    """The sockets of the page. Raises CannotServe with what to do."""
+    try:
+        return tornado.netutil.bind_sockets(port, address)
+    except OSError as error:
+        if error.errno == errno.EADDRINUSE:
+            raise CannotServe("port %d of %s is taken, perhaps by another station_page: end that, or choose another with --port" % (
+                port, address))
+        if error.errno == errno.EACCES:
+            raise CannotServe("port %d may not be opened by this user: choose one from 1024 on with --port" % port)
+        raise CannotServe("%s cannot be listened on: %s" % (address, error.strerror or error))
+
+
+def is_loopback(address):
+    """Whether nobody but this machine can look."""
+    try:
+        return ipaddress.ip_address(address).is_loopback
+    except ValueError:
+        return address == "localhost"
+
+
+class PageServer:
+    """Serves until stop(). Made and run in one thread; stop() may be called from any, and by a signal's handler."""
+
+    def __init__(self, state, address, port, stale_after):
+        asyncio.set_event_loop(asyncio.new_event_loop())
+        self._sockets = bound_sockets(address, port)
+        self.port = self._sockets[0].getsockname()[1]
+        self._loop = tornado.ioloop.IOLoop.current()
+        self._server = tornado.httpserver.HTTPServer(application(state, is_loopback(address), stale_after))
+        self._server.add_sockets(self._sockets)
+
+    def run(self):
+        self._loop.start()
+        self._server.stop()
+
+    def stop(self):
+        self._loop.asyncio_loop.call_soon_threadsafe(self._loop.stop)

@@ -1,0 +1,173 @@
+"""What the station's page shows, in one place: newest scan, trend, maps, sweeps, cycles, diagnostics. No ROS here.
+
+Callbacks of topics write, the server reads; both may come from any thread. What grows is bounded.
+"""
+
+import collections
+import re
+import threading
+import time
+
+from mems_stiction.page_words import (curve_of, diagnostics_of, figures_of, finite, flags_of, half_space_of, judged_by, ratio_of, sentence,
+                                      verdict_of, with_micro, with_unit)
+from mems_stiction.station_text import cycle_sentences, sweep_sentences
+
+MOST_SCANS = 300  # of the trend
+MOST_LOSSES = 50  # with their reasons
+UP = 0  # SweepPoint.UP
+
+
+def stamp_of_reason(reason):
+    """"rejected the scan of stamp 1001.500000000: ..." -> 1001500000000 [ns]; None where there is no stamp."""
+    match = re.search(r"of stamp (\d+)\.(\d{9}):", reason)
+    return int(match.group(1)) * 10**9 + int(match.group(2)) if match else None
+
+
+class PageState:
+    """The newest of everything. `version` grows with each change."""
+
+    def __init__(self, clock=time.monotonic):
+        self._clock = clock
+        self._lock = threading.RLock()
+        self.version = 1
+        self._link = {"level": "error", "text": "Starting."}
+        self._count = 0  # scans, with those that were lost
+        self._lost = 0
+        self._node_losses = None  # as the node counts them
+        self._trend = collections.deque(maxlen=MOST_SCANS)
+        self._losses = collections.deque(maxlen=MOST_LOSSES)
+        self._latest = None  # (number, stamp, prediction)
+        self._loss_is_newest = False
+        self._heard = None  # when the last scan was predicted
+        self._half_space = None
+        self._maps = {}
+        self._diagnostics = {}
+        self._runs = {}
+
+    def _changed(self):
+        self.version += 1
+
+    def set_link(self, level, text):
+        """How the page hears of the node: "ok", "warn" or "error", and a sentence."""
+        with self._lock:
+            if self._link != {"level": level, "text": text}:
+                self._link = {"level": level, "text": text}
+                self._changed()
+
+    def add_prediction(self, stamp, prediction):
+        """stamp: of the scan [ns]."""
+        name = judged_by(prediction)
+        device_force = prediction.device_pull_off_force
+        with self._lock:
+            self._count += 1
+            self._trend.append({
+                "number": self._count, "stamp": stamp, "force": finite(prediction.pull_off_force), "device_force": finite(device_force),
+                "restoring_force": finite(prediction.restoring_force), "ratio": finite(getattr(prediction, name)),
+                "lower": finite(getattr(prediction, name + "_lower")), "upper": finite(getattr(prediction, name + "_upper")),
+                "level": verdict_of(prediction)["level"]})
+            self._latest = (self._count, stamp, prediction)
+            self._loss_is_newest = False
+            self._heard = self._clock()
+            self._changed()
+
+    def add_diagnostics(self, status):
+        """One status of the node. Scans that it rejected or dropped since its last one become part of the trend."""
+        entry = diagnostics_of(status)
+        values = dict(entry["values"])
+        with self._lock:
+            self._diagnostics[entry["name"]] = (entry, self._clock())
+            if "rejected" in values and "dropped" in values:
+                losses = int(values["rejected"]) + int(values["dropped"])
+                before, self._node_losses = self._node_losses, losses
+                if before is not None:  # those before the first look were not ours; a node that restarts counts from 0
+                    self._lose(losses - before if losses >= before else losses, values.get("last_reason", ""))
+            self._changed()
+
+    def _lose(self, count, reason):
+        for _ in range(min(count, MOST_SCANS)):
+            self._count += 1
+            self._lost += 1
+            self._trend.append({"number": self._count, "lost": reason})
+        if count > 0:
+            self._losses.append({"number": self._count, "count": count, "reason": sentence(reason)})
+            stamp = stamp_of_reason(reason)
+            self._loss_is_newest = self._latest is None or stamp is None or stamp > self._latest[1]
+
+    def add_half_space(self, stamp, solution):
+        with self._lock:
+            self._half_space = dict(half_space_of(solution), stamp=stamp)
+            self._changed()
+
+    def set_map(self, name, stamp, image, size=None):
+        """An image message that is drawn when a browser asks for it. size: (width, height) of the scan [m], if known."""
+        with self._lock:
+            self._maps[name] = (stamp, image, size or self._maps.get(name, (0, None, None))[2])
+            self._changed()
+
+    def map_of(self, name):
+        """(stamp, image message), or None."""
+        with self._lock:
+            found = self._maps.get(name)
+            return found and found[:2]
+
+    def add_progress(self, kind, goal, done, total):
+        """Of the sweep or the cycles that run. Progress of a goal that has ended comes too late: topics do not wait for each other."""
+        with self._lock:
+            run = self._runs.setdefault(kind, {})
+            if run.get("goal") != goal:
+                run["progress"] = [done, total]
+                self._changed()
+
+    def add_sweep(self, goal, result):
+        points = [{"way": "up" if point.direction == UP else "down", "load": point.mechanical_load,
+                   "load_text": with_unit(point.mechanical_load, "N"), "voltage": point.voltage,
+                   "margin": finite(point.margin), "lower": finite(point.margin_lower), "held": finite(point.holding_margin),
+                   "force": finite(point.pull_off_force), "is_open": bool(point.is_open)} for point in result.points]
+        self._end("sweep", goal, points, sweep_sentences(result) if points else [], result.message)
+
+    def add_cycles(self, goal, result):
+        points = [{"cycle": cycle.cycle, "force": finite(cycle.pull_off_force), "margin": finite(cycle.margin),
+                   "lower": finite(cycle.margin_lower), "plastic": cycle.plastic_count} for cycle in result.cycles]
+        self._end("cycles", goal, points, cycle_sentences(result), result.message)
+
+    def _end(self, kind, goal, points, sentences, message):
+        with self._lock:
+            self._runs[kind] = {"goal": goal, "points": points, "sentences": [with_micro(text) for text in sentences],
+                                "message": message, "ended": self._clock()}
+            self._changed()
+
+    def snapshot(self):
+        """All of it, as JSON can hold it; ages in seconds."""
+        with self._lock:
+            now = self._clock()
+            return {"version": self.version, "link": self._link, "age": None if self._heard is None else now - self._heard,
+                    "count": self._count, "lost": self._lost, "loss_is_newest": self._loss_is_newest,
+                    "losses": list(self._losses), "scan": self._scan(), "trend": list(self._trend),
+                    "half_space": self._with_number(self._half_space), "maps": self._shown_maps(),
+                    "diagnostics": [dict(entry, age=now - heard) for _, (entry, heard) in sorted(self._diagnostics.items())],
+                    "runs": {kind: self._run(run, now) for kind, run in self._runs.items()}}
+
+    def _scan(self):
+        if self._latest is None:
+            return None
+        number, stamp, prediction = self._latest
+        return {"number": number, "name": prediction.header.frame_id, "stamp": "%.3f" % (stamp * 1e-9),
+                "verdict": verdict_of(prediction), "ratio": ratio_of(prediction), "flags": flags_of(prediction),
+                "warnings": list(prediction.warnings), "figures": figures_of(prediction), "curve": curve_of(prediction),
+                "preprocessing": list(prediction.preprocessing)}
+
+    def _with_number(self, of_scan):
+        return of_scan and dict(of_scan, number=self._number_of(of_scan["stamp"]))
+
+    def _number_of(self, stamp):
+        return next((row["number"] for row in reversed(self._trend) if row.get("stamp") == stamp), None)
+
+    def _shown_maps(self):
+        return {name: {"id": str(stamp), "number": self._number_of(stamp), "columns": image.width, "rows": image.height, "size": size}
+                for name, (stamp, image, size) in self._maps.items()}
+
+    def _run(self, run, now):
+        shown = {key: value for key, value in run.items() if key != "ended"}
+        if "ended" in run:
+            shown["age"] = now - run["ended"]
+        return shown

@@ -1,0 +1,131 @@
+"""What the station's page says of one prediction, of a half-space, and of the node's diagnostics. No ROS here.
+
+Each function returns what JSON can hold: numbers are SI, None where there is none; texts have their unit.
+"""
+
+import math
+import re
+
+from mems_stiction import quantities
+from mems_stiction.prediction_text import FLAGS, STATUS_NAMES, bound_of
+from mems_stiction.quantities import percent, ratio
+
+NO_EQUILIBRIUM = 2  # StictionPrediction.status
+# StictionPrediction.sticks: the level that gives the colour, and the word that is read from afar.
+VERDICTS = {0: ("releases", "RELEASES"), 1: ("marginal", "MARGINAL"), 2: ("sticks", "STICKS"), 3: ("unknown", "NOT KNOWN")}
+LEVELS = ("ok", "warn", "error", "stale")  # diagnostic_msgs/DiagnosticStatus.level
+HALF_SPACE_STATES = ("solved", "load not reached", "not converged", "too many states", "cancelled", "refused")
+
+
+def finite(value):
+    """JSON knows neither NaN nor infinity."""
+    return value if math.isfinite(value) else None
+
+
+def with_unit(value, unit):
+    """As people write it: "1.23 µN", "not known"."""
+    return "not known" if math.isnan(value) else with_micro(quantities.with_unit(value, unit))
+
+
+def with_micro(text):
+    """A page can show what a terminal may not: "1.00 uN" is "1.00 µN"."""
+    return re.sub(r"(?<=\d) u(?=[A-Za-z])", " µ", text)
+
+
+def ratio_text(value):
+    """A margin or a peel number: "12.3", "infinite"."""
+    return "infinite" if math.isinf(value) else ratio(value)
+
+
+def has_device(prediction):
+    """Whether a spring or a beam is stated at all."""
+    return not (math.isnan(prediction.restoring_force) and math.isnan(prediction.peel_number))
+
+
+def verdict_of(prediction):
+    """level, word and reason. Without a device there is no verdict, and that is said."""
+    if prediction.status == NO_EQUILIBRIUM:
+        return {"level": "unknown", "word": "NO EQUILIBRIUM",
+                "reason": "The search ended before the surfaces came to rest: its forces are not to be used."}
+    if not has_device(prediction):
+        return {"level": "none", "word": "NO VERDICT", "reason": sentence(prediction.reason or "no device is stated")}
+    level, word = VERDICTS.get(prediction.sticks, VERDICTS[3])
+    return {"level": level, "word": word, "reason": sentence(prediction.reason)}
+
+
+def sentence(text):
+    return text[:1].upper() + text[1:] + ("" if not text or text.endswith(".") else ".")
+
+
+def judged_by(prediction):
+    """The name of what the verdict rests on: a spring's margin, else a beam's peel number."""
+    return "margin" if math.isnan(prediction.peel_number) or not math.isnan(prediction.margin) else "peel_number"
+
+
+def ratio_of(prediction):
+    """The margin, or the peel number, with its 95 % interval; None where there is neither."""
+    name = judged_by(prediction)
+    value, lower, upper = (getattr(prediction, name + end) for end in ("", "_lower", "_upper"))
+    if math.isnan(value):
+        return None
+    interval = "" if math.isnan(lower) or math.isnan(upper) else "95 %%: %s to %s" % (ratio_text(lower), ratio_text(upper))
+    return {"label": name.replace("_", " "), "value": finite(value), "lower": finite(lower), "upper": finite(upper),
+            "text": ratio_text(value), "interval": interval}
+
+
+def flags_of(prediction):
+    """The flags that are set, in words."""
+    return [words for bit, (_, words) in sorted(FLAGS.items()) if prediction.regime_flags & bit]
+
+
+def figures_of(prediction):
+    """Name of the field, label, text and value of what is read beside the verdict."""
+    bound = bound_of(prediction, "≥ ")
+    rows = [("pull_off_force", "pull-off force of the scan", "N"), ("device_pull_off_force", "pull-off force of the device", "N"),
+            ("restoring_force", "restoring force of its spring", "N"), ("contact_fraction", "contact fraction", "%"),
+            ("asperity_count", "contacts", ""), ("rms_height", "rms height Sq", "m"), ("mechanical_load", "mechanical load", "N"),
+            ("voltage", "voltage", "V"), ("pull_in_voltage", "pull-in voltage", "V"), ("detachment_length", "detachment length", "m"),
+            ("apparent_work_of_adhesion", "apparent work of adhesion", "J/m²"),
+            ("flattening_ratio", "flattening ratio", "-"), ("processing_time", "computed in", "s")]
+    figures = [{"name": "status", "label": "state", "text": STATUS_NAMES.get(prediction.status, "?"), "value": None}]
+    for name, label, unit in rows:
+        value = getattr(prediction, name)
+        if math.isnan(value):
+            continue
+        text = {"%": percent, "": str, "-": ratio}.get(unit, lambda number: with_unit(number, unit))(value)
+        figures.append({"name": name, "label": label, "value": finite(value),
+                        "text": (bound if name.endswith("pull_off_force") else "") + text})
+    return figures
+
+
+def curve_of(prediction):
+    """Force over displacement past first touch: way in, way out where it is another; the pull-off force where it is largest."""
+    way_in = [(point.displacement, point.force) for point in prediction.curve if not point.is_separation]
+    way_out = [(point.displacement, point.force) for point in prediction.curve if point.is_separation]
+    if not way_in and not way_out:
+        return None
+    place, force = max(way_out or way_in, key=lambda point: point[1])
+    return {"in": way_in, "out": way_out, "formulation": prediction.formulation, "peak": [place, force],
+            "pull_off_force": finite(prediction.pull_off_force),
+            "text": bound_of(prediction, "≥ ") + with_unit(prediction.pull_off_force, "N")}
+
+
+def half_space_of(solution):
+    """State, figures and curve of a HalfSpaceSolution, over the displacement that predictions have: its range less its height."""
+    ways = {"in": [], "out": []}
+    for point in solution.curve:
+        ways["out" if point.direction else "in"].append((solution.range - point.height, point.force))
+    is_solved = solution.status == 0
+    return {"status": HALF_SPACE_STATES[solution.status] if solution.status < len(HALF_SPACE_STATES) else "?",
+            "message": sentence(solution.message), "is_solved": is_solved, "pull_off_force": finite(solution.pull_off_force),
+            "text": with_unit(solution.pull_off_force, "N"), "in": ways["in"], "out": ways["out"],
+            "notes": [] if not is_solved else [text for text, is_so in (
+                ("pixels are too large for the edge of a contact: the force comes out too large as a rule", not solution.is_resolved),
+                ("a state is no equilibrium: there is no answer to rely on", not solution.is_converged)) if is_so]}
+
+
+def diagnostics_of(status):
+    """One diagnostic_msgs/DiagnosticStatus."""
+    level = int.from_bytes(status.level, "little") if isinstance(status.level, bytes) else status.level
+    return {"name": status.name, "level": LEVELS[level] if 0 <= level < len(LEVELS) else "error", "message": status.message,
+            "values": [[entry.key, entry.value] for entry in status.values]}

@@ -1,0 +1,149 @@
+#include "mems_stiction/separation/spring_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mems_stiction {
+namespace {
+
+/// Gaps that the law is tabulated at, of z0: the closest, the farthest, and how many.
+constexpr double kClosest = 0.45;
+constexpr double kFarthest = 400.0;
+constexpr int kLawPoints = 4000;
+constexpr int kClasses = 1024;
+/// Height at which surfaces without relief are past their strength, of z0.
+constexpr double kFarEnough = 2.5;
+/// Cells with a gap up to this count as in contact, of z0: those without relief lie at z0 but for round-off.
+constexpr double kTouching = 1.0 + 1e-9;
+/// Heights of the branch.
+constexpr int kHeights = 240;
+
+/// What one spring does: traction and energy over the distance x = Z + r that it starts from, on the branch that comes
+/// from contact, and on the one that comes from apart.
+class Spring {
+ public:
+  struct Point {
+    double start;
+    double traction;
+    double energy;
+    double gap;
+  };
+
+  Spring(const ContactTraction& law, double stiffness) {
+    points_.reserve(kLawPoints);
+    const double ratio = std::pow(kFarthest / kClosest, 1.0 / (kLawPoints - 1));
+    double gap = kClosest * law.range();
+    for (int i = 0; i < kLawPoints; ++i, gap *= ratio) {
+      // counted from the atoms' centres: the plane of contact is at z0
+      const double traction = law.traction(gap - law.range());
+      points_.push_back({gap + traction / stiffness, traction,
+                         0.5 * traction * traction / stiffness - law.energy(gap - law.range()), gap});
+    }
+    while (last_inner_ + 1 < points_.size() && points_[last_inner_ + 1].start > points_[last_inner_].start) {
+      ++last_inner_;
+    }
+    first_outer_ = last_inner_;
+    for (std::size_t i = last_inner_ + 1; i < points_.size(); ++i) {
+      if (points_[i].start < points_[first_outer_].start) first_outer_ = i;
+    }
+  }
+
+  /// Whether it lets go at once when it is drawn far enough.
+  bool snaps() const { return first_outer_ != last_inner_; }
+  /// Distance beyond which it has let go [m].
+  double end() const { return points_[last_inner_].start; }
+
+  /// At a distance; @p place is where the last, smaller distance was found, 0 at first.
+  Point at(double start, std::size_t& place) const {
+    const bool is_inner = !snaps() || start <= end();
+    if (!is_inner) place = std::max(place, first_outer_);
+    const std::size_t last = is_inner ? last_inner_ : points_.size() - 1;
+    while (place < last && points_[place + 1].start < start) ++place;
+    const Point& from = points_[place];
+    if (place == last || start <= from.start) return from;
+    const Point& to = points_[place + 1];
+    const double share = (start - from.start) / (to.start - from.start);
+    return {start, from.traction + share * (to.traction - from.traction),
+            from.energy + share * (to.energy - from.energy), from.gap + share * (to.gap - from.gap)};
+  }
+
+ private:
+  std::vector<Point> points_;
+  std::size_t last_inner_ = 0;
+  std::size_t first_outer_ = 0;
+};
+
+SpringState meanAt(double height, const std::vector<ReliefClass>& relief, const Spring& spring, double range) {
+  SpringState mean;
+  mean.height = height;
+  std::size_t place = 0;
+  for (const ReliefClass& one : relief) {
+    const Spring::Point point = spring.at(height + one.depth, place);
+    mean.traction += one.share * point.traction;
+    mean.energy += one.share * point.energy;
+    if (point.gap <= kTouching * range) mean.contact_fraction += one.share;
+  }
+  return mean;
+}
+
+}  // namespace
+
+ReliefClasses::ReliefClasses(double lowest, double highest)
+    : lowest_(lowest),
+      inverse_width_(kClasses / std::max(highest - lowest, 1e-200)),
+      sums_(kClasses, 0.0),
+      counts_(kClasses, 0) {}
+
+void ReliefClasses::add(double depth) {
+  const double above = depth - lowest_;
+  const auto place = static_cast<std::size_t>(std::clamp(above * inverse_width_, 0.0, kClasses - 1.0));
+  sums_[place] += above;
+  ++counts_[place];
+  square_sum_ += above * above;
+}
+
+std::vector<ReliefClass> ReliefClasses::classes() const {
+  double count = 0.0;
+  for (const int in_class : counts_) count += in_class;
+  std::vector<ReliefClass> classes;
+  for (std::size_t i = 0; i < sums_.size(); ++i) {
+    if (counts_[i] > 0) classes.push_back({sums_[i] / counts_[i], counts_[i] / count});
+  }
+  return classes;
+}
+
+double ReliefClasses::rms() const {
+  double count = 0.0;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < sums_.size(); ++i) {
+    count += counts_[i];
+    sum += sums_[i];
+  }
+  return count > 0.0 ? std::sqrt(std::max(square_sum_ / count - sum * sum / (count * count), 0.0)) : 0.0;
+}
+
+std::vector<SpringState> springBranch(const std::vector<ReliefClass>& relief, const ContactTraction& law,
+                                      double stiffness) {
+  const Spring spring(law, stiffness);
+  const double range = law.range();
+  const double deepest = range - relief.back().depth;
+  const double highest = std::max(spring.snaps() ? spring.end() : 0.0, kFarEnough * range);
+  std::vector<SpringState> branch;
+  for (int i = 0; i <= kHeights; ++i) {
+    branch.push_back(meanAt(deepest + (highest - deepest) * i / kHeights, relief, spring, range));
+  }
+  return branch;
+}
+
+std::vector<SpringState>::const_iterator restOf(const std::vector<SpringState>& branch, double pressure) {
+  return std::min_element(branch.begin(), branch.end(), [&](const SpringState& a, const SpringState& b) {
+    return a.energy + pressure * a.height < b.energy + pressure * b.height;
+  });
+}
+
+double strengthFrom(std::vector<SpringState>::const_iterator rest, const std::vector<SpringState>& branch) {
+  const auto is_weaker = [](const SpringState& a, const SpringState& b) { return a.traction < b.traction; };
+  return std::max_element(rest, branch.end(), is_weaker)->traction;
+}
+
+}  // namespace mems_stiction

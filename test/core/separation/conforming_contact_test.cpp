@@ -1,0 +1,105 @@
+/// Bonded surfaces: how they break, against closed forms and against the half-space.
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "mems_stiction/base/constants.hpp"
+#include "mems_stiction/half_space/half_space_solver.hpp"
+#include "support/analytic_surfaces.hpp"
+#include "support/separation_cases.hpp"
+
+namespace mems_stiction {
+namespace {
+
+using separation_cases::elastic;
+using separation_cases::kWork;
+using separation_cases::rangeOf;
+
+double strengthOf(const Options& options) {
+  return 16.0 / (9.0 * std::sqrt(3.0)) * options.interface.work_of_adhesion / rangeOf(options);
+}
+
+/// Amplitude of a wave that pulls with a share of the law's strength when it is pressed flat [m].
+double amplitudeFor(double share, double wave_length, const Options& options, double modulus) {
+  return share * strengthOf(options) * wave_length / (kPi * modulus);
+}
+
+SolvedHalfSpace solve(const HeightMap& surface, const Options& options) {
+  HalfSpaceProblem problem;
+  problem.surfaces.lower = surface;
+  problem.lower_material = options.lower;
+  problem.upper_material = options.upper;
+  problem.interface = options.interface;
+  problem.load = options.load;
+  HalfSpaceOptions half_space;
+  half_space.flow = false;
+  return HalfSpaceSolver(half_space).solve(problem);
+}
+
+TEST(ConformingContact, aLongWaveTakesItsPressureFromTheStrength) {
+  const double modulus = 1e9;  // cohesive length 0.5 nm
+  const Options options = elastic(modulus);
+  for (const double share : {0.1, 0.25}) {
+    const double pitch = 0.25e-9;  // waves of 60 cohesive lengths
+    const HeightMap wave =
+        analytic::sine(8, 128, pitch, pitch, amplitudeFor(share, 128 * pitch, options, modulus), 1, 0);
+    const Prediction prediction = AdhesionModel(options).predict(wave);
+    ASSERT_TRUE(prediction.is_conforming);
+    const double strength = prediction.pull_off_force / (128 * 8 * pitch * pitch * strengthOf(options));
+    EXPECT_NEAR(strength, 1.0 - share, 0.02);  // the springs' steps, and the wave's short part
+  }
+}
+
+TEST(ConformingContact, aLongWaveBreaksAsInTheHalfSpace) {
+  // wave and cohesive length (5 nm) are 1 : 60, pixels half of the latter
+  const double modulus = 10e9;
+  const Options options = elastic(modulus);
+  const double pitch = 2.5e-9;
+  const HeightMap wave = analytic::sine(8, 128, pitch, pitch, amplitudeFor(0.3, 128 * pitch, options, modulus), 1, 0);
+  const SolvedHalfSpace solved = solve(wave, options);
+  ASSERT_EQ(solved.status, HalfSpaceStatus::kSolved) << solved.message;
+  const Prediction prediction = AdhesionModel(options).predict(wave);
+  EXPECT_NEAR(prediction.pull_off_force / solved.pull_off_force, 1.0, 0.1);
+  // with springs alone it would be above 0.9 of the law's
+  EXPECT_LT(solved.pull_off_force / (8 * 128 * pitch * pitch * strengthOf(options)), 0.8);
+}
+
+TEST(ConformingContact, shortWavesBreakAsAWhole) {
+  // waves of 2.5 cohesive lengths (52 nm): each place hears of the others
+  const double modulus = 100e9;
+  const Options options = elastic(modulus);
+  const double pitch = 8e-9;
+  const HeightMap waves = analytic::sine(16, 64, pitch, pitch, amplitudeFor(0.3, 16 * pitch, options, modulus), 4, 0);
+  const SolvedHalfSpace solved = solve(waves, options);
+  ASSERT_EQ(solved.status, HalfSpaceStatus::kSolved) << solved.message;
+  const Prediction prediction = AdhesionModel(options).predict(waves);
+  ASSERT_TRUE(prediction.is_conforming);
+  EXPECT_NEAR(prediction.pull_off_force / solved.pull_off_force, 1.0, 0.1);
+}
+
+TEST(ConformingContact, aLoadChangesTheRestButNotTheWork) {
+  const double modulus = 10e9;
+  const HeightMap wave = analytic::sine(32, 32, 2e-9, 2e-9, 0.1e-9, 1, 1);
+  const Prediction free = AdhesionModel(elastic(modulus)).predict(wave);
+  const Prediction pressed = AdhesionModel(elastic(modulus, 1e8 * 64e-9 * 64e-9)).predict(wave);
+  ASSERT_TRUE(free.is_conforming);
+  ASSERT_TRUE(pressed.is_conforming);
+  EXPECT_GT(pressed.contact_area, free.contact_area);
+  EXPECT_NEAR(pressed.apparent_work_of_adhesion / free.apparent_work_of_adhesion, 1.0, 1e-9);
+  EXPECT_LT(free.apparent_work_of_adhesion, kWork);
+}
+
+TEST(ConformingContact, theCurveReachesThePullOffForceAndNoMore) {
+  const HeightMap wave = analytic::sine(32, 32, 4e-9, 4e-9, 0.4e-9, 1, 0);
+  const Prediction prediction = AdhesionModel(elastic(5e9)).predict(wave);
+  ASSERT_TRUE(prediction.is_conforming);
+  double largest = 0.0;
+  for (const SeparationCurvePoint& point : prediction.curve) {
+    if (point.is_separation) largest = std::max(largest, point.force);
+  }
+  EXPECT_NEAR(largest / prediction.pull_off_force, 1.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace mems_stiction

@@ -1,0 +1,47 @@
+/// Where surfaces come to rest that could rest in more than one place.
+
+#include <gtest/gtest.h>
+
+#include "support/separation_cases.hpp"
+
+namespace mems_stiction {
+namespace {
+
+constexpr int kSide = 120;
+constexpr double kPitch = 1e-9;
+constexpr int kBump = 3;
+
+/// A stiff bump that holds a plain off, though the plain would hold fast once it came near: the bump carries 5 nN for
+/// each 0.016 nm, the plain attracts with 36 nN at first touch, with 90 % of what the bump carries at 0.25 nm past it,
+/// and with twice that at 0.7 nm. Beside the plain there is a pit, so that the surfaces cannot conform.
+Prediction predictAt(double load) {
+  cv::Mat1d heights(kSide, 2 * kSide, -50e-9);
+  heights.colRange(0, kSide) = -1e-9;
+  heights(cv::Rect(kSide / 2, kSide / 2, kBump, kBump)) = 0.0;
+  const HeightMap surface(heights, kPitch, kPitch);
+  return AdhesionModel(separation_cases::elastic(100e9, load)).predict(surface);
+}
+
+TEST(SeparationRest, surfacesThatComeNearSlowlyStopAtTheFirstPlaceOfRest) {
+  const Prediction prediction = predictAt(0.0);
+  EXPECT_EQ(prediction.status, Status::kEquilibrium);
+  EXPECT_LE(prediction.contact_area, kBump * kBump * kPitch * kPitch);
+  EXPECT_LT(prediction.approach, 0.3e-9);
+}
+
+TEST(SeparationRest, aLoadTakesThemPastIt) {
+  const Prediction prediction = predictAt(1e-7);
+  EXPECT_GT(prediction.approach, 0.95e-9);  // the plain lies as near as the law lets it
+  EXPECT_GT(prediction.pull_off_force, 10.0 * predictAt(0.0).pull_off_force);
+}
+
+TEST(SeparationRest, forcesBalanceThereThoughOneSideIsAWall) {
+  const double load = 1e-7;
+  const Prediction prediction = predictAt(load);
+  double elastic = 0.0;
+  for (const Asperity& asperity : prediction.asperities) elastic += asperity.load;
+  EXPECT_NEAR(prediction.van_der_waals_force + load, elastic, 2e-3 * elastic);
+}
+
+}  // namespace
+}  // namespace mems_stiction

@@ -1,0 +1,69 @@
+/// A relief on springs: the law alone where nothing gives way, the energy of flattening where all is flat.
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "mems_stiction/separation/spring_contact.hpp"
+
+namespace mems_stiction {
+namespace {
+
+constexpr double kRigid = std::numeric_limits<double>::infinity();
+
+ContactTraction law() {
+  InterfaceOptions interface;
+  interface.work_of_adhesion = 0.05;
+  interface.hamaker_constant = 65e-21;
+  return ContactTraction(interface);
+}
+
+TEST(SpringContact, aPlaneHasTheStrengthAndTheEnergyOfTheLaw) {
+  const ContactTraction traction = law();
+  const auto branch = springBranch({{0.0, 1.0}}, traction, kRigid);
+  const auto rest = restOf(branch, 0.0);
+  EXPECT_NEAR(rest->energy, -0.05, 1e-4 * 0.05);
+  EXPECT_NEAR(strengthFrom(rest, branch) / traction.strength(), 1.0, 1e-3);
+  EXPECT_EQ(rest->contact_fraction, 1.0);
+  EXPECT_EQ(branch.back().contact_fraction, 0.0);
+}
+
+TEST(SpringContact, flatteningTakesItsEnergyFromTheWork) {
+  // two heights, half of the cells each, h apart: sigma = h/2, and springs of k store k sigma^2/2 = U
+  const double height = 0.4e-9;
+  const double flattening = 0.01;
+  const double stiffness = 2.0 * flattening / (0.25 * height * height);
+  const auto branch = springBranch({{0.0, 0.5}, {height, 0.5}}, law(), stiffness);
+  // all else but the give of the law, some U/(Gamma 27/...) of it: a stiff law would give exactly Gamma - U
+  EXPECT_NEAR(-restOf(branch, 0.0)->energy, 0.05 - flattening, 0.1 * flattening);
+}
+
+TEST(SpringContact, workIsTheAreaOfTheBranchWhereNothingSnaps) {
+  const auto branch = springBranch({{0.0, 0.3}, {0.05e-9, 0.7}}, law(), 1e20);
+  const auto rest = restOf(branch, 0.0);
+  double area = 0.0;
+  for (auto state = rest; state + 1 != branch.end(); ++state) {
+    area += 0.5 * (state->traction + (state + 1)->traction) * ((state + 1)->height - state->height);
+  }
+  EXPECT_NEAR(area / (branch.back().energy - rest->energy), 1.0, 0.01);
+}
+
+TEST(SpringContact, pressureMovesTheRestInwards) {
+  const auto branch = springBranch({{0.0, 0.5}, {0.2e-9, 0.5}}, law(), 5e18);
+  EXPECT_LT(restOf(branch, 1e9)->height, restOf(branch, 0.0)->height);
+}
+
+TEST(ReliefClasses, keepMeanSharesAndRms) {
+  ReliefClasses depths(1.0, 3.0);
+  for (const double depth : {1.0, 1.0, 3.0, 3.0}) depths.add(depth);
+  const auto classes = depths.classes();
+  ASSERT_EQ(classes.size(), 2U);
+  EXPECT_EQ(classes[0].depth, 0.0);
+  EXPECT_EQ(classes[1].depth, 2.0);
+  EXPECT_EQ(classes[1].share, 0.5);
+  EXPECT_NEAR(depths.rms(), 1.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace mems_stiction

@@ -1,0 +1,281 @@
+"""The station's page without a graph: what it keeps, what it says, what it serves, and whom it refuses."""
+
+import asyncio
+import json
+import math
+import os
+import pathlib
+import re
+import socket
+import subprocess
+import tempfile
+import threading
+import time
+import unittest
+import urllib.error
+import urllib.request
+from types import SimpleNamespace
+
+import numpy as np
+import tornado.websocket
+from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
+from mems_stiction.msg import SeparationPoint, StictionPrediction
+from mems_stiction.page_maps import contact_png, height_png, rings, severest
+from mems_stiction.page_server import FOLDER, CannotServe, PageServer
+from mems_stiction.page_state import MOST_SCANS, PageState, stamp_of_reason
+from mems_stiction.page_words import curve_of, ratio_of, verdict_of, with_micro
+from sensor_msgs.msg import Image
+
+STATION_PAGE = pathlib.Path(__file__).resolve().parents[2] / "scripts/station_page"
+SECOND = 10**9
+NAN = math.nan
+
+
+def prediction(margin=NAN, sticks=StictionPrediction.STICKS_UNKNOWN, **changes):
+    message = StictionPrediction(pull_off_force=1e-7, sticks=sticks, reason="because", margin=margin, margin_lower=0.5 * margin,
+                                 margin_upper=2 * margin, restoring_force=NAN if math.isnan(margin) else 1e-6, peel_number=NAN,
+                                 peel_number_lower=NAN, peel_number_upper=NAN, device_pull_off_force=NAN, contact_area_jkr=NAN)
+    for name, value in changes.items():
+        setattr(message, name, value)
+    return message
+
+
+def counts(rejected, reason="", dropped=0):
+    values = {"rejected": rejected, "dropped": dropped, "last_reason": reason}
+    return DiagnosticStatus(name="stiction_node: scans", level=b"\1", message="told",
+                            values=[KeyValue(key, str(value)) for key, value in values.items()])
+
+
+def map_message(array):
+    array = np.asarray(array, np.uint8)
+    return Image(height=array.shape[0], width=array.shape[1], step=array.shape[1], encoding="mono8", data=array.tobytes())
+
+
+class StateTest(unittest.TestCase):
+    def test_losses_stand_in_the_trend_with_their_reason_and_a_restart_counts_from_zero(self):
+        state = PageState()
+        state.add_diagnostics(counts(7, "before our time"))
+        state.add_prediction(1 * SECOND, prediction())
+        state.add_diagnostics(counts(9, "rejected the scan of stamp 3.000000000: no pitch"))
+        shown = state.snapshot()
+        self.assertEqual((shown["count"], shown["lost"], shown["loss_is_newest"]), (3, 2, True))
+        self.assertEqual([row.get("lost") for row in shown["trend"]][1:], ["rejected the scan of stamp 3.000000000: no pitch"] * 2)
+        self.assertEqual(shown["losses"], [{"number": 3, "count": 2, "reason": "Rejected the scan of stamp 3.000000000: no pitch."}])
+        state.add_diagnostics(counts(1, "of the new node"))
+        self.assertEqual(state.snapshot()["lost"], 3)
+
+    def test_a_loss_before_the_newest_prediction_does_not_hide_it(self):
+        state = PageState()
+        state.add_diagnostics(counts(0))
+        state.add_prediction(5 * SECOND, prediction())
+        state.add_diagnostics(counts(1, "rejected the scan of stamp 4.500000000: late news"))
+        self.assertFalse(state.snapshot()["loss_is_newest"])
+        self.assertEqual(stamp_of_reason("dropped the scan of stamp 4.500000000: x"), 4500000000)
+        self.assertIsNone(stamp_of_reason("no partner"))
+
+    def test_a_long_day_is_bounded_and_its_numbers_go_on(self):
+        state = PageState()
+        for number in range(3 * MOST_SCANS):
+            state.add_prediction(number * SECOND, prediction(2.0, StictionPrediction.STICKS_NO))
+        trend = state.snapshot()["trend"]
+        self.assertEqual((len(trend), trend[-1]["number"]), (MOST_SCANS, 3 * MOST_SCANS))
+
+    def test_what_is_not_finite_is_no_trouble_for_json(self):
+        state = PageState()
+        message = prediction(math.inf, StictionPrediction.STICKS_NO, flattening_ratio=math.inf, rms_height=NAN)
+        state.add_prediction(SECOND, message)
+        shown = json.loads(json.dumps(state.snapshot(), allow_nan=False))
+        self.assertEqual((shown["scan"]["ratio"]["text"], shown["scan"]["ratio"]["value"]), ("infinite", None))
+        self.assertNotIn("rms_height", [figure["name"] for figure in shown["scan"]["figures"]])
+
+    def test_ages_are_told_in_seconds_of_the_clock(self):
+        now = [100.0]
+        state = PageState(clock=lambda: now[0])
+        self.assertIsNone(state.snapshot()["age"])
+        state.add_prediction(SECOND, prediction())
+        now[0] = 135.0
+        self.assertEqual(state.snapshot()["age"], 35.0)
+
+    def test_progress_that_comes_after_the_result_is_not_shown(self):
+        state = PageState()
+        state.add_progress("cycles", "goal 1", 1, 2)
+        self.assertEqual(state.snapshot()["runs"]["cycles"]["progress"], [1, 2])
+        state.add_cycles("goal 1", SimpleNamespace(cycles=[], message="cancelled", first_sticking_cycle=0))
+        state.add_progress("cycles", "goal 1", 2, 2)
+        shown = state.snapshot()["runs"]["cycles"]
+        self.assertNotIn("progress", shown)
+        self.assertEqual(shown["message"], "cancelled")
+
+
+class WordsTest(unittest.TestCase):
+    def test_each_verdict_has_its_word(self):
+        for sticks, word in ((0, "RELEASES"), (1, "MARGINAL"), (2, "STICKS"), (3, "NOT KNOWN")):
+            self.assertEqual(verdict_of(prediction(2.0, sticks))["word"], word)
+        self.assertEqual(verdict_of(prediction())["word"], "NO VERDICT")
+        self.assertEqual(verdict_of(prediction(2.0, 0, status=StictionPrediction.NO_EQUILIBRIUM))["word"], "NO EQUILIBRIUM")
+
+    def test_a_beam_is_judged_by_its_peel_number(self):
+        beam = prediction(peel_number=3.0, peel_number_lower=2.0, peel_number_upper=4.5, sticks=0)
+        self.assertEqual(ratio_of(beam)["label"], "peel number")
+        self.assertEqual(ratio_of(beam)["interval"], "95 %: 2 to 4.5")
+        self.assertIsNone(ratio_of(prediction()))
+
+    def test_the_peak_is_that_of_the_way_out(self):
+        points = [SeparationPoint(displacement=x, force=force, is_separation=out) for x, force, out in (
+            (-1e-9, 1e-9, False), (0.0, 3e-9, False), (0.0, 5e-9, True), (-1e-9, 2e-9, True))]
+        self.assertEqual(curve_of(prediction(curve=points))["peak"], [0.0, 5e-9])
+        self.assertEqual(curve_of(prediction(curve=points[:2]))["peak"], [0.0, 3e-9])
+        self.assertIsNone(curve_of(prediction()))
+
+    def test_only_a_unit_gets_its_micro(self):
+        self.assertEqual(with_micro("releases after voltages up to 1.00 uN"), "releases after voltages up to 1.00 µN")
+
+
+class MapTest(unittest.TestCase):
+    def test_no_contact_is_lost_where_a_map_is_made_smaller(self):
+        regimes = np.zeros((1500, 1000), np.uint8)
+        regimes[1499, 999], regimes[700, 300] = 3, 1
+        self.assertEqual(severest(regimes).shape, (500, 334))
+        found = rings(map_message(regimes))
+        self.assertEqual(sorted(ring[2] for ring in found), [1, 3])
+        place = min(found, key=lambda ring: ring[2])
+        # within two pixels of the thinned map
+        self.assertAlmostEqual(place[0], 0.3, delta=2 / 334)
+        self.assertAlmostEqual(place[1], 700 / 1500, delta=2 / 500)
+
+    def test_large_contacts_need_no_ring_and_an_empty_map_has_none(self):
+        regimes = np.zeros((64, 64), np.uint8)
+        self.assertEqual(rings(map_message(regimes)), [])
+        regimes[10:30, 10:30] = 2
+        self.assertEqual(rings(map_message(regimes)), [])
+
+    def test_pictures_are_png_whatever_the_map_says(self):
+        for make in (contact_png, height_png):
+            self.assertEqual(make(map_message([[0, 1], [2, 255]]))[:4], b"\x89PNG")
+
+
+class ServerTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.state = PageState()
+        started = threading.Event()
+
+        def serve():
+            cls.server = PageServer(cls.state, "127.0.0.1", 0, 30.0)
+            started.set()
+            cls.server.run()
+
+        cls.thread = threading.Thread(target=serve)
+        cls.thread.start()
+        started.wait(10)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.server.stop()
+        cls.thread.join(10)
+
+    def get(self, path, host=None):
+        request = urllib.request.Request("http://127.0.0.1:%d%s" % (self.server.port, path), headers={"Host": host} if host else {})
+        try:
+            with urllib.request.urlopen(request, timeout=10) as answer:
+                return answer.status, answer.headers, answer.read()
+        except urllib.error.HTTPError as error:
+            return error.code, error.headers, error.read()
+
+    def test_the_page_is_served_and_may_load_nothing_from_elsewhere(self):
+        status, headers, content = self.get("/")
+        self.assertEqual((status, b"Stiction station" in content), (200, True))
+        self.assertIn("default-src 'none'", headers["Content-Security-Policy"])
+        for file in FOLDER.iterdir():
+            self.assertEqual(self.get("/" + file.name)[0], 200, file.name)
+            addresses = re.findall(r"(?:https?:)?//[\w.]+\.\w+[^\s\"')]*", file.read_text(encoding="utf-8"))
+            self.assertEqual([one for one in addresses if one != "http://www.w3.org/2000/svg"], [], file.name)
+
+    def test_other_files_and_maps_that_are_not_there_are_not_found(self):
+        for path in ("/../page_server.py", "/%2e%2e/page_server.py", "/page_server.py", "/map/height.png", "/map/other.png"):
+            self.assertEqual(self.get(path)[0], 404, path)
+
+    def test_a_name_of_another_site_gets_nothing(self):
+        self.assertEqual(self.get("/", "stiction.example:80")[0], 403)
+        self.assertEqual(self.get("/", "localhost:1")[0], 200)
+
+    def test_a_map_is_that_of_the_newest_scan(self):
+        self.state.set_map("contacts", 1, map_message([[0, 1]]))
+        first = self.get("/map/contacts.png")
+        self.state.set_map("contacts", 2, map_message([[0, 3]]))
+        second = self.get("/map/contacts.png")
+        self.assertEqual((first[0], second[0], first[1]["Content-Type"]), (200, 200, "image/png"))
+        self.assertNotEqual(first[2], second[2])
+
+    def test_a_port_that_is_taken_and_an_address_that_is_not_ours_are_refused_in_a_sentence(self):
+        self.assertRaisesRegex(CannotServe, "port %d of 127.0.0.1 is taken" % self.server.port, PageServer, self.state, "127.0.0.1",
+                               self.server.port, 30.0)
+        self.assertRaisesRegex(CannotServe, "192.0.2.1 cannot be listened on", PageServer, self.state, "192.0.2.1", 0, 30.0)
+
+
+class ProgramTest(unittest.TestCase):
+    def test_wrong_arguments_and_a_taken_port_end_it_with_a_sentence(self):
+        with socket.socket() as taken:
+            taken.bind(("127.0.0.1", 0))
+            taken.listen()
+            port = str(taken.getsockname()[1])
+            for arguments, reason in ((["--port", port], "port %s of 127.0.0.1 is taken" % port), (["--port", "70000"], "must be 0 to 65535"),
+                                      (["--stale", "0"], "must be > 0"), (["--address", "no such host"], "cannot be listened on")):
+                done = subprocess.run([STATION_PAGE] + arguments, stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True, timeout=30)
+                self.assertEqual(done.returncode, 2)
+                self.assertIn(reason, done.stderr)
+                self.assertNotIn("Traceback", done.stderr)
+
+    def test_it_starts_without_a_master_and_ends_when_told(self):
+        process = subprocess.Popen([STATION_PAGE, "--port", "0"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True,
+                                   env=dict(os.environ, ROS_MASTER_URI="http://127.0.0.1:9"))
+        line = process.stdout.readline()
+        self.assertRegex(line, r"http://127.0.0.1:\d+ shows it to this machine alone")
+        with urllib.request.urlopen(re.search(r"http://\S+", line).group(0), timeout=10) as answer:
+            self.assertEqual(answer.status, 200)
+        time.sleep(0.5)
+        process.terminate()
+        _, errors = process.communicate(timeout=15)
+        self.assertEqual((process.returncode, errors), (0, ""))
+
+    def test_it_follows_a_master_that_is_started_anew(self):
+        """As when a launch file that owns the master is stopped and started again."""
+        with socket.socket() as free:
+            free.bind(("127.0.0.1", 0))
+            port = free.getsockname()[1]
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        environment = dict(os.environ, ROS_MASTER_URI="http://localhost:%d" % port, ROS_HOSTNAME="localhost", ROS_LOG_DIR=folder.name)
+        quiet = dict(env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        page = subprocess.Popen([STATION_PAGE, "--port", "0"], stdout=subprocess.PIPE, universal_newlines=True, env=environment)
+        self.addCleanup(page.communicate)
+        self.addCleanup(page.terminate)
+        address = re.search(r"http://(\S+)", page.stdout.readline()).group(1)
+        self.wait(address, lambda state: state["link"]["text"].startswith("No ROS master"))
+        for round_trip in (1, 2):
+            master = subprocess.Popen(["roscore", "-p", str(port)], **quiet)
+            try:
+                self.wait(address, lambda state: state["link"]["text"].startswith("No node publishes /prediction"))
+                subprocess.run(["rostopic", "pub", "-1", "/prediction", "mems_stiction/StictionPrediction", "{}"], check=True, timeout=60, **quiet)
+                self.wait(address, lambda state: state["count"] == round_trip)
+            finally:
+                master.terminate()
+                master.wait(timeout=30)
+            self.wait(address, lambda state: "is gone" in state["link"]["text"])
+
+    def wait(self, address, condition):
+        """Until the state that a browser gets is so."""
+        async def states():
+            connection = await tornado.websocket.websocket_connect("ws://%s/state" % address)
+            for _ in range(200):
+                await connection.write_message("next")
+                state = json.loads(await connection.read_message())
+                if condition(state):
+                    return
+            self.fail("waited in vain; the link says: %s" % state["link"]["text"])
+
+        asyncio.run(asyncio.wait_for(states(), 60))
+
+
+if __name__ == "__main__":
+    unittest.main()
