@@ -3,11 +3,13 @@
 Arrays are rows x columns, heights in metres, NaN where nothing was measured; row 0 is the top.
 """
 
+import sys
 import textwrap
 
 import matplotlib
 
-matplotlib.use("Agg")
+if "matplotlib.pyplot" not in sys.modules:  # else somebody draws already, in a notebook or in windows
+    matplotlib.use("Agg")
 
 import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
 import numpy as np  # noqa: E402
@@ -98,7 +100,7 @@ def save_picture(picture, path):
     grid = figure.add_gridspec(1, 3, width_ratios=(1.0, 1.0, 1.15), left=0.045, right=0.985, top=top, bottom=0.17, wspace=0.3)
     figure.suptitle(picture.name, x=0.045, y=0.965, ha="left", fontsize=14, fontweight="bold")
     figure.text(0.045, 0.925, caption, fontsize=10.5, color="#333333", va="top")
-    _draw_heights(figure, figure.add_subplot(grid[0]), picture)
+    draw_heights(figure, figure.add_subplot(grid[0]), picture)
     contact_axes = figure.add_subplot(grid[1])
     section = _section(picture)
     draw_contacts(contact_axes, picture, section)
@@ -135,7 +137,7 @@ def beside(axes):
     return make_axes_locatable(axes).append_axes("right", size="4.5%", pad=0.1)
 
 
-def _draw_heights(figure, axes, picture):
+def draw_heights(figure, axes, picture):
     extent, _ = map_axes(axes, picture, "Height")
     axes.set_ylabel("y [%s]" % length_scale(max(picture.extent))[1])
     finite = picture.heights[np.isfinite(picture.heights)]

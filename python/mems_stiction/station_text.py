@@ -93,7 +93,7 @@ def cycle_line(cycle):
 
 
 def cycle_sentences(result):
-    if not result.cycles:
+    if not len(result.cycles):
         return []
     first, last = result.cycles[0], result.cycles[-1]
     growth = last.pull_off_force / first.pull_off_force - 1 if first.pull_off_force else 0.0

@@ -8,6 +8,7 @@ on their PATH. Called again after an interruption, every shard goes on where it 
 """
 
 import argparse
+import os
 import pathlib
 import subprocess
 import sys
@@ -36,12 +37,12 @@ def main():
 
     from distributed import Client, LocalCluster, as_completed
 
-    output = pathlib.Path(arguments.output).resolve()
+    output = pathlib.Path(os.path.abspath(arguments.output))
     count = arguments.shards or 4 * arguments.workers
     shards = ["%s.shard_%04d%s" % (output.with_suffix(""), index, output.suffix) for index in range(1, count + 1)]
-    # Absolute, since workers stand in other folders.
-    inputs = [str(pathlib.Path(path).resolve()) for path in arguments.inputs]
-    settings = ["--config", str(pathlib.Path(arguments.config).resolve())] if arguments.config else []
+    # Absolute, since workers stand in other folders. Links are not followed: a scan's settings lie beside its link.
+    inputs = [os.path.abspath(path) for path in arguments.inputs]
+    settings = ["--config", os.path.abspath(arguments.config)] if arguments.config else []
     commands = [["stiction_batch", "--shard", "%d/%d" % (index, count), "-o", shard] + settings + ["--"] + inputs
                 for index, shard in enumerate(shards, 1)]
 

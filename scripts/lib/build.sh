@@ -67,6 +67,9 @@ builtProgram() {
     -o -name "$1" -type f -perm -u+x -print -quit
 }
 
+# The Python module of a build without ROS.
+usePythonModule() { export PYTHONPATH=$repository/python:$build_folder/python${PYTHONPATH:+:$PYTHONPATH}; }
+
 # What a shell needs to run what was built: devel space, messages for Python, library path. The programs come on the PATH,
 # since rosrun looks into no folder called build below a package.
 useBuild() {

@@ -130,7 +130,7 @@ def draw(number, pixels, scans):
 
 
 def configuration(frame, formulation):
-    """Of predict_scan: equal bodies that do not flow, with this contact modulus."""
+    """As YAML: equal bodies that do not flow, with this contact modulus."""
     body = "{youngs_modulus: %r, poisson_ratio: %r, hardness: %r}" % (
         2 * frame["modulus"] * (1 - POISSON_RATIO ** 2), POISSON_RATIO, NO_HARDNESS)
     cut_off = math.sqrt(frame["hamaker"] / (12 * math.pi * frame["work"]))

@@ -1,20 +1,22 @@
 #!/usr/bin/env python3
 """Solves and predicts the frames of the error map; scripts/trust calls it.
 
-usage: trust_run.py PREDICT_SCAN FOLDER COUNT [--pixels N] [--scans FOLDER] [--limit S]
+usage: trust_run.py FOLDER COUNT [--pixels N] [--scans FOLDER] [--limit S]
 
 FOLDER/half_space.jsonl has a line per solved frame and is gone on with: it is the part that takes long and does not depend on
 the formulations. FOLDER/predictions.jsonl is written anew. Progress goes to the standard error.
 """
 
 import argparse
+import contextlib
 import json
 import pathlib
-import subprocess
+import signal
 import sys
-import tempfile
+import warnings
 
-import cv2
+import mems_stiction
+import yaml
 
 import trust_frames
 
@@ -25,28 +27,38 @@ FIGURES = ("status", "pull_off_force", "apparent_work_of_adhesion", "contact_are
            "is_conforming", "asperity_count", "median_contact_pixels", "processing_time")
 
 
-class Predictor:
-    """predict_scan on one frame after the other, in a folder that goes away."""
+class TooLong(Exception):
+    """A solution takes longer than it may."""
 
-    def __init__(self, program, folder):
-        self.program, self.folder = program, pathlib.Path(folder)
 
-    def put(self, heights):
-        cv2.imwrite(str(self.folder / "frame.tiff"), heights)
+@contextlib.contextmanager
+def time_limit(seconds):
+    """Raises TooLong after so many seconds; Ctrl-C goes the same way."""
+    def stop(*_):
+        raise TooLong
 
-    def run(self, frame, formulation, *arguments, limit=None):
-        """The record, or why there is none."""
-        (self.folder / "settings.yaml").write_text(trust_frames.configuration(frame, formulation))
-        command = [self.program, "--config", self.folder / "settings.yaml", "--pitch", repr(frame["pitch"]),
-                   "--load", repr(trust_frames.load_of(frame)), "--json", *arguments, self.folder / "frame.tiff"]
-        try:
-            done = subprocess.run([str(part) for part in command], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                  universal_newlines=True, timeout=limit)
-        except subprocess.TimeoutExpired:
-            return {"status": "TOO_LONG"}
-        if done.returncode != 0:
-            sys.exit("frame %d, %s: %s" % (frame["number"], formulation, done.stderr.strip()))
-        return json.loads(done.stdout)
+    before = signal.signal(signal.SIGALRM, stop)
+    signal.setitimer(signal.ITIMER_REAL, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
+
+
+def settings_of(frame, formulation):
+    return mems_stiction.Settings(yaml.safe_load(trust_frames.configuration(frame, formulation)),
+                                  load={"mechanical_load": trust_frames.load_of(frame)})
+
+
+def half_space_of(frame, heights, limit):
+    """Its figures, or why there are none."""
+    try:
+        with time_limit(limit):
+            solved = mems_stiction.half_space(heights, frame["pitch"], settings_of(frame, "consistent"))
+    except TooLong:
+        return {"status": "TOO_LONG"}
+    return {name: None if value != value else value for name, value in vars(solved).items() if name in HALF_SPACE_FIGURES}
 
 
 def lines_of(path):
@@ -64,7 +76,7 @@ def chosen(record, names):
     return {name: record.get(name) for name in names}
 
 
-def solve(predictor, arguments, scans):
+def solve(arguments, scans):
     path = arguments.folder / "half_space.jsonl"
     solved = {line["frame"]["number"]: line for line in lines_of(path)}
     with open(path, "a") as file:
@@ -74,9 +86,7 @@ def solve(predictor, arguments, scans):
                 if solved[number]["frame"] != json.loads(json.dumps(frame)):
                     sys.exit("%s holds other frames than these: give another --output, or the same scans and pixels" % path)
                 continue
-            predictor.put(heights)
-            record = predictor.run(frame, "consistent", "--half-space", limit=arguments.limit)
-            line = {"frame": frame, "half_space": chosen(record.get("half_space", record), HALF_SPACE_FIGURES)}
+            line = {"frame": frame, "half_space": chosen(half_space_of(frame, heights, arguments.limit), HALF_SPACE_FIGURES)}
             file.write(json.dumps(line) + "\n")
             file.flush()
             solved[number] = line
@@ -86,28 +96,26 @@ def solve(predictor, arguments, scans):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("program")
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("count", type=int)
     parser.add_argument("--pixels", type=int, default=128)
     parser.add_argument("--scans", help="folder of imported scans")
     parser.add_argument("--limit", type=float, default=90.0, help="seconds that one half-space may take")
     arguments = parser.parse_args()
+    warnings.simplefilter("ignore", mems_stiction.ScanWarning)  # of heights that are as drawn
     scans = trust_frames.Scans(arguments.scans)
     arguments.folder.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory() as folder:
-        predictor = Predictor(arguments.program, folder)
-        solved = solve(predictor, arguments, scans)
-        with open(arguments.folder / "predictions.jsonl", "w") as file:
-            for line in solved:
-                if line["half_space"]["status"] == "SOLVED":
-                    frame, heights = trust_frames.draw(line["frame"]["number"], arguments.pixels, scans)
-                    predictor.put(heights)
-                    line["rigid"] = trust_frames.rigid_pull_off(heights, frame)
-                    for formulation in FORMULATIONS:
-                        line[formulation] = chosen(predictor.run(frame, formulation), FIGURES)
-                file.write(json.dumps(line) + "\n")
-                print("predicted %d of %d" % (line["frame"]["number"] + 1, arguments.count), file=sys.stderr, flush=True)
+    solved = solve(arguments, scans)
+    with open(arguments.folder / "predictions.jsonl", "w") as file:
+        for line in solved:
+            if line["half_space"]["status"] == "SOLVED":
+                frame, heights = trust_frames.draw(line["frame"]["number"], arguments.pixels, scans)
+                line["rigid"] = trust_frames.rigid_pull_off(heights, frame)
+                for formulation in FORMULATIONS:
+                    prediction = mems_stiction.predict(heights, frame["pitch"], settings_of(frame, formulation))
+                    line[formulation] = chosen(prediction.to_dict(), FIGURES)
+            file.write(json.dumps(line) + "\n")
+            print("predicted %d of %d" % (line["frame"]["number"] + 1, arguments.count), file=sys.stderr, flush=True)
 
 
 if __name__ == "__main__":

@@ -288,6 +288,17 @@ class BatchTest(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual((self.folder / "dask.csv").read_bytes(), (self.folder / "one.csv").read_bytes())
 
+    def test_the_dask_example_finds_what_lies_beside_a_link(self):
+        (self.folder / "store").mkdir()
+        np.savetxt(str(self.folder / "store/1f3a.txt"), 1e-9 * np.random.RandomState(1).standard_normal((32, 32)))
+        (self.folder / "scan.txt").symlink_to(self.folder / "store/1f3a.txt")
+        (self.folder / "scan.txt.yaml").write_text("pitch_x: 20.0e-9\npitch_y: 20.0e-9\n")
+        environment = dict(os.environ, PATH=str(pathlib.Path(self.batch).parent) + os.pathsep + os.environ["PATH"])
+        done = run([sys.executable, SCRIPTS / "examples/batch_dask.py", "--shards", 1, "-o", self.folder / "dask.csv",
+                    self.folder / "scan.txt"], env=environment)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual([row["reason"] for row in self.rows("dask.csv")], [""])
+
     def test_the_array_example_gives_the_rows_of_one_run(self):
         self.predict("one.csv")
         (self.folder / "inputs.txt").write_text("".join("%s\n" % path for path in self.everything))

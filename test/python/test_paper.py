@@ -12,6 +12,7 @@ import tempfile
 import unittest
 import unittest.mock
 
+import mems_stiction
 import numpy as np
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
@@ -19,15 +20,6 @@ sys.path.insert(0, str(REPOSITORY / "scripts" / "lib"))
 
 from paper import cases, claims, data  # noqa: E402
 from paper.version import version  # noqa: E402
-
-
-def program():
-    """paper_study as built; by the environment where ROS cannot find it."""
-    if "MEMS_STICTION_PAPER_STUDY" in os.environ:
-        return os.environ["MEMS_STICTION_PAPER_STUDY"]
-    from roslib.packages import find_node
-
-    return find_node("mems_stiction", "paper_study")[0]
 
 
 class OtherMaps:
@@ -58,7 +50,7 @@ class TrialRun(unittest.TestCase):
         cls._folder = tempfile.TemporaryDirectory()
         cls.folder = pathlib.Path(cls._folder.name)
         cls.done = subprocess.run(
-            [str(REPOSITORY / "scripts" / "reproduce_paper"), "--quick", "--program", program(), "--work", str(cls.folder / "work"),
+            [str(REPOSITORY / "scripts" / "reproduce_paper"), "--quick", "--built", "--work", str(cls.folder / "work"),
              "--doc", str(cls.folder / "doc")], stdout=subprocess.PIPE, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL,
             universal_newlines=True, timeout=200)
         assert cls.done.returncode == 0, cls.done.stderr
@@ -184,21 +176,17 @@ class TrialRun(unittest.TestCase):
         self.assertTrue(np.all(np.abs(silicon - gold) <= 1))
 
     def test_the_number_of_jobs_changes_nothing(self):
-        path = self.folder / "pairs.jsonl"
         pairs = [cases.pair(cases.SILICON, 64, seed, [cases.case("a/%d" % seed, cases.SILICON, 1e-10 * seed, {})]) for seed in range(1, 6)]
-        path.write_text("".join(json.dumps(one) + "\n" for one in pairs))
-        one, three = (sorted(subprocess.run([program(), "--jobs", jobs, str(path)], stdout=subprocess.PIPE, check=True,
-                                            universal_newlines=True).stdout.splitlines()) for jobs in ("1", "3"))
+        one, three = (cases.run(pairs, jobs, lambda: None) for jobs in (1, 3))
         self.assertEqual(len(one), 5)
+        for name, figures in one.items():
+            del figures["processing_time"], three[name]["processing_time"]
         self.assertEqual(one, three)
 
     def test_a_setting_that_does_not_exist_is_an_error_that_names_it(self):
-        path = self.folder / "wrong.jsonl"
-        path.write_text(json.dumps(cases.pair(cases.SILICON, 64, 1, [cases.case("a", cases.SILICON, 1e-9, {"interface/gamma": 1.0})])) + "\n")
-        done = subprocess.run([program(), str(path)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("interface/gamma", done.stderr)
-        self.assertEqual(done.stdout, "")
+        wrong = cases.pair(cases.SILICON, 64, 1, [cases.case("a", cases.SILICON, 1e-9, {"interface/gamma": 1.0})])
+        with self.assertRaisesRegex(mems_stiction.OptionsError, "interface/gamma"):
+            cases.run([wrong], 1, lambda: None)
 
 
 class Version(unittest.TestCase):

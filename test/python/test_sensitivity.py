@@ -9,10 +9,10 @@ import tempfile
 import unittest
 
 import numpy as np
-from roslib.packages import find_node
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 PAGE = REPOSITORY / "doc" / "sensitivity.md"
+STUDY = REPOSITORY / "scripts" / "lib" / "sensitivity_study.py"
 WRITER = REPOSITORY / "scripts" / "lib" / "sensitivity_page.py"
 
 
@@ -22,7 +22,7 @@ def run(command):
 
 
 def study(*arguments):
-    return run([find_node("mems_stiction", "sensitivity_study")[0]] + list(arguments))
+    return run([sys.executable, STUDY] + list(arguments))
 
 
 def headings(page):

@@ -9,7 +9,6 @@ import tempfile
 import unittest
 
 import numpy as np
-from roslib.packages import find_node
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 LIBRARY = REPOSITORY / "scripts" / "lib"
@@ -37,8 +36,7 @@ class TrustTest(unittest.TestCase):
         self.folder = pathlib.Path(holder.name)
 
     def run_frames(self, count):
-        done = run(sys.executable, LIBRARY / "trust_run.py", find_node("mems_stiction", "predict_scan")[0], self.folder,
-                   count, "--pixels", "48")
+        done = run(sys.executable, LIBRARY / "trust_run.py", self.folder, count, "--pixels", "48")
         self.assertEqual(done.returncode, 0, done.stderr)
         return done.stderr
 

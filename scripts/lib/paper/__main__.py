@@ -1,4 +1,4 @@
-"""python3 -m paper --program PAPER_STUDY [options]: predicts, draws, writes the page. scripts/reproduce_paper calls it."""
+"""python3 -m paper [options]: predicts, draws, writes the page. scripts/reproduce_paper calls it."""
 
 import argparse
 import json
@@ -39,7 +39,6 @@ class Progress:
 
 def parse():
     parser = argparse.ArgumentParser(prog="reproduce_paper", description="Figures like the paper's, and the page around them.")
-    parser.add_argument("--program", type=pathlib.Path, required=True, metavar="FILE", help="paper_study, built")
     parser.add_argument("--seeds", type=int, metavar="N", help="pairs of surfaces per point of figures 6 and 7 (12; quick: 3)")
     parser.add_argument("--size", type=int, metavar="N", help="rows and columns of their surfaces (1024; quick: 256)")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N", help="pairs at the same time (all processors)")
@@ -69,7 +68,7 @@ def predict(arguments):
     pairs = cases.all_pairs(study, dump)
     sources = version()  # now: a long run may outlive a commit
     progress = Progress(sum(len(pair["cases"]) for pair in pairs))
-    results = cases.run(arguments.program, pairs, arguments.work, arguments.jobs, progress.step)
+    results = cases.run(pairs, arguments.jobs, progress.step)
     seconds = progress.close()
     record = {"seeds": arguments.seeds, "size": arguments.size, "quick": arguments.quick, "trial": arguments.is_trial, "jobs": arguments.jobs,
               "seconds": seconds, "predictions": len(results), "version": sources, "results": results}

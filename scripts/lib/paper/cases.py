@@ -11,8 +11,11 @@ so it is set by the roughness (figures 6 and 7) or by the work of adhesion (figu
 import json
 import math
 import pathlib
-import subprocess
+import threading
+import warnings
+from concurrent.futures import ThreadPoolExecutor, as_completed
 
+import mems_stiction
 import numpy as np
 import yaml
 
@@ -204,21 +207,62 @@ def all_pairs(study, dump):
     return list(map_pairs(study, dump)) + list(table_pairs(study, dump)) + list(sweep_pairs(study))
 
 
-def run(program, pairs, folder, jobs, on_case):
-    """Predicts every case by the core. @return name of the case -> its figures. on_case() is called after each."""
-    path = folder / "pairs.jsonl"
-    path.write_text("".join(json.dumps(one) + "\n" for one in pairs))
+def surface_of(wanted, pair):
+    """Heights as a probe would see them, asperities up [m]."""
+    return mems_stiction.generate((pair["size"], pair["size"]), pair["pitch"], counter_surface=wanted).heights
+
+
+def predict_case(wanted, pair, lower, upper):
+    """The figures of one case; maps, contacts and energies too where it names a folder for them."""
+    is_dumped = "dump" in wanted
+    output = dict.fromkeys(("deformed_surfaces", "contact_map", "asperities", "roughness", "energy_curve"), is_dumped)
+    settings = mems_stiction.Settings(mems_stiction.Settings(wanted["config"], **wanted["settings"]), output=output,
+                                      counter_surface={"facing": "up"})
+    prediction = mems_stiction.predict(lower * wanted["scale"], pair["pitch"], settings, upper=upper * wanted["scale"])
+    figures = prediction.to_dict()
+    if is_dumped:
+        write_maps(pathlib.Path(wanted["dump"]), prediction, figures)
+    return figures
+
+
+def write_maps(folder, prediction, figures):
+    """What data.Maps reads."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, array in (("heights", prediction.heights), ("deformed", prediction.deformed_lower),
+                        ("counter_heights", prediction.upper_heights), ("counter_deformed", prediction.deformed_upper),
+                        ("contact_map", prediction.contact_map)):
+        np.save(str(folder / (name + ".npy")), array)
+    for name, records in (("asperities", prediction.asperities), ("energy_curve", prediction.energy_curve)):
+        figures = {**figures, name: {field: records[field].tolist() for field in records.dtype.names}}
+    (folder / "result.json").write_text(json.dumps(figures))
+
+
+def predict_pair(pair, on_figures):
+    """Both surfaces are drawn once and their heights multiplied by each case's scale, so that cases of one pair differ in
+    nothing else."""
+    lower, upper = surface_of(pair["lower"], pair), surface_of(pair["upper"], pair)
+    for wanted in pair["cases"]:
+        on_figures(wanted["name"], predict_case(wanted, pair, lower, upper))
+
+
+def run(pairs, jobs, on_case):
+    """Predicts every case by the core, so many pairs at the same time. @return name of the case -> its figures, the same
+    whatever the number of jobs. on_case() is called after each."""
     results = {}
-    process = subprocess.Popen([str(program), "--jobs", str(jobs), str(path)], stdout=subprocess.PIPE,
-                               stdin=subprocess.DEVNULL, universal_newlines=True)
-    with process.stdout:
-        for line in process.stdout:
-            figures = json.loads(line)
-            results[figures["case"]] = figures
+    lock = threading.Lock()
+
+    def keep(name, figures):
+        with lock:
+            results[name] = figures
             on_case()
-    if process.wait() != 0:
-        raise SystemExit("reproduce_paper: the study ended with status %d; the reason is above" % process.returncode)
-    missing = [one["name"] for wanted in pairs for one in wanted["cases"] if one["name"] not in results]
-    if missing:
-        raise SystemExit("reproduce_paper: no result of %s" % ", ".join(missing))
+
+    with warnings.catch_warnings(), ThreadPoolExecutor(jobs) as pool:
+        warnings.simplefilter("ignore", mems_stiction.ScanWarning)
+        futures = [pool.submit(predict_pair, pair, keep) for pair in pairs]
+        try:
+            for future in as_completed(futures):
+                future.result()
+        finally:
+            for future in futures:
+                future.cancel()
     return results

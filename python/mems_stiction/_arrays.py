@@ -1,0 +1,141 @@
+"""Heights from whatever holds them, and the core's memory as NumPy arrays: neither is copied where the type allows."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, NamedTuple, Optional, Sequence, Tuple, Union
+
+import numpy as np
+
+from mems_stiction import _core
+from mems_stiction._settings import Settings, SurfaceError
+
+# As SurfaceTopography writes them.
+METRES = {"m": 1.0, "dm": 1e-1, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "µm": 1e-6, "μm": 1e-6, "nm": 1e-9, "A": 1e-10, "Å": 1e-10,
+          "Å": 1e-10, "pm": 1e-12}
+AS_IT_IS = ("float32", "float64", "uint8", "uint16", "int16")
+
+Pitch = Union[float, Sequence[float]]
+
+
+class Surface(NamedTuple):
+    """Heights as the core has them."""
+
+    core: _core.HeightMap
+    name: str  # of the file, or empty
+    is_transposed: bool  # the caller's first index is x
+    channel: str = ""
+
+    def back(self, array: np.ndarray) -> np.ndarray:
+        """A map of the core in the index order of the heights that came in."""
+        return array.T if self.is_transposed else array
+
+
+def surface_of(heights: Any, pitch: Optional[Pitch], settings: Settings, what: str = "heights") -> Surface:
+    """Heights, by whatever they are: a path, a Scan, a topography (heights(), physical_sizes, unit), an array.
+
+    Raises SurfaceError with the cause; what: the name of the argument, for messages.
+    """
+    if isinstance(heights, Surface):
+        return heights
+    if isinstance(heights, (str, os.PathLike)):
+        x, y = (0.0, 0.0) if pitch is None else pitch_of(pitch)
+        core, channel, _ = _core.read(os.fspath(heights), settings._configuration, x, y, "", False)
+        return Surface(core, os.fspath(heights), False, channel)
+    own = getattr(heights, "_surface", None)
+    if isinstance(own, Surface):
+        if pitch is not None:
+            raise SurfaceError("pitch: %r is given, but the scan brings its own; leave it out" % (pitch,))
+        return own
+    if callable(getattr(heights, "heights", None)):
+        return _of_topography(heights, pitch, settings, what)
+    unit = getattr(heights, "unit", getattr(heights, "units", None))
+    if unit is not None:
+        raise SurfaceError("%s: values with a unit (%s) are not allowed, must be plain numbers in metres" % (what, unit))
+    x, y = (0.0, 0.0) if pitch is None else pitch_of(pitch)
+    return Surface(_core.height_map(pixels_of(heights, what), x, y, settings._configuration), "", False)
+
+
+def _of_topography(topography: Any, pitch: Optional[Pitch], settings: Settings, what: str) -> Surface:
+    """x is the first index of a topography, and the columns of a height map."""
+    sizes = getattr(topography, "physical_sizes", None)
+    heights = np.ma.asanyarray(topography.heights())
+    if heights.ndim != 2:
+        raise SurfaceError(_shape_text(heights, what))
+    if sizes is None and pitch is None:
+        raise SurfaceError("%s: the topography states no physical_sizes; give them there, or a pitch" % what)
+    if sizes is not None and pitch is not None:
+        raise SurfaceError("pitch: %r is given, but the topography brings its own (physical_sizes); leave it out" % (pitch,))
+    unit = getattr(topography, "unit", None)
+    if unit is None:
+        raise SurfaceError("%s: the topography states no unit; must be one of: %s" % (what, ", ".join(METRES)))
+    factor = METRES.get(unit) if isinstance(unit, str) else None
+    if factor is None:
+        raise SurfaceError("%s: the unit '%s' of the topography is not allowed, must be one of: %s" % (what, unit, ", ".join(METRES)))
+    if sizes is not None and heights.size:
+        pitches = pitch_of([size / count * factor for size, count in zip(sizes, heights.shape)])
+    else:
+        pitches = pitch_of(1.0 if pitch is None else pitch)
+    pixels = pixels_of(heights.T, what)
+    if factor != 1.0:
+        pixels = pixels * factor
+    return Surface(_core.height_map(pixels, pitches[0], pitches[1], settings._configuration), "", True)
+
+
+def pitch_of(pitch: Pitch) -> Tuple[float, float]:
+    """(along columns, along rows) [m]. Raises SurfaceError."""
+    wrong = "pitch: %r is not allowed, must be a number > 0 m, or two of them (x, y)" % (pitch,)
+    if isinstance(pitch, (str, bytes, bool)):
+        raise SurfaceError(wrong)
+    try:
+        pair: Any = (pitch, pitch) if np.ndim(pitch) == 0 else pitch
+        x, y = (float(value) for value in pair)
+    except (TypeError, ValueError):
+        raise SurfaceError(wrong) from None
+    if not (0 < x < np.inf and 0 < y < np.inf):
+        raise SurfaceError(wrong)
+    return x, y
+
+
+def _shape_text(array: np.ndarray, what: str) -> str:
+    return "%s: an array of shape %s is not allowed, must have two dimensions, rows x columns" % (what, array.shape)
+
+
+def pixels_of(heights: Any, what: str = "heights") -> np.ndarray:
+    """The array itself where the core can show it as it lies: float32 or float64 of this machine, columns next to each
+    other, rows at any distance, writeable or not. Else a copy. Masked pixels are NaN: missing."""
+    array = heights if isinstance(heights, np.ma.MaskedArray) else np.asarray(heights)
+    if array.dtype.kind not in "fiu":
+        raise SurfaceError("%s: an array of type %s is not allowed, must be real numbers [m]" % (what, array.dtype))
+    if array.ndim != 2:
+        raise SurfaceError(_shape_text(array, what))
+    if array.size == 0:
+        raise SurfaceError("%s: an array of shape %s has no pixel" % (what, array.shape))
+    if isinstance(array, np.ma.MaskedArray):
+        array = np.ma.filled(array if array.dtype.kind == "f" else array.astype(float), np.nan)
+    if array.dtype.name not in AS_IT_IS or not array.dtype.isnative:
+        array = array.astype(np.float64)
+    rows, columns = array.shape
+    is_in_rows = columns == 1 or array.strides[1] == array.itemsize
+    is_ordered = rows == 1 or array.strides[0] >= columns * array.itemsize
+    is_aligned = array.flags.aligned and array.strides[0] % array.itemsize == 0
+    return array if is_in_rows and is_ordered and is_aligned else array.copy(order="C")
+
+
+def array_of(memory: Any) -> Optional[np.ndarray]:
+    """A view of the core's memory, read-only; None for None."""
+    if memory is None:
+        return None
+    array = np.asarray(memory)
+    array.flags.writeable = False
+    return array
+
+
+def records_of(records: _core.Records) -> np.recarray:
+    """A view of a list of the core as an array with named fields, read-only."""
+    names, formats, offsets = zip(*records.fields)
+    layout = np.dtype({"names": list(names), "formats": list(formats), "offsets": list(offsets),
+                       "itemsize": records.record_size})
+    memory = np.asarray(records.bytes)
+    memory.flags.writeable = False
+    return memory.view(layout).view(np.recarray)

@@ -1,0 +1,397 @@
+"""Predictions: one scan, or many over a pool of threads."""
+
+from __future__ import annotations
+
+import json
+import os
+import threading
+from collections import deque
+from collections.abc import Mapping
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any, Dict, Iterable, Iterator, List, Optional, Tuple, Union
+
+import numpy as np
+
+from mems_stiction import _core
+from mems_stiction._arrays import Pitch, Surface, array_of, records_of, surface_of
+from mems_stiction._inputs import brings_pitch, counter_of, section_or_surface
+from mems_stiction._scans import Roughness, warn_about
+from mems_stiction._settings import Config, Error, Settings
+from mems_stiction.quantities import area, percent, ratio, with_unit
+
+
+class Verdict:
+    """Does the device stick? Of a prediction whose settings state device/...; NaN where they do not allow to say.
+
+    sticks: "no", "marginal", "yes" or "unknown". reason: one sentence for people.
+    restoring_force [N]: of the device. device_pull_off_force [N]: the scan's, on the device's contact area.
+    margin, margin_lower, margin_upper [-]: restoring over pull-off force, and its 95 % interval.
+    margin_uncertainty [-]: half of the central 68 %. margin_transition [-]: with the JKR-DMT transition's prefactors.
+    apparent_work_of_adhesion [J/m^2]: of the rough interface. peel_number, peel_number_lower, peel_number_upper [-],
+    detachment_length, unstuck_length [m]: of a beam (de Boer and Michalske 1999; Mastrangelo and Hsu 1993).
+    pull_in_voltage [V]: at which the electrodes close. regime_flags: bits, those of the prediction.
+    """
+
+    sticks: str
+    reason: str
+    restoring_force: float
+    device_pull_off_force: float
+    margin: float
+    margin_lower: float
+    margin_upper: float
+    margin_uncertainty: float
+    margin_transition: float
+    apparent_work_of_adhesion: float
+    peel_number: float
+    peel_number_lower: float
+    peel_number_upper: float
+    detachment_length: float
+    unstuck_length: float
+    pull_in_voltage: float
+    regime_flags: int
+
+    def __init__(self, figures: Dict[str, Any]) -> None:
+        self.__dict__.update(figures)
+
+    def __repr__(self) -> str:
+        return "Verdict: sticks: %s, margin %s (%s to %s); %s" % (
+            self.sticks, ratio(self.margin), ratio(self.margin_lower), ratio(self.margin_upper), self.reason)
+
+
+class Prediction:
+    """What comes out for one pair of surfaces. Forces and areas are of the scan; NaN: the formulation does not know it.
+    Equation numbers are those of Deladi, Krijnen, Tas and Elwenspoek 2002; doc/theory.md has each as implemented.
+
+    status: "EQUILIBRIUM", "BONDED" or "NO_EQUILIBRIUM" (then do not use the forces). formulation: whose answer it is.
+    steps: of the approach.
+
+    voltage [V], mechanical_load [N]: as applied.
+    van_der_waals_force, electrostatic_force, capillary_force [N]: (2), (3), of condensed water. normal_load [N]: all together.
+    pull_off_force [N]: the largest while the surfaces are drawn apart, after voltage and load have gone; (11) of the
+    paper's formulations. pull_off_force_jkr, pull_off_force_transition [N]: (3/2) pi Gamma sum R, the same with the
+    prefactors of the JKR-DMT transition.
+
+    contact_area [m^2]: real. contact_area_jkr [m^2]: sum of JKR's contacts. nominal_area [m^2]: of the valid cells.
+    contact_fraction [-]: of the nominal area. approach [m]: from first touch. mean_gap [m]: out of contact.
+
+    mechanical_energy, surface_energy, elastic_energy, total_energy [J]: (10.1), (10.2), (8). plastic_work [J]: in flow.
+    bonding_energy [J/m^2], normalized_bonding_energy [-]: total over nominal area; the same over the work of adhesion.
+    apparent_work_of_adhesion [J/m^2]: of drawing the surfaces apart. contact_stiffness [N/m]: -dF/dD at rest.
+    flattening_energy [J/m^2], flattening_ratio [-]: that pressing flat would store; over the work of adhesion.
+    adhesion_exponent, modulus_exponent [-]: d ln(pull-off force)/d ln(work of adhesion), d ln(contact modulus).
+    is_conforming: flat against each other nearly everywhere. adhesion_parameter [-]: (14). bonding_regime: "BONDING",
+    "ADHERENCE", "NON_BONDING" or "UNKNOWN" (limits: Gui et al. 1999).
+
+    asperity_count, elastic_count, elasto_plastic_count, plastic_count: contacts, by regime. max_tilt [rad]: of a contact.
+    median_tabor_parameter [-], contact_theory: "DMT", "TRANSITION", "JKR" or "UNKNOWN" (Johnson and Greenwood 1997).
+    composite_rms_height, rms_height [m]: of both surfaces (9), of the scan. invalid_fraction [-]: not measured.
+    processing_time [s]: that the prediction took. median_contact_pixels [-], median_composite_radius [m]: of the
+    contacts. is_resolution_limited, is_tip_limited: contacts of few pixels; sharper than the tip.
+    regime_flags: bits, where it leaves the model's range; flags has their names (doc/validity.md).
+
+    verdict: a Verdict, or None without a device. roughness: a Roughness, of the cleaned scan.
+    preprocessing: what each step of the cleaning did. warnings: about pitch and heights.
+    """
+
+    status: str
+    formulation: str
+    steps: int
+    voltage: float
+    mechanical_load: float
+    van_der_waals_force: float
+    electrostatic_force: float
+    normal_load: float
+    capillary_force: float
+    pull_off_force: float
+    pull_off_force_jkr: float
+    pull_off_force_transition: float
+    contact_area: float
+    contact_area_jkr: float
+    nominal_area: float
+    contact_fraction: float
+    approach: float
+    mean_gap: float
+    mechanical_energy: float
+    surface_energy: float
+    elastic_energy: float
+    total_energy: float
+    plastic_work: float
+    bonding_energy: float
+    normalized_bonding_energy: float
+    apparent_work_of_adhesion: float
+    contact_stiffness: float
+    flattening_energy: float
+    flattening_ratio: float
+    adhesion_exponent: float
+    modulus_exponent: float
+    is_conforming: bool
+    adhesion_parameter: float
+    bonding_regime: str
+    asperity_count: int
+    elastic_count: int
+    elasto_plastic_count: int
+    plastic_count: int
+    max_tilt: float
+    median_tabor_parameter: float
+    contact_theory: str
+    composite_rms_height: float
+    rms_height: float
+    invalid_fraction: float
+    processing_time: float
+    median_contact_pixels: float
+    median_composite_radius: float
+    is_resolution_limited: bool
+    is_tip_limited: bool
+    regime_flags: int
+
+    _LAZY = ("contact_map", "deformed_lower", "deformed_upper", "pressure", "heights", "upper_heights", "asperities",
+             "energy_curve", "curve", "curve_over_height", "preprocessing", "roughness", "flags")
+
+    def __init__(self, core: _core.PredictedScan, surface: Surface, warnings: Tuple[str, ...]) -> None:
+        self.__dict__.update(core.figures)
+        verdict = core.verdict
+        self.verdict = None if verdict is None else Verdict(verdict)
+        self.warnings = warnings
+        self.name = surface.name
+        self.pitch = core.scan.pitch
+        self._core: Optional[_core.PredictedScan] = core
+        self._surface: Optional[Surface] = surface
+        self._is_transposed = surface.is_transposed
+        self._json: Optional[str] = None
+
+    def _kept(self, name: str, make: Any) -> Any:
+        """A view of the core's memory, made when it is first asked for."""
+        key = "_" + name
+        if key not in self.__dict__:
+            self.__dict__[key] = make()
+        return self.__dict__[key]
+
+    def _map(self, name: str, memory: Any) -> Optional[np.ndarray]:
+        def view() -> Optional[np.ndarray]:
+            array = array_of(memory(self._core))
+            return None if array is None else self._surface.back(array)  # type: ignore[union-attr]
+
+        return self._kept(name, view)
+
+    @property
+    def contact_map(self) -> Optional[np.ndarray]:
+        """0 apart, 1 elastic, 2 elasto-plastic, 3 plastic; in the index order of the heights, as all maps. None unless
+        output/contact_map."""
+        return self._map("contact_map", lambda core: core.contact_map)
+
+    @property
+    def heights(self) -> np.ndarray:
+        """The scan after its cleaning [m]: the memory that came in, where nothing was cleaned."""
+        heights = self._map("heights", lambda core: core.lower.pixels)
+        assert heights is not None
+        return heights
+
+    @property
+    def upper_heights(self) -> Optional[np.ndarray]:
+        """The counter-surface in its place, in the scan's frame [m]; None for a plane."""
+        return self._map("upper_heights", lambda core: core.upper.pixels)
+
+    @property
+    def deformed_lower(self) -> Optional[np.ndarray]:
+        """The scan after contact [m]; None unless output/deformed_surfaces."""
+        return self._map("deformed_lower", lambda core: core.deformed_lower)
+
+    @property
+    def deformed_upper(self) -> Optional[np.ndarray]:
+        """The counter-surface after contact, in its own z [m]."""
+        return self._map("deformed_upper", lambda core: core.deformed_upper)
+
+    @property
+    def pressure(self) -> Optional[np.ndarray]:
+        """Between the surfaces at rest [Pa], repulsion positive; None if the formulation does not know it."""
+        return self._map("pressure", lambda core: core.pressure)
+
+    @property
+    def asperities(self) -> np.recarray:
+        """One record for each contact: x, y, z (column times pitch, row times pitch, height), cap_radius,
+        composite_radius, contact_radius [m], load [N], area [m^2], tilt [rad], plasticity_index, tabor_parameter [-],
+        is_at_border, regime (1 elastic, 2 elasto-plastic, 3 plastic)."""
+        return self._kept("asperities", lambda: records_of(self._core.asperities))  # type: ignore[union-attr]
+
+    @property
+    def energy_curve(self) -> np.recarray:
+        """One record for each step of the approach: approach [m], contact_fraction, normal_load, carried_load,
+        generalized_force [N], mechanical_energy, surface_energy, elastic_energy, total_energy [J]. Empty unless
+        output/energy_curve."""
+        return self._kept("energy_curve", lambda: records_of(self._core.energy_curve))  # type: ignore[union-attr]
+
+    @property
+    def curve(self) -> np.recarray:
+        """Force over displacement: displacement [m] past first touch, force [N] (attraction positive), is_separation (of
+        the way out). Empty if the formulation does not follow the force."""
+        return self._kept("curve", lambda: records_of(self._core.curve))  # type: ignore[union-attr]
+
+    @property
+    def curve_over_height(self) -> np.recarray:
+        """The same over the height of HalfSpace.curve, to be laid over it: height [m], force [N], direction (0 approach, 1
+        retraction)."""
+        return self._kept("curve_over_height", lambda: records_of(self._core.curve_over_height))  # type: ignore[union-attr]
+
+    @property
+    def preprocessing(self) -> List[Dict[str, Any]]:
+        """step, parameters, rms_change [m], changed_pixels, invalid_pixels of each step that ran."""
+        return self._kept("preprocessing", lambda: self._core.preprocessing)  # type: ignore[union-attr]
+
+    @property
+    def roughness(self) -> Roughness:
+        """Of the cleaned scan; its spatial figures only with output/spatial_roughness."""
+        return self._kept("roughness", lambda: Roughness(self._core.roughness))  # type: ignore[union-attr]
+
+    @property
+    def flags(self) -> Tuple[str, ...]:
+        """The names of the bits of regime_flags, as in doc/validity.md."""
+        return self._kept("flags", lambda: tuple(filter(None, self._core.flag_names.split(", "))))  # type: ignore[union-attr]
+
+    def json(self) -> str:
+        """The record that predict_scan --json prints, one line."""
+        if self._json is None:
+            assert self._core is not None
+            return self._core.json(self.name)
+        return self._json
+
+    def to_dict(self) -> Dict[str, Any]:
+        """The same as a dictionary: for tables and files. None stands for what is not finite."""
+        return json.loads(self.json())
+
+    def spread(self, config: Optional[Config] = None, **settings: Any) -> np.ndarray:
+        """Pull-off forces over this one, of samples of the uncertain constants (uncertainty/...), in ascending order: what
+        the margin's interval is made of. Settings are those of the prediction. Empty without a list of contacts."""
+        if self._core is None:
+            raise RuntimeError("a prediction that came from another process has no contacts to draw from")
+        return np.array(self._core.spread(Settings(config, **settings)._configuration))
+
+    def save_picture(self, path: Union[str, "os.PathLike[str]"]) -> None:
+        """PNG: heights, contacts by regime, cross-section through the contact that carries most."""
+        from mems_stiction import _pictures, plots
+
+        plots.save_picture(_pictures.picture_of(self), os.fspath(path))
+
+    def __getstate__(self) -> Dict[str, Any]:
+        """With copies of all arrays: for another process."""
+        self._json = self.json()
+        state = dict(self.__dict__, _core=None, _surface=None)
+        for name in self._LAZY:
+            value = getattr(self, name)
+            state["_" + name] = np.array(value).view(type(value)) if isinstance(value, np.ndarray) else value
+        return state
+
+    def __repr__(self) -> str:
+        lines = ["Prediction%s: %s" % (" of " + self.name if self.name else "", self.status.lower().replace("_", " "))]
+        lines.append("  pull-off force %s on %s; contact %s of it" % (
+            with_unit(self.pull_off_force, "N"), area(self.nominal_area), percent(self.contact_fraction)))
+        lines.append("  contacts: %d (%d elastic, %d elasto-plastic, %d plastic); rms height %s; flattening ratio %s" % (
+            self.asperity_count, self.elastic_count, self.elasto_plastic_count, self.plastic_count,
+            with_unit(self.rms_height, "m"), ratio(self.flattening_ratio)))
+        if self.verdict is not None:
+            lines.append("  sticks: %s, margin %s (%s to %s)" % (
+                self.verdict.sticks, ratio(self.verdict.margin), ratio(self.verdict.margin_lower), ratio(self.verdict.margin_upper)))
+        if self.flags:
+            lines.append("  outside the model's range: %s" % ", ".join(self.flags))
+        lines += ["  warning: " + text for text in self.warnings]
+        return "\n".join(lines)
+
+    def _repr_html_(self) -> str:
+        from mems_stiction import _pictures
+
+        return _pictures.prediction_html(self)
+
+
+class Predictor:
+    """Settings that are read and checked once, for scan after scan; the core keeps its memory between them.
+
+    Any thread may call it; one scan is predicted at a time. predict_many() has one for each thread.
+    """
+
+    def __init__(self, config: Optional[Config] = None, **settings: Any) -> None:
+        self.settings = Settings(config, **settings)
+        self._core = _core.Predictor(self.settings._configuration)
+
+    def predict(self, heights: Any, pitch: Optional[Pitch] = None, upper: Any = None) -> Prediction:
+        """As the function predict()."""
+        surface = surface_of(heights, pitch, self.settings)
+        predicted = self._core.predict(surface.core, counter_of(upper, surface, self.settings))
+        return Prediction(predicted, surface, warn_about(surface))
+
+    def __reduce__(self) -> Any:
+        return Predictor, (self.settings,)
+
+
+def predict(heights: Any, pitch: Optional[Pitch] = None, config: Optional[Config] = None, upper: Any = None,
+            **settings: Any) -> Prediction:
+    """Will this surface stick to its counter-surface?
+
+    heights: rows x columns in metres, NaN or masked where nothing was measured; or an object with heights(),
+    physical_sizes and unit (a Topography of SurfaceTopography, whose first index is x: maps come back in its order); or a
+    Scan; or the path of a file. Arrays of float32 and float64 are not copied, also read-only ones and parts of rows.
+    pitch: distance of neighbouring pixels [m], a number or (x, y). Left out where the object brings it, or scan/pitch_x.
+    config: a dictionary, the path of a YAML file, or Settings: materials, interface, loads, cleaning (doc/parameters.md).
+    upper: the counter-surface as it was measured beside the scan, on the same grid; counter_surface/facing says which way
+    it faces. None: the configured one, a plane unless counter_surface/type says otherwise.
+    settings: sections that go before config: load={"mechanical_load": 1e-6}. A dictionary as `upper` is the section of
+    that name.
+
+    Bits are those of predict_scan with the same settings. Raises SurfaceError for heights, OptionsError for settings,
+    each in a sentence with what is allowed; ScanWarning for pitches and heights that look like a wrong unit.
+    The interpreter's lock is released meanwhile.
+    """
+    upper = section_or_surface(upper, settings)
+    return Predictor(config, **settings).predict(heights, pitch, upper)
+
+
+def predict_many(frames: Iterable[Any], pitch: Optional[Pitch] = None, config: Optional[Config] = None, *,
+                 workers: Optional[int] = None, errors: str = "raise", **settings: Any) -> Iterator[Any]:
+    """Predicts frame after frame on a pool of threads, and yields the predictions in the order of the frames.
+
+    frames: whatever predict() takes, from a list or a generator; only some frames for each thread are held at a time.
+    pitch: of all frames that are arrays [m].
+    workers: threads; as many as processors if None.
+    errors: "raise" ends at the first frame that cannot be predicted; "return" yields its exception in its place.
+    Ctrl-C ends it after the frames that are being predicted.
+    """
+    if errors not in ("raise", "return"):
+        raise ValueError("errors: %r is not allowed, must be 'raise' or 'return'" % (errors,))
+    count = os.cpu_count() or 1 if workers is None else workers
+    if not isinstance(count, int) or count < 1:
+        raise ValueError("workers: %r is not allowed, must be an integer >= 1" % (workers,))
+    if isinstance(frames, np.ndarray) and frames.ndim != 3:
+        raise ValueError("frames: an array of shape %s is not allowed, must be frames x rows x columns, or a list" % (frames.shape,))
+    upper = settings.get("upper")
+    if upper is not None and not isinstance(upper, Mapping):
+        raise ValueError("upper: a counter-surface for many frames is set by counter_surface/file")
+    return _predictions(iter(frames), pitch, Settings(config, **settings), count, errors == "return")
+
+
+def _predictions(frames: Iterator[Any], pitch: Optional[Pitch], settings: Settings, count: int, returns_errors: bool) -> Iterator[Any]:
+    own = threading.local()
+
+    def predict_one(frame: Any) -> Any:
+        try:
+            if not hasattr(own, "predictor"):
+                own.predictor = Predictor(settings)
+            return own.predictor.predict(frame, None if brings_pitch(frame) else pitch)
+        except Error as error:
+            if returns_errors:
+                return error
+            raise
+
+    if count == 1:
+        yield from map(predict_one, frames)
+        return
+    pool = ThreadPoolExecutor(count)
+    waiting: Any = deque()
+    try:
+        for frame in frames:
+            waiting.append(pool.submit(predict_one, frame))
+            if len(waiting) >= 4 * count:
+                yield waiting.popleft().result()
+        while waiting:
+            yield waiting.popleft().result()
+    finally:
+        for future in waiting:
+            future.cancel()
+        pool.shutdown()

@@ -1,0 +1,210 @@
+"""Scans: from files, cleaned, and their roughness."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from typing import Any, Dict, List, Optional, Tuple, Union
+
+import numpy as np
+
+from mems_stiction import _core
+from mems_stiction._arrays import Pitch, Surface, array_of, pitch_of, surface_of
+from mems_stiction._settings import Config, Settings, SurfaceError
+from mems_stiction.quantities import with_unit
+
+
+class ScanWarning(UserWarning):
+    """A scan does not look like what it claims to be: a unit, most likely."""
+
+
+def warn_about(surface: Surface) -> Tuple[str, ...]:
+    """What predict_scan warns about too, as warnings of Python."""
+    found = tuple(_core.scan_warnings(surface.core))
+    for text in found:
+        warnings.warn((surface.name + ": " if surface.name else "") + text, ScanWarning, stacklevel=4)
+    return found
+
+
+class Scan:
+    """Heights in metres with their pitch; every function of this package takes it in place of an array.
+
+    heights: rows x columns [m], read-only, NaN where nothing was measured; row 0 is the top, columns go along x.
+    pitch: (along columns, along rows) [m]. physical_sizes: (width, height) [m]. unit: always "m".
+    channel: which of the file's; empty where it has one only. notes: what to know of how the file was read.
+    """
+
+    unit = "m"
+
+    def __init__(self, surface: Surface, channel: str = "", notes: Tuple[str, ...] = ()) -> None:
+        self._surface = surface
+        self.channel = channel
+        self.notes = notes
+
+    @property
+    def heights(self) -> np.ndarray:
+        heights = array_of(self._surface.core.pixels)
+        assert heights is not None
+        return self._surface.back(heights)
+
+    @property
+    def pitch(self) -> Tuple[float, float]:
+        return self._surface.core.pitch
+
+    @property
+    def physical_sizes(self) -> Tuple[float, float]:
+        heights = array_of(self._surface.core.pixels)
+        assert heights is not None
+        return heights.shape[1] * self.pitch[0], heights.shape[0] * self.pitch[1]
+
+    def topography(self) -> Any:
+        """The same for SurfaceTopography, whose first index is x; needs that package."""
+        from SurfaceTopography import Topography
+
+        heights = array_of(self._surface.core.pixels)
+        assert heights is not None
+        return Topography(np.ma.masked_invalid(heights.T) if np.isnan(heights).any() else heights.T, self.physical_sizes, unit="m")
+
+    def __array__(self, dtype: Any = None, copy: Optional[bool] = None) -> np.ndarray:
+        return np.array(self.heights, dtype=dtype) if copy else np.asarray(self.heights, dtype=dtype)
+
+    def __repr__(self) -> str:
+        rows, columns = self.heights.shape
+        width, height = self.physical_sizes
+        name = " of %s" % self._surface.name if self._surface.name else ""
+        return "%s%s: %d x %d pixels, %s x %s%s" % (type(self).__name__, name, rows, columns, with_unit(width, "m"),
+                                                    with_unit(height, "m"), ", " + self.channel if self.channel else "")
+
+    def __reduce__(self) -> Any:
+        return _scan_of, (type(self), np.array(array_of(self._surface.core.pixels)), self.pitch, self._surface[1:], self.__getstate__())
+
+    def __getstate__(self) -> Dict[str, Any]:
+        return {name: value for name, value in self.__dict__.items() if name != "_surface"}
+
+
+def _scan_of(kind: Any, heights: np.ndarray, pitch: Tuple[float, float], rest: Any, state: Dict[str, Any]) -> Scan:
+    scan = kind.__new__(kind)
+    scan.__dict__.update(state)
+    scan._surface = Surface(_core.height_map(heights, pitch[0], pitch[1], _core.Configuration()), *rest)
+    return scan
+
+
+class Cleaned(Scan):
+    """A scan after its cleaning.
+
+    steps: what each step did, in order: step, parameters, rms_change [m], changed_pixels, invalid_pixels.
+    """
+
+    steps: List[Dict[str, Any]]
+
+
+class Roughness:
+    """Roughness of ISO 25178-2 over the valid pixels; the caller levels.
+
+    sa, sq, sp, sv, sz [m]: mean, rms, highest, deepest, total height. ssk, sku [-]: skewness and kurtosis (3: Gaussian).
+    sdq, sdr [-]: rms gradient, and the developed area that it adds.
+    sal [m], str [-]: length of the autocorrelation to 0.2, and its aspect ratio.
+    m0 [m^2], m2 [-], m4 [1/m^2]: moments of a profile's spectrum; nayak [-]: m0 m4/m2^2.
+    summit_density [1/m^2], mean_summit_radius [m], hurst [-]: of summits, and of the self-affine range.
+    Those from sal on are NaN unless they were asked for.
+    """
+
+    sa: float
+    sq: float
+    ssk: float
+    sku: float
+    sp: float
+    sv: float
+    sz: float
+    sdq: float
+    sdr: float
+    sal: float
+    str: float
+    m0: float
+    m2: float
+    m4: float
+    nayak: float
+    summit_density: float
+    mean_summit_radius: float
+    hurst: float
+
+    def __init__(self, figures: Dict[Any, float]) -> None:
+        self.__dict__.update(figures)
+
+    def __repr__(self) -> Any:
+        units = _core.roughness_units()
+        return "Roughness(%s)" % ", ".join(
+            "%s=%.4g%s" % (name, value, " " + units[name] if units[name] else "")
+            for name, value in self.__dict__.items() if not np.isnan(value))
+
+
+def read(path: Union[str, "os.PathLike[str]"], channel: str = "", pitch: Optional[Pitch] = None,
+         config: Optional[Config] = None, *, ignore_mask: bool = False, **settings: Any) -> Scan:
+    """A scan from a file of any kind that predict_scan reads (doc/scans.md lists them).
+
+    channel: title or number, of a file with several; the likeliest heights if empty. channels() lists them.
+    pitch: distance of pixels [m], a number or (x, y); goes before what the file says. Settings scan/... serve where a
+    file states nothing. ignore_mask: pixels under the mask of a .gwy file are heights as the others.
+    Raises FileError in one line with file and cause, OptionsError for a bad sidecar.
+    """
+    x, y = (0.0, 0.0) if pitch is None else pitch_of(pitch)
+    core, chosen, notes = _core.read(os.fspath(path), Settings(config, **settings)._configuration, x, y, str(channel), ignore_mask)
+    return Scan(Surface(core, os.fspath(path), False, chosen), chosen, tuple(notes))
+
+
+def channels(path: Union[str, "os.PathLike[str]"], config: Optional[Config] = None, **settings: Any) -> List[Dict[str, Any]]:
+    """Every channel of a file, heights or not: name, shape, pitch, unit_xy, unit_z, is_chosen (by read())."""
+    return _core.channels(os.fspath(path), Settings(config, **settings)._configuration)
+
+
+def clean(heights: Any, pitch: Optional[Pitch] = None, config: Optional[Config] = None, **settings: Any) -> Cleaned:
+    """The surface after the steps that preprocessing/... switches on, in the order of doc/scans.md; without any it is the
+    scan itself, and shares its memory. predict() does the same by itself.
+
+        clean(heights, 20e-9, preprocessing={"level": "plane", "spikes/enabled": True}).heights
+
+    Raises OptionsError, SurfaceError.
+    """
+    checked = Settings(config, **settings)
+    surface = surface_of(heights, pitch, checked)
+    core, steps = _core.clean(surface.core, checked._configuration)
+    cleaned = Cleaned(surface._replace(core=core), surface.channel)
+    cleaned.steps = steps
+    return cleaned
+
+
+def generate(shape: Tuple[int, int], pitch: Pitch, config: Optional[Config] = None, **settings: Any) -> Scan:
+    """Random heights of the kind that counter_surface/... describes, as a probe would see them, asperities up.
+
+        generate((256, 256), 10e-9, counter_surface={"type": "self_affine", "seed": 2, "self_affine": {"rms_height": 3e-9}})
+
+    shape: (rows, columns). The same shape, settings and seed give the same surface.
+    Raises OptionsError for another type than gaussian or self_affine, SurfaceError for lengths that the grid cannot have.
+    """
+    rows, columns = (int(count) for count in shape)
+    if rows < 1 or columns < 1:
+        raise SurfaceError("shape: %r is not allowed, must be (rows, columns), both >= 1" % (shape,))
+    checked = Settings(config, **settings)
+    return Scan(Surface(_core.generate(rows, columns, *pitch_of(pitch), checked._configuration), "", False))
+
+
+def decimate(heights: Any, pitch: Optional[Pitch] = None, *, factor: int) -> Scan:
+    """A coarser scan, as an instrument with larger pixels would see it: means over factor x factor pixels. A block with
+    fewer than half of its pixels measured is missing; rows and columns beyond the last whole block are left out.
+    Raises SurfaceError if there is no whole block.
+    """
+    if not isinstance(factor, (int, np.integer)) or factor < 1:
+        raise SurfaceError("factor: %r is not allowed, must be an integer >= 1" % (factor,))
+    surface = surface_of(heights, pitch, Settings())
+    return Scan(surface._replace(core=_core.decimate(surface.core, int(factor))), surface.channel)
+
+
+def roughness(heights: Any, pitch: Optional[Pitch] = None, config: Optional[Config] = None, *, spatial: bool = True,
+              **settings: Any) -> Roughness:
+    """Figures of ISO 25178-2, spectrum and summits of a surface as it is given.
+
+    spatial: also those that reach sideways (sal to hurst), which take twice as long as a prediction.
+    Raises SurfaceError without a valid pixel.
+    """
+    checked = Settings(config, **settings)
+    return Roughness(_core.roughness(surface_of(heights, pitch, checked).core, checked._configuration, spatial))

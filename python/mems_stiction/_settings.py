@@ -1,0 +1,94 @@
+"""Settings by the names of config/stiction.yaml, with the words of its reader for what is wrong."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from typing import Any, Dict, Optional, Union
+
+from mems_stiction import _core
+
+Error = _core.Error
+FileError = _core.FileError
+OptionsError = _core.OptionsError
+SurfaceError = _core.SurfaceError
+
+Error.__doc__ = "Base of every error that the core raises on purpose."
+FileError.__doc__ = "A file cannot be read; the message names it and the cause. Also an OSError."
+OptionsError.__doc__ = "Settings are unknown, of the wrong type or out of range: a line each. Also a ValueError."
+SurfaceError.__doc__ = "Heights cannot be used: shape, type, pitch, no valid pixel. Also a ValueError."
+for _error in (Error, FileError, OptionsError, SurfaceError):
+    _error.__module__ = "mems_stiction"
+
+
+class Settings:
+    """A configuration that is read and checked once, for many calls.
+
+    config: None for the defaults, a dictionary, the path of a YAML file, or other Settings.
+    settings: sections or single keys that go before it: load={"voltage": 5.0}, **{"load/voltage": 5.0}.
+    Raises OptionsError with a line for each key that is unknown, of the wrong type or out of range; FileError.
+    """
+
+    _configuration: _core.Configuration
+
+    def __init__(self, config: Optional[Config] = None, **settings: Any) -> None:
+        if isinstance(config, Settings):
+            self._configuration = config._configuration
+        elif config is None:
+            self._configuration = _core.Configuration()
+        elif isinstance(config, Mapping):
+            self._configuration = _core.Configuration().changed(_plain(config))
+        elif isinstance(config, (str, os.PathLike)):
+            self._configuration = _core.Configuration().loaded(os.fspath(config))
+        else:
+            raise OptionsError("config: %r is not allowed, must be a dictionary, the path of a YAML file or Settings" % (config,))
+        if settings:
+            self._configuration = self._configuration.changed(_plain(settings))
+
+    def yaml(self) -> str:
+        """Every setting as YAML, with units and ranges as comments; it reads back to the same values."""
+        return self._configuration.yaml()
+
+    def __repr__(self) -> str:
+        changed = sorted(set(_lines(self.yaml())) - set(_lines(_core.Configuration().yaml())))
+        return "Settings(%s)" % (", ".join(changed) or "defaults")
+
+    def __reduce__(self) -> Any:
+        return _settings_of_text, (self.yaml(),)
+
+
+Config = Union[Mapping, str, "os.PathLike[str]", Settings]
+
+
+def _settings_of_text(text: str) -> Settings:
+    import yaml  # type: ignore[import]
+
+    return Settings(yaml.safe_load(text))
+
+
+def _plain(mapping: Mapping) -> Dict[str, Any]:
+    """What YAML would give: dictionaries, and Python's own numbers in place of NumPy's."""
+    return {str(key): _plain_value(value) for key, value in mapping.items()}
+
+
+def _plain_value(value: Any) -> Any:
+    if isinstance(value, Mapping):
+        return _plain(value)
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    if type(value).__module__ == "numpy" and getattr(value, "ndim", None) == 0:
+        return value.item()
+    if hasattr(value, "tolist"):
+        return value.tolist()
+    return value
+
+
+def _lines(text: str) -> Any:
+    """"section/key: value" of each setting."""
+    section = ""
+    for line in text.splitlines():
+        setting = line.partition("  # ")[0].rstrip()
+        if setting.endswith(":"):
+            section = setting[:-1]
+        else:
+            yield "/".join(part for part in (section, setting.strip()) if part) if line.startswith(" ") else setting

@@ -1,0 +1,97 @@
+"""One contact under many loads, or many times."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Optional, Sequence, Union
+
+import numpy as np
+
+from mems_stiction import _core
+from mems_stiction._arrays import Pitch, Surface, array_of, records_of
+from mems_stiction._inputs import inputs_of
+from mems_stiction._settings import Config
+
+
+class LoadSweep:
+    """A contact while the voltage goes up and down again, for each mechanical load.
+
+    points: a record for each load, with the fields of msg/SweepPoint.msg: direction (0 up, 1 down), voltage [V],
+    mechanical_load, pull_off_force, van_der_waals_force, electrostatic_force, normal_load [N], status (0 equilibrium, 1
+    bonded, 2 none), is_open, contact_area, contact_area_jkr [m^2], contact_fraction, approach [m], asperity_count, sticks
+    (0 no, 1 marginal, 2 yes, 3 unknown), margin, margin_lower, holding_margin [-].
+    summaries: a record for each mechanical load: highest_releasing_voltage, highest_safe_voltage, lowest_sticking_voltage,
+    opening_voltage [V]; NaN: none of the sweep.
+    pull_in_voltage [V]: at which the electrodes close; NaN without a device.
+    """
+
+    def __init__(self, core: _core.LoadSweepResult) -> None:
+        self.points: np.recarray = records_of(core.points)
+        self.summaries: np.recarray = records_of(core.summaries)
+        self.pull_in_voltage = core.pull_in_voltage
+
+    def __repr__(self) -> str:
+        from mems_stiction import station_text
+
+        lines = [station_text.sweep_header()] + [station_text.sweep_line(point) for point in self.points]
+        return "\n".join(lines + station_text.sweep_sentences(self))
+
+    def save_picture(self, path: Union[str, "os.PathLike[str]"]) -> None:
+        """PNG: contact and margins against the voltage, both ways."""
+        from mems_stiction import station_figures
+
+        station_figures.save_sweep(self, path)
+
+
+class ContactCycles:
+    """A contact that is made and opened again and again, each time as the last one left the surfaces.
+
+    cycles: a record for each contact, with the fields of msg/CyclePoint.msg: cycle, status (0 equilibrium, 1 bonded, 2
+    none), pull_off_force, van_der_waals_force [N], contact_area, contact_area_jkr [m^2], contact_fraction, asperity_count,
+    plastic_count, rms_height, largest_change [m], sticks (0 no, 1 marginal, 2 yes, 3 unknown), margin, margin_lower [-].
+    first_sticking_cycle: 0 if none surely sticks, or no device is stated.
+    lower, upper: both surfaces after the last contact [m], refined as preprocessing/refine says.
+    """
+
+    def __init__(self, core: _core.ContactCyclesResult, surface: Surface) -> None:
+        def view(memory: Any) -> Optional[np.ndarray]:
+            array = array_of(memory)
+            return None if array is None else surface.back(array)
+
+        self.cycles: np.recarray = records_of(core.cycles)
+        self.first_sticking_cycle = core.first_sticking_cycle
+        self.lower = view(core.lower.pixels)
+        self.upper = view(core.upper.pixels)
+
+    def __repr__(self) -> str:
+        from mems_stiction import station_text
+
+        lines = [station_text.cycle_header()] + [station_text.cycle_line(cycle) for cycle in self.cycles]
+        return "\n".join(lines + station_text.cycle_sentences(self))
+
+    def save_picture(self, path: Union[str, "os.PathLike[str]"]) -> None:
+        """PNG: pull-off force, contact, rms height and margin against the number of the contact."""
+        from mems_stiction import station_figures
+
+        station_figures.save_cycles(self, path)
+
+
+def sweep_loads(heights: Any, pitch: Optional[Pitch] = None, voltages: Sequence[float] = (0.0,),
+                mechanical_loads: Sequence[float] = (0.0,), config: Optional[Config] = None, upper: Any = None,
+                **settings: Any) -> LoadSweep:
+    """Up to which voltage does the device still come off? For each mechanical load [N] the voltage [V] goes up through the
+    values and down again. Other arguments are those of predict(). Ctrl-C stops it.
+    Raises OptionsError for values that do not ascend or are out of range.
+    """
+    checked, surface, counter = inputs_of(heights, pitch, config, upper, settings)
+    return LoadSweep(_core.sweep_loads(surface.core, counter, checked._configuration, np.atleast_1d(voltages).tolist(),
+                                       np.atleast_1d(mechanical_loads).tolist()))
+
+
+def cycle_contact(heights: Any, pitch: Optional[Pitch] = None, count: int = 10, config: Optional[Config] = None,
+                  upper: Any = None, **settings: Any) -> ContactCycles:
+    """After how many contacts does the device fail? The surfaces meet `count` times under the same load. Other arguments
+    are those of predict(). Ctrl-C stops it. Raises OptionsError for a count below 1.
+    """
+    checked, surface, counter = inputs_of(heights, pitch, config, upper, settings)
+    return ContactCycles(_core.cycle_contact(surface.core, counter, checked._configuration, count), surface)

@@ -1,0 +1,127 @@
+"""Rows of many scan files: one JSON line for each, whatever happens in between.
+
+    python3 -m mems_stiction.archive --config part.yaml --shard 3/16 -o rows/shard_0003.jsonl --inputs-from scans.txt
+
+A row is the record of predict_scan --json without its time, so that the same scan gives the same row, with `number` (of the
+scan in the list, from 1) and `reason`: empty, or why there is no prediction. Rows are written as they come; the same call
+again goes on with the scans that have none. Beside them FILE.settings.yaml holds the settings, which must stay the same.
+scripts/examples/predict_dask.py and predict_array.sbatch spread an archive over a cluster with it.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import pathlib
+import sys
+import warnings
+from typing import Any, Dict, Iterable, Iterator, List, Sequence, Tuple
+
+from mems_stiction._prediction import predict_many
+from mems_stiction._scans import ScanWarning
+from mems_stiction._settings import Error, OptionsError, Settings
+
+BAD_INPUT = 2
+Numbered = Tuple[int, str]
+
+
+def numbered(paths: Sequence[str]) -> List[Numbered]:
+    """Absolute paths with their numbers. Links are not followed: what lies beside a link, such as the settings of its scan, need not lie
+    beside the file that it leads to."""
+    return [(number, os.path.abspath(path)) for number, path in enumerate(paths, 1)]
+
+
+def rows_of(scans: Iterable[Numbered], settings: Settings, workers: int = 1) -> Iterator[Dict[str, Any]]:
+    """The row of each scan, in order, on so many threads."""
+    kept = list(scans)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ScanWarning)  # rows have them
+        results = predict_many([path for _, path in kept], config=settings, workers=workers, errors="return")
+        for (number, path), result in zip(kept, results):
+            row = {"number": number, "file": path, "reason": " ".join(str(result).split()) if isinstance(result, Error) else ""}
+            if not isinstance(result, Error):
+                row.update({name: value for name, value in result.to_dict().items() if name not in ("file", "processing_time", "reason")})
+                row["warnings"] = "; ".join(result.warnings)
+                if result.verdict is not None:
+                    row["verdict_reason"] = result.verdict.reason
+            yield row
+
+
+class RowFile:
+    """The rows of a call, and of those that it goes on from."""
+
+    def __init__(self, path: str, settings: Settings) -> None:
+        self.path = pathlib.Path(path)
+        self.path.parent.mkdir(parents=True, exist_ok=True)
+        beside = pathlib.Path(path + ".settings.yaml")
+        if self.path.exists() and (not beside.exists() or beside.read_text(encoding="utf-8") != settings.yaml()):
+            raise OptionsError("%s: holds rows of other settings; give another name, or remove it" % path)
+        beside.write_text(settings.yaml(), encoding="utf-8")
+        text = self.path.read_text(encoding="utf-8") if self.path.exists() else ""
+        whole = text[:text.rfind("\n") + 1]  # a call that was killed may have left half a line
+        self.rows = {row["number"]: row for row in map(json.loads, whole.splitlines())}
+        if whole != text:
+            self.path.write_text(whole, encoding="utf-8")
+
+    def missing(self, scans: Sequence[Numbered]) -> List[Numbered]:
+        """The scans that have no row yet. Raises OptionsError if a row is of another scan."""
+        for number, path in scans:
+            if number in self.rows and self.rows[number]["file"] != path:
+                raise OptionsError("%s: row %d is of %s, not of %s; give another name, or the same scans" % (
+                    self.path, number, self.rows[number]["file"], path))
+        return [scan for scan in scans if scan[0] not in self.rows]
+
+    def add(self, rows: Iterable[Dict[str, Any]]) -> Iterator[Dict[str, Any]]:
+        """Writes each row as it comes, and passes it on."""
+        with open(str(self.path), "a", encoding="utf-8") as stream:
+            for row in rows:
+                self.rows[row["number"]] = row
+                stream.write(json.dumps(row) + "\n")
+                stream.flush()
+                yield row
+
+    def finish(self) -> str:
+        """Puts the rows into the order of the scans. Returns a line on them."""
+        ordered = [self.rows[number] for number in sorted(self.rows)]
+        partial = self.path.with_name(self.path.name + ".partial")
+        partial.write_text("".join(json.dumps(row) + "\n" for row in ordered), encoding="utf-8")
+        os.replace(str(partial), str(self.path))
+        return "%d rows, %d of them with a reason why there is no prediction: %s" % (
+            len(ordered), sum(bool(row["reason"]) for row in ordered), self.path)
+
+
+def _shard(text: str) -> Tuple[int, int]:
+    index, _, count = text.partition("/")
+    if not (index.isdigit() and count.isdigit() and 1 <= int(index) <= int(count)):
+        raise argparse.ArgumentTypeError("'%s' is not allowed, must be I/N with 1 <= I <= N" % text)
+    return int(index), int(count)
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(prog="mems_stiction.archive", description="One row for each scan file.")
+    parser.add_argument("scans", nargs="*", metavar="SCAN")
+    parser.add_argument("--inputs-from", metavar="FILE", help="more scans, one on a line")
+    parser.add_argument("-o", "--output", required=True, metavar="ROWS.jsonl")
+    parser.add_argument("-c", "--config", metavar="FILE.yaml")
+    parser.add_argument("--shard", type=_shard, default=(1, 1), metavar="I/N", help="every N-th scan, from the I-th on")
+    parser.add_argument("--workers", type=int, default=1, help="threads (1)")
+    arguments = parser.parse_args()
+    try:
+        paths = list(arguments.scans)
+        if arguments.inputs_from:
+            paths += pathlib.Path(arguments.inputs_from).read_text(encoding="utf-8").splitlines()
+        settings = Settings(arguments.config)
+        rows = RowFile(arguments.output, settings)
+        index, count = arguments.shard
+        for _ in rows.add(rows_of(rows.missing(numbered(paths)[index - 1::count]), settings, arguments.workers)):
+            pass
+        print(rows.finish())
+    except (Error, OSError, ValueError) as error:
+        print("mems_stiction.archive: %s" % " ".join(str(error).split()), file=sys.stderr)
+        return BAD_INPUT
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,98 @@
+/// The half-space on the surfaces and settings of a prediction.
+
+#include <memory>
+#include <string>
+
+#include "bindings.hpp"
+#include "figures.hpp"
+#include "interruptible.hpp"
+#include "memory.hpp"
+#include "mems_stiction/half_space/half_space_solver.hpp"
+#include "mems_stiction/scan/half_space_scan.hpp"
+#include "mems_stiction/scan/prepared_scan.hpp"
+
+namespace mems_stiction {
+namespace python {
+namespace {
+
+namespace py = pybind11;
+
+/// A solution with its curve and its contacts.
+struct SolvedScan {
+  SolvedHalfSpace solution;
+  std::vector<CurvePoint> curve;
+  cv::Mat contact_map;
+};
+
+using Solved = std::shared_ptr<SolvedScan>;
+
+Solved solve(const HeightMap& scan, const HeightMap* counter_surface, const Configuration& configuration) {
+  return interruptible([&](const std::atomic<bool>& cancel) {
+    ScanPreparer preparer(configuration);
+    if (counter_surface != nullptr) preparer.setMeasuredCounterSurface(*counter_surface);
+    const PreparedScan prepared = preparer.prepare(scan);
+    const HalfSpaceProblem problem = halfSpaceProblem(prepared, configuration.model);
+    HalfSpaceControl control;
+    control.cancel = &cancel;
+    auto solved = std::make_shared<SolvedScan>();
+    solved->solution = HalfSpaceSolver(configuration.half_space).solve(problem, control);
+    solved->curve = curveOf(solved->solution);
+    solved->contact_map = halfSpaceContactMap(solved->solution, problem, configuration.half_space, prepared.refinement);
+    return solved;
+  });
+}
+
+/// Those of the record, and those that only the solution has.
+template <typename Visitor>
+void visitFields(const SolvedHalfSpace& solution, Visitor&& visit) {
+  visitHalfSpaceFields(solution, visit);
+  visit("message", solution.message, "");
+  visit("pull_off_uncertainty", solution.pull_off_uncertainty, "N");
+  visit("pull_off_height", solution.pull_off_height, "m");
+  visit("rest_height", solution.rest_height, "m");
+  visit("rest_force", solution.rest_force, "N");
+  visit("contact_count", solution.contact_count, "");
+  visit("flowed_volume", solution.flowed_volume, "m^3");
+  visit("range", solution.range, "m");
+  visit("cohesive_length", solution.cohesive_length, "m");
+  visit("is_step_converged", solution.is_step_converged, "");
+  visit("residual", solution.residual, "");
+  visit("state_count", solution.state_count, "");
+  visit("jumps", solution.jumps, "");
+}
+
+py::dict figuresOf(const SolvedScan& solved) {
+  DictionaryFields fields;
+  visitFields(solved.solution, fields);
+  return fields.dictionary;
+}
+
+py::dict halfSpaceUnits() {
+  UnitFields fields;
+  visitFields(SolvedHalfSpace(), fields);
+  return fields.units;
+}
+
+Records curveOfScan(const Solved& solved) {
+  Fields<CurvePoint> fields;
+  visitCurvePointFields(fields.sample, fields);
+  return recordsOf(solved->curve, fields.fields, solved);
+}
+
+}  // namespace
+
+void bindHalfSpace(py::module& module) {
+  py::class_<SolvedScan, Solved>(module, "SolvedScan")
+      .def_property_readonly("figures", &figuresOf)
+      .def_property_readonly("curve", &curveOfScan)
+      .def_property_readonly("pressure", [](const SolvedScan& solved) { return memoryOf(solved.solution.pressure); })
+      .def_property_readonly("gap", [](const SolvedScan& solved) { return memoryOf(solved.solution.gap); })
+      .def_property_readonly("contact_map", [](const SolvedScan& solved) { return memoryOf(solved.contact_map); })
+      .def_property_readonly("deformed_lower", [](const SolvedScan& solved) { return solved.solution.deformed_lower; })
+      .def_property_readonly("deformed_upper", [](const SolvedScan& solved) { return solved.solution.deformed_upper; });
+  module.def("half_space", &solve);
+  module.def("half_space_units", &halfSpaceUnits);
+}
+
+}  // namespace python
+}  // namespace mems_stiction

@@ -1,0 +1,40 @@
+#pragma once
+
+/// @file
+/// Work that takes long, for a caller who may press Ctrl-C.
+
+#include <pybind11/pybind11.h>
+
+#include <atomic>
+#include <chrono>
+#include <future>
+
+namespace mems_stiction {
+namespace python {
+
+/// Runs work(cancel) on a thread of its own, without the interpreter's lock. The calling thread asks now and then
+/// whether a signal has come; a handler that raises (KeyboardInterrupt) sets `cancel`, and its exception goes on when
+/// the work has ended.
+/// @return what the work returns
+template <typename Work>
+auto interruptible(const Work& work) {
+  constexpr std::chrono::milliseconds kPatience(20);
+  std::atomic<bool> cancel{false};
+  const pybind11::gil_scoped_release unlocked;
+  auto result = std::async(std::launch::async, [&work, &cancel] { return work(cancel); });
+  while (result.wait_for(kPatience) != std::future_status::ready) {
+    const pybind11::gil_scoped_acquire locked;
+    if (PyErr_CheckSignals() == 0) continue;
+    cancel = true;
+    pybind11::error_already_set interruption;
+    {
+      const pybind11::gil_scoped_release waiting;
+      result.wait();
+    }
+    throw interruption;  // NOLINT(cert-err60-cpp): pybind11's own
+  }
+  return result.get();
+}
+
+}  // namespace python
+}  // namespace mems_stiction

@@ -1,0 +1,127 @@
+/// Heights in: from an array, from a file; and what can be asked of them before any contact.
+
+#include <pybind11/stl.h>
+
+#include <string>
+
+#include "bindings.hpp"
+#include "figures.hpp"
+#include "memory.hpp"
+#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/height_map/scan_sanity.hpp"
+#include "mems_stiction/import/scan_file.hpp"
+#include "mems_stiction/preprocess/pipeline.hpp"
+#include "mems_stiction/roughness/areal_parameters.hpp"
+#include "mems_stiction/roughness/spatial_roughness.hpp"
+#include "mems_stiction/scan/configuration.hpp"
+#include "mems_stiction/scan/convergence.hpp"
+#include "mems_stiction/surface/counter_surface.hpp"
+#include "preprocess_steps.hpp"
+
+namespace mems_stiction {
+namespace python {
+namespace {
+
+namespace py = pybind11;
+
+ScanFileOptions fileOptions(double pitch_x, double pitch_y, const std::string& channel, bool ignore_mask) {
+  ScanFileOptions options;
+  options.pitch_x = pitch_x;
+  options.pitch_y = pitch_y;
+  options.import.channel = channel;
+  options.import.ignore_mask = ignore_mask;
+  return options;
+}
+
+py::tuple readScan(const std::string& path, const Configuration& configuration, double pitch_x, double pitch_y,
+                   const std::string& channel, bool ignore_mask) {
+  ScanFile file;
+  {
+    const py::gil_scoped_release unlocked;
+    file = openScanFile(path, configuration.scan, fileOptions(pitch_x, pitch_y, channel, ignore_mask));
+  }
+  return py::make_tuple(file.surface, file.channel, file.notes);
+}
+
+py::list channelsOf(const std::string& path, const Configuration& configuration) {
+  std::vector<ScanChannel> channels;
+  {
+    const py::gil_scoped_release unlocked;
+    channels = listScanChannels(path, configuration.scan);
+  }
+  py::list list;
+  for (const ScanChannel& channel : channels) {
+    py::dict entry;
+    entry["name"] = channel.name;
+    entry["shape"] = py::make_tuple(channel.rows, channel.cols);
+    entry["pitch"] = py::make_tuple(channel.pitch_x, channel.pitch_y);
+    entry["unit_xy"] = channel.unit_xy;
+    entry["unit_z"] = channel.unit_z;
+    entry["is_chosen"] = channel.is_chosen;
+    list.append(entry);
+  }
+  return list;
+}
+
+py::tuple cleaned(const HeightMap& scan, const Configuration& configuration) {
+  CleanedScan result;
+  {
+    const py::gil_scoped_release unlocked;
+    result = cleanScan(scan, configuration.preprocessing);
+  }
+  return py::make_tuple(result.surface, stepsOf(result.record));
+}
+
+py::dict roughnessOf(const HeightMap& scan, const Configuration& configuration, bool is_spatial) {
+  ArealParameters areal;
+  SpatialRoughness spatial;
+  {
+    const py::gil_scoped_release unlocked;
+    areal = arealParameters(scan);
+    if (is_spatial) spatial = spatialRoughness(scan, configuration.spatial_roughness);
+  }
+  DictionaryFields fields;
+  visitRoughnessFields(areal, fields);
+  visitSpatialRoughnessFields(spatial, fields);
+  return fields.dictionary;
+}
+
+py::dict roughnessUnits() {
+  UnitFields fields;
+  const ArealParameters areal;
+  const SpatialRoughness spatial;
+  visitRoughnessFields(areal, fields);
+  visitSpatialRoughnessFields(spatial, fields);
+  return fields.units;
+}
+
+/// A generated surface as a probe would see it, asperities up.
+HeightMap generated(int rows, int cols, double pitch_x, double pitch_y, const Configuration& configuration) {
+  const CounterSurfaceOptions& options = configuration.counter_surface;
+  if (!options.isGenerated()) {
+    throw OptionsError({"counter_surface/type: only gaussian and self_affine are generated"});
+  }
+  const py::gil_scoped_release unlocked;
+  const HeightMap grid(cv::Mat::zeros(rows, cols, CV_64FC1), pitch_x, pitch_y);
+  return turnedOver(generatedCounterSurface(grid, options));
+}
+
+}  // namespace
+
+void bindScans(py::module& module) {
+  module.def("height_map",
+             [](const py::buffer& pixels, double pitch_x, double pitch_y, const Configuration& configuration) {
+               return heightMapOf(pixels, configuration.scan, pitch_x, pitch_y);
+             });
+  module.def("scan_warnings", &scanWarnings, py::call_guard<py::gil_scoped_release>());
+  module.def("read", &readScan);
+  module.def("channels", &channelsOf);
+  module.def("clean", &cleaned);
+  module.def("roughness", &roughnessOf);
+  module.def("generate", &generated);
+  module.def("decimate", [](const HeightMap& scan, int factor) { return decimated(scan, factor); });
+  module.def("roughness_units", &roughnessUnits);
+}
+
+}  // namespace python
+}  // namespace mems_stiction

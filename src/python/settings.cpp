@@ -1,0 +1,83 @@
+/// Errors by name, and settings from a dictionary or a file, both with the words of the core.
+
+#include <yaml-cpp/yaml.h>
+
+#include <cmath>
+#include <string>
+
+#include "bindings.hpp"
+#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/scan/configuration_yaml.hpp"
+
+namespace mems_stiction {
+namespace python {
+namespace {
+
+namespace py = pybind11;
+
+/// Python's values as the reader of configuration files sees them: numbers and words are scalars, anything that has no
+/// place in a configuration is the text that Python shows for it, so that the reader names it.
+YAML::Node nodeOf(const py::handle& value) {
+  if (value.is_none()) return YAML::Node(YAML::NodeType::Null);
+  if (py::isinstance<py::bool_>(value)) return YAML::Node(std::string(py::cast<bool>(value) ? "true" : "false"));
+  if (py::isinstance<py::str>(value)) return YAML::Node(py::cast<std::string>(value));
+  if (py::isinstance<py::float_>(value)) return YAML::Node(yamlNumber(py::cast<double>(value)));
+  if (py::isinstance<py::dict>(value)) {
+    YAML::Node map(YAML::NodeType::Map);
+    for (const auto& entry : py::reinterpret_borrow<py::dict>(value)) {
+      map.force_insert(std::string(py::str(entry.first)), nodeOf(entry.second));
+    }
+    return map;
+  }
+  if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) {
+    YAML::Node list(YAML::NodeType::Sequence);
+    for (const py::handle& item : value) list.push_back(nodeOf(item));
+    return list;
+  }
+  return YAML::Node(std::string(py::str(value)));
+}
+
+}  // namespace
+
+void bindErrors(py::module& module) {
+  // A base that is a tuple: PyErr_NewException takes several.
+  const py::object base(py::exception<Error>(module, "Error", PyExc_Exception));
+  const auto bases = [&base](PyObject* other) {
+    return py::make_tuple(base, py::reinterpret_borrow<py::object>(other));
+  };
+  // Never let go of: they must outlive every exception, and no object of Python may be freed after its interpreter.
+  static PyObject* const error = py::object(base).release().ptr();
+  static PyObject* const options_error =
+      py::exception<OptionsError>(module, "OptionsError", bases(PyExc_ValueError)).release().ptr();
+  static PyObject* const surface_error =
+      py::exception<SurfaceError>(module, "SurfaceError", bases(PyExc_ValueError)).release().ptr();
+  static PyObject* const file_error =
+      py::exception<FileError>(module, "FileError", bases(PyExc_OSError)).release().ptr();
+  // NOLINTNEXTLINE(performance-unnecessary-value-param): the signature is pybind11's
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const OptionsError& caught) {
+      PyErr_SetString(options_error, caught.what());
+    } catch (const SurfaceError& caught) {
+      PyErr_SetString(surface_error, caught.what());
+    } catch (const FileError& caught) {
+      PyErr_SetString(file_error, caught.what());
+    } catch (const Error& caught) {
+      PyErr_SetString(error, caught.what());
+    }
+  });
+}
+
+void bindSettings(py::module& module) {
+  py::class_<Configuration>(module, "Configuration")
+      .def(py::init<>())
+      .def("changed", [](const Configuration& configuration,
+                         const py::dict& tree) { return configurationFromYaml(nodeOf(tree), configuration); })
+      .def("loaded", [](const Configuration& configuration,
+                        const std::string& path) { return loadConfiguration(path, configuration); })
+      .def("yaml", [](const Configuration& configuration) { return toYaml(configuration); });
+}
+
+}  // namespace python
+}  // namespace mems_stiction
