@@ -85,8 +85,8 @@ struct ModelError {
 };
 
 ModelError modelError(const Prediction& prediction) {
-  if (prediction.is_conforming) return {0.29, 0.08};
-  if (prediction.flattening_ratio < kNearBonding) return {0.21, 0.15};
+  if (prediction.is_conforming) return {0.10, 0.06};
+  if (prediction.flattening_ratio < kNearBonding) return {0.19, 0.14};
   return {0.08, 0.08};
 }
 
