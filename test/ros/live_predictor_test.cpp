@@ -14,7 +14,7 @@
 namespace mems_stiction {
 namespace {
 
-ReceivedScan scanOf(const HeightMap& surface) { return {std_msgs::Header(), surface, std::nullopt}; }
+ReceivedScan scanOf(const HeightMap& surface) { return {std_msgs::Header(), surface, std::nullopt, {}}; }
 
 ReceivedScan roughScan(int seed = 3) {
   GaussianSurfaceOptions options;
