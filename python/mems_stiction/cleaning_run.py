@@ -35,7 +35,8 @@ def _predicted(batch, configuration, arguments, number, total, place):
     done = subprocess.run([batch, "-o", str(place / "rows.jsonl"), "--dump", str(place / "scans"), "--config", str(place / "settings.yaml"),
                            "--shard", "%d/%d" % (number, total)] + arguments, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
                           universal_newlines=True)
-    row = {"reason": done.stderr} if done.returncode else json.loads((place / "rows.jsonl").read_text(encoding="utf-8"))
+    has_rows = done.returncode in (0, 1)  # 1: no scan of them could be predicted
+    row = {"reason": done.stderr} if not has_rows else json.loads((place / "rows.jsonl").read_text(encoding="utf-8"))
     if row["reason"]:
         raise CannotShow("with the first steps alone the scan is not predicted: %s" % " ".join(row["reason"].split()))
     return np.load(str(place / "scans" / ("%06d" % number) / "heights.npy")), row

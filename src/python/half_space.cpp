@@ -8,6 +8,7 @@
 #include "interruptible.hpp"
 #include "memory.hpp"
 #include "mems_stiction/half_space/half_space_solver.hpp"
+#include "mems_stiction/scan/frame_load.hpp"
 #include "mems_stiction/scan/half_space_scan.hpp"
 #include "mems_stiction/scan/prepared_scan.hpp"
 
@@ -31,7 +32,8 @@ Solved solve(const HeightMap& scan, const HeightMap* counter_surface, const Conf
     ScanPreparer preparer(configuration);
     if (counter_surface != nullptr) preparer.setMeasuredCounterSurface(*counter_surface);
     const PreparedScan prepared = preparer.prepare(scan);
-    const HalfSpaceProblem problem = halfSpaceProblem(prepared, configuration.model);
+    const HalfSpaceProblem problem =
+        halfSpaceProblem(prepared, onFrame(configuration.model, configuration.device, prepared.surfaces));
     HalfSpaceControl control;
     control.cancel = &cancel;
     auto solved = std::make_shared<SolvedScan>();

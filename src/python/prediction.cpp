@@ -11,7 +11,10 @@
 #include "bindings.hpp"
 #include "figures.hpp"
 #include "memory.hpp"
+#include "mems_stiction/height_map/scan_sanity.hpp"
 #include "mems_stiction/prediction/force_curve.hpp"
+#include "mems_stiction/scan/frame_load.hpp"
+#include "mems_stiction/scan/plausibility.hpp"
 #include "mems_stiction/scan/record.hpp"
 #include "mems_stiction/scan/scan_predictor.hpp"
 #include "mems_stiction/verdict/regime_flags.hpp"
@@ -57,9 +60,15 @@ class Predictor {
     if (!configuration_.model.output.roughness) predicted->prediction.roughness = kNoRoughness;
     predicted->extras.formulation = predictor_.options().formulation;
     predicted->extras.preprocessing = prepared.record;
+    predicted->extras.provenance = provenanceOf({}, configuration_);
+    predicted->extras.warnings = scanWarnings(scan);
+    for (std::string& warning : settingsWarnings(configuration_)) {
+      predicted->extras.warnings.push_back(std::move(warning));
+    }
     if (configuration_.device.isStated()) {
+      const Options on_frame = onFrame(configuration_.model, configuration_.device, prepared.surfaces);
       predicted->extras.verdict = verdictOf(predicted->prediction, configuration_.device, configuration_.uncertainty,
-                                            predictor_.options(), scan.cellArea());
+                                            on_frame, scan.cellArea());
     }
     predicted->curve = curveOf(predicted->prediction, predictor_.options().interface);
     predictor_.preparer().setMeasuredCounterSurface({});
