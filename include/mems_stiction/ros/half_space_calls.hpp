@@ -24,7 +24,7 @@ namespace mems_stiction {
 /// Service and action.
 class HalfSpaceCalls {
  public:
-  /// @param pause is given way to; it must outlive the calls
+  /// - @p pause is given way to; it must outlive the calls
   HalfSpaceCalls(const ros::NodeHandle& private_handle, const HalfSpaceOptions& options, SolutionPause& pause,
                  FindCase find_case);
   ~HalfSpaceCalls();

@@ -32,7 +32,7 @@ class HalfSpaceStream {
   /// Called for each scan without a solution, on the thread of the half-space.
   using Warn = std::function<void(const std_msgs::Header& header, const std::string& text)>;
 
-  /// @param pause is given way to; it must outlive the stream
+  /// - @p pause is given way to; it must outlive the stream
   HalfSpaceStream(const ros::NodeHandle& handle, const HalfSpaceOptions& options, SolutionPause& pause, Warn warn);
   ~HalfSpaceStream() { stop(); }
   HalfSpaceStream(const HalfSpaceStream&) = delete;
