@@ -14,6 +14,7 @@ import matplotlib
 matplotlib.use("Agg")
 
 import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
+import matplotlib.ticker  # noqa: E402
 import numpy as np  # noqa: E402
 
 CONFORMING, NEAR_BONDING = "conforming", "near bonding"
@@ -107,6 +108,9 @@ def draw(frames, figure):
                            np.exp(ratios(chosen, pull_off("consistent"), pull_off("half_space"))), ".", color=colour, label=name)
     axes[0].axhspan(1 / 1.15, 1.15, color="#dddddd", zorder=0)
     axes[0].set(xlabel="flattening energy / work of adhesion", ylabel="consistent / half-space", title="pull-off force, resolved frames")
+    axes[0].yaxis.set_major_locator(matplotlib.ticker.LogLocator(subs=(1, 1.5, 2, 3, 5, 7)))
+    axes[0].yaxis.set_major_formatter(matplotlib.ticker.FormatStrFormatter("%g"))
+    axes[0].yaxis.set_minor_formatter(matplotlib.ticker.NullFormatter())
     axes[0].legend()
     for name, colour in (("consistent", "#2f7fd1"), ("paper", "#d1322f"), ("printed", "#f2b705"), ("rigid", "#7a7a7a")):
         value = (lambda frame: frame["rigid"]) if name == "rigid" else pull_off(name)
