@@ -130,9 +130,9 @@ def draw(number, pixels, scans):
 
 
 def configuration(frame, formulation):
-    """As YAML: equal bodies that do not flow, with this contact modulus."""
+    """As YAML: equal bodies with this contact modulus; they flow only where the frame has a hardness."""
     body = "{youngs_modulus: %r, poisson_ratio: %r, hardness: %r}" % (
-        2 * frame["modulus"] * (1 - POISSON_RATIO ** 2), POISSON_RATIO, NO_HARDNESS)
+        2 * frame["modulus"] * (1 - POISSON_RATIO ** 2), POISSON_RATIO, frame.get("hardness", NO_HARDNESS))
     cut_off = math.sqrt(frame["hamaker"] / (12 * math.pi * frame["work"]))
     return ("lower: %s\nupper: %s\napproach: {formulation: %s}\n" % (body, body, formulation) +
             "interface: {work_of_adhesion: %r, hamaker_constant: %r, cutoff_distance: %r}\n"

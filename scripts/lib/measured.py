@@ -1,0 +1,150 @@
+#!/usr/bin/env python3
+"""Predicts what others measured on rough surfaces and writes the page; scripts/measured calls it.
+
+usage: measured.py PREDICT_SCAN PAGE.md [--seeds N] [--quick]
+"""
+
+import argparse
+import math
+import pathlib
+import statistics
+import sys
+import tempfile
+
+import measured_cases as cases
+import trust_run
+
+UNITS = {"work": (1e6, " uJ/m^2"), "pressure": (1e-3, " kPa"), "ratio": (1.0, "")}
+CHECKED_RMS = (1e-9, 2e-9, 5e-9, 10e-9)
+
+
+class Study:
+    """Predictions of frames by `consistent`; seeds are drawn alike for all settings, so that differences are those of the settings."""
+
+    def __init__(self, predictor, seeds, is_quick):
+        self.predictor, self.seeds, self.is_quick = predictor, range(1, seeds + 1), is_quick
+
+    def records(self, case, variation, rms_height):
+        pixels = min(case.pixels, 96) if self.is_quick else case.pixels
+        found = []
+        for seed in self.seeds:
+            frame, heights = cases.surface(case, variation, rms_height, seed, pixels)
+            self.predictor.put(heights)
+            found.append(self.predictor.run(frame, "consistent"))
+        return found
+
+    def values(self, case, variation):
+        """For each measured value, one prediction a seed."""
+        rows = [self.records(case, variation, rms_height) for rms_height in case.rms_heights]
+        if case.quantity == "pressure":
+            return [[record["pull_off_force"] / record["nominal_area"] for record in row] for row in rows]
+        works = [[record["apparent_work_of_adhesion"] for record in row] for row in rows]
+        return works if case.quantity == "work" else [[first / second for first, second in zip(*works)]]
+
+
+def number(value):
+    """Two digits: more than such a value bears."""
+    return "%.2g" % value if abs(value) < 100 else "%.0f" % value
+
+
+def rms_text(case, place):
+    heights = case.rms_heights if case.quantity == "ratio" else case.rms_heights[place:place + 1]
+    return " over ".join("%g nm" % round(height * 1e9, 3) for height in heights)
+
+
+def result_rows(study, results):
+    for case in cases.CASES:
+        scale, unit = UNITS[case.quantity]
+        for place, (measured, values) in enumerate(zip(case.measured, results[case.key, cases.AS_ASSUMED.name])):
+            median = statistics.median(values)
+            yield "| %s | %s | %s%s (%s) | %s | %s ... %s | %s |" % (
+                case.key, rms_text(case, place), number(measured * scale), unit, case.known, number(median * scale),
+                number(min(values) * scale), number(max(values) * scale), number(median / measured))
+
+
+def moved_by(results, case, variation):
+    """The variation's median over that of the assumed settings, geometric mean over the rms heights of a case."""
+    pairs = zip(results[case.key, variation.name], results[case.key, cases.AS_ASSUMED.name])
+    return math.exp(statistics.mean(math.log(statistics.median(changed) / statistics.median(values)) for changed, values in pairs))
+
+
+def most_moving(results, case):
+    return max(cases.VARIATIONS, key=lambda variation: abs(math.log(moved_by(results, case, variation))))
+
+
+def separation_rows(study):
+    """DelRio's own check: the work beside that of two planes at the mean separation, H/(12 pi D_ave^2)."""
+    case = cases.CASES[0]
+    for rms_height in CHECKED_RMS:
+        records = study.records(case, cases.AS_ASSUMED, rms_height)
+        gaps = [record["mean_gap"] for record in records]
+        works = [record["apparent_work_of_adhesion"] for record in records]
+        planes = [case.settings["hamaker"] / (12 * math.pi * gap ** 2) for gap in gaps]
+        median = statistics.median
+        yield median(gaps), median(works), "| %g nm | %s nm | %s | %s | %.2f |" % (
+            rms_height * 1e9, number(median(gaps) * 1e9), number(median(works) * 1e6), number(median(planes) * 1e6),
+            median([work / plane for work, plane in zip(works, planes)]))
+
+
+def exponent(rows):
+    """Of the work over the mean separation, between the ends."""
+    (first_gap, first_work, _), (last_gap, last_work, _) = rows[0], rows[-1]
+    return math.log(last_work / first_work) / math.log(last_gap / first_gap)
+
+
+def page(study):
+    results = {(case.key, variation.name): study.values(case, variation)
+               for case in cases.CASES for variation in (cases.AS_ASSUMED,) + cases.VARIATIONS}
+    separations = list(separation_rows(study))
+    text = [
+        "# Against measurement", "",
+        "What others measured on rough surfaces, beside what `approach/formulation: consistent` predicts from surfaces with the same statistics. Written by `scripts/measured`.", "",
+        "**What this page can show is an order of magnitude and a trend.** No source whose full text was to be had gives all that a prediction needs: roughness, correlation length, "
+        "work of adhesion, Hamaker constant, humidity and area. Most were read as abstracts. What is missing is assumed, and [the second table](#what-the-assumptions-move) says what each "
+        "assumption moves. How far the model is from the mechanics that it approximates is another question, which the [error map](trust.md) answers with much smaller numbers.", "",
+        "## Measured and predicted", "",
+        "%d Gaussian surfaces each; median, lowest and highest. *factor*: predicted median over measured. *recalled*: not checked against the source." % len(study.seeds), "",
+        "| case | rms height | measured | predicted | over seeds | factor |", "|---|---|---|---|---|---|"]
+    text += list(result_rows(study, results))
+    text += ["", "| case | source | says | assumed |", "|---|---|---|---|"]
+    text += ["| %s | %s (%s) | %s | %s |" % (case.key, case.source.name, case.source.where, case.source.says, case.assumed) for case in cases.CASES]
+    text += ["", "A ratio is that of the apparent works of two rough planes. It stands for the forces of a large sphere, because the force between a sphere and a plane is 2 pi R times the "
+             "energy per area of planes at the same separation (Derjaguin), so the sphere's pull-off force is 2 pi R times the work of the planes from rest on.", "",
+             "A plate that is torn off by its springs does not stay parallel: it peels, and the largest force is not that of all its area at once. A prediction for a parallel plate is an upper bound for it in that respect. "
+             "Where the measured force is larger still, the plates were smoother, wet or charged, or fitted each other; the source does not say.", "",
+             "## The separation law", "",
+             "The one statement of the polysilicon measurements that was read and that needs no constant but the Hamaker constant: at small roughness the work is that of planes at the average "
+             "separation, H/(12 pi D_ave^2); at large roughness contacts take over. Predicted, for the beams' settings:", "",
+             "| rms height | D_ave | work [uJ/m^2] | H/(12 pi D_ave^2) [uJ/m^2] | ratio |", "|---|---|---|---|---|"]
+    text += [row for _, _, row in separations]
+    text += ["", "The work goes with D_ave to the power of %.2f. What it has beyond the planes', the contacts' share and that of the uneven gap, is largest where the surfaces are roughest." % exponent(separations), "",
+             "## What the assumptions move", "",
+             "Median with the change over the median without; geometric mean over the rms heights of a case. Where the correlation length changes, pixels and frame change with it.", "",
+             "| | %s |" % " | ".join(case.key for case in cases.CASES), "|---|%s" % ("---|" * len(cases.CASES))]
+    text += ["| %s | %s |" % (variation.name, " | ".join(number(moved_by(results, case, variation)) for case in cases.CASES))
+             for variation in cases.VARIATIONS]
+    text += ["", "What moves each most: %s." % "; ".join("%s, %s" % (case.key, most_moving(results, case).name) for case in cases.CASES), "",
+             "The rms height is that of both surfaces together: a source that gives that of one leaves a factor open. The highest summit of a larger frame is higher "
+             "and holds the rest further apart. Real plates are larger still, but not flat over their length. Surfaces that were grown on each other fit each other (DelRio et al. 2005 say that this "
+             "correlation must be considered); their composite roughness is smaller than either's.", "",
+             "## Found, but not predicted", "", "Because the text that was to be had lacks the roughness, or the force:", "",
+             "| source | read | says |", "|---|---|---|"]
+    text += ["| %s | %s | %s |" % found for found in cases.FOUND]
+    text += ["", "Whoever has the full texts, or a beam and its AFM scan, can replace an assumption in `scripts/lib/measured_cases.py` and run `scripts/measured` again.", ""]
+    return "\n".join(text)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("program")
+    parser.add_argument("page", type=pathlib.Path)
+    parser.add_argument("--seeds", type=int, default=12)
+    parser.add_argument("--quick", action="store_true", help="frames of 96 x 96 pixels at most, 2 seeds")
+    arguments = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder:
+        study = Study(trust_run.Predictor(arguments.program, folder), 2 if arguments.quick else arguments.seeds, arguments.quick)
+        arguments.page.write_text(page(study), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,115 @@
+"""What others measured on rough surfaces, and the frames and settings it is predicted with; doc/measured.md is written from it.
+
+READ: the figure stands in the text that was opened (for most an abstract; more was not to be had). RECALLED: it was not
+checked against the source. Whatever a source does not say is assumed, and varied by VARIATIONS. SI units.
+"""
+
+import collections
+import pathlib
+
+import numpy as np
+import trust_frames
+import yaml
+
+REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
+READ, RECALLED = "read", "recalled"
+PIXELS_PER_LENGTH = 8
+
+Source = collections.namedtuple("Source", "name where says")
+DELRIO_2005 = Source(
+    "DelRio, de Boer, Knapp, Reedy, Clews, Dunn, Nature Materials 4 (2005) 629", "abstract",
+    "Adhesion of micromachined polysilicon beams. Small roughness: van der Waals forces across areas that do not touch, going with 1/D_ave^2, D_ave "
+    "the average separation. Large roughness: contacting asperities dominate")
+PLATES_1999 = Source(
+    "electrostatically actuated polysilicon parallel plates, ASME IMECE 1999, 275", "abstract",
+    "13.3 uN (standard deviation 1.2 uN) on 1.256e-9 m^2, polysilicon on polysilicon; a surface energy of 8.9 mJ/m^2 from it. Neither roughness nor humidity")
+LAITINEN_2013 = Source(
+    "Laitinen, Bauer, Niinimaki, Peuker, Powder Technology 246 (2013) 545", "abstract",
+    "Alumina spheres on alumina by colloidal probe: the adhesion force falls approximately five-fold between 1.5 and 12.0 nm rms")
+JACOBS_2013 = Source(
+    "Jacobs, Ryan, Keating, Grierson, Lefever, Turner, Harrison, Carpick, Tribology Letters 50 (2013) 81", "abstract, beginning",
+    "Diamond-like carbon and nanocrystalline diamond tips on diamond: rms 0.18 to 1.58 nm lowers the effective work of adhesion by more than a factor of ten")
+
+
+class Case:
+    """A measured quantity and surfaces to predict it from.
+
+    quantity: "work" [J/m^2], "pressure" (pull-off force over nominal area [Pa]) or "ratio" (work at the first over that
+    at the second rms height). measured: one value for each rms height, or the ratio.
+    """
+
+    def __init__(self, key, source, known, quantity, measured, rms_heights, length, pixels, settings, assumed):
+        self.key, self.source, self.known, self.quantity, self.measured = key, source, known, quantity, measured
+        self.rms_heights, self.length, self.pixels, self.settings, self.assumed = rms_heights, length, pixels, settings, assumed
+
+
+def polysilicon():
+    """The ready-made configuration: nothing is chosen for the occasion."""
+    tree = yaml.safe_load((REPOSITORY / "config" / "polysilicon_oxide.yaml").read_text(encoding="utf-8"))
+    body = tree["lower"]
+    return {"modulus": body["youngs_modulus"] / (2 * (1 - body["poisson_ratio"] ** 2)), "hardness": body["hardness"],
+            "work": tree["interface"]["work_of_adhesion"], "hamaker": tree["interface"]["hamaker_constant"]}
+
+
+POLYSILICON_ASSUMED = "config/polysilicon_oxide.yaml as it is, dry; correlation length 100 nm; frames of 12.8 um; composite rms as listed"
+ALUMINA = {"modulus": 200e9, "hardness": 20e9, "work": 0.08, "hamaker": 150e-21}
+DIAMOND = {"modulus": 300e9, "hardness": 80e9, "work": 0.0463, "hamaker": 150e-21}
+
+CASES = (
+    Case("beams", DELRIO_2005, RECALLED, "work", (50e-6, 5e-6), (2.6e-9, 10e-9), 100e-9, 1024, polysilicon(),
+         POLYSILICON_ASSUMED + ". The measured values are recalled, as orders of magnitude"),
+    Case("plates", PLATES_1999, READ, "pressure", (13.3e-6 / 1.256e-9,) * 3, (2e-9, 5e-9, 10e-9), 100e-9, 1024, polysilicon(),
+         POLYSILICON_ASSUMED + ": the source gives none, three usual ones of polysilicon"),
+    Case("alumina", LAITINEN_2013, READ, "ratio", (5.0,), (1.5e-9, 12e-9), 50e-9, 64, ALUMINA,
+         "constants of alumina (recalled), dry; correlation length 50 nm; smooth spheres; frames of 400 nm, about what a sphere of some um brings near"),
+    Case("tips", JACOBS_2013, READ, "ratio", (10.0,), (0.18e-9, 1.58e-9), 2e-9, 64, DIAMOND,
+         "constants of hard carbon (recalled; work of adhesion as diamond on ruby has, Thimons et al. 2021, abstract); correlation length 2 nm; frames of "
+         "16 nm. The measured value is a lower bound"),
+)
+
+# rms, length, pixels and settings are factors on the case's own.
+Variation = collections.namedtuple("Variation", "name rms length pixels settings is_self_affine")
+AS_ASSUMED = Variation("as assumed", 1.0, 1.0, 1, {}, False)
+VARIATIONS = (
+    Variation("correlation length x 2", 1.0, 2.0, 1, {}, False),
+    Variation("correlation length / 2", 1.0, 0.5, 1, {}, False),
+    Variation("rms height x sqrt(2): both surfaces as rough", 2 ** 0.5, 1.0, 1, {}, False),
+    Variation("work of adhesion x 2", 1.0, 1.0, 1, {"work": 2.0}, False),
+    Variation("work of adhesion / 2", 1.0, 1.0, 1, {"work": 0.5}, False),
+    Variation("Hamaker constant x 2", 1.0, 1.0, 1, {"hamaker": 2.0}, False),
+    Variation("Hamaker constant / 2", 1.0, 1.0, 1, {"hamaker": 0.5}, False),
+    Variation("side of the frame x 2", 1.0, 1.0, 2, {}, False),
+    Variation("self-affine, H = 0.8, down to 4 pixels", 1.0, 1.0, 1, {}, True),
+)
+
+FOUND = (
+    Source("Thimons, Gujrati, Sanner, Pastewka, Jacobs, doi 10.1007/s11340-021-00733-6 (2021)", "abstract",
+           "Ruby spheres of 0.5 mm on four diamond coatings: effective 0.08 to 7.15 mJ/m^2 of an intrinsic 46.3, range of adhesion 5.6 nm; roughness of 43 to 1.8 nm "
+           "lateral size decides. The rms heights and spectra of the four coatings were not to be had"),
+    Source("DelRio, Dunn, Phinney, Bourdon, de Boer, Appl. Phys. Lett. 90 (2007) 163104", "abstract",
+           "Polysilicon beams over humidity: below a threshold van der Waals forces of areas that do not touch, above it water, towards 144 mJ/m^2. No energies or roughness"),
+    Source("de Boer et al., Acta Materialia 48 (2000) 4531", "abstract",
+           "Coated beams: no hysteresis at low humidity, and the adhesion is van der Waals attraction across nanometre asperities. No energies or roughness"),
+    Source("textured beams, River Publishers, e-book 9788770048422, p. 183", "one page",
+           "Crack lengths of 96 +- 5 um (smooth) and 475 +- 30 um (textured): a factor (475/96)^4 = 600 in energy. The roughness is on another page"),
+    Source("Liu, Martin, Burnham, Optimal roughness for minimal adhesion (2007); ASME IJTC 2008, 593", "abstract",
+           "AFM tips on etched silicon: adhesion falls significantly above 1 to 2 nm rms, for larger tips later. No forces"),
+    Source("Chai, Liu, Lu, He, ACS Appl. Mater. Interfaces 2014, doi 10.1021/am4053333", "abstract", "ZnO films of 0.7 to 4.28 nm rms: the force falls with roughness. No forces"),
+    Source("van Zwol, Palasantzas, De Hosson, Appl. Phys. Lett. 91 (2007), doi 10.1063/1.2768919", "abstract",
+           "Gold on gold in air, 1 to 10 nm rms: capillary force. No forces"),
+    Source("Soldatenkov, Svetovoy, Physics 6 (2024) 1204", "abstract", "A silicon cantilever stuck on ruthenium, roughness far from normal. No energy, no roughness"),
+    Source("Experimental evaluation and numerical modeling of adhesion phenomena in polysilicon MEMS (2013)", "abstract", "Energies and roughness were measured; neither was to be had"),
+)
+
+
+def surface(case, variation, rms_height, seed, pixels):
+    """(frame for trust_frames.configuration, heights [m])"""
+    length = case.length * variation.length
+    pitch = length / PIXELS_PER_LENGTH
+    side = pixels * variation.pixels
+    random = np.random.default_rng([14, seed])
+    psd = trust_frames.self_affine(2 * np.pi * length, pitch, 0.8) if variation.is_self_affine else lambda q: np.exp(-(q * length) ** 2 / 4)
+    heights = trust_frames.spectrum_surface(side, pitch, psd, random) * rms_height * variation.rms
+    frame = {"number": seed, "pixels": side, "pitch": pitch, "pressure": 0.0}
+    frame.update({name: value * variation.settings.get(name, 1.0) for name, value in case.settings.items()})
+    return frame, heights.astype(np.float32)
