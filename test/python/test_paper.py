@@ -18,7 +18,7 @@ import numpy as np
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(REPOSITORY / "scripts" / "lib"))
 
-from paper import cases, claims, data  # noqa: E402
+from paper import cases, claims, data, figures  # noqa: E402
 from paper.version import version  # noqa: E402
 
 
@@ -165,7 +165,23 @@ class TrialRun(unittest.TestCase):
     def test_the_paper_s_formulation_is_stated_whatever_the_default(self):
         for pair in cases.all_pairs(self.study, pathlib.Path("dump")):
             for case in pair["cases"]:
-                self.assertEqual(case["settings"]["approach/formulation"], "paper", case["name"])
+                is_beside = case["name"].startswith("half_space/") or "/consistent/" in case["name"]
+                self.assertEqual(case["settings"]["approach/formulation"], "consistent" if is_beside else "paper", case["name"])
+
+    def test_beside_the_paper_s_forms_no_energy_exceeds_the_work_of_adhesion(self):
+        sweep = self.facts().sweep
+        for material in cases.MATERIALS:
+            energy = sweep.values(material, cases.BESIDE.name, "normalized_bonding_energy")
+            self.assertTrue(np.all(energy > 0) and np.all(energy <= 1 + 1e-6), energy)  # round-off of a sum over cells
+            self.assertGreater(sweep.values(material, "regimes_vdw", "normalized_bonding_energy").max(), 5.0)
+
+    def test_half_space_is_solved_beside_and_agrees_on_the_same_frames(self):
+        frames = data.HalfSpaceFrames(self.study, self.record["results"])
+        for material in cases.MATERIALS:
+            ratio = frames.model(material, "normalized_bonding_energy") / figures.half_space_energy(frames, material)
+            self.assertTrue(np.all(np.isfinite(ratio)), ratio)
+            self.assertTrue(np.all((ratio > 0.5) & (ratio < 2)), ratio)  # the worst of doc/trust.md for the work
+        self.assertIn("### Beside the paper's forms", self.page)
 
     def test_without_van_der_waals_and_plasticity_only_the_adhesion_parameter_counts(self):
         """Silicon of 10 nm and gold of 50 nm: the same pairs give the same state at the same parameter, to round-off; a cell

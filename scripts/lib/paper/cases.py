@@ -85,6 +85,8 @@ SERIES = (
     Series("elastic_vdw", "all-elastic, with van der Waals", ALL_ELASTIC),
     Series("regimes_vdw", "three regimes, with van der Waals", {}),
 )
+# Drawn beside the paper's: the default formulation on the same pairs; no claim of the paper is held against it.
+BESIDE = Series("consistent", "separation curve (consistent), with van der Waals", {"approach/formulation": "consistent"})
 WITH_AND_WITHOUT_REGIMES = (("regimes", "elastic"), ("regimes_vdw", "elastic_vdw"))
 
 
@@ -92,6 +94,9 @@ WITH_AND_WITHOUT_REGIMES = (("regimes", "elastic"), ("regimes_vdw", "elastic_vdw
 PARAMETERS = (0.1, 0.3, 1.0, 2.0, 3.0, 5.0, 7.0, 9.0, 12.0, 14.0, 17.0, 20.0, 25.0, 30.0, 40.0, 55.0, 75.0, 100.0)
 ROUGH_PARAMETERS = (55.0, 100.0)  # where the regimes' part is told one by one
 QUICK_PARAMETERS = (0.1, 1.0, 5.0, 12.0, 25.0, 50.0, 100.0)
+HALF_SPACE_FIGURES = ("status", "apparent_work_of_adhesion", "contact_fraction")
+HALF_SPACE_PARAMETERS = (0.3, 1.0, 3.0, 7.0, 12.0, 20.0, 30.0, 55.0, 100.0)
+QUICK_HALF_SPACE_PARAMETERS = (1.0, 12.0, 100.0)
 
 
 class Study:
@@ -102,6 +107,8 @@ class Study:
         self.map_size = min(size, 1024)  # figures 1 to 5
         self.small_size = min(size, 512)  # rows of the table that need no statistics
         self.adhesion_parameters = np.array(QUICK_PARAMETERS if is_quick else PARAMETERS)
+        self.half_space_parameters = np.array(QUICK_HALF_SPACE_PARAMETERS if is_quick else HALF_SPACE_PARAMETERS)
+        self.half_space_seeds, self.half_space_size = (1, 48) if is_quick else (3, 128)  # seconds each at the latter
 
 
 # ---------------------------------------------------------------- figures 1 to 5
@@ -159,7 +166,16 @@ def sweep_pairs(study):
             yield pair(material, study.size, seed, [
                 case("sweep/%s/%s/%d/%d" % (material.name, series.name, number, seed), material,
                      material.rms_height(parameter), series.settings)
-                for number, parameter in enumerate(study.adhesion_parameters) for series in SERIES])
+                for number, parameter in enumerate(study.adhesion_parameters) for series in SERIES + (BESIDE,)])
+
+
+def half_space_pairs(study):
+    """Small frames for figures 6 and 7, by the default formulation and by the half-space."""
+    for seed in range(1, study.half_space_seeds + 1):
+        for material in MATERIALS:
+            yield pair(material, study.half_space_size, seed, [
+                {**case("half_space/%s/%d/%d" % (material.name, number, seed), material, material.rms_height(parameter), BESIDE.settings),
+                 "half_space": True} for number, parameter in enumerate(study.half_space_parameters)])
 
 
 def load_on(size, material):
@@ -204,7 +220,7 @@ def table_pairs(study, dump):
 
 
 def all_pairs(study, dump):
-    return list(map_pairs(study, dump)) + list(table_pairs(study, dump)) + list(sweep_pairs(study))
+    return list(map_pairs(study, dump)) + list(table_pairs(study, dump)) + list(sweep_pairs(study)) + list(half_space_pairs(study))
 
 
 def surface_of(wanted, pair):
@@ -213,13 +229,17 @@ def surface_of(wanted, pair):
 
 
 def predict_case(wanted, pair, lower, upper):
-    """The figures of one case; maps, contacts and energies too where it names a folder for them."""
+    """The figures of one case, half_space_... beside them where it asks for these; maps, contacts and energies too where it
+    names a folder for them."""
     is_dumped = "dump" in wanted
     output = dict.fromkeys(("deformed_surfaces", "contact_map", "asperities", "roughness", "energy_curve"), is_dumped)
     settings = mems_stiction.Settings(mems_stiction.Settings(wanted["config"], **wanted["settings"]), output=output,
                                       counter_surface={"facing": "up"})
     prediction = mems_stiction.predict(lower * wanted["scale"], pair["pitch"], settings, upper=upper * wanted["scale"])
     figures = prediction.to_dict()
+    if wanted.get("half_space"):
+        solved = mems_stiction.half_space(lower * wanted["scale"], pair["pitch"], settings, upper=upper * wanted["scale"])
+        figures.update({"half_space_" + name: getattr(solved, name) for name in HALF_SPACE_FIGURES})
     if is_dumped:
         write_maps(pathlib.Path(wanted["dump"]), prediction, figures)
     return figures

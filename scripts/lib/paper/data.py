@@ -36,6 +36,26 @@ class Sweep:
                  for seed in range(1, self._study.seeds + 1)] for place in range(len(self.parameters))]
 
 
+class HalfSpaceFrames:
+    """The small frames that the half-space was asked about: adhesion parameters x seeds."""
+
+    def __init__(self, study, results):
+        self.parameters = study.half_space_parameters
+        self._study, self._results = study, results
+
+    def model(self, material, field):
+        return np.array([[number(one[field]) for one in row] for row in self._rows(material)])
+
+    def half_space(self, material, field):
+        """NaN where it was not solved."""
+        return np.array([[number(one["half_space_" + field]) if one["half_space_status"] == "SOLVED" else math.nan for one in row]
+                         for row in self._rows(material)])
+
+    def _rows(self, material):
+        return [[self._results["half_space/%s/%d/%d" % (material.name, place, seed)]
+                 for seed in range(1, self._study.half_space_seeds + 1)] for place in range(len(self.parameters))]
+
+
 BAND = (16, 84)  # percentiles of the seeds: one standard deviation to either side, were they normal
 
 

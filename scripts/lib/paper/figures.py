@@ -14,7 +14,8 @@ NM = 1e9
 GREY, DARK = "#888888", "#333333"
 # By series: with van der Waals in warm colours; three regimes as full lines, all-elastic dashed.
 SERIES_STYLE = {"elastic": ("#2f7fd1", (0, (5, 2))), "regimes": ("#0b4f9e", "-"),
-                "elastic_vdw": ("#f2a33c", (0, (5, 2))), "regimes_vdw": ("#b0413e", "-")}
+                "elastic_vdw": ("#f2a33c", (0, (5, 2))), "regimes_vdw": ("#b0413e", "-"),
+                "consistent": ("#1d8348", "-")}
 
 
 def save(figure, path):
@@ -221,8 +222,22 @@ def theory_curves():
             [theory.rest_of_cap_summits(value) for value in parameters])
 
 
-def draw_sweep(sweep, field, of_theory, label, limits, contact_of_one, path):
-    """One panel per material. of_theory: the figure's value of a theory.Rest; beyond 1 its contacts would overlap."""
+def half_space_energy(frames, material):
+    """Work of separation over the work of adhesion."""
+    return frames.half_space(material, "apparent_work_of_adhesion") / material.work_of_adhesion
+
+
+def draw_frames(axes, parameters, half_space, model):
+    """Half-space and default formulation on the same small frames, each frame a mark."""
+    color = SERIES_STYLE[cases.BESIDE.name][0]
+    for values, marker, face, name in ((half_space, "s", "none", "half-space, small frames"), (model, "x", color, "separation curve, the same frames")):
+        axes.plot(np.repeat(parameters, values.shape[1]), values.ravel(), linestyle="none", marker=marker, markersize=5, color=color,
+                  markerfacecolor=face, label=name, zorder=5)
+
+
+def draw_sweep(sweep, frames, field, of_half_space, of_theory, label, limits, contact_of_one, path):
+    """One panel per material. of_half_space: the figure's values by the half-space on the frames, for a material.
+    of_theory: the figure's value of a theory.Rest; beyond 1 its contacts would overlap."""
     figure, all_axes = plt.subplots(1, 2, figsize=(12.5, 5.6), sharey=True)
     parameters, jkr, caps = theory_curves()
     for axes, material in zip(all_axes, cases.MATERIALS):
@@ -230,13 +245,14 @@ def draw_sweep(sweep, field, of_theory, label, limits, contact_of_one, path):
             values = np.array([of_theory(rest) for rest in rests])
             shown = np.where(np.array([rest.area for rest in rests]) <= 1.0, values, np.nan)
             axes.plot(parameters, shown, style, color="black", linewidth=1.6, label=name)
-        for series in cases.SERIES:
+        for series in cases.SERIES + (cases.BESIDE,):
             color, style = SERIES_STYLE[series.name]
             mean, low, high = band(sweep.values(material, series.name, field))
             axes.fill_between(sweep.parameters, low, high, color=color, alpha=0.18, linewidth=0)
             axes.plot(sweep.parameters, mean, linestyle=style, color=color, linewidth=1.8, label=series.label)
             bonded = sweep.bonded_share(material, series.name) > 0.5
             axes.plot(sweep.parameters[bonded], mean[bonded], "^", color=color, markersize=4.5)
+        draw_frames(axes, frames.parameters, of_half_space(material), frames.model(material, field))
         axes.axvline(cases.BONDING_LIMIT, color=GREY, linewidth=0.9, linestyle="--")
         axes.axvline(cases.NON_BONDING_LIMIT, color=GREY, linewidth=0.9, linestyle="--")
         for place, text in ((0.33, "bonding"), (3.5, "adherence"), (35, "non-bonding")):
@@ -253,21 +269,21 @@ def draw_sweep(sweep, field, of_theory, label, limits, contact_of_one, path):
                        fontsize=11)
     all_axes[0].set_ylabel(label)
     finish(figure, all_axes)
-    figure.subplots_adjust(bottom=0.24)
+    figure.subplots_adjust(bottom=0.27)
     handles = all_axes[0].get_legend_handles_labels()[0]
     handles.append(plt.Line2D([], [], color=DARK, marker="^", linestyle="none", markersize=5, label="bonded: at least"))
     figure.legend(handles=handles, loc="lower center", ncol=4, frameon=False, fontsize=9.5)
     save(figure, path)
 
 
-def draw_all(study, results, sweep, dump, folder):
+def draw_all(study, results, sweep, frames, dump, folder):
     contact = maps_of(dump, "contact")
     draw_surfaces(contact, folder / "figure_1.png")
     draw_areas(contact, folder / "figure_2.png")
     draw_tilts(maps_of(dump, "tilted"), results, study, folder / "figure_3.png")
     draw_interfaces(dump, folder / "figure_4.png")
     draw_section(contact, folder / "figure_5.png")
-    draw_sweep(sweep, "normalized_bonding_energy", lambda rest: rest.energy, "bonding energy over Γ × nominal area [-]",
+    draw_sweep(sweep, frames, "normalized_bonding_energy", lambda material: half_space_energy(frames, material), lambda rest: rest.energy, "bonding energy over Γ × nominal area [-]",
                (1e-6, 1e4), None, folder / "figure_6.png")
-    draw_sweep(sweep, "contact_fraction", lambda rest: rest.area, "contact area over nominal area [-]",
+    draw_sweep(sweep, frames, "contact_fraction", lambda material: frames.half_space(material, "contact_fraction"), lambda rest: rest.area, "contact area over nominal area [-]",
                (1e-7, 10.0), 1.0 / study.size**2, folder / "figure_7.png")
