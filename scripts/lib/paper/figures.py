@@ -230,7 +230,7 @@ def half_space_energy(frames, material):
 def draw_frames(axes, parameters, half_space, model):
     """Half-space and default formulation on the same small frames, each frame a mark."""
     color = SERIES_STYLE[cases.BESIDE.name][0]
-    for values, marker, face, name in ((half_space, "s", "none", "half-space, small frames"), (model, "x", color, "separation curve, the same frames")):
+    for values, marker, face, name in ((half_space, "s", "none", "half-space, small frames"), (model, "x", color, "consistent, the same frames")):
         axes.plot(np.repeat(parameters, values.shape[1]), values.ravel(), linestyle="none", marker=marker, markersize=5, color=color,
                   markerfacecolor=face, label=name, zorder=5)
 
@@ -250,8 +250,9 @@ def draw_sweep(sweep, frames, field, of_half_space, of_theory, label, limits, co
             mean, low, high = band(sweep.values(material, series.name, field))
             axes.fill_between(sweep.parameters, low, high, color=color, alpha=0.18, linewidth=0)
             axes.plot(sweep.parameters, mean, linestyle=style, color=color, linewidth=1.8, label=series.label)
-            bonded = sweep.bonded_share(material, series.name) > 0.5
-            axes.plot(sweep.parameters[bonded], mean[bonded], "^", color=color, markersize=4.5)
+            if series is not cases.BESIDE:  # whose figures of bonded pairs are no bounds
+                bonded = sweep.bonded_share(material, series.name) > 0.5
+                axes.plot(sweep.parameters[bonded], mean[bonded], "^", color=color, markersize=4.5)
         draw_frames(axes, frames.parameters, of_half_space(material), frames.model(material, field))
         axes.axvline(cases.BONDING_LIMIT, color=GREY, linewidth=0.9, linestyle="--")
         axes.axvline(cases.NON_BONDING_LIMIT, color=GREY, linewidth=0.9, linestyle="--")
