@@ -9,19 +9,12 @@ import sys
 import tempfile
 import unittest
 
-from roslib.packages import find_node
-
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 LIBRARY = REPOSITORY / "scripts" / "lib"
 sys.path.insert(0, str(LIBRARY))
 
 import measured  # noqa: E402  (the path comes first)
 import measured_cases as cases  # noqa: E402
-import trust_run  # noqa: E402
-
-
-def program():
-    return find_node("mems_stiction", "predict_scan")[0]
 
 
 def first_cells(page):
@@ -38,7 +31,7 @@ class MeasuredTest(unittest.TestCase):
 
     def test_shipped_page_is_one_of_this_study(self):
         path = self.folder / "page.md"
-        done = subprocess.run([sys.executable, str(LIBRARY / "measured.py"), program(), str(path), "--quick"],
+        done = subprocess.run([sys.executable, str(LIBRARY / "measured.py"), str(path), "--quick"],
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True, timeout=120)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(first_cells(path.read_text(encoding="utf-8")), first_cells(self.shipped))
@@ -53,7 +46,7 @@ class MeasuredTest(unittest.TestCase):
     def test_predictions_of_the_page_are_those_of_the_program(self):
         """The case with small frames, again in full: the page's median to its two digits."""
         case = next(case for case in cases.CASES if case.key == "alumina")
-        study = measured.Study(trust_run.Predictor(program(), self.folder), 12, False)
+        study = measured.Study(12, False)
         median = statistics.median(study.values(case, cases.AS_ASSUMED)[0])
         row = re.search(r"^\| alumina \| 1\.5 nm over 12 nm \| 5 \(read\) \| (\S+) \|", self.shipped, re.MULTILINE)
         self.assertAlmostEqual(float(row.group(1)) / median, 1.0, delta=0.05)  # half a unit of the second digit
@@ -61,7 +54,7 @@ class MeasuredTest(unittest.TestCase):
     def test_work_of_rough_planes_goes_with_their_mean_separation(self):
         """Van der Waals attraction across what does not touch: never less than two planes at that distance, since 1/D^2 is convex."""
         case = cases.CASES[0]
-        study = measured.Study(trust_run.Predictor(program(), self.folder), 2, True)
+        study = measured.Study(2, True)
         for record in study.records(case, cases.AS_ASSUMED, 2e-9):
             planes = case.settings["hamaker"] / (12 * math.pi * record["mean_gap"] ** 2)
             self.assertGreater(record["apparent_work_of_adhesion"], 0.9 * planes)  # z0 = 0.16 nm of a gap of some nm: 6 %
