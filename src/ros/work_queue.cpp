@@ -1,5 +1,8 @@
 #include "mems_stiction/ros/work_queue.hpp"
 
+#include <algorithm>
+#include <chrono>
+
 namespace mems_stiction {
 
 void WorkQueue::start() {
@@ -66,13 +69,18 @@ std::size_t WorkQueue::waitingScans() const {
 }
 
 void WorkQueue::loop() {
+  using Clock = std::chrono::steady_clock;
+  Clock::duration calls_owe{0};  // the time that calls have taken from scans that waited
   for (;;) {
     std::function<void()> run;
+    bool is_call = false;
     {
       std::unique_lock<std::mutex> lock(mutex_);
       changed_.wait(lock, [this] { return stopping_ || !urgent_.empty() || !jobs_.empty(); });
       if (stopping_) return;
-      if (!urgent_.empty()) {
+      if (jobs_.empty()) calls_owe = Clock::duration::zero();
+      is_call = !urgent_.empty() && calls_owe <= Clock::duration::zero();
+      if (is_call) {
         run = std::move(urgent_.front());
         urgent_.pop_front();
       } else {
@@ -81,7 +89,10 @@ void WorkQueue::loop() {
         jobs_.pop_front();
       }
     }
+    const Clock::time_point start = Clock::now();
     run();
+    const Clock::duration taken = Clock::now() - start;
+    calls_owe = is_call ? taken : std::max(calls_owe - taken, Clock::duration::zero());
   }
 }
 

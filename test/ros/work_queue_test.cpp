@@ -1,6 +1,9 @@
 #include "mems_stiction/ros/work_queue.hpp"
 
+#include <atomic>
+#include <chrono>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -70,6 +73,29 @@ TEST(WorkQueue, ACallThatIsNotRunAnyMoreEndsWithAnError) {
   gate.set_value();
   stopper.join();
   EXPECT_THROW(queue.call([] { return 1; }), std::future_error);
+}
+
+// Three callers that ask without end: one call is always waiting, and scans must get their half all the same.
+TEST(WorkQueue, CallsThatNeverEndLeaveHalfOfTheTimeToScans) {
+  const auto work = [] { std::this_thread::sleep_for(std::chrono::milliseconds(5)); };
+  WorkQueue queue(0);
+  std::atomic<int> calls{0}, scans{0};
+  for (int scan = 0; scan < 1000; ++scan) {
+    queue.pushScan([&] { work(), ++scans; }, [] {});
+  }
+  queue.start();
+  std::atomic<bool> is_over{false};
+  std::vector<std::thread> callers;
+  for (int caller = 0; caller < 3; ++caller) {
+    callers.emplace_back([&] {
+      while (!is_over) queue.call([&] { work(), ++calls; });
+    });
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  is_over = true;
+  for (std::thread& caller : callers) caller.join();
+  EXPECT_GT(calls, 10);
+  EXPECT_GE(scans, calls - 5);  // the callers' first and last calls are free
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 /// @file
 /// One worker thread that owns the core: scans in the order of arrival, and calls that go before them and whose answer
-/// is waited for. Everything that touches the core runs here, so nothing else needs a lock.
+/// is waited for. Calls get half of the time while scans wait. Everything that touches the core runs here, so nothing else needs a lock.
 
 #include <condition_variable>
 #include <deque>
@@ -32,7 +32,8 @@ class WorkQueue {
   /// Appends a job that is never dropped and keeps its place among the scans.
   void push(std::function<void()> run);
 
-  /// Runs `function` on the worker before the scans that wait, and returns its result or throws what it throws.
+  /// Runs `function` on the worker before the scans that wait, once these have had as much time as the call before it,
+  /// and returns its result or throws what it throws.
   /// @throw std::future_error if the queue is stopped before.
   template <typename Function>
   auto call(Function function) -> decltype(function()) {
