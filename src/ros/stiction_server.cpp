@@ -47,7 +47,7 @@ StictionServer::StictionServer(const ros::NodeHandle& handle, const ros::NodeHan
                       : std::make_unique<HalfSpaceStream>(
                             handle_, configuration.core.half_space, half_space_pause_,
                             [this](const auto& header, const auto& text) { accounting_.warn(header, text); })),
-      worker_(capacityOf(options_)),
+      worker_(capacityOf(options_), static_cast<std::size_t>(options_.max_waiting_memory)),
       counter_surface_frame_(options_.transform.frame.empty()
                                  ? nullptr
                                  : std::make_unique<CounterSurfaceFrame>(handle_, options_.transform.frame)),
@@ -146,6 +146,7 @@ void StictionServer::report(diagnostic_updater::DiagnosticStatusWrapper& status)
   status.add("cleaned", predictor_.cleanings());
   const std::size_t waiting = worker_.waitingScans();
   status.add("waiting_for_worker", waiting);
+  status.add("waiting_memory [bytes]", worker_.waitingBytes());
   status.add("waiting_for_partner", scans_.waiting());
   status.add("waiting_for_transform", gate_.waiting());
   if (waiting > static_cast<std::size_t>(options_.queue_size)) {
@@ -176,8 +177,11 @@ void StictionServer::queueScan(const sensor_msgs::ImageConstPtr& image, const Sc
                                ros::WallTime arrival, const std::optional<SurfacePose>& pose) {
   worker_.pushScan([this, image, info, arrival, pose] { predictAndPublish(image, info, arrival, pose); },
                    [this, header = image->header] {
-                     accounting_.dropped(header, "newer scans came before its turn (drop_policy is latest)");
-                   });
+                     accounting_.dropped(header, options_.drop_policy == DropPolicy::kLatest
+                                                     ? "newer scans came before its turn (drop_policy is latest)"
+                                                     : "the scans that wait hold more than max_waiting_memory");
+                   },
+                   image->data.size());
 }
 
 void StictionServer::onCounterSurface(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info) {

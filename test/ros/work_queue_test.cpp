@@ -2,6 +2,8 @@
 
 #include <atomic>
 #include <chrono>
+#include <fstream>
+#include <memory>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -48,6 +50,44 @@ TEST(WorkQueue, DropsTheOldestScansAndNothingElse) {
   queue.start();
   all_done.get_future().wait();
   EXPECT_EQ(ran, (Numbers{100, 3, 4}));
+}
+
+TEST(WorkQueue, DropsTheOldestScansBeyondItsMemoryButNeverTheNewest) {
+  Numbers dropped;
+  WorkQueue queue(0, 100);
+  for (int scan = 0; scan < 5; ++scan) {
+    queue.pushScan([] {}, [&dropped, scan] { dropped.push_back(scan); }, 40);
+  }
+  EXPECT_EQ(dropped, (Numbers{0, 1, 2}));
+  EXPECT_EQ(queue.waitingBytes(), 80U);
+  queue.pushScan([] {}, [] { ADD_FAILURE() << "the newest stays"; }, 400);
+  EXPECT_EQ(dropped, (Numbers{0, 1, 2, 3, 4}));
+  EXPECT_EQ(queue.waitingBytes(), 400U);
+}
+
+std::size_t residentBytes() {
+  std::size_t pages = 0, resident = 0;
+  std::ifstream("/proc/self/statm") >> pages >> resident;
+  return resident * 4096;
+}
+
+TEST(WorkQueue, GivesTheMemoryOfABacklogBack) {
+  constexpr std::size_t kScan = 1 << 20;
+  WorkQueue queue(0);
+  ASSERT_EQ(std::vector<char>(16 << 20, 'x').back(), 'x');  // from now on the allocator keeps smaller blocks
+  const std::size_t before = residentBytes();
+  std::vector<std::shared_ptr<std::vector<char>>> kept;  // between the scans, so that the heap cannot shrink by itself
+  for (int scan = 0; scan < 200; ++scan) {
+    auto pixels = std::make_shared<std::vector<char>>(kScan, 'x');
+    queue.pushScan([pixels] {}, [] {}, kScan);
+    pixels.reset();
+    kept.push_back(std::make_shared<std::vector<char>>(4096, 'x'));
+  }
+  ASSERT_GT(residentBytes(), before + 150 * kScan);
+  queue.start();
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  while (residentBytes() > before + 50 * kScan && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+  EXPECT_LT(residentBytes(), before + 50 * kScan);
 }
 
 TEST(WorkQueue, ACallGetsTheExceptionOfItsFunction) {
