@@ -8,6 +8,7 @@ import time
 import actionlib
 import rospy
 from actionlib import CommState, TerminalState
+from mems_stiction.csv_text import csv_cell
 from mems_stiction.station_node import CannotRun
 
 DONE, CANCELLED, NOT_RUN = 0, 1, 2  # exit statuses
@@ -90,7 +91,7 @@ def write_csv(messages, path, result):
         writer.writerow(list(names) + list(PROVENANCE))
         for message in messages:
             writer.writerow([repr(value) if isinstance(value, float) else int(value) for value in
-                             (getattr(message, name) for name in names)] + origin)
+                             (getattr(message, name) for name in names)] + [csv_cell(text) for text in origin])
 
 
 def left_out(all_items, most, what):

@@ -68,6 +68,11 @@ def shortened(name, width=18):
     return name if len(name) <= width else "..." + name[3 - width:]
 
 
+def printable(text):
+    """The text with its control characters spelled out: none reaches a terminal."""
+    return "".join(letter if letter.isprintable() else "\\x%02x" % ord(letter) for letter in text)
+
+
 def table_line(name, prediction, with_verdict=False):
     """Rms height, pull-off force, contact, contacts per regime, van der Waals share of the pull-off force, load and time of
     one scan, then the device's margin, or its peel number, and whether it sticks, and the names of its flags and its warnings. A force that is a lower bound is
@@ -84,7 +89,7 @@ def table_line(name, prediction, with_verdict=False):
         figure = prediction.peel_number if math.isnan(prediction.margin) else prediction.margin
         line += _VERDICT % (ratio(figure), STICKS_NAMES.get(prediction.sticks, "?"))
     limits = flag_names(prediction.regime_flags) + ["warning: " + text for text in prediction.warnings]
-    return line + ("  " + ", ".join(limits) if limits else "")
+    return printable(line + ("  " + ", ".join(limits) if limits else ""))
 
 
 def load_effect(before, after):

@@ -20,6 +20,7 @@ import numpy as np
 import yaml
 
 from mems_stiction.cleaning_steps import cleaning_figure, rows_of
+from mems_stiction.csv_text import csv_cell
 from mems_stiction.half_space_figure import half_space_figure, half_space_words, pull_off_ratio
 from mems_stiction.plots import ScanPicture, save_picture, with_unit
 from mems_stiction.prediction_text import flag_words
@@ -287,7 +288,7 @@ def write_csv(rows, path):
     with open(str(path), "w", encoding="utf-8", newline="") as stream:
         writer = csv.DictWriter(stream, columns, lineterminator="\n")
         writer.writeheader()
-        writer.writerows(rows)
+        writer.writerows({name: csv_cell(value) for name, value in row.items()} for row in rows)
 
 
 def write_json(rows, settings_text, path):

@@ -6,6 +6,7 @@
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/height_map/pitch.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -57,9 +58,7 @@ HeightMap::HeightMap(const cv::Mat& heights, double pitch_x, double pitch_y, Pix
     throw SurfaceError("a height map must be CV_32FC1 or CV_64FC1, got OpenCV type " + std::to_string(heights_.type()));
   }
   if (heights_.empty()) throw SurfaceError("a height map must have at least one pixel");
-  if (!Range::positive().contains(pitch_x) || !Range::positive().contains(pitch_y)) {
-    throw SurfaceError("the pitch must be > 0 m, got " + numberText(pitch_x) + " x " + numberText(pitch_y));
-  }
+  if (!isPitch(pitch_x) || !isPitch(pitch_y)) throw SurfaceError(pitchComplaint(pitch_x, pitch_y));
   const bool only_points_to_pixels = heights_.u == nullptr;
   if (only_points_to_pixels && !owner_) heights_ = heights_.clone();
   if (!only_points_to_pixels) owner_.reset();

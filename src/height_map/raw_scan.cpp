@@ -5,6 +5,7 @@
 #include <string>
 
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/height_map/pitch.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -44,9 +45,9 @@ cv::Mat scaled(const cv::Mat& pixels, const ScanOptions& options) {
 }  // namespace
 
 void ScanOptions::describe(OptionVisitor& visitor) {
-  visitor.number("scan/pitch_x", pitch_x, "m", Range::nonNegative(),
+  visitor.number("scan/pitch_x", pitch_x, "m", Range::within(0.0, kLargestPitch),
                  "distance of neighbouring columns; 0 = the scan brings its own");
-  visitor.number("scan/pitch_y", pitch_y, "m", Range::nonNegative(),
+  visitor.number("scan/pitch_y", pitch_y, "m", Range::within(0.0, kLargestPitch),
                  "distance of neighbouring rows; 0 = the scan brings its own");
   visitor.number("scan/height_scale", height_scale, "m per unit of the pixel", Range::any(),
                  "height = pixel x height_scale + height_offset; not 0");
@@ -58,9 +59,8 @@ void ScanOptions::describe(OptionVisitor& visitor) {
 
 HeightMap heightMapFromPixels(const cv::Mat& pixels, const ScanOptions& options, const PixelOwner& owner) {
   if (pixels.empty()) throw SurfaceError("the image has no pixels");
-  if (!Range::positive().contains(options.pitch_x) || !Range::positive().contains(options.pitch_y)) {
-    throw SurfaceError("the pitch must be > 0 m, got " + numberText(options.pitch_x) + " x " +
-                       numberText(options.pitch_y) + ": state scan/pitch_x and scan/pitch_y");
+  if (!isPitch(options.pitch_x) || !isPitch(options.pitch_y)) {
+    throw SurfaceError(pitchComplaint(options.pitch_x, options.pitch_y) + ": state scan/pitch_x and scan/pitch_y");
   }
   const bool as_it_is =
       options.height_scale == 1.0 && options.height_offset == 0.0 && std::isnan(options.invalid_value);

@@ -184,6 +184,9 @@ void NodeOptions::describe(OptionVisitor& visitor) {
   visitor.enumeration<DropPolicy>("drop_policy", drop_policy,
                                   {{"all", DropPolicy::kAll}, {"latest", DropPolicy::kLatest}},
                                   "all: every scan is predicted; latest: older scans are dropped and counted");
+  visitor.number(
+      "max_waiting_memory", max_waiting_memory, "bytes", Range::within(1e6, 1e12),
+      "that scans which wait may hold, with either drop_policy; older ones beyond it are dropped and counted");
   visitor.flag("use_scan_info", use_scan_info, "false: the parameters scan/... serve for every scan");
   visitor.number("pairing_timeout", pairing_timeout, "s", Range::positive(),
                  "how long a scan and its scan_info wait for each other");

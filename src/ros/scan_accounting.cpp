@@ -27,22 +27,40 @@ std::string withoutFigures(const std::string& text) {
 /// Reasons may hold names; so many of them are remembered.
 constexpr std::size_t kMostKinds = 100;
 
+/// Ends of sequences that may go on.
+constexpr std::size_t kMostSequences = 16;
+
 }  // namespace
 
 ScanAccounting::ScanAccounting(ros::WallDuration warning_period) : warning_period_(warning_period) {}
 
-void ScanAccounting::received(const std_msgs::Header& header) {
+void ScanAccounting::arrived(const std_msgs::Header& header) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  ++counts_.received;
-  if (has_previous_) {
-    if (header.stamp <= previous_.stamp) ++counts_.stamps_not_increasing;
-    // A number that does not grow is a publisher that restarts or does not count.
-    if (header.seq > previous_.seq + 1 && header.stamp > previous_.stamp) {
-      counts_.missing_by_sequence += header.seq - previous_.seq - 1;
+  if (!sequences_.empty() && header.stamp <= sequences_.front().stamp) ++counts_.stamps_not_increasing;
+  // The sequence that this number continues, or else the one whose last number is the nearest below.
+  auto chosen = std::find_if(sequences_.begin(), sequences_.end(),
+                             [&](const Sequence& sequence) { return header.seq == sequence.last + 1; });
+  if (chosen == sequences_.end()) {
+    for (auto one = sequences_.begin(); one != sequences_.end(); ++one) {
+      if (one->last < header.seq && (chosen == sequences_.end() || one->last > chosen->last)) chosen = one;
     }
   }
-  has_previous_ = true;
-  previous_ = header;
+  Sequence next{header.seq, header.stamp, 0};
+  if (chosen != sequences_.end()) {
+    counts_.missing_by_sequence -= chosen->missing;
+    const std::uint64_t missing = header.stamp > chosen->stamp ? header.seq - chosen->last - 1 : 0;
+    counts_.missing_by_sequence += missing;
+    chosen->missing = missing;
+    // After a gap the old end stays: the number may be another publisher's.
+    if (header.seq == chosen->last + 1) sequences_.erase(chosen);
+  }
+  sequences_.push_front(next);
+  if (sequences_.size() > kMostSequences) sequences_.pop_back();
+}
+
+void ScanAccounting::received() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++counts_.received;
 }
 
 void ScanAccounting::predicted(double latency, double processing_time) {

@@ -11,20 +11,8 @@
 namespace mems_stiction {
 namespace {
 
-constexpr char kLoneImage[] = "no scan_info with the stamp of the scan came";
-constexpr double kNear = 1.0;  // between stamps that may have been meant to be one [s]
-constexpr char kLoneInfo[] = "no scan with the stamp of the scan_info came";
-
-/// Takes the first of those that wait with this stamp.
-template <typename Queue>
-auto takeStamped(Queue& queue, const ros::Time& stamp) -> decltype(queue.front().message) {
-  const auto found = std::find_if(queue.begin(), queue.end(),
-                                  [&](const auto& waiting) { return waiting.message->header.stamp == stamp; });
-  if (found == queue.end()) return nullptr;
-  auto message = found->message;
-  queue.erase(found);
-  return message;
-}
+constexpr double kNear = 1.0;     // between stamps that may have been meant to be one [s]
+constexpr double kSettling = 10;  // timeouts for which is remembered what was given up, and that stamps went back
 
 template <typename Queue>
 std::vector<ros::Time> stampsOf(const Queue& queue) {
@@ -45,58 +33,109 @@ std::string nearestOf(const std::vector<ros::Time>& stamps, const ros::Time& sta
   return text.str();
 }
 
-/// Rejects those that `is_lone` picks, in the order of arrival.
-/// @param partners stamps of the other topic's
-template <typename Queue, typename Predicate>
-void rejectIf(Queue& queue, const Predicate& is_lone, const std::string& reason, const std::vector<ros::Time>& partners,
-              const ScanPairer::Reject& reject) {
-  for (auto waiting = queue.begin(); waiting != queue.end();) {
-    if (is_lone(*waiting)) {
-      reject(waiting->message->header, reason + nearestOf(partners, waiting->message->header.stamp));
-      waiting = queue.erase(waiting);
-    } else {
-      ++waiting;
-    }
-  }
-}
-
 }  // namespace
 
 ScanPairer::ScanPairer(ros::WallDuration timeout, Accept accept, Reject reject)
     : timeout_(timeout), accept_(std::move(accept)), reject_(std::move(reject)) {}
 
-void ScanPairer::add(const sensor_msgs::ImageConstPtr& image, ros::WallTime now) {
-  if (const ScanInfoConstPtr info = takeStamped(infos_, image->header.stamp)) {
-    pair(image, info);
-  } else {
-    images_.push_back({image, now});
+/// Rejects those of the topic that `is_lone` picks, in the order of arrival, but for whom the partner was counted before.
+/// - @p partners stamps of the other topic's
+template <typename Message, typename Other, typename Predicate>
+void ScanPairer::rejectIf(Topic<Message>& topic, Topic<Other>& other, const Predicate& is_lone, const std::string& when,
+                          const std::vector<ros::Time>& partners, ros::WallTime now) {
+  std::deque<Waiting<Message>> lone;
+  for (auto waiting = topic.waiting.begin(); waiting != topic.waiting.end();) {
+    if (is_lone(*waiting)) {
+      lone.push_back(std::move(*waiting));
+      waiting = topic.waiting.erase(waiting);
+    } else {
+      ++waiting;
+    }
   }
+  for (const auto& waiting : lone) {
+    const std_msgs::Header& header = waiting.message->header;
+    const auto counted = std::find_if(other.given_up.begin(), other.given_up.end(),
+                                      [&](const GivenUp& partner) { return partner.stamp == header.stamp; });
+    if (counted != other.given_up.end()) {
+      other.given_up.erase(counted);
+      continue;
+    }
+    topic.given_up.push_back({header.stamp, now});
+    reject_(header, topic.reason + when + nearestOf(partners, header.stamp));
+  }
+}
+
+/// - @p pair takes the partner, the number of the message on its topic and that of the partner
+template <typename Message, typename Other, typename Pair>
+void ScanPairer::add(const Message& message, ros::WallTime now, Topic<Message>& topic, Topic<Other>& other,
+                     const Pair& pair) {
+  const ros::Time stamp = message->header.stamp;
+  const bool goes_back = topic.arrivals > 0 && stamp < topic.last_stamp;
+  topic.last_stamp = stamp;
+  const std::uint64_t arrival = ++topic.arrivals;
+  if (goes_back) {
+    topic.anew = arrival;
+    went_back_ = true;
+    went_back_at_ = now;
+  }
+  const auto has_stamp = [&](const auto& waiting) { return waiting.message->header.stamp == stamp; };
+  if (!several_publishers_) {
+    const auto is_from_before = [&](const auto& waiting) { return waiting.arrival < topic.anew && has_stamp(waiting); };
+    rejectIf(topic, other, is_from_before, " before the stamps began anew", {}, now);
+  }
+  const auto found = std::find_if(other.waiting.begin(), other.waiting.end(), has_stamp);
+  if (found == other.waiting.end()) {
+    topic.waiting.push_back({message, now, arrival});
+    return;
+  }
+  const Other partner = found->message;
+  const std::uint64_t partner_arrival = found->arrival;
+  other.waiting.erase(found);
+  pair(partner, arrival, partner_arrival);
+}
+
+void ScanPairer::pair(const sensor_msgs::ImageConstPtr& image, std::uint64_t image_arrival,
+                      const ScanInfoConstPtr& info, std::uint64_t info_arrival, ros::WallTime now) {
+  if (!several_publishers_ && !went_back_) {
+    const auto isOlderThan = [&image](std::uint64_t arrival) {
+      return [&image, arrival](const auto& waiting) {
+        return waiting.arrival < arrival && waiting.message->header.stamp < image->header.stamp;
+      };
+    };
+    const std::vector<ros::Time> images = stampsOf(images_.waiting);
+    const std::string when = " before a newer pair";
+    rejectIf(images_, infos_, isOlderThan(image_arrival), when, stampsOf(infos_.waiting), now);
+    rejectIf(infos_, images_, isOlderThan(info_arrival), when, images, now);
+  }
+  accept_(image, info);
+}
+
+void ScanPairer::add(const sensor_msgs::ImageConstPtr& image, ros::WallTime now) {
+  add(image, now, images_, infos_, [&](const auto& info, std::uint64_t arrival, std::uint64_t info_arrival) {
+    pair(image, arrival, info, info_arrival, now);
+  });
 }
 
 void ScanPairer::add(const ScanInfoConstPtr& info, ros::WallTime now) {
-  if (const sensor_msgs::ImageConstPtr image = takeStamped(images_, info->header.stamp)) {
-    pair(image, info);
-  } else {
-    infos_.push_back({info, now});
-  }
-}
-
-void ScanPairer::pair(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info) {
-  // Each topic keeps its order, so the partner of anything older than this pair will not come any more.
-  const ros::Time stamp = image->header.stamp;
-  const auto is_older = [&](const auto& waiting) { return waiting.message->header.stamp < stamp; };
-  const std::vector<ros::Time> images = stampsOf(images_);
-  rejectIf(images_, is_older, std::string(kLoneImage) + " before a newer pair", stampsOf(infos_), reject_);
-  rejectIf(infos_, is_older, std::string(kLoneInfo) + " before a newer pair", images, reject_);
-  accept_(image, info);
+  add(info, now, infos_, images_, [&](const auto& image, std::uint64_t arrival, std::uint64_t image_arrival) {
+    pair(image, image_arrival, info, arrival, now);
+  });
 }
 
 void ScanPairer::expire(ros::WallTime now) {
   const auto is_late = [&](const auto& waiting) { return now - waiting.since > timeout_; };
   const std::string after = " within " + numberText(timeout_.toSec()) + " s";
-  const std::vector<ros::Time> images = stampsOf(images_);
-  rejectIf(images_, is_late, kLoneImage + after, stampsOf(infos_), reject_);
-  rejectIf(infos_, is_late, kLoneInfo + after, images, reject_);
+  const std::vector<ros::Time> images = stampsOf(images_.waiting);
+  rejectIf(images_, infos_, is_late, after, stampsOf(infos_.waiting), now);
+  rejectIf(infos_, images_, is_late, after, images, now);
+
+  const ros::WallDuration settling = timeout_ * kSettling;
+  const auto forget = [&](std::deque<GivenUp>& given_up) {
+    while (!given_up.empty() && now - given_up.front().at > settling) given_up.pop_front();
+  };
+  forget(images_.given_up);
+  forget(infos_.given_up);
+  went_back_ = went_back_ && now - went_back_at_ <= settling;
 }
 
 }  // namespace mems_stiction

@@ -1,5 +1,7 @@
-/// The node: constructs the server and runs until ROS ends. Exit 1 with one line per bad parameter.
+/// The node: constructs the server and runs until ROS ends, by a shutdown, INT, TERM or HUP: all of them let it finish the
+/// scan at hand and take its name off the master. Exit 1 with one line per bad parameter.
 
+#include <csignal>
 #include <cstdlib>
 
 #include <ros/ros.h>
@@ -7,8 +9,21 @@
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/ros/stiction_server.hpp"
 
+namespace {
+
+/// What roscpp does for INT; it leaves TERM and HUP to their defaults, which end a process without a word to the master.
+void requestShutdown(int /*signal*/) { ros::requestShutdown(); }
+
+void shutDownOn(int number) {
+  if (std::signal(number, requestShutdown) == SIG_IGN) std::signal(number, SIG_IGN);  // nohup stays
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   ros::init(argc, argv, "stiction_node");
+  shutDownOn(SIGTERM);
+  shutDownOn(SIGHUP);
   // Outlive the server: with the last handle ROS shuts down, and its log with it.
   const ros::NodeHandle handle;
   const ros::NodeHandle private_handle("~");

@@ -47,7 +47,7 @@ StictionServer::StictionServer(const ros::NodeHandle& handle, const ros::NodeHan
                       : std::make_unique<HalfSpaceStream>(
                             handle_, configuration.core.half_space, half_space_pause_,
                             [this](const auto& header, const auto& text) { accounting_.warn(header, text); })),
-      worker_(capacityOf(options_)),
+      worker_(capacityOf(options_), static_cast<std::size_t>(options_.max_waiting_memory)),
       counter_surface_frame_(options_.transform.frame.empty()
                                  ? nullptr
                                  : std::make_unique<CounterSurfaceFrame>(handle_, options_.transform.frame)),
@@ -99,18 +99,25 @@ void StictionServer::subscribe() {
   const bool use_scan_info = options_.use_scan_info;
   const auto subscribePair = [&](const char* image_topic, const char* info_topic, ScanPairer& pairer, auto on_single,
                                  image_transport::Subscriber& image_subscriber, ros::Subscriber& info_subscriber) {
-    if (!use_scan_info) {
-      image_subscriber = transport_.subscribe(
-          image_topic, kSubscriberQueue,
-          [this, on_single](const ImagePtr& image) { (this->*on_single)(image, nullptr); }, {}, hints);
-      return;
-    }
+    const auto addToPairs = [&](const auto& half) {
+      pairer.setSeveralPublishers(image_subscriber.getNumPublishers() > 1 || info_subscriber.getNumPublishers() > 1);
+      pairer.add(half, ros::WallTime::now());
+    };
+    const bool is_scan = &pairer == &scans_;
     image_subscriber = transport_.subscribe(
-        image_topic, kSubscriberQueue, [&pairer](const ImagePtr& image) { pairer.add(image, ros::WallTime::now()); },
+        image_topic, kSubscriberQueue,
+        [=](const ImagePtr& image) {
+          if (is_scan) accounting_.arrived(image->header);
+          if (use_scan_info) {
+            addToPairs(image);
+          } else {
+            (this->*on_single)(image, nullptr);
+          }
+        },
         {}, hints);
-    info_subscriber = handle_.subscribe<ScanInfo>(
-        info_topic, kSubscriberQueue,
-        [&pairer](const ScanInfoConstPtr& info) { pairer.add(info, ros::WallTime::now()); });
+    if (!use_scan_info) return;
+    info_subscriber = handle_.subscribe<ScanInfo>(info_topic, kSubscriberQueue,
+                                                  [=](const ScanInfoConstPtr& info) { addToPairs(info); });
   };
   subscribePair(kHeightTopic, kScanInfoTopic, scans_, &StictionServer::onScan, height_, scan_info_);
   if (predictor_.settings().snapshot()->counter_surface.type == CounterSurfaceType::kTopic) {
@@ -139,6 +146,7 @@ void StictionServer::report(diagnostic_updater::DiagnosticStatusWrapper& status)
   status.add("cleaned", predictor_.cleanings());
   const std::size_t waiting = worker_.waitingScans();
   status.add("waiting_for_worker", waiting);
+  status.add("waiting_memory [bytes]", worker_.waitingBytes());
   status.add("waiting_for_partner", scans_.waiting());
   status.add("waiting_for_transform", gate_.waiting());
   if (waiting > static_cast<std::size_t>(options_.queue_size)) {
@@ -148,12 +156,12 @@ void StictionServer::report(diagnostic_updater::DiagnosticStatusWrapper& status)
 }
 
 void StictionServer::rejectLone(const std_msgs::Header& header, const std::string& reason) {
-  accounting_.received(header);
+  accounting_.received();
   accounting_.rejected(header, reason);
 }
 
 void StictionServer::onScan(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info) {
-  accounting_.received(image->header);
+  accounting_.received();
   const ros::WallTime arrival = ros::WallTime::now();
   if (!counter_surface_frame_) {
     queueScan(image, info, arrival, std::nullopt);
@@ -169,8 +177,11 @@ void StictionServer::queueScan(const sensor_msgs::ImageConstPtr& image, const Sc
                                ros::WallTime arrival, const std::optional<SurfacePose>& pose) {
   worker_.pushScan([this, image, info, arrival, pose] { predictAndPublish(image, info, arrival, pose); },
                    [this, header = image->header] {
-                     accounting_.dropped(header, "newer scans came before its turn (drop_policy is latest)");
-                   });
+                     accounting_.dropped(header, options_.drop_policy == DropPolicy::kLatest
+                                                     ? "newer scans came before its turn (drop_policy is latest)"
+                                                     : "the scans that wait hold more than max_waiting_memory");
+                   },
+                   image->data.size());
 }
 
 void StictionServer::onCounterSurface(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info) {

@@ -92,10 +92,10 @@ void StictionServer::changeLoad(const std::function<void(LoadOptions&)>& set, Re
     RunningSettings settings = predictor_.settings().current();
     const LoadOptions before = settings.load;
     set(settings.load);
-    const std::optional<PredictedScan> old = worker_.call([&] { return lastScanOrNothing(); });
-    change(settings);
-    reconfigure_.show();
+    // At one go: no scan comes between the two predictions.
     worker_.call([&] {
+      const std::optional<PredictedScan> old = lastScanOrNothing();
+      predictor_.settings().change(settings);
       response.success = true;
       response.message = loadChange(before, settings.load);
       try {
@@ -109,6 +109,7 @@ void StictionServer::changeLoad(const std::function<void(LoadOptions&)>& set, Re
         response.message += "; the last scan cannot be predicted: " + oneLine(reasonOf(error));
       }
     });
+    reconfigure_.show();
   } catch (const std::future_error&) {
     response.success = false;
     response.message = kShuttingDown;

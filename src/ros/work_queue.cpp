@@ -1,6 +1,17 @@
 #include "mems_stiction/ros/work_queue.hpp"
 
+#include <malloc.h>
+
+#include <algorithm>
+#include <chrono>
+
 namespace mems_stiction {
+namespace {
+
+/// The allocator keeps what was freed for later; worth asking back after so many bytes.
+constexpr std::size_t kLargeBacklog = 64 << 20;
+
+}  // namespace
 
 void WorkQueue::start() {
   thread_ = std::thread([this] { loop(); });
@@ -15,28 +26,37 @@ void WorkQueue::stop() {
     forgotten_calls.swap(urgent_);
     forgotten_jobs.swap(jobs_);
     waiting_scans_ = 0;
+    waiting_bytes_ = 0;
   }
   changed_.notify_all();
   forgotten_calls.clear();  // whoever waits for one of them gets his error now
   if (thread_.joinable()) thread_.join();
 }
 
-void WorkQueue::pushScan(std::function<void()> run, std::function<void()> drop) {
+bool WorkQueue::isTooFull() const {
+  return (capacity_ > 0 && waiting_scans_ > capacity_) ||
+         (max_bytes_ > 0 && waiting_bytes_ > max_bytes_ && waiting_scans_ > 1);
+}
+
+void WorkQueue::pushScan(std::function<void()> run, std::function<void()> drop, std::size_t bytes) {
   std::deque<Job> dropped;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (stopping_) return;
-    jobs_.push_back({std::move(run), std::move(drop)});
+    jobs_.push_back({std::move(run), std::move(drop), bytes});
     ++waiting_scans_;
-    for (auto job = jobs_.begin(); capacity_ > 0 && waiting_scans_ > capacity_;) {
+    waiting_bytes_ += bytes;
+    for (auto job = jobs_.begin(); isTooFull();) {
       if (!job->drop) {
         ++job;
         continue;
       }
+      waiting_bytes_ -= job->bytes;
       dropped.push_back(std::move(*job));
       job = jobs_.erase(job);
       --waiting_scans_;
     }
+    most_bytes_ = std::max(most_bytes_, waiting_bytes_);
   }
   changed_.notify_one();
   for (const Job& job : dropped) job.drop();
@@ -65,23 +85,48 @@ std::size_t WorkQueue::waitingScans() const {
   return waiting_scans_;
 }
 
+std::size_t WorkQueue::waitingBytes() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return waiting_bytes_;
+}
+
+void WorkQueue::giveMemoryBack() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (most_bytes_ < kLargeBacklog || waiting_bytes_ > 0) return;
+    most_bytes_ = 0;
+  }
+  malloc_trim(0);
+}
+
 void WorkQueue::loop() {
+  using Clock = std::chrono::steady_clock;
+  Clock::duration calls_owe{0};  // the time that calls have taken from scans that waited
   for (;;) {
     std::function<void()> run;
+    bool is_call = false;
     {
       std::unique_lock<std::mutex> lock(mutex_);
       changed_.wait(lock, [this] { return stopping_ || !urgent_.empty() || !jobs_.empty(); });
       if (stopping_) return;
-      if (!urgent_.empty()) {
+      if (jobs_.empty()) calls_owe = Clock::duration::zero();
+      is_call = !urgent_.empty() && calls_owe <= Clock::duration::zero();
+      if (is_call) {
         run = std::move(urgent_.front());
         urgent_.pop_front();
       } else {
         if (jobs_.front().drop) --waiting_scans_;
+        waiting_bytes_ -= jobs_.front().bytes;
         run = std::move(jobs_.front().run);
         jobs_.pop_front();
       }
     }
+    const Clock::time_point start = Clock::now();
     run();
+    run = nullptr;  // and with it the scan
+    giveMemoryBack();
+    const Clock::duration taken = Clock::now() - start;
+    calls_owe = is_call ? taken : std::max(calls_owe - taken, Clock::duration::zero());
   }
 }
 

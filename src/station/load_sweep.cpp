@@ -11,6 +11,8 @@
 namespace mems_stiction {
 namespace {
 
+constexpr double kMostStates = 1e6;  // each is a prediction: days
+
 void addListViolations(const std::string& name, const std::vector<double>& values, const std::string& unit,
                        std::vector<std::string>& violations) {
   if (values.empty()) violations.push_back(name + ": an empty list is not allowed, must hold one value at least");
@@ -128,6 +130,11 @@ std::vector<std::string> LoadSweepRequest::validate(const Options& options) cons
   std::vector<std::string> violations;
   addListViolations("voltages", voltages, "V", violations);
   addListViolations("mechanical_loads", mechanical_loads, "N", violations);
+  const double states = static_cast<double>(voltages.size()) * static_cast<double>(mechanical_loads.size());
+  if (states > kMostStates) {
+    violations.push_back("voltages x mechanical_loads: " + numberText(states) +
+                         " pairs are not allowed, must be <= " + numberText(kMostStates));
+  }
   if (!violations.empty()) return violations;
   Options largest = options;
   largest.load.voltage = voltages.back();

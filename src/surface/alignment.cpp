@@ -11,6 +11,9 @@
 namespace mems_stiction {
 namespace {
 
+constexpr double kLargestOffset = 1e3;   // [m]
+constexpr double kFarthestPixel = 1e15;  // whole numbers beyond it are not exact, and no surface repeats so often
+
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 void check(const SurfacePose& pose) {
@@ -39,6 +42,7 @@ class Sampler {
   Sampler(const HeightMap& surface, Beyond beyond) : heights_(ownedHeights(surface)), beyond_(beyond) {}
 
   double at(double col, double row) const {
+    if (!(std::fabs(col) < kFarthestPixel && std::fabs(row) < kFarthestPixel)) return kMissing;
     if (std::isnan(
             pixel(static_cast<long long>(std::floor(col + 0.5)), static_cast<long long>(std::floor(row + 0.5))))) {
       return kMissing;
@@ -89,9 +93,9 @@ class Sampler {
 }  // namespace
 
 void SurfacePose::describe(OptionVisitor& visitor, const std::string& prefix) {
-  visitor.number(prefix + "/offset_x", offset_x, "m", Range::any(),
+  visitor.number(prefix + "/offset_x", offset_x, "m", Range::within(-kLargestOffset, kLargestOffset),
                  "how far the middle of the counter-surface lies towards larger columns of the scan");
-  visitor.number(prefix + "/offset_y", offset_y, "m", Range::any(),
+  visitor.number(prefix + "/offset_y", offset_y, "m", Range::within(-kLargestOffset, kLargestOffset),
                  "how far the middle of the counter-surface lies towards larger rows of the scan");
   visitor.number(prefix + "/rotation", rotation, "rad", Range::any(),
                  "angle from the scan's x axis (columns) to the counter-surface's, towards larger rows");

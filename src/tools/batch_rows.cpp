@@ -35,6 +35,8 @@ std::string csvCell(const nlohmann::json& value) {
   }
   if (!value.is_string()) return jsonText(value);
   std::string text = value.get<std::string>();
+  // a spreadsheet takes these for the beginning of a formula
+  if (!text.empty() && std::strchr("=+-@\t", text.front()) != nullptr) text.insert(0, "'");
   if (text.find_first_of("\",") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char letter : text) quoted += letter == '"' ? std::string("\"\"") : std::string(1, letter);

@@ -87,6 +87,10 @@ class BatchTest(unittest.TestCase):
         self.assertTrue(all(row["pull_off_force"] == "" for row in rows if row["reason"]))
         self.assertTrue(all(row["sticks"] for row in rows if not row["reason"]))
 
+    def test_a_spreadsheet_takes_no_name_for_a_formula(self):
+        self.predict("rows.csv", inputs=["=1+1.bag", "@sum.bag"], status=1)
+        self.assertEqual([row["file"] for row in self.rows("rows.csv")], ["'=1+1.bag", "'@sum.bag"])
+
     def test_the_figures_are_those_of_predict_scan_to_the_last_bit(self):
         self.predict("rows.jsonl", "--dump", self.folder / "dump", inputs=[self.inputs / "b.bag"])
         heights = np.load(str(self.folder / "dump/000001/heights.npy"))

@@ -6,6 +6,7 @@ import re
 import unittest
 from types import SimpleNamespace
 
+from mems_stiction.csv_text import csv_cell
 from mems_stiction.prediction_text import FLAGS, flag_names, flag_words, has_verdict, load_effect, table_header, table_line
 from mems_stiction.quantities import length_scale, percent, ratio, with_unit
 
@@ -17,6 +18,19 @@ def prediction(**changes):
                   elastic_count=2, elasto_plastic_count=3, plastic_count=4, processing_time=0.0345)
     values.update(changes)
     return SimpleNamespace(**values)
+
+
+class ForeignTextTest(unittest.TestCase):
+    def test_no_control_character_reaches_the_terminal(self):
+        line = table_line("a\x1b[2J\x9b2Jb", prediction(warnings=["c\rd"]))
+        self.assertTrue(line.isprintable(), repr(line))
+        self.assertIn("\\x1b[2J", line)
+
+    def test_a_spreadsheet_takes_no_text_for_a_formula(self):
+        for text in ("=1+1", "+A1", "-A1", "@sum", "\t=1"):
+            self.assertEqual(csv_cell(text), "'" + text)
+        for value in ("plain", "-1.5e-9", "", -2.0, None):
+            self.assertEqual(csv_cell(value), value)
 
 
 class QuantitiesTest(unittest.TestCase):

@@ -1,6 +1,9 @@
 #include "mems_stiction/ros/scan_pairer.hpp"
 
+#include <algorithm>
+#include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -96,6 +99,75 @@ TEST_F(ScanPairerTest, EqualStampsArePairedInOrder) {
   image(0), image(0), info(0), info(0);
   EXPECT_EQ(paired_, (Stamps{0, 0}));
   EXPECT_EQ(pairer_.waiting(), 0U);
+}
+
+// Scans that cross: all of them pair, whatever the order in which the halves of the two publishers come.
+TEST_F(ScanPairerTest, StampsOfTwoPublishersMayCross) {
+  pairer_.setSeveralPublishers(true);
+  image(501), image(1001), info(1001), info(501);
+  image(1002), info(502), info(1002), image(502);
+  EXPECT_EQ(paired_, (Stamps{1001, 501, 1002, 502}));
+  EXPECT_TRUE(rejected_.empty());
+}
+
+// As rosbag play --loop: the images of a new round are there before the infos of the old one.
+TEST_F(ScanPairerTest, AJumpBackInTimeStartsAfresh) {
+  for (int round = 0; round < 3; ++round) {
+    image(1), info(1), image(2), image(3);
+    image(1), info(2), info(3), info(1), image(2), info(2);
+  }
+  EXPECT_EQ(paired_.size(), 15U);
+  EXPECT_TRUE(rejected_.empty());
+  EXPECT_EQ(pairer_.waiting(), 0U);
+}
+
+TEST_F(ScanPairerTest, WhatWaitsFromBeforeAJumpBackIsNoHalfOfANewScan) {
+  image(1), info(1), image(2), image(3), info(3);  // the info of 2 was lost, and 2 is rejected
+  image(4), image(1), info(1);                     // the info of 4 was lost
+  image(4), info(4);
+  EXPECT_EQ(paired_, (Stamps{1, 3, 1, 4}));
+  EXPECT_EQ(rejected_, (Stamps{2, 4}));
+}
+
+TEST_F(ScanPairerTest, AScanWhoseHalvesAreGivenUpOneAfterTheOtherCountsOnce) {
+  image(1);
+  wait(6.0);
+  info(1), info(2);
+  wait(6.0);
+  image(2);
+  wait(6.0);
+  EXPECT_EQ(rejected_, (Stamps{1, 2}));
+  EXPECT_EQ(pairer_.waiting(), 0U);
+}
+
+// Every image counts once: accepted or rejected, in whatever order the halves come, with losses and jumps.
+TEST_F(ScanPairerTest, EveryImageCountsOnceWhateverTheOrder) {
+  std::mt19937 random(7);
+  for (int trial = 0; trial < 300; ++trial) {
+    paired_.clear(), rejected_.clear();
+    pairer_.setSeveralPublishers(trial % 2 == 1);
+    std::size_t sent = 0;
+    for (int round = 0; round < 3; ++round) {  // of one bag; what is late in one comes among the next one's
+      std::vector<std::pair<std::uint32_t, bool>> halves;
+      for (std::uint32_t scan = 0; scan < 20; ++scan) {
+        const std::uint32_t stamp = scan % 2 == 0 ? 1000 + scan : 500 + scan;
+        halves.emplace_back(stamp, true);
+        if (random() % 10 > 0) halves.emplace_back(stamp, false);
+      }
+      for (std::size_t i = 0; i + 1 < halves.size(); ++i) {
+        std::swap(halves[i], halves[std::min(halves.size() - 1, i + random() % 6)]);
+      }
+      for (const auto& [stamp, is_image] : halves) {
+        is_image ? image(stamp) : info(stamp);
+        sent += is_image ? 1 : 0;
+        if (random() % 12 == 0) wait(3.0);
+      }
+      wait(6.0);
+    }
+    EXPECT_EQ(paired_.size() + rejected_.size(), sent) << "trial " << trial;
+    EXPECT_EQ(pairer_.waiting(), 0U);
+    wait(60.0);  // what was given up is forgotten
+  }
 }
 
 }  // namespace

@@ -1,6 +1,11 @@
 #include "mems_stiction/ros/work_queue.hpp"
 
+#include <atomic>
+#include <chrono>
+#include <fstream>
+#include <memory>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -47,6 +52,44 @@ TEST(WorkQueue, DropsTheOldestScansAndNothingElse) {
   EXPECT_EQ(ran, (Numbers{100, 3, 4}));
 }
 
+TEST(WorkQueue, DropsTheOldestScansBeyondItsMemoryButNeverTheNewest) {
+  Numbers dropped;
+  WorkQueue queue(0, 100);
+  for (int scan = 0; scan < 5; ++scan) {
+    queue.pushScan([] {}, [&dropped, scan] { dropped.push_back(scan); }, 40);
+  }
+  EXPECT_EQ(dropped, (Numbers{0, 1, 2}));
+  EXPECT_EQ(queue.waitingBytes(), 80U);
+  queue.pushScan([] {}, [] { ADD_FAILURE() << "the newest stays"; }, 400);
+  EXPECT_EQ(dropped, (Numbers{0, 1, 2, 3, 4}));
+  EXPECT_EQ(queue.waitingBytes(), 400U);
+}
+
+std::size_t residentBytes() {
+  std::size_t pages = 0, resident = 0;
+  std::ifstream("/proc/self/statm") >> pages >> resident;
+  return resident * 4096;
+}
+
+TEST(WorkQueue, GivesTheMemoryOfABacklogBack) {
+  constexpr std::size_t kScan = 1 << 20;
+  WorkQueue queue(0);
+  ASSERT_EQ(std::vector<char>(16 << 20, 'x').back(), 'x');  // from now on the allocator keeps smaller blocks
+  const std::size_t before = residentBytes();
+  std::vector<std::shared_ptr<std::vector<char>>> kept;  // between the scans, so that the heap cannot shrink by itself
+  for (int scan = 0; scan < 200; ++scan) {
+    auto pixels = std::make_shared<std::vector<char>>(kScan, 'x');
+    queue.pushScan([pixels] {}, [] {}, kScan);
+    pixels.reset();
+    kept.push_back(std::make_shared<std::vector<char>>(4096, 'x'));
+  }
+  ASSERT_GT(residentBytes(), before + 150 * kScan);
+  queue.start();
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  while (residentBytes() > before + 50 * kScan && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+  EXPECT_LT(residentBytes(), before + 50 * kScan);
+}
+
 TEST(WorkQueue, ACallGetsTheExceptionOfItsFunction) {
   WorkQueue queue(0);
   queue.start();
@@ -70,6 +113,29 @@ TEST(WorkQueue, ACallThatIsNotRunAnyMoreEndsWithAnError) {
   gate.set_value();
   stopper.join();
   EXPECT_THROW(queue.call([] { return 1; }), std::future_error);
+}
+
+// Three callers that ask without end: one call is always waiting, and scans must get their half all the same.
+TEST(WorkQueue, CallsThatNeverEndLeaveHalfOfTheTimeToScans) {
+  const auto work = [] { std::this_thread::sleep_for(std::chrono::milliseconds(5)); };
+  WorkQueue queue(0);
+  std::atomic<int> calls{0}, scans{0};
+  for (int scan = 0; scan < 1000; ++scan) {
+    queue.pushScan([&] { work(), ++scans; }, [] {});
+  }
+  queue.start();
+  std::atomic<bool> is_over{false};
+  std::vector<std::thread> callers;
+  for (int caller = 0; caller < 3; ++caller) {
+    callers.emplace_back([&] {
+      while (!is_over) queue.call([&] { work(), ++calls; });
+    });
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  is_over = true;
+  for (std::thread& caller : callers) caller.join();
+  EXPECT_GT(calls, 10);
+  EXPECT_GE(scans, calls - 5);  // the callers' first and last calls are free
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 /// with a reason and a throttled warning. May be called from every thread.
 
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <mutex>
 #include <string>
@@ -17,11 +18,12 @@ namespace mems_stiction {
 
 /// Counts since start.
 struct ScanCounts {
-  std::uint64_t received = 0;               ///< predicted + dropped + rejected + waiting
-  std::uint64_t predicted = 0;              ///< a prediction was published
-  std::uint64_t dropped = 0;                ///< given up for newer ones (drop_policy latest)
-  std::uint64_t rejected = 0;               ///< cannot be predicted
-  std::uint64_t missing_by_sequence = 0;    ///< numbers that header.seq skipped: lost before they came here
+  std::uint64_t received = 0;   ///< predicted + dropped + rejected + waiting
+  std::uint64_t predicted = 0;  ///< a prediction was published
+  std::uint64_t dropped = 0;    ///< given up for newer ones (drop_policy latest)
+  std::uint64_t rejected = 0;   ///< cannot be predicted
+  std::uint64_t missing_by_sequence =
+      0;  ///< numbers that header.seq skipped in one publisher's sequence: lost on the way
   std::uint64_t stamps_not_increasing = 0;  ///< scans not newer than the one before: a bag in a loop, a clock set back
   std::uint64_t counter_surfaces = 0;       ///< accepted
   std::uint64_t counter_surfaces_rejected = 0;  ///< cannot be used
@@ -34,7 +36,10 @@ class ScanAccounting {
   /// @param warning_period at most one warning of a kind in so long a time.
   explicit ScanAccounting(ros::WallDuration warning_period);
 
-  void received(const std_msgs::Header& header);
+  /// An image came, before it is known whether it is a scan: its number and stamp tell what is missing before it.
+  void arrived(const std_msgs::Header& header);
+  /// A scan enters the books.
+  void received();
   /// @param latency from arrival to publication [s]; @param processing_time of the core [s]
   void predicted(double latency, double processing_time);
   void dropped(const std_msgs::Header& header, const std::string& reason);
@@ -56,6 +61,13 @@ class ScanAccounting {
     std::uint64_t suppressed = 0;
   };
 
+  /// One publisher's numbers. Which of several sent an image, nobody says.
+  struct Sequence {
+    std::uint32_t last;
+    ros::Time stamp;
+    std::uint64_t missing;  ///< counted when a number went beyond it; taken back if the sequence goes on
+  };
+
   /// @param kind the text without the scan; figures in it do not matter
   void warnThrottled(const std::string& kind, const std::string& text);
 
@@ -66,8 +78,7 @@ class ScanAccounting {
   ros::WallTime last_report_;
   std::map<std::string, Throttle> throttles_;  ///< by kind
   std::string last_reason_;
-  bool has_previous_ = false;
-  std_msgs::Header previous_;
+  std::deque<Sequence> sequences_;  ///< the latest first
   double last_latency_ = 0.0;
   double max_latency_ = 0.0;
   double last_processing_time_ = 0.0;

@@ -3,10 +3,16 @@
 /// @file
 /// Puts each height image together with the scan_info of the same stamp, and tells who was left alone and why. One
 /// object serves one thread.
+///
+/// Each topic of one publisher keeps its order, so whoever came on it before a half of a newer pair, and is older, is
+/// alone for good. That says nothing once stamps go back, as in a bag that starts again, or while several publishers
+/// send: then only the timeout tells who is alone. A scan whose halves are given up at different times counts once.
 
+#include <cstdint>
 #include <deque>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include <ros/time.h>
 #include <sensor_msgs/Image.h>
@@ -25,28 +31,57 @@ class ScanPairer {
   /// - @p timeout how long a message waits for its partner.
   ScanPairer(ros::WallDuration timeout, Accept accept, Reject reject);
 
+  /// Whether several publishers send on one of the topics: their stamps may cross.
+  void setSeveralPublishers(bool several) { several_publishers_ = several; }
+
   void add(const sensor_msgs::ImageConstPtr& image, ros::WallTime now);
   void add(const ScanInfoConstPtr& info, ros::WallTime now);
 
   /// Rejects what has waited for longer than the timeout.
   void expire(ros::WallTime now);
 
-  std::size_t waiting() const { return images_.size() + infos_.size(); }
+  std::size_t waiting() const { return images_.waiting.size() + infos_.waiting.size(); }
 
  private:
   template <typename Message>
   struct Waiting {
     Message message;
     ros::WallTime since;
+    std::uint64_t arrival;  ///< number on its topic
   };
 
-  void pair(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info);
+  struct GivenUp {
+    ros::Time stamp;
+    ros::WallTime at;
+  };
+
+  /// One of the two topics.
+  template <typename Message>
+  struct Topic {
+    const char* reason;  ///< of a half of this topic that is alone
+    std::deque<Waiting<Message>> waiting{};
+    std::deque<GivenUp> given_up{};  ///< lately: their partners are no scans of their own
+    ros::Time last_stamp{};
+    std::uint64_t arrivals = 0;
+    std::uint64_t anew = 0;  ///< the last arrival whose stamp went back
+  };
+
+  template <typename Message, typename Other, typename Pair>
+  void add(const Message& message, ros::WallTime now, Topic<Message>& topic, Topic<Other>& other, const Pair& pair);
+  void pair(const sensor_msgs::ImageConstPtr& image, std::uint64_t image_arrival, const ScanInfoConstPtr& info,
+            std::uint64_t info_arrival, ros::WallTime now);
+  template <typename Message, typename Other, typename Predicate>
+  void rejectIf(Topic<Message>& topic, Topic<Other>& other, const Predicate& is_lone, const std::string& when,
+                const std::vector<ros::Time>& partners, ros::WallTime now);
 
   ros::WallDuration timeout_;
   Accept accept_;
   Reject reject_;
-  std::deque<Waiting<sensor_msgs::ImageConstPtr>> images_;
-  std::deque<Waiting<ScanInfoConstPtr>> infos_;
+  Topic<sensor_msgs::ImageConstPtr> images_{"no scan_info with the stamp of the scan came"};
+  Topic<ScanInfoConstPtr> infos_{"no scan with the stamp of the scan_info came"};
+  bool several_publishers_ = false;
+  bool went_back_ = false;        ///< the stamps of a topic did, in the last kSettling timeouts
+  ros::WallTime went_back_at_{};  ///< when they did last
 };
 
 }  // namespace mems_stiction

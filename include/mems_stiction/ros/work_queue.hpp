@@ -2,7 +2,7 @@
 
 /// @file
 /// One worker thread that owns the core: scans in the order of arrival, and calls that go before them and whose answer
-/// is waited for. Everything that touches the core runs here, so nothing else needs a lock.
+/// is waited for. Calls get half of the time while scans wait. Everything that touches the core runs here, so nothing else needs a lock.
 
 #include <condition_variable>
 #include <deque>
@@ -18,7 +18,8 @@ namespace mems_stiction {
 class WorkQueue {
  public:
   /// @param capacity scans that may wait; 0 = any number.
-  explicit WorkQueue(std::size_t capacity) : capacity_(capacity) {}
+  /// @param max_bytes that those scans may hold together, but for the newest; 0 = any number.
+  explicit WorkQueue(std::size_t capacity, std::size_t max_bytes = 0) : capacity_(capacity), max_bytes_(max_bytes) {}
   ~WorkQueue() { stop(); }
   WorkQueue(const WorkQueue&) = delete;
   WorkQueue& operator=(const WorkQueue&) = delete;
@@ -27,12 +28,14 @@ class WorkQueue {
   /// Finishes the job at hand, forgets the others and joins the thread. Calls that wait get std::future_error.
   void stop();
 
-  /// Appends a scan. When more than `capacity` wait, the oldest ones go and their `drop` is called on this thread.
-  void pushScan(std::function<void()> run, std::function<void()> drop);
+  /// Appends a scan that holds so many bytes. When more than `capacity` or `max_bytes` wait, the oldest ones go and their
+  /// `drop` is called on this thread. Once a large backlog is worked off, its memory goes back to the system.
+  void pushScan(std::function<void()> run, std::function<void()> drop, std::size_t bytes = 0);
   /// Appends a job that is never dropped and keeps its place among the scans.
   void push(std::function<void()> run);
 
-  /// Runs `function` on the worker before the scans that wait, and returns its result or throws what it throws.
+  /// Runs `function` on the worker before the scans that wait, once these have had as much time as the call before it,
+  /// and returns its result or throws what it throws.
   /// @throw std::future_error if the queue is stopped before.
   template <typename Function>
   auto call(Function function) -> decltype(function()) {
@@ -44,22 +47,30 @@ class WorkQueue {
   }
 
   std::size_t waitingScans() const;
+  std::size_t waitingBytes() const;
 
  private:
   struct Job {
     std::function<void()> run;
     std::function<void()> drop;  ///< empty for jobs that are never dropped
+    std::size_t bytes = 0;
   };
 
   void pushUrgent(std::function<void()> run);
+  void giveMemoryBack();
   void loop();
 
+  bool isTooFull() const;
+
   const std::size_t capacity_;
+  const std::size_t max_bytes_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<std::function<void()>> urgent_;
   std::deque<Job> jobs_;
   std::size_t waiting_scans_ = 0;
+  std::size_t waiting_bytes_ = 0;
+  std::size_t most_bytes_ = 0;  ///< that waited since memory was given back
   bool stopping_ = false;
   std::thread thread_;
 };

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "mems_stiction/base/errors.hpp"
+
 namespace mems_stiction {
 namespace {
 
@@ -57,6 +59,13 @@ TEST(HeightMap, SharesAMatrixThatHoldsItsPixelsAndLetsGoOfAnOwnerThatItDoesNotNe
   const HeightMap map(heights, 1e-9, 1e-9, owner);
   EXPECT_EQ(map.heights().data, heights.data);
   EXPECT_EQ(owner.use_count(), 1);
+}
+
+TEST(HeightMap, RefusesPitchesWhoseAreasAreNoNumbers) {
+  const cv::Mat heights = cv::Mat::zeros(4, 4, CV_64FC1);
+  EXPECT_THROW(HeightMap(heights, 1e150, 1e-9), SurfaceError);
+  EXPECT_THROW(HeightMap(heights, 1e-9, 1e-200), SurfaceError);
+  EXPECT_NO_THROW(HeightMap(heights, 1e-12, 1.0));
 }
 
 }  // namespace

@@ -244,5 +244,16 @@ TEST(LoadSweep, refusesARequestOutOfRangeBeforeAnyWork) {
   EXPECT_NE(violations({5.0}, {0.0}, paperOptions()).find("interface/insulator_thickness"), std::string::npos);
 }
 
+TEST(LoadSweep, RefusesGridsWhoseRowsNoIntegerCounts) {
+  LoadSweepRequest request;
+  for (int i = 0; i < 100000; ++i) {
+    request.voltages.push_back(1e-6 * i);
+    request.mechanical_loads.push_back(1e-12 * i);
+  }
+  const std::vector<std::string> violations = request.validate(Options());
+  ASSERT_EQ(violations.size(), 1U);
+  EXPECT_NE(violations[0].find("1e+10 pairs are not allowed"), std::string::npos) << violations[0];
+}
+
 }  // namespace
 }  // namespace mems_stiction

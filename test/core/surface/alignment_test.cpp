@@ -129,5 +129,19 @@ TEST(Alignment, refusesSurfacesThatDoNotMeetAndPosesThatAreNone) {
   EXPECT_THROW(tiltedFlat(surface, 1.6, 0.0), OptionsError);
 }
 
+TEST(Alignment, RefusesPosesBeyondAnyInstrument) {
+  const HeightMap surface(cv::Mat::zeros(8, 8, CV_64FC1), 1e-9, 1e-9);
+  for (const double offset : {1e300, -1e300, 1e18}) {
+    SurfacePose pose;
+    pose.offset_x = offset;
+    EXPECT_THROW(alignedTo(surface, surface, pose, Beyond::kPeriodic), OptionsError) << offset;
+  }
+  // In range, and still more pixels away than an integer counts: nothing lies there.
+  const HeightMap fine(cv::Mat::zeros(8, 8, CV_64FC1), 1e-15, 1e-15);
+  SurfacePose pose;
+  pose.offset_x = 1000.0;
+  EXPECT_THROW(alignedTo(fine, fine, pose, Beyond::kPeriodic), SurfaceError);
+}
+
 }  // namespace
 }  // namespace mems_stiction

@@ -1,0 +1,70 @@
+#!/usr/bin/env python3
+"""What a station does to a node: ends it by a signal, lets publishers cross, starts a bag again, storms its services."""
+
+import signal
+import subprocess
+import unittest
+
+import rosgraph
+import rospy
+import rostest
+from mems_stiction.msg import StictionPrediction
+from roslib.packages import find_node
+from stiction_client import Collector, Counts, Station, image_message, info_message, rough_surface, wait_until
+
+
+class FaultsTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node("faults_test")
+
+    def test_a_signal_takes_the_node_and_its_services_off_the_master(self):
+        master = rosgraph.Master("/faults_test")
+
+        def registered():
+            return [name for kind in master.getSystemState() for name, nodes in kind if "/ended_node" in nodes]
+
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            node = subprocess.Popen([find_node("mems_stiction", "stiction_node")[0], "__name:=ended_node"])
+            try:
+                rospy.wait_for_service("/ended_node/predict", timeout=30.0)
+                self.assertIn("/ended_node/predict", registered())
+                node.send_signal(number)
+                self.assertEqual(node.wait(timeout=30), 0, number)
+            finally:
+                if node.poll() is None:
+                    node.kill()
+            self.assertEqual(registered(), [], number)
+
+    def test_scans_of_crossing_publishers_and_bags_in_a_loop_are_predicted_once_each(self):
+        counts = Counts()
+        predictions = Collector("prediction", StictionPrediction).connect()
+        station = Station()
+        surface = rough_surface(1)
+        halves = []
+        for scan in range(40):  # two publishers, the one ahead of the other
+            a, b = rospy.Time(2000 + scan), rospy.Time(1000 + scan)
+            halves += [(a, "image"), (b, "image"), (a, "info"), (b, "info")] if scan % 2 else [
+                (b, "image"), (a, "image"), (a, "info"), (b, "info")]
+        for _ in range(3):  # rounds of one bag, without a pause
+            halves += [(rospy.Time(100 + scan), kind) for scan in range(10) for kind in ("image", "info")]
+        for stamp, kind in halves:
+            if kind == "image":
+                station.height.publish(image_message(surface, stamp))
+            else:
+                station.info.publish(info_message(stamp))
+            rospy.sleep(0.002)
+        sent = len(halves) // 2
+        wait_until(lambda: counts["waiting"] == "0" and counts["waiting_for_partner"] == "0"
+                   and int(counts["received"]) >= sent, "the end of the scans")
+        rospy.sleep(2.0)  # pairing_timeout is 1 s: whatever were counted twice would be by now
+        figures = {key: int(counts[key]) for key in ("received", "predicted", "rejected", "dropped", "missing_by_sequence")}
+        self.assertEqual(figures["predicted"] + figures["rejected"] + figures["dropped"], sent, figures)
+        self.assertEqual(figures["missing_by_sequence"], 0, figures)
+        # Before any stamp went back, the first that crosses may pass for lost.
+        self.assertGreaterEqual(figures["predicted"], sent - 1, figures)
+        self.assertEqual(len(predictions.messages), figures["predicted"])
+
+
+if __name__ == "__main__":
+    rostest.rosrun("mems_stiction", "faults", FaultsTest)

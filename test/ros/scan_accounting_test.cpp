@@ -1,0 +1,52 @@
+#include "mems_stiction/ros/scan_accounting.hpp"
+
+#include <gtest/gtest.h>
+
+namespace mems_stiction {
+namespace {
+
+class ScanAccountingTest : public ::testing::Test {
+ protected:
+  void image(std::uint32_t seq, std::uint32_t stamp) {
+    std_msgs::Header header;
+    header.seq = seq;
+    header.stamp = ros::Time(stamp, 0);
+    books_.arrived(header);
+  }
+  std::uint64_t missing() const { return books_.counts().missing_by_sequence; }
+
+  ScanAccounting books_{ros::WallDuration(5.0)};
+};
+
+TEST_F(ScanAccountingTest, NumbersThatOnePublisherSkipsAreMissing) {
+  image(1, 1), image(2, 2), image(6, 3), image(7, 4), image(9, 5);
+  EXPECT_EQ(missing(), 4U);
+}
+
+TEST_F(ScanAccountingTest, SeveralPublishersAreNoLosses) {
+  for (std::uint32_t i = 0; i < 150; ++i) image(1 + i, 1000 + i), image(900 + i, 500 + i);
+  EXPECT_EQ(missing(), 0U);
+}
+
+TEST_F(ScanAccountingTest, APublisherThatJoinsLaterIsNoLoss) {
+  image(1, 1), image(2, 2);
+  image(800, 3), image(3, 4), image(801, 5), image(4, 6);
+  EXPECT_EQ(missing(), 0U);
+  image(7, 7), image(803, 8);  // each has lost some of its own
+  EXPECT_EQ(missing(), 3U);
+}
+
+TEST_F(ScanAccountingTest, APublisherThatStartsAgainIsNoLoss) {
+  image(1, 1), image(2, 2), image(3, 3);
+  image(1, 4), image(2, 5), image(3, 6), image(4, 7);
+  EXPECT_EQ(missing(), 0U);
+}
+
+TEST_F(ScanAccountingTest, StampsThatDoNotGrowAreCounted) {
+  image(1, 8), image(2, 9), image(3, 8), image(4, 9);  // a bag that starts again
+  EXPECT_EQ(books_.counts().stamps_not_increasing, 1U);
+  EXPECT_EQ(missing(), 0U);
+}
+
+}  // namespace
+}  // namespace mems_stiction
