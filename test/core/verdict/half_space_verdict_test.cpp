@@ -122,7 +122,7 @@ TEST(HalfSpaceVerdict, OneThatCannotJudgeLeavesThePredictionsVerdictAndSaysWhy) 
 TEST(HalfSpaceVerdict, ItsErrorTakesThePlaceOfTheModels) {
   Prediction near_bonding = predicted();
   near_bonding.flattening_ratio = 1.0;
-  // By the map's 0.21 the interval of the curve holds 1, by 0.02 that of the half-space does not.
+  // By the error map the interval of the curve holds 1, by 0.02 that of the half-space does not.
   EXPECT_EQ(verdictWith(Evidence(), near_bonding, 1.2).sticks, Sticks::kMarginal);
   const Verdict verdict = verdictWith(solved(1.0), near_bonding, 1.2);
   EXPECT_EQ(verdict.sticks, Sticks::kNo) << verdict.reason;
