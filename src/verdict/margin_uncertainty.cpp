@@ -173,13 +173,23 @@ AdhesionSpread contactSpread(const Prediction& prediction, const Options& option
   return spread;
 }
 
-/// Multiplies the samples by factors of median 1 whose 2.5 % and 97.5 % quantiles are those of the range.
+/// Moves sorted samples away from their median by a factor whose 2.5 % and 97.5 % quantiles are those of the range, in
+/// quadrature in the logarithm: quantile by quantile, so that no end comes nearer.
 void widen(std::vector<double>& samples, const FactorRange& range, NormalNumbers& numbers) {
+  if (samples.empty()) return;
+  std::vector<double> normals(samples.size());
+  for (double& normal : normals) normal = numbers.next();
+  std::sort(normals.begin(), normals.end());
   const double below = -std::log(range.lowest) / kToQuantile;
   const double above = std::log(range.highest) / kToQuantile;
-  for (double& sample : samples) {
-    const double normal = numbers.next();
-    sample *= std::exp(normal * (normal < 0.0 ? below : above));
+  const double median = quantile(samples, 0.5);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const double distance = std::log(samples[i] / median);
+    if (samples[i] < median || (samples[i] == median && 2 * i < samples.size())) {
+      samples[i] = median * std::exp(-std::hypot(distance, below * std::min(normals[i], 0.0)));
+    } else {
+      samples[i] = median * std::exp(std::hypot(distance, above * std::max(normals[i], 0.0)));
+    }
   }
 }
 
@@ -219,9 +229,9 @@ AdhesionSpread adhesionSpread(const Prediction& prediction, const Options& optio
   AdhesionSpread spread = prediction.followsCurve() ? curveSpread(prediction, uncertainty, error)
                                                     : contactSpread(prediction, options, uncertainty);
   NormalNumbers numbers(uncertainty.seed);
-  takeEvidence(evidence, numbers, spread);
   std::sort(spread.pull_off.begin(), spread.pull_off.end());
   std::sort(spread.apparent_work.begin(), spread.apparent_work.end());
+  takeEvidence(evidence, numbers, spread);
   return spread;
 }
 

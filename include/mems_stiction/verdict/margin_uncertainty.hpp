@@ -29,8 +29,8 @@
 ///
 /// A prediction by the separation curve moves with its exponents instead, and has the model's own error (doc/trust.md).
 /// Where a half-space judges, its error takes the place of that (evidence.hpp). The choice of cleaning is a further
-/// factor: a normal number in the logarithm, whose 2.5 % and 97.5 % quantiles are the lowest and the highest of the
-/// cleanings; so it adds in quadrature.
+/// factor: normal in the logarithm, whose 2.5 % and 97.5 % quantiles are the lowest and the highest of the cleanings. Both
+/// add in quadrature there, quantile by quantile.
 ///
 /// With scan_sampling, a further factor has the variance sum R_i^2/(sum R_i)^2: a scan is one sample of the surface,
 /// and another place would have other contacts (Poisson).

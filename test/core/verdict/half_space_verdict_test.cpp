@@ -214,6 +214,19 @@ TEST(CleaningInVerdict, AddsToTheIntervalInQuadrature) {
   EXPECT_FALSE(says(plain, "cleaning")) << plain.reason;
 }
 
+TEST(CleaningInVerdict, NeverBringsAnEndNearerWhateverTheSamples) {
+  UncertaintyOptions uncertainty = exact();
+  uncertainty.samples = 20;
+  Evidence evidence;
+  evidence.cleaning = CleaningReach{{0.95, 1.02}, {}};
+  for (uncertainty.seed = 1; uncertainty.seed <= 20; ++uncertainty.seed) {
+    const Verdict plain = verdictWith(Evidence(), predicted(), 3.0, uncertainty);
+    const Verdict verdict = verdictWith(evidence, predicted(), 3.0, uncertainty);
+    EXPECT_LT(verdict.margin_lower, plain.margin_lower) << uncertainty.seed;
+    EXPECT_GT(verdict.margin_upper, plain.margin_upper) << uncertainty.seed;
+  }
+}
+
 TEST(CleaningInVerdict, CanMakeANoMarginal) {
   Evidence evidence;
   evidence.cleaning = CleaningReach{{1.0, 4.0}, {}};
