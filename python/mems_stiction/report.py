@@ -226,7 +226,8 @@ def table_row(row, drawn, judge):
         entry.update(status=STATES[row["status"]][1], pull_off=bound + text_of(row["pull_off_force"], "N"),
                      contact=percent(row["contact_fraction"]), contacts=row["asperity_count"],
                      regimes="%d / %d / %d" % (row["elastic_count"], row["elasto_plastic_count"], row["plastic_count"]),
-                     rms=text_of(row["rms_height"], "m"), sticks=row.get("sticks"), releases=verdict_word(row.get("sticks")), ratio=_ratio_with_interval(row, judge),
+                     rms=text_of(row["rms_height"], "m"), sticks=row.get("sticks"), ratio=_ratio_with_interval(row, judge),
+                     releases=verdict_word(row.get("sticks")) + (" (half-space)" if row.get("verdict_by") == "half_space" else ""),
                      half_space=_half_space_cell(row), limits=_limits(row))
     return entry
 

@@ -50,7 +50,7 @@ PAGE = """<!DOCTYPE html>
 </table></div>
 {% if bounded %}<p class="quiet">&ge; marks lower bounds: the search ended before the contacts stopped growing.</p>{% endif %}
 
-{% if has_half_space %}<p class="quiet">Of the half-space: the whole surface solved as one elastic half-space; in brackets, how many times as large the prediction is.</p>{% endif %}
+{% if has_half_space %}<p class="quiet">Of the half-space: the whole surface solved as one elastic half-space; in brackets, how many times as large the prediction is.{% if has_device %} It has judged where the verdict says so.{% endif %}</p>{% endif %}
 
 {% if trends %}<h2>Trends</h2>
 <img class="tall" alt="Trends over the scans" src="{{ trends }}">{% endif %}

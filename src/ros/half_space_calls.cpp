@@ -95,7 +95,12 @@ HalfSpaceSolution HalfSpaceCalls::solve(const Asked& asked, const HalfSpaceContr
     options = onFrame(options, station_case.settings->device, station_case.scan.surfaces);
     load = options.load;
     options.check();
-    return halfSpaceMessage(solver_.solve(halfSpaceProblem(station_case.scan, options), control), load, header);
+    const SolvedHalfSpace solved = solver_.solve(halfSpaceProblem(station_case.scan, options), control);
+    HalfSpaceSolution message = halfSpaceMessage(solved, load, header);
+    if (solved.status != HalfSpaceStatus::kCancelled) {
+      fillVerdict(halfSpaceVerdict(solved, station_case.scan, options, *station_case.settings), message);
+    }
+    return message;
   } catch (const std::future_error&) {
     return refusedMessage(kShuttingDown, load, header);
   } catch (const std::exception& error) {

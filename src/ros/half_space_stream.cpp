@@ -66,6 +66,7 @@ void HalfSpaceStream::solve(const Task& task) {
     const HalfSpaceProblem problem = halfSpaceProblem(scan.scan, model);
     const SolvedHalfSpace solved = solver_.solve(problem, control);
     message = halfSpaceMessage(solved, model.load, scan.header);
+    if (!stopping_) fillVerdict(halfSpaceVerdict(solved, scan.scan, model, *scan.settings), message);
     map = halfSpaceContactMap(solved, problem, solver_.options(), scan.scan.refinement);
   } catch (const std::exception& error) {
     message = refusedMessage(error.what(), model.load, scan.header);

@@ -47,6 +47,7 @@ CleaningRow rowOf(const std::string& cleaning, const HeightMap& scan, const Conf
     row.rms_height = prediction.rms_height;
     row.pull_off_force = prediction.pull_off_force;
     row.contact_area = prediction.contact_area;
+    row.apparent_work_of_adhesion = apparentWorkOfAdhesion(prediction, predictor.options());
     row.asperity_count = prediction.asperity_count;
     const Verdict verdict =
         verdictOf(prediction, configuration.device, configuration.uncertainty, predictor.options(), scan.cellArea());
@@ -65,6 +66,14 @@ double factorOf(const std::vector<double>& values) {
   if (values.empty()) return CleaningRow::kUnknown;
   const auto [smallest, largest] = std::minmax_element(values.begin(), values.end());
   return *largest / *smallest;
+}
+
+/// Lets a range of factors reach to a figure, if there is such a factor.
+void include(double value, double configured, FactorRange& range) {
+  const double factor = value / configured;
+  if (!std::isfinite(factor) || !(factor > 0.0)) return;
+  range.lowest = std::min(range.lowest, factor);
+  range.highest = std::max(range.highest, factor);
 }
 
 std::string numberOf(double value) {
@@ -110,6 +119,16 @@ CleaningSpread spreadOf(const std::vector<CleaningRow>& rows) {
   spread.pull_off_factor = factorOf(forces);
   spread.margin_factor = factorOf(margins);
   return spread;
+}
+
+CleaningReach reachOf(const std::vector<CleaningRow>& rows) {
+  CleaningReach reach;
+  for (const CleaningRow& row : rows) {
+    if (!row.is_reasonable) continue;
+    include(row.pull_off_force, rows.front().pull_off_force, reach.pull_off);
+    include(row.apparent_work_of_adhesion, rows.front().apparent_work_of_adhesion, reach.apparent_work);
+  }
+  return reach;
 }
 
 std::string cleaningTable(const std::vector<CleaningRow>& rows, const std::string& indent) {

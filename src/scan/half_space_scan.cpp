@@ -4,6 +4,7 @@
 
 #include "mems_stiction/mechanics/regime.hpp"
 #include "mems_stiction/scan/block_maxima.hpp"
+#include "mems_stiction/scan/scan_predictor.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -22,6 +23,22 @@ HalfSpaceProblem halfSpaceProblem(const PreparedScan& prepared, const Options& o
   problem.capillary = options.capillary;
   problem.load = options.load;
   return problem;
+}
+
+Verdict halfSpaceVerdict(const SolvedHalfSpace& solved, const PreparedScan& prepared, const Options& options,
+                         const Configuration& configuration) {
+  Configuration asked = configuration;
+  asked.model = options;
+  asked.counter_surface = {};  // the prepared scan has it
+  OutputOptions& output = asked.model.output;
+  output.deformed_surfaces = output.contact_map = output.energy_curve = false;
+  output.asperities = true;
+  ScanPredictor predictor(asked);
+  const Prediction prediction = predictor.predict(prepared);
+  Evidence evidence;
+  evidence.half_space = &solved;
+  return verdictOf(prediction, asked.device, asked.uncertainty, asked.model, prepared.surfaces.lower.cellArea(),
+                   evidence);
 }
 
 cv::Mat halfSpaceContactMap(const SolvedHalfSpace& solved, const HalfSpaceProblem& problem,

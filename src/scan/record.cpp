@@ -91,6 +91,7 @@ void visitResultFields(const HeightMap& scan, const Prediction& prediction, cons
   visit("regime_flag_names", regimeFlagNames(flags), "");
   if (extras.verdict) {
     visitVerdictFields(*extras.verdict, visit);
+    if (extras.half_space) visit("verdict_by", std::string(judgeText(extras.verdict->judge)), "");
   } else {
     visit("regime_flags", flags, "");
   }

@@ -61,7 +61,7 @@ void BatchScans::expect(const std::vector<std::size_t>& numbers, std::size_t fir
 std::vector<std::string> BatchScans::columns() const {
   std::vector<std::string> names = columnNames(hasDevice());
   if (arguments_.half_space) {
-    for (std::string& name : halfSpaceColumnNames()) names.push_back(std::move(name));
+    for (std::string& name : halfSpaceColumnNames(hasDevice())) names.push_back(std::move(name));
   }
   return names;
 }
@@ -79,10 +79,10 @@ BatchRow BatchScans::row(std::size_t number, const std::function<void(const std:
   origin.file = inputs_[item.input];
   origin.scan = item.scan;
   std::string reason = item.reason;
-  RowFields figures;
+  Subject subject;
   if (reason.empty()) {
     try {
-      figures = predict(item, origin);
+      subject = predict(item, origin);
     } catch (const std::exception& error) {
       reason = reasonOf(error);
     }
@@ -90,14 +90,18 @@ BatchRow BatchScans::row(std::size_t number, const std::function<void(const std:
   BatchRow row;
   row.is_predicted = reason.empty();
   row.fields = originFields(origin, reason);
-  append(figures, row.fields);
+  if (!row.is_predicted) return row;
   HalfSpaceAnswer half_space;
-  if (row.is_predicted && arguments_.half_space) {
+  if (arguments_.half_space) {
     half_space = solve(tell);
     row.is_solved = half_space.reason.empty();
-    append(halfSpaceFields(half_space), row.fields);
   }
-  if (row.is_predicted && !arguments_.dump.empty()) dump(number, row.fields, half_space.solution);
+  const std::optional<Verdict> verdict = judge(half_space);
+  append(figureFields(surface_, subject.warnings, prediction_, verdict, configuration_.model.formulation,
+                      provenanceOf(subject.identity, configuration_)),
+         row.fields);
+  if (arguments_.half_space) append(halfSpaceFields(half_space, verdict), row.fields);
+  if (!arguments_.dump.empty()) dump(number, row.fields, half_space.solution);
   return row;
 }
 
@@ -128,15 +132,14 @@ const ScanBagReader& BatchScans::open(std::size_t input) {
   return *bag_;
 }
 
-RowFields BatchScans::predict(const Item& item, ScanOrigin& origin) {
+BatchScans::Subject BatchScans::predict(const Item& item, ScanOrigin& origin) {
   HeightMap counter_surface;
-  std::vector<std::string> warnings;
-  ScanIdentity identity;
-  identity.scan_name = std::filesystem::path(inputs_[item.input]).stem().string();
+  Subject subject;
+  subject.identity.scan_name = std::filesystem::path(inputs_[item.input]).stem().string();
   if (item.scan == 0) {
     const ScanFile file = ahead_.take(inputs_[item.input]);
     surface_ = file.surface;
-    warnings = file.notes;
+    subject.warnings = file.notes;
     origin.channel = file.channel;
   } else {
     const bool wants_counter = configuration_.counter_surface.type == CounterSurfaceType::kTopic;
@@ -144,7 +147,7 @@ RowFields BatchScans::predict(const Item& item, ScanOrigin& origin) {
     surface_ = of_bag.scan.surface;
     if (of_bag.counter_surface) counter_surface = of_bag.counter_surface->surface;
     origin.name = of_bag.scan.header.frame_id;
-    identity = of_bag.scan.identity;
+    subject.identity = of_bag.scan.identity;
     std::ostringstream stamp;
     stamp << of_bag.scan.header.stamp;
     origin.stamp = stamp.str();
@@ -152,15 +155,18 @@ RowFields BatchScans::predict(const Item& item, ScanOrigin& origin) {
   predictor_.preparer().setMeasuredCounterSurface(counter_surface);
   prepared_ = predictor_.preparer().prepare(surface_);
   prediction_ = predictor_.predict(prepared_);
-  std::optional<Verdict> verdict;
-  if (hasDevice()) {
-    verdict = verdictOf(prediction_, configuration_.device, configuration_.uncertainty, configuration_.model,
-                        surface_.cellArea());
-  }
-  for (const std::string& warning : scanWarnings(surface_)) warnings.push_back(warning);
-  for (const std::string& warning : settingsWarnings(configuration_)) warnings.push_back(warning);
-  return figureFields(surface_, warnings, prediction_, verdict, configuration_.model.formulation,
-                      provenanceOf(identity, configuration_));
+  for (const std::string& warning : scanWarnings(surface_)) subject.warnings.push_back(warning);
+  for (const std::string& warning : settingsWarnings(configuration_)) subject.warnings.push_back(warning);
+  return subject;
+}
+
+std::optional<Verdict> BatchScans::judge(const HalfSpaceAnswer& half_space) const {
+  if (!hasDevice()) return std::nullopt;
+  const SolvedHalfSpace unsolved = unsolvedHalfSpace(half_space.reason);
+  Evidence evidence;
+  if (arguments_.half_space) evidence.half_space = half_space.solution ? &*half_space.solution : &unsolved;
+  return verdictOf(prediction_, configuration_.device, configuration_.uncertainty, configuration_.model,
+                   surface_.cellArea(), evidence);
 }
 
 HalfSpaceAnswer BatchScans::solve(const std::function<void(const std::string&)>& tell) const {

@@ -55,11 +55,19 @@ class BatchScans {
     std::string reason;     ///< why there is nothing to predict; else empty
   };
 
+  /// What a row says of a scan beside its figures.
+  struct Subject {
+    std::vector<std::string> warnings;
+    ScanIdentity identity;
+  };
+
   bool hasDevice() const { return configuration_.device.isStated(); }
   void list(std::size_t input);
   const ScanBagReader& open(std::size_t input);
-  RowFields predict(const Item& item, ScanOrigin& origin);
+  Subject predict(const Item& item, ScanOrigin& origin);
   HalfSpaceAnswer solve(const std::function<void(const std::string&)>& tell) const;
+  /// On the device, if it is stated; by the half-space, if it was asked and can.
+  std::optional<Verdict> judge(const HalfSpaceAnswer& half_space) const;
   void dump(std::size_t number, RowFields fields, const std::optional<SolvedHalfSpace>& half_space) const;
 
   const BatchArguments& arguments_;

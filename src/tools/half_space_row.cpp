@@ -30,8 +30,9 @@ void visitFigures(const SolvedHalfSpace& solution, Visitor&& visit) {
 
 }  // namespace
 
-RowFields halfSpaceFields(const HalfSpaceAnswer& answer) {
+RowFields halfSpaceFields(const HalfSpaceAnswer& answer, const std::optional<Verdict>& verdict) {
   RowFields fields = {{kPrefix + "reason", oneLine(answer.reason)}};
+  if (verdict) fields.emplace_back("verdict_by", judgeText(verdict->judge));
   if (answer.solution) {
     visitFigures(*answer.solution, [&](const std::string& name, const auto& value, const char*) {
       fields.emplace_back(name, jsonOf(value));
@@ -40,9 +41,11 @@ RowFields halfSpaceFields(const HalfSpaceAnswer& answer) {
   return fields;
 }
 
-std::vector<std::string> halfSpaceColumnNames() {
+std::vector<std::string> halfSpaceColumnNames(bool with_verdict) {
+  std::optional<Verdict> verdict;
+  if (with_verdict) verdict.emplace();
   std::vector<std::string> names;
-  for (const auto& field : halfSpaceFields({SolvedHalfSpace(), ""})) names.push_back(field.first);
+  for (const auto& field : halfSpaceFields({SolvedHalfSpace(), ""}, verdict)) names.push_back(field.first);
   return names;
 }
 

@@ -9,6 +9,7 @@
 
 #include "batch_rows.hpp"
 #include "mems_stiction/half_space/half_space_solution.hpp"
+#include "mems_stiction/verdict/verdict.hpp"
 #include "scan_row.hpp"
 
 namespace mems_stiction {
@@ -19,12 +20,12 @@ struct HalfSpaceAnswer {
   std::string reason;                       ///< empty if it is solved
 };
 
-/// half_space_reason, then the figures by the names of the record's half_space with half_space_ before them; those that
+/// half_space_reason, verdict_by of a verdict, then the figures by the names of the record's half_space with half_space_ before them; those that
 /// were not reached are NaN, and without a solution there are none. No wall time: the same scan gives the same row.
-RowFields halfSpaceFields(const HalfSpaceAnswer& answer);
+RowFields halfSpaceFields(const HalfSpaceAnswer& answer, const std::optional<Verdict>& verdict);
 
 /// Every such column in order.
-std::vector<std::string> halfSpaceColumnNames();
+std::vector<std::string> halfSpaceColumnNames(bool with_verdict);
 
 /// The unit of every such column that has one.
 std::map<std::string, std::string> halfSpaceColumnUnits();

@@ -92,13 +92,13 @@ void describe(CLI::App& app, Arguments& arguments) {
   app.add_flag(
       "--cleanings", arguments.cleanings,
       "predict under each reasonable cleaning too (not levelled, plane, parabola, row medians; with and without "
-      "spikes), and print how pull-off force and margin move");
+      "spikes), print how pull-off force and margin move, and widen the margin's interval by that");
   app.add_option("-d,--deformed", arguments.deformed,
                  "write the surface after contact as a float TIFF in metres; for one scan")
       ->type_name("OUT.tiff");
   app.add_flag("--half-space", arguments.half_space,
                "solve the whole surface as one elastic half-space too, to see how far the asperity model is from it; "
-               "takes seconds to minutes, doc/half_space.md");
+               "and to judge the device by it; takes seconds to minutes, doc/half_space.md");
   HalfSpaceMapFiles& files = arguments.half_space_maps;
   app.add_option("--half-space-pressure", files.pressure,
                  "write the pressure between the surfaces at rest in pascals, positive in contact; for one scan")
@@ -198,8 +198,11 @@ void predictScan(const std::string& path, const Arguments& arguments, const Scan
     throw SurfaceError(path + ": " + error.what());
   }
   if (configuration.device.isStated()) {
-    extras.verdict =
-        verdictOf(prediction, configuration.device, configuration.uncertainty, options, scan.surface.cellArea());
+    Evidence evidence;
+    if (extras.half_space) evidence.half_space = &*extras.half_space;
+    if (arguments.cleanings) evidence.cleaning = reachOf(extras.cleanings);
+    extras.verdict = verdictOf(prediction, configuration.device, configuration.uncertainty, options,
+                               scan.surface.cellArea(), evidence);
   }
   if (!arguments.deformed.empty()) writeHeightTiff(arguments.deformed, prediction.deformed_lower);
   if (extras.half_space && extras.half_space->status != HalfSpaceStatus::kSolved) {

@@ -15,6 +15,9 @@
 namespace mems_stiction {
 namespace {
 
+/// Standard deviations from the median to the 97.5 % quantile.
+constexpr double kToQuantile = 1.959964;
+
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 /// Standard normal numbers that are the same everywhere: std::normal_distribution is not.
@@ -91,7 +94,8 @@ ModelError modelError(const Prediction& prediction) {
 }
 
 /// Samples of a prediction by the separation curve: its exponents move it with the constants.
-AdhesionSpread curveSpread(const Prediction& prediction, const UncertaintyOptions& uncertainty) {
+AdhesionSpread curveSpread(const Prediction& prediction, const UncertaintyOptions& uncertainty,
+                           const ModelError& error) {
   AdhesionSpread spread;
   if (!prediction.listsContacts() || !(prediction.pull_off_force > 0.0)) return spread;
   double radius_sum = 0.0;
@@ -102,7 +106,6 @@ AdhesionSpread curveSpread(const Prediction& prediction, const UncertaintyOption
   }
   const bool is_local = uncertainty.scan_sampling && !prediction.is_conforming && radius_sum > 0.0;
   const double sampling = is_local ? std::sqrt(square_sum) / radius_sum : 0.0;
-  const ModelError error = modelError(prediction);
   NormalNumbers numbers(uncertainty.seed);
   for (int i = 0; i < uncertainty.samples; ++i) {
     const double work = numbers.factor(uncertainty.work_of_adhesion);
@@ -118,30 +121,12 @@ AdhesionSpread curveSpread(const Prediction& prediction, const UncertaintyOption
     spread.pull_off.push_back(place * constants * std::exp(error.pull_off * model));
     spread.apparent_work.push_back(place * constants * std::exp(error.work * model) / pitch);
   }
-  std::sort(spread.pull_off.begin(), spread.pull_off.end());
-  std::sort(spread.apparent_work.begin(), spread.apparent_work.end());
   return spread;
 }
 
-}  // namespace
-
-double apparentWorkOfAdhesion(const Prediction& prediction, const Options& options) {
-  if (prediction.followsCurve()) return prediction.apparent_work_of_adhesion;
-  if (!prediction.listsContacts()) return kUnknown;
-  const double work = options.interface.work_of_adhesion;
-  const double modulus = ContactPair(options.lower, options.upper).contact_modulus;
-  double energy = 0.0;
-  for (const Asperity& asperity : prediction.asperities) {
-    const double radius = asperity.composite_radius;
-    const double contact = jkr::equilibriumContactRadius(0.0, work, radius, modulus);
-    energy -= jkr::energy(contact, work, radius, modulus);
-  }
-  return energy / prediction.nominal_area;
-}
-
-AdhesionSpread adhesionSpread(const Prediction& prediction, const Options& options,
-                              const UncertaintyOptions& uncertainty) {
-  if (prediction.followsCurve()) return curveSpread(prediction, uncertainty);
+/// Samples of a prediction whose contacts are known one by one.
+AdhesionSpread contactSpread(const Prediction& prediction, const Options& options,
+                             const UncertaintyOptions& uncertainty) {
   AdhesionSpread spread;
   if (!prediction.listsContacts()) return spread;
   const ContactPair pair(options.lower, options.upper);
@@ -185,8 +170,68 @@ AdhesionSpread adhesionSpread(const Prediction& prediction, const Options& optio
     const double energy = std::pow(work, 5.0 / 3.0) * std::pow(area, 4.0 / 3.0) * std::pow(modulus, -2.0 / 3.0);
     spread.apparent_work.push_back(place * growth * energy / area);
   }
+  return spread;
+}
+
+/// Moves sorted samples away from their median by a factor whose 2.5 % and 97.5 % quantiles are those of the range, in
+/// quadrature in the logarithm: quantile by quantile, so that no end comes nearer.
+void widen(std::vector<double>& samples, const FactorRange& range, NormalNumbers& numbers) {
+  if (samples.empty()) return;
+  std::vector<double> normals(samples.size());
+  for (double& normal : normals) normal = numbers.next();
+  std::sort(normals.begin(), normals.end());
+  const double below = -std::log(range.lowest) / kToQuantile;
+  const double above = std::log(range.highest) / kToQuantile;
+  const double median = quantile(samples, 0.5);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const double distance = std::log(samples[i] / median);
+    if (samples[i] < median || (samples[i] == median && 2 * i < samples.size())) {
+      samples[i] = median * std::exp(-std::hypot(distance, below * std::min(normals[i], 0.0)));
+    } else {
+      samples[i] = median * std::exp(std::hypot(distance, above * std::max(normals[i], 0.0)));
+    }
+  }
+}
+
+/// What the formulation's samples leave out.
+void takeEvidence(const Evidence& evidence, NormalNumbers& numbers, AdhesionSpread& spread) {
+  if (evidence.half_space != nullptr) {
+    const double reach = kToQuantile * halfSpaceError(*evidence.half_space);
+    const FactorRange range{std::exp(-reach), std::exp(reach)};
+    widen(spread.pull_off, range, numbers);
+    widen(spread.apparent_work, range, numbers);
+  }
+  if (evidence.cleaning) {
+    widen(spread.pull_off, evidence.cleaning->pull_off, numbers);
+    widen(spread.apparent_work, evidence.cleaning->apparent_work, numbers);
+  }
+}
+
+}  // namespace
+
+double apparentWorkOfAdhesion(const Prediction& prediction, const Options& options) {
+  if (prediction.followsCurve()) return prediction.apparent_work_of_adhesion;
+  if (!prediction.listsContacts()) return kUnknown;
+  const double work = options.interface.work_of_adhesion;
+  const double modulus = ContactPair(options.lower, options.upper).contact_modulus;
+  double energy = 0.0;
+  for (const Asperity& asperity : prediction.asperities) {
+    const double radius = asperity.composite_radius;
+    const double contact = jkr::equilibriumContactRadius(0.0, work, radius, modulus);
+    energy -= jkr::energy(contact, work, radius, modulus);
+  }
+  return energy / prediction.nominal_area;
+}
+
+AdhesionSpread adhesionSpread(const Prediction& prediction, const Options& options,
+                              const UncertaintyOptions& uncertainty, const Evidence& evidence) {
+  const ModelError error = evidence.half_space != nullptr ? ModelError{0.0, 0.0} : modelError(prediction);
+  AdhesionSpread spread = prediction.followsCurve() ? curveSpread(prediction, uncertainty, error)
+                                                    : contactSpread(prediction, options, uncertainty);
+  NormalNumbers numbers(uncertainty.seed);
   std::sort(spread.pull_off.begin(), spread.pull_off.end());
   std::sort(spread.apparent_work.begin(), spread.apparent_work.end());
+  takeEvidence(evidence, numbers, spread);
   return spread;
 }
 

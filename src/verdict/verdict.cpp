@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <functional>
 
 #include "mems_stiction/verdict/regime_flags.hpp"
 
@@ -45,10 +46,13 @@ int gravity(Sticks sticks) {
   return 3;
 }
 
+bool hasContact(const DeviceOptions& device) { return device.hasSpring() && device.contact_area > 0.0; }
+
 /// The word for a ratio of what opens to what holds.
-Finding judged(const std::string& name, double value, double lowest, double highest, bool is_upper_bound) {
-  const std::string interval =
-      name + " " + shortNumber(value) + ", 95 % within " + shortNumber(lowest) + " to " + shortNumber(highest);
+Finding judged(const std::string& name, double value, double lowest, double highest, bool is_upper_bound,
+               bool has_cleanings) {
+  const std::string interval = name + " " + shortNumber(value) + ", 95 % within " + shortNumber(lowest) + " to " +
+                               shortNumber(highest) + (has_cleanings ? " (cleaning included)" : "");
   if (highest < 1.0) return {Sticks::kYes, interval + ": below 1"};
   if (is_upper_bound) {
     return {Sticks::kUnknown, "the surfaces bond, so adhesion is at least as predicted: " + name + " at most " +
@@ -85,7 +89,7 @@ std::string whatLacks(const Prediction& prediction, std::uint32_t flags) {
 }
 
 Finding springFinding(const Prediction& prediction, const DeviceOptions& device, const AdhesionSpread& spread,
-                      Verdict& verdict) {
+                      bool has_cleanings, Verdict& verdict) {
   const double scale = device.contact_area / prediction.nominal_area;
   const double across_the_gap = prediction.pull_off_force - prediction.pull_off_force_jkr;
   const double transition = prediction.pull_off_force_transition + across_the_gap;
@@ -104,11 +108,11 @@ Finding springFinding(const Prediction& prediction, const DeviceOptions& device,
       0.5 * verdict.margin *
       (1.0 / quantile(spread.pull_off, kStandardLower) - 1.0 / quantile(spread.pull_off, kStandardUpper));
   const double lowest = std::min(verdict.margin_lower, verdict.margin_transition);
-  return judged("margin", verdict.margin, lowest, verdict.margin_upper, prediction.isLowerBound());
+  return judged("margin", verdict.margin, lowest, verdict.margin_upper, prediction.isLowerBound(), has_cleanings);
 }
 
 Finding beamFinding(const Prediction& prediction, const DeviceOptions& device, const AdhesionSpread& spread,
-                    Verdict& verdict) {
+                    bool has_cleanings, Verdict& verdict) {
   const Beam beam = device.beam();
   const double work = verdict.apparent_work_of_adhesion;
   if (std::isnan(work)) return withoutContacts("the beam's adhesion", prediction);
@@ -125,10 +129,54 @@ Finding beamFinding(const Prediction& prediction, const DeviceOptions& device, c
     verdict.peel_number_upper = std::max(at_least, at_most);
   }
   return judged("peel number", verdict.peel_number, verdict.peel_number_lower, verdict.peel_number_upper,
-                prediction.isLowerBound() && !is_measured);
+                prediction.isLowerBound() && !is_measured, has_cleanings && !is_measured);
+}
+
+/// - @p prediction of whoever judges
+/// - @p flags of the formulation's prediction
+/// - @p spread_of gives the spread of the figures, if it is needed
+Verdict verdictBy(const Prediction& prediction, const DeviceOptions& device, const Options& options,
+                  std::uint32_t flags, bool has_cleanings, const std::function<AdhesionSpread()>& spread_of) {
+  Verdict verdict;
+  verdict.regime_flags = flags;
+  verdict.pull_in_voltage = closingVoltage(device, options.interface);
+  verdict.apparent_work_of_adhesion = device.apparent_work_of_adhesion > 0.0
+                                          ? device.apparent_work_of_adhesion
+                                          : apparentWorkOfAdhesion(prediction, options);
+  const bool has_contact = hasContact(device);
+  if (device.hasSpring()) verdict.restoring_force = device.restoringForce();
+  if (!has_contact && !device.hasBeam()) {
+    verdict.reason =
+        "the device is not stated: it needs device/spring_stiffness with device/travel and device/contact_area; or a "
+        "beam";
+    return verdict;
+  }
+  if (prediction.status == Status::kNoEquilibrium) {
+    verdict.reason = "the search for equilibrium ended before it was found: raise approach/max_steps";
+    return verdict;
+  }
+
+  const AdhesionSpread spread = spread_of();
+  Finding finding{Sticks::kNo, ""};
+  if (has_contact) finding = springFinding(prediction, device, spread, has_cleanings, verdict);
+  if (device.hasBeam()) {
+    const Finding of_beam = beamFinding(prediction, device, spread, has_cleanings, verdict);
+    if (!has_contact || gravity(of_beam.sticks) > gravity(finding.sticks)) finding = of_beam;
+  }
+  verdict.sticks = finding.sticks;
+  verdict.reason = finding.reason;
+  const std::string lack =
+      finding.sticks == Sticks::kNo && prediction.pull_off_force > 0.0 ? whatLacks(prediction, flags) : "";
+  if (!lack.empty()) {
+    verdict.sticks = Sticks::kUnknown;
+    verdict.reason = finding.reason + "; but " + lack;
+  }
+  return verdict;
 }
 
 }  // namespace
+
+const char* judgeText(Judge judge) { return judge == Judge::kHalfSpace ? "half_space" : "prediction"; }
 
 const char* sticksText(Sticks sticks) {
   switch (sticks) {
@@ -145,42 +193,24 @@ const char* sticksText(Sticks sticks) {
 }
 
 Verdict verdictOf(const Prediction& prediction, const DeviceOptions& device, const UncertaintyOptions& uncertainty,
-                  const Options& options, double cell_area) {
-  Verdict verdict;
-  verdict.regime_flags = regimeFlags(prediction, cell_area);
-  verdict.pull_in_voltage = closingVoltage(device, options.interface);
-  verdict.apparent_work_of_adhesion = device.apparent_work_of_adhesion > 0.0
-                                          ? device.apparent_work_of_adhesion
-                                          : apparentWorkOfAdhesion(prediction, options);
-  const bool has_contact = device.hasSpring() && device.contact_area > 0.0;
-  if (device.hasSpring()) verdict.restoring_force = device.restoringForce();
-  if (!has_contact && !device.hasBeam()) {
-    verdict.reason =
-        "the device is not stated: it needs device/spring_stiffness with device/travel and device/contact_area; or a "
-        "beam";
+                  const Options& options, double cell_area, const Evidence& evidence) {
+  const std::uint32_t flags = regimeFlags(prediction, cell_area);
+  const bool is_asked = evidence.half_space != nullptr && (hasContact(device) || device.hasBeam());
+  const std::string objection = is_asked ? whyNotJudging(*evidence.half_space) : "";
+  Evidence counted = evidence;
+  if (!is_asked || !objection.empty()) counted.half_space = nullptr;
+  const auto judged_by = [&](const Prediction& figures) {
+    return verdictBy(figures, device, options, flags, evidence.cleaning.has_value(),
+                     [&] { return adhesionSpread(prediction, options, uncertainty, counted); });
+  };
+  if (counted.half_space == nullptr) {
+    Verdict verdict = judged_by(prediction);
+    if (!objection.empty()) verdict.reason += "; the half-space does not count: " + objection;
     return verdict;
   }
-  if (prediction.status == Status::kNoEquilibrium) {
-    verdict.reason = "the search for equilibrium ended before it was found: raise approach/max_steps";
-    return verdict;
-  }
-
-  const AdhesionSpread spread = adhesionSpread(prediction, options, uncertainty);
-  Finding finding{Sticks::kNo, ""};
-  if (has_contact) finding = springFinding(prediction, device, spread, verdict);
-  if (device.hasBeam()) {
-    const Finding of_beam = beamFinding(prediction, device, spread, verdict);
-    if (!has_contact || gravity(of_beam.sticks) > gravity(finding.sticks)) finding = of_beam;
-  }
-  verdict.sticks = finding.sticks;
-  verdict.reason = finding.reason;
-  const std::string lack = finding.sticks == Sticks::kNo && prediction.pull_off_force > 0.0
-                               ? whatLacks(prediction, verdict.regime_flags)
-                               : "";
-  if (!lack.empty()) {
-    verdict.sticks = Sticks::kUnknown;
-    verdict.reason = finding.reason + "; but " + lack;
-  }
+  Verdict verdict = judged_by(withHalfSpace(prediction, *evidence.half_space));
+  verdict.judge = Judge::kHalfSpace;
+  verdict.reason = "by the half-space: " + verdict.reason;
   return verdict;
 }
 

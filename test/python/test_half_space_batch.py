@@ -143,6 +143,32 @@ class HalfSpaceBatchTest(unittest.TestCase):
         self.assertEqual(max(retraction), result["half_space_pull_off_force"])
         self.assertEqual(len(curve["height"]), len(curve["force"]))
 
+    def test_with_a_device_the_row_says_who_judged(self):
+        self.config.write_text(CONFIG + "half_space: {max_pixels: 1500}\n"
+                               "device: {spring_stiffness: 1.0e-3, travel: 1.0e-6, contact_area: 4.096e-15}\n")
+        self.batch("rows.csv", "--half-space")
+        self.batch("plain.csv")
+        solved, refused = self.rows("rows.csv")
+        plain = self.rows("plain.csv")
+        done = run([program("predict_scan"), "--half-space", "--json", "-c", self.config, self.small])
+        record = json.loads(done.stdout)
+        self.assertEqual((solved["verdict_by"], record["verdict_by"]), ("half_space", "half_space"))
+        self.assertEqual((solved["sticks"], solved["verdict_reason"]), (record["sticks"], record["reason"]))
+        self.assertEqual([float(solved[name]) for name in ("margin", "margin_lower", "margin_upper")],
+                         [record[name] for name in ("margin", "margin_lower", "margin_upper")])
+        self.assertTrue(solved["verdict_reason"].startswith("by the half-space: "))
+        self.assertEqual(refused["verdict_by"], "prediction")
+        self.assertEqual({name: refused[name] for name in ("sticks", "margin", "margin_lower")},
+                         {name: plain[1][name] for name in ("sticks", "margin", "margin_lower")})
+        self.assertIn("the half-space does not count: ", refused["verdict_reason"])
+        self.assertIn("half_space/max_pixels = 1500", refused["verdict_reason"])
+        self.assertNotIn("verdict_by", plain[0])
+        done = run([program("stiction_report"), "--half-space", "-c", self.config, "-o", self.folder / "r.html", self.small])
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        plain_text = re.sub(r"<[^>]+>", " ", re.sub(r'src="[^"]*"', "", (self.folder / "r.html").read_text(encoding="utf-8")))
+        self.assertIn("By the half-space: margin", plain_text)
+        self.assertIn("(half-space)", plain_text)
+
     def test_the_report_shows_both_forces_their_ratio_and_what_was_not_solved(self):
         self.config.write_text(CONFIG + "half_space: {max_pixels: 1500}\n")
         done = run([program("stiction_report"), "--half-space", "-c", self.config, "-o", self.folder / "r.html", self.small,

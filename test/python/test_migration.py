@@ -14,7 +14,7 @@ import genpy.dynamic
 import numpy as np
 import rosbag
 import rospy
-from mems_stiction.msg import ScanInfo, SeparationPoint, StictionPrediction
+from mems_stiction.msg import HalfSpacePoint, HalfSpaceSolution, ScanInfo, SeparationPoint, StictionPrediction
 from roslib.packages import find_node
 from rosbag.migration import MessageMigrator, MessageUpdateRule, checkbag, fixbag2
 from sensor_msgs.msg import Image
@@ -109,6 +109,27 @@ class MigrationTest(unittest.TestCase):
         self.assertEqual((new.header.stamp, new.pitch_x, new.pitch_y), (rospy.Time(12, 34), 1e-8, 2e-8))
         self.assertEqual((new.height_scale, new.invalid_value, new.has_invalid_value), (1e-9, -1.0, True))
         self.assertEqual((new.scan_name, new.part_id, new.serial_id), ("", "", ""))
+
+    def test_a_half_space_that_was_recorded_before_it_judged_has_no_verdict(self):
+        old, = (kind for kind in old_classes() if kind._type == "mems_stiction/HalfSpaceSolution")
+        message = old(status=HalfSpaceSolution.TOO_MANY_STATES, message="a sentence", pull_off_force=2e-7, contact_count=-1,
+                      is_resolved=True, jumps=4, processing_time=0.5)
+        message.header.stamp = rospy.Time(12, 34)
+        message.curve = [HalfSpacePoint(height=1e-9, force=2e-7, direction=HalfSpacePoint.RETRACTION)]
+        with rosbag.Bag(self.bag, "w") as bag:
+            bag.write("half_space", message, rospy.Time(12, 50))
+        with contextlib.redirect_stdout(io.StringIO()):
+            self.assertEqual(fixbag2(self.migrator(), self.bag, self.fixed), [])
+        with rosbag.Bag(self.fixed) as bag:
+            (_, new, _), = bag.read_messages()
+        self.assertEqual(new._md5sum, HalfSpaceSolution._md5sum)
+        self.assertEqual((new.header.stamp, new.status, new.message), (rospy.Time(12, 34), message.status, "a sentence"))
+        self.assertEqual((new.pull_off_force, new.contact_count, new.is_resolved), (2e-7, -1, True))
+        self.assertEqual((new.jumps, new.processing_time), (4, 0.5))
+        point, = new.curve
+        self.assertEqual((point.height, point.force, point.direction), (1e-9, 2e-7, HalfSpacePoint.RETRACTION))
+        self.assertEqual((new.sticks, new.verdict_reason, new.verdict_by), (StictionPrediction.STICKS_UNKNOWN, "", ""))
+        self.assertTrue(all(math.isnan(value) for value in (new.margin, new.margin_upper, new.peel_number)))
 
     def test_the_batch_reads_scans_that_were_recorded_before(self):
         old, = (kind for kind in old_classes() if kind._type == "mems_stiction/ScanInfo")

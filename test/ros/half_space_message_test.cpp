@@ -89,6 +89,31 @@ TEST(HalfSpaceMessage, HoldsEveryFieldOfTheRecord) {
   }
 }
 
+TEST(HalfSpaceMessage, HoldsTheVerdictWithWhoJudged) {
+  Verdict verdict;
+  verdict.sticks = Sticks::kYes;
+  verdict.judge = Judge::kHalfSpace;
+  verdict.reason = "by the half-space:\nmargin";
+  verdict.margin = 0.5;
+  verdict.margin_lower = 0.4;
+  verdict.margin_upper = 0.6;
+  verdict.peel_number = 5.0;
+  verdict.peel_number_lower = 4.0;
+  verdict.peel_number_upper = 6.0;
+  HalfSpaceSolution message = halfSpaceMessage(solvedWithCurve(10), someLoad(), {});
+  EXPECT_EQ(message.sticks, 3);
+  EXPECT_EQ(message.verdict_reason + message.verdict_by, "");
+  EXPECT_TRUE(std::isnan(message.margin) && std::isnan(message.peel_number_upper));
+  fillVerdict(verdict, message);
+  EXPECT_EQ(message.sticks, 2);
+  EXPECT_EQ(message.verdict_reason, "by the half-space:; margin");
+  EXPECT_EQ(message.verdict_by, "half_space");
+  EXPECT_EQ((std::vector<double>{message.margin, message.margin_lower, message.margin_upper}),
+            (std::vector<double>{0.5, 0.4, 0.6}));
+  EXPECT_EQ((std::vector<double>{message.peel_number, message.peel_number_lower, message.peel_number_upper}),
+            (std::vector<double>{5.0, 4.0, 6.0}));
+}
+
 TEST(HalfSpaceMessage, ALongCurveKeepsItsEndsAndItsLargestForce) {
   for (const int points : {4096, 4097, 8190, 8191, 100000}) {
     const SolvedHalfSpace solved = solvedWithCurve(points);

@@ -26,6 +26,12 @@ LOAD = 1e-6
 WORDS = {getattr(HalfSpaceSolution, word): word
          for word in ("SOLVED", "LOAD_NOT_REACHED", "NOT_CONVERGED", "TOO_MANY_STATES", "CANCELLED", "REFUSED")}
 WAYS = {HalfSpacePoint.APPROACH: "APPROACH", HalfSpacePoint.RETRACTION: "RETRACTION"}
+# As in the launch file.
+DEVICE = ("device: {spring_stiffness: 1.0, travel: 1.0e-6, contact_area: 1.0e-12, beam_type: cantilever, beam_length: 100.0e-6, "
+          "beam_thickness: 2.0e-6, beam_gap: 2.0e-6, beam_modulus: 160.0e+9}\n")
+STICKS = {"no": StictionPrediction.STICKS_NO, "marginal": StictionPrediction.STICKS_MARGINAL, "yes": StictionPrediction.STICKS_YES,
+          "unknown": StictionPrediction.STICKS_UNKNOWN}
+VERDICT = ("margin", "margin_lower", "margin_upper", "peel_number", "peel_number_lower", "peel_number_upper")
 FIGURES = [name for name, kind in zip(HalfSpaceSolution.__slots__, HalfSpaceSolution._slot_types)
            if kind == "float64" and name not in ("voltage", "mechanical_load")]
 
@@ -36,7 +42,9 @@ def slow_surface():
 
 
 def record_of(surface, load=LOAD, voltage=0.0):
-    return predict_scan(surface, load, voltage, arguments=["--half-space"])["half_space"]
+    """The half-space's figures, and under "verdict" the verdict."""
+    record = predict_scan(surface, load, voltage, arguments=["--half-space"], more=DEVICE)
+    return dict(record["half_space"], verdict={name: record[name] for name in VERDICT + ("sticks", "reason", "verdict_by")})
 
 
 class HalfSpaceTest(unittest.TestCase):
@@ -88,9 +96,15 @@ class HalfSpaceTest(unittest.TestCase):
         """Every figure that the command line prints, to the bit; of these only the time is another."""
         self.assertEqual(solution.status, HalfSpaceSolution.SOLVED, solution.message)
         for name, expected in record.items():
-            if name not in ("curve", "status", "processing_time"):
+            if name not in ("curve", "status", "processing_time", "verdict"):
                 self.assertEqual(getattr(solution, name), expected, name)
         self.assertEqual(WORDS[solution.status], record["status"])
+        verdict = record["verdict"]
+        for name in VERDICT:
+            self.assertEqual(getattr(solution, name), verdict[name], name)
+        self.assertEqual((solution.sticks, solution.verdict_reason, solution.verdict_by),
+                         (STICKS[verdict["sticks"]], verdict["reason"], verdict["verdict_by"]))
+        self.assertIn("half-space", solution.verdict_reason)
         self.assertEqual([(point.height, point.force, WAYS[point.direction]) for point in solution.curve],
                          [(point["height"], point["force"], point["direction"]) for point in record["curve"]])
         self.assertGreater(solution.processing_time, 0.0)
@@ -102,6 +116,7 @@ class HalfSpaceTest(unittest.TestCase):
         for name in FIGURES:
             self.assertTrue(math.isnan(getattr(solution, name)), name)
         self.assertEqual((solution.contact_count, len(solution.curve)), (-1, 0))
+        self.assertEqual((solution.sticks, solution.verdict_reason, solution.verdict_by), (StictionPrediction.STICKS_UNKNOWN, "", ""))
 
     def test_1_without_a_scan_everybody_says_so(self):
         answer = self.solve(SolveHalfSpaceRequest())

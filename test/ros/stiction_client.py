@@ -151,11 +151,14 @@ def _write_grid(path, heights):
     path.write_text("".join(" ".join(repr(float(height)) for height in row) + "\n" for row in heights))
 
 
-def predict_scan(heights, load, voltage=0.0, counter=None, arguments=()):
-    """The record of the command line for the same heights [m] at the rostests' settings, counter-surface [m] or none."""
+def predict_scan(heights, load, voltage=0.0, counter=None, arguments=(), more=""):
+    """The record of the command line for the same heights [m] at the rostests' settings, counter-surface [m] or none.
+
+    more: lines of settings beside them.
+    """
     program = find_node("mems_stiction", "predict_scan")[0]
     config = (pathlib.Path(__file__).parent / "station.yaml").read_text()
-    config = "".join(line + "\n" for line in config.splitlines() if line.split(":")[0] not in NODE_KEYS)
+    config = "".join(line + "\n" for line in config.splitlines() if line.split(":")[0] not in NODE_KEYS) + more
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         _write_grid(folder / "scan.txt", heights)

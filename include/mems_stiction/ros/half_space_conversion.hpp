@@ -10,16 +10,20 @@
 #include "mems_stiction/HalfSpaceSolution.h"
 #include "mems_stiction/half_space/half_space_solution.hpp"
 #include "mems_stiction/loads/interface.hpp"
+#include "mems_stiction/verdict/verdict.hpp"
 
 namespace mems_stiction {
 
 /// Points of the message's curve each way; longer curves are thinned out evenly, the ends and the largest force stay.
 inline constexpr std::size_t kMostCurvePoints = 4096;
 
+/// Without a verdict.
 HalfSpaceSolution halfSpaceMessage(const SolvedHalfSpace& solved, const LoadOptions& load,
                                    const std_msgs::Header& header);
 
-/// REFUSED, with every figure NaN.
+void fillVerdict(const Verdict& verdict, HalfSpaceSolution& message);
+
+/// REFUSED, with every figure NaN and no verdict.
 /// - @p reason becomes the message, on one line
 HalfSpaceSolution refusedMessage(const std::string& reason, const LoadOptions& load, const std_msgs::Header& header);
 

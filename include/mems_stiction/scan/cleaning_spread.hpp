@@ -26,9 +26,10 @@ struct CleaningRow {
   std::string reason;          ///< why there is no prediction; empty if there is one
   bool is_reasonable = false;  ///< counts for the spread; the others are of scans that are tilted and were left so
   Status status = Status::kNoEquilibrium;
-  double rms_height = kUnknown;      ///< [m]
-  double pull_off_force = kUnknown;  ///< [N]
-  double contact_area = kUnknown;    ///< [m^2]
+  double rms_height = kUnknown;                 ///< [m]
+  double pull_off_force = kUnknown;             ///< [N]
+  double contact_area = kUnknown;               ///< [m^2]
+  double apparent_work_of_adhesion = kUnknown;  ///< of the contacts [J/m^2]
   int asperity_count = 0;
   double margin = kUnknown;        ///< [-]
   double margin_lower = kUnknown;  ///< 2.5 % quantile [-]
@@ -55,6 +56,7 @@ void visitCleaningFields(Row& row, Visitor&& visit) {
   visit("rms_height", row.rms_height, "m");
   visit("pull_off_force", row.pull_off_force, "N");
   visit("contact_area", row.contact_area, "m^2");
+  visit("apparent_work_of_adhesion", row.apparent_work_of_adhesion, "J/m^2");
   visit("asperity_count", row.asperity_count, "");
   visit("margin", row.margin, "");
   visit("margin_lower", row.margin_lower, "");
@@ -79,6 +81,10 @@ void visitSpreadFields(const CleaningSpread& spread, Visitor&& visit) {
 std::vector<CleaningRow> cleaningSpread(const HeightMap& scan, const Configuration& configuration);
 
 CleaningSpread spreadOf(const std::vector<CleaningRow>& rows);
+
+/// What a verdict on the scan as configured, the first row, takes into account. Figures that a row does not have, or that
+/// are 0, do not count.
+CleaningReach reachOf(const std::vector<CleaningRow>& rows);
 
 /// The rows as a table of fixed width for people, a line each and sentences about the spread; every line ends in '\n'
 /// and begins with `indent`.

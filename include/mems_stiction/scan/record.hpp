@@ -29,7 +29,8 @@ struct RecordExtras {
   PreprocessRecord preprocessing;             ///< a list of maps: step, parameters, rms_change, changed_pixels, ...
   std::vector<ConvergenceRow> convergence;    ///< a list of maps, one per resolution
   std::vector<CleaningRow> cleanings;         ///< a list of maps, one per cleaning, and a map of their spread
-  std::optional<SolvedHalfSpace> half_space;  ///< a map of its figures, with the list of maps `curve`
+  std::optional<SolvedHalfSpace> half_space;  ///< a map of its figures, with the list of maps `curve`; beside a verdict
+                                              ///< also verdict_by: who judged
 };
 
 /// One YAML document, from its "---" to the end of its last line. Numbers that are not finite are .nan, .inf, -.inf.

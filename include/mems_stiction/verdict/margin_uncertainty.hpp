@@ -27,6 +27,11 @@
 /// powers of 4 of pitch and cut-off. With a few contacts the search goes in steps, and this is the smooth mean at best. A single contact that carries more than it must does not react at all: this is then wider than
 /// what the search would say.
 ///
+/// A prediction by the separation curve moves with its exponents instead, and has the model's own error (doc/trust.md).
+/// Where a half-space judges, its error takes the place of that (evidence.hpp). The choice of cleaning is a further
+/// factor: normal in the logarithm, whose 2.5 % and 97.5 % quantiles are the lowest and the highest of the cleanings. Both
+/// add in quadrature there, quantile by quantile.
+///
 /// With scan_sampling, a further factor has the variance sum R_i^2/(sum R_i)^2: a scan is one sample of the surface,
 /// and another place would have other contacts (Poisson).
 ///
@@ -36,6 +41,7 @@
 
 #include "mems_stiction/prediction/options.hpp"
 #include "mems_stiction/prediction/prediction.hpp"
+#include "mems_stiction/verdict/evidence.hpp"
 #include "mems_stiction/verdict/uncertainty_options.hpp"
 
 namespace mems_stiction {
@@ -53,9 +59,11 @@ struct AdhesionSpread {
 /// across the open gap (which adds at most F_w (mean gap)/2 per nominal area). NaN without a list of contacts.
 double apparentWorkOfAdhesion(const Prediction& prediction, const Options& options);
 
+/// - @p prediction of the formulation, also where a half-space judges: contacts and exponents are its own
 /// - @p options those of the prediction
+/// - @p evidence a half-space in it judges, whatever whyNotJudging() says
 AdhesionSpread adhesionSpread(const Prediction& prediction, const Options& options,
-                              const UncertaintyOptions& uncertainty);
+                              const UncertaintyOptions& uncertainty, const Evidence& evidence = {});
 
 /// Value below which the given share of the sorted samples lies, linear between samples; NaN if there are none.
 double quantile(const std::vector<double>& sorted_samples, double share);

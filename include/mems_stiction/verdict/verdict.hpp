@@ -19,6 +19,10 @@
 ///               three; the device is not stated, the search found no equilibrium, or the surfaces bond (the forces are then
 ///               lower bounds: they can say "yes", not "no")
 ///
+/// A half-space of the same scan judges in the prediction's place if it is solved, converged, resolved and converged with
+/// its steps (whyNotJudging()): its pull-off force and work, with its error for that of the model. What speaks of the scan
+/// still counts. Other cleanings of the scan, if they were tried, widen the interval. The reason says both.
+///
 /// With a spring and a beam stated, the worse of both counts: yes, unknown, marginal, no.
 /// Assumptions: the scan stands for the whole contact area; the load has been taken away before the device is to open
 /// (voltage and mechanical load made the contact, they do not hold it); the spring pulls along the normal and evenly on
@@ -34,6 +38,7 @@
 #include "mems_stiction/prediction/options.hpp"
 #include "mems_stiction/prediction/prediction.hpp"
 #include "mems_stiction/verdict/device_options.hpp"
+#include "mems_stiction/verdict/evidence.hpp"
 #include "mems_stiction/verdict/margin_uncertainty.hpp"
 
 namespace mems_stiction {
@@ -44,12 +49,19 @@ enum class Sticks : std::uint8_t { kNo = 0, kMarginal = 1, kYes = 2, kUnknown = 
 /// "no", "marginal", "yes", "unknown".
 const char* sticksText(Sticks sticks);
 
+/// Whose figures a verdict rests on.
+enum class Judge { kPrediction, kHalfSpace };
+
+/// "prediction", "half_space".
+const char* judgeText(Judge judge);
+
 /// NaN stands for what the device's settings do not allow to say.
 struct Verdict {
   static constexpr double kNotStated = std::numeric_limits<double>::quiet_NaN();
 
   Sticks sticks = Sticks::kUnknown;
   std::string reason;  ///< one sentence for people
+  Judge judge = Judge::kPrediction;
 
   double restoring_force = kNotStated;            ///< of the device [N]
   double device_pull_off_force = kNotStated;      ///< scaled to the device's contact area [N]
@@ -70,7 +82,8 @@ struct Verdict {
 
 /// - @p options those that the prediction was made with
 /// - @p cell_area of the scan [m^2], > 0
+/// - @p evidence what else is known
 Verdict verdictOf(const Prediction& prediction, const DeviceOptions& device, const UncertaintyOptions& uncertainty,
-                  const Options& options, double cell_area);
+                  const Options& options, double cell_area, const Evidence& evidence = {});
 
 }  // namespace mems_stiction

@@ -84,6 +84,22 @@ TEST(CleaningSpread, SpreadIsOfTheRowsThatCount) {
   EXPECT_TRUE(std::isnan(spreadOf({}).pull_off_factor));
 }
 
+TEST(CleaningReach, IsOverTheScanAsConfiguredOfTheRowsThatCount) {
+  std::vector<CleaningRow> rows(5);
+  const double forces[] = {2e-7, 1e-7, 6e-7, 9e-7, 0.0};
+  const double works[] = {0.01, 0.02, CleaningRow::kUnknown, 0.5, 0.0};
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].is_reasonable = i != 3;
+    rows[i].pull_off_force = forces[i];
+    rows[i].apparent_work_of_adhesion = works[i];
+  }
+  const CleaningReach reach = reachOf(rows);
+  EXPECT_DOUBLE_EQ(reach.pull_off.lowest, 0.5);
+  EXPECT_DOUBLE_EQ(reach.pull_off.highest, 3.0);
+  EXPECT_DOUBLE_EQ(reach.apparent_work.lowest, 1.0);
+  EXPECT_DOUBLE_EQ(reach.apparent_work.highest, 2.0);
+}
+
 TEST(CleaningSpread, WithoutADeviceThereIsNoMargin) {
   const std::vector<CleaningRow> rows = cleaningSpread(rough(), Configuration());
   EXPECT_TRUE(std::isnan(spreadOf(rows).margin_factor));

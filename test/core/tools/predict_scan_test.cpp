@@ -255,6 +255,22 @@ TEST_F(PredictScan, CleaningsAreAListWithTheirSpread) {
   EXPECT_NE(outcome.output.find("# Over "), std::string::npos);
 }
 
+TEST_F(PredictScan, CleaningsWidenTheMargin) {
+  const std::string call =
+      "-c " + folder_.write("d.yaml", "device: {spring_stiffness: 1.0, travel: 1e-6, contact_area: 4.0804e-12}\n") +
+      " --pitch 20e-9 " + sphere();
+  const YAML::Node plain = YAML::Load(run(call).output);
+  const YAML::Node record = YAML::Load(run("--cleanings " + call).output);
+  ASSERT_GT(record["cleaning_spread"]["pull_off_factor"].as<double>(), 1.0);
+  EXPECT_EQ(record["margin"].as<double>(), plain["margin"].as<double>());
+  const auto span = [](const YAML::Node& of) {
+    return of["margin_upper"].as<double>() / of["margin_lower"].as<double>();
+  };
+  EXPECT_GT(span(record), span(plain));
+  EXPECT_NE(record["reason"].as<std::string>().find("(cleaning included)"), std::string::npos);
+  EXPECT_EQ(plain["reason"].as<std::string>().find("cleaning"), std::string::npos);
+}
+
 TEST_F(PredictScan, TheRecordSaysHowTheScanWasCleanedAndHowFarItsRoughnessReaches) {
   const std::string configuration = folder_.write(
       "c.yaml", "preprocessing: {level: plane, tip: {radius: 50e-9}}\noutput: {spatial_roughness: true}\n");
@@ -340,6 +356,42 @@ TEST_F(PredictScanHalfSpace, RecordHasTheLibrarysSolution) {
   EXPECT_EQ(yaml["curve"].size(), curve.size());
   EXPECT_EQ(yaml["curve"][0]["direction"].as<std::string>(), "APPROACH");
   EXPECT_FALSE(YAML::Load(run("--pitch 20e-9 " + sphere()).output)["half_space"].IsDefined());
+}
+
+TEST_F(PredictScanHalfSpace, JudgesTheDeviceAndSaysSo) {
+  const auto call = [&](const std::string& half_space) {
+    return "--pitch 2e-9 -c " +
+           folder_.write("device.yaml",
+                         "lower: {hardness: 1e9}\nload: {mechanical_load: 1e-7}\n"
+                         "preprocessing: {level: plane, refine: {factor: 2}}\nhalf_space: {boundary: free, " +
+                             half_space +
+                             "}\n"
+                             // as large as the frame
+                             "device: {spring_stiffness: 1e-3, travel: 1e-6, contact_area: 4.096e-15}\n") +
+           " " + scan();
+  };
+  const SolvedHalfSpace expected = this->expected();
+  ASSERT_TRUE(expected.is_converged && expected.is_resolved && expected.is_step_converged);
+  const nlohmann::json plain = nlohmann::json::parse(run("--json " + call("step: 0.5")).output);
+  EXPECT_FALSE(plain.contains("verdict_by"));
+  const nlohmann::json record = nlohmann::json::parse(run("--json --half-space " + call("step: 0.5")).output);
+  EXPECT_EQ(record["pull_off_force"], plain["pull_off_force"]) << "the prediction's figure stays";
+  EXPECT_EQ(record["verdict_by"], "half_space");
+  EXPECT_EQ(record["reason"].get<std::string>().find("by the half-space: margin "), 0U) << record["reason"];
+  EXPECT_NEAR(record["margin"].get<double>(), 1e-9 / expected.pull_off_force, 1e-12 * record["margin"].get<double>());
+  EXPECT_EQ(record["apparent_work_of_adhesion"].get<double>(), expected.work_of_adhesion);
+  const YAML::Node yaml = YAML::Load(run("--half-space " + call("step: 0.5")).output);
+  EXPECT_EQ(yaml["verdict_by"].as<std::string>(), "half_space");
+  EXPECT_EQ(yaml["reason"].as<std::string>(), record["reason"].get<std::string>());
+
+  const nlohmann::json unsolved = nlohmann::json::parse(run("--json --half-space " + call("max_states: 10")).output);
+  EXPECT_EQ(unsolved["verdict_by"], "prediction");
+  for (const char* name : {"sticks", "margin", "margin_lower", "apparent_work_of_adhesion"}) {
+    EXPECT_EQ(unsolved[name], plain[name]) << name;
+  }
+  const std::string reason = unsolved["reason"].get<std::string>();
+  EXPECT_EQ(reason.find(plain["reason"].get<std::string>() + "; the half-space does not count: "), 0U) << reason;
+  EXPECT_NE(reason.find("half_space/max_states = 10"), std::string::npos) << reason;
 }
 
 TEST_F(PredictScanHalfSpace, CurveFileHasThePullOffForceAsItsLargestAttraction) {

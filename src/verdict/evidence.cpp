@@ -1,0 +1,41 @@
+#include "mems_stiction/verdict/evidence.hpp"
+
+#include <cmath>
+
+namespace mems_stiction {
+namespace {
+
+/// Of pixels, at two per cohesive length or more.
+constexpr double kLatticeError = 0.02;
+
+}  // namespace
+
+SolvedHalfSpace unsolvedHalfSpace(const std::string& reason) {
+  SolvedHalfSpace solution;
+  solution.message = reason;
+  return solution;
+}
+
+std::string whyNotJudging(const SolvedHalfSpace& solution) {
+  if (solution.status != HalfSpaceStatus::kSolved) return solution.message;
+  if (!solution.is_converged) return "not every state is an equilibrium";
+  if (!solution.is_resolved) {
+    return "its pixels are too large for the edges of the contacts: scan a smaller area with finer pixels";
+  }
+  if (!solution.is_step_converged) return "its steps are too large for the pull-off force: lower half_space/step";
+  return "";
+}
+
+Prediction withHalfSpace(const Prediction& prediction, const SolvedHalfSpace& solution) {
+  Prediction judged = prediction;
+  judged.status = Status::kEquilibrium;
+  judged.pull_off_force = judged.pull_off_force_jkr = judged.pull_off_force_transition = solution.pull_off_force;
+  judged.apparent_work_of_adhesion = solution.work_of_adhesion;
+  return judged;
+}
+
+double halfSpaceError(const SolvedHalfSpace& solution) {
+  return std::hypot(kLatticeError, solution.pull_off_uncertainty / solution.pull_off_force);
+}
+
+}  // namespace mems_stiction
