@@ -29,7 +29,7 @@ TEST(ScanSanity, PlausibleScansGiveNoWarning) {
 
 TEST(ScanSanity, PitchOutsideOnePicometreToOneMillimetre) {
   EXPECT_TRUE(mentions(scanWarnings(wave(20.0, 5e-9)), "pitch_x 20 m is above 1 mm: probably nm or um"));
-  EXPECT_TRUE(mentions(scanWarnings(wave(20e-18, 5e-27)), "pitch_y 2e-17 m is below 1 pm: probably converted"));
+  EXPECT_TRUE(mentions(scanWarnings(wave(20e-15, 5e-24)), "pitch_y 2e-14 m is below 1 pm: probably converted"));
   EXPECT_FALSE(mentions(scanWarnings(wave(1e-3, 5e-9)), "pitch"));
   EXPECT_FALSE(mentions(scanWarnings(wave(1e-12, 5e-13)), "pitch"));
 }
