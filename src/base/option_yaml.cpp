@@ -326,6 +326,7 @@ std::vector<std::string> keysOf(const YAML::Node& tree) {
   std::vector<std::string> ignored;
   if (tree.IsDefined() && tree.IsMap()) flatten(tree, "", leaves, ignored);
   std::vector<std::string> keys;
+  keys.reserve(leaves.size());
   for (const Leaf& leaf : leaves) keys.push_back(leaf.key);
   return keys;
 }

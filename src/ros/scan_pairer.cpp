@@ -17,6 +17,7 @@ constexpr double kSettling = 10;  // timeouts for which is remembered what was g
 template <typename Queue>
 std::vector<ros::Time> stampsOf(const Queue& queue) {
   std::vector<ros::Time> stamps;
+  stamps.reserve(queue.size());
   for (const auto& waiting : queue) stamps.push_back(waiting.message->header.stamp);
   return stamps;
 }
