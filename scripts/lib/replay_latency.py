@@ -70,7 +70,7 @@ def main():
     arguments = parser.parse_args()
 
     with rosbag.Bag(arguments.bag) as bag:
-        stamps = [message.header.stamp.to_sec() for _, message, _ in bag.read_messages("scan_info")]
+        stamps = [message.header.stamp.to_sec() for _, message, _ in bag.read_messages("/scan_info")]
     if len(stamps) < 2:
         sys.exit("%s holds fewer than two scans" % arguments.bag)
     recorded_rate = (len(stamps) - 1) / (stamps[-1] - stamps[0])
