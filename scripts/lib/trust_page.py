@@ -19,8 +19,8 @@ import numpy as np  # noqa: E402
 
 CONFORMING, NEAR_BONDING = "conforming", "near bonding"
 SPARSE = "sparse"
-NEAR_BONDING_ENDS = 2.0
 FEW_CONTACTS = 10
+WARNING_FLAGS = {"near_bonding", "resolution"}
 COLOURS = {CONFORMING: "#d1322f", NEAR_BONDING: "#f2b705", SPARSE: "#2f7fd1"}
 NORMAL_95 = 1.96
 
@@ -28,7 +28,11 @@ NORMAL_95 = 1.96
 def regime(frame):
     if frame["consistent"]["is_conforming"]:
         return CONFORMING
-    return NEAR_BONDING if frame["consistent"]["flattening_ratio"] < NEAR_BONDING_ENDS else SPARSE
+    return NEAR_BONDING if "near_bonding" in flags_of(frame) else SPARSE
+
+
+def flags_of(frame):
+    return set(frame["consistent"]["regime_flag_names"].split(", "))
 
 
 def ratios(frames, value, reference):
@@ -149,7 +153,7 @@ def page(lines, figure):
         "## Formulations", ""]
     text += table("pull-off force", [row("`consistent`", ratios(resolved, ours, reference)), row("`paper`", ratios(resolved, pull_off("paper"), reference)),
                                      row("`printed`", ratios(resolved, pull_off("printed"), reference)), row("rigid, at first touch", rigid)])
-    text += ["## Where `consistent` is right", "", "*conforming*: its own branch; *near bonding*: flattening ratio up to %g; *sparse*: beyond." % NEAR_BONDING_ENDS, ""]
+    text += ["## Where `consistent` is right", "", "*conforming*: its own branch; *near bonding*: other frames with the flag NEAR_BONDING; *sparse*: the rest.", ""]
     for title, quantity in (("pull-off force", pull_off), ("apparent work of adhesion", work), ("contact area at rest", area)):
         rows = [row("all", ratios(resolved, quantity("consistent"), quantity("half_space")))]
         for name in (SPARSE, NEAR_BONDING, CONFORMING):
@@ -159,6 +163,10 @@ def page(lines, figure):
     rows += [row("under load", ratios(loaded, ours, reference)), row("fewer than %d contacts" % FEW_CONTACTS, ratios(few, ours, reference)),
              row("more contacts", ratios(many, ours, reference)), row("not resolved", ratios(unresolved, ours, reference))]
     text += table("pull-off force, by kind of frame", rows)
+    rows = [row("neither NEAR_BONDING nor RESOLUTION", ratios([line for line in resolved if not flags_of(line) & WARNING_FLAGS], ours, reference)),
+            row("RESOLUTION alone", ratios([line for line in resolved if flags_of(line) & WARNING_FLAGS == {"resolution"}], ours, reference)),
+            row("NEAR_BONDING", ratios([line for line in resolved if "near_bonding" in flags_of(line)], ours, reference))]
+    text += table("pull-off force, by [flags](validity.md#the-flags)", rows)
     text += ["The contact area is a definition: cells that repel each other, which a pixel more or less at each rim changes. Frames that are not resolved "
              "show what the lattice does to the half-space, not how far the curve is off.", "",
              "## The interval of the margin", "",

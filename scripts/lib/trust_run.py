@@ -24,7 +24,7 @@ FORMULATIONS = ("consistent", "paper", "printed")
 HALF_SPACE_FIGURES = ("status", "pull_off_force", "apparent_work_of_adhesion", "contact_area", "contact_count", "is_resolved",
                       "processing_time")
 FIGURES = ("status", "pull_off_force", "apparent_work_of_adhesion", "contact_area", "nominal_area", "flattening_ratio",
-           "is_conforming", "asperity_count", "median_contact_pixels", "processing_time")
+           "is_conforming", "regime_flag_names", "asperity_count", "median_contact_pixels", "processing_time")
 
 
 class TooLong(Exception):

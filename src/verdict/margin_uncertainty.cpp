@@ -81,7 +81,7 @@ class ContactList {
 };
 
 /// How far the separation curve lies from the half-space: standard deviation of the logarithm of their ratio, by what
-/// flattening costs over what adhesion gives (doc/trust.md).
+/// flattening costs over what adhesion gives and how brittle contacts are (doc/trust.md).
 struct ModelError {
   double pull_off;
   double work;
@@ -89,8 +89,8 @@ struct ModelError {
 
 ModelError modelError(const Prediction& prediction) {
   if (prediction.is_conforming) return {0.10, 0.06};
-  if (prediction.flattening_ratio < kNearBonding) return {0.19, 0.14};
-  return {0.08, 0.08};
+  if (mayGrowTogether(prediction)) return {0.19, 0.14};
+  return {0.08, 0.07};
 }
 
 /// Samples of a prediction by the separation curve: its exponents move it with the constants.

@@ -1,5 +1,7 @@
 #include "mems_stiction/verdict/regime_flags.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace mems_stiction {
@@ -44,11 +46,17 @@ Shares sharesOf(const Prediction& prediction, double cell_area) {
 
 }  // namespace
 
+bool mayGrowTogether(const Prediction& prediction) {
+  // not known where contacts are not listed; infinite without a range of attraction
+  const double tabor = std::isnan(prediction.median_tabor_parameter) ? 0.0 : prediction.median_tabor_parameter;
+  return prediction.flattening_ratio < kNearBonding * (1.0 + std::min(tabor, 1.0));
+}
+
 std::uint32_t regimeFlags(const Prediction& prediction, double cell_area) {
   std::uint32_t flags = 0;
   if (prediction.status == Status::kBonded) flags |= kBondedFlag;
   if (prediction.status == Status::kNoEquilibrium) flags |= kNoEquilibriumFlag;
-  if (prediction.flattening_ratio < kNearBonding) flags |= kNearBondingFlag;
+  if (mayGrowTogether(prediction)) flags |= kNearBondingFlag;
   if (!prediction.has_asperities) return flags;  // nothing is known of single contacts
   if (prediction.asperity_count == 0) return flags | kFewContactsFlag;
   if (!prediction.followsCurve() && prediction.contact_theory != ContactTheory::kJkr) flags |= kTaborFlag;

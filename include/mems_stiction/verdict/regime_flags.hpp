@@ -19,7 +19,7 @@ enum RegimeFlag : std::uint32_t {
   kPlasticityFlag = 8,     ///< more than half of the adhesion is of contacts that flow: their radii have changed
   kResolutionFlag = 16,    ///< more than half of the adhesion is of contacts of few pixels: a finer pitch may change it
   kFewContactsFlag = 32,   ///< so few contacts that another place of the surface may differ much
-  kNearBondingFlag = 64,   ///< flattening costs no more than twice what adhesion gives: contacts may grow together
+  kNearBondingFlag = 64,   ///< mayGrowTogether()
   kBorderFlag = 128,       ///< more than half of the adhesion is of contacts at the frame's border
   kOnePixelFlag = 256,     ///< more than half of the adhesion is of contacts of one pixel
 };
@@ -28,10 +28,15 @@ enum RegimeFlag : std::uint32_t {
 inline constexpr double kFewestCellsPerContact = 20.0;
 /// Fewer contacts than this say nothing of another place.
 inline constexpr int kFewestContactsForStatement = 3;
-/// Flattening energy over the work of adhesion below which contacts may grow together [-].
+/// Flattening energy over the work of adhesion below which stiff contacts (DMT) may grow together, and soft ones (JKR)
+/// at twice that [-].
 inline constexpr double kNearBonding = 2.0;
 /// Fewer contacts than this scatter by a third and more from place to place.
 inline constexpr int kFewestContacts = 10;
+
+/// Whether the flattening ratio lies below 2 (1 + mu), mu the median Tabor parameter, at most 1: where contacts are
+/// brittle, they grow together over barriers at which the separation curve rests (doc/trust.md).
+bool mayGrowTogether(const Prediction& prediction);
 
 /// Shares are of the sum of composite radii, which the adhesion is proportional to; without a list of contacts
 /// (output/asperities off) they are of the number of contacts, and the mean contact stands for all.

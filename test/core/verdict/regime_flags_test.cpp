@@ -2,6 +2,10 @@
 
 #include "mems_stiction/verdict/regime_flags.hpp"
 
+#include <cmath>
+#include <limits>
+#include <utility>
+
 #include <gtest/gtest.h>
 
 namespace mems_stiction {
@@ -34,6 +38,20 @@ TEST(RegimeFlags, resolutionIsThatOfMoreThanHalfOfTheAdhesion) {
     Prediction prediction = contactsWith(is_more ? 0.51 : 0.49);
     prediction.asperities[1].area = (kFewestCellsPerContact - 1.0) * kCell;
     EXPECT_EQ((regimeFlags(prediction, kCell) & kResolutionFlag) != 0, is_more);
+  }
+}
+
+TEST(RegimeFlags, brittleContactsMayGrowTogetherAtTwiceTheFlatteningRatio) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinite = std::numeric_limits<double>::infinity();
+  for (const auto& [tabor, limit] :
+       {std::pair(0.0, 2.0), {0.4, 2.8}, {1.0, 4.0}, {3.0, 4.0}, {infinite, 4.0}, {nan, 2.0}}) {
+    for (const bool is_near : {false, true}) {
+      Prediction prediction = contactsWith(0.5);
+      prediction.median_tabor_parameter = tabor;
+      prediction.flattening_ratio = limit * (is_near ? 0.999 : 1.001);
+      EXPECT_EQ((regimeFlags(prediction, kCell) & kNearBondingFlag) != 0, is_near) << tabor;
+    }
   }
 }
 
