@@ -32,8 +32,7 @@ int OverlapSweep::advanceTo(double approach, GapOrder& order, const OverlapSweep
   if (count == inserted_) return inserted_;
   const auto dale_count = static_cast<std::size_t>(dales_->count());
   joined_.growTo(dales_->count());
-  patches_.resize(dale_count);
-  live_place_.resize(dale_count);
+  live_place_.resize(dale_count, kNone);
   has_meeting_.resize(static_cast<std::size_t>(order.groupCount()));
   for (int group = order.groupOfPlace(inserted_); inserted_ < count; ++group) {
     const int end = std::min(count, order.groupStart(group + 1));
@@ -41,7 +40,8 @@ int OverlapSweep::advanceTo(double approach, GapOrder& order, const OverlapSweep
     if (dale_count > kPatchesInCache) {
       for (int place = inserted_; place < end; ++place) {
         const OrderedCell& later = cells[std::min(place + kCellsAhead, count - 1)];
-        __builtin_prefetch(&patches_[static_cast<std::size_t>(patchOf(later))], 1);
+        const std::int32_t its_place = livePlace(patchOf(later));
+        if (its_place != kNone) __builtin_prefetch(&patches_[static_cast<std::size_t>(its_place)], 1);
       }
     }
     // the same cells in the same order meet in the same places
@@ -80,14 +80,15 @@ bool OverlapSweep::patchesMeetBefore(int end, const GapOrder& order) const {
 }
 
 void OverlapSweep::insert(std::int32_t id, const OrderedCell& ordered) {
-  OverlapPatch& patch = patches_[static_cast<std::size_t>(id)];
-  if (patch.cells == 0) {
-    patch.summits = 1;
-    patch.first_cell = ordered.cell;
-    patch.first_gap = ordered.gap;
-    live_place_[static_cast<std::size_t>(id)] = static_cast<std::int32_t>(live_.size());
+  std::int32_t& place = live_place_[static_cast<std::size_t>(id)];
+  if (place == kNone) {
+    place = static_cast<std::int32_t>(live_.size());
     live_.push_back(id);
-  } else if (comesBefore(ordered.gap, ordered.cell, patch.first_gap, patch.first_cell)) {
+    patches_.push_back({1, 1, ordered.cell, ordered.gap, ordered.gap, 0.0});
+    return;
+  }
+  OverlapPatch& patch = patches_[static_cast<std::size_t>(place)];
+  if (comesBefore(ordered.gap, ordered.cell, patch.first_gap, patch.first_cell)) {
     patch.first_cell = ordered.cell;  // of the same group
     patch.first_gap = ordered.gap;
   }
@@ -125,20 +126,20 @@ std::int32_t OverlapSweep::join(std::int32_t id, const OrderedCell& ordered) {
 
 std::int32_t OverlapSweep::unite(std::int32_t a, std::int32_t b, double gap) {
   if (joined_.unite(a, b) != a) std::swap(a, b);
-  OverlapPatch& patch = patches_[static_cast<std::size_t>(a)];
-  const OverlapPatch& other = patches_[static_cast<std::size_t>(b)];
-  if (other.cells == 0) return a;  // a dale whose first cell touches another's at a corner
-  const std::int32_t place = live_place_[static_cast<std::size_t>(b)];
-  if (patch.cells == 0) {
-    patch = other;
+  const std::int32_t place = livePlace(b);
+  if (place == kNone) return a;  // a dale whose first cell touches another's at a corner
+  const std::int32_t kept_place = livePlace(a);
+  if (kept_place == kNone) {
     live_[static_cast<std::size_t>(place)] = a;
     live_place_[static_cast<std::size_t>(a)] = place;
     return a;
   }
-  patch.merge(other, gap);
+  patches_[static_cast<std::size_t>(kept_place)].merge(patches_[static_cast<std::size_t>(place)], gap);
   live_[static_cast<std::size_t>(place)] = live_.back();
+  patches_[static_cast<std::size_t>(place)] = patches_.back();
   live_place_[static_cast<std::size_t>(live_.back())] = place;
   live_.pop_back();
+  patches_.pop_back();
   return a;
 }
 

@@ -29,10 +29,10 @@ struct PatchBlock {
 
   /// From this place of livePatches() on.
   void gather(const OverlapSweep& sweep, std::size_t place) {
-    const std::vector<std::int32_t>& live = sweep.livePatches();
-    count = std::min(kMost, live.size() - place);
+    const std::vector<OverlapPatch>& patches = sweep.patches();
+    count = std::min(kMost, patches.size() - place);
     for (std::size_t i = 0; i < count; ++i) {
-      const OverlapPatch& patch = sweep.patch(live[place + i]);
+      const OverlapPatch& patch = patches[place + i];
       cells[i] = patch.cells;
       gap_sum[i] = patch.gap_sum;
       kept[i] = patch.kept;
@@ -96,9 +96,21 @@ MEMS_STICTION_INLINE PatchForces::Loads PatchForces::loadsOf(const Lanes& cells,
   return loads;
 }
 
-PatchLoad PatchForces::loadOf(const OverlapPatch& patch, double approach) const {
-  const Loads loads = loadsOf(static_cast<double>(patch.cells), patch.gap_sum, patch.kept, approach);
-  return {loads.elastic[0], loads.carried[0]};
+MEMS_STICTION_VECTORIZED void PatchForces::loadsOf(const OverlapSweep& contacts, double approach,
+                                                   std::vector<PatchLoad>& loads) const {
+  const std::size_t count = contacts.patches().size();
+  loads.resize(count);
+  PatchBlock block;
+  for (std::size_t place = 0; place < count; place += PatchBlock::kMost) {
+    block.gather(contacts, place);
+    for (std::size_t i = 0; i < block.count; i += Lanes::kCount) {
+      const Loads found =
+          loadsOf(Lanes::load(block.cells + i), Lanes::load(block.gap_sum + i), Lanes::load(block.kept + i), approach);
+      for (std::size_t lane = 0; lane < Lanes::kCount && place + i + lane < count; ++lane) {
+        loads[place + i + lane] = {found.elastic[lane], found.carried[lane]};
+      }
+    }
+  }
 }
 
 MEMS_STICTION_VECTORIZED double PatchForces::carried(const OverlapSweep& contacts, double approach) const {

@@ -11,6 +11,10 @@ constexpr double kApart[] = {-12.0, -8.0, -6.0, -4.5, -3.5, -2.8, -2.2, -1.8, -1
 constexpr double kStep = 0.1;
 /// Steps grow with the approach, so that few of them go deep.
 constexpr double kStepPerApproach = 0.05;
+/// Surfaces that carry this many times what can pull them together push each other apart from there on, though patches
+/// that gain a rim may carry a little less for a while: so many steps are left to rest.
+constexpr double kPushing = 2.0;
+constexpr int kPushingSteps = 8;
 /// Most places that are tried for it, and what the forces there may lack of what is carried.
 constexpr int kRestSearches = 24;
 constexpr double kRestAccuracy = 1e-3;
@@ -64,6 +68,16 @@ double nextApproach(double approach, double range) {
   return approach + std::max(kStep * range, kStepPerApproach * approach);
 }
 
+/// Where the force of the last two states comes down to -load if it goes on as it does: it falls ever more steeply. 0 while it
+/// does not fall.
+double expectedRest(const std::vector<SeparationState>& states, double load) {
+  const SeparationState& last = states.back();
+  const SeparationState& before = states[states.size() - 2];
+  const double fall = before.force() - last.force();
+  if (!(fall > 0.0)) return 0.0;
+  return last.approach + (last.force() + load) / fall * (last.approach - before.approach);
+}
+
 /// Where F + F_m falls to 0 between two states, by the forces' line.
 double crossing(const SeparationState& above, const SeparationState& below, double load) {
   const double excess = above.force() + load;
@@ -109,7 +123,7 @@ void followCurve(SeparationTrace& trace, const ContactSettings& settings, Separa
   while (steps++ < settings.approach.max_steps) {
     double approach = nextApproach(curve.states.back().approach, range);
     if (approach >= trace.approachBeforeLimit()) approach = std::min(approach, trace.limitApproach());
-    curve.states.push_back(trace.at(approach));
+    curve.states.push_back(trace.at(approach, expectedRest(curve.states, load)));
     const SeparationState& state = curve.states.back();
     if (state.force() + load < 0.0) {
       curve.status = Status::kEquilibrium;
@@ -134,9 +148,14 @@ void followCurveUpTo(SeparationTrace& trace, double first_touch, double rest, Se
   }
   if (curve.states.empty()) curve.states.push_back(trace.at(rest));
   const Attraction at_first = trace.energiesAt(curve.states.front());
+  double pushing_step = 0.0;
   while (curve.states.back().approach < rest) {
-    const double next = first_touch + nextApproach(curve.states.back().approach - first_touch, range);
-    curve.states.push_back(trace.at(std::min(next, rest)));
+    const SeparationState& last = curve.states.back();
+    if (pushing_step == 0.0 && last.carried > kPushing * trace.strongestPull()) {
+      pushing_step = (rest - last.approach) / kPushingSteps;
+    }
+    const double step_end = first_touch + nextApproach(last.approach - first_touch, range);
+    curve.states.push_back(trace.at(std::min(std::max(step_end, last.approach + pushing_step), rest)));
   }
   takeMaximum(curve.states, curve);
   takeWork(at_first, curve);

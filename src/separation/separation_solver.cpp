@@ -22,6 +22,9 @@ constexpr double kBondingShare = 1.3;
 constexpr double kElasticShare = 0.97;
 constexpr double kPlasticShare = 0.95;
 
+/// Shortest secant that tells the stiffness at rest, of z0.
+constexpr double kStiffnessLength = 0.05;
+
 /// Real area of a patch that overlaps over `area`: half of it while it is elastic (Hertz), more where adhesion widens
 /// the contact (JKR), all of it when what it carries is all that flow allows. The load that widens it is P (DMT) to
 /// JKR's P1 of what presses beside the contact's own rim, as far as Tabor's parameter has come from one to the other.
@@ -52,6 +55,16 @@ void appendCurve(const SeparationCurve& curve, bool is_separation, std::vector<S
   } else {
     std::for_each(curve.states.begin(), curve.states.end(), add);
   }
+}
+
+/// A secant to the nearest state that is far enough before rest: forces are known to a thousandth of what is carried.
+double stiffnessAtRest(const std::vector<SeparationState>& states, double range) {
+  const SeparationState& rest = states.back();
+  for (auto before = states.rbegin() + 1; before != states.rend(); ++before) {
+    const double length = rest.approach - before->approach;
+    if (length >= kStiffnessLength * range) return (before->force() - rest.force()) / length;
+  }
+  return ContactSolution::kUnknown;
 }
 
 /// At its maximum the force is stationary in the displacement, so it changes with a constant as its parts do there.
@@ -98,22 +111,20 @@ void SeparationSolver::takeRest(const ContactProblem& problem, ContactSolution& 
   solution.load.capillary = rest.capillary;
   solution.energies.elastic = curve_.elastic_energy;
   solution.energies.surface = trace_.energiesAt(rest).adhesion_energy;
-  if (curve_.states.size() > 1) {
-    const SeparationState& before = curve_.states[curve_.states.size() - 2];
-    solution.contact_stiffness = (before.force() - rest.force()) / (rest.approach - before.approach);
-  }
+  solution.contact_stiffness = stiffnessAtRest(curve_.states, trace_.law().range());
 
   const OverlapSweep& sweep = trace_.contacts();
   const PatchForces& forces = trace_.patchForces();
-  contacts_.assign(sweep.livePatches().size(), {});
+  contacts_.assign(sweep.patches().size(), {});
+  forces.loadsOf(sweep, rest.approach, loads_);
   solution.contact_area = 0.0;
   has_flowed_ = false;
   double touching = 0.0;
-  for (const std::int32_t id : sweep.livePatches()) {
-    const OverlapPatch& patch = sweep.patch(id);
-    Contact& contact = contactOf(id);
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const OverlapPatch& patch = sweep.patches()[i];
+    Contact& contact = contacts_[i];
     const double area = patch.cells * field.cellArea();
-    contact.load = forces.loadOf(patch, rest.approach);
+    contact.load = loads_[i];
     const double radius = patch.radius(rest.approach, field.cellArea());
     contact.area =
         realArea(contact.load, area, 2.0 * kPi * trace_.law().workOfAdhesion() * radius / std::sqrt(patch.summits),
@@ -172,9 +183,9 @@ void SeparationSolver::listContacts(const ContactProblem& problem, ContactSoluti
   const double approach = curve_.rest().approach;
   double parameters = 0.0;
   const OverlapSweep& sweep = trace_.contacts();
-  for (const std::int32_t id : sweep.livePatches()) {
-    const OverlapPatch& patch = sweep.patch(id);
-    const Contact& contact = contactOf(id);
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const OverlapPatch& patch = sweep.patches()[i];
+    const Contact& contact = contacts_[i];
     const double area = patch.cells * field.cellArea();
     const GridCell cell = field.cellAt(patch.first_cell);
     Asperity asperity;

@@ -57,12 +57,16 @@ void SeparationTrace::extend(double fraction) {
   pyramid_.prepare(order_);
 }
 
-void SeparationTrace::orderUpTo(double approach) {
+void SeparationTrace::orderUpTo(double approach, double expected) {
   while (approach >= order_.groupLowerEnd(order_.groupCount()) && ordered_fraction_ < 1.0) {
-    const double more = kMoreCells * ordered_fraction_;
+    const double more = std::max(kMoreCells * ordered_fraction_, order_.cellsBelow(expected) / field_->validCount());
     // the curve ends at the limit of contact, but for the step that passes it
     extend(ordered_fraction_ < most_fraction_ ? std::min(more, most_fraction_) : std::min(more, 1.0));
   }
+}
+
+double SeparationTrace::strongestPull() const {
+  return (law().strength() + water_.pressure()) * field_->validCount() * field_->cellArea();
 }
 
 int SeparationTrace::contactLimit() const {
@@ -78,8 +82,8 @@ double SeparationTrace::limitApproach() {
   return std::nextafter(order_.cells()[static_cast<std::size_t>(count - 1)].gap, GapField::kInvalidGap);
 }
 
-SeparationState SeparationTrace::at(double approach) {
-  orderUpTo(approach + law().range());
+SeparationState SeparationTrace::at(double approach, double expected_end) {
+  orderUpTo(approach + law().range(), expected_end + law().range());
   SeparationState state;
   state.approach = approach;
   if (law().attracts()) in_reach_.advanceTo(approach + law().range(), order_);

@@ -31,8 +31,10 @@ class OverlapSweep {
 
   /// Ids of the patches that exist now; their order depends on the cells alone.
   const std::vector<std::int32_t>& livePatches() const { return live_; }
-  /// - @p id of a live patch, or less than patchIdEnd()
-  const OverlapPatch& patch(std::int32_t id) const { return patches_[static_cast<std::size_t>(id)]; }
+  /// The patches of livePatches(), in their order.
+  const std::vector<OverlapPatch>& patches() const { return patches_; }
+  /// - @p id of a live patch
+  const OverlapPatch& patch(std::int32_t id) const { return patches_[static_cast<std::size_t>(livePlace(id))]; }
   /// Place of a live patch in livePatches().
   std::int32_t livePlace(std::int32_t id) const { return live_place_[static_cast<std::size_t>(id)]; }
   /// Patch that holds a cell, or -1.
@@ -41,6 +43,8 @@ class OverlapSweep {
   std::int32_t patchOf(const OrderedCell& ordered) const { return joined_.patchOf(ordered.tag.dale()); }
 
  private:
+  static constexpr std::int32_t kNone = -1;
+
   /// Whether cells of a group, from the next to come in up to this place, bring patches together.
   bool patchesMeetBefore(int end, const GapOrder& order) const;
   void insert(std::int32_t id, const OrderedCell& ordered);
@@ -54,9 +58,9 @@ class OverlapSweep {
   int inserted_ = 0;
   double approach_ = 0.0;  ///< cells with a smaller gap are in [m]
   JoinedDales joined_;
-  std::vector<OverlapPatch> patches_;  ///< per dale; without cells before its first one is in
   std::vector<std::int32_t> live_;
-  std::vector<std::int32_t> live_place_;
+  std::vector<OverlapPatch> patches_;      ///< of live_
+  std::vector<std::int32_t> live_place_;   ///< per dale; kNone before its first cell is in
   std::vector<std::uint8_t> has_meeting_;  ///< per group of the order
 };
 

@@ -4,6 +4,8 @@
 /// What patches carry, one and all, and what the bending of their summits takes from the attraction: equations (S4) to
 /// (S8) of doc/separation_curve.md. Sums over the patches of a sweep take four at a time.
 
+#include <vector>
+
 #include "mems_stiction/base/lanes.hpp"
 #include "mems_stiction/contact/contact_settings.hpp"
 #include "mems_stiction/separation/contact_traction.hpp"
@@ -30,7 +32,8 @@ class PatchForces {
   double contactModulus() const { return contact_modulus_; }  ///< [Pa]
   double hardness() const { return hardness_; }               ///< infinite if nothing flows [Pa]
 
-  PatchLoad loadOf(const OverlapPatch& patch, double approach) const;
+  /// What each patch of a sweep carries, in the order of its patches().
+  void loadsOf(const OverlapSweep& contacts, double approach, std::vector<PatchLoad>& loads) const;
   /// By all patches of a sweep together [N].
   double carried(const OverlapSweep& contacts, double approach) const;
   /// c of a summit of radius R [m]: its pull-off force is c pi Gamma R [-], between DMT (2) and JKR (1.5).

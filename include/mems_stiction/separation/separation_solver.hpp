@@ -58,7 +58,8 @@ class SeparationSolver : public ContactSolver {
 
   SeparationTrace trace_;
   SeparationCurve curve_;
-  std::vector<Contact> contacts_;  ///< in the order of the sweep's live patches
+  std::vector<Contact> contacts_;  ///< in the order of the sweep's patches
+  std::vector<PatchLoad> loads_;   ///< the same
   bool has_flowed_ = false;
   std::vector<double> row_gaps_;
   std::vector<std::int32_t> columns_;

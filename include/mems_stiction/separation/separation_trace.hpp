@@ -53,7 +53,8 @@ class SeparationTrace {
   void start(const GapField& field, const ContactSettings& settings, bool flows);
 
   /// The forces at an approach that is no smaller than the last one [m].
-  SeparationState at(double approach);
+  /// - @p expected_end where the curve probably ends [m]: so many cells are put in order at once when there are not enough
+  SeparationState at(double approach, double expected_end = 0.0);
   /// The attraction with its energies, at the approach of the last call of at().
   Attraction energiesAt(const SeparationState& state) const;
   /// Back to apart.
@@ -69,6 +70,8 @@ class SeparationTrace {
 
   const PatchForces& patchForces() const { return *patch_forces_; }
   const ContactTraction& law() const { return attraction_->law(); }
+  /// What attraction and water together never exceed [N].
+  double strongestPull() const;
   /// Number of cells in contact at which approach/max_contact_fraction is reached.
   int contactLimit() const;
   /// An approach that is no larger than where it is reached, and nearly there [m]: costs nothing.
@@ -80,8 +83,8 @@ class SeparationTrace {
   const LargePageVector<OrderedCell>& orderedCells() const { return order_.cells(); }
 
  private:
-  /// Brings enough cells into order for this approach.
-  void orderUpTo(double approach);
+  /// Brings enough cells into order for this approach, and for the expected one.
+  void orderUpTo(double approach, double expected);
   void extend(double fraction);
 
   const GapField* field_ = nullptr;

@@ -81,6 +81,19 @@ TEST(SeparationSphere, pressedWithoutAdhesionItIsHertzs) {
   }
 }
 
+TEST(SeparationSphere, stiffnessDoesNotDependOnWhereTheStepsFall) {
+  const double radius = 2e-6;
+  const double modulus = 88.8e9;
+  const HeightMap surface = analytic::paraboloid(201, 201, 1e-9, 1e-9, radius);
+  for (int i = 0; i < 60; ++i) {  // over two steps
+    Options options = elastic(modulus, hertz::load((1.0 + 0.002 * i) * 1e-9, radius, modulus));
+    options.interface.work_of_adhesion = 0.0;
+    const double a = hertz::contactRadius(options.load.mechanical_load, radius, modulus);
+    // a secant over up to 1.5 steps of 5 %: 2 % less than the tangent; over cells that come in rings, 7 % more or less
+    EXPECT_NEAR(predict(options, surface).contact_stiffness / (2.0 * modulus * a), 0.98, 0.1) << i;
+  }
+}
+
 TEST(SeparationSphere, rowsOfSpheresPullWithTheSumOfTheirRadii) {
   const double modulus = modulusOf(0.05);
   const double one =
