@@ -28,7 +28,9 @@ constexpr double kStiffnessLength = 0.05;
 /// Real area of a patch that overlaps over `area`: half of it while it is elastic (Hertz), more where adhesion widens
 /// the contact (JKR), all of it when what it carries is all that flow allows. The load that widens it is P (DMT) to
 /// JKR's P1 of what presses beside the contact's own rim, as far as Tabor's parameter has come from one to the other.
-double realArea(const PatchLoad& load, double area, double rim_force, double prefactor, double hardness) {
+/// The half-space knows no smaller contact than a cell.
+double realArea(const PatchLoad& load, double area, double rim_force, double prefactor, double hardness,
+                double cell_area) {
   const double fullness = std::isfinite(hardness) ? std::min(1.0, load.carried / (hardness * area)) : 0.0;
   double widening = 1.0;
   if (load.carried > 0.0) {
@@ -38,7 +40,7 @@ double realArea(const PatchLoad& load, double area, double rim_force, double pre
     const double root = std::cbrt(1.0 + jkr_share * std::max(jkr_load / load.carried - 1.0, 0.0));
     widening = root * root;
   }
-  return area * std::max(0.5 * std::min(widening, 2.0), fullness);
+  return std::max(cell_area, area * std::max(0.5 * std::min(widening, 2.0), fullness));
 }
 
 Regime regimeOf(const PatchLoad& load, double area, double hardness) {
@@ -128,7 +130,7 @@ void SeparationSolver::takeRest(const ContactProblem& problem, ContactSolution& 
     const double radius = patch.radius(rest.approach, field.cellArea());
     contact.area =
         realArea(contact.load, area, 2.0 * kPi * trace_.law().workOfAdhesion() * radius / std::sqrt(patch.summits),
-                 forces.pullOffPrefactor(radius / patch.summits), forces.hardness());
+                 forces.pullOffPrefactor(radius / patch.summits), forces.hardness(), field.cellArea());
     contact.regime = regimeOf(contact.load, area, forces.hardness());
     solution.contact_area += contact.area;
     const double area_share = std::max(0.5, contact.load.carried / (forces.hardness() * area));

@@ -187,6 +187,18 @@ TEST(SeparationPunch, aFlatPunchHasItsStiffness) {
   EXPECT_NEAR(depth / prediction.approach, 1.0, 0.06);
 }
 
+TEST(SeparationPunch, oneCellTouchesWithAllOfItsAreaUnderAnyLoad) {
+  const double pitch = 1e-9;
+  for (const double work : {0.0, 0.05}) {
+    for (const double load : {1e-12, 1e-11, 1e-10, 1e-9}) {
+      Options options = elastic(88.8e9, load);
+      options.interface.work_of_adhesion = work;
+      const SurfacePair surfaces{pinnedSurface(analytic::flat(40, 40, pitch, pitch), 50e-9), {}};
+      EXPECT_DOUBLE_EQ(predict(options, surfaces).contact_area, pitch * pitch) << work << " " << load;
+    }
+  }
+}
+
 TEST(SeparationFlow, contactAreaOfASoftSphereIsLoadOverHardness) {
   Options options = elastic(88.8e9, 5e-5);
   options.deformation = Deformation::kThreeRegimes;
