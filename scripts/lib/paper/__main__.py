@@ -41,7 +41,7 @@ def parse():
     parser = argparse.ArgumentParser(prog="reproduce_paper", description="Figures like the paper's, and the page around them.")
     parser.add_argument("--seeds", type=int, metavar="N", help="pairs of surfaces per point of figures 6 and 7 (12; quick: 3)")
     parser.add_argument("--size", type=int, metavar="N", help="rows and columns of their surfaces (1024; quick: 256)")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N", help="pairs at the same time (all processors)")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N", help="surfaces at the same time (all processors)")
     parser.add_argument("--quick", action="store_true", help="a trial of a few seconds: few, small surfaces")
     parser.add_argument("--doc", type=pathlib.Path, metavar="FOLDER",
                         help="where paper.md and figures/ go (doc; with --quick, --seeds or --size out/paper)")

@@ -228,17 +228,17 @@ def surface_of(wanted, pair):
     return mems_stiction.generate((pair["size"], pair["size"]), pair["pitch"], counter_surface=wanted).heights
 
 
-def predict_case(wanted, pair, lower, upper):
+def predict_case(wanted, pitch, lower, upper):
     """The figures of one case, half_space_... beside them where it asks for these; maps, contacts and energies too where it
-    names a folder for them."""
+    names a folder for them. lower, upper: with their scale [m]."""
     is_dumped = "dump" in wanted
     output = dict.fromkeys(("deformed_surfaces", "contact_map", "asperities", "roughness", "energy_curve"), is_dumped)
     settings = mems_stiction.Settings(mems_stiction.Settings(wanted["config"], **wanted["settings"]), output=output,
                                       counter_surface={"facing": "up"})
-    prediction = mems_stiction.predict(lower * wanted["scale"], pair["pitch"], settings, upper=upper * wanted["scale"])
+    prediction = mems_stiction.predict(lower, pitch, settings, upper=upper)
     figures = prediction.to_dict()
     if wanted.get("half_space"):
-        solved = mems_stiction.half_space(lower * wanted["scale"], pair["pitch"], settings, upper=upper * wanted["scale"])
+        solved = mems_stiction.half_space(lower, pitch, settings, upper=upper)
         figures.update({"half_space_" + name: getattr(solved, name) for name in HALF_SPACE_FIGURES})
     if is_dumped:
         write_maps(pathlib.Path(wanted["dump"]), prediction, figures)
@@ -257,17 +257,40 @@ def write_maps(folder, prediction, figures):
     (folder / "result.json").write_text(json.dumps(figures))
 
 
-def predict_pair(pair, on_figures):
-    """Both surfaces are drawn once and their heights multiplied by each case's scale, so that cases of one pair differ in
-    nothing else."""
-    lower, upper = surface_of(pair["lower"], pair), surface_of(pair["upper"], pair)
-    for wanted in pair["cases"]:
-        on_figures(wanted["name"], predict_case(wanted, pair, lower, upper))
+class DrawnPair:
+    """Both surfaces of a pair, drawn by whichever thread is first to ask, and let go of after its last group of cases. Cases of one pair
+    differ in nothing but their scale and settings."""
+
+    def __init__(self, pair):
+        self.pair = pair
+        by_scale = {}
+        for wanted in pair["cases"]:
+            by_scale.setdefault(wanted["scale"], []).append(wanted)
+        self.groups = list(by_scale.values())  # the heights of each are multiplied once
+        self._lock, self._surfaces, self._left = threading.Lock(), None, len(self.groups)
+
+    def predict_group(self, group, on_figures):
+        with self._lock:
+            if self._surfaces is None:
+                self._surfaces = tuple(surface_of(self.pair[body], self.pair) for body in ("lower", "upper"))
+            lower, upper = (heights * group[0]["scale"] for heights in self._surfaces)
+        for wanted in group:
+            on_figures(wanted["name"], predict_case(wanted, self.pair["pitch"], lower, upper))
+        with self._lock:
+            self._left -= 1
+            if not self._left:
+                self._surfaces = None
+
+
+def is_long(group):
+    """A half-space takes longer than many predictions."""
+    return any(wanted.get("half_space") for wanted in group)
 
 
 def run(pairs, jobs, on_case):
-    """Predicts every case by the core, so many pairs at the same time. @return name of the case -> its figures, the same
-    whatever the number of jobs. on_case() is called after each."""
+    """Predicts every case by the core, so many surfaces at the same time, those that take long first, so that no thread is
+    left alone with them. @return name of the case -> its figures, the same whatever the number of jobs. on_case() is called
+    after each."""
     results = {}
     lock = threading.Lock()
 
@@ -276,9 +299,11 @@ def run(pairs, jobs, on_case):
             results[name] = figures
             on_case()
 
+    groups = [(drawn, group) for drawn in map(DrawnPair, pairs) for group in drawn.groups]
+    groups.sort(key=lambda one: not is_long(one[1]))
     with warnings.catch_warnings(), ThreadPoolExecutor(jobs) as pool:
         warnings.simplefilter("ignore", mems_stiction.ScanWarning)
-        futures = [pool.submit(predict_pair, pair, keep) for pair in pairs]
+        futures = [pool.submit(drawn.predict_group, group, keep) for drawn, group in groups]
         try:
             for future in as_completed(futures):
                 future.result()
