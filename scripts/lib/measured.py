@@ -6,9 +6,11 @@ usage: measured.py PAGE.md [--seeds N] [--quick]
 
 import argparse
 import math
+import os
 import pathlib
 import statistics
 import warnings
+from concurrent.futures import ThreadPoolExecutor
 
 import mems_stiction
 
@@ -20,18 +22,20 @@ CHECKED_RMS = (1e-9, 2e-9, 5e-9, 10e-9)
 
 
 class Study:
-    """Predictions of frames by `consistent`; seeds are drawn alike for all settings, so that differences are those of the settings."""
+    """Predictions of frames by `consistent`, those of the seeds side by side; seeds are drawn alike for all settings, so that differences
+    are those of the settings."""
 
-    def __init__(self, seeds, is_quick):
-        self.seeds, self.is_quick = range(1, seeds + 1), is_quick
+    def __init__(self, seeds, is_quick, pool):
+        self.seeds, self.is_quick, self.pool = range(1, seeds + 1), is_quick, pool
 
     def records(self, case, variation, rms_height):
         pixels = min(case.pixels, 96) if self.is_quick else case.pixels
-        found = []
-        for seed in self.seeds:
+
+        def record(seed):
             frame, heights = cases.surface(case, variation, rms_height, seed, pixels)
-            found.append(mems_stiction.predict(heights, frame["pitch"], trust_run.settings_of(frame, "consistent")).to_dict())
-        return found
+            return mems_stiction.predict(heights, frame["pitch"], trust_run.settings_of(frame, "consistent")).to_dict()
+
+        return list(self.pool.map(record, self.seeds))
 
     def values(self, case, variation):
         """For each measured value, one prediction a seed."""
@@ -141,8 +145,8 @@ def main():
     parser.add_argument("--quick", action="store_true", help="frames of 96 x 96 pixels at most, 2 seeds")
     arguments = parser.parse_args()
     warnings.simplefilter("ignore", mems_stiction.ScanWarning)  # of heights that are as drawn
-    study = Study(2 if arguments.quick else arguments.seeds, arguments.quick)
-    arguments.page.write_text(page(study), encoding="utf-8")
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        arguments.page.write_text(page(Study(2 if arguments.quick else arguments.seeds, arguments.quick, pool)), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -8,6 +8,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from concurrent.futures import ThreadPoolExecutor
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 LIBRARY = REPOSITORY / "scripts" / "lib"
@@ -46,16 +47,18 @@ class MeasuredTest(unittest.TestCase):
     def test_predictions_of_the_page_are_those_of_the_program(self):
         """The case with small frames, again in full: the page's median to its two digits."""
         case = next(case for case in cases.CASES if case.key == "alumina")
-        study = measured.Study(12, False)
-        median = statistics.median(study.values(case, cases.AS_ASSUMED)[0])
+        with ThreadPoolExecutor(2) as pool:
+            values = measured.Study(12, False, pool).values(case, cases.AS_ASSUMED)
+        median = statistics.median(values[0])
         row = re.search(r"^\| alumina \| 1\.5 nm over 12 nm \| 5 \(read\) \| (\S+) \|", self.shipped, re.MULTILINE)
         self.assertAlmostEqual(float(row.group(1)) / median, 1.0, delta=0.05)  # half a unit of the second digit
 
     def test_work_of_rough_planes_goes_with_their_mean_separation(self):
         """Van der Waals attraction across what does not touch: never less than two planes at that distance, since 1/D^2 is convex."""
         case = cases.CASES[0]
-        study = measured.Study(2, True)
-        for record in study.records(case, cases.AS_ASSUMED, 2e-9):
+        with ThreadPoolExecutor(1) as pool:
+            records = measured.Study(2, True, pool).records(case, cases.AS_ASSUMED, 2e-9)
+        for record in records:
             planes = case.settings["hamaker"] / (12 * math.pi * record["mean_gap"] ** 2)
             self.assertGreater(record["apparent_work_of_adhesion"], 0.9 * planes)  # z0 = 0.16 nm of a gap of some nm: 6 %
 
