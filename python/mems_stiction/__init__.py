@@ -20,23 +20,25 @@ __path__ = extend_path(__path__, __name__)
 if TYPE_CHECKING:
     from mems_stiction._half_space import HalfSpace, half_space
     from mems_stiction._prediction import Prediction, Predictor, Verdict, predict, predict_many
-    from mems_stiction._scans import Cleaned, Roughness, Scan, ScanWarning, channels, clean, decimate, generate, read, roughness
+    from mems_stiction._scans import Cleaned, Roughness, Scan, channels, clean, decimate, generate, read, roughness
     from mems_stiction._settings import Error, FileError, OptionsError, Settings, SurfaceError
     from mems_stiction._station import ContactCycles, LoadSweep, cycle_contact, sweep_loads
+    from mems_stiction._warnings import ScanWarning, SettingsWarning
 
 # Found when they are first used: what only draws, or only wants the messages of ROS, does not load the core.
 _MODULES = {
     "_half_space": ("HalfSpace", "half_space"),
     "_prediction": ("Prediction", "Predictor", "Verdict", "predict", "predict_many"),
-    "_scans": ("Cleaned", "Roughness", "Scan", "ScanWarning", "channels", "clean", "decimate", "generate", "read", "roughness"),
+    "_scans": ("Cleaned", "Roughness", "Scan", "channels", "clean", "decimate", "generate", "read", "roughness"),
     "_settings": ("Error", "FileError", "OptionsError", "Settings", "SurfaceError"),
     "_station": ("ContactCycles", "LoadSweep", "cycle_contact", "sweep_loads"),
+    "_warnings": ("ScanWarning", "SettingsWarning"),
 }
 _MODULE_OF = {name: module for module, names in _MODULES.items() for name in names}
 
 __all__ = [
     "Cleaned", "ContactCycles", "Error", "FileError", "HalfSpace", "LoadSweep", "OptionsError", "Prediction", "Predictor",
-    "Roughness", "Scan", "ScanWarning", "Settings", "SurfaceError", "Verdict", "channels", "clean", "cycle_contact",
+    "Roughness", "Scan", "ScanWarning", "Settings", "SettingsWarning", "SurfaceError", "Verdict", "channels", "clean", "cycle_contact",
     "decimate", "generate", "half_space", "predict", "predict_many", "read", "roughness", "sweep_loads"]
 
 

@@ -53,7 +53,10 @@ def surface_of(heights: Any, pitch: Optional[Pitch], settings: Settings, what: s
     if unit is not None:
         raise SurfaceError("%s: values with a unit (%s) are not allowed, must be plain numbers in metres" % (what, unit))
     x, y = (0.0, 0.0) if pitch is None else pitch_of(pitch)
-    return Surface(_core.height_map(pixels_of(heights, what), x, y, settings._configuration), "", False)
+    pixels = pixels_of(heights, what)
+    if pitch is None and settings._configuration.pitch[0] <= 0:
+        raise SurfaceError("pitch: an array says nothing of it; must be a number > 0 m, or two of them (x, y), here or as scan/pitch_x and scan/pitch_y")
+    return Surface(_core.height_map(pixels, x, y, settings._configuration), "", False)
 
 
 def _of_topography(topography: Any, pitch: Optional[Pitch], settings: Settings, what: str) -> Surface:
@@ -73,13 +76,23 @@ def _of_topography(topography: Any, pitch: Optional[Pitch], settings: Settings, 
     if factor is None:
         raise SurfaceError("%s: the unit '%s' of the topography is not allowed, must be one of: %s" % (what, unit, ", ".join(METRES)))
     if sizes is not None and heights.size:
-        pitches = pitch_of([size / count * factor for size, count in zip(sizes, heights.shape)])
+        pitches = _pitch_of_sizes(sizes, heights.shape, factor)
     else:
         pitches = pitch_of(1.0 if pitch is None else pitch)
     pixels = pixels_of(heights.T, what)
     if factor != 1.0:
         pixels = pixels * factor
     return Surface(_core.height_map(pixels, pitches[0], pitches[1], settings._configuration), "", True)
+
+
+def _pitch_of_sizes(sizes: Any, shape: Sequence[int], factor: float) -> Tuple[float, float]:
+    try:
+        x, y = (float(size) / count * factor for size, count in zip(sizes, shape))
+        if len(sizes) == 2:
+            return pitch_of((x, y))
+    except (TypeError, ValueError):  # SurfaceError is a ValueError
+        pass
+    raise SurfaceError("physical_sizes: %r is not allowed, must be two numbers > 0 (along x, along y)" % (sizes,))
 
 
 def pitch_of(pitch: Pitch) -> Tuple[float, float]:
@@ -104,7 +117,14 @@ def _shape_text(array: np.ndarray, what: str) -> str:
 def pixels_of(heights: Any, what: str = "heights") -> np.ndarray:
     """The array itself where the core can show it as it lies: float32 or float64 of this machine, columns next to each
     other, rows at any distance, writeable or not. Else a copy. Masked pixels are NaN: missing."""
-    array = heights if isinstance(heights, np.ma.MaskedArray) else np.asarray(heights)
+    try:
+        array = heights if isinstance(heights, np.ma.MaskedArray) else np.asarray(heights)
+    except ValueError as error:  # rows of different lengths
+        raise SurfaceError("%s: %s" % (what, error)) from None
+    if array.dtype.kind == "O" and array.ndim == 0:
+        raise SurfaceError("%s: %s is not allowed, must be an array, a topography, a Scan or the path of a scan" % (what, type(heights).__name__))
+    if array.dtype == np.float16:
+        raise SurfaceError("%s: an array of type float16 is not allowed, its steps are 60 nm where they are finest; must be float32 or float64" % what)
     if array.dtype.kind not in "fiu":
         raise SurfaceError("%s: an array of type %s is not allowed, must be real numbers [m]" % (what, array.dtype))
     if array.ndim != 2:

@@ -24,6 +24,8 @@ class Configuration:
     def __init__(self) -> None: ...
     def changed(self, tree: Dict[str, Any]) -> Configuration: ...
     def loaded(self, path: str) -> Configuration: ...
+    warnings: List[str]
+    pitch: Tuple[float, float]
     def yaml(self) -> str: ...
 
 class PredictedScan:
@@ -32,6 +34,8 @@ class PredictedScan:
     roughness: Dict[str, float]
     flag_names: str
     preprocessing: List[Dict[str, Any]]
+    scan_warnings: List[str]
+    warnings: List[str]
     scan: HeightMap
     lower: HeightMap
     upper: HeightMap
@@ -52,6 +56,7 @@ class Predictor:
 
 class SolvedScan:
     figures: Dict[str, Any]
+    verdict: Optional[Dict[str, Any]]
     curve: Records
     pressure: Optional[Memory]
     gap: Optional[Memory]

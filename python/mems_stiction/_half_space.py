@@ -9,6 +9,7 @@ import numpy as np
 from mems_stiction import _core
 from mems_stiction._arrays import Pitch, Surface, array_of, records_of
 from mems_stiction._inputs import inputs_of
+from mems_stiction._prediction import Verdict
 from mems_stiction._settings import Config
 from mems_stiction.quantities import percent, with_unit
 
@@ -25,6 +26,9 @@ class HalfSpace:
     range, cohesive_length [m]: z0 of the traction law, and E z0^2/Gamma over which contacts part.
     is_converged, is_resolved, is_step_converged: every state is an equilibrium; pixels are small enough; so are steps.
     residual [-], state_count, iterations, jumps, processing_time [s]: of the solution.
+
+    verdict: on the device, by the half-space if it can judge, else by a prediction of the same surfaces (verdict_by says
+    which, and the reason why); None without a device.
     Sources: doc/half_space.md.
     """
 
@@ -59,6 +63,8 @@ class HalfSpace:
             return None if array is None else surface.back(array)
 
         self.__dict__.update(core.figures)
+        verdict = core.verdict
+        self.verdict = None if verdict is None else Verdict(verdict)
         self.name = surface.name
         #: force over height, both ways: height [m] over first touch, force [N], direction (0 approach, 1 retraction)
         self.curve: np.recarray = records_of(core.curve)
@@ -84,6 +90,8 @@ class HalfSpace:
         lines.append("  %s, %s; %d states in %s" % (
             "converged" if self.is_converged else "not converged", "resolved" if self.is_resolved else "pixels too large",
             self.state_count, with_unit(self.processing_time, "s")))
+        if self.verdict is not None:
+            lines.append("  sticks: %s" % self.verdict.summary)
         return "\n".join(lines)
 
     def _repr_html_(self) -> str:

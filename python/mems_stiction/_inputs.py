@@ -4,17 +4,22 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from typing import Any, Dict, Optional, Tuple
+from typing import Any, Dict, Iterable, Optional, Tuple
 
 from mems_stiction import _core
-from mems_stiction._arrays import Pitch, Surface, surface_of
-from mems_stiction._scans import warn_about
+from mems_stiction._arrays import Pitch, Surface, pixels_of, surface_of
 from mems_stiction._settings import Config, Settings
+from mems_stiction._warnings import ScanWarning, warn
 
 
 def brings_pitch(heights: Any) -> bool:
     """Whether it says itself how far apart its pixels are: a file, a Scan, a topography."""
     return isinstance(heights, (str, os.PathLike)) or hasattr(heights, "heights")
+
+
+def warn_about(surface: Surface, texts: Iterable[str]) -> None:
+    """What looks wrong in a scan, with the name of its file."""
+    warn([(surface.name + ": " if surface.name else "") + text for text in texts], ScanWarning)
 
 
 def section_or_surface(upper: Any, settings: Dict[str, Any]) -> Any:
@@ -26,10 +31,12 @@ def section_or_surface(upper: Any, settings: Dict[str, Any]) -> Any:
 
 
 def counter_of(upper: Any, surface: Surface, settings: Settings) -> Optional[_core.HeightMap]:
-    """The counter-surface that was measured beside the scan, on its grid if it is an array; None if there is none."""
+    """The counter-surface that was measured beside the scan; an array is on its grid, in its index order. None if there is none."""
     if upper is None:
         return None
-    return surface_of(upper, None if brings_pitch(upper) else surface.core.pitch, settings, "upper").core
+    if brings_pitch(upper):
+        return surface_of(upper, None, settings, "upper").core
+    return surface_of(surface.back(pixels_of(upper, "upper")), surface.core.pitch, settings, "upper").core
 
 
 def inputs_of(heights: Any, pitch: Optional[Pitch], config: Optional[Config], upper: Any,
@@ -38,5 +45,5 @@ def inputs_of(heights: Any, pitch: Optional[Pitch], config: Optional[Config], up
     upper = section_or_surface(upper, settings)
     checked = Settings(config, **settings)
     surface = surface_of(heights, pitch, checked)
-    warn_about(surface)
+    warn_about(surface, _core.scan_warnings(surface.core))
     return checked, surface, counter_of(upper, surface, checked)

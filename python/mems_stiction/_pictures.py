@@ -67,8 +67,7 @@ def prediction_html(prediction: Prediction) -> str:
             ("rms height", plots.with_unit(prediction.rms_height, "m")),
             ("flattening energy / work of adhesion", ratio(prediction.flattening_ratio))]
     if prediction.verdict is not None:
-        rows.append(("does the device stick?", "%s; margin %s (%s to %s)" % (
-            prediction.verdict.sticks, ratio(prediction.verdict.margin), ratio(prediction.verdict.margin_lower), ratio(prediction.verdict.margin_upper))))
+        rows.append(("does the device stick?", prediction.verdict.summary))
     if prediction.flags:
         rows.append(("outside the model's range", flag_words(prediction.flags)))
     rows += [("warning", text) for text in prediction.warnings]
@@ -96,6 +95,8 @@ def half_space_html(solution: HalfSpace) -> str:
             ("pull-off force", plots.with_unit(solution.pull_off_force, "N")),
             ("contact", "%s in %d groups" % (percent(solution.contact_fraction), solution.contact_count)),
             ("converged, resolved", "%s, %s" % (*("yes" if flag else "no" for flag in (solution.is_converged, solution.is_resolved)),))]
+    if solution.verdict is not None:
+        rows.append(("does the device stick?", solution.verdict.summary))
     if solution.status != "SOLVED":
         rows.append(("why", solution.message))
     figure = Figure(figsize=(10, 4.8), dpi=DPI)

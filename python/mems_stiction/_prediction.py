@@ -6,6 +6,7 @@ import json
 import os
 import threading
 from collections import deque
+from collections.abc import Iterable as IterableOf
 from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any, Dict, Iterable, Iterator, List, Optional, Tuple, Union
@@ -14,8 +15,8 @@ import numpy as np
 
 from mems_stiction import _core
 from mems_stiction._arrays import Pitch, Surface, array_of, records_of, surface_of
-from mems_stiction._inputs import brings_pitch, counter_of, section_or_surface
-from mems_stiction._scans import Roughness, warn_about
+from mems_stiction._inputs import brings_pitch, counter_of, section_or_surface, warn_about
+from mems_stiction._scans import Roughness
 from mems_stiction._settings import Config, Error, Settings
 from mems_stiction.quantities import area, percent, ratio, with_unit
 
@@ -30,6 +31,7 @@ class Verdict:
     apparent_work_of_adhesion [J/m^2]: of the rough interface. peel_number, peel_number_lower, peel_number_upper [-],
     detachment_length, unstuck_length [m]: of a beam (de Boer and Michalske 1999; Mastrangelo and Hsu 1993).
     pull_in_voltage [V]: at which the electrodes close. regime_flags: bits, those of the prediction.
+    verdict_by: whose figures it rests on, "prediction" or "half_space" (that of half_space(), where it can judge).
     """
 
     sticks: str
@@ -49,13 +51,19 @@ class Verdict:
     unstuck_length: float
     pull_in_voltage: float
     regime_flags: int
+    verdict_by: str
 
     def __init__(self, figures: Dict[str, Any]) -> None:
         self.__dict__.update(figures)
 
+    @property
+    def summary(self) -> str:
+        """Word, margin and whose figures they are: "no, margin 2.5 (2 to 3), by the half-space"."""
+        return "%s, margin %s (%s to %s), by the %s" % (self.sticks, ratio(self.margin), ratio(self.margin_lower),
+                                                        ratio(self.margin_upper), self.verdict_by.replace("_", "-"))
+
     def __repr__(self) -> str:
-        return "Verdict: sticks: %s, margin %s (%s to %s); %s" % (
-            self.sticks, ratio(self.margin), ratio(self.margin_lower), ratio(self.margin_upper), self.reason)
+        return "Verdict: sticks: %s; %s" % (self.summary, self.reason)
 
 
 class Prediction:
@@ -90,7 +98,7 @@ class Prediction:
     regime_flags: bits, where it leaves the model's range; flags has their names (doc/validity.md).
 
     verdict: a Verdict, or None without a device. roughness: a Roughness, of the cleaned scan.
-    preprocessing: what each step of the cleaning did. warnings: about pitch and heights.
+    preprocessing: what each step of the cleaning did. warnings: about pitch, heights and settings.
     """
 
     status: str
@@ -147,11 +155,11 @@ class Prediction:
     _LAZY = ("contact_map", "deformed_lower", "deformed_upper", "pressure", "heights", "upper_heights", "asperities",
              "energy_curve", "curve", "curve_over_height", "preprocessing", "roughness", "flags")
 
-    def __init__(self, core: _core.PredictedScan, surface: Surface, warnings: Tuple[str, ...]) -> None:
+    def __init__(self, core: _core.PredictedScan, surface: Surface) -> None:
         self.__dict__.update(core.figures)
         verdict = core.verdict
         self.verdict = None if verdict is None else Verdict(verdict)
-        self.warnings = warnings
+        self.warnings = tuple(core.warnings)
         self.name = surface.name
         self.pitch = core.scan.pitch
         self._core: Optional[_core.PredictedScan] = core
@@ -288,8 +296,7 @@ class Prediction:
             self.asperity_count, self.elastic_count, self.elasto_plastic_count, self.plastic_count,
             with_unit(self.rms_height, "m"), ratio(self.flattening_ratio)))
         if self.verdict is not None:
-            lines.append("  sticks: %s, margin %s (%s to %s)" % (
-                self.verdict.sticks, ratio(self.verdict.margin), ratio(self.verdict.margin_lower), ratio(self.verdict.margin_upper)))
+            lines.append("  sticks: %s" % self.verdict.summary)
         if self.flags:
             lines.append("  outside the model's range: %s" % ", ".join(self.flags))
         lines += ["  warning: " + text for text in self.warnings]
@@ -315,7 +322,8 @@ class Predictor:
         """As the function predict()."""
         surface = surface_of(heights, pitch, self.settings)
         predicted = self._core.predict(surface.core, counter_of(upper, surface, self.settings))
-        return Prediction(predicted, surface, warn_about(surface))
+        warn_about(surface, predicted.scan_warnings)
+        return Prediction(predicted, surface)
 
     def __reduce__(self) -> Any:
         return Predictor, (self.settings,)
@@ -330,13 +338,13 @@ def predict(heights: Any, pitch: Optional[Pitch] = None, config: Optional[Config
     Scan; or the path of a file. Arrays of float32 and float64 are not copied, also read-only ones and parts of rows.
     pitch: distance of neighbouring pixels [m], a number or (x, y). Left out where the object brings it, or scan/pitch_x.
     config: a dictionary, the path of a YAML file, or Settings: materials, interface, loads, cleaning (doc/parameters.md).
-    upper: the counter-surface as it was measured beside the scan, on the same grid; counter_surface/facing says which way
-    it faces. None: the configured one, a plane unless counter_surface/type says otherwise.
+    upper: the counter-surface as it was measured beside the scan, on the same grid and in its index order;
+    counter_surface/facing says which way it faces. None: the configured one, a plane unless counter_surface/type says otherwise.
     settings: sections that go before config: load={"mechanical_load": 1e-6}. A dictionary as `upper` is the section of
     that name.
 
     Bits are those of predict_scan with the same settings. Raises SurfaceError for heights, OptionsError for settings,
-    each in a sentence with what is allowed; ScanWarning for pitches and heights that look like a wrong unit.
+    each in a sentence with what is allowed; warns (ScanWarning, SettingsWarning) of what looks like a wrong unit.
     The interpreter's lock is released meanwhile.
     """
     upper = section_or_surface(upper, settings)
@@ -358,6 +366,8 @@ def predict_many(frames: Iterable[Any], pitch: Optional[Pitch] = None, config: O
     count = os.cpu_count() or 1 if workers is None else workers
     if not isinstance(count, int) or count < 1:
         raise ValueError("workers: %r is not allowed, must be an integer >= 1" % (workers,))
+    if brings_pitch(frames) or not isinstance(frames, IterableOf):
+        raise ValueError("frames: one %s is not allowed, must be a list or a generator of frames" % type(frames).__name__)
     if isinstance(frames, np.ndarray) and frames.ndim != 3:
         raise ValueError("frames: an array of shape %s is not allowed, must be frames x rows x columns, or a list" % (frames.shape,))
     upper = settings.get("upper")

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+import operator
 import os
-import warnings
 from typing import Any, Dict, List, Optional, Tuple, Union
 
 import numpy as np
@@ -12,18 +12,6 @@ from mems_stiction import _core
 from mems_stiction._arrays import Pitch, Surface, array_of, pitch_of, surface_of
 from mems_stiction._settings import Config, Settings, SurfaceError
 from mems_stiction.quantities import with_unit
-
-
-class ScanWarning(UserWarning):
-    """A scan does not look like what it claims to be: a unit, most likely."""
-
-
-def warn_about(surface: Surface) -> Tuple[str, ...]:
-    """What predict_scan warns about too, as warnings of Python."""
-    found = tuple(_core.scan_warnings(surface.core))
-    for text in found:
-        warnings.warn((surface.name + ": " if surface.name else "") + text, ScanWarning, stacklevel=4)
-    return found
 
 
 class Scan:
@@ -181,9 +169,12 @@ def generate(shape: Tuple[int, int], pitch: Pitch, config: Optional[Config] = No
     shape: (rows, columns). The same shape, settings and seed give the same surface.
     Raises OptionsError for another type than gaussian or self_affine, SurfaceError for lengths that the grid cannot have.
     """
-    rows, columns = (int(count) for count in shape)
-    if rows < 1 or columns < 1:
-        raise SurfaceError("shape: %r is not allowed, must be (rows, columns), both >= 1" % (shape,))
+    try:
+        rows, columns = (operator.index(count) for count in shape)
+    except (TypeError, ValueError):
+        rows = columns = 0
+    if not (1 <= rows < 2**31 and 1 <= columns < 2**31):
+        raise SurfaceError("shape: %r is not allowed, must be (rows, columns), both integers >= 1" % (shape,))
     checked = Settings(config, **settings)
     return Scan(Surface(_core.generate(rows, columns, *pitch_of(pitch), checked._configuration), "", False))
 

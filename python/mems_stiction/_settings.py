@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import Any, Dict, Optional, Union
 
 from mems_stiction import _core
+from mems_stiction._warnings import SettingsWarning, warn
 
 Error = _core.Error
 FileError = _core.FileError
@@ -27,6 +28,7 @@ class Settings:
     config: None for the defaults, a dictionary, the path of a YAML file, or other Settings.
     settings: sections or single keys that go before it: load={"voltage": 5.0}, **{"load/voltage": 5.0}.
     Raises OptionsError with a line for each key that is unknown, of the wrong type or out of range; FileError.
+    Warns (SettingsWarning) about values that look like a wrong unit.
     """
 
     _configuration: _core.Configuration
@@ -44,6 +46,8 @@ class Settings:
             raise OptionsError("config: %r is not allowed, must be a dictionary, the path of a YAML file or Settings" % (config,))
         if settings:
             self._configuration = self._configuration.changed(_plain(settings))
+        if settings or not isinstance(config, Settings):
+            warn(self._configuration.warnings, SettingsWarning)
 
     def yaml(self) -> str:
         """Every setting as YAML, with units and ranges as comments; it reads back to the same values."""

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Optional, Sequence, Union
+from typing import Any, List, Optional, Sequence, Union
 
 import numpy as np
 
 from mems_stiction import _core
 from mems_stiction._arrays import Pitch, Surface, array_of, records_of
 from mems_stiction._inputs import inputs_of
-from mems_stiction._settings import Config
+from mems_stiction._settings import Config, OptionsError
+
+LARGEST_COUNT = 2**31 - 1
 
 
 class LoadSweep:
@@ -76,6 +78,14 @@ class ContactCycles:
         station_figures.save_cycles(self, path)
 
 
+def _numbers(values: Any, name: str, unit: str) -> List[float]:
+    """A number, or a list of them in any dress."""
+    array = np.atleast_1d(np.asarray(values))
+    if array.dtype.kind not in "fiu" and array.size or array.ndim != 1:
+        raise OptionsError("%s: %r is not allowed, must be a list of numbers [%s]" % (name, values, unit))
+    return array.astype(float).tolist()
+
+
 def sweep_loads(heights: Any, pitch: Optional[Pitch] = None, voltages: Sequence[float] = (0.0,),
                 mechanical_loads: Sequence[float] = (0.0,), config: Optional[Config] = None, upper: Any = None,
                 **settings: Any) -> LoadSweep:
@@ -84,8 +94,8 @@ def sweep_loads(heights: Any, pitch: Optional[Pitch] = None, voltages: Sequence[
     Raises OptionsError for values that do not ascend or are out of range.
     """
     checked, surface, counter = inputs_of(heights, pitch, config, upper, settings)
-    return LoadSweep(_core.sweep_loads(surface.core, counter, checked._configuration, np.atleast_1d(voltages).tolist(),
-                                       np.atleast_1d(mechanical_loads).tolist()))
+    return LoadSweep(_core.sweep_loads(surface.core, counter, checked._configuration, _numbers(voltages, "voltages", "V"),
+                                       _numbers(mechanical_loads, "mechanical_loads", "N")))
 
 
 def cycle_contact(heights: Any, pitch: Optional[Pitch] = None, count: int = 10, config: Optional[Config] = None,
@@ -93,5 +103,7 @@ def cycle_contact(heights: Any, pitch: Optional[Pitch] = None, count: int = 10, 
     """After how many contacts does the device fail? The surfaces meet `count` times under the same load. Other arguments
     are those of predict(). Ctrl-C stops it. Raises OptionsError for a count below 1.
     """
+    if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or not -LARGEST_COUNT <= count <= LARGEST_COUNT:
+        raise OptionsError("count: %r is not allowed, must be an integer >= 1" % (count,))
     checked, surface, counter = inputs_of(heights, pitch, config, upper, settings)
     return ContactCycles(_core.cycle_contact(surface.core, counter, checked._configuration, count), surface)

@@ -19,8 +19,8 @@ import warnings
 from typing import Any, Dict, Iterable, Iterator, List, Sequence, Tuple
 
 from mems_stiction._prediction import predict_many
-from mems_stiction._scans import ScanWarning
 from mems_stiction._settings import Error, OptionsError, Settings
+from mems_stiction._warnings import ScanWarning
 
 BAD_INPUT = 2
 Numbered = Tuple[int, str]

@@ -7,10 +7,12 @@
 
 #include <string>
 #include <type_traits>
+#include <utility>
 
 #include "mems_stiction/half_space/half_space_fields.hpp"
 #include "mems_stiction/prediction/prediction_fields.hpp"
 #include "mems_stiction/verdict/verdict.hpp"
+#include "mems_stiction/verdict/verdict_fields.hpp"
 
 namespace mems_stiction {
 namespace python {
@@ -42,6 +44,14 @@ class UnitFields {
 
   pybind11::dict units;
 };
+
+/// Its figures, and who judged: verdict_by.
+inline pybind11::dict verdictFigures(const Verdict& verdict) {
+  DictionaryFields fields;
+  visitVerdictFields(verdict, fields);
+  fields("verdict_by", judgeText(verdict.judge), "");
+  return std::move(fields.dictionary);
+}
 
 }  // namespace python
 }  // namespace mems_stiction

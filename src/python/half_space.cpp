@@ -1,6 +1,7 @@
 /// The half-space on the surfaces and settings of a prediction.
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "bindings.hpp"
@@ -18,9 +19,10 @@ namespace {
 
 namespace py = pybind11;
 
-/// A solution with its curve and its contacts.
+/// A solution with its curve and its contacts, and the verdict on the device if one is stated.
 struct SolvedScan {
   SolvedHalfSpace solution;
+  std::optional<Verdict> verdict;
   std::vector<CurvePoint> curve;
   cv::Mat contact_map;
 };
@@ -32,14 +34,17 @@ Solved solve(const HeightMap& scan, const HeightMap* counter_surface, const Conf
     ScanPreparer preparer(configuration);
     if (counter_surface != nullptr) preparer.setMeasuredCounterSurface(*counter_surface);
     const PreparedScan prepared = preparer.prepare(scan);
-    const HalfSpaceProblem problem =
-        halfSpaceProblem(prepared, onFrame(configuration.model, configuration.device, prepared.surfaces));
+    const Options options = onFrame(configuration.model, configuration.device, prepared.surfaces);
+    const HalfSpaceProblem problem = halfSpaceProblem(prepared, options);
     HalfSpaceControl control;
     control.cancel = &cancel;
     auto solved = std::make_shared<SolvedScan>();
     solved->solution = HalfSpaceSolver(configuration.half_space).solve(problem, control);
     solved->curve = curveOf(solved->solution);
     solved->contact_map = halfSpaceContactMap(solved->solution, problem, configuration.half_space, prepared.refinement);
+    if (configuration.device.isStated()) {
+      solved->verdict = halfSpaceVerdict(solved->solution, prepared, options, configuration);
+    }
     return solved;
   });
 }
@@ -86,6 +91,10 @@ Records curveOfScan(const Solved& solved) {
 void bindHalfSpace(py::module& module) {
   py::class_<SolvedScan, Solved>(module, "SolvedScan")
       .def_property_readonly("figures", &figuresOf)
+      .def_property_readonly("verdict",
+                             [](const SolvedScan& solved) {
+                               return solved.verdict ? py::object(verdictFigures(*solved.verdict)) : py::none();
+                             })
       .def_property_readonly("curve", &curveOfScan)
       .def_property_readonly("pressure", [](const SolvedScan& solved) { return memoryOf(solved.solution.pressure); })
       .def_property_readonly("gap", [](const SolvedScan& solved) { return memoryOf(solved.solution.gap); })

@@ -18,7 +18,6 @@
 #include "mems_stiction/scan/record.hpp"
 #include "mems_stiction/scan/scan_predictor.hpp"
 #include "mems_stiction/verdict/regime_flags.hpp"
-#include "mems_stiction/verdict/verdict_fields.hpp"
 #include "preprocess_steps.hpp"
 
 namespace mems_stiction {
@@ -35,6 +34,7 @@ struct PredictedScan {
   HeightMap scan;        ///< as it came
   SurfacePair surfaces;  ///< cleaned and in place, on the scan's grid
   Prediction prediction;
+  std::vector<std::string> scan_warnings;  ///< extras.warnings has those about the settings, too
   RecordExtras extras;
   std::vector<CurvePoint> curve;  ///< over the height
 };
@@ -61,7 +61,8 @@ class Predictor {
     predicted->extras.formulation = predictor_.options().formulation;
     predicted->extras.preprocessing = prepared.record;
     predicted->extras.provenance = provenanceOf({}, configuration_);
-    predicted->extras.warnings = scanWarnings(scan);
+    predicted->scan_warnings = scanWarnings(scan);
+    predicted->extras.warnings = predicted->scan_warnings;
     for (std::string& warning : settingsWarnings(configuration_)) {
       predicted->extras.warnings.push_back(std::move(warning));
     }
@@ -91,9 +92,7 @@ py::dict figuresOf(const PredictedScan& predicted) {
 
 py::object verdictOfScan(const PredictedScan& predicted) {
   if (!predicted.extras.verdict) return py::none();
-  DictionaryFields fields;
-  visitVerdictFields(*predicted.extras.verdict, fields);
-  return std::move(fields.dictionary);
+  return verdictFigures(*predicted.extras.verdict);
 }
 
 py::dict roughnessOfScan(const PredictedScan& predicted) {
@@ -165,6 +164,7 @@ py::dict predictionUnits() {
   const Verdict verdict;
   visitPredictionFields(prediction, of_prediction);
   visitVerdictFields(verdict, of_verdict);
+  of_verdict("verdict_by", "", "");
   py::dict units;
   units["prediction"] = of_prediction.units;
   units["verdict"] = of_verdict.units;
@@ -183,6 +183,8 @@ void bindPrediction(py::module& module) {
           [](const PredictedScan& one) { return regimeFlagNames(regimeFlags(one.prediction, one.scan.cellArea())); })
       .def_property_readonly("preprocessing",
                              [](const PredictedScan& one) { return stepsOf(one.extras.preprocessing); })
+      .def_readonly("scan_warnings", &PredictedScan::scan_warnings)
+      .def_property_readonly("warnings", [](const PredictedScan& one) { return one.extras.warnings; })
       .def_property_readonly("scan", [](const PredictedScan& one) { return one.scan; })
       .def_property_readonly("lower", [](const PredictedScan& one) { return one.surfaces.lower; })
       .def_property_readonly("upper", [](const PredictedScan& one) { return one.surfaces.upper; })

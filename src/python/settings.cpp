@@ -1,6 +1,9 @@
 /// Errors by name, and settings from a dictionary or a file, both with the words of the core.
 
+#include <pybind11/stl.h>
 #include <yaml-cpp/yaml.h>
+
+#include <opencv2/core.hpp>
 
 #include <cmath>
 #include <string>
@@ -8,6 +11,7 @@
 #include "bindings.hpp"
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/scan/configuration_yaml.hpp"
+#include "mems_stiction/scan/plausibility.hpp"
 
 namespace mems_stiction {
 namespace python {
@@ -65,6 +69,9 @@ void bindErrors(py::module& module) {
       PyErr_SetString(file_error, caught.what());
     } catch (const Error& caught) {
       PyErr_SetString(error, caught.what());
+    } catch (const cv::Exception& caught) {
+      if (caught.code != cv::Error::StsNoMem) throw;
+      PyErr_SetString(PyExc_MemoryError, caught.err.c_str());
     }
   });
 }
@@ -76,6 +83,11 @@ void bindSettings(py::module& module) {
                          const py::dict& tree) { return configurationFromYaml(nodeOf(tree), configuration); })
       .def("loaded", [](const Configuration& configuration,
                         const std::string& path) { return loadConfiguration(path, configuration); })
+      .def_property_readonly("warnings", &settingsWarnings)
+      .def_property_readonly("pitch",
+                             [](const Configuration& configuration) {
+                               return py::make_tuple(configuration.scan.pitch_x, configuration.scan.pitch_y);
+                             })
       .def("yaml", [](const Configuration& configuration) { return toYaml(configuration); });
 }
 

@@ -147,7 +147,7 @@ class BitsTest(unittest.TestCase):
         self.check({"counter_surface": {"type": "gaussian", "seed": 4}}, ("rough",))
 
     def test_half_space(self):
-        settings = {"lower": {"youngs_modulus": 1e9}, "upper": {"youngs_modulus": 1e9}, "load": {"mechanical_load": 1e-8}}
+        settings = {"lower": {"youngs_modulus": 1e9}, "upper": {"youngs_modulus": 1e9}, "load": {"mechanical_load": 1e-8}, "device": DEVICE}
         for name, record in self.records(settings, "--half-space", names=("smooth", "holes")).items():
             solved = mems_stiction.half_space(frames()[name], PITCH, settings)
             of_record = record["half_space"]
@@ -156,6 +156,9 @@ class BitsTest(unittest.TestCase):
             for figure, value in without_times(of_record).items():
                 ours = getattr(solved, figure)
                 self.assertTrue(ours == value or (value is None and np.isnan(ours)), (name, figure))
+            for figure, ours in vars(solved.verdict).items():
+                value = record[figure]
+                self.assertTrue(ours == value or (value is None and np.isnan(ours)), (name, figure, ours, value))
 
     def test_many_frames_on_threads(self):
         settings = {"load": {"mechanical_load": 1e-6}}

@@ -1,0 +1,207 @@
+"""The Python module for somebody who has not seen it: slips are named or warned of at the caller's line, results can be copied and sent."""
+
+import copy
+import multiprocessing
+import pathlib
+import pickle
+import subprocess
+import sys
+import tempfile
+import unittest
+import warnings
+
+import mems_stiction
+import numpy as np
+
+try:
+    from mems_stiction import _core  # noqa: F401
+except ImportError:
+    raise unittest.SkipTest("the Python module is not built: MEMS_STICTION_WITH_PYTHON is off")
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+
+from test_module import DEVICE, PITCH, Topography, rough, without_times  # noqa: E402  (the path comes first)
+
+SOFT = {"lower": {"youngs_modulus": 1e9}, "upper": {"youngs_modulus": 1e9}}
+
+
+def force_of(heights):
+    """For another process."""
+    return mems_stiction.predict(heights, PITCH).pull_off_force
+
+
+class SlipTest(unittest.TestCase):
+    def named(self, kind, words, call, *arguments, **settings):
+        """Raised in one line, as a ValueError."""
+        with self.assertRaisesRegex(kind, words) as caught:
+            call(*arguments, **settings)
+        self.assertIsInstance(caught.exception, ValueError)
+        self.assertEqual(len(str(caught.exception).splitlines()), 1)
+
+    def test_heights(self):
+        good = rough(20, 30)
+        for heights, words in ((good.astype(np.float16), "float16.*float32 or float64"), (None, "NoneType.*array, a topography"),
+                               ({"heights": good}, "dict.*array"), ([[1.0, 2.0], [1.0]], "heights: .*inhomogeneous|heights: .*sequence|object"),
+                               (3.0, "two dimensions"), (good.astype("M8[s]"), "real numbers"), (np.ma.masked_all((5, 5)), "no valid pixel")):
+            self.named(mems_stiction.SurfaceError, words, mems_stiction.predict, heights, PITCH)
+        self.named(mems_stiction.SurfaceError, "^pitch: an array says nothing of it", mems_stiction.predict, good)
+        for sizes in ((-1.0, 1.0), (1.0,), (1.0, 1.0, 1.0), "ab", 1.0):
+            self.named(mems_stiction.SurfaceError, "^physical_sizes: .*two numbers > 0", mems_stiction.predict, Topography(good, sizes, "m"))
+
+    def test_a_line_scan_is_no_surface(self):
+        self.named(mems_stiction.SurfaceError, "two dimensions", mems_stiction.predict, Topography(rough(1, 30)[0], (1e-6,), "m"))
+
+    def test_pitch_of_the_settings_serves(self):
+        heights = rough(20, 30)
+        self.assertEqual(mems_stiction.predict(heights, scan={"pitch_x": PITCH, "pitch_y": PITCH}).pull_off_force,
+                         mems_stiction.predict(heights, PITCH).pull_off_force)
+
+    def test_lists_and_counts(self):
+        good = rough(20, 30)
+        for voltages in ("5", [[0, 1], [2, 3]], [None], {"from": 0}):
+            self.named(mems_stiction.OptionsError, "^voltages: .*list of numbers", mems_stiction.sweep_loads, good, PITCH, voltages)
+        for count in ("3", 3.0, True, 10**12, None):
+            self.named(mems_stiction.OptionsError, "^count: .*integer >= 1", mems_stiction.cycle_contact, good, PITCH, count)
+        for shape in ("ab", 64, (64, 64.0), (10**12, 1), (64,) * 3):
+            self.named(mems_stiction.SurfaceError, "^shape: .*integers >= 1", mems_stiction.generate, shape, PITCH)
+
+    def test_one_frame_is_not_many(self):
+        scan = mems_stiction.clean(rough(20, 30), PITCH)
+        for frames in ("scan.gwy", scan, None, rough(20, 30)):
+            self.named(ValueError, "^frames: ", mems_stiction.predict_many, frames, PITCH)
+
+    def test_what_does_not_fit_into_memory_is_a_memory_error(self):
+        with self.assertRaises(MemoryError):
+            mems_stiction.generate((10**6, 10**6), PITCH, counter_surface={"type": "gaussian"})
+
+    def test_an_array_beside_a_topography_has_its_index_order(self):
+        lower, upper = rough(40, 40), rough(40, 40, 6e-9, 9)
+        facing = {"facing": "up"}
+        expected = mems_stiction.predict(lower, PITCH, upper=upper, counter_surface=facing)
+        topography = Topography(lower.T, (40 * PITCH, 40 * PITCH), "m")
+        for given in (upper.T, Topography(upper.T, (40 * PITCH, 40 * PITCH), "m")):
+            prediction = mems_stiction.predict(topography, upper=given, counter_surface=facing)
+            self.assertEqual(prediction.pull_off_force, expected.pull_off_force)
+            self.assertTrue(np.array_equal(prediction.upper_heights, expected.upper_heights.T))
+
+
+class WarningTest(unittest.TestCase):
+    def caught(self, call):
+        with warnings.catch_warnings(record=True) as found:
+            warnings.simplefilter("always")
+            result = call()
+        return result, found
+
+    def test_settings_that_look_like_a_wrong_unit_warn_once_at_the_callers_line(self):
+        for call in (lambda: mems_stiction.predict(rough(20, 30), PITCH, lower={"youngs_modulus": 169}),
+                     lambda: mems_stiction.half_space(rough(8, 8, 1e-10), PITCH, lower={"youngs_modulus": 169}),
+                     lambda: mems_stiction.Predictor({"lower": {"youngs_modulus": 169}}),
+                     lambda: mems_stiction.Settings(lower={"youngs_modulus": 169})):
+            _, found = self.caught(call)
+            self.assertEqual([(one.category, one.filename) for one in found], [(mems_stiction.SettingsWarning, __file__)])
+            self.assertIn("probably 169 GPa", str(found[0].message))
+        settings, _ = self.caught(lambda: mems_stiction.Settings(lower={"youngs_modulus": 169}))
+        prediction, found = self.caught(lambda: mems_stiction.predict(rough(20, 30), PITCH, settings))
+        self.assertEqual(found, [])
+        self.assertIn("probably 169 GPa", prediction.warnings[0])
+        self.assertIn("probably 169 GPa", repr(prediction))
+        self.assertEqual(list(prediction.warnings), prediction.to_dict()["warnings"])
+
+    def test_scans_warn_at_the_callers_line(self):
+        for call in (lambda: mems_stiction.predict(rough(20, 30), 20.0), lambda: mems_stiction.Predictor().predict(rough(20, 30), 20.0),
+                     lambda: mems_stiction.half_space(rough(8, 8), (20.0, PITCH)), lambda: mems_stiction.sweep_loads(rough(20, 30), 20.0)):
+            _, found = self.caught(call)
+            self.assertTrue(found)
+            self.assertEqual({(one.category, one.filename) for one in found}, {(mems_stiction.ScanWarning, __file__)})
+
+
+class VerdictTest(unittest.TestCase):
+    """A frame whose pixels are far smaller than the cohesive length (2.7 nm), as the half-space wants them, and one whose are not."""
+
+    def test_a_half_space_that_can_judge_does(self):
+        settings = {"lower": {"youngs_modulus": 1e10}, "upper": {"youngs_modulus": 1e10}, "device": DEVICE}
+        heights, pitch = rough(32, 32, 3e-10, length=8), 1e-10
+        solved = mems_stiction.half_space(heights, pitch, settings)
+        self.assertTrue(solved.is_resolved)
+        self.assertEqual(solved.verdict.verdict_by, "half_space")
+        self.assertRegex(solved.verdict.reason, "^by the half-space:")
+        self.assertRegex(repr(solved), "sticks: %s, margin .* by the half-space" % solved.verdict.sticks)
+        self.assertIn("by the half-space", solved._repr_html_())
+        area = solved.verdict.device_pull_off_force / solved.pull_off_force  # of the device over that of the frame
+        self.assertAlmostEqual(area / (DEVICE["contact_area"] / (32 * pitch) ** 2), 1.0, delta=1e-9)  # round-off
+        self.assertEqual(mems_stiction.predict(heights, pitch, settings).verdict.verdict_by, "prediction")
+
+    def test_one_that_cannot_leaves_it_to_the_prediction(self):
+        solved = mems_stiction.half_space(rough(16, 16), PITCH, SOFT, device=DEVICE)
+        self.assertFalse(solved.is_resolved)
+        self.assertEqual(solved.verdict.verdict_by, "prediction")
+        predicted = mems_stiction.predict(rough(16, 16), PITCH, SOFT, device=DEVICE).verdict
+        self.assertEqual((solved.verdict.sticks, solved.verdict.margin), (predicted.sticks, predicted.margin))
+        self.assertIn("the half-space does not count", solved.verdict.reason)
+
+    def test_without_a_device_there_is_none(self):
+        self.assertIsNone(mems_stiction.half_space(rough(16, 16), PITCH, SOFT).verdict)
+
+
+class CopyTest(unittest.TestCase):
+    def results(self):
+        heights = rough(24, 30)
+        topography = Topography(heights.T, (30 * PITCH, 24 * PITCH), "m")
+        return [mems_stiction.predict(topography, device=DEVICE), mems_stiction.half_space(rough(12, 12), PITCH, SOFT, device=DEVICE),
+                mems_stiction.sweep_loads(heights, PITCH, [0, 1], interface={"insulator_thickness": 1e-7}),
+                mems_stiction.cycle_contact(heights, PITCH, 2), mems_stiction.clean(heights, PITCH), mems_stiction.Settings(SOFT),
+                mems_stiction.roughness(heights, PITCH)]
+
+    def test_results_can_be_copied_pickled_and_shown_again(self):
+        for result in self.results():
+            for again in (copy.copy(result), copy.deepcopy(result), pickle.loads(pickle.dumps(result))):
+                self.assertEqual(repr(again), repr(result))
+                if hasattr(result, "_repr_html_"):
+                    self.assertEqual(again._repr_html_(), result._repr_html_())
+                if hasattr(result, "save_picture"):
+                    with tempfile.TemporaryDirectory() as folder:
+                        again.save_picture(pathlib.Path(folder) / "picture.png")
+                        self.assertEqual((pathlib.Path(folder) / "picture.png").read_bytes()[1:4], b"PNG")
+
+    def test_a_result_outlives_the_array_that_it_shows(self):
+        heights = rough(64, 64, 12e-9, 2)
+        expected = heights.copy()
+        prediction = mems_stiction.predict(heights, PITCH)
+        shown = prediction.heights
+        del heights, prediction
+        for seed in range(20):  # would write over memory that is free
+            rough(64, 64, 1e-9, seed)
+        self.assertTrue(np.array_equal(shown, expected))
+
+    def test_processes_that_are_spawned(self):
+        frames = [rough(24, 30, seed=seed) for seed in range(4)]
+        with multiprocessing.get_context("spawn").Pool(2) as pool:
+            self.assertEqual(pool.map(force_of, frames), [force_of(frame) for frame in frames])
+
+    def test_processes_that_are_forked_after_a_prediction(self):
+        force_of(rough(24, 30))
+        mems_stiction.half_space(rough(12, 12), PITCH, SOFT, half_space={"threads": 2})
+        frames = [rough(24, 30, seed=seed) for seed in range(4)]
+        with multiprocessing.get_context("fork").Pool(2) as pool:
+            self.assertEqual(pool.map_async(force_of, frames).get(timeout=60), [force_of(frame) for frame in frames])
+
+    def test_one_predictor_serves_threads(self):
+        from concurrent.futures import ThreadPoolExecutor
+
+        predictor = mems_stiction.Predictor(load={"mechanical_load": 1e-6})
+        frames = [rough(40, 30 + seed, seed=seed) for seed in range(8)]
+        alone = [without_times(predictor.predict(frame, PITCH).to_dict()) for frame in frames]
+        with ThreadPoolExecutor(4) as pool:
+            together = list(pool.map(lambda frame: without_times(predictor.predict(frame, PITCH).to_dict()), frames * 3))
+        self.assertEqual(together, alone * 3)
+
+    def test_the_interpreter_ends_while_a_thread_predicts(self):
+        code = ("import mems_stiction, numpy, threading\n"
+                "frame = numpy.random.default_rng(1).standard_normal((900, 900)) * 5e-9\n"
+                "threading.Thread(target=mems_stiction.predict, args=(frame, 20e-9), daemon=True).start()")
+        done = subprocess.run([sys.executable, "-c", code], stderr=subprocess.PIPE, universal_newlines=True, timeout=60)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+
+if __name__ == "__main__":
+    unittest.main()
