@@ -19,7 +19,7 @@ __path__ = extend_path(__path__, __name__)
 
 if TYPE_CHECKING:
     from mems_stiction._half_space import HalfSpace, half_space
-    from mems_stiction._prediction import Prediction, Predictor, Verdict, predict, predict_many
+    from mems_stiction._prediction import Prediction, Predictor, Verdict, predict, predict_many, predict_under
     from mems_stiction._scans import Cleaned, Roughness, Scan, channels, clean, decimate, generate, read, roughness
     from mems_stiction._settings import Error, FileError, OptionsError, Settings, SurfaceError
     from mems_stiction._station import ContactCycles, LoadSweep, cycle_contact, sweep_loads
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 # Found when they are first used: what only draws, or only wants the messages of ROS, does not load the core.
 _MODULES = {
     "_half_space": ("HalfSpace", "half_space"),
-    "_prediction": ("Prediction", "Predictor", "Verdict", "predict", "predict_many"),
+    "_prediction": ("Prediction", "Predictor", "Verdict", "predict", "predict_many", "predict_under"),
     "_scans": ("Cleaned", "Roughness", "Scan", "channels", "clean", "decimate", "generate", "read", "roughness"),
     "_settings": ("Error", "FileError", "OptionsError", "Settings", "SurfaceError"),
     "_station": ("ContactCycles", "LoadSweep", "cycle_contact", "sweep_loads"),
@@ -39,7 +39,7 @@ _MODULE_OF = {name: module for module, names in _MODULES.items() for name in nam
 __all__ = [
     "Cleaned", "ContactCycles", "Error", "FileError", "HalfSpace", "LoadSweep", "OptionsError", "Prediction", "Predictor",
     "Roughness", "Scan", "ScanWarning", "Settings", "SettingsWarning", "SurfaceError", "Verdict", "channels", "clean", "cycle_contact",
-    "decimate", "generate", "half_space", "predict", "predict_many", "read", "roughness", "sweep_loads"]
+    "decimate", "generate", "half_space", "predict", "predict_many", "predict_under", "read", "roughness", "sweep_loads"]
 
 
 def __getattr__(name: str) -> Any:

@@ -54,6 +54,13 @@ class Predictor:
     def __init__(self, configuration: Configuration) -> None: ...
     def predict(self, scan: HeightMap, counter_surface: Optional[HeightMap]) -> PredictedScan: ...
 
+class OneScan:
+    scan_warnings: List[str]
+    def __init__(
+        self, scan: HeightMap, counter_surface: Optional[HeightMap], configuration: Configuration
+    ) -> None: ...
+    def predict(self, configuration: Configuration) -> PredictedScan: ...
+
 class SolvedScan:
     figures: Dict[str, Any]
     verdict: Optional[Dict[str, Any]]

@@ -17,7 +17,7 @@ from mems_stiction import _core
 from mems_stiction._arrays import Pitch, Surface, array_of, records_of, surface_of
 from mems_stiction._inputs import brings_pitch, counter_of, section_or_surface, warn_about
 from mems_stiction._scans import Roughness
-from mems_stiction._settings import Config, Error, Settings
+from mems_stiction._settings import Config, Error, OptionsError, Settings
 from mems_stiction.quantities import area, percent, ratio, with_unit
 
 
@@ -349,6 +349,32 @@ def predict(heights: Any, pitch: Optional[Pitch] = None, config: Optional[Config
     """
     upper = section_or_surface(upper, settings)
     return Predictor(config, **settings).predict(heights, pitch, upper)
+
+
+def predict_under(heights: Any, pitch: Optional[Pitch] = None, configs: Iterable[Config] = (), upper: Any = None,
+                  **settings: Any) -> Iterator[Prediction]:
+    """Predicts one pair of surfaces under settings after settings, and yields the predictions in their order: the bits of
+    predict(), in less time, since the surfaces are prepared and their gap is computed once.
+
+    configs: of each prediction; a list or a generator. They may differ in materials, interface, loads, approach, output,
+    device and uncertainty; what bears on the scan and its counter-surface must be the same. Those of one
+    approach/formulation are best kept together: the solver's memory goes when it changes.
+    Other arguments are those of predict(). settings go before each of configs.
+    """
+    upper = section_or_surface(upper, settings)
+    if isinstance(configs, (Mapping, Settings, str, os.PathLike)) or not isinstance(configs, IterableOf):
+        raise OptionsError("configs: one %s is not allowed, must be a list or a generator of settings" % type(configs).__name__)
+    return _predictions_under(heights, pitch, (Settings(config, **settings) for config in configs), upper)
+
+
+def _predictions_under(heights: Any, pitch: Optional[Pitch], configs: Iterator[Settings], upper: Any) -> Iterator[Prediction]:
+    scan: Optional[_core.OneScan] = None
+    for settings in configs:
+        if scan is None:
+            surface = surface_of(heights, pitch, settings)
+            scan = _core.OneScan(surface.core, counter_of(upper, surface, settings), settings._configuration)
+            warn_about(surface, scan.scan_warnings)
+        yield Prediction(scan.predict(settings._configuration), surface)
 
 
 def predict_many(frames: Iterable[Any], pitch: Optional[Pitch] = None, config: Optional[Config] = None, *,

@@ -12,6 +12,10 @@
 namespace mems_stiction {
 namespace {
 
+double secondsSince(const std::chrono::steady_clock::time_point& start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 /// The larger memory of two lists goes to `user`.
 template <typename List>
 void giveLarger(List& other, List& user) {
@@ -45,14 +49,17 @@ class AdhesionModel::Implementation {
 
   const Options& options() const { return options_; }
   void setOptions(const Options& new_options);
-  void predict(const SurfacePair& surfaces, Prediction& prediction);
+  void see(const SurfacePair& surfaces);
+  void solve(const SurfacePair& surfaces, Prediction& prediction);
 
  private:
   double compositeRmsHeight(const SurfacePair& surfaces, double lower_rms_height) const;
 
   Options options_;
   std::unique_ptr<ContactSolver> solver_;
-  GapField gap_;
+  GapField gap_;                       ///< of the surfaces that were seen last, as both rms heights
+  double rms_height_ = 0.0;            ///< [m]
+  double composite_rms_height_ = 0.0;  ///< [m]
   ContactSolution solution_;
   std::vector<double> values_;
 };
@@ -78,18 +85,19 @@ double AdhesionModel::Implementation::compositeRmsHeight(const SurfacePair& surf
   return composite_rms_height;
 }
 
-void AdhesionModel::Implementation::predict(const SurfacePair& surfaces, Prediction& prediction) {
-  const auto start = std::chrono::steady_clock::now();
+void AdhesionModel::Implementation::see(const SurfacePair& surfaces) {
   gap_.compute(surfaces);
-  const double rms_height = surfaces.upperIsPlane() ? gap_.rmsGap() : heightStatistics(surfaces.lower).rms_height;
-  const ContactProblem problem{surfaces, gap_, compositeRmsHeight(surfaces, rms_height), options_};
+  rms_height_ = surfaces.upperIsPlane() ? gap_.rmsGap() : heightStatistics(surfaces.lower).rms_height;
+  composite_rms_height_ = compositeRmsHeight(surfaces, rms_height_);
+}
 
+void AdhesionModel::Implementation::solve(const SurfacePair& surfaces, Prediction& prediction) {
+  const ContactProblem problem{surfaces, gap_, composite_rms_height_, options_};
   handOver(prediction, solution_);
   solver_->solve(problem, solution_);
   summarizeContact(problem, solution_, values_, prediction);
-  prediction.rms_height = rms_height;
+  prediction.rms_height = rms_height_;
   if (options_.output.roughness) prediction.roughness = arealParameters(surfaces.lower);
-  prediction.processing_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 AdhesionModel::AdhesionModel(const Options& options) : implementation_(std::make_unique<Implementation>(options)) {}
@@ -108,7 +116,18 @@ Prediction AdhesionModel::predict(const SurfacePair& surfaces) {
 }
 
 void AdhesionModel::predict(const SurfacePair& surfaces, Prediction& prediction) {
-  implementation_->predict(surfaces, prediction);
+  const auto start = std::chrono::steady_clock::now();
+  implementation_->see(surfaces);
+  implementation_->solve(surfaces, prediction);
+  prediction.processing_time = secondsSince(start);
+}
+
+Prediction AdhesionModel::predictAgain(const SurfacePair& surfaces) {
+  const auto start = std::chrono::steady_clock::now();
+  Prediction prediction;
+  implementation_->solve(surfaces, prediction);
+  prediction.processing_time = secondsSince(start);
+  return prediction;
 }
 
 }  // namespace mems_stiction

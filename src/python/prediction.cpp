@@ -7,12 +7,16 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "bindings.hpp"
 #include "figures.hpp"
 #include "memory.hpp"
+#include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/height_map/scan_sanity.hpp"
 #include "mems_stiction/prediction/force_curve.hpp"
+#include "mems_stiction/scan/configuration_yaml.hpp"
 #include "mems_stiction/scan/frame_load.hpp"
 #include "mems_stiction/scan/plausibility.hpp"
 #include "mems_stiction/scan/record.hpp"
@@ -41,6 +45,32 @@ struct PredictedScan {
 
 using Predicted = std::shared_ptr<PredictedScan>;
 
+/// The record of a prediction.
+/// - @p scan_warnings of the scan as it came
+Predicted predictedScan(const HeightMap& scan, const PreparedScan& prepared, Prediction&& prediction,
+                        const Configuration& configuration, const std::vector<std::string>& scan_warnings) {
+  auto predicted = std::make_shared<PredictedScan>();
+  predicted->scan = scan;
+  predicted->surfaces = prepared.surfaces;
+  predicted->prediction = std::move(prediction);
+  if (!configuration.model.output.roughness) predicted->prediction.roughness = kNoRoughness;
+  predicted->extras.formulation = configuration.model.formulation;
+  predicted->extras.preprocessing = prepared.record;
+  predicted->extras.provenance = provenanceOf({}, configuration);
+  predicted->scan_warnings = scan_warnings;
+  predicted->extras.warnings = scan_warnings;
+  for (std::string& warning : settingsWarnings(configuration)) {
+    predicted->extras.warnings.push_back(std::move(warning));
+  }
+  if (configuration.device.isStated()) {
+    const Options on_frame = onFrame(configuration.model, configuration.device, prepared.surfaces);
+    predicted->extras.verdict =
+        verdictOf(predicted->prediction, configuration.device, configuration.uncertainty, on_frame, scan.cellArea());
+  }
+  predicted->curve = curveOf(predicted->prediction, configuration.model.interface);
+  return predicted;
+}
+
 /// What predict_scan does with one scan. Any thread may ask; one is served at a time.
 class Predictor {
  public:
@@ -53,25 +83,8 @@ class Predictor {
     const std::lock_guard<std::mutex> lock(mutex_);
     predictor_.preparer().setMeasuredCounterSurface(counter_surface != nullptr ? *counter_surface : HeightMap());
     const PreparedScan prepared = predictor_.preparer().prepare(scan);
-    auto predicted = std::make_shared<PredictedScan>();
-    predicted->scan = scan;
-    predicted->surfaces = prepared.surfaces;
-    predicted->prediction = predictor_.predict(prepared);
-    if (!configuration_.model.output.roughness) predicted->prediction.roughness = kNoRoughness;
-    predicted->extras.formulation = predictor_.options().formulation;
-    predicted->extras.preprocessing = prepared.record;
-    predicted->extras.provenance = provenanceOf({}, configuration_);
-    predicted->scan_warnings = scanWarnings(scan);
-    predicted->extras.warnings = predicted->scan_warnings;
-    for (std::string& warning : settingsWarnings(configuration_)) {
-      predicted->extras.warnings.push_back(std::move(warning));
-    }
-    if (configuration_.device.isStated()) {
-      const Options on_frame = onFrame(configuration_.model, configuration_.device, prepared.surfaces);
-      predicted->extras.verdict = verdictOf(predicted->prediction, configuration_.device, configuration_.uncertainty,
-                                            on_frame, scan.cellArea());
-    }
-    predicted->curve = curveOf(predicted->prediction, predictor_.options().interface);
+    Predicted predicted =
+        predictedScan(scan, prepared, predictor_.predict(prepared), configuration_, scanWarnings(scan));
     predictor_.preparer().setMeasuredCounterSurface({});
     return predicted;
   }
@@ -79,6 +92,56 @@ class Predictor {
  private:
   Configuration configuration_;
   ScanPredictor predictor_;
+  std::mutex mutex_;
+};
+
+/// One scan, prepared once, for settings after settings. Any thread may ask; one is served at a time.
+class OneScan {
+ public:
+  OneScan(const HeightMap& scan, const HeightMap* counter_surface, const Configuration& configuration)
+      : scan_(scan), configuration_(configuration), predictor_(configuration) {
+    const py::gil_scoped_release unlocked;
+    if (counter_surface != nullptr) predictor_.preparer().setMeasuredCounterSurface(*counter_surface);
+    prepared_ = predictor_.preparer().prepare(scan_);
+    scan_warnings_ = scanWarnings(scan_);
+  }
+
+  /// @throw OptionsError for settings with another preparation than the first.
+  Predicted predict(const Configuration& configuration) {
+    const py::gil_scoped_release unlocked;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (preparation(configuration) != preparation(configuration_)) {
+      throw OptionsError(
+          {"the settings of one scan may differ in materials, interface, loads, approach, output, device, uncertainty "
+           "alone; output/roughness and all that bears on the scan and its counter-surface must be the same"});
+    }
+    predictor_.setOptions(configuration.model);
+    predictor_.setDevice(configuration.device);
+    Prediction prediction = is_seen_ ? predictor_.predictAgain(prepared_) : predictor_.predict(prepared_);
+    is_seen_ = true;
+    return predictedScan(scan_, prepared_, std::move(prediction), configuration, scan_warnings_);
+  }
+
+  const std::vector<std::string>& warnings() const { return scan_warnings_; }
+
+ private:
+  /// What bears on the preparation, as text.
+  static std::string preparation(const Configuration& configuration) {
+    Configuration alone = configuration;
+    alone.model = Options();
+    alone.model.output.roughness = configuration.model.output.roughness;
+    alone.device = DeviceOptions();
+    alone.uncertainty = UncertaintyOptions();
+    alone.half_space = HalfSpaceOptions();
+    return toYaml(alone);
+  }
+
+  HeightMap scan_;
+  Configuration configuration_;
+  ScanPredictor predictor_;
+  PreparedScan prepared_;
+  std::vector<std::string> scan_warnings_;
+  bool is_seen_ = false;
   std::mutex mutex_;
 };
 
@@ -205,6 +268,10 @@ void bindPrediction(py::module& module) {
       });
 
   py::class_<Predictor>(module, "Predictor").def(py::init<Configuration>()).def("predict", &Predictor::predict);
+  py::class_<OneScan>(module, "OneScan")
+      .def(py::init<const HeightMap&, const HeightMap*, const Configuration&>())
+      .def_property_readonly("scan_warnings", &OneScan::warnings)
+      .def("predict", &OneScan::predict);
   module.def("prediction_units", &predictionUnits);
 }
 

@@ -1,6 +1,7 @@
 #include "mems_stiction/scan/scan_predictor.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <opencv2/imgproc.hpp>
 
@@ -85,16 +86,28 @@ void ScanPredictor::setOptions(const Options& options) {
   model_.setOptions(withoutFrameLoad(options_));
 }
 
-Prediction ScanPredictor::predict(const PreparedScan& prepared) {
+void ScanPredictor::setFrame(const PreparedScan& prepared) {
   if (options_.load.isPerArea()) model_.setOptions(onFrame(options_, device_, prepared.surfaces));
-  Prediction prediction = model_.predict(prepared.model_surfaces);
+}
+
+Prediction ScanPredictor::predict(const PreparedScan& prepared) {
+  setFrame(prepared);
+  return finished(prepared, model_.predict(prepared.model_surfaces));
+}
+
+Prediction ScanPredictor::predictAgain(const PreparedScan& prepared) {
+  setFrame(prepared);
+  return finished(prepared, model_.predictAgain(prepared.model_surfaces));
+}
+
+Prediction ScanPredictor::finished(const PreparedScan& prepared, Prediction&& prediction) const {
   if (prepared.refinement > 1) bringToScan(prepared, prediction);
   prediction.roughness = prepared.roughness;
   prediction.spatial_roughness = prepared.spatial_roughness;
   flagResolution(min_contact_pixels_, tip_radius_, prediction);
   if (!prepared.outside.empty()) countRegionAlone(prepared, prediction);
   prediction.processing_time += prepared.preparation_time;
-  return prediction;
+  return std::move(prediction);
 }
 
 Prediction ScanPredictor::predict(const HeightMap& scan, const HeightMap& measured_counter_surface) {

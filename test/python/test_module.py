@@ -168,6 +168,30 @@ class BitsTest(unittest.TestCase):
             for name, prediction in zip(list(frames()) * 4, predictions):
                 self.assertEqual(without_times(prediction.to_dict()), without_times(records[name]))
 
+    def test_one_scan_under_many_settings(self):
+        heights, upper = rough(64, 48, 12e-9, 2), rough(64, 48, 6e-9, 9)
+        configs = [{"approach": {"formulation": formulation}, "load": load, "interface": {"work_of_adhesion": work}, "device": DEVICE}
+                   for formulation in FORMULATIONS for load in ({}, {"pressure": 1e6}) for work in (0.02, 0.2)]
+        for shared in ({}, {"preprocessing": dict(CLEANING, refine={"factor": 2}), "counter_surface": {"facing": "up"}}):
+            counter = upper if shared else None
+            together = list(mems_stiction.predict_under(heights, PITCH, configs, counter, **shared))
+            for config, prediction in zip(configs, together):
+                alone = mems_stiction.predict(heights, PITCH, config, counter, **shared)
+                self.assertEqual(without_times(prediction.to_dict()), without_times(alone.to_dict()))
+                self.assertTrue(np.array_equal(prediction.contact_map, alone.contact_map))
+                self.assertEqual(prediction.asperities.tobytes(), alone.asperities.tobytes())
+
+    def test_settings_of_one_scan_may_not_prepare_it_in_two_ways(self):
+        for second in ({"preprocessing": {"level": "plane"}}, {"counter_surface": {"type": "gaussian"}}, {"output": {"roughness": False}}):
+            found = mems_stiction.predict_under(rough(20, 30), PITCH, [{}, second])
+            next(found)
+            with self.assertRaisesRegex(mems_stiction.OptionsError, "must be the same"):
+                next(found)
+        for configs in ({}, "part.yaml", None, mems_stiction.Settings()):
+            with self.assertRaisesRegex(mems_stiction.OptionsError, "^configs: "):
+                mems_stiction.predict_under(rough(20, 30), PITCH, configs)
+        self.assertEqual(list(mems_stiction.predict_under(rough(20, 30), PITCH, [])), [])
+
     def test_files(self):
         record = self.records({}, names=("rough",))["rough"]
         path = self.folder / "rough.npy"

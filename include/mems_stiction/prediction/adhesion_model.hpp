@@ -45,6 +45,11 @@ class AdhesionModel {
   /// allocated. Maps of the earlier prediction that are shared elsewhere are left alone.
   void predict(const SurfacePair& surfaces, Prediction& prediction);
 
+  /// The surfaces of the last predict() once more, under the options of now: what follows from the surfaces alone, their
+  /// gap and their rms heights, is not computed again.
+  /// - @p surfaces those of the last call; nobody has changed their pixels
+  Prediction predictAgain(const SurfacePair& surfaces);
+
  private:
   class Implementation;
   std::unique_ptr<Implementation> implementation_;

@@ -43,6 +43,11 @@ class ScanPredictor {
   /// @throw SurfaceError if the two surfaces do not fit.
   Prediction predict(const PreparedScan& prepared);
 
+  /// The scan of the last predict() once more, under the options and device of now; what follows from its surfaces alone
+  /// is not computed again.
+  /// - @p prepared that of the last call, of this object's preparer
+  Prediction predictAgain(const PreparedScan& prepared);
+
   /// One scan from its beginning, under a counter-surface that was measured beside it, or the configured one if that is
   /// empty. @throw SurfaceError if either cannot be used or their grids differ, or if the configured one is one that
   /// arrives beside the scan.
@@ -54,6 +59,11 @@ class ScanPredictor {
   std::vector<ConvergenceRow> convergence(const PreparedScan& prepared);
 
  private:
+  /// Tells the model what depends on the frame.
+  void setFrame(const PreparedScan& prepared);
+  /// A prediction of the model as one of the scan.
+  Prediction finished(const PreparedScan& prepared, Prediction&& prediction) const;
+
   ScanPreparer preparer_;
   Options options_;  ///< as they are stated: a load may be per area
   DeviceOptions device_;

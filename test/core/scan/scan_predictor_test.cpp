@@ -56,6 +56,30 @@ TEST(ScanPreparer, RecordsEveryStep) {
   EXPECT_TRUE(ScanPreparer(pressed()).prepare(rough()).record.steps.empty());
 }
 
+TEST(ScanPredictor, SaysTheSameOfAScanThatItHasSeen) {
+  Configuration configuration = pressed();
+  configuration.preprocessing.refine.factor = 2;
+  Configuration other = configuration;
+  other.model.formulation = "consistent";
+  other.model.load = LoadOptions();
+  other.model.load.pressure = 5e6;
+  for (const Configuration& second : {configuration, other}) {
+    ScanPredictor predictor(configuration);
+    const PreparedScan prepared = predictor.preparer().prepare(rough());
+    predictor.predict(prepared);
+    predictor.setOptions(second.model);
+    const Prediction again = predictor.predictAgain(prepared);
+    const Prediction fresh = ScanPredictor(second).predict(rough());
+    EXPECT_EQ(again.pull_off_force, fresh.pull_off_force);
+    EXPECT_EQ(again.mean_gap, fresh.mean_gap);
+    EXPECT_EQ(again.rms_height, fresh.rms_height);
+    EXPECT_EQ(again.composite_rms_height, fresh.composite_rms_height);
+    EXPECT_EQ(again.roughness.sq, fresh.roughness.sq);
+    EXPECT_EQ(cv::countNonZero(again.contact_map != fresh.contact_map), 0);
+    EXPECT_EQ(cv::countNonZero(again.deformed_lower != fresh.deformed_lower), 0);
+  }
+}
+
 TEST(ScanPredictor, MapsOfARefinedScanHaveItsOwnSizeAndFrame) {
   // A sphere whose apex lies on a pixel, away from the middle: where it is found must not depend on the refinement.
   const HeightMap scan = analytic::paraboloid(61, 81, kPitch, kPitch, 1e-6, 10 * kPitch, -7 * kPitch);
