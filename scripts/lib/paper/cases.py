@@ -228,21 +228,24 @@ def surface_of(wanted, pair):
     return mems_stiction.generate((pair["size"], pair["size"]), pair["pitch"], counter_surface=wanted).heights
 
 
-def predict_case(wanted, pitch, lower, upper):
-    """The figures of one case, half_space_... beside them where it asks for these; maps, contacts and energies too where it
-    names a folder for them. lower, upper: with their scale [m]."""
-    is_dumped = "dump" in wanted
-    output = dict.fromkeys(("deformed_surfaces", "contact_map", "asperities", "roughness", "energy_curve"), is_dumped)
-    settings = mems_stiction.Settings(mems_stiction.Settings(wanted["config"], **wanted["settings"]), output=output,
-                                      counter_surface={"facing": "up"})
-    prediction = mems_stiction.predict(lower, pitch, settings, upper=upper)
-    figures = prediction.to_dict()
-    if wanted.get("half_space"):
-        solved = mems_stiction.half_space(lower, pitch, settings, upper=upper)
-        figures.update({"half_space_" + name: getattr(solved, name) for name in HALF_SPACE_FIGURES})
-    if is_dumped:
-        write_maps(pathlib.Path(wanted["dump"]), prediction, figures)
-    return figures
+def settings_of(wanted):
+    """Of a case. Maps, contacts and energies only for one that names a folder for them."""
+    output = dict.fromkeys(("deformed_surfaces", "contact_map", "asperities", "roughness", "energy_curve"), "dump" in wanted)
+    return mems_stiction.Settings(mems_stiction.Settings(wanted["config"], **wanted["settings"]), output=output,
+                                  counter_surface={"facing": "up"})
+
+
+def predict_cases(group, pitch, lower, upper):
+    """The cases of two surfaces [m]: of each its name and figures, half_space_... beside them where it asks for these."""
+    settings = [settings_of(wanted) for wanted in group]
+    for wanted, own, prediction in zip(group, settings, mems_stiction.predict_under(lower, pitch, settings, upper)):
+        figures = prediction.to_dict()
+        if wanted.get("half_space"):
+            solved = mems_stiction.half_space(lower, pitch, own, upper=upper)
+            figures.update({"half_space_" + name: getattr(solved, name) for name in HALF_SPACE_FIGURES})
+        if "dump" in wanted:
+            write_maps(pathlib.Path(wanted["dump"]), prediction, figures)
+        yield wanted["name"], figures
 
 
 def write_maps(folder, prediction, figures):
@@ -263,10 +266,10 @@ class DrawnPair:
 
     def __init__(self, pair):
         self.pair = pair
-        by_scale = {}
+        alike = {}  # what predict_under() takes together
         for wanted in pair["cases"]:
-            by_scale.setdefault(wanted["scale"], []).append(wanted)
-        self.groups = list(by_scale.values())  # the heights of each are multiplied once
+            alike.setdefault((wanted["scale"], "dump" in wanted), []).append(wanted)
+        self.groups = list(alike.values())
         self._lock, self._surfaces, self._left = threading.Lock(), None, len(self.groups)
 
     def predict_group(self, group, on_figures):
@@ -274,8 +277,8 @@ class DrawnPair:
             if self._surfaces is None:
                 self._surfaces = tuple(surface_of(self.pair[body], self.pair) for body in ("lower", "upper"))
             lower, upper = (heights * group[0]["scale"] for heights in self._surfaces)
-        for wanted in group:
-            on_figures(wanted["name"], predict_case(wanted, self.pair["pitch"], lower, upper))
+        for name, figures in predict_cases(group, self.pair["pitch"], lower, upper):
+            on_figures(name, figures)
         with self._lock:
             self._left -= 1
             if not self._left:
