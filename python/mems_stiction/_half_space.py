@@ -94,9 +94,11 @@ class HalfSpace:
             lines.append("  sticks: %s" % self.verdict.summary)
         return "\n".join(lines)
 
-    def _repr_html_(self) -> str:
-        from mems_stiction import _pictures
-
+    def _repr_html_(self) -> Optional[str]:
+        try:
+            from mems_stiction import _pictures
+        except ImportError:  # without Matplotlib a notebook shows the text
+            return None
         return _pictures.half_space_html(self)
 
 

@@ -302,9 +302,11 @@ class Prediction:
         lines += ["  warning: " + text for text in self.warnings]
         return "\n".join(lines)
 
-    def _repr_html_(self) -> str:
-        from mems_stiction import _pictures
-
+    def _repr_html_(self) -> Optional[str]:
+        try:
+            from mems_stiction import _pictures
+        except ImportError:  # without Matplotlib a notebook shows the text
+            return None
         return _pictures.prediction_html(self)
 
 

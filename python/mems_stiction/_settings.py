@@ -65,9 +65,9 @@ Config = Union[Mapping, str, "os.PathLike[str]", Settings]
 
 
 def _settings_of_text(text: str) -> Settings:
-    import yaml  # type: ignore[import]
-
-    return Settings(yaml.safe_load(text))
+    settings = Settings()
+    settings._configuration = settings._configuration.read(text)
+    return settings
 
 
 def _plain(mapping: Mapping) -> Dict[str, Any]:

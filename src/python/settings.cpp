@@ -88,6 +88,8 @@ void bindSettings(py::module& module) {
                              [](const Configuration& configuration) {
                                return py::make_tuple(configuration.scan.pitch_x, configuration.scan.pitch_y);
                              })
+      .def("read", [](const Configuration& configuration,
+                      const std::string& text) { return configurationFromYaml(YAML::Load(text), configuration); })
       .def("yaml", [](const Configuration& configuration) { return toYaml(configuration); });
 }
 

@@ -20,7 +20,7 @@ except ImportError:
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
-from test_module import DEVICE, PITCH, Topography, rough, without_times  # noqa: E402  (the path comes first)
+from test_module import DEVICE, PITCH, Topography, program, rough, without_times  # noqa: E402  (the path comes first)
 
 SOFT = {"lower": {"youngs_modulus": 1e9}, "upper": {"youngs_modulus": 1e9}}
 
@@ -201,6 +201,43 @@ class CopyTest(unittest.TestCase):
                 "threading.Thread(target=mems_stiction.predict, args=(frame, 20e-9), daemon=True).start()")
         done = subprocess.run([sys.executable, "-c", code], stderr=subprocess.PIPE, universal_newlines=True, timeout=60)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+
+class WithoutOtherPackagesTest(unittest.TestCase):
+    """What `pip install .` brings is NumPy alone."""
+
+    CODE = """
+import sys
+for name in ("matplotlib", "yaml", "cv2", "jinja2"):
+    sys.modules[name] = None  # cannot be imported
+import copy, pickle
+import mems_stiction, numpy
+heights = numpy.random.default_rng(1).standard_normal((24, 30)) * 1e-9
+settings = mems_stiction.Settings(load={"mechanical_load": 1e-7}, device={"spring_stiffness": 2.0, "travel": 1e-6, "contact_area": 1e-11})
+prediction = mems_stiction.predict(heights, 2e-8, settings)
+assert pickle.loads(pickle.dumps(settings)).yaml() == settings.yaml()
+assert pickle.loads(pickle.dumps(mems_stiction.Predictor(settings))).predict(heights, 2e-8).pull_off_force == prediction.pull_off_force
+assert prediction._repr_html_() is None and "pull-off force" in repr(copy.deepcopy(prediction))
+print(mems_stiction.cycle_contact(heights, 2e-8, 2), mems_stiction.sweep_loads(heights, 2e-8), mems_stiction.roughness(heights, 2e-8))
+try:
+    prediction.save_picture("picture.png")
+except ImportError as missing:
+    print(missing)
+"""
+
+    def test_all_but_pictures_work(self):
+        done = subprocess.run([sys.executable, "-c", self.CODE], stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True, timeout=60)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("matplotlib", done.stdout.splitlines()[-1])
+
+
+class BenchTest(unittest.TestCase):
+    def test_every_way_gives_the_same_forces(self):
+        script = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "lib" / "bench_module.py"
+        done = subprocess.run([sys.executable, str(script), program(), "--frames", "3", "--pixels", "32"], stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, universal_newlines=True, timeout=60)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(len(done.stdout.splitlines()), 5)
 
 
 if __name__ == "__main__":
