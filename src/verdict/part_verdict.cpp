@@ -155,7 +155,7 @@ std::string countText(int count, const std::string& word) {
 }
 
 /// Over scans that count.
-Finding findingOf(const std::vector<const ScanStatement*>& scans, const PartVerdict& part) {
+Finding findingOf(const std::vector<const ScanStatement*>& scans, const PooledVerdict& part) {
   Finding finding{Sticks::kNo, "nothing holds the contact: no adhesion"};
   const bool has_margin = isKnown(part.margin);
   const auto worst = [&](const std::string& name, const PooledRatio& ratio) {
@@ -177,7 +177,7 @@ Finding findingOf(const std::vector<const ScanStatement*>& scans, const PartVerd
 }
 
 /// Why the scans allow no plain "no", and the word that they allow.
-Finding objectionTo(const std::vector<ScanStatement>& scans, const PartVerdict& part) {
+Finding objectionTo(const std::vector<ScanStatement>& scans, const PooledVerdict& part) {
   int contacts = 0;
   bool is_without_adhesion = true;
   for (const ScanStatement& scan : scans) {
@@ -211,7 +211,7 @@ std::string judgesOf(const std::vector<const ScanStatement*>& scans) {
   return text;
 }
 
-std::vector<std::string> warningsOf(const std::vector<ScanStatement>& scans, const PartVerdict& part) {
+std::vector<std::string> warningsOf(const std::vector<ScanStatement>& scans, const PooledVerdict& part) {
   std::vector<std::string> warnings;
   const int silent = part.scan_count - part.counted_scans;
   if (silent > 0) {
@@ -242,8 +242,8 @@ ScanStatement statementOf(const std::string& scan_name, const Prediction& predic
   return statement;
 }
 
-PartVerdict partVerdictOf(const std::vector<ScanStatement>& scans) {
-  PartVerdict part;
+PooledVerdict pooledVerdictOf(const std::vector<ScanStatement>& scans) {
+  PooledVerdict part;
   std::vector<const ScanStatement*> counted;
   for (const ScanStatement& scan : scans) {
     part.regime_flags |= scan.regime_flags;

@@ -40,7 +40,7 @@
 ///
 ///     std::vector<ScanStatement> scans;
 ///     scans.push_back(statementOf("place 1", prediction, verdict));
-///     const PartVerdict part = partVerdictOf(scans);
+///     const PooledVerdict part = pooledVerdictOf(scans);
 
 #include <cstdint>
 #include <limits>
@@ -84,7 +84,7 @@ struct PooledRatio : JudgedRatio {
 };
 
 /// What all scans of a part say together.
-struct PartVerdict {
+struct PooledVerdict {
   Sticks sticks = Sticks::kUnknown;
   std::string reason;      ///< one sentence for people
   std::string verdict_by;  ///< prediction, half_space, or "prediction and half_space"; empty if no scan counts
@@ -96,7 +96,7 @@ struct PartVerdict {
   std::vector<std::string> warnings;  ///< about the scans, in words
 };
 
-PartVerdict partVerdictOf(const std::vector<ScanStatement>& scans);
+PooledVerdict pooledVerdictOf(const std::vector<ScanStatement>& scans);
 
 /// 97.5 % quantile of Student's distribution: 12.706 for one degree of freedom, 1.95996 for infinitely many.
 /// - @p freedom degrees of freedom, >= 1, of any size

@@ -9,10 +9,10 @@
 
 namespace mems_stiction {
 
-/// @param part PartVerdict, const or not
+/// @param part PooledVerdict, const or not
 /// @param visit called with (name, value, unit) for each figure; regime_flags is for the names of its bits
-template <typename PartVerdictType, typename Visitor>
-void visitPartVerdictFields(PartVerdictType& part, Visitor&& visit) {
+template <typename VerdictType, typename Visitor>
+void visitPartVerdictFields(VerdictType& part, Visitor&& visit) {
   visit("scan_count", part.scan_count, "");
   visit("counted_scans", part.counted_scans, "");
   visit("sticks", part.sticks, "");

@@ -79,7 +79,7 @@ struct Verdict {
   double pull_in_voltage = kNotStated;            ///< at which the electrodes close [V]
   std::uint32_t regime_flags = 0;                 ///< bits of RegimeFlag
 
-  /// What of the interval is of the place alone, for partVerdictOf(): standard deviation of ln margin [-]. In no message.
+  /// What of the interval is of the place alone, for pooledVerdictOf(): standard deviation of ln margin [-]. In no message.
   double place_deviation = kNotStated;
 };
 

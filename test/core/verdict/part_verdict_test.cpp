@@ -37,7 +37,7 @@ ScanStatement silentScan(const std::string& name, std::uint32_t flags) {
 
 TEST(PartVerdict, ofOneScanIsItsOwn) {
   const ScanStatement scan = scanOf("a", 3.0, 0.3, 0.2);
-  const PartVerdict part = partVerdictOf({scan});
+  const PooledVerdict part = pooledVerdictOf({scan});
   EXPECT_EQ(part.sticks, Sticks::kNo);
   EXPECT_EQ(part.reason, "of a");
   EXPECT_EQ(part.margin.value, scan.margin.value);
@@ -51,7 +51,7 @@ TEST(PartVerdict, ofOneScanIsItsOwn) {
 TEST(PartVerdict, ofEqualScansShrinksInThePartOfThePlaceOnly) {
   for (const int count : {2, 5, 100}) {
     const std::vector<ScanStatement> scans(static_cast<std::size_t>(count), scanOf("a", 3.0, 0.3, 0.2));
-    const PooledRatio margin = partVerdictOf(scans).margin;
+    const PooledRatio margin = pooledVerdictOf(scans).margin;
     const double reach = kTo * std::hypot(0.3, 0.2 / std::sqrt(count));
     EXPECT_NEAR(margin.value, 3.0, 1e-12);
     EXPECT_NEAR(margin.lower, 3.0 * std::exp(-reach), 1e-9) << count;  // digits of 1.96
@@ -62,7 +62,7 @@ TEST(PartVerdict, ofEqualScansShrinksInThePartOfThePlaceOnly) {
 }
 
 TEST(PartVerdict, isTheGeometricMeanAndKnowsTheWorstScan) {
-  const PartVerdict part = partVerdictOf({scanOf("a", 8.0, 0.1, 0.5), scanOf("b", 2.0, 0.1, 0.5)});
+  const PooledVerdict part = pooledVerdictOf({scanOf("a", 8.0, 0.1, 0.5), scanOf("b", 2.0, 0.1, 0.5)});
   EXPECT_NEAR(part.margin.value, 4.0, 1e-12);
   EXPECT_EQ(part.margin.worst, 2.0);
   EXPECT_EQ(part.margin.worst_scan, "b");
@@ -71,9 +71,10 @@ TEST(PartVerdict, isTheGeometricMeanAndKnowsTheWorstScan) {
 
 TEST(PartVerdict, withoutAnythingCommonIsStudentsInterval) {
   // scatter alone: ln M of 1, 2, 3 has the mean 2 and s = 1
-  const PooledRatio margin = partVerdictOf({scanOf("a", std::exp(1.0), 0.0, 0.0), scanOf("b", std::exp(2.0), 0.0, 0.0),
-                                            scanOf("c", std::exp(3.0), 0.0, 0.0)})
-                                 .margin;
+  const PooledRatio margin =
+      pooledVerdictOf({scanOf("a", std::exp(1.0), 0.0, 0.0), scanOf("b", std::exp(2.0), 0.0, 0.0),
+                       scanOf("c", std::exp(3.0), 0.0, 0.0)})
+          .margin;
   EXPECT_NEAR(margin.spread, 1.0, 1e-12);
   const double reach = 4.302653 / std::sqrt(3.0);  // t of two degrees of freedom, seven digits
   EXPECT_NEAR(std::log(margin.upper), 2.0 + reach, 1e-6);
@@ -83,17 +84,17 @@ TEST(PartVerdict, withoutAnythingCommonIsStudentsInterval) {
 TEST(PartVerdict, scatterThatContactsExplainCountsOnce) {
   // s = 0.1 of two scans at 0 and 0.1414, below p = 0.2
   const PooledRatio margin =
-      partVerdictOf({scanOf("a", 3.0, 0.3, 0.2), scanOf("b", 3.0 * std::exp(0.1 * std::sqrt(2.0)), 0.3, 0.2)}).margin;
+      pooledVerdictOf({scanOf("a", 3.0, 0.3, 0.2), scanOf("b", 3.0 * std::exp(0.1 * std::sqrt(2.0)), 0.3, 0.2)}).margin;
   EXPECT_NEAR(margin.spread, 0.1, 1e-12);
   EXPECT_NEAR(std::log(margin.upper / margin.value), kTo * std::hypot(0.3, 0.2 / std::sqrt(2.0)), 1e-9);
 }
 
 TEST(PartVerdict, oneOutlierWidensTheIntervalAndTakesThePlainWord) {
   std::vector<ScanStatement> scans(2, scanOf("a", 3.0, 0.2, 0.1));
-  EXPECT_EQ(partVerdictOf(scans).sticks, Sticks::kNo);
-  const PooledRatio before = partVerdictOf(scans).margin;
+  EXPECT_EQ(pooledVerdictOf(scans).sticks, Sticks::kNo);
+  const PooledRatio before = pooledVerdictOf(scans).margin;
   scans.push_back(scanOf("odd", 0.9, 0.2, 0.1));  // by itself marginal
-  const PartVerdict part = partVerdictOf(scans);
+  const PooledVerdict part = pooledVerdictOf(scans);
   EXPECT_GT(std::log(part.margin.value / part.margin.lower), 2.0 * std::log(before.value / before.lower));
   EXPECT_EQ(part.sticks, Sticks::kMarginal);
   EXPECT_EQ(part.margin.worst_scan, "odd");
@@ -102,19 +103,19 @@ TEST(PartVerdict, oneOutlierWidensTheIntervalAndTakesThePlainWord) {
 TEST(PartVerdict, isNoPlainNoWhileAScanByItselfSticks) {
   std::vector<ScanStatement> scans(30, scanOf("a", 20.0, 0.1, 0.1));
   scans.push_back(scanOf("stuck", 0.5, 0.1, 0.1));
-  const PartVerdict part = partVerdictOf(scans);
+  const PooledVerdict part = pooledVerdictOf(scans);
   EXPECT_GT(part.margin.lower, 1.0);
   EXPECT_EQ(part.sticks, Sticks::kMarginal);
   EXPECT_NE(part.reason.find("but stuck by itself sticks"), std::string::npos) << part.reason;
 }
 
 TEST(PartVerdict, sticksWhereAllScansDo) {
-  EXPECT_EQ(partVerdictOf({scanOf("a", 0.2, 0.1, 0.1), scanOf("b", 0.3, 0.1, 0.1)}).sticks, Sticks::kYes);
+  EXPECT_EQ(pooledVerdictOf({scanOf("a", 0.2, 0.1, 0.1), scanOf("b", 0.3, 0.1, 0.1)}).sticks, Sticks::kYes);
 }
 
 TEST(PartVerdict, sayThatScansDoNotCount) {
-  const PartVerdict part =
-      partVerdictOf({scanOf("a", 3.0, 0.2, 0.1), scanOf("b", 3.0, 0.2, 0.1), silentScan("c", kOnePixelFlag)});
+  const PooledVerdict part =
+      pooledVerdictOf({scanOf("a", 3.0, 0.2, 0.1), scanOf("b", 3.0, 0.2, 0.1), silentScan("c", kOnePixelFlag)});
   EXPECT_EQ(part.sticks, Sticks::kNo);
   EXPECT_EQ(part.scan_count, 3);
   EXPECT_EQ(part.counted_scans, 2);
@@ -125,36 +126,36 @@ TEST(PartVerdict, sayThatScansDoNotCount) {
 
 TEST(PartVerdict, isUnknownWhereTheSilentScansMayHoldMore) {
   const ScanStatement plain = scanOf("a", 3.0, 0.2, 0.1);
-  const PartVerdict bonded = partVerdictOf({plain, plain, plain, silentScan("c", kBondedFlag)});
+  const PooledVerdict bonded = pooledVerdictOf({plain, plain, plain, silentScan("c", kBondedFlag)});
   EXPECT_EQ(bonded.sticks, Sticks::kUnknown);
   EXPECT_NE(bonded.reason.find("c makes no statement"), std::string::npos) << bonded.reason;
   const ScanStatement silent = silentScan("c", kBorderFlag);
-  EXPECT_EQ(partVerdictOf({plain, silent}).sticks, Sticks::kNo);
-  const PartVerdict few = partVerdictOf({plain, silent, silent});
+  EXPECT_EQ(pooledVerdictOf({plain, silent}).sticks, Sticks::kNo);
+  const PooledVerdict few = pooledVerdictOf({plain, silent, silent});
   EXPECT_EQ(few.sticks, Sticks::kUnknown);
   EXPECT_NE(few.reason.find("only 1 of 3 scans"), std::string::npos) << few.reason;
 }
 
 TEST(PartVerdict, isUnknownWithoutAScanThatCounts) {
-  const PartVerdict none = partVerdictOf({silentScan("a", kBondedFlag), silentScan("b", kBondedFlag)});
+  const PooledVerdict none = pooledVerdictOf({silentScan("a", kBondedFlag), silentScan("b", kBondedFlag)});
   EXPECT_EQ(none.sticks, Sticks::kUnknown);
   EXPECT_EQ(none.reason, "no scan makes a statement; of b");
   EXPECT_TRUE(std::isnan(none.margin.value));
-  EXPECT_EQ(partVerdictOf({}).sticks, Sticks::kUnknown);
+  EXPECT_EQ(pooledVerdictOf({}).sticks, Sticks::kUnknown);
 }
 
 TEST(PartVerdict, addsUpTheContactsOfScansThatHaveFew) {
   ScanStatement scan = silentScan("a", kFewContactsFlag);
   scan.contacts = 1;
-  EXPECT_EQ(partVerdictOf({scan}).sticks, Sticks::kUnknown);
-  EXPECT_EQ(partVerdictOf({scan, scan}).sticks, Sticks::kUnknown);
-  EXPECT_EQ(partVerdictOf({scan, scan, scan}).sticks, Sticks::kNo);
+  EXPECT_EQ(pooledVerdictOf({scan}).sticks, Sticks::kUnknown);
+  EXPECT_EQ(pooledVerdictOf({scan, scan}).sticks, Sticks::kUnknown);
+  EXPECT_EQ(pooledVerdictOf({scan, scan, scan}).sticks, Sticks::kNo);
 }
 
 TEST(PartVerdict, countsTheWorseOfSpringAndBeam) {
   ScanStatement scan = scanOf("a", 3.0, 0.2, 0.1);
   scan.peel_number = {0.5, 0.4, 0.6};
-  const PartVerdict part = partVerdictOf({scan, scan});
+  const PooledVerdict part = pooledVerdictOf({scan, scan});
   EXPECT_EQ(part.sticks, Sticks::kYes);
   EXPECT_NEAR(part.peel_number.value, 0.5, 1e-12);
   EXPECT_NE(part.reason.find("peel number 0.5"), std::string::npos) << part.reason;
@@ -166,7 +167,7 @@ TEST(PartVerdict, keepsTheSignOfAPeelNumberBelowZero) {
   scan.sticks = Sticks::kYes;
   scan.peel_number = {-2.0, -4.0, -1.0};
   scan.place_deviation = 0.0;
-  const PooledRatio peel = partVerdictOf({scan, scan}).peel_number;
+  const PooledRatio peel = pooledVerdictOf({scan, scan}).peel_number;
   EXPECT_NEAR(peel.value, -2.0, 1e-12);
   EXPECT_NEAR(peel.lower, -4.0, 1e-9);  // digits of 1.96
   EXPECT_NEAR(peel.upper, -1.0, 1e-9);
@@ -174,9 +175,9 @@ TEST(PartVerdict, keepsTheSignOfAPeelNumberBelowZero) {
 
 TEST(PartVerdict, countsThePrefactorsOfTheTransition) {
   ScanStatement scan = scanOf("a", 1.5, 0.1, 0.05);
-  EXPECT_EQ(partVerdictOf({scan, scan}).sticks, Sticks::kNo);
+  EXPECT_EQ(pooledVerdictOf({scan, scan}).sticks, Sticks::kNo);
   scan.margin_transition = 0.9;
-  EXPECT_EQ(partVerdictOf({scan, scan}).sticks, Sticks::kMarginal);
+  EXPECT_EQ(pooledVerdictOf({scan, scan}).sticks, Sticks::kMarginal);
 }
 
 TEST(PartVerdict, leavesScansWithoutAdhesionOutOfTheMean) {
@@ -184,8 +185,8 @@ TEST(PartVerdict, leavesScansWithoutAdhesionOutOfTheMean) {
   free.margin.value = free.margin.lower = free.margin.upper = std::numeric_limits<double>::infinity();
   free.sticks = Sticks::kNo;
   free.contacts = 0;
-  EXPECT_EQ(partVerdictOf({free, free}).sticks, Sticks::kNo);
-  const PartVerdict part = partVerdictOf({free, scanOf("a", 3.0, 0.2, 0.1)});
+  EXPECT_EQ(pooledVerdictOf({free, free}).sticks, Sticks::kNo);
+  const PooledVerdict part = pooledVerdictOf({free, scanOf("a", 3.0, 0.2, 0.1)});
   EXPECT_EQ(part.counted_scans, 2);
   EXPECT_EQ(part.margin.value, 3.0);
 }
@@ -194,8 +195,8 @@ TEST(PartVerdict, namesTheJudges) {
   ScanStatement scan = scanOf("a", 3.0, 0.2, 0.1);
   ScanStatement solved = scan;
   solved.judge = Judge::kHalfSpace;
-  EXPECT_EQ(partVerdictOf({solved, solved}).verdict_by, "half_space");
-  const PartVerdict mixed = partVerdictOf({scan, solved});
+  EXPECT_EQ(pooledVerdictOf({solved, solved}).verdict_by, "half_space");
+  const PooledVerdict mixed = pooledVerdictOf({scan, solved});
   EXPECT_EQ(mixed.verdict_by, "prediction and half_space");
   EXPECT_EQ(mixed.warnings.size(), 1U);
 }
@@ -218,7 +219,7 @@ TEST(PartVerdict, takesItsPartOfThePlaceFromTheContacts) {
 
   // what is left when many scans are pooled is the interval without the sampling of the place
   const ScanStatement scan = statementOf("a", prediction, verdict);
-  const PooledRatio many = partVerdictOf(std::vector<ScanStatement>(10000, scan)).margin;
+  const PooledRatio many = pooledVerdictOf(std::vector<ScanStatement>(10000, scan)).margin;
   uncertainty.scan_sampling = false;
   const Verdict common = verdictOf(prediction, device, uncertainty, options, surface.cellArea());
   EXPECT_EQ(common.place_deviation, 0.0);
