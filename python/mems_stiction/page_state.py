@@ -158,7 +158,7 @@ class PageState:
         if self._latest is None:
             return None
         number, stamp, prediction = self._latest
-        return {"number": number, "name": prediction.header.frame_id, "stamp": "%.3f" % (stamp * 1e-9),
+        return {"number": number, "name": prediction.scan_name or prediction.header.frame_id, "stamp": "%.3f" % (stamp * 1e-9),
                 "verdict": verdict_of(prediction), "ratio": ratio_of(prediction), "flags": flags_of(prediction),
                 "warnings": list(prediction.warnings), "figures": figures_of(prediction), "trace": trace_of(prediction), "curve": curve_of(prediction),
                 "preprocessing": list(prediction.preprocessing)}

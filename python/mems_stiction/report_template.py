@@ -41,7 +41,7 @@ PAGE = """<!DOCTYPE html>
 
 {% if parts %}<h2>Parts</h2>
 <div class="wide"><table class="overview" id="parts">
-<thead><tr><th>part</th><th>serial number</th><th>verdict</th><th class="n">{{ judged_by }}</th><th class="n">spread of its logarithm</th><th class="n">lowest of one scan</th><th class="n">scans that count</th><th>reason</th><th>of any scan</th></tr></thead>
+<thead><tr><th>part</th><th>serial number</th><th>verdict</th><th class="n">{{ judged_by }}</th><th class="n">spread of its logarithm</th><th class="n">lowest of one scan (its number)</th><th class="n">scans that count</th><th>reason</th><th>outside the model's range, of any scan; warnings</th></tr></thead>
 <tbody>
 {% for part in parts %}<tr><td class="path">{{ part.part }}</td><td class="path">{{ part.serial }}</td><td class="{{ part.sticks }}">{{ part.releases }}</td><td class="n">{{ part.ratio }}</td><td class="n">{{ part.spread }}</td><td class="n">{{ part.worst }}</td><td class="n">{{ part.scans }}</td><td>{{ part.reason }}</td><td class="limits">{{ part.limits }}</td></tr>
 {% endfor %}</tbody>

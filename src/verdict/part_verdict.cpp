@@ -216,8 +216,8 @@ std::vector<std::string> warningsOf(const std::vector<ScanStatement>& scans, con
   const int silent = part.scan_count - part.counted_scans;
   if (silent > 0) {
     const auto last = std::find_if(scans.rbegin(), scans.rend(), [](const auto& scan) { return !counts(scan); });
-    warnings.push_back(std::to_string(silent) + " of " + countText(part.scan_count, "scan") + " do not count; of " +
-                       last->scan_name + ": " + last->reason);
+    warnings.push_back(std::to_string(silent) + " of " + countText(part.scan_count, "scan") +
+                       (silent == 1 ? " does" : " do") + " not count; of " + last->scan_name + ": " + last->reason);
   }
   if (part.verdict_by.find(" and ") != std::string::npos) {
     warnings.push_back("the half-space has judged some of the scans, the prediction the others");

@@ -150,6 +150,11 @@ class WordsTest(unittest.TestCase):
         self.assertFalse(state.snapshot()["part"]["is_newest"])
         json.dumps(state.snapshot(), allow_nan=False)
 
+    def test_a_scan_is_called_by_its_own_name(self):
+        state = PageState()
+        state.add_prediction(1 * SECOND, prediction(scan_name="place 2"))
+        self.assertEqual(state.snapshot()["scan"]["name"], "place 2")
+
     def test_what_a_prediction_was_made_of_and_with_is_told(self):
         shown = trace_of(prediction(version="1.2.3", settings_hash="00ff", scan_name="place 2", part_id="lot 3"))
         self.assertEqual([(row["label"], row["text"]) for row in shown],

@@ -170,6 +170,7 @@ class PageTest(unittest.TestCase):
             self.assertIn("margin %s (95 %%: %s to %s)" % tuple(ratio_text(value) for value in (part.margin, part.margin_lower, part.margin_upper)),
                           self.page.text("#part-ratio"))
             self.assertEqual(self.page.text("#part-name"), "Part lot 3, serial number %s:" % serial)
+            self.open_tab("node")
             for name in ("scan_name", "part_id", "serial_id", "settings_hash", "version"):
                 self.assertEqual(self.figure(name)[0], getattr(part, name))
         self.assertIn("1 scan", self.page.text("#part-scans"))

@@ -79,8 +79,12 @@ function showPart() {
   say("part-name", part ? `${part.name[0].toUpperCase()}${part.name.slice(1)}` + (part.is_newest ? ":" : " (before the newest scan):") : "");
   say("part-word", part ? part.word : "");
   say("part-ratio", part && part.ratio ? `${part.ratio.label} ${part.ratio.text}` + (part.ratio.interval ? ` (${part.ratio.interval})` : "") : "");
-  say("part-scans", part ? [part.scans, part.worst, part.verdict_by && `by ${part.verdict_by}`].filter(Boolean).join(", ") : "");
-  say("part-reason", part ? [part.reason].concat(part.warnings.map((text) => `Warning: ${text}.`), part.flags.length ? [`Of its scans: ${part.flags.join("; ")}.`] : []).join(" ") : "");
+  say("part-scans", part ? [part.scans, part.worst, part.verdict_by && `by ${part.verdict_by}`].filter(Boolean).join(", ") + "." : "");
+  const shown = part && part.is_newest ? state.scan.flags : [];  // above, of the newest scan
+  const flags = part ? part.flags.filter((text) => !shown.includes(text)) : [];
+  // that of a part that releases is its interval, which stands above
+  const said = part ? (part.level === "releases" ? [] : [part.reason]).concat(part.warnings.map((text) => `Warning: ${text}.`)) : [];
+  say("part-reason", said.concat(flags.length ? [`Of its other scans: ${flags.join("; ")}.`] : []).join(" "));
 }
 
 function showAge() {
@@ -111,7 +115,6 @@ function showTab() {
 function showOverview() {
   showTrend();
   fillFigures("figures", state.scan ? state.scan.figures : []);
-  fillFigures("trace", state.scan ? state.scan.trace : []);
 }
 
 function fillFigures(id, rows) {
@@ -295,6 +298,7 @@ function drawCycles(points) {
 // ---------------------------------------------------------------- the node
 
 function showNode() {
+  fillFigures("trace", state.scan ? state.scan.trace : []);
   fillList("losses", state.losses.length ? state.losses.slice().reverse().map((loss) =>
     (loss.count > 1 ? `${loss.count} scans, the last ${loss.number}: ` : `scan ${loss.number}: `) + (loss.reason || "no reason given"))
     : [state.count ? "None: every scan since station_page was started is predicted." : "No scan yet."]);

@@ -120,7 +120,7 @@ TEST(PartVerdict, sayThatScansDoNotCount) {
   EXPECT_EQ(part.scan_count, 3);
   EXPECT_EQ(part.counted_scans, 2);
   ASSERT_EQ(part.warnings.size(), 1U);
-  EXPECT_EQ(part.warnings[0], "1 of 3 scans do not count; of c: of c");
+  EXPECT_EQ(part.warnings[0], "1 of 3 scans does not count; of c: of c");
   EXPECT_EQ(part.regime_flags, kOnePixelFlag);
 }
 
