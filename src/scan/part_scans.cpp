@@ -36,9 +36,11 @@ std::optional<PooledVerdict> PartScans::add(const PartKey& key, std::uint64_t sc
 
 std::vector<std::pair<PartKey, PooledVerdict>> PartScans::verdicts() const {
   std::vector<std::pair<std::size_t, const PartKey*>> order;
+  order.reserve(parts_.size());
   for (const auto& [key, part] : parts_) order.emplace_back(part.first, &key);
   std::sort(order.begin(), order.end());
   std::vector<std::pair<PartKey, PooledVerdict>> verdicts;
+  verdicts.reserve(order.size());
   for (const auto& entry : order) verdicts.emplace_back(*entry.second, verdictOf(parts_.at(*entry.second)));
   return verdicts;
 }

@@ -220,7 +220,7 @@ std::vector<std::string> warningsOf(const std::vector<ScanStatement>& scans, con
                        (silent == 1 ? " does" : " do") + " not count; of " + last->scan_name + ": " + last->reason);
   }
   if (part.verdict_by.find(" and ") != std::string::npos) {
-    warnings.push_back("the half-space has judged some of the scans, the prediction the others");
+    warnings.emplace_back("the half-space has judged some of the scans, the prediction the others");
   }
   return warnings;
 }
