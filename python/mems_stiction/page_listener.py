@@ -6,8 +6,8 @@ import time
 import rosgraph
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray
-from mems_stiction.msg import (CycleContactActionFeedback, CycleContactActionResult, HalfSpaceSolution, ScanInfo, StictionPrediction,
-                               SweepLoadActionFeedback, SweepLoadActionResult)
+from mems_stiction.msg import (CycleContactActionFeedback, CycleContactActionResult, HalfSpaceSolution, PartVerdict, ScanInfo,
+                               StictionPrediction, SweepLoadActionFeedback, SweepLoadActionResult)
 from sensor_msgs.msg import Image
 
 LOOK_PERIOD = 1.0  # [s]
@@ -52,6 +52,7 @@ class PageListener:
 
     def _subscribe(self):
         topics = [("prediction", StictionPrediction, self._on_prediction, None, dict(queue_size=1000)),
+                  ("part_verdict", PartVerdict, self._on_part, None, dict(queue_size=10)),
                   ("scan_info", ScanInfo, self._on_info, None, dict(queue_size=100)),
                   ("preview", Image, self._on_map, "height", dict(queue_size=1, buff_size=MAP_BUFFER)),
                   ("contact_map", Image, self._on_map, "contacts", dict(queue_size=1, buff_size=MAP_BUFFER)),
@@ -66,6 +67,9 @@ class PageListener:
 
     def _on_prediction(self, prediction):
         self._state.add_prediction(prediction.header.stamp.to_nsec(), prediction)
+
+    def _on_part(self, part):
+        self._state.add_part(part.header.stamp.to_nsec(), part)
 
     def _on_info(self, info):
         self._infos[info.header.stamp.to_nsec()] = (info.pitch_x, info.pitch_y)

@@ -8,8 +8,8 @@ import re
 import threading
 import time
 
-from mems_stiction.page_words import (curve_of, diagnostics_of, figures_of, finite, flags_of, half_space_of, judged_by, ratio_of, sentence,
-                                      verdict_of, with_micro, with_unit)
+from mems_stiction.page_words import (curve_of, diagnostics_of, figures_of, finite, flags_of, half_space_of, judged_by, part_of, ratio_of, sentence,
+                                      trace_of, verdict_of, with_micro, with_unit)
 from mems_stiction.station_text import cycle_sentences, sweep_sentences
 
 MOST_SCANS = 300  # of the trend
@@ -40,6 +40,7 @@ class PageState:
         self._loss_is_newest = False
         self._heard = None  # when the last scan was predicted
         self._half_space = None
+        self._part = None
         self._maps = {}
         self._diagnostics = {}
         self._runs = {}
@@ -98,6 +99,12 @@ class PageState:
             self._half_space = dict(half_space_of(solution), stamp=stamp)
             self._changed()
 
+    def add_part(self, stamp, part):
+        """What all scans of a part say together. stamp: of its last scan [ns]."""
+        with self._lock:
+            self._part = dict(part_of(part), stamp=stamp)
+            self._changed()
+
     def set_map(self, name, stamp, image, size=None):
         """An image message that is drawn when a browser asks for it. size: (width, height) of the scan [m], if known."""
         with self._lock:
@@ -143,7 +150,7 @@ class PageState:
             return {"version": self.version, "link": self._link, "age": None if self._heard is None else now - self._heard,
                     "count": self._count, "lost": self._lost, "loss_is_newest": self._loss_is_newest,
                     "losses": list(self._losses), "scan": self._scan(), "trend": list(self._trend),
-                    "half_space": self._with_number(self._half_space), "maps": self._shown_maps(),
+                    "part": self._shown_part(), "half_space": self._with_number(self._half_space), "maps": self._shown_maps(),
                     "diagnostics": [dict(entry, age=now - heard) for _, (entry, heard) in sorted(self._diagnostics.items())],
                     "runs": {kind: self._run(run, now) for kind, run in self._runs.items()}}
 
@@ -151,10 +158,14 @@ class PageState:
         if self._latest is None:
             return None
         number, stamp, prediction = self._latest
-        return {"number": number, "name": prediction.header.frame_id, "stamp": "%.3f" % (stamp * 1e-9),
+        return {"number": number, "name": prediction.scan_name or prediction.header.frame_id, "stamp": "%.3f" % (stamp * 1e-9),
                 "verdict": verdict_of(prediction), "ratio": ratio_of(prediction), "flags": flags_of(prediction),
-                "warnings": list(prediction.warnings), "figures": figures_of(prediction), "curve": curve_of(prediction),
+                "warnings": list(prediction.warnings), "figures": figures_of(prediction), "trace": trace_of(prediction), "curve": curve_of(prediction),
                 "preprocessing": list(prediction.preprocessing)}
+
+    def _shown_part(self):
+        """is_newest: whether the newest scan is one of its own."""
+        return self._part and dict(self._part, is_newest=self._latest is not None and self._latest[1] == self._part["stamp"])
 
     def _with_number(self, of_scan):
         return of_scan and dict(of_scan, number=self._number_of(of_scan["stamp"]))

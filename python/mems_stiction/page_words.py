@@ -78,6 +78,37 @@ def flags_of(prediction):
     return [words for bit, (_, words) in sorted(FLAGS.items()) if prediction.regime_flags & bit]
 
 
+def trace_of(prediction):
+    """Name of the field, label and text of what the prediction was made of and with; what is not stated is left out."""
+    rows = [("scan_name", "scan"), ("part_id", "part"), ("serial_id", "serial number"), ("settings_hash", "settings"), ("version", "version")]
+    return [{"name": name, "label": label, "text": getattr(prediction, name), "value": None} for name, label in rows if getattr(prediction, name)]
+
+
+def part_name(message):
+    """ "part lot 3, serial number 0012"; either may be missing."""
+    return ", ".join("%s %s" % (label, text) for label, text in (("part", message.part_id), ("serial number", message.serial_id)) if text)
+
+
+def judge_word(verdict_by):
+    """ "half_space" is "the half-space"."""
+    return " and ".join("the " + word.replace("_", "-") for word in verdict_by.split(" and ")) if verdict_by else ""
+
+
+def part_of(part):
+    """What a PartVerdict says: verdict, ratio, how many scans, which is the worst, and what speaks against it."""
+    name = judged_by(part)
+    level, word = VERDICTS.get(part.sticks, VERDICTS[3])
+    if not part.counted_scans and part.reason.startswith("the device is not stated"):
+        level, word = "none", "NO VERDICT"
+    worst = getattr(part, "worst_" + name)
+    return {"name": part_name(part), "level": level, "word": word, "reason": sentence(part.reason), "ratio": ratio_of(part),
+            "verdict_by": judge_word(part.verdict_by), "settings_hash": part.settings_hash,
+            "scans": "%d scan%s" % (part.scan_count, "" if part.scan_count == 1 else "s")
+                     + ("" if part.counted_scans == part.scan_count else ", %d count" % part.counted_scans),
+            "worst": None if math.isnan(worst) or part.counted_scans < 2 else "lowest %s of %s" % (ratio_text(worst), getattr(part, "worst_%s_scan" % name)),
+            "flags": flags_of(part), "warnings": list(part.warnings)}
+
+
 def figures_of(prediction):
     """Name of the field, label, text and value of what is read beside the verdict."""
     bound = bound_of(prediction, "≥ ")
@@ -110,6 +141,14 @@ def curve_of(prediction):
             "text": bound_of(prediction, "≥ ") + with_unit(prediction.pull_off_force, "N")}
 
 
+def half_space_verdict(solution):
+    """Word, level, ratio and who has judged; None where no device is stated or nothing was solved."""
+    if not solution.verdict_by or ratio_of(solution) is None:
+        return None
+    level, word = VERDICTS.get(solution.sticks, VERDICTS[3])
+    return {"level": level, "word": word, "by": judge_word(solution.verdict_by), "ratio": ratio_of(solution), "reason": sentence(solution.verdict_reason)}
+
+
 def half_space_of(solution):
     """State, figures and curve of a HalfSpaceSolution, over the displacement that predictions have: its range less its height."""
     ways = {"in": [], "out": []}
@@ -118,7 +157,7 @@ def half_space_of(solution):
     is_solved = solution.status == 0
     return {"status": HALF_SPACE_STATES[solution.status] if solution.status < len(HALF_SPACE_STATES) else "?",
             "message": sentence(solution.message), "is_solved": is_solved, "pull_off_force": finite(solution.pull_off_force),
-            "text": with_unit(solution.pull_off_force, "N"), "in": ways["in"], "out": ways["out"],
+            "text": with_unit(solution.pull_off_force, "N"), "verdict": half_space_verdict(solution), "in": ways["in"], "out": ways["out"],
             "notes": [] if not is_solved else [text for text, is_so in (
                 ("pixels are too large for the edge of a contact: the force comes out too large as a rule", not solution.is_resolved),
                 ("a state is no equilibrium: there is no answer to rely on", not solution.is_converged)) if is_so]}

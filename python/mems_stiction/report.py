@@ -72,6 +72,10 @@ SOURCES = (
     "Half-space, where it was solved: Muller, Yushchenko, Derjaguin, J. Colloid Interface Sci. 77 (1980) 91; Persson, "
     "Scaraggi, J. Chem. Phys. 141 (2014) 124701; as implemented: doc/half_space.md.",
     "Roughness: ISO 25178-2.",
+    "Scans of one part together: random effects by the method of moments (DerSimonian and Laird, Controlled Clinical Trials 7 (1986) 177, "
+    "unweighted), degrees of freedom by JCGM 100:2008, equation G.2b; doc/theory.md, section 11.",
+    "Control limits of the trends: chart of individual values, Shewhart 1931; Montgomery, Introduction to Statistical Quality Control, "
+    "section 6.4; ISO 7870-2.",
     "Material constants: the comments of the configuration below; defaults and their sources: config/stiction.yaml.",
 )
 
@@ -260,8 +264,20 @@ def summary(rows, drawn):
     return " ".join(parts)
 
 
-def page(title, rows, sections, settings_text, configuration_path, date=None):
-    """The HTML. `settings_text` is the settings file beside the rows."""
+def part_row(part, judge):
+    """What the page shows of one part: a row of stiction_batch --parts."""
+    spread = number(part[judge + "_spread"])
+    worst = number(part["worst_" + judge])
+    by = {"": "", "prediction": ""}.get(part["verdict_by"], " (%s)" % part["verdict_by"].replace("_", "-"))
+    return {"part": part["part_id"], "serial": part["serial_id"], "sticks": part["sticks"], "releases": verdict_word(part["sticks"]) + by,
+            "ratio": _ratio_with_interval(part, judge), "spread": "" if math.isnan(spread) else "%.2g" % spread,
+            "worst": "" if math.isnan(worst) else "%s of %s" % (ratio(worst), part["worst_%s_scan" % judge]),
+            "scans": "%d of %d" % (part["counted_scans"], part["scan_count"]),
+            "reason": _sentence(part["reason"]), "limits": _limits(part)}
+
+
+def page(title, rows, sections, settings_text, configuration_path, parts=(), date=None):
+    """The HTML. `settings_text` is the settings file beside the rows; parts: the rows of stiction_batch --parts."""
     predicted = [row for row in rows if not row["reason"]]
     settings = yaml.safe_load(settings_text)
     given = pathlib.Path(configuration_path).read_text(encoding="utf-8") if configuration_path else ""
@@ -277,6 +293,7 @@ def page(title, rows, sections, settings_text, configuration_path, date=None):
         has_half_space=any("half_space_reason" in row for row in predicted),
         has_device=any("sticks" in row for row in predicted), judged_by=judged_by(predicted).replace("_", " "),
         table=[table_row(row, drawn, judged_by(predicted)) for row in rows],
+        parts=[part_row(part, judged_by(predicted)) for part in parts] if any("sticks" in row for row in predicted) else [],
         bounded=any(is_lower_bound(row) for row in predicted), limited=any(_limits(row) for row in predicted),
         trends=embedded(trend_figure(predicted)) if len(predicted) > 1 else "", scans=sections,
         inputs=settings["inputs"], versions=versions, sources=SOURCES, configuration_file=given,
@@ -292,8 +309,8 @@ def write_csv(rows, path):
         writer.writerows({name: csv_cell(value) for name, value in row.items()} for row in rows)
 
 
-def write_json(rows, settings_text, path):
+def write_json(rows, parts, settings_text, path):
     settings = yaml.safe_load(settings_text)
     with open(str(path), "w", encoding="utf-8") as stream:
-        json.dump({"settings": settings, "scans": rows}, stream, indent=1, default=str)
+        json.dump({"settings": settings, "parts": parts, "scans": rows}, stream, indent=1, default=str)
         stream.write("\n")

@@ -6,6 +6,7 @@
 import io
 import math
 
+from mems_stiction.control_chart import control_limits
 from mems_stiction.curve import Curve
 from mems_stiction.curve_figure import draw_curves
 from mems_stiction.plots import REGIMES, plt, widen, with_unit
@@ -26,6 +27,7 @@ TRENDS = (("pull_off_force", "pull-off force", "N"), ("contact_fraction", "conta
           ("rms_height", "rms height", "m"), ("margin", "margin: restoring / pull-off force", ""),
           ("peel_number", "peel number: the beam's own work / adhesion", ""))
 RATIOS = ("margin", "peel_number")  # the verdict rests on
+CONTROLLED = ("pull_off_force",)  # have control limits
 
 
 def png_of(figure):
@@ -282,6 +284,8 @@ def trend_figure(rows):
             axes.fill_between(numbers, low, high, color="#0b4f9e", alpha=0.14, label="95 % interval")
             axes.axhline(1.0, color="#d1322f", linewidth=1, linestyle="--", label="1: sticks below")
         drawn = np.concatenate([values, low, high]) if name in RATIOS else values
+        if name in CONTROLLED:
+            drawn = np.concatenate([drawn, _draw_control(axes, numbers, values, ~lost)])
         _scale_trend(axes, values, drawn[np.isfinite(drawn)])
         axes.set_title(label[0].upper() + label[1:], fontsize=11)
         axes.set_ylabel("%s [%s]" % (label.split(":")[0], shown_unit or "-"))
@@ -292,6 +296,20 @@ def trend_figure(rows):
     for axes in list(all_axes.flat)[len(trends):]:
         axes.set_axis_off()
     return png_of(figure)
+
+
+def _draw_control(axes, numbers, values, use):
+    """Control limits of those of the values that are to be used, and a ring around each that is outside; the limits' values, if there are any."""
+    limits = control_limits(list(values[use]))
+    if limits is None:
+        return np.array([])
+    for place, value in enumerate((limits.lower, limits.upper)):
+        axes.axhline(value, color="#7a3db8", linewidth=1.2, linestyle=":", label=None if place else "control limits")
+    axes.axhline(limits.centre, color="#7a3db8", linewidth=0.8, alpha=0.6)
+    outside = [(place, value) for place, value in zip(numbers[use], values[use]) if limits.is_outside(value)]
+    if outside:
+        axes.scatter(*zip(*outside), facecolors="none", edgecolors="#7a3db8", linewidths=1.6, s=95, zorder=3, label="outside (%d)" % len(outside))
+    return np.array([limits.lower, limits.upper])
 
 
 def _scale_trend(axes, values, drawn):

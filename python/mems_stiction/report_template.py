@@ -39,6 +39,15 @@ PAGE = """<!DOCTYPE html>
 <p class="quiet">mems_stiction {{ version }}, {{ date }}</p>
 <p>{{ summary }}</p>
 
+{% if parts %}<h2>Parts</h2>
+<div class="wide"><table class="overview" id="parts">
+<thead><tr><th>part</th><th>serial number</th><th>verdict</th><th class="n">{{ judged_by }}</th><th class="n">spread of its logarithm</th><th class="n">lowest of one scan (its number)</th><th class="n">scans that count</th><th>reason</th><th>outside the model's range, of any scan; warnings</th></tr></thead>
+<tbody>
+{% for part in parts %}<tr><td class="path">{{ part.part }}</td><td class="path">{{ part.serial }}</td><td class="{{ part.sticks }}">{{ part.releases }}</td><td class="n">{{ part.ratio }}</td><td class="n">{{ part.spread }}</td><td class="n">{{ part.worst }}</td><td class="n">{{ part.scans }}</td><td>{{ part.reason }}</td><td class="limits">{{ part.limits }}</td></tr>
+{% endfor %}</tbody>
+</table></div>
+<p class="quiet">The scans of one part and serial number, pooled: the geometric mean and its 95 % interval. What is common to all scans (constants, model, pitch) does not shrink with their number.</p>{% endif %}
+
 <h2>Scans</h2>
 <div class="wide"><table class="overview">
 <thead><tr><th class="n">number</th><th>scan</th><th>state</th>{% if has_device %}<th>verdict</th><th class="n">{{ judged_by }}</th>{% endif %}<th class="n">pull-off force</th>{% if has_half_space %}<th class="n">of the half-space</th>{% endif %}<th class="n">contact fraction</th><th class="n">contacts</th><th class="n">elastic / mixed / plastic</th><th class="n">rms height</th>{% if limited %}<th>outside the model's range; warnings</th>{% endif %}</tr></thead>

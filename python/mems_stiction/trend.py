@@ -1,5 +1,7 @@
 """What a station saw so far, scan by scan: predicted, lost, or still waiting. No ROS here."""
 
+MOST_SCANS = 10000  # that are kept: some 5 kB each
+
 
 class Scan:
     """One scan. `prediction` is its message, or None while there is none; `is_lost`: there will be none."""
@@ -15,11 +17,14 @@ class Trend:
     """The scans in the order in which they were made.
 
     Scans are predicted in this order, so that one without a prediction is lost once a later one has its own, or once
-    the node counts a loss.
+    the node counts a loss. The oldest are forgotten beyond `most`; their numbers stay.
     """
 
-    def __init__(self):
+    def __init__(self, most=MOST_SCANS):
         self.scans = []
+        self._most = most
+        self._forgotten = 0
+        self._forgotten_losses = 0
         self._uncounted = 0  # scans seen to be lost before the node's count said so
 
     def add_scan(self, stamp):
@@ -32,6 +37,7 @@ class Trend:
         self.scans[place].has_arrived = True
         if any(scan.prediction is not None for scan in self.scans[place + 1:]):
             self._lose(self.scans[place:place + 1])
+        self._forget()
 
     def add_prediction(self, stamp, prediction):
         """A replay brings the same stamps again: the first scan that waits is meant."""
@@ -42,6 +48,7 @@ class Trend:
         scan = waiting[0]
         scan.prediction, scan.is_lost = prediction, False
         self._lose(self.scans[:self.scans.index(scan)])
+        self._forget()
 
     def _lose(self, scans):
         """A later one is predicted already."""
@@ -58,6 +65,20 @@ class Trend:
         for scan in waiting[:count - already_seen]:
             scan.is_lost = True
 
+    def _forget(self):
+        old = self.scans[:max(0, len(self.scans) - self._most)]
+        self._forgotten += len(old)
+        self._forgotten_losses += sum(scan.is_lost for scan in old)
+        del self.scans[:len(old)]
+
     def decided(self):
-        """(number from 1, scan) of all but those that wait."""
-        return [(number, scan) for number, scan in enumerate(self.scans, 1) if scan.prediction is not None or scan.is_lost]
+        """(number from 1, scan) of all that are kept, but those that wait."""
+        return [(number, scan) for number, scan in enumerate(self.scans, 1 + self._forgotten) if scan.prediction is not None or scan.is_lost]
+
+    def decided_count(self):
+        """With those that are forgotten."""
+        return self._forgotten + len(self.decided())
+
+    def lost_count(self):
+        """With those that are forgotten."""
+        return self._forgotten_losses + sum(scan.is_lost for scan in self.scans)

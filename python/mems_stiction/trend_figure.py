@@ -2,6 +2,7 @@
 
 import math
 
+from mems_stiction.control_chart import control_limits
 from mems_stiction.plots import plt, with_unit
 from mems_stiction.prediction_text import bound_of, flag_names, limits_of
 from mems_stiction.quantities import prefix_for
@@ -10,6 +11,7 @@ import numpy as np
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 BACKGROUND, TEXT, QUIET, LINE = "#16181d", "#f2f2f2", "#a8adb8", "#7fb2ff"
+CONTROL = "#c99bff"
 NO, MARGINAL, YES, UNKNOWN = range(4)  # StictionPrediction.STICKS_...
 BONDED, NO_EQUILIBRIUM = 1, 2  # StictionPrediction.status
 VERDICTS = ((NO, "releases", "#35c46a", "o"), (MARGINAL, "marginal", "#f2b705", "D"), (YES, "sticks", "#ff5a4f", "s"),
@@ -35,12 +37,13 @@ def trend_picture(trend, width=1280, height=720, last=0):
         force_axes = figure.add_subplot(grid[0])
         axes = [force_axes]
         _draw_force(force_axes, shown, predicted)
+        _mark_flags(force_axes, predicted)
         if ratio:
             axes.append(figure.add_subplot(grid[1], sharex=force_axes))
             _draw_ratio(axes[1], shown, predicted, ratio)
             force_axes.tick_params(labelbottom=False)
         _finish(axes, shown)
-        _say_latest(figure, decided, len(decided) - len(shown))
+        _say_latest(figure, trend, decided, trend.decided_count() - len(shown))
     return figure
 
 
@@ -78,13 +81,41 @@ def _draw_force(axes, shown, predicted):
         use = np.array([prediction.status in states for _, prediction in predicted], dtype=bool)
         if use.any():
             axes.scatter(numbers[use], np.array(forces)[use] * factor, color=colour, marker=marker, s=46, zorder=3, label=text)
+    limits = _draw_control(axes, shown, name, factor)
     if restoring:
         axes.plot(numbers, np.array(restoring) * factor, color="#35c46a", linewidth=2.2, linestyle="--",
                   label="restoring force of its spring")
+    if limits is not None:
+        finite += [limits.lower, limits.upper]
     is_logarithmic = _scale(axes, [force * factor for force in finite])
     if is_logarithmic:  # over many decades one prefix does not do
         axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: with_unit(value / factor, "N", 1)))
     axes.set_ylabel("%s [%sN]" % (label, "" if is_logarithmic else letter.replace("u", "µ")))
+
+
+def _draw_control(axes, shown, name, factor):
+    """Centre and control limits of the forces that are to be used, as far as their settings are those of the newest, and a ring around each that
+    is outside; the limits, or None."""
+    usable = [(number, scan.prediction) for number, scan in shown if scan.prediction is not None and scan.prediction.status != NO_EQUILIBRIUM]
+    series = [(number, getattr(prediction, name)) for number, prediction in usable if prediction.settings_hash == usable[-1][1].settings_hash]
+    limits = control_limits([force for _, force in series])
+    if limits is None:
+        return None
+    ends = series[0][0] - 0.5, series[-1][0] + 0.5
+    axes.hlines([limits.lower * factor, limits.upper * factor], *ends, color=CONTROL, linewidth=1.6, linestyle=":", zorder=1, label="control limits")
+    axes.hlines(limits.centre * factor, *ends, color=CONTROL, linewidth=1.0, alpha=0.5, zorder=1)
+    outside = [(number, force * factor) for number, force in series if limits.is_outside(force)]
+    if outside:
+        axes.scatter(*zip(*outside), facecolors="none", edgecolors=CONTROL, linewidths=2.2, s=190, zorder=4, label="outside (%d)" % len(outside))
+    return limits
+
+
+def _mark_flags(axes, predicted):
+    """A small triangle at the lower edge under each scan with flags or warnings: its figures leave the model's range."""
+    flagged = [number for number, prediction in predicted if prediction.regime_flags or prediction.warnings]
+    if flagged:
+        axes.scatter(flagged, [0.03] * len(flagged), transform=axes.get_xaxis_transform(), color="#f2b705", marker="^", s=30, zorder=5,
+                     clip_on=False, label="flags or warnings (%d)" % len(flagged))
 
 
 def _draw_ratio(axes, shown, predicted, ratio):
@@ -137,13 +168,12 @@ def _finish(axes, shown):
     axes[-1].set_xlabel("number of the scan")
 
 
-def _say_latest(figure, decided, hidden):
+def _say_latest(figure, trend, decided, hidden):
     if not decided:
         figure.text(0.5, 0.93, "no scan yet", ha="center", va="center", fontsize=24, color=QUIET)
         return
     number, scan = decided[-1]
-    lost = sum(one.is_lost for _, one in decided)
-    counts = "%d scans, %d not predicted" % (len(decided), lost) + (", %d older not shown" % hidden if hidden else "")
+    counts = "%d scans, %d not predicted" % (trend.decided_count(), trend.lost_count()) + (", %d older not shown" % hidden if hidden else "")
     figure.text(0.975, 0.938, counts, ha="right", va="center", fontsize=13, color=QUIET)
     if scan.is_lost:
         _headline(figure, number, "not predicted", UNKNOWN, "its reason: the node's warning and /diagnostics")
@@ -159,7 +189,7 @@ def _say_latest(figure, decided, hidden):
     elif math.isnan(prediction.margin) and math.isnan(prediction.peel_number):
         _headline(figure, number, force, None, "no device stated, so no verdict", limits)
     else:
-        word = {NO: "does not stick", MARGINAL: "marginal", YES: "STICKS"}.get(prediction.sticks, "not known")
+        word = {NO: "RELEASES", MARGINAL: "MARGINAL", YES: "STICKS"}.get(prediction.sticks, "NOT KNOWN")
         _headline(figure, number, word, prediction.sticks, prediction.reason, limits)
 
 

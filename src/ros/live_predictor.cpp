@@ -94,6 +94,14 @@ PredictedScan LivePredictor::judged(const PreparedScan& prepared, const Configur
   return predicted;
 }
 
+void LivePredictor::addToPart(const ReceivedScan& scan, const Configuration& settings, PredictedScan& predicted) {
+  const Provenance& provenance = predicted.provenance;
+  predicted.pool_settings_hash = settingsHash(settings);  // without the pose that came with this scan
+  predicted.part =
+      parts_.add({provenance.part_id, provenance.serial_id, predicted.pool_settings_hash}, scan.header.stamp.toNSec(),
+                 statementOf(provenance.scan_name, predicted.prediction, predicted.verdict));
+}
+
 PredictedScan LivePredictor::predictScan(const ReceivedScan& scan, const OutputOptions& output) {
   const SettingsOwner::Snapshot settings = settings_.snapshot();
   Options options = settings->model;
@@ -106,6 +114,7 @@ PredictedScan LivePredictor::predictScan(const ReceivedScan& scan, const OutputO
   std::vector<std::string> warnings = scanWarnings(scan.surface);
   PredictedScan predicted = judged(prepared, *settings, scan.identity, warnings);
   if (accumulate_deformation_) requireDeformedSurfaces(predicted.prediction);
+  addToPart(scan, *settings, predicted);
   last_ = LastScan{scan, prepared, std::move(warnings), wear_};
   last_->prepared.preparation_time = 0.0;  // later predictions of this scan do not prepare it
   if (accumulate_deformation_) {

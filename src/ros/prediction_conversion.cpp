@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "mems_stiction/ros/message_text.hpp"
 #include "mems_stiction/ros/provenance_conversion.hpp"
 #include "mems_stiction/verdict/regime_flags.hpp"
 
@@ -65,17 +66,6 @@ SpatialRoughnessStatistics spatialRoughnessMessage(const SpatialRoughness& rough
   message.mean_summit_radius = roughness.mean_summit_radius;
   message.hurst = roughness.hurst;
   return message;
-}
-
-/// `rostopic echo -p` puts commas between fields and no marks around texts.
-std::string withoutCommas(std::string text) {
-  std::replace(text.begin(), text.end(), ',', ';');
-  return text;
-}
-
-std::vector<std::string> withoutCommas(std::vector<std::string> texts) {
-  for (std::string& text : texts) text = withoutCommas(std::move(text));
-  return texts;
 }
 
 void fillVerdict(const Verdict& verdict, StictionPrediction& message) {

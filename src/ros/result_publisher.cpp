@@ -4,6 +4,7 @@
 
 #include "mems_stiction/ros/display_conversion.hpp"
 #include "mems_stiction/ros/force_curve_picture.hpp"
+#include "mems_stiction/ros/part_verdict_conversion.hpp"
 #include "mems_stiction/ros/prediction_conversion.hpp"
 #include "mems_stiction/ros/topic_names.hpp"
 
@@ -22,6 +23,8 @@ ResultPublisher::ResultPublisher(const ros::NodeHandle& handle, const DisplayOpt
     : display_(display), transport_(handle) {
   ros::NodeHandle node(handle);
   prediction_ = node.advertise<StictionPrediction>(kPredictionTopic, kPredictionQueue);
+  // Latched: whoever comes finds what the last part's scans say.
+  part_verdict_ = node.advertise<PartVerdict>(kPartVerdictTopic, kPredictionQueue, true);
   deformed_height_ = transport_.advertise(kDeformedHeightTopic, kMapQueue);
   deformed_counter_height_ = transport_.advertise(kDeformedCounterHeightTopic, kMapQueue);
   contact_map_ = transport_.advertise(kContactMapTopic, kMapQueue);
@@ -69,7 +72,8 @@ void ResultPublisher::publish(const PredictedScan& predicted, const ReceivedScan
     asperity_markers_.publish(asperityMarkers(prediction, scan.surface, header, display_));
   }
   if (hasListener(force_curve_)) force_curve_.publish(forceCurvePicture(predicted, header));
-  // Last, so that whoever waits for the prediction finds the maps sent.
+  if (predicted.part) part_verdict_.publish(partVerdictMessage(predicted, header));
+  // Last, so that whoever waits for the prediction finds the rest sent.
   prediction_.publish(predictionMessage(predicted, header));
 }
 

@@ -31,6 +31,10 @@ void describe(CLI::App& app, BatchArguments& arguments) {
       ->capture_default_str();
   app.add_flag("-m,--merge", arguments.merge,
                "INPUTs are the rows of all shards: joins them to what one run writes, byte for byte");
+  app.add_option("--parts", arguments.parts,
+                 "also write a row for each part: the scans of one part_id and serial_id, pooled to one verdict; with "
+                 "--merge of all shards")
+      ->type_name("PARTS.csv|PARTS.jsonl");
   app.add_option("-d,--dump", arguments.dump,
                  "also write surfaces, contacts and curves of each scan into FOLDER/NUMBER (.npy and JSON)")
       ->type_name("FOLDER");

@@ -18,6 +18,7 @@ struct BatchArguments {
   std::optional<double> load;
   std::string shard = "1/1";
   std::string output;
+  std::string parts;
   std::string dump;
   std::string topic = "height";
   std::string input_list;

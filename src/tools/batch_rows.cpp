@@ -79,10 +79,10 @@ void writeAll(int descriptor, const std::string& text, const std::string& path) 
 
 }  // namespace
 
-RowFormat rowFormatOf(const std::string& path) {
+RowFormat rowFormatOf(const std::string& path, const std::string& option) {
   if (endsWith(path, ".csv")) return RowFormat::kCsv;
   if (endsWith(path, ".jsonl") || endsWith(path, ".ndjson")) return RowFormat::kJsonLines;
-  throw OptionsError({"--output: '" + path + "' is not allowed, must end in .csv or .jsonl"});
+  throw OptionsError({option + ": '" + path + "' is not allowed, must end in .csv or .jsonl"});
 }
 
 std::string rowText(const RowFields& fields, RowFormat format, const std::vector<std::string>& columns) {

@@ -17,8 +17,8 @@ using RowFields = std::vector<std::pair<std::string, nlohmann::json>>;
 
 enum class RowFormat { kCsv, kJsonLines };
 
-/// By the end of the name: .csv, or .jsonl (.ndjson). @throw OptionsError for other names
-RowFormat rowFormatOf(const std::string& path);
+/// By the end of the name: .csv, or .jsonl (.ndjson). @throw OptionsError for other names, naming the option
+RowFormat rowFormatOf(const std::string& path, const std::string& option = "--output");
 
 /// One line with its end. Numbers that are not finite: nan, inf, -inf in CSV; null in JSON. @param columns CSV only:
 /// the cells, empty where the row has no such field

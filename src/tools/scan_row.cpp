@@ -52,6 +52,7 @@ void visitFigures(const HeightMap& scan, const std::vector<std::string>& warning
       // The reason of a row is that of its failure.
       visit(std::strcmp(name, "reason") == 0 ? "verdict_reason" : name, value, unit);
     });
+    visit("place_deviation", verdict->place_deviation, "");
   } else {
     visit("regime_flags", flags, "");
   }

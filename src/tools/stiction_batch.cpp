@@ -15,6 +15,7 @@
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/output_file.hpp"
 #include "mems_stiction/import/import_cache.hpp"
+#include "part_rows.hpp"
 #include "progress_bar.hpp"
 
 namespace {
@@ -24,11 +25,26 @@ using namespace mems_stiction;
 /// Exit status when no scan of the call could be predicted.
 constexpr int kNonePredicted = 1;
 
+/// Refuses before the work what could not be written after it. @throw OptionsError
+void checkParts(const BatchArguments& arguments) {
+  if (arguments.parts.empty()) return;
+  rowFormatOf(arguments.parts, "--parts");
+  if (arguments.parts == arguments.output) throw OptionsError({"--parts: must be another file than --output"});
+}
+
+/// If they are asked for, by the rows that are there.
+void pool(const BatchArguments& arguments) {
+  if (arguments.parts.empty()) return;
+  const std::size_t count = writeParts(arguments.output, arguments.parts);
+  std::cout << arguments.parts << ": " << count << " parts\n";
+}
+
 int run(const BatchArguments& arguments) {
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);  // we name what is wrong ourselves
   if (arguments.clear_cache) clearImportCache();
   const Shard shard = shardOf(arguments.shard);
   const RowFormat format = rowFormatOf(arguments.output);
+  checkParts(arguments);
   const std::vector<std::string> inputs = inputsOf(arguments);
   Configuration configuration = configurationOf(arguments);
   OutputOptions& output = configuration.model.output;
@@ -65,12 +81,14 @@ int run(const BatchArguments& arguments) {
             << failed_count << " scans failed in this run";
   if (arguments.half_space) std::cout << ", half-space not solved for " << unsolved_count << " others";
   std::cout << "\n";
+  pool(arguments);
   return failed_count > 0 && failed_count == rows.done() - before ? kNonePredicted : 0;
 }
 
 int merge(const BatchArguments& arguments) {
   const std::vector<std::string> shards = inputsOf(arguments);
   rowFormatOf(arguments.output);
+  checkParts(arguments);
   const std::string settings = readWhole(settingsPathOf(shards.front()));
   for (const std::string& shard : shards) {
     if (readWhole(settingsPathOf(shard)) != settings) {
@@ -81,6 +99,7 @@ int merge(const BatchArguments& arguments) {
   mergeRows(shards, arguments.output, total);
   writeFile(settingsPathOf(arguments.output), settings);
   std::cout << arguments.output << ": " << total << " rows of " << shards.size() << " shards\n";
+  pool(arguments);
   return 0;
 }
 

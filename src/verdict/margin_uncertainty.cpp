@@ -20,6 +20,11 @@ constexpr double kToQuantile = 1.959964;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
+/// Standard deviation of the logarithm of a lognormal number, by its relative one [-].
+double logDeviation(double relative_deviation) {
+  return std::sqrt(std::log1p(relative_deviation * relative_deviation));
+}
+
 /// Standard normal numbers that are the same everywhere: std::normal_distribution is not.
 class NormalNumbers {
  public:
@@ -33,7 +38,7 @@ class NormalNumbers {
   /// Lognormal with median 1 and the given relative standard deviation.
   double factor(double relative_deviation) {
     const double normal = next();  // drawn even if unused: each constant keeps its own numbers
-    return std::exp(normal * std::sqrt(std::log1p(relative_deviation * relative_deviation)));
+    return std::exp(normal * logDeviation(relative_deviation));
   }
 
  private:
@@ -106,6 +111,7 @@ AdhesionSpread curveSpread(const Prediction& prediction, const UncertaintyOption
   }
   const bool is_local = uncertainty.scan_sampling && !prediction.is_conforming && radius_sum > 0.0;
   const double sampling = is_local ? std::sqrt(square_sum) / radius_sum : 0.0;
+  spread.place_deviation = logDeviation(sampling);
   NormalNumbers numbers(uncertainty.seed);
   for (int i = 0; i < uncertainty.samples; ++i) {
     const double work = numbers.factor(uncertainty.work_of_adhesion);
@@ -147,6 +153,9 @@ AdhesionSpread contactSpread(const Prediction& prediction, const Options& option
                          : 0.0;
   const double near = prediction.van_der_waals_force - far;
 
+  const double sampling = uncertainty.scan_sampling ? contacts.samplingDeviation() : 0.0;
+  spread.place_deviation = pull_off > 0.0 ? logDeviation(sampling) * (pull_off - far) / pull_off : 0.0;
+
   NormalNumbers numbers(uncertainty.seed);
   const auto count = static_cast<std::size_t>(uncertainty.samples);
   spread.pull_off.reserve(count);
@@ -157,7 +166,7 @@ AdhesionSpread contactSpread(const Prediction& prediction, const Options& option
     const double modulus = numbers.factor(uncertainty.youngs_modulus);
     const double pitch = numbers.factor(uncertainty.pitch);
     const double cutoff = numbers.factor(uncertainty.cutoff_distance);
-    const double place = numbers.factor(uncertainty.scan_sampling ? contacts.samplingDeviation() : 0.0);
+    const double place = numbers.factor(sampling);
 
     const double area = pitch * pitch;
     const double near_now = area * (near / (cutoff * cutoff) + other);

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <cstring>
 #include <functional>
 
+#include "mems_stiction/verdict/finding.hpp"
 #include "mems_stiction/verdict/regime_flags.hpp"
 
 namespace mems_stiction {
@@ -17,50 +15,7 @@ constexpr double kUpperShare = 0.975;
 constexpr double kStandardLower = 0.158655;  // one standard deviation of a normal distribution to either side
 constexpr double kStandardUpper = 1.0 - kStandardLower;
 
-struct Finding {
-  Sticks sticks;
-  std::string reason;
-};
-
-/// Three significant digits, without an exponent up to a million.
-std::string shortNumber(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  if (std::strstr(text, "e+") == nullptr || !(std::abs(value) < 1e6)) return text;
-  const double rounded = std::strtod(text, nullptr);  // 7250, not 7.25e+03
-  std::snprintf(text, sizeof text, "%.0f", rounded);
-  return text;
-}
-
-int gravity(Sticks sticks) {
-  switch (sticks) {
-    case Sticks::kNo:
-      return 0;
-    case Sticks::kMarginal:
-      return 1;
-    case Sticks::kUnknown:
-      return 2;
-    case Sticks::kYes:
-      break;
-  }
-  return 3;
-}
-
 bool hasContact(const DeviceOptions& device) { return device.hasSpring() && device.contact_area > 0.0; }
-
-/// The word for a ratio of what opens to what holds.
-Finding judged(const std::string& name, double value, double lowest, double highest, bool is_upper_bound,
-               bool has_cleanings) {
-  const std::string interval = name + " " + shortNumber(value) + ", 95 % within " + shortNumber(lowest) + " to " +
-                               shortNumber(highest) + (has_cleanings ? " (cleaning included)" : "");
-  if (highest < 1.0) return {Sticks::kYes, interval + ": below 1"};
-  if (is_upper_bound) {
-    return {Sticks::kUnknown, "the surfaces bond, so adhesion is at least as predicted: " + name + " at most " +
-                                  shortNumber(value) + ", but not safely below 1"};
-  }
-  if (lowest > 1.0) return {Sticks::kNo, interval + ": above 1"};
-  return {Sticks::kMarginal, interval + ": 1 lies within"};
-}
 
 /// What there is to say where the contacts are not listed, so that nothing tells how far the figures may be off.
 Finding withoutContacts(const std::string& what, const Prediction& prediction) {
@@ -108,7 +63,7 @@ Finding springFinding(const Prediction& prediction, const DeviceOptions& device,
       0.5 * verdict.margin *
       (1.0 / quantile(spread.pull_off, kStandardLower) - 1.0 / quantile(spread.pull_off, kStandardUpper));
   const double lowest = std::min(verdict.margin_lower, verdict.margin_transition);
-  return judged("margin", verdict.margin, lowest, verdict.margin_upper, prediction.isLowerBound(), has_cleanings);
+  return judgedRatio("margin", verdict.margin, lowest, verdict.margin_upper, prediction.isLowerBound(), has_cleanings);
 }
 
 Finding beamFinding(const Prediction& prediction, const DeviceOptions& device, const AdhesionSpread& spread,
@@ -128,8 +83,8 @@ Finding beamFinding(const Prediction& prediction, const DeviceOptions& device, c
     verdict.peel_number_lower = std::min(at_least, at_most);  // compressed beams have peel numbers below 0
     verdict.peel_number_upper = std::max(at_least, at_most);
   }
-  return judged("peel number", verdict.peel_number, verdict.peel_number_lower, verdict.peel_number_upper,
-                prediction.isLowerBound() && !is_measured, has_cleanings && !is_measured);
+  return judgedRatio("peel number", verdict.peel_number, verdict.peel_number_lower, verdict.peel_number_upper,
+                     prediction.isLowerBound() && !is_measured, has_cleanings && !is_measured);
 }
 
 /// - @p prediction of whoever judges
@@ -157,6 +112,7 @@ Verdict verdictBy(const Prediction& prediction, const DeviceOptions& device, con
   }
 
   const AdhesionSpread spread = spread_of();
+  verdict.place_deviation = spread.place_deviation;
   Finding finding{Sticks::kNo, ""};
   if (has_contact) finding = springFinding(prediction, device, spread, has_cleanings, verdict);
   if (device.hasBeam()) {

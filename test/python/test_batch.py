@@ -315,6 +315,99 @@ class BatchTest(unittest.TestCase):
         run([self.batch, "--merge", "-o", self.folder / "all.csv"] + sorted((self.folder / "rows").glob("*.csv")))
         self.assertEqual((self.folder / "all.csv").read_bytes(), (self.folder / "one.csv").read_bytes())
 
+    def bag_of_parts(self):
+        """a.bag twice over, with other stamps: scans 1 to 3 of one part, then of another, which has a comma and a formula in its name."""
+        path = self.folder / "parts.bag"
+        ids = {}
+        with rosbag.Bag(str(path), "w") as target, rosbag.Bag(str(self.inputs / "a.bag")) as source:
+            for topic, message, stamp in source.read_messages():
+                stamp = message.header.stamp
+                place = ids.setdefault(stamp, len(ids))
+                if topic == "/scan_info":
+                    message.part_id, message.serial_id = ("lot 3", "0012") if place < 3 else ("=lot \"4\", left", "")
+                target.write(topic, message, stamp)
+        return path
+
+    @staticmethod
+    def pooled(rows):
+        """Geometric mean of the margins and its interval, written down once more: normal quantiles, since these scans scatter less or little more
+        than their contacts explain, or Student's by scipy."""
+        from scipy.stats import t
+
+        reach = 1.959963985
+        logs = np.log([float(row["margin"]) for row in rows])
+        down = np.log([float(row["margin"]) / float(row["margin_lower"]) for row in rows]) / reach
+        up = np.log([float(row["margin_upper"]) / float(row["margin"]) for row in rows]) / reach
+        place = np.minimum([float(row["place_deviation"]) for row in rows], np.minimum(down, up))
+        count, within = len(rows), np.mean(place**2)
+        excess = max(0.0, np.var(logs, ddof=1) - within)
+        ends = []
+        for side in (down, up):
+            variance = np.mean(np.sqrt(side**2 - place**2))**2 + (within + excess) / count
+            freedom = (count - 1) * (variance / (excess / count))**2 if excess else np.inf
+            ends.append(t.ppf(0.975, freedom) * np.sqrt(variance))
+        return np.exp([np.mean(logs), np.mean(logs) - ends[0], np.mean(logs) + ends[1]])
+
+    def test_the_scans_of_a_part_are_pooled(self):
+        bag = self.bag_of_parts()
+        self.predict("rows.csv", "--parts", self.folder / "parts.csv", inputs=[bag, self.inputs / "broken.tiff", self.inputs / "b.bag"])
+        rows, parts = self.rows("rows.csv"), self.rows("parts.csv")
+        self.assertEqual([(part["part_id"], part["serial_id"], part["scan_count"]) for part in parts],
+                         [("lot 3", "0012", "3"), ("'=lot \"4\", left", "", "2")])
+        for part, of_part in zip(parts, (rows[:3], rows[3:5])):
+            self.assertEqual({row["sticks"] for row in of_part} & {"unknown"}, set())
+            self.assertEqual(part["counted_scans"], str(len(of_part)))
+            np.testing.assert_allclose([float(part[name]) for name in ("margin", "margin_lower", "margin_upper")], self.pooled(of_part), rtol=1e-7)
+            worst = min(of_part, key=lambda row: float(row["margin"]))
+            self.assertEqual(part["worst_margin"], worst["margin"])
+            self.assertEqual(part["worst_margin_scan"], "scan (%s)" % worst["number"])
+            self.assertEqual(part["settings_hash"], of_part[0]["settings_hash"])
+
+    def test_parts_do_not_depend_on_how_their_rows_were_written(self):
+        inputs = [self.bag_of_parts(), self.inputs / "b.bag"]
+        self.predict("one.csv", "--parts", self.folder / "one_parts.jsonl", inputs=inputs)
+        self.predict("one.jsonl", "--parts", self.folder / "two_parts.jsonl", inputs=inputs)
+        for index in (1, 2):
+            self.predict("shard%d.csv" % index, "--shard", "%d/2" % index, inputs=inputs)
+        done = run([self.batch, "--merge", "--parts", self.folder / "merged_parts.jsonl", "-o", self.folder / "merged.csv"]
+                   + [self.folder / ("shard%d.csv" % index) for index in (1, 2)])
+        self.assertEqual(done.returncode, 0, done.stderr)
+        texts = [(self.folder / (name + "_parts.jsonl")).read_text() for name in ("one", "merged")]
+        self.assertEqual(texts[0], texts[1])
+        self.assertEqual(len(texts[0].splitlines()), 2)
+        of_csv, of_json = ([json.loads(line) for line in (self.folder / (name + "_parts.jsonl")).read_text().splitlines()]
+                           for name in ("one", "two"))
+        for part in of_csv:  # in CSV it stands as the spreadsheet takes it
+            part["part_id"] = part["part_id"].lstrip("'")
+        self.assertEqual(of_csv, of_json)
+
+    def test_parts_without_a_device_and_bad_names_of_their_file(self):
+        (self.folder / "bare.yaml").write_text("load: {mechanical_load: 1.0e-6}\n")
+        self.predict("rows.csv", "--config", self.folder / "bare.yaml", "--parts", self.folder / "parts.csv", inputs=[self.bag_of_parts()])
+        part = self.rows("parts.csv")[0]
+        self.assertEqual((part["sticks"], part["counted_scans"]), ("unknown", "0"))
+        self.assertIn("the device is not stated", part["reason"])
+        done = self.predict("other.csv", "--parts", "parts.txt", inputs=[self.inputs / "b.bag"], status=2)
+        self.assertIn("--parts: 'parts.txt' is not allowed, must end in .csv or .jsonl", done.stderr)
+        done = self.predict("other.csv", "--parts", self.folder / "other.csv", inputs=[self.inputs / "b.bag"], status=2)
+        self.assertIn("--parts: must be another file", done.stderr)
+        self.assertFalse((self.folder / "other.csv").exists())
+
+    def test_the_report_has_a_verdict_for_each_part(self):
+        page = self.folder / "report.html"
+        done = run([program("stiction_report"), "--config", self.inputs / "device.yaml", "--most", 1, "--steps", 0, "-o", page, self.bag_of_parts()])
+        self.assertEqual(done.returncode, 0, done.stderr)
+        table = re.search('<table class="overview" id="parts">.*?</table>', page.read_text(encoding="utf-8"), re.DOTALL).group(0)
+        self.assertIn("0012", table)
+        self.assertIn("=lot &#34;4&#34;, left", table)
+        parts = json.loads((self.folder / "report.json").read_text())["parts"]
+        self.assertEqual(len(parts), 2)
+        for part in parts:
+            self.assertIn('<td class="%s">%s</td>' % (part["sticks"], report.verdict_word(part["sticks"])), table)
+            self.assertIn("%d of %d" % (part["counted_scans"], part["scan_count"]), table)
+        run([program("stiction_report"), "--config", self.inputs / "device.yaml", "--most", 1, "--steps", 0, "-o", page, self.inputs / "b.bag"])
+        self.assertNotIn('id="parts"', page.read_text(encoding="utf-8"))
+
     def test_the_report_is_one_page_with_everything_in_it(self):
         page = self.folder / "report.html"
         done = run([program("stiction_report"), "--config", self.inputs / "device.yaml", "--pdf", "--most", 2, "-o", page,

@@ -19,11 +19,11 @@ from types import SimpleNamespace
 import numpy as np
 import tornado.websocket
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
-from mems_stiction.msg import SeparationPoint, StictionPrediction
+from mems_stiction.msg import HalfSpaceSolution, PartVerdict, SeparationPoint, StictionPrediction
 from mems_stiction.page_maps import contact_png, height_png, rings, severest
 from mems_stiction.page_server import FOLDER, CannotServe, PageServer
 from mems_stiction.page_state import MOST_SCANS, PageState, stamp_of_reason
-from mems_stiction.page_words import curve_of, ratio_of, verdict_of, with_micro
+from mems_stiction.page_words import curve_of, half_space_of, part_of, ratio_of, trace_of, verdict_of, with_micro
 from sensor_msgs.msg import Image
 
 STATION_PAGE = pathlib.Path(__file__).resolve().parents[2] / "scripts/station_page"
@@ -35,6 +35,15 @@ def prediction(margin=NAN, sticks=StictionPrediction.STICKS_UNKNOWN, **changes):
     message = StictionPrediction(pull_off_force=1e-7, sticks=sticks, reason="because", margin=margin, margin_lower=0.5 * margin,
                                  margin_upper=2 * margin, restoring_force=NAN if math.isnan(margin) else 1e-6, peel_number=NAN,
                                  peel_number_lower=NAN, peel_number_upper=NAN, device_pull_off_force=NAN, contact_area_jkr=NAN)
+    for name, value in changes.items():
+        setattr(message, name, value)
+    return message
+
+
+def part_message(**changes):
+    message = PartVerdict(part_id="lot 3", serial_id="0012", scan_count=4, counted_scans=3, sticks=0, reason="above 1", verdict_by="prediction",
+                          margin=3.0, margin_lower=1.5, margin_upper=6.0, worst_margin=2.0, worst_margin_scan="place 2", peel_number=NAN,
+                          peel_number_lower=NAN, peel_number_upper=NAN, worst_peel_number=NAN, regime_flags=32, warnings=["one is odd"])
     for name, value in changes.items():
         setattr(message, name, value)
     return message
@@ -119,6 +128,45 @@ class WordsTest(unittest.TestCase):
         self.assertEqual(ratio_of(beam)["label"], "peel number")
         self.assertEqual(ratio_of(beam)["interval"], "95 %: 2 to 4.5")
         self.assertIsNone(ratio_of(prediction()))
+
+    def test_a_part_has_its_word_its_scans_and_what_speaks_against_it(self):
+        shown = part_of(part_message())
+        self.assertEqual((shown["name"], shown["level"], shown["word"]), ("part lot 3, serial number 0012", "releases", "RELEASES"))
+        self.assertEqual(shown["ratio"]["interval"], "95 %: 1.5 to 6")
+        self.assertEqual((shown["scans"], shown["worst"]), ("4 scans, 3 count", "lowest 2 of place 2"))
+        self.assertEqual((shown["verdict_by"], shown["warnings"], len(shown["flags"])), ("the prediction", ["one is odd"], 1))
+        self.assertEqual(part_of(part_message(part_id="", sticks=2))["name"], "serial number 0012")
+        one = part_of(part_message(scan_count=1, counted_scans=1))
+        self.assertEqual((one["scans"], one["worst"]), ("1 scan", None))
+        bare = part_of(part_message(margin=NAN, worst_margin=NAN, counted_scans=0, sticks=3, reason="the device is not stated: it needs", verdict_by=""))
+        self.assertEqual((bare["word"], bare["ratio"], bare["worst"]), ("NO VERDICT", None, None))
+
+    def test_a_part_is_the_newest_scans_or_said_to_be_before_it(self):
+        state = PageState()
+        state.add_part(1 * SECOND, part_message())
+        state.add_prediction(1 * SECOND, prediction())
+        self.assertTrue(state.snapshot()["part"]["is_newest"])
+        state.add_prediction(2 * SECOND, prediction())
+        self.assertFalse(state.snapshot()["part"]["is_newest"])
+        json.dumps(state.snapshot(), allow_nan=False)
+
+    def test_a_scan_is_called_by_its_own_name(self):
+        state = PageState()
+        state.add_prediction(1 * SECOND, prediction(scan_name="place 2"))
+        self.assertEqual(state.snapshot()["scan"]["name"], "place 2")
+
+    def test_what_a_prediction_was_made_of_and_with_is_told(self):
+        shown = trace_of(prediction(version="1.2.3", settings_hash="00ff", scan_name="place 2", part_id="lot 3"))
+        self.assertEqual([(row["label"], row["text"]) for row in shown],
+                         [("scan", "place 2"), ("part", "lot 3"), ("settings", "00ff"), ("version", "1.2.3")])
+
+    def test_a_half_space_says_who_has_judged(self):
+        solution = HalfSpaceSolution(sticks=0, verdict_by="half_space", verdict_reason="by it", margin=3.0, margin_lower=2.0, margin_upper=4.0, peel_number=NAN)
+        self.assertEqual([half_space_of(solution)["verdict"][key] for key in ("word", "by", "level")], ["RELEASES", "the half-space", "releases"])
+        solution.verdict_by = "prediction"
+        self.assertEqual(half_space_of(solution)["verdict"]["by"], "the prediction")
+        solution.verdict_by, solution.margin = "", NAN
+        self.assertIsNone(half_space_of(solution)["verdict"])
 
     def test_the_peak_is_that_of_the_way_out(self):
         points = [SeparationPoint(displacement=x, force=force, is_separation=out) for x, force, out in (

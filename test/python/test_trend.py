@@ -4,6 +4,8 @@ import math
 import unittest
 from types import SimpleNamespace
 
+import numpy as np
+from mems_stiction.control_chart import control_limits
 from mems_stiction.plots import plt
 from mems_stiction.trend import Trend
 from mems_stiction.trend_figure import trend_picture
@@ -15,7 +17,8 @@ def prediction(force=2e-7, sticks=3, margin=NAN, **changes):
     """As the node publishes it; without a margin no device is stated."""
     values = dict(status=0, pull_off_force=force, sticks=sticks, reason="the reason", margin=margin, margin_lower=0.5 * margin,
                   margin_upper=2 * margin, device_pull_off_force=10 * force if margin == margin else NAN,
-                  restoring_force=10 * force * margin, peel_number=NAN, peel_number_lower=NAN, peel_number_upper=NAN, contact_area_jkr=1e-15, regime_flags=0, warnings=[])
+                  restoring_force=10 * force * margin, peel_number=NAN, peel_number_lower=NAN, peel_number_upper=NAN, contact_area_jkr=1e-15, regime_flags=0, warnings=[],
+                  settings_hash="00ff")
     values.update(changes)
     return SimpleNamespace(**values)
 
@@ -84,6 +87,51 @@ class TrendTest(unittest.TestCase):
         self.assertEqual(states(self.trend), "pp")
 
 
+    def test_the_oldest_are_forgotten_and_still_counted(self):
+        self.trend = Trend(most=3)
+        self.scans(1, 2)
+        self.predictions(2)  # so that the first is lost
+        for stamp in (3, 4, 5):
+            self.scans(stamp)
+            self.predictions(stamp)
+        self.assertEqual([scan.stamp for scan in self.trend.scans], [3, 4, 5])
+        self.assertEqual([number for number, _ in self.trend.decided()], [3, 4, 5])
+        self.assertEqual((self.trend.decided_count(), self.trend.lost_count()), (5, 1))
+        figure = trend_picture(self.trend)
+        self.addCleanup(plt.close, figure)
+        said = " | ".join(text.get_text() for text in figure.texts)
+        self.assertIn("5 scans, 1 not predicted, 2 older not shown", said)
+        self.assertIn("Scan 5: ", said)
+
+
+class ControlLimitsTest(unittest.TestCase):
+    def test_limits_are_2_66_moving_ranges_about_the_mean_of_the_logarithms(self):
+        values = [math.exp(x) for x in (0, 1, 0, 1, 0, 1, 0, 1)]  # mean 0.5, every moving range 1
+        limits = control_limits(values)
+        self.assertAlmostEqual(limits.centre, math.exp(0.5))
+        self.assertAlmostEqual(math.log(limits.upper), 0.5 + 3 / 1.128)
+        self.assertAlmostEqual(math.log(limits.lower), 0.5 - 3 / 1.128)
+
+    def test_montgomerys_table_of_a_normal_process(self):
+        # of independent normal values 3 sigma: one in 370 outside
+        random = np.random.RandomState(3)
+        values = np.exp(random.normal(1.0, 0.2, 20000))
+        limits = control_limits(list(values))
+        self.assertAlmostEqual(math.log(limits.upper) - 1.0, 0.6, delta=0.02)  # 1.5 % by the sample
+        share = np.mean([limits.is_outside(value) for value in values])
+        self.assertTrue(0.0015 < share < 0.0045, share)  # 0.0027; 54 of 20000 are known to 14 %, and the limits to 1 %
+
+    def test_what_is_missing_is_left_out_and_few_values_have_no_limits(self):
+        values = [2.0, 3.0] * 4
+        self.assertIsNone(control_limits(values[:7]))
+        for missing in (NAN, None, 0.0, math.inf):
+            limits = control_limits(values[:4] + [missing] + values[4:])
+            self.assertAlmostEqual(limits.upper, control_limits(values).upper)
+            self.assertFalse(limits.is_outside(missing or 0.0))
+        self.assertTrue(control_limits(values).is_outside(1e3))
+        self.assertTrue(control_limits(values).is_outside(1e-3))
+
+
 class TrendPictureTest(unittest.TestCase):
     def picture(self, *predictions, **settings):
         """None stands for a scan without a prediction."""
@@ -128,12 +176,42 @@ class TrendPictureTest(unittest.TestCase):
     def test_a_beam_has_its_peel_number(self):
         figure = self.picture(prediction(2e-7, 0, peel_number=3.0, peel_number_lower=2.0, peel_number_upper=4.0))
         self.assertEqual(figure.axes[1].get_ylabel(), "peel number [-]")
-        self.assertIn("Scan 1: does not stick", self.texts(figure))
+        self.assertIn("Scan 1: RELEASES", self.texts(figure))
 
     def test_decades_of_force_are_logarithmic_with_a_unit_at_each_step(self):
         axes = self.picture(prediction(1e-9), prediction(1e-6)).axes[0]
         self.assertEqual((axes.get_yscale(), axes.get_ylabel()), ("log", "pull-off force\nof the scan [N]"))
         self.assertEqual(axes.yaxis.get_major_formatter()(0.01), "10 nN")  # the axis itself counts in micronewtons
+
+    def test_control_limits_and_what_is_outside_of_them(self):
+        series = [prediction(force) for force in (2.0e-7, 2.1e-7) * 5] + [prediction(4e-7)]
+        axes = self.picture(*series).axes[0]
+        labels = axes.get_legend_handles_labels()[1]
+        self.assertIn("control limits", labels)
+        self.assertIn("outside (1)", labels)
+        ring, = [collection for collection in axes.collections if collection.get_label() == "outside (1)"]
+        self.assertEqual([round(place) for place in ring.get_offsets()[0]], [11, 400])
+        few = self.picture(*series[:7]).axes[0]
+        self.assertNotIn("control limits", few.get_legend_handles_labels()[1])
+
+    def test_other_settings_and_forces_that_do_not_count_are_no_part_of_the_limits(self):
+        before = [prediction(1e-5, settings_hash="1111")] * 5
+        series = [prediction(force) for force in (2.0e-7, 2.1e-7) * 5]
+        lost = [prediction(5e-5, status=2)]
+        wanted = control_limits([one.pull_off_force for one in series])
+        axes = self.picture(*(before + series + lost)).axes[0]
+        lines, = [collection for collection in axes.collections if collection.get_label() == "control limits"]
+        segments = lines.get_segments()
+        factor = 1e6  # the axis counts in micronewtons
+        for segment, value in zip(segments, (wanted.lower, wanted.upper)):
+            self.assertAlmostEqual(segment[0][1], value * factor)
+            self.assertEqual([segment[0][0], segment[1][0]], [5.5, 15.5])
+        self.assertNotIn("outside (1)", axes.get_legend_handles_labels()[1])
+
+    def test_flags_and_warnings_are_marked_under_their_scan(self):
+        axes = self.picture(prediction(), prediction(regime_flags=32), prediction(warnings=["odd"])).axes[0]
+        marks, = [collection for collection in axes.collections if collection.get_label() == "flags or warnings (2)"]
+        self.assertEqual([place[0] for place in marks.get_offsets()], [2, 3])
 
     def test_lower_bounds_lost_scans_and_an_empty_station_say_so(self):
         self.assertIn("at least 200 nN", self.texts(self.picture(prediction(2e-7, status=1))))

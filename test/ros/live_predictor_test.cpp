@@ -417,5 +417,72 @@ TEST(DisplayConversion, ThePreviewIsAPictureOfTheValidPixels) {
   }
 }
 
+/// So stiff that it comes off from everything.
+Configuration deviceConfiguration() {
+  Configuration configuration = softConfiguration();
+  configuration.device.spring_stiffness = 1000.0;
+  configuration.device.travel = 1e-6;
+  configuration.device.contact_area = 1e-12;
+  return configuration;
+}
+
+ReceivedScan scanOfPart(int seed, const std::string& part_id) {
+  ReceivedScan scan = roughScan(seed);
+  scan.header.stamp = ros::Time(seed, 0);
+  scan.identity = {"place " + std::to_string(seed), part_id, ""};
+  return scan;
+}
+
+TEST(LivePredictor, AScanThatNamesItsPartCountsForIt) {
+  LivePredictor predictor(deviceConfiguration(), false);
+  EXPECT_FALSE(predictor.predictScan(roughScan(), OutputOptions()).part);
+  std::vector<ScanStatement> statements;
+  PredictedScan last;
+  for (const int seed : {3, 4, 5}) {
+    last = predictor.predictScan(scanOfPart(seed, "lot 3"), OutputOptions());
+    statements.push_back(statementOf(last.provenance.scan_name, last.prediction, last.verdict));
+    predictor.predictScan(scanOfPart(seed, "another"), OutputOptions());  // they take turns
+  }
+  const PooledVerdict expected = pooledVerdictOf(statements);
+  ASSERT_TRUE(last.part);
+  EXPECT_EQ(last.part->scan_count, 3);
+  EXPECT_EQ(last.part->sticks, Sticks::kNo);
+  EXPECT_EQ(last.part->margin.value, expected.margin.value);
+  EXPECT_EQ(last.part->margin.lower, expected.margin.lower);
+  EXPECT_EQ(last.part->reason, expected.reason);
+  EXPECT_EQ(last.pool_settings_hash, last.provenance.settings_hash);
+  EXPECT_LT(last.part->margin.worst, last.part->margin.value);
+}
+
+TEST(LivePredictor, AnotherLookAtTheSameScanCountsOnce) {
+  LivePredictor predictor(deviceConfiguration(), false);
+  predictor.predictScan(scanOfPart(3, "lot 3"), OutputOptions());
+  EXPECT_FALSE(predictor.predictLastScan()->part);
+  EXPECT_FALSE(predictor.predictOnce(scanOfPart(4, "lot 3"), 0.0, 2e-6).part);
+  EXPECT_EQ(predictor.predictScan(scanOfPart(3, "lot 3"), OutputOptions()).part->scan_count, 1);  // played again
+  EXPECT_EQ(predictor.predictScan(scanOfPart(5, "lot 3"), OutputOptions()).part->scan_count, 2);
+}
+
+TEST(LivePredictor, ScansUnderAnotherLoadAreAPoolOfTheirOwn) {
+  LivePredictor predictor(deviceConfiguration(), false);
+  predictor.predictScan(scanOfPart(3, "lot 3"), OutputOptions());
+  setLoad(predictor, 0.0, 4e-6);
+  EXPECT_EQ(predictor.predictScan(scanOfPart(4, "lot 3"), OutputOptions()).part->scan_count, 1);
+  setLoad(predictor, 0.0, 2e-6);
+  EXPECT_EQ(predictor.predictScan(scanOfPart(5, "lot 3"), OutputOptions()).part->scan_count, 2);
+}
+
+TEST(LivePredictor, APoseThatComesWithEachScanLeavesThemOneCase) {
+  LivePredictor predictor(deviceConfiguration(), false);
+  for (const int seed : {3, 4}) {
+    ReceivedScan scan = scanOfPart(seed, "lot 3");
+    scan.counter_surface_pose = SurfacePose();
+    scan.counter_surface_pose->offset_x = 1e-9 * seed;
+    const PredictedScan predicted = predictor.predictScan(scan, OutputOptions());
+    EXPECT_EQ(predicted.part->scan_count, seed - 2);
+    EXPECT_NE(predicted.pool_settings_hash, predicted.provenance.settings_hash);
+  }
+}
+
 }  // namespace
 }  // namespace mems_stiction

@@ -11,8 +11,8 @@ import dynamic_reconfigure.client
 import numpy as np
 import rospy
 import rostest
-from mems_stiction.msg import (CycleContactAction, CycleContactGoal, HalfSpaceSolution, StictionPrediction, SweepLoadAction,
-                               SweepLoadGoal)
+from mems_stiction.msg import (CycleContactAction, CycleContactGoal, HalfSpaceSolution, PartVerdict, StictionPrediction,
+                               SweepLoadAction, SweepLoadGoal)
 from mems_stiction.page_words import flags_of, ratio_text, with_unit
 from mems_stiction.quantities import percent
 from roslib.packages import find_node
@@ -154,6 +154,28 @@ class PageTest(unittest.TestCase):
         self.assertTrue(self.page.text("#scan-name").endswith(": " + HOSTILE), self.page.text("#scan-name"))
         self.assertEqual(self.page.value("document.title"), "Stiction station")
         self.assertEqual(self.page.value("document.querySelectorAll('#scan-name *').length"), 0)
+
+    def test_6b_the_part_and_what_the_scan_was_made_with_are_shown(self):
+        parts = Collector("part_verdict", PartVerdict)
+        for seed, serial in ((11, "0012"), (12, "0012"), (13, HOSTILE)):
+            stamp = self.station.stamp()
+            info = info_message(stamp)
+            info.scan_name, info.part_id, info.serial_id = "place %d" % seed, "lot 3", serial
+            self.station.height.publish(image_message(rough_surface(seed), stamp))
+            self.station.info.publish(info)
+            self.page.wait("state.scan && state.scan.stamp === '%.3f'" % stamp.to_sec())
+            wait_until(lambda: parts.messages and parts.messages[-1].header.stamp == stamp, "the part's verdict")
+            part = parts.messages[-1]
+            self.assertEqual(self.page.text("#part-word"), {0: "RELEASES", 1: "MARGINAL", 2: "STICKS", 3: "NOT KNOWN"}[part.sticks])
+            self.assertIn("margin %s (95 %%: %s to %s)" % tuple(ratio_text(value) for value in (part.margin, part.margin_lower, part.margin_upper)),
+                          self.page.text("#part-ratio"))
+            self.assertEqual(self.page.text("#part-name"), "Part lot 3, serial number %s:" % serial)
+            self.open_tab("node")
+            for name in ("scan_name", "part_id", "serial_id", "settings_hash", "version"):
+                self.assertEqual(self.figure(name)[0], getattr(part, name))
+        self.assertIn("1 scan", self.page.text("#part-scans"))
+        self.live(rough_surface(14))
+        self.assertIn("(before the newest scan)", self.page.text("#part-name"))
 
     def test_7_sweep_and_cycles_are_shown(self):
         for name, kind, goal in (("sweep_load", SweepLoadAction, SweepLoadGoal(voltages=[0.0, 10.0, 20.0])),

@@ -7,7 +7,10 @@
 #include <gtest/gtest.h>
 
 #include "mems_stiction/prediction/prediction_fields.hpp"
+#include "mems_stiction/ros/part_verdict_conversion.hpp"
 #include "mems_stiction/ros/prediction_conversion.hpp"
+#include "mems_stiction/verdict/part_verdict_fields.hpp"
+#include "mems_stiction/verdict/regime_flags.hpp"
 #include "mems_stiction/verdict/verdict_fields.hpp"
 
 namespace mems_stiction {
@@ -79,6 +82,37 @@ TEST(PredictionMessage, HoldsEveryFieldOfTheTables) {
   EXPECT_GT(visited, 70);
   EXPECT_EQ(message.tip_unreached_fraction, 0.125);
   EXPECT_EQ(message.preprocessing, recordLines(scan.preprocessing));
+}
+
+TEST(PartVerdictMessage, HoldsEveryFieldOfTheTables) {
+  PredictedScan scan;
+  Fill fill;
+  scan.part.emplace();
+  visitPartVerdictFields(
+      *scan.part, [&](const std::string& name, auto& value, const char* unit) { fill(name.c_str(), value, unit); });
+  scan.part->regime_flags = kBondedFlag | kBorderFlag;
+  scan.part->warnings = {"first, second"};
+  scan.provenance.part_id = "lot 3";
+  scan.provenance.settings_hash = "with a pose";
+  scan.pool_settings_hash = "without";
+
+  const PartVerdict message = partVerdictMessage(scan, {});
+  std::ostringstream stream;
+  stream << message;
+  std::set<std::string> lines;
+  std::string line;
+  for (std::istringstream reader(stream.str()); std::getline(reader, line);) lines.insert(line);
+  int visited = 0;
+  const PooledVerdict& filled = *scan.part;
+  visitPartVerdictFields(filled, [&](const std::string& name, const auto& value, const char*) {
+    EXPECT_TRUE(lines.count(name + ": " + text(value))) << name << " " << text(value) << " in\n" << stream.str();
+    ++visited;
+  });
+  EXPECT_EQ(visited, 20);
+  EXPECT_EQ(message.flags, (std::vector<std::string>{"bonded", "border"}));
+  EXPECT_EQ(message.warnings, std::vector<std::string>{"first; second"});
+  EXPECT_EQ(message.part_id, "lot 3");
+  EXPECT_EQ(message.settings_hash, "without");
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 
 #include "mems_stiction/ros/image_conversion.hpp"
 #include "mems_stiction/ros/predicted_scan.hpp"
+#include "mems_stiction/scan/part_scans.hpp"
 #include "mems_stiction/scan/running_settings.hpp"
 #include "mems_stiction/scan/scan_predictor.hpp"
 
@@ -28,6 +29,11 @@ struct StationCase {
   SettingsOwner::Snapshot settings;  ///< of the time when it was asked for
 };
 
+/// How many parts the node remembers: that which has waited longest for a scan is forgotten first.
+inline constexpr std::size_t kMostParts = 100;
+/// And scans of each, the newest: some 500 bytes a scan, 50 MB for all.
+inline constexpr std::size_t kMostScansOfAPart = 1000;
+
 /// The core as the node uses it, one scan after the other.
 class LivePredictor {
  public:
@@ -40,7 +46,7 @@ class LivePredictor {
   SettingsOwner& settings() { return settings_; }
   const SettingsOwner& settings() const { return settings_; }
 
-  /// The scan that the topic brought. @throw SurfaceError if it cannot be predicted; then nothing changes.
+  /// The scan that the topic brought; it counts for its part, if it states one. @throw SurfaceError if it cannot be predicted; then nothing changes.
   PredictedScan predictScan(const ReceivedScan& scan, const OutputOptions& output);
 
   /// The last scan again, with the settings of now, without adding to the accumulated deformation.
@@ -84,6 +90,8 @@ class LivePredictor {
   const PreparedScan& lastPrepared();
   void setPoseOf(const ReceivedScan& scan);
   void requireCounterSurface() const;
+  /// The prediction among those of its part.
+  void addToPart(const ReceivedScan& scan, const Configuration& settings, PredictedScan& predicted);
   /// The prediction with `options` set before, and its verdict.
   PredictedScan judged(const PreparedScan& prepared, const Configuration& settings, const ScanIdentity& identity,
                        const std::vector<std::string>& warnings);
@@ -93,6 +101,7 @@ class LivePredictor {
   bool accumulate_deformation_;
   bool has_counter_surface_ = false;
   std::optional<LastScan> last_;
+  PartScans parts_{kMostParts, kMostScansOfAPart};
   cv::Mat wear_;  ///< depth pressed in by the contacts so far, rows x cols CV_64FC1 [m]; empty = none
 };
 

@@ -3,6 +3,7 @@
 /// @file
 /// All that is said about one scan.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "mems_stiction/prediction/prediction.hpp"
 #include "mems_stiction/preprocess/pipeline.hpp"
 #include "mems_stiction/scan/provenance.hpp"
+#include "mems_stiction/verdict/part_verdict.hpp"
 #include "mems_stiction/verdict/verdict.hpp"
 
 namespace mems_stiction {
@@ -22,6 +24,8 @@ struct PredictedScan {
   std::string formulation;            ///< approach/formulation
   std::vector<std::string> warnings;  ///< about scan and settings, in words
   Provenance provenance;              ///< what was scanned, and what it was predicted with
+  std::optional<PooledVerdict> part;  ///< what all scans of its part say with it; nothing if it states no part
+  std::string pool_settings_hash;     ///< of the settings that those scans share
   std::vector<CurvePoint> curve;      ///< force over height; empty if the formulation does not follow it
 };
 

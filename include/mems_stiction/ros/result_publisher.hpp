@@ -23,7 +23,7 @@ class ResultPublisher {
   /// What the subscribers of this moment need.
   OutputOptions demanded() const;
 
-  /// Publishes the prediction, and of the rest what it holds and somebody listens to.
+  /// Publishes the prediction, what its part's scans say, and of the rest what it holds and somebody listens to.
   void publish(const PredictedScan& predicted, const ReceivedScan& scan) const;
 
   bool isPreviewWanted() const;
@@ -33,6 +33,7 @@ class ResultPublisher {
   DisplayOptions display_;
   image_transport::ImageTransport transport_;
   ros::Publisher prediction_;
+  ros::Publisher part_verdict_;
   image_transport::Publisher deformed_height_;
   image_transport::Publisher deformed_counter_height_;
   image_transport::Publisher contact_map_;

@@ -50,6 +50,9 @@ namespace mems_stiction {
 struct AdhesionSpread {
   std::vector<double> pull_off;       ///< pull-off force over the prediction's [-]
   std::vector<double> apparent_work;  ///< apparent work of adhesion over apparentWorkOfAdhesion() [-]
+  /// What of it is of the place alone: standard deviation of the logarithm of the pull-off force from place to place, by
+  /// the number of contacts [-]; 0 without scan_sampling, and of conforming surfaces. The rest is the same at every place.
+  double place_deviation = 0.0;
 
   bool isKnown() const { return !pull_off.empty(); }
 };

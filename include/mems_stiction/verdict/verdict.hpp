@@ -78,6 +78,9 @@ struct Verdict {
   double unstuck_length = kNotStated;             ///< free arm of the beam while it is stuck [m]
   double pull_in_voltage = kNotStated;            ///< at which the electrodes close [V]
   std::uint32_t regime_flags = 0;                 ///< bits of RegimeFlag
+
+  /// What of the interval is of the place alone, for pooledVerdictOf(): standard deviation of ln margin [-]. In no message.
+  double place_deviation = kNotStated;
 };
 
 /// - @p options those that the prediction was made with

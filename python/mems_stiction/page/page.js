@@ -68,7 +68,23 @@ function showVerdict() {
   say("ratio-interval", shownRatio ? scan.ratio.interval : "");
   const limits = scan && !isLost ? scan.flags.concat(scan.warnings.map((text) => `warning: ${text}`)) : [];
   say("limits", limits.join(" \u00b7 "));
+  showPart();
   showAge();
+}
+
+function showPart() {
+  const part = state.part;
+  const box = byId("part");
+  box.className = part ? (part.is_newest ? part.level : `${part.level} before`) : "";
+  say("part-name", part ? `${part.name[0].toUpperCase()}${part.name.slice(1)}` + (part.is_newest ? ":" : " (before the newest scan):") : "");
+  say("part-word", part ? part.word : "");
+  say("part-ratio", part && part.ratio ? `${part.ratio.label} ${part.ratio.text}` + (part.ratio.interval ? ` (${part.ratio.interval})` : "") : "");
+  say("part-scans", part ? [part.scans, part.worst, part.verdict_by && `by ${part.verdict_by}`].filter(Boolean).join(", ") + "." : "");
+  const shown = part && part.is_newest ? state.scan.flags : [];  // above, of the newest scan
+  const flags = part ? part.flags.filter((text) => !shown.includes(text)) : [];
+  // that of a part that releases is its interval, which stands above
+  const said = part ? (part.level === "releases" ? [] : [part.reason]).concat(part.warnings.map((text) => `Warning: ${text}.`)) : [];
+  say("part-reason", said.concat(flags.length ? [`Of its other scans: ${flags.join("; ")}.`] : []).join(" "));
 }
 
 function showAge() {
@@ -98,9 +114,13 @@ function showTab() {
 
 function showOverview() {
   showTrend();
-  const figures = byId("figures");
+  fillFigures("figures", state.scan ? state.scan.figures : []);
+}
+
+function fillFigures(id, rows) {
+  const figures = byId(id);
   figures.replaceChildren();
-  for (const figure of state.scan ? state.scan.figures : []) {
+  for (const figure of rows) {
     const label = document.createElement("dt");
     const text = document.createElement("dd");
     label.textContent = figure.label;
@@ -196,7 +216,9 @@ function showCurve() {
   say("curve-words", curve ? `Scan ${state.scan.number}, ${curve.formulation}: pull-off force ${curve.text}, at ${signedLength(curve.peak[0])}.` :
       state.scan ? "This formulation does not follow the force over the height." : "No scan yet.");
   say("half-space", half ? `Half-space${half.number ? " of scan " + half.number : ""}: ${half.status}. ` +
-      (half.is_solved ? `Pull-off force ${half.text}.` : half.message) + half.notes.map((note) => ` But ${note}.`).join("") : "");
+      (half.is_solved ? `Pull-off force ${half.text}.` : half.message) +
+      (half.verdict ? ` Judged by ${half.verdict.by}: ${half.verdict.word}, ${half.verdict.ratio.label} ${half.verdict.ratio.text}` +
+        (half.verdict.ratio.interval ? ` (${half.verdict.ratio.interval})` : "") + "." : "") + half.notes.map((note) => ` But ${note}.`).join("") : "");
   const all = [curve, halfCurve].filter(Boolean).flatMap((one) => one.in.concat(one.out));
   if (!all.length) { byId("force-curve").replaceChildren(); return; }
   const strongest = Math.max(...all.map((point) => point[1]), 1e-30);
@@ -276,6 +298,7 @@ function drawCycles(points) {
 // ---------------------------------------------------------------- the node
 
 function showNode() {
+  fillFigures("trace", state.scan ? state.scan.trace : []);
   fillList("losses", state.losses.length ? state.losses.slice().reverse().map((loss) =>
     (loss.count > 1 ? `${loss.count} scans, the last ${loss.number}: ` : `scan ${loss.number}: `) + (loss.reason || "no reason given"))
     : [state.count ? "None: every scan since station_page was started is predicted." : "No scan yet."]);

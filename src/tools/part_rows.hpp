@@ -1,0 +1,23 @@
+#pragma once
+
+/// The verdicts on parts, from a file of rows that stiction_batch has written: whatever wrote the rows, in one run or in
+/// several, gives the same.
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "batch_rows.hpp"
+
+namespace mems_stiction {
+
+/// Pools the rows of a file by part_id and serial_id, and writes a row for each part. Rows that state neither belong to none;
+/// a scan that was not predicted does not say of which part it was.
+/// @param path .csv or .jsonl, as rowFormatOf() takes it
+/// @return how many parts there are. @throw FileError, OptionsError
+std::size_t writeParts(const std::string& rows_path, const std::string& path);
+
+/// A line of CSV as rowText() writes it, in its cells.
+std::vector<std::string> cellsOf(const std::string& line);
+
+}  // namespace mems_stiction

@@ -1,0 +1,46 @@
+#include "mems_stiction/verdict/finding.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+namespace mems_stiction {
+
+int gravity(Sticks sticks) {
+  switch (sticks) {
+    case Sticks::kNo:
+      return 0;
+    case Sticks::kMarginal:
+      return 1;
+    case Sticks::kUnknown:
+      return 2;
+    case Sticks::kYes:
+      break;
+  }
+  return 3;
+}
+
+std::string shortNumber(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  if (std::strstr(text, "e+") == nullptr || !(std::abs(value) < 1e6)) return text;
+  const double rounded = std::strtod(text, nullptr);  // 7250, not 7.25e+03
+  std::snprintf(text, sizeof text, "%.0f", rounded);
+  return text;
+}
+
+Finding judgedRatio(const std::string& name, double value, double lowest, double highest, bool is_upper_bound,
+                    bool has_cleanings) {
+  const std::string interval = name + " " + shortNumber(value) + ", 95 % within " + shortNumber(lowest) + " to " +
+                               shortNumber(highest) + (has_cleanings ? " (cleaning included)" : "");
+  if (highest < 1.0) return {Sticks::kYes, interval + ": below 1"};
+  if (is_upper_bound) {
+    return {Sticks::kUnknown, "the surfaces bond, so adhesion is at least as predicted: " + name + " at most " +
+                                  shortNumber(value) + ", but not safely below 1"};
+  }
+  if (lowest > 1.0) return {Sticks::kNo, interval + ": above 1"};
+  return {Sticks::kMarginal, interval + ": 1 lies within"};
+}
+
+}  // namespace mems_stiction
