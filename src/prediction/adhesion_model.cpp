@@ -6,6 +6,7 @@
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/base/time_limit.hpp"
 #include "mems_stiction/contact/contact_solver.hpp"
 #include "mems_stiction/prediction/contact_summary.hpp"
 
@@ -84,8 +85,10 @@ void AdhesionModel::Implementation::predict(const SurfacePair& surfaces, Predict
   const double rms_height = surfaces.upperIsPlane() ? gap_.rmsGap() : heightStatistics(surfaces.lower).rms_height;
   const ContactProblem problem{surfaces, gap_, compositeRmsHeight(surfaces, rms_height), options_};
 
+  TimeLimit::check();
   handOver(prediction, solution_);
   solver_->solve(problem, solution_);
+  TimeLimit::check();
   summarizeContact(problem, solution_, values_, prediction);
   prediction.rms_height = rms_height;
   if (options_.output.roughness) prediction.roughness = arealParameters(surfaces.lower);
