@@ -61,10 +61,11 @@ buildAll() {
   say "${build_name:+$build_name: }built in $(clock $((SECONDS - started)))"
 }
 
-# builtProgram NAME: the file of a program of this build. Those without ROS and the portable one lie inside build's folder.
+# builtProgram NAME: the file of a program of this build. Those without ROS, the portable one, the fuzzing programs and those
+# with sanitizers lie in folders of their own inside build's.
 builtProgram() {
-  find "$build_folder" \( -path "$build_folder/core" -o -path "$build_folder/portable" \) -prune \
-    -o -name "$1" -type f -perm -u+x -print -quit
+  find "$build_folder" \( -path "$build_folder/core" -o -path "$build_folder/portable" -o -path "$build_folder/fuzz" \
+    -o -path "$build_folder/sanitize" \) -prune -o -name "$1" -type f -perm -u+x -print -quit
 }
 
 # The Python module of a build without ROS.

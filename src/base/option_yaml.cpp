@@ -125,17 +125,27 @@ std::size_t editDistance(const std::string& left, const std::string& right) {
 
 std::string lastPart(const std::string& key) { return key.substr(key.rfind('/') + 1); }
 
+/// Of so many keys that nobody knows each is named: more are another file.
+constexpr std::size_t kMostUnknown = 100;
+
 /// Known keys that the unknown one may have meant, as " (did you mean ...?)"; empty if none is near.
 std::string suggestion(const std::string& unknown, const std::vector<std::string>& known) {
+  const std::size_t farthest = std::max<std::size_t>(2, unknown.size() / 4);
+  const auto distanceTo = [&](const std::string& key) {
+    if (lastPart(key) == lastPart(unknown)) return std::size_t{1};
+    // no word is nearer than their lengths differ, and the distance to a very long one takes long to find
+    const std::size_t least = std::max(key.size(), unknown.size()) - std::min(key.size(), unknown.size());
+    return least > farthest ? least : editDistance(unknown, key);
+  };
   std::vector<std::string> nearest;
-  std::size_t best = std::max<std::size_t>(2, unknown.size() / 4) + 1;
+  std::size_t best = farthest + 1;
   for (const std::string& key : known) {
-    const std::size_t distance = lastPart(key) == lastPart(unknown) ? 1 : editDistance(unknown, key);
+    const std::size_t distance = distanceTo(key);
     if (distance < best) {
       best = distance;
       nearest.clear();
     }
-    if (distance == best && best <= std::max<std::size_t>(2, unknown.size() / 4)) nearest.push_back(key);
+    if (distance == best && best <= farthest) nearest.push_back(key);
   }
   if (nearest.empty() || nearest.size() > 3) return "";
   std::string text = " (did you mean ";
@@ -153,6 +163,7 @@ class YamlReader : public OptionVisitor {
       return;
     }
     flatten(tree, "", leaves_, lines_);
+    for (std::size_t place = 0; place < leaves_.size(); ++place) places_[leaves_[place].key].push_back(place);
   }
 
   void number(const std::string& key, double& value, const std::string& unit, const Range& range,
@@ -218,6 +229,7 @@ class YamlReader : public OptionVisitor {
   /// Call after every field was shown.
   std::vector<std::string> violations() const {
     std::vector<std::string> lines = lines_;
+    std::size_t unknown_count = 0;
     for (const Leaf& leaf : leaves_) {
       const std::string section = leaf.key + "/";
       const bool empty_section =
@@ -225,6 +237,7 @@ class YamlReader : public OptionVisitor {
             return key.compare(0, section.size(), section) == 0;
           });
       if (leaf.uses == 0 && !empty_section) {
+        if (++unknown_count > kMostUnknown) continue;
         const std::string name = lastPart(leaf.key);
         const bool is_fraction = leaf.node.IsNull() && !name.empty() &&
                                  name.find_first_not_of("0123456789") == std::string::npos;  // {voltage: 0,05}
@@ -232,6 +245,9 @@ class YamlReader : public OptionVisitor {
                         (is_fraction ? " (is it behind a decimal comma? the decimal sign is a point)"
                                      : suggestion(leaf.key, known_)));
       }
+    }
+    if (unknown_count > kMostUnknown) {
+      lines.push_back(std::to_string(unknown_count - kMostUnknown) + " more keys are given that are no settings");
     }
     return lines;
   }
@@ -241,8 +257,10 @@ class YamlReader : public OptionVisitor {
   const YAML::Node* take(const std::string& key) {
     known_.push_back(key);
     const YAML::Node* found = nullptr;
-    for (Leaf& leaf : leaves_) {
-      if (leaf.key != key) continue;
+    const auto places = places_.find(key);
+    if (places == places_.end()) return nullptr;
+    for (const std::size_t place_of_leaf : places->second) {
+      Leaf& leaf = leaves_[place_of_leaf];
       ++leaf.uses;
       if (found != nullptr) {
         const std::string place = placeOf(leaf.node);
@@ -264,6 +282,7 @@ class YamlReader : public OptionVisitor {
   }
 
   std::vector<Leaf> leaves_;
+  std::map<std::string, std::vector<std::size_t>> places_;  ///< in leaves_, of each key
   std::vector<std::string> known_;
   std::vector<std::string> lines_;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "mems_stiction/base/time_limit.hpp"
 #include "mems_stiction/equilibrium/level_search.hpp"
 
 namespace mems_stiction {
@@ -40,6 +41,7 @@ void ApproachSearch::search(EquilibriumState& state) {
   state.plastic_work = 0.0;
   state.curve.clear();
   while (state.steps < setting.max_steps) {
+    TimeLimit::check();
     ++state.steps;
     const int previous_count = state.contact_count;
     const double previous_approach = state.approach;

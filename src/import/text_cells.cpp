@@ -137,7 +137,10 @@ class CellReader {
   /// Appends the cells of the line. @return how many
   std::size_t read(const TextLine& line) {
     std::vector<Piece> pieces = piecesOf(line.text, style_.separator);
-    if (style_.has_end && style_.separator != ' ') pieces.pop_back();
+    if (style_.has_end && style_.separator != ' ') {
+      if (pieces.back().begin != pieces.back().end) throw FileError(at(line) + "a quotation mark without its partner");
+      pieces.pop_back();
+    }
     if (style_.separator == ' ') checkTabs(line);
     std::size_t column = 0;
     for (const Piece& piece : pieces) {
@@ -249,7 +252,7 @@ TextCells textCells(const std::vector<TextLine>& lines, const TextStyle& style) 
   std::size_t cols = 0;
   for (const TextLine& line : lines) {
     const std::size_t count = reader.read(line);
-    if (cols != 0 && count != cols) {
+    if (&line != &lines.front() && count != cols) {
       throw FileError(at(line) + std::to_string(count) + " cells, the lines before it have " + std::to_string(cols) +
                       ": the file is cut off, or not a grid; column " + std::to_string(std::min(count, cols) + 1));
     }

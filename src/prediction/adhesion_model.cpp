@@ -6,6 +6,7 @@
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/base/time_limit.hpp"
 #include "mems_stiction/contact/contact_solver.hpp"
 #include "mems_stiction/prediction/contact_summary.hpp"
 
@@ -93,8 +94,10 @@ void AdhesionModel::Implementation::see(const SurfacePair& surfaces) {
 
 void AdhesionModel::Implementation::solve(const SurfacePair& surfaces, Prediction& prediction) {
   const ContactProblem problem{surfaces, gap_, composite_rms_height_, options_};
+  TimeLimit::check();
   handOver(prediction, solution_);
   solver_->solve(problem, solution_);
+  TimeLimit::check();
   summarizeContact(problem, solution_, values_, prediction);
   prediction.rms_height = rms_height_;
   if (options_.output.roughness) prediction.roughness = arealParameters(surfaces.lower);

@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/time_limit.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -124,7 +125,10 @@ const CleanedScan& ScanCleaner::clean(const HeightMap& scan) {
   }
   work_.take(scan);
   auto step = cleaned_.record.steps.begin();
-  const auto note = [&](const HeightChange& change) { static_cast<HeightChange&>(*step++) = change; };
+  const auto note = [&](const HeightChange& change) {
+    static_cast<HeightChange&>(*step++) = change;
+    TimeLimit::check();
+  };
   if (isWanted(options_.region)) {
     cleaned_.outside = region_.outside(work_.heights.size(), work_.pitch_x, work_.pitch_y);
     note(leaveOut(work_, cleaned_.outside));

@@ -9,6 +9,7 @@ void Configuration::describe(OptionVisitor& visitor) {
   spatial_roughness.describe(visitor);
   part.describe(visitor);
   scan.describe(visitor);
+  limits.describe(visitor);
   resolution.describe(visitor);
   preprocessing.describe(visitor);
   counter_surface.describe(visitor);
@@ -20,7 +21,7 @@ void Configuration::describe(OptionVisitor& visitor) {
 std::vector<std::string> Configuration::validate() const {
   std::vector<std::string> violations = model.validate();
   for (const std::vector<std::string>& of_section :
-       {rangeViolations(spatial_roughness), rangeViolations(scan), rangeViolations(resolution),
+       {rangeViolations(spatial_roughness), rangeViolations(scan), rangeViolations(limits), rangeViolations(resolution),
         rangeViolations(preprocessing), rangeViolations(counter_surface), rangeViolations(uncertainty),
         rangeViolations(half_space)}) {
     violations.insert(violations.end(), of_section.begin(), of_section.end());

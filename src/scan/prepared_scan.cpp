@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/time_limit.hpp"
 #include "mems_stiction/preprocess/refine.hpp"
 
 namespace mems_stiction {
@@ -36,6 +37,7 @@ PipelineOptions refinementAlone(const PipelineOptions& options) {
 ScanPreparer::ScanPreparer(const Configuration& configuration)
     : cleaner_(withoutRefinement(checked(configuration).preprocessing)),
       refinement_(refinementAlone(configuration.preprocessing)),
+      limits_(configuration.limits),
       with_roughness_(configuration.model.output.roughness),
       spatial_roughness_(configuration.spatial_roughness),
       counter_surface_(configuration.counter_surface, configuration.scan, withoutRegion(cleaner_.options())) {
@@ -67,6 +69,8 @@ PreparedScan ScanPreparer::ready(const SurfacePair& surfaces) const {
 
 PreparedScan ScanPreparer::prepare(const HeightMap& scan) {
   const auto start = std::chrono::steady_clock::now();
+  limits_.checkSize(scan, refinement_.refine.factor);
+  const TimeLimit limit(limits_.timeLeft(0.0), ScanLimits::kMaxTime);
   ++scans_cleaned_;
   CleanedScan cleaned = cleaner_.clean(scan);
   cleaner_.letGo();
@@ -75,6 +79,7 @@ PreparedScan ScanPreparer::prepare(const HeightMap& scan) {
   record.steps.insert(record.steps.end(), prepared.record.steps.begin(), prepared.record.steps.end());
   prepared.record = std::move(record);
   prepared.outside = cleaned.outside;
+  TimeLimit::check();
   if (with_roughness_) prepared.roughness = arealParameters(prepared.model_surfaces.lower);
   if (spatial_roughness_.enabled) {
     prepared.spatial_roughness = spatialRoughness(prepared.surfaces.lower, spatial_roughness_);

@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/time_limit.hpp"
 #include "mems_stiction/scan/block_maxima.hpp"
 #include "mems_stiction/scan/frame_load.hpp"
 #include "mems_stiction/scan/region_border.hpp"
@@ -76,6 +77,7 @@ ScanPredictor::ScanPredictor(const Configuration& configuration)
       options_(withoutRoughness(configuration.model)),
       device_(configuration.device),
       model_(withoutFrameLoad(options_)),
+      limits_(configuration.limits),
       min_contact_pixels_(configuration.resolution.min_contact_pixels),
       tip_radius_(configuration.resolution.tip_radius > 0.0 ? configuration.resolution.tip_radius
                                                             : configuration.preprocessing.tip.radius) {}
@@ -91,11 +93,13 @@ void ScanPredictor::setFrame(const PreparedScan& prepared) {
 }
 
 Prediction ScanPredictor::predict(const PreparedScan& prepared) {
+  const TimeLimit limit(limits_.timeLeft(prepared.preparation_time), ScanLimits::kMaxTime);
   setFrame(prepared);
   return finished(prepared, model_.predict(prepared.model_surfaces));
 }
 
 Prediction ScanPredictor::predictAgain(const PreparedScan& prepared) {
+  const TimeLimit limit(limits_.timeLeft(prepared.preparation_time), ScanLimits::kMaxTime);
   setFrame(prepared);
   return finished(prepared, model_.predictAgain(prepared.model_surfaces));
 }

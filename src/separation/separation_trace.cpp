@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mems_stiction/base/time_limit.hpp"
+
 namespace mems_stiction {
 namespace {
 
@@ -83,6 +85,7 @@ double SeparationTrace::limitApproach() {
 }
 
 SeparationState SeparationTrace::at(double approach, double expected_end) {
+  TimeLimit::check();
   orderUpTo(approach + law().range(), expected_end + law().range());
   SeparationState state;
   state.approach = approach;

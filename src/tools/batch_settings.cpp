@@ -54,6 +54,12 @@ void checkSettings(const std::string& path, const std::string& settings) {
   writeFile(settings_path, settings);
 }
 
-std::size_t totalOf(const std::string& settings) { return YAML::Load(settings)["total"].as<std::size_t>(); }
+std::size_t totalOf(const std::string& path, const std::string& settings) {
+  try {
+    return YAML::Load(settings)["total"].as<std::size_t>();
+  } catch (const YAML::Exception& error) {
+    throw FileError(settingsPathOf(path) + ": damaged, it does not say how many rows there are: " + error.what());
+  }
+}
 
 }  // namespace mems_stiction

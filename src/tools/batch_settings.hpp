@@ -20,7 +20,8 @@ std::string settingsText(std::size_t total, const std::vector<std::string>& inpu
 /// @throw FileError if the file of rows holds those of other settings
 void checkSettings(const std::string& path, const std::string& settings);
 
-/// The total of settingsText().
-std::size_t totalOf(const std::string& settings);
+/// The total of settingsText(), which was read from the file beside the rows in `path`.
+/// @throw FileError naming that file if it does not say
+std::size_t totalOf(const std::string& path, const std::string& settings);
 
 }  // namespace mems_stiction

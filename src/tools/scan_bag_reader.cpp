@@ -10,6 +10,7 @@
 #include <ros/serialization.h>
 #include <boost/make_shared.hpp>
 
+#include "bag_check.hpp"
 #include "mems_stiction/base/child_process.hpp"
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/ros/topic_names.hpp"
@@ -32,28 +33,56 @@ std::string sibling(const std::string& topic, const char* name) {
   return slash == std::string::npos ? name : topic.substr(0, slash + 1) + name;
 }
 
-/// @throw SurfaceError if the message is of another type
+/// Calls `read` with the message's bytes. @throw SurfaceError if they are damaged
+template <typename Function>
+void readBytes(const rosbag::MessageInstance& message, const Function& read) {
+  try {
+    std::vector<std::uint8_t> bytes(message.size());
+    ros::serialization::OStream written(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
+    message.write(written);
+    read(ros::serialization::IStream(bytes.data(), static_cast<std::uint32_t>(bytes.size())));
+  } catch (const rosbag::BagException& error) {
+    throw SurfaceError("the bag is damaged: a message of '" + message.getTopic() + "' cannot be read: " + error.what());
+  } catch (const ros::Exception&) {  // of roscpp's deserialization
+    throw SurfaceError("the bag is damaged: a message of '" + message.getTopic() + "' is shorter than it states");
+  }
+}
+
+/// roscpp makes room for the pixels that an image states before it looks whether they are there: up to 4 GB.
+/// @throw ros::serialization::StreamOverrunException if they are not
+void checkLength(ros::serialization::IStream stream, const sensor_msgs::Image& /*type*/) {
+  sensor_msgs::Image image;
+  stream.next(image.header);
+  stream.next(image.height);
+  stream.next(image.width);
+  stream.next(image.encoding);
+  stream.next(image.is_bigendian);
+  stream.next(image.step);
+  std::uint32_t length = 0;
+  stream.next(length);
+  stream.advance(length);
+}
+void checkLength(const ros::serialization::IStream& /*stream*/, const ScanInfo& /*type*/) {}  // has no array
+
+/// @throw SurfaceError if the message is of another type, or damaged
 template <typename Message>
 boost::shared_ptr<const Message> instantiate(const rosbag::MessageInstance& message) {
-  boost::shared_ptr<const Message> content = message.instantiate<Message>();
-  if (!content) {
+  if (!message.isType<Message>()) {
     throw SurfaceError("topic '" + message.getTopic() + "' carries " + message.getDataType() + ", must be " +
                        ros::message_traits::DataType<Message>::value());
   }
+  const auto content = boost::make_shared<Message>();
+  readBytes(message, [&](ros::serialization::IStream stream) {
+    checkLength(stream, *content);
+    stream.next(*content);
+  });
   return content;
 }
 
 /// MD5 sum of ScanInfo before it named scan and part.
 constexpr const char* kUnnamedScanInfo = "e2c5059195594fd4b9cdb74aaee36cf7";
 
-/// scan_info of today, or of bags that were recorded before: what is of today only stands behind the rest.
-boost::shared_ptr<const ScanInfo> instantiateInfo(const rosbag::MessageInstance& message) {
-  if (message.getMD5Sum() != kUnnamedScanInfo) return instantiate<ScanInfo>(message);
-  std::vector<std::uint8_t> bytes(message.size());
-  ros::serialization::OStream written(bytes.data(), message.size());
-  message.write(written);
-  ros::serialization::IStream stream(bytes.data(), message.size());
-  const auto info = boost::make_shared<ScanInfo>();
+void readUnnamed(ros::serialization::IStream stream, ScanInfo* info) {
   stream.next(info->header);
   stream.next(info->pitch_x);
   stream.next(info->pitch_y);
@@ -61,6 +90,13 @@ boost::shared_ptr<const ScanInfo> instantiateInfo(const rosbag::MessageInstance&
   stream.next(info->height_offset);
   stream.next(info->invalid_value);
   stream.next(info->has_invalid_value);
+}
+
+/// scan_info of today, or of bags that were recorded before: what is of today only stands behind the rest.
+boost::shared_ptr<const ScanInfo> instantiateInfo(const rosbag::MessageInstance& message) {
+  if (message.getMD5Sum() != kUnnamedScanInfo) return instantiate<ScanInfo>(message);
+  const auto info = boost::make_shared<ScanInfo>();
+  readBytes(message, [&](const ros::serialization::IStream& stream) { readUnnamed(stream, info.get()); });
   return info;
 }
 
@@ -69,14 +105,14 @@ boost::shared_ptr<const ScanInfo> instantiateInfo(const rosbag::MessageInstance&
 ScanBagReader::ScanBagReader(const std::string& path, const std::string& height_topic, const ScanOptions& parameters)
     : path_(path), parameters_(parameters) {
   if (!fs::exists(path)) throw FileError(path + ": no such file");
-  try {
-    bag_.open(path, rosbag::bagmode::Read);
-  } catch (const rosbag::BagUnindexedException&) {
+  if (checkBag(path) == BagEnd::kCutOff) {
     openMended();
-  } catch (const rosbag::BagIOException&) {  // the index should stand behind the file's end
-    openMended();
-  } catch (const std::exception& error) {
-    throw FileError(path + ": not a bag that can be read: " + error.what());
+  } else {
+    try {
+      bag_.open(path, rosbag::bagmode::Read);
+    } catch (const std::exception& error) {
+      throw FileError(path + ": not a bag that can be read: " + error.what());
+    }
   }
   heights_ = messagesOf(height_topic);
   if (heights_.empty()) {
@@ -94,7 +130,6 @@ ScanBagReader::ScanBagReader(const std::string& path, const std::string& height_
 }
 
 void ScanBagReader::openMended() {
-  bag_.close();
   mended_folder_ = std::make_unique<PrivateFolder>();
   const std::string folder = mended_folder_->path().string();
   const std::string cut = path_ + ": the bag was cut off; ";
@@ -104,6 +139,7 @@ void ScanBagReader::openMended() {
   const fs::path mended = fs::path(folder) / fs::path(path_).filename();
   if (!fs::exists(mended)) throw FileError(cut + "rosbag reindex could not mend it");
   try {
+    checkBag(mended.string());
     bag_.open(mended.string(), rosbag::bagmode::Read);
   } catch (const std::exception& error) {
     throw FileError(cut + "nothing before the cut can be read: " + error.what());

@@ -95,7 +95,7 @@ int merge(const BatchArguments& arguments) {
       throw FileError(shard + ": made with other inputs or settings than " + shards.front());
     }
   }
-  const std::size_t total = totalOf(settings);
+  const std::size_t total = totalOf(shards.front(), settings);
   mergeRows(shards, arguments.output, total);
   writeFile(settingsPathOf(arguments.output), settings);
   std::cout << arguments.output << ": " << total << " rows of " << shards.size() << " shards\n";

@@ -14,6 +14,7 @@
 #include "mems_stiction/roughness/spatial_roughness.hpp"
 #include "mems_stiction/scan/provenance.hpp"
 #include "mems_stiction/scan/resolution.hpp"
+#include "mems_stiction/scan/scan_limits.hpp"
 #include "mems_stiction/surface/counter_surface.hpp"
 #include "mems_stiction/verdict/device_options.hpp"
 #include "mems_stiction/verdict/uncertainty_options.hpp"
@@ -26,6 +27,7 @@ struct Configuration {
   SpatialRoughnessOptions spatial_roughness;
   PartOptions part;
   ScanOptions scan;
+  ScanLimits limits;
   ResolutionOptions resolution;
   PipelineOptions preprocessing;
   CounterSurfaceOptions counter_surface;

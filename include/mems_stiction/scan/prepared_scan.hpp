@@ -51,7 +51,7 @@ class ScanPreparer {
   void setMeasuredCounterSurface(const HeightMap& measured) { counter_surface_.setMeasured(measured); }
 
   /// @throw SurfaceError if either surface cannot be used, or the counter-surface is one that arrives beside the scan
-  /// and none has.
+  /// and none has, or the scan is beyond configuration.limits.
   PreparedScan prepare(const HeightMap& scan);
 
   /// The same scan under the counter-surface and pose of now; it is not cleaned again.
@@ -71,6 +71,7 @@ class ScanPreparer {
 
   ScanCleaner cleaner_;         ///< all steps but refinement
   PipelineOptions refinement_;  ///< refinement alone
+  ScanLimits limits_;
   bool with_roughness_;
   SpatialRoughnessOptions spatial_roughness_;
   CounterSurfaceSource counter_surface_;

@@ -37,7 +37,7 @@ struct Provenance : ScanIdentity {
 const char* packageVersion();
 
 /// 16 hexadecimal digits, the same for configurations that give the same figures: of every setting but part/... (who it
-/// is), output/... (what is asked for) and half_space/enabled and threads. Files are there by their names, not by what
+/// is), limits/... (what it may take), output/... (what is asked for) and half_space/enabled and threads. Files are there by their names, not by what
 /// they hold.
 std::string settingsHash(const Configuration& configuration);
 

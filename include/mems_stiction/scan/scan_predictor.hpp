@@ -40,7 +40,7 @@ class ScanPredictor {
   /// What load/device_force is scaled with, for the next predictions.
   void setDevice(const DeviceOptions& device) { device_ = device; }
 
-  /// @throw SurfaceError if the two surfaces do not fit.
+  /// @throw SurfaceError if the two surfaces do not fit, or it takes longer than configuration.limits allows.
   Prediction predict(const PreparedScan& prepared);
 
   /// The scan of the last predict() once more, under the options and device of now; what follows from its surfaces alone
@@ -68,6 +68,7 @@ class ScanPredictor {
   Options options_;  ///< as they are stated: a load may be per area
   DeviceOptions device_;
   AdhesionModel model_;
+  ScanLimits limits_;
   double min_contact_pixels_;
   double tip_radius_;  ///< of the tip that drew the scan [m]; 0 = not known
 };

@@ -295,5 +295,11 @@ TEST(XyzList, WhatIsOnNoGridIsRefused) {
   EXPECT_TRUE(mentions(refusal(points() + "2 3 9.000\n"), "has the x and y of another one"));
 }
 
+TEST(TextGrid, AQuotationMarkWithoutItsPartnerTakesNoCellsAway) {
+  // the separator at the end of the first lines stands inside the quotes: no cell is left of them
+  EXPECT_THROW(parseTextGrid("'4,\n'4,\n,,\n"), FileError);
+  EXPECT_THROW(parseTextGrid("1,2,\n'4,\n"), FileError);
+}
+
 }  // namespace
 }  // namespace mems_stiction

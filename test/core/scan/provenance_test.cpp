@@ -29,6 +29,7 @@ TEST(Provenance, WhoTheScanIsOfAndWhatIsAskedForDoNotCount) {
   changed.part.id = "17";
   changed.model.output.contact_map = false;
   changed.half_space.enabled = true;
+  changed.limits.max_time = 1.0;
   EXPECT_EQ(settingsHash(changed), settingsHash(Configuration()));
 }
 

@@ -1,0 +1,31 @@
+#pragma once
+
+/// @file
+/// What one scan may take of the machine, so that no scan stops the ones behind it.
+
+#include <limits>
+
+#include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/height_map/height_map.hpp"
+
+namespace mems_stiction {
+
+/// Scans beyond are refused with a sentence.
+struct ScanLimits {
+  static constexpr const char* kMaxTime = "limits/max_time";
+
+  int max_pixels = 67108864;  ///< after refinement [-], >= 1
+  double max_time = 60.0;     ///< of preparation and prediction together [s], >= 0; 0 = none
+
+  void describe(OptionVisitor& visitor);
+
+  /// @throw SurfaceError if the scan, refined, has more than max_pixels.
+  void checkSize(const HeightMap& scan, int refinement) const;
+
+  /// max_time less what has gone by, for TimeLimit [s]; infinity without a limit.
+  double timeLeft(double spent) const {
+    return max_time > 0.0 ? max_time - spent : std::numeric_limits<double>::infinity();
+  }
+};
+
+}  // namespace mems_stiction

@@ -1,0 +1,26 @@
+/// The text of a configuration file. What is accepted is written out and reads back as the same settings.
+
+#include <yaml-cpp/yaml.h>
+
+#include "fuzz/fuzzing.hpp"
+#include "mems_stiction/scan/configuration_yaml.hpp"
+#include "mems_stiction/scan/plausibility.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace mems_stiction;
+  YAML::Node tree;
+  try {
+    tree = YAML::Load(fuzzing::textOf(data, size));
+  } catch (const YAML::Exception&) {
+    return 0;  // loadConfiguration() refuses it
+  }
+  Configuration configuration;
+  if (!fuzzing::accepted([&] { configuration = configurationFromYaml(tree); })) return 0;
+  settingsWarnings(configuration);
+  static std::string known = toYaml(Configuration());
+  const std::string text = toYaml(configuration);
+  if (text == known) return 0;  // most inputs change nothing: to write and read takes most of the time
+  known = text;
+  fuzzing::require(toYaml(configurationFromYaml(YAML::Load(text))) == text, "settings read back as they were written");
+  return 0;
+}

@@ -1,0 +1,73 @@
+/// What a bag says of its own lengths is checked before rosbag believes it.
+
+#include "tools/bag_check.hpp"
+
+#include <gtest/gtest.h>
+#include <rosbag/bag.h>
+
+#include <string>
+
+#include "mems_stiction/ScanInfo.h"
+#include "mems_stiction/base/errors.hpp"
+#include "support/scratch_folder.hpp"
+
+namespace mems_stiction {
+namespace {
+
+class BagCheck : public ::testing::Test {
+ protected:
+  BagCheck() {
+    const std::string path = folder_.file("whole.bag");
+    rosbag::Bag bag(path, rosbag::bagmode::Write);
+    for (int second = 1; second <= 3; ++second) bag.write("scan_info", ros::Time(second), ScanInfo());
+    bag.close();
+    whole_ = ScratchFolder::read(path);
+  }
+
+  std::string refusal(const std::string& bytes) const {
+    try {
+      checkBag(folder_.write("other.bag", bytes));
+    } catch (const FileError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  /// The whole bag with a number of 4 bytes changed, `before` bytes before the first `text` after `start`.
+  std::string changed(const std::string& text, std::size_t before, std::uint32_t number, std::size_t start = 0) const {
+    std::string bytes = whole_;
+    bytes.replace(bytes.find(text, start) - before, 4, reinterpret_cast<const char*>(&number), 4);
+    return bytes;
+  }
+
+  ScratchFolder folder_;
+  std::string whole_;
+};
+
+TEST_F(BagCheck, AWholeBagIsWhole) { EXPECT_EQ(checkBag(folder_.file("whole.bag")), BagEnd::kWhole); }
+
+TEST_F(BagCheck, ABagWithoutItsEndIsCutOffWhereverItEnds) {
+  for (std::size_t length = 20; length < whole_.size(); length += 97) {
+    EXPECT_EQ(checkBag(folder_.write("cut.bag", whole_.substr(0, length))), BagEnd::kCutOff) << length;
+  }
+}
+
+TEST_F(BagCheck, AFieldThatIsLongerThanItsHeaderIsRefused) {
+  EXPECT_NE(refusal(changed("topic=", 4, 0xfffffff0u)).find("longer than its header"), std::string::npos);
+}
+
+TEST_F(BagCheck, AnIndexThatLeadsToNoMessageIsRefused) {
+  const std::size_t index = whole_.find("count=");  // of the bag's header comes "chunk_count="
+  const std::size_t entries = whole_.find("ver=", index) + 4 + 4;
+  std::string bytes = whole_;
+  bytes[entries + 4 + 8] ^= 0x7f;
+  EXPECT_NE(refusal(bytes), "");
+}
+
+TEST_F(BagCheck, AnotherFileIsNoBag) {
+  EXPECT_NE(refusal("#ROSBAG V1.2\n").find("version 2.0"), std::string::npos);
+  EXPECT_NE(refusal("").find("version 2.0"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace mems_stiction
