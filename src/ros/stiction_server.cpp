@@ -9,6 +9,7 @@
 #include "mems_stiction/base/error_text.hpp"
 #include "mems_stiction/base/one_line.hpp"
 #include "mems_stiction/ros/force_curve_picture.hpp"
+#include "mems_stiction/ros/scan_folders.hpp"
 #include "mems_stiction/ros/topic_names.hpp"
 
 namespace mems_stiction {
@@ -40,7 +41,7 @@ StictionServer::StictionServer(const ros::NodeHandle& handle, const ros::NodeHan
       service_handle_(withQueue(private_handle, service_queue_)),
       options_(configuration.node),
       accounting_(ros::WallDuration(options_.warning_period)),
-      predictor_(configuration.core, options_.accumulate_deformation),
+      predictor_(predictorFromFolders(configuration.core, options_.accumulate_deformation)),
       publisher_(handle_, options_.display, [this] { worker_.push([this] { showLastScan(); }); }),
       half_space_(!configuration.core.half_space.enabled
                       ? nullptr
