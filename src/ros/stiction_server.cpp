@@ -40,7 +40,7 @@ StictionServer::StictionServer(const ros::NodeHandle& handle, const ros::NodeHan
       private_handle_(withQueue(private_handle, topic_queue_)),
       service_handle_(withQueue(private_handle, service_queue_)),
       options_(configuration.node),
-      accounting_(ros::WallDuration(options_.warning_period)),
+      accounting_(ros::WallDuration(options_.warning_period), ros::WallDuration(options_.diagnostic_period)),
       predictor_(predictorFromFolders(configuration.core, options_.accumulate_deformation)),
       publisher_(handle_, options_.display, [this] { worker_.push([this] { showLastScan(); }); }),
       half_space_(!configuration.core.half_space.enabled
