@@ -1,4 +1,5 @@
-"""How a command line becomes a node: without a master it gives up in time, and what it is to write can be written."""
+"""How a command line becomes a node: without a master it gives up in time, what it is to write can be written, and what others
+say reaches no terminal as a control character."""
 
 import os
 import sys
@@ -6,6 +7,25 @@ import time
 
 import rosgraph
 import rospy
+from mems_stiction.prediction_text import printable
+
+
+class Printable:
+    """A stream that spells out control characters but line ends and tabs: names, frames and reasons come from anybody in the
+    network, and none moves the cursor of a terminal."""
+
+    def __init__(self, stream):
+        self._stream = stream
+
+    def write(self, text):
+        return self._stream.write("".join(letter if letter in "\n\t" else printable(letter) for letter in text))
+
+    def writelines(self, lines):
+        for line in lines:
+            self.write(line)
+
+    def __getattr__(self, name):
+        return getattr(self._stream, name)
 
 
 class CannotRun(Exception):
@@ -19,6 +39,7 @@ def become_node(name, timeout, **options):
         if time.monotonic() > end:
             raise CannotRun("no ROS master at %s for %g s: is roscore or roslaunch running?" % (rosgraph.get_master_uri(), timeout))
         time.sleep(0.1)
+    sys.stdout, sys.stderr = Printable(sys.stdout), Printable(sys.stderr)
     rospy.init_node(name, anonymous=True, **options)
 
 

@@ -6,9 +6,31 @@
 
 namespace mems_stiction {
 
+namespace {
+
+/// Sizes that no length, force, stress or ratio has: beyond them powers and products overflow. Where an end of a range is not
+/// stated, they are its end.
+constexpr double kLargest = 1e20;
+constexpr double kSmallest = 1e-30;
+
+/// What to say beside a range of a value that only its size excludes.
+std::string sizeText(double value) {
+  const double size = std::abs(value);
+  const bool is_sane = value == 0.0 || !std::isfinite(value) || (size >= kSmallest && size <= kLargest);
+  return is_sane ? "" : ", " + numberText(kSmallest) + " to " + numberText(kLargest) + " in size";
+}
+
+}  // namespace
+
 bool Range::contains(double value) const {
   if (std::isnan(value)) return nan_means_none;
   if (std::isinf(value)) return false;
+  // a value that only marks what is missing, of whatever kind the file has
+  if (!nan_means_none) {
+    if (!std::isfinite(lower) && value < -kLargest) return false;
+    if (!std::isfinite(upper) && value > kLargest) return false;
+    if (lower_open && lower == 0.0 && value < kSmallest) return false;
+  }
   const bool above = lower_open ? value > lower : value >= lower;
   const bool below = upper_open ? value < upper : value <= upper;
   return above && below;
@@ -30,7 +52,8 @@ void OptionValidator::number(const std::string& key, double& value, const std::s
                              const std::string& /*meaning*/) {
   if (range.contains(value)) return;
   violations_.push_back(key + ": " + numberText(value) + (unit.empty() ? "" : " " + unit) +
-                        " is not allowed, must be " + range.text() + (unit.empty() ? "" : " " + unit));
+                        " is not allowed, must be " + range.text() + (unit.empty() ? "" : " " + unit) +
+                        sizeText(value));
 }
 
 void OptionValidator::integer(const std::string& key, int& value, const Range& range, const std::string& /*meaning*/) {

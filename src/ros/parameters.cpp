@@ -53,9 +53,6 @@ YAML::Node yamlOf(XmlRpc::XmlRpcValue& value, const std::string& key, std::vecto
 /// image_transport reads parameters of its own beside ours: `image_transport` names the transport of our subscriptions;
 /// publishers in the private namespace keep their plugins' settings under the name of the topic.
 bool belongsToImageTransport(const std::string& key, const YAML::Node& value) {
-  static constexpr std::array<const char*, 6> kImageTopics = {kHeightTopic,         kCounterHeightTopic,
-                                                              kDeformedHeightTopic, kDeformedCounterHeightTopic,
-                                                              kContactMapTopic,     kHalfSpaceContactMapTopic};
   static constexpr std::array<const char*, 5> kPluginKeys = {"disable_pub_plugins", "image_transport", "compressed",
                                                              "compressedDepth", "theora"};
   if (key == "image_transport") return true;

@@ -1,15 +1,56 @@
 #include "mems_stiction/ros/reconfigure_server.hpp"
 
 #include <future>
+#include <sstream>
 #include <string>
 #include <utility>
 
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/one_line.hpp"
 #include "mems_stiction/ros/reconfigure_conversion.hpp"
 #include "mems_stiction/ros/topic_names.hpp"
 
 namespace mems_stiction {
 namespace {
+
+StictionConfig configOf(const RunningSettings& settings) {
+  StictionConfig config = StictionConfig::__getDefault__();
+  dynamic_reconfigure::Config message = reconfigureMessage(settings);
+  config.__fromMessage__(message);
+  return config;
+}
+
+template <typename Value>
+std::string shown(const Value& value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+template <typename List>
+void compare(const List& before, const List& now, std::string& differences) {
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    if (before[i].value == now[i].value) continue;
+    differences += (differences.empty() ? "" : "; ") + now[i].name + " was " + shown(before[i].value) + " and is " +
+                   shown(now[i].value);
+  }
+}
+
+/// What was changed in a run before this one, which ended without a word or was started again: "voltage was 3 and is 0".
+std::string lostSettings(const ros::NodeHandle& private_handle, const RunningSettings& settings) {
+  if (!private_handle.hasParam(kReconfigureParameters)) return {};
+  StictionConfig left = configOf(settings);
+  left.__fromServer__(ros::NodeHandle(private_handle, kReconfigureParameters));
+  dynamic_reconfigure::Config before;
+  left.__toMessage__(before);
+  dynamic_reconfigure::Config now;
+  configOf(settings).__toMessage__(now);
+  std::string differences;
+  compare(before.doubles, now.doubles, differences);
+  compare(before.strs, now.strs, differences);
+  if (differences.empty()) return {};
+  return "what was changed in the run before is lost: " + oneLine(differences);
+}
 
 ros::NodeHandle reconfigureHandle(const ros::NodeHandle& private_handle) {
   // What an earlier run left would be taken for the settings of this one.
@@ -21,21 +62,16 @@ ros::NodeHandle reconfigureHandle(const ros::NodeHandle& private_handle) {
   return ros::NodeHandle(private_handle, kReconfigureParameters, remappings);
 }
 
-StictionConfig configOf(const RunningSettings& settings) {
-  StictionConfig config = StictionConfig::__getDefault__();
-  dynamic_reconfigure::Config message = reconfigureMessage(settings);
-  config.__fromMessage__(message);
-  return config;
-}
-
 }  // namespace
 
 ReconfigureServer::ReconfigureServer(const ros::NodeHandle& private_handle, const SettingsOwner& settings,
                                      Change change)
     : settings_(settings),
       change_(std::move(change)),
+      lost_(lostSettings(private_handle, settings.current())),
       server_(
           std::make_unique<dynamic_reconfigure::Server<StictionConfig>>(mutex_, reconfigureHandle(private_handle))) {
+  if (!lost_.empty()) ROS_WARN_STREAM(lost_);
   server_->updateConfig(configOf(settings.current()));
   bool is_first = true;  // setCallback() calls at once, with what is set
   server_->setCallback([this, is_first](StictionConfig& config, std::uint32_t) mutable {
@@ -43,7 +79,22 @@ ReconfigureServer::ReconfigureServer(const ros::NodeHandle& private_handle, cons
   });
 }
 
-void ReconfigureServer::show() { server_->updateConfig(configOf(settings_.current())); }
+void ReconfigureServer::show() {
+  forgetLost();
+  putBack();
+}
+
+void ReconfigureServer::putBack() { server_->updateConfig(configOf(settings_.current())); }
+
+std::string ReconfigureServer::lost() const {
+  const std::lock_guard<std::mutex> lock(lost_mutex_);
+  return lost_;
+}
+
+void ReconfigureServer::forgetLost() {
+  const std::lock_guard<std::mutex> lock(lost_mutex_);
+  lost_.clear();
+}
 
 void ReconfigureServer::take(StictionConfig& config) {
   try {
@@ -52,6 +103,7 @@ void ReconfigureServer::take(StictionConfig& config) {
     RunningSettings changed = settings_.current();
     applyReconfigure(message, changed);
     change_(changed);
+    forgetLost();
   } catch (const OptionsError& error) {
     for (const std::string& line : error.violations())
       ROS_WARN_STREAM("reconfigure refused, nothing changed: " << line);

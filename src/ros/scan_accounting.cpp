@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <iterator>
 
 #include <diagnostic_msgs/DiagnosticStatus.h>
@@ -27,12 +28,16 @@ std::string withoutFigures(const std::string& text) {
 /// Reasons may hold names; so many of them are remembered.
 constexpr std::size_t kMostKinds = 100;
 
+/// Beyond a period, so that a busy machine is not warned of [s].
+constexpr double kNoticedPause = 1.0;
+
 /// Ends of sequences that may go on.
 constexpr std::size_t kMostSequences = 16;
 
 }  // namespace
 
-ScanAccounting::ScanAccounting(ros::WallDuration warning_period) : warning_period_(warning_period) {}
+ScanAccounting::ScanAccounting(ros::WallDuration warning_period, ros::WallDuration report_period)
+    : warning_period_(warning_period), report_period_(report_period) {}
 
 void ScanAccounting::arrived(const std_msgs::Header& header) {
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -141,6 +146,13 @@ void ScanAccounting::report(diagnostic_updater::DiagnosticStatusWrapper& status)
   } else {
     status.summary(diagnostic_msgs::DiagnosticStatus::OK, "every scan since the last report is predicted or waits");
   }
+  const double pause = elapsed - report_period_.toSec();
+  longest_pause_ = std::max(longest_pause_, pause);
+  if (pause > kNoticedPause + report_period_.toSec()) {
+    std::ostringstream text;
+    text << "the node stood still for " << std::lround(pause) << " s: stopped, suspended, or without a processor";
+    status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, text.str());
+  }
   status.add("received", counts_.received);
   status.add("predicted", counts_.predicted);
   status.add("dropped", counts_.dropped);
@@ -155,6 +167,7 @@ void ScanAccounting::report(diagnostic_updater::DiagnosticStatusWrapper& status)
   status.add("last_latency [s]", last_latency_);
   status.add("max_latency [s]", max_latency_);
   status.add("last_processing_time [s]", last_processing_time_);
+  status.add("longest_pause [s]", longest_pause_);
   reported_ = counts_;
   last_report_ = now;
 }

@@ -9,6 +9,7 @@
 #include "mems_stiction/base/error_text.hpp"
 #include "mems_stiction/base/one_line.hpp"
 #include "mems_stiction/ros/force_curve_picture.hpp"
+#include "mems_stiction/ros/scan_folders.hpp"
 #include "mems_stiction/ros/topic_names.hpp"
 
 namespace mems_stiction {
@@ -39,8 +40,8 @@ StictionServer::StictionServer(const ros::NodeHandle& handle, const ros::NodeHan
       private_handle_(withQueue(private_handle, topic_queue_)),
       service_handle_(withQueue(private_handle, service_queue_)),
       options_(configuration.node),
-      accounting_(ros::WallDuration(options_.warning_period)),
-      predictor_(configuration.core, options_.accumulate_deformation),
+      accounting_(ros::WallDuration(options_.warning_period), ros::WallDuration(options_.diagnostic_period)),
+      predictor_(predictorFromFolders(configuration.core, options_.accumulate_deformation)),
       publisher_(handle_, options_.display, [this] { worker_.push([this] { showLastScan(); }); }),
       half_space_(!configuration.core.half_space.enabled
                       ? nullptr
@@ -67,6 +68,8 @@ StictionServer::StictionServer(const ros::NodeHandle& handle, const ros::NodeHan
       half_space_calls_(service_handle_, configuration.core.half_space, half_space_pause_,
                         [this](const auto& height, const auto& info) { return findCase(height, info); }),
       diagnostics_(handle_, private_handle_, name),
+      parameters_(handle_, private_handle_),
+      master_(MasterWatch::ofThisProcess()),
       topic_spinner_(1, &topic_queue_),
       service_spinner_(kServiceThreads, &service_queue_) {
   advertiseServices();
@@ -78,11 +81,13 @@ StictionServer::StictionServer(const ros::NodeHandle& handle, const ros::NodeHan
   half_space_calls_.start();
   service_spinner_.start();
   topic_spinner_.start();
+  master_->add(this, [this] { return putParametersBack(); });
 }
 
 StictionServer::~StictionServer() {
   // Long runs and the worker first: a service that waits for them gets its refusal, so that the spinners can end.
   stopping_ = true;
+  master_->remove(this);
   actions_.stop();
   half_space_calls_.stop();
   worker_.stop();
@@ -129,6 +134,7 @@ void StictionServer::subscribe() {
 void StictionServer::startTimers() {
   diagnostics_.setHardwareID("none");
   diagnostics_.add("scans", this, &StictionServer::report);
+  diagnostics_.add("master", [this](diagnostic_updater::DiagnosticStatusWrapper& status) { master_->report(status); });
   if (half_space_) diagnostics_.add("half_space", half_space_.get(), &HalfSpaceStream::report);
   diagnostic_timer_ = handle_.createWallTimer(ros::WallDuration(options_.diagnostic_period),
                                               [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
@@ -139,6 +145,13 @@ void StictionServer::startTimers() {
   if (counter_surface_frame_) {
     gate_timer_ = handle_.createWallTimer(kGatePeriod, [this](const auto&) { gate_.poll(ros::WallTime::now()); });
   }
+}
+
+bool StictionServer::putParametersBack() {
+  if (!parameters_.putBack()) return false;
+  const boost::recursive_mutex::scoped_lock lock(reconfigure_.mutex());
+  reconfigure_.putBack();
+  return true;
 }
 
 void StictionServer::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
@@ -153,6 +166,8 @@ void StictionServer::report(diagnostic_updater::DiagnosticStatusWrapper& status)
     status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN,
                         std::to_string(waiting) + " scans wait, more than queue_size");
   }
+  const std::string lost = reconfigure_.lost();
+  if (!lost.empty()) status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, lost);
 }
 
 void StictionServer::rejectLone(const std_msgs::Header& header, const std::string& reason) {

@@ -1,5 +1,6 @@
 """What people read: numbers with prefixes, table lines, the effect of a load."""
 
+import io
 import math
 import pathlib
 import re
@@ -25,6 +26,15 @@ class ForeignTextTest(unittest.TestCase):
         line = table_line("a\x1b[2J\x9b2Jb", prediction(warnings=["c\rd"]))
         self.assertTrue(line.isprintable(), repr(line))
         self.assertIn("\\x1b[2J", line)
+
+    def test_nor_by_anything_else_that_a_script_of_the_station_prints(self):
+        try:
+            from mems_stiction.station_node import Printable
+        except ImportError:
+            self.skipTest("no ROS")
+        stream = io.StringIO()
+        print("reason: a\x1b]0;b\x07\x9b2J\rc\u202ed", "e\tf", file=Printable(stream), flush=True)
+        self.assertEqual(stream.getvalue(), "reason: a\\x1b]0;b\\x07\\x9b2J\\x0dc\\x202ed e\tf\n")
 
     def test_a_spreadsheet_takes_no_text_for_a_formula(self):
         for text in ("=1+1", "+A1", "-A1", "@sum", "\t=1"):

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """Bad parameters: the node exits with 1 and names every key; the nodelet names them and stays idle in its manager."""
 
+import pathlib
 import subprocess
+import tempfile
 import time
 import unittest
 
@@ -26,6 +28,20 @@ class BadParametersTest(unittest.TestCase):
         self.assertEqual(ended.returncode, 1, ended.stdout)
         for key in KEYS:
             self.assertIn(key, ended.stdout)
+
+    def test_no_word_of_a_file_reaches_the_log(self):
+        with tempfile.TemporaryDirectory() as folder:
+            secret = pathlib.Path(folder, "secret.txt")
+            secret.write_text("hunter2 hunter2\n")
+            for path, reason in ((str(secret), "cannot be used"), ("/etc/passwd", "must lie below")):
+                rospy.set_param("/curious_node", {"counter_surface": {"type": "file", "file": path}})
+                ended = subprocess.run([find_node("mems_stiction", "stiction_node")[0], "__name:=curious_node"], timeout=60,
+                                       stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
+                self.assertEqual(ended.returncode, 1, ended.stdout)
+                self.assertIn("counter_surface/file: %s" % path, ended.stdout)
+                self.assertIn(reason, ended.stdout)
+                for word in ("hunter2", "root"):
+                    self.assertNotIn(word, ended.stdout.replace(str(pathlib.Path.home()), ""))
 
     def test_the_nodelet_names_every_key_and_its_manager_lives(self):
         rospy.set_param("/bad_nodelet", BAD)

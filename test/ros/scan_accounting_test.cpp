@@ -1,5 +1,6 @@
 #include "mems_stiction/ros/scan_accounting.hpp"
 
+#include <diagnostic_msgs/DiagnosticStatus.h>
 #include <gtest/gtest.h>
 
 namespace mems_stiction {
@@ -46,6 +47,20 @@ TEST_F(ScanAccountingTest, StampsThatDoNotGrowAreCounted) {
   image(1, 8), image(2, 9), image(3, 8), image(4, 9);  // a bag that starts again
   EXPECT_EQ(books_.counts().stamps_not_increasing, 1U);
   EXPECT_EQ(missing(), 0U);
+}
+
+TEST(ScanAccounting, APauseInWhichTheProcessDidNotRunIsSaid) {
+  ScanAccounting books(ros::WallDuration(5.0), ros::WallDuration(0.01));
+  const auto levelAfter = [&](double pause) {
+    ros::WallDuration(pause).sleep();
+    diagnostic_updater::DiagnosticStatusWrapper status;
+    books.report(status);
+    return static_cast<int>(status.level);
+  };
+  EXPECT_EQ(levelAfter(0.0), diagnostic_msgs::DiagnosticStatus::OK);
+  EXPECT_EQ(levelAfter(0.02), diagnostic_msgs::DiagnosticStatus::OK);
+  EXPECT_EQ(levelAfter(1.2), diagnostic_msgs::DiagnosticStatus::WARN);
+  EXPECT_EQ(levelAfter(0.02), diagnostic_msgs::DiagnosticStatus::OK);
 }
 
 }  // namespace

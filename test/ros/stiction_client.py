@@ -1,6 +1,7 @@
 """What the rostests share: scans to send, predictions to wait for, diagnostics to read."""
 
 import json
+import os
 import pathlib
 import subprocess
 import tempfile
@@ -9,6 +10,7 @@ import time
 
 import numpy as np
 import rospy
+import yaml
 from diagnostic_msgs.msg import DiagnosticArray
 from mems_stiction.msg import ScanInfo, StictionPrediction
 from roslib.packages import find_node
@@ -95,7 +97,8 @@ class Collector:
 class Counts:
     """The newest figures of the node on /diagnostics."""
 
-    def __init__(self):
+    def __init__(self, node="stiction_node"):
+        self._name = node + ": scans"
         self._lock = threading.Lock()
         self._values = {}
         self._reports = []
@@ -103,7 +106,7 @@ class Counts:
 
     def _take(self, message):
         for status in message.status:
-            if status.name == "stiction_node: scans":
+            if status.name == self._name:
                 with self._lock:
                     self._values = {entry.key: entry.value for entry in status.values}
                     self._reports.append((status.level, status.message))
@@ -115,6 +118,10 @@ class Counts:
     def reasons(self):
         with self._lock:
             return [message for level, message in self._reports if level > 0]
+
+    def level(self):
+        with self._lock:
+            return self._reports[-1][0]
 
     def wait(self, **expected):
         def reached():
@@ -170,6 +177,39 @@ def predict_scan(heights, load, voltage=0.0, counter=None, arguments=(), more=""
         done = subprocess.run([program, "--json", "--config", folder / "config.yaml", "--pitch", repr(PITCH), "--load", repr(load),
                                "--voltage", repr(voltage), *arguments, folder / "scan.txt"], check=True, timeout=60, stdout=subprocess.PIPE)
     return json.loads(done.stdout)
+
+
+class OwnNode:
+    """A node beside that of the launch file, in a namespace of its name, for as long as the block runs."""
+
+    def __init__(self, name, **more):
+        self.name = name
+        for key, value in dict(yaml.safe_load((pathlib.Path(__file__).parent / "station.yaml").read_text()), **more).items():
+            rospy.set_param("/%s/node/%s" % (name, key), value)
+
+    def __enter__(self):
+        self.process = subprocess.Popen([find_node("mems_stiction", "stiction_node")[0], "__name:=node"],
+                                        env=dict(os.environ, ROS_NAMESPACE="/" + self.name))
+        rospy.wait_for_service("/%s/node/predict" % self.name, timeout=TIMEOUT)
+        return self
+
+    def __exit__(self, *_):
+        if self.process.poll() is None:
+            self.process.terminate()
+            try:
+                self.process.wait(timeout=TIMEOUT)
+            except subprocess.TimeoutExpired:
+                self.process.kill()
+                raise
+
+    def kill(self):
+        self.process.kill()
+        self.process.wait()
+
+    def resident(self):
+        """Memory [bytes]."""
+        status = pathlib.Path("/proc/%d/status" % self.process.pid).read_text()
+        return 1024 * int(status.split("VmRSS:")[1].split()[0])
 
 
 class Traffic:

@@ -73,8 +73,9 @@ struct Prediction {
   int elastic_count = 0;
   int elasto_plastic_count = 0;
   int plastic_count = 0;
-  double max_tilt = 0.0;                ///< [rad]
-  double median_tabor_parameter = 0.0;  ///< [-]
+  double max_tilt = 0.0;  ///< [rad]
+  /// [-]; infinite when adhesion has no range (interface/hamaker_constant 0), NaN without contact
+  double median_tabor_parameter = 0.0;
   ContactTheory contact_theory = ContactTheory::kTransition;
 
   double composite_rms_height = 0.0;  ///< sigma of (9): sqrt(sigma1^2 + sigma2^2) [m]

@@ -6,6 +6,8 @@
 
 #include <functional>
 #include <memory>
+#include <mutex>
+#include <string>
 
 #include <dynamic_reconfigure/server.h>
 #include <ros/node_handle.h>
@@ -33,13 +35,22 @@ class ReconfigureServer {
 
   /// After a change by somebody else, with the mutex held.
   void show();
+  /// The mirror of what is set, with the mutex held.
+  void putBack();
+
+  /// What an earlier run of the node was set to last, and this one is not; empty once something is set. Waits for
+  /// nobody, so that diagnostics may ask.
+  std::string lost() const;
 
  private:
+  void forgetLost();
   void take(StictionConfig& config);
 
   boost::recursive_mutex mutex_;
   const SettingsOwner& settings_;
   Change change_;
+  mutable std::mutex lost_mutex_;  ///< held for a moment only, unlike the other
+  std::string lost_;
   std::unique_ptr<dynamic_reconfigure::Server<StictionConfig>> server_;
 };
 

@@ -34,7 +34,8 @@ struct ScanCounts {
 class ScanAccounting {
  public:
   /// @param warning_period at most one warning of a kind in so long a time.
-  explicit ScanAccounting(ros::WallDuration warning_period);
+  /// @param report_period between calls of report(); a pause much longer is one in which the process stood still.
+  explicit ScanAccounting(ros::WallDuration warning_period, ros::WallDuration report_period = ros::WallDuration(1.0));
 
   /// An image came, before it is known whether it is a scan: its number and stamp tell what is missing before it.
   void arrived(const std_msgs::Header& header);
@@ -51,7 +52,7 @@ class ScanAccounting {
 
   ScanCounts counts() const;
 
-  /// One status with every count; WARN if scans were lost since the last report.
+  /// One status with every count; WARN if scans were lost since the last report, or the process did not run.
   void report(diagnostic_updater::DiagnosticStatusWrapper& status);
 
  private:
@@ -72,6 +73,7 @@ class ScanAccounting {
   void warnThrottled(const std::string& kind, const std::string& text);
 
   const ros::WallDuration warning_period_;
+  const ros::WallDuration report_period_;
   mutable std::mutex mutex_;
   ScanCounts counts_;
   ScanCounts reported_;
@@ -82,6 +84,7 @@ class ScanAccounting {
   double last_latency_ = 0.0;
   double max_latency_ = 0.0;
   double last_processing_time_ = 0.0;
+  double longest_pause_ = 0.0;
 };
 
 }  // namespace mems_stiction

@@ -4,9 +4,9 @@
 /// The one implementation behind node and nodelet: connects topics and services with the worker that owns the core.
 ///
 /// Threads: one for topics, transforms and timers, one for the core (WorkQueue), two for services, one for each action,
-/// one for ~solve_half_space, one that solves the newest scan as a half-space. A service that needs the core is run by the
-/// worker before the scans that wait; an action, and the half-space, take from it what they need and then work by
-/// themselves.
+/// one for ~solve_half_space, one that solves the newest scan as a half-space, one that watches the master. A service that
+/// needs the core is run by the worker before the scans that wait; an action, and the half-space, take from it what they
+/// need and then work by themselves.
 
 #include <atomic>
 #include <functional>
@@ -29,7 +29,9 @@
 #include "mems_stiction/ros/counter_surface_frame.hpp"
 #include "mems_stiction/ros/half_space_calls.hpp"
 #include "mems_stiction/ros/half_space_stream.hpp"
+#include "mems_stiction/ros/held_parameters.hpp"
 #include "mems_stiction/ros/live_predictor.hpp"
+#include "mems_stiction/ros/master_watch.hpp"
 #include "mems_stiction/ros/reconfigure_server.hpp"
 #include "mems_stiction/ros/result_publisher.hpp"
 #include "mems_stiction/ros/scan_accounting.hpp"
@@ -68,6 +70,8 @@ class StictionServer {
   void showLastScan();
   void takeCounterSurface(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info);
   void rejectLone(const std_msgs::Header& header, const std::string& reason);
+  /// What a restarted master has lost; the mirror of reconfigure shows the settings of now. @return false: no master
+  bool putParametersBack();
   void report(diagnostic_updater::DiagnosticStatusWrapper& status);
   /// @param info null: the parameters serve.
   ReceivedScan receive(const sensor_msgs::ImageConstPtr& image, const ScanInfo* info) const;
@@ -119,6 +123,8 @@ class StictionServer {
   StationActions actions_;
   HalfSpaceCalls half_space_calls_;
   diagnostic_updater::Updater diagnostics_;
+  HeldParameters parameters_;
+  std::shared_ptr<MasterWatch> master_;
   ros::WallTimer diagnostic_timer_;
   ros::WallTimer pairing_timer_;
   ros::WallTimer gate_timer_;

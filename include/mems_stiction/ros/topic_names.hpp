@@ -3,6 +3,7 @@
 /// @file
 /// Every name that the ROS layer gives to a topic, service or action, and how many messages each connection may hold back.
 
+#include <array>
 #include <cstdint>
 
 namespace mems_stiction {
@@ -28,6 +29,11 @@ inline constexpr char kHalfSpaceTopic[] = "half_space";
 inline constexpr char kHalfSpaceContactMapTopic[] = "half_space_contact_map";
 inline constexpr char kHalfSpaceCurveTopic[] = "half_space_curve";
 inline constexpr char kContactMapsTopic[] = "contact_maps";
+
+/// Those that carry heights or maps by image_transport.
+inline constexpr std::array<const char*, 6> kImageTopics = {kHeightTopic,         kCounterHeightTopic,
+                                                            kDeformedHeightTopic, kDeformedCounterHeightTopic,
+                                                            kContactMapTopic,     kHalfSpaceContactMapTopic};
 
 // Services, in the node's private namespace
 inline constexpr char kSetLoadService[] = "set_load";

@@ -89,5 +89,62 @@ TEST(RandomOptions, TotalEnergyIsANumberAndNothingIsInfinite) {
   EXPECT_GT(predicted, 250);  // the others are combinations that are refused
 }
 
+/// One setting at a time at an end of its range, the others as they are.
+class OneAtItsEnd : public OptionVisitor {
+ public:
+  OneAtItsEnd(int chosen, bool upper) : chosen_(chosen), upper_(upper) {}
+
+  void number(const std::string& key, double& value, const std::string&, const Range& range,
+              const std::string&) override {
+    if (seen_++ != chosen_) return;
+    key_ = key;
+    // Decades towards the end, as far as the range goes: an end itself may be open.
+    double at = value != 0.0 ? value : 1e-9;
+    while (range.contains(upper_ ? 10.0 * at : 0.1 * at) && at != 0.0) at *= upper_ ? 10.0 : 0.1;
+    if (range.contains(at)) value = at;
+    is_bounded_ = !range.contains(upper_ ? 1e301 : 1e-301) || (!upper_ && range.contains(0.0));
+  }
+  void integer(const std::string&, int&, const Range&, const std::string&) override {}
+  void flag(const std::string&, bool&, const std::string&) override {}
+  void text(const std::string&, std::string&, const std::string&) override {}
+  void choice(const std::string&, std::string&, const std::vector<std::string>&, const std::string&) override {}
+
+  int seen() const { return seen_; }
+  const std::string& key() const { return key_; }
+  bool isBounded() const { return is_bounded_; }
+
+ private:
+  int chosen_;
+  bool upper_;
+  int seen_ = 0;
+  std::string key_;
+  bool is_bounded_ = false;
+};
+
+TEST(RandomOptions, EachNumberIsBoundedAndNothingIsInfiniteAtTheEnds) {
+  const SurfacePair pair{samples::gaussian(16, 16, 5e-9, 5e-9, 2e-9, 15e-9, 3), {}};
+  for (const char* formulation : {"consistent", "paper"}) {
+    for (const bool upper : {false, true}) {
+      for (int setting = 0;; ++setting) {
+        Options options;
+        options.formulation = formulation;
+        options.load.mechanical_load = 1e-8;
+        options.interface.insulator_thickness = 50e-9;
+        options.approach.max_steps = 100;
+        OneAtItsEnd at_its_end(setting, upper);
+        options.describe(at_its_end);
+        if (setting >= at_its_end.seen()) break;
+        EXPECT_TRUE(at_its_end.isBounded()) << at_its_end.key();
+        if (!options.validate().empty()) continue;
+        AdhesionModel model(options);
+        const Prediction prediction = model.predict(pair);
+        EXPECT_TRUE(std::isfinite(prediction.total_energy)) << at_its_end.key() << ", upper " << upper;
+        EXPECT_TRUE(std::isfinite(prediction.pull_off_force)) << at_its_end.key() << ", upper " << upper;
+        EXPECT_TRUE(std::isfinite(prediction.normal_load)) << at_its_end.key() << ", upper " << upper;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace mems_stiction

@@ -1,0 +1,118 @@
+#include "mems_stiction/ros/master_watch.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include <diagnostic_msgs/DiagnosticStatus.h>
+#include <ros/console.h>
+#include <ros/master.h>
+
+namespace mems_stiction {
+namespace {
+
+constexpr std::chrono::seconds kPeriod{2};
+/// A master that takes the call and does not answer is as good as none after so many periods.
+constexpr double kPatience = 3.0 * kPeriod.count();
+
+const char* meaningOf(Registrations::State state) {
+  switch (state) {
+    case Registrations::State::kKnown:
+      return "the master knows this node";
+    case Registrations::State::kForgotten:
+      return "the master was restarted and does not know this node; it registers again";
+    case Registrations::State::kTaken:
+      return "the master was restarted and another node has this one's name there; end one of them";
+    case Registrations::State::kNoMaster:
+      break;
+  }
+  return "the master does not answer: connections that are there go on, nobody new finds this node";
+}
+
+}  // namespace
+
+std::shared_ptr<MasterWatch> MasterWatch::ofThisProcess() {
+  static std::mutex mutex;
+  static std::weak_ptr<MasterWatch> shared;
+  const std::lock_guard<std::mutex> lock(mutex);
+  std::shared_ptr<MasterWatch> watch = shared.lock();
+  if (!watch) {
+    watch.reset(new MasterWatch);
+    shared = watch;
+  }
+  return watch;
+}
+
+MasterWatch::MasterWatch() : thread_([this] { loop(); }) {}
+
+MasterWatch::~MasterWatch() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stopping_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+void MasterWatch::add(const void* member, Restore restore) {
+  const std::lock_guard<std::mutex> lock(members_mutex_);
+  members_[member] = std::move(restore);
+}
+
+void MasterWatch::remove(const void* member) {
+  const std::lock_guard<std::mutex> lock(members_mutex_);
+  members_.erase(member);
+}
+
+void MasterWatch::loop() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  do {
+    lock.unlock();
+    look();
+    lock.lock();
+  } while (!changed_.wait_for(lock, kPeriod, [this] { return stopping_; }));
+}
+
+void MasterWatch::look() {
+  const Registrations::State state = registrations_.look();
+  if (ros::isShuttingDown()) return;
+  enter(state);
+  if (state == Registrations::State::kForgotten) registerAgain();
+}
+
+void MasterWatch::registerAgain() {
+  {
+    const std::lock_guard<std::mutex> lock(members_mutex_);
+    if (!std::all_of(members_.begin(), members_.end(), [](const auto& member) { return member.second(); })) return;
+  }
+  if (!registrations_.repeat()) return;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ++registered_again_;
+  }
+  ROS_WARN("registered again, with the settings, loads and counts of before");
+  enter(Registrations::State::kKnown);
+}
+
+void MasterWatch::enter(Registrations::State state) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (state == Registrations::State::kKnown) last_known_ = ros::SteadyTime::now();
+    if (std::exchange(state_, state) == state || state == Registrations::State::kKnown) return;
+  }
+  ROS_WARN_STREAM(ros::master::getURI() << ": " << meaningOf(state));
+}
+
+void MasterWatch::report(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const double since = (ros::SteadyTime::now() - last_known_).toSec();
+  const bool is_known = state_ == Registrations::State::kKnown && since < kPatience;
+  const Registrations::State shown =
+      !is_known && state_ == Registrations::State::kKnown ? Registrations::State::kNoMaster : state_;
+  status.summary(is_known ? diagnostic_msgs::DiagnosticStatus::OK : diagnostic_msgs::DiagnosticStatus::WARN,
+                 meaningOf(shown));
+  status.add("registered_again", registered_again_);
+  status.add("last_known [s ago]", since);
+}
+
+}  // namespace mems_stiction

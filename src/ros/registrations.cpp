@@ -1,0 +1,160 @@
+#include "mems_stiction/ros/registrations.hpp"
+
+#include <initializer_list>
+#include <utility>
+#include <vector>
+
+#include <ros/connection_manager.h>
+#include <ros/master.h>
+#include <ros/network.h>
+#include <ros/ros.h>
+#include <ros/service_manager.h>
+#include <ros/xmlrpc_manager.h>
+#include <xmlrpcpp/XmlRpcClient.h>
+#include <xmlrpcpp/XmlRpcValue.h>
+
+namespace mems_stiction {
+namespace {
+
+using XmlRpc::XmlRpcValue;
+
+void append(XmlRpcValue& list, const std::string& text) { list[list.valid() ? list.size() : 0] = text; }
+
+XmlRpcValue listOf(std::initializer_list<std::string> texts) {
+  XmlRpcValue list;
+  for (const std::string& text : texts) append(list, text);
+  return list;
+}
+
+std::string ownAddress() { return ros::XMLRPCManager::instance()->getServerURI(); }
+
+/// The payload of [code, status message, payload] if the code says success.
+bool payloadOf(XmlRpcValue& response, XmlRpcValue& payload) {
+  if (response.getType() != XmlRpcValue::TypeArray || response.size() != 3) return false;
+  if (response[0].getType() != XmlRpcValue::TypeInt || static_cast<int>(response[0]) != 1) return false;
+  payload = response[2];
+  return true;
+}
+
+/// Without waiting for a master that is not there. @return whether it answered at all; `payload` is invalid if it refused
+bool hears(const char* method, const XmlRpcValue& request, XmlRpcValue& payload) {
+  if (ros::isShuttingDown()) return false;
+  payload.clear();
+  XmlRpcValue response;
+  XmlRpcValue ignored;
+  ros::master::execute(method, request, response, ignored, false);
+  payloadOf(response, payload);
+  return response.valid();
+}
+
+bool askMaster(const char* method, const XmlRpcValue& request, XmlRpcValue& payload) {
+  return hears(method, request, payload) && payload.valid();
+}
+
+/// The same for the slave API of this process, which alone lists its topics with their types.
+bool askOurselves(const char* method, const XmlRpcValue& request, XmlRpcValue& payload) {
+  std::string host;
+  std::uint32_t port = 0;
+  if (ros::isShuttingDown() || !ros::network::splitURI(ownAddress(), host, port)) return false;
+  XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port), "/");
+  XmlRpcValue response;
+  return client.execute(method, request, response) && payloadOf(response, payload);
+}
+
+bool contains(XmlRpcValue& names, const std::string& name) {
+  for (int i = 0; i < names.size(); ++i) {
+    if (static_cast<std::string>(names[i]) == name) return true;
+  }
+  return false;
+}
+
+/// Addresses of those that this process gets messages of the topic from.
+std::vector<std::string> connectedPublishers(const std::string& topic) {
+  std::vector<std::string> addresses;
+  XmlRpcValue connections;
+  if (!askOurselves("getBusInfo", listOf({ros::this_node::getName()}), connections)) return addresses;
+  // Each [number, address of the other end, "i" for in, transport, topic, ...].
+  for (int i = 0; i < connections.size(); ++i) {
+    const std::string direction = connections[i][2];
+    if (direction == "i" && static_cast<std::string>(connections[i][4]) == topic)
+      addresses.push_back(connections[i][1]);
+  }
+  return addresses;
+}
+
+}  // namespace
+
+Registrations::State Registrations::look() {
+  const std::string name = ros::this_node::getName();
+  XmlRpcValue address;
+  if (!hears("lookupNode", listOf({name, name}), address)) return State::kNoMaster;
+  if (!address.valid()) return State::kForgotten;
+  if (static_cast<std::string>(address) != ownAddress()) return State::kTaken;
+  XmlRpcValue state;
+  if (!askMaster("getSystemState", listOf({name}), state)) return State::kNoMaster;
+  // Publishers, subscribers, services: each a list of [name, [nodes]].
+  std::set<std::string> services;
+  XmlRpcValue& listed = state[2];
+  for (int i = 0; i < listed.size(); ++i) {
+    const std::string service = listed[i][0];
+    if (contains(listed[i][1], name)) services.insert(service);
+  }
+  // Each process of roscpp offers ~get_loggers from its start to its end.
+  if (services.count(name + "/get_loggers") == 0) return State::kForgotten;
+  services_ = std::move(services);
+  return State::kKnown;
+}
+
+bool Registrations::repeat() { return repeatPublications() && repeatSubscriptions() && repeatServices(); }
+
+bool Registrations::repeatPublications() const {
+  const std::string name = ros::this_node::getName();
+  XmlRpcValue topics;
+  if (!askOurselves("getPublications", listOf({name}), topics)) return false;
+  for (int i = 0; i < topics.size(); ++i) {
+    XmlRpcValue subscribers;
+    if (!askMaster("registerPublisher", listOf({name, topics[i][0], topics[i][1], ownAddress()}), subscribers))
+      return false;
+  }
+  return true;
+}
+
+bool Registrations::repeatSubscriptions() const {
+  const std::string name = ros::this_node::getName();
+  XmlRpcValue topics;
+  if (!askOurselves("getSubscriptions", listOf({name}), topics)) return false;
+  for (int i = 0; i < topics.size(); ++i) {
+    XmlRpcValue publishers;
+    if (!askMaster("registerSubscriber", listOf({name, topics[i][0], topics[i][1], ownAddress()}), publishers))
+      return false;
+    // Publishers that are connected and have not registered anew stay: what is not in the list is disconnected.
+    for (const std::string& publisher : connectedPublishers(topics[i][0])) {
+      if (!contains(publishers, publisher)) append(publishers, publisher);
+    }
+    if (publishers.size() == 0) continue;
+    XmlRpcValue update = listOf({name, topics[i][0]});
+    update[2] = publishers;
+    XmlRpcValue ignored;
+    if (!askOurselves("publisherUpdate", update, ignored)) return false;
+  }
+  return true;
+}
+
+bool Registrations::repeatServices() const {
+  const std::string name = ros::this_node::getName();
+  const std::string address =
+      "rosrpc://" + ros::network::getHost() + ":" + std::to_string(ros::ConnectionManager::instance()->getTCPPort());
+  // ~get_loggers last: by it the process counts as known.
+  const std::string last = name + "/get_loggers";
+  const auto isRegistered = [&](const std::string& service) {
+    XmlRpcValue ignored;
+    if (!ros::ServiceManager::instance()->lookupServicePublication(service)) return true;  // no longer offered
+    return askMaster("registerService", listOf({name, service, address, ownAddress()}), ignored);
+  };
+  for (const std::string& service : services_) {
+    if (service != last && !isRegistered(service)) return false;
+  }
+  return isRegistered(last);
+}
+
+}  // namespace mems_stiction

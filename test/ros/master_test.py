@@ -1,0 +1,144 @@
+#!/usr/bin/env python3
+"""A roscore of the test's own is killed and started again on the same port, while a bag is played to the node."""
+
+import os
+import pathlib
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+with socket.socket() as free:
+    free.bind(("127.0.0.1", 0))
+    PORT = free.getsockname()[1]
+os.environ["ROS_MASTER_URI"] = "http://localhost:%d" % PORT  # before rospy reads it
+
+import rosgraph  # noqa: E402
+import rospy  # noqa: E402
+import rostest  # noqa: E402
+from diagnostic_msgs.msg import DiagnosticArray  # noqa: E402
+from mems_stiction.msg import StictionPrediction  # noqa: E402
+from mems_stiction.srv import GetLoad, SetLoad  # noqa: E402
+from rosgraph_msgs.msg import Log  # noqa: E402
+from stiction_client import (Collector, Counts, Station, figures, make_bag, predict_scan, rough_surface,  # noqa: E402
+                             wait_until)
+
+CONFIG = pathlib.Path(__file__).parent / "station.yaml"
+NODELET = "true" in sys.argv
+PROCESS = "/stiction_node_manager" if NODELET else "/stiction_node"
+LOAD = 1e-6
+SCANS = 60
+
+
+def master_is_there():
+    try:
+        rosgraph.Master("/master_test").getPid()
+        return True
+    except OSError:
+        return False
+
+
+class Roscore:
+    """roscore and the processes that it starts."""
+
+    def start(self):
+        self.process = subprocess.Popen(["roscore", "-p", str(PORT)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        wait_until(master_is_there, "roscore")
+        wait_until(lambda: "/rosout" in str(rosgraph.Master("/master_test").getSystemState()), "rosout")
+
+    def kill(self):
+        children = subprocess.run(["pgrep", "-P", str(self.process.pid)], stdout=subprocess.PIPE, universal_newlines=True).stdout
+        for process in [self.process.pid] + [int(child) for child in children.split()]:
+            os.kill(process, signal.SIGKILL)
+        self.process.wait()
+        wait_until(lambda: not master_is_there(), "the end of roscore")
+
+
+def launch_node():
+    return subprocess.Popen(["roslaunch", "mems_stiction", "stiction.launch", "config:=%s" % CONFIG,
+                             "nodelet:=%s" % str(NODELET).lower(), "--wait"])
+
+
+class MasterTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.roscore = Roscore()
+        cls.roscore.start()
+        cls.launch = launch_node()
+        rospy.init_node("master_test")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.launch.send_signal(signal.SIGINT)
+        cls.launch.wait(timeout=30)
+        cls.roscore.kill()
+
+    def master_reports(self, word):
+        return [status for message in self.diagnostics.messages for status in message.status
+                if status.name == "stiction_node: master" and word in status.message]
+
+    def test_a_node_outlives_its_master_and_is_found_at_the_next(self):
+        rospy.wait_for_service("/stiction_node/set_load", timeout=30.0)
+        counts = Counts()
+        predictions = Collector("prediction", StictionPrediction).connect()
+        self.diagnostics = Collector("/diagnostics", DiagnosticArray).connect()
+        log = Collector("/rosout", Log)
+        station = Station()
+        set_load = rospy.ServiceProxy("/stiction_node/set_load", SetLoad)
+        self.assertTrue(set_load(3.0, 2 * LOAD).success)
+        stated = rospy.get_param("/stiction_node")
+        with_first_master = rosgraph.Master("/master_test").getSystemState()
+
+        with tempfile.TemporaryDirectory() as folder:
+            bag = folder + "/scans.bag"
+            make_bag(bag, "-n", str(SCANS), "--rate", "5", "--rows", "48", "--cols", "64")
+            play = subprocess.Popen(["rosbag", "play", "--quiet", "--wait-for-subscribers", bag], stdin=subprocess.DEVNULL,
+                                    stdout=subprocess.DEVNULL)
+            try:
+                predictions.wait(5)
+                self.roscore.kill()
+                wait_until(lambda: self.master_reports("does not answer"), "a report that the master is gone", timeout=10.0)
+                self.roscore.start()
+                rospy.wait_for_service("/stiction_node/get_load", timeout=10.0)
+                self.assertIsNone(play.poll(), "the bag is to outlast the restart")
+                play.wait(timeout=60)
+            finally:
+                if play.poll() is None:
+                    play.kill()
+        # Every scan of the bag, also those of the time without a master; one prediction each.
+        counts.wait(received=SCANS, predicted=SCANS, rejected=0, dropped=0, waiting=0)
+        self.assertEqual(len(predictions.wait(SCANS)), SCANS)
+        wait_until(lambda: self.master_reports("knows this node")[-1].values[0].value == "1", "a report of the registration")
+        self.assertTrue([line for line in log.messages if "does not answer" in line.msg])
+
+        # What the master holds is what the first one held.
+        def ours(state):
+            return [sorted(name for name, nodes in kind if PROCESS in nodes) for kind in state]
+
+        wait_until(lambda: ours(rosgraph.Master("/master_test").getSystemState()) == ours(with_first_master),
+                   "all registrations")
+        self.assertEqual(rospy.get_param("/stiction_node"), stated)
+        # Whoever comes now finds the services and the topics, with the load that was set.
+        load = rospy.ServiceProxy("/stiction_node/get_load", GetLoad)()
+        self.assertEqual((load.voltage, load.mechanical_load), (3.0, 2 * LOAD))
+        newcomer = subprocess.Popen(["rostopic", "echo", "-n", "1", "/prediction/pull_off_force"], stdout=subprocess.PIPE,
+                                    universal_newlines=True)
+        surface = rough_surface(7)
+        wait_until(lambda: len(rosgraph.Master("/master_test").getSystemState()[1]) > 0 and any(
+            name == "/prediction" and any("rostopic" in node for node in nodes)
+            for name, nodes in rosgraph.Master("/master_test").getSystemState()[1]), "a newcomer")
+        time.sleep(1.0)
+        stamp = station.send(surface)
+        echoed = newcomer.communicate(timeout=30)[0].split()[0]
+        record = predict_scan(surface, 2 * LOAD, voltage=3.0)
+        last = predictions.wait(SCANS + 1)[-1]
+        self.assertEqual(last.header.stamp, stamp)
+        self.assertEqual(last.pull_off_force, record["pull_off_force"])
+        self.assertEqual(float(echoed), record["pull_off_force"])
+
+
+if __name__ == "__main__":
+    rostest.rosrun("mems_stiction", "master", MasterTest)

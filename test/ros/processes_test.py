@@ -1,0 +1,233 @@
+#!/usr/bin/env python3
+"""What befalls the processes around a scan: killed, stopped and flooded nodes, frozen listeners, publishers that die."""
+
+import os
+import signal
+import socket
+import struct
+import subprocess
+import sys
+import threading
+import unittest
+from xmlrpc.server import SimpleXMLRPCServer
+
+import rosgraph
+import rospy
+import rostest
+from mems_stiction.msg import StictionPrediction
+from mems_stiction.srv import GetLoad, SetLoad
+from rosgraph_msgs.msg import Clock
+from stiction_client import Collector, Counts, OwnNode, Station, Traffic, predict_scan, rough_surface, wait_until
+
+LOAD = 1e-6
+MB = 1e6
+OVERLOAD = float(os.environ.get("MEMS_STICTION_OVERLOAD", "4"))  # seconds for each of four nodes
+# A process of its own that listens and can be stopped.
+LISTENER = """
+import sys, rospy
+from mems_stiction.msg import StictionPrediction
+from sensor_msgs.msg import Image
+rospy.init_node("listener", anonymous=True)
+kept = [rospy.Subscriber(sys.argv[1] + "/prediction", StictionPrediction, lambda message: None),
+        rospy.Subscriber(sys.argv[1] + "/deformed_height", Image, lambda message: None)]
+rospy.spin()
+"""
+
+
+class DyingPublisher:
+    """Publishes /NAMESPACE/height by the protocol, and goes away in the middle of a message."""
+
+    def __init__(self, topic, announced, sent):
+        self._message = struct.pack("<I", announced) + bytes(sent)
+        self._listener = socket.create_server(("localhost", 0))
+        self._server = SimpleXMLRPCServer(("localhost", 0), logRequests=False)
+        self._server.register_function(
+            lambda caller, name, protocols: [1, "", ["TCPROS", "localhost", self._listener.getsockname()[1]]], "requestTopic")
+        self._thread = threading.Thread(target=self._server.serve_forever, daemon=True)
+        self._thread.start()
+        self._address = "http://localhost:%d/" % self._server.server_address[1]
+        self._topic = topic
+        self._master = rosgraph.Master("/dying_publisher")
+        self._master.registerPublisher(topic, "sensor_msgs/Image", self._address)
+
+    def die(self):
+        connection, _ = self._listener.accept()
+        with connection:
+            (length,) = struct.unpack("<I", connection.recv(4, socket.MSG_WAITALL))
+            connection.recv(length, socket.MSG_WAITALL)
+            fields = [b"type=sensor_msgs/Image", b"md5sum=060021388200f6f0f447d0fcd9c64743", b"callerid=/dying_publisher"]
+            header = b"".join(struct.pack("<I", len(field)) + field for field in fields)
+            connection.sendall(struct.pack("<I", len(header)) + header + self._message)
+        self._master.unregisterPublisher(self._topic, self._address)
+        self._server.shutdown()
+        self._server.server_close()
+        self._listener.close()
+
+
+class ProcessesTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node("processes_test")
+
+    def test_1_a_node_that_is_killed_and_started_again_goes_on_and_says_which_load_is_lost(self):
+        with OwnNode("killed") as node:
+            predictions = Collector("/killed/prediction", StictionPrediction).connect()
+            station = Station("/killed/")
+            self.assertTrue(rospy.ServiceProxy("/killed/node/set_load", SetLoad)(3.0, 2 * LOAD).success)
+            with Traffic(station, [rough_surface(1), rough_surface(2)]) as traffic:
+                wait_until(lambda: len(traffic.sent) > 50, "some scans")
+                node.kill()
+                stamps_before = [message.header.stamp for message in predictions.messages]
+                with node:
+                    counts = Counts("killed/node")
+                    wait_until(lambda: len(predictions.messages) > len(stamps_before) + 50, "scans to be predicted again")
+                    rospy.sleep(0.5)
+                    traffic.__exit__()
+                    sent = sorted(traffic.sent)
+                    wait_until(lambda: predictions.messages[-1].header.stamp == sent[-1], "the last scan")
+                    # In the order of sending, none twice; what is missing lies between the two runs.
+                    stamps = [message.header.stamp for message in predictions.messages]
+                    self.assertEqual(stamps, sorted(set(stamps)))
+                    first = stamps[len(stamps_before)]
+                    self.assertEqual(stamps[len(stamps_before):], sent[sent.index(first):])
+                    counts.wait(predicted=len(stamps) - len(stamps_before), dropped=0, waiting=0)
+                    self.assertEqual([message.mechanical_load for message in predictions.messages],
+                                     [2 * LOAD] * len(stamps_before) + [LOAD] * (len(stamps) - len(stamps_before)))
+                    self.assertEqual(rospy.ServiceProxy("/killed/node/get_load", GetLoad)().voltage, 0.0)
+                    wait_until(counts.reasons, "what is lost")
+                    self.assertIn("mechanical_load was 2e-06 and is 1e-06", counts.reasons()[-1])
+                    self.assertIn("voltage was 3 and is 0", counts.reasons()[-1])
+                    self.assertTrue(rospy.ServiceProxy("/killed/node/set_load", SetLoad)(3.0, 2 * LOAD).success)
+                    wait_until(lambda: counts.level() == 0, "the end of the warning")
+
+    def test_2_a_listener_that_freezes_costs_no_prediction_and_little_memory(self):
+        surface = rough_surface(2, rows=256, cols=256)
+        with OwnNode("frozen") as node:
+            counts = Counts("frozen/node")
+            predictions = Collector("/frozen/prediction", StictionPrediction).connect()
+            station = Station("/frozen/")
+            listener = subprocess.Popen([sys.executable, "-c", LISTENER, "/frozen"])
+            try:
+                station.send(surface)
+                predictions.wait(1)
+                rospy.sleep(2.0)
+                for _ in range(20):
+                    station.send(surface)
+                predictions.wait(21)
+                before = node.resident()
+                listener.send_signal(signal.SIGSTOP)
+                for _ in range(10):
+                    for _ in range(40):
+                        station.send(surface)
+                    wait_until(lambda: int(counts["received"]) == int(counts["predicted"]), "the scans so far")
+                counts.wait(received=421, predicted=421, dropped=0, rejected=0)
+                self.assertEqual(len(predictions.wait(421)), 421)
+                # The connection holds back 20 maps of 256 kB and 1000 predictions of some kB; 400 maps would be 105 MB.
+                self.assertLess(node.resident() - before, 40 * MB)
+            finally:
+                listener.send_signal(signal.SIGCONT)
+                listener.kill()
+                listener.wait()
+            last = station.send(surface)
+            self.assertEqual(predictions.wait(422)[-1].header.stamp, last)
+
+    def test_3_a_publisher_that_dies_in_the_middle_of_a_message_is_no_scan(self):
+        with OwnNode("dying") as node:
+            counts = Counts("dying/node")
+            predictions = Collector("/dying/prediction", StictionPrediction).connect()
+            station = Station("/dying/")
+            before = node.resident()
+            for announced, sent in ((10**7, 10**6), (4 * 10**9, 100), (100, 3), (0, 0), (60, 60)):
+                DyingPublisher("/dying/height", announced, sent).die()
+            surface = rough_surface(3)
+            stamp = station.send(surface)
+            prediction = predictions.wait(1)[-1]
+            self.assertEqual(prediction.header.stamp, stamp)
+            self.assertEqual(prediction.pull_off_force, predict_scan(surface, LOAD)["pull_off_force"])
+            # Whole messages that are no image with a scan_info are rejected once time is up, the others were none.
+            wait_until(lambda: counts["waiting_for_partner"] == "0", "the end of waiting")
+            counts.wait(predicted=1, waiting=0, dropped=0)
+            self.assertLess(int(counts["rejected"]), 2)
+            self.assertLess(node.resident() - before, 100 * MB)
+
+    def test_4_a_stopped_node_says_so_when_it_goes_on(self):
+        with OwnNode("stopped") as node:
+            counts = Counts("stopped/node")
+            predictions = Collector("/stopped/prediction", StictionPrediction).connect()
+            station = Station("/stopped/")
+            surface = rough_surface(4)
+            station.send(surface)
+            predictions.wait(1)
+            node.process.send_signal(signal.SIGSTOP)
+            try:
+                for _ in range(10):
+                    station.send(surface)
+                rospy.sleep(3.0)
+            finally:
+                node.process.send_signal(signal.SIGCONT)
+            counts.wait(received=11, predicted=11, dropped=0, rejected=0)
+            wait_until(lambda: any("stood still for" in reason for reason in counts.reasons()), "a warning")
+            self.assertGreater(float(counts["longest_pause [s]"]), 2.5)
+
+    def test_5_a_clock_that_goes_back_stops_nothing(self):
+        rospy.set_param("/use_sim_time", True)
+        clock = rospy.Publisher("/clock", Clock, queue_size=10)
+        try:
+            with OwnNode("clock"):
+                rospy.set_param("/use_sim_time", False)
+                counts = Counts("clock/node")
+                predictions = Collector("/clock/prediction", StictionPrediction).connect()
+                station = Station("/clock/")
+                sent = 0
+                for now in (5000, 5001, 100, 101, 0, 7000):
+                    clock.publish(Clock(rospy.Time(now)))
+                    for _ in range(5):
+                        station.send(rough_surface(5))
+                        sent += 1
+                    counts.wait(received=sent, predicted=sent, dropped=0, rejected=0)
+                self.assertEqual(len(predictions.wait(sent)), sent)
+        finally:
+            rospy.delete_param("/use_sim_time")
+
+    def test_6_more_scans_than_can_be_predicted(self):
+        surfaces = [rough_surface(seed, rows=256, cols=256, rms_height=2e-8) for seed in (1, 2)]
+        most = 60 * surfaces[0].nbytes
+        for policy in ("latest", "all"):
+            for half_space in (False, True):
+                name = "overload_%s_%s" % (policy, "half_space" if half_space else "alone")
+                more = {"drop_policy": policy, "max_waiting_memory": float(most), "queue_size": 5,
+                        "approach/formulation": "paper", "approach/max_steps": 20000, "approach/step": 1e-12}
+                if half_space:
+                    more["half_space/enabled"] = True
+                with self.subTest(name), OwnNode(name, **more) as node:
+                    counts = Counts(name + "/node")
+                    predictions = Collector("/%s/prediction" % name, StictionPrediction).connect()
+                    station = Station("/%s/" % name)
+                    for _ in range(3):
+                        station.send(surfaces[0])
+                    predictions.wait(3)
+                    period = float(predictions.messages[-1].processing_time) / 3
+                    before = node.resident()
+                    with Traffic(station, surfaces, period) as traffic:
+                        rospy.sleep(OVERLOAD)
+                        last_before_end = max(traffic.sent)
+                        newest = predictions.messages[-1].header.stamp
+                        waiting = int(counts["waiting"])
+                        growth = node.resident() - before
+                    sent = len(traffic.sent) + 3
+                    wait_until(lambda: int(counts["received"]) == sent and counts["waiting"] == "0", "the end of the scans", 120.0)
+                    figures = {key: int(counts[key]) for key in ("received", "predicted", "rejected", "dropped", "missing_by_sequence")}
+                    print(name, figures, "period %.4g s" % period, "waiting", waiting, "growth %.0f MB" % (growth / MB),
+                          "behind %d" % (last_before_end - newest).to_sec(), flush=True)
+                    self.assertEqual(figures["predicted"] + figures["dropped"], sent, figures)
+                    self.assertEqual((figures["rejected"], figures["missing_by_sequence"]), (0, 0))
+                    self.assertEqual(len(predictions.wait(figures["predicted"])), figures["predicted"])
+                    self.assertEqual(predictions.messages[-1].header.stamp, max(traffic.sent))  # the newest, never dropped
+                    self.assertGreater(figures["dropped"] if policy == "latest" else waiting, 0)
+                    self.assertLess(growth, most + 150 * MB)  # heaps of threads, maps of the half-space
+                    if policy == "latest":
+                        self.assertLess((last_before_end - newest).to_sec(), 5 + 5)  # stamps count scans; 5 may wait
+
+
+if __name__ == "__main__":
+    rostest.rosrun("mems_stiction", "processes", ProcessesTest)
