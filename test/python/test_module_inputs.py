@@ -195,13 +195,6 @@ class CopyTest(unittest.TestCase):
             together = list(pool.map(lambda frame: without_times(predictor.predict(frame, PITCH).to_dict()), frames * 3))
         self.assertEqual(together, alone * 3)
 
-    def test_the_interpreter_ends_while_a_thread_predicts(self):
-        code = ("import mems_stiction, numpy, threading\n"
-                "frame = numpy.random.default_rng(1).standard_normal((900, 900)) * 5e-9\n"
-                "threading.Thread(target=mems_stiction.predict, args=(frame, 20e-9), daemon=True).start()")
-        done = subprocess.run([sys.executable, "-c", code], stderr=subprocess.PIPE, universal_newlines=True, timeout=60)
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
-
 
 class WithoutOtherPackagesTest(unittest.TestCase):
     """What `pip install .` brings is NumPy alone."""
