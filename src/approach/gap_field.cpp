@@ -224,4 +224,12 @@ MEMS_STICTION_VECTORIZED int columnsBetween(double from, double limit, const dou
   return static_cast<int>(next - columns);
 }
 
+void GapField::prefetchLower(int cell) const {
+  if (upper_is_flat_) return;
+  const double* const heights = lower_.data();
+  __builtin_prefetch(heights + cell);
+  __builtin_prefetch(heights + std::max(cell - cols_, 0));
+  __builtin_prefetch(heights + std::min(cell + cols_, cellCount() - 1));
+}
+
 }  // namespace mems_stiction

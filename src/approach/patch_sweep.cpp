@@ -8,6 +8,8 @@ namespace {
 /// The first cells of a sweep, and the last ones that are past a window of the table, are looked up one by one if they
 /// are no more than this share of the frame: most sweeps end before it, and a window costs a pass over the frame.
 constexpr double kShareLookedUp = 1.0 / 64.0;
+/// Cells of the order lie all over the frame: heights are asked for so many cells before they are needed.
+constexpr int kCellsAhead = 12;
 
 }  // namespace
 
@@ -47,6 +49,8 @@ void PatchSweep::advanceTo(int count) {
     if (is_past_window && count > looked_up && order_->contactLimit() - inserted_ > looked_up) {
       surroundings_.collectFrom(inserted_);
     }
+    const auto ahead = static_cast<std::size_t>(std::min(inserted_ + kCellsAhead, count - 1));
+    field_->prefetchLower(order_->cells()[ahead].cell);
     insertNext();
   }
 }

@@ -68,6 +68,9 @@ class GapField {
   /// z1 from an arbitrary but fixed level [m], so that a stage offset costs no digits. z2 = z1 + g on the same level.
   double lowerHeight(int cell) const { return upper_is_flat_ ? -gap(cell) : lower_[static_cast<std::size_t>(cell)]; }
 
+  /// Asks the memory for z1 of a cell and of those above and below it, unless the upper surface is flat.
+  void prefetchLower(int cell) const;
+
   static constexpr double kInvalidGap = std::numeric_limits<double>::infinity();
 
  private:
