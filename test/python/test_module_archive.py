@@ -14,7 +14,7 @@ import unittest
 import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from test_module import REPOSITORY, program, rough  # noqa: E402  (the path comes first)
+from module_cases import REPOSITORY, program, rough  # noqa: E402  (the path comes first)
 
 EXAMPLES = REPOSITORY / "scripts" / "examples"
 CONFIG = "load: {mechanical_load: 1.0e-6}\ndevice: {spring_stiffness: 2.0, travel: 1.0e-6, contact_area: 1.0e-11}\n"

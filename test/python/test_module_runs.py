@@ -1,0 +1,170 @@
+"""The Python module at work: wrong inputs are named, threads and Ctrl-C work, sweeps and cycles have the messages' fields."""
+
+import json
+import os
+import pathlib
+import pickle
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+import mems_stiction
+import numpy as np
+
+try:
+    from mems_stiction import _core  # noqa: F401
+except ImportError:
+    raise unittest.SkipTest("the Python module is not built: MEMS_STICTION_WITH_PYTHON is off")
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from module_cases import DEVICE, PITCH, REPOSITORY, Topography, program, rough  # noqa: E402  (the path comes first)
+
+
+class WrongInputTest(unittest.TestCase):
+    def test_each_is_named_with_what_is_allowed(self):
+        good = rough(20, 30)
+        surface, options = mems_stiction.SurfaceError, mems_stiction.OptionsError
+        for heights, pitch, kind, words in (
+                (good[0], PITCH, surface, "shape \\(30,\\).*two dimensions"), (np.stack([good, good]), PITCH, surface, "two dimensions"),
+                (good + 0j, PITCH, surface, "complex128.*real numbers"), (good.astype(object), PITCH, surface, "type object"),
+                (good > 0, PITCH, surface, "type bool"), ([["1", "2"]], PITCH, surface, "real numbers"),
+                (good[:0], PITCH, surface, "has no pixel"), (good * np.nan, PITCH, surface, "no valid pixel"),
+                (good, 0, surface, "pitch: 0 .*> 0 m"), (good, -1e-9, surface, "pitch: -1e-09"), (good, float("nan"), surface, "pitch: nan"),
+                (good, "20 nm", surface, "pitch: '20 nm'.*number"), (good, (1e-9, 2e-9, 3e-9), surface, "two of them"),
+                (good, None, surface, "pitch"), (Topography(good, (1.0, 1.0), "parsec"), None, surface, "'parsec'.*nm"),
+                (Topography(good, (1.0, 1.0)), None, surface, "states no unit"), (Topography(good[0], (1.0,), "m"), None, surface, "two dimensions"),
+                (Topography(good, None, "m"), None, surface, "physical_sizes"), (Topography(good, (1, 1), "m"), 1e-9, surface, "leave it out")):
+            with self.subTest(words=words):
+                with self.assertRaisesRegex(kind, words) as caught:
+                    mems_stiction.predict(heights, pitch)
+                self.assertIsInstance(caught.exception, ValueError)
+                self.assertEqual(len(str(caught.exception).splitlines()), 1)
+        with self.assertRaisesRegex(surface, "grid"):
+            mems_stiction.predict(good, PITCH, upper=good[:-1])
+        with self.assertRaisesRegex(surface, "^upper: .*two dimensions"):
+            mems_stiction.predict(good, PITCH, upper=good[0])
+        with self.assertRaisesRegex(options, "config: 3 is not allowed"):
+            mems_stiction.predict(good, PITCH, 3)
+        with self.assertRaisesRegex(mems_stiction.FileError, "missing.yaml: the configuration file cannot be opened"):
+            mems_stiction.predict(good, PITCH, "missing.yaml")
+        with self.assertRaisesRegex(OSError, "missing.tiff"):
+            mems_stiction.read("missing.tiff")
+
+    def test_settings_raise_the_sentences_of_the_reader_of_files(self):
+        good = rough(20, 30)
+        wrong = {"lower": {"hardnes": 1, "youngs_modulus": -1.0}, "load/voltage": "high", "approach": {"formulation": "none", "max_steps": 1.5},
+                 "output": {"roughness": 3, "asperities": [1]}, "preprocessing": 1}
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "wrong.yaml")
+            pathlib.Path(path).write_text(json.dumps(wrong))
+            with self.assertRaises(mems_stiction.OptionsError) as of_file:
+                mems_stiction.predict(good, PITCH, path)
+            done = subprocess.run([program(), "--config", path, "scan.npy"], stderr=subprocess.PIPE, universal_newlines=True)
+        with self.assertRaises(mems_stiction.OptionsError) as of_dictionary:
+            mems_stiction.predict(good, PITCH, wrong)
+        with self.assertRaises(mems_stiction.OptionsError) as of_keywords:
+            mems_stiction.predict(good, PITCH, **wrong)
+        lines = str(of_file.exception).replace(path + ": ", "").splitlines()
+        self.assertGreater(len(lines), 6)
+        self.assertEqual(str(of_dictionary.exception).splitlines(), lines)
+        self.assertEqual(str(of_keywords.exception).splitlines(), lines)
+        for line in lines:
+            self.assertIn(line, done.stderr)
+        self.assertIn("did you mean lower/hardness", lines[-2] + lines[-1] + lines[-3])
+
+    def test_a_wrong_unit_warns(self):
+        with self.assertWarnsRegex(mems_stiction.ScanWarning, "pitch"):
+            prediction = mems_stiction.predict(rough(20, 30), 20.0)
+        self.assertIn("pitch", prediction.warnings[0])
+
+    def test_a_frame_that_fails_raises_or_takes_its_place(self):
+        given = [rough(20, 30), rough(20, 30)[0], rough(20, 30)]
+        with self.assertRaises(mems_stiction.SurfaceError):
+            list(mems_stiction.predict_many(given, PITCH))
+        first, failed, last = mems_stiction.predict_many(given, PITCH, errors="return")
+        self.assertIsInstance(failed, mems_stiction.SurfaceError)
+        self.assertEqual(first.pull_off_force, last.pull_off_force)
+
+
+LONG = """
+import mems_stiction, numpy, sys
+heights = 5e-9 * numpy.random.default_rng(1).standard_normal((512, 512))
+soft = {"youngs_modulus": 1e8}
+print("started", flush=True)
+try:
+    mems_stiction.half_space(heights, 20e-9, lower=soft, upper=soft, load={"mechanical_load": 1e-5})
+except KeyboardInterrupt:
+    print("interrupted", flush=True)
+"""
+
+
+class ThreadTest(unittest.TestCase):
+    def test_ctrl_c_stops_a_half_space(self):
+        process = subprocess.Popen([sys.executable, "-c", LONG], stdout=subprocess.PIPE, universal_newlines=True)
+        self.assertEqual(process.stdout.readline(), "started\n")
+        time.sleep(1.0)
+        self.assertIsNone(process.poll(), "the frame is too small to be interrupted")
+        process.send_signal(signal.SIGINT)
+        began = time.monotonic()
+        self.assertEqual(process.communicate(timeout=60)[0], "interrupted\n")
+        self.assertEqual(process.returncode, 0)
+        self.assertLess(time.monotonic() - began, 20)  # the whole solution takes minutes; a busy machine has room
+
+    def test_the_interpreter_goes_on_meanwhile(self):
+        heights = rough(700, 700, 12e-9)
+        began = time.perf_counter()
+        mems_stiction.predict(heights, PITCH)
+        alone = time.perf_counter() - began
+        ticks = []
+        thread = threading.Thread(target=mems_stiction.predict, args=(heights, PITCH))
+        thread.start()
+        while thread.is_alive():
+            ticks.append(time.perf_counter())
+            time.sleep(alone / 50)
+        self.assertGreater(len(ticks), 5)  # one or two if the lock were held
+
+    def test_a_prediction_goes_to_another_process(self):
+        prediction = mems_stiction.predict(rough(40, 50), PITCH, device=DEVICE)
+        copy = pickle.loads(pickle.dumps(prediction))
+        self.assertEqual(copy.json(), prediction.json())
+        self.assertTrue(np.array_equal(copy.contact_map, prediction.contact_map))
+        self.assertEqual(copy.asperities.load.tolist(), prediction.asperities.load.tolist())
+        self.assertEqual(copy.verdict.sticks, prediction.verdict.sticks)
+        for one in (mems_stiction.clean(rough(9, 9), PITCH), mems_stiction.Settings(load={"mechanical_load": 1e-6})):
+            self.assertEqual(repr(pickle.loads(pickle.dumps(one))), repr(one))
+
+
+class StationTest(unittest.TestCase):
+    def fields_of(self, message):
+        text = (REPOSITORY / "msg" / (message + ".msg")).read_text()
+        return re.findall(r"^\w+ (\w+) +#", text, re.MULTILINE)
+
+    def test_records_have_the_fields_of_the_messages(self):
+        heights = rough(48, 48)
+        sweep = mems_stiction.sweep_loads(heights, PITCH, [0, 5], [0, 1e-7], interface={"insulator_thickness": 1e-7}, device=DEVICE)
+        cycles = mems_stiction.cycle_contact(heights, PITCH, 3, load={"mechanical_load": 1e-6}, lower={"hardness": 1e9})
+        self.assertEqual(sorted(sweep.points.dtype.names), sorted(self.fields_of("SweepPoint")))
+        self.assertEqual(sorted(sweep.summaries.dtype.names), sorted(self.fields_of("SweepSummary")))
+        self.assertEqual(sorted(cycles.cycles.dtype.names), sorted(self.fields_of("CyclePoint")))
+        self.assertEqual(sweep.points.voltage.tolist(), [0, 5, 0, 0, 5, 0])
+        self.assertEqual(cycles.cycles.cycle.tolist(), [1, 2, 3])
+        self.assertEqual(cycles.lower.shape, heights.shape)
+        first = mems_stiction.predict(heights, PITCH, load={"mechanical_load": 1e-6}, lower={"hardness": 1e9})
+        self.assertEqual(cycles.cycles[0].pull_off_force, first.pull_off_force)
+        self.assertIn("contact 3", repr(cycles))
+        self.assertIn("Pressed with", repr(sweep))
+
+    def test_wrong_requests_are_named(self):
+        with self.assertRaisesRegex(mems_stiction.OptionsError, "voltages"):
+            mems_stiction.sweep_loads(rough(20, 20), PITCH, [5, 0])
+        with self.assertRaisesRegex(mems_stiction.OptionsError, "0"):
+            mems_stiction.cycle_contact(rough(20, 20), PITCH, 0)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,106 @@
+"""What people see of the Python module: texts, pictures, descriptions, types, the notebook."""
+
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import mems_stiction
+
+try:
+    from mems_stiction import _core
+except ImportError:
+    raise unittest.SkipTest("the Python module is not built: MEMS_STICTION_WITH_PYTHON is off")
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from module_cases import DEVICE, FORMULATIONS, PITCH, REPOSITORY, rough  # noqa: E402  (the path comes first)
+
+
+class TextTest(unittest.TestCase):
+    def test_text_and_page(self):
+        prediction = mems_stiction.predict(rough(64, 64, 12e-9, 2), PITCH, device=DEVICE)
+        self.assertRegex(repr(prediction), r"equilibrium\n  pull-off force [\d.]+ [nu]N on .*\n.*\n  sticks: ")
+        page = prediction._repr_html_()
+        self.assertIn('<img src="data:image/png;base64,iVBOR', page)
+        self.assertIn("does the device stick?", page)
+        for formulation in FORMULATIONS:
+            bare = mems_stiction.predict(rough(20, 30), PITCH, approach={"formulation": formulation}, output={"contact_map": False, "deformed_surfaces": False})
+            self.assertIn("<img", bare._repr_html_())
+        soft = {"youngs_modulus": 1e9}
+        solved = mems_stiction.half_space(rough(24, 24), PITCH, lower=soft, upper=soft)
+        self.assertIn("<img", solved._repr_html_())
+        self.assertIn("Half-space: solved", repr(solved))
+
+    def test_a_picture_leaves_the_backend_of_pyplot_alone(self):
+        code = ("import matplotlib; matplotlib.use('svg')\nimport mems_stiction, numpy\n"
+                "mems_stiction.predict(numpy.eye(20) * 1e-9, 20e-9)._repr_html_()\nprint(matplotlib.get_backend().lower())")
+        done = subprocess.run([sys.executable, "-W", "ignore", "-c", code], stdout=subprocess.PIPE, universal_newlines=True, check=True)
+        self.assertEqual(done.stdout.strip(), "svg")
+
+    def test_messages_and_pictures_do_not_load_the_core(self):
+        code = "import mems_stiction.plots, sys; print('mems_stiction._core' in sys.modules)"
+        done = subprocess.run([sys.executable, "-c", code], stdout=subprocess.PIPE, universal_newlines=True, check=True)
+        self.assertEqual(done.stdout.strip(), "False")
+
+    def test_every_figure_is_annotated_and_explained_with_its_unit(self):
+        units = _core.prediction_units()
+        of_prediction = dict(units["prediction"], formulation="", regime_flags="")
+        for kind, table in ((mems_stiction.Prediction, of_prediction), (mems_stiction.Verdict, units["verdict"]),
+                            (mems_stiction.Roughness, _core.roughness_units()), (mems_stiction.HalfSpace, _core.half_space_units())):
+            annotated = {name for name in kind.__annotations__ if not name.startswith("_")}
+            self.assertEqual(annotated, set(table), kind)
+            text = " ".join(kind.__doc__.split())
+            for name, unit in table.items():
+                # "a, b [N]: ..." gives both their unit
+                pattern = r"(?<!\w)%s(?:, \w+)*%s" % (name, r" \[%s\]" % re.escape(unit) if unit else "")
+                self.assertRegex(text, pattern)
+
+    def test_every_name_has_a_description(self):
+        for name in mems_stiction.__all__:
+            self.assertTrue(getattr(mems_stiction, name).__doc__, name)
+            self.assertIn(name, dir(mems_stiction))
+
+
+class TypeTest(unittest.TestCase):
+    def test_types_fit(self):
+        try:
+            import mypy.api
+        except ImportError:
+            self.skipTest("mypy is not installed")
+        files = sorted(str(path) for path in (REPOSITORY / "python" / "mems_stiction").glob("_*.py*"))
+        files = [path for path in files if not path.endswith("__init__.py")] + [
+            str(REPOSITORY / "python" / "mems_stiction" / "archive.py"), str(REPOSITORY / "test" / "python" / "module_use.py")]
+        with tempfile.TemporaryDirectory() as cache:
+            out, err, status = mypy.api.run(["--config-file", str(REPOSITORY / "pyproject.toml"), "--cache-dir", cache] + files)
+        self.assertEqual(status, 0, out + err)
+
+    def test_the_stub_has_what_the_compiled_part_has(self):
+        stub = (REPOSITORY / "python" / "mems_stiction" / "_core.pyi").read_text()
+        self.assertEqual(set(re.findall(r"^(?:class|def) (\w+)", stub, re.MULTILINE)),
+                         {name for name in dir(_core) if not name.startswith("_")})
+        for kind, body in re.findall(r"^class (\w+):\n((?:    .*\n)+)", stub, re.MULTILINE):
+            self.assertEqual(set(re.findall(r"^    (?:def )?(\w+)[(:]", body, re.MULTILINE)) - {"__init__"},
+                             {name for name in vars(getattr(_core, kind)) if not name.startswith("_")}, kind)
+
+
+class NotebookTest(unittest.TestCase):
+    def test_it_runs(self):
+        try:
+            import nbclient
+            import nbformat
+            import ipykernel  # noqa: F401
+        except ImportError as missing:
+            self.skipTest("%s is not installed" % missing.name)
+        for path in sorted((REPOSITORY / "doc" / "notebooks").glob("*.ipynb")):
+            notebook = nbformat.read(str(path), as_version=4)
+            self.assertTrue(all(not cell.get("outputs") for cell in notebook.cells), "%s holds outputs" % path.name)
+            with tempfile.TemporaryDirectory() as folder:
+                nbclient.NotebookClient(notebook, timeout=200, kernel_name="python3", resources={"metadata": {"path": folder}}).execute()
+            shown = [output for cell in notebook.cells for output in cell.get("outputs", []) if "text/html" in output.get("data", {})]
+            self.assertGreater(len(shown), 0)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,66 @@
+#pragma once
+
+/// The real predict_scan, as users and scripts call it: its output, its exit status, the lines that it complains with.
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mems_stiction/import/scan_writer.hpp"
+#include "support/analytic_surfaces.hpp"
+#include "support/scratch_folder.hpp"
+
+namespace mems_stiction {
+
+struct Outcome {
+  int status = -1;
+  std::string output;
+  std::vector<std::string> errors;  ///< lines
+};
+
+class PredictScan : public ::testing::Test {
+ protected:
+  Outcome run(const std::string& arguments) const {
+    const std::string command = std::string(MEMS_STICTION_PREDICT_SCAN) + " " + arguments + " >" + folder_.file("out") +
+                                " 2>" + folder_.file("err");
+    const int status = std::system(command.c_str());
+    Outcome outcome;
+    outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    outcome.output = ScratchFolder::read(folder_.file("out"));
+    std::istringstream errors(ScratchFolder::read(folder_.file("err")));
+    for (std::string line; std::getline(errors, line);) outcome.errors.push_back(line);
+    return outcome;
+  }
+
+  /// A sphere of 2 um in a frame of 2 um, float32 metres.
+  std::string sphere(const std::string& name = "sphere.tiff") const {
+    writeHeightTiff(folder_.file(name), analytic::paraboloid(101, 101, 20e-9, 20e-9, 2e-6).heights());
+    return folder_.file(name);
+  }
+
+  ScratchFolder folder_;
+};
+
+/// Height [m] and force [N] of the points of one direction, in the order of the file.
+inline std::vector<std::pair<double, double>> pointsOf(const std::string& csv, const std::string& direction) {
+  std::istringstream lines(csv);
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(line, "height,force,direction");
+  std::vector<std::pair<double, double>> points;
+  while (std::getline(lines, line)) {
+    const std::size_t first = line.find(',');
+    const std::size_t second = line.find(',', first + 1);
+    if (line.substr(second + 1) == direction) {
+      points.emplace_back(std::stod(line), std::stod(line.substr(first + 1, second - first - 1)));
+    }
+  }
+  return points;
+}
+
+}  // namespace mems_stiction
