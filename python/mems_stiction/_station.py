@@ -21,7 +21,8 @@ class LoadSweep:
     points: a record for each load, with the fields of msg/SweepPoint.msg: direction (0 up, 1 down), voltage [V],
     mechanical_load, pull_off_force, van_der_waals_force, electrostatic_force, normal_load [N], status (0 equilibrium, 1
     bonded, 2 none), is_open, contact_area, contact_area_jkr [m^2], contact_fraction, approach [m], asperity_count, sticks
-    (0 no, 1 marginal, 2 yes, 3 unknown), margin, margin_lower, holding_margin [-].
+    (0 no, 1 marginal, 2 yes, 3 unknown), margin, margin_lower, holding_margin, margin_upper [-],
+    pull_off_force_lower, pull_off_force_upper [N].
     summaries: a record for each mechanical load: highest_releasing_voltage, highest_safe_voltage, lowest_sticking_voltage,
     opening_voltage [V]; NaN: none of the sweep.
     pull_in_voltage [V]: at which the electrodes close; NaN without a device.
@@ -50,7 +51,8 @@ class ContactCycles:
 
     cycles: a record for each contact, with the fields of msg/CyclePoint.msg: cycle, status (0 equilibrium, 1 bonded, 2
     none), pull_off_force, van_der_waals_force [N], contact_area, contact_area_jkr [m^2], contact_fraction, asperity_count,
-    plastic_count, rms_height, largest_change [m], sticks (0 no, 1 marginal, 2 yes, 3 unknown), margin, margin_lower [-].
+    plastic_count, rms_height, largest_change [m], sticks (0 no, 1 marginal, 2 yes, 3 unknown), margin, margin_lower, margin_upper [-],
+    pull_off_force_lower, pull_off_force_upper [N].
     first_sticking_cycle: 0 if none surely sticks, or no device is stated.
     lower, upper: both surfaces after the last contact [m], refined as preprocessing/refine says.
     """

@@ -21,6 +21,20 @@ class CurveError(Exception):
     """What is wrong with a file, in one line with its name."""
 
 
+def steep_steps(positions, values):
+    """The places of the steps, each from one point to the next, over which the values are not continuous."""
+    values = np.asarray(values, dtype=float)
+    change = np.abs(np.diff(values))
+    steepness = change / np.maximum(np.abs(np.diff(np.asarray(positions, dtype=float))), 1e-30)
+    found = []
+    for place in range(1, len(change) - 1):
+        # On each side the flatter of two steps, as another jump may be next to this one.
+        around = max(steepness[max(0, place - 2):place].min(), steepness[place + 1:place + 3].min())
+        if change[place] > JUMP_SHARE * np.ptp(values) and steepness[place] > JUMP_STEEPNESS * around:
+            found.append(place)
+    return found
+
+
 class Way:
     """One way of a curve: heights [m] and forces [N], in the order in which they were met."""
 
@@ -34,15 +48,7 @@ class Way:
     def jumps(self):
         """The steps over which the force is not continuous: place i stands for the step from point i to i + 1. A file does
         not say where they are, but a path that is followed in small steps is steep nowhere else."""
-        force = np.abs(np.diff(self.forces))
-        steepness = force / np.maximum(np.abs(np.diff(self.heights)), 1e-30)
-        found = []
-        for place in range(1, len(force) - 1):
-            # On each side the flatter of two steps, as another jump may be next to this one.
-            around = max(steepness[max(0, place - 2):place].min(), steepness[place + 1:place + 3].min())
-            if force[place] > JUMP_SHARE * np.ptp(self.forces) and steepness[place] > JUMP_STEEPNESS * around:
-                found.append(place)
-        return found
+        return steep_steps(self.heights, self.forces)
 
 
 class Curve:

@@ -9,13 +9,11 @@ import actionlib
 import rospy
 from actionlib import CommState, TerminalState
 from mems_stiction.csv_text import csv_cell
+from mems_stiction.provenance import FIELDS as PROVENANCE
 from mems_stiction.station_node import CannotRun
 
 DONE, CANCELLED, NOT_RUN = 0, 1, 2  # exit statuses
 SILENCE = 5.0  # after which a node counts as gone [s]
-
-
-PROVENANCE = ("version", "settings_hash", "scan_name", "part_id", "serial_id")  # fields of every result
 
 
 class NoNumbers(argparse.ArgumentTypeError, ValueError):

@@ -4,8 +4,8 @@ import math
 
 from mems_stiction.prediction_text import STATUS_NAMES, STICKS_NAMES, bound_of, contact_area_of
 from mems_stiction.quantities import area, percent, ratio, with_unit
+from mems_stiction.sweep_jumps import UP, jumps_of
 
-UP = 0  # SweepPoint.UP
 NO, MARGINAL = 0, 1  # StictionPrediction.STICKS_...
 ROUND_OFF = 1e-9  # of sums over a million cells, with room
 _SWEEP = "%-4s %10s %10s  %-14s %11s %11s %10s %12s %9s %9s  %s"
@@ -43,6 +43,7 @@ def sweep_sentences(result):
                 ("first voltage after which it does not release", summary.lowest_sticking_voltage),
                 ("opens on the way down at", summary.opening_voltage)):
             sentences.append("  %s: %s" % (text, "none of the sweep" if math.isnan(voltage) else with_unit(voltage, "V")))
+        sentences += ["  jump " + jump.words() for jump in jumps_of(result.points, summary.mechanical_load, result.pull_in_voltage)]
         gap = widest_gap(result.points, summary.mechanical_load)
         if gap is None:
             sentences.append("  no hysteresis: the way down is the way up")
@@ -61,6 +62,15 @@ def sweep_sentences(result):
         sentences.append("Margin: restoring force over pull-off force, once the load is gone; above 1 the device opens.")
         sentences.append("While held: restoring force over all that holds while the load acts.")
     return sentences
+
+
+def safe_voltage_words(summary, points):
+    """The largest voltage after which the verdict with its interval still releases."""
+    if math.isnan(summary.highest_safe_voltage):
+        return "no voltage of the sweep is surely safe (95 %)"
+    of_load = [point.voltage for point in points if point.mechanical_load == summary.mechanical_load]
+    is_last = summary.highest_safe_voltage == max(of_load, default=math.inf)
+    return "safe (95 %%) up to %s%s" % (with_unit(summary.highest_safe_voltage, "V"), ", the highest of the sweep" if is_last else "")
 
 
 def area_label(points):

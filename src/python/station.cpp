@@ -68,6 +68,9 @@ Records pointsOf(const Sweep& result) {
   fields("margin", row.margin);
   fields("margin_lower", row.margin_lower);
   fields("holding_margin", row.holding_margin);
+  fields("margin_upper", row.margin_upper);
+  fields("pull_off_force_lower", row.pull_off_interval.lower);
+  fields("pull_off_force_upper", row.pull_off_interval.upper);
   return recordsOf(result->rows, fields.fields, result);
 }
 
@@ -99,6 +102,9 @@ Records cyclesOf(const Cycles& result) {
   fields("sticks", one.sticks);
   fields("margin", one.margin);
   fields("margin_lower", one.margin_lower);
+  fields("margin_upper", one.margin_upper);
+  fields("pull_off_force_lower", one.pull_off_interval.lower);
+  fields("pull_off_force_upper", one.pull_off_interval.upper);
   return recordsOf(result->cycles, fields.fields, result);
 }
 

@@ -97,6 +97,36 @@ int strideFor(const cv::Mat& heights, int max_points) {
   return stride;
 }
 
+/// Square pixels over the scan, each of which shows the scan's pixel below it, so that the picture has the scan's true
+/// aspect. They are as large as the smaller pitch, or a whole number of times where that would be too many.
+class PreviewGrid {
+ public:
+  PreviewGrid(const HeightMap& scan, int max_size) : scan_rows_(scan.rows()), scan_cols_(scan.cols()) {
+    const double pitch = std::min(scan.pitchX(), scan.pitchY());
+    const double longer = std::max(scan.cols() * (scan.pitchX() / pitch), scan.rows() * (scan.pitchY() / pitch));
+    const double stride = std::max(1.0, std::ceil(longer / max_size - kRoundOff));
+    step_x_ = stride * (pitch / scan.pitchX());
+    step_y_ = stride * (pitch / scan.pitchY());
+  }
+
+  int rows() const { return count(scan_rows_, step_y_); }
+  int cols() const { return count(scan_cols_, step_x_); }
+  int scanRow(int row) const { return place(row, step_y_, scan_rows_); }
+  int scanCol(int col) const { return place(col, step_x_, scan_cols_); }
+
+ private:
+  static constexpr double kRoundOff = 1e-9;
+
+  static int count(int size, double step) { return std::max(1, static_cast<int>(std::ceil(size / step - kRoundOff))); }
+  static int place(int pixel, double step, int size) {
+    return std::min(static_cast<int>(pixel * step + kRoundOff), size - 1);
+  }
+
+  int scan_rows_, scan_cols_;
+  double step_x_ = 1.0;  ///< [pixels of the scan]
+  double step_y_ = 1.0;
+};
+
 }  // namespace
 
 sensor_msgs::PointCloud2 surfacePoints(const Prediction& prediction, const HeightMap& scan,
@@ -194,18 +224,18 @@ visualization_msgs::MarkerArray asperityMarkers(const Prediction& prediction, co
 sensor_msgs::Image previewImage(const HeightMap& surface, const std_msgs::Header& header,
                                 const DisplayOptions& options) {
   const cv::Mat heights = surface.asDouble().heights();
-  const int longest = std::max(heights.rows, heights.cols);
-  const int stride = (longest + options.max_preview_size - 1) / options.max_preview_size;
+  const PreviewGrid grid(surface, options.max_preview_size);
   sensor_msgs::Image image;
   image.header = header;
   image.encoding = sensor_msgs::image_encodings::MONO8;
-  image.height = static_cast<std::uint32_t>((heights.rows + stride - 1) / stride);
-  image.width = static_cast<std::uint32_t>((heights.cols + stride - 1) / stride);
+  image.height = static_cast<std::uint32_t>(grid.rows());
+  image.width = static_cast<std::uint32_t>(grid.cols());
   image.step = image.width;
 
   std::vector<double> shown;
-  for (int row = 0; row < heights.rows; row += stride) {
-    for (int col = 0; col < heights.cols; col += stride) shown.push_back(heights.at<double>(row, col));
+  for (int row = 0; row < grid.rows(); ++row) {
+    const double* line = heights.ptr<double>(grid.scanRow(row));
+    for (int col = 0; col < grid.cols(); ++col) shown.push_back(line[grid.scanCol(col)]);
   }
   std::vector<double> sorted;
   std::copy_if(shown.begin(), shown.end(), std::back_inserter(sorted),

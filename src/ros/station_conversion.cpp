@@ -26,6 +26,9 @@ SweepPoint pointMessage(const LoadSweepRow& row) {
   message.margin = row.margin;
   message.margin_lower = row.margin_lower;
   message.holding_margin = row.holding_margin;
+  message.margin_upper = row.margin_upper;
+  message.pull_off_force_lower = row.pull_off_interval.lower;
+  message.pull_off_force_upper = row.pull_off_interval.upper;
   return message;
 }
 
@@ -55,6 +58,9 @@ CyclePoint cycleMessage(const ContactCycle& cycle) {
   message.sticks = static_cast<std::uint8_t>(cycle.sticks);
   message.margin = cycle.margin;
   message.margin_lower = cycle.margin_lower;
+  message.margin_upper = cycle.margin_upper;
+  message.pull_off_force_lower = cycle.pull_off_interval.lower;
+  message.pull_off_force_upper = cycle.pull_off_interval.upper;
   return message;
 }
 

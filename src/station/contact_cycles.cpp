@@ -80,6 +80,8 @@ ContactCyclesResult cycleContacts(const Options& options, const SurfacePair& sur
     row.sticks = verdict.sticks;
     row.margin = verdict.margin;
     row.margin_lower = verdict.margin_lower;
+    row.margin_upper = verdict.margin_upper;
+    row.pull_off_interval = pullOffInterval(prediction, options, uncertainty);
     result.cycles.push_back(row);
     if (row.sticks == Sticks::kYes && result.first_sticking_cycle == 0) result.first_sticking_cycle = cycle;
     control.report(cycle, count);

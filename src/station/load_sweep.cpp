@@ -70,7 +70,10 @@ class Loop {
  private:
   void fill(const HeldState& state, LoadSweepRow& row) {
     const Prediction& contact = contact_.contact();
-    if (state.is_searched) verdict_ = verdictOf(contact, device_, uncertainty_, options_, cell_area_);
+    if (state.is_searched) {
+      verdict_ = verdictOf(contact, device_, uncertainty_, options_, cell_area_);
+      pull_off_interval_ = pullOffInterval(contact, options_, uncertainty_);
+    }
     row.status = contact.status;
     row.is_lower_bound = contact.isLowerBound();
     row.pull_off_force = contact.pull_off_force;
@@ -85,6 +88,8 @@ class Loop {
     row.sticks = verdict_.sticks;
     row.margin = verdict_.margin;
     row.margin_lower = verdict_.margin_lower;
+    row.margin_upper = verdict_.margin_upper;
+    row.pull_off_interval = pull_off_interval_;
     const bool is_known = contact.status == Status::kEquilibrium || contact.followsCurve();
     if (std::isnan(verdict_.margin) || !is_known) return;
     const double pressing = state.mechanical_load * device_.contact_area / contact.nominal_area;
@@ -98,6 +103,7 @@ class Loop {
   HeldContact contact_;
   double cell_area_;
   Verdict verdict_;
+  ForceInterval pull_off_interval_;
   bool is_open_ = false;
 };
 

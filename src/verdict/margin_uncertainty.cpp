@@ -244,6 +244,13 @@ AdhesionSpread adhesionSpread(const Prediction& prediction, const Options& optio
   return spread;
 }
 
+ForceInterval pullOffInterval(const Prediction& prediction, const Options& options,
+                              const UncertaintyOptions& uncertainty) {
+  const AdhesionSpread spread = adhesionSpread(prediction, options, uncertainty);
+  return {prediction.pull_off_force * quantile(spread.pull_off, kLowerShare),
+          prediction.pull_off_force * quantile(spread.pull_off, kUpperShare)};
+}
+
 double quantile(const std::vector<double>& sorted_samples, double share) {
   if (sorted_samples.empty()) return kUnknown;
   const double place = share * static_cast<double>(sorted_samples.size() - 1);

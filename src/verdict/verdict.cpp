@@ -10,8 +10,6 @@
 namespace mems_stiction {
 namespace {
 
-constexpr double kLowerShare = 0.025;
-constexpr double kUpperShare = 0.975;
 constexpr double kStandardLower = 0.158655;  // one standard deviation of a normal distribution to either side
 constexpr double kStandardUpper = 1.0 - kStandardLower;
 

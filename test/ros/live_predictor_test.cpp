@@ -382,41 +382,6 @@ TEST(DisplayConversion, FillsTheViewWhateverTheSizeOfTheScan) {
   }
 }
 
-TEST(DisplayConversion, ThePreviewIsAPictureOfTheValidPixels) {
-  cv::Mat heights(6, 10, CV_32FC1);
-  for (int row = 0; row < 6; ++row) {
-    for (int col = 0; col < 10; ++col) heights.at<float>(row, col) = static_cast<float>(1e-9 * (10 * row + col));
-  }
-  heights.at<float>(0, 0) = std::nanf("");
-  heights.at<float>(5, 9) = HUGE_VALF;
-  std_msgs::Header header;
-  header.frame_id = "stage";
-  DisplayOptions display;
-  const HeightMap surface(heights, 1e-8, 1e-8);
-  const sensor_msgs::Image image = previewImage(surface, header, display);
-  EXPECT_EQ(image.encoding, "mono8");
-  EXPECT_EQ(image.header.frame_id, "stage");
-  ASSERT_EQ(image.data.size(), 60U);
-  EXPECT_EQ(image.step, 10U);
-  EXPECT_EQ(image.data[0], 0);   // not measured
-  EXPECT_EQ(image.data[59], 0);  // not a number of metres
-  EXPECT_EQ(image.data[1], 1);   // the lowest
-  EXPECT_EQ(image.data[58], 255);
-  for (int i = 2; i < 58; ++i) EXPECT_GT(image.data[i], image.data[i - 1]) << i;
-
-  display.max_preview_size = 4;  // every third pixel
-  const sensor_msgs::Image thinned = previewImage(surface, header, display);
-  EXPECT_EQ(thinned.width, 4U);
-  EXPECT_EQ(thinned.height, 2U);
-  EXPECT_EQ(thinned.data.size(), 8U);
-  EXPECT_EQ(thinned.data[0], 0);
-
-  const cv::Mat nothing(4, 4, CV_32FC1, cv::Scalar(std::nanf("")));
-  for (const std::uint8_t pixel : previewImage(HeightMap(nothing, 1e-8, 1e-8), header, display).data) {
-    EXPECT_EQ(pixel, 0);
-  }
-}
-
 /// So stiff that it comes off from everything.
 Configuration deviceConfiguration() {
   Configuration configuration = softConfiguration();

@@ -29,7 +29,8 @@ visualization_msgs::MarkerArray asperityMarkers(const Prediction& prediction, co
                                                 const std_msgs::Header& header, const DisplayOptions& options);
 
 /// The surface as a mono8 picture, low dark and high bright: 1 at the height that 1 % of the pixels lie below, 255 at
-/// that of 99 %; 0 where invalid. Rows and columns are thinned out to keep options.max_preview_size.
+/// that of 99 %; 0 where invalid. Its pixels are squares, also where the pitches of the scan differ: a round particle is
+/// round. Rows and columns are thinned out to keep options.max_preview_size.
 sensor_msgs::Image previewImage(const HeightMap& surface, const std_msgs::Header& header,
                                 const DisplayOptions& options);
 

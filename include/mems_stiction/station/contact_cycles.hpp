@@ -35,6 +35,8 @@ struct ContactCycle {
   Sticks sticks = Sticks::kUnknown;
   double margin = Verdict::kNotStated;        ///< [-]
   double margin_lower = Verdict::kNotStated;  ///< 2.5 % quantile [-]
+  double margin_upper = Verdict::kNotStated;  ///< 97.5 % quantile [-]
+  ForceInterval pull_off_interval;            ///< of the pull-off force; NaN without a list of contacts
 };
 
 /// What the contacts said, in order.

@@ -68,6 +68,8 @@ struct LoadSweepRow {
   double margin = Verdict::kNotStated;          ///< once the load is taken away [-]
   double margin_lower = Verdict::kNotStated;    ///< 2.5 % quantile [-]
   double holding_margin = Verdict::kNotStated;  ///< while the load acts: restoring force over all that holds [-]
+  double margin_upper = Verdict::kNotStated;    ///< 97.5 % quantile [-]
+  ForceInterval pull_off_interval;              ///< of the pull-off force; NaN without a list of contacts
 };
 
 /// What one loop of the voltage says. NaN: there is none on the grid.

@@ -37,6 +37,7 @@
 ///
 /// Cost: one pass over the contacts per sample, some 0.2 ms for 1000 contacts and 200 samples. Same seed, same samples.
 
+#include <limits>
 #include <vector>
 
 #include "mems_stiction/prediction/options.hpp"
@@ -45,6 +46,10 @@
 #include "mems_stiction/verdict/uncertainty_options.hpp"
 
 namespace mems_stiction {
+
+/// Shares below the ends of a 95 % interval [-].
+constexpr double kLowerShare = 0.025;
+constexpr double kUpperShare = 0.975;
 
 /// Samples in ascending order; empty when the prediction does not list its contacts (Prediction::listsContacts()).
 struct AdhesionSpread {
@@ -67,6 +72,16 @@ double apparentWorkOfAdhesion(const Prediction& prediction, const Options& optio
 /// - @p evidence a half-space in it judges, whatever whyNotJudging() says
 AdhesionSpread adhesionSpread(const Prediction& prediction, const Options& options,
                               const UncertaintyOptions& uncertainty, const Evidence& evidence = {});
+
+/// 95 % of a force lie between these; NaN: not known.
+struct ForceInterval {
+  double lower = std::numeric_limits<double>::quiet_NaN();  ///< 2.5 % quantile [N]
+  double upper = std::numeric_limits<double>::quiet_NaN();  ///< 97.5 % quantile [N]
+};
+
+/// Of the pull-off force of the scan. It needs no device; a device's margin lies within the inverse of it.
+ForceInterval pullOffInterval(const Prediction& prediction, const Options& options,
+                              const UncertaintyOptions& uncertainty);
 
 /// Value below which the given share of the sorted samples lies, linear between samples; NaN if there are none.
 double quantile(const std::vector<double>& sorted_samples, double share);

@@ -159,6 +159,23 @@ TEST(LoadSweep, findsTheHighestVoltageThatReleases) {
   EXPECT_EQ(result.pull_in_voltage, closingVoltage(device, insulated().interface));
 }
 
+TEST(LoadSweep, theForceHasItsIntervalWithADeviceAndWithout) {
+  const HeightMap scan = rough();
+  const LoadSweepResult plain = sweepLoads(insulated(), scan, upTo(20.0, 2), DeviceOptions(), {}, {});
+  const LoadSweepResult judged = sweepLoads(insulated(), scan, upTo(20.0, 2), deviceFor(scan, 1e-5), {}, {});
+  for (std::size_t i = 0; i < plain.rows.size(); ++i) {
+    const LoadSweepRow& row = judged.rows[i];
+    if (row.is_open) continue;
+    EXPECT_LT(row.pull_off_interval.lower, row.pull_off_force);
+    EXPECT_GT(row.pull_off_interval.upper, row.pull_off_force);
+    EXPECT_EQ(row.pull_off_interval.upper, plain.rows[i].pull_off_interval.upper);
+    // the margin is the restoring force over the pull-off force: their intervals are each other's inverse
+    EXPECT_NEAR(row.margin_upper / row.margin, row.pull_off_force / row.pull_off_interval.lower,
+                kRoundOff * row.margin_upper);
+    EXPECT_NEAR(row.margin_lower / row.margin, row.pull_off_force / row.pull_off_interval.upper, kRoundOff);
+  }
+}
+
 TEST(LoadSweep, opensOnTheWayDownWhereTheSpringOvercomesAdhesionAndField) {
   const HeightMap scan = sphere();
   const LoadSweepResult plain = sweepLoads(insulated(), scan, upTo(20.0, 11), DeviceOptions(), {}, {});
