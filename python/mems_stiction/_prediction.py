@@ -18,7 +18,7 @@ from mems_stiction._arrays import Pitch, Surface, array_of, records_of, surface_
 from mems_stiction._inputs import brings_pitch, counter_of, section_or_surface, warn_about
 from mems_stiction._scans import Roughness
 from mems_stiction._settings import Config, Error, OptionsError, Settings
-from mems_stiction.quantities import area, percent, ratio, with_unit
+from mems_stiction.quantities import area, percent, ratio, with_interval, with_unit
 
 
 class Verdict:
@@ -59,8 +59,8 @@ class Verdict:
     @property
     def summary(self) -> str:
         """Word, margin and whose figures they are: "no, margin 2.5 (2 to 3), by the half-space"."""
-        return "%s, margin %s (%s to %s), by the %s" % (self.sticks, ratio(self.margin), ratio(self.margin_lower),
-                                                        ratio(self.margin_upper), self.verdict_by.replace("_", "-"))
+        return "%s, margin %s, by the %s" % (self.sticks, with_interval(self.margin, self.margin_lower, self.margin_upper),
+                                             self.verdict_by.replace("_", "-"))
 
     def __repr__(self) -> str:
         return "Verdict: sticks: %s; %s" % (self.summary, self.reason)

@@ -1,11 +1,14 @@
 """Curves of force over height, as `predict_scan --curve` writes them: CSV with a line of names, SI units.
 
 Whichever model a curve is of, its file has the columns height [m], force [N] (positive attracts) and direction
-(APPROACH, RETRACTION), in any order, the points of each way in the order in which they were met. Other columns are left out.
+(APPROACH, RETRACTION), in any order, the points of each way in the order in which they were met. It may have those of
+provenance.py; other columns are left out.
 """
 
 import csv
 import math
+
+from mems_stiction.provenance import FIELDS
 
 import numpy as np
 
@@ -54,11 +57,12 @@ class Way:
 class Curve:
     """Approach and retraction; either may be empty."""
 
-    def __init__(self, name, points, pull_off_force=None):
+    def __init__(self, name, points, pull_off_force=None, origin=None):
         """points: (height, force, direction) in the order in which they were met. pull_off_force [N]: as its model states it,
-        where the largest force lies between two points."""
+        where the largest force lies between two points. origin: where it comes from, by provenance.FIELDS."""
         self.name = name
         self.pull_off_force = pull_off_force
+        self.origin = origin or {}
         self.approach, self.retraction = (
             Way([point[:2] for point in points if point[2] == direction]) for direction in DIRECTIONS)
 
@@ -88,7 +92,7 @@ def _number(text, where):
 
 def read_curve(path, name):
     """The curve in a file. Raises CurveError with file, line and column, and what is allowed there."""
-    points = []
+    points, origin = [], {}
     try:
         with open(str(path), encoding="utf-8", newline="") as stream:
             reader = csv.DictReader(stream, skipinitialspace=True)
@@ -102,6 +106,7 @@ def read_curve(path, name):
                 if direction not in DIRECTIONS:
                     raise CurveError("%sdirection: '%s' is not allowed, must be one of: %s" % (
                         where, direction or "", ", ".join(DIRECTIONS)))
+                origin = origin or {field: row[field] for field in FIELDS if row.get(field)}
                 points.append((_number(row["height"], where + "height"), _number(row["force"], where + "force"), direction))
     except OSError as error:
         raise CurveError("%s: cannot be read: %s" % (path, error.strerror))
@@ -109,4 +114,4 @@ def read_curve(path, name):
         raise CurveError("%s: is no CSV file; must have the columns %s" % (path, ", ".join(COLUMNS)))
     if not points:
         raise CurveError("%s: has no point; must have a line for each height after the line of names" % path)
-    return Curve(name, points)
+    return Curve(name, points, origin=origin)

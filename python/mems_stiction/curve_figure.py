@@ -3,6 +3,7 @@
 import numpy as np
 
 from mems_stiction.plots import plt, with_unit
+from mems_stiction.provenance import FIELDS, sign
 from mems_stiction.quantities import prefix_for
 
 COLOURS = ("#0b4f9e", "#d1322f", "#3d8c40", "#8e5bb5", "#b86a00", "#4f4f4f")
@@ -12,10 +13,16 @@ PRESSED_SHARE = 1.5  # of the largest attraction: deeper repulsion leaves the pi
 def curve_picture(curves, title):
     """A figure of all curves over each other."""
     figure, axes = plt.subplots(figsize=(9, 5.8), dpi=110)
-    figure.subplots_adjust(left=0.1, right=0.975, top=0.92, bottom=0.11)
+    figure.subplots_adjust(left=0.1, right=0.975, top=0.92, bottom=0.135)
     axes.set_title(title, fontsize=12, loc="left", fontweight="bold")
     draw_curves(axes, curves)
+    sign(figure, origin_of(curves))
     return figure
+
+
+def origin_of(curves):
+    """What all of them have in common; of scans and parts that differ, all names."""
+    return {field: "; ".join(dict.fromkeys(curve.origin[field] for curve in curves if field in curve.origin)) for field in FIELDS}
 
 
 def _scale(values, unit):

@@ -18,8 +18,9 @@ from matplotlib.colors import ListedColormap  # noqa: E402
 from matplotlib.patches import Patch  # noqa: E402
 from mpl_toolkits.axes_grid1 import make_axes_locatable  # noqa: E402
 
-from mems_stiction.prediction_text import STATUS_NAMES, bound_of, flag_names, flag_words  # noqa: E402
+from mems_stiction.prediction_text import STATUS_NAMES, bound_of, digits_of, flag_names, flag_words  # noqa: E402
 from mems_stiction import quantities  # noqa: E402
+from mems_stiction.provenance import sign  # noqa: E402
 from mems_stiction.quantities import length_scale, percent  # noqa: E402
 
 # Elastic, elasto-plastic, fully plastic: told apart without red-green vision too.
@@ -111,6 +112,7 @@ def save_picture(picture, path):
     section = _section(picture)
     draw_contacts(contact_axes, picture, section)
     _draw_section(figure.add_subplot(grid[2]), picture, section)
+    sign(figure, picture.prediction)
     figure.savefig(path)
     plt.close(figure)
 
@@ -119,7 +121,7 @@ def _caption(picture):
     prediction = picture.prediction
     bound = bound_of(prediction, "at least ")
     parts = [STATUS_NAMES.get(prediction.status, "?"),
-             "pull-off force %s%s" % (bound, with_unit(prediction.pull_off_force, "N")),
+             "pull-off force %s%s" % (bound, with_unit(prediction.pull_off_force, "N", digits_of(prediction))),
              "contact %s of the area" % percent(prediction.contact_fraction),
              "rms height %s" % with_unit(prediction.rms_height, "m"),
              "normal load %s" % with_unit(prediction.normal_load, "N"), "voltage %s" % with_unit(prediction.voltage, "V")]

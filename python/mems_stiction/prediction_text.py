@@ -2,7 +2,7 @@
 
 import math
 
-from mems_stiction.quantities import area, percent, ratio, with_unit
+from mems_stiction.quantities import area, known_digits, percent, ratio, with_unit
 
 STATUS_NAMES = {0: "equilibrium", 1: "bonded", 2: "no equilibrium"}
 STICKS_NAMES = {0: "no", 1: "marginal", 2: "yes", 3: "unknown"}
@@ -49,6 +49,16 @@ def contact_area_of(result):
     return result.contact_area if math.isnan(result.contact_area_jkr) else result.contact_area_jkr
 
 
+def digits_of(result):
+    """How many digits of forces and ratios are worth showing, by the interval of the pull-off force, the margin or the peel number; three
+    where none is known."""
+    for name in ("pull_off_force", "margin", "peel_number"):
+        ends = [getattr(result, name + end, math.nan) for end in ("", "_lower", "_upper")]
+        if all(map(math.isfinite, ends)):
+            return known_digits(*ends)
+    return 3
+
+
 def has_verdict(prediction):
     """Whether a device is stated as far as a margin or a peel number needs it."""
     return not (math.isnan(prediction.margin) and math.isnan(prediction.peel_number))
@@ -82,12 +92,12 @@ def table_line(name, prediction, with_verdict=False):
     # of a formulation that follows the force it is no part of the pull-off force
     share = percent(prediction.van_der_waals_force / force) if force and not math.isnan(prediction.contact_area_jkr) else "-"
     line = _COLUMNS % (shortened(name), STATUS_NAMES.get(prediction.status, "?"), with_unit(prediction.rms_height, "m"),
-                       bound + with_unit(force, "N"), percent(prediction.contact_fraction), prediction.elastic_count,
+                       bound + with_unit(force, "N", digits_of(prediction)), percent(prediction.contact_fraction), prediction.elastic_count,
                        prediction.elasto_plastic_count, prediction.plastic_count, share,
                        with_unit(prediction.voltage, "V"), with_unit(prediction.processing_time, "s"))
     if with_verdict:
         figure = prediction.peel_number if math.isnan(prediction.margin) else prediction.margin
-        line += _VERDICT % (ratio(figure), STICKS_NAMES.get(prediction.sticks, "?"))
+        line += _VERDICT % (ratio(figure, digits_of(prediction)), STICKS_NAMES.get(prediction.sticks, "?"))
     limits = flag_names(prediction.regime_flags) + ["warning: " + text for text in prediction.warnings]
     return printable(line + ("  " + ", ".join(limits) if limits else ""))
 

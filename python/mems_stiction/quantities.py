@@ -2,6 +2,7 @@
 
 import math
 
+SURE = 0.05  # of a value: what reaches further than this leaves two digits of it
 _PREFIXES = {-18: "a", -15: "f", -12: "p", -9: "n", -6: "u", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 
 
@@ -21,8 +22,8 @@ def with_unit(value, unit, digits=3):
     if value == 0:
         return "0 %s" % unit
     exponent, letter = prefix_for(float("%.*e" % (digits - 1, value)))
-    scaled = value / 10.0**exponent
-    before_point = len("%d" % abs(float("%.*g" % (digits, scaled))))
+    scaled = float("%.*g" % (digits, value / 10.0**exponent))
+    before_point = len("%d" % abs(scaled))
     return "%.*f %s%s" % (max(0, digits - before_point), scaled, letter, unit)
 
 
@@ -44,12 +45,28 @@ def percent(fraction):
     return "%.*f %%" % (min(decimals, 6), value)
 
 
-def ratio(value):
-    """Three significant digits, without an exponent up to a million: "0.0299", "16", "1240". "-" where there is none."""
+def ratio(value, digits=3):
+    """Significant digits, without an exponent up to a million: "0.0299", "16", "1240". "-" where there is none."""
     if math.isnan(value):
         return "-"
-    text = "%.3g" % value
+    text = "%.*g" % (digits, value)
     return "%.0f" % float(text) if "e+" in text and abs(value) < 1e6 else text
+
+
+def known_digits(value, lower, upper):
+    """How many digits of a value are worth showing whose 95 % interval is this: two where it reaches further than 5 % to either
+    side, else three; three where it is not known."""
+    return 2 if abs(upper - lower) > 2 * SURE * abs(value) else 3
+
+
+def with_interval(value, lower, upper, unit=""):
+    """"2.1 uN (1.5 to 2.9)", rounded to what is known; without the interval where that is not."""
+    digits = known_digits(value, lower, upper)
+    text = with_unit(value, unit, digits) if unit else ratio(value, digits)
+    if not math.isfinite(value) or math.isnan(lower) or math.isnan(upper):
+        return text
+    scale = 10.0**prefix_for(float("%.*e" % (digits - 1, value)))[0] if unit else 1.0
+    return "%s (%s to %s)" % (text, ratio(lower / scale, digits), ratio(upper / scale, digits))
 
 
 def area(value):

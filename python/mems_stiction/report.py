@@ -23,8 +23,8 @@ from mems_stiction.cleaning_steps import cleaning_figure, rows_of
 from mems_stiction.csv_text import csv_cell
 from mems_stiction.half_space_figure import half_space_figure, half_space_words, pull_off_ratio
 from mems_stiction.plots import ScanPicture, save_picture, with_unit
-from mems_stiction.prediction_text import flag_words
-from mems_stiction.quantities import percent, ratio
+from mems_stiction.prediction_text import digits_of, flag_words
+from mems_stiction.quantities import percent, ratio, with_interval
 from mems_stiction.report_figures import is_lower_bound, number, scan_figure, trend_figure
 from mems_stiction.report_template import PAGE
 from mems_stiction.surface_figures import surface_figure, surface_figures_of
@@ -80,7 +80,15 @@ SOURCES = (
 )
 
 
-def text_of(value, unit):
+ROUNDED = ("pull_off_force", "device_pull_off_force", "margin", "peel_number")  # what begins so, by the interval of the verdict
+
+
+def digits_of_row(row):
+    """How many digits of these are worth showing; three without a verdict."""
+    return digits_of(SimpleNamespace(**{name + end: number(row.get(name + end)) for name in ("margin", "peel_number") for end in ("", "_lower", "_upper")}))
+
+
+def text_of(value, unit, digits=3):
     if unit == "word":
         return str(value) if value in ("DMT", "JKR") else str(value).lower().replace("_", "-")
     value = number(value)
@@ -93,8 +101,8 @@ def text_of(value, unit):
             return "%.3g mm²" % (value * 1e6)
         return "%.3g µm²" % (value * 1e12) if value >= 1e-15 else "%.3g nm²" % (value * 1e18)
     if unit:
-        return with_unit(value, unit).replace("^2", "²")
-    return ratio(value)
+        return with_unit(value, unit, digits).replace("^2", "²")
+    return ratio(value, digits)
 
 
 def read_rows(path):
@@ -178,7 +186,8 @@ def verdict_word(sticks):
 def _figures(result, wanted):
     """Pairs of label and text of those that the result has."""
     bound = "≥ " if is_lower_bound(result) else ""
-    return [(label, (bound if key.startswith("pull_off_force") else "") + text_of(result[key], unit))
+    known = digits_of_row(result)
+    return [(label, (bound if key.startswith("pull_off_force") else "") + text_of(result[key], unit, known if key.startswith(ROUNDED) else 3))
             for label, key, unit in wanted if key in result and text_of(result[key], unit) != "not stated"]
 
 
@@ -227,7 +236,7 @@ def table_row(row, drawn, judge):
     entry = {"number": row["number"], "name": scan_name(row), "reason": row["reason"], "anchor": row["number"] in drawn}
     if not row["reason"]:
         bound = "≥ " if is_lower_bound(row) else ""
-        entry.update(status=STATES[row["status"]][1], pull_off=bound + text_of(row["pull_off_force"], "N"),
+        entry.update(status=STATES[row["status"]][1], pull_off=bound + text_of(row["pull_off_force"], "N", digits_of_row(row)),
                      contact=percent(row["contact_fraction"]), contacts=row["asperity_count"],
                      regimes="%d / %d / %d" % (row["elastic_count"], row["elasto_plastic_count"], row["plastic_count"]),
                      rms=text_of(row["rms_height"], "m"), sticks=row.get("sticks"), ratio=_ratio_with_interval(row, judge),
@@ -244,9 +253,7 @@ def judged_by(rows):
 
 
 def _ratio_with_interval(row, name):
-    values = [number(row.get(name + end)) for end in ("", "_lower", "_upper")]
-    text = ratio(values[0])
-    return text if math.isnan(values[0]) or math.isnan(values[1]) else "%s (%s to %s)" % (text, ratio(values[1]), ratio(values[2]))
+    return with_interval(*[number(row.get(name + end)) for end in ("", "_lower", "_upper")])
 
 
 def summary(rows, drawn):

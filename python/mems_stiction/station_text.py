@@ -2,8 +2,8 @@
 
 import math
 
-from mems_stiction.prediction_text import STATUS_NAMES, STICKS_NAMES, bound_of, contact_area_of
-from mems_stiction.quantities import area, percent, ratio, with_unit
+from mems_stiction.prediction_text import STATUS_NAMES, STICKS_NAMES, bound_of, contact_area_of, digits_of
+from mems_stiction.quantities import area, percent, ratio, with_interval, with_unit
 from mems_stiction.sweep_jumps import UP, jumps_of
 
 NO, MARGINAL = 0, 1  # StictionPrediction.STICKS_...
@@ -24,11 +24,11 @@ def sweep_line(point):
     if point.is_open:
         return (_SWEEP % (way, with_unit(point.voltage, "V"), with_unit(point.mechanical_load, "N"), "open", "-", "-", "-", "-",
                           "-", "-", "no")).rstrip()
-    bound = bound_of(point)
+    bound, digits = bound_of(point), digits_of(point)
     return _SWEEP % (way, with_unit(point.voltage, "V"), with_unit(point.mechanical_load, "N"),
-                     STATUS_NAMES.get(point.status, "?"), bound + with_unit(point.pull_off_force, "N"),
+                     STATUS_NAMES.get(point.status, "?"), bound + with_unit(point.pull_off_force, "N", digits),
                      with_unit(point.electrostatic_force, "N"), percent(point.contact_fraction),
-                     area(contact_area_of(point)), ratio(point.margin), ratio(point.holding_margin),
+                     area(contact_area_of(point)), ratio(point.margin, digits), ratio(point.holding_margin, digits),
                      STICKS_NAMES.get(point.sticks, "?"))
 
 
@@ -44,6 +44,7 @@ def sweep_sentences(result):
                 ("opens on the way down at", summary.opening_voltage)):
             sentences.append("  %s: %s" % (text, "none of the sweep" if math.isnan(voltage) else with_unit(voltage, "V")))
         sentences += ["  jump " + jump.words() for jump in jumps_of(result.points, summary.mechanical_load, result.pull_in_voltage)]
+        sentences += _first_force(result.points, summary.mechanical_load)
         gap = widest_gap(result.points, summary.mechanical_load)
         if gap is None:
             sentences.append("  no hysteresis: the way down is the way up")
@@ -62,6 +63,15 @@ def sweep_sentences(result):
         sentences.append("Margin: restoring force over pull-off force, once the load is gone; above 1 the device opens.")
         sentences.append("While held: restoring force over all that holds while the load acts.")
     return sentences
+
+
+def _first_force(points, mechanical_load):
+    """The pull-off force of the lowest voltage with its interval, if that is known."""
+    first = next((point for point in points if point.mechanical_load == mechanical_load), None)
+    if first is None or not math.isfinite(getattr(first, "pull_off_force_upper", math.nan)):
+        return []
+    return ["  pull-off force after %s: %s, 95 %% in brackets" % (with_unit(first.voltage, "V"), with_interval(
+        first.pull_off_force, first.pull_off_force_lower, first.pull_off_force_upper, "N"))]
 
 
 def safe_voltage_words(summary, points):
@@ -95,10 +105,10 @@ def cycle_header():
 
 def cycle_line(cycle):
     """`largest change` of either surface's height in this contact."""
-    bound = bound_of(cycle)
-    return _CYCLE % (cycle.cycle, STATUS_NAMES.get(cycle.status, "?"), bound + with_unit(cycle.pull_off_force, "N"),
+    bound, digits = bound_of(cycle), digits_of(cycle)
+    return _CYCLE % (cycle.cycle, STATUS_NAMES.get(cycle.status, "?"), bound + with_unit(cycle.pull_off_force, "N", digits),
                      percent(cycle.contact_fraction), cycle.asperity_count, cycle.plastic_count,
-                     with_unit(cycle.rms_height, "m"), with_unit(cycle.largest_change, "m"), ratio(cycle.margin),
+                     with_unit(cycle.rms_height, "m"), with_unit(cycle.largest_change, "m"), ratio(cycle.margin, digits),
                      STICKS_NAMES.get(cycle.sticks, "?"))
 
 
@@ -121,8 +131,12 @@ def cycle_sentences(result):
     elif result.first_sticking_cycle:
         sentences.append("The device fails: from contact %d on it sticks." % result.first_sticking_cycle)
     else:
-        sentences.append("%s; the lowest margin is %s." % (_release_after(result.cycles), ratio(min(cycle.margin for cycle in result.cycles))))
+        sentences.append("%s; the lowest margin is %s." % (_release_after(result.cycles), _margin_of(min(result.cycles, key=lambda cycle: cycle.margin))))
     return sentences
+
+
+def _margin_of(cycle):
+    return with_interval(cycle.margin, getattr(cycle, "margin_lower", math.nan), getattr(cycle, "margin_upper", math.nan))
 
 
 def _release_after(cycles):

@@ -4,7 +4,8 @@ import math
 
 from mems_stiction.control_chart import control_limits
 from mems_stiction.plots import plt, with_unit
-from mems_stiction.prediction_text import bound_of, flag_names, limits_of
+from mems_stiction.prediction_text import bound_of, digits_of, flag_names, limits_of
+from mems_stiction.provenance import sign
 from mems_stiction.quantities import prefix_for
 
 import numpy as np
@@ -179,8 +180,9 @@ def _say_latest(figure, trend, decided, hidden):
         _headline(figure, number, "not predicted", UNKNOWN, "its reason: the node's warning and /diagnostics")
         return
     prediction = scan.prediction
+    sign(figure, prediction, QUIET)
     bound = bound_of(prediction, "at least ")
-    force = "pull-off force %s%s" % (bound, with_unit(prediction.pull_off_force, "N"))
+    force = "pull-off force %s%s" % (bound, with_unit(prediction.pull_off_force, "N", digits_of(prediction)))
     limits = limits_of(prediction)
     if len(limits) > LONGEST_LIMITS:
         limits = ", ".join(flag_names(prediction.regime_flags) + ["warning: " + text for text in prediction.warnings])

@@ -6,6 +6,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "mems_stiction/base/short_number.hpp"
 #include "mems_stiction/ros/picture_drawing.hpp"
 
 namespace mems_stiction {
@@ -41,7 +42,7 @@ class Axis {
     }
     return values;
   }
-  std::string label(double value) const { return numberOf(value / prefix_.factor); }
+  std::string label(double value) const { return shortNumber(value / prefix_.factor); }
 
  private:
   double low_ = 0.0;

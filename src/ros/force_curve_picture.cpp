@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "mems_stiction/base/short_number.hpp"
 #include "mems_stiction/ros/picture_drawing.hpp"
 #include "mems_stiction/verdict/regime_flags.hpp"
 
@@ -12,7 +13,7 @@ std::string figuresOf(const PredictedScan& scan) {
   const Prediction& prediction = scan.prediction;
   return "pull-off " + quantity(prediction.pull_off_force, "N") + ", apparent work " +
          quantity(prediction.apparent_work_of_adhesion, "J/m^2") + ", " +
-         numberOf(100.0 * prediction.contact_fraction) + " % in " + std::to_string(prediction.asperity_count) +
+         shortNumber(100.0 * prediction.contact_fraction) + " % in " + std::to_string(prediction.asperity_count) +
          (prediction.asperity_count == 1 ? " contact" : " contacts");
 }
 
@@ -48,7 +49,8 @@ sensor_msgs::ImagePtr forceCurvePicture(const PredictedScan& scan, const std_msg
   const std::string flags = regimeFlagNames(scan.verdict.regime_flags);
   if (!flags.empty()) top = writeWrapped(picture, flags, {20, top + 30}, width, kWarningColour) - 30;
   top += 58;
-  drawCurves(picture, cv::Rect(100, top, kPictureSize.width - 140, kPictureSize.height - top - 70), drawnCurve(scan));
+  drawCurves(picture, cv::Rect(100, top, kPictureSize.width - 140, kPictureSize.height - top - 90), drawnCurve(scan));
+  sign(picture, scan.provenance);
   return imageOf(picture, header);
 }
 

@@ -6,6 +6,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "mems_stiction/base/short_number.hpp"
 #include "mems_stiction/ros/picture_drawing.hpp"
 #include "mems_stiction/ros/regime_colour.hpp"
 #include "mems_stiction/scan/block_maxima.hpp"
@@ -28,7 +29,7 @@ DrawnCurve drawnCurve(const HalfSpaceSolution& solution) {
 std::string figuresOf(const HalfSpaceSolution& solution) {
   if (std::isnan(solution.pull_off_force)) return "no pull-off force: " + solution.message;
   return "pull-off " + quantity(solution.pull_off_force, "N") + ", apparent work " +
-         quantity(solution.apparent_work_of_adhesion, "J/m^2") + ", " + numberOf(100.0 * solution.contact_fraction) +
+         quantity(solution.apparent_work_of_adhesion, "J/m^2") + ", " + shortNumber(100.0 * solution.contact_fraction) +
          " % in " + std::to_string(solution.contact_count) + (solution.contact_count == 1 ? " contact" : " contacts");
 }
 

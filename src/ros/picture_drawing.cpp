@@ -3,16 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
+#include <utility>
 
 #include <cv_bridge/cv_bridge.h>
 #include <sensor_msgs/image_encodings.h>
 #include <opencv2/imgproc.hpp>
 
+#include "mems_stiction/base/short_number.hpp"
+
 namespace mems_stiction {
 namespace {
 
 constexpr double kLetters = 0.7;
+constexpr double kSmallLetters = 0.42;
 constexpr int kLineHeight = 30;  // [pixels]
 
 cv::Size sizeOf(const std::string& text) {
@@ -55,6 +58,19 @@ void writeLabel(cv::Mat& picture, const std::string& text, cv::Point at, int lef
   write(picture, text, at, kTextColour);
 }
 
+void sign(cv::Mat& picture, const Provenance& provenance) {
+  std::string text;
+  for (const auto& [word, value] :
+       {std::pair("scan ", provenance.scan_name), std::pair("part ", provenance.part_id),
+        std::pair("serial number ", provenance.serial_id), std::pair("settings ", provenance.settings_hash),
+        std::pair("mems_stiction ", provenance.version)}) {
+    if (!value.empty()) text += (text.empty() ? "" : ", ") + (word + value);
+  }
+  const int width = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, kSmallLetters, 1, nullptr).width;
+  cv::putText(picture, text, {std::max(10, picture.cols - 10 - width), picture.rows - 10}, cv::FONT_HERSHEY_SIMPLEX,
+              kSmallLetters, kQuietColour, 1, cv::LINE_AA);
+}
+
 Prefix prefixOf(double largest) {
   constexpr std::array<Prefix, 6> kPrefixes = {
       {{1.0, ""}, {1e-3, "m"}, {1e-6, "u"}, {1e-9, "n"}, {1e-12, "p"}, {1e-15, "f"}}};
@@ -64,16 +80,10 @@ Prefix prefixOf(double largest) {
   return kPrefixes.back();
 }
 
-std::string numberOf(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
-
 std::string quantity(double value, const char* unit) {
-  if (!std::isfinite(value) || value == 0.0) return numberOf(value) + " " + unit;
+  if (!std::isfinite(value) || value == 0.0) return shortNumber(value) + " " + unit;
   const Prefix prefix = prefixOf(std::abs(value));
-  return numberOf(value / prefix.factor) + " " + prefix.letter + unit;
+  return shortNumber(value / prefix.factor) + " " + prefix.letter + unit;
 }
 
 sensor_msgs::ImagePtr imageOf(const cv::Mat& picture, const std_msgs::Header& header) {

@@ -1,7 +1,5 @@
 #include "mems_stiction/ros/stiction_server.hpp"
 
-#include <cmath>
-#include <cstdio>
 #include <functional>
 #include <optional>
 #include <string>
@@ -11,6 +9,7 @@
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/one_line.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/base/short_number.hpp"
 #include "mems_stiction/ros/prediction_conversion.hpp"
 #include "mems_stiction/ros/topic_names.hpp"
 
@@ -29,20 +28,21 @@ std::string changeText(const std::string& what, const std::string& before, const
   return what + (before == after ? " stays at " + after : " from " + before + " to " + after);
 }
 
+/// What changed, in words. A load that falls to 0 while the other one changes may have been left out of the request, which
+/// ROS cannot tell from a 0 that was given: it is said what sets one load alone.
 std::string loadChange(const LoadOptions& before, const LoadOptions& after) {
   std::string text = changeText("voltage", numberText(before.voltage) + " V", numberText(after.voltage) + " V") + "; " +
                      changeText("mechanical load", pressingText(before), pressingText(after));
   const bool pressed = before.mechanical_load > 0.0 || before.isPerArea();
   const bool presses = after.mechanical_load > 0.0 || after.isPerArea();
   if (pressed && !presses && before.voltage != after.voltage) text += " (~set_voltage leaves it as it is)";
+  if (before.voltage != 0.0 && after.voltage == 0.0 && pressingText(before) != pressingText(after)) {
+    text += " (~set_mechanical_load leaves the voltage as it is)";
+  }
   return text;
 }
 
-std::string figure(double value, const char* unit) {
-  char text[48];
-  std::snprintf(text, sizeof text, "%.3g %s", std::isnan(value) ? std::abs(value) : value, unit);
-  return text;
-}
+std::string figure(double value, const char* unit) { return shortNumber(value) + " " + unit; }
 
 /// What another load has done to the same scan.
 std::string effect(const Prediction& before, const Prediction& after) {

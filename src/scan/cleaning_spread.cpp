@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/short_number.hpp"
 #include "mems_stiction/prediction/prediction_fields.hpp"
 #include "mems_stiction/scan/scan_predictor.hpp"
 
@@ -76,12 +77,6 @@ void include(double value, double configured, FactorRange& range) {
   range.highest = std::max(range.highest, factor);
 }
 
-std::string numberOf(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", std::isnan(value) ? std::abs(value) : value);
-  return text;
-}
-
 }  // namespace
 
 std::vector<CleaningRow> cleaningSpread(const HeightMap& scan, const Configuration& configuration) {
@@ -140,9 +135,12 @@ std::string cleaningTable(const std::vector<CleaningRow>& rows, const std::strin
     if (row.reason.empty()) {
       const std::string note = row.is_reasonable ? "" : "  tilted: does not count";
       const std::string status = row.status == Status::kEquilibrium ? "" : std::string("  ") + word(row.status);
-      std::snprintf(line, sizeof line, "%-36s  %10.3g  %12.4g  %8d  %8.3g %8.3g %8.3g  %s%s%s\n", row.cleaning.c_str(),
-                    row.rms_height, row.pull_off_force, row.asperity_count, row.margin, row.margin_lower,
-                    row.margin_upper, sticksText(row.sticks), status.c_str(), note.c_str());
+      const int digits = knownDigits(row.margin, row.margin_lower, row.margin_upper);
+      std::snprintf(line, sizeof line, "%-36s  %10s  %12s  %8d  %8s %8s %8s  %s%s%s\n", row.cleaning.c_str(),
+                    shortNumber(row.rms_height).c_str(), shortNumber(row.pull_off_force, digits).c_str(),
+                    row.asperity_count, shortNumber(row.margin, digits).c_str(),
+                    shortNumber(row.margin_lower, digits).c_str(), shortNumber(row.margin_upper, digits).c_str(),
+                    sticksText(row.sticks), status.c_str(), note.c_str());
       text += indent + line;
     } else {
       text += indent + row.cleaning + ": " + row.reason + "\n";
@@ -151,11 +149,11 @@ std::string cleaningTable(const std::vector<CleaningRow>& rows, const std::strin
   const CleaningSpread spread = spreadOf(rows);
   if (spread.count == 0) return text;
   text += indent + "Over " + std::to_string(spread.count) + " cleanings the pull-off force changes by a factor " +
-          numberOf(spread.pull_off_factor) + ".\n";
+          shortNumber(spread.pull_off_factor) + ".\n";
   if (std::isnan(spread.margin_factor)) return text;
-  text += indent + "The margin changes by a factor " + numberOf(spread.margin_factor) +
-          "; whichever was right, it lies within " + numberOf(spread.margin_lower) + " to " +
-          numberOf(spread.margin_upper) + " (95 %).\n";
+  text += indent + "The margin changes by a factor " + shortNumber(spread.margin_factor) +
+          "; whichever was right, it lies within " + shortNumber(spread.margin_lower, 2) + " to " +
+          shortNumber(spread.margin_upper, 2) + " (95 %).\n";
   return text;
 }
 

@@ -16,6 +16,7 @@ const char* resolutionName(int decimation) {
 }
 
 std::string percent(double ratio) {
+  if (std::isnan(ratio)) return "not known";
   char text[32];
   std::snprintf(text, sizeof text, "%+.1f %%", 100.0 * (ratio - 1.0));
   return text;
@@ -57,7 +58,7 @@ std::string convergenceTable(const std::vector<ConvergenceRow>& rows, const std:
   for (const ConvergenceRow& row : rows) {
     const std::string size = std::to_string(row.cols) + " x " + std::to_string(row.rows);
     char line[200];
-    std::snprintf(line, sizeof line, "%-10s %13s  %10.4g %10s  %11.4g %10s  %8d  %14.3g%s\n",
+    std::snprintf(line, sizeof line, "%-10s %13s  %10.3g %10s  %11.3g %10s  %8d  %14.3g%s\n",
                   resolutionName(row.decimation), size.c_str(), row.pull_off_force,
                   row.decimation == 1 ? "" : percent(row.pull_off_force_ratio).c_str(), row.contact_area,
                   row.decimation == 1 ? "" : percent(row.contact_area_ratio).c_str(), row.asperity_count,

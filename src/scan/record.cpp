@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "mems_stiction/base/option_yaml.hpp"
+#include "mems_stiction/base/short_number.hpp"
 #include "mems_stiction/half_space/half_space_fields.hpp"
 #include "mems_stiction/prediction/prediction_fields.hpp"
 #include "mems_stiction/verdict/regime_flags.hpp"
@@ -143,6 +144,19 @@ const auto kVisitSeparationPoint = [](const auto& item, auto&& fields) { visitSe
 const auto kVisitCleaning = [](const auto& item, auto&& fields) { visitCleaningFields(item, fields); };
 const auto kVisitRow = [](const auto& item, auto&& fields) { visitConvergenceFields(item, fields); };
 
+/// Pull-off force and margin for people.
+std::string summaryComment(const Prediction& prediction, const RecordExtras& extras) {
+  if (!extras.pull_off_interval) return "";
+  const ForceInterval& interval = *extras.pull_off_interval;
+  std::string text = "# Pull-off force " + withInterval(prediction.pull_off_force, interval.lower, interval.upper, "N");
+  if (prediction.isLowerBound()) text += ", a lower bound";
+  if (extras.verdict && !std::isnan(extras.verdict->margin)) {
+    const Verdict& verdict = *extras.verdict;
+    text += "; margin " + withInterval(verdict.margin, verdict.margin_lower, verdict.margin_upper);
+  }
+  return text + ".\n";
+}
+
 }  // namespace
 
 std::string yamlRecord(const std::string& file, const HeightMap& scan, const Prediction& prediction,
@@ -179,6 +193,7 @@ std::string yamlRecord(const std::string& file, const HeightMap& scan, const Pre
   }
   emitter << YAML::EndMap;
   std::string text = std::string(emitter.c_str()) + "\n";
+  text += summaryComment(prediction, extras);
   if (!extras.convergence.empty()) text += convergenceTable(extras.convergence, "# ");
   if (!extras.cleanings.empty()) text += cleaningTable(extras.cleanings, "# ");
   return text;

@@ -13,6 +13,7 @@
 #include <iterator>
 #include <map>
 
+#include "csv_text.hpp"
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/output_file.hpp"
 
@@ -34,13 +35,7 @@ std::string csvCell(const nlohmann::json& value) {
     return std::isnan(number) ? "nan" : number > 0.0 ? "inf" : "-inf";
   }
   if (!value.is_string()) return jsonText(value);
-  std::string text = value.get<std::string>();
-  // a spreadsheet takes these for the beginning of a formula
-  if (!text.empty() && std::strchr("=+-@\t", text.front()) != nullptr) text.insert(0, "'");
-  if (text.find_first_of("\",") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char letter : text) quoted += letter == '"' ? std::string("\"\"") : std::string(1, letter);
-  return quoted + "\"";
+  return csvText(value.get<std::string>());
 }
 
 /// The number that a row begins with; 0 if it does not.

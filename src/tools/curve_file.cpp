@@ -1,14 +1,22 @@
 #include "curve_file.hpp"
 
+#include "csv_text.hpp"
+#include "mems_stiction/base/one_line.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
 #include "mems_stiction/base/output_file.hpp"
 
 namespace mems_stiction {
 
-void writeCurve(const std::string& path, const std::vector<CurvePoint>& curve) {
-  std::string text = "height,force,direction\n";
+void writeCurve(const std::string& path, const std::vector<CurvePoint>& curve, const Provenance& provenance) {
+  std::string text = "height,force,direction";
+  std::string origin;
+  visitProvenanceFields(provenance, [&](const char* name, const std::string& value, const char* /*unit*/) {
+    text += std::string(",") + name;
+    origin += "," + csvText(oneLine(value));
+  });
+  text += "\n";
   for (const CurvePoint& point : curve) {
-    text += numberText(point.height) + "," + numberText(point.force) + "," + word(point.direction) + "\n";
+    text += numberText(point.height) + "," + numberText(point.force) + "," + word(point.direction) + origin + "\n";
   }
   writeFile(path, text);
 }

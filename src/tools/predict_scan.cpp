@@ -189,6 +189,7 @@ void predictScan(const std::string& path, const Arguments& arguments, const Scan
     if (!arguments.deformed.empty()) requireDeformedSurfaces(prediction);
     if (!curve_files.formulation.empty() || extras.has_curve) requireCurve(prediction, options.formulation);
     extras.preprocessing = prepared.record;
+    extras.pull_off_interval = pullOffInterval(prediction, options, configuration.uncertainty);
     if (arguments.convergence) extras.convergence = predictor.convergence(prepared);
     if (arguments.cleanings) extras.cleanings = cleaningSpread(scan.surface, configuration);
     if (arguments.half_space) {
@@ -209,9 +210,10 @@ void predictScan(const std::string& path, const Arguments& arguments, const Scan
     warn(path, "half-space: " + extras.half_space->message);
   }
   if (!curve_files.formulation.empty()) {
-    writeCurve(curve_files.formulation, curveOf(prediction, options.interface));
+    writeCurve(curve_files.formulation, curveOf(prediction, options.interface), *extras.provenance);
   }
-  if (!curve_files.half_space.empty()) writeCurve(curve_files.half_space, curveOf(*extras.half_space));
+  if (!curve_files.half_space.empty())
+    writeCurve(curve_files.half_space, curveOf(*extras.half_space), *extras.provenance);
   if (extras.half_space) writeMaps(arguments.half_space_maps, *extras.half_space);
   if (arguments.json) {
     std::cout << jsonRecord(path, scan.surface, prediction, extras) << std::endl;

@@ -1,9 +1,6 @@
 #include "mems_stiction/verdict/finding.hpp"
 
-#include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <cstring>
+#include "mems_stiction/base/short_number.hpp"
 
 namespace mems_stiction {
 
@@ -19,15 +16,6 @@ int gravity(Sticks sticks) {
       break;
   }
   return 3;
-}
-
-std::string shortNumber(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  if (std::strstr(text, "e+") == nullptr || !(std::abs(value) < 1e6)) return text;
-  const double rounded = std::strtod(text, nullptr);  // 7250, not 7.25e+03
-  std::snprintf(text, sizeof text, "%.0f", rounded);
-  return text;
 }
 
 Finding judgedRatio(const std::string& name, double value, double lowest, double highest, bool is_upper_bound,

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "mems_stiction/base/constants.hpp"
+#include "mems_stiction/base/short_number.hpp"
 #include "mems_stiction/verdict/finding.hpp"
 #include "mems_stiction/verdict/regime_flags.hpp"
 

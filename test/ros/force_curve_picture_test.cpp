@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "mems_stiction/ros/half_space_conversion.hpp"
@@ -68,6 +69,20 @@ TEST(ForceCurvePicture, FlagsAreNamedInTheColourOfWarnings) {
   PredictedScan scan = predicted();
   scan.verdict.regime_flags = 32;
   EXPECT_GT(warningPixels(*forceCurvePicture(scan, {})), 50);
+}
+
+TEST(ForceCurvePicture, SaysWhereItComesFromAlongItsLowerEdge) {
+  const auto written_below = [](const PredictedScan& scan) {
+    const sensor_msgs::ImagePtr picture = forceCurvePicture(scan, {});
+    const std::size_t edge = picture->data.size() - std::size_t{25} * picture->step;
+    // letters are brighter than the background
+    return std::count_if(picture->data.begin() + static_cast<std::ptrdiff_t>(edge), picture->data.end(),
+                         [](std::uint8_t value) { return value > 100; });
+  };
+  PredictedScan scan = predicted();
+  EXPECT_EQ(written_below(scan), 0);
+  scan.provenance = {{"wafer 3", "die 12", "A-33"}, "1.2.3", "0123456789abcdef"};
+  EXPECT_GT(written_below(scan), 1000);
 }
 
 TEST(ForceCurvePicture, AFormulationWithoutACurveSaysSo) {

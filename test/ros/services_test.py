@@ -2,6 +2,7 @@
 """The services: what they set, what they refuse, and that their predictions are the topic's."""
 
 import math
+import subprocess
 import unittest
 
 import numpy as np
@@ -112,6 +113,22 @@ class ServicesTest(unittest.TestCase):
             self.assertFalse(answer.success)
             self.assertIn(name, answer.message)
         self.assert_load(5.0, 0.0)
+
+    def test_3b_what_rosservice_leaves_out_is_said_and_set_alone_elsewhere(self):
+        def call(service, request):
+            return subprocess.run(["rosservice", "call", "/stiction_node/" + service, request], stdout=subprocess.PIPE,
+                                  stderr=subprocess.STDOUT, universal_newlines=True, timeout=60).stdout
+
+        self.send(rough_surface(3))
+        answer = " ".join(call("set_load", "voltage: 20").split())  # of YAML, whose lines may be broken
+        self.assertIn("voltage from 0 V to 20 V; mechanical load from 1e-06 N to 0 N (~set_voltage leaves it as it is)", answer)
+        self.assert_load(20.0, 0.0)
+        answer = " ".join(call("set_load", "mechanical_load: 1.0e-6").split())
+        self.assertIn("voltage from 20 V to 0 V; mechanical load from 0 N to 1e-06 N (~set_mechanical_load leaves the voltage as it is)",
+                      answer)
+        answer = " ".join(call("set_voltage", "voltage: 20").split())
+        self.assertIn("voltage from 0 V to 20 V; mechanical load stays at 1e-06 N", answer)
+        self.assert_load(20.0, LOAD)
 
     def test_3c_no_text_breaks_the_columns_of_rostopic_echo(self):
         prediction = self.send(rough_surface(3))

@@ -46,17 +46,20 @@ class PredictScan : public ::testing::Test {
   ScratchFolder folder_;
 };
 
+/// What --curve begins with.
+constexpr const char* kCurveColumns = "height,force,direction,version,settings_hash,scan_name,part_id,serial_id";
+
 /// Height [m] and force [N] of the points of one direction, in the order of the file.
 inline std::vector<std::pair<double, double>> pointsOf(const std::string& csv, const std::string& direction) {
   std::istringstream lines(csv);
   std::string line;
   std::getline(lines, line);
-  EXPECT_EQ(line, "height,force,direction");
+  EXPECT_EQ(line, kCurveColumns);
   std::vector<std::pair<double, double>> points;
   while (std::getline(lines, line)) {
     const std::size_t first = line.find(',');
     const std::size_t second = line.find(',', first + 1);
-    if (line.substr(second + 1) == direction) {
+    if (line.compare(second + 1, direction.size() + 1, direction + ",") == 0) {
       points.emplace_back(std::stod(line), std::stod(line.substr(first + 1, second - first - 1)));
     }
   }

@@ -9,6 +9,8 @@
 #include <std_msgs/Header.h>
 #include <opencv2/core.hpp>
 
+#include "mems_stiction/scan/provenance.hpp"
+
 namespace mems_stiction {
 
 const cv::Size kPictureSize(1000, 600);  ///< [pixels]
@@ -29,6 +31,9 @@ int writeWrapped(cv::Mat& picture, const std::string& text, cv::Point at, int wi
 /// In front of whatever is there, its middle as near to that of `at` as the limits [pixels] allow.
 void writeLabel(cv::Mat& picture, const std::string& text, cv::Point at, int left, int right);
 
+/// What is known of where a picture comes from, in small letters along its lower edge.
+void sign(cv::Mat& picture, const Provenance& provenance);
+
 /// A power of 1000 and the letter for it.
 struct Prefix {
   double factor;
@@ -36,8 +41,6 @@ struct Prefix {
 };
 /// With which the largest value has digits before the point.
 Prefix prefixOf(double largest);
-/// "0.123"
-std::string numberOf(double value);
 /// "0.123 uN"
 std::string quantity(double value, const char* unit);
 

@@ -20,12 +20,13 @@ namespace mems_stiction {
 
 /// What a record may hold beside the prediction; each is left out when empty.
 struct RecordExtras {
-  std::string channel;                        ///< which channel of the file
-  std::string formulation;                    ///< that the prediction is of
-  std::optional<Verdict> verdict;             ///< on the device
-  std::optional<Provenance> provenance;       ///< version, hash of the settings, what was scanned
-  std::vector<std::string> warnings;          ///< about scan and settings: a list of texts, in JSON alone
-  bool has_curve = false;                     ///< the prediction's curve, as a list of maps
+  std::string channel;                             ///< which channel of the file
+  std::string formulation;                         ///< that the prediction is of
+  std::optional<Verdict> verdict;                  ///< on the device
+  std::optional<Provenance> provenance;            ///< version, hash of the settings, what was scanned
+  std::vector<std::string> warnings;               ///< about scan and settings: a list of texts, in JSON alone
+  std::optional<ForceInterval> pull_off_interval;  ///< a sentence in YAML's comments, for people
+  bool has_curve = false;                          ///< the prediction's curve, as a list of maps
   PreprocessRecord preprocessing;             ///< a list of maps: step, parameters, rms_change, changed_pixels, ...
   std::vector<ConvergenceRow> convergence;    ///< a list of maps, one per resolution
   std::vector<CleaningRow> cleanings;         ///< a list of maps, one per cleaning, and a map of their spread
@@ -35,8 +36,9 @@ struct RecordExtras {
 
 /// One YAML document, from its "---" to the end of its last line. Numbers that are not finite are .nan, .inf, -.inf.
 /// The energy curve is a list of maps, left out when the prediction has none; spatial roughness is a part of
-/// `roughness`, left out when it was not computed. Flags of the model's range are there with and without a device. Convergence and cleanings are repeated as tables in comments, for
-/// people.
+/// `roughness`, left out when it was not computed. Flags of the model's range are there with and without a device. For people, comments at the end say the
+/// pull-off force and the margin with what is known of them, rounded so, and repeat convergence and cleanings as tables;
+/// all fields keep all digits.
 /// - @p file the scan's name, as the user wrote it
 std::string yamlRecord(const std::string& file, const HeightMap& scan, const Prediction& prediction,
                        const RecordExtras& extras = {});

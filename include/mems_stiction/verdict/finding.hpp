@@ -19,9 +19,6 @@ struct Finding {
 /// Which of two findings on one device counts: the larger. No, marginal, unknown, yes.
 int gravity(Sticks sticks);
 
-/// Three significant digits, without an exponent up to a million: "7250", not "7.25e+03".
-std::string shortNumber(double value);
-
 /// "margin 2.1, 95 % within 1.4 to 3.2: above 1", and its word.
 /// - @p name of the ratio
 /// - @p lowest, highest ends of its 95 % interval

@@ -138,7 +138,7 @@ TEST_F(PredictScanHalfSpace, CurveFileHasThePullOffForceAsItsLargestAttraction) 
   std::istringstream lines(ScratchFolder::read(folder_.file("curve.csv")));
   std::string line;
   std::getline(lines, line);
-  EXPECT_EQ(line, "height,force,direction");
+  EXPECT_EQ(line, kCurveColumns);
   double largest = 0.0;
   double height = 0.0;
   std::size_t count = 0;
@@ -146,7 +146,7 @@ TEST_F(PredictScanHalfSpace, CurveFileHasThePullOffForceAsItsLargestAttraction) 
     const std::size_t first = line.find(',');
     const std::size_t second = line.find(',', first + 1);
     const double force = std::stod(line.substr(first + 1));
-    if (line.substr(second + 1) != "RETRACTION" || force <= largest) continue;
+    if (line.compare(second + 1, 11, "RETRACTION,") != 0 || force <= largest) continue;
     largest = force;
     height = std::stod(line);
   }

@@ -114,6 +114,21 @@ TEST_F(PredictScan, TheFormulationsCurveGoesToRestAndBackOverTheHalfSpacesHeight
   EXPECT_LT(retraction.front().first, range) << "at rest contacts are pressed in";
 }
 
+TEST_F(PredictScan, ACurveSaysWhereItComesFrom) {
+  const std::string file = folder_.file("curve.csv");
+  const std::string part = folder_.write("part.yaml", "part: {id: 'die 12, left', serial: '=A33'}\n");
+  const Outcome outcome =
+      run("--json -c " + part + " --pitch 20e-9 --curve " + file + " '" + sphere("wafer 3.tiff") + "'");
+  ASSERT_EQ(outcome.status, 0);
+  const std::string hash = nlohmann::json::parse(outcome.output)["settings_hash"].get<std::string>();
+  std::istringstream lines(ScratchFolder::read(file));
+  std::string line;
+  std::getline(lines, line);
+  while (std::getline(lines, line)) {
+    EXPECT_NE(line.find("," + hash + ",wafer 3,\"die 12, left\",'=A33"), std::string::npos) << line;
+  }
+}
+
 TEST_F(PredictScan, AStatedDeviceIsJudged) {
   const std::string device =
       folder_.write("d.yaml", "device: {spring_stiffness: 1.0, travel: 1.0e-6, contact_area: 1.0e-12}\n");
