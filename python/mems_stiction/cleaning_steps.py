@@ -141,6 +141,10 @@ def _draw_change(figure, axes, before, after, extent):
         return _draw_places(axes, before, after, extent)
     if np.ptp(finite) < 1e-9 * largest:
         return _say(axes, "%s%s\neverywhere" % ("+" if finite[0] > 0 else "", with_unit(float(finite.mean()), "m")))
+    mean = float(finite.mean())
+    if abs(mean) > finite.std():  # a whole surface that was shifted hides what else was done to it
+        title = "%s%s everywhere,\nbeside it rms %s" % ("+" if mean > 0 else "", with_unit(mean, "m"), with_unit(float(finite.std()), "m"))
+        return _draw_map(figure, axes, difference - mean, extent, title, "RdBu_r", about_zero=True)
     return _draw_map(figure, axes, difference, extent, "rms %s" % with_unit(_rms(difference), "m"), "RdBu_r", about_zero=True)
 
 

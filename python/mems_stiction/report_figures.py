@@ -23,7 +23,7 @@ PRESSING = (("van der Waals", "van_der_waals_force", "#4c78a8"), ("electrostatic
             ("mechanical", "mechanical_load", "#7f7f7f"), ("capillary", "capillary_force", "#54a89e"))
 HOLDING = (("contacts (JKR)", "pull_off_force_jkr", "#b0413e"), ("van der Waals", "van_der_waals_force", "#4c78a8"),
            ("capillary", "capillary_force", "#54a89e"))
-TRENDS = (("pull_off_force", "pull-off force", "N"), ("contact_fraction", "contact fraction", ""),
+TRENDS = (("pull_off_force", "pull-off force", "N"), ("contact_fraction", "contact fraction", "%"),
           ("rms_height", "rms height", "m"), ("margin", "margin: restoring / pull-off force", ""),
           ("peel_number", "peel number: the beam's own work / adhesion", ""))
 RATIOS = ("margin", "peel_number")  # the verdict rests on
@@ -62,6 +62,8 @@ def scaled(values, unit):
     finite = np.abs(array[np.isfinite(array)])
     if not unit:
         return array, ""
+    if unit == "%":
+        return 100 * array, unit
     exponent, letter = prefix_for(float(finite.max()) if finite.size else 0.0)
     return array / 10.0**exponent, letter.replace("u", "µ") + unit
 
@@ -69,8 +71,11 @@ def scaled(values, unit):
 def scan_figure(result):
     """Force over height, or energy over approach where the formulation has that, with what is around its equilibrium; force budget, distributions of loads
     and of plasticity indices."""
-    of_energy = (_draw_energy, draw_energy_at_rest)
-    panels = ((_draw_curve,) if result["force_curve"] else of_energy) + (_draw_forces, _draw_loads, _draw_plasticity)
+    # The forces stand in the right column, where there is room for their long names.
+    if result["force_curve"]:
+        panels = (_draw_curve, _draw_forces, _draw_loads, _draw_plasticity)
+    else:
+        panels = (_draw_energy, draw_energy_at_rest, _draw_loads, _draw_forces, _draw_plasticity)
     rows = (len(panels) + 1) // 2
     figure, all_axes = plt.subplots(rows, 2, figsize=(13, 4.2 * rows), dpi=100)
     figure.subplots_adjust(left=0.065, right=0.985, top=1 - 0.1 / rows, bottom=0.15 / rows, hspace=0.34, wspace=0.38)
@@ -227,15 +232,16 @@ def _draw_loads(axes, result):
     axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: with_unit(value, "N", 1)))
     if high - low < 1.5:
         axes.xaxis.set_minor_formatter(
-            FuncFormatter(lambda value, _: with_unit(value, "N", 1) if "%.0e" % value in _steps(value) else ""))
+            FuncFormatter(lambda value, _: with_unit(value, "N", 1) if "%.0e" % value in _steps(value, high - low < 0.8) else ""))
         axes.tick_params(axis="x", which="minor", labelsize=plt.rcParams["xtick.labelsize"], length=plt.rcParams["xtick.major.size"],
                          pad=plt.rcParams["xtick.major.pad"])
     axes.set_xlabel("load of the contact [N], logarithmic")
 
 
-def _steps(value):
+def _steps(value, has_room):
+    """Which steps between two decades are labelled."""
     exponent = math.floor(math.log10(value) + 1e-9)
-    return ["%.0e" % (digit * 10.0**exponent) for digit in (2, 5)]
+    return ["%.0e" % (digit * 10.0**exponent) for digit in ((2, 3, 4, 5, 7) if has_room else (2, 5))]
 
 
 def _draw_plasticity(axes, result):
@@ -251,7 +257,8 @@ def _draw_plasticity(axes, result):
         axes.plot([limit, limit], [0, 0.82 * top], color=GREY, linestyle="--", linewidth=1)
         axes.text(limit, 0.83 * top, text, fontsize=8.5, color=GREY, ha="center")
     axes.set_xlim(left=0)
-    axes.set_xlabel("plasticity index [-]; elastic below 0.6, plastic above 1.1")
+    # the paper's formulations tell regimes by the index, the others by the pressure that a contact comes to carry
+    axes.set_xlabel("plasticity index [-]; " + ("colours: by the pressure that is carried" if result["force_curve"] else "elastic below 0.6, plastic above 1.1"))
 
 
 def _say(axes, text):
@@ -286,7 +293,9 @@ def trend_figure(rows):
         drawn = np.concatenate([values, low, high]) if name in RATIOS else values
         if name in CONTROLLED:
             drawn = np.concatenate([drawn, _draw_control(axes, numbers, values, ~lost)])
-        _scale_trend(axes, values, drawn[np.isfinite(drawn)])
+        if name in RATIOS:  # the line that they are judged by is seen too
+            drawn = np.append(drawn, 1.0)
+        _scale_trend(axes, np.append(values, 1.0) if name in RATIOS else values, drawn[np.isfinite(drawn)])
         axes.set_title(label[0].upper() + label[1:], fontsize=11)
         axes.set_ylabel("%s [%s]" % (label.split(":")[0], shown_unit or "-"))
         axes.set_xlabel("number of the scan")

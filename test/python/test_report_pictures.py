@@ -105,6 +105,38 @@ class PictureTest(unittest.TestCase):
             with self.subTest(picture=name):
                 self.assertEqual(collisions(self.drawn(module, draw)), [])
 
+    def test_no_label_leaves_the_picture(self):
+        curve = {"height": [2e-9, 1e-10, 1e-10, 2e-9], "force": [0.0, -1e-7, -1e-7, 4e-7], "direction": ["APPROACH", "APPROACH", "RETRACTION", "RETRACTION"]}
+        for module, draw in ((report_figures, lambda: report_figures.scan_figure(result())),
+                             (report_figures, lambda: report_figures.scan_figure(result(formulation="consistent", force_curve=curve))),
+                             (report_figures, lambda: report_figures.trend_figure(self.rows())),
+                             (cleaning_steps, lambda: cleaning_figure(self.stages(), 1e-8, 1e-8)),
+                             (surface_figures, lambda: surface_figure(rough(), 1e-8, 2e-8))):
+            figure = self.drawn(module, draw)
+            width, height = figure.canvas.get_width_height()
+            outside = [text for text, box in labels_of(figure) if box.x0 < -1 or box.y0 < -1 or box.x1 > width + 1 or box.y1 > height + 1]
+            self.assertEqual(outside, [])
+
+    def rows(self):
+        return [dict(number=number, status="EQUILIBRIUM", pull_off_force=4e-7, contact_fraction=1e-5 * number, rms_height=3e-9, margin=60.0 * number,
+                     margin_lower=20.0 * number, margin_upper=200.0, contact_area_jkr=1e-15) for number in (1, 2, 3)]
+
+    def test_the_line_that_margins_are_judged_by_is_seen(self):
+        figure = self.drawn(report_figures, lambda: report_figures.trend_figure(self.rows()))
+        margin = figure.axes[3]
+        self.assertEqual(margin.get_yscale(), "log")
+        self.assertLess(margin.get_ylim()[0], 1.0)
+        self.assertEqual(figure.axes[1].get_ylabel(), "contact fraction [%]")
+
+    def test_a_shift_does_not_hide_what_else_a_step_did(self):
+        heights = rough()
+        tilted = heights + 1e-6 + np.linspace(0, 2e-8, heights.shape[1])
+        figure = self.drawn(cleaning_steps, lambda: cleaning_figure([Stage("", tilted, {}), Stage("level", heights, {})], 1e-8, 1e-8))
+        titles = [text for text, _ in labels_of(figure)]
+        self.assertTrue(any(text.startswith("-1.01 µm everywhere,\nbeside it rms 5.8") for text in titles), titles)
+        shown = figure.axes[-1].images or [image for axes in figure.axes for image in axes.images][-1:]
+        self.assertAlmostEqual(np.ptp(np.asarray(shown[0].get_array())), 20.0, delta=0.1)  # nm, as the plane spans
+
     def test_a_long_caption_leaves_room_for_the_titles(self):
         heights = rough()
         contact = SimpleNamespace(x=3e-7, y=2e-7, load=1e-6, cap_radius=2e-8, composite_radius=4.28e-7, plasticity_index=2.24, regime=1, area=1e-16)
