@@ -2,6 +2,8 @@
 
 import argparse
 import csv
+import math
+import re
 import sys
 import time
 
@@ -13,6 +15,7 @@ from mems_stiction.provenance import FIELDS as PROVENANCE
 from mems_stiction.station_node import CannotRun
 
 DONE, CANCELLED, NOT_RUN = 0, 1, 2  # exit statuses
+MOST_NUMBERS = 1000000  # of a range; the node takes no more
 SILENCE = 5.0  # after which a node counts as gone [s]
 
 
@@ -65,16 +68,24 @@ def spread(items, most):
 
 def numbers(text):
     """"0,5,10" or FIRST:LAST:STEP, as in "0:30:2.5", the last one included."""
+    parts = text.split(":" if ":" in text else ",")
+    if any(re.match(r"[+-]?0\d", part.strip()) for part in parts):
+        raise NoNumbers("'%s' is not allowed: commas stand between numbers, the decimal sign is a point" % text)
     try:
-        if ":" not in text:
-            return [float(part) for part in text.split(",")]
-        first, last, step = (float(part) for part in text.split(":"))
+        values = [float(part) for part in parts]
     except ValueError:
+        values = []
+    if not values or not all(map(math.isfinite, values)) or (":" in text and len(values) != 3):
         raise NoNumbers("'%s' is not allowed, must be numbers with commas between, or FIRST:LAST:STEP" % text)
+    if ":" not in text:
+        return values
+    first, last, step = values
     if not step > 0:
         raise NoNumbers("'%s' is not allowed, the step must be > 0" % text)
     if first > last:
         raise NoNumbers("'%s' is not allowed: nothing lies from %g up to %g; the way down follows by itself" % (text, first, last))
+    if (last - first) / step > MOST_NUMBERS:
+        raise NoNumbers("'%s' is not allowed: more than %d numbers" % (text, MOST_NUMBERS))
     count = int((last - first) / step * (1 + 1e-12) + 1e-9) + 1
     return [first + index * step for index in range(count)]
 

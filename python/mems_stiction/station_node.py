@@ -28,6 +28,9 @@ class Printable:
         return getattr(self._stream, name)
 
 
+PATIENCE = 30.0  # for a master, of a program that runs until it is stopped [s]
+
+
 class CannotRun(Exception):
     """There is no master, no node, no place to write to, or the node has refused the goal; the text says why."""
 

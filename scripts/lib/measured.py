@@ -13,6 +13,7 @@ import warnings
 from concurrent.futures import ThreadPoolExecutor
 
 import mems_stiction
+from tqdm import tqdm
 
 import measured_cases as cases
 import trust_run
@@ -97,8 +98,9 @@ def exponent(rows):
 
 
 def page(study):
+    wanted = [(case, variation) for case in cases.CASES for variation in (cases.AS_ASSUMED,) + cases.VARIATIONS]
     results = {(case.key, variation.name): study.values(case, variation)
-               for case in cases.CASES for variation in (cases.AS_ASSUMED,) + cases.VARIATIONS}
+               for case, variation in tqdm(wanted, desc="predicting", unit="", leave=False, disable=None)}
     separations = list(separation_rows(study))
     text = [
         "# Against measurement", "",

@@ -62,6 +62,9 @@ Predicted predictedScan(const HeightMap& scan, const PreparedScan& prepared, Pre
   for (std::string& warning : settingsWarnings(configuration)) {
     predicted->extras.warnings.push_back(std::move(warning));
   }
+  for (std::string& warning : loadWarnings(predicted->prediction, configuration.model)) {
+    predicted->extras.warnings.push_back(std::move(warning));
+  }
   if (configuration.device.isStated()) {
     const Options on_frame = onFrame(configuration.model, configuration.device, prepared.surfaces);
     predicted->extras.verdict =

@@ -86,6 +86,9 @@ PredictedScan LivePredictor::judged(const PreparedScan& prepared, const Configur
   predicted.formulation = predictor_.options().formulation;
   predicted.warnings = warnings;
   for (std::string& line : settingsWarnings(settings)) predicted.warnings.push_back(std::move(line));
+  for (std::string& line : loadWarnings(predicted.prediction, predictor_.options())) {
+    predicted.warnings.push_back(std::move(line));
+  }
   Configuration used = settings;
   used.model = predictor_.options();
   used.counter_surface.pose = predictor_.preparer().counterSurfacePose();  // that of the scan, if it came with one

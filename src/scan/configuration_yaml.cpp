@@ -3,6 +3,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
 #include "mems_stiction/base/errors.hpp"
@@ -22,6 +23,8 @@ Configuration configurationFromYaml(const YAML::Node& tree, const Configuration&
 }
 
 Configuration loadConfiguration(const std::string& path, const Configuration& defaults) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) throw FileError(path + ": is a folder, not a configuration file");
   YAML::Node tree;
   try {
     tree = YAML::LoadFile(path);

@@ -1,5 +1,6 @@
 #include "mems_stiction/scan/plausibility.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -48,6 +49,7 @@ const std::map<std::string, Usual>& usualValues() {
       {"device/beam_length", beam},
       {"device/beam_thickness", beam},
       {"device/beam_gap", travel},
+      {"approach/step", {1e-14, 1e-7, {{"nm", 1e-9}, {"pm", 1e-12}}}},
       {"resolution/tip_radius", tip},
       {"preprocessing/tip/radius", tip},
       {"preprocessing/low_pass/cutoff_wavelength", tip},
@@ -107,6 +109,15 @@ std::vector<std::string> settingsWarnings(const Configuration& configuration) {
   PlausibilityCheck check;
   describeConst(configuration, check);
   return check.lines();
+}
+
+std::vector<std::string> loadWarnings(const Prediction& prediction, const Options& options) {
+  const double pressure = prediction.mechanical_load / prediction.nominal_area;
+  const double hardness = std::min(options.lower.hardness, options.upper.hardness);
+  if (!(pressure > hardness)) return {};
+  return {"the mechanical load of " + rounded(prediction.mechanical_load) + " N is " + rounded(pressure) +
+          " Pa on this frame and more than the hardness of " + rounded(hardness) +
+          " Pa: it is the load on the scanned area; load/device_force is that on the device"};
 }
 
 }  // namespace mems_stiction

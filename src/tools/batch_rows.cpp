@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -145,6 +146,8 @@ void RowFile::append(const std::string& line) {
 std::string settingsPathOf(const std::string& rows_path) { return rows_path + ".settings.yaml"; }
 
 std::string readWhole(const std::string& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) throw FileError(path + ": is a folder, must be a file");
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw FileError(path + ": cannot be read: " + std::strerror(errno));
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};

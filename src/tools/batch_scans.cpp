@@ -89,6 +89,7 @@ BatchRow BatchScans::row(std::size_t number, const std::function<void(const std:
   }
   BatchRow row;
   row.is_predicted = reason.empty();
+  row.reason = reason;
   row.fields = originFields(origin, reason);
   if (!row.is_predicted) return row;
   HalfSpaceAnswer half_space;
@@ -157,6 +158,8 @@ BatchScans::Subject BatchScans::predict(const Item& item, ScanOrigin& origin) {
   prediction_ = predictor_.predict(prepared_);
   for (const std::string& warning : scanWarnings(surface_)) subject.warnings.push_back(warning);
   for (const std::string& warning : settingsWarnings(configuration_)) subject.warnings.push_back(warning);
+  for (const std::string& warning : loadWarnings(prediction_, configuration_.model))
+    subject.warnings.push_back(warning);
   return subject;
 }
 

@@ -23,6 +23,7 @@ namespace mems_stiction {
 /// One row, and what it lacks.
 struct BatchRow {
   RowFields fields;
+  std::string reason;  ///< why it is not predicted; empty if it is
   bool is_predicted = false;
   bool is_solved = false;  ///< by the half-space
 };

@@ -47,6 +47,17 @@ inline void applyPitch(const std::string& text, ScanFileOptions& options) {
   }
 }
 
+/// What is wrong with the command line, in one line.
+std::string parseFailure(const CLI::App& app, const CLI::Error& error);
+
+/// Before any work: @p path can be written to, and is none of the files that are read.
+/// - @p option that names it; nothing is asked of an empty path
+/// @throw OptionsError
+void requireOutput(const std::string& option, const std::string& path, const std::vector<std::string>& inputs);
+
+/// Numbers above 0, as an option's check.
+std::string positive(const std::string& text);
+
 /// Calls handle(path) for each scan. One that throws is named with the reason; the others go on.
 /// @return the exit status
 template <typename Handler>
@@ -75,7 +86,9 @@ int runProgram(const std::string& program, int argc, char** argv, Describe&& des
     try {
       app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-      return app.exit(error) == 0 ? 0 : kBadInput;
+      if (error.get_exit_code() == 0) return app.exit(error);  // --help
+      complain(program, parseFailure(app, error));
+      return kBadInput;
     }
     const int status = run(arguments);
     if (std::cout.flush()) return status;

@@ -16,6 +16,7 @@
 #include "mems_stiction/import/scan_file.hpp"
 #include "mems_stiction/import/scan_writer.hpp"
 #include "mems_stiction/import/waiting_gwyddion.hpp"
+#include "waiting_line.hpp"
 
 namespace {
 
@@ -92,7 +93,7 @@ class Importer {
 
   /// @throw Error in one line, with the file's name
   void import(const std::string& path, const ScanFileOptions& options) {
-    const ScanFile scan = openScanFile(path, {}, options);
+    const ScanFile scan = whileSaying(path + ": reading", [&] { return openScanFile(path, {}, options); });
     fs::path target = fs::path(arguments_.output) / fs::path(path).filename();
     target.replace_extension(".tiff");
     if (!written_.insert(target.string()).second) {

@@ -20,10 +20,12 @@
 #include "command_line.hpp"
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/interruption.hpp"
+#include "mems_stiction/height_map/scan_sanity.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 #include "mems_stiction/ros/image_conversion.hpp"
 #include "mems_stiction/ros/topic_names.hpp"
 #include "mems_stiction/surface/gaussian_surface.hpp"
+#include "waiting_line.hpp"
 
 namespace {
 
@@ -57,7 +59,7 @@ void describe(CLI::App& app, Arguments& arguments) {
   app.add_option(
          "--pitch", arguments.pitch,
          "distance of neighbouring pixels [m]; 10e-9 for generated surfaces; for files, instead of what they say")
-      ->check(CLI::PositiveNumber)
+      ->check(positive)
       ->type_name("M");
   app.add_option("--rms-height", arguments.rms_heights,
                  "rms height [m]; two values: of the first and the last surface, the others between in equal ratios")
@@ -69,7 +71,7 @@ void describe(CLI::App& app, Arguments& arguments) {
       ->capture_default_str();
   app.add_option("--seed", arguments.surface.seed, "of the first surface; each further one takes the next")
       ->capture_default_str();
-  app.add_option("--rate", arguments.rate, "scans per second [Hz]")->check(CLI::PositiveNumber)->capture_default_str();
+  app.add_option("--rate", arguments.rate, "scans per second [Hz]")->check(positive)->capture_default_str();
   app.footer("Exit status: 0, or 2 for bad input (one line on stderr for each; the other scans are still written).");
 }
 
@@ -81,6 +83,13 @@ class ScanBag {
     std::error_code error;
     if (fs::exists(path, error) && !fs::is_regular_file(path, error)) {
       throw FileError(path + ": is a folder, a pipe or a device; a bag is written to a file");
+    }
+    if (fs::path(path).extension() != ".bag") {
+      throw OptionsError({"--output: '" + path + "' is not allowed, must end in .bag"});
+    }
+    const fs::path folder = fs::path(path).parent_path();
+    if (!folder.empty() && !fs::is_directory(folder, error)) {
+      throw FileError(path + ": cannot be written: there is no folder '" + folder.string() + "'");
     }
     guarded([&] { bag_->open(partial_.path(), rosbag::bagmode::Write); });
   }
@@ -100,6 +109,7 @@ class ScanBag {
     header.frame_id = frame;
     ++count_;
     // A stage offset must come off in double: float32 metres lose nanometres under millimetres.
+    for (const std::string& warning : scanWarnings(surface)) warn(frame, warning);
     const HeightMap wide = surface.asDouble();
     const cv::Mat about_mean = wide.heights() - heightStatistics(wide).mean;
     ScanOptions calibration;
@@ -158,7 +168,8 @@ void writeGenerated(const Arguments& arguments, int count, ScanBag& bag) {
   options.correlation_length_x = options.correlation_length_y = arguments.correlation_length;
   for (int index = 0; index < count; ++index, ++options.seed) {
     options.rms_height = rmsHeight(arguments.rms_heights, index, count);
-    bag.write(gaussianSurface(options), "scan");
+    const std::string doing = "surface " + std::to_string(index + 1) + " of " + std::to_string(count);
+    bag.write(whileSaying(doing, [&] { return gaussianSurface(options); }), "scan");
   }
 }
 
@@ -171,7 +182,8 @@ int run(const Arguments& arguments) {
   for (const std::string& path : arguments.scans) {
     std::optional<ScanFile> scan;
     try {
-      scan = openScanFile(path, {}, file_options);
+      if (fs::path(path).extension() == ".bag") throw FileError(path + ": is a bag already; rosbag filter joins bags");
+      scan = whileSaying(path + ": reading", [&] { return openScanFile(path, {}, file_options); });
       for (const std::string& note : scan->notes) warn(path, note);
     } catch (const Error& error) {
       complain("make_scan_bag", error.what());
@@ -181,6 +193,10 @@ int run(const Arguments& arguments) {
   }
   const int default_count = arguments.scans.empty() ? 1 : 0;
   writeGenerated(arguments, arguments.count > 0 ? arguments.count : default_count, bag);
+  if (bag.count() == 0) {
+    complain("make_scan_bag", arguments.bag + ": not written: there is no scan for it");
+    return kBadInput;
+  }
   bag.finish();
   std::cout << arguments.bag << ": " << bag.count() << " scans\n";
   return status;

@@ -25,6 +25,7 @@
 #include "mems_stiction/scan/plausibility.hpp"
 #include "mems_stiction/scan/record.hpp"
 #include "mems_stiction/scan/scan_predictor.hpp"
+#include "waiting_line.hpp"
 
 namespace {
 
@@ -134,6 +135,18 @@ CurveFiles curveFilesOf(const Arguments& arguments) {
   return {"", arguments.curve + arguments.formulation_curve};
 }
 
+/// @throw OptionsError for an output that cannot be written, or that is one of the inputs
+void requireOutputs(const Arguments& arguments) {
+  std::vector<std::string> inputs = arguments.scans;
+  for (const std::string& scan : arguments.scans) inputs.push_back(scan + ".yaml");
+  if (!arguments.configuration.empty()) inputs.push_back(arguments.configuration);
+  std::vector<std::pair<std::string, std::string>> outputs = arguments.half_space_maps.wanted();
+  outputs.insert(outputs.end(), {{"--deformed", arguments.deformed},
+                                 {"--curve", arguments.curve},
+                                 {"--formulation-curve", arguments.formulation_curve}});
+  for (const auto& [option, path] : outputs) requireOutput(option, path, inputs);
+}
+
 /// The configuration file with the command line's values in it.
 /// @throw OptionsError, FileError
 Configuration configurationOf(const Arguments& arguments) {
@@ -168,8 +181,12 @@ void predictScan(const std::string& path, const Arguments& arguments, const Scan
   if (std::filesystem::path(path).extension() == ".bag") {
     throw FileError(path + ": is a bag; stiction_batch predicts the scans of bags (stiction_report shows them)");
   }
+  if (std::filesystem::path(path).extension() == ".yaml" || std::filesystem::path(path).extension() == ".yml") {
+    throw FileError(path + ": is a file of settings, not a scan; give it with --config");
+  }
   const CurveFiles curve_files = curveFilesOf(arguments);
-  const ScanFile scan = openScanFile(path, configuration.scan, file_options);
+  const ScanFile scan =
+      whileSaying(path + ": reading", [&] { return openScanFile(path, configuration.scan, file_options); });
   for (const std::string& note : scan.notes) warn(path, note);
 
   Prediction prediction;
@@ -180,23 +197,34 @@ void predictScan(const std::string& path, const Arguments& arguments, const Scan
   extras.has_curve = arguments.record_curve;
   extras.warnings = scanWarnings(scan.surface);
   for (const std::string& warning : extras.warnings) warn(path, warning);
-  for (std::string& warning : settingsWarnings(configuration)) extras.warnings.push_back(std::move(warning));
   Options options = configuration.model;
   try {
-    const PreparedScan prepared = predictor.preparer().prepare(scan.surface);
+    const PreparedScan prepared =
+        whileSaying(path + ": cleaning", [&] { return predictor.preparer().prepare(scan.surface); });
     options = onFrame(configuration.model, configuration.device, prepared.surfaces);
-    prediction = predictor.predict(prepared);
+    prediction = whileSaying(path + ": predicting", [&] { return predictor.predict(prepared); });
     if (!arguments.deformed.empty()) requireDeformedSurfaces(prediction);
     if (!curve_files.formulation.empty() || extras.has_curve) requireCurve(prediction, options.formulation);
     extras.preprocessing = prepared.record;
     extras.pull_off_interval = pullOffInterval(prediction, options, configuration.uncertainty);
-    if (arguments.convergence) extras.convergence = predictor.convergence(prepared);
-    if (arguments.cleanings) extras.cleanings = cleaningSpread(scan.surface, configuration);
+    if (arguments.convergence) {
+      extras.convergence =
+          whileSaying(path + ": predicting at coarser pixels", [&] { return predictor.convergence(prepared); });
+    }
+    if (arguments.cleanings) {
+      extras.cleanings = whileSaying(path + ": predicting under each cleaning",
+                                     [&] { return cleaningSpread(scan.surface, configuration); });
+    }
     if (arguments.half_space) {
       extras.half_space = solveWithProgress(half_space, halfSpaceProblem(prepared, options));
     }
   } catch (const SurfaceError& error) {
     throw SurfaceError(path + ": " + error.what());
+  }
+  for (std::string& warning : settingsWarnings(configuration)) extras.warnings.push_back(std::move(warning));
+  for (std::string& warning : loadWarnings(prediction, options)) {
+    warn(path, warning);
+    extras.warnings.push_back(std::move(warning));
   }
   if (configuration.device.isStated()) {
     Evidence evidence;
@@ -238,6 +266,7 @@ int run(const Arguments& arguments) {
     predictor.emplace(configuration);
     half_space.emplace(configuration.half_space);
     curveFilesOf(arguments);
+    requireOutputs(arguments);
     for (const std::string& warning : settingsWarnings(configuration)) warn("predict_scan", warning);
   } catch (const Error& error) {
     complain("predict_scan", error.what());

@@ -1,9 +1,12 @@
 #include "scan_bag_reader.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <set>
 #include <vector>
 
@@ -100,11 +103,24 @@ boost::shared_ptr<const ScanInfo> instantiateInfo(const rosbag::MessageInstance&
   return info;
 }
 
+/// @throw FileError for a file that does not begin as a bag does
+void requireMagic(const std::string& path) {
+  const std::string magic = "#ROSBAG V";
+  std::string begin(magic.size(), '\0');
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) throw FileError(path + ": cannot be read: " + std::strerror(errno));
+  stream.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  if (stream.gcount() == 0) throw FileError(path + ": is empty");
+  if (begin != magic) throw FileError(path + ": is not a bag, whatever its name says");
+}
+
 }  // namespace
 
 ScanBagReader::ScanBagReader(const std::string& path, const std::string& height_topic, const ScanOptions& parameters)
     : path_(path), parameters_(parameters) {
   if (!fs::exists(path)) throw FileError(path + ": no such file");
+  if (fs::is_directory(path)) throw FileError(path + ": is a folder, not a bag");
+  requireMagic(path);
   if (checkBag(path) == BagEnd::kCutOff) {
     openMended();
   } else {

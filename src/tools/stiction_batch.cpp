@@ -66,6 +66,7 @@ int run(const BatchArguments& arguments) {
   scans.expect(numbers, before);
   std::size_t failed_count = 0;
   std::size_t unsolved_count = 0;
+  std::string first_reason;
   {
     ProgressBar progress(numbers.size(), before);
     const auto show = [&](const std::string& doing) { progress.show(rows.done(), failed_count, doing); };
@@ -73,7 +74,7 @@ int run(const BatchArguments& arguments) {
       show("");
       const BatchRow row = scans.row(numbers[rows.done()], show);
       rows.append(rowText(row.fields, format, columns));
-      if (!row.is_predicted) ++failed_count;
+      if (!row.is_predicted && ++failed_count == 1) first_reason = row.reason;
       if (row.is_predicted && !row.is_solved) ++unsolved_count;
     }
   }
@@ -81,6 +82,10 @@ int run(const BatchArguments& arguments) {
             << failed_count << " scans failed in this run";
   if (arguments.half_space) std::cout << ", half-space not solved for " << unsolved_count << " others";
   std::cout << "\n";
+  if (failed_count > 0) {
+    complain("stiction_batch",
+             (failed_count > 1 ? "the first of " + std::to_string(failed_count) + ": " : "") + first_reason);
+  }
   pool(arguments);
   return failed_count > 0 && failed_count == rows.done() - before ? kNonePredicted : 0;
 }

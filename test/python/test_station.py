@@ -4,7 +4,7 @@ import math
 import unittest
 from types import SimpleNamespace
 
-from mems_stiction.long_run import numbers, spread
+from mems_stiction.long_run import NoNumbers, numbers, spread
 from mems_stiction.station_text import (cycle_header, cycle_line, cycle_sentences, sweep_header, sweep_line, sweep_sentences,
                                         widest_gap)
 
@@ -39,8 +39,10 @@ class ArgumentsTest(unittest.TestCase):
         self.assertEqual(numbers("0:30:10"), [0.0, 10.0, 20.0, 30.0])
         self.assertEqual(len(numbers("0:1:0.1")), 11)  # 0.1 has no exact form
         self.assertEqual(numbers("0:25:10"), [0.0, 10.0, 20.0])
-        for wrong in ("0:30", "0:30:0", "a,b", "", "10:0:5"):
+        for wrong in ("0:30", "0:30:0", "a,b", "", "10:0:5", "0:nan:5", "inf", "0:30:1e-9", "0,05", "1:2:3:4"):
             self.assertRaises(ValueError, numbers, wrong)
+        with self.assertRaisesRegex(NoNumbers, "the decimal sign is a point"):
+            numbers("0,05")
 
     def test_long_tables_keep_both_ends(self):
         self.assertEqual(spread([1, 2, 3], 3), [1, 2, 3])

@@ -1,5 +1,7 @@
 /// verify: computes every row of the verification table, prints it, and exits with 1 when a row is out.
 
+#include <unistd.h>
+
 #include <fstream>
 #include <iostream>
 
@@ -35,7 +37,11 @@ int main(int argc, char** argv) {
   app.add_option("--falsify", falsified, "put the row 'section: quantity' out, to see the run fail");
   CLI11_PARSE(app, argc, argv);
 
-  std::vector<Section> sections = allSections();
+  const bool is_watched = isatty(STDERR_FILENO) != 0;
+  std::vector<Section> sections = allSections([&](std::size_t number, std::size_t count) {
+    if (is_watched) std::cerr << "\r\033[Ksection " << number << " of " << count << std::flush;
+  });
+  if (is_watched) std::cerr << "\r\033[K";
   if (!falsified.empty() && !falsify(sections, falsified)) {
     std::cerr << "verify: there is no row '" << falsified << "'\n";
     return 2;

@@ -2,6 +2,10 @@
 
 /// Every row of the table, one file per physical idea.
 
+#include <cstddef>
+#include <functional>
+#include <vector>
+
 #include "verification/row.hpp"
 
 namespace mems_stiction {
@@ -26,7 +30,8 @@ Section devicesSection();
 Section inputDigitsSection();
 
 /// All of them, in the order of the table.
-std::vector<Section> allSections();
+/// - @p on_section is told the number of each, from 1, and of all, before it is computed
+std::vector<Section> allSections(const std::function<void(std::size_t, std::size_t)>& on_section = [](std::size_t, std::size_t) {});
 
 }  // namespace verification
 }  // namespace mems_stiction

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "mems_stiction/prediction/prediction.hpp"
 #include "mems_stiction/scan/configuration.hpp"
 
 namespace mems_stiction {
@@ -14,5 +15,9 @@ namespace mems_stiction {
 /// One sentence for each stated constant outside what is usual, with the unit that was probably meant; empty when all is
 /// well. Zeros say "not stated".
 std::vector<std::string> settingsWarnings(const Configuration& configuration);
+
+/// The same of the load on a frame: one sentence if it is more than the softer surface could carry with all of its area.
+/// - @p options that the prediction was made with
+std::vector<std::string> loadWarnings(const Prediction& prediction, const Options& options);
 
 }  // namespace mems_stiction

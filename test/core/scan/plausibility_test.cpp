@@ -34,8 +34,24 @@ TEST(Plausibility, ASlipOfAUnitIsNamedWithTheUnitThatWasMeant) {
   configuration.model.interface.insulator_thickness = 100.0;
   EXPECT_NE(onlyWarning(configuration).find("probably 100 nm; write 1e-07"), std::string::npos);
   configuration = Configuration();
+  configuration.model.approach.step = 0.1;
+  EXPECT_NE(onlyWarning(configuration).find("approach/step 0.1 m is outside the usual"), std::string::npos);
+  configuration = Configuration();
   configuration.model.capillary.temperature = 25.0;
   EXPECT_NE(onlyWarning(configuration).find("degrees Celsius; write 298.1"), std::string::npos);
+}
+
+TEST(Plausibility, ALoadThatNoAreaCouldCarryIsNamed) {
+  Options options;
+  Prediction prediction;
+  prediction.nominal_area = 36e-12;
+  prediction.mechanical_load = 1e-6;
+  EXPECT_TRUE(loadWarnings(prediction, options).empty());
+  prediction.mechanical_load = 1.0;  // 1 uN given as 1
+  const std::vector<std::string> lines = loadWarnings(prediction, options);
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_NE(lines[0].find("the mechanical load of 1 N is 2.778e+10 Pa on this frame"), std::string::npos) << lines[0];
+  EXPECT_EQ(lines[0].find(','), std::string::npos);
 }
 
 TEST(Plausibility, NoCommaStandsInAWarning) {  // `rostopic echo -p` puts commas between fields

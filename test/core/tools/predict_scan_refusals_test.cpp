@@ -62,5 +62,61 @@ TEST_F(PredictScan, UnitSlipsAreWarnedOfOnStandardError) {
   EXPECT_EQ(outcome.output.find("warning"), std::string::npos);
 }
 
+TEST_F(PredictScan, WhatIsMistypedIsNamedWithWhatIsAllowed) {
+  const std::string scan = sphere();
+  const std::string settings = folder_.write("part.yaml", "load: {voltage: 0}\n");
+  const std::vector<std::pair<std::string, std::string>> slips = {
+      {"", "predict_scan: SCAN is required; --help shows all options"},
+      {"--piych 20e-9 " + scan, "--piych: there is no such option (did you mean --pitch?)"},
+      {"--pitch 20e-9 --voltage 20V " + scan, "--voltage: '20V' is not allowed, must be a number: without its unit"},
+      {"--pitch 20e-9 --load 0,05 " + scan, "--load: '0,05' is not allowed, must be a number"},
+      {"--pitch 20e-9 " + settings, "part.yaml: is a file of settings, not a scan; give it with --config"},
+      {"--pitch 20e-9 " + folder_.write("a.bag", "#ROSBAG V2.0\n"), "a.bag: is a bag; stiction_batch predicts"},
+      {"--pitch 20e-9 -c " + folder_.file(".") + " " + scan, "is a folder, not a configuration file"},
+      {"--pitch 20e-9 " + folder_.file("."), "is a folder, not a scan"},
+      {"--pitch 20e-9 " + folder_.write("empty.tiff", ""), "empty.tiff: is empty"}};
+  for (const auto& [arguments, expected] : slips) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.status, 2) << arguments;
+    ASSERT_EQ(outcome.errors.size(), 1u) << arguments;
+    EXPECT_NE(outcome.errors[0].find(expected), std::string::npos) << outcome.errors[0];
+    EXPECT_TRUE(outcome.output.empty()) << arguments;
+  }
+}
+
+TEST_F(PredictScan, OutputsThatCannotBeWrittenAreNamedBeforeAnyWorkAndInputsAreKept) {
+  const std::string scan = sphere();
+  const std::string before = ScratchFolder::read(scan);
+  const std::string settings = folder_.write("part.yaml", "load: {voltage: 0}\n");
+  const std::string call = "--pitch 20e-9 -c " + settings + " " + scan;
+  for (const std::string option : {"--deformed", "--curve", "--half-space --half-space-gap"}) {
+    for (const auto& [path, expected] : {std::make_pair(scan, "is what is read, which would be lost"),
+                                         std::make_pair(settings, "is what is read, which would be lost"),
+                                         std::make_pair(folder_.file("."), "is a folder, must be a file"),
+                                         std::make_pair(folder_.file("none/x"), "cannot be written: there is no folder")}) {
+      const Outcome outcome = run(option + " " + path + " " + call);
+      EXPECT_EQ(outcome.status, 2) << path;
+      ASSERT_EQ(outcome.errors.size(), 1u) << path;
+      EXPECT_NE(outcome.errors[0].find(expected), std::string::npos) << outcome.errors[0];
+    }
+  }
+  EXPECT_EQ(ScratchFolder::read(scan), before);
+}
+
+TEST_F(PredictScan, SlipsOfAUnitInLoadAndStepAreWarnedOf) {
+  const std::string call = "--json --pitch 20e-9 " + sphere();
+  const Outcome pressed = run("--load 1 " + call);
+  ASSERT_EQ(pressed.errors.size(), 1u);
+  EXPECT_NE(pressed.errors[0].find("warning: the mechanical load of 1 N is"), std::string::npos) << pressed.errors[0];
+  EXPECT_EQ(nlohmann::json::parse(pressed.output)["warnings"].size(), 1u);
+  const Outcome coarse = run("--step 1 " + call);
+  ASSERT_EQ(coarse.errors.size(), 1u);
+  EXPECT_NE(coarse.errors[0].find("approach/step 1 m is outside the usual"), std::string::npos) << coarse.errors[0];
+}
+
+TEST_F(PredictScan, NoLineOfProgressReachesWhatIsNoTerminal) {
+  EXPECT_TRUE(run("--pitch 20e-9 --cleanings --convergence " + sphere()).errors.empty());
+}
+
 }  // namespace
 }  // namespace mems_stiction

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 
 #include <opencv2/imgcodecs.hpp>
@@ -112,6 +113,19 @@ TEST_F(PredictScan, TheFormulationsCurveGoesToRestAndBackOverTheHalfSpacesHeight
   // the pull-off force is the summit of a parabola through the highest points
   EXPECT_NEAR(largest / record["pull_off_force"].get<double>(), 1.0, 0.02);
   EXPECT_LT(retraction.front().first, range) << "at rest contacts are pressed in";
+}
+
+TEST_F(PredictScan, ForceAndMarginAreRoundedForPeopleInACommentAndKeptInTheFields) {
+  const std::string device =
+      folder_.write("d.yaml", "device: {spring_stiffness: 1.0, travel: 1.0e-6, contact_area: 1.0e-12}\n");
+  const std::string call = "-c " + device + " --pitch 20e-9 " + sphere();
+  const std::string text = run(call).output;
+  const std::size_t place = text.find("\n# Pull-off force ");
+  ASSERT_NE(place, std::string::npos);
+  const std::string line = text.substr(place + 1, text.find('\n', place + 1) - place - 1);
+  // one contact: its interval is wide, so that two digits are left
+  EXPECT_TRUE(std::regex_match(line, std::regex("# Pull-off force \\d\\.?\\d?e-0\\d N, 95 % within [^;]* N; margin [^;]*, 95 % within .*\\.")))
+      << line;
 }
 
 TEST_F(PredictScan, ACurveSaysWhereItComesFrom) {

@@ -1,0 +1,129 @@
+"""Slips of a test engineer at programs and scripts: each is one sentence with what is allowed, no traceback, and no file is lost."""
+
+import csv
+import os
+import pathlib
+import pty
+import subprocess
+import tempfile
+import unittest
+
+import numpy as np
+from roslib.packages import find_node
+
+BAD_INPUT = 2
+
+
+def rough(size=24):
+    waves = np.sin(np.arange(size) / 2.0)
+    return 1e-9 * np.outer(waves, np.cos(np.arange(size) / 3.0))
+
+
+class SlipTest(unittest.TestCase):
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.folder = pathlib.Path(holder.name)
+        np.save(str(self.folder / "scan.npy"), rough())
+        (self.folder / "scan.npy.yaml").write_text("pitch_x: 20.0e-9\npitch_y: 20.0e-9\n")
+        (self.folder / "folder.bag").mkdir()
+        (self.folder / "empty.bag").write_text("")
+        (self.folder / "text.bag").write_text("no bag at all, but some words")
+
+    def run_it(self, name, *arguments):
+        program = find_node("mems_stiction", name)[0]
+        environment = dict(os.environ, ROS_MASTER_URI="http://localhost:1")
+        return subprocess.run([program] + [str(part) for part in arguments], cwd=str(self.folder), env=environment, stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, universal_newlines=True, timeout=120)
+
+    def assert_refused(self, expected, name, *arguments, status=BAD_INPUT):
+        done = self.run_it(name, *arguments)
+        with self.subTest(call=(name,) + arguments):
+            self.assertEqual(done.returncode, status, done.stdout + done.stderr)
+            self.assertIn(expected, done.stderr)
+            self.assertNotIn("Traceback", done.stderr)
+            self.assertNotIn("basic_filebuf", done.stderr)
+            self.assertEqual(done.stderr.rstrip().splitlines()[-1].split(":")[0], name)
+
+    def test_bags_are_written_to_bags_alone_and_not_without_a_scan(self):
+        before = (self.folder / "scan.npy").read_bytes()
+        self.assert_refused("must end in .bag", "make_scan_bag", "-o", "scan.npy", "scan.npy")
+        self.assertEqual((self.folder / "scan.npy").read_bytes(), before)
+        self.assertEqual(self.run_it("make_scan_bag", "-o", "good.bag", "scan.npy").returncode, 0)
+        before = (self.folder / "good.bag").read_bytes()
+        self.assert_refused("good.bag: not written: there is no scan for it", "make_scan_bag", "-o", "good.bag", "nowhere.npy")
+        self.assert_refused("not written", "make_scan_bag", "-o", "new.bag", "good.bag")
+        self.assertEqual((self.folder / "good.bag").read_bytes(), before)
+        self.assertFalse((self.folder / "new.bag").exists())
+        self.assert_refused("there is no folder 'none'", "make_scan_bag", "-o", "none/a.bag")
+        for option, value, expected in (("--rate", "0", "'0' is not allowed, must be > 0"), ("--pitch", "-1e-9", "must be > 0"),
+                                        ("--rms-height", "5nm", "'5nm' is not allowed, must be a number"), ("--ros", "3", "did you mean --rows"),
+                                        ("--count", "0", "not in range")):
+            self.assert_refused(expected, "make_scan_bag", "-o", "a.bag", option, value)
+
+    def test_generated_surfaces_in_a_wrong_unit_are_warned_of(self):
+        done = self.run_it("make_scan_bag", "-o", "a.bag", "--rows", 16, "--cols", 16, "--pitch", "10", "--correlation-length", "20")
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("warning: pitch_x 10 m", done.stderr)
+
+    def test_what_is_no_bag_is_a_row_that_says_so_and_a_line(self):
+        for name, expected in (("folder.bag", "is a folder, not a bag"), ("empty.bag", "is empty"), ("text.bag", "is not a bag, whatever its name says"),
+                               ("nowhere.bag", "no such file")):
+            done = self.run_it("stiction_batch", "-o", name + ".csv", name)
+            self.assertEqual(done.returncode, 1)
+            self.assertEqual(done.stderr, "stiction_batch: %s: %s\n" % (name, expected))
+            with (self.folder / (name + ".csv")).open(newline="") as stream:
+                self.assertEqual([row["reason"] for row in csv.DictReader(stream)], ["%s: %s" % (name, expected)])
+        done = self.run_it("stiction_batch", "-o", "many.csv", "nowhere.bag", "scan.npy", "empty.bag")
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("stiction_batch: the first of 2: nowhere.bag: no such file\n", done.stderr)
+
+    def test_batch_refuses_what_it_cannot_write(self):
+        (self.folder / "folder.csv").mkdir()
+        self.assert_refused("--output is required", "stiction_batch", "scan.npy")
+        self.assert_refused("must end in .csv or .jsonl", "stiction_batch", "-o", "rows.txt", "scan.npy")
+        self.assert_refused("folder.csv: ", "stiction_batch", "-o", "folder.csv", "scan.npy")
+        self.assert_refused("as in 1/4", "stiction_batch", "-o", "rows.csv", "--shard", "2", "scan.npy")
+        self.assert_refused("--load: '1uN' is not allowed", "stiction_batch", "-o", "rows.csv", "--load", "1uN", "scan.npy")
+
+    def test_scripts_name_numbers_and_places_before_they_run(self):
+        self.assert_refused("the decimal sign is a point", "sweep_load", "--voltages", "0,05")
+        self.assert_refused("more than 1000000 numbers", "sweep_load", "--voltages", "0:30:1e-9")
+        self.assert_refused("must be numbers", "sweep_load", "--voltages", "0:nan:5")
+        self.assert_refused("must end in .png, .pdf or .svg", "sweep_load", "--voltages", "0", "--plot", "out.jpg")
+        self.assert_refused("must end in .png, .pdf or .svg", "cycle_contact", "--count", "2", "--plot", "out")
+        self.assert_refused("'20V' is not allowed, must be a number", "set_load", "--voltage", "20V")
+        self.assert_refused("'0,05' is not allowed, must be a number", "stiction_report", "-o", "r.html", "--voltage", "0,05", "scan.npy")
+        self.assert_refused("the decimal sign is a point", "station_check", "--bag", "a.bag", "--verdict", "--voltages", "0,05")
+        self.assert_refused("cannot be made", "plot_scan", "--output", "scan.npy", "--timeout", "0.3")
+        self.assert_refused("no ROS master", "plot_scan", "--output", "pictures", "--timeout", "0.3", status=1)
+
+    def test_an_export_keeps_the_bag(self):
+        before = (self.folder / "text.bag").read_bytes()
+        self.assert_refused("is what is read, which would be lost", "export_predictions", "-o", "text.bag", "text.bag")
+        self.assert_refused("cannot be written", "export_predictions", "-o", "none/a.csv", "text.bag")
+        self.assertEqual((self.folder / "text.bag").read_bytes(), before)
+
+    def test_on_a_terminal_a_long_work_says_what_it_is_at(self):
+        np.save(str(self.folder / "large.npy"), np.random.RandomState(1).normal(0.0, 2e-9, (2500, 2500)).astype(np.float32))
+        ours, theirs = pty.openpty()
+        process = subprocess.Popen([find_node("mems_stiction", "predict_scan")[0], "--cleanings", "--pitch", "20e-9", "large.npy"], cwd=str(self.folder),
+                                   stdout=subprocess.DEVNULL, stderr=theirs, stdin=subprocess.DEVNULL)
+        os.close(theirs)
+        shown = b""
+        try:
+            while True:
+                part = os.read(ours, 4096)
+                if not part:
+                    break
+                shown += part
+        except OSError:  # the other end is closed
+            pass
+        os.close(ours)
+        self.assertEqual(process.wait(timeout=120), 0, shown)
+        self.assertIn(b"large.npy: predicting under each cleaning, ", shown)
+        self.assertTrue(shown.endswith(b"\r\x1b[K"), shown[-60:])  # nothing is left on the line
+
+
+if __name__ == "__main__":
+    unittest.main()
