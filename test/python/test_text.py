@@ -9,7 +9,7 @@ from types import SimpleNamespace
 
 from mems_stiction.csv_text import csv_cell
 from mems_stiction.prediction_text import FLAGS, flag_names, flag_words, has_verdict, load_effect, table_header, table_line
-from mems_stiction.quantities import length_scale, percent, ratio, with_unit
+from mems_stiction.quantities import length_scale, percent, ratio, with_interval, with_unit
 
 
 def prediction(**changes):
@@ -57,6 +57,17 @@ class QuantitiesTest(unittest.TestCase):
     def test_what_is_not_finite_stays_visible(self):
         self.assertEqual(with_unit(math.inf, "N"), "inf N")
         self.assertEqual(percent(math.nan), "nan %")
+
+    def test_what_is_known_decides_how_many_digits_are_shown(self):
+        self.assertEqual(with_unit(2.58e-7, "N", 2), "260 nN")
+        self.assertEqual(with_unit(9.96e-7, "N", 2), "1.0 uN")
+        self.assertEqual(with_interval(2.123e-6, 1.512e-6, 2.949e-6, "N"), "2.1 uN (1.5 to 2.9)")
+        self.assertEqual(with_interval(2.58e-7, 4.53e-8, 1.8e-6, "N"), "260 nN (45 to 1800)")
+        self.assertEqual(with_interval(3.2456, 3.2, 3.29), "3.25 (3.2 to 3.29)")
+        self.assertEqual(with_interval(3.2456, math.nan, math.nan), "3.25")
+        self.assertEqual(with_interval(math.nan, math.nan, math.nan), "-")
+        device = prediction(margin=12.34, margin_lower=6.0, margin_upper=30.0, peel_number=math.nan, sticks=0)
+        self.assertEqual(table_line("a", device, True).split()[-2:], ["12", "no"])
 
     def test_ratios_do_without_exponents_up_to_a_million(self):
         self.assertEqual([ratio(value) for value in (0.02994, 16.04, 1236.0, 136468.0, 2.5e6, math.inf, math.nan)],
