@@ -20,7 +20,7 @@ except ImportError:
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
-from test_module import DEVICE, PITCH, Topography, program, rough, without_times  # noqa: E402  (the path comes first)
+from module_cases import DEVICE, PITCH, Topography, program, rough, without_times  # noqa: E402  (the path comes first)
 
 SOFT = {"lower": {"youngs_modulus": 1e9}, "upper": {"youngs_modulus": 1e9}}
 
