@@ -1,12 +1,14 @@
 """Load sweeps and contact cycles (mems_stiction/SweepLoadResult, CycleContactResult) in words."""
 
 import math
+import textwrap
 
 from mems_stiction.prediction_text import STATUS_NAMES, STICKS_NAMES, bound_of, contact_area_of, digits_of
 from mems_stiction.quantities import area, percent, ratio, with_interval, with_unit
 from mems_stiction.sweep_jumps import UP, jumps_of
 
 NO, MARGINAL = 0, 1  # StictionPrediction.STICKS_...
+WIDTH = 130  # of a sentence, letters
 ROUND_OFF = 1e-9  # of sums over a million cells, with room
 _SWEEP = "%-4s %10s %10s  %-14s %11s %11s %10s %12s %9s %9s  %s"
 _CYCLE = "%6s  %-14s %11s %10s %9s %9s %11s %12s %9s  %s"
@@ -43,7 +45,8 @@ def sweep_sentences(result):
                 ("first voltage after which it does not release", summary.lowest_sticking_voltage),
                 ("opens on the way down at", summary.opening_voltage)):
             sentences.append("  %s: %s" % (text, "none of the sweep" if math.isnan(voltage) else with_unit(voltage, "V")))
-        sentences += ["  jump " + jump.words() for jump in jumps_of(result.points, summary.mechanical_load, result.pull_in_voltage)]
+        for jump in jumps_of(result.points, summary.mechanical_load, result.pull_in_voltage):
+            sentences += textwrap.wrap("jump " + jump.words(), WIDTH, initial_indent="  ", subsequent_indent="    ")
         sentences += _first_force(result.points, summary.mechanical_load)
         gap = widest_gap(result.points, summary.mechanical_load)
         if gap is None:

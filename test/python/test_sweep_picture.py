@@ -7,7 +7,7 @@ from unittest import mock
 
 from mems_stiction import station_figures
 from mems_stiction.provenance import provenance_words
-from mems_stiction.station_text import safe_voltage_words
+from mems_stiction.station_text import safe_voltage_words, sweep_sentences
 from mems_stiction.sweep_jumps import jumps_of
 
 NAN = math.nan
@@ -64,6 +64,14 @@ class JumpTest(unittest.TestCase):
         self.assertEqual(self.causes([point(0), point(5), point(10)], 7.0), [(10, "pull-in at 7.00 V, the field closes the device by itself")])
         down = [point(0), point(5), point(0, 1, is_open=True, contact_area=0.0)]
         self.assertEqual(self.causes(down), [(0, "the device opens, its spring overcomes all that holds")])
+
+    def test_sentences_name_jumps_on_lines_that_fit_a_terminal(self):
+        points = [point(0.0), point(5.0), point(10.0, status=1, pull_off_force=3.1e-7)]
+        lines = sweep_sentences(sweep(points, pull_in=7.0))
+        text = " ".join(" ".join(lines).split())
+        self.assertIn("jump from 5.00 V to 10.0 V on the way up", text)
+        self.assertIn("pull-in at 7.00 V, the field closes the device by itself; the surfaces bond", text)
+        self.assertLessEqual(max(map(len, lines)), 140)
 
     def test_pixels_that_meet_are_no_jump(self):
         points = [point(v, contact_area=1e-15 * (1 + v**2) + (2e-14 if v >= 20 else 0.0)) for v in range(0, 40, 2)]

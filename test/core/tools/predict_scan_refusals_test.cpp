@@ -90,10 +90,11 @@ TEST_F(PredictScan, OutputsThatCannotBeWrittenAreNamedBeforeAnyWorkAndInputsAreK
   const std::string settings = folder_.write("part.yaml", "load: {voltage: 0}\n");
   const std::string call = "--pitch 20e-9 -c " + settings + " " + scan;
   for (const std::string option : {"--deformed", "--curve", "--half-space --half-space-gap"}) {
-    for (const auto& [path, expected] : {std::make_pair(scan, "is what is read, which would be lost"),
-                                         std::make_pair(settings, "is what is read, which would be lost"),
-                                         std::make_pair(folder_.file("."), "is a folder, must be a file"),
-                                         std::make_pair(folder_.file("none/x"), "cannot be written: there is no folder")}) {
+    for (const auto& [path, expected] :
+         {std::make_pair(scan, "is what is read, which would be lost"),
+          std::make_pair(settings, "is what is read, which would be lost"),
+          std::make_pair(folder_.file("."), "is a folder, must be a file"),
+          std::make_pair(folder_.file("none/x"), "cannot be written: there is no folder")}) {
       const Outcome outcome = run(option + " " + path + " " + call);
       EXPECT_EQ(outcome.status, 2) << path;
       ASSERT_EQ(outcome.errors.size(), 1u) << path;
