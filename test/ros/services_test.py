@@ -8,6 +8,7 @@ import unittest
 import numpy as np
 import rospy
 import rostest
+import yaml
 from mems_stiction.msg import ScanInfo, StictionPrediction
 from mems_stiction.srv import GetLoad, Predict, SetLoad, SetMechanicalLoad, SetVoltage
 from std_srvs.srv import Trigger
@@ -116,17 +117,18 @@ class ServicesTest(unittest.TestCase):
 
     def test_3b_what_rosservice_leaves_out_is_said_and_set_alone_elsewhere(self):
         def call(service, request):
-            return subprocess.run(["rosservice", "call", "/stiction_node/" + service, request], stdout=subprocess.PIPE,
-                                  stderr=subprocess.STDOUT, universal_newlines=True, timeout=60).stdout
+            answer = subprocess.run(["rosservice", "call", "/stiction_node/" + service, request], stdout=subprocess.PIPE,
+                                    universal_newlines=True, timeout=60, check=True).stdout
+            return yaml.safe_load(answer.split("\nprediction:")[0])["message"]
 
         self.send(rough_surface(3))
-        answer = " ".join(call("set_load", "voltage: 20").split())  # of YAML, whose lines may be broken
+        answer = call("set_load", "voltage: 20")
         self.assertIn("voltage from 0 V to 20 V; mechanical load from 1e-06 N to 0 N (~set_voltage leaves it as it is)", answer)
         self.assert_load(20.0, 0.0)
-        answer = " ".join(call("set_load", "mechanical_load: 1.0e-6").split())
+        answer = call("set_load", "mechanical_load: 1.0e-6")
         self.assertIn("voltage from 20 V to 0 V; mechanical load from 0 N to 1e-06 N (~set_mechanical_load leaves the voltage as it is)",
                       answer)
-        answer = " ".join(call("set_voltage", "voltage: 20").split())
+        answer = call("set_voltage", "voltage: 20")
         self.assertIn("voltage from 0 V to 20 V; mechanical load stays at 1e-06 N", answer)
         self.assert_load(20.0, LOAD)
 

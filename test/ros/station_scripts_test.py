@@ -127,7 +127,7 @@ class StationScriptsTest(unittest.TestCase):
 
     def test_3d_a_file_that_cannot_be_written_is_said_before_the_run(self):
         for option in ("--csv", "--plot"):
-            status, output, errors = run("sweep_load", "--voltages", "0", option, self.path("nowhere/out"))
+            status, output, errors = run("sweep_load", "--voltages", "0", option, self.path("nowhere/out.png"))
             self.assertEqual((status, output), (NOT_RUN, ""))
             self.assertRegex(errors, r"^sweep_load: %s: \S+ cannot be written: .*\n$" % option)
 
