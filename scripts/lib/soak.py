@@ -113,7 +113,7 @@ class Callers:
         for action in (self._sweep, self._cycle):
             assert action.wait_for_server(rospy.Duration(60)), "no action server"
         self.calls = 0
-        self.refused = 0
+        self.failed = 0
 
     def one(self):
         self.calls += 1
@@ -123,7 +123,7 @@ class Callers:
         try:
             chosen()
         except (rospy.ServiceException, rospy.ROSException):
-            self.refused += 1
+            self.failed += 1
 
     def _load(self):
         self._set_load(self._chance.uniform(-60.0, 60.0), self._chance.choice([0.0, 1e-6, 1e-4, 1.0, float("nan")]))
@@ -205,8 +205,8 @@ def main(pid, minutes, seed):
     early = max(sample[0] for sample in samples[:max(1, len(samples) // 3)])
     late = max(sample[0] for sample in samples[-max(1, len(samples) // 3):])
     handles = [sample[1] for sample in samples]
-    print("sent %d, counted %s; %d calls, %d of them refused" % (
-        scans.sent, figures, sum(caller.calls for caller in callers), sum(caller.refused for caller in callers)))
+    print("sent %d, counted %s; %d calls, %d of them without an answer" % (
+        scans.sent, figures, sum(caller.calls for caller in callers), sum(caller.failed for caller in callers)))
     print("memory: largest in the first third %.0f MB, in the last third %.0f MB; handles %d to %d, %d in the end; threads %d" % (
         early, late, min(handles), max(handles), last[1], last[2]))
     wrong = []

@@ -14,10 +14,10 @@ constexpr double kLongest = 1e9;
 
 }  // namespace
 
-TimeLimit::TimeLimit(double seconds, const char* setting)
+TimeLimit::TimeLimit(double seconds, const char* setting, double spent)
     : outer_(innermost), end_(Clock::time_point::max()), seconds_(seconds), setting_(setting) {
   if (seconds < kLongest) {
-    end_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+    end_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds - spent));
   }
   if (outer_ != nullptr && outer_->end_ < end_) {
     end_ = outer_->end_;

@@ -70,7 +70,7 @@ PreparedScan ScanPreparer::ready(const SurfacePair& surfaces) const {
 PreparedScan ScanPreparer::prepare(const HeightMap& scan) {
   const auto start = std::chrono::steady_clock::now();
   limits_.checkSize(scan, refinement_.refine.factor);
-  const TimeLimit limit(limits_.timeLeft(0.0), ScanLimits::kMaxTime);
+  const TimeLimit limit(limits_.longestTime(), ScanLimits::kMaxTime);
   ++scans_cleaned_;
   CleanedScan cleaned = cleaner_.clean(scan);
   cleaner_.letGo();

@@ -93,13 +93,13 @@ void ScanPredictor::setFrame(const PreparedScan& prepared) {
 }
 
 Prediction ScanPredictor::predict(const PreparedScan& prepared) {
-  const TimeLimit limit(limits_.timeLeft(prepared.preparation_time), ScanLimits::kMaxTime);
+  const TimeLimit limit(limits_.longestTime(), ScanLimits::kMaxTime, prepared.preparation_time);
   setFrame(prepared);
   return finished(prepared, model_.predict(prepared.model_surfaces));
 }
 
 Prediction ScanPredictor::predictAgain(const PreparedScan& prepared) {
-  const TimeLimit limit(limits_.timeLeft(prepared.preparation_time), ScanLimits::kMaxTime);
+  const TimeLimit limit(limits_.longestTime(), ScanLimits::kMaxTime, prepared.preparation_time);
   setFrame(prepared);
   return finished(prepared, model_.predictAgain(prepared.model_surfaces));
 }

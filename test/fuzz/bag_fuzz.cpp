@@ -2,6 +2,7 @@
 
 #include "fuzz/fuzzing.hpp"
 #include "support/scratch_folder.hpp"
+#include "tools/bag_check.hpp"
 #include "tools/scan_bag_reader.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -10,8 +11,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (bytes.find("bz2") != std::string::npos || bytes.find("lz4") != std::string::npos) return 0;
   static const ScratchFolder folder;
   const std::string path = folder.write("scans.bag", bytes);
-  setenv("PATH", "", 1);  // no program mends a bag that was cut off: this is about what is in it
   fuzzing::accepted([&] {
+    if (checkBag(path) == BagEnd::kCutOff) return;  // another program mends it: this is about what is in it
     const ScanBagReader reader(path, "height", {});
     for (std::size_t scan = 0; scan < reader.count(); ++scan) {
       fuzzing::accepted([&] {

@@ -24,9 +24,10 @@ class TimeLimitError : public SurfaceError {
 /// The time that this thread may work, as long as the object lives. An inner limit never lengthens an outer one.
 class TimeLimit {
  public:
-  /// - @p seconds from now; infinity = none
+  /// - @p seconds in all; infinity = no limit
   /// - @p setting what the user may change, for the message; must outlive the object
-  TimeLimit(double seconds, const char* setting);
+  /// - @p spent of them before now [s]
+  TimeLimit(double seconds, const char* setting, double spent = 0.0);
   ~TimeLimit();
   TimeLimit(const TimeLimit&) = delete;
   TimeLimit& operator=(const TimeLimit&) = delete;

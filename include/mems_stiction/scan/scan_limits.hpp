@@ -22,10 +22,8 @@ struct ScanLimits {
   /// @throw SurfaceError if the scan, refined, has more than max_pixels.
   void checkSize(const HeightMap& scan, int refinement) const;
 
-  /// max_time less what has gone by, for TimeLimit [s]; infinity without a limit.
-  double timeLeft(double spent) const {
-    return max_time > 0.0 ? max_time - spent : std::numeric_limits<double>::infinity();
-  }
+  /// For TimeLimit [s]: infinity without a limit.
+  double longestTime() const { return max_time > 0.0 ? max_time : std::numeric_limits<double>::infinity(); }
 };
 
 }  // namespace mems_stiction

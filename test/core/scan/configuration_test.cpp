@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <set>
@@ -326,6 +327,22 @@ TEST(ScanPredictor, BadConfigurationIsRefused) {
   Configuration configuration;
   configuration.scan.height_scale = 0.0;
   EXPECT_THROW(ScanPredictor{configuration}, OptionsError);
+}
+
+TEST(Configuration, ManyUnknownKeysAreNotAllNamedAndTakeNoTime) {
+  std::string text = std::string(1000, 'x') + ": 1\n";  // YAML takes no longer keys
+  for (int key = 0; key < 2000; ++key) text += "unknown_" + std::to_string(key) + ": 1\n";
+  const auto start = std::chrono::steady_clock::now();
+  std::vector<std::string> lines;
+  try {
+    configurationFromYaml(YAML::Load(text));
+  } catch (const OptionsError& error) {
+    lines = error.violations();
+  }
+  // tenths of a second; ten times as long where each is compared with every known key
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
+  EXPECT_EQ(lines.size(), 101u);
+  EXPECT_EQ(lines.back(), "1901 more keys are given that are no settings");
 }
 
 }  // namespace
