@@ -119,6 +119,21 @@ TEST(LivePredictor, AccumulatedDeformationIsTheNextScansSurface) {
   expectSame(predictor.predictScan(scan, OutputOptions()), first_scan);
 }
 
+TEST(LivePredictor, AGivenScanIsTakenAsItWasMadeAndTheLastOneAsTheContactsLeftIt) {
+  Configuration configuration = softConfiguration();
+  configuration.model.load.mechanical_load = 1e-4;
+  LivePredictor predictor(configuration, true);
+  const ReceivedScan scan = roughScan();
+  const cv::Mat unworn = predictor.stationCase(&scan).scan.surfaces.lower.asDouble().heights();
+  predictor.predictScan(scan, OutputOptions());
+  predictor.predictScan(scan, OutputOptions());
+  const auto distance = [&](const StationCase& found) {
+    return cv::norm(found.scan.surfaces.lower.asDouble().heights(), unworn, cv::NORM_INF);
+  };
+  EXPECT_EQ(distance(predictor.stationCase(&scan)), 0.0);
+  EXPECT_GT(distance(predictor.stationCase(nullptr)), 0.0);
+}
+
 TEST(LivePredictor, WearIsMeasuredOnTheLevelledSurface) {
   Configuration configuration = softConfiguration();
   LivePredictor plain(configuration, true);

@@ -49,6 +49,11 @@ TEST_F(ScanAccountingTest, StampsThatDoNotGrowAreCounted) {
   EXPECT_EQ(missing(), 0U);
 }
 
+TEST_F(ScanAccountingTest, AStampThatComesTwiceDoesNotGrow) {
+  image(1, 8), image(2, 8), image(3, 9);
+  EXPECT_EQ(books_.counts().stamps_not_increasing, 1U);
+}
+
 TEST(ScanAccounting, APauseInWhichTheProcessDidNotRunIsSaid) {
   ScanAccounting books(ros::WallDuration(5.0), ros::WallDuration(0.01));
   const auto levelAfter = [&](double pause) {
