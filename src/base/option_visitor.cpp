@@ -10,7 +10,7 @@ namespace {
 
 /// Sizes that no length, force, stress or ratio has: beyond them powers and products overflow. Where an end of a range is not
 /// stated, they are its end.
-constexpr double kLargest = 1e20;
+constexpr double kLargest = 1e30;
 constexpr double kSmallest = 1e-30;
 
 /// What to say beside a range of a value that only its size excludes.

@@ -33,7 +33,9 @@ double realArea(const PatchLoad& load, double area, double rim_force, double pre
                 double cell_area) {
   const double fullness = std::isfinite(hardness) ? std::min(1.0, load.carried / (hardness * area)) : 0.0;
   double widening = 1.0;
-  if (load.carried > 0.0) {
+  if (!std::isfinite(rim_force)) {  // a plateau without depth: no paraboloid, and it touches everywhere
+    widening = 2.0;
+  } else if (load.carried > 0.0) {
     const double outer = std::max(load.carried - rim_force, 0.0);  // rim_force is DMT's 2 pi Gamma R
     const double jkr_load = outer + 1.5 * rim_force + std::sqrt(3.0 * rim_force * outer + 2.25 * rim_force * rim_force);
     const double jkr_share = 2.0 * (2.0 - prefactor);

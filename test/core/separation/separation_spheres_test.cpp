@@ -187,6 +187,18 @@ TEST(SeparationPunch, aFlatPunchHasItsStiffness) {
   EXPECT_NEAR(depth / prediction.approach, 1.0, 0.06);
 }
 
+TEST(SeparationPunch, aPlateauBeyondTheLimitTouchesWithAllOfItsArea) {
+  const double pitch = 1e-6;
+  cv::Mat1d heights(16, 16, -78.74e-9);
+  heights.rowRange(0, 11) = 0.0;  // at first touch more than the limit of contact overlap, by nothing
+  for (const double work : {0.0, 0.05}) {
+    Options options = elastic(88.8e9, 1e-12);
+    options.interface.work_of_adhesion = work;
+    const Prediction prediction = predict(options, HeightMap(heights, pitch, pitch));
+    EXPECT_NEAR(prediction.contact_area, 11 * 16 * pitch * pitch, 1e-9 * pitch * pitch) << work;
+  }
+}
+
 TEST(SeparationPunch, oneCellTouchesWithAllOfItsAreaUnderAnyLoad) {
   const double pitch = 1e-9;
   for (const double work : {0.0, 0.05}) {
