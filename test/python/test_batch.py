@@ -444,7 +444,7 @@ class TableRowTest(unittest.TestCase):
         row = dict(beam, number=1, file="a.tiff", scan=0, name="", channel="", reason="", status="EQUILIBRIUM",
                    pull_off_force=1e-7, contact_fraction=0.01, asperity_count=3, elastic_count=1, elasto_plastic_count=1,
                    plastic_count=1, rms_height=1e-9, sticks="no")
-        self.assertEqual(report.table_row(row, set(), "peel_number")["ratio"], "3.21 (1.23 to 1230)")
+        self.assertEqual(report.table_row(row, set(), "peel_number")["ratio"], "3.2 (1.2 to 1200)")
         self.assertEqual(report.table_row(row, set(), "margin")["ratio"], "-")
 
     def test_lower_bounds_and_limits_are_said_with_the_words_of_the_model_that_has_them(self):

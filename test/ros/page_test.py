@@ -219,6 +219,9 @@ class PageTest(unittest.TestCase):
         count = self.page.value("state.count")
         subprocess.run(["rosnode", "kill", "stiction_node"], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=30)
         self.page.wait("state.diagnostics.some((status) => status.values.some(([key, value]) => key === 'received' && value === '0'))")
+        # it says what it does not know any more, until something is set
+        self.page.wait("document.querySelector('#link').textContent.includes('what was changed in the run before is lost')")
+        dynamic_reconfigure.client.Client("stiction_node", timeout=30.0).update_configuration({"mechanical_load": 2e-6})
         self.page.wait("document.querySelector('#link').className === 'ok'")
         PageTest.station = Station()
         wait_until(lambda: self.station.height.get_num_connections() > 0, "the node to subscribe again")
