@@ -9,7 +9,8 @@ import threading
 import time
 
 from mems_stiction.page_words import (curve_of, diagnostics_of, figures_of, finite, flags_of, half_space_of, judged_by, part_of, ratio_of, sentence,
-                                      trace_of, verdict_of, with_micro, with_unit)
+                                      trace_of, verdict_of, with_unit)
+from mems_stiction.quantities import typeset
 from mems_stiction.station_text import cycle_sentences, sweep_sentences
 
 MOST_SCANS = 300  # of the trend
@@ -139,7 +140,7 @@ class PageState:
 
     def _end(self, kind, goal, points, sentences, message):
         with self._lock:
-            self._runs[kind] = {"goal": goal, "points": points, "sentences": [with_micro(text) for text in sentences],
+            self._runs[kind] = {"goal": goal, "points": points, "sentences": [typeset(text) for text in sentences],
                                 "message": message, "ended": self._clock()}
             self._changed()
 

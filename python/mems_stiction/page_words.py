@@ -4,11 +4,10 @@ Each function returns what JSON can hold: numbers are SI, None where there is no
 """
 
 import math
-import re
 
 from mems_stiction import quantities
 from mems_stiction.prediction_text import FLAGS, STATUS_NAMES, bound_of
-from mems_stiction.quantities import percent, ratio
+from mems_stiction.quantities import percent, ratio, typeset
 
 NO_EQUILIBRIUM = 2  # StictionPrediction.status
 # StictionPrediction.sticks: the level that gives the colour, and the word that is read from afar.
@@ -24,12 +23,7 @@ def finite(value):
 
 def with_unit(value, unit):
     """As people write it: "1.23 µN", "not known"."""
-    return "not known" if math.isnan(value) else with_micro(quantities.with_unit(value, unit))
-
-
-def with_micro(text):
-    """A page can show what a terminal may not: "1.00 uN" is "1.00 µN"."""
-    return re.sub(r"(?<=\d) u(?=[A-Za-z])", " µ", text)
+    return "not known" if math.isnan(value) else typeset(quantities.with_unit(value, unit))
 
 
 def ratio_text(value):

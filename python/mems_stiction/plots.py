@@ -3,7 +3,6 @@
 Arrays are rows x columns, heights in metres, NaN where nothing was measured; row 0 is the top.
 """
 
-import re
 import sys
 import textwrap
 
@@ -35,11 +34,6 @@ LEAST_SPAN = 0.05  # of an axis, as a share of the values on it
 def with_unit(value, unit, digits=3):
     """As people write it: a picture can show what a terminal may not."""
     return quantities.with_unit(value, unit, digits).replace(" u", " µ")
-
-
-def typeset(text):
-    """A sentence with quantities, as a picture can show it: "0.2 um^2" with its letters."""
-    return re.sub(r"(?<=\d )u(?=\w)", "µ", text).replace("^2", "²")
 
 
 def widen(axes, values, share=LEAST_SPAN):

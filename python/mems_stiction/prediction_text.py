@@ -16,7 +16,7 @@ FLAGS = {1: ("bonded", "the surfaces bond"), 2: ("no_equilibrium", "the search e
          128: ("border", "most of the adhesion is of contacts at the frame's border: their summits may lie outside"),
          256: ("one_pixel", "most of the adhesion is of contacts of one pixel")}
 
-_COLUMNS = "%-18s  %-14s %8s %11s %9s %8s %6s %8s %9s %7s %8s"
+_COLUMNS = "%-18s  %-14s %8s %11s %9s %8s %6s %8s %7s %8s"
 _VERDICT = " %9s  %-8s"
 
 
@@ -66,8 +66,8 @@ def has_verdict(prediction):
 
 def table_header(with_verdict=False):
     """Two lines; the columns are those of table_line()."""
-    top = _COLUMNS % ("", "", "rms", "pull-off", "contact", "", "contacts", "", "vdW share", "", "")
-    bottom = _COLUMNS % ("scan", "status", "height", "force", "fraction", "elastic", "mixed", "plastic", "of force", "voltage", "time")
+    top = _COLUMNS % ("", "", "rms", "pull-off", "contact", "", "contacts", "", "", "")
+    bottom = _COLUMNS % ("scan", "status", "height", "force", "fraction", "elastic", "mixed", "plastic", "voltage", "time")
     if with_verdict:
         bottom += _VERDICT % ("margin", "sticks")
     return top.rstrip() + "\n" + bottom.rstrip()
@@ -84,16 +84,13 @@ def printable(text):
 
 
 def table_line(name, prediction, with_verdict=False):
-    """Rms height, pull-off force, contact, contacts per regime, van der Waals share of the pull-off force, load and time of
-    one scan, then the device's margin, or its peel number, and whether it sticks, and the names of its flags and its warnings. A force that is a lower bound is
-    marked so."""
+    """Rms height, pull-off force, contact, contacts per regime, load and time of one scan, then the device's margin, or its peel
+    number, and whether it sticks, and the names of its flags and its warnings. A force that is a lower bound is marked so."""
     bound = bound_of(prediction)
     force = prediction.pull_off_force
-    # of a formulation that follows the force it is no part of the pull-off force
-    share = percent(prediction.van_der_waals_force / force) if force and not math.isnan(prediction.contact_area_jkr) else "-"
     line = _COLUMNS % (shortened(name), STATUS_NAMES.get(prediction.status, "?"), with_unit(prediction.rms_height, "m"),
                        bound + with_unit(force, "N", digits_of(prediction)), percent(prediction.contact_fraction), prediction.elastic_count,
-                       prediction.elasto_plastic_count, prediction.plastic_count, share,
+                       prediction.elasto_plastic_count, prediction.plastic_count,
                        with_unit(prediction.voltage, "V"), with_unit(prediction.processing_time, "s"))
     if with_verdict:
         figure = prediction.peel_number if math.isnan(prediction.margin) else prediction.margin

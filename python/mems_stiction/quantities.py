@@ -1,6 +1,7 @@
 """SI numbers as people read them: 1.23e-7 N as "123 nN"."""
 
 import math
+import re
 
 SURE = 0.05  # of a value: what reaches further than this leaves two digits of it
 _PREFIXES = {-18: "a", -15: "f", -12: "p", -9: "n", -6: "u", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
@@ -67,6 +68,11 @@ def with_interval(value, lower, upper, unit=""):
         return text
     scale = 10.0**prefix_for(float("%.*e" % (digits - 1, value)))[0] if unit else 1.0
     return "%s (%s to %s)" % (text, ratio(lower / scale, digits), ratio(upper / scale, digits))
+
+
+def typeset(text):
+    """A sentence with quantities, as a picture or a page can show it and a terminal may not: "0.2 um^2" with its letters."""
+    return re.sub(r"(?<=\d )u(?=\w)", "µ", text).replace("^2", "²")
 
 
 def area(value):

@@ -3,10 +3,10 @@
 import math
 import textwrap
 
-from mems_stiction.plots import plt, typeset, widen, with_unit
+from mems_stiction.plots import plt, widen, with_unit
 from mems_stiction.prediction_text import contact_area_of
 from mems_stiction.provenance import sign
-from mems_stiction.quantities import prefix_for
+from mems_stiction.quantities import prefix_for, typeset
 from mems_stiction.station_text import area_label, safe_voltage_words
 from mems_stiction.sweep_jumps import UP, jumps_of, ways_of
 

@@ -3,10 +3,12 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <set>
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/option_yaml.hpp"
@@ -26,9 +28,14 @@ struct Settings {
   bool has_scale = false;
 };
 
+/// Where the sidecar of a scan may be, the one that goes before first.
+std::array<std::string, 2> sidecarsOf(const std::string& path) {
+  return {path + ".yaml", fs::path(path).replace_extension(".yaml").string()};
+}
+
 /// The sidecar's settings over those given. Both spellings, "pitch_x" and "scan/pitch_x", are the same key.
 Settings withSidecar(const std::string& path, const ScanOptions& given) {
-  for (const std::string& sidecar : {path + ".yaml", fs::path(path).replace_extension(".yaml").string()}) {
+  for (const std::string& sidecar : sidecarsOf(path)) {
     std::error_code error;
     if (sidecar == path || !fs::is_regular_file(sidecar, error)) continue;
     Settings settings{given, false};
@@ -203,6 +210,20 @@ std::vector<ScanChannel> listScanChannels(const std::string& path, const ScanOpt
     }
     return list;
   });
+}
+
+std::vector<std::string> withoutSidecars(const std::vector<std::string>& paths) {
+  std::set<std::string> sidecars;
+  for (const std::string& path : paths) {
+    for (const std::string& sidecar : sidecarsOf(path)) {
+      if (sidecar != path) sidecars.insert(sidecar);
+    }
+  }
+  std::vector<std::string> scans;
+  for (const std::string& path : paths) {
+    if (sidecars.count(path) == 0) scans.push_back(path);
+  }
+  return scans;
 }
 
 HeightMap readScanFile(const std::string& path, const ScanOptions& scan, const ScanFileOptions& options) {

@@ -5,6 +5,7 @@
 
 #include "command_line.hpp"
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/import/scan_file.hpp"
 #include "mems_stiction/scan/configuration_yaml.hpp"
 
 namespace mems_stiction {
@@ -74,7 +75,7 @@ std::vector<std::string> inputsOf(const BatchArguments& arguments) {
     }
   }
   if (inputs.empty()) throw OptionsError({"INPUT: no bag and no scan file is given"});
-  return inputs;
+  return withoutSidecars(inputs);
 }
 
 Configuration configurationOf(const BatchArguments& arguments) {

@@ -58,12 +58,12 @@ void requireOutput(const std::string& option, const std::string& path, const std
 /// Numbers above 0, as an option's check.
 std::string positive(const std::string& text);
 
-/// Calls handle(path) for each scan. One that throws is named with the reason; the others go on.
+/// Calls handle(path) for each scan, sidecars aside. One that throws is named with the reason; the others go on.
 /// @return the exit status
 template <typename Handler>
 int forEachScan(const std::string& program, const std::vector<std::string>& scans, Handler&& handle) {
   int status = 0;
-  for (const std::string& path : scans) {
+  for (const std::string& path : withoutSidecars(scans)) {
     try {
       handle(path);
     } catch (const std::exception& error) {

@@ -104,6 +104,10 @@ class SlipTest(unittest.TestCase):
         self.assert_refused("cannot be written", "export_predictions", "-o", "none/a.csv", "text.bag")
         self.assertEqual((self.folder / "text.bag").read_bytes(), before)
 
+    def test_a_picture_is_not_exported(self):
+        (self.folder / "scan.tiff").write_bytes(b"II*\0\x90\x90\x90\x90\x90\n")
+        self.assert_refused("scan.tiff cannot be read: is not a bag", "export_predictions", "-o", "a.csv", "scan.tiff")
+
     def test_on_a_terminal_a_long_work_says_what_it_is_at(self):
         np.save(str(self.folder / "large.npy"), np.random.RandomState(1).normal(0.0, 2e-9, (2500, 2500)).astype(np.float32))
         ours, theirs = pty.openpty()

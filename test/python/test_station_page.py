@@ -23,7 +23,8 @@ from mems_stiction.msg import HalfSpaceSolution, PartVerdict, SeparationPoint, S
 from mems_stiction.page_maps import contact_png, height_png, rings, severest
 from mems_stiction.page_server import FOLDER, CannotServe, PageServer
 from mems_stiction.page_state import MOST_SCANS, PageState, stamp_of_reason
-from mems_stiction.page_words import curve_of, half_space_of, part_of, ratio_of, trace_of, verdict_of, with_micro
+from mems_stiction.page_words import curve_of, half_space_of, part_of, ratio_of, trace_of, verdict_of
+from mems_stiction.quantities import typeset
 from sensor_msgs.msg import Image
 
 STATION_PAGE = pathlib.Path(__file__).resolve().parents[2] / "scripts/station_page"
@@ -176,7 +177,7 @@ class WordsTest(unittest.TestCase):
         self.assertIsNone(curve_of(prediction()))
 
     def test_only_a_unit_gets_its_micro(self):
-        self.assertEqual(with_micro("releases after voltages up to 1.00 uN"), "releases after voltages up to 1.00 µN")
+        self.assertEqual(typeset("releases after voltages up to 1.00 uN"), "releases after voltages up to 1.00 µN")
 
 
 class MapTest(unittest.TestCase):

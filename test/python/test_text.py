@@ -89,7 +89,7 @@ class PredictionTextTest(unittest.TestCase):
         bonded = table_line("/a/very/long/path/to/some/scan.tiff", prediction(status=1, voltage=12.5))
         self.assertEqual(len(plain), len(bonded))
         self.assertEqual(len(plain), len(table_header().splitlines()[1]))
-        self.assertIn("10.0 %", plain)
+        self.assertIn("0.123 %", plain)
 
     def test_a_device_adds_margin_and_verdict(self):
         device = prediction(margin=12.34, peel_number=math.nan, sticks=0)

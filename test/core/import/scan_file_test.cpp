@@ -327,6 +327,13 @@ TEST(GwyddionImport, GarbageFromTheProgramIsRefused) {
       mentions(importRefusal("#!/bin/sh\necho garbage > \"${2#--convert-to-gwy=}\"\n"), "cannot be read: not a"));
 }
 
+TEST(ScanFile, SidecarsOfGivenScansAreNoScans) {
+  using Paths = std::vector<std::string>;
+  EXPECT_EQ(withoutSidecars({"a.txt", "a.txt.yaml", "b.tiff", "b.yaml"}), (Paths{"a.txt", "b.tiff"}));
+  // a file of settings that belongs to none of them stays, so that it is refused by its name
+  EXPECT_EQ(withoutSidecars({"part.yaml", "a.txt", "x/a.txt.yaml"}), (Paths{"part.yaml", "a.txt", "x/a.txt.yaml"}));
+}
+
 TEST(GwyddionImport, TheHomeFolderIsPrivateAndGoesAway) {
   const ScratchFolder folder;
   const std::string told = folder.file("home");
