@@ -25,7 +25,7 @@ int knownDigits(double value, double lower, double upper) {
 std::string withInterval(double value, double lower, double upper, const std::string& unit) {
   const int digits = knownDigits(value, lower, upper);
   const std::string end = unit.empty() ? "" : " " + unit;
-  const std::string text = shortNumber(value, digits) + end;
+  std::string text = shortNumber(value, digits) + end;
   if (!std::isfinite(value) || std::isnan(lower) || std::isnan(upper)) return text;
   return text + ", 95 % within " + shortNumber(lower, digits) + " to " + shortNumber(upper, digits) + end;
 }

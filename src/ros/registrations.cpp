@@ -1,5 +1,6 @@
 #include "mems_stiction/ros/registrations.hpp"
 
+#include <algorithm>
 #include <initializer_list>
 #include <utility>
 #include <vector>
@@ -61,11 +62,19 @@ bool askOurselves(const char* method, const XmlRpcValue& request, XmlRpcValue& p
   return client.execute(method, request, response) && payloadOf(response, payload);
 }
 
+/// What an array holds.
+std::vector<XmlRpcValue> elementsOf(XmlRpcValue& array) {
+  std::vector<XmlRpcValue> elements;
+  elements.reserve(static_cast<std::size_t>(array.size()));
+  // NOLINTNEXTLINE(modernize-loop-convert): the begin() of a value is that of a struct, not of an array
+  for (int i = 0; i < array.size(); ++i) elements.push_back(array[i]);
+  return elements;
+}
+
 bool contains(XmlRpcValue& names, const std::string& name) {
-  for (int i = 0; i < names.size(); ++i) {
-    if (static_cast<std::string>(names[i]) == name) return true;
-  }
-  return false;
+  const std::vector<XmlRpcValue> elements = elementsOf(names);
+  return std::any_of(elements.begin(), elements.end(),
+                     [&](XmlRpcValue element) { return static_cast<std::string>(element) == name; });
 }
 
 /// Addresses of those that this process gets messages of the topic from.
@@ -74,10 +83,9 @@ std::vector<std::string> connectedPublishers(const std::string& topic) {
   XmlRpcValue connections;
   if (!askOurselves("getBusInfo", listOf({ros::this_node::getName()}), connections)) return addresses;
   // Each [number, address of the other end, "i" for in, transport, topic, ...].
-  for (int i = 0; i < connections.size(); ++i) {
-    const std::string direction = connections[i][2];
-    if (direction == "i" && static_cast<std::string>(connections[i][4]) == topic)
-      addresses.push_back(connections[i][1]);
+  for (XmlRpcValue& connection : elementsOf(connections)) {
+    const std::string direction = connection[2];
+    if (direction == "i" && static_cast<std::string>(connection[4]) == topic) addresses.push_back(connection[1]);
   }
   return addresses;
 }
@@ -85,7 +93,7 @@ std::vector<std::string> connectedPublishers(const std::string& topic) {
 }  // namespace
 
 Registrations::State Registrations::look() {
-  const std::string name = ros::this_node::getName();
+  const std::string& name = ros::this_node::getName();
   XmlRpcValue address;
   if (!hears("lookupNode", listOf({name, name}), address)) return State::kNoMaster;
   if (!address.valid()) return State::kForgotten;
@@ -94,10 +102,8 @@ Registrations::State Registrations::look() {
   if (!askMaster("getSystemState", listOf({name}), state)) return State::kNoMaster;
   // Publishers, subscribers, services: each a list of [name, [nodes]].
   std::set<std::string> services;
-  XmlRpcValue& listed = state[2];
-  for (int i = 0; i < listed.size(); ++i) {
-    const std::string service = listed[i][0];
-    if (contains(listed[i][1], name)) services.insert(service);
+  for (XmlRpcValue& service : elementsOf(state[2])) {
+    if (contains(service[1], name)) services.insert(static_cast<std::string>(service[0]));
   }
   // Each process of roscpp offers ~get_loggers from its start to its end.
   if (services.count(name + "/get_loggers") == 0) return State::kForgotten;
@@ -108,31 +114,29 @@ Registrations::State Registrations::look() {
 bool Registrations::repeat() { return repeatPublications() && repeatSubscriptions() && repeatServices(); }
 
 bool Registrations::repeatPublications() const {
-  const std::string name = ros::this_node::getName();
+  const std::string& name = ros::this_node::getName();
   XmlRpcValue topics;
   if (!askOurselves("getPublications", listOf({name}), topics)) return false;
-  for (int i = 0; i < topics.size(); ++i) {
+  for (XmlRpcValue& topic : elementsOf(topics)) {
     XmlRpcValue subscribers;
-    if (!askMaster("registerPublisher", listOf({name, topics[i][0], topics[i][1], ownAddress()}), subscribers))
-      return false;
+    if (!askMaster("registerPublisher", listOf({name, topic[0], topic[1], ownAddress()}), subscribers)) return false;
   }
   return true;
 }
 
 bool Registrations::repeatSubscriptions() const {
-  const std::string name = ros::this_node::getName();
+  const std::string& name = ros::this_node::getName();
   XmlRpcValue topics;
   if (!askOurselves("getSubscriptions", listOf({name}), topics)) return false;
-  for (int i = 0; i < topics.size(); ++i) {
+  for (XmlRpcValue& topic : elementsOf(topics)) {
     XmlRpcValue publishers;
-    if (!askMaster("registerSubscriber", listOf({name, topics[i][0], topics[i][1], ownAddress()}), publishers))
-      return false;
+    if (!askMaster("registerSubscriber", listOf({name, topic[0], topic[1], ownAddress()}), publishers)) return false;
     // Publishers that are connected and have not registered anew stay: what is not in the list is disconnected.
-    for (const std::string& publisher : connectedPublishers(topics[i][0])) {
+    for (const std::string& publisher : connectedPublishers(topic[0])) {
       if (!contains(publishers, publisher)) append(publishers, publisher);
     }
     if (publishers.size() == 0) continue;
-    XmlRpcValue update = listOf({name, topics[i][0]});
+    XmlRpcValue update = listOf({name, topic[0]});
     update[2] = publishers;
     XmlRpcValue ignored;
     if (!askOurselves("publisherUpdate", update, ignored)) return false;
@@ -141,7 +145,7 @@ bool Registrations::repeatSubscriptions() const {
 }
 
 bool Registrations::repeatServices() const {
-  const std::string name = ros::this_node::getName();
+  const std::string& name = ros::this_node::getName();
   const std::string address =
       "rosrpc://" + ros::network::getHost() + ":" + std::to_string(ros::ConnectionManager::instance()->getTCPPort());
   // ~get_loggers last: by it the process counts as known.
