@@ -9,6 +9,8 @@
 #include <chrono>
 #include <future>
 
+#include "without_lock.hpp"
+
 namespace mems_stiction {
 namespace python {
 
@@ -20,15 +22,17 @@ template <typename Work>
 auto interruptible(const Work& work) {
   constexpr std::chrono::milliseconds kPatience(20);
   std::atomic<bool> cancel{false};
-  const pybind11::gil_scoped_release unlocked;
   auto result = std::async(std::launch::async, [&work, &cancel] { return work(cancel); });
-  while (result.wait_for(kPatience) != std::future_status::ready) {
-    const pybind11::gil_scoped_acquire locked;
+  const auto isReadyWithin = [&result](std::chrono::milliseconds time) {
+    const WithoutLock unlocked;
+    return result.wait_for(time) == std::future_status::ready;
+  };
+  while (!isReadyWithin(kPatience)) {
     if (PyErr_CheckSignals() == 0) continue;
     cancel = true;
     pybind11::error_already_set interruption;
     {
-      const pybind11::gil_scoped_release waiting;
+      const WithoutLock waiting;
       result.wait();
     }
     throw interruption;  // NOLINT(cert-err60-cpp): pybind11's own

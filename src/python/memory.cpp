@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "mems_stiction/base/errors.hpp"
+#include "without_lock.hpp"
 
 namespace mems_stiction {
 namespace python {
@@ -47,8 +48,10 @@ Memory memoryOfMap(const cv::Mat& map, PixelOwner owner) {
 /// Holds a Python object; whichever thread lets go of it last takes the interpreter's lock for that.
 PixelOwner heldBuffer(py::buffer_info&& info) {
   return {new py::buffer_info(std::move(info)), [](const void* held) {
-            const py::gil_scoped_acquire lock;
-            delete static_cast<const py::buffer_info*>(held);
+            takingLock([held] {
+              const py::gil_scoped_acquire lock;
+              delete static_cast<const py::buffer_info*>(held);
+            });
           }};
 }
 

@@ -23,6 +23,7 @@
 #include "mems_stiction/scan/scan_predictor.hpp"
 #include "mems_stiction/verdict/regime_flags.hpp"
 #include "preprocess_steps.hpp"
+#include "without_lock.hpp"
 
 namespace mems_stiction {
 namespace python {
@@ -82,7 +83,7 @@ class Predictor {
 
   /// - @p counter_surface that was measured beside the scan; null: the configured one
   Predicted predict(const HeightMap& scan, const HeightMap* counter_surface) {
-    const py::gil_scoped_release unlocked;
+    const WithoutLock unlocked;
     const std::lock_guard<std::mutex> lock(mutex_);
     predictor_.preparer().setMeasuredCounterSurface(counter_surface != nullptr ? *counter_surface : HeightMap());
     const PreparedScan prepared = predictor_.preparer().prepare(scan);
@@ -103,7 +104,7 @@ class OneScan {
  public:
   OneScan(const HeightMap& scan, const HeightMap* counter_surface, const Configuration& configuration)
       : scan_(scan), configuration_(configuration), predictor_(configuration) {
-    const py::gil_scoped_release unlocked;
+    const WithoutLock unlocked;
     if (counter_surface != nullptr) predictor_.preparer().setMeasuredCounterSurface(*counter_surface);
     prepared_ = predictor_.preparer().prepare(scan_);
     scan_warnings_ = scanWarnings(scan_);
@@ -111,7 +112,7 @@ class OneScan {
 
   /// @throw OptionsError for settings with another preparation than the first.
   Predicted predict(const Configuration& configuration) {
-    const py::gil_scoped_release unlocked;
+    const WithoutLock unlocked;
     const std::lock_guard<std::mutex> lock(mutex_);
     if (preparation(configuration) != preparation(configuration_)) {
       throw OptionsError(
@@ -219,7 +220,7 @@ Records heightCurveOf(const Predicted& predicted) {
 
 /// Pull-off force over the prediction's, of samples of the uncertain constants, ascending; empty without a list of contacts.
 std::vector<double> spreadOf(const PredictedScan& predicted, const Configuration& configuration) {
-  const py::gil_scoped_release unlocked;
+  const WithoutLock unlocked;
   return adhesionSpread(predicted.prediction, configuration.model, configuration.uncertainty).pull_off;
 }
 

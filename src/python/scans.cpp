@@ -17,6 +17,7 @@
 #include "mems_stiction/scan/convergence.hpp"
 #include "mems_stiction/surface/counter_surface.hpp"
 #include "preprocess_steps.hpp"
+#include "without_lock.hpp"
 
 namespace mems_stiction {
 namespace python {
@@ -37,7 +38,7 @@ py::tuple readScan(const std::string& path, const Configuration& configuration, 
                    const std::string& channel, bool ignore_mask) {
   ScanFile file;
   {
-    const py::gil_scoped_release unlocked;
+    const WithoutLock unlocked;
     file = openScanFile(path, configuration.scan, fileOptions(pitch_x, pitch_y, channel, ignore_mask));
   }
   return py::make_tuple(file.surface, file.channel, file.notes);
@@ -46,7 +47,7 @@ py::tuple readScan(const std::string& path, const Configuration& configuration, 
 py::list channelsOf(const std::string& path, const Configuration& configuration) {
   std::vector<ScanChannel> channels;
   {
-    const py::gil_scoped_release unlocked;
+    const WithoutLock unlocked;
     channels = listScanChannels(path, configuration.scan);
   }
   py::list list;
@@ -66,7 +67,7 @@ py::list channelsOf(const std::string& path, const Configuration& configuration)
 py::tuple cleaned(const HeightMap& scan, const Configuration& configuration) {
   CleanedScan result;
   {
-    const py::gil_scoped_release unlocked;
+    const WithoutLock unlocked;
     result = cleanScan(scan, configuration.preprocessing);
   }
   return py::make_tuple(result.surface, stepsOf(result.record));
@@ -76,7 +77,7 @@ py::dict roughnessOf(const HeightMap& scan, const Configuration& configuration, 
   ArealParameters areal;
   SpatialRoughness spatial;
   {
-    const py::gil_scoped_release unlocked;
+    const WithoutLock unlocked;
     areal = arealParameters(scan);
     if (is_spatial) spatial = spatialRoughness(scan, configuration.spatial_roughness);
   }
@@ -101,7 +102,7 @@ HeightMap generated(int rows, int cols, double pitch_x, double pitch_y, const Co
   if (!options.isGenerated()) {
     throw OptionsError({"counter_surface/type: only gaussian and self_affine are generated"});
   }
-  const py::gil_scoped_release unlocked;
+  const WithoutLock unlocked;
   const HeightMap grid(cv::Mat::zeros(rows, cols, CV_64FC1), pitch_x, pitch_y);
   return turnedOver(generatedCounterSurface(grid, options));
 }
@@ -113,7 +114,7 @@ void bindScans(py::module& module) {
              [](const py::buffer& pixels, double pitch_x, double pitch_y, const Configuration& configuration) {
                return heightMapOf(pixels, configuration.scan, pitch_x, pitch_y);
              });
-  module.def("scan_warnings", &scanWarnings, py::call_guard<py::gil_scoped_release>());
+  module.def("scan_warnings", &scanWarnings, py::call_guard<WithoutLock>());
   module.def("read", &readScan);
   module.def("channels", &channelsOf);
   module.def("clean", &cleaned);

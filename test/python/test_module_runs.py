@@ -128,6 +128,27 @@ class ThreadTest(unittest.TestCase):
             time.sleep(alone / 50)
         self.assertGreater(len(ticks), 5)  # one or two if the lock were held
 
+    def test_daemon_threads_that_predict_do_not_abort_the_exit(self):
+        code = """
+import threading, time
+import numpy as np
+import mems_stiction
+heights = np.random.RandomState(1).normal(0.0, 3e-9, (96, 96))
+begun = threading.Semaphore(0)
+def go_on(work):
+    while True:
+        begun.release()
+        work()
+for work in (lambda: mems_stiction.predict(heights, 1e-8), lambda: mems_stiction.roughness(heights, 1e-8), lambda: mems_stiction.half_space(heights, 1e-8)):
+    threading.Thread(target=go_on, args=(work,), daemon=True).start()
+for _ in range(6):
+    begun.acquire()
+time.sleep(%f)
+"""
+        for turn in range(6):
+            ended = subprocess.run([sys.executable, "-c", code % (0.01 * turn)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=120)
+            self.assertEqual((ended.returncode, ended.stderr), (0, b""))
+
     def test_a_prediction_goes_to_another_process(self):
         prediction = mems_stiction.predict(rough(40, 50), PITCH, device=DEVICE)
         copy = pickle.loads(pickle.dumps(prediction))
