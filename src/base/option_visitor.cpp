@@ -29,7 +29,7 @@ bool Range::contains(double value) const {
   if (!nan_means_none) {
     if (!std::isfinite(lower) && value < -kLargest) return false;
     if (!std::isfinite(upper) && value > kLargest) return false;
-    if (lower_open && lower == 0.0 && value < kSmallest) return false;
+    if (lower == 0.0 && value > 0.0 && value < kSmallest) return false;
   }
   const bool above = lower_open ? value > lower : value >= lower;
   const bool below = upper_open ? value < upper : value <= upper;

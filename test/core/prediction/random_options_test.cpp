@@ -102,7 +102,7 @@ class OneAtItsEnd : public OptionVisitor {
     double at = value != 0.0 ? value : 1e-9;
     while (range.contains(upper_ ? 10.0 * at : 0.1 * at) && at != 0.0) at *= upper_ ? 10.0 : 0.1;
     if (range.contains(at)) value = at;
-    is_bounded_ = !range.contains(upper_ ? 1e301 : 1e-301) || (!upper_ && range.contains(0.0));
+    is_bounded_ = !range.contains(upper_ ? 1e301 : 1e-301) || (!upper_ && range.contains(-1e-9));
   }
   void integer(const std::string&, int&, const Range&, const std::string&) override {}
   void flag(const std::string&, bool&, const std::string&) override {}
