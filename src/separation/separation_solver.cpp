@@ -102,7 +102,9 @@ void SeparationSolver::solve(const ContactProblem& problem, ContactSolution& sol
   partFlowed(problem, solution);
   solution.flattening_energy = flattening_.of(problem.gap, trace_.patchForces().contactModulus());
   partConforming(problem, solution);
-  solution.contact_fraction = solution.contact_area / (problem.gap.validCount() * problem.gap.cellArea());
+  const double area = problem.gap.validCount() * problem.gap.cellArea();
+  solution.contact_area = std::min(solution.contact_area, area);  // a sum over all cells may be larger by rounding
+  solution.contact_fraction = solution.contact_area / area;
 }
 
 void SeparationSolver::takeRest(const ContactProblem& problem, ContactSolution& solution) {
