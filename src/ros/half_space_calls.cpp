@@ -8,6 +8,7 @@
 
 #include "mems_stiction/ros/background_thread.hpp"
 #include "mems_stiction/ros/half_space_conversion.hpp"
+#include "mems_stiction/ros/provenance_conversion.hpp"
 #include "mems_stiction/ros/topic_names.hpp"
 #include "mems_stiction/scan/frame_load.hpp"
 #include "mems_stiction/scan/half_space_scan.hpp"
@@ -83,28 +84,36 @@ template <typename Asked>
 HalfSpaceSolution HalfSpaceCalls::solve(const Asked& asked, const HalfSpaceControl& control) {
   yieldToOtherThreads();
   std_msgs::Header header = asked.height.header;
+  Provenance provenance;
   LoadOptions load;
   load.voltage = asked.voltage;
   load.mechanical_load = asked.mechanical_load;
+  const auto refused = [&](const std::string& reason) {
+    HalfSpaceSolution message = refusedMessage(reason, load, header);
+    fillProvenance(provenance, message);
+    return message;
+  };
   try {
     const StationCase station_case = find_case_(asked.height, asked.scan_info);
     header = station_case.header;
-    Options options = station_case.settings->model;
-    if (!std::isnan(asked.voltage)) options.load.voltage = asked.voltage;
-    if (!std::isnan(asked.mechanical_load)) options.load.setMechanicalLoad(asked.mechanical_load);
-    options = onFrame(options, station_case.settings->device, station_case.scan.surfaces);
+    Configuration settings = *station_case.settings;
+    if (!std::isnan(asked.voltage)) settings.model.load.voltage = asked.voltage;
+    if (!std::isnan(asked.mechanical_load)) settings.model.load.setMechanicalLoad(asked.mechanical_load);
+    provenance = provenanceOf(station_case.identity, settings);
+    const Options options = onFrame(settings.model, station_case.settings->device, station_case.scan.surfaces);
     load = options.load;
     options.check();
     const SolvedHalfSpace solved = solver_.solve(halfSpaceProblem(station_case.scan, options), control);
     HalfSpaceSolution message = halfSpaceMessage(solved, load, header);
+    fillProvenance(provenance, message);
     if (solved.status != HalfSpaceStatus::kCancelled) {
       fillVerdict(halfSpaceVerdict(solved, station_case.scan, options, *station_case.settings), message);
     }
     return message;
   } catch (const std::future_error&) {
-    return refusedMessage(kShuttingDown, load, header);
+    return refused(kShuttingDown);
   } catch (const std::exception& error) {
-    return refusedMessage(error.what(), load, header);
+    return refused(error.what());
   }
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mems_stiction/base/one_line.hpp"
+#include "mems_stiction/ros/message_text.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -43,7 +44,7 @@ HalfSpaceSolution halfSpaceMessage(const SolvedHalfSpace& solved, const LoadOpti
   HalfSpaceSolution message;
   message.header = header;
   message.status = static_cast<std::uint8_t>(solved.status);
-  message.message = oneLine(solved.message);
+  message.message = withoutCommas(oneLine(solved.message));
   message.voltage = load.voltage;
   message.mechanical_load = load.mechanical_load;
 
@@ -79,7 +80,7 @@ HalfSpaceSolution halfSpaceMessage(const SolvedHalfSpace& solved, const LoadOpti
 
 void fillVerdict(const Verdict& verdict, HalfSpaceSolution& message) {
   message.sticks = static_cast<std::uint8_t>(verdict.sticks);
-  message.verdict_reason = oneLine(verdict.reason);
+  message.verdict_reason = withoutCommas(oneLine(verdict.reason));
   message.verdict_by = judgeText(verdict.judge);
   message.margin = verdict.margin;
   message.margin_lower = verdict.margin_lower;
@@ -92,7 +93,7 @@ void fillVerdict(const Verdict& verdict, HalfSpaceSolution& message) {
 HalfSpaceSolution refusedMessage(const std::string& reason, const LoadOptions& load, const std_msgs::Header& header) {
   HalfSpaceSolution message = halfSpaceMessage(SolvedHalfSpace(), load, header);
   message.status = HalfSpaceSolution::REFUSED;
-  message.message = oneLine(reason);
+  message.message = withoutCommas(oneLine(reason));
   return message;
 }
 

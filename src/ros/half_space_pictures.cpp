@@ -8,6 +8,7 @@
 
 #include "mems_stiction/base/short_number.hpp"
 #include "mems_stiction/ros/picture_drawing.hpp"
+#include "mems_stiction/ros/provenance_conversion.hpp"
 #include "mems_stiction/ros/regime_colour.hpp"
 #include "mems_stiction/scan/block_maxima.hpp"
 
@@ -76,6 +77,7 @@ void drawPanel(cv::Mat& picture, const std::string& name, const cv::Mat& map, co
 
 sensor_msgs::ImagePtr curvePicture(const HalfSpaceSolution& solution, const DrawnCurve& beside) {
   cv::Mat picture(kPictureSize, CV_8UC3, kBackgroundColour);
+  sign(picture, provenanceIn(solution));
   const int width = kPictureSize.width - 40;
   if (solution.curve.empty()) {
     writeWrapped(picture, solution.message, {20, 40}, width, kWarningColour);
@@ -90,21 +92,22 @@ sensor_msgs::ImagePtr curvePicture(const HalfSpaceSolution& solution, const Draw
           Align::kRight);
   }
   top += 58;
-  drawCurves(picture, cv::Rect(100, top, kPictureSize.width - 140, kPictureSize.height - top - 70),
+  drawCurves(picture, cv::Rect(100, top, kPictureSize.width - 140, kPictureSize.height - top - 90),
              drawnCurve(solution), beside);
   return imageOf(picture, solution.header);
 }
 
 sensor_msgs::ImagePtr contactMapsPicture(const cv::Mat& model_map, const cv::Mat& half_space_map,
-                                         const std_msgs::Header& header) {
+                                         const HalfSpaceSolution& solution) {
   cv::Mat picture(kPictureSize, CV_8UC3, kBackgroundColour);
+  sign(picture, provenanceIn(solution));
   const int side = kPictureSize.width / 2 - 20;
-  const int height = kPictureSize.height - 100;
+  const int height = kPictureSize.height - 115;
   drawPanel(picture, "prediction", model_map, "comes with the next scan", cv::Rect(10, 45, side, height));
   drawPanel(picture, "half-space", half_space_map, "no state at rest",
             cv::Rect(kPictureSize.width / 2 + 10, 45, side, height));
-  write(picture, kRegimeLegend, {kPictureSize.width / 2, kPictureSize.height - 20}, kQuietColour, Align::kMiddle);
-  return imageOf(picture, header);
+  write(picture, kRegimeLegend, {kPictureSize.width / 2, kPictureSize.height - 36}, kQuietColour, Align::kMiddle);
+  return imageOf(picture, solution.header);
 }
 
 }  // namespace mems_stiction

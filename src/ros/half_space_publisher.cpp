@@ -24,7 +24,7 @@ void HalfSpacePublisher::publish(const HalfSpaceSolution& solution, const cv::Ma
     contact_map_.publish(contactMapImage(half_space_map, solution.header));
   }
   if (areBothMapsWanted()) {
-    contact_maps_.publish(contactMapsPicture(model_map, half_space_map, solution.header));
+    contact_maps_.publish(contactMapsPicture(model_map, half_space_map, solution));
   }
   if (curve_.getNumSubscribers() > 0) curve_.publish(curvePicture(solution, model_curve));
   // Last, so that whoever waits for the solution finds the maps sent.

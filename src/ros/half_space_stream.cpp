@@ -6,14 +6,15 @@
 
 #include "mems_stiction/ros/background_thread.hpp"
 #include "mems_stiction/ros/half_space_conversion.hpp"
+#include "mems_stiction/ros/provenance_conversion.hpp"
 #include "mems_stiction/scan/frame_load.hpp"
 #include "mems_stiction/scan/half_space_scan.hpp"
 
 namespace mems_stiction {
 
 HalfSpaceStream::HalfSpaceStream(const ros::NodeHandle& handle, const HalfSpaceOptions& options, SolutionPause& pause,
-                                 Warn warn)
-    : solver_(options), pause_(pause), publisher_(handle), warn_(std::move(warn)) {}
+                                 Warn warn, Judged judged)
+    : solver_(options), pause_(pause), publisher_(handle), warn_(std::move(warn)), judged_(std::move(judged)) {}
 
 void HalfSpaceStream::start() {
   thread_ = std::thread([this] { loop(); });
@@ -28,8 +29,10 @@ void HalfSpaceStream::stop() {
   if (thread_.joinable()) thread_.join();
 }
 
-void HalfSpaceStream::offer(const StationCase& predicted, const cv::Mat& model_map, const DrawnCurve& model_curve) {
-  std::optional<Task> task(Task{predicted, model_map.clone(), model_curve});  // the model uses its map's memory again
+void HalfSpaceStream::offer(const StationCase& predicted, const ScanOfPart& scan, const cv::Mat& model_map,
+                            const DrawnCurve& model_curve) {
+  std::optional<Task> task(
+      Task{predicted, scan, model_map.clone(), model_curve});  // the model uses its map's memory again
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (waiting_) ++counts_.skipped;
@@ -60,20 +63,26 @@ void HalfSpaceStream::solve(const Task& task) {
   control.cancel = &stopping_;
   control.give_way = pause_.waiter(stopping_);
   HalfSpaceSolution message;
+  std::optional<Verdict> verdict;
   cv::Mat map;
   try {
     model = onFrame(model, scan.settings->device, scan.scan.surfaces);
     const HalfSpaceProblem problem = halfSpaceProblem(scan.scan, model);
     const SolvedHalfSpace solved = solver_.solve(problem, control);
     message = halfSpaceMessage(solved, model.load, scan.header);
-    if (!stopping_) fillVerdict(halfSpaceVerdict(solved, scan.scan, model, *scan.settings), message);
+    if (!stopping_) {
+      verdict = halfSpaceVerdict(solved, scan.scan, model, *scan.settings);
+      fillVerdict(*verdict, message);
+    }
     map = halfSpaceContactMap(solved, problem, solver_.options(), scan.scan.refinement);
   } catch (const std::exception& error) {
     message = refusedMessage(error.what(), model.load, scan.header);
   }
   if (stopping_) return;
+  fillProvenance(task.scan.provenance, message);
   const bool is_solved = message.status == HalfSpaceSolution::SOLVED;
   publisher_.publish(message, task.model_map, map, task.model_curve);
+  if (verdict) judged_(task.scan, *verdict);
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     ++(is_solved ? counts_.solved : counts_.failed);

@@ -41,6 +41,10 @@ cv::Mat deepened(const cv::Mat& wear, const cv::Mat& before, const cv::Mat& afte
   return wear.size() == depth.size() ? cv::Mat(wear + depth) : depth;
 }
 
+PartKey keyOf(const ScanOfPart& scan) {
+  return {scan.provenance.part_id, scan.provenance.serial_id, scan.pool_settings_hash};
+}
+
 }  // namespace
 
 LivePredictor::LivePredictor(const Configuration& configuration, bool accumulate_deformation)
@@ -98,11 +102,18 @@ PredictedScan LivePredictor::judged(const PreparedScan& prepared, const Configur
 }
 
 void LivePredictor::addToPart(const ReceivedScan& scan, const Configuration& settings, PredictedScan& predicted) {
-  const Provenance& provenance = predicted.provenance;
   predicted.pool_settings_hash = settingsHash(settings);  // without the pose that came with this scan
   predicted.part =
-      parts_.add({provenance.part_id, provenance.serial_id, predicted.pool_settings_hash}, scan.header.stamp.toNSec(),
-                 statementOf(provenance.scan_name, predicted.prediction, predicted.verdict));
+      parts_.add(keyOf({scan.header, predicted.provenance, predicted.pool_settings_hash}), scan.header.stamp.toNSec(),
+                 statementOf(predicted.provenance.scan_name, predicted.prediction, predicted.verdict));
+}
+
+std::optional<PartNews> LivePredictor::judgeAgain(const ScanOfPart& scan, const Verdict& verdict) {
+  const PartKey key = keyOf(scan);
+  const std::optional<PooledVerdict> pooled = parts_.judgeAgain(key, scan.header.stamp.toNSec(), verdict);
+  if (!pooled) return std::nullopt;
+  const bool is_of_last_part = last_ && !(keyOf(last_->part) < key) && !(key < keyOf(last_->part));
+  return PartNews{*pooled, is_of_last_part ? last_->part : scan};
 }
 
 PredictedScan LivePredictor::predictScan(const ReceivedScan& scan, const OutputOptions& output) {
@@ -118,7 +129,8 @@ PredictedScan LivePredictor::predictScan(const ReceivedScan& scan, const OutputO
   PredictedScan predicted = judged(prepared, *settings, scan.identity, warnings);
   if (accumulate_deformation_) requireDeformedSurfaces(predicted.prediction);
   addToPart(scan, *settings, predicted);
-  last_ = LastScan{scan, prepared, std::move(warnings), wear_};
+  last_ = LastScan{
+      scan, prepared, {scan.header, predicted.provenance, predicted.pool_settings_hash}, std::move(warnings), wear_};
   last_->prepared.preparation_time = 0.0;  // later predictions of this scan do not prepare it
   if (accumulate_deformation_) {
     wear_ = deepened(wear_, prepared.surfaces.lower.asDouble().heights(), predicted.prediction.deformed_lower);

@@ -6,12 +6,11 @@
 
 namespace mems_stiction {
 
-PartVerdict partVerdictMessage(const PredictedScan& scan, const std_msgs::Header& header) {
-  const PooledVerdict& part = *scan.part;
+PartVerdict partVerdictMessage(const PooledVerdict& part, const ScanOfPart& last) {
   PartVerdict message;
-  message.header = header;
-  fillProvenance(scan.provenance, message);
-  message.settings_hash = scan.pool_settings_hash;
+  message.header = last.header;
+  fillProvenance(last.provenance, message);
+  message.settings_hash = last.pool_settings_hash;
   message.scan_count = static_cast<std::uint32_t>(part.scan_count);
   message.counted_scans = static_cast<std::uint32_t>(part.counted_scans);
   message.sticks = static_cast<std::uint8_t>(part.sticks);

@@ -72,9 +72,13 @@ void ResultPublisher::publish(const PredictedScan& predicted, const ReceivedScan
     asperity_markers_.publish(asperityMarkers(prediction, scan.surface, header, display_));
   }
   if (hasListener(force_curve_)) force_curve_.publish(forceCurvePicture(predicted, header));
-  if (predicted.part) part_verdict_.publish(partVerdictMessage(predicted, header));
+  if (predicted.part) publishPart(*predicted.part, {header, predicted.provenance, predicted.pool_settings_hash});
   // Last, so that whoever waits for the prediction finds the rest sent.
   prediction_.publish(predictionMessage(predicted, header));
+}
+
+void ResultPublisher::publishPart(const PooledVerdict& part, const ScanOfPart& last) const {
+  part_verdict_.publish(partVerdictMessage(part, last));
 }
 
 bool ResultPublisher::isPreviewWanted() const { return hasListener(preview_); }

@@ -47,7 +47,10 @@ StictionServer::StictionServer(const ros::NodeHandle& handle, const ros::NodeHan
                       ? nullptr
                       : std::make_unique<HalfSpaceStream>(
                             handle_, configuration.core.half_space, half_space_pause_,
-                            [this](const auto& header, const auto& text) { accounting_.warn(header, text); })),
+                            [this](const auto& header, const auto& text) { accounting_.warn(header, text); },
+                            [this](const auto& scan, const auto& verdict) {
+                              worker_.push([=] { judgePartAgain(scan, verdict); });
+                            })),
       worker_(capacityOf(options_), static_cast<std::size_t>(options_.max_waiting_memory)),
       counter_surface_frame_(options_.transform.frame.empty()
                                  ? nullptr
@@ -253,7 +256,9 @@ void StictionServer::predictAndPublish(const sensor_msgs::ImageConstPtr& image, 
     const PredictedScan predicted = predictor_.predictScan(scan, demanded);
     publisher_.publish(predicted, scan);
     if (half_space_) {
-      half_space_->offer(predictor_.stationCase(nullptr), predicted.prediction.contact_map, drawnCurve(predicted));
+      half_space_->offer(predictor_.stationCase(nullptr),
+                         {scan.header, predicted.provenance, predicted.pool_settings_hash},
+                         predicted.prediction.contact_map, drawnCurve(predicted));
     }
     if (publisher_.isPreviewWanted()) publisher_.publishPreview(predictor_.lastSurface(), scan.header);
     accounting_.predicted((ros::WallTime::now() - arrival).toSec(), predicted.prediction.processing_time);
@@ -261,6 +266,11 @@ void StictionServer::predictAndPublish(const sensor_msgs::ImageConstPtr& image, 
   } catch (const std::exception& error) {
     accounting_.rejected(image->header, oneLine(reasonOf(error)));
   }
+}
+
+void StictionServer::judgePartAgain(const ScanOfPart& scan, const Verdict& verdict) {
+  const std::optional<PartNews> news = predictor_.judgeAgain(scan, verdict);
+  if (news) publisher_.publishPart(news->verdict, news->last);
 }
 
 void StictionServer::showLastScan() {

@@ -34,6 +34,16 @@ std::optional<PooledVerdict> PartScans::add(const PartKey& key, std::uint64_t sc
   return verdict;
 }
 
+std::optional<PooledVerdict> PartScans::judgeAgain(const PartKey& key, std::uint64_t scan_id, const Verdict& verdict) {
+  const auto found = parts_.find(key);
+  if (found == parts_.end() || scan_id == 0) return std::nullopt;
+  Part& part = found->second;
+  const auto scan = std::find(part.ids.begin(), part.ids.end(), scan_id);
+  if (scan == part.ids.end()) return std::nullopt;
+  mems_stiction::judgeAgain(part.scans[static_cast<std::size_t>(scan - part.ids.begin())], verdict);
+  return verdictOf(part);
+}
+
 std::vector<std::pair<PartKey, PooledVerdict>> PartScans::verdicts() const {
   std::vector<std::pair<std::size_t, const PartKey*>> order;
   order.reserve(parts_.size());

@@ -231,6 +231,12 @@ std::vector<std::string> warningsOf(const std::vector<ScanStatement>& scans, con
 ScanStatement statementOf(const std::string& scan_name, const Prediction& prediction, const Verdict& verdict) {
   ScanStatement statement;
   statement.scan_name = scan_name;
+  statement.contacts = prediction.asperity_count;
+  judgeAgain(statement, verdict);
+  return statement;
+}
+
+void judgeAgain(ScanStatement& statement, const Verdict& verdict) {
   statement.sticks = verdict.sticks;
   statement.reason = verdict.reason;
   statement.judge = verdict.judge;
@@ -238,9 +244,7 @@ ScanStatement statementOf(const std::string& scan_name, const Prediction& predic
   statement.peel_number = {verdict.peel_number, verdict.peel_number_lower, verdict.peel_number_upper};
   statement.margin_transition = verdict.margin_transition;
   statement.place_deviation = verdict.place_deviation;
-  statement.contacts = prediction.asperity_count;
   statement.regime_flags = verdict.regime_flags;
-  return statement;
 }
 
 PooledVerdict pooledVerdictOf(const std::vector<ScanStatement>& scans) {

@@ -111,7 +111,9 @@ class MigrationTest(unittest.TestCase):
         self.assertEqual((new.scan_name, new.part_id, new.serial_id), ("", "", ""))
 
     def test_a_half_space_that_was_recorded_before_it_judged_has_no_verdict(self):
-        old, = (kind for kind in old_classes() if kind._type == "mems_stiction/HalfSpaceSolution")
+        old, judged = (kind for kind in old_classes() if kind._type == "mems_stiction/HalfSpaceSolution")
+        self.assertNotIn("sticks", old.__slots__)
+        self.assertIn("sticks", judged.__slots__)
         message = old(status=HalfSpaceSolution.TOO_MANY_STATES, message="a sentence", pull_off_force=2e-7, contact_count=-1,
                       is_resolved=True, jumps=4, processing_time=0.5)
         message.header.stamp = rospy.Time(12, 34)
@@ -130,6 +132,19 @@ class MigrationTest(unittest.TestCase):
         self.assertEqual((point.height, point.force, point.direction), (1e-9, 2e-7, HalfSpacePoint.RETRACTION))
         self.assertEqual((new.sticks, new.verdict_reason, new.verdict_by), (StictionPrediction.STICKS_UNKNOWN, "", ""))
         self.assertTrue(all(math.isnan(value) for value in (new.margin, new.margin_upper, new.peel_number)))
+
+    def test_a_half_space_that_was_recorded_before_it_named_its_scan_keeps_its_verdict(self):
+        _, old = (kind for kind in old_classes() if kind._type == "mems_stiction/HalfSpaceSolution")
+        message = old(pull_off_force=2e-7, sticks=StictionPrediction.STICKS_NO, verdict_reason="why", verdict_by="half_space", margin=2.0)
+        with rosbag.Bag(self.bag, "w") as bag:
+            bag.write("half_space", message, rospy.Time(12, 50))
+        with contextlib.redirect_stdout(io.StringIO()):
+            self.assertEqual(fixbag2(self.migrator(), self.bag, self.fixed), [])
+        with rosbag.Bag(self.fixed) as bag:
+            (_, new, _), = bag.read_messages()
+        self.assertEqual(new._md5sum, HalfSpaceSolution._md5sum)
+        self.assertEqual((new.pull_off_force, new.sticks, new.verdict_reason, new.verdict_by, new.margin), (2e-7, 0, "why", "half_space", 2.0))
+        self.assertEqual((new.version, new.settings_hash, new.scan_name, new.part_id, new.serial_id), ("", "", "", "", ""))
 
     def test_the_batch_reads_scans_that_were_recorded_before(self):
         old, = (kind for kind in old_classes() if kind._type == "mems_stiction/ScanInfo")

@@ -1,5 +1,6 @@
 /// The half-space's message and pictures hold what was solved, and no figure where nothing was.
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <sstream>
@@ -10,6 +11,7 @@
 #include "mems_stiction/half_space/half_space_fields.hpp"
 #include "mems_stiction/ros/half_space_conversion.hpp"
 #include "mems_stiction/ros/half_space_pictures.hpp"
+#include "mems_stiction/ros/provenance_conversion.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -93,7 +95,7 @@ TEST(HalfSpaceMessage, HoldsTheVerdictWithWhoJudged) {
   Verdict verdict;
   verdict.sticks = Sticks::kYes;
   verdict.judge = Judge::kHalfSpace;
-  verdict.reason = "by the half-space:\nmargin";
+  verdict.reason = "by the half-space:\nmargin, 95 %";
   verdict.margin = 0.5;
   verdict.margin_lower = 0.4;
   verdict.margin_upper = 0.6;
@@ -106,7 +108,7 @@ TEST(HalfSpaceMessage, HoldsTheVerdictWithWhoJudged) {
   EXPECT_TRUE(std::isnan(message.margin) && std::isnan(message.peel_number_upper));
   fillVerdict(verdict, message);
   EXPECT_EQ(message.sticks, 2);
-  EXPECT_EQ(message.verdict_reason, "by the half-space:; margin");
+  EXPECT_EQ(message.verdict_reason, "by the half-space:; margin; 95 %");  // commas would be fields for rostopic echo -p
   EXPECT_EQ(message.verdict_by, "half_space");
   EXPECT_EQ((std::vector<double>{message.margin, message.margin_lower, message.margin_upper}),
             (std::vector<double>{0.5, 0.4, 0.6}));
@@ -163,6 +165,24 @@ TEST(HalfSpacePictures, EachWayOfTheCurveHasItsColour) {
   const sensor_msgs::ImagePtr refused = curvePicture(refusedMessage("no valid pixel", someLoad(), {}));
   EXPECT_EQ(pixelsOf(*refused, 127, 178, 255) + pixelsOf(*refused, 242, 183, 5), 0);
   EXPECT_EQ(refused->data.size(), picture->data.size());
+}
+
+TEST(HalfSpacePictures, SayWhereTheyComeFrom) {
+  // letters are light on the dark of the lowest 25 rows
+  const auto lettersOf = [](const sensor_msgs::ImagePtr& image) {
+    const auto from = static_cast<std::ptrdiff_t>(image->step * (image->height - 25));
+    return std::count_if(image->data.begin() + from, image->data.end(), [](std::uint8_t value) { return value > 100; });
+  };
+  HalfSpaceSolution solution = halfSpaceMessage(solvedWithCurve(400), someLoad(), {});
+  const cv::Mat map = cv::Mat::zeros(80, 80, CV_8UC1);
+  EXPECT_EQ(lettersOf(curvePicture(solution)), 0);
+  EXPECT_EQ(lettersOf(contactMapsPicture(map, map, solution)), 0);
+  Provenance provenance;
+  provenance.scan_name = "wafer";
+  provenance.version = "1.2.3";
+  fillProvenance(provenance, solution);
+  EXPECT_GT(lettersOf(curvePicture(solution)), 100);
+  EXPECT_GT(lettersOf(contactMapsPicture(map, map, solution)), 100);
 }
 
 TEST(HalfSpacePictures, CurvesWithoutExtentAreDrawn) {

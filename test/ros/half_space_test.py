@@ -15,7 +15,7 @@ import rospy
 import rostest
 from actionlib_msgs.msg import GoalStatus
 from diagnostic_msgs.msg import DiagnosticArray
-from mems_stiction.msg import (HalfSpaceAction, HalfSpaceFeedback, HalfSpaceGoal, HalfSpacePoint, HalfSpaceSolution, ScanInfo,
+from mems_stiction.msg import (HalfSpaceAction, HalfSpaceFeedback, HalfSpaceGoal, HalfSpacePoint, HalfSpaceSolution, PartVerdict, ScanInfo,
                                StictionPrediction)
 from mems_stiction.srv import SetLoad, SolveHalfSpace, SolveHalfSpaceRequest
 from sensor_msgs.msg import Image
@@ -103,7 +103,7 @@ class HalfSpaceTest(unittest.TestCase):
         for name in VERDICT:
             self.assertEqual(getattr(solution, name), verdict[name], name)
         self.assertEqual((solution.sticks, solution.verdict_reason, solution.verdict_by),
-                         (STICKS[verdict["sticks"]], verdict["reason"], verdict["verdict_by"]))
+                         (STICKS[verdict["sticks"]], verdict["reason"].replace(",", ";"), verdict["verdict_by"]))  # for rostopic echo -p
         self.assertIn("half-space", solution.verdict_reason)
         self.assertEqual([(point.height, point.force, WAYS[point.direction]) for point in solution.curve],
                          [(point["height"], point["force"], point["direction"]) for point in record["curve"]])
@@ -155,6 +155,30 @@ class HalfSpaceTest(unittest.TestCase):
         self.assert_solved_as(self.solve(self.asked(SolveHalfSpaceRequest, other)).solution, record_of(other))
         last = self.solve(SolveHalfSpaceRequest(voltage=math.nan, mechanical_load=math.nan))
         self.assert_solved_as(last.solution, expected)
+
+    def test_2b_a_solution_says_where_it_comes_from_and_judges_for_the_part(self):
+        parts = Collector("part_verdict", PartVerdict).connect()
+        for place in (1, 2):
+            stamp = self.station.stamp()
+            info = info_message(stamp)
+            info.scan_name, info.part_id, info.serial_id = "place %d" % place, "lot 3", "0012"
+            count, solved = len(parts.messages), len(self.solutions.messages)
+            self.station.height.publish(image_message(rough_surface(place, rows=64, cols=64), stamp))
+            self.station.info.publish(info)
+            solution = self.solutions.wait(solved + 1)[solved]
+            before, after = parts.wait(count + 2)[count:]
+            prediction = [one for one in self.predictions.messages if one.header.stamp == stamp][-1]
+            for name in ("version", "settings_hash", "scan_name", "part_id", "serial_id"):
+                self.assertEqual(getattr(solution, name), getattr(prediction, name), name)
+            self.assertEqual(solution.scan_name, "place %d" % place)
+            self.assertEqual((before.header.stamp, after.header.stamp, after.scan_count), (stamp, stamp, place))
+            self.assertEqual(after.verdict_by, "half_space")
+            self.assertEqual(before.verdict_by, "prediction" if place == 1 else "prediction and half_space")
+            if place == 1:
+                self.assertEqual((after.margin, after.margin_lower, after.sticks), (solution.margin, solution.margin_lower, solution.sticks))
+        answer = self.solve(SolveHalfSpaceRequest(voltage=math.nan, mechanical_load=math.nan)).solution
+        self.assertEqual((answer.scan_name, answer.part_id, answer.settings_hash), ("place 2", "lot 3", prediction.settings_hash))
+        parts.close()
 
     def test_3_under_traffic_each_solution_belongs_to_the_prediction_of_its_stamp(self):
         surfaces = [rough_surface(seed, rows=64, cols=64) for seed in range(3, 6)]

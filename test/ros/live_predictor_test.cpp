@@ -443,6 +443,29 @@ TEST(LivePredictor, AnotherLookAtTheSameScanCountsOnce) {
   EXPECT_EQ(predictor.predictScan(scanOfPart(5, "lot 3"), OutputOptions()).part->scan_count, 2);
 }
 
+TEST(LivePredictor, AScanThatIsJudgedAgainCountsSoForItsPart) {
+  LivePredictor predictor(deviceConfiguration(), false);
+  const auto predicted = [&](int seed, const std::string& part) {
+    const ReceivedScan scan = scanOfPart(seed, part);
+    const PredictedScan result = predictor.predictScan(scan, OutputOptions());
+    return std::pair(ScanOfPart{scan.header, result.provenance, result.pool_settings_hash}, result.verdict);
+  };
+  auto [first, verdict] = predicted(3, "lot 3");
+  const ScanOfPart second = predicted(4, "lot 3").first;
+  verdict.judge = Judge::kHalfSpace;
+  const std::optional<PartNews> news = predictor.judgeAgain(first, verdict);
+  ASSERT_TRUE(news);
+  EXPECT_EQ(news->verdict.scan_count, 2);
+  EXPECT_EQ(news->verdict.verdict_by, "prediction and half_space");
+  EXPECT_EQ(news->last.provenance.scan_name, "place 4");  // the scan that came last, not the one that was judged
+  EXPECT_EQ(news->last.header.stamp, second.header.stamp);
+
+  predicted(5, "another");
+  EXPECT_EQ(predictor.judgeAgain(second, verdict)->verdict.verdict_by, "half_space");
+  EXPECT_EQ(predictor.judgeAgain(first, verdict)->last.header.stamp, first.header.stamp);
+  EXPECT_FALSE(predictor.judgeAgain(predicted(6, "").first, verdict));  // of no part
+}
+
 TEST(LivePredictor, ScansUnderAnotherLoadAreAPoolOfTheirOwn) {
   LivePredictor predictor(deviceConfiguration(), false);
   predictor.predictScan(scanOfPart(3, "lot 3"), OutputOptions());

@@ -96,7 +96,7 @@ TEST(PartVerdictMessage, HoldsEveryFieldOfTheTables) {
   scan.provenance.settings_hash = "with a pose";
   scan.pool_settings_hash = "without";
 
-  const PartVerdict message = partVerdictMessage(scan, {});
+  const PartVerdict message = partVerdictMessage(*scan.part, {{}, scan.provenance, scan.pool_settings_hash});
   std::ostringstream stream;
   stream << message;
   std::set<std::string> lines;

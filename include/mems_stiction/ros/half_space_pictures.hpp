@@ -2,7 +2,7 @@
 
 /// @file
 /// The half-space's answer as pictures for a screen; bgr8, of a size that does not depend on the scan. For looking at, not
-/// for measuring.
+/// for measuring. Along the lower edge stands what the solution says of where it comes from.
 
 #include <sensor_msgs/Image.h>
 #include <opencv2/core.hpp>
@@ -19,7 +19,8 @@ sensor_msgs::ImagePtr curvePicture(const HalfSpaceSolution& solution, const Draw
 
 /// Both contact maps of one scan side by side, in the colours of the regimes.
 /// - @p model_map, @p half_space_map CV_8UC1 with the values of mechanics/regime.hpp, or empty
+/// - @p solution of that scan
 sensor_msgs::ImagePtr contactMapsPicture(const cv::Mat& model_map, const cv::Mat& half_space_map,
-                                         const std_msgs::Header& header);
+                                         const HalfSpaceSolution& solution);
 
 }  // namespace mems_stiction

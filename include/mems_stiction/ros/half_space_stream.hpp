@@ -32,8 +32,12 @@ class HalfSpaceStream {
   /// Called for each scan without a solution, on the thread of the half-space.
   using Warn = std::function<void(const std_msgs::Header& header, const std::string& text)>;
 
+  /// Called with the verdict on each scan that was judged, on the thread of the half-space.
+  using Judged = std::function<void(const ScanOfPart& scan, const Verdict& verdict)>;
+
   /// - @p pause is given way to; it must outlive the stream
-  HalfSpaceStream(const ros::NodeHandle& handle, const HalfSpaceOptions& options, SolutionPause& pause, Warn warn);
+  HalfSpaceStream(const ros::NodeHandle& handle, const HalfSpaceOptions& options, SolutionPause& pause, Warn warn,
+                  Judged judged);
   ~HalfSpaceStream() { stop(); }
   HalfSpaceStream(const HalfSpaceStream&) = delete;
   HalfSpaceStream& operator=(const HalfSpaceStream&) = delete;
@@ -46,9 +50,11 @@ class HalfSpaceStream {
   bool isModelMapWanted() const { return publisher_.areBothMapsWanted(); }
 
   /// Takes the place of a scan that waits. Copies no pixels but the map's.
+  /// - @p scan where its prediction comes from
   /// - @p model_map contact map of the prediction; may be empty
   /// - @p model_curve that the prediction has followed; may have no point
-  void offer(const StationCase& predicted, const cv::Mat& model_map, const DrawnCurve& model_curve);
+  void offer(const StationCase& predicted, const ScanOfPart& scan, const cv::Mat& model_map,
+             const DrawnCurve& model_curve);
 
   /// One status with every count; WARN if a scan since the last report has no solution.
   void report(diagnostic_updater::DiagnosticStatusWrapper& status);
@@ -56,6 +62,7 @@ class HalfSpaceStream {
  private:
   struct Task {
     StationCase predicted;
+    ScanOfPart scan;
     cv::Mat model_map;
     DrawnCurve model_curve;
   };
@@ -74,6 +81,7 @@ class HalfSpaceStream {
   SolutionPause& pause_;
   HalfSpacePublisher publisher_;
   Warn warn_;
+  Judged judged_;
   std::atomic<bool> stopping_{false};
   std::mutex mutex_;
   std::condition_variable changed_;

@@ -53,6 +53,10 @@ class LivePredictor {
   /// @return nothing if there is no scan yet. @throw SurfaceError if it does not fit a newer counter-surface.
   std::optional<PredictedScan> predictLastScan();
 
+  /// Another verdict on a scan that predictScan() has counted for its part.
+  /// @return what all scans of the part say now; nothing if the scan states no part, or is not among its scans any more.
+  std::optional<PartNews> judgeAgain(const ScanOfPart& scan, const Verdict& verdict);
+
   /// A scan at a load of its own, unworn; nothing is remembered.
   /// @throw OptionsError, SurfaceError as above.
   PredictedScan predictOnce(const ReceivedScan& scan, double voltage, double mechanical_load);
@@ -79,6 +83,7 @@ class LivePredictor {
   struct LastScan {
     ReceivedScan received;
     PreparedScan prepared;
+    ScanOfPart part;
     std::vector<std::string> warnings;  ///< about it, in words
     cv::Mat wear_before;                ///< what had been pressed in when it came
     bool is_reset = false;              ///< the wear has been forgotten since

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <std_msgs/Header.h>
+
 #include "mems_stiction/contact/curve_point.hpp"
 #include "mems_stiction/prediction/prediction.hpp"
 #include "mems_stiction/preprocess/pipeline.hpp"
@@ -15,6 +17,19 @@
 #include "mems_stiction/verdict/verdict.hpp"
 
 namespace mems_stiction {
+
+/// Which scan it was, and to which pool of a part's scans it belongs.
+struct ScanOfPart {
+  std_msgs::Header header;
+  Provenance provenance;           ///< what was scanned, and what it was predicted with
+  std::string pool_settings_hash;  ///< of the settings that the scans of the pool share
+};
+
+/// What all scans of a part say, and the last of them.
+struct PartNews {
+  PooledVerdict verdict;
+  ScanOfPart last;
+};
 
 /// A prediction with what belongs to it in the message.
 struct PredictedScan {

@@ -26,6 +26,8 @@ class ResultPublisher {
   /// Publishes the prediction, what its part's scans say, and of the rest what it holds and somebody listens to.
   void publish(const PredictedScan& predicted, const ReceivedScan& scan) const;
 
+  void publishPart(const PooledVerdict& part, const ScanOfPart& last) const;
+
   bool isPreviewWanted() const;
   void publishPreview(const HeightMap& surface, const std_msgs::Header& header) const;
 

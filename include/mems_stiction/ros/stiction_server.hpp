@@ -67,6 +67,8 @@ class StictionServer {
                  const std::optional<SurfacePose>& pose);
   void predictAndPublish(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info, ros::WallTime arrival,
                          const std::optional<SurfacePose>& pose);
+  /// What the part's scans say once the half-space has judged one of them.
+  void judgePartAgain(const ScanOfPart& scan, const Verdict& verdict);
   void showLastScan();
   void takeCounterSurface(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info);
   void rejectLone(const std_msgs::Header& header, const std::string& reason);

@@ -47,6 +47,10 @@ class PartScans {
   /// @return what all scans of its part say with this one; nothing if the scan states no part.
   std::optional<PooledVerdict> add(const PartKey& key, std::uint64_t scan_id, ScanStatement statement);
 
+  /// Another verdict on a scan that has been added; which part had a scan last stays as it is.
+  /// @return what all scans of its part say now; nothing if the scan is not, or no longer, there.
+  std::optional<PooledVerdict> judgeAgain(const PartKey& key, std::uint64_t scan_id, const Verdict& verdict);
+
   /// Of every part, in the order in which their first scans came.
   std::vector<std::pair<PartKey, PooledVerdict>> verdicts() const;
 

@@ -79,6 +79,9 @@ struct ScanStatement {
 
 ScanStatement statementOf(const std::string& scan_name, const Prediction& prediction, const Verdict& verdict);
 
+/// Another verdict on the same scan takes the place of the one before; name and contacts stay.
+void judgeAgain(ScanStatement& statement, const Verdict& verdict);
+
 /// The margins, or the peel numbers, of the scans that count; NaN where none is stated.
 struct PooledRatio : JudgedRatio {
   double spread = Verdict::kNotStated;        ///< s, between scans [-]; NaN of fewer than two

@@ -1,5 +1,7 @@
 #include "mems_stiction/scan/part_scans.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace mems_stiction {
@@ -55,6 +57,31 @@ TEST(PartScans, aScanThatComesAgainCountsOnce) {
   EXPECT_EQ(again->margin.worst_scan, "a");
   parts.add(kPart, 0, scanOf("b", 2.0));
   EXPECT_EQ(parts.add(kPart, 0, scanOf("c", 2.0))->scan_count, 3);  // of no number
+}
+
+TEST(PartScans, anotherVerdictOnAScanTakesThePlaceOfTheOneBefore) {
+  PartScans parts(10, 2);
+  parts.add(kPart, 1, scanOf("a", 2.0));
+  parts.add(kPart, 2, scanOf("b", 2.0));
+  Verdict by_half_space;
+  by_half_space.sticks = Sticks::kNo;
+  by_half_space.judge = Judge::kHalfSpace;
+  by_half_space.margin = 2.2;
+  by_half_space.margin_lower = 1.8;
+  by_half_space.margin_upper = 2.7;
+  const auto verdict = parts.judgeAgain(kPart, 1, by_half_space);
+  ASSERT_TRUE(verdict);
+  EXPECT_EQ(verdict->scan_count, 2);
+  EXPECT_NEAR(verdict->margin.value, std::sqrt(4.4), 1e-12);
+  EXPECT_EQ(verdict->margin.worst_scan, "b");
+  EXPECT_EQ(verdict->verdict_by, "prediction and half_space");
+  EXPECT_EQ(verdict->sticks, Sticks::kNo);  // its contacts are those of before: enough
+
+  EXPECT_FALSE(parts.judgeAgain(kPart, 3, by_half_space));              // never came
+  EXPECT_FALSE(parts.judgeAgain({"lot 4", "", ""}, 1, by_half_space));  // no scan of it
+  parts.add(kPart, 3, scanOf("c", 2.0));
+  EXPECT_FALSE(parts.judgeAgain(kPart, 1, by_half_space));  // forgotten since
+  EXPECT_EQ(parts.judgeAgain(kPart, 3, by_half_space)->scan_count, 2);
 }
 
 TEST(PartScans, namesScansApartThatAreCalledTheSame) {
