@@ -12,6 +12,7 @@ drift widens them, and with few values they are themselves uncertain (by a fifth
 import math
 
 FACTOR = 3.0 / 1.128  # 3 sigma over d2, the mean range of two values of a normal distribution in sigmas
+ROUND_OFF = 1e-12  # of logarithm and exponential, with room
 FEWEST = 8  # values: below, the moving range is known to a third at best
 
 
@@ -22,8 +23,14 @@ class ControlLimits:
         self.centre, self.lower, self.upper = centre, lower, upper
 
     def is_outside(self, value):
-        """Whether the value is positive, finite and beyond a limit."""
-        return 0.0 < value < math.inf and not self.lower <= value <= self.upper
+        """Whether the value is positive, finite and beyond a limit by more than round-off, which is all that scatters where every value is the same."""
+        return 0.0 < value < math.inf and not self.lower * (1 - ROUND_OFF) <= value <= self.upper * (1 + ROUND_OFF)
+
+
+def of_newest_settings(series):
+    """Of (number, value, settings) in the order in which they were measured those with the settings of the last, as (number, value): other settings
+    are another series."""
+    return [(number, value) for number, value, settings in series if settings == series[-1][2]]
 
 
 def control_limits(values):

@@ -8,8 +8,10 @@ import re
 import threading
 import time
 
-from mems_stiction.page_words import (curve_of, diagnostics_of, figures_of, finite, flags_of, half_space_of, judged_by, part_of, ratio_of, sentence,
-                                      trace_of, verdict_of, with_unit)
+from mems_stiction.control_chart import control_limits, of_newest_settings
+from mems_stiction.page_words import (NO_EQUILIBRIUM, curve_of, diagnostics_of, figures_of, finite, flags_of, half_space_of, judged_by, part_of,
+                                      ratio_of, sentence, trace_of, verdict_of, with_unit)
+from mems_stiction.provenance import provenance_words
 from mems_stiction.quantities import typeset
 from mems_stiction.station_text import cycle_sentences, sweep_sentences
 
@@ -66,7 +68,8 @@ class PageState:
                 "number": self._count, "stamp": stamp, "force": finite(prediction.pull_off_force), "device_force": finite(device_force),
                 "restoring_force": finite(prediction.restoring_force), "ratio": finite(getattr(prediction, name)),
                 "lower": finite(getattr(prediction, name + "_lower")), "upper": finite(getattr(prediction, name + "_upper")),
-                "level": verdict_of(prediction)["level"]})
+                "level": verdict_of(prediction)["level"], "settings": prediction.settings_hash,
+                "is_usable": prediction.status != NO_EQUILIBRIUM})
             self._latest = (self._count, stamp, prediction)
             self._loss_is_newest = False
             self._heard = self._clock()
@@ -131,7 +134,7 @@ class PageState:
                    "load_text": with_unit(point.mechanical_load, "N"), "voltage": point.voltage,
                    "margin": finite(point.margin), "lower": finite(point.margin_lower), "held": finite(point.holding_margin),
                    "force": finite(point.pull_off_force), "is_open": bool(point.is_open)} for point in result.points]
-        self._end("sweep", goal, points, sweep_sentences(result) if points else [], result.message)
+        self._end("sweep", goal, points, sweep_sentences(result, width=None) if points else [], result.message)
 
     def add_cycles(self, goal, result):
         points = [{"cycle": cycle.cycle, "force": finite(cycle.pull_off_force), "margin": finite(cycle.margin),
@@ -150,7 +153,7 @@ class PageState:
             now = self._clock()
             return {"version": self.version, "link": self._link, "age": None if self._heard is None else now - self._heard,
                     "count": self._count, "lost": self._lost, "loss_is_newest": self._loss_is_newest,
-                    "losses": list(self._losses), "scan": self._scan(), "trend": list(self._trend),
+                    "losses": list(self._losses), "scan": self._scan(), "trend": list(self._trend), "control": self._control(),
                     "part": self._shown_part(), "half_space": self._with_number(self._half_space), "maps": self._shown_maps(),
                     "diagnostics": [dict(entry, age=now - heard) for _, (entry, heard) in sorted(self._diagnostics.items())],
                     "runs": {kind: self._run(run, now) for kind, run in self._runs.items()}}
@@ -161,8 +164,21 @@ class PageState:
         number, stamp, prediction = self._latest
         return {"number": number, "name": prediction.scan_name or prediction.header.frame_id, "stamp": "%.3f" % (stamp * 1e-9),
                 "verdict": verdict_of(prediction), "ratio": ratio_of(prediction), "flags": flags_of(prediction),
-                "warnings": list(prediction.warnings), "figures": figures_of(prediction), "trace": trace_of(prediction), "curve": curve_of(prediction),
+                "warnings": list(prediction.warnings), "figures": figures_of(prediction), "trace": trace_of(prediction),
+                "origin": provenance_words(prediction), "curve": curve_of(prediction),
                 "preprocessing": list(prediction.preprocessing)}
+
+    def _control(self):
+        """Control limits of the forces in the trend, as plot_trend draws them: of which figure, from the first to the last scan that they are of, and
+        the numbers of those outside; None where too few scans have the settings of the newest."""
+        rows = [row for row in self._trend if row.get("is_usable")]
+        name = "force" if all(row["device_force"] is None for row in rows) else "device_force"
+        series = of_newest_settings([(row["number"], row[name], row["settings"]) for row in rows])
+        limits = control_limits([value for _, value in series])
+        if limits is None:
+            return None
+        return {"of": name, "first": series[0][0], "last": series[-1][0], "lower": limits.lower, "centre": limits.centre, "upper": limits.upper,
+                "outside": [number for number, value in series if value is not None and limits.is_outside(value)]}
 
     def _shown_part(self):
         """is_newest: whether the newest scan is one of its own."""

@@ -34,8 +34,9 @@ def sweep_line(point):
                      STICKS_NAMES.get(point.sticks, "?"))
 
 
-def sweep_sentences(result):
-    """What the loop says: where it releases, where it sticks, where it opens, pull-in, and the hysteresis."""
+def sweep_sentences(result, width=WIDTH):
+    """What the loop says: where it releases, where it sticks, where it opens, pull-in, and the hysteresis. width: letters of a line; None: each
+    sentence is one."""
     sentences = []
     for summary in result.summaries:
         sentences.append("Pressed with %s:" % with_unit(summary.mechanical_load, "N"))
@@ -46,7 +47,7 @@ def sweep_sentences(result):
                 ("opens on the way down at", summary.opening_voltage)):
             sentences.append("  %s: %s" % (text, "none of the sweep" if math.isnan(voltage) else with_unit(voltage, "V")))
         for jump in jumps_of(result.points, summary.mechanical_load, result.pull_in_voltage):
-            sentences += textwrap.wrap("jump " + jump.words(), WIDTH, initial_indent="  ", subsequent_indent="    ")
+            sentences += textwrap.wrap("jump " + jump.words(), width or math.inf, initial_indent="  ", subsequent_indent="    ")
         sentences += _first_force(result.points, summary.mechanical_load)
         gap = widest_gap(result.points, summary.mechanical_load)
         if gap is None:

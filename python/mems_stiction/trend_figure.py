@@ -2,7 +2,7 @@
 
 import math
 
-from mems_stiction.control_chart import control_limits
+from mems_stiction.control_chart import control_limits, of_newest_settings
 from mems_stiction.plots import plt, with_unit
 from mems_stiction.prediction_text import bound_of, digits_of, flag_names, limits_of
 from mems_stiction.provenance import sign
@@ -98,7 +98,7 @@ def _draw_control(axes, shown, name, factor):
     """Centre and control limits of the forces that are to be used, as far as their settings are those of the newest, and a ring around each that
     is outside; the limits, or None."""
     usable = [(number, scan.prediction) for number, scan in shown if scan.prediction is not None and scan.prediction.status != NO_EQUILIBRIUM]
-    series = [(number, getattr(prediction, name)) for number, prediction in usable if prediction.settings_hash == usable[-1][1].settings_hash]
+    series = of_newest_settings([(number, getattr(prediction, name), prediction.settings_hash) for number, prediction in usable])
     limits = control_limits([force for _, force in series])
     if limits is None:
         return None

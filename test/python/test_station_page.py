@@ -19,12 +19,14 @@ from types import SimpleNamespace
 import numpy as np
 import tornado.websocket
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
-from mems_stiction.msg import HalfSpaceSolution, PartVerdict, SeparationPoint, StictionPrediction
+from mems_stiction.msg import HalfSpaceSolution, PartVerdict, SeparationPoint, StictionPrediction, SweepLoadResult, SweepPoint, SweepSummary
+from mems_stiction.control_chart import control_limits
 from mems_stiction.page_maps import contact_png, height_png, rings, severest
 from mems_stiction.page_server import FOLDER, CannotServe, PageServer
 from mems_stiction.page_state import MOST_SCANS, PageState, stamp_of_reason
 from mems_stiction.page_words import curve_of, half_space_of, part_of, ratio_of, trace_of, verdict_of
 from mems_stiction.quantities import typeset
+from mems_stiction.station_text import sweep_sentences
 from sensor_msgs.msg import Image
 
 STATION_PAGE = pathlib.Path(__file__).resolve().parents[2] / "scripts/station_page"
@@ -54,6 +56,15 @@ def counts(rejected, reason="", dropped=0):
     values = {"rejected": rejected, "dropped": dropped, "last_reason": reason}
     return DiagnosticStatus(name="stiction_node: scans", level=b"\1", message="told",
                             values=[KeyValue(key, str(value)) for key, value in values.items()])
+
+
+def jumping_sweep():
+    """Up to 50 V, with a leap to ten times area and force, closed throughout."""
+    points = [SweepPoint(direction=SweepPoint.UP, voltage=voltage, mechanical_load=1e-6, pull_off_force=force * 1e-8, contact_area=area * 1e-16,
+                         contact_area_jkr=NAN, asperity_count=count, margin=3.0, holding_margin=1.0)
+              for voltage, force, area, count in ((0, 1, 1, 1), (10, 1.01, 1.01, 1), (20, 10, 10, 90), (30, 10.1, 10.1, 90), (40, 10.2, 10.2, 90))]
+    summary = SweepSummary(mechanical_load=1e-6, highest_releasing_voltage=NAN, highest_safe_voltage=NAN, lowest_sticking_voltage=NAN, opening_voltage=NAN)
+    return SweepLoadResult(points=points, summaries=[summary], pull_in_voltage=12.5)
 
 
 def map_message(array):
@@ -89,6 +100,37 @@ class StateTest(unittest.TestCase):
             state.add_prediction(number * SECOND, prediction(2.0, StictionPrediction.STICKS_NO))
         trend = state.snapshot()["trend"]
         self.assertEqual((len(trend), trend[-1]["number"]), (MOST_SCANS, 3 * MOST_SCANS))
+
+    def test_control_limits_are_those_of_the_scans_with_the_newest_settings(self):
+        state = PageState()
+        forces = [1e-7 * factor for factor in (1.0, 1.1, 0.9, 1.0, 1.1, 1.0, 0.9, 5.0, 1.0)]
+        state.add_prediction(1, prediction(pull_off_force=1e-3, settings_hash="before"))
+        for number, force in enumerate(forces[:7]):
+            state.add_prediction(number + 2, prediction(pull_off_force=force, settings_hash="now"))
+        self.assertIsNone(state.snapshot()["control"])  # seven are too few
+        for number, force in enumerate(forces[7:]):
+            state.add_prediction(number + 9, prediction(pull_off_force=force, settings_hash="now"))
+        state.add_prediction(20, prediction(pull_off_force=NAN, status=StictionPrediction.NO_EQUILIBRIUM, settings_hash="now"))
+        expected = control_limits(forces)
+        control = json.loads(json.dumps(state.snapshot()["control"], allow_nan=False))
+        self.assertEqual((control["of"], control["first"], control["last"]), ("force", 2, 10))
+        self.assertEqual((control["lower"], control["centre"], control["upper"]), (expected.lower, expected.centre, expected.upper))
+        self.assertEqual(control["outside"], [number + 2 for number, force in enumerate(forces) if expected.is_outside(force)])
+        self.assertEqual(control["outside"], [9])
+
+    def test_the_line_at_the_end_says_where_the_newest_scan_comes_from(self):
+        state = PageState()
+        state.add_prediction(1, prediction(scan_name="wafer", settings_hash="00ff", version="1.2.3"))
+        self.assertEqual(state.snapshot()["scan"]["origin"], "scan wafer, settings 00ff, mems_stiction 1.2.3")
+
+    def test_a_sentence_of_a_sweep_is_one_line_for_the_browser_to_fold(self):
+        state = PageState()
+        result = jumping_sweep()
+        self.assertTrue(any(text.startswith("    ") for text in sweep_sentences(result)))  # folded for a terminal
+        state.add_sweep("goal", result)
+        sentences = state.snapshot()["runs"]["sweep"]["sentences"]
+        self.assertFalse([text for text in sentences if text.startswith("    ")])
+        self.assertTrue(any(text.startswith("  jump") and len(text) > 130 for text in sentences))
 
     def test_what_is_not_finite_is_no_trouble_for_json(self):
         state = PageState()

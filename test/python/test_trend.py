@@ -131,6 +131,10 @@ class ControlLimitsTest(unittest.TestCase):
         self.assertTrue(control_limits(values).is_outside(1e3))
         self.assertTrue(control_limits(values).is_outside(1e-3))
 
+    def test_scans_that_are_all_the_same_are_not_outside(self):
+        for value in np.random.RandomState(1).lognormal(-16.0, 3.0, 100):
+            self.assertFalse(control_limits([value] * 20).is_outside(value), value)
+
 
 class TrendPictureTest(unittest.TestCase):
     def picture(self, *predictions, **settings):

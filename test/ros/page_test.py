@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """station_page in a real browser: what it shows is what the messages say, whatever comes, and nothing is asked of other machines."""
 
+import json
 import re
 import subprocess
 import unittest
@@ -13,7 +14,8 @@ import rospy
 import rostest
 from mems_stiction.msg import (CycleContactAction, CycleContactGoal, HalfSpaceSolution, PartVerdict, StictionPrediction,
                                SweepLoadAction, SweepLoadGoal)
-from mems_stiction.page_words import flags_of, ratio_text, with_unit
+from mems_stiction.page_words import flags_of, judge_word, ratio_text, with_unit
+from mems_stiction.provenance import provenance_words
 from mems_stiction.quantities import percent
 from roslib.packages import find_node
 from stiction_client import Collector, Counts, Station, Traffic, image_message, info_message, rough_surface, wait_until
@@ -104,6 +106,7 @@ class PageTest(unittest.TestCase):
         self.assertEqual(self.figure("contact_fraction")[0], percent(prediction.contact_fraction))
         self.assertEqual(self.page.text("#limits"), " · ".join(flags_of(prediction) + ["warning: " + text for text in prediction.warnings]))
         self.assertEqual(self.page.value("state.trend[state.trend.length - 1].ratio"), prediction.margin)
+        self.assertEqual(self.page.text("#origin"), provenance_words(prediction))
         self.assertEqual(self.page.value("document.querySelectorAll('#trend-ratio circle').length"), 1)  # the first had no device
 
         self.settings.update_configuration(dict(spring_stiffness=1e-4))
@@ -156,7 +159,7 @@ class PageTest(unittest.TestCase):
         self.assertEqual(self.page.value("document.querySelectorAll('#scan-name *').length"), 0)
 
     def test_6b_the_part_and_what_the_scan_was_made_with_are_shown(self):
-        parts = Collector("part_verdict", PartVerdict)
+        parts = Collector("part_verdict", PartVerdict).connect()
         for seed, serial in ((11, "0012"), (12, "0012"), (13, HOSTILE)):
             stamp = self.station.stamp()
             info = info_message(stamp)
@@ -165,7 +168,10 @@ class PageTest(unittest.TestCase):
             self.station.info.publish(info)
             self.page.wait("state.scan && state.scan.stamp === '%.3f'" % stamp.to_sec())
             wait_until(lambda: parts.messages and parts.messages[-1].header.stamp == stamp, "the part's verdict")
+            wait_until(lambda: len(parts.messages) % 2 == 0, "the part's verdict with that of the half-space")
             part = parts.messages[-1]
+            self.page.wait("state.part.ratio.interval === %s && state.part.verdict_by === %s" % (
+                json.dumps("95 %%: %s to %s" % (ratio_text(part.margin_lower), ratio_text(part.margin_upper))), json.dumps(judge_word(part.verdict_by))))
             self.assertEqual(self.page.text("#part-word"), {0: "RELEASES", 1: "MARGINAL", 2: "STICKS", 3: "NOT KNOWN"}[part.sticks])
             self.assertIn("margin %s (95 %%: %s to %s)" % tuple(ratio_text(value) for value in (part.margin, part.margin_lower, part.margin_upper)),
                           self.page.text("#part-ratio"))
@@ -193,6 +199,18 @@ class PageTest(unittest.TestCase):
         self.assertNotIn("running", self.page.text("#sweep-age"))
         self.assertGreater(self.page.value("document.querySelectorAll('#sweep-chart circle').length"), 2)
 
+    def test_7b_labels_of_axes_are_whole_on_every_screen(self):
+        for width, height in ((1024, 768), (768, 1024), (1280, 500)):
+            self.page.resize(width, height)
+            for tab in ("overview", "curve", "runs"):
+                self.open_tab(tab)
+                self.page.value("show()")
+                cut = self.page.value("[...document.querySelectorAll('#tab-%s svg.chart .label')].filter((label) => { const outer = label.ownerSVGElement"
+                                      ".getBoundingClientRect(), inner = label.getBoundingClientRect(); return inner.top < outer.top - 1 || "
+                                      "inner.bottom > outer.bottom + 1; }).map((label) => label.textContent)" % tab)
+                self.assertEqual(cut, [], (tab, width))
+        self.page.resize(1024, 768)
+
     def test_8_thirty_scans_a_second_are_throttled_and_none_is_missing(self):
         before = self.page.value("state.count")
         with Traffic(self.station, [rough_surface(6), rough_surface(7)], period=1 / 30) as traffic:
@@ -201,6 +219,9 @@ class PageTest(unittest.TestCase):
         self.assertGreater(len(traffic.sent), 20)  # of 60, on a machine with other work
         self.assertTrue(2 <= shown <= 11, shown)  # one in 0.2 s at most
         self.page.wait("state.count === %d" % (before + len(traffic.sent)))
+        self.page.wait("state.control && state.control.last === state.count")
+        self.assertEqual(self.page.value("document.querySelectorAll('#trend-force path[stroke=\"#c99bff\"]').length"), 3)  # limits and centre
+        self.assertEqual(self.page.value("document.querySelectorAll('#trend-force ellipse').length"), self.page.value("state.control.outside.length"))
 
     def test_9_several_browsers_see_the_same_and_old_data_are_marked(self):
         other = browser.Browser(768, 1024)

@@ -60,7 +60,7 @@ function limitsOf(values, mayBeLogarithmic) {
 /**
  * Draws into an svg element. chart: {x: {label, unit, low, high, whole}, y: {label, unit, low, high, log},
  * lines: [{points: [[x, y]], colour, width, dash}], whiskers: [[x, low, high]], marks: [{x, y, colour, shape}],
- * bands: [x], levels: [{y, colour}], texts: [{x, y, text}]}. A point whose y is null breaks a line.
+ * rings: [{x, y, colour}], bands: [x], levels: [{y, colour}], texts: [{x, y, text}]}. A point whose y is null breaks a line.
  */
 function drawChart(svg, chart) {
   const width = svg.clientWidth;
@@ -87,6 +87,9 @@ function drawChart(svg, chart) {
   for (const mark of chart.marks || []) {
     if (mark.y === null) continue;
     inside.append(element("circle", {cx: place.x(mark.x), cy: place.y(mark.y), r: mark.radius || 5, fill: mark.colour}));
+  }
+  for (const ring of chart.rings || []) {
+    inside.append(element("ellipse", {cx: place.x(ring.x), cy: place.y(ring.y), rx: 10, ry: 10, fill: "none", stroke: ring.colour, "stroke-width": 2.5}));
   }
   for (const note of chart.texts || []) {
     const x = place.x(note.x);
@@ -132,6 +135,17 @@ function drawBands(svg, chart, place) {
   }
 }
 
+/** Along an upright axis: smaller and nearer to the middle of the chart where it would leave it. */
+function fitInto(label, height, middle) {
+  const length = label.getComputedTextLength();
+  const scale = Math.min(1, (height - 4) / length);
+  if (scale < 1) label.style.fontSize = `${15 * scale}px`;
+  const half = 0.5 * scale * length + 2;
+  const y = Math.min(Math.max(middle, half), Math.max(half, height - half));
+  label.setAttribute("y", y);
+  label.setAttribute("transform", `rotate(-90 16 ${y})`);
+}
+
 function drawAxes(svg, chart, place) {
   const largest = (axis) => Math.max(Math.abs(axis.low), Math.abs(axis.high));
   const [xFactor, xPrefix] = chart.x.unit ? prefixFor(largest(chart.x)) : [1, ""];
@@ -152,5 +166,7 @@ function drawAxes(svg, chart, place) {
   const unit = (axis, prefix) => axis.unit ? ` [${prefix}${axis.unit}]` : "";
   svg.append(element("text", {class: "label", x: (place.left + place.right) / 2, y: place.bottom + 38, "text-anchor": "middle"}, chart.x.label && chart.x.label + unit(chart.x, xPrefix)));
   const middle = (place.top + place.bottom) / 2;
-  svg.append(element("text", {class: "label", x: 16, y: middle, "text-anchor": "middle", transform: `rotate(-90 16 ${middle})`}, chart.y.label + unit(chart.y, yPrefix)));
+  const label = element("text", {class: "label", x: 16, y: middle, "text-anchor": "middle", transform: `rotate(-90 16 ${middle})`}, chart.y.label + unit(chart.y, yPrefix));
+  svg.append(label);
+  fitInto(label, svg.clientHeight, middle);
 }

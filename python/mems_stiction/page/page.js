@@ -2,6 +2,7 @@
 "use strict";
 
 const COLOURS = {releases: "#35c46a", marginal: "#f2b705", sticks: "#ff5a4f", unknown: "#a8adb8", none: "#7fb2ff"};
+const CONTROL = "#c99bff"; // of the control limits, as in plot_trend
 const RECONNECT = 1000;  // [ms]
 const SILENCE = 8000;    // [ms] without a state: the server is gone
 const FRESH = 10;        // [s] a warning of the node's diagnostics is shown at the top for so long
@@ -38,6 +39,7 @@ function connect() {
 
 function show() {
   showVerdict();
+  say("origin", state.scan ? state.scan.origin : "");
   say("counts", state.count ? `${state.count} scans` + (state.lost ? `, ${state.lost} not predicted` : "") : "");
   showTab();
 }
@@ -144,12 +146,16 @@ function showTrend() {
   const numbers = rows.map((row) => row.number);
   const ratios = rows.map((row) => valueOf(row, "ratio"));
   const hasRatio = ratios.some((value) => value !== null);
+  const control = state.control && state.control.of === force ? state.control : null;
   const line = (values) => values.map((value, place) => [numbers[place], value]);
   const marks = (values) => rows.map((row, place) => ({x: row.number, y: values[place], colour: COLOURS[row.level] || COLOURS.none}));
   drawChart(byId("trend-force"), {
-    x: Object.assign({}, x, {label: hasRatio ? "" : x.label}), y: Object.assign({label: isDevice ? "pull-off, device" : "pull-off, scan", unit: "N"}, limitsOf(forces.concat(springs), true)), bands,
-    lines: [{points: line(forces), colour: "#7fb2ff", width: 1.5}, {points: line(springs), colour: "#35c46a", width: 2.5, dash: "8 5"}], marks: marks(forces),
-    texts: springs.length && rows.length && springs[0] ? [{x: first, y: springs[0], text: "restoring force of the spring"}] : [],
+    x: Object.assign({}, x, {label: hasRatio ? "" : x.label}), bands,
+    y: Object.assign({label: isDevice ? "pull-off, device" : "pull-off, scan", unit: "N"}, limitsOf(forces.concat(springs, control ? [control.lower, control.upper] : []), true)),
+    lines: (control ? controlLines(control) : []).concat([{points: line(forces), colour: "#7fb2ff", width: 1.5}, {points: line(springs), colour: "#35c46a", width: 2.5, dash: "8 5"}]),
+    marks: marks(forces), rings: control ? control.outside.map((number) => ({x: number, y: forces[numbers.indexOf(number)], colour: CONTROL})) : [],
+    texts: (springs.length && rows.length && springs[0] ? [{x: first, y: springs[0], text: "restoring force of the spring"}] : [])
+      .concat(control ? [{x: control.last, y: control.upper, text: "control limits"}] : []),
   });
   byId("trend-ratio").style.display = hasRatio ? "block" : "none";
   if (!hasRatio) return;
@@ -158,6 +164,12 @@ function showTrend() {
     x, y: Object.assign({label: state.scan && state.scan.ratio ? state.scan.ratio.label : "margin"}, limitsOf(ratios.concat(whiskers.flatMap((one) => one.slice(1)), [1]), true)),
     bands, whiskers, levels: [{y: 1, colour: "#ff5a4f"}], lines: [{points: line(ratios), colour: "#7fb2ff", width: 1.5}], marks: marks(ratios),
   });
+}
+
+/** Both limits and, thinner, the centre, over the scans that they are of. */
+function controlLines(control) {
+  return [["lower", "2 4", 2], ["centre", "none", 1], ["upper", "2 4", 2]].map(([name, dash, width]) => ({
+    points: [[control.first - 0.5, control[name]], [control.last + 0.5, control[name]]], colour: CONTROL, width, dash}));
 }
 
 // ---------------------------------------------------------------- maps
