@@ -12,7 +12,7 @@ import rospy
 from actionlib import CommState, TerminalState
 from mems_stiction.csv_text import csv_cell
 from mems_stiction.provenance import FIELDS as PROVENANCE
-from mems_stiction.station_node import CannotRun
+from mems_stiction.station_node import CannotRun, no_node
 
 DONE, CANCELLED, NOT_RUN = 0, 1, 2  # exit statuses
 MOST_NUMBERS = 1000000  # of a range; the node takes no more
@@ -30,7 +30,7 @@ def run(action, kind, goal, timeout):
     # Not the simple client: it may miss the end of a goal that is refused at once.
     client = actionlib.ActionClient(action, kind)
     if not client.wait_for_server(rospy.Duration(timeout)):
-        raise CannotRun("no action %s for %g s: is the node running under that name?" % (action, timeout))
+        raise CannotRun(no_node("action", action, timeout))
     with tqdm(desc=action.split("/")[-1], unit="", leave=False, disable=None, file=sys.stderr) as bar:
         def show(_, feedback):
             bar.total = feedback.total

@@ -4,6 +4,7 @@ say reaches no terminal as a control character."""
 import os
 import sys
 import time
+import urllib.parse
 
 import rosgraph
 import rospy
@@ -29,21 +30,51 @@ class Printable:
 
 
 PATIENCE = 30.0  # for a master, of a program that runs until it is stopped [s]
+SILENT = 2.0  # of a wait that nobody is told of [s]
 
 
 class CannotRun(Exception):
     """There is no master, no node, no place to write to, or the node has refused the goal; the text says why."""
 
 
+def check_master_address():
+    """Raises CannotRun where ROS_MASTER_URI is no address, at which rospy would end in a traceback."""
+    address = rosgraph.get_master_uri()
+    parts = urllib.parse.urlsplit(address)
+    try:
+        is_address = parts.scheme == "http" and bool(parts.hostname) and parts.port is not None
+    except ValueError:  # of the port
+        is_address = False
+    if not is_address:
+        raise CannotRun("ROS_MASTER_URI: '%s' is not allowed, must be an address as http://localhost:11311" % address)
+
+
 def become_node(name, timeout, **options):
-    """rospy.init_node() for a node of its own name, which alone would wait for a master for ever."""
-    end = time.monotonic() + timeout
+    """rospy.init_node() for a node of its own name, which alone would wait for a master for ever, and say nothing."""
+    check_master_address()
+    begin = time.monotonic()
+    is_told = False
     while not rosgraph.is_master_online():
-        if time.monotonic() > end:
+        waited = time.monotonic() - begin
+        if waited > timeout:
             raise CannotRun("no ROS master at %s for %g s: is roscore or roslaunch running?" % (rosgraph.get_master_uri(), timeout))
+        if waited > SILENT and not is_told:
+            print("%s: waits for a ROS master at %s (roscore or roslaunch)" % (name, rosgraph.get_master_uri()), file=sys.stderr, flush=True)
+            is_told = True
         time.sleep(0.1)
     sys.stdout, sys.stderr = Printable(sys.stdout), Printable(sys.stderr)
     rospy.init_node(name, anonymous=True, **options)
+
+
+def no_node(what, name, timeout):
+    """The sentence on a service or an action "NODE/NAME" that did not come: under which names nodes of this package run instead."""
+    try:
+        services = [service for service, _ in rosgraph.Master(rospy.get_name()).getSystemState()[2]]
+    except (OSError, rosgraph.MasterError):
+        services = []
+    nodes = sorted(service.rsplit("/", 1)[0] for service in services if service.endswith("/solve_half_space"))
+    found = "; there is %s (--node)" % ", ".join(nodes) if nodes else ""
+    return "no %s %s for %g s: is the node running under that name?%s" % (what, name, timeout, found)
 
 
 def require_writable(option, path):

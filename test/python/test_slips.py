@@ -9,6 +9,8 @@ import tempfile
 import unittest
 
 import numpy as np
+import rosbag
+from mems_stiction.msg import StictionPrediction
 from roslib.packages import find_node
 
 BAD_INPUT = 2
@@ -30,9 +32,9 @@ class SlipTest(unittest.TestCase):
         (self.folder / "empty.bag").write_text("")
         (self.folder / "text.bag").write_text("no bag at all, but some words")
 
-    def run_it(self, name, *arguments):
+    def run_it(self, name, *arguments, master="http://localhost:1"):
         program = find_node("mems_stiction", name)[0]
-        environment = dict(os.environ, ROS_MASTER_URI="http://localhost:1")
+        environment = dict(os.environ, ROS_MASTER_URI=master)
         return subprocess.run([program] + [str(part) for part in arguments], cwd=str(self.folder), env=environment, stdout=subprocess.PIPE,
                               stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, universal_newlines=True, timeout=120)
 
@@ -97,6 +99,42 @@ class SlipTest(unittest.TestCase):
         self.assert_refused("the decimal sign is a point", "station_check", "--bag", "a.bag", "--verdict", "--voltages", "0,05")
         self.assert_refused("cannot be made", "plot_scan", "--output", "scan.npy", "--timeout", "0.3")
         self.assert_refused("no ROS master", "plot_scan", "--output", "pictures", "--timeout", "0.3", status=1)
+
+    def test_an_address_of_the_master_that_is_none_is_named(self):
+        for address in ("localhost:11311", "http://localhost", "http://localhost:port", "https://localhost:11311"):
+            for call in (("set_load", "--voltage", "1"), ("sweep_load", "--voltages", "0"), ("print_predictions",), ("plot_trend",),
+                         ("station_page", "--port", "0")):
+                done = self.run_it(*call, master=address)
+                with self.subTest(call=call, address=address):
+                    self.assertIn(done.returncode, (1, BAD_INPUT))
+                    self.assertEqual(done.stderr, "%s: ROS_MASTER_URI: '%s' is not allowed, must be an address as http://localhost:11311\n" % (
+                        call[0], address))
+
+    def test_a_long_wait_for_a_master_is_told(self):
+        process = subprocess.Popen([find_node("mems_stiction", "print_predictions")[0]], env=dict(os.environ, ROS_MASTER_URI="http://localhost:1"),
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, universal_newlines=True)
+        self.addCleanup(process.stderr.close)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        self.assertEqual(process.stderr.readline(), "print_predictions: waits for a ROS master at http://localhost:1 (roscore or roslaunch)\n")
+
+    def test_bags_that_are_none_are_named_before_anybody_waits(self):
+        self.assertEqual(self.run_it("make_scan_bag", "-o", "good.bag", "scan.npy").returncode, 0)
+        (self.folder / "cut.bag").write_bytes((self.folder / "good.bag").read_bytes()[:5000])
+        for bag, expected in (("folder.bag", "folder.bag cannot be read: is a folder, not a bag"), ("nowhere.bag", "nowhere.bag cannot be read: no such file"),
+                              ("cut.bag", "cut.bag cannot be read: was cut off, or is still being recorded; rosbag reindex cut.bag mends it")):
+            self.assert_refused(expected, "export_predictions", "-o", "a.csv", bag)
+            self.assert_refused("not decided: " + expected, "station_check", "--bag", bag, "--verdict")
+        self.assertFalse((self.folder / "a.csv").exists())
+
+    def test_an_export_names_the_topics_that_there_are(self):
+        with rosbag.Bag(str(self.folder / "day.bag"), "w") as bag:
+            bag.write("/left/prediction", StictionPrediction())
+        self.assert_refused("--topic: no prediction on '/left/predicton'; they are on /left/prediction", "export_predictions", "-o", "a.csv",
+                            "--topic", "/left/predicton", "day.bag")
+
+    def test_a_folder_is_no_curve(self):
+        self.assert_refused(".: is a folder, not a curve", "plot_curve", ".")
 
     def test_an_export_keeps_the_bag(self):
         before = (self.folder / "text.bag").read_bytes()
