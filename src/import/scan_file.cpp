@@ -12,6 +12,7 @@
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/option_yaml.hpp"
+#include "mems_stiction/base/yaml_trouble.hpp"
 #include "mems_stiction/height_map/validity.hpp"
 #include "mems_stiction/import/channel_choice.hpp"
 #include "mems_stiction/import/file_bytes.hpp"
@@ -58,7 +59,7 @@ Settings withSidecar(const std::string& path, const ScanOptions& given) {
                            (nested.IsDefined() && nested.IsMap() && nested["height_scale"].IsDefined());
       lines = readYaml(scan, [&options](OptionVisitor& visitor) { options.describe(visitor); });
     } catch (const YAML::Exception& yaml_error) {
-      throw FileError(sidecar + ": not valid YAML: " + yaml_error.what());
+      throw FileError(sidecar + ": " + yamlTroubleOfFile(sidecar, yaml_error.what()));
     }
     if (options.height_scale == 0.0) lines.emplace_back("scan/height_scale: 0 is not allowed, must not be 0");
     for (std::string& line : lines) line.insert(0, sidecar + ": ");
@@ -98,6 +99,11 @@ Settings settingsFor(const std::string& path, const FileChannel& channel, const 
 
 void checkPitchStated(const std::string& path, const ScanOptions& settings) {
   if (settings.pitch_x != 0.0 && settings.pitch_y != 0.0) return;
+  if (settings.pitch_x != 0.0 || settings.pitch_y != 0.0) {
+    const std::string missing = settings.pitch_x != 0.0 ? "pitch_y" : "pitch_x";
+    throw FileError(path + ": its " + missing + " is not stated, only the other pitch: give --pitch, or scan/" +
+                    missing + " where the other is given");
+  }
   throw FileError(path +
                   ": its pixel pitch is not stated: give --pitch, or scan/pitch_x and scan/pitch_y in the "
                   "configuration or in " +
@@ -165,6 +171,8 @@ auto naming(const std::string& path, Function&& function) {
 
 ScanFile openScanFile(const std::string& path, const ScanOptions& scan, const ScanFileOptions& options) {
   return naming(path, [&] {
+    const fs::path extension = fs::path(path).extension();
+    if (extension == ".yaml" || extension == ".yml") throw FileError("is a file of settings, not a scan");
     const std::vector<FileChannel> channels = readChannels(path, options.import);
     const std::size_t chosen = chooseHeightChannel(channels, options.import.channel);
     const FileChannel& channel = channels[chosen];

@@ -15,7 +15,8 @@ namespace mems_stiction {
 namespace {
 
 [[noreturn]] void refuse(const char* key, const std::string& path, const std::string& why) {
-  throw OptionsError({std::string("preprocessing/region/") + key + ": " + path + ": " + why});
+  const bool is_named = why.compare(0, path.size() + 1, path + ":") == 0;
+  throw OptionsError({std::string("preprocessing/region/") + key + ": " + (is_named ? why : path + ": " + why)});
 }
 
 std::vector<cv::Point2d> readCorners(const std::string& path) {

@@ -13,6 +13,7 @@
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/option_yaml.hpp"
+#include "mems_stiction/base/yaml_trouble.hpp"
 #include "mems_stiction/ros/topic_names.hpp"
 
 namespace mems_stiction {
@@ -91,7 +92,7 @@ struct FileText {
     try {
       tree = YAML::Load(text);
     } catch (const YAML::Exception& error) {
-      violations.push_back(name + ": not valid YAML: " + error.what());
+      violations.push_back(name + ": " + yamlTrouble(text, error.what()));
     }
   }
 };

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/yaml_trouble.hpp"
 
 namespace mems_stiction {
 
@@ -31,7 +32,7 @@ Configuration loadConfiguration(const std::string& path, const Configuration& de
   } catch (const YAML::BadFile&) {
     throw FileError(path + ": the configuration file cannot be opened");
   } catch (const YAML::Exception& error) {
-    throw FileError(path + ": not valid YAML: " + error.what());
+    throw FileError(path + ": " + yamlTroubleOfFile(path, error.what()));
   }
   try {
     return configurationFromYaml(tree, defaults);

@@ -42,10 +42,10 @@ void GaussianSurfaceOptions::describe(OptionVisitor& visitor, const std::string&
   visitor.number(prefix + "/pitch_y", pitch_y, "m", Range::positive(), "distance of neighbouring rows");
   visitor.number(prefix + "/rms_height", rms_height, "m", Range::nonNegative(), "root mean square height, exact");
   visitor.number(prefix + "/correlation_length_x", correlation_length_x, "m",
-                 Range{0.0, 0.5 * cols * pitch_x, true, false},
+                 Range{0.0, 0.5 * std::max(cols, 2) * pitch_x, true, false},
                  "distance along x at which the autocorrelation has fallen to 1/e");
   visitor.number(prefix + "/correlation_length_y", correlation_length_y, "m",
-                 Range{0.0, 0.5 * rows * pitch_y, true, false},
+                 Range{0.0, 0.5 * std::max(rows, 2) * pitch_y, true, false},
                  "distance along y at which the autocorrelation has fallen to 1/e");
   visitor.integer(prefix + "/seed", seed, Range::within(0, std::numeric_limits<int>::max()),
                   "the same seed gives the same surface");

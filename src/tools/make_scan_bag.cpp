@@ -39,6 +39,8 @@ struct Arguments {
   std::string bag;
   std::vector<std::string> scans;
   int count = 0;
+  std::string part_id;
+  std::string serial_id;
   double rate = 10.0;
   double pitch = 0.0;
   double correlation_length = 80e-9;
@@ -48,7 +50,7 @@ struct Arguments {
 
 void describe(CLI::App& app, Arguments& arguments) {
   app.description(
-      "Writes scans to a bag: topics height (32FC1, metres, about their mean) and scan_info, with the same stamps.\n"
+      "Writes scans to a bag: topics /height (32FC1, metres, about their mean) and /scan_info, with the same stamps.\n"
       "Without files, generates Gaussian rough surfaces from smooth to rough.");
   app.add_option("-o,--output", arguments.bag, "the bag; replaced if it exists")->required()->type_name("OUT.bag");
   app.add_option("scans", arguments.scans, "scan files, of every kind that predict_scan reads")->type_name("SCAN");
@@ -71,6 +73,8 @@ void describe(CLI::App& app, Arguments& arguments) {
       ->capture_default_str();
   app.add_option("--seed", arguments.surface.seed, "of the first surface; each further one takes the next")
       ->capture_default_str();
+  app.add_option("--part-id", arguments.part_id, "of scan_info: the part that all these scans are places of");
+  app.add_option("--serial-id", arguments.serial_id, "of scan_info: its serial number");
   app.add_option("--rate", arguments.rate, "scans per second [Hz]")->check(positive)->capture_default_str();
   app.footer("Exit status: 0, or 2 for bad input (one line on stderr for each; the other scans are still written).");
 }
@@ -78,8 +82,13 @@ void describe(CLI::App& app, Arguments& arguments) {
 /// A bag that has its name when it is whole: what was there before stays if it cannot be written.
 class ScanBag {
  public:
-  ScanBag(const std::string& path, double rate)
-      : path_(path), partial_([&] { return path + "." + std::to_string(getpid()); }), period_(1.0 / rate) {
+  explicit ScanBag(const Arguments& arguments)
+      : path_(arguments.bag),
+        partial_([&] { return arguments.bag + "." + std::to_string(getpid()); }),
+        period_(1.0 / arguments.rate),
+        part_id_(arguments.part_id),
+        serial_id_(arguments.serial_id) {
+    const std::string& path = path_;
     std::error_code error;
     if (fs::exists(path, error) && !fs::is_regular_file(path, error)) {
       throw FileError(path + ": is a folder, a pipe or a device; a bag is written to a file");
@@ -115,9 +124,12 @@ class ScanBag {
     ScanOptions calibration;
     calibration.pitch_x = surface.pitchX();
     calibration.pitch_y = surface.pitchY();
+    ScanInfo info = scanInfoMessage(calibration, header);
+    info.part_id = part_id_;
+    info.serial_id = serial_id_;
     guarded([&] {
       bag_->write(absolute(kHeightTopic), header.stamp, *heightImage(about_mean, header));
-      bag_->write(absolute(kScanInfoTopic), header.stamp, scanInfoMessage(calibration, header));
+      bag_->write(absolute(kScanInfoTopic), header.stamp, info);
     });
   }
 
@@ -148,6 +160,8 @@ class ScanBag {
   std::unique_ptr<rosbag::Bag> bag_ = std::make_unique<rosbag::Bag>();
   bool is_whole_ = false;
   double period_;
+  std::string part_id_;
+  std::string serial_id_;
   std::uint32_t count_ = 0;
 };
 
@@ -178,7 +192,7 @@ int run(const Arguments& arguments) {
   int status = 0;
   ScanFileOptions file_options;
   file_options.pitch_x = file_options.pitch_y = arguments.pitch;
-  ScanBag bag(arguments.bag, arguments.rate);
+  ScanBag bag(arguments);
   for (const std::string& path : withoutSidecars(arguments.scans)) {
     std::optional<ScanFile> scan;
     try {

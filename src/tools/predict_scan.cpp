@@ -147,6 +147,13 @@ void requireOutputs(const Arguments& arguments) {
   for (const auto& [option, path] : outputs) requireOutput(option, path, inputs);
 }
 
+/// Under another name nobody could open it.
+void requireTiff(const std::string& option, const std::string& path) {
+  const std::string kind = std::filesystem::path(path).extension().string();
+  if (path.empty() || kind == ".tiff" || kind == ".tif") return;
+  throw OptionsError({option + ": '" + path + "' is not allowed, must end in .tiff or .tif"});
+}
+
 /// The configuration file with the command line's values in it.
 /// @throw OptionsError, FileError
 Configuration configurationOf(const Arguments& arguments) {
@@ -160,11 +167,13 @@ Configuration configurationOf(const Arguments& arguments) {
         std::make_pair("--formulation-curve", arguments.formulation_curve)}) {
     if (!path.empty()) requireOneScan(arguments, option, path);
   }
+  requireTiff("--deformed", arguments.deformed);
   for (const auto& [option, path] : arguments.half_space_maps.wanted()) {
     if (!arguments.half_space) {
       throw OptionsError({option + ": only the half-space has it; give --half-space too"});
     }
     requireOneScan(arguments, option, path);
+    requireTiff(option, path);
   }
   return configuration;
 }

@@ -1,6 +1,7 @@
 /// stiction_batch: one row per scan over many bags and scan files; goes on where it was interrupted, in shards that join
 /// to what one run gives. No ROS master needed.
 
+#include <filesystem>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -94,6 +95,14 @@ int merge(const BatchArguments& arguments) {
   const std::vector<std::string> shards = inputsOf(arguments);
   rowFormatOf(arguments.output);
   checkParts(arguments);
+  for (const std::string& shard : shards) {
+    std::error_code ignored;
+    const bool is_there = std::filesystem::exists(shard, ignored);
+    if (is_there && std::filesystem::exists(settingsPathOf(shard), ignored)) continue;
+    throw FileError(shard + (is_there
+                                 ? ": no rows of stiction_batch: there is no " + settingsPathOf(shard) + " beside it"
+                                 : ": there is no such file"));
+  }
   const std::string settings = readWhole(settingsPathOf(shards.front()));
   for (const std::string& shard : shards) {
     if (readWhole(settingsPathOf(shard)) != settings) {

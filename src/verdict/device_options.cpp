@@ -1,12 +1,25 @@
 #include "mems_stiction/verdict/device_options.hpp"
 
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <utility>
 
 #include "mems_stiction/mechanics/surface_forces.hpp"
 
 namespace mems_stiction {
+namespace {
+
+/// The keys of those that are 0, with "and" between.
+std::string zerosOf(std::initializer_list<std::pair<const char*, double>> settings) {
+  std::string text;
+  for (const auto& [key, value] : settings) {
+    if (value <= 0.0) text += (text.empty() ? "" : " and ") + std::string(key);
+  }
+  return text;
+}
+
+}  // namespace
 
 Beam DeviceOptions::beam() const {
   return {beam_type, beam_length, beam_thickness, beam_gap, beam_modulus, beam_residual_stress};
@@ -58,13 +71,16 @@ std::vector<std::string> DeviceOptions::validate() const {
 }
 
 std::string whatPullInLacks(const DeviceOptions& device) {
-  std::string text;
-  for (const auto& [key, value] : {std::make_pair("device/spring_stiffness", device.spring_stiffness),
-                                   std::make_pair("device/travel", device.travel),
-                                   std::make_pair("device/electrode_area", device.electrode_area)}) {
-    if (value <= 0.0) text += (text.empty() ? "" : " and ") + std::string(key);
-  }
-  return text;
+  return zerosOf({{"device/spring_stiffness", device.spring_stiffness},
+                  {"device/travel", device.travel},
+                  {"device/electrode_area", device.electrode_area}});
+}
+
+std::string whatSpringLacks(const DeviceOptions& device) {
+  if (device.spring_stiffness <= 0.0 && device.travel <= 0.0 && device.contact_area <= 0.0) return "";
+  return zerosOf({{"device/spring_stiffness", device.spring_stiffness},
+                  {"device/travel", device.travel},
+                  {"device/contact_area", device.contact_area}});
 }
 
 double closingVoltage(const DeviceOptions& device, const InterfaceOptions& interface) {

@@ -99,9 +99,11 @@ Verdict verdictBy(const Prediction& prediction, const DeviceOptions& device, con
   const bool has_contact = hasContact(device);
   if (device.hasSpring()) verdict.restoring_force = device.restoringForce();
   if (!has_contact && !device.hasBeam()) {
+    const std::string missing = whatSpringLacks(device);
     verdict.reason =
-        "the device is not stated: it needs device/spring_stiffness with device/travel and device/contact_area; or a "
-        "beam";
+        "the device is not stated" +
+        (missing.empty() ? ": it needs device/spring_stiffness with device/travel and device/contact_area; or a beam"
+                         : " in full: " + missing + " must be > 0");
     return verdict;
   }
   if (prediction.status == Status::kNoEquilibrium) {

@@ -133,6 +133,48 @@ class SlipTest(unittest.TestCase):
         self.assert_refused("--topic: no prediction on '/left/predicton'; they are on /left/prediction", "export_predictions", "-o", "a.csv",
                             "--topic", "/left/predicton", "day.bag")
 
+    def test_settings_that_are_no_yaml_say_what_they_are(self):
+        (self.folder / "tab.yaml").write_text("interface:\n\twork_of_adhesion: 0.05\n")
+        self.assert_refused("tab.yaml: not valid YAML: line 2 begins with a tab; must be spaces (", "predict_scan", "-c", "tab.yaml", "scan.npy")
+        self.assert_refused("scan.npy: is not a text, so no file of settings", "predict_scan", "-c", "scan.npy", "scan.npy")
+        (self.folder / "scan.npy.yaml").write_text("pitch_x: 20.0e-9\n\tpitch_y: 20.0e-9\n")
+        self.assert_refused("scan.npy.yaml: not valid YAML: line 2 begins with a tab", "predict_scan", "scan.npy")
+        (self.folder / "scan.npy.yaml").write_text("pitch_x: 20.0e-9\n")
+        self.assert_refused("scan.npy: its pitch_y is not stated, only the other pitch", "predict_scan", "scan.npy")
+
+    def test_settings_are_no_scan_and_rows_of_something_else_no_shard(self):
+        (self.folder / "part.yaml").write_text("interface: {work_of_adhesion: 0.05}\n")
+        self.assertEqual(self.run_it("stiction_batch", "-o", "rows.csv", "part.yaml").stderr,
+                         "stiction_batch: part.yaml: is a file of settings, not a scan\n")
+        self.assert_refused("nowhere.csv: there is no such file", "stiction_batch", "--merge", "-o", "all.csv", "nowhere.csv")
+        (self.folder / "sweep.csv").write_text("voltage\n0\n")
+        self.assert_refused("sweep.csv: no rows of stiction_batch: there is no sweep.csv.settings.yaml", "stiction_batch", "--merge", "-o", "all.csv",
+                            "sweep.csv")
+
+    def test_a_mask_that_is_none_is_named_once(self):
+        (self.folder / "mask.yaml").write_text("preprocessing: {region: {mask_file: nowhere.png}}\n")
+        self.assert_refused("mask_file: nowhere.png: there is no such file", "predict_scan", "-c", "mask.yaml", "scan.npy")
+
+    def test_a_tiff_has_the_name_of_one(self):
+        for option in (("--deformed",), ("--half-space", "--half-space-pressure"), ("--half-space", "--half-space-deformed")):
+            self.assert_refused(option[-1] + ": 'out.jpg' is not allowed, must end in .tiff or .tif", "predict_scan", *option, "out.jpg", "scan.npy")
+        self.assertFalse((self.folder / "out.jpg").exists())
+
+    def test_no_size_is_one_fault_and_not_two(self):
+        self.assert_refused("gaussian/rows: 0 is not allowed", "make_scan_bag", "-o", "a.bag", "--rows", "0")
+        self.assertNotIn("(0, 0]", self.run_it("make_scan_bag", "-o", "a.bag", "--rows", "0").stderr)
+
+    def test_a_device_that_is_stated_in_part_says_what_is_missing(self):
+        (self.folder / "device.yaml").write_text("device: {spring_stiffness: 1.0, travel: 1.0e-6}\n")
+        record = self.run_it("predict_scan", "-c", "device.yaml", "scan.npy").stdout
+        self.assertIn('reason: "the device is not stated in full: device/contact_area must be > 0"', record)
+
+    def test_a_bag_names_the_part_of_its_scans(self):
+        self.assertEqual(self.run_it("make_scan_bag", "-o", "a.bag", "--part-id", "lot 3", "--serial-id", "0012", "scan.npy").returncode, 0)
+        with rosbag.Bag(str(self.folder / "a.bag")) as bag:
+            info, = [message for _, message, _ in bag.read_messages(topics=["/scan_info"])]
+        self.assertEqual((info.part_id, info.serial_id), ("lot 3", "0012"))
+
     def test_a_folder_is_no_curve(self):
         self.assert_refused(".: is a folder, not a curve", "plot_curve", ".")
 

@@ -49,5 +49,7 @@ struct DeviceOptions {
 double closingVoltage(const DeviceOptions& device, const InterfaceOptions& interface);
 /// The settings that it lacks: "device/travel", "device/travel and device/electrode_area", ...; empty when it is known.
 std::string whatPullInLacks(const DeviceOptions& device);
+/// The same for a margin; empty where none of what it needs is stated.
+std::string whatSpringLacks(const DeviceOptions& device);
 
 }  // namespace mems_stiction
