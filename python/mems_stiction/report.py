@@ -175,7 +175,9 @@ def _cleaning(stages, result):
     rows = [dict(row, rms=text_of(row["rms"], "m"), pull_off=text_of(row["pull_off"], "N"),
                  change="" if row["change"] is None else text_of(row["change"], "m"),
                  changed="" if row["changed"] is None else row["changed"]) for row in rows_of(stages)]
-    return {"image": embedded(cleaning_figure(stages, result["pitch_x"], result["pitch_y"])), "rows": rows}
+    png = cleaning_figure(stages, result["pitch_x"], result["pitch_y"])
+    width = int.from_bytes(png[16:20], "big")  # of its heading; two columns are not blown up to the width of the page
+    return {"image": embedded(png), "width": width, "rows": rows}
 
 
 def verdict_word(sticks):

@@ -77,7 +77,7 @@ PAGE = """<!DOCTYPE html>
 <img alt="Histogram of the heights, material ratio curve, spectrum" src="{{ scan.surface }}">
 <div class="figures">{% for label, value in scan.surface_figures %}<div><span>{{ label }}</span><span>{{ value }}</span></div>{% endfor %}</div>
 {% if scan.cleaning %}<h3>What each cleaning step did</h3>
-<img alt="The surface after each cleaning step, and what the step changed" src="{{ scan.cleaning.image }}">
+<img alt="The surface after each cleaning step, and what the step changed" style="max-width: {{ scan.cleaning.width }}px" src="{{ scan.cleaning.image }}">
 <table><tr><th></th><th class="n">rms height</th><th class="n">rms of the change</th><th class="n">pixels changed</th><th class="n">not measured</th><th class="n">pull-off force on this surface</th></tr>
 {% for row in scan.cleaning.rows %}<tr><td>{{ row.words }}</td><td class="n">{{ row.rms }}</td><td class="n">{{ row.change }}</td><td class="n">{{ row.changed }}</td><td class="n">{{ row.missing }}</td><td class="n">{{ row.pull_off }}</td></tr>
 {% endfor %}</table>{% endif %}

@@ -1,13 +1,17 @@
 """Slips of a test engineer at programs and scripts: each is one sentence with what is allowed, no traceback, and no file is lost."""
 
+import base64
 import csv
+import io
 import os
 import pathlib
 import pty
+import re
 import subprocess
 import tempfile
 import unittest
 
+import matplotlib.image
 import numpy as np
 import rosbag
 from mems_stiction.msg import StictionPrediction
@@ -190,9 +194,25 @@ class SlipTest(unittest.TestCase):
 
     def test_on_a_terminal_a_long_work_says_what_it_is_at(self):
         np.save(str(self.folder / "large.npy"), np.random.RandomState(1).normal(0.0, 2e-9, (2500, 2500)).astype(np.float32))
+        shown = self.shown_on_a_terminal("predict_scan", "--cleanings", "--pitch", "20e-9", "large.npy")
+        self.assertIn(b"large.npy: predicting under each cleaning, ", shown)
+        self.assertTrue(shown.endswith(b"\r\x1b[K"), shown[-60:])  # nothing is left on the line
+
+    def test_on_a_terminal_a_pdf_says_that_it_is_being_written(self):
+        self.assertIn(b"writing r.pdf: ", self.shown_on_a_terminal("stiction_report", "--pdf", "--steps", "0", "-o", "r.html", "scan.npy"))
+
+    def test_a_picture_of_one_cleaning_step_is_not_blown_up(self):
+        (self.folder / "clean.yaml").write_text("preprocessing: {level: plane}\n")
+        done = self.run_it("stiction_report", "-c", "clean.yaml", "-o", "r.html", "scan.npy")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        width, png = re.search(r'what the step changed" style="max-width: (\d+)px" src="data:image/png;base64,([^"]+)"', (self.folder / "r.html").read_text()).groups()
+        self.assertEqual(int(width), matplotlib.image.imread(io.BytesIO(base64.b64decode(png))).shape[1])
+
+    def shown_on_a_terminal(self, name, *arguments):
+        """What a program that succeeds writes there on its standard error."""
         ours, theirs = pty.openpty()
-        process = subprocess.Popen([find_node("mems_stiction", "predict_scan")[0], "--cleanings", "--pitch", "20e-9", "large.npy"], cwd=str(self.folder),
-                                   stdout=subprocess.DEVNULL, stderr=theirs, stdin=subprocess.DEVNULL)
+        process = subprocess.Popen([find_node("mems_stiction", name)[0]] + list(arguments), cwd=str(self.folder), stdout=subprocess.DEVNULL,
+                                   stderr=theirs, stdin=subprocess.DEVNULL)
         os.close(theirs)
         shown = b""
         try:
@@ -205,8 +225,7 @@ class SlipTest(unittest.TestCase):
             pass
         os.close(ours)
         self.assertEqual(process.wait(timeout=120), 0, shown)
-        self.assertIn(b"large.npy: predicting under each cleaning, ", shown)
-        self.assertTrue(shown.endswith(b"\r\x1b[K"), shown[-60:])  # nothing is left on the line
+        return shown
 
 
 if __name__ == "__main__":
