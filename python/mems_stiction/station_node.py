@@ -73,7 +73,7 @@ def no_node(what, name, timeout):
     except (OSError, rosgraph.MasterError):
         services = []
     nodes = sorted(service.rsplit("/", 1)[0] for service in services if service.endswith("/solve_half_space"))
-    found = "; there is %s (--node)" % ", ".join(nodes) if nodes else ""
+    found = " There is %s (--node)" % ", ".join(nodes) if nodes else ""
     return "no %s %s for %g s: is the node running under that name?%s" % (what, name, timeout, found)
 
 

@@ -136,6 +136,7 @@ class SlipTest(unittest.TestCase):
             bag.write("/left/prediction", StictionPrediction())
         self.assert_refused("--topic: no prediction on '/left/predicton'; they are on /left/prediction", "export_predictions", "-o", "a.csv",
                             "--topic", "/left/predicton", "day.bag")
+        self.assert_refused("--output: /dev/full cannot be written: No space left on device", "export_predictions", "-o", "/dev/full", "day.bag")
 
     def test_settings_that_are_no_yaml_say_what_they_are(self):
         (self.folder / "tab.yaml").write_text("interface:\n\twork_of_adhesion: 0.05\n")
