@@ -135,6 +135,13 @@ CurveFiles curveFilesOf(const Arguments& arguments) {
   return {"", arguments.curve + arguments.formulation_curve};
 }
 
+/// Under another name nobody could open it.
+void requireTiff(const std::string& option, const std::string& path) {
+  const std::string kind = std::filesystem::path(path).extension().string();
+  if (path.empty() || kind == ".tiff" || kind == ".tif") return;
+  throw OptionsError({option + ": '" + path + "' is not allowed, must end in .tiff or .tif"});
+}
+
 /// @throw OptionsError for an output that cannot be written, or that is one of the inputs
 void requireOutputs(const Arguments& arguments) {
   std::vector<std::string> inputs = arguments.scans;
@@ -145,13 +152,8 @@ void requireOutputs(const Arguments& arguments) {
                                  {"--curve", arguments.curve},
                                  {"--formulation-curve", arguments.formulation_curve}});
   for (const auto& [option, path] : outputs) requireOutput(option, path, inputs);
-}
-
-/// Under another name nobody could open it.
-void requireTiff(const std::string& option, const std::string& path) {
-  const std::string kind = std::filesystem::path(path).extension().string();
-  if (path.empty() || kind == ".tiff" || kind == ".tif") return;
-  throw OptionsError({option + ": '" + path + "' is not allowed, must end in .tiff or .tif"});
+  requireTiff("--deformed", arguments.deformed);
+  for (const auto& [option, path] : arguments.half_space_maps.wanted()) requireTiff(option, path);
 }
 
 /// The configuration file with the command line's values in it.
@@ -167,13 +169,11 @@ Configuration configurationOf(const Arguments& arguments) {
         std::make_pair("--formulation-curve", arguments.formulation_curve)}) {
     if (!path.empty()) requireOneScan(arguments, option, path);
   }
-  requireTiff("--deformed", arguments.deformed);
   for (const auto& [option, path] : arguments.half_space_maps.wanted()) {
     if (!arguments.half_space) {
       throw OptionsError({option + ": only the half-space has it; give --half-space too"});
     }
     requireOneScan(arguments, option, path);
-    requireTiff(option, path);
   }
   return configuration;
 }
