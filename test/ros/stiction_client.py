@@ -1,6 +1,7 @@
 """What the rostests share: scans to send, predictions to wait for, diagnostics to read."""
 
 import json
+import math
 import os
 import pathlib
 import subprocess
@@ -213,7 +214,7 @@ def unlike(message, record, leaving_out=()):
             expected = [(point["displacement"], point["force"], point["is_separation"]) for point in expected]
         elif isinstance(expected, str):
             expected = expected.replace(",", ";")  # no text of a message breaks the columns of rostopic echo
-        if not (value != value if expected is None else value == expected):
+        if not (not math.isfinite(value) if expected is None else value == expected):  # JSON has neither NaN nor infinity
             found.append((name, value, expected))
 
     for name, expected in record.items():
