@@ -13,7 +13,7 @@ import rospy
 import rostest
 from mems_stiction.msg import (CycleContactAction, CycleContactGoal, HalfSpaceSolution, PartVerdict, StictionPrediction,
                                SweepLoadAction, SweepLoadGoal)
-from mems_stiction.page_words import flags_of, ratio_text, with_unit
+from mems_stiction.page_words import VERDICTS, flags_of, ratio_text, with_unit
 from mems_stiction.quantities import percent
 from roslib.packages import find_node
 from stiction_client import Collector, Counts, Station, Traffic, image_message, info_message, rough_surface, wait_until
