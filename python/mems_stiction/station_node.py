@@ -1,13 +1,13 @@
 """How a command line becomes a node: without a master it gives up in time, what it is to write can be written, and what others
 say reaches no terminal as a control character."""
 
-import os
 import sys
 import time
 
 import rosgraph
 import rospy
 from mems_stiction.prediction_text import printable
+from mems_stiction.whole_file import check_writable
 
 
 class Printable:
@@ -50,12 +50,8 @@ def require_writable(option, path):
     """Before a long run, not after it."""
     if not path:
         return
-    is_new = not os.path.exists(path)
     try:
-        with open(path, "ab"):
-            pass
-        if is_new:
-            os.remove(path)
+        check_writable(path)
     except OSError as error:
         raise CannotRun("%s: %s cannot be written: %s" % (option, path, error.strerror or error))
 

@@ -1,5 +1,7 @@
 """What scripts/soak does to a running node: soak.py PID MINUTES SEED."""
 
+import mems_stiction.interrupted  # noqa: F401  (before what is slow to import)
+
 import os
 import random
 import sys
