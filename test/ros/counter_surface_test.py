@@ -65,6 +65,13 @@ class CounterSurfaceTest(unittest.TestCase):
         counts.wait(counter_surfaces=3)
         station.send(surface)
         counts.wait(received=5, predicted=3, rejected=2)
+        # Their numbers and stamps are a sequence of their own.
+        counts.wait(missing_by_sequence=0, stamps_not_increasing=0)
+        # Half of one is no counter-surface, and that is said too.
+        counter.height.publish(image_message(surface, counter.stamp()))
+        counts.wait(counter_surfaces=3, counter_surfaces_rejected=2, received=5)
+        self.assertIn("rejected the counter-surface", counts["last_reason"])
+        self.assertIn("no scan_info with the stamp of the scan came", counts.reasons()[-1])
 
     def test_2_a_sweep_keeps_its_counter_surface_while_others_arrive(self):
         sweep = actionlib.SimpleActionClient("stiction_node/sweep_load", SweepLoadAction)

@@ -66,6 +66,9 @@ class FiguresTest(unittest.TestCase):
         cls.surfaces = [rough_surface(seed, rms_height=rms) for seed, rms in ((1, 2e-9), (2, 4e-9), (3, 8e-9))]
         cls.surfaces[2][3:9, 5] = np.nan
 
+    def setUp(self):
+        self.counts.wait(received=self.station.count(), waiting=0)  # what the test before has sent is through
+
     def assert_same(self, message, expected, leaving_out=()):
         self.assertEqual(unlike(message, expected, leaving_out), [])
 

@@ -12,7 +12,7 @@ import rospy
 import rostest
 from actionlib_msgs.msg import GoalStatus
 from diagnostic_msgs.msg import DiagnosticStatus
-from mems_stiction.msg import StictionPrediction, SweepLoadAction, SweepLoadGoal
+from mems_stiction.msg import HalfSpaceAction, HalfSpaceGoal, StictionPrediction, SweepLoadAction, SweepLoadGoal
 from mems_stiction.srv import Predict, SetLoad
 from stiction_client import (Collector, Counts, Station, image_message, info_message, predict_scan, rough_surface, settings_of, unlike,
                              wait_until)
@@ -48,8 +48,7 @@ class SlowScansTest(unittest.TestCase):
         """Sends one that takes LIMIT and returns when it has certainly begun, which is so late [s of monotonic()]."""
         begun = time.monotonic()
         self.station.send(self.rough)
-        wait_until(lambda: self.counts["waiting"] == "1" and self.counts["waiting_for_worker"] == "0"
-                   and self.counts["waiting_for_partner"] == "0", "the scan to be at hand")
+        self.counts.wait(received=self.station.count(), waiting=1, waiting_for_worker=0)
         return begun
 
     def test_1_it_is_counted_with_its_reason_and_the_next_one_is_predicted(self):
@@ -89,7 +88,13 @@ class SlowScansTest(unittest.TestCase):
             for message in waited:
                 self.assertEqual(unlike(message, expected), [])
             change(LOAD)
+            self.counts.wait(received=self.station.count(), waiting=0)
+            self.assertGreater(float(self.counts["max_latency [s]"]), 0.5 * LIMIT)
+            self.assertLess(float(self.counts["max_latency [s]"]), 10 * LIMIT)
+            self.assertLess(float(self.counts["last_processing_time [s]"]), 0.5 * LIMIT)
         self.assert_next_is_predicted()
+        self.counts.wait(received=self.station.count(), waiting=0)
+        self.assertLess(float(self.counts["last_latency [s]"]), 0.5 * LIMIT)
 
     def test_4_a_long_run_takes_its_scan_between_two_others(self):
         """The cleaning of a given scan, and the last one, belong to the thread that predicts."""
@@ -103,6 +108,27 @@ class SlowScansTest(unittest.TestCase):
             self.assertTrue(sweep.wait_for_result(rospy.Duration(30)))
             self.assertEqual(sweep.get_state(), GoalStatus.SUCCEEDED, sweep.get_result().message)
             self.assertGreater(time.monotonic() - begun, 0.9 * LIMIT)
+
+    def test_5_a_half_space_rests_while_a_scan_is_predicted(self):
+        action = actionlib.SimpleActionClient("stiction_node/half_space", HalfSpaceAction)
+        self.assertTrue(action.wait_for_server(rospy.Duration(30)))
+        surface = rough_surface(1, rows=256, cols=256, rms_height=5e-10)  # near bonding: seconds, with a word every 50 ms or so
+        feedback = []
+        action.send_goal(HalfSpaceGoal(height=image_message(surface, rospy.Time(9)), scan_info=info_message(rospy.Time(9)), voltage=0.0,
+                                       mechanical_load=LOAD), feedback_cb=feedback.append)
+        wait_until(lambda: len(feedback) > 1, "progress")
+        before = len(feedback)
+        rospy.sleep(0.7 * LIMIT)
+        free = len(feedback) - before
+        begun = self.while_a_scan_is_at_hand()
+        rospy.sleep(begun + 0.25 * LIMIT - time.monotonic())
+        before = len(feedback)
+        rospy.sleep(begun + 0.95 * LIMIT - time.monotonic())
+        held = len(feedback) - before
+        # A tenth of the time stays with it.
+        self.assertLess(held, 0.4 * free)
+        action.cancel_goal()
+        self.assertTrue(action.wait_for_result(rospy.Duration(30)))
 
 
 if __name__ == "__main__":

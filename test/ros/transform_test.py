@@ -177,6 +177,28 @@ class TransformTest(unittest.TestCase):
                     counter_surface={"type": "gaussian", "pose": {"offset_x": x, "offset_y": y}}))
                 self.assertEqual(unlike(predictions.wait(second - 3000)[-1], expected), [])
 
+    def test_7_a_counter_surface_comes_behind_the_scan_that_waits(self):
+        surface, counters = rough_surface(7), [rough_surface(8), rough_surface(9)]
+        with OwnNode("behind", **{"counter_surface/type": "topic", "counter_surface/frame": "behind", "counter_surface/transform_timeout": 10.0}):
+            counts = Counts("behind/node")
+            predictions = Collector("/behind/prediction", StictionPrediction).connect()
+            station, counter_station = Station("/behind/"), Station("/behind/counter_")
+            counter_station.send(counters[0])
+            counts.wait(counter_surfaces=1)
+            station._second = 4000
+            station.send(surface)  # 4001 and 4002, which have no transform yet
+            station.send(surface)
+            counts.wait(waiting_for_transform=2)
+            counter_station.send(counters[1])
+            counts.wait(waiting_for_transform=3, counter_surfaces=1)
+            station.send(surface)
+            counts.wait(waiting_for_transform=4)
+            for second in (4001, 4002, 4003):
+                self.moving.publish(TFMessage([transform("scan", "behind", rospy.Time(second), 0.0, 0.0, (0.0, 0.0, 0.0, 1.0))]))
+            for prediction, counter in zip(predictions.wait(3), (counters[0], counters[0], counters[1])):
+                self.assertEqual(unlike(prediction, predict_scan(surface, 1e-6, counter=counter), ["settings_hash"]), [])
+            counts.wait(counter_surfaces=2, waiting_for_transform=0, received=3, predicted=3)
+
 
 if __name__ == "__main__":
     rostest.rosrun("mems_stiction", "transform", TransformTest)
