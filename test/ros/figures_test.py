@@ -3,6 +3,7 @@
 
 import pathlib
 import unittest
+import warnings
 
 import actionlib
 import dynamic_reconfigure.client
@@ -118,13 +119,20 @@ class FiguresTest(unittest.TestCase):
             self.assert_same(prediction, record(counts * step + low))
         self.counts.wait(rejected=0, dropped=0)
 
-    def test_2_the_pitch_along_columns_is_not_that_along_rows(self):
+    def test_2_the_pitch_along_columns_is_not_that_along_rows_and_warnings_are_the_same(self):
         prediction = self.live(self.surfaces[0], pitch_x=2e-8, pitch_y=1e-8)
         config = settings_of(DEVICE_STATION)
         expected = mems_stiction.predict(self.surfaces[0], pitch=(2e-8, 1e-8), config=config)
         for name in ("pull_off_force", "contact_area", "approach", "nominal_area", "rms_height"):
             self.assertEqual(getattr(prediction, name), getattr(expected, name), name)
         self.assertEqual(prediction.roughness.sdq, expected.roughness.sdq)
+        answer = self.predict(image_message(self.surfaces[0], rospy.Time(7)), info_message(rospy.Time(7)), 0.0, 1e-3)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            expected = mems_stiction.predict(self.surfaces[0], PITCH, config=settings_of(DEVICE_STATION, {"load/mechanical_load": 1e-3}))
+        self.assertTrue(any("more than the hardness" in text for text in expected.warnings), expected.warnings)
+        self.assertEqual(answer.prediction.warnings, [text.replace(",", ";") for text in expected.warnings])
+        self.assertEqual(answer.message, "; ".join(expected.warnings))
 
     def test_3_services_under_traffic(self):
         loads = [(0.0, LOAD), (5.0, 2e-6), (-3.0, 0.0)]

@@ -43,6 +43,7 @@ class SlowScansTest(unittest.TestCase):
         prediction = self.predictions.wait(count + 1)[count]
         self.assertEqual(prediction.header.stamp, stamp)
         self.assertEqual(unlike(prediction, predict_scan(self.flat, load, settings=SETTINGS)), [])
+        self.assertTrue(any(text.startswith("approach/step 1e-21 m is outside the usual") for text in prediction.warnings))
 
     def while_a_scan_is_at_hand(self):
         """Sends one that takes LIMIT and returns when it has certainly begun, which is so late [s of monotonic()]."""
@@ -126,7 +127,7 @@ class SlowScansTest(unittest.TestCase):
         rospy.sleep(begun + 0.95 * LIMIT - time.monotonic())
         held = len(feedback) - before
         # A tenth of the time stays with it.
-        self.assertLess(held, 0.4 * free)
+        self.assertLessEqual(held, 0.2 * free)
         action.cancel_goal()
         self.assertTrue(action.wait_for_result(rospy.Duration(30)))
 

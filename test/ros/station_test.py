@@ -2,6 +2,7 @@
 """The test station's part: actions with progress and cancel beside live scans, and settings that change in one place."""
 
 import math
+import threading
 import time
 import unittest
 
@@ -121,6 +122,30 @@ class StationTest(unittest.TestCase):
             self.assertEqual(answer["hamaker_constant"], 65e-21, refused)
         load = self.get_load()
         self.assertEqual((load.voltage, load.mechanical_load), (3.0, LOAD))
+        self.assertTrue(self.set_load(0.0, LOAD).success)
+
+    def test_3b_a_load_that_is_set_meanwhile_takes_no_other_setting_back(self):
+        self.live(rough_surface(1, rows=256, cols=256))  # predicted twice for each new load
+        is_over = threading.Event()
+
+        def set_loads():
+            load = 0
+            while not is_over.is_set():
+                load += 1
+                self.assertTrue(self.set_load(0.0, LOAD + 1e-12 * (load % 7)).success)
+
+        setter = threading.Thread(target=set_loads)
+        setter.start()
+        try:
+            for number in range(40):
+                work = 0.05 + 0.001 * (number % 5 + 1)
+                self.assertEqual(self.settings.update_configuration({"work_of_adhesion": work})["work_of_adhesion"], work)
+                time.sleep(0.01)
+                self.assertEqual(self.settings.update_configuration({"hamaker_constant": 65e-21})["work_of_adhesion"], work)
+        finally:
+            is_over.set()
+            setter.join()
+        self.settings.update_configuration({"work_of_adhesion": 0.05})
         self.assertTrue(self.set_load(0.0, LOAD).success)
 
     def test_4_a_sweep_of_the_last_scan(self):
