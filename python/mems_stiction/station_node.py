@@ -6,6 +6,7 @@ import time
 
 import rosgraph
 import rospy
+from mems_stiction.interrupted import ignore_interruptions
 from mems_stiction.prediction_text import printable
 from mems_stiction.whole_file import check_writable
 
@@ -43,7 +44,12 @@ def become_node(name, timeout, **options):
             raise CannotRun("no ROS master at %s for %g s: is roscore or roslaunch running?" % (rosgraph.get_master_uri(), timeout))
         time.sleep(0.1)
     sys.stdout, sys.stderr = Printable(sys.stdout), Printable(sys.stderr)
-    rospy.init_node(name, anonymous=True, **options)
+    try:
+        rospy.init_node(name, anonymous=True, **options)
+    except rospy.ROSInitException:
+        if rospy.is_shutdown():
+            raise KeyboardInterrupt
+        raise
 
 
 def require_writable(option, path):
@@ -59,7 +65,9 @@ def require_writable(option, path):
 def run_program(program, main, status):
     """The whole of a script: main(), its exit status, and one line for what goes wrong on the way."""
     try:
-        sys.exit(main())
+        result = main()
     except (CannotRun, OSError) as error:
         print("%s: %s" % (program, " ".join(str(error).split())), file=sys.stderr)
         sys.exit(status)
+    ignore_interruptions()
+    sys.exit(result)

@@ -167,6 +167,37 @@ class StationScriptsTest(unittest.TestCase):
             self.assertLess(count, 800000)
             self.assertLess(len(output.splitlines()), 120)
 
+    def test_5_ctrl_c_all_over_a_program_leaves_one_line_and_no_half_file(self):
+        """While it loads, while it runs, and a second time while it ends."""
+        cases = [("sweep_load", ["--voltages", "0:40:0.001", "--csv", self.path("cut.csv"), "--plot", self.path("cut.png")]),
+                 ("cycle_contact", ["--count", "1000000", "--csv", self.path("cut.csv")]),
+                 ("print_predictions", []), ("plot_trend", ["--output", self.path("cut.png")]), ("plot_scan", ["--output", self.folder.name]),
+                 ("set_load", ["--voltage", "0"])]
+        for program, arguments in cases:
+            for begin, pause in ((0.6, None), (3.0, 0.01), (3.0, 0.5)) if program == "cycle_contact" else ((0.6, None), (3.0, 0.3)):
+                with self.subTest(program, begin=begin, pause=pause):
+                    process = start(program, *arguments)
+                    for seconds in (begin, pause):
+                        if seconds is not None and process.poll() is None:
+                            time.sleep(seconds)
+                            process.send_signal(signal.SIGINT)
+                    _, errors = process.communicate(timeout=30)
+                    self.assertNotIn("Traceback", errors)
+                    self.assertIn(process.returncode, (-signal.SIGINT, DONE, CANCELLED), errors)
+                    if process.returncode == -signal.SIGINT:
+                        self.assertEqual(errors.splitlines()[-1], program + ": interrupted")
+                    self.assertEqual([name for name in os.listdir(self.folder.name) if ".part" in name], [])
+                    if os.path.exists(self.path("cut.csv")):
+                        with open(self.path("cut.csv")) as stream:
+                            lines = stream.read().split("\n")
+                        self.assertEqual(lines[-1], "")
+                        self.assertEqual({line.count(",") for line in lines[:-1]}, {lines[0].count(",")})
+                        os.remove(self.path("cut.csv"))
+                    if os.path.exists(self.path("cut.png")):
+                        with open(self.path("cut.png"), "rb") as stream:
+                            self.assertTrue(stream.read().endswith(b"IEND\xaeB`\x82"))
+                        os.remove(self.path("cut.png"))
+
 
 if __name__ == "__main__":
     rostest.rosrun("mems_stiction", "station_scripts", StationScriptsTest)
