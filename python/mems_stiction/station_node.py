@@ -6,7 +6,7 @@ import time
 
 import rosgraph
 import rospy
-from mems_stiction.interrupted import ignore_interruptions
+from mems_stiction import interrupted
 from mems_stiction.prediction_text import printable
 from mems_stiction.whole_file import check_writable
 
@@ -65,9 +65,13 @@ def require_writable(option, path):
 def run_program(program, main, status):
     """The whole of a script: main(), its exit status, and one line for what goes wrong on the way."""
     try:
+        interrupted.raise_from_here_on()
         result = main()
+    except KeyboardInterrupt:
+        interrupted.ignore_from_here_on()
+        raise
     except (CannotRun, OSError) as error:
         print("%s: %s" % (program, " ".join(str(error).split())), file=sys.stderr)
         sys.exit(status)
-    ignore_interruptions()
+    interrupted.ignore_from_here_on()
     sys.exit(result)

@@ -12,9 +12,9 @@ import unittest
 import dynamic_reconfigure.client
 import rospy
 import rostest
-from mems_stiction.msg import StictionPrediction
+from mems_stiction.msg import CycleContactActionFeedback, StictionPrediction, SweepLoadActionFeedback
 from roslib.packages import find_node
-from stiction_client import Collector, Station, rough_surface
+from stiction_client import Collector, Station, rough_surface, wait_until
 
 DONE, CANCELLED, NOT_RUN = 0, 1, 2
 PNG = b"\x89PNG"
@@ -154,9 +154,12 @@ class StationScriptsTest(unittest.TestCase):
     def test_4_ctrl_c_ends_early_and_keeps_what_is_done(self):
         self.station.send(rough_surface(2, rows=128, cols=128))
         self.predictions.wait(2)
+        feedback = {"sweep_load": Collector("stiction_node/sweep_load/feedback", SweepLoadActionFeedback).connect(),
+                    "cycle_contact": Collector("stiction_node/cycle_contact/feedback", CycleContactActionFeedback).connect()}
         for program, arguments in (("sweep_load", ["--voltages", "0:40:0.0001"]), ("cycle_contact", ["--count", "1000000"])):
             process = start(program, *(arguments + ["--csv", self.path(program + ".csv")]))
-            time.sleep(4.0)
+            del feedback[program].messages[:]
+            feedback[program].wait(3)
             process.send_signal(signal.SIGINT)
             output, errors = process.communicate(timeout=30)
             self.assertEqual(process.returncode, CANCELLED, errors)
@@ -167,6 +170,16 @@ class StationScriptsTest(unittest.TestCase):
             self.assertLess(count, 800000)
             self.assertLess(len(output.splitlines()), 120)
 
+    def wait_until_it_loads(self, process):
+        """Python itself has begun and takes SIGINT; then the program says what becomes of it, and loads the rest."""
+        def takes_signal():
+            with open("/proc/%d/status" % process.pid) as stream:
+                caught = [line for line in stream if line.startswith("SigCgt")]
+            return bool(caught) and bool(int(caught[0].split()[1], 16) >> (signal.SIGINT - 1) & 1)
+
+        wait_until(takes_signal, "Python")
+        wait_until(lambda: process.poll() is not None or not takes_signal(), "the program")
+
     def test_5_ctrl_c_all_over_a_program_leaves_one_line_and_no_half_file(self):
         """While it loads, while it runs, and a second time while it ends."""
         cases = [("sweep_load", ["--voltages", "0:40:0.001", "--csv", self.path("cut.csv"), "--plot", self.path("cut.png")]),
@@ -174,9 +187,10 @@ class StationScriptsTest(unittest.TestCase):
                  ("print_predictions", []), ("plot_trend", ["--output", self.path("cut.png")]), ("plot_scan", ["--output", self.folder.name]),
                  ("set_load", ["--voltage", "0"])]
         for program, arguments in cases:
-            for begin, pause in ((0.6, None), (3.0, 0.01), (3.0, 0.5)) if program == "cycle_contact" else ((0.6, None), (3.0, 0.3)):
+            for begin, pause in ((0.0, None), (3.0, 0.01), (3.0, 0.5)) if program == "cycle_contact" else ((0.0, None), (3.0, 0.3)):
                 with self.subTest(program, begin=begin, pause=pause):
                     process = start(program, *arguments)
+                    self.wait_until_it_loads(process)
                     for seconds in (begin, pause):
                         if seconds is not None and process.poll() is None:
                             time.sleep(seconds)
@@ -184,7 +198,7 @@ class StationScriptsTest(unittest.TestCase):
                     _, errors = process.communicate(timeout=30)
                     self.assertNotIn("Traceback", errors)
                     self.assertIn(process.returncode, (-signal.SIGINT, DONE, CANCELLED), errors)
-                    if process.returncode == -signal.SIGINT:
+                    if errors and process.returncode == -signal.SIGINT:
                         self.assertEqual(errors.splitlines()[-1], program + ": interrupted")
                     self.assertEqual([name for name in os.listdir(self.folder.name) if ".part" in name], [])
                     if os.path.exists(self.path("cut.csv")):

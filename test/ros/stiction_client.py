@@ -33,7 +33,7 @@ def wait_until(condition, what, timeout=TIMEOUT):
     while not condition():
         if time.monotonic() > end:
             raise AssertionError("waited %g s in vain for %s" % (timeout, what))
-        time.sleep(0.02)
+        time.sleep(0.005)
 
 
 def rough_surface(seed, rows=48, cols=64, rms_height=5e-9):
