@@ -35,7 +35,8 @@ CHANGED = {
 BEAM = {"device/beam_type": "cantilever", "device/beam_length": 100e-6, "device/beam_thickness": 2e-6, "device/beam_gap": 2e-6,
         "device/beam_modulus": 160e9}
 CASES = [{key: value} for key, value in CHANGED.items()] + [
-    {"load/mechanical_load": 0.0, "load/pressure": 5e6}, {"load/mechanical_load": 0.0, "load/device_force": 2e-5}, BEAM,
+    {"load/mechanical_load": 0.0, "load/pressure": 5e6}, {"load/mechanical_load": 0.0, "load/device_force": 2e-5},
+    {"load/mechanical_load": 0.0, "load/device_force": 2e-5, "device/contact_area": 3e-12}, BEAM,
     dict(BEAM, **{"device/beam_residual_stress": 1e6})]
 
 
@@ -148,11 +149,11 @@ class FiguresTest(unittest.TestCase):
                 answers.append(set_mechanical_load(load))
                 self.assertEqual((answers[-1].prediction.voltage, answers[-1].prediction.mechanical_load), (voltage, load))
                 self.predictions.wait(len(self.predictions.messages) + 3)
-                for index, surface in enumerate(self.surfaces):
-                    answer = self.predict(image_message(surface, rospy.Time(7)), info, voltage, load)
+                for index, asked in expected:  # whatever load is set
+                    answer = self.predict(image_message(self.surfaces[index], rospy.Time(7)), info, *asked)
                     self.assertTrue(answer.success, answer.message)
                     self.assertEqual(answer.prediction.header.stamp, rospy.Time(7))
-                    self.assert_same(answer.prediction, expected[index, (voltage, load)])
+                    self.assert_same(answer.prediction, expected[index, asked])
                 answers.append(self.set_load(voltage, load))
         self.set_load(0.0, LOAD)
         wait_until(lambda: self.predictions.messages[-1].header.stamp == max(traffic.sent), "the last prediction")
