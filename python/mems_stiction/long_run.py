@@ -13,6 +13,7 @@ from actionlib import CommState, TerminalState
 from mems_stiction.csv_text import csv_cell
 from mems_stiction.provenance import FIELDS as PROVENANCE
 from mems_stiction.station_node import CannotRun, no_node
+from mems_stiction.whole_file import whole
 
 DONE, CANCELLED, NOT_RUN = 0, 1, 2  # exit statuses
 MOST_NUMBERS = 1000000  # of a range; the node takes no more
@@ -95,7 +96,7 @@ def write_csv(messages, path, result):
     .msg file."""
     names = messages[0].__slots__ if messages else []
     origin = [getattr(result, name) for name in PROVENANCE]
-    with open(str(path), "w", encoding="utf-8", newline="") as stream:
+    with whole(path) as part, open(str(part), "w", encoding="utf-8", newline="") as stream:
         writer = csv.writer(stream, lineterminator="\n")
         writer.writerow(list(names) + list(PROVENANCE))
         for message in messages:

@@ -3,6 +3,7 @@
 Arrays are rows x columns, heights in metres, NaN where nothing was measured; row 0 is the top.
 """
 
+import pathlib
 import sys
 import textwrap
 
@@ -21,6 +22,7 @@ from mems_stiction.prediction_text import STATUS_NAMES, bound_of, digits_of, fla
 from mems_stiction import quantities  # noqa: E402
 from mems_stiction.provenance import sign  # noqa: E402
 from mems_stiction.quantities import length_scale, percent  # noqa: E402
+from mems_stiction.whole_file import whole  # noqa: E402
 
 # Elastic, elasto-plastic, fully plastic: told apart without red-green vision too.
 REGIMES = ((1, "elastic", "#2f7fd1"), (2, "elasto-plastic", "#f2b705"), (3, "plastic", "#d1322f"))
@@ -107,8 +109,20 @@ def save_picture(picture, path):
     draw_contacts(contact_axes, picture, section)
     _draw_section(figure.add_subplot(grid[2]), picture, section)
     sign(figure, picture.prediction)
-    figure.savefig(path)
-    plt.close(figure)
+    save(figure, path)
+
+
+def save(figure, target):
+    """Writes a figure to a file, which is whole or absent, or as PNG to a stream, and closes it."""
+    try:
+        if hasattr(target, "write"):
+            figure.savefig(target)
+        else:
+            path = pathlib.Path(target)
+            with whole(path if path.suffix else path.with_suffix(".png")) as part:
+                figure.savefig(str(part))
+    finally:
+        plt.close(figure)
 
 
 def _caption(picture):

@@ -3,7 +3,7 @@
 import math
 import textwrap
 
-from mems_stiction.plots import plt, widen, with_unit
+from mems_stiction.plots import plt, save, widen, with_unit
 from mems_stiction.prediction_text import contact_area_of
 from mems_stiction.provenance import sign
 from mems_stiction.quantities import prefix_for, typeset
@@ -47,8 +47,7 @@ def save_sweep(result, path):
     figure.legend(handles=keys, loc="lower center", ncol=columns, fontsize=9.5, frameon=False,
                   bbox_to_anchor=(0.5, (0.27 + LINE * (len(texts) + (1 if texts else 0))) / height))
     sign(figure, result)
-    figure.savefig(str(path))
-    plt.close(figure)
+    save(figure, path)
 
 
 def _largest(jumps):
@@ -207,5 +206,4 @@ def save_cycles(result, path):
         axes.grid(color="#dddddd", linewidth=0.6)
         axes.set_axisbelow(True)
     sign(figure, result)
-    figure.savefig(str(path))
-    plt.close(figure)
+    save(figure, path)

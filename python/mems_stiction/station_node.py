@@ -1,14 +1,15 @@
 """How a command line becomes a node: without a master it gives up in time, what it is to write can be written, and what others
 say reaches no terminal as a control character."""
 
-import os
 import sys
 import time
 import urllib.parse
 
 import rosgraph
 import rospy
+from mems_stiction import interrupted
 from mems_stiction.prediction_text import printable
+from mems_stiction.whole_file import check_writable
 
 
 class Printable:
@@ -63,7 +64,12 @@ def become_node(name, timeout, **options):
             is_told = True
         time.sleep(0.1)
     sys.stdout, sys.stderr = Printable(sys.stdout), Printable(sys.stderr)
-    rospy.init_node(name, anonymous=True, **options)
+    try:
+        rospy.init_node(name, anonymous=True, **options)
+    except rospy.ROSInitException:
+        if rospy.is_shutdown():
+            raise KeyboardInterrupt
+        raise
 
 
 def no_node(what, name, timeout):
@@ -81,12 +87,8 @@ def require_writable(option, path):
     """Before a long run, not after it."""
     if not path:
         return
-    is_new = not os.path.exists(path)
     try:
-        with open(path, "ab"):
-            pass
-        if is_new:
-            os.remove(path)
+        check_writable(path)
     except OSError as error:
         raise CannotRun("%s: %s cannot be written: %s" % (option, path, error.strerror or error))
 
@@ -94,7 +96,13 @@ def require_writable(option, path):
 def run_program(program, main, status):
     """The whole of a script: main(), its exit status, and one line for what goes wrong on the way."""
     try:
-        sys.exit(main())
+        interrupted.raise_from_here_on()
+        result = main()
+    except KeyboardInterrupt:
+        interrupted.ignore_from_here_on()
+        raise
     except (CannotRun, OSError) as error:
         print("%s: %s" % (program, " ".join(str(error).split())), file=sys.stderr)
         sys.exit(status)
+    interrupted.ignore_from_here_on()
+    sys.exit(result)

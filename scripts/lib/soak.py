@@ -1,5 +1,7 @@
 """What scripts/soak does to a running node: soak.py PID MINUTES SEED."""
 
+from mems_stiction import interrupted  # before what is slow to import
+
 import os
 import random
 import sys
@@ -225,4 +227,5 @@ def main(pid, minutes, seed):
 
 
 if __name__ == "__main__":
+    interrupted.raise_from_here_on()
     sys.exit(main(int(sys.argv[1]), int(sys.argv[2]), int(sys.argv[3])))

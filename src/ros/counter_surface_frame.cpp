@@ -28,8 +28,9 @@ SurfacePose poseOf(const geometry_msgs::Transform& transform) {
   // turn = tilt x twist about the counter-surface's own normal.
   pose.rotation = std::remainder(2.0 * std::atan2(turn.z(), turn.w()), 2.0 * kPi);
   // The plane's slopes; atan2 gives more than a right angle for one that faces away.
-  pose.tilt_x = std::atan2(-normal.x(), normal.z());
-  pose.tilt_y = std::atan2(-normal.y(), normal.z());
+  // None is 0, not -0, which would be written otherwise and be other settings.
+  pose.tilt_x = 0.0 - std::atan2(normal.x(), normal.z());
+  pose.tilt_y = 0.0 - std::atan2(normal.y(), normal.z());
   if (!(std::abs(pose.tilt_x) < kLargestTilt && std::abs(pose.tilt_y) < kLargestTilt)) {
     throw SurfaceError("the transform tilts the counter-surface by " + numberText(pose.tilt_x) + ", " +
                        numberText(pose.tilt_y) + " rad along x, y; must be in (-1.5, 1.5)");

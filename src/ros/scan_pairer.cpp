@@ -66,7 +66,7 @@ void ScanPairer::rejectIf(Topic<Message>& topic, Topic<Other>& other, const Pred
   }
 }
 
-/// - @p pair takes the partner, the number of the message on its topic and that of the partner
+/// - @p pair takes the partner
 template <typename Message, typename Other, typename Pair>
 void ScanPairer::add(const Message& message, ros::WallTime now, Topic<Message>& topic, Topic<Other>& other,
                      const Pair& pair) {
@@ -90,37 +90,28 @@ void ScanPairer::add(const Message& message, ros::WallTime now, Topic<Message>& 
     return;
   }
   const Other partner = found->message;
-  const std::uint64_t partner_arrival = found->arrival;
   other.waiting.erase(found);
-  pair(partner, arrival, partner_arrival);
+  pair(partner);
 }
 
-void ScanPairer::pair(const sensor_msgs::ImageConstPtr& image, std::uint64_t image_arrival,
-                      const ScanInfoConstPtr& info, std::uint64_t info_arrival, ros::WallTime now) {
+void ScanPairer::pair(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info, ros::WallTime now) {
   if (!several_publishers_ && !went_back_) {
-    const auto isOlderThan = [&image](std::uint64_t arrival) {
-      return [&image, arrival](const auto& waiting) {
-        return waiting.arrival < arrival && waiting.message->header.stamp < image->header.stamp;
-      };
-    };
+    // Whatever waits came since stamps went back last, so that the older one came before.
+    const auto is_older = [&image](const auto& waiting) { return waiting.message->header.stamp < image->header.stamp; };
     const std::vector<ros::Time> images = stampsOf(images_.waiting);
     const std::string when = " before a newer pair";
-    rejectIf(images_, infos_, isOlderThan(image_arrival), when, stampsOf(infos_.waiting), now);
-    rejectIf(infos_, images_, isOlderThan(info_arrival), when, images, now);
+    rejectIf(images_, infos_, is_older, when, stampsOf(infos_.waiting), now);
+    rejectIf(infos_, images_, is_older, when, images, now);
   }
   accept_(image, info);
 }
 
 void ScanPairer::add(const sensor_msgs::ImageConstPtr& image, ros::WallTime now) {
-  add(image, now, images_, infos_, [&](const auto& info, std::uint64_t arrival, std::uint64_t info_arrival) {
-    pair(image, arrival, info, info_arrival, now);
-  });
+  add(image, now, images_, infos_, [&](const auto& info) { pair(image, info, now); });
 }
 
 void ScanPairer::add(const ScanInfoConstPtr& info, ros::WallTime now) {
-  add(info, now, infos_, images_, [&](const auto& image, std::uint64_t arrival, std::uint64_t image_arrival) {
-    pair(image, image_arrival, info, arrival, now);
-  });
+  add(info, now, infos_, images_, [&](const auto& image) { pair(image, info, now); });
 }
 
 void ScanPairer::expire(ros::WallTime now) {

@@ -50,7 +50,7 @@ class FullDiskTest(unittest.TestCase):
     def test_a_batch_says_so_and_goes_on_when_there_is_room(self):
         self.leave(32768)
         done = self.batch()
-        self.assertNotEqual(done.returncode, 0)
+        self.assertEqual(done.returncode, 2)
         self.assertIn("No space left on device", done.stderr)
         written = (self.disk / "rows.csv").read_text()
         (self.disk / "fill").unlink()
@@ -66,7 +66,7 @@ class FullDiskTest(unittest.TestCase):
         self.leave(4096)
         done = self.run_program(find_node("mems_stiction", "predict_scan")[0], "--config", self.config, "--curve",
                                 self.disk / "curve.csv", self.scans[0])
-        self.assertNotEqual(done.returncode, 0)
+        self.assertEqual(done.returncode, 2)
         self.assertRegex(done.stderr, r"curve\.csv: cannot be written: No space left on device\n$")
         self.assertEqual([path.name for path in self.disk.iterdir()], ["fill"])
 
@@ -74,7 +74,7 @@ class FullDiskTest(unittest.TestCase):
         self.leave(4096)
         done = self.run_program(SCRIPTS / "stiction_report", "--config", self.config, "-o", self.disk / "report.html",
                                 self.scans[0])
-        self.assertNotEqual(done.returncode, 0)
+        self.assertEqual(done.returncode, 2)
         self.assertIn("No space left on device", done.stderr)
         self.assertFalse((self.disk / "report.html").exists())
 

@@ -1,5 +1,6 @@
 """What the picture of a sweep says: the bands, the safe voltage, the jumps with their causes, where it comes from."""
 
+import io
 import math
 import unittest
 from types import SimpleNamespace
@@ -40,7 +41,7 @@ def texts_of(result):
         drawn["lines"] = [line.get_xdata()[0] for line in figure.axes[-1].lines if len(set(line.get_xdata())) == 1]
 
     with mock.patch("matplotlib.figure.Figure.savefig", autospec=True, side_effect=keep):
-        station_figures.save_sweep(result, "unused.png")
+        station_figures.save_sweep(result, io.BytesIO())
     return drawn
 
 

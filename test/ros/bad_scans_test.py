@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 """Bad scans between good ones: each is counted with its reason, and the good ones go on."""
 
+import time
 import unittest
 
 import numpy as np
 import rospy
 import rostest
-from mems_stiction.msg import ScanInfo, StictionPrediction
+from mems_stiction.msg import StictionPrediction
+from rosgraph_msgs.msg import Log
 from stiction_client import Collector, Counts, Station, figures, image_message, info_message, rough_surface, wait_until
 
 
@@ -110,6 +112,21 @@ class BadScansTest(unittest.TestCase):
             if second == 6000:
                 missing = int(counts["missing_by_sequence"])  # a new publisher counts anew
         self.assertEqual(int(counts["missing_by_sequence"]), missing + 3)
+
+    def test_4_warnings_that_differ_in_their_figures_are_of_one_kind(self):
+        log = Collector("/rosout", Log)
+        counts = Counts()
+        station = Station()
+        wait_until(lambda: counts["received"] != "", "diagnostics")
+        rejected = int(counts["rejected"])
+        for number in range(1, 4):
+            image = image_message(rough_surface(1), rospy.Time(7000 + number))
+            image.data = image.data[:-4 * number]
+            station.height.publish(image)
+            station.info.publish(info_message(image.header.stamp))
+            counts.wait(rejected=rejected + number)
+        time.sleep(0.5)
+        self.assertLessEqual(len([message for message in log.messages if "data has" in message.msg]), 1)
 
 
 if __name__ == "__main__":

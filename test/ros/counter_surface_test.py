@@ -10,7 +10,8 @@ import rostest
 from actionlib_msgs.msg import GoalStatus
 from mems_stiction.msg import StictionPrediction, SweepLoadAction, SweepLoadGoal
 from sensor_msgs.msg import Image
-from stiction_client import Collector, Counts, Station, Traffic, figures, image_message, info_message, predict_scan, rough_surface
+from stiction_client import (Collector, Counts, Station, Traffic, figures, image_message, info_message, predict_scan,
+                             rough_surface, unlike)
 
 LOAD = 1e-6
 
@@ -46,6 +47,8 @@ class CounterSurfaceTest(unittest.TestCase):
         rough = predictions.wait(2)[1]
         self.assertEqual(rough.status, StictionPrediction.EQUILIBRIUM)
         self.assertLess(rough.contact_fraction, mated.contact_fraction)
+        for prediction, other in ((mated, surface), (rough, rough_surface(2))):
+            self.assertEqual(unlike(prediction, predict_scan(surface, LOAD, counter=other), ["settings_hash"]), [])
         self.assertAlmostEqual(rough.composite_rms_height, 5e-9 * np.sqrt(2.0), delta=1e-11)
 
         # A bad one is counted by itself and leaves the good one where it is.
@@ -62,6 +65,13 @@ class CounterSurfaceTest(unittest.TestCase):
         counts.wait(counter_surfaces=3)
         station.send(surface)
         counts.wait(received=5, predicted=3, rejected=2)
+        # Their numbers and stamps are a sequence of their own.
+        counts.wait(missing_by_sequence=0, stamps_not_increasing=0)
+        # Half of one is no counter-surface, and that is said too.
+        counter.height.publish(image_message(surface, counter.stamp()))
+        counts.wait(counter_surfaces=3, counter_surfaces_rejected=2, received=5)
+        self.assertIn("rejected the counter-surface", counts["last_reason"])
+        self.assertIn("no scan_info with the stamp of the scan came", counts.reasons()[-1])
 
     def test_2_a_sweep_keeps_its_counter_surface_while_others_arrive(self):
         sweep = actionlib.SimpleActionClient("stiction_node/sweep_load", SweepLoadAction)
@@ -71,12 +81,19 @@ class CounterSurfaceTest(unittest.TestCase):
         self.assertNotEqual(expected[0], expected[1])
         stamp = rospy.Time(3)
         goal = SweepLoadGoal(voltages=[0.0], height=image_message(surface, stamp), scan_info=info_message(stamp))
-        with Traffic(Station("counter_"), counters), Traffic(Station(), [rough_surface(14)]):
+        live = rough_surface(14)
+        records = [predict_scan(live, LOAD, counter=counter) for counter in counters]
+        predictions = Collector("prediction", StictionPrediction).connect()
+        with Traffic(Station("counter_"), counters), Traffic(Station(), [live]):
             for _ in range(30):
                 sweep.send_goal(goal)
                 self.assertTrue(sweep.wait_for_result(rospy.Duration(30)), "no answer in half a minute")
                 self.assertEqual(sweep.get_state(), GoalStatus.SUCCEEDED, sweep.get_result().message)
                 self.assertIn(sweep.get_result().points[0].pull_off_force, expected)
+        # The first may still have met the counter-surface of the test before.
+        met = [[unlike(prediction, record, ["settings_hash"]) == [] for record in records] for prediction in predictions.messages[5:]]
+        self.assertEqual({sum(one) for one in met}, {1}, "each prediction is that of one of the two")
+        self.assertEqual([any(column) for column in zip(*met)], [True, True])
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 
 import signal
 import subprocess
+import sys
 import unittest
 
 import rosgraph
@@ -10,7 +11,18 @@ import rospy
 import rostest
 from mems_stiction.msg import StictionPrediction
 from roslib.packages import find_node
-from stiction_client import Collector, Counts, Station, image_message, info_message, rough_surface, wait_until
+from stiction_client import Collector, Counts, OwnNode, Station, image_message, info_message, rough_surface, wait_until
+
+# A process of its own that publishes images, and none at all.
+PUBLISHER = """
+import sys, rospy
+from sensor_msgs.msg import Image
+rospy.init_node("publisher", anonymous=True)
+images = rospy.Publisher(sys.argv[1], Image, queue_size=1)
+while images.get_num_connections() == 0: rospy.sleep(0.01)
+print("connected", flush=True)
+rospy.spin()
+"""
 
 
 class FaultsTest(unittest.TestCase):
@@ -64,6 +76,28 @@ class FaultsTest(unittest.TestCase):
         # Before any stamp went back, the first that crosses may pass for lost.
         self.assertGreaterEqual(figures["predicted"], sent - 1, figures)
         self.assertEqual(len(predictions.messages), figures["predicted"])
+
+    def test_images_cross_before_any_stamp_goes_back_where_others_publish_too(self):
+        with OwnNode("crossing"):
+            counts = Counts("crossing/node")
+            predictions = Collector("/crossing/prediction", StictionPrediction).connect()
+            station = Station("/crossing/")
+            other = subprocess.Popen([sys.executable, "-c", PUBLISHER, "/crossing/height"], stdout=subprocess.PIPE)
+            try:
+                self.assertEqual(other.stdout.readline(), b"connected\n")
+                surface = rough_surface(1)
+                for scan in range(20):
+                    stamps = [rospy.Time(1000 + scan), rospy.Time(2000 + scan)]
+                    for stamp in stamps:
+                        station.height.publish(image_message(surface, stamp))
+                    counts.wait(waiting_for_partner=2)
+                    for stamp in reversed(stamps):  # the older image waits on while the newer pair passes
+                        station.info.publish(info_message(stamp))
+                counts.wait(received=40, predicted=40, rejected=0, dropped=0)
+                self.assertEqual(len({message.header.stamp for message in predictions.wait(40)}), 40)
+            finally:
+                other.kill()
+                other.wait()
 
 
 if __name__ == "__main__":

@@ -8,6 +8,7 @@ import unittest
 
 import actionlib
 import dynamic_reconfigure.client
+import mems_stiction
 import numpy as np
 import rosgraph
 import rosnode
@@ -20,15 +21,15 @@ from mems_stiction.msg import (HalfSpaceAction, HalfSpaceFeedback, HalfSpaceGoal
 from mems_stiction.srv import SetLoad, SolveHalfSpace, SolveHalfSpaceRequest
 from sensor_msgs.msg import Image
 from stiction_client import (PITCH, Collector, Station, Traffic, image_message, info_message, predict_scan, rough_surface,
-                             wait_until)
+                             settings_of, wait_until)
 
 LOAD = 1e-6
 WORDS = {getattr(HalfSpaceSolution, word): word
          for word in ("SOLVED", "LOAD_NOT_REACHED", "NOT_CONVERGED", "TOO_MANY_STATES", "CANCELLED", "REFUSED")}
 WAYS = {HalfSpacePoint.APPROACH: "APPROACH", HalfSpacePoint.RETRACTION: "RETRACTION"}
 # As in the launch file.
-DEVICE = ("device: {spring_stiffness: 1.0, travel: 1.0e-6, contact_area: 1.0e-12, beam_type: cantilever, beam_length: 100.0e-6, "
-          "beam_thickness: 2.0e-6, beam_gap: 2.0e-6, beam_modulus: 160.0e+9}\n")
+DEVICE = dict(spring_stiffness=1.0, travel=1e-6, contact_area=1e-12, beam_type="cantilever", beam_length=100e-6,
+              beam_thickness=2e-6, beam_gap=2e-6, beam_modulus=160e9)
 STICKS = {"no": StictionPrediction.STICKS_NO, "marginal": StictionPrediction.STICKS_MARGINAL, "yes": StictionPrediction.STICKS_YES,
           "unknown": StictionPrediction.STICKS_UNKNOWN}
 VERDICT = ("margin", "margin_lower", "margin_upper", "peel_number", "peel_number_lower", "peel_number_upper")
@@ -43,7 +44,7 @@ def slow_surface():
 
 def record_of(surface, load=LOAD, voltage=0.0):
     """The half-space's figures, and under "verdict" the verdict."""
-    record = predict_scan(surface, load, voltage, arguments=["--half-space"], more=DEVICE)
+    record = predict_scan(surface, load, voltage, arguments=["--half-space"], settings=settings_of(device=DEVICE))
     return dict(record["half_space"], verdict={name: record[name] for name in VERDICT + ("sticks", "reason", "verdict_by")})
 
 
@@ -185,12 +186,21 @@ class HalfSpaceTest(unittest.TestCase):
         loads = (LOAD, 3e-6)
         expected = {(index, load): record_of(surface, load) for index, surface in enumerate(surfaces) for load in loads}
         first = len(self.solutions.messages)
+        solved_by_calls = []
         with Traffic(self.station, surfaces, period=0.005) as traffic:
             for load in loads * 3:
                 self.assertTrue(self.set_load(0.0, load).success)
                 count = len(self.solutions.messages)
                 self.solutions.wait(count + 4)
-                self.assertTrue(self.solve(SolveHalfSpaceRequest(voltage=math.nan, mechanical_load=load)).success)
+                given = len(solved_by_calls) % len(surfaces)
+                state, result, _ = self.run_goal(self.asked(HalfSpaceGoal, surfaces[given], mechanical_load=load))
+                self.assertEqual(state, GoalStatus.SUCCEEDED, result.message)
+                self.assert_solved_as(result.solution, expected[given, load])
+                state, result, _ = self.run_goal(HalfSpaceGoal(voltage=math.nan, mechanical_load=load))
+                self.assertEqual(state, GoalStatus.SUCCEEDED, result.message)
+                answer = self.solve(SolveHalfSpaceRequest(voltage=math.nan, mechanical_load=load))
+                self.assertTrue(answer.success, answer.message)
+                solved_by_calls += [result.solution, answer.solution]
         self.assertTrue(self.set_load(0.0, LOAD).success)
         wait_until(lambda: len(self.predictions.messages) and
                    self.predictions.messages[-1].header.stamp == max(traffic.sent), "the last prediction")
@@ -203,6 +213,7 @@ class HalfSpaceTest(unittest.TestCase):
             prediction = predictions[solution.header.stamp]
             self.assertEqual(solution.mechanical_load, prediction.mechanical_load)
             self.assertEqual(solution.header.frame_id, prediction.header.frame_id)
+        for solution in solutions + solved_by_calls:
             index = [sent is traffic.sent[solution.header.stamp] for sent in surfaces].index(True)
             self.assert_solved_as(solution, expected[index, solution.mechanical_load])
         self.assertEqual({solution.mechanical_load for solution in solutions}, set(loads))
@@ -256,9 +267,8 @@ class HalfSpaceTest(unittest.TestCase):
         for message in (single, both, curve, of_prediction):
             self.assertEqual(message.header.stamp, solution.header.stamp)
         self.assertEqual((single.encoding, single.height, single.width), ("mono8", 48, 64))
-        cells = np.frombuffer(single.data, np.uint8)
-        self.assertTrue(set(cells) <= {0, 1, 3})
-        self.assertAlmostEqual(np.count_nonzero(cells) * PITCH**2 / solution.contact_area, 1.0, delta=1e-9)
+        expected = mems_stiction.half_space(surface, PITCH, config=settings_of(device=DEVICE))
+        self.assertEqual(bytes(single.data), expected.contact_map.tobytes())
         for picture in (both, curve, of_prediction):
             self.assertEqual((picture.encoding, picture.height, picture.width), ("bgr8", 600, 1000))
 

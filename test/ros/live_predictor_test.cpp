@@ -114,6 +114,10 @@ TEST(LivePredictor, AccumulatedDeformationIsTheNextScansSurface) {
       fresh.predict(HeightMap(first.deformed_lower, scan.surface.pitchX(), scan.surface.pitchY()));
   EXPECT_NEAR(second.pull_off_force, expected.pull_off_force, 1e-9 * expected.pull_off_force);
   EXPECT_NE(second.approach, first.approach) << "first touch is another now";
+  // The third meets the marks of both.
+  predictor.predictScan(scan, OutputOptions());
+  EXPECT_LT(cv::norm(predictor.lastSurface().heights(), second.deformed_lower, cv::NORM_INF), 1e-21);
+  EXPECT_GT(cv::norm(second.deformed_lower, first.deformed_lower, cv::NORM_INF), 1e-12);
 
   predictor.resetSurface();
   expectSame(predictor.predictScan(scan, OutputOptions()), first_scan);

@@ -14,7 +14,7 @@ import rospy
 import rostest
 from mems_stiction.msg import (CycleContactAction, CycleContactGoal, HalfSpaceSolution, PartVerdict, StictionPrediction,
                                SweepLoadAction, SweepLoadGoal)
-from mems_stiction.page_words import flags_of, judge_word, ratio_text, with_unit
+from mems_stiction.page_words import VERDICTS, flags_of, judge_word, ratio_text, with_unit
 from mems_stiction.provenance import provenance_words
 from mems_stiction.quantities import percent
 from roslib.packages import find_node
@@ -149,8 +149,8 @@ class PageTest(unittest.TestCase):
         self.assertIn("scan %d: Rejected the scan" % (shown + 1), self.page.text("#losses"))
         self.page.wait("document.querySelector('#diagnostics').innerText.includes('rejected\\t1')")
         self.page.wait("document.querySelector('#link').className === 'ok'", timeout=10)  # of the report that counted it, 'warn'
-        self.live(rough_surface(4))
-        self.assertNotEqual(self.page.text("#word"), "NOT PREDICTED")
+        prediction = self.live(rough_surface(4))
+        self.assertEqual(self.page.text("#word"), VERDICTS[prediction.sticks][1])
 
     def test_6_names_are_text_and_never_markup(self):
         self.live(rough_surface(5), HOSTILE)

@@ -1,5 +1,8 @@
 #include "mems_stiction/ros/scan_accounting.hpp"
 
+#include <map>
+#include <string>
+
 #include <diagnostic_msgs/DiagnosticStatus.h>
 #include <gtest/gtest.h>
 
@@ -66,6 +69,38 @@ TEST(ScanAccounting, APauseInWhichTheProcessDidNotRunIsSaid) {
   EXPECT_EQ(levelAfter(0.02), diagnostic_msgs::DiagnosticStatus::OK);
   EXPECT_EQ(levelAfter(1.2), diagnostic_msgs::DiagnosticStatus::WARN);
   EXPECT_EQ(levelAfter(0.02), diagnostic_msgs::DiagnosticStatus::OK);
+}
+
+TEST(ScanAccounting, TellsWhatBecameOfEachScan) {
+  ScanAccounting accounting(ros::WallDuration(5.0), ros::WallDuration(1.0));
+  std_msgs::Header header;
+  for (int scan = 0; scan < 10; ++scan) accounting.received();
+  accounting.predicted(0.5, 0.1);
+  accounting.predicted(2.0, 0.2);
+  accounting.predicted(1.0, 0.3);
+  accounting.dropped(header, "too many");
+  accounting.dropped(header, "too many");
+  accounting.rejected(header, "no pitch");
+  accounting.counterSurfaceAccepted();
+  diagnostic_updater::DiagnosticStatusWrapper status;
+  accounting.report(status);
+  std::map<std::string, std::string> values;
+  for (const auto& entry : status.values) values[entry.key] = entry.value;
+  const std::map<std::string, std::string> expected = {
+      {"received", "10"},
+      {"predicted", "3"},
+      {"dropped", "2"},
+      {"rejected", "1"},
+      {"waiting", "4"},
+      {"counter_surfaces", "1"},
+      {"last_latency [s]", "1"},
+      {"max_latency [s]", "2"},
+      {"last_processing_time [s]", "0.3"},
+      {"last_reason", "rejected the scan of stamp 0.000000000: no pitch"}};
+  for (const auto& [key, value] : expected) EXPECT_EQ(values[key], value) << key;
+  EXPECT_EQ(status.level, diagnostic_msgs::DiagnosticStatus::WARN);
+  accounting.report(status);
+  EXPECT_EQ(status.level, diagnostic_msgs::DiagnosticStatus::OK);
 }
 
 }  // namespace

@@ -11,8 +11,9 @@ import rostest
 import yaml
 from mems_stiction.msg import ScanInfo, StictionPrediction
 from mems_stiction.srv import GetLoad, Predict, SetLoad, SetMechanicalLoad, SetVoltage
+from rosgraph_msgs.msg import Log
 from std_srvs.srv import Trigger
-from stiction_client import Collector, Counts, Station, figures, image_message, info_message, rough_surface
+from stiction_client import Collector, Counts, Station, figures, image_message, info_message, rough_surface, wait_until
 
 LOAD = 1e-6
 
@@ -22,6 +23,7 @@ class ServicesTest(unittest.TestCase):
     def setUpClass(cls):
         rospy.init_node("services_test")
         cls.counts = Counts()
+        cls.log = Collector("/rosout", Log)
         for name in ("set_load", "get_load", "predict", "reset_surface"):
             rospy.wait_for_service("stiction_node/" + name, timeout=30.0)
         cls.set_load = rospy.ServiceProxy("stiction_node/set_load", SetLoad)
@@ -151,6 +153,14 @@ class ServicesTest(unittest.TestCase):
         self.assertTrue(answer.success)
         self.assertIn("taken for metres", answer.message)
         self.assertTrue(any("taken for metres" in text for text in answer.prediction.warnings))
+        # A live one has the same in its message, and in the log.
+        stamp = self.station.stamp()
+        self.station.height.publish(image_message(counts, stamp, "mono8"))
+        self.station.info.publish(info_message(stamp))
+        wait_until(lambda: self.predictions.messages[-1].header.stamp == stamp, "the prediction")
+        self.assertEqual(self.predictions.messages[-1].warnings, answer.prediction.warnings)
+        wait_until(lambda: any(message.level == Log.WARN and message.msg.startswith("the scan of stamp %d.000000000: " % stamp.secs)
+                               and "taken for metres" in message.msg for message in self.log.messages), "a warning in the log")
 
     def test_4_predict_equals_the_topic_bit_for_bit_and_leaves_no_trace(self):
         surface = rough_surface(4)

@@ -2,6 +2,7 @@
 """The example station script as a station runs it: a bag, steps of voltage, an exit status."""
 
 import os
+import signal
 import subprocess
 import tempfile
 import unittest
@@ -76,6 +77,23 @@ class StationCheckTest(unittest.TestCase):
             self.assertEqual(done.returncode, NOT_MADE, done.stdout)
             self.assertIn(reason, done.stderr)
             self.assert_load_is_put_back()
+
+    def test_ctrl_c_puts_the_load_back_too(self):
+        voltages = ",".join("%g" % (0.001 * step) for step in range(1, 20001))
+        process = subprocess.Popen([find_node("mems_stiction", "station_check")[0], "--bag", self.bag, "--voltages", voltages, "--load", "2e-6",
+                                    "--max-pull-off-force", "1e-3"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL,
+                                   universal_newlines=True)
+        self.addCleanup(process.kill)
+        lines = [process.stdout.readline() for _ in range(5)]
+        self.assertRegex(lines[-1], r"V .*  ok\n$")
+        load = rospy.ServiceProxy("stiction_node/get_load", GetLoad)()
+        self.assertGreater(load.voltage, 0.0)
+        self.assertEqual(load.mechanical_load, 2e-6)
+        process.send_signal(signal.SIGINT)
+        output, errors = process.communicate(timeout=30)
+        self.assertEqual((process.returncode, errors), (-signal.SIGINT, "station_check: interrupted\n"))
+        self.assertNotIn("PASS", output)
+        self.assert_load_is_put_back()
 
     def test_a_check_without_a_limit_is_refused(self):
         done = self.run_check()

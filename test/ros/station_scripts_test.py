@@ -12,9 +12,9 @@ import unittest
 import dynamic_reconfigure.client
 import rospy
 import rostest
-from mems_stiction.msg import StictionPrediction
+from mems_stiction.msg import CycleContactActionFeedback, StictionPrediction, SweepLoadActionFeedback
 from roslib.packages import find_node
-from stiction_client import Collector, Station, rough_surface
+from stiction_client import Collector, Station, rough_surface, wait_until
 
 DONE, CANCELLED, NOT_RUN = 0, 1, 2
 PNG = b"\x89PNG"
@@ -133,12 +133,12 @@ class StationScriptsTest(unittest.TestCase):
 
     def test_3e_without_a_master_the_timeout_holds(self):
         environment = dict(os.environ, ROS_MASTER_URI="http://localhost:1")
-        for call in (["sweep_load", "--voltages", "0"], ["cycle_contact", "--count", "1"], ["set_load", "--voltage", "1"],
-                     ["print_predictions"]):
+        for call, status in ((["sweep_load", "--voltages", "0"], NOT_RUN), (["cycle_contact", "--count", "1"], NOT_RUN),
+                             (["set_load", "--voltage", "1"], 1), (["print_predictions"], 1)):
             begin = time.monotonic()
             done = subprocess.run([find_node("mems_stiction", call[0])[0]] + call[1:] + ["--timeout", "0.5"], env=environment,
                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True, timeout=60)
-            self.assertNotEqual(done.returncode, 0)
+            self.assertEqual(done.returncode, status)
             self.assertIn("no ROS master at http://localhost:1", done.stderr)
             self.assertNotIn("Traceback", done.stderr)
             self.assertLess(time.monotonic() - begin, 30.0)  # a loaded machine starts Python slowly
@@ -154,9 +154,12 @@ class StationScriptsTest(unittest.TestCase):
     def test_4_ctrl_c_ends_early_and_keeps_what_is_done(self):
         self.station.send(rough_surface(2, rows=128, cols=128))
         self.predictions.wait(2)
+        feedback = {"sweep_load": Collector("stiction_node/sweep_load/feedback", SweepLoadActionFeedback).connect(),
+                    "cycle_contact": Collector("stiction_node/cycle_contact/feedback", CycleContactActionFeedback).connect()}
         for program, arguments in (("sweep_load", ["--voltages", "0:40:0.0001"]), ("cycle_contact", ["--count", "1000000"])):
             process = start(program, *(arguments + ["--csv", self.path(program + ".csv")]))
-            time.sleep(4.0)
+            del feedback[program].messages[:]
+            feedback[program].wait(3)
             process.send_signal(signal.SIGINT)
             output, errors = process.communicate(timeout=30)
             self.assertEqual(process.returncode, CANCELLED, errors)
@@ -166,6 +169,48 @@ class StationScriptsTest(unittest.TestCase):
             self.assertGreater(count, 0)
             self.assertLess(count, 800000)
             self.assertLess(len(output.splitlines()), 120)
+
+    def wait_until_it_loads(self, process):
+        """Python itself has begun and takes SIGINT; then the program says what becomes of it, and loads the rest."""
+        def takes_signal():
+            with open("/proc/%d/status" % process.pid) as stream:
+                caught = [line for line in stream if line.startswith("SigCgt")]
+            return bool(caught) and bool(int(caught[0].split()[1], 16) >> (signal.SIGINT - 1) & 1)
+
+        wait_until(takes_signal, "Python")
+        wait_until(lambda: process.poll() is not None or not takes_signal(), "the program")
+
+    def test_5_ctrl_c_all_over_a_program_leaves_one_line_and_no_half_file(self):
+        """While it loads, while it runs, and a second time while it ends."""
+        cases = [("sweep_load", ["--voltages", "0:40:0.001", "--csv", self.path("cut.csv"), "--plot", self.path("cut.png")]),
+                 ("cycle_contact", ["--count", "1000000", "--csv", self.path("cut.csv")]),
+                 ("print_predictions", []), ("plot_trend", ["--output", self.path("cut.png")]), ("plot_scan", ["--output", self.folder.name]),
+                 ("set_load", ["--voltage", "0"])]
+        for program, arguments in cases:
+            for begin, pause in ((0.0, None), (3.0, 0.01), (3.0, 0.5)) if program == "cycle_contact" else ((0.0, None), (3.0, 0.3)):
+                with self.subTest(program, begin=begin, pause=pause):
+                    process = start(program, *arguments)
+                    self.wait_until_it_loads(process)
+                    for seconds in (begin, pause):
+                        if seconds is not None and process.poll() is None:
+                            time.sleep(seconds)
+                            process.send_signal(signal.SIGINT)
+                    _, errors = process.communicate(timeout=30)
+                    self.assertNotIn("Traceback", errors)
+                    self.assertIn(process.returncode, (-signal.SIGINT, DONE, CANCELLED), errors)
+                    if errors and process.returncode == -signal.SIGINT:
+                        self.assertEqual(errors.splitlines()[-1], program + ": interrupted")
+                    self.assertEqual([name for name in os.listdir(self.folder.name) if ".part" in name], [])
+                    if os.path.exists(self.path("cut.csv")):
+                        with open(self.path("cut.csv")) as stream:
+                            lines = stream.read().split("\n")
+                        self.assertEqual(lines[-1], "")
+                        self.assertEqual({line.count(",") for line in lines[:-1]}, {lines[0].count(",")})
+                        os.remove(self.path("cut.csv"))
+                    if os.path.exists(self.path("cut.png")):
+                        with open(self.path("cut.png"), "rb") as stream:
+                            self.assertTrue(stream.read().endswith(b"IEND\xaeB`\x82"))
+                        os.remove(self.path("cut.png"))
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 """What the rostests share: scans to send, predictions to wait for, diagnostics to read."""
 
 import json
+import math
 import os
 import pathlib
 import subprocess
@@ -19,6 +20,11 @@ from sensor_msgs.msg import Image
 PITCH = 10e-9
 NODE_KEYS = ("diagnostic_period", "pairing_timeout")  # of station.yaml, which the command line does not have
 TIMEOUT = 30.0
+STATION = pathlib.Path(__file__).with_name("station.yaml")
+# The words of a record's enumerations as the message has them: NON_BONDING is REGIME_NON_BONDING.
+WORDS = {"status": "", "bonding_regime": "REGIME_", "contact_theory": "THEORY_", "sticks": "STICKS_"}
+# Of a record alone: its file. And of both, what is not the surface's.
+NOT_COMPARED = ("file", "rows", "cols", "pitch_x", "pitch_y", "regime_flag_names", "processing_time")
 
 
 def wait_until(condition, what, timeout=TIMEOUT):
@@ -27,7 +33,7 @@ def wait_until(condition, what, timeout=TIMEOUT):
     while not condition():
         if time.monotonic() > end:
             raise AssertionError("waited %g s in vain for %s" % (timeout, what))
-        time.sleep(0.02)
+        time.sleep(0.005)
 
 
 def rough_surface(seed, rows=48, cols=64, rms_height=5e-9):
@@ -146,6 +152,10 @@ class Station:
         self._second += 1
         return rospy.Time(self._second)
 
+    def count(self):
+        """How many stamps were given."""
+        return self._second - 1000
+
     def send(self, heights, **info):
         stamp = self.stamp()
         self.height.publish(image_message(heights, stamp))
@@ -158,25 +168,63 @@ def _write_grid(path, heights):
     path.write_text("".join(" ".join(repr(float(height)) for height in row) + "\n" for row in heights))
 
 
-def predict_scan(heights, load, voltage=0.0, counter=None, arguments=(), more=""):
-    """The record of the command line for the same heights [m] at the rostests' settings, counter-surface [m] or none.
+def settings_of(station=STATION, changes=None, **more):
+    """The settings of a rostest's node as the command line takes them, with others in their place.
 
-    more: lines of settings beside them.
+    changes: values by their whole keys, "device/travel"; more: whole sections.
+    """
+    settings = {key: value for key, value in yaml.safe_load(station.read_text()).items() if key not in NODE_KEYS}
+    settings.update(more)
+    for key, value in (changes or {}).items():
+        section, name = key.split("/")
+        settings.setdefault(section, {})[name] = value
+    return settings
+
+
+def predict_scan(heights, load, voltage=0.0, counter=None, arguments=(), settings=None):
+    """The record of the command line for the same heights [m], at the settings of station.yaml or those that are given, counter-surface [m] or
+    none. Loads that are None are those of the settings.
     """
     program = find_node("mems_stiction", "predict_scan")[0]
-    config = (pathlib.Path(__file__).parent / "station.yaml").read_text()
-    config = "".join(line + "\n" for line in config.splitlines() if line.split(":")[0] not in NODE_KEYS) + more
+    settings = dict(settings_of() if settings is None else settings)
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         _write_grid(folder / "scan.txt", heights)
         if counter is not None:
             _write_grid(folder / "counter.txt", counter)
-            config += "counter_surface: {type: file, file: %s}\nscan: {pitch_x: %r, pitch_y: %r}\n" % (
-                folder / "counter.txt", PITCH, PITCH)
-        (folder / "config.yaml").write_text(config)
-        done = subprocess.run([program, "--json", "--config", folder / "config.yaml", "--pitch", repr(PITCH), "--load", repr(load),
-                               "--voltage", repr(voltage), *arguments, folder / "scan.txt"], check=True, timeout=60, stdout=subprocess.PIPE)
+            settings.update(counter_surface={"type": "file", "file": str(folder / "counter.txt")},
+                            scan={"pitch_x": PITCH, "pitch_y": PITCH})
+        (folder / "config.yaml").write_text(yaml.safe_dump(settings))
+        given = [] if load is None else ["--load", repr(load)]
+        given += [] if voltage is None else ["--voltage", repr(voltage)]
+        done = subprocess.run([program, "--json", "--config", folder / "config.yaml", "--pitch", repr(PITCH), *given, *arguments,
+                               folder / "scan.txt"], check=True, timeout=60, stdout=subprocess.PIPE)
     return json.loads(done.stdout)
+
+
+def unlike(message, record, leaving_out=()):
+    """Names, figures of a StictionPrediction and figures of predict_scan's record wherever the two differ in any bit."""
+    found = []
+
+    def compare(name, value, expected):
+        if isinstance(expected, dict):
+            for key, inner in expected.items():
+                compare(key, getattr(value, key), inner)
+            return
+        if name in WORDS:
+            expected = getattr(StictionPrediction, WORDS[name] + expected.upper())
+        elif name == "curve":
+            value = [(point.displacement, point.force, bool(point.is_separation)) for point in value]
+            expected = [(point["displacement"], point["force"], point["is_separation"]) for point in expected]
+        elif isinstance(expected, str):
+            expected = expected.replace(",", ";")  # no text of a message breaks the columns of rostopic echo
+        if not (not math.isfinite(value) if expected is None else value == expected):  # JSON has neither NaN nor infinity
+            found.append((name, value, expected))
+
+    for name, expected in record.items():
+        if name not in NOT_COMPARED and name not in leaving_out:
+            compare(name, getattr(message, name), expected)
+    return found
 
 
 class OwnNode:
@@ -184,7 +232,7 @@ class OwnNode:
 
     def __init__(self, name, **more):
         self.name = name
-        for key, value in dict(yaml.safe_load((pathlib.Path(__file__).parent / "station.yaml").read_text()), **more).items():
+        for key, value in dict(yaml.safe_load(STATION.read_text()), **more).items():
             rospy.set_param("/%s/node/%s" % (name, key), value)
 
     def __enter__(self):

@@ -12,7 +12,8 @@ import rostest
 from geometry_msgs.msg import TransformStamped
 from mems_stiction.msg import StictionPrediction
 from mems_stiction.srv import Predict, SetLoad
-from stiction_client import Collector, Counts, Station, image_message, info_message, rough_surface
+from stiction_client import (Collector, Counts, OwnNode, Station, image_message, info_message, predict_scan, rough_surface,
+                             settings_of, unlike)
 from tf2_msgs.msg import TFMessage
 
 FIRST = dict(offset_x=4.0e-8, offset_y=-2.5e-8, rotation=0.4, tilt_x=0.002, tilt_y=-0.001)
@@ -162,6 +163,41 @@ class TransformTest(unittest.TestCase):
             rejected += 1
             self.counts.wait(rejected=rejected)
             self.assertIn("no frame_id" if not frame else "no stamp", self.counts["last_reason"])
+
+    def test_6_a_place_that_tf_states_is_that_of_the_command_line_to_the_bit(self):
+        surface = rough_surface(6)
+        with OwnNode("placed", **{"counter_surface/type": "gaussian", "counter_surface/frame": "placed"}):
+            predictions = Collector("/placed/prediction", StictionPrediction).connect()
+            station = Station("/placed/")
+            for second, x, y in ((3001, 37e-9, -12e-9), (3002, -5e-9, 0.0)):
+                self.moving.publish(TFMessage([transform("scan", "placed", rospy.Time(second), x, y, (0.0, 0.0, 0.0, 1.0))]))
+                station._second = second - 1
+                station.send(surface)
+                expected = predict_scan(surface, 1e-6, settings=settings_of(
+                    counter_surface={"type": "gaussian", "pose": {"offset_x": x, "offset_y": y}}))
+                self.assertEqual(unlike(predictions.wait(second - 3000)[-1], expected), [])
+
+    def test_7_a_counter_surface_comes_behind_the_scan_that_waits(self):
+        surface, counters = rough_surface(7), [rough_surface(8), rough_surface(9)]
+        with OwnNode("behind", **{"counter_surface/type": "topic", "counter_surface/frame": "behind", "counter_surface/transform_timeout": 10.0}):
+            counts = Counts("behind/node")
+            predictions = Collector("/behind/prediction", StictionPrediction).connect()
+            station, counter_station = Station("/behind/"), Station("/behind/counter_")
+            counter_station.send(counters[0])
+            counts.wait(counter_surfaces=1)
+            station._second = 4000
+            station.send(surface)  # 4001 and 4002, which have no transform yet
+            station.send(surface)
+            counts.wait(waiting_for_transform=2)
+            counter_station.send(counters[1])
+            counts.wait(waiting_for_transform=3, counter_surfaces=1)
+            station.send(surface)
+            counts.wait(waiting_for_transform=4)
+            for second in (4001, 4002, 4003):
+                self.moving.publish(TFMessage([transform("scan", "behind", rospy.Time(second), 0.0, 0.0, (0.0, 0.0, 0.0, 1.0))]))
+            for prediction, counter in zip(predictions.wait(3), (counters[0], counters[0], counters[1])):
+                self.assertEqual(unlike(prediction, predict_scan(surface, 1e-6, counter=counter), ["settings_hash"]), [])
+            counts.wait(counter_surfaces=2, waiting_for_transform=0, received=3, predicted=3)
 
 
 if __name__ == "__main__":

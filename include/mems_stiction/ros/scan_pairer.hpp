@@ -68,8 +68,7 @@ class ScanPairer {
 
   template <typename Message, typename Other, typename Pair>
   void add(const Message& message, ros::WallTime now, Topic<Message>& topic, Topic<Other>& other, const Pair& pair);
-  void pair(const sensor_msgs::ImageConstPtr& image, std::uint64_t image_arrival, const ScanInfoConstPtr& info,
-            std::uint64_t info_arrival, ros::WallTime now);
+  void pair(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info, ros::WallTime now);
   template <typename Message, typename Other, typename Predicate>
   void rejectIf(Topic<Message>& topic, Topic<Other>& other, const Predicate& is_lone, const std::string& when,
                 const std::vector<ros::Time>& partners, ros::WallTime now);

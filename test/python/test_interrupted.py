@@ -1,0 +1,159 @@
+"""Ctrl-C in the middle of each program: no traceback, the status of a signal, no file that only looks whole, what was there before stays."""
+
+import os
+import pathlib
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+import numpy as np
+from roslib.packages import find_node
+
+SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "scripts"
+OLD = "what was there before"
+
+
+def program(name):
+    return find_node("mems_stiction", name)[0]
+
+
+class InterruptedTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.inputs = pathlib.Path(folder.name)
+        cls.config = cls.inputs / "config.yaml"
+        cls.config.write_text("load: {mechanical_load: 1.0e-6}\nscan: {pitch_x: 1.0e-8, pitch_y: 1.0e-8}\n")
+        random = np.random.RandomState(1)
+        cls.scans = [cls.inputs / ("%d.npy" % number) for number in range(4)]
+        for scan in cls.scans:  # a large frame with relief of every length
+            np.save(str(scan), (random.normal(size=(2048, 2048)).cumsum(0).cumsum(1) * 1e-12).astype(np.float32))
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def interrupted(self, command, seconds):
+        """Status, output, errors of a program that gets Ctrl-C, as its whole group does from a terminal, and how long it took to end [s]."""
+        process = subprocess.Popen([str(part) for part in command], stdout=subprocess.PIPE, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL,
+                                   universal_newlines=True, start_new_session=True,
+                                   preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))
+        try:
+            process.wait(timeout=seconds)
+        except subprocess.TimeoutExpired:
+            os.killpg(process.pid, signal.SIGINT)
+        begin = time.monotonic()
+        output, errors = process.communicate(timeout=60)
+        self.assertNotIn("Traceback", errors)
+        return process.returncode, output, errors, time.monotonic() - begin
+
+    def whole_run(self, command):
+        """How long it takes when nobody interrupts it [s], and what it leaves behind, by name."""
+        begin = time.monotonic()
+        subprocess.run([str(part) for part in command], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, stdin=subprocess.DEVNULL,
+                       timeout=300)
+        seconds = time.monotonic() - begin
+        return seconds, {path.name: path.read_bytes() for path in self.folder.iterdir()}
+
+    def try_all_over(self, command, times=6, same_bytes=True):
+        """Interrupts a program all over its run; whatever carries a name of the whole run's files is one of them, or the one before."""
+        seconds, expected = self.whole_run(command)
+        interruptions = 0
+        for share in np.linspace(0.1, 0.95, times):
+            for name in expected:
+                (self.folder / name).write_text(OLD)
+            status, _, errors, _ = self.interrupted(command, share * seconds)
+            self.assertIn(status, (-signal.SIGINT, 0), errors)
+            interruptions += status != 0
+            found = {path.name: path.read_bytes() for path in self.folder.iterdir()}
+            self.assertEqual(set(found), set(expected), "share %g" % share)
+            for name, content in found.items():
+                if content != OLD.encode():
+                    self.assertEqual(content if same_bytes else len(content), expected[name] if same_bytes else len(expected[name]), name)
+        self.assertGreaterEqual(interruptions, times // 2)
+        return errors
+
+    def test_a_prediction_of_a_large_frame(self):
+        self.try_all_over([program("predict_scan"), "-c", self.config, "--curve", self.folder / "curve.csv", "-d", self.folder / "deformed.tiff",
+                           self.scans[0]])
+
+    def test_a_half_space(self):
+        """A minute of work."""
+        config = self.inputs / "fine.yaml"
+        config.write_text(self.config.read_text() + "half_space: {step: 0.01, max_states: 1000000}\n")
+        small = self.inputs / "small.npy"
+        np.save(str(small), np.load(str(self.scans[0]))[:512, :512])
+        for seconds in (0.3, 1.0, 3.5):
+            status, output, errors, took = self.interrupted(
+                [program("predict_scan"), "-c", config, "--half-space", "--half-space-pressure", self.folder / "pressure.tiff", "--curve",
+                 self.folder / "curve.csv", small], seconds)
+            self.assertEqual((status, output), (-signal.SIGINT, ""), errors)
+            self.assertLess(took, 20.0)
+            self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_a_bag_of_scans(self):
+        self.try_all_over([program("make_scan_bag"), "-o", self.folder / "scans.bag", "--pitch", "1e-8", *self.scans])
+
+    def test_a_batch_goes_on_with_nothing_lost_or_twice(self):
+        small = []
+        for number, scan in enumerate(self.scans * 5):
+            small.append(self.inputs / ("batch%02d.npy" % number))
+            np.save(str(small[-1]), np.load(str(scan))[number:number + 512, :512])
+        for name in ("rows.csv", "rows.jsonl"):
+            command = [program("stiction_batch"), "-c", self.config, "--no-cache", "-o", self.folder / name, *small]
+            seconds, expected = self.whole_run(command)
+            for path in self.folder.iterdir():
+                path.unlink()
+            interruptions = 0
+            for share in (0.3, 0.4, 0.5, 0.3):
+                status, _, errors, _ = self.interrupted(command, share * seconds)
+                self.assertIn(status, (-signal.SIGINT, 0), errors)
+                interruptions += status != 0
+                rows = (self.folder / name).read_bytes() if (self.folder / name).exists() else b""
+                self.assertTrue(expected[name].startswith(rows))
+            self.assertGreater(interruptions, 1)
+            self.whole_run(command)
+            self.assertEqual({path.name: path.read_bytes() for path in self.folder.iterdir()}, expected)
+            for path in self.folder.iterdir():
+                path.unlink()
+
+    def test_a_report(self):
+        scan = self.inputs / "report.npy"
+        np.save(str(scan), np.load(str(self.scans[0]))[:128, :128])
+        before = set(os.listdir(tempfile.gettempdir()))
+        errors = self.try_all_over([SCRIPTS / "stiction_report", "-c", self.config, "-o", self.folder / "report.html", scan, self.scans[1]],
+                                   same_bytes=False)
+        left = {name for name in set(os.listdir(tempfile.gettempdir())) - before if name.startswith("stiction_report_")}
+        self.assertEqual(left, set())
+        if errors:
+            self.assertEqual(errors.splitlines()[-1], "stiction_report: interrupted")
+
+    def test_a_page_that_runs_until_it_is_stopped(self):
+        process = subprocess.Popen([str(SCRIPTS / "station_page"), "--port", "0"], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                   universal_newlines=True, env=dict(os.environ, ROS_MASTER_URI="http://localhost:1"),
+                                   preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))
+        self.assertIn("Ctrl-C ends it", process.stdout.readline())
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=30)
+        self.assertEqual((process.returncode, errors), (0, ""))
+
+    def test_a_soak(self):
+        build = pathlib.Path(program("stiction_node")).parents[3]
+        environment = dict(os.environ, MEMS_STICTION_BUILD=str(build))
+        for seconds in (3.0, 10.0):
+            process = subprocess.Popen([str(SCRIPTS / "soak"), "1"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True,
+                                       start_new_session=True, env=environment,
+                                       preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))
+            time.sleep(seconds)
+            os.killpg(process.pid, signal.SIGINT)
+            _, errors = process.communicate(timeout=60)  # with the pipes of node and master closed too
+            self.assertEqual(process.returncode, 130, errors)
+            self.assertNotIn("Traceback", errors)
+
+
+if __name__ == "__main__":
+    unittest.main()
