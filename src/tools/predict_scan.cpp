@@ -135,8 +135,10 @@ CurveFiles curveFilesOf(const Arguments& arguments) {
   return {"", arguments.curve + arguments.formulation_curve};
 }
 
-/// Under another name nobody could open it.
+/// Under another name nobody could open it. Devices and pipes have none.
 void requireTiff(const std::string& option, const std::string& path) {
+  std::error_code error;
+  if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error)) return;
   const std::string kind = std::filesystem::path(path).extension().string();
   if (path.empty() || kind == ".tiff" || kind == ".tif") return;
   throw OptionsError({option + ": '" + path + "' is not allowed, must end in .tiff or .tif"});

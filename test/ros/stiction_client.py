@@ -19,7 +19,8 @@ from sensor_msgs.msg import Image
 
 PITCH = 10e-9
 NODE_KEYS = ("diagnostic_period", "pairing_timeout")  # of station.yaml, which the command line does not have
-TIMEOUT = 30.0
+SANITIZER = os.environ.get("MEMS_STICTION_SANITIZER")  # of scripts/sanitize: memory that is freed stays, and all takes longer
+TIMEOUT = 30.0 if SANITIZER is None else 150.0
 STATION = pathlib.Path(__file__).with_name("station.yaml")
 # The words of a record's enumerations as the message has them: NON_BONDING is REGIME_NON_BONDING.
 WORDS = {"status": "", "bonding_regime": "REGIME_", "contact_theory": "THEORY_", "sticks": "STICKS_"}
