@@ -89,6 +89,7 @@ class Collector:
 
     def connect(self):
         wait_until(lambda: self._subscriber.get_num_connections() > 0, "a publisher of " + self._topic)
+        time.sleep(0.1)  # roscpp answers a listener before it counts it
         return self
 
     def close(self):
