@@ -16,7 +16,7 @@ from mems_stiction.msg import (AsperityArray, CycleContactAction, CycleContactGo
                                SweepLoadGoal)
 from mems_stiction.srv import Predict, SetLoad, SetMechanicalLoad, SetVoltage
 from sensor_msgs.msg import Image
-from stiction_client import (PITCH, Collector, Counts, OwnNode, Station, Traffic, image_message, info_message, predict_scan,
+from stiction_client import (PITCH, Collector, Counts, OwnNode, Station, Traffic, image_message, info_message, needs_module, predict_scan,
                              rough_surface, settings_of, unlike, wait_until)
 
 LOAD = 1e-6
@@ -120,6 +120,7 @@ class FiguresTest(unittest.TestCase):
             self.assert_same(prediction, record(counts * step + low))
         self.counts.wait(rejected=0, dropped=0)
 
+    @needs_module
     def test_2_the_pitch_along_columns_is_not_that_along_rows_and_warnings_are_the_same(self):
         prediction = self.live(self.surfaces[0], pitch_x=2e-8, pitch_y=1e-8)
         config = settings_of(DEVICE_STATION)
@@ -195,6 +196,7 @@ class FiguresTest(unittest.TestCase):
         self.assertEqual({message.settings_hash for message in sent}, set(expected))
         self.assertEqual(len(expected), len(CASES) + 1)
 
+    @needs_module
     def test_5_every_figure_of_both_actions_under_traffic(self):
         sweep = actionlib.SimpleActionClient("stiction_node/sweep_load", SweepLoadAction)
         cycle = actionlib.SimpleActionClient("stiction_node/cycle_contact", CycleContactAction)
@@ -232,6 +234,7 @@ class FiguresTest(unittest.TestCase):
             return given
         return [surface is traffic.sent[result.header.stamp] for surface in self.surfaces].index(True)
 
+    @needs_module
     def test_6_maps_and_contacts(self):
         maps = {name: Collector(name, kind).connect() for name, kind in
                 (("deformed_height", Image), ("deformed_counter_height", Image), ("contact_map", Image), ("asperities", AsperityArray))}

@@ -20,7 +20,7 @@ from mems_stiction.msg import (HalfSpaceAction, HalfSpaceFeedback, HalfSpaceGoal
                                StictionPrediction)
 from mems_stiction.srv import SetLoad, SolveHalfSpace, SolveHalfSpaceRequest
 from sensor_msgs.msg import Image
-from stiction_client import (PITCH, Collector, Station, Traffic, image_message, info_message, predict_scan, rough_surface,
+from stiction_client import (PITCH, Collector, Station, Traffic, image_message, info_message, needs_module, predict_scan, rough_surface,
                              settings_of, wait_until)
 
 LOAD = 1e-6
@@ -258,6 +258,7 @@ class HalfSpaceTest(unittest.TestCase):
         self.assertIn("work_of_adhesion", self.counts()[0]["last_failure"])
         self.assertEqual(self.live(surface).status, HalfSpaceSolution.SOLVED)
 
+    @needs_module
     def test_5_maps_and_pictures_are_there_for_listeners(self):
         topics = ("half_space_contact_map", "contact_maps", "half_space_curve", "force_curve")
         collectors = [Collector(topic, Image).connect() for topic in topics]

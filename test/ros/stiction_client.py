@@ -8,6 +8,7 @@ import subprocess
 import tempfile
 import threading
 import time
+import unittest
 
 import numpy as np
 import rospy
@@ -26,6 +27,13 @@ STATION = pathlib.Path(__file__).with_name("station.yaml")
 WORDS = {"status": "", "bonding_regime": "REGIME_", "contact_theory": "THEORY_", "sticks": "STICKS_"}
 # Of a record alone: its file. And of both, what is not the surface's.
 NOT_COMPARED = ("file", "rows", "cols", "pitch_x", "pitch_y", "regime_flag_names", "processing_time")
+
+try:
+    from mems_stiction import _core  # noqa: F401
+    HAS_MODULE = True
+except ImportError:
+    HAS_MODULE = False
+needs_module = unittest.skipUnless(HAS_MODULE, "the Python module is not built: MEMS_STICTION_WITH_PYTHON is off")
 
 
 def wait_until(condition, what, timeout=TIMEOUT):
