@@ -11,6 +11,7 @@ import time
 import actionlib
 import numpy as np
 import rospy
+from dynamic_reconfigure import DynamicReconfigureCallbackException
 from dynamic_reconfigure.client import Client
 from mems_stiction.msg import CycleContactAction, CycleContactGoal, ScanInfo, StictionPrediction, SweepLoadAction, SweepLoadGoal
 from mems_stiction.srv import GetLoad, Predict, SetLoad, SolveHalfSpace
@@ -124,7 +125,7 @@ class Callers:
                                       self._sweep_load if self._is_first else self._cycle_contact, self._reconfigure, self._listen])
         try:
             chosen()
-        except (rospy.ServiceException, rospy.ROSException):
+        except (rospy.ServiceException, rospy.ROSException, DynamicReconfigureCallbackException):  # no answer, or none any more
             self.failed += 1
 
     def _load(self):
