@@ -109,13 +109,13 @@ class InterruptedTest(unittest.TestCase):
             for path in self.folder.iterdir():
                 path.unlink()
             interruptions = 0
-            for share in (0.3, 0.4, 0.5, 0.3):
+            for share in (0.2, 0.2, 0.2, 0.3):  # a machine that becomes twice as fast still meets two of them
                 status, _, errors, _ = self.interrupted(command, share * seconds)
                 self.assertIn(status, (-signal.SIGINT, 0), errors)
                 interruptions += status != 0
                 rows = (self.folder / name).read_bytes() if (self.folder / name).exists() else b""
                 self.assertTrue(expected[name].startswith(rows))
-            self.assertGreater(interruptions, 0)  # how many depends on how even the machine's speed is
+            self.assertGreater(interruptions, 1)
             self.whole_run(command)
             self.assertEqual({path.name: path.read_bytes() for path in self.folder.iterdir()}, expected)
             for path in self.folder.iterdir():
@@ -153,7 +153,7 @@ class InterruptedTest(unittest.TestCase):
             _, errors = process.communicate(timeout=60)  # with the pipes of node and master closed too
             self.assertEqual(process.returncode, 130, errors)
             # but for Python itself, which may be starting just then, before any line of the project
-            self.assertTrue("Traceback" not in errors or "Fatal Python error: init" in errors, errors)
+            self.assertNotIn("Traceback", errors.split("Fatal Python error: init")[0])
 
 
 if __name__ == "__main__":
