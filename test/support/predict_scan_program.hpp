@@ -1,11 +1,9 @@
 #pragma once
 
-/// The real predict_scan, as users and scripts call it: its output, its exit status, the lines that it complains with.
+/// The real predict_scan, and what it reads and writes.
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdlib>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -13,28 +11,15 @@
 
 #include "mems_stiction/import/scan_writer.hpp"
 #include "support/analytic_surfaces.hpp"
+#include "support/program_run.hpp"
 #include "support/scratch_folder.hpp"
 
 namespace mems_stiction {
 
-struct Outcome {
-  int status = -1;
-  std::string output;
-  std::vector<std::string> errors;  ///< lines
-};
-
 class PredictScan : public ::testing::Test {
  protected:
   Outcome run(const std::string& arguments) const {
-    const std::string command = std::string(MEMS_STICTION_PREDICT_SCAN) + " " + arguments + " >" + folder_.file("out") +
-                                " 2>" + folder_.file("err");
-    const int status = std::system(command.c_str());
-    Outcome outcome;
-    outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    outcome.output = ScratchFolder::read(folder_.file("out"));
-    std::istringstream errors(ScratchFolder::read(folder_.file("err")));
-    for (std::string line; std::getline(errors, line);) outcome.errors.push_back(line);
-    return outcome;
+    return runProgram(folder_, std::string(MEMS_STICTION_PREDICT_SCAN) + " " + arguments);
   }
 
   /// A sphere of 2 um in a frame of 2 um, float32 metres.

@@ -2,7 +2,6 @@
 /// status. Vendor files are those of the folder in the environment variable MEMS_STICTION_SCANS.
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -15,6 +14,7 @@
 #include "mems_stiction/import/scan_file.hpp"
 #include "mems_stiction/import/scan_writer.hpp"
 #include "support/analytic_surfaces.hpp"
+#include "support/program_run.hpp"
 #include "support/scratch_folder.hpp"
 
 namespace mems_stiction {
@@ -22,24 +22,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Outcome {
-  int status = -1;
-  std::string output;
-  std::vector<std::string> errors;  ///< lines
-};
-
 class ImportScan : public ::testing::Test {
  protected:
-  Outcome run(const std::string& command) const {
-    const std::string redirected = command + " >" + folder_.file("out") + " 2>" + folder_.file("err");
-    const int status = std::system(redirected.c_str());
-    Outcome outcome;
-    outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    outcome.output = ScratchFolder::read(folder_.file("out"));
-    std::istringstream errors(ScratchFolder::read(folder_.file("err")));
-    for (std::string line; std::getline(errors, line);) outcome.errors.push_back(line);
-    return outcome;
-  }
+  Outcome run(const std::string& command) const { return runProgram(folder_, command); }
   Outcome importScan(const std::string& arguments) const {
     return run(std::string(MEMS_STICTION_IMPORT_SCAN) + " " + arguments);
   }
