@@ -42,6 +42,13 @@ class CountResultsTest(unittest.TestCase):
     def test_nothing_ran_is_a_failure(self):
         self.assertEqual(self.run_program(), (1, ["0 passed, 0 failed, 0 skipped"]))
 
+    def test_a_failure_that_no_case_tells_is_a_failure(self):
+        """rosunit counts the failures of a subTest, and leaves them out of its cases."""
+        (self.folder / "rosunit-replay.xml").write_text(
+            '<testsuite errors="1" failures="1" name="s"><testcase classname="S" name="one"/><testcase classname="S" name="two">'
+            "<failure>1 is not 2</failure></testcase></testsuite>")
+        self.assertEqual(self.run_program()[1][-1], "1 passed, 2 failed, 0 skipped")
+
     def test_a_broken_result_file_is_a_failure(self):
         (self.folder / "a.xml").write_text("<testsuites><test")
         self.assertEqual(self.run_program()[1][-1], "0 passed, 1 failed, 0 skipped")

@@ -101,8 +101,7 @@ class PageTest(unittest.TestCase):
         self.assertEqual(self.page.text("#ratio-interval"), "95 %%: %s to %s" % (
             ratio_text(prediction.margin_lower), ratio_text(prediction.margin_upper)))
         for name in SHOWN:
-            with self.subTest(figure=name):
-                self.assertEqual(float(self.figure(name)[1]), getattr(prediction, name))
+            self.assertEqual(float(self.figure(name)[1]), getattr(prediction, name), name)
         self.assertEqual(self.figure("contact_fraction")[0], percent(prediction.contact_fraction))
         self.assertEqual(self.page.text("#limits"), " · ".join(flags_of(prediction) + ["warning: " + text for text in prediction.warnings]))
         self.assertEqual(self.page.value("state.trend[state.trend.length - 1].ratio"), prediction.margin)

@@ -111,26 +111,26 @@ class ProcessesTest(unittest.TestCase):
                 station.send(surface)
                 predictions.wait(1)
                 rospy.sleep(2.0)
-                for _ in range(20):
-                    station.send(surface)
-                predictions.wait(21)
-                before = node.resident()
                 listener.send_signal(signal.SIGSTOP)
-                for _ in range(10):
+                resident = []
+                for burst in range(20):
                     for _ in range(40):
                         station.send(surface)
-                    wait_until(lambda: int(counts["received"]) == int(counts["predicted"]), "the scans so far")
-                counts.wait(received=421, predicted=421, dropped=0, rejected=0)
-                self.assertEqual(len(predictions.wait(421)), 421)
-                # The connection holds back 20 maps of 256 kB and 1000 predictions of some kB; 400 maps would be 105 MB.
+                    # Not by the counts, which are a second old: scans that wait are no memory of the listener's.
+                    predictions.wait(1 + 40 * (burst + 1))
+                    resident.append(node.resident())
+                counts.wait(received=801, predicted=801, dropped=0, rejected=0)
+                self.assertEqual(len(predictions.wait(801)), 801)
+                # The connection holds back 20 maps of 256 kB and 1000 predictions of some kB: the maps, and heaps, are
+                # full after some bursts. From there on another 600 maps would be 157 MB.
                 if not SANITIZER:
-                    self.assertLess(node.resident() - before, 40 * MB)
+                    self.assertLess(max(resident[5:]) - max(resident[:5]), 40 * MB, resident)
             finally:
                 listener.send_signal(signal.SIGCONT)
                 listener.kill()
                 listener.wait()
             last = station.send(surface)
-            self.assertEqual(predictions.wait(422)[-1].header.stamp, last)
+            self.assertEqual(predictions.wait(802)[-1].header.stamp, last)
 
     def test_3_a_publisher_that_dies_in_the_middle_of_a_message_is_no_scan(self):
         with OwnNode("dying") as node:
@@ -201,7 +201,7 @@ class ProcessesTest(unittest.TestCase):
                         "approach/formulation": "paper", "approach/max_steps": 20000, "approach/step": 1e-12}
                 if half_space:
                     more["half_space/enabled"] = True
-                with self.subTest(name), OwnNode(name, **more) as node:
+                with OwnNode(name, **more) as node:
                     counts = Counts(name + "/node")
                     predictions = Collector("/%s/prediction" % name, StictionPrediction).connect()
                     station = Station("/%s/" % name)
@@ -222,13 +222,14 @@ class ProcessesTest(unittest.TestCase):
                     print(name, figures, "period %.4g s" % period, "waiting", waiting, "growth %.0f MB" % (growth / MB),
                           "behind %d" % (last_before_end - newest).to_sec(), flush=True)
                     self.assertEqual(figures["predicted"] + figures["dropped"], sent, figures)
-                    self.assertEqual((figures["rejected"], figures["missing_by_sequence"]), (0, 0))
+                    self.assertEqual((figures["rejected"], figures["missing_by_sequence"]), (0, 0), name)
                     self.assertEqual(len(predictions.wait(figures["predicted"])), figures["predicted"])
                     self.assertEqual(predictions.messages[-1].header.stamp, max(traffic.sent))  # the newest, never dropped
-                    self.assertGreater(figures["dropped"] if policy == "latest" else waiting, 0)
-                    self.assertLess(growth, most + 150 * MB)  # heaps of threads, maps of the half-space
+                    self.assertGreater(figures["dropped"] if policy == "latest" else waiting, 0, name)
+                    self.assertLess(growth, most + 150 * MB, name)  # heaps of threads, maps of the half-space
                     if policy == "latest":
-                        self.assertLess((last_before_end - newest).to_sec(), 5 + 5)  # stamps count scans; 5 may wait
+                        # Stamps count scans; 5 may wait, and the rest is on its way. Without drops two thirds would wait.
+                        self.assertLess((last_before_end - newest).to_sec(), 5 + sent / 10, name)
 
 
 if __name__ == "__main__":

@@ -188,29 +188,33 @@ class StationScriptsTest(unittest.TestCase):
                  ("set_load", ["--voltage", "0"])]
         for program, arguments in cases:
             for begin, pause in ((0.0, None), (3.0, 0.01), (3.0, 0.5)) if program == "cycle_contact" else ((0.0, None), (3.0, 0.3)):
-                with self.subTest(program, begin=begin, pause=pause):
-                    process = start(program, *arguments)
-                    self.wait_until_it_loads(process)
-                    for seconds in (begin, pause):
-                        if seconds is not None and process.poll() is None:
-                            time.sleep(seconds)
-                            process.send_signal(signal.SIGINT)
-                    _, errors = process.communicate(timeout=30)
-                    self.assertNotIn("Traceback", errors)
-                    self.assertIn(process.returncode, (-signal.SIGINT, DONE, CANCELLED), errors)
-                    if errors and process.returncode == -signal.SIGINT:
-                        self.assertEqual(errors.splitlines()[-1], program + ": interrupted")
-                    self.assertEqual([name for name in os.listdir(self.folder.name) if ".part" in name], [])
-                    if os.path.exists(self.path("cut.csv")):
-                        with open(self.path("cut.csv")) as stream:
-                            lines = stream.read().split("\n")
-                        self.assertEqual(lines[-1], "")
-                        self.assertEqual({line.count(",") for line in lines[:-1]}, {lines[0].count(",")})
-                        os.remove(self.path("cut.csv"))
-                    if os.path.exists(self.path("cut.png")):
-                        with open(self.path("cut.png"), "rb") as stream:
-                            self.assertTrue(stream.read().endswith(b"IEND\xaeB`\x82"))
-                        os.remove(self.path("cut.png"))
+                self.interrupt(program, arguments, (begin, pause))
+
+    def interrupt(self, program, arguments, pauses):
+        """Presses Ctrl-C after each of the pauses [s] (None: not), and looks at what is left."""
+        case = "%s, Ctrl-C after %s s" % (program, pauses)
+        process = start(program, *arguments)
+        self.wait_until_it_loads(process)
+        for seconds in pauses:
+            if seconds is not None and process.poll() is None:
+                time.sleep(seconds)
+                process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=30)
+        self.assertNotIn("Traceback", errors, case)
+        self.assertIn(process.returncode, (-signal.SIGINT, DONE, CANCELLED), "%s: %s" % (case, errors))
+        if errors and process.returncode == -signal.SIGINT:
+            self.assertEqual(errors.splitlines()[-1], program + ": interrupted", case)
+        self.assertEqual([name for name in os.listdir(self.folder.name) if ".part" in name], [], case)
+        if os.path.exists(self.path("cut.csv")):
+            with open(self.path("cut.csv")) as stream:
+                lines = stream.read().split("\n")
+            self.assertEqual(lines[-1], "", case)
+            self.assertEqual({line.count(",") for line in lines[:-1]}, {lines[0].count(",")}, case)
+            os.remove(self.path("cut.csv"))
+        if os.path.exists(self.path("cut.png")):
+            with open(self.path("cut.png"), "rb") as stream:
+                self.assertTrue(stream.read().endswith(b"IEND\xaeB`\x82"), case)
+            os.remove(self.path("cut.png"))
 
 
 if __name__ == "__main__":
