@@ -116,7 +116,7 @@ class BagWalk {
 
   /// Where the records of a chunk begin, from its first byte; empty if it is compressed.
   void walkChunk(const Record& chunk) {
-    message_places_.clear();
+    messages_.clear();
     chunk_size_ = field<std::uint32_t>(chunk, "size");
     const auto compression = chunk.fields.find("compression");
     is_compressed_ = compression != chunk.fields.end() && compression->second != "none";
@@ -124,20 +124,31 @@ class BagWalk {
     if (chunk_size_ != chunk.end - chunk.data) fail(chunk.begin, "a chunk of another size than it states");
     for (std::uint64_t place = chunk.data; place < chunk.end;) {
       const Record record = recordAt(place, chunk.end);
-      if (record.op == kMessage) message_places_.insert(place - chunk.data);
+      if (record.op == kMessage) messages_[place - chunk.data] = connectionOf(record);
       place = record.end;
     }
   }
 
+  /// The connection that a message or an index names.
+  std::uint32_t connectionOf(const Record& record) {
+    const auto connection = field<std::uint32_t>(record, "conn");
+    named_.emplace(connection, record.begin);
+    return connection;
+  }
+
   /// Entries of 12 bytes: time and place in the chunk before it.
   void checkIndex(const Record& index) {
+    const std::uint32_t connection = connectionOf(index);
     const std::uint64_t count = field<std::uint32_t>(index, "count");
     if (12 * count != index.end - index.data) fail(index.begin, "an index of another length than it states");
     for (std::uint64_t place = index.data; place < index.end; place += 12) {
       const std::uint32_t message = value<std::uint32_t>(place + 8);
-      if (is_compressed_ ? message >= chunk_size_ : message_places_.count(message) == 0) {
+      const auto found = messages_.find(message);
+      if (is_compressed_ ? message >= chunk_size_ : found == messages_.end()) {
         fail(place, "an index that leads to no message");
       }
+      if (!is_compressed_ && found->second != connection)
+        fail(place, "an index that leads to a message of another connection");
     }
   }
 
@@ -156,6 +167,7 @@ class BagWalk {
     if (index_place == 0) throw CutOff();  // whoever wrote it did not come to its end
     std::set<std::uint64_t> chunks;
     std::set<std::uint64_t> places;
+    std::set<std::uint32_t> connections;  // that stand behind all chunks, where rosbag looks for them
     for (place = header.end; place < size_;) {
       const Record record = recordAt(place, size_);
       places.insert(place);
@@ -167,21 +179,28 @@ class BagWalk {
         checkIndex(record);
       } else if (record.op == kChunkInfo) {
         checkChunkInfo(record, chunks);
-      } else if (record.op != kConnection) {
+      } else if (record.op == kConnection) {
+        if (place >= index_place) connections.insert(field<std::uint32_t>(record, "conn"));
+      } else {
         fail(place, "a record of an unknown kind");
       }
       place = record.end;
     }
     if (index_place > size_) throw CutOff();
     if (index_place != size_ && places.count(index_place) == 0) fail(kMagic.size(), "its index is not where it states");
+    for (const auto& [connection, named_at] : named_) {
+      if (connections.count(connection) == 0)
+        fail(named_at, "a connection (" + std::to_string(connection) + ") that is not in its index");
+    }
   }
 
   std::string path_;
   std::ifstream stream_;
   std::uint64_t size_;
-  std::uint64_t chunk_size_ = 0;            ///< of the last chunk
-  bool is_compressed_ = false;              ///< the last chunk
-  std::set<std::uint64_t> message_places_;  ///< in the last chunk
+  std::uint64_t chunk_size_ = 0;                     ///< of the last chunk
+  bool is_compressed_ = false;                       ///< the last chunk
+  std::map<std::uint64_t, std::uint32_t> messages_;  ///< in the last chunk: place and connection
+  std::map<std::uint32_t, std::uint64_t> named_;     ///< connections, and who names each first
 };
 
 }  // namespace

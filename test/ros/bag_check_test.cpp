@@ -20,6 +20,7 @@ class BagCheck : public ::testing::Test {
     const std::string path = folder_.file("whole.bag");
     rosbag::Bag bag(path, rosbag::bagmode::Write);
     for (int second = 1; second <= 3; ++second) bag.write("scan_info", ros::Time(second), ScanInfo());
+    bag.write("other_info", ros::Time(4), ScanInfo());
     bag.close();
     whole_ = ScratchFolder::read(path);
   }
@@ -62,6 +63,18 @@ TEST_F(BagCheck, AnIndexThatLeadsToNoMessageIsRefused) {
   std::string bytes = whole_;
   bytes[entries + 4 + 8] ^= 0x7f;
   EXPECT_NE(refusal(bytes), "");
+}
+
+TEST_F(BagCheck, AnIndexThatLeadsToAMessageOfAnotherConnectionIsRefused) {
+  const std::size_t index =
+      whole_.find("count=", whole_.find("size="));  // behind the chunk's header: of the first index
+  EXPECT_NE(refusal(changed("count=", 8, 1, index)).find("a message of another connection"), std::string::npos);
+}
+
+TEST_F(BagCheck, AConnectionThatIsNotInTheBagsIndexIsRefused) {
+  std::string bytes = whole_;
+  bytes[bytes.rfind("conn=") + 5] = 64;  // rosbag looked for connection 1 there, and read what it did not find
+  EXPECT_NE(refusal(bytes).find("a connection (1) that is not in its index"), std::string::npos) << refusal(bytes);
 }
 
 TEST_F(BagCheck, AnotherFileIsNoBag) {
