@@ -31,13 +31,14 @@ anyAlive() {
   return 1
 }
 
-# stopGroup ID: asks (as Ctrl-C does), waits for it and everything below it, insists after 20 s.
+# stopGroup ID: asks (as Ctrl-C does), waits for it and everything below it, insists after 20 s. What it starts before it
+# has heard (roscore its master) is waited for, too.
 stopGroup() {
-  local id=$1 everyone tries
-  mapfile -t everyone < <(descendants "$id")
-  everyone+=("$id")
-  kill -INT -- "-$id" 2>/dev/null || true
+  local id=$1 everyone=("$1") below tries
   for ((tries = 0; tries < 200; ++tries)); do
+    mapfile -t below < <(descendants "$id")
+    everyone+=(${below[@]+"${below[@]}"})
+    [ "$tries" -gt 0 ] || kill -INT -- "-$id" 2>/dev/null || true
     anyAlive "${everyone[@]}" || break
     sleep 0.1
   done
