@@ -136,6 +136,15 @@ void registerAll() {
         ->Unit(benchmark::kMillisecond)
         ->Iterations(1);
   }
+  for (const char* const pressure : {"1e6", "1e7", "1e8", "1e9"}) {
+    for (const Frame frame : {Frame::kGaussian, Frame::kWhiteNoise}) {
+      const Case setting{frame, 1024, 200};
+      const auto run = [=](benchmark::State& state) {
+        predict(state, setting, optionsUnder(setting, std::stod(pressure)));
+      };
+      registerCase(std::string("predict_under/") + pressure + "/" + setting.name(), run, 0.3);
+    }
+  }
   for (const Recipe& recipe : cleaningRecipes()) {
     registerCase(
         "clean/" + recipe.name, [recipe](benchmark::State& state) { cleanAndPredict(state, recipe); }, 0.3);

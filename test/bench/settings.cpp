@@ -33,6 +33,13 @@ Options optionsFor(const Case& setting, const std::string& formulation, Pressing
   return options;
 }
 
+Options optionsUnder(const Case& setting, double pressure) {
+  Options options = optionsFor(setting, kDefaultFormulation, Pressing::kAdhesion, false);
+  const HeightMap& frame = frameOf(setting.frame, setting.size);
+  options.load.mechanical_load = pressure * frame.cols() * frame.pitchX() * frame.rows() * frame.pitchY();
+  return options;
+}
+
 std::vector<Recipe> cleaningRecipes() {
   Recipe offset{"offset", {}};
   offset.cleaning.offset.enabled = true;

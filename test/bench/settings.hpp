@@ -33,6 +33,9 @@ double fullApproach(const HeightMap& frame);
 /// - @p formulation which solver
 Options optionsFor(const Case& setting, const std::string& formulation, Pressing pressing, bool all_outputs);
 
+/// The default formulation under a pressure on the whole frame [Pa].
+Options optionsUnder(const Case& setting, double pressure);
+
 /// How a scan is cleaned before its prediction.
 struct Recipe {
   std::string name;
