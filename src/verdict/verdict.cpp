@@ -93,9 +93,7 @@ Verdict verdictBy(const Prediction& prediction, const DeviceOptions& device, con
   Verdict verdict;
   verdict.regime_flags = flags;
   verdict.pull_in_voltage = closingVoltage(device, options.interface);
-  verdict.apparent_work_of_adhesion = device.apparent_work_of_adhesion > 0.0
-                                          ? device.apparent_work_of_adhesion
-                                          : apparentWorkOfAdhesion(prediction, options);
+  verdict.apparent_work_of_adhesion = prediction.apparent_work_of_adhesion;
   const bool has_contact = hasContact(device);
   if (device.hasSpring()) verdict.restoring_force = device.restoringForce();
   if (!has_contact && !device.hasBeam()) {
@@ -106,6 +104,9 @@ Verdict verdictBy(const Prediction& prediction, const DeviceOptions& device, con
                          : " in full: " + missing + " must be > 0");
     return verdict;
   }
+  verdict.apparent_work_of_adhesion = device.apparent_work_of_adhesion > 0.0
+                                          ? device.apparent_work_of_adhesion
+                                          : apparentWorkOfAdhesion(prediction, options);
   if (prediction.status == Status::kNoEquilibrium) {
     verdict.reason = "the search for equilibrium ended before it was found: raise approach/max_steps";
     return verdict;

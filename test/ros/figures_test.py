@@ -255,6 +255,19 @@ class FiguresTest(unittest.TestCase):
                 del row["is_at_border"]  # the core's own
             self.assertEqual(rows_of(contacts), rows)
 
+    def test_6b_the_other_formulations_with_and_without_a_device(self):
+        for formulation in ("paper", "printed"):
+            for without_device in (False, True):
+                changes = {"approach/formulation": formulation}
+                if without_device:
+                    changes.update({"device/spring_stiffness": 0.0})
+                settings = settings_of(DEVICE_STATION, changes)
+                name = formulation + ("_alone" if without_device else "")
+                with OwnNode(name, **settings):
+                    station, predictions = Station("/%s/" % name), Collector("/%s/prediction" % name, StictionPrediction).connect()
+                    for surface in self.surfaces:
+                        self.assert_same(self.live(surface, station, predictions), predict_scan(surface, LOAD, settings=settings))
+
     def test_7_a_counter_surface_and_a_node_without_scan_info(self):
         counters = [rough_surface(seed) for seed in (11, 12)]
         with OwnNode("counter", **dict(SETTINGS, **{"counter_surface/type": "topic"})):

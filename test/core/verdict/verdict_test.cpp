@@ -119,6 +119,7 @@ TEST(Verdict, isUnknownWithItsReasonWhenTheDeviceIsNotStated) {
   EXPECT_EQ(verdict.restoring_force, 1e-3);
   EXPECT_TRUE(std::isnan(verdict.margin));
   EXPECT_TRUE(std::isnan(verdict.peel_number));
+  EXPECT_TRUE(std::isnan(verdict.apparent_work_of_adhesion)) << "nobody asks for what the paper's formulation lacks";
 }
 
 TEST(Verdict, bondedSurfacesCanSayYesButNotNo) {
