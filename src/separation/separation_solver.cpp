@@ -17,6 +17,8 @@ namespace {
 constexpr double kConformingShare = 0.4;
 /// Up to this share, surfaces at rest hold with at least the work of bonded ones (doc/separation_curve.md).
 constexpr double kBondingShare = 1.3;
+/// if they touch there over this share of the frame: bonded ones do over half of it.
+constexpr double kBondedContact = 0.25;
 /// A contact of which flow has taken less than this share of the overlap counts as elastic, one that carries more than
 /// this share of what it can as plastic.
 constexpr double kElasticShare = 0.97;
@@ -275,7 +277,8 @@ void SeparationSolver::partConforming(const ContactProblem& problem, ContactSolu
   const double stretch = std::max(1.0, conforming_.work() / solution.apparent_work_of_adhesion);
   if (flattening_ratio < kConformingShare) {
     takeConforming(problem, stretch, solution);
-  } else if (!has_flowed_) {
+  } else if (!has_flowed_ &&
+             solution.contact_area >= kBondedContact * problem.gap.validCount() * problem.gap.cellArea()) {
     stretchWayOut(problem, stretch, solution);
   }
 }
