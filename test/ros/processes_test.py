@@ -225,7 +225,8 @@ class ProcessesTest(unittest.TestCase):
                     self.assertEqual((figures["rejected"], figures["missing_by_sequence"]), (0, 0), name)
                     self.assertEqual(len(predictions.wait(figures["predicted"])), figures["predicted"])
                     self.assertEqual(predictions.messages[-1].header.stamp, max(traffic.sent))  # the newest, never dropped
-                    self.assertGreater(figures["dropped"] if policy == "latest" else waiting, 0, name)
+                    if not SANITIZER:  # who sends is too slow then
+                        self.assertGreater(figures["dropped"] if policy == "latest" else waiting, 0, name)
                     self.assertLess(growth, most + 150 * MB, name)  # heaps of threads, maps of the half-space
                     if policy == "latest":
                         # Stamps count scans; 5 may wait, and the rest is on its way. Without drops two thirds would wait.
