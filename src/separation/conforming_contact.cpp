@@ -19,6 +19,7 @@ void ConformingContact::start(const GapField& field, const ContactTraction& law,
   field_ = &field;
   law_ = &law;
   bodies_ = bodies;
+  has_relief_ = false;
   ReliefClasses depths(0.0, field.largestGap());
   line_.resize(static_cast<std::size_t>(field.cols()));
   for (int row = 0; row < field.rows(); ++row) {
@@ -32,9 +33,24 @@ void ConformingContact::start(const GapField& field, const ContactTraction& law,
 
 double ConformingContact::work() const { return std::max(0.0, -restOf(branch_, 0.0)->energy); }
 
+BondedBodies ConformingContact::bondedBodies() const {
+  return {bodies_.contact_modulus, law_->workOfAdhesion(), law_->range(), bodies_.flattening_energy, field_->rmsGap()};
+}
+
+ReliefSpectrum& ConformingContact::relief() {
+  if (!has_relief_) relief_.take(*field_, ReliefWaves::blockLength(bondedBodies().cohesiveLength()));
+  has_relief_ = true;
+  return relief_;
+}
+
+bool ConformingContact::hasOpenValleys(double pressure) {
+  const BondedBodies bodies = bondedBodies();
+  if (!(bodies.flattening_energy > 0.0 && bodies.rms_height > 0.0)) return false;
+  return valleysStayOpen(relief(), bodies, pressure);
+}
+
 double ConformingContact::weakestPlace(double pressure) {
-  const double cohesive_length = bodies_.contact_modulus * law_->range() * law_->range() / law_->workOfAdhesion();
-  waves_.split(*field_, bodies_.contact_modulus, cohesive_length);
+  waves_.split(relief(), {field_->cols(), field_->rows()}, bodies_.contact_modulus, bondedBodies().cohesiveLength());
   const cv::Mat1d& long_heights = waves_.longHeights();
   const auto visitShort = [&](const auto& visit) {
     for (int row = 0; row < field_->rows(); ++row) {
@@ -62,7 +78,8 @@ double ConformingContact::weakestPlace(double pressure) {
 ConformingWayOut ConformingContact::partFrom(double pressure, double least_strength) {
   ConformingWayOut way_out;
   const auto rest = restOf(branch_, pressure);
-  const double strength = std::max(weakestPlace(pressure), least_strength);
+  way_out.has_open_valleys = hasOpenValleys(pressure);
+  const double strength = way_out.has_open_valleys ? openStrength() : std::max(weakestPlace(pressure), least_strength);
   for (auto state = rest; state != branch_.end(); ++state) {
     const double traction = std::min(state->traction, strength);
     way_out.states.push_back({law_->range() - state->height, traction, state->contact_fraction});

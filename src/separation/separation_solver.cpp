@@ -277,9 +277,14 @@ void SeparationSolver::partConforming(const ContactProblem& problem, ContactSolu
   const double stretch = std::max(1.0, conforming_.work() / solution.apparent_work_of_adhesion);
   if (flattening_ratio < kConformingShare) {
     takeConforming(problem, stretch, solution);
-  } else if (!has_flowed_ &&
-             solution.contact_area >= kBondedContact * problem.gap.validCount() * problem.gap.cellArea()) {
-    stretchWayOut(problem, stretch, solution);
+  } else if (!has_flowed_) {
+    const double area = problem.gap.validCount() * problem.gap.cellArea();
+    if (solution.contact_area >= kBondedContact * area) stretchWayOut(problem, stretch, stretch, solution);
+    if (conforming_.hasOpenValleys(problem.settings.load.mechanical_load / area)) {
+      const double gain = conforming_.openStrength() * area / solution.pull_off_force;
+      stretchWayOut(problem, gain, std::sqrt(gain), solution);
+      if (gain > 1.0) takeOpenExponents(problem, solution);
+    }
   }
 }
 
@@ -292,6 +297,7 @@ void SeparationSolver::takeConforming(const ContactProblem& problem, double stre
   solution.pull_off_force = way_out.strength * area;
   solution.adhesion_exponent = 1.0;  // nearly the strength of the law
   solution.modulus_exponent = 0.0;
+  if (way_out.has_open_valleys) takeOpenExponents(problem, solution);
   solution.apparent_work_of_adhesion = conforming_.work();
   solution.contact_area = way_out.states.front().contact_fraction * area;
   dropWayOut(solution.curve);
@@ -300,15 +306,28 @@ void SeparationSolver::takeConforming(const ContactProblem& problem, double stre
   }
 }
 
-void SeparationSolver::stretchWayOut(const ContactProblem& problem, double stretch, ContactSolution& solution) {
-  if (!(stretch > 1.0)) return;
+void SeparationSolver::takeOpenExponents(const ContactProblem& problem, ContactSolution& solution) const {
+  // of sqrt(Gamma U) exp(-2 U/Gamma), U in proportion to the modulus
+  const double ratio = solution.flattening_energy / problem.settings.interface.work_of_adhesion;
+  solution.adhesion_exponent = 0.5 + 2.0 * ratio;
+  solution.modulus_exponent = 0.5 - 2.0 * ratio;
+}
+
+void SeparationSolver::stretchWayOut(const ContactProblem& problem, double force_factor, double work_factor,
+                                     ContactSolution& solution) {
+  if (!(force_factor > 1.0)) return;
   const double strongest = trace_.law().strength() * problem.gap.validCount() * problem.gap.cellArea();
-  solution.apparent_work_of_adhesion *= stretch;
-  solution.pull_off_force = std::min(stretch * solution.pull_off_force, strongest);
-  dropWayOut(solution.curve);
-  appendCurve(curve_, true, solution.curve);
+  solution.apparent_work_of_adhesion *= work_factor;
+  solution.pull_off_force = std::min(force_factor * solution.pull_off_force, strongest);
+  if (std::none_of(solution.curve.begin(), solution.curve.end(),
+                   [](const SeparationCurvePoint& point) { return point.is_separation; })) {
+    appendCurve(curve_, true, solution.curve);
+  }
+  const double rest = curve_.rest().approach;
   for (SeparationCurvePoint& point : solution.curve) {
-    if (point.is_separation) point.force = std::min(stretch * point.force, strongest);
+    if (!point.is_separation) continue;
+    point.displacement = rest + work_factor / force_factor * (point.displacement - rest);
+    point.force = std::min(force_factor * point.force, strongest);
   }
 }
 

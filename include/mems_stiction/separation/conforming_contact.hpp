@@ -11,14 +11,15 @@
 /// - from its weakest place: where the long waves (relief_waves.hpp) already pull with p_max, the short ones have
 ///   what is left of their own strength, so that the mean traction there is (strength of the short waves) - p_max.
 ///
-/// For one long wave this is the strength of the law less Westergaard's pressure. Derivation and figures:
-/// doc/separation_curve.md.
+/// For one long wave this is the strength of the law less Westergaard's pressure. Where valleys stay open
+/// (open_valleys.hpp), neither holds: the surfaces part from there. Derivation and figures: doc/separation_curve.md.
 
 #include <vector>
 
 #include "mems_stiction/approach/gap_field.hpp"
 #include "mems_stiction/separation/contact_traction.hpp"
 #include "mems_stiction/separation/flattening.hpp"
+#include "mems_stiction/separation/open_valleys.hpp"
 #include "mems_stiction/separation/relief_waves.hpp"
 #include "mems_stiction/separation/spring_contact.hpp"
 
@@ -41,6 +42,7 @@ struct ConformingBodies {
 struct ConformingWayOut {
   std::vector<ConformingState> states;  ///< by descending approach, from rest to where the interface breaks
   double strength = 0.0;                ///< largest traction [Pa]
+  bool has_open_valleys = false;
 };
 
 /// Bonded surfaces of one frame. Keeps its memory between frames.
@@ -49,20 +51,28 @@ class ConformingContact {
   /// - @p law that attracts
   void start(const GapField& field, const ContactTraction& law, const ConformingBodies& bodies);
 
+  /// Whether valleys stay open under a pressure [Pa], >= 0.
+  bool hasOpenValleys(double pressure);
+  /// Mean traction at which they part if so [Pa].
+  double openStrength() const { return strengthWithOpenValleys(bondedBodies()); }
   /// What drawing the bonded surfaces apart takes [J/m^2]; 0 if they do not stay together.
   double work() const;
   /// The way out from rest under a pressure [Pa], >= 0.
-  /// - @p least_strength what the contacts hold in any case [Pa]
+  /// - @p least_strength what the contacts of surfaces without open valleys hold in any case [Pa]
   ConformingWayOut partFrom(double pressure, double least_strength);
 
  private:
   /// Mean traction at which the weakest place tears [Pa]; negative if flattening alone does it.
   double weakestPlace(double pressure);
+  BondedBodies bondedBodies() const;
+  ReliefSpectrum& relief();
 
   const GapField* field_ = nullptr;
   const ContactTraction* law_ = nullptr;
   ConformingBodies bodies_;
   std::vector<SpringState> branch_;
+  ReliefSpectrum relief_;
+  bool has_relief_ = false;
   ReliefWaves waves_;
   FlatteningEnergy flattening_;  ///< of the short waves
   std::vector<double> line_;

@@ -13,21 +13,25 @@
 ///
 ///     f(q) = 1/(1 + (2 l q)^4),
 ///
-/// its two numbers chosen on frames of the half-space (doc/separation_curve.md). Cells without a height lie at the mean.
-/// The frame repeats itself where its opposite edges fit each other as neighbours do, and is mirrored where they do not.
+/// its two numbers chosen on frames of the half-space (doc/separation_curve.md).
 
 #include <opencv2/core.hpp>
 
-#include "mems_stiction/approach/gap_field.hpp"
+#include "mems_stiction/separation/relief_spectrum.hpp"
 
 namespace mems_stiction {
 
 /// What a relief is made of. Keeps its memory between frames.
 class ReliefWaves {
  public:
+  /// - @p relief in blocks no longer than blockLength()
+  /// - @p cells columns and rows of the frame
   /// - @p contact_modulus E [Pa], > 0
   /// - @p cohesive_length l [m], > 0
-  void split(const GapField& field, double contact_modulus, double cohesive_length);
+  void split(ReliefSpectrum& relief, cv::Size cells, double contact_modulus, double cohesive_length);
+
+  /// Blocks that resolve what is long against a cohesive length [m].
+  static double blockLength(double cohesive_length) { return 0.5 * cohesive_length; }
 
   /// Largest tension of the long waves when all is pressed flat [Pa], >= 0.
   double largestTension() const { return largest_tension_; }
@@ -35,18 +39,6 @@ class ReliefWaves {
   const cv::Mat1d& longHeights() const { return long_heights_; }
 
  private:
-  /// Means over blocks of cells that are no longer than the cohesive length.
-  void takeBlocks(const GapField& field, double cohesive_length);
-  bool repeatsItself() const;
-
-  cv::Size blocks_;
-  double block_width_ = 0.0;   ///< along x [m]
-  double block_height_ = 0.0;  ///< along y [m]
-  cv::Mat1d heights_;
-  cv::Mat1i counts_;
-  std::vector<double> line_;
-  cv::Mat2d spectrum_;
-  cv::Mat2d tension_;
   double largest_tension_ = 0.0;
   cv::Mat1d long_heights_;
 };

@@ -53,8 +53,9 @@ class SeparationSolver : public ContactSolver {
   /// The way out of surfaces that conform, or are near to it, if they are.
   void partConforming(const ContactProblem& problem, ContactSolution& solution);
   void takeConforming(const ContactProblem& problem, double stretch, ContactSolution& solution);
-  /// Gives the way out the work of bonded surfaces, forces in proportion.
-  void stretchWayOut(const ContactProblem& problem, double stretch, ContactSolution& solution);
+  /// Makes the way out stronger, if these factors do, by its forces and by its displacements from rest.
+  void stretchWayOut(const ContactProblem& problem, double force_factor, double work_factor, ContactSolution& solution);
+  void takeOpenExponents(const ContactProblem& problem, ContactSolution& solution) const;
 
   SeparationTrace trace_;
   SeparationCurve curve_;

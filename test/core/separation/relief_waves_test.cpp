@@ -19,8 +19,10 @@ constexpr int kSide = 96;
 ReliefWaves split(const HeightMap& surface, double cohesive_length) {
   GapField field;
   field.compute(surface);
+  ReliefSpectrum relief;
+  relief.take(field, ReliefWaves::blockLength(cohesive_length));
   ReliefWaves waves;
-  waves.split(field, kModulus, cohesive_length);
+  waves.split(relief, {surface.cols(), surface.rows()}, kModulus, cohesive_length);
   return waves;
 }
 

@@ -1,0 +1,97 @@
+#include "mems_stiction/separation/relief_spectrum.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "mems_stiction/base/constants.hpp"
+
+namespace mems_stiction {
+namespace {
+
+/// Blocks along each side at most: what is cut away beyond is far shorter than a frame.
+constexpr int kMostBlocks = 512;
+/// Opposite edges fit each other if they differ by no more than this times what neighbours do.
+constexpr double kFittingEdges = 3.0;
+
+/// Cells of a block along a side.
+int blockSize(int cells, double pitch, double longest) {
+  const double by_length = std::clamp(std::floor(longest / pitch), 1.0, static_cast<double>(cells));
+  return std::max(static_cast<int>(by_length), (cells + kMostBlocks - 1) / kMostBlocks);
+}
+
+/// q of a row or column of a spectrum [1/m].
+double waveNumber(int index, int count, double width) {
+  return 2.0 * kPi * std::min(index, count - index) / (count * width);
+}
+
+/// Root mean square difference of two rows or columns.
+double difference(const cv::Mat1d& a, const cv::Mat1d& b) {
+  return cv::norm(a, b, cv::NORM_L2) / std::sqrt(static_cast<double>(a.total()));
+}
+
+}  // namespace
+
+void ReliefSpectrum::take(const GapField& field, double longest_block) {
+  takeBlocks(field, longest_block);
+  frame_ = heights_;
+  if (!repeatsItself()) cv::copyMakeBorder(heights_, frame_, 0, blocks_.height, 0, blocks_.width, cv::BORDER_REFLECT);
+  cv::dft(frame_, spectrum_, cv::DFT_COMPLEX_OUTPUT);
+  takeWaveNumbers();
+}
+
+double ReliefSpectrum::shorterSide() const {
+  return std::min(blocks_.width * block_width_, blocks_.height * block_height_);
+}
+
+void ReliefSpectrum::takeWaveNumbers() {
+  wave_numbers_.create(frame_.size());
+  for (int row = 0; row < frame_.rows; ++row) {
+    const double q_y = waveNumber(row, frame_.rows, block_height_);
+    for (int col = 0; col < frame_.cols; ++col) {
+      wave_numbers_(row, col) = std::hypot(waveNumber(col, frame_.cols, block_width_), q_y);
+    }
+  }
+}
+
+void ReliefSpectrum::takeBlocks(const GapField& field, double longest_block) {
+  const int block_rows = blockSize(field.rows(), field.pitchY(), longest_block);
+  const int block_cols = blockSize(field.cols(), field.pitchX(), longest_block);
+  blocks_ = {(field.cols() + block_cols - 1) / block_cols, (field.rows() + block_rows - 1) / block_rows};
+  block_width_ = field.cols() * field.pitchX() / blocks_.width;
+  block_height_ = field.rows() * field.pitchY() / blocks_.height;
+  heights_.create(blocks_);
+  counts_.create(blocks_);
+  heights_ = 0.0;
+  counts_ = 0;
+  line_.resize(static_cast<std::size_t>(field.cols()));
+  for (int row = 0; row < field.rows(); ++row) {
+    field.gapsOfRow(row, line_.data());
+    // of equal size but for rounding, so that the blocks are the cells of an image that cv::resize makes as large again
+    const auto block_row = static_cast<int>(static_cast<std::int64_t>(row) * blocks_.height / field.rows());
+    for (int col = 0; col < field.cols(); ++col) {
+      const double gap = line_[static_cast<std::size_t>(col)];
+      if (!(gap <= field.largestGap())) continue;
+      const auto block_col = static_cast<int>(static_cast<std::int64_t>(col) * blocks_.width / field.cols());
+      heights_(block_row, block_col) += field.meanGap() - gap;
+      ++counts_(block_row, block_col);
+    }
+  }
+  for (int row = 0; row < blocks_.height; ++row) {
+    for (int col = 0; col < blocks_.width; ++col) {
+      if (counts_(row, col) > 0) heights_(row, col) /= counts_(row, col);
+    }
+  }
+}
+
+bool ReliefSpectrum::repeatsItself() const {
+  const int last_row = blocks_.height - 1;
+  const int last_col = blocks_.width - 1;
+  if (last_row < 1 || last_col < 1) return true;
+  const double over_rows = difference(heights_.row(0), heights_.row(last_row));
+  const double over_cols = difference(heights_.col(0), heights_.col(last_col));
+  return over_rows <= kFittingEdges * difference(heights_.rowRange(1, last_row + 1), heights_.rowRange(0, last_row)) &&
+         over_cols <= kFittingEdges * difference(heights_.colRange(1, last_col + 1), heights_.colRange(0, last_col));
+}
+
+}  // namespace mems_stiction
