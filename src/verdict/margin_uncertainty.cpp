@@ -93,8 +93,8 @@ struct ModelError {
 };
 
 ModelError modelError(const Prediction& prediction) {
-  if (prediction.is_conforming) return {0.10, 0.06};
-  if (mayGrowTogether(prediction)) return {0.19, 0.14};
+  if (prediction.is_conforming) return {0.09, 0.06};
+  if (mayGrowTogether(prediction)) return {0.16, 0.15};
   return {0.08, 0.07};
 }
 
