@@ -19,6 +19,10 @@
 namespace mems_stiction {
 namespace {
 
+/// Durations of ROS end at 2^31 s.
+constexpr double kLongestDuration = 1e9;
+const Range kDuration{0.0, kLongestDuration, true, false};
+
 YAML::Node yamlOf(XmlRpc::XmlRpcValue& value, const std::string& key, std::vector<std::string>& violations) {
   using XmlRpc::XmlRpcValue;
   switch (value.getType()) {
@@ -172,7 +176,7 @@ void DisplayOptions::describe(OptionVisitor& visitor) {
 
 void TransformOptions::describe(OptionVisitor& visitor) {
   visitor.text("counter_surface/frame", frame, "tf frame of the counter-surface; empty = counter_surface/pose serves");
-  visitor.number("counter_surface/transform_timeout", timeout, "s", Range::nonNegative(),
+  visitor.number("counter_surface/transform_timeout", timeout, "s", Range::within(0.0, kLongestDuration),
                  "how long a scan waits for the transform at its stamp");
 }
 
@@ -186,12 +190,12 @@ void NodeOptions::describe(OptionVisitor& visitor) {
       "max_waiting_memory", max_waiting_memory, "bytes", Range::within(1e6, 1e12),
       "that scans which wait may hold, with either drop_policy; older ones beyond it are dropped and counted");
   visitor.flag("use_scan_info", use_scan_info, "false: the parameters scan/... serve for every scan");
-  visitor.number("pairing_timeout", pairing_timeout, "s", Range::positive(),
+  visitor.number("pairing_timeout", pairing_timeout, "s", kDuration,
                  "how long a scan and its scan_info wait for each other");
   visitor.flag("accumulate_deformation", accumulate_deformation,
                "each contact leaves its mark on the scans of the same size that follow");
-  visitor.number("diagnostic_period", diagnostic_period, "s", Range::positive(), "between messages on /diagnostics");
-  visitor.number("warning_period", warning_period, "s", Range::nonNegative(),
+  visitor.number("diagnostic_period", diagnostic_period, "s", kDuration, "between messages on /diagnostics");
+  visitor.number("warning_period", warning_period, "s", Range::within(0.0, kLongestDuration),
                  "at most one warning of a kind about scans in so long a time");
   transform.describe(visitor);
   display.describe(visitor);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -14,6 +15,11 @@ namespace {
 constexpr double kNear = 1.0;     // between stamps that may have been meant to be one [s]
 constexpr double kSettling = 10;  // timeouts for which is remembered what was given up, and that stamps went back
 
+const char* const kAmbiguous =
+    "several scans bear its stamp at once, so that nobody can tell which scan_info belongs to which image: does the "
+    "driver "
+    "set header.stamp?";
+
 template <typename Queue>
 std::vector<ros::Time> stampsOf(const Queue& queue) {
   std::vector<ros::Time> stamps;
@@ -24,7 +30,11 @@ std::vector<ros::Time> stampsOf(const Queue& queue) {
 
 /// "; one came with the stamp 12.000001000, 1e-06 s later": two clocks, or a stamp that was rounded. Empty if none is near.
 std::string nearestOf(const std::vector<ros::Time>& stamps, const ros::Time& stamp) {
-  const auto distance = [&](const ros::Time& other) { return std::abs((other - stamp).toSec()); };
+  // not by ros::Time, whose differences end at 2^31 s, and throw beyond
+  const auto distance = [&](const ros::Time& other) {
+    return 1e-9 * std::abs(static_cast<double>(static_cast<std::int64_t>(other.toNSec()) -
+                                               static_cast<std::int64_t>(stamp.toNSec())));
+  };
   const auto nearest = std::min_element(
       stamps.begin(), stamps.end(), [&](const ros::Time& a, const ros::Time& b) { return distance(a) < distance(b); });
   if (nearest == stamps.end() || distance(*nearest) > kNear || *nearest == stamp) return "";
@@ -42,8 +52,8 @@ ScanPairer::ScanPairer(ros::WallDuration timeout, Accept accept, Reject reject)
 /// Rejects those of the topic that `is_lone` picks, in the order of arrival, but for whom the partner was counted before.
 /// - @p partners stamps of the other topic's
 template <typename Message, typename Other, typename Predicate>
-void ScanPairer::rejectIf(Topic<Message>& topic, Topic<Other>& other, const Predicate& is_lone, const std::string& when,
-                          const std::vector<ros::Time>& partners, ros::WallTime now) {
+void ScanPairer::rejectIf(Topic<Message>& topic, Topic<Other>& other, const Predicate& is_lone,
+                          const std::string& reason, const std::vector<ros::Time>& partners, ros::WallTime now) {
   std::deque<Waiting<Message>> lone;
   for (auto waiting = topic.waiting.begin(); waiting != topic.waiting.end();) {
     if (is_lone(*waiting)) {
@@ -62,8 +72,23 @@ void ScanPairer::rejectIf(Topic<Message>& topic, Topic<Other>& other, const Pred
       continue;
     }
     topic.given_up.push_back({header.stamp, now});
-    reject_(header, topic.reason + when + nearestOf(partners, header.stamp));
+    reject_(header, reason + nearestOf(partners, header.stamp));
   }
+}
+
+/// Whether the topic has a half with this stamp already, or one of both had lately: by stamps, such scans cannot be told
+/// apart, and one half that is lost would shift all pairs after it.
+template <typename Message>
+bool ScanPairer::isAmbiguous(const ros::Time& stamp, const Topic<Message>& topic, ros::WallTime now) {
+  const bool waits_twice =
+      std::any_of(topic.waiting.begin(), topic.waiting.end(),
+                  [&](const Waiting<Message>& waiting) { return waiting.message->header.stamp == stamp; });
+  const bool was_ambiguous = is_ambiguous_ && ambiguous_stamp_ == stamp && now - ambiguous_at_ <= timeout_;
+  if (!waits_twice && !was_ambiguous) return false;
+  is_ambiguous_ = true;
+  ambiguous_stamp_ = stamp;
+  ambiguous_at_ = now;
+  return true;
 }
 
 /// - @p pair takes the partner
@@ -82,7 +107,12 @@ void ScanPairer::add(const Message& message, ros::WallTime now, Topic<Message>& 
   const auto has_stamp = [&](const auto& waiting) { return waiting.message->header.stamp == stamp; };
   if (!several_publishers_) {
     const auto is_from_before = [&](const auto& waiting) { return waiting.arrival < topic.anew && has_stamp(waiting); };
-    rejectIf(topic, other, is_from_before, " before the stamps began anew", {}, now);
+    rejectIf(topic, other, is_from_before, topic.reason + std::string(" before the stamps began anew"), {}, now);
+    if (isAmbiguous(stamp, topic, now)) {
+      topic.waiting.push_back({message, now, arrival});
+      rejectIf(topic, other, has_stamp, kAmbiguous, {}, now);
+      return;
+    }
   }
   const auto found = std::find_if(other.waiting.begin(), other.waiting.end(), has_stamp);
   if (found == other.waiting.end()) {
@@ -100,8 +130,8 @@ void ScanPairer::pair(const sensor_msgs::ImageConstPtr& image, const ScanInfoCon
     const auto is_older = [&image](const auto& waiting) { return waiting.message->header.stamp < image->header.stamp; };
     const std::vector<ros::Time> images = stampsOf(images_.waiting);
     const std::string when = " before a newer pair";
-    rejectIf(images_, infos_, is_older, when, stampsOf(infos_.waiting), now);
-    rejectIf(infos_, images_, is_older, when, images, now);
+    rejectIf(images_, infos_, is_older, images_.reason + when, stampsOf(infos_.waiting), now);
+    rejectIf(infos_, images_, is_older, infos_.reason + when, images, now);
   }
   accept_(image, info);
 }
@@ -118,8 +148,8 @@ void ScanPairer::expire(ros::WallTime now) {
   const auto is_late = [&](const auto& waiting) { return now - waiting.since > timeout_; };
   const std::string after = " within " + numberText(timeout_.toSec()) + " s";
   const std::vector<ros::Time> images = stampsOf(images_.waiting);
-  rejectIf(images_, infos_, is_late, after, stampsOf(infos_.waiting), now);
-  rejectIf(infos_, images_, is_late, after, images, now);
+  rejectIf(images_, infos_, is_late, images_.reason + after, stampsOf(infos_.waiting), now);
+  rejectIf(infos_, images_, is_late, infos_.reason + after, images, now);
 
   const ros::WallDuration settling = timeout_ * kSettling;
   const auto forget = [&](std::deque<GivenUp>& given_up) {

@@ -33,6 +33,9 @@ int main(int argc, char** argv) {
   } catch (const mems_stiction::OptionsError& error) {
     for (const std::string& line : error.violations()) ROS_FATAL_STREAM("parameter ~" << line);
     return EXIT_FAILURE;
+  } catch (const std::exception& error) {
+    ROS_FATAL_STREAM("the node cannot start: " << error.what());
+    return EXIT_FAILURE;
   }
   return EXIT_SUCCESS;
 }

@@ -70,7 +70,8 @@ StictionServer::StictionServer(const ros::NodeHandle& handle, const ros::NodeHan
       actions_(service_handle_, [this](const auto& height, const auto& info) { return findCase(height, info); }),
       half_space_calls_(service_handle_, configuration.core.half_space, half_space_pause_,
                         [this](const auto& height, const auto& info) { return findCase(height, info); }),
-      diagnostics_(handle_, private_handle_, name),
+      // not below ~, where it would read ~diagnostic_period anew, whatever was put there
+      diagnostics_(handle_, ros::NodeHandle(private_handle_, "diagnostic_updater"), name),
       parameters_(handle_, private_handle_),
       master_(MasterWatch::ofThisProcess()),
       topic_spinner_(1, &topic_queue_),

@@ -14,10 +14,14 @@ from xmlrpc.server import SimpleXMLRPCServer
 import rosgraph
 import rospy
 import rostest
+from actionlib_msgs.msg import GoalID
+from geometry_msgs.msg import TransformStamped
 from mems_stiction.msg import StictionPrediction
 from mems_stiction.srv import GetLoad, SetLoad
 from rosgraph_msgs.msg import Clock
-from stiction_client import SANITIZER, Collector, Counts, OwnNode, Station, Traffic, predict_scan, rough_surface, wait_until
+from stiction_client import (SANITIZER, Collector, Counts, OwnNode, Station, Traffic, image_message, info_message, predict_scan, rough_surface,
+                             wait_until)
+from tf2_msgs.msg import TFMessage
 
 LOAD = 1e-6
 MB = 1e6
@@ -231,6 +235,42 @@ class ProcessesTest(unittest.TestCase):
                     if policy == "latest":
                         # Stamps count scans; 5 may wait, and the rest is on its way. Without drops two thirds would wait.
                         self.assertLess((last_before_end - newest).to_sec(), 5 + sent / 10, name)
+
+    def test_7_stamps_at_the_end_of_time_end_no_node(self):
+        """Sums and differences of ros::Time beyond 32 bits throw: in the node's own hands, and in the libraries'."""
+        far = [rospy.Time(4294967295 - second) for second in range(3)]
+        surface = rough_surface(6)
+        with OwnNode("far_stamps", **{"counter_surface/frame": "upper", "pairing_timeout": 0.5}) as node:
+            counts = Counts("far_stamps/node")
+            predictions = Collector("/far_stamps/prediction", StictionPrediction).connect()
+            station = Station("/far_stamps/")
+            station.height.publish(image_message(surface, far[0]))
+            station.info.publish(info_message(rospy.Time(1)))
+            counts.wait(rejected=2)
+            cancel = rospy.Publisher("/far_stamps/node/sweep_load/cancel", GoalID, queue_size=10)
+            frames = rospy.Publisher("/tf", TFMessage, queue_size=10)
+            wait_until(lambda: cancel.get_num_connections() and frames.get_num_connections(), "the node to listen")
+            cancel.publish(GoalID(id="nobody", stamp=far[0]))
+            for stamp in far:
+                frames.publish(TFMessage([self.place(stamp, "elsewhere")]))
+            for period in (1e300, -1e10):
+                rospy.set_param("/far_stamps/node/diagnostic_period", period)
+                rospy.sleep(0.5)
+            received = int(counts["received"])
+            stamp = station.send(surface)
+            frames.publish(TFMessage([self.place(stamp)]))
+            prediction = predictions.wait(1)[-1]
+            self.assertEqual(prediction.pull_off_force, predict_scan(surface, LOAD)["pull_off_force"])
+            counts.wait(received=received + 1, predicted=1, waiting=0)  # diagnostics go on, too
+            self.assertIsNone(node.process.poll())
+
+    @staticmethod
+    def place(stamp, frame="upper"):
+        """A frame, of the counter-surface unless another is named, where the scan is."""
+        transform = TransformStamped()
+        transform.header.stamp, transform.header.frame_id, transform.child_frame_id = stamp, "scan", frame
+        transform.transform.rotation.w = 1.0
+        return transform
 
 
 if __name__ == "__main__":

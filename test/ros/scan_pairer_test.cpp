@@ -95,10 +95,29 @@ TEST_F(ScanPairerTest, ABagThatStartsAgainIsPairedAgain) {
   EXPECT_TRUE(rejected_.empty());
 }
 
-TEST_F(ScanPairerTest, EqualStampsArePairedInOrder) {
-  image(0), image(0), info(0), info(0);
-  EXPECT_EQ(paired_, (Stamps{0, 0}));
+TEST_F(ScanPairerTest, EqualStampsArePairsOneAfterTheOther) {
+  image(0), info(0), info(0), image(0), image(0), info(0);
+  EXPECT_EQ(paired_, (Stamps{0, 0, 0}));
+  EXPECT_TRUE(rejected_.empty());
+}
+
+TEST_F(ScanPairerTest, EqualStampsAreNoPairsOnceAHalfIsLost) {
+  image(0), info(0), image(0);  // the info was lost: every later image would get that of the next one
+  for (int scan = 2; scan < 6; ++scan) image(0), info(0);
+  EXPECT_EQ(paired_, (Stamps{0}));
+  EXPECT_EQ(rejected_, (Stamps{0, 0, 0, 0, 0}));
+  EXPECT_NE(reasons_.back().find("several scans bear its stamp"), std::string::npos);
+  wait(5.1);
+  image(0), info(0), image(7), info(7);
+  EXPECT_EQ(paired_, (Stamps{0, 0, 7}));
+  EXPECT_EQ(rejected_.size(), 5U);
   EXPECT_EQ(pairer_.waiting(), 0U);
+}
+
+TEST_F(ScanPairerTest, StampsMayLieAsFarApartAsTheyCan) {
+  image(4294967295), info(1), info(0);
+  wait(5.1);
+  EXPECT_EQ(rejected_, (Stamps{4294967295, 1, 0}));
 }
 
 // Scans that cross: all of them pair, whatever the order in which the halves of the two publishers come.

@@ -7,7 +7,6 @@
 
 #include <atomic>
 
-#include <ros/callback_queue.h>
 #include <ros/node_handle.h>
 #include <ros/spinner.h>
 
@@ -16,6 +15,7 @@
 #include "mems_stiction/SolveHalfSpace.h"
 #include "mems_stiction/half_space/half_space_solver.hpp"
 #include "mems_stiction/half_space/solution_pause.hpp"
+#include "mems_stiction/ros/guarded_queue.hpp"
 #include "mems_stiction/ros/long_run.hpp"
 #include "mems_stiction/ros/station_actions.hpp"
 
@@ -47,7 +47,7 @@ class HalfSpaceCalls {
   FindCase find_case_;
   std::atomic<bool> stopping_{false};
   LongRun<HalfSpaceAction> action_;
-  ros::CallbackQueue queue_;
+  GuardedQueue queue_;
   ros::NodeHandle handle_;
   ros::ServiceServer service_;
   ros::AsyncSpinner spinner_;

@@ -7,6 +7,9 @@
 /// Each topic of one publisher keeps its order, so whoever came on it before a half of a newer pair, and is older, is
 /// alone for good. That says nothing once stamps go back, as in a bag that starts again, or while several publishers
 /// send: then only the timeout tells who is alone. A scan whose halves are given up at different times counts once.
+///
+/// Scans of one publisher with equal stamps are pairs as long as they come one after the other. Once two of them wait at the
+/// same time they are rejected, until none has come for the timeout.
 
 #include <cstdint>
 #include <deque>
@@ -66,11 +69,13 @@ class ScanPairer {
     std::uint64_t anew = 0;  ///< the last arrival whose stamp went back
   };
 
+  template <typename Message>
+  bool isAmbiguous(const ros::Time& stamp, const Topic<Message>& topic, ros::WallTime now);
   template <typename Message, typename Other, typename Pair>
   void add(const Message& message, ros::WallTime now, Topic<Message>& topic, Topic<Other>& other, const Pair& pair);
   void pair(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info, ros::WallTime now);
   template <typename Message, typename Other, typename Predicate>
-  void rejectIf(Topic<Message>& topic, Topic<Other>& other, const Predicate& is_lone, const std::string& when,
+  void rejectIf(Topic<Message>& topic, Topic<Other>& other, const Predicate& is_lone, const std::string& reason,
                 const std::vector<ros::Time>& partners, ros::WallTime now);
 
   ros::WallDuration timeout_;
@@ -81,6 +86,9 @@ class ScanPairer {
   bool several_publishers_ = false;
   bool went_back_ = false;        ///< the stamps of a topic did, in the last kSettling timeouts
   ros::WallTime went_back_at_{};  ///< when they did last
+  bool is_ambiguous_ = false;     ///< several scans bore one stamp
+  ros::Time ambiguous_stamp_{};
+  ros::WallTime ambiguous_at_{};  ///< when the last of them came
 };
 
 }  // namespace mems_stiction

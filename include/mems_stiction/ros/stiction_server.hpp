@@ -17,7 +17,6 @@
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <image_transport/image_transport.h>
-#include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <std_srvs/Trigger.h>
 
@@ -27,6 +26,7 @@
 #include "mems_stiction/SetMechanicalLoad.h"
 #include "mems_stiction/SetVoltage.h"
 #include "mems_stiction/ros/counter_surface_frame.hpp"
+#include "mems_stiction/ros/guarded_queue.hpp"
 #include "mems_stiction/ros/half_space_calls.hpp"
 #include "mems_stiction/ros/half_space_stream.hpp"
 #include "mems_stiction/ros/held_parameters.hpp"
@@ -96,8 +96,8 @@ class StictionServer {
   bool resetSurface(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
 
   // Declared before everything that holds handles on them.
-  ros::CallbackQueue topic_queue_;
-  ros::CallbackQueue service_queue_;
+  GuardedQueue topic_queue_;
+  GuardedQueue service_queue_;
   ros::NodeHandle handle_;
   ros::NodeHandle private_handle_;
   ros::NodeHandle service_handle_;

@@ -1,0 +1,46 @@
+#pragma once
+
+/// @file
+/// A queue whose callbacks cannot end the process: what one throws is said, and the next one is called.
+///
+/// Nothing of this package throws there. Libraries do that act on what peers send, such as stamps whose sums are beyond 32 bits
+/// (tf2_ros, actionlib); the threads that call would end the process, or the manager of nodelets and all that it holds.
+
+#include <exception>
+#include <utility>
+
+#include <ros/callback_queue.h>
+#include <ros/console.h>
+#include <boost/make_shared.hpp>
+
+namespace mems_stiction {
+
+class GuardedQueue : public ros::CallbackQueue {
+ public:
+  void addCallback(const ros::CallbackInterfacePtr& callback, std::uint64_t owner = 0) override {
+    ros::CallbackQueue::addCallback(boost::make_shared<Guarded>(callback), owner);
+  }
+
+ private:
+  class Guarded : public ros::CallbackInterface {
+   public:
+    explicit Guarded(ros::CallbackInterfacePtr callback) : callback_(std::move(callback)) {}
+
+    CallResult call() override {
+      try {
+        return callback_->call();
+      } catch (const std::exception& error) {
+        ROS_ERROR_STREAM_THROTTLE(kPause, "a message or call of a peer is passed over: " << error.what());
+        return Invalid;
+      }
+    }
+    bool ready() override { return callback_->ready(); }
+
+   private:
+    static constexpr double kPause = 5.0;  // [s]
+
+    ros::CallbackInterfacePtr callback_;
+  };
+};
+
+}  // namespace mems_stiction
