@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <sstream>
 #include <utility>
 #include <vector>
+
+#include <ros/serialization.h>
 
 #include "mems_stiction/base/option_visitor.hpp"
 
@@ -28,6 +31,17 @@ std::vector<ros::Time> stampsOf(const Queue& queue) {
   return stamps;
 }
 
+template <typename Message>
+std::size_t bytesOf(const Message& message) {
+  return ros::serialization::serializationLength(*message);
+}
+
+template <typename Queue>
+std::size_t bytesOfAll(const Queue& queue) {
+  return std::accumulate(queue.begin(), queue.end(), std::size_t{0},
+                         [](std::size_t sum, const auto& waiting) { return sum + bytesOf(waiting.message); });
+}
+
 /// "; one came with the stamp 12.000001000, 1e-06 s later": two clocks, or a stamp that was rounded. Empty if none is near.
 std::string nearestOf(const std::vector<ros::Time>& stamps, const ros::Time& stamp) {
   // not by ros::Time, whose differences end at 2^31 s, and throw beyond
@@ -46,8 +60,8 @@ std::string nearestOf(const std::vector<ros::Time>& stamps, const ros::Time& sta
 
 }  // namespace
 
-ScanPairer::ScanPairer(ros::WallDuration timeout, Accept accept, Reject reject)
-    : timeout_(timeout), accept_(std::move(accept)), reject_(std::move(reject)) {}
+ScanPairer::ScanPairer(ros::WallDuration timeout, Accept accept, Reject reject, std::size_t max_bytes)
+    : timeout_(timeout), max_bytes_(max_bytes), accept_(std::move(accept)), reject_(std::move(reject)) {}
 
 /// Rejects those of the topic that `is_lone` picks, in the order of arrival, but for whom the partner was counted before.
 /// - @p partners stamps of the other topic's
@@ -91,6 +105,23 @@ bool ScanPairer::isAmbiguous(const ros::Time& stamp, const Topic<Message>& topic
   return true;
 }
 
+/// Rejects the oldest ones of the topic, but never the newest, until the others hold no more than they may.
+template <typename Message, typename Other>
+void ScanPairer::makeRoom(Topic<Message>& topic, Topic<Other>& other, ros::WallTime now) {
+  std::size_t bytes = bytesOfAll(topic.waiting);
+  if (max_bytes_ == 0 || bytes <= max_bytes_) return;
+  std::size_t count = 0;
+  for (; bytes > max_bytes_ && count + 1 < topic.waiting.size(); ++count) {
+    bytes -= bytesOf(topic.waiting[count].message);
+  }
+  const std::uint64_t first_to_stay = topic.waiting[count].arrival;
+  const auto is_too_old = [&](const auto& waiting) { return waiting.arrival < first_to_stay; };
+  rejectIf(topic, other, is_too_old, topic.reason + std::string(" before newer ones held more than max_waiting_memory"),
+           stampsOf(other.waiting), now);
+}
+
+std::size_t ScanPairer::waitingBytes() const { return bytesOfAll(images_.waiting) + bytesOfAll(infos_.waiting); }
+
 /// - @p pair takes the partner
 template <typename Message, typename Other, typename Pair>
 void ScanPairer::add(const Message& message, ros::WallTime now, Topic<Message>& topic, Topic<Other>& other,
@@ -117,6 +148,7 @@ void ScanPairer::add(const Message& message, ros::WallTime now, Topic<Message>& 
   const auto found = std::find_if(other.waiting.begin(), other.waiting.end(), has_stamp);
   if (found == other.waiting.end()) {
     topic.waiting.push_back({message, now, arrival});
+    makeRoom(topic, other, now);
     return;
   }
   const Other partner = found->message;

@@ -60,11 +60,13 @@ StictionServer::StictionServer(const ros::NodeHandle& handle, const ros::NodeHan
       scans_(
           ros::WallDuration(options_.pairing_timeout),
           [this](const auto& image, const auto& info) { onScan(image, info); },
-          [this](const auto& header, const auto& reason) { rejectLone(header, reason); }),
+          [this](const auto& header, const auto& reason) { rejectLone(header, reason); },
+          static_cast<std::size_t>(options_.max_waiting_memory)),
       counter_surfaces_(
           ros::WallDuration(options_.pairing_timeout),
           [this](const auto& image, const auto& info) { onCounterSurface(image, info); },
-          [this](const auto& header, const auto& reason) { accounting_.counterSurfaceRejected(header, reason); }),
+          [this](const auto& header, const auto& reason) { accounting_.counterSurfaceRejected(header, reason); },
+          static_cast<std::size_t>(options_.max_waiting_memory)),
       transport_(handle_),
       reconfigure_(service_handle_, predictor_.settings(), [this](const auto& settings) { change(settings); }),
       actions_(service_handle_, [this](const auto& height, const auto& info) { return findCase(height, info); }),
@@ -163,7 +165,8 @@ void StictionServer::report(diagnostic_updater::DiagnosticStatusWrapper& status)
   status.add("cleaned", predictor_.cleanings());
   const std::size_t waiting = worker_.waitingScans();
   status.add("waiting_for_worker", waiting);
-  status.add("waiting_memory [bytes]", worker_.waitingBytes());
+  status.add("waiting_memory [bytes]",
+             worker_.waitingBytes() + scans_.waitingBytes() + counter_surfaces_.waitingBytes());
   status.add("waiting_for_partner", scans_.waiting());
   status.add("waiting_for_transform", gate_.waiting());
   if (waiting > static_cast<std::size_t>(options_.queue_size)) {

@@ -66,6 +66,47 @@ TEST_F(ScanPairerTest, NamesTheStampOfAPartnerThatMissesByALittle) {
   EXPECT_EQ(reasons_[2].find("one came"), std::string::npos) << reasons_[2];
 }
 
+TEST(ScanPairer, RejectsTheOldestBeyondItsMemoryButNeverTheNewestAndCountsEachScanOnce) {
+  using Stamps = std::vector<std::uint32_t>;
+  Stamps paired, rejected;
+  std::string last_reason;
+  ScanPairer pairer(
+      ros::WallDuration(5.0), [&](const auto& image, const auto&) { paired.push_back(image->header.stamp.sec); },
+      [&](const auto& header, const auto& reason) {
+        rejected.push_back(header.stamp.sec);
+        last_reason = reason;
+      },
+      10000);
+  const ros::WallTime now(100, 0);
+  const auto image = [&](std::uint32_t stamp, std::size_t bytes) {
+    auto message = boost::make_shared<sensor_msgs::Image>();
+    message->header.stamp = ros::Time(stamp, 0);
+    message->data.resize(bytes);
+    pairer.add(message, now);
+  };
+  const auto info = [&](std::uint32_t stamp, std::size_t bytes) {
+    auto message = boost::make_shared<ScanInfo>();
+    message->header.stamp = ros::Time(stamp, 0);
+    message->scan_name.resize(bytes);
+    pairer.add(message, now);
+  };
+  for (std::uint32_t stamp = 1; stamp <= 5; ++stamp) image(stamp, 4000);
+  EXPECT_EQ(rejected, (Stamps{1, 2, 3}));
+  EXPECT_NE(last_reason.find("max_waiting_memory"), std::string::npos) << last_reason;
+  EXPECT_EQ(pairer.waiting(), 2U);
+  EXPECT_GE(pairer.waitingBytes(), 8000U);
+  EXPECT_LE(pairer.waitingBytes(), 10000U);
+  info(1, 0), info(5, 0);  // the partner of one that was rejected, and of one that waits
+  EXPECT_EQ(paired, (Stamps{5}));
+  image(6, 40000);
+  EXPECT_EQ(pairer.waiting(), 1U);  // image 4 was older than the pair; the newest stays, whatever it holds
+  for (std::uint32_t stamp = 11; stamp <= 15; ++stamp) info(stamp, 4000);
+  EXPECT_EQ(pairer.waiting(), 3U);
+  pairer.expire(now + ros::WallDuration(6.0));
+  EXPECT_EQ(rejected, (Stamps{1, 2, 3, 4, 11, 12, 13, 6, 14, 15}));  // 1 once
+  EXPECT_EQ(pairer.waitingBytes(), 0U);
+}
+
 TEST_F(ScanPairerTest, RejectsALoneMessageWhenANewerPairPasses) {
   image(1);
   info(2);

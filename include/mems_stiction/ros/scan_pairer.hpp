@@ -32,7 +32,8 @@ class ScanPairer {
   using Reject = std::function<void(const std_msgs::Header&, const std::string& reason)>;
 
   /// - @p timeout how long a message waits for its partner.
-  ScanPairer(ros::WallDuration timeout, Accept accept, Reject reject);
+  /// - @p max_bytes that those of one topic which wait may hold, but for the newest: older ones are rejected; 0 = any number.
+  ScanPairer(ros::WallDuration timeout, Accept accept, Reject reject, std::size_t max_bytes = 0);
 
   /// Whether several publishers send on one of the topics: their stamps may cross.
   void setSeveralPublishers(bool several) { several_publishers_ = several; }
@@ -44,6 +45,7 @@ class ScanPairer {
   void expire(ros::WallTime now);
 
   std::size_t waiting() const { return images_.waiting.size() + infos_.waiting.size(); }
+  std::size_t waitingBytes() const;
 
  private:
   template <typename Message>
@@ -78,7 +80,11 @@ class ScanPairer {
   void rejectIf(Topic<Message>& topic, Topic<Other>& other, const Predicate& is_lone, const std::string& reason,
                 const std::vector<ros::Time>& partners, ros::WallTime now);
 
+  template <typename Message, typename Other>
+  void makeRoom(Topic<Message>& topic, Topic<Other>& other, ros::WallTime now);
+
   ros::WallDuration timeout_;
+  std::size_t max_bytes_;
   Accept accept_;
   Reject reject_;
   Topic<sensor_msgs::ImageConstPtr> images_{"no scan_info with the stamp of the scan came"};
