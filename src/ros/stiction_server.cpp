@@ -208,7 +208,13 @@ void StictionServer::queueScan(const sensor_msgs::ImageConstPtr& image, const Sc
 
 void StictionServer::onCounterSurface(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info) {
   // In the order of arrival with the scans, so that a replay meets the same counter-surfaces as the live run.
-  const auto queue = [this, image, info] { worker_.push([this, image, info] { takeCounterSurface(image, info); }); };
+  const auto drop = [this, header = image->header] {
+    accounting_.counterSurfaceRejected(
+        header, "a newer one came before its turn, and what waits holds more than max_waiting_memory");
+  };
+  const auto queue = [this, image, info, drop] {
+    worker_.pushCounterSurface([this, image, info] { takeCounterSurface(image, info); }, drop, image->data.size());
+  };
   if (counter_surface_frame_) {
     gate_.addBehind(queue, ros::WallTime::now());
   } else {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <vector>
 
 namespace mems_stiction {
 namespace {
@@ -19,57 +20,39 @@ void WorkQueue::start() {
 
 void WorkQueue::stop() {
   std::deque<std::function<void()>> forgotten_calls;
-  std::deque<Job> forgotten_jobs;
+  WaitingLine<Job> forgotten_jobs({});
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     stopping_ = true;
     forgotten_calls.swap(urgent_);
-    forgotten_jobs.swap(jobs_);
-    waiting_scans_ = 0;
-    waiting_bytes_ = 0;
+    std::swap(forgotten_jobs, jobs_);
   }
   changed_.notify_all();
   forgotten_calls.clear();  // whoever waits for one of them gets his error now
   if (thread_.joinable()) thread_.join();
 }
 
-bool WorkQueue::isTooFull() const {
-  return (capacity_ > 0 && waiting_scans_ > capacity_) ||
-         (max_bytes_ > 0 && waiting_bytes_ > max_bytes_ && waiting_scans_ > 1);
+void WorkQueue::append(Job job, LineMember member, std::size_t bytes) {
+  std::vector<Job> dropped;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (stopping_) return;
+    dropped = jobs_.push(std::move(job), member, bytes);
+    most_bytes_ = std::max(most_bytes_, jobs_.bytes());
+  }
+  changed_.notify_one();
+  for (const Job& gone : dropped) gone.drop();
 }
 
 void WorkQueue::pushScan(std::function<void()> run, std::function<void()> drop, std::size_t bytes) {
-  std::deque<Job> dropped;
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (stopping_) return;
-    jobs_.push_back({std::move(run), std::move(drop), bytes});
-    ++waiting_scans_;
-    waiting_bytes_ += bytes;
-    for (auto job = jobs_.begin(); isTooFull();) {
-      if (!job->drop) {
-        ++job;
-        continue;
-      }
-      waiting_bytes_ -= job->bytes;
-      dropped.push_back(std::move(*job));
-      job = jobs_.erase(job);
-      --waiting_scans_;
-    }
-    most_bytes_ = std::max(most_bytes_, waiting_bytes_);
-  }
-  changed_.notify_one();
-  for (const Job& job : dropped) job.drop();
+  append({std::move(run), std::move(drop)}, LineMember::kScan, bytes);
 }
 
-void WorkQueue::push(std::function<void()> run) {
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (stopping_) return;
-    jobs_.push_back({std::move(run), nullptr});
-  }
-  changed_.notify_one();
+void WorkQueue::pushCounterSurface(std::function<void()> run, std::function<void()> drop, std::size_t bytes) {
+  append({std::move(run), std::move(drop)}, LineMember::kCounterSurface, bytes);
 }
+
+void WorkQueue::push(std::function<void()> run) { append({std::move(run), nullptr}, LineMember::kOther, 0); }
 
 void WorkQueue::pushUrgent(std::function<void()> run) {
   {
@@ -82,18 +65,18 @@ void WorkQueue::pushUrgent(std::function<void()> run) {
 
 std::size_t WorkQueue::waitingScans() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return waiting_scans_;
+  return jobs_.scans();
 }
 
 std::size_t WorkQueue::waitingBytes() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return waiting_bytes_;
+  return jobs_.bytes();
 }
 
 void WorkQueue::giveMemoryBack() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (most_bytes_ < kLargeBacklog || waiting_bytes_ > 0) return;
+    if (most_bytes_ < kLargeBacklog || jobs_.bytes() > 0) return;
     most_bytes_ = 0;
   }
   malloc_trim(0);
@@ -115,10 +98,7 @@ void WorkQueue::loop() {
         run = std::move(urgent_.front());
         urgent_.pop_front();
       } else {
-        if (jobs_.front().drop) --waiting_scans_;
-        waiting_bytes_ -= jobs_.front().bytes;
-        run = std::move(jobs_.front().run);
-        jobs_.pop_front();
+        run = jobs_.pop().run;
       }
     }
     const Clock::time_point start = Clock::now();

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
 #include <memory>
 #include <stdexcept>
 #include <thread>
@@ -64,6 +65,51 @@ TEST(WorkQueue, DropsTheOldestScansBeyondItsMemoryButNeverTheNewest) {
   queue.pushScan([] {}, [] { ADD_FAILURE() << "the newest stays"; }, 400);
   EXPECT_EQ(dropped, (Numbers{0, 1, 2, 3, 4}));
   EXPECT_EQ(queue.waitingBytes(), 400U);
+}
+
+class CounterSurfacesTest : public ::testing::Test {
+ protected:
+  void scan(int number) { queue_.pushScan(running(number), dropping(number), 40); }
+  void counterSurface(int number) { queue_.pushCounterSurface(running(number), dropping(number), 40); }
+  std::function<void()> running(int number) {
+    return [this, number] { ran_.push_back(number); };
+  }
+  std::function<void()> dropping(int number) {
+    return [this, number] { dropped_.push_back(number); };
+  }
+  Numbers ran() {
+    std::promise<void> all_done;
+    queue_.push([&] { all_done.set_value(); });
+    queue_.start();
+    all_done.get_future().wait();
+    return ran_;
+  }
+
+  Numbers ran_, dropped_;
+  WorkQueue queue_{0, 100};
+};
+
+TEST_F(CounterSurfacesTest, OfThoseWithoutAScanBetweenThemTheNewestIsEnough) {
+  for (int number = 100; number < 105; ++number) counterSurface(number);
+  EXPECT_EQ(dropped_, (Numbers{100, 101, 102}));
+  EXPECT_EQ(queue_.waitingBytes(), 80U);
+  EXPECT_EQ(ran(), (Numbers{103, 104}));
+}
+
+TEST_F(CounterSurfacesTest, ScansKeepThatWhichCameBeforeThem) {
+  counterSurface(100), scan(1), counterSurface(101), scan(2);
+  EXPECT_EQ(dropped_, (Numbers{1, 100}));  // nobody needs 100 any more
+  counterSurface(102);
+  EXPECT_EQ(queue_.waitingBytes(), 120U);  // the newest of either kind, and what the scan is pressed against
+  EXPECT_EQ(ran(), (Numbers{101, 2, 102}));
+}
+
+TEST_F(CounterSurfacesTest, ManyScansAreNoReasonToDropOne) {
+  WorkQueue queue(1);
+  queue.pushCounterSurface([] {}, dropping(100), 40);
+  for (int number = 1; number < 4; ++number) queue.pushScan([] {}, dropping(number), 40);
+  queue.pushCounterSurface([] {}, dropping(101), 40);
+  EXPECT_EQ(dropped_, (Numbers{1, 2}));
 }
 
 std::size_t residentBytes() {

@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// One worker thread that owns the core: scans in the order of arrival, and calls that go before them and whose answer
+/// One worker thread that owns the core: scans and counter-surfaces in the order of arrival, and calls that go before them and whose answer
 /// is waited for. Calls get half of the time while scans wait. Everything that touches the core runs here, so nothing else needs a lock.
 
 #include <condition_variable>
@@ -12,14 +12,16 @@
 #include <thread>
 #include <utility>
 
+#include "mems_stiction/ros/waiting_line.hpp"
+
 namespace mems_stiction {
 
 /// One thread that works off scans and calls.
 class WorkQueue {
  public:
   /// @param capacity scans that may wait; 0 = any number.
-  /// @param max_bytes that those scans may hold together, but for the newest; 0 = any number.
-  explicit WorkQueue(std::size_t capacity, std::size_t max_bytes = 0) : capacity_(capacity), max_bytes_(max_bytes) {}
+  /// @param max_bytes that those scans and counter-surfaces may hold together, but for the newest; 0 = any number.
+  explicit WorkQueue(std::size_t capacity, std::size_t max_bytes = 0) : jobs_({capacity, max_bytes}) {}
   ~WorkQueue() { stop(); }
   WorkQueue(const WorkQueue&) = delete;
   WorkQueue& operator=(const WorkQueue&) = delete;
@@ -28,9 +30,11 @@ class WorkQueue {
   /// Finishes the job at hand, forgets the others and joins the thread. Calls that wait get std::future_error.
   void stop();
 
-  /// Appends a scan that holds so many bytes. When more than `capacity` or `max_bytes` wait, the oldest ones go and their
-  /// `drop` is called on this thread. Once a large backlog is worked off, its memory goes back to the system.
+  /// Appends a scan that holds so many bytes. When more than `capacity` or `max_bytes` wait, the oldest ones go (WaitingLine)
+  /// and their `drop` is called on this thread. Once a large backlog is worked off, its memory goes back to the system.
   void pushScan(std::function<void()> run, std::function<void()> drop, std::size_t bytes = 0);
+  /// The same for a counter-surface, which goes only for a newer one, once no scan stands between the two.
+  void pushCounterSurface(std::function<void()> run, std::function<void()> drop, std::size_t bytes);
   /// Appends a job that is never dropped and keeps its place among the scans.
   void push(std::function<void()> run);
 
@@ -53,23 +57,17 @@ class WorkQueue {
   struct Job {
     std::function<void()> run;
     std::function<void()> drop;  ///< empty for jobs that are never dropped
-    std::size_t bytes = 0;
   };
 
+  void append(Job job, LineMember member, std::size_t bytes);
   void pushUrgent(std::function<void()> run);
   void giveMemoryBack();
   void loop();
 
-  bool isTooFull() const;
-
-  const std::size_t capacity_;
-  const std::size_t max_bytes_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<std::function<void()>> urgent_;
-  std::deque<Job> jobs_;
-  std::size_t waiting_scans_ = 0;
-  std::size_t waiting_bytes_ = 0;
+  WaitingLine<Job> jobs_;
   std::size_t most_bytes_ = 0;  ///< that waited since memory was given back
   bool stopping_ = false;
   std::thread thread_;
