@@ -182,13 +182,13 @@ void TransformOptions::describe(OptionVisitor& visitor) {
 
 void NodeOptions::describe(OptionVisitor& visitor) {
   visitor.integer("queue_size", queue_size, Range::within(1, 1000000),
-                  "scans that may wait; with drop_policy all more wait and the diagnostics say so");
+                  "scans that may wait for the worker; with drop_policy all more wait and the diagnostics say so");
   visitor.enumeration<DropPolicy>("drop_policy", drop_policy,
                                   {{"all", DropPolicy::kAll}, {"latest", DropPolicy::kLatest}},
                                   "all: every scan is predicted; latest: older scans are dropped and counted");
   visitor.number(
       "max_waiting_memory", max_waiting_memory, "bytes", Range::within(1e6, 1e12),
-      "that scans which wait may hold, with either drop_policy; older ones beyond it are dropped and counted");
+      "that what waits in one place may hold, with either drop_policy; older ones beyond it are given up and counted");
   visitor.flag("use_scan_info", use_scan_info, "false: the parameters scan/... serve for every scan");
   visitor.number("pairing_timeout", pairing_timeout, "s", kDuration,
                  "how long a scan and its scan_info wait for each other");

@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::uint32_t kServiceThreads = 2;
 const ros::WallDuration kGatePeriod(0.01);
+constexpr const char* kTooMuchWaits = "what waits holds more than max_waiting_memory";
 
 ros::NodeHandle withQueue(ros::NodeHandle handle, ros::CallbackQueue& queue) {
   handle.setCallbackQueue(&queue);
@@ -55,8 +56,10 @@ StictionServer::StictionServer(const ros::NodeHandle& handle, const ros::NodeHan
       counter_surface_frame_(options_.transform.frame.empty()
                                  ? nullptr
                                  : std::make_unique<CounterSurfaceFrame>(handle_, options_.transform.frame)),
-      gate_(ros::WallDuration(options_.transform.timeout),
-            [this](const std_msgs::Header& header) { return counter_surface_frame_->poseAt(header); }),
+      gate_(
+          ros::WallDuration(options_.transform.timeout),
+          [this](const std_msgs::Header& header) { return counter_surface_frame_->poseAt(header); },
+          static_cast<std::size_t>(options_.max_waiting_memory)),
       scans_(
           ros::WallDuration(options_.pairing_timeout),
           [this](const auto& image, const auto& info) { onScan(image, info); },
@@ -166,7 +169,7 @@ void StictionServer::report(diagnostic_updater::DiagnosticStatusWrapper& status)
   const std::size_t waiting = worker_.waitingScans();
   status.add("waiting_for_worker", waiting);
   status.add("waiting_memory [bytes]",
-             worker_.waitingBytes() + scans_.waitingBytes() + counter_surfaces_.waitingBytes());
+             worker_.waitingBytes() + gate_.waitingBytes() + scans_.waitingBytes() + counter_surfaces_.waitingBytes());
   status.add("waiting_for_partner", scans_.waiting());
   status.add("waiting_for_transform", gate_.waiting());
   if (waiting > static_cast<std::size_t>(options_.queue_size)) {
@@ -192,7 +195,7 @@ void StictionServer::onScan(const sensor_msgs::ImageConstPtr& image, const ScanI
   gate_.add(
       image->header, [this, image, info, arrival](const SurfacePose& pose) { queueScan(image, info, arrival, pose); },
       [this, header = image->header](const std::string& reason) { accounting_.rejected(header, oneLine(reason)); },
-      arrival);
+      [this, header = image->header] { accounting_.dropped(header, kTooMuchWaits); }, image->data.size(), arrival);
 }
 
 void StictionServer::queueScan(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info,
@@ -201,7 +204,7 @@ void StictionServer::queueScan(const sensor_msgs::ImageConstPtr& image, const Sc
                    [this, header = image->header] {
                      accounting_.dropped(header, options_.drop_policy == DropPolicy::kLatest
                                                      ? "newer scans came before its turn (drop_policy is latest)"
-                                                     : "the scans that wait hold more than max_waiting_memory");
+                                                     : kTooMuchWaits);
                    },
                    image->data.size());
 }
@@ -209,14 +212,13 @@ void StictionServer::queueScan(const sensor_msgs::ImageConstPtr& image, const Sc
 void StictionServer::onCounterSurface(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info) {
   // In the order of arrival with the scans, so that a replay meets the same counter-surfaces as the live run.
   const auto drop = [this, header = image->header] {
-    accounting_.counterSurfaceRejected(
-        header, "a newer one came before its turn, and what waits holds more than max_waiting_memory");
+    accounting_.counterSurfaceRejected(header, std::string("a newer one came before its turn, and ") + kTooMuchWaits);
   };
   const auto queue = [this, image, info, drop] {
     worker_.pushCounterSurface([this, image, info] { takeCounterSurface(image, info); }, drop, image->data.size());
   };
   if (counter_surface_frame_) {
-    gate_.addBehind(queue, ros::WallTime::now());
+    gate_.addCounterSurface(queue, drop, image->data.size(), ros::WallTime::now());
   } else {
     queue();
   }

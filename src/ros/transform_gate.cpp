@@ -7,17 +7,23 @@
 
 namespace mems_stiction {
 
-TransformGate::TransformGate(ros::WallDuration timeout, Lookup lookup)
-    : timeout_(timeout), lookup_(std::move(lookup)) {}
+TransformGate::TransformGate(ros::WallDuration timeout, Lookup lookup, std::size_t max_bytes)
+    : timeout_(timeout), lookup_(std::move(lookup)), line_({0, max_bytes, true}) {}
 
-void TransformGate::add(const std_msgs::Header& header, Accept accept, Reject reject, ros::WallTime now) {
-  line_.push_back({header, std::move(accept), std::move(reject), now});
+void TransformGate::push(Waiting waiting, LineMember member, std::size_t bytes) {
+  const ros::WallTime now = waiting.since;
+  for (const Waiting& dropped : line_.push(std::move(waiting), member, bytes)) dropped.drop();
   poll(now);
 }
 
-void TransformGate::addBehind(std::function<void()> run, ros::WallTime now) {
-  line_.push_back({std_msgs::Header(), [run = std::move(run)](const SurfacePose&) { run(); }, nullptr, now});
-  poll(now);
+void TransformGate::add(const std_msgs::Header& header, Accept accept, Reject reject, Drop drop, std::size_t bytes,
+                        ros::WallTime now) {
+  push({header, std::move(accept), std::move(reject), std::move(drop), now}, LineMember::kScan, bytes);
+}
+
+void TransformGate::addCounterSurface(std::function<void()> run, Drop drop, std::size_t bytes, ros::WallTime now) {
+  push({std_msgs::Header(), [run = std::move(run)](const SurfacePose&) { run(); }, nullptr, std::move(drop), now},
+       LineMember::kCounterSurface, bytes);
 }
 
 void TransformGate::poll(ros::WallTime now) {
@@ -33,8 +39,7 @@ void TransformGate::poll(ros::WallTime now) {
     } catch (const SurfaceError& error) {
       reason = error.what();
     }
-    const Waiting done = std::move(line_.front());
-    line_.pop_front();
+    const Waiting done = line_.pop();
     if (reason.empty()) {
       done.accept(pose);
     } else {

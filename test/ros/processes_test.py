@@ -272,6 +272,41 @@ class ProcessesTest(unittest.TestCase):
         transform.transform.rotation.w = 1.0
         return transform
 
+    def test_8_whatever_waits_holds_no_more_than_it_may(self):
+        frame = rough_surface(7, rows=1024, cols=1024, rms_height=2e-8)
+        sent, most = 60, 5 * frame.nbytes - 1  # 4 may wait
+        slow = {"approach/formulation": "paper", "approach/max_steps": 5000000, "approach/step": 1e-14}
+        cases = {  # how a scan is sent, what waits, and as what the others count
+            "partner": ({}, lambda station, height: station.height.publish(image_message(height, station.stamp())),
+                        "waiting_for_partner", "rejected"),
+            "transform": ({"counter_surface/frame": "upper", "counter_surface/transform_timeout": 60.0},
+                          lambda station, height: station.send(height), "waiting_for_transform", "dropped"),
+            "worker": (dict(slow, **{"counter_surface/type": "topic"}),
+                       lambda station, height: counter.send(height), None, "counter_surfaces_rejected")}
+        for name, (more, send, waiting, gone) in cases.items():
+            with OwnNode("wait_" + name, max_waiting_memory=float(most), pairing_timeout=60.0, **more) as node:
+                counts = Counts("wait_%s/node" % name)
+                station = Station("/wait_%s/" % name)
+                if name == "worker":
+                    counter = Station("/wait_worker/counter_")
+                    counter.send(0 * frame)
+                    counts.wait(counter_surfaces=1)
+                    station.send(frame)  # is being predicted for as long as the test takes
+                    counts.wait(received=1, waiting=1, waiting_for_worker=0)
+                before = node.resident()
+                for _ in range(sent):
+                    send(station, frame)
+                    rospy.sleep(0.02)
+                counts.wait(**{gone: sent - 4})
+                self.assertTrue(most / 2 < int(counts["waiting_memory [bytes]"]) <= most, name)
+                if waiting is not None:
+                    counts.wait(predicted=0, **{waiting: 4})
+                self.assertTrue(any("max_waiting_memory" in reason for reason in counts.reasons()), name)
+                if not SANITIZER:
+                    # Messages on their way and the scan at hand; all of them would be 250 MB.
+                    self.assertLess(node.resident() - before, most + 100 * MB, name)
+                node.kill()
+
 
 if __name__ == "__main__":
     rostest.rosrun("mems_stiction", "processes", ProcessesTest)

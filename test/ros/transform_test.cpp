@@ -66,7 +66,7 @@ TEST(PoseOf, ASurfaceThatFacesAwayIsRefused) {
 
 class TransformGateTest : public testing::Test {
  protected:
-  void add(double stamp) {
+  void add(double stamp, std::size_t bytes = 0) {
     std_msgs::Header header;
     header.stamp = ros::Time(stamp);
     gate_.add(
@@ -74,7 +74,13 @@ class TransformGateTest : public testing::Test {
         [this, stamp](const std::string& reason) {
           log_.push_back("reject " + std::to_string(int(stamp)) + " " + reason);
         },
-        now_);
+        dropping(std::to_string(int(stamp))), bytes, now_);
+  }
+  void addCounterSurface(const std::string& name, std::size_t bytes = 0) {
+    gate_.addCounterSurface([this, name] { log_.push_back(name); }, dropping(name), bytes, now_);
+  }
+  TransformGate::Drop dropping(const std::string& name) {
+    return [this, name] { log_.push_back("drop " + name); };
   }
   void wait(double seconds) {
     now_ += ros::WallDuration(seconds);
@@ -84,17 +90,19 @@ class TransformGateTest : public testing::Test {
   double known_until_ = 0.0;
   ros::WallTime now_{100.0};
   std::vector<std::string> log_;
-  TransformGate gate_{ros::WallDuration(1.0), [this](const std_msgs::Header& header) {
+  TransformGate gate_{ros::WallDuration(1.0),
+                      [this](const std_msgs::Header& header) {
                         if (header.stamp.toSec() < 0.5) throw SurfaceError("never");
                         if (header.stamp.toSec() > known_until_) throw NoTransform("not yet");
                         return SurfacePose();
-                      }};
+                      },
+                      100};
 };
 
 TEST_F(TransformGateTest, NobodyOvertakes) {
   add(5.0);
   add(3.0);
-  gate_.addBehind([this] { log_.push_back("behind"); }, now_);
+  addCounterSurface("behind");
   known_until_ = 4.0;  // the second could go, the first cannot
   wait(0.5);
   EXPECT_TRUE(log_.empty());
@@ -114,6 +122,24 @@ TEST_F(TransformGateTest, WhoWaitedTooLongIsRejectedAndTheNextGoesOn) {
   known_until_ = 6.0;
   wait(0.1);
   EXPECT_EQ(log_.back(), "accept 6");
+}
+
+TEST_F(TransformGateTest, BeyondItsMemoryTheOldestAreDroppedButForTheFirstInLine) {
+  for (const double stamp : {5.0, 6.0, 7.0, 8.0}) add(stamp, 40);
+  EXPECT_EQ(log_, (std::vector<std::string>{"drop 6", "drop 7"}));
+  EXPECT_EQ(gate_.waitingBytes(), 80U);
+  known_until_ = 8.0;
+  wait(0.1);
+  EXPECT_EQ(log_, (std::vector<std::string>{"drop 6", "drop 7", "accept 5", "accept 8"}));
+  EXPECT_EQ(gate_.waitingBytes(), 0U);
+}
+
+TEST_F(TransformGateTest, OfCounterSurfacesWithoutAScanBetweenThemTheNewestIsEnough) {
+  add(5.0, 40);
+  for (const char* name : {"a", "b", "c"}) addCounterSurface(name, 40);
+  known_until_ = 5.0;
+  wait(0.1);
+  EXPECT_EQ(log_, (std::vector<std::string>{"drop a", "drop b", "accept 5", "c"}));
 }
 
 TEST_F(TransformGateTest, WhatCanNeverPassIsRejectedAtOnce) {

@@ -51,9 +51,9 @@ struct TransformOptions {
 
 /// Settings of the node itself.
 struct NodeOptions {
-  int queue_size = 10;  ///< scans that may wait; with DropPolicy::kAll more wait, with a warning
+  int queue_size = 10;  ///< scans that may wait for the worker; with DropPolicy::kAll more wait, with a warning
   DropPolicy drop_policy = DropPolicy::kAll;
-  double max_waiting_memory = 4e9;      ///< of images that wait for the worker [bytes]
+  double max_waiting_memory = 4e9;      ///< of what waits in one place, see doc/ros_api.md [bytes]
   bool use_scan_info = true;            ///< false: the parameters scan/... serve for every scan
   double pairing_timeout = 5.0;         ///< how long a scan and its scan_info wait for each other [s], wall time
   bool accumulate_deformation = false;  ///< each contact leaves its mark on the scans that follow
