@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/height_map/sentinels.hpp"
 
 namespace mems_stiction {
 namespace {

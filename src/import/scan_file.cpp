@@ -7,13 +7,12 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 #include <set>
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/option_yaml.hpp"
 #include "mems_stiction/base/yaml_trouble.hpp"
-#include "mems_stiction/height_map/validity.hpp"
+#include "mems_stiction/height_map/sentinels.hpp"
 #include "mems_stiction/import/channel_choice.hpp"
 #include "mems_stiction/import/file_bytes.hpp"
 #include "mems_stiction/import/scan_formats.hpp"
@@ -135,18 +134,11 @@ HeightMap surfaceOf(const std::string& path, const FileChannel& channel, const S
   return heightMapFromPixels(channel.values, settings);
 }
 
-/// @return the surface without numbers that stand for none
-HeightMap withoutSentinels(const HeightMap& surface, std::vector<std::string>& notes) {
-  const cv::Mat above = surface.heights() > kLargestHeight;
-  const cv::Mat below = surface.heights() < -kLargestHeight;
-  cv::Mat beyond = above | below;
-  beyond &= validMask(surface.heights());
-  const int count = cv::countNonZero(beyond);
-  if (count == 0) return surface;
-  cv::Mat heights = ownedHeights(surface);
-  heights.setTo(std::numeric_limits<double>::quiet_NaN(), beyond);
-  notes.push_back(std::to_string(count) + " heights beyond 1e20 m count as missing");
-  return {heights, surface.pitchX(), surface.pitchY()};
+/// @return the surface without numbers that stand for none, and says how many there were
+HeightMap measuredOnly(const HeightMap& surface, std::vector<std::string>& notes) {
+  const int count = cv::countNonZero(sentinelMask(surface.heights()));
+  if (count > 0) notes.push_back(std::to_string(count) + " heights beyond 1e20 m count as missing");
+  return withoutSentinels(surface);
 }
 
 /// A single channel without a title needs no name.
@@ -177,7 +169,7 @@ ScanFile openScanFile(const std::string& path, const ScanOptions& scan, const Sc
     const std::size_t chosen = chooseHeightChannel(channels, options.import.channel);
     const FileChannel& channel = channels[chosen];
     ScanFile file{surfaceOf(path, channel, scan, options), nameOf(channel, channels.size()), channel.notes};
-    file.surface = withoutSentinels(file.surface, file.notes);
+    file.surface = measuredOnly(file.surface, file.notes);
     const std::string passed_over = options.import.channel.empty() ? passedOver(channels, chosen) : "";
     if (!passed_over.empty()) file.notes.push_back(passed_over);
     notePitch(channel, file.surface, file.notes);

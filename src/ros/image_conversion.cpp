@@ -10,6 +10,7 @@
 #include <boost/make_shared.hpp>
 
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/height_map/sentinels.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -134,12 +135,12 @@ ReceivedScan receiveScan(const sensor_msgs::ImageConstPtr& image, const ScanOpti
   const HeightEncoding& encoding = checkedEncoding(*image);
   const bool foreign_order = encoding.scalar_size > 1 && (image->is_bigendian != 0) != kThisMachineIsBigEndian;
   if (foreign_order) {
-    return {image->header, heightMapFromPixels(swappedPixels(*image, encoding), options), std::nullopt,
-            identityOf(image->header, nullptr)};
+    return {image->header, withoutSentinels(heightMapFromPixels(swappedPixels(*image, encoding), options)),
+            std::nullopt, identityOf(image->header, nullptr)};
   }
   const cv_bridge::CvImageConstPtr shown = cv_bridge::toCvShare(image);
   const PixelOwner message(image.get(), [image](const void* /*message*/) {});
-  return {image->header, heightMapFromPixels(shown->image, options, message), std::nullopt,
+  return {image->header, withoutSentinels(heightMapFromPixels(shown->image, options, message)), std::nullopt,
           identityOf(image->header, nullptr)};
 }
 

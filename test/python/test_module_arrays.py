@@ -42,6 +42,15 @@ class ArrayTest(unittest.TestCase):
                          without_times(mems_stiction.predict(missing, PITCH).to_dict()))
         self.assertAlmostEqual(mems_stiction.predict(masked, PITCH).invalid_fraction, mask.mean(), delta=1e-12)  # round-off
 
+    def test_numbers_beyond_a_height_are_missing(self):
+        heights = rough(40, 50)
+        missing = heights.copy()
+        heights[5, 5], heights[6, 7] = 1e21, -1e38
+        missing[5, 5] = missing[6, 7] = np.nan
+        for kind in (np.float32, np.float64):
+            self.assertEqual(without_times(mems_stiction.predict(heights.astype(kind), PITCH).to_dict()),
+                             without_times(mems_stiction.predict(missing.astype(kind), PITCH).to_dict()))
+
     def test_arrays_outlive_the_prediction_and_cannot_be_written(self):
         prediction = mems_stiction.predict(rough(64, 64, 12e-9, 2), PITCH, load={"mechanical_load": 1e-6})
         contact, asperities, curve = prediction.contact_map, prediction.asperities, prediction.curve

@@ -144,6 +144,20 @@ TEST(ImageConversion, NonFiniteFloatsAndTheInvalidValueAreInvalid) {
   EXPECT_EQ(heightStatistics(surface).valid_count, kRows * kCols - 4);
 }
 
+TEST(ImageConversion, NumbersBeyondAHeightAreInvalidInBothByteOrders) {
+  auto message = image<float>(enc::TYPE_32FC1);
+  const float values[] = {1e21F, -std::numeric_limits<float>::max(), 9e19F};
+  std::memcpy(message->data.data(), values, sizeof values);
+  for (int order = 0; order < 2; ++order, swapBytes(*message, sizeof(float))) {
+    const HeightMap surface = receiveScan(message, calibration()).surface;
+    EXPECT_TRUE(std::isnan(surface.height(0, 0)) && std::isnan(surface.height(0, 1)));
+    EXPECT_EQ(surface.height(0, 2), static_cast<double>(9e19F));
+    EXPECT_EQ(heightStatistics(surface).valid_count, kRows * kCols - 2);
+    // In metres, as files have it: the same pixels in a smaller unit are heights.
+    EXPECT_EQ(heightStatistics(receiveScan(message, calibration(1e-30)).surface).valid_count, kRows * kCols);
+  }
+}
+
 TEST(ImageConversion, SignedCountsKeepTheirSign) {
   auto message = image<std::int16_t>(enc::TYPE_16SC1);
   const std::int16_t value = -300;

@@ -20,9 +20,6 @@ namespace mems_stiction {
 /// @throw FileError without a file name: which channels there are, and why none can be taken.
 std::size_t chooseHeightChannel(const std::vector<FileChannel>& channels, const std::string& wanted = {});
 
-/// Largest number that programs write for a height; beyond it they write "none": 1e38, FLT_MAX, DBL_MAX and the like [m].
-constexpr double kLargestHeight = 1e20;
-
 /// What the user should know where a likelier title was not taken; empty if there is none.
 std::string passedOver(const std::vector<FileChannel>& channels, std::size_t chosen);
 

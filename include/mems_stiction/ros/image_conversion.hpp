@@ -39,8 +39,8 @@ ScanInfo scanInfoMessage(const ScanOptions& options, const std_msgs::Header& hea
 /// - @p info null: there is none.
 ScanIdentity identityOf(const std_msgs::Header& header, const ScanInfo* info);
 
-/// Shares the pixels of 32FC1 and 64FC1 in this machine's byte order with scale 1, offset 0 and no invalid value;
-/// copies otherwise. The image's memory is never written to.
+/// Shares the pixels of 32FC1 and 64FC1 in this machine's byte order with scale 1, offset 0, no invalid value and no height
+/// beyond kLargestHeight, which counts as missing; copies otherwise. The image's memory is never written to.
 /// @throw SurfaceError if the encoding is not accepted, the size is zero, step or data size do not fit, or the pitch is
 ///        not stated.
 ReceivedScan receiveScan(const sensor_msgs::ImageConstPtr& image, const ScanOptions& options);
