@@ -52,8 +52,8 @@ SurfacePose CounterSurfaceFrame::poseAt(const std_msgs::Header& header) const {
   try {
     return poseOf(buffer_.lookupTransform(header.frame_id, frame_, header.stamp).transform);
   } catch (const tf2::TransformException& error) {
-    throw NoTransform("no transform from the scan's frame " + header.frame_id + " to counter_surface/frame " + frame_ +
-                      " at the scan's stamp: " + error.what());
+    throw NoTransform("no transform from the scan's frame '" + header.frame_id + "' to counter_surface/frame " +
+                      frame_ + " at the scan's stamp: " + error.what());
   }
 }
 

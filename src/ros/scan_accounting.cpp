@@ -17,8 +17,23 @@ std::string named(const char* what, const std_msgs::Header& header, const std::s
   return text.str();
 }
 
-/// Warnings of one kind differ in their figures.
-std::string withoutFigures(const std::string& text) {
+/// From the first quotation mark before a word to the last behind one: what a message says may hold such marks itself.
+std::string withoutQuotation(const std::string& text, char mark) {
+  const auto is_in_word = [&text](std::size_t at) {
+    return at < text.size() && std::isalnum(static_cast<unsigned char>(text[at])) != 0;
+  };
+  std::size_t opening = text.find(mark);
+  while (opening != std::string::npos && opening > 0 && is_in_word(opening - 1)) opening = text.find(mark, opening + 1);
+  std::size_t closing = text.rfind(mark);
+  while (closing != std::string::npos && closing > 0 && is_in_word(closing + 1))
+    closing = text.rfind(mark, closing - 1);
+  if (opening == std::string::npos || closing == std::string::npos || closing <= opening) return text;
+  return text.substr(0, opening) + text.substr(closing + 1);
+}
+
+/// Warnings of one kind differ in their figures, and in words that they quote from messages.
+std::string kindOf(const std::string& warning) {
+  const std::string text = withoutQuotation(withoutQuotation(warning, '\''), '"');
   std::string kind;
   std::copy_if(text.begin(), text.end(), std::back_inserter(kind),
                [](unsigned char character) { return std::isdigit(character) == 0; });
@@ -109,7 +124,7 @@ void ScanAccounting::warn(const std_msgs::Header& header, const std::string& tex
 
 void ScanAccounting::warnThrottled(const std::string& kind, const std::string& text) {
   if (throttles_.size() > kMostKinds) throttles_.clear();
-  Throttle& throttle = throttles_[withoutFigures(kind)];
+  Throttle& throttle = throttles_[kindOf(kind)];
   const ros::WallTime now = ros::WallTime::now();
   if (!throttle.last_shown.isZero() && now - throttle.last_shown < warning_period_) {
     ++throttle.suppressed;

@@ -2,9 +2,11 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include <diagnostic_msgs/DiagnosticStatus.h>
 #include <gtest/gtest.h>
+#include <ros/console.h>
 
 namespace mems_stiction {
 namespace {
@@ -69,6 +71,36 @@ TEST(ScanAccounting, APauseInWhichTheProcessDidNotRunIsSaid) {
   EXPECT_EQ(levelAfter(0.02), diagnostic_msgs::DiagnosticStatus::OK);
   EXPECT_EQ(levelAfter(1.2), diagnostic_msgs::DiagnosticStatus::WARN);
   EXPECT_EQ(levelAfter(0.02), diagnostic_msgs::DiagnosticStatus::OK);
+}
+
+/// What is warned of while it lives.
+class Warnings : public ros::console::LogAppender {
+ public:
+  Warnings() { ros::console::register_appender(this); }
+  ~Warnings() override { ros::console::deregister_appender(this); }
+  void log(ros::console::Level level, const char* text, const char* /*file*/, const char* /*function*/,
+           int /*line*/) override {
+    if (level == ros::console::levels::Warn) texts.emplace_back(text);
+  }
+
+  std::vector<std::string> texts;
+};
+
+TEST(ScanAccounting, WhatAMessageSaysMakesNoNewKindOfWarning) {
+  ScanAccounting books(ros::WallDuration(1000.0));
+  const Warnings warnings;
+  const std_msgs::Header header;
+  const auto reject = [&](const std::string& encoding) {
+    books.rejected(header, "encoding '" + encoding + "' does not carry heights; accepted: 32FC1");
+  };
+  for (char letter = 'a'; letter <= 'z'; ++letter) reject(std::string(3, letter) + "7");
+  reject(""), reject("'"), reject("a' or 'b"), reject("it's"), reject("x 'y");
+  EXPECT_EQ(warnings.texts.size(), 1U);
+  for (const char* frame : {"left", "right"}) books.rejected(header, '"' + std::string(frame) + "\" does not exist");
+  EXPECT_EQ(warnings.texts.size(), 2U);
+  books.warn(header, "the scan's pitch is odd, and the counter's too");
+  books.warn(header, "the scan's range is odd, and the counter's too");
+  EXPECT_EQ(warnings.texts.size(), 4U);  // an apostrophe is no quotation mark
 }
 
 TEST(ScanAccounting, TellsWhatBecameOfEachScan) {

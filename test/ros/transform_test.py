@@ -89,7 +89,7 @@ class TransformTest(unittest.TestCase):
         self.station.send(rough_surface(1))
         self.counts.wait(received=1, rejected=1, predicted=0)
         self.assertGreater(time.monotonic() - begin, 0.9)
-        self.assertIn("no transform from the scan's frame scan to counter_surface/frame counter", self.counts["last_reason"])
+        self.assertIn("no transform from the scan's frame 'scan' to counter_surface/frame counter", self.counts["last_reason"])
         self.assertEqual(self.predictions.messages, [])
 
     def test_2_the_transform_at_the_stamp_is_the_pose_by_parameters(self):

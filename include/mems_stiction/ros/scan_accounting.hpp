@@ -69,7 +69,7 @@ class ScanAccounting {
     std::uint64_t missing;  ///< counted when a number went beyond it; taken back if the sequence goes on
   };
 
-  /// @param kind the text without the scan; figures in it do not matter
+  /// @param kind the text without the scan; figures and quotations in it do not matter
   void warnThrottled(const std::string& kind, const std::string& text);
 
   const ros::WallDuration warning_period_;
