@@ -1,8 +1,6 @@
 #include "mems_stiction/base/yaml_trouble.hpp"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 
 namespace mems_stiction {
 namespace {
@@ -34,11 +32,6 @@ std::string yamlTrouble(const std::string& text, const std::string& error) {
   const std::size_t line = lineWithTab(text);
   if (line == 0) return "not valid YAML: " + error;
   return "not valid YAML: line " + std::to_string(line) + " begins with a tab; must be spaces (" + error + ")";
-}
-
-std::string yamlTroubleOfFile(const std::string& path, const std::string& error) {
-  std::ifstream stream(path, std::ios::binary);
-  return yamlTrouble({std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()}, error);
 }
 
 }  // namespace mems_stiction

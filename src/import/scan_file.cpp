@@ -10,6 +10,7 @@
 #include <set>
 
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/input_file.hpp"
 #include "mems_stiction/base/option_yaml.hpp"
 #include "mems_stiction/base/yaml_trouble.hpp"
 #include "mems_stiction/height_map/sentinels.hpp"
@@ -41,8 +42,9 @@ Settings withSidecar(const std::string& path, const ScanOptions& given) {
     Settings settings{given, false};
     ScanOptions& options = settings.options;
     std::vector<std::string> lines;
+    const std::string text = readInput(sidecar, kSettingsInput);
     try {
-      const YAML::Node tree = YAML::LoadFile(sidecar);
+      const YAML::Node tree = YAML::Load(text);
       YAML::Node scan(YAML::NodeType::Map);
       if (tree.IsMap()) {
         for (const auto& entry : tree) {
@@ -58,7 +60,7 @@ Settings withSidecar(const std::string& path, const ScanOptions& given) {
                            (nested.IsDefined() && nested.IsMap() && nested["height_scale"].IsDefined());
       lines = readYaml(scan, [&options](OptionVisitor& visitor) { options.describe(visitor); });
     } catch (const YAML::Exception& yaml_error) {
-      throw FileError(sidecar + ": " + yamlTroubleOfFile(sidecar, yaml_error.what()));
+      throw FileError(sidecar + ": " + yamlTrouble(text, yaml_error.what()));
     }
     if (options.height_scale == 0.0) lines.emplace_back("scan/height_scale: 0 is not allowed, must not be 0");
     for (std::string& line : lines) line.insert(0, sidecar + ": ");

@@ -1,13 +1,13 @@
 #include "mems_stiction/preprocess/region.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <limits>
 #include <sstream>
 
 #include <opencv2/imgproc.hpp>
 
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/input_file.hpp"
 #include "mems_stiction/height_map/validity.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 
@@ -19,9 +19,16 @@ namespace {
   throw OptionsError({std::string("preprocessing/region/") + key + ": " + (is_named ? why : path + ": " + why)});
 }
 
+std::string cornersText(const std::string& path) {
+  try {
+    return readInput(path, {"a file of corners", 10'000'000, true});
+  } catch (const FileError& error) {
+    refuse("polygon_file", path, error.what());
+  }
+}
+
 std::vector<cv::Point2d> readCorners(const std::string& path) {
-  std::ifstream stream(path);
-  if (!stream) refuse("polygon_file", path, "cannot be read");
+  std::istringstream stream(cornersText(path));
   std::vector<cv::Point2d> corners;
   int number = 0;
   for (std::string line; std::getline(stream, line);) {

@@ -1,12 +1,13 @@
 #include "mems_stiction/scan/configuration_yaml.hpp"
 
+#include <unistd.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <utility>
 
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/input_file.hpp"
 #include "mems_stiction/base/yaml_trouble.hpp"
 
 namespace mems_stiction {
@@ -24,15 +25,13 @@ Configuration configurationFromYaml(const YAML::Node& tree, const Configuration&
 }
 
 Configuration loadConfiguration(const std::string& path, const Configuration& defaults) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) throw FileError(path + ": is a folder, not a configuration file");
+  if (access(path.c_str(), R_OK) != 0) throw FileError(path + ": the configuration file cannot be opened");
+  const std::string text = readInput(path, kSettingsInput);
   YAML::Node tree;
   try {
-    tree = YAML::LoadFile(path);
-  } catch (const YAML::BadFile&) {
-    throw FileError(path + ": the configuration file cannot be opened");
+    tree = YAML::Load(text);
   } catch (const YAML::Exception& error) {
-    throw FileError(path + ": " + yamlTroubleOfFile(path, error.what()));
+    throw FileError(path + ": " + yamlTrouble(text, error.what()));
   }
   try {
     return configurationFromYaml(tree, defaults);

@@ -1,6 +1,9 @@
 /// What predict_scan says of wrong files, settings and options: one line that names what is wrong, and exit status 2.
 
+#include <sys/stat.h>
 #include <nlohmann/json.hpp>
+
+#include <filesystem>
 
 #include "support/predict_scan_program.hpp"
 
@@ -81,6 +84,27 @@ TEST_F(PredictScan, WhatIsMistypedIsNamedWithWhatIsAllowed) {
     ASSERT_EQ(outcome.errors.size(), 1u) << arguments;
     EXPECT_NE(outcome.errors[0].find(expected), std::string::npos) << outcome.errors[0];
     EXPECT_TRUE(outcome.output.empty()) << arguments;
+  }
+}
+
+TEST_F(PredictScan, SettingsWithoutEndAreRefusedBeforeTheyAreRead) {
+  const std::string scan = sphere();
+  const std::string large = folder_.write("large.yaml", "load: {voltage: 0}\n");
+  std::filesystem::resize_file(large, std::uint64_t{100} << 30);  // a hole: no disk is used
+  const std::string pipe = folder_.file("pipe.yaml");
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const std::string beside = folder_.write("beside.tiff", ScratchFolder::read(scan));
+  std::filesystem::create_hard_link(large, beside + ".yaml");
+  const std::string too_large = "has 107374182400 bytes, more than the 1000000 of a configuration file";
+  for (const auto& [arguments, expected] :
+       {std::make_pair("-c /dev/zero " + scan, std::string("/dev/zero: is a pipe, a socket or a device, not a file")),
+        std::make_pair("-c " + pipe + " " + scan, pipe + ": is a pipe, a socket or a device, not a file"),
+        std::make_pair("-c " + large + " " + scan, large + ": " + too_large),
+        std::make_pair(beside, beside + ".yaml: " + too_large)}) {
+    const Outcome outcome = run("--pitch 20e-9 " + arguments);
+    EXPECT_EQ(outcome.status, 2) << arguments;
+    ASSERT_EQ(outcome.errors.size(), 1u) << arguments;
+    EXPECT_NE(outcome.errors[0].find(expected), std::string::npos) << outcome.errors[0];
   }
 }
 
