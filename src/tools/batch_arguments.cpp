@@ -1,14 +1,20 @@
 #include "batch_arguments.hpp"
 
-#include <fstream>
+#include <climits>
 #include <sstream>
 
 #include "command_line.hpp"
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/input_file.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 #include "mems_stiction/scan/configuration_yaml.hpp"
 
 namespace mems_stiction {
+namespace {
+
+constexpr InputKind kInputList = {"a list of inputs", 100'000'000, true};
+
+}  // namespace
 
 void describe(CLI::App& app, BatchArguments& arguments) {
   app.description(
@@ -68,9 +74,12 @@ Shard shardOf(const std::string& text) {
 std::vector<std::string> inputsOf(const BatchArguments& arguments) {
   std::vector<std::string> inputs = arguments.inputs;
   if (!arguments.input_list.empty()) {
-    std::ifstream stream(arguments.input_list);
-    if (!stream) throw FileError(arguments.input_list + ": cannot be read");
+    const std::string text = readInput(arguments.input_list, kInputList);
+    const bool is_text = text.find('\0') == std::string::npos;
+    std::istringstream stream(text);
     for (std::string line; std::getline(stream, line);) {
+      if (!is_text || line.size() >= PATH_MAX)
+        throw FileError(arguments.input_list + ": is no list with an INPUT on each line");
       if (!line.empty()) inputs.push_back(line);
     }
   }

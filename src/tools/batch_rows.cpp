@@ -10,18 +10,22 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
+#include <string_view>
 
 #include "csv_text.hpp"
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/input_file.hpp"
 #include "mems_stiction/base/output_file.hpp"
 
 namespace mems_stiction {
 namespace {
 
 constexpr auto kReplaceBadBytes = nlohmann::json::error_handler_t::replace;
+/// What each row of JSON begins with.
+constexpr std::string_view kJsonStart = "{\"number\":";
+constexpr InputKind kRows = {"a table of rows", std::uint64_t{4} << 30};
+constexpr InputKind kSettings = {"the settings of rows", std::uint64_t{1} << 28};
 
 bool endsWith(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
@@ -41,7 +45,6 @@ std::string csvCell(const nlohmann::json& value) {
 
 /// The number that a row begins with; 0 if it does not.
 std::size_t numberOf(const std::string& line, RowFormat format) {
-  static const std::string kJsonStart = "{\"number\":";
   if (format == RowFormat::kJsonLines && line.compare(0, kJsonStart.size(), kJsonStart) != 0) return 0;
   const char* start = line.c_str() + (format == RowFormat::kJsonLines ? kJsonStart.size() : 0);
   return std::strtoull(start, nullptr, 10);
@@ -57,6 +60,17 @@ std::vector<std::string> linesOf(const std::string& text, std::string& torn) {
   }
   torn = text.substr(start);
   return lines;
+}
+
+/// The rows of an earlier call. What begins otherwise is refused before all of it is read.
+std::string rowsFrom(const std::string& path, RowFormat format, const std::string& heading) {
+  const bool is_json = format == RowFormat::kJsonLines;
+  const std::string begin(is_json ? kJsonStart : heading);
+  const std::string found = readInputStart(path, kRows, begin.size());
+  if (begin.compare(0, found.size(), found) != 0) {
+    throw FileError(path + (is_json ? ": line 1 is no row" : ": line 1 has other columns than this run writes"));
+  }
+  return readRows(path);
 }
 
 [[noreturn]] void failWithSystemsReason(const std::string& path) {
@@ -112,7 +126,7 @@ RowFile::RowFile(const std::string& path, RowFormat format, const std::string& h
     if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
       throw FileError(path + ": another program is writing it");
     }
-    const std::string text = readWhole(path);
+    const std::string text = hasRows(path) ? rowsFrom(path, format, heading) : "";
     std::string torn;
     std::vector<std::string> lines = linesOf(text, torn);
     if (!torn.empty() && ::ftruncate(descriptor_, static_cast<off_t>(text.size() - torn.size())) != 0) {
@@ -121,7 +135,6 @@ RowFile::RowFile(const std::string& path, RowFormat format, const std::string& h
     if (lines.empty()) {
       writeAll(descriptor_, heading, path_);
     } else if (!heading.empty()) {
-      if (lines.front() + "\n" != heading) throw FileError(path + ": line 1 has other columns than this run writes");
       lines.erase(lines.begin());
     }
     done_ = lines.size();
@@ -145,13 +158,17 @@ void RowFile::append(const std::string& line) {
 
 std::string settingsPathOf(const std::string& rows_path) { return rows_path + ".settings.yaml"; }
 
-std::string readWhole(const std::string& path) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) throw FileError(path + ": is a folder, must be a file");
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw FileError(path + ": cannot be read: " + std::strerror(errno));
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+bool hasRows(const std::string& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) throw FileError(path + ": is a folder, must be a file");
+  if (!std::filesystem::is_regular_file(path, error)) return false;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  return !error && size > 0;
 }
+
+std::string readRows(const std::string& path) { return readInput(path, kRows); }
+
+std::string readSettings(const std::string& rows_path) { return readInput(settingsPathOf(rows_path), kSettings); }
 
 void mergeRows(const std::vector<std::string>& shards, const std::string& path, std::size_t total) {
   const RowFormat format = rowFormatOf(path);
@@ -160,7 +177,7 @@ void mergeRows(const std::vector<std::string>& shards, const std::string& path, 
   for (const std::string& shard : shards) {
     if (rowFormatOf(shard) != format) throw FileError(shard + ": not of the kind of " + path);
     std::string torn;
-    std::vector<std::string> lines = linesOf(readWhole(shard), torn);
+    std::vector<std::string> lines = linesOf(readRows(shard), torn);
     if (!torn.empty()) throw FileError(shard + ": the last line is torn: run this shard again, it goes on from there");
     if (format == RowFormat::kCsv && !lines.empty()) {
       if (!heading.empty() && heading != lines.front())

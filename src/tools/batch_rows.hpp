@@ -53,8 +53,14 @@ class RowFile {
 /// Where the settings of a file of rows are kept, so that rows of different settings never mix.
 std::string settingsPathOf(const std::string& rows_path);
 
-/// The whole file. @throw FileError
-std::string readWhole(const std::string& path);
+/// Whether rows of an earlier call may be there: nothing is read back from a device. @throw FileError for a folder
+bool hasRows(const std::string& path);
+
+/// All of the file. @throw FileError
+std::string readRows(const std::string& path);
+
+/// All of the settings of these rows. @throw FileError
+std::string readSettings(const std::string& rows_path);
 
 /// Joins shards to the file that one run writes, byte for byte.
 /// @param total rows that one run writes

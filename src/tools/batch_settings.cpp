@@ -1,6 +1,6 @@
 #include "batch_settings.hpp"
 
-#include <fstream>
+#include <filesystem>
 #include <sstream>
 
 #include <yaml-cpp/yaml.h>
@@ -41,14 +41,15 @@ std::string settingsText(std::size_t total, const std::vector<std::string>& inpu
 
 void checkSettings(const std::string& path, const std::string& settings) {
   const std::string settings_path = settingsPathOf(path);
-  if (std::ifstream(settings_path)) {
-    if (readWhole(settings_path) != settings) {
+  std::error_code ignored;
+  if (std::filesystem::exists(settings_path, ignored)) {
+    if (readSettings(path) != settings) {
       throw FileError(path + ": holds rows of other inputs, settings or another version (" + settings_path +
                       "): give the same ones to go on, or write another file");
     }
     return;
   }
-  if (std::ifstream(path) && !readWhole(path).empty()) {
+  if (hasRows(path)) {
     throw FileError(path + ": exists, and " + settings_path + ", which says what it was made with, is missing");
   }
   writeFile(settings_path, settings);

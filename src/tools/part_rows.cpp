@@ -56,7 +56,7 @@ Row rowOfJson(const std::string& line) {
 
 std::vector<Row> rowsOf(const std::string& path) {
   const RowFormat format = rowFormatOf(path);
-  std::istringstream stream(readWhole(path));
+  std::istringstream stream(readRows(path));
   std::string line;
   std::vector<Row> rows;
   std::vector<std::string> names;

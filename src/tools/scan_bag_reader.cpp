@@ -1,12 +1,10 @@
 #include "scan_bag_reader.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdint>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
+#include <limits>
 #include <set>
 #include <vector>
 
@@ -16,6 +14,7 @@
 #include "bag_check.hpp"
 #include "mems_stiction/base/child_process.hpp"
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/input_file.hpp"
 #include "mems_stiction/ros/topic_names.hpp"
 
 namespace mems_stiction {
@@ -27,6 +26,8 @@ namespace fs = std::filesystem;
 constexpr std::ptrdiff_t kNearest = 32;
 /// For `rosbag reindex` [s].
 constexpr double kMendingTimeout = 3600.0;
+
+constexpr InputKind kBag = {"a bag", std::numeric_limits<std::uint64_t>::max()};
 
 std::string withoutSlash(const std::string& topic) { return topic.rfind('/', 0) == 0 ? topic.substr(1) : topic; }
 
@@ -106,11 +107,8 @@ boost::shared_ptr<const ScanInfo> instantiateInfo(const rosbag::MessageInstance&
 /// @throw FileError for a file that does not begin as a bag does
 void requireMagic(const std::string& path) {
   const std::string magic = "#ROSBAG V";
-  std::string begin(magic.size(), '\0');
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw FileError(path + ": cannot be read: " + std::strerror(errno));
-  stream.read(begin.data(), static_cast<std::streamsize>(begin.size()));
-  if (stream.gcount() == 0) throw FileError(path + ": is empty");
+  const std::string begin = readInputStart(path, kBag, magic.size());
+  if (begin.empty()) throw FileError(path + ": is empty");
   if (begin != magic) throw FileError(path + ": is not a bag, whatever its name says");
 }
 
@@ -119,7 +117,6 @@ void requireMagic(const std::string& path) {
 ScanBagReader::ScanBagReader(const std::string& path, const std::string& height_topic, const ScanOptions& parameters)
     : path_(path), parameters_(parameters) {
   if (!fs::exists(path)) throw FileError(path + ": no such file");
-  if (fs::is_directory(path)) throw FileError(path + ": is a folder, not a bag");
   requireMagic(path);
   if (checkBag(path) == BagEnd::kCutOff) {
     openMended();

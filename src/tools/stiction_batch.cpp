@@ -103,9 +103,9 @@ int merge(const BatchArguments& arguments) {
                                  ? ": no rows of stiction_batch: there is no " + settingsPathOf(shard) + " beside it"
                                  : ": there is no such file"));
   }
-  const std::string settings = readWhole(settingsPathOf(shards.front()));
+  const std::string settings = readSettings(shards.front());
   for (const std::string& shard : shards) {
-    if (readWhole(settingsPathOf(shard)) != settings) {
+    if (readSettings(shard) != settings) {
       throw FileError(shard + ": made with other inputs or settings than " + shards.front());
     }
   }

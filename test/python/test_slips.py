@@ -92,6 +92,39 @@ class SlipTest(unittest.TestCase):
         self.assert_refused("as in 1/4", "stiction_batch", "-o", "rows.csv", "--shard", "2", "scan.npy")
         self.assert_refused("--load: '1uN' is not allowed", "stiction_batch", "-o", "rows.csv", "--load", "1uN", "scan.npy")
 
+    def make_hole(self, name, begin=""):
+        """A file of 100 GB that takes no disk."""
+        with (self.folder / name).open("wb") as stream:
+            stream.write(begin.encode())
+            stream.truncate(100 << 30)
+
+    def test_a_batch_reads_nothing_that_has_no_end(self):
+        os.mkfifo(str(self.folder / "pipe.txt"))
+        os.mkfifo(str(self.folder / "pipe.bag"))
+        self.make_hole("hole.txt")
+        not_a_file = "is a pipe, a socket or a device, not a file"
+        too_large = "has 107374182400 bytes, more than the "
+        for name, expected in (("/dev/zero", not_a_file), ("pipe.txt", not_a_file), ("hole.txt", too_large + "100000000 of a list of inputs")):
+            self.assert_refused("%s: %s" % (name, expected), "stiction_batch", "-o", "q.csv", "--inputs-from", name)
+        (self.folder / "picture.txt").write_bytes(bytes(1000))
+        self.assert_refused("picture.txt: is no list with an INPUT on each line", "stiction_batch", "-o", "q.csv", "--inputs-from", "picture.txt")
+        self.assertIn("pipe.bag: " + not_a_file, self.run_it("stiction_batch", "-o", "bag.csv", "pipe.bag").stderr)
+        for rows in ("q.csv", "q.jsonl"):
+            self.assertEqual(self.run_it("stiction_batch", "-o", rows, "scan.npy").returncode, 0)
+            begin = (self.folder / rows).read_text()
+            self.make_hole(rows, begin)
+            self.assert_refused("%s: %s4294967296 of a table of rows" % (rows, too_large), "stiction_batch", "-o", rows, "scan.npy")
+            self.assert_refused("%s: %s4294967296 of a table of rows" % (rows, too_large), "stiction_batch", "--merge", "-o", "all" + rows[1:], rows)
+            (self.folder / rows).write_text("x" + begin)
+            self.assert_refused(rows + ": line 1 ", "stiction_batch", "-o", rows, "scan.npy")
+            self.make_hole(rows + ".settings.yaml")
+            self.assert_refused("%s.settings.yaml: %s268435456 of the settings" % (rows, too_large), "stiction_batch", "-o", rows, "scan.npy")
+
+    def test_a_list_may_come_from_a_pipe_of_the_shell(self):
+        done = subprocess.run([find_node("mems_stiction", "stiction_batch")[0], "-o", "q.csv", "--inputs-from", "/dev/stdin"], cwd=str(self.folder),
+                              input=b"scan.npy\n", stdout=subprocess.PIPE, timeout=60)
+        self.assertEqual(done.returncode, 0)
+
     def test_scripts_name_numbers_and_places_before_they_run(self):
         self.assert_refused("the decimal sign is a point", "sweep_load", "--voltages", "0,05")
         self.assert_refused("more than 1000000 numbers", "sweep_load", "--voltages", "0:30:1e-9")
