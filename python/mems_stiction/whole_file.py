@@ -1,6 +1,7 @@
 """Files that are whole or absent, whatever happens while they are written: Ctrl-C, a full disk."""
 
 import contextlib
+import errno
 import os
 import pathlib
 import shutil
@@ -11,13 +12,20 @@ def part_of(path):
     return path.with_name(".%s.part%s" % (path.stem, path.suffix))
 
 
+def refuse_pipe(path):
+    """Raises OSError for a pipe, which would wait for somebody who reads it, or a socket."""
+    if path.is_fifo() or path.is_socket():
+        raise OSError(errno.EINVAL, "is a pipe or a socket, must be a file", str(path))
+
+
 @contextlib.contextmanager
 def whole(path):
     """A place to write to; what was written there takes the file's name when it is whole.
 
-    A link stays a link, and a device or pipe is written to as it is.
+    A link stays a link, and a device is written to as it is.
     """
     path = pathlib.Path(os.path.realpath(str(path)))
+    refuse_pipe(path)
     if path.exists() and not path.is_file():
         yield path
         return
@@ -36,6 +44,7 @@ def whole(path):
 def check_writable(path):
     """Raises OSError if a file cannot be written there by whole()."""
     path = pathlib.Path(os.path.realpath(str(path)))
+    refuse_pipe(path)
     if path.exists():
         with open(str(path), "ab"):
             pass

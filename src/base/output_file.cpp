@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/input_file.hpp"
 #include "mems_stiction/base/interruption.hpp"
 
 namespace mems_stiction {
@@ -42,9 +43,16 @@ void writeDirectly(const std::string& path, const std::string& bytes) {
 
 }  // namespace
 
+bool isLonelyPipe(const std::string& path) {
+  struct stat status {};
+  if (isOpenStream(path) || stat(path.c_str(), &status) != 0) return false;
+  return S_ISFIFO(status.st_mode) || S_ISSOCK(status.st_mode);
+}
+
 void writeFile(const std::string& path, const std::string& bytes, OutputSafety safety) {
   struct stat status {};
   const bool exists = stat(path.c_str(), &status) == 0;
+  if (isLonelyPipe(path)) throw FileError(path + ": " + kLonelyPipe);
   if (exists && !S_ISREG(status.st_mode)) {
     writeDirectly(path, bytes);
     return;

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "mems_stiction/base/nearest_word.hpp"
+#include "mems_stiction/base/output_file.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -58,6 +59,7 @@ void requireOutput(const std::string& option, const std::string& path, const std
     if (fs::equivalent(path, input, ignored)) refuse("is what is read, which would be lost; give another name");
   }
   if (fs::is_directory(path, ignored)) refuse("is a folder, must be a file");
+  if (isLonelyPipe(path)) refuse(kLonelyPipe);
   const fs::path parent = fs::path(path).has_parent_path() ? fs::path(path).parent_path() : fs::path(".");
   if (!fs::is_directory(parent, ignored)) refuse("cannot be written: there is no folder '" + parent.string() + "'");
   const bool exists = fs::exists(path, ignored);

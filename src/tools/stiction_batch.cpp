@@ -26,8 +26,11 @@ using namespace mems_stiction;
 /// Exit status when no scan of the call could be predicted.
 constexpr int kNonePredicted = 1;
 
-/// Refuses before the work what could not be written after it. @throw OptionsError
-void checkParts(const BatchArguments& arguments) {
+/// Refuses before the work what could not be written after it. @throw OptionsError, FileError
+void checkOutputs(const BatchArguments& arguments) {
+  for (const std::string& path : {arguments.output, settingsPathOf(arguments.output), arguments.parts}) {
+    if (isLonelyPipe(path)) throw FileError(path + ": " + kLonelyPipe);
+  }
   if (arguments.parts.empty()) return;
   rowFormatOf(arguments.parts, "--parts");
   if (arguments.parts == arguments.output) throw OptionsError({"--parts: must be another file than --output"});
@@ -45,7 +48,7 @@ int run(const BatchArguments& arguments) {
   if (arguments.clear_cache) clearImportCache();
   const Shard shard = shardOf(arguments.shard);
   const RowFormat format = rowFormatOf(arguments.output);
-  checkParts(arguments);
+  checkOutputs(arguments);
   const std::vector<std::string> inputs = inputsOf(arguments);
   Configuration configuration = configurationOf(arguments);
   OutputOptions& output = configuration.model.output;
@@ -94,7 +97,7 @@ int run(const BatchArguments& arguments) {
 int merge(const BatchArguments& arguments) {
   const std::vector<std::string> shards = inputsOf(arguments);
   rowFormatOf(arguments.output);
-  checkParts(arguments);
+  checkOutputs(arguments);
   for (const std::string& shard : shards) {
     std::error_code ignored;
     const bool is_there = std::filesystem::exists(shard, ignored);

@@ -120,6 +120,20 @@ class SlipTest(unittest.TestCase):
             self.make_hole(rows + ".settings.yaml")
             self.assert_refused("%s.settings.yaml: %s268435456 of the settings" % (rows, too_large), "stiction_batch", "-o", rows, "scan.npy")
 
+    def test_no_output_waits_for_a_reader(self):
+        for name in ("pipe.csv", "pipe.html", "pipe.png", "rows.csv.settings.yaml"):
+            os.mkfifo(str(self.folder / name))
+        expected = "is a pipe or a socket, must be a file"
+        for call in (("stiction_batch", "-o", "pipe.csv", "scan.npy"), ("stiction_batch", "-o", "rows.csv", "scan.npy"),
+                     ("stiction_batch", "-o", "q.csv", "--parts", "pipe.csv", "scan.npy"), ("sweep_load", "--voltages", "0", "--csv", "pipe.csv"),
+                     ("cycle_contact", "--count", "2", "--plot", "pipe.png"), ("export_predictions", "-o", "pipe.csv", "text.bag"),
+                     ("stiction_report", "-o", "pipe.html", "scan.npy")):
+            self.assert_refused(expected, *call)
+
+    def test_rows_may_go_nowhere(self):
+        (self.folder / "null.csv").symlink_to("/dev/null")
+        self.assertEqual(self.run_it("stiction_batch", "-o", "null.csv", "scan.npy").returncode, 0)
+
     def test_a_list_may_come_from_a_pipe_of_the_shell(self):
         done = subprocess.run([find_node("mems_stiction", "stiction_batch")[0], "-o", "q.csv", "--inputs-from", "/dev/stdin"], cwd=str(self.folder),
                               input=b"scan.npy\n", stdout=subprocess.PIPE, timeout=60)

@@ -105,6 +105,24 @@ TEST(OutputFile, AFullDiskIsAnErrorThatNamesTheFile) {
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
 }
 
+TEST(OutputFile, APipeThatNobodyReadsIsRefusedWithoutWaiting) {
+  const ScratchFolder folder;
+  const std::string pipe = folder.file("pipe");
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_THROW(writeFile(pipe, "x"), FileError);
+}
+
+TEST(OutputFile, APipeThatTheShellHasOpenedIsWrittenTo) {
+  int ends[2] = {-1, -1};
+  ASSERT_EQ(::pipe(ends), 0);
+  writeFile("/dev/fd/" + std::to_string(ends[1]), "x");
+  char letter = 0;
+  EXPECT_EQ(read(ends[0], &letter, 1), 1);
+  EXPECT_EQ(letter, 'x');
+  close(ends[0]);
+  close(ends[1]);
+}
+
 TEST(OutputFile, AFolderThatIsMissingLeavesNothing) { EXPECT_THROW(writeFile("/nonexistent/out", "x"), FileError); }
 
 }  // namespace

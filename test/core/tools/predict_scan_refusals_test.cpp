@@ -113,11 +113,14 @@ TEST_F(PredictScan, OutputsThatCannotBeWrittenAreNamedBeforeAnyWorkAndInputsAreK
   const std::string before = ScratchFolder::read(scan);
   const std::string settings = folder_.write("part.yaml", "load: {voltage: 0}\n");
   const std::string call = "--pitch 20e-9 -c " + settings + " " + scan;
+  const std::string pipe = folder_.file("pipe.csv");
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   for (const std::string option : {"--deformed", "--curve", "--half-space --half-space-gap"}) {
     for (const auto& [path, expected] :
          {std::make_pair(scan, "is what is read, which would be lost"),
           std::make_pair(settings, "is what is read, which would be lost"),
           std::make_pair(folder_.file("."), "is a folder, must be a file"),
+          std::make_pair(pipe, "is a pipe or a socket, must be a file"),
           std::make_pair(folder_.file("none/x"), "cannot be written: there is no folder")}) {
       const Outcome outcome = run(option + " " + path + " " + call);
       EXPECT_EQ(outcome.status, 2) << path;
