@@ -8,11 +8,13 @@ provenance.py; other columns are left out.
 import csv
 import math
 
+from mems_stiction.input_file import UnfitFile, is_open_pipe, require_file
 from mems_stiction.provenance import FIELDS
 
 import numpy as np
 
 COLUMNS = ("height", "force", "direction")
+MOST_BYTES = 100000000  # of a file
 DIRECTIONS = ("APPROACH", "RETRACTION")
 # A step is a jump if the force changes by this share of all that it spans, so many times as steeply as on both sides.
 JUMP_SHARE = 0.02
@@ -94,6 +96,8 @@ def read_curve(path, name):
     """The curve in a file. Raises CurveError with file, line and column, and what is allowed there."""
     points, origin = [], {}
     try:
+        if not is_open_pipe(path):
+            require_file(path, "a curve", MOST_BYTES)
         with open(str(path), encoding="utf-8", newline="") as stream:
             reader = csv.DictReader(stream, skipinitialspace=True)
             missing = [column for column in COLUMNS if column not in (reader.fieldnames or ())]
@@ -110,6 +114,8 @@ def read_curve(path, name):
                 points.append((_number(row["height"], where + "height"), _number(row["force"], where + "force"), direction))
     except OSError as error:
         raise CurveError("%s: cannot be read: %s" % (path, error.strerror))
+    except UnfitFile as error:
+        raise CurveError("%s: %s" % (path, error))
     except (UnicodeDecodeError, csv.Error):
         raise CurveError("%s: is no CSV file; must have the columns %s" % (path, ", ".join(COLUMNS)))
     if not points:

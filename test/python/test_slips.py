@@ -178,6 +178,22 @@ class SlipTest(unittest.TestCase):
             self.assert_refused("not decided: " + expected, "station_check", "--bag", bag, "--verdict")
         self.assertFalse((self.folder / "a.csv").exists())
 
+    def test_bags_and_curves_without_end_are_named_before_they_are_read(self):
+        os.mkfifo(str(self.folder / "pipe"))
+        self.make_hole("hole")
+        self.make_hole("begun", "#ROSBAG V2.0\n")
+        not_a_file = "is a pipe, a socket or a device, not a file"
+        for bag, expected in (("pipe", not_a_file), ("/dev/zero", not_a_file), ("hole", "is not a bag"), ("empty.bag", "is empty"), ("begun", "")):
+            self.assert_refused("%s cannot be read: %s" % (bag, expected), "export_predictions", "-o", "a.csv", bag)
+            self.assert_refused("not decided: %s cannot be read: %s" % (bag, expected), "station_check", "--bag", bag, "--verdict")
+        for curve, expected in (("pipe", not_a_file), ("/dev/zero", not_a_file), ("hole", "has 107374182400 bytes, more than the 100000000 of a curve")):
+            self.assert_refused("%s: %s" % (curve, expected), "plot_curve", "-o", "a.png", curve)
+
+    def test_a_curve_may_come_from_a_pipe_of_the_shell(self):
+        done = subprocess.run([find_node("mems_stiction", "plot_curve")[0], "-o", "a.png", "/dev/stdin"], cwd=str(self.folder),
+                              input=b"height,force,direction\n1e-9,2e-9,APPROACH\n0,3e-9,APPROACH\n", timeout=60)
+        self.assertEqual(done.returncode, 0)
+
     def test_an_export_names_the_topics_that_there_are(self):
         with rosbag.Bag(str(self.folder / "day.bag"), "w") as bag:
             bag.write("/left/prediction", StictionPrediction())

@@ -1,0 +1,29 @@
+"""Files that a script reads, asked before they are opened: a pipe would wait for its writer, a device has no end."""
+
+import os
+import stat
+
+OPEN_STREAMS = ("/dev/std", "/dev/fd/", "/proc/self/fd/")  # what the shell has opened, perhaps a pipe
+
+
+class UnfitFile(Exception):
+    """Why a file is not read, without its name."""
+
+
+def require_file(path, what, most=None):
+    """Raises UnfitFile for what is no file or has more than so many bytes, OSError where there is none.
+
+    what: as what it is read, with its article, as in "a bag".
+    """
+    status = os.stat(str(path))
+    if stat.S_ISDIR(status.st_mode):
+        raise UnfitFile("is a folder, not %s" % what)
+    if not stat.S_ISREG(status.st_mode):
+        raise UnfitFile("is a pipe, a socket or a device, not a file")
+    if most is not None and status.st_size > most:
+        raise UnfitFile("has %d bytes, more than the %d of %s" % (status.st_size, most, what))
+
+
+def is_open_pipe(path):
+    """Whether it is a pipe that the shell has opened, as by <(...): its writer is there."""
+    return str(path).startswith(OPEN_STREAMS) and stat.S_ISFIFO(os.stat(str(path)).st_mode)
