@@ -1,6 +1,7 @@
 """How a command line becomes a node: without a master it gives up in time, what it is to write can be written, and what others
 say reaches no terminal as a control character."""
 
+import errno
 import sys
 import time
 import urllib.parse
@@ -28,6 +29,22 @@ class Printable:
 
     def __getattr__(self, name):
         return getattr(self._stream, name)
+
+
+class Closed:
+    """In place of a stream that the caller has closed, which is None: to write there fails, as on a full disk."""
+
+    closed = False
+    encoding = "utf-8"
+
+    def write(self, text):
+        raise OSError(errno.EBADF, "what is to be printed goes to an output that is closed")
+
+    def flush(self):
+        pass
+
+    def isatty(self):
+        return False
 
 
 PATIENCE = 30.0  # for a master, of a program that runs until it is stopped [s]
@@ -63,7 +80,7 @@ def become_node(name, timeout, **options):
             print("%s: waits for a ROS master at %s (roscore or roslaunch)" % (name, rosgraph.get_master_uri()), file=sys.stderr, flush=True)
             is_told = True
         time.sleep(0.1)
-    sys.stdout, sys.stderr = Printable(sys.stdout), Printable(sys.stderr)
+    sys.stdout, sys.stderr = Printable(sys.stdout or Closed()), Printable(sys.stderr or Closed())
     try:
         rospy.init_node(name, anonymous=True, **options)
     except rospy.ROSInitException:

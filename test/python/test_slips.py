@@ -145,6 +145,8 @@ class SlipTest(unittest.TestCase):
         self.assert_refused("must be numbers", "sweep_load", "--voltages", "0:nan:5")
         self.assert_refused("must end in .png, .pdf or .svg", "sweep_load", "--voltages", "0", "--plot", "out.jpg")
         self.assert_refused("must end in .png, .pdf or .svg", "cycle_contact", "--count", "2", "--plot", "out")
+        for count in ("0", "4294967296", "1099511627776"):
+            self.assert_refused("--count: %s is not allowed, must be in [1, 2147483647]" % count, "cycle_contact", "--count", count)
         self.assert_refused("'20V' is not allowed, must be a number", "set_load", "--voltage", "20V")
         self.assert_refused("'0,05' is not allowed, must be a number", "stiction_report", "-o", "r.html", "--voltage", "0,05", "scan.npy")
         self.assert_refused("the decimal sign is a point", "station_check", "--bag", "a.bag", "--verdict", "--voltages", "0,05")
@@ -160,6 +162,20 @@ class SlipTest(unittest.TestCase):
                     self.assertIn(done.returncode, (1, BAD_INPUT))
                     self.assertEqual(done.stderr, "%s: ROS_MASTER_URI: '%s' is not allowed, must be an address as http://localhost:11311\n" % (
                         call[0], address))
+
+    def test_an_output_that_is_closed_is_one_line(self):
+        node = ("import rosgraph, rospy; from mems_stiction.station_node import become_node, run_program\n"
+                "rosgraph.is_master_online = lambda: True\n"
+                "rospy.init_node = lambda *_, **__: None\n"
+                "def main():\n    become_node('a_node', 1.0)\n    print('a line', flush=True)\n    return 0\n"
+                "run_program('a_node', main, 2)\n")
+        for output in (">&-", ">/dev/full"):
+            done = subprocess.run(["sh", "-c", 'exec python3 -c "$0" ' + output, node], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                  universal_newlines=True, timeout=60)
+            with self.subTest(output=output):
+                self.assertIn(done.returncode, (2, 120))  # 120: Python could not write what was left either
+                self.assertNotIn("Traceback", done.stderr)
+                self.assertTrue(done.stderr.startswith("a_node: [Errno "), done.stderr)
 
     def test_a_long_wait_for_a_master_is_told(self):
         process = subprocess.Popen([find_node("mems_stiction", "print_predictions")[0]], env=dict(os.environ, ROS_MASTER_URI="http://localhost:1"),

@@ -78,6 +78,16 @@ class StationCheckTest(unittest.TestCase):
             self.assertIn(reason, done.stderr)
             self.assert_load_is_put_back()
 
+    def test_an_output_that_is_closed_or_full_neither_passes_nor_fails(self):
+        call = [find_node("mems_stiction", "station_check")[0], "--bag", self.bag, "--max-contact-fraction", "0.9"]
+        for output, statuses in ((">&-", (NOT_MADE,)), (">/dev/full", (NOT_MADE, 120))):  # 120: Python could not write what was left either
+            done = subprocess.run(["sh", "-c", 'exec "$@" ' + output, "sh"] + call, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                  stdin=subprocess.DEVNULL, universal_newlines=True, timeout=60)
+            self.assertIn(done.returncode, statuses, done.stderr)
+            self.assertTrue(done.stderr.startswith("station_check: not decided: [Errno "), done.stderr)
+            self.assertNotIn("Traceback", done.stderr)
+            self.assert_load_is_put_back()
+
     def test_ctrl_c_puts_the_load_back_too(self):
         voltages = ",".join("%g" % (0.001 * step) for step in range(1, 20001))
         process = subprocess.Popen([find_node("mems_stiction", "station_check")[0], "--bag", self.bag, "--voltages", voltages, "--load", "2e-6",
