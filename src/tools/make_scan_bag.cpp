@@ -212,7 +212,7 @@ int run(const Arguments& arguments) {
     return kBadInput;
   }
   bag.finish();
-  std::cout << arguments.bag << ": " << bag.count() << " scans\n";
+  std::cout << oneLine(arguments.bag) << ": " << bag.count() << " scans\n";
   return status;
 }
 

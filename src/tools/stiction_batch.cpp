@@ -40,7 +40,7 @@ void checkOutputs(const BatchArguments& arguments) {
 void pool(const BatchArguments& arguments) {
   if (arguments.parts.empty()) return;
   const std::size_t count = writeParts(arguments.output, arguments.parts);
-  std::cout << arguments.parts << ": " << count << " parts\n";
+  std::cout << oneLine(arguments.parts) << ": " << count << " parts\n";
 }
 
 int run(const BatchArguments& arguments) {
@@ -82,7 +82,7 @@ int run(const BatchArguments& arguments) {
       if (row.is_predicted && !row.is_solved) ++unsolved_count;
     }
   }
-  std::cout << arguments.output << ": " << rows.done() << " rows, " << before << " of them from before, "
+  std::cout << oneLine(arguments.output) << ": " << rows.done() << " rows, " << before << " of them from before, "
             << failed_count << " scans failed in this run";
   if (arguments.half_space) std::cout << ", half-space not solved for " << unsolved_count << " others";
   std::cout << "\n";
@@ -115,7 +115,7 @@ int merge(const BatchArguments& arguments) {
   const std::size_t total = totalOf(shards.front(), settings);
   mergeRows(shards, arguments.output, total);
   writeFile(settingsPathOf(arguments.output), settings);
-  std::cout << arguments.output << ": " << total << " rows of " << shards.size() << " shards\n";
+  std::cout << oneLine(arguments.output) << ": " << total << " rows of " << shards.size() << " shards\n";
   pool(arguments);
   return 0;
 }

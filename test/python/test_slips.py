@@ -259,6 +259,21 @@ class SlipTest(unittest.TestCase):
             info, = [message for _, message, _ in bag.read_messages(topics=["/scan_info"])]
         self.assertEqual((info.part_id, info.serial_id), ("lot 3", "0012"))
 
+    def test_a_name_that_is_no_utf8_is_spelled_out(self):
+        name = "h\udcf6he.npy"
+        (self.folder / name).write_bytes((self.folder / "scan.npy").read_bytes())
+        (self.folder / (name + ".yaml")).write_text("pitch_x: 20.0e-9\npitch_y: 20.0e-9\n")
+        done = self.run_it("stiction_batch", "-o", "q\udcff.csv", name, "none\udcf6.npy")  # run_it() reads UTF-8
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stderr, "stiction_batch: none\\xf6.npy: there is no such file\n")
+        self.assertTrue(done.stdout.startswith("q\\xff.csv: 2 rows"), done.stdout)
+        with (self.folder / "q\udcff.csv").open(newline="", encoding="utf-8") as stream:
+            self.assertEqual([row["file"] for row in csv.DictReader(stream)], ["h\\xf6he.npy", "none\\xf6.npy"])
+        (self.folder / "q\udcff.csv.settings.yaml").read_text(encoding="utf-8")
+        for form in ((), ("--json",)):
+            done = self.run_it("predict_scan", *form, name, "none\udcf6.npy")
+            self.assertIn("predict_scan: none\\xf6.npy: there is no such file", done.stderr)
+
     def test_a_folder_is_no_curve(self):
         self.assert_refused(".: is a folder, not a curve", "plot_curve", ".")
 
