@@ -21,8 +21,10 @@ from typing import Any, Dict, Iterable, Iterator, List, Sequence, Tuple
 from mems_stiction._prediction import predict_many
 from mems_stiction._settings import Error, OptionsError, Settings
 from mems_stiction._warnings import ScanWarning
+from mems_stiction.input_file import UnfitFile, is_open_pipe, require_file
 
 BAD_INPUT = 2
+MOST_LIST_BYTES = 100000000
 Numbered = Tuple[int, str]
 
 
@@ -91,6 +93,16 @@ class RowFile:
             len(ordered), sum(bool(row["reason"]) for row in ordered), self.path)
 
 
+def _listed(path: str) -> List[str]:
+    """The lines of a file. Raises OptionsError for a device, a pipe of its own or a file without end."""
+    try:
+        if path != os.devnull and not is_open_pipe(path):
+            require_file(path, "a list of scans", MOST_LIST_BYTES)
+    except UnfitFile as error:
+        raise OptionsError("%s: %s" % (path, error))
+    return pathlib.Path(path).read_text(encoding="utf-8").splitlines()
+
+
 def _shard(text: str) -> Tuple[int, int]:
     index, _, count = text.partition("/")
     if not (index.isdigit() and count.isdigit() and 1 <= int(index) <= int(count)):
@@ -110,7 +122,7 @@ def main() -> int:
     try:
         paths = list(arguments.scans)
         if arguments.inputs_from:
-            paths += pathlib.Path(arguments.inputs_from).read_text(encoding="utf-8").splitlines()
+            paths += _listed(arguments.inputs_from)
         settings = Settings(arguments.config)
         rows = RowFile(arguments.output, settings)
         index, count = arguments.shard

@@ -1,7 +1,9 @@
 """Files that a script reads, asked before they are opened: a pipe would wait for its writer, a device has no end."""
 
 import os
+import pathlib
 import stat
+from typing import Optional, Union
 
 OPEN_STREAMS = ("/dev/std", "/dev/fd/", "/proc/self/fd/")  # what the shell has opened, perhaps a pipe
 
@@ -10,7 +12,7 @@ class UnfitFile(Exception):
     """Why a file is not read, without its name."""
 
 
-def require_file(path, what, most=None):
+def require_file(path: Union[str, pathlib.Path], what: str, most: Optional[int] = None) -> None:
     """Raises UnfitFile for what is no file or has more than so many bytes, OSError where there is none.
 
     what: as what it is read, with its article, as in "a bag".
@@ -24,6 +26,6 @@ def require_file(path, what, most=None):
         raise UnfitFile("has %d bytes, more than the %d of %s" % (status.st_size, most, what))
 
 
-def is_open_pipe(path):
+def is_open_pipe(path: Union[str, pathlib.Path]) -> bool:
     """Whether it is a pipe that the shell has opened, as by <(...): its writer is there."""
     return str(path).startswith(OPEN_STREAMS) and stat.S_ISFIFO(os.stat(str(path)).st_mode)

@@ -85,6 +85,18 @@ class ArchiveTest(unittest.TestCase):
         self.assertEqual(path.read_text(), self.expected.read_text())
         self.assertIn("%d rows, 1 of them" % (COUNT + 1), done.stdout)
 
+    def test_a_list_without_end_is_refused(self):
+        pipe = self.folder / "pipe.txt"
+        os.mkfifo(str(pipe))
+        hole = self.folder / "hole.txt"
+        with hole.open("wb") as stream:
+            stream.truncate(100 << 30)
+        for name, words in ((pipe, "is a pipe, a socket or a device"), ("/dev/zero", "is a pipe, a socket or a device"),
+                            (hole, "has 107374182400 bytes, more than the 100000000 of a list of scans")):
+            done = self.archive("-o", self.folder / "none.jsonl", "--inputs-from", name)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn("%s: %s" % (name, words), done.stderr)
+
     def test_other_settings_or_scans_are_refused(self):
         path = self.folder / "refused.jsonl"
         self.archive("-o", path, *self.scans[:2])
