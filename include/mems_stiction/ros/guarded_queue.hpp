@@ -15,6 +15,7 @@
 
 namespace mems_stiction {
 
+/// Calls each callback, and says what it throws.
 class GuardedQueue : public ros::CallbackQueue {
  public:
   void addCallback(const ros::CallbackInterfacePtr& callback, std::uint64_t owner = 0) override {
