@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -181,7 +182,8 @@ TEST(TipCorrection, takesSecondsForAMillionPixelsAndATipOfThirtyByThirty) {
   const TipCorrection corrected = tipCorrected(image, sphere(30e-9));
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   EXPECT_GT(corrected.unreached_fraction, 0.0);
-  EXPECT_LT(seconds, 30.0);  // about two on an idle machine
+  // about two on an idle machine; a sanitizer takes ten times as long
+  EXPECT_LT(seconds, std::getenv("MEMS_STICTION_SANITIZER") == nullptr ? 30.0 : 300.0);
   RecordProperty("seconds", std::to_string(seconds));
 }
 
