@@ -138,9 +138,12 @@ HeightMap surfaceOf(const std::string& path, const FileChannel& channel, const S
 
 /// @return the surface without numbers that stand for none, and says how many there were
 HeightMap measuredOnly(const HeightMap& surface, std::vector<std::string>& notes) {
-  const int count = cv::countNonZero(sentinelMask(surface.heights()));
-  if (count > 0) notes.push_back(std::to_string(count) + " heights beyond 1e20 m count as missing");
-  return withoutSentinels(surface);
+  HeightMap measured = withoutSentinels(surface);
+  if (measured.heights().data != surface.heights().data) {
+    const int count = cv::countNonZero(sentinelMask(surface.heights()));
+    notes.push_back(std::to_string(count) + " heights beyond 1e20 m count as missing");
+  }
+  return measured;
 }
 
 /// A single channel without a title needs no name.

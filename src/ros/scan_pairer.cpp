@@ -90,13 +90,9 @@ void ScanPairer::rejectIf(Topic<Message>& topic, Topic<Other>& other, const Pred
   }
 }
 
-/// Whether the topic has a half with this stamp already, or one of both had lately: by stamps, such scans cannot be told
-/// apart, and one half that is lost would shift all pairs after it.
-template <typename Message>
-bool ScanPairer::isAmbiguous(const ros::Time& stamp, const Topic<Message>& topic, ros::WallTime now) {
-  const bool waits_twice =
-      std::any_of(topic.waiting.begin(), topic.waiting.end(),
-                  [&](const Waiting<Message>& waiting) { return waiting.message->header.stamp == stamp; });
+/// Whether scans cannot be told apart by this stamp: two halves of one topic bear it at once, or did lately. One that is lost
+/// would shift all pairs after it.
+bool ScanPairer::isAmbiguous(const ros::Time& stamp, bool waits_twice, ros::WallTime now) {
   const bool was_ambiguous = is_ambiguous_ && ambiguous_stamp_ == stamp && now - ambiguous_at_ <= timeout_;
   if (!waits_twice && !was_ambiguous) return false;
   is_ambiguous_ = true;
@@ -139,7 +135,8 @@ void ScanPairer::add(const Message& message, ros::WallTime now, Topic<Message>& 
   if (!several_publishers_) {
     const auto is_from_before = [&](const auto& waiting) { return waiting.arrival < topic.anew && has_stamp(waiting); };
     rejectIf(topic, other, is_from_before, topic.reason + std::string(" before the stamps began anew"), {}, now);
-    if (isAmbiguous(stamp, topic, now)) {
+    const bool waits_twice = std::any_of(topic.waiting.begin(), topic.waiting.end(), has_stamp);
+    if (isAmbiguous(stamp, waits_twice, now)) {
       topic.waiting.push_back({message, now, arrival});
       rejectIf(topic, other, has_stamp, kAmbiguous, {}, now);
       return;

@@ -79,7 +79,8 @@ ConformingWayOut ConformingContact::partFrom(double pressure, double least_stren
   ConformingWayOut way_out;
   const auto rest = restOf(branch_, pressure);
   way_out.has_open_valleys = hasOpenValleys(pressure);
-  const double strength = way_out.has_open_valleys ? openStrength() : std::max(weakestPlace(pressure), least_strength);
+  const double strength =
+      way_out.has_open_valleys ? openStrength().traction : std::max(weakestPlace(pressure), least_strength);
   for (auto state = rest; state != branch_.end(); ++state) {
     const double traction = std::min(state->traction, strength);
     way_out.states.push_back({law_->range() - state->height, traction, state->contact_fraction});

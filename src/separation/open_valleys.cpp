@@ -45,11 +45,13 @@ bool valleysStayOpen(ReliefSpectrum& relief, const BondedBodies& bodies, double 
   return false;
 }
 
-double strengthWithOpenValleys(const BondedBodies& bodies) {
+OpenValleyStrength strengthWithOpenValleys(const BondedBodies& bodies) {
   const double ratio = bodies.flattening_energy / bodies.work_of_adhesion;
   const double wave_number = bodies.waveNumber();
   const double brittle = std::sqrt(bodies.contact_modulus * bodies.work_of_adhesion * wave_number);
-  return kGriffith * std::exp(-kDecay * ratio) * brittle / (1.0 + kCohesion * bodies.cohesiveLength() * wave_number);
+  const double cohesion = 1.0 + kCohesion * bodies.cohesiveLength() * wave_number;
+  // of sqrt(Gamma U) exp(-2 U/Gamma), U in proportion to the modulus
+  return {kGriffith * std::exp(-kDecay * ratio) * brittle / cohesion, 0.5 + kDecay * ratio, 0.5 - kDecay * ratio};
 }
 
 }  // namespace mems_stiction

@@ -80,9 +80,10 @@ void takeExponents(const SeparationCurve& curve, ContactSolution& solution) {
   solution.modulus_exponent = -curve.pull_off_carried / curve.pull_off_force;
 }
 
+bool isWayOut(const SeparationCurvePoint& point) { return point.is_separation; }
+
 void dropWayOut(std::vector<SeparationCurvePoint>& points) {
-  const auto is_way_out = [](const SeparationCurvePoint& point) { return point.is_separation; };
-  points.erase(std::remove_if(points.begin(), points.end(), is_way_out), points.end());
+  points.erase(std::remove_if(points.begin(), points.end(), isWayOut), points.end());
 }
 
 }  // namespace
@@ -280,10 +281,10 @@ void SeparationSolver::partConforming(const ContactProblem& problem, ContactSolu
   } else if (!has_flowed_) {
     const double area = problem.gap.validCount() * problem.gap.cellArea();
     if (solution.contact_area >= kBondedContact * area) stretchWayOut(problem, stretch, stretch, solution);
-    if (conforming_.hasOpenValleys(problem.settings.load.mechanical_load / area)) {
-      const double gain = conforming_.openStrength() * area / solution.pull_off_force;
+    const double gain = conforming_.openStrength().traction * area / solution.pull_off_force;
+    if (gain > 1.0 && conforming_.hasOpenValleys(problem.settings.load.mechanical_load / area)) {
       stretchWayOut(problem, gain, std::sqrt(gain), solution);
-      if (gain > 1.0) takeOpenExponents(problem, solution);
+      takeOpenExponents(solution);
     }
   }
 }
@@ -297,7 +298,7 @@ void SeparationSolver::takeConforming(const ContactProblem& problem, double stre
   solution.pull_off_force = way_out.strength * area;
   solution.adhesion_exponent = 1.0;  // nearly the strength of the law
   solution.modulus_exponent = 0.0;
-  if (way_out.has_open_valleys) takeOpenExponents(problem, solution);
+  if (way_out.has_open_valleys) takeOpenExponents(solution);
   solution.apparent_work_of_adhesion = conforming_.work();
   solution.contact_area = way_out.states.front().contact_fraction * area;
   dropWayOut(solution.curve);
@@ -306,11 +307,10 @@ void SeparationSolver::takeConforming(const ContactProblem& problem, double stre
   }
 }
 
-void SeparationSolver::takeOpenExponents(const ContactProblem& problem, ContactSolution& solution) const {
-  // of sqrt(Gamma U) exp(-2 U/Gamma), U in proportion to the modulus
-  const double ratio = solution.flattening_energy / problem.settings.interface.work_of_adhesion;
-  solution.adhesion_exponent = 0.5 + 2.0 * ratio;
-  solution.modulus_exponent = 0.5 - 2.0 * ratio;
+void SeparationSolver::takeOpenExponents(ContactSolution& solution) const {
+  const OpenValleyStrength open = conforming_.openStrength();
+  solution.adhesion_exponent = open.adhesion_exponent;
+  solution.modulus_exponent = open.modulus_exponent;
 }
 
 void SeparationSolver::stretchWayOut(const ContactProblem& problem, double force_factor, double work_factor,
@@ -319,13 +319,12 @@ void SeparationSolver::stretchWayOut(const ContactProblem& problem, double force
   const double strongest = trace_.law().strength() * problem.gap.validCount() * problem.gap.cellArea();
   solution.apparent_work_of_adhesion *= work_factor;
   solution.pull_off_force = std::min(force_factor * solution.pull_off_force, strongest);
-  if (std::none_of(solution.curve.begin(), solution.curve.end(),
-                   [](const SeparationCurvePoint& point) { return point.is_separation; })) {
+  if (std::none_of(solution.curve.begin(), solution.curve.end(), isWayOut)) {
     appendCurve(curve_, true, solution.curve);
   }
   const double rest = curve_.rest().approach;
   for (SeparationCurvePoint& point : solution.curve) {
-    if (!point.is_separation) continue;
+    if (!isWayOut(point)) continue;
     point.displacement = rest + work_factor / force_factor * (point.displacement - rest);
     point.force = std::min(force_factor * point.force, strongest);
   }

@@ -1,10 +1,11 @@
 #pragma once
 
-/// What the tests of the separation curve share: bodies that do not flow, and one call of the model.
+/// What the tests of the separation curve share: bodies that do not flow, and one call of the model, or of the half-space.
 
 #include <cmath>
 
 #include "mems_stiction/base/constants.hpp"
+#include "mems_stiction/half_space/half_space_solver.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
 
 namespace mems_stiction {
@@ -27,6 +28,19 @@ inline Options elastic(double contact_modulus, double load = 0.0) {
   options.interface.work_of_adhesion = kWork;
   options.load.mechanical_load = load;
   return options;
+}
+
+/// What the half-space says of the same surface, without flow.
+inline SolvedHalfSpace halfSpaceOf(const HeightMap& surface, const Options& options) {
+  HalfSpaceProblem problem;
+  problem.surfaces.lower = surface;
+  problem.lower_material = options.lower;
+  problem.upper_material = options.upper;
+  problem.interface = options.interface;
+  problem.load = options.load;
+  HalfSpaceOptions half_space;
+  half_space.flow = false;
+  return HalfSpaceSolver(half_space).solve(problem);
 }
 
 /// As equal bits as results can be.

@@ -71,8 +71,7 @@ class ScanPairer {
     std::uint64_t anew = 0;  ///< the last arrival whose stamp went back
   };
 
-  template <typename Message>
-  bool isAmbiguous(const ros::Time& stamp, const Topic<Message>& topic, ros::WallTime now);
+  bool isAmbiguous(const ros::Time& stamp, bool waits_twice, ros::WallTime now);
   template <typename Message, typename Other, typename Pair>
   void add(const Message& message, ros::WallTime now, Topic<Message>& topic, Topic<Other>& other, const Pair& pair);
   void pair(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info, ros::WallTime now);

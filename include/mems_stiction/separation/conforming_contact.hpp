@@ -53,8 +53,8 @@ class ConformingContact {
 
   /// Whether valleys stay open under a pressure [Pa], >= 0.
   bool hasOpenValleys(double pressure);
-  /// Mean traction at which they part if so [Pa].
-  double openStrength() const { return strengthWithOpenValleys(bondedBodies()); }
+  /// What they hold if so.
+  OpenValleyStrength openStrength() const { return strengthWithOpenValleys(bondedBodies()); }
   /// What drawing the bonded surfaces apart takes [J/m^2]; 0 if they do not stay together.
   double work() const;
   /// The way out from rest under a pressure [Pa], >= 0.

@@ -41,7 +41,12 @@ struct BondedBodies {
 /// - @p pressure that holds the bodies together [Pa], >= 0
 bool valleysStayOpen(ReliefSpectrum& relief, const BondedBodies& bodies, double pressure);
 
-/// Mean traction at which surfaces with open valleys part [Pa].
-double strengthWithOpenValleys(const BondedBodies& bodies);
+/// What surfaces with open valleys hold.
+struct OpenValleyStrength {
+  double traction = 0.0;           ///< mean, at which they part [Pa]
+  double adhesion_exponent = 0.0;  ///< with which it goes with Gamma, but for the denominator
+  double modulus_exponent = 0.0;   ///< and with E
+};
+OpenValleyStrength strengthWithOpenValleys(const BondedBodies& bodies);
 
 }  // namespace mems_stiction

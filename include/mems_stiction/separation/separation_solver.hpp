@@ -55,7 +55,7 @@ class SeparationSolver : public ContactSolver {
   void takeConforming(const ContactProblem& problem, double stretch, ContactSolution& solution);
   /// Makes the way out stronger, if these factors do, by its forces and by its displacements from rest.
   void stretchWayOut(const ContactProblem& problem, double force_factor, double work_factor, ContactSolution& solution);
-  void takeOpenExponents(const ContactProblem& problem, ContactSolution& solution) const;
+  void takeOpenExponents(ContactSolution& solution) const;
 
   SeparationTrace trace_;
   SeparationCurve curve_;

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "mems_stiction/base/constants.hpp"
-#include "mems_stiction/half_space/half_space_solver.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/separation_cases.hpp"
 
@@ -13,6 +12,7 @@ namespace mems_stiction {
 namespace {
 
 using separation_cases::elastic;
+using separation_cases::halfSpaceOf;
 using separation_cases::kWork;
 using separation_cases::rangeOf;
 
@@ -23,18 +23,6 @@ double strengthOf(const Options& options) {
 /// Amplitude of a wave that pulls with a share of the law's strength when it is pressed flat [m].
 double amplitudeFor(double share, double wave_length, const Options& options, double modulus) {
   return share * strengthOf(options) * wave_length / (kPi * modulus);
-}
-
-SolvedHalfSpace solve(const HeightMap& surface, const Options& options) {
-  HalfSpaceProblem problem;
-  problem.surfaces.lower = surface;
-  problem.lower_material = options.lower;
-  problem.upper_material = options.upper;
-  problem.interface = options.interface;
-  problem.load = options.load;
-  HalfSpaceOptions half_space;
-  half_space.flow = false;
-  return HalfSpaceSolver(half_space).solve(problem);
 }
 
 TEST(ConformingContact, aLongWaveTakesItsPressureFromTheStrength) {
@@ -57,7 +45,7 @@ TEST(ConformingContact, aLongWaveBreaksAsInTheHalfSpace) {
   const Options options = elastic(modulus);
   const double pitch = 2.5e-9;
   const HeightMap wave = analytic::sine(8, 128, pitch, pitch, amplitudeFor(0.3, 128 * pitch, options, modulus), 1, 0);
-  const SolvedHalfSpace solved = solve(wave, options);
+  const SolvedHalfSpace solved = halfSpaceOf(wave, options);
   ASSERT_EQ(solved.status, HalfSpaceStatus::kSolved) << solved.message;
   const Prediction prediction = AdhesionModel(options).predict(wave);
   EXPECT_NEAR(prediction.pull_off_force / solved.pull_off_force, 1.0, 0.1);
@@ -71,7 +59,7 @@ TEST(ConformingContact, shortWavesBreakAsAWhole) {
   const Options options = elastic(modulus);
   const double pitch = 8e-9;
   const HeightMap waves = analytic::sine(16, 64, pitch, pitch, amplitudeFor(0.3, 16 * pitch, options, modulus), 4, 0);
-  const SolvedHalfSpace solved = solve(waves, options);
+  const SolvedHalfSpace solved = halfSpaceOf(waves, options);
   ASSERT_EQ(solved.status, HalfSpaceStatus::kSolved) << solved.message;
   const Prediction prediction = AdhesionModel(options).predict(waves);
   ASSERT_TRUE(prediction.is_conforming);

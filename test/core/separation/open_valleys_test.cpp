@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include "mems_stiction/base/constants.hpp"
-#include "mems_stiction/half_space/half_space_solver.hpp"
 #include "mems_stiction/surface/gaussian_surface.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/separation_cases.hpp"
@@ -24,14 +23,14 @@ constexpr int kSide = 128;
 /// One wave along each row, `cohesive_lengths` of the cohesive length long.
 struct Wave {
   explicit Wave(double cohesive_lengths) {
-    BondedBodies bodies;
-    bodies.contact_modulus = kModulus;
-    bodies.work_of_adhesion = kWork;
-    bodies.range = kRange;
-    length = cohesive_lengths * bodies.cohesiveLength();
+    length = cohesive_lengths * BondedBodies{kModulus, kWork, kRange, 0.0, 0.0}.cohesiveLength();
     pitch = length / kSide;
   }
 
+  BondedBodies bodiesWith(double amplitude) const {
+    const double rms_height = amplitude / std::sqrt(2.0);
+    return {kModulus, kWork, kRange, 0.25 * kModulus * waveNumber() * rms_height * rms_height, rms_height};
+  }
   double waveNumber() const { return 2.0 * kPi / length; }
   /// K = E h sin(q a)/sqrt(pi a) is largest at tan(q a) = 2 q a, q a = 1.1656.
   double criticalAmplitude() const {
@@ -41,12 +40,7 @@ struct Wave {
   bool staysOpen(double amplitude, double pressure = 0.0) const {
     GapField field;
     field.compute(analytic::sine(kSide, kSide, pitch, pitch, amplitude, 1, 0));
-    BondedBodies bodies;
-    bodies.contact_modulus = kModulus;
-    bodies.work_of_adhesion = kWork;
-    bodies.range = kRange;
-    bodies.rms_height = amplitude / std::sqrt(2.0);
-    bodies.flattening_energy = 0.25 * kModulus * waveNumber() * bodies.rms_height * bodies.rms_height;
+    const BondedBodies bodies = bodiesWith(amplitude);
     EXPECT_NEAR(bodies.waveNumber(), waveNumber(), 1e-9 * waveNumber());
     ReliefSpectrum relief;
     relief.take(field, 0.5 * bodies.cohesiveLength());
@@ -94,14 +88,7 @@ TEST(OpenValleys, brittleSurfacesHoldWhatTheHalfSpaceSays) {
     surface_options.seed = seed;
     const HeightMap surface = gaussianSurface(surface_options);
     const Prediction prediction = AdhesionModel(options).predict(surface);
-    HalfSpaceProblem problem;
-    problem.surfaces.lower = surface;
-    problem.lower_material = options.lower;
-    problem.upper_material = options.upper;
-    problem.interface = options.interface;
-    HalfSpaceOptions half_space;
-    half_space.flow = false;
-    const SolvedHalfSpace solved = HalfSpaceSolver(half_space).solve(problem);
+    const SolvedHalfSpace solved = separation_cases::halfSpaceOf(surface, options);
     ASSERT_EQ(solved.status, HalfSpaceStatus::kSolved) << solved.message;
     SCOPED_TRACE(testing::Message() << "seed " << seed << ", flattening ratio " << prediction.flattening_ratio);
     const double ratio = prediction.pull_off_force / solved.pull_off_force;

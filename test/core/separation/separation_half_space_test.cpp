@@ -10,7 +10,6 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "mems_stiction/half_space/half_space_solver.hpp"
 #include "mems_stiction/surface/gaussian_surface.hpp"
 #include "mems_stiction/surface/self_affine_surface.hpp"
 #include "support/separation_cases.hpp"
@@ -19,6 +18,7 @@ namespace mems_stiction {
 namespace {
 
 using separation_cases::elastic;
+using separation_cases::halfSpaceOf;
 
 TEST(SeparationOfSolvedFrames, pullOffForceIsThatOfTheHalfSpace) {
   const char* const folder = std::getenv("MEMS_STICTION_HALF_SPACE");
@@ -38,18 +38,6 @@ TEST(SeparationOfSolvedFrames, pullOffForceIsThatOfTheHalfSpace) {
     const double ratio = prediction.pull_off_force / frame["pull_off_force"].get<double>();
     EXPECT_LT(std::abs(std::log(ratio)), std::log(1.15)) << ratio;
   }
-}
-
-SolvedHalfSpace solve(const HeightMap& surface, const Options& options) {
-  HalfSpaceProblem problem;
-  problem.surfaces.lower = surface;
-  problem.lower_material = options.lower;
-  problem.upper_material = options.upper;
-  problem.interface = options.interface;
-  problem.load = options.load;
-  HalfSpaceOptions half_space;
-  half_space.flow = false;
-  return HalfSpaceSolver(half_space).solve(problem);
 }
 
 struct Case {
@@ -98,7 +86,7 @@ TEST(SeparationOfFreshFrames, mostLieWithinFifteenPercentOfTheHalfSpace) {
     Options options = elastic(one.modulus, one.pressure * pixels * pixels * pitch * pitch);
     options.interface.work_of_adhesion = one.work;
     const Prediction prediction = AdhesionModel(options).predict(surface);
-    const SolvedHalfSpace solved = solve(surface, options);
+    const SolvedHalfSpace solved = halfSpaceOf(surface, options);
     ASSERT_EQ(solved.status, HalfSpaceStatus::kSolved) << solved.message;
     const double ratio = prediction.pull_off_force / solved.pull_off_force;
     SCOPED_TRACE(testing::Message() << "seed " << seed << ", ratio " << ratio);
@@ -120,7 +108,7 @@ TEST(SeparationOfFreshFrames, stiffSurfacesThatHardlyTouchAtRestDoNotHoldAsBonde
     const Options options = elastic(100e9);
     const Prediction prediction = AdhesionModel(options).predict(surface);
     ASSERT_LT(prediction.contact_fraction, 0.2);
-    const SolvedHalfSpace solved = solve(surface, options);
+    const SolvedHalfSpace solved = halfSpaceOf(surface, options);
     ASSERT_EQ(solved.status, HalfSpaceStatus::kSolved) << solved.message;
     SCOPED_TRACE(testing::Message() << "seed " << seed << ", flattening ratio " << prediction.flattening_ratio);
     EXPECT_NEAR(prediction.pull_off_force / solved.pull_off_force, 1.0, 0.04);
