@@ -43,9 +43,16 @@ ConjugateGradients::ConjugateGradients(const HalfSpaceGrid& grid, StiffnessOpera
                                        const std::atomic<bool>* cancel, std::function<void()> give_way)
     : grid_(grid), stiffness_(stiffness), threads_(threads), cancel_(cancel), give_way_(std::move(give_way)) {}
 
+void ConjugateGradients::allocateResidual() {
+  for (auto* const array : {&residual_, &first_}) {
+    if (array->empty()) array->assign(grid_.size(), 0.0F);
+  }
+}
+
 void ConjugateGradients::allocate() {
-  for (auto* const array : {&residual_, &slope_, &smoothed_, &search_, &search_traction_, &step_, &first_}) {
-    if (!isCancelled()) array->assign(grid_.size(), 0.0F);
+  allocateResidual();
+  for (auto* const array : {&slope_, &smoothed_, &search_, &search_traction_, &step_}) {
+    if (array->empty()) array->assign(grid_.size(), 0.0F);
   }
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "evaluation_rows.hpp"
+#include "mems_stiction/base/vectorized.hpp"
 #include "mems_stiction/half_space/row_work.hpp"
 
 namespace mems_stiction {
@@ -21,6 +22,39 @@ constexpr int kMostHalvings = 20;
 constexpr double kSufficientDecrease = 1e-4;
 /// Energies that differ by less than this share of their parts are equal but for what single precision adds to K u.
 constexpr double kEnergyNoise = 1e-9;
+/// What single precision leaves in K u for each step, of the residual that it takes away, and for going on from one state
+/// to the next, of 8 Gamma/(3 z0). Measured: a tenth of it to as much.
+constexpr double kSinglePrecision = 3e-7;
+/// Share of the allowed residual that may come from it.
+constexpr double kStaleShare = 0.1;
+/// Shift of K^-1, of the smallest stiffness: none to speak of.
+constexpr double kNoShift = 1e-6;
+/// Windows that leave more than this share of the residual have failed; so many times in one state.
+constexpr double kWorthwhile = 0.5;
+constexpr int kMostFailures = 2;
+
+/// values + share of the last change, which is the first part of this one.
+MEMS_STICTION_VECTORIZED void goOn(std::size_t count, float share, const float* last_change, double* values,
+                                   float* change) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const float move = share * last_change[i];
+    change[i] = move;
+    values[i] += static_cast<double>(move);
+  }
+}
+
+/// values + length step, and the same of what has changed.
+MEMS_STICTION_VECTORIZED void addStep(std::size_t count, double length, const float* step, double* values,
+                                      float* change) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const double move = length * static_cast<double>(step[i]);
+    values[i] += move;
+    change[i] += static_cast<float>(move);
+  }
+}
+MEMS_STICTION_VECTORIZED void addStep(std::size_t count, double length, const float* step, double* values) {
+  for (std::size_t i = 0; i < count; ++i) values[i] += length * static_cast<double>(step[i]);
+}
 
 }  // namespace
 
@@ -33,26 +67,52 @@ struct ContactMinimiser::Evaluation {
   double residual_norm = 0.0;     ///< root of the mean square [Pa]
   double mean_residual = 0.0;     ///< what K cannot resist of it [Pa]
   double mean_slope = 0.0;        ///< of the positive t' [Pa/m]
+  double contact_cells = 0.0;     ///< that repel each other
+  double gap = 0.0;               ///< sum over the valid cells [m]
+  double lowest_gap = 0.0;        ///< [m]
+  bool has_slopes = false;        ///< t' of each cell is at hand
 };
 
 ContactMinimiser::ContactMinimiser(const HalfSpaceGrid& grid, const TractionLaw& law, double contact_modulus,
                                    LargePageVector<double> relief, const MinimiserSettings& settings)
-    : grid_(grid),
-      law_(law),
-      settings_(settings),
-      stiffness_(grid, contact_modulus, settings.threads, spectrum_, settings.cancel),
-      exact_stiffness_(grid, contact_modulus, settings.threads, spectrum_, settings.cancel),
-      gradients_(grid, stiffness_, settings.threads, settings.cancel, settings.give_way),
-      relief_(std::move(relief)) {
+    : ContactMinimiser(grid, law, ElasticResponse{contact_modulus, nullptr}, std::move(relief), {}, settings) {
+  windows_ = std::make_unique<ContactWindows>(grid, law, contact_modulus, settings);
+}
+
+void ContactMinimiser::takeRelief(LargePageVector<double> relief) {
+  relief_ = std::move(relief);
+  largest_relief_ = 0.0;
+  valid_count_ = 0;
   for (const double relief_here : relief_) {
     if (!std::isfinite(relief_here)) continue;
     largest_relief_ = std::max(largest_relief_, relief_here);
     ++valid_count_;
   }
+}
+
+void ContactMinimiser::restart(LargePageVector<double> relief, LargePageVector<float> held, double tolerance) {
+  takeRelief(std::move(relief));
+  held_ = std::move(held);
+  settings_.tolerance = tolerance;
+  for (auto* const array : {&displacement_, &elastic_traction_}) std::fill(array->begin(), array->end(), 0.0);
+  staleness_ = 0.0;
+}
+
+ContactMinimiser::ContactMinimiser(const HalfSpaceGrid& grid, const TractionLaw& law, const ElasticResponse& response,
+                                   LargePageVector<double> relief, LargePageVector<float> held,
+                                   const MinimiserSettings& settings)
+    : grid_(grid),
+      law_(law),
+      settings_(settings),
+      stiffness_(grid, response, settings.threads, spectrum_, settings.cancel),
+      exact_stiffness_(grid, response, settings.threads, spectrum_, settings.cancel),
+      gradients_(grid, stiffness_, settings.threads, settings.cancel, settings.give_way),
+      held_(std::move(held)) {
+  takeRelief(std::move(relief));
   for (auto* const array : {&displacement_, &elastic_traction_}) {
     if (!isCancelled()) array->assign(grid.size(), 0.0);
   }
-  gradients_.allocate();
+  if (!isCancelled()) gradients_.allocateResidual();
   for (auto* const array : {&change_, &last_change_}) {
     if (!isCancelled()) array->assign(grid.size(), 0.0F);
   }
@@ -67,21 +127,18 @@ ContactMinimiser::ContactMinimiser(const HalfSpaceGrid& grid, const TractionLaw&
 void ContactMinimiser::moveOn(double share) {
   std::swap(change_, last_change_);
   std::swap(change_traction_, last_change_traction_);
-  const auto factor = static_cast<float>(share);
-  forEachRow(grid_.rows, settings_.threads, [&](int row) {
-    const std::size_t first = grid_.offset(row);
-    const std::size_t end = first + static_cast<std::size_t>(grid_.cols);
-    for (std::size_t i = first; i < end; ++i) {
-      change_[i] = factor * last_change_[i];
-      displacement_[i] += static_cast<double>(change_[i]);
-    }
-    if (change_traction_.empty()) return;
-    for (std::size_t i = first; i < end; ++i) {
-      change_traction_[i] = factor * last_change_traction_[i];
-      elastic_traction_[i] += static_cast<double>(change_traction_[i]);
-    }
-  });
-  if (share != 0.0) is_fresh_ = false;
+  pending_share_ = static_cast<float>(share);
+  if (share == 0.0) return;
+  staleness_ += change_traction_.empty() ? std::numeric_limits<double>::infinity() : kSinglePrecision * law_.stress();
+}
+
+void ContactMinimiser::moveRow(int row, float share) {
+  const std::size_t first = grid_.offset(row);
+  const auto cols = static_cast<std::size_t>(grid_.cols);
+  goOn(cols, share, last_change_.data() + first, displacement_.data() + first, change_.data() + first);
+  if (change_traction_.empty()) return;
+  goOn(cols, share, last_change_traction_.data() + first, elastic_traction_.data() + first,
+       change_traction_.data() + first);
 }
 
 void ContactMinimiser::takeBack() {
@@ -96,7 +153,7 @@ void ContactMinimiser::takeBack() {
   });
   std::swap(change_, last_change_);
   std::swap(change_traction_, last_change_traction_);
-  is_fresh_ = false;
+  staleness_ = std::numeric_limits<double>::infinity();  // K u may have been worked out afresh since
 }
 
 void ContactMinimiser::gapsOfRow(int row, double height, double* gaps) const {
@@ -112,7 +169,7 @@ double ContactMinimiser::largestLoad() const {
 }
 
 double ContactMinimiser::keepFlow(double height) {
-  if (!law_.flows()) return 0.0;
+  if (!law_.flows() || !(lowest_gap_ < law_.closestGap())) return 0.0;
   const auto cols = static_cast<std::size_t>(grid_.frame_cols);
   if (flowed_.empty()) flowed_.resize(relief_.size(), 0.0F);
   const double pressure = -law_.at(law_.closestGap()).traction;
@@ -130,36 +187,6 @@ double ContactMinimiser::keepFlow(double height) {
     }
   }
   return pressure * depth * grid_.cellArea();
-}
-
-ContactMinimiser::Contact ContactMinimiser::contactAt(double height) const {
-  struct Count {
-    int cells = 0;
-    int valid = 0;
-    double gap = 0.0;
-    Count& operator+=(const Count& other) {
-      cells += other.cells;
-      valid += other.valid;
-      gap += other.gap;
-      return *this;
-    }
-  };
-  std::vector<Count> counts;
-  const Count total = sumOverRows(counts, grid_.frame_rows, settings_.threads, [&](int row) {
-    const double* const relief =
-        relief_.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(grid_.frame_cols);
-    const double* const displacement = displacement_.data() + grid_.offset(row);
-    Count count;
-    for (int col = 0; col < grid_.frame_cols; ++col) {
-      const double gap = height + relief[col] - displacement[col];
-      const bool is_valid = std::isfinite(relief[col]);
-      count.valid += is_valid ? 1 : 0;
-      count.cells += gap < law_.contactGap() ? 1 : 0;
-      count.gap += is_valid ? gap : 0.0;
-    }
-    return count;
-  });
-  return {total.cells, total.gap / total.valid};
 }
 
 void ContactMinimiser::maps(double height, cv::Mat& gaps, cv::Mat& pressures) const {
@@ -180,31 +207,38 @@ void ContactMinimiser::maps(double height, cv::Mat& gaps, cv::Mat& pressures) co
 }
 
 void ContactMinimiser::refreshElasticTraction() {
-  if (is_fresh_) return;
+  if (staleness_ == 0.0) return;
   exact_stiffness_.multiply(displacement_.data(), elastic_traction_.data());
-  is_fresh_ = true;
+  staleness_ = 0.0;
   ++exact_products_;
 }
 
-ContactMinimiser::Evaluation ContactMinimiser::evaluate(double height, double length) {
-  const auto frame_cols = static_cast<std::size_t>(grid_.frame_cols);
-  std::vector<evaluation_rows::Sums> row_sums;
-  const auto sums = sumOverRows(row_sums, grid_.rows, settings_.threads, [&](int row) {
-    const std::size_t first = grid_.offset(row);
-    const auto arraysFrom = [&](std::size_t cell) {
-      return evaluation_rows::RowArrays{displacement_.data() + cell,  elastic_traction_.data() + cell,
-                                        gradients_.step() + cell,     gradients_.stepTraction() + cell,
-                                        gradients_.residual() + cell, gradients_.slope() + cell};
-    };
-    if (row >= grid_.frame_rows) return evaluation_rows::evaluateFree(grid_.cols, length, arraysFrom(first));
-    auto row_total = evaluation_rows::evaluate(law_, grid_.frame_cols, height,
-                                               relief_.data() + static_cast<std::size_t>(row) * frame_cols, length,
-                                               arraysFrom(first));
-    if (grid_.cols > grid_.frame_cols) {
-      row_total += evaluation_rows::evaluateFree(grid_.cols - grid_.frame_cols, length, arraysFrom(first + frame_cols));
-    }
-    return row_total;
-  });
+evaluation_rows::Sums ContactMinimiser::evaluateRow(int row, double height, const Step& step, bool with_slopes) {
+  const auto arraysFrom = [&](int col) {
+    const std::size_t cell = grid_.offset(row) + static_cast<std::size_t>(col);
+    return evaluation_rows::RowArrays{displacement_.data() + cell,
+                                      elastic_traction_.data() + cell,
+                                      step.step + col,
+                                      step.traction + col,
+                                      gradients_.residual() + cell,
+                                      with_slopes ? gradients_.slope() + cell : nullptr,
+                                      nullptr};
+  };
+  if (row >= grid_.frame_rows) return evaluation_rows::evaluateFree(grid_.cols, step.length, arraysFrom(0));
+  const std::size_t in_frame = static_cast<std::size_t>(row) * static_cast<std::size_t>(grid_.frame_cols);
+  evaluation_rows::RowArrays arrays = arraysFrom(0);
+  if (!held_.empty()) arrays.held = held_.data() + in_frame;
+  auto sums = evaluation_rows::evaluate(law_, grid_.frame_cols, height, relief_.data() + in_frame, step.length, arrays);
+  if (grid_.cols > grid_.frame_cols) {
+    sums += evaluation_rows::evaluateFree(grid_.cols - grid_.frame_cols, step.length, arraysFrom(grid_.frame_cols));
+  }
+  return sums;
+}
+
+ContactMinimiser::Evaluation ContactMinimiser::evaluationOf(const std::vector<evaluation_rows::Sums>& row_sums,
+                                                            bool with_slopes) const {
+  evaluation_rows::Sums sums;
+  for (const evaluation_rows::Sums& of_row : row_sums) sums += of_row;
   const double cells = grid_.cellCount();
   Evaluation result;
   result.force = sums.traction * grid_.cellArea();
@@ -215,46 +249,132 @@ ContactMinimiser::Evaluation ContactMinimiser::evaluate(double height, double le
   result.residual_norm =
       std::sqrt(std::max(0.0, sums.residual_squared / cells - result.mean_residual * result.mean_residual));
   result.mean_slope = sums.positive_slope / cells;
+  result.contact_cells = sums.contacts;
+  result.gap = sums.gap;
+  result.lowest_gap = sums.lowest_gap;
+  result.has_slopes = with_slopes;
   return result;
 }
 
-void ContactMinimiser::takeStep(double length) {
-  const auto cols = static_cast<std::size_t>(grid_.cols);
+ContactMinimiser::Evaluation ContactMinimiser::evaluate(double height) {
+  gradients_.allocate();
+  return evaluateAlong(height, 0.0);
+}
+
+ContactMinimiser::Evaluation ContactMinimiser::evaluateAlong(double height, double length) {
+  std::vector<evaluation_rows::Sums> row_sums(static_cast<std::size_t>(grid_.rows));
   forEachRow(grid_.rows, settings_.threads, [&](int row) {
     const std::size_t first = grid_.offset(row);
-    const float* const step = gradients_.step();
-    const float* const step_traction = gradients_.stepTraction();
-    for (std::size_t i = first; i < first + cols; ++i) {
-      const double move = length * static_cast<double>(step[i]);
-      const double traction = length * static_cast<double>(step_traction[i]);
-      displacement_[i] += move;
-      elastic_traction_[i] += traction;
-      change_[i] += static_cast<float>(move);
-      if (!change_traction_.empty()) change_traction_[i] += static_cast<float>(traction);
-    }
+    const Step step{length, gradients_.step() + first, gradients_.stepTraction() + first};
+    row_sums[static_cast<std::size_t>(row)] = evaluateRow(row, height, step, true);
   });
-  is_fresh_ = false;
+  return evaluationOf(row_sums, true);
+}
+
+ContactMinimiser::Evaluation ContactMinimiser::moveAndEvaluate(double height, float share) {
+  const bool with_slopes = windows_ == nullptr;
+  if (with_slopes) gradients_.allocate();
+  std::vector<evaluation_rows::Sums> row_sums(static_cast<std::size_t>(grid_.rows));
+  forEachRow(grid_.rows, settings_.threads, [&](int row) {
+    moveRow(row, share);
+    const float* const any = gradients_.residual() + grid_.offset(row);  // no step is taken
+    row_sums[static_cast<std::size_t>(row)] = evaluateRow(row, height, {0.0, any, any}, with_slopes);
+  });
+  return evaluationOf(row_sums, with_slopes);
+}
+
+ContactMinimiser::Evaluation ContactMinimiser::answerAndEvaluate(double height, double length) {
+  std::vector<evaluation_rows::Sums> row_sums(static_cast<std::size_t>(grid_.rows));
+  const float* const change = gradients_.stepTraction();
+  stiffness_.displace(kNoShift * stiffness_.smallest(), change, [&](int row, const float* displacement) {
+    const Step step{length, displacement, change + grid_.offset(row)};
+    stepRow(row, step);
+    row_sums[static_cast<std::size_t>(row)] = evaluateRow(row, height, {0.0, step.step, step.traction}, false);
+  });
+  ++window_products_;
+  return evaluationOf(row_sums, false);
+}
+
+void ContactMinimiser::stepRow(int row, const Step& step) {
+  const std::size_t first = grid_.offset(row);
+  const auto cols = static_cast<std::size_t>(grid_.cols);
+  addStep(cols, step.length, step.step, displacement_.data() + first, change_.data() + first);
+  double* const elastic_traction = elastic_traction_.data() + first;
+  if (change_traction_.empty()) {
+    addStep(cols, step.length, step.traction, elastic_traction);
+  } else {
+    addStep(cols, step.length, step.traction, elastic_traction, change_traction_.data() + first);
+  }
+}
+
+void ContactMinimiser::takeStep(double length) {
+  forEachRow(grid_.rows, settings_.threads, [&](int row) {
+    const std::size_t first = grid_.offset(row);
+    stepRow(row, {length, gradients_.step() + first, gradients_.stepTraction() + first});
+  });
+}
+
+bool ContactMinimiser::isNearer(const Evaluation& now, const Evaluation& before, double promised) {
+  return now.energy <= before.energy - kSufficientDecrease * promised ||
+         (now.energy <= before.energy + kEnergyNoise * before.energy_scale && now.residual_norm < before.residual_norm);
+}
+
+bool ContactMinimiser::relaxContacts(double height, Evaluation& now) {
+  const ContactWindows::Frame frame{height,
+                                    relief_.data(),
+                                    displacement_.data(),
+                                    elastic_traction_.data(),
+                                    gradients_.residual(),
+                                    now.mean_residual,
+                                    now.largest_residual};
+  if (!windows_->relax(frame, exact_stiffness_, gradients_.stepTraction())) return false;
+  if (settings_.give_way) settings_.give_way();
+  const Evaluation before = now;
+  staleness_ += kSinglePrecision * before.largest_residual;
+  now = answerAndEvaluate(height, 1.0);
+  if (!isNearer(now, before, 0.0)) {
+    now = answerAndEvaluate(height, -1.0);
+    return false;
+  }
+  return now.residual_norm < kWorthwhile * before.residual_norm;
 }
 
 ContactState ContactMinimiser::solve(double height) {
   ContactState state;
   state.height = height;
   const int products_before = products();
-  refreshElasticTraction();
-  Evaluation now = evaluate(height, 0.0);
+  const float share = std::exchange(pending_share_, 0.0F);
   const double allowed = settings_.tolerance * law_.stress();
+  Evaluation now;
+  if (staleness_ <= kStaleShare * allowed) {
+    now = moveAndEvaluate(height, share);
+  } else {
+    forEachRow(grid_.rows, settings_.threads, [&](int row) { moveRow(row, share); });
+    refreshElasticTraction();
+    now = evaluate(height);
+  }
+  int failures = 0;  // of windows
   while (!isCancelled()) {
     if (now.largest_residual <= allowed) {
-      if (is_fresh_) {
+      if (staleness_ <= kStaleShare * allowed) {
         state.is_converged = true;
         break;
       }
       refreshElasticTraction();
-      now = evaluate(height, 0.0);
+      now = evaluate(height);
       continue;
     }
     if (state.newton_steps == settings_.max_newton_steps) break;
     ++state.newton_steps;
+    if (windows_ != nullptr && failures < kMostFailures) {
+      if (relaxContacts(height, now)) continue;
+      ++failures;
+      if (now.largest_residual <= allowed) continue;
+    }
+    if (!now.has_slopes) {  // the first of Newton's steps in a row
+      if (std::isfinite(staleness_)) refreshElasticTraction();
+      now = evaluate(height);
+    }
     ConjugateGradients::System system;
     system.mean_residual = now.mean_residual;
     system.mean_slope = now.mean_slope;
@@ -267,24 +387,26 @@ ContactState ContactMinimiser::solve(double height) {
     const Evaluation before = now;
     bool is_lower = false;
     for (int halvings = 0; halvings <= kMostHalvings; ++halvings, length *= 0.5) {
-      now = evaluate(height, length);
-      is_lower = now.energy <= before.energy - kSufficientDecrease * length * direction.decrease ||
-                 (now.energy <= before.energy + kEnergyNoise * before.energy_scale &&
-                  now.residual_norm < before.residual_norm);
+      now = evaluateAlong(height, length);
+      is_lower = isNearer(now, before, length * direction.decrease);
       if (is_lower) break;
     }
     if (!is_lower) {
-      now = evaluate(height, 0.0);
-      if (is_fresh_) break;
+      now = evaluate(height);
+      if (staleness_ == 0.0) break;
       refreshElasticTraction();
-      now = evaluate(height, 0.0);
+      now = evaluate(height);
       continue;
     }
     takeStep(length);
+    staleness_ = std::numeric_limits<double>::infinity();  // conjugate gradients add up what rounding leaves
   }
   state.force = now.force;
   state.energy = now.energy;
   state.residual = now.largest_residual / law_.stress();
+  state.contact_area = now.contact_cells * grid_.cellArea();
+  state.mean_gap = now.gap / static_cast<double>(valid_count_);
+  lowest_gap_ = now.lowest_gap;
   state.products = products() - products_before;
   return state;
 }

@@ -122,8 +122,7 @@ PathStatus ContactPath::attempt(double height, ForcePoint& next, ContactState& s
   products_ += state.products;
   if (minimiser_.isCancelled()) return PathStatus::kCancelled;
   if (!state.is_converged) return PathStatus::kNotConverged;
-  const ContactMinimiser::Contact contact = minimiser_.contactAt(height);
-  next = {height, state.force, state.energy, contact.cells * minimiser_.grid().cellArea(), contact.mean_gap, true};
+  next = {height, state.force, state.energy, state.contact_area, state.mean_gap, true};
   largest_residual_ = std::max(largest_residual_, state.residual);
   return PathStatus::kDone;
 }

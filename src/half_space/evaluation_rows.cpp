@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "mems_stiction/base/lanes.hpp"
 
@@ -32,6 +33,34 @@ MEMS_STICTION_VECTORIZED void setGaps(int count, double level, const double* rel
   }
 }
 
+/// How far the surfaces are from each other. @return the lowest gap of the tile
+MEMS_STICTION_VECTORIZED double addGaps(int count, double contact_gap, Tile& tile, Sums& sums) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (int i = count; i % kLanes != 0; ++i) tile.gaps[i] = infinity;
+  Lanes gap, contacts;
+  Lanes lowest(infinity);
+  for (int i = 0; i < count; i += kLanes) {
+    const Lanes here = Lanes::load(tile.gaps + i);
+    gap += select(here < infinity, here, 0.0);
+    contacts += select(here < contact_gap, Lanes(1.0), 0.0);
+    lowest = select(here < lowest, here, lowest);
+  }
+  sums.gap += gap.sum();
+  sums.contacts += contacts.sum();
+  const double lowest_gap = lowest.smallest();
+  sums.lowest_gap = std::min(sums.lowest_gap, lowest_gap);
+  return lowest_gap;
+}
+
+/// The traction against which u moves, less what is held, and what that adds to the energy.
+void hold(int count, const float* held, const double* displacement, Tile& tile) {
+  for (int i = 0; i < count; ++i) {
+    const auto here = static_cast<double>(held[i]);
+    tile.traction[i] -= here;
+    tile.energy[i] += here * displacement[i];
+  }
+}
+
 /// Residuals into `arrays` and sums in fixed lanes; the tile is filled up with what adds nothing.
 MEMS_STICTION_VECTORIZED void addTile(int count, double length, const RowArrays& arrays, Tile& tile, Sums& sums) {
   alignas(64) double displacement[kTile];
@@ -40,6 +69,7 @@ MEMS_STICTION_VECTORIZED void addTile(int count, double length, const RowArrays&
     displacement[i] = arrays.displacement[i] + length * static_cast<double>(arrays.step[i]);
     elastic[i] = arrays.elastic_traction[i] + length * static_cast<double>(arrays.step_traction[i]);
   }
+  if (arrays.held != nullptr) hold(count, arrays.held, displacement, tile);
   int end = count;
   for (; end % kLanes != 0; ++end) {
     displacement[end] = tile.slope[end] = tile.energy[end] = 0.0;
@@ -70,10 +100,8 @@ MEMS_STICTION_VECTORIZED void addTile(int count, double length, const RowArrays&
     residual += counted;
     squared += counted * counted;
   }
-  for (int i = 0; i < count; ++i) {
-    arrays.residual[i] = static_cast<float>(elastic[i]);
-    arrays.slope[i] = static_cast<float>(tile.slope[i]);
-  }
+  for (int i = 0; i < count; ++i) arrays.residual[i] = static_cast<float>(elastic[i]);
+  for (int i = 0; arrays.slope != nullptr && i < count; ++i) arrays.slope[i] = static_cast<float>(tile.slope[i]);
   sums.traction += traction.sum();
   sums.elastic += elastic_energy.sum();
   sums.energy += energy.sum();
@@ -90,7 +118,8 @@ void useSecants(const TractionLaw& law, int count, double length, const RowArray
   const double least = kSecantShare * law.stress();
   for (int i = 0; i < count; ++i) {
     if (!(tile.gaps[i] < law.contactGap())) continue;
-    const double elastic = arrays.elastic_traction[i] + length * static_cast<double>(arrays.step_traction[i]);
+    const double held = arrays.held != nullptr ? static_cast<double>(arrays.held[i]) : 0.0;
+    const double elastic = held + arrays.elastic_traction[i] + length * static_cast<double>(arrays.step_traction[i]);
     const double wanted = std::min(elastic, 0.0);
     if (std::abs(wanted - tile.traction[i]) < least) continue;
     const double secant = law.secant(tile.gaps[i], tile.traction[i], wanted);
@@ -99,8 +128,13 @@ void useSecants(const TractionLaw& law, int count, double length, const RowArray
 }
 
 RowArrays shifted(const RowArrays& arrays, int cells) {
-  return {arrays.displacement + cells,  arrays.elastic_traction + cells, arrays.step + cells,
-          arrays.step_traction + cells, arrays.residual + cells,         arrays.slope + cells};
+  return {arrays.displacement + cells,
+          arrays.elastic_traction + cells,
+          arrays.step + cells,
+          arrays.step_traction + cells,
+          arrays.residual + cells,
+          arrays.slope == nullptr ? nullptr : arrays.slope + cells,
+          arrays.held == nullptr ? nullptr : arrays.held + cells};
 }
 
 }  // namespace
@@ -114,6 +148,9 @@ Sums& Sums::operator+=(const Sums& other) {
   residual_squared += other.residual_squared;
   highest = std::max(highest, other.highest);
   lowest = std::min(lowest, other.lowest);
+  gap += other.gap;
+  contacts += other.contacts;
+  lowest_gap = std::min(lowest_gap, other.lowest_gap);
   return *this;
 }
 
@@ -126,7 +163,8 @@ Sums evaluate(const TractionLaw& law, int count, double level, const double* rel
     const RowArrays part = shifted(arrays, begin);
     setGaps(size, level, relief + begin, length, part.displacement, part.step, tile.gaps);
     law.atRow(size, tile.gaps, tile.traction, tile.slope, tile.energy);
-    useSecants(law, size, length, part, tile);
+    const double lowest_gap = addGaps(size, law.contactGap(), tile, sums);
+    if (lowest_gap < law.contactGap()) useSecants(law, size, length, part, tile);
     addTile(size, length, part, tile, sums);
   }
   return sums;

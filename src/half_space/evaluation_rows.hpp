@@ -18,20 +18,24 @@ struct Sums {
   double positive_slope = 0.0;
   double residual = 0.0;
   double residual_squared = 0.0;
-  double highest = -std::numeric_limits<double>::infinity();  ///< residual
-  double lowest = std::numeric_limits<double>::infinity();    ///< residual
+  double highest = -std::numeric_limits<double>::infinity();    ///< residual
+  double lowest = std::numeric_limits<double>::infinity();      ///< residual
+  double gap = 0.0;                                             ///< where it is known [m]
+  double contacts = 0.0;                                        ///< cells that repel each other
+  double lowest_gap = std::numeric_limits<double>::infinity();  ///< [m]
 
   Sums& operator+=(const Sums& other);
 };
 
-/// The arrays of a row: u, K u, a step s and K s; and what is written, t - K (u + length s) and t'.
+/// The arrays of a row: u, K u, a step s and K s; and what is written, t - K (u + length s) - held and t'.
 struct RowArrays {
   const double* displacement;
   const double* elastic_traction;
   const float* step;
   const float* step_traction;
   float* residual;
-  float* slope;
+  float* slope;       ///< null where nobody asks for it
+  const float* held;  ///< a further elastic traction that does not change with u; null for none
 };
 
 /// Cells of the frame, with relief and a traction. @param level height of the upper body over first touch [m]

@@ -12,6 +12,7 @@
 #include "mems_stiction/half_space/contact_minimiser.hpp"
 #include "mems_stiction/half_space/contact_path.hpp"
 #include "mems_stiction/half_space/half_space_grid.hpp"
+#include "mems_stiction/half_space/row_work.hpp"
 #include "mems_stiction/half_space/traction_law.hpp"
 #include "mems_stiction/height_map/validity.hpp"
 #include "mems_stiction/mechanics/plasticity.hpp"
@@ -51,14 +52,13 @@ TractionLawOptions lawOptions(const HalfSpaceOptions& options, const HalfSpacePr
 }
 
 /// The composite gap at first touch, infinite where it is not known.
-LargePageVector<double> reliefOf(const SurfacePair& surfaces) {
+LargePageVector<double> reliefOf(const SurfacePair& surfaces, int threads) {
   GapField field;
   field.compute(surfaces);
   LargePageVector<double> relief(static_cast<std::size_t>(field.cellCount()));
   const auto cols = static_cast<std::size_t>(field.cols());
-  for (int row = 0; row < field.rows(); ++row) {
-    field.gapsOfRow(row, relief.data() + static_cast<std::size_t>(row) * cols);
-  }
+  forEachRow(field.rows(), threads,
+             [&](int row) { field.gapsOfRow(row, relief.data() + static_cast<std::size_t>(row) * cols); });
   return relief;
 }
 
@@ -205,7 +205,8 @@ SolvedHalfSpace HalfSpaceSolver::solve(const HalfSpaceProblem& problem, const Ha
   solution.is_resolved = solution.cohesive_length >= kPixelsPerCohesiveLength * std::max(grid.pitch_x, grid.pitch_y);
   LargePageVector<float> flowed;
   {
-    ContactMinimiser minimiser(grid, law, pair.contact_modulus, reliefOf(problem.surfaces), minimiser_settings);
+    ContactMinimiser minimiser(grid, law, pair.contact_modulus, reliefOf(problem.surfaces, options_.threads),
+                               minimiser_settings);
     ContactPath path(minimiser, path_settings);
     PathStatus status = minimiser.isSetUp() ? path.approach(problem.load.mechanical_load) : PathStatus::kCancelled;
     if (status == PathStatus::kDone) {

@@ -206,6 +206,11 @@ struct StiffnessOperator<Scalar>::Plans {
 template <typename Scalar>
 StiffnessOperator<Scalar>::StiffnessOperator(const HalfSpaceGrid& grid, double contact_modulus, int threads,
                                              SpectrumMemory& memory, const std::atomic<bool>* cancel)
+    : StiffnessOperator(grid, ElasticResponse{contact_modulus, nullptr}, threads, memory, cancel) {}
+
+template <typename Scalar>
+StiffnessOperator<Scalar>::StiffnessOperator(const HalfSpaceGrid& grid, const ElasticResponse& response, int threads,
+                                             SpectrumMemory& memory, const std::atomic<bool>* cancel)
     : grid_(grid),
       threads_(threads),
       cancel_(cancel),
@@ -225,9 +230,9 @@ StiffnessOperator<Scalar>::StiffnessOperator(const HalfSpaceGrid& grid, double c
   for (auto& pad : pads_) pad.resize(pad_size_);
   plans_ = std::make_unique<Plans>(grid_, pads_.front().data(), pads_.front().data() + pad_size_ / 2);
   if (grid_.boundary == HalfSpaceBoundary::kPeriodic) {
-    fillPeriodic(contact_modulus);
+    fillPeriodic(response.contact_modulus);
   } else {
-    fillFree(contact_modulus);
+    fillFree(response);
   }
 }
 
@@ -247,25 +252,34 @@ Scalar& StiffnessOperator<Scalar>::entry(int row, int col) {
 
 template <typename Scalar>
 void StiffnessOperator<Scalar>::fillPeriodic(double contact_modulus) {
-  for (int row = 0; row < grid_.rows; ++row) {
+  const auto stiffnessOf = [&](int row, int col) {
     const double q_y = 2.0 * kPi * std::min(row, grid_.rows - row) / (grid_.rows * grid_.pitch_y);
-    for (int col = 0; col <= grid_.cols / 2; ++col) {
-      const double q_x = 2.0 * kPi * col / (grid_.cols * grid_.pitch_x);
-      const double stiffness = 0.5 * contact_modulus * std::hypot(q_x, q_y);
-      entry(row, col) = static_cast<Scalar>(stiffness);
-      if (row + col > 0) smallest_ = std::min(smallest_, stiffness);
-      largest_ = std::max(largest_, stiffness);
-    }
-  }
+    const double q_x = 2.0 * kPi * col / (grid_.cols * grid_.pitch_x);
+    return 0.5 * contact_modulus * std::sqrt(q_x * q_x + q_y * q_y);
+  };
+  forEachRow(grid_.cols / 2 + 1, threads_, [&](int col) {
+    for (int row = 0; row < grid_.rows; ++row) entry(row, col) = static_cast<Scalar>(stiffnessOf(row, col));
+  });
+  if (grid_.rows > 1) smallest_ = stiffnessOf(1, 0);
+  if (grid_.cols > 1) smallest_ = std::min(smallest_, stiffnessOf(0, 1));
+  largest_ = stiffnessOf(grid_.rows / 2, grid_.cols / 2);
 }
 
 template <typename Scalar>
-void StiffnessOperator<Scalar>::fillFree(double contact_modulus) {
+void StiffnessOperator<Scalar>::fillFree(const ElasticResponse& response) {
   // In double whatever the Scalar: the small compliances of short waves are differences of large numbers. The influence
   // is even in both directions, so that its transforms are real and half of the lines say all.
   const int half_rows = grid_.rows / 2 + 1;
   const int half_cols = grid_.cols / 2 + 1;
   const auto width = static_cast<std::size_t>(half_cols);
+  const auto influenceAt = [&](int row, int col) {
+    if (response.influence != nullptr) {
+      // the padding may be longer than twice the frame: there nothing is asked for
+      return (*response.influence)(std::min(row, grid_.frame_rows), std::min(col, grid_.frame_cols));
+    }
+    return loveInfluence(col * grid_.pitch_x, row * grid_.pitch_y, grid_.pitch_x, grid_.pitch_y,
+                         response.contact_modulus);
+  };
   LargePageVector<double> of_rows(static_cast<std::size_t>(half_rows) * width);
   {
     const EvenTransform transform(grid_.cols);
@@ -273,8 +287,7 @@ void StiffnessOperator<Scalar>::fillFree(double contact_modulus) {
       if (isCancelled()) return;
       std::vector<double> line(width);
       for (int col = 0; col < half_cols; ++col) {
-        line[static_cast<std::size_t>(col)] =
-            loveInfluence(col * grid_.pitch_x, row * grid_.pitch_y, grid_.pitch_x, grid_.pitch_y, contact_modulus);
+        line[static_cast<std::size_t>(col)] = influenceAt(row, col);
       }
       transform.apply(line.data(), 1, of_rows.data() + static_cast<std::size_t>(row) * width, 1);
     });
@@ -297,9 +310,8 @@ void StiffnessOperator<Scalar>::fillFree(double contact_modulus) {
 }
 
 template <typename Scalar>
-template <typename Multiplier, typename AfterRows>
-void StiffnessOperator<Scalar>::apply(const Scalar* from, Scalar* to, const Multiplier& multiplier,
-                                      const AfterRows& after_rows) {
+template <typename Multiplier, typename Finish>
+void StiffnessOperator<Scalar>::apply(const Scalar* from, const Multiplier& multiplier, const Finish& finish) {
   const auto rows = static_cast<std::size_t>(grid_.rows);
   const auto cols = static_cast<std::size_t>(grid_.cols);
   const std::size_t row_size = 2 * static_cast<std::size_t>(blocks_) * kBlock;
@@ -352,32 +364,67 @@ void StiffnessOperator<Scalar>::apply(const Scalar* from, Scalar* to, const Mult
   forEachPair([&](std::size_t first, std::size_t second, Scalar* joined, Scalar* spectrum) {
     row_pairs::joinSpectra(cols, spectrumOf(first), spectrumOf(second), spectrum);
     Plans::execute(plans_->rows_backward, spectrum, joined);
-    row_pairs::split(cols, joined, to + first * stride, to + second * stride);
-    after_rows(first, second);
+    finish(first, second, joined, spectrum);
   });
 }
 
 template <typename Scalar>
+template <typename AfterRows>
+auto StiffnessOperator<Scalar>::writeTo(Scalar* to, const AfterRows& after_rows) const {
+  return [this, to, &after_rows](std::size_t first, std::size_t second, const Scalar* joined, Scalar* /*spare*/) {
+    const auto stride = static_cast<std::size_t>(grid_.stride);
+    row_pairs::split(static_cast<std::size_t>(grid_.cols), joined, to + first * stride, to + second * stride);
+    after_rows(first, second);
+  };
+}
+
+/// Nothing is left to do with rows that are done.
+static const auto kNoMore = [](std::size_t, std::size_t) {};
+
+template <typename Scalar>
 void StiffnessOperator<Scalar>::multiply(const Scalar* displacement, Scalar* traction) {
   const double scale = 0.5 / (static_cast<double>(grid_.rows) * grid_.cols);  // spectra come twice
-  apply(displacement, traction, TimesStiffness<Scalar>{static_cast<Scalar>(scale)}, [](std::size_t, std::size_t) {});
+  apply(displacement, TimesStiffness<Scalar>{static_cast<Scalar>(scale)}, writeTo(traction, kNoMore));
+}
+
+/// 1/(K + shift) for transforms over the grid.
+template <typename Scalar>
+static OverStiffness<Scalar> overStiffness(const HalfSpaceGrid& grid, double shift) {
+  const double scale = 0.5 / (static_cast<double>(grid.rows) * grid.cols);
+  return {static_cast<Scalar>(scale), static_cast<Scalar>(shift)};
 }
 
 template <typename Scalar>
 double StiffnessOperator<Scalar>::precondition(double shift, const Scalar* traction, Scalar* displacement) {
-  const double scale = 0.5 / (static_cast<double>(grid_.rows) * grid_.cols);
   const auto cols = static_cast<std::size_t>(grid_.cols);
   const auto stride = static_cast<std::size_t>(grid_.stride);
   row_products_.resize(static_cast<std::size_t>(grid_.rows));
-  apply(traction, displacement, OverStiffness<Scalar>{static_cast<Scalar>(scale), static_cast<Scalar>(shift)},
-        [&](std::size_t first, std::size_t second) {
-          for (const std::size_t row : {first, second}) {
-            row_products_[row] = dotRow(cols, traction + row * stride, displacement + row * stride);
-          }
-        });
+  const auto addProducts = [&](std::size_t first, std::size_t second) {
+    for (const std::size_t row : {first, second}) {
+      row_products_[row] = dotRow(cols, traction + row * stride, displacement + row * stride);
+    }
+  };
+  apply(traction, overStiffness<Scalar>(grid_, shift), writeTo(displacement, addProducts));
   double product = 0.0;
   for (const double of_row : row_products_) product += of_row;
   return product;
+}
+
+template <typename Scalar>
+void StiffnessOperator<Scalar>::displace(double shift, const Scalar* traction, Scalar* displacement) {
+  apply(traction, overStiffness<Scalar>(grid_, shift), writeTo(displacement, kNoMore));
+}
+
+template <typename Scalar>
+void StiffnessOperator<Scalar>::displace(double shift, const Scalar* traction, const TakeRow& take) {
+  const auto cols = static_cast<std::size_t>(grid_.cols);
+  apply(traction, overStiffness<Scalar>(grid_, shift),
+        [&](std::size_t first, std::size_t second, const Scalar* joined, Scalar* spare) {
+          Scalar* const next = spare + (cols + kBlock - cols % kBlock);
+          row_pairs::split(cols, joined, spare, next);
+          take(static_cast<int>(first), spare);
+          if (second != first) take(static_cast<int>(second), next);
+        });
 }
 
 template class StiffnessOperator<float>;

@@ -53,13 +53,17 @@ class ConjugateGradients {
   ConjugateGradients(const HalfSpaceGrid& grid, StiffnessOperator<float>& stiffness, int threads,
                      const std::atomic<bool>* cancel, std::function<void()> give_way);
 
-  /// Makes the arrays, of zeros.
+  /// Makes residual and stepTraction, of zeros: those that are of use without find().
+  void allocateResidual();
+  /// Makes the others too, unless they are there.
   void allocate();
 
-  float* residual() { return residual_.data(); }               ///< t - K u [Pa]; lost by find()
-  float* slope() { return slope_.data(); }                     ///< t' of the frame's cells [Pa/m]
-  const float* step() const { return step_.data(); }           ///< s [m]
-  const float* stepTraction() const { return first_.data(); }  ///< K s [Pa]
+  float* residual() { return residual_.data(); }   ///< t - K u [Pa]; lost by find()
+  float* slope() { return slope_.data(); }         ///< t' of the frame's cells [Pa/m]
+  float* step() { return step_.data(); }           ///< s [m]
+  float* stepTraction() { return first_.data(); }  ///< K s [Pa]
+  const float* step() const { return step_.data(); }
+  const float* stepTraction() const { return first_.data(); }
   /// Applications of the preconditioner or of K so far: one pair of transforms each.
   int products() const { return products_; }
 

@@ -7,43 +7,45 @@
 ///     E(u) = (1/2) sum u K u dA + sum phi(g) dA,   dphi/dg = t(g)
 ///     0    = K u - t(g), but for its mean where K does not resist one
 ///
-/// Newton's method: (K + t') s = t - K u as far as it is of use (conjugate_gradients.hpp), then a step along s that
-/// lowers E. What is kept, u and K u, is double, and K u is worked out afresh before a state counts as equilibrium.
+/// Contacts are brought into equilibrium one by one (contact_windows.hpp) as long as that helps. What is left, or all where
+/// contacts fill much of the frame, is Newton's method's: (K + t') s = t - K u as far as it is of use
+/// (conjugate_gradients.hpp), and a step along s that lowers E. What is kept, u and K u, is double; K u is worked out
+/// afresh before Newton's method takes over, after it, and when the steps since then may have left a tenth of the residual
+/// that an equilibrium may have.
 /// Starting from the state before, it goes downhill into the nearest minimum: a stable state.
 
-#include <atomic>
-#include <functional>
+#include <cstddef>
+#include <memory>
 #include <vector>
 
 #include <opencv2/core.hpp>
 
 #include "mems_stiction/base/large_pages.hpp"
 #include "mems_stiction/half_space/conjugate_gradients.hpp"
+#include "mems_stiction/half_space/contact_windows.hpp"
 #include "mems_stiction/half_space/half_space_grid.hpp"
+#include "mems_stiction/half_space/minimiser_settings.hpp"
 #include "mems_stiction/half_space/stiffness_operator.hpp"
 #include "mems_stiction/half_space/traction_law.hpp"
 
 namespace mems_stiction {
 
+namespace evaluation_rows {
+struct Sums;
+}  // namespace evaluation_rows
+
 /// What the frame as a whole does in one state, and how it was found.
 struct ContactState {
-  double height = 0.0;    ///< Z [m]
-  double force = 0.0;     ///< sum of t dA, positive attracts [N]
-  double energy = 0.0;    ///< E, 0 at infinity [J]
-  double residual = 0.0;  ///< largest |K u - t| over 8 Gamma/(3 z0) [-]
+  double height = 0.0;        ///< Z [m]
+  double force = 0.0;         ///< sum of t dA, positive attracts [N]
+  double energy = 0.0;        ///< E, 0 at infinity [J]
+  double residual = 0.0;      ///< largest |K u - t| over 8 Gamma/(3 z0) [-]
+  double contact_area = 0.0;  ///< of cells with a repulsive traction [m^2]
+  double mean_gap = 0.0;      ///< of the valid cells [m]
   bool is_converged = false;
   int newton_steps = 0;
   int products = 0;              ///< applications of the preconditioner or of K: one pair of transforms each
   bool met_instability = false;  ///< negative curvature on the way: the state before was not followed smoothly
-};
-
-/// Settings of the search.
-struct MinimiserSettings {
-  double tolerance = 1e-4;  ///< largest residual of an equilibrium [-]
-  int max_newton_steps = 200;
-  int threads = 1;
-  const std::atomic<bool>* cancel = nullptr;
-  std::function<void()> give_way;  ///< before each product; may be empty
 };
 
 /// Finds equilibria one after the other, each from the one before.
@@ -53,6 +55,15 @@ class ContactMinimiser {
   /// - @p relief frame_rows x frame_cols, row by row [m], >= 0; infinite where nothing was measured
   ContactMinimiser(const HalfSpaceGrid& grid, const TractionLaw& law, double contact_modulus,
                    LargePageVector<double> relief, const MinimiserSettings& settings);
+  /// A window of a larger frame, with free edges, which has no windows of its own.
+  /// - @p relief as above, less the displacement that is not this one's
+  /// - @p held traction that this other displacement takes, frame_rows x frame_cols [Pa]; empty for none
+  ContactMinimiser(const HalfSpaceGrid& grid, const TractionLaw& law, const ElasticResponse& response,
+                   LargePageVector<double> relief, LargePageVector<float> held, const MinimiserSettings& settings);
+
+  /// The same window about other cells, as if it had just been made.
+  /// - @p tolerance of the settings
+  void restart(LargePageVector<double> relief, LargePageVector<float> held, double tolerance);
 
   /// False if it was cancelled while it set itself up: then only what follows from the frame may be asked for.
   bool isSetUp() const { return is_set_up_; }
@@ -65,16 +76,12 @@ class ContactMinimiser {
   void moveOn(double share);
   /// Takes back what changed since moveOn(); the next share is again of the change before.
   void takeBack();
-  /// What flowed in this state stays: cells closer than the closest gap lose the excess of their height.
+  /// What flowed in the state just solved stays: cells closer than the closest gap lose the excess of their height.
   /// @return the work that the flow took [J]
   double keepFlow(double height);
 
-  /// Cells with a repulsive traction, and the mean gap of the valid ones [m].
-  struct Contact {
-    int cells = 0;
-    double mean_gap = 0.0;
-  };
-  Contact contactAt(double height) const;
+  /// K u, an array of the grid [Pa].
+  const double* elasticTraction() const { return elastic_traction_.data(); }
   /// Gap [m] and pressure [Pa], positive where the cells repel each other; frame_rows x frame_cols CV_32FC1; NaN where
   /// nothing was measured.
   void maps(double height, cv::Mat& gaps, cv::Mat& pressures) const;
@@ -96,13 +103,37 @@ class ContactMinimiser {
 
  private:
   struct Evaluation;
-  /// At u + length s.
-  Evaluation evaluate(double height, double length);
+  /// What follows from the relief.
+  void takeRelief(LargePageVector<double> relief);
+  /// A step of one row.
+  struct Step {
+    double length;
+    const float* step;      ///< s [m]
+    const float* traction;  ///< K s [Pa]
+  };
+  /// One row's share at u + length s.
+  /// - @p with_slopes whether t' is kept for Newton's method
+  evaluation_rows::Sums evaluateRow(int row, double height, const Step& step, bool with_slopes);
+  Evaluation evaluationOf(const std::vector<evaluation_rows::Sums>& row_sums, bool with_slopes) const;
+  /// At u, and at u + length s, along the step of the conjugate gradients.
+  Evaluation evaluate(double height);
+  Evaluation evaluateAlong(double height, double length);
+  /// At u, which goes on by `share` of the last change first.
+  Evaluation moveAndEvaluate(double height, float share);
+  /// At u, which goes by `length` (1, or -1 for back again) times the displacement that answers a change of traction.
+  Evaluation answerAndEvaluate(double height, double length);
   /// Gaps of a row of the frame [m].
   void gapsOfRow(int row, double height, double* gaps) const;
+  /// Whether an evaluation is nearer to equilibrium than the one before.
+  static bool isNearer(const Evaluation& now, const Evaluation& before, double promised);
+  /// Relaxes the contacts and goes there if that is nearer to equilibrium. @return whether it is worth doing again
+  bool relaxContacts(double height, Evaluation& now);
+  /// u + length s for one row, or its continuation by `share` of the last change; K u and what has changed with it.
+  void stepRow(int row, const Step& step);
+  void moveRow(int row, float share);
   void takeStep(double length);
   void refreshElasticTraction();
-  int products() const { return exact_products_ + gradients_.products(); }
+  int products() const { return exact_products_ + window_products_ + gradients_.products(); }
 
   HalfSpaceGrid grid_;
   TractionLaw law_;
@@ -116,13 +147,18 @@ class ContactMinimiser {
   std::size_t valid_count_ = 0;
   LargePageVector<double> displacement_;      ///< u [m]
   LargePageVector<double> elastic_traction_;  ///< K u [Pa]
-  bool is_fresh_ = true;                      ///< elastic_traction_ is K u to double precision
+  double staleness_ = 0.0;                    ///< by which elastic_traction_ may have left K u [Pa]
   LargePageVector<float> change_;             ///< of u since moveOn() [m]
   LargePageVector<float> change_traction_;    ///< K of it [Pa]; none with free edges, to save memory
   LargePageVector<float> last_change_;        ///< the one before [m]
   LargePageVector<float> last_change_traction_;
   LargePageVector<float> flowed_;
-  int exact_products_ = 0;  ///< of K u
+  LargePageVector<float> held_;              ///< traction of another displacement [Pa]; none but in a window
+  std::unique_ptr<ContactWindows> windows_;  ///< none in a window
+  float pending_share_ = 0.0F;               ///< of the last change, by which u is still to go on
+  double lowest_gap_ = 0.0;                  ///< in the state just solved [m]
+  int exact_products_ = 0;                   ///< of K u
+  int window_products_ = 0;
   bool is_set_up_ = false;
 };
 

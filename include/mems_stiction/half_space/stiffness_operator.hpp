@@ -17,13 +17,24 @@
 ///     stiffness.precondition(shift, residual, direction);
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <vector>
+
+#include <opencv2/core.hpp>
 
 #include "mems_stiction/base/large_pages.hpp"
 #include "mems_stiction/half_space/half_space_grid.hpp"
 
 namespace mems_stiction {
+
+/// How a body answers tractions.
+struct ElasticResponse {
+  double contact_modulus = 0.0;  ///< E [Pa], > 0; not looked at where an influence is given
+  /// u at a distance of (row, col) cells under a unit traction on one cell [m/Pa], for a frame with free edges that is no
+  /// larger; null for the half-space's.
+  const cv::Mat1d* influence = nullptr;
+};
 
 /// Memory for the half spectrum of a frame, which operators that do not work at the same time can share.
 struct SpectrumMemory {
@@ -41,6 +52,8 @@ class StiffnessOperator {
   ///   edges; may be null. An operator whose set-up was cancelled is not to be used, nor what a product gave then
   StiffnessOperator(const HalfSpaceGrid& grid, double contact_modulus, int threads, SpectrumMemory& memory,
                     const std::atomic<bool>* cancel = nullptr);
+  StiffnessOperator(const HalfSpaceGrid& grid, const ElasticResponse& response, int threads, SpectrumMemory& memory,
+                    const std::atomic<bool>* cancel = nullptr);
   ~StiffnessOperator();
   StiffnessOperator(const StiffnessOperator&) = delete;
   StiffnessOperator& operator=(const StiffnessOperator&) = delete;
@@ -52,6 +65,13 @@ class StiffnessOperator {
   /// @return sum of traction times displacement, in the precision of eight lanes a row, added in double
   double precondition(double shift, const Scalar* traction, Scalar* displacement);
 
+  /// The same without the sum.
+  void displace(double shift, const Scalar* traction, Scalar* displacement);
+  /// The same row by row: take(row, displacement of its cells) is called for each row by one of the threads, while the row
+  /// lies in the cache.
+  using TakeRow = std::function<void(int row, const Scalar* displacement)>;
+  void displace(double shift, const Scalar* traction, const TakeRow& take);
+
   /// The smallest stiffness against a displacement that is not uniform [Pa/m]; of a 1 x 1 frame infinity.
   double smallest() const { return smallest_; }
   /// The largest one [Pa/m].
@@ -61,11 +81,14 @@ class StiffnessOperator {
 
  private:
   struct Plans;
-  /// after_rows(first, second) is called when both rows of `to` are done.
-  template <typename Multiplier, typename AfterRows>
-  void apply(const Scalar* from, Scalar* to, const Multiplier& multiplier, const AfterRows& after_rows);
+  /// finish(first, second, joined, spare) is called with two rows of the result, joined, and a pad as long.
+  template <typename Multiplier, typename Finish>
+  void apply(const Scalar* from, const Multiplier& multiplier, const Finish& finish);
+  /// A finish that writes the rows to `to` and then calls after_rows(first, second).
+  template <typename AfterRows>
+  auto writeTo(Scalar* to, const AfterRows& after_rows) const;
   void fillPeriodic(double contact_modulus);
-  void fillFree(double contact_modulus);
+  void fillFree(const ElasticResponse& response);
   /// Complex numbers of a row of the half spectrum.
   Scalar* spectrumOf(std::size_t row);
   /// Where the stiffness of wave numbers (row, col) stands.
