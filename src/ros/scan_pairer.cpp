@@ -23,6 +23,9 @@ const char* const kAmbiguous =
     "driver "
     "set header.stamp?";
 
+/// Looks of expire() before anything is late.
+constexpr int kFewestLooks = 3;
+
 template <typename Queue>
 std::vector<ros::Time> stampsOf(const Queue& queue) {
   std::vector<ros::Time> stamps;
@@ -174,7 +177,14 @@ void ScanPairer::add(const ScanInfoConstPtr& info, ros::WallTime now) {
 }
 
 void ScanPairer::expire(ros::WallTime now) {
-  const auto is_late = [&](const auto& waiting) { return now - waiting.since > timeout_; };
+  const auto look = [](auto& topic) {
+    for (auto& waiting : topic.waiting) ++waiting.looks;
+  };
+  look(images_);
+  look(infos_);
+  const auto is_late = [&](const auto& waiting) {
+    return now - waiting.since > timeout_ && waiting.looks >= kFewestLooks;
+  };
   const std::string after = " within " + numberText(timeout_.toSec()) + " s";
   const std::vector<ros::Time> images = stampsOf(images_.waiting);
   rejectIf(images_, infos_, is_late, images_.reason + after, stampsOf(infos_.waiting), now);

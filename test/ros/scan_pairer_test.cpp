@@ -25,9 +25,15 @@ class ScanPairerTest : public ::testing::Test {
     message->header.stamp = ros::Time(stamp, 0);
     pairer_.add(message, now_);
   }
+  void look() { pairer_.expire(now_); }
+  void standStill(double seconds) { now_ += ros::WallDuration(seconds); }
+  /// As the node does: a look in each fifth of the timeout.
   void wait(double seconds) {
-    now_ += ros::WallDuration(seconds);
-    pairer_.expire(now_);
+    constexpr double kPeriod = 1.0;
+    for (double left = seconds; left > 0.0; left -= kPeriod) {
+      standStill(std::min(left, kPeriod));
+      look();
+    }
   }
 
   using Stamps = std::vector<std::uint32_t>;
@@ -53,6 +59,20 @@ TEST_F(ScanPairerTest, PairsByStampInWhicheverOrderTheTopicsDeliver) {
   EXPECT_EQ(paired_, (Stamps{1, 2, 3, 4}));
   EXPECT_TRUE(rejected_.empty());
   EXPECT_EQ(pairer_.waiting(), 0U);
+}
+
+TEST_F(ScanPairerTest, APartnerThatCameWhileTheNodeStoodStillIsInTime) {
+  image(1);
+  standStill(60.0);
+  look(), look();  // the timer may catch up before the messages do
+  info(1);
+  EXPECT_EQ(paired_, (Stamps{1}));
+  image(2);
+  standStill(60.0);
+  wait(1.0), wait(1.0);
+  EXPECT_TRUE(rejected_.empty());
+  wait(1.0);
+  EXPECT_EQ(rejected_, (Stamps{2}));
 }
 
 TEST_F(ScanPairerTest, NamesTheStampOfAPartnerThatMissesByALittle) {
@@ -102,7 +122,7 @@ TEST(ScanPairer, RejectsTheOldestBeyondItsMemoryButNeverTheNewestAndCountsEachSc
   EXPECT_EQ(pairer.waiting(), 1U);  // image 4 was older than the pair; the newest stays, whatever it holds
   for (std::uint32_t stamp = 11; stamp <= 15; ++stamp) info(stamp, 4000);
   EXPECT_EQ(pairer.waiting(), 3U);
-  pairer.expire(now + ros::WallDuration(6.0));
+  for (const double later : {4.0, 5.0, 6.0}) pairer.expire(now + ros::WallDuration(later));
   EXPECT_EQ(rejected, (Stamps{1, 2, 3, 4, 11, 12, 13, 6, 14, 15}));  // 1 once
   EXPECT_EQ(pairer.waitingBytes(), 0U);
 }

@@ -41,7 +41,8 @@ class ScanPairer {
   void add(const sensor_msgs::ImageConstPtr& image, ros::WallTime now);
   void add(const ScanInfoConstPtr& info, ros::WallTime now);
 
-  /// Rejects what has waited for longer than the timeout.
+  /// Rejects what has waited for longer than the timeout and was looked at by this call several times: what a process that
+  /// stood still finds waiting may have its partner in the queue. To be called a few times in each timeout.
   void expire(ros::WallTime now);
 
   std::size_t waiting() const { return images_.waiting.size() + infos_.waiting.size(); }
@@ -53,6 +54,7 @@ class ScanPairer {
     Message message;
     ros::WallTime since;
     std::uint64_t arrival;  ///< number on its topic
+    int looks = 0;          ///< of expire()
   };
 
   struct GivenUp {
