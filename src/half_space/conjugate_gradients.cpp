@@ -43,14 +43,14 @@ ConjugateGradients::ConjugateGradients(const HalfSpaceGrid& grid, StiffnessOpera
                                        const std::atomic<bool>* cancel, std::function<void()> give_way)
     : grid_(grid), stiffness_(stiffness), threads_(threads), cancel_(cancel), give_way_(std::move(give_way)) {}
 
-void ConjugateGradients::allocateResidual() {
+void ConjugateGradients::allocateShared() {
   for (auto* const array : {&residual_, &first_}) {
     if (array->empty()) array->assign(grid_.size(), 0.0F);
   }
 }
 
 void ConjugateGradients::allocate() {
-  allocateResidual();
+  allocateShared();
   for (auto* const array : {&slope_, &smoothed_, &search_, &search_traction_, &step_}) {
     if (array->empty()) array->assign(grid_.size(), 0.0F);
   }

@@ -27,8 +27,6 @@ constexpr double kEnergyNoise = 1e-9;
 constexpr double kSinglePrecision = 3e-7;
 /// Share of the allowed residual that may come from it.
 constexpr double kStaleShare = 0.1;
-/// Shift of K^-1, of the smallest stiffness: none to speak of.
-constexpr double kNoShift = 1e-6;
 /// Windows that leave more than this share of the residual have failed; so many times in one state.
 constexpr double kWorthwhile = 0.5;
 constexpr int kMostFailures = 2;
@@ -112,7 +110,7 @@ ContactMinimiser::ContactMinimiser(const HalfSpaceGrid& grid, const TractionLaw&
   for (auto* const array : {&displacement_, &elastic_traction_}) {
     if (!isCancelled()) array->assign(grid.size(), 0.0);
   }
-  if (!isCancelled()) gradients_.allocateResidual();
+  if (!isCancelled()) gradients_.allocateShared();
   for (auto* const array : {&change_, &last_change_}) {
     if (!isCancelled()) array->assign(grid.size(), 0.0F);
   }
@@ -235,10 +233,7 @@ evaluation_rows::Sums ContactMinimiser::evaluateRow(int row, double height, cons
   return sums;
 }
 
-ContactMinimiser::Evaluation ContactMinimiser::evaluationOf(const std::vector<evaluation_rows::Sums>& row_sums,
-                                                            bool with_slopes) const {
-  evaluation_rows::Sums sums;
-  for (const evaluation_rows::Sums& of_row : row_sums) sums += of_row;
+ContactMinimiser::Evaluation ContactMinimiser::evaluationOf(const evaluation_rows::Sums& sums, bool with_slopes) const {
   const double cells = grid_.cellCount();
   Evaluation result;
   result.force = sums.traction * grid_.cellArea();
@@ -262,37 +257,38 @@ ContactMinimiser::Evaluation ContactMinimiser::evaluate(double height) {
 }
 
 ContactMinimiser::Evaluation ContactMinimiser::evaluateAlong(double height, double length) {
-  std::vector<evaluation_rows::Sums> row_sums(static_cast<std::size_t>(grid_.rows));
-  forEachRow(grid_.rows, settings_.threads, [&](int row) {
+  std::vector<evaluation_rows::Sums> row_sums;
+  const auto sums = sumOverRows(row_sums, grid_.rows, settings_.threads, [&](int row) {
     const std::size_t first = grid_.offset(row);
-    const Step step{length, gradients_.step() + first, gradients_.stepTraction() + first};
-    row_sums[static_cast<std::size_t>(row)] = evaluateRow(row, height, step, true);
+    return evaluateRow(row, height, {length, gradients_.step() + first, gradients_.stepTraction() + first}, true);
   });
-  return evaluationOf(row_sums, true);
+  return evaluationOf(sums, true);
 }
 
 ContactMinimiser::Evaluation ContactMinimiser::moveAndEvaluate(double height, float share) {
   const bool with_slopes = windows_ == nullptr;
   if (with_slopes) gradients_.allocate();
-  std::vector<evaluation_rows::Sums> row_sums(static_cast<std::size_t>(grid_.rows));
-  forEachRow(grid_.rows, settings_.threads, [&](int row) {
+  std::vector<evaluation_rows::Sums> row_sums;
+  const auto sums = sumOverRows(row_sums, grid_.rows, settings_.threads, [&](int row) {
     moveRow(row, share);
     const float* const any = gradients_.residual() + grid_.offset(row);  // no step is taken
-    row_sums[static_cast<std::size_t>(row)] = evaluateRow(row, height, {0.0, any, any}, with_slopes);
+    return evaluateRow(row, height, {0.0, any, any}, with_slopes);
   });
-  return evaluationOf(row_sums, with_slopes);
+  return evaluationOf(sums, with_slopes);
 }
 
 ContactMinimiser::Evaluation ContactMinimiser::answerAndEvaluate(double height, double length) {
   std::vector<evaluation_rows::Sums> row_sums(static_cast<std::size_t>(grid_.rows));
   const float* const change = gradients_.stepTraction();
-  stiffness_.displace(kNoShift * stiffness_.smallest(), change, [&](int row, const float* displacement) {
+  stiffness_.displace(change, [&](int row, const float* displacement) {
     const Step step{length, displacement, change + grid_.offset(row)};
     stepRow(row, step);
     row_sums[static_cast<std::size_t>(row)] = evaluateRow(row, height, {0.0, step.step, step.traction}, false);
   });
   ++window_products_;
-  return evaluationOf(row_sums, false);
+  evaluation_rows::Sums sums;  // in the order of the frame
+  for (const evaluation_rows::Sums& of_row : row_sums) sums += of_row;
+  return evaluationOf(sums, false);
 }
 
 void ContactMinimiser::stepRow(int row, const Step& step) {
@@ -381,7 +377,6 @@ ContactState ContactMinimiser::solve(double height) {
     system.longest_move = kLongestMove * law_.range();
     system.useful_residual = allowed / now.largest_residual;
     const ConjugateGradients::Direction direction = gradients_.find(system);
-    state.met_instability = state.met_instability || direction.is_unstable;
     if (!(direction.decrease > 0.0)) break;
     double length = std::min(1.0, system.longest_move / direction.longest);
     const Evaluation before = now;

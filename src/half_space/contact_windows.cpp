@@ -27,8 +27,6 @@ constexpr int kMostNewtonSteps = 30;
 constexpr std::size_t kMostIdle = 16;
 /// A change of traction beyond this, of 8 Gamma/(3 z0), is no answer: the law repels with 1300 times that at most.
 constexpr double kLargestChange = 1e5;
-/// Shift for the influence, of the smallest stiffness: none to speak of.
-constexpr double kNoShift = 1e-6;
 
 /// i on a ring of n.
 int onRing(int i, int n) { return (i % n + n) % n; }
@@ -222,7 +220,7 @@ void ContactWindows::findResponse(StiffnessOperator<double>& stiffness) {
   if (grid_.boundary == HalfSpaceBoundary::kFree || !influence_.empty()) return;
   LargePageVector<double> impulse(grid_.size(), 0.0);
   impulse[0] = 1.0;
-  stiffness.displace(kNoShift * stiffness.smallest(), impulse.data(), impulse.data());
+  stiffness.displace(impulse.data(), impulse.data());
   influence_.create(static_cast<int>(kWidestWindow * grid_.frame_rows) + 1,
                     static_cast<int>(kWidestWindow * grid_.frame_cols) + 1);
   for (int row = 0; row < influence_.rows; ++row) {

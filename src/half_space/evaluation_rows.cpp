@@ -101,7 +101,9 @@ MEMS_STICTION_VECTORIZED void addTile(int count, double length, const RowArrays&
     squared += counted * counted;
   }
   for (int i = 0; i < count; ++i) arrays.residual[i] = static_cast<float>(elastic[i]);
-  for (int i = 0; arrays.slope != nullptr && i < count; ++i) arrays.slope[i] = static_cast<float>(tile.slope[i]);
+  if (arrays.slope != nullptr) {
+    for (int i = 0; i < count; ++i) arrays.slope[i] = static_cast<float>(tile.slope[i]);
+  }
   sums.traction += traction.sum();
   sums.elastic += elastic_energy.sum();
   sums.energy += energy.sum();

@@ -19,6 +19,8 @@ namespace {
 
 /// Columns that are gathered together: their complex numbers fill one or two cache lines.
 constexpr std::size_t kBlock = 8;
+/// Shift of K^-1, of the smallest stiffness: none to speak of, but for the mean that K does not resist.
+constexpr double kNoShift = 1e-6;
 
 /// FFTW's planner is not to be called by two threads at once.
 std::mutex& plannerMutex() {
@@ -411,14 +413,14 @@ double StiffnessOperator<Scalar>::precondition(double shift, const Scalar* tract
 }
 
 template <typename Scalar>
-void StiffnessOperator<Scalar>::displace(double shift, const Scalar* traction, Scalar* displacement) {
-  apply(traction, overStiffness<Scalar>(grid_, shift), writeTo(displacement, kNoMore));
+void StiffnessOperator<Scalar>::displace(const Scalar* traction, Scalar* displacement) {
+  apply(traction, overStiffness<Scalar>(grid_, kNoShift * smallest_), writeTo(displacement, kNoMore));
 }
 
 template <typename Scalar>
-void StiffnessOperator<Scalar>::displace(double shift, const Scalar* traction, const TakeRow& take) {
+void StiffnessOperator<Scalar>::displace(const Scalar* traction, const TakeRow& take) {
   const auto cols = static_cast<std::size_t>(grid_.cols);
-  apply(traction, overStiffness<Scalar>(grid_, shift),
+  apply(traction, overStiffness<Scalar>(grid_, kNoShift * smallest_),
         [&](std::size_t first, std::size_t second, const Scalar* joined, Scalar* spare) {
           Scalar* const next = spare + (cols + kBlock - cols % kBlock);
           row_pairs::split(cols, joined, spare, next);

@@ -53,16 +53,15 @@ class ConjugateGradients {
   ConjugateGradients(const HalfSpaceGrid& grid, StiffnessOperator<float>& stiffness, int threads,
                      const std::atomic<bool>* cancel, std::function<void()> give_way);
 
-  /// Makes residual and stepTraction, of zeros: those that are of use without find().
-  void allocateResidual();
+  /// Makes residual and stepTraction, of zeros: those that the owner uses without find() too.
+  void allocateShared();
   /// Makes the others too, unless they are there.
   void allocate();
 
-  float* residual() { return residual_.data(); }   ///< t - K u [Pa]; lost by find()
-  float* slope() { return slope_.data(); }         ///< t' of the frame's cells [Pa/m]
-  float* step() { return step_.data(); }           ///< s [m]
-  float* stepTraction() { return first_.data(); }  ///< K s [Pa]
-  const float* step() const { return step_.data(); }
+  float* residual() { return residual_.data(); }      ///< t - K u [Pa]; lost by find()
+  float* slope() { return slope_.data(); }            ///< t' of the frame's cells [Pa/m]
+  const float* step() const { return step_.data(); }  ///< s [m]
+  float* stepTraction() { return first_.data(); }     ///< K s [Pa]
   const float* stepTraction() const { return first_.data(); }
   /// Applications of the preconditioner or of K so far: one pair of transforms each.
   int products() const { return products_; }

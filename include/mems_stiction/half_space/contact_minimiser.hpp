@@ -44,8 +44,7 @@ struct ContactState {
   double mean_gap = 0.0;      ///< of the valid cells [m]
   bool is_converged = false;
   int newton_steps = 0;
-  int products = 0;              ///< applications of the preconditioner or of K: one pair of transforms each
-  bool met_instability = false;  ///< negative curvature on the way: the state before was not followed smoothly
+  int products = 0;  ///< applications of the preconditioner or of K: one pair of transforms each
 };
 
 /// Finds equilibria one after the other, each from the one before.
@@ -114,7 +113,7 @@ class ContactMinimiser {
   /// One row's share at u + length s.
   /// - @p with_slopes whether t' is kept for Newton's method
   evaluation_rows::Sums evaluateRow(int row, double height, const Step& step, bool with_slopes);
-  Evaluation evaluationOf(const std::vector<evaluation_rows::Sums>& row_sums, bool with_slopes) const;
+  Evaluation evaluationOf(const evaluation_rows::Sums& sums, bool with_slopes) const;
   /// At u, and at u + length s, along the step of the conjugate gradients.
   Evaluation evaluate(double height);
   Evaluation evaluateAlong(double height, double length);

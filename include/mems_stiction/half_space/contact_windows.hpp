@@ -78,7 +78,7 @@ class ContactWindows {
   /// One that nobody uses, or a new one; and back again.
   std::unique_ptr<ContactMinimiser> takeMinimiser(const HalfSpaceGrid& window);
   void giveBack(std::unique_ptr<ContactMinimiser> minimiser);
-  /// work(row and column in the window, place in arrays of the grid, row, column) for the cells of a window.
+  /// work(place in the window, place in arrays of the grid, row, column) for the cells of a window, row by row.
   template <typename Work>
   void forEachCell(const cv::Rect& cells, const Work& work) const;
   bool owns(const Window& window, int row, int col) const;

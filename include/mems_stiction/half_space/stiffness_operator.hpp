@@ -65,12 +65,12 @@ class StiffnessOperator {
   /// @return sum of traction times displacement, in the precision of eight lanes a row, added in double
   double precondition(double shift, const Scalar* traction, Scalar* displacement);
 
-  /// The same without the sum.
-  void displace(double shift, const Scalar* traction, Scalar* displacement);
+  /// displacement = K^-1 traction, its mean 0 where K does not resist the mean. The arrays may be one.
+  void displace(const Scalar* traction, Scalar* displacement);
   /// The same row by row: take(row, displacement of its cells) is called for each row by one of the threads, while the row
   /// lies in the cache.
   using TakeRow = std::function<void(int row, const Scalar* displacement)>;
-  void displace(double shift, const Scalar* traction, const TakeRow& take);
+  void displace(const Scalar* traction, const TakeRow& take);
 
   /// The smallest stiffness against a displacement that is not uniform [Pa/m]; of a 1 x 1 frame infinity.
   double smallest() const { return smallest_; }

@@ -61,7 +61,7 @@ class Undeformed {
   /// Largest residual after u has answered the changes.
   double largestAfter() {
     LargePageVector<double> displacement(change.begin(), change.end());
-    stiffness_.displace(1e-9 * stiffness_.smallest(), displacement.data(), displacement.data());
+    stiffness_.displace(displacement.data(), displacement.data());
     LargePageVector<float> after(grid_.size(), 0.0F);
     for (std::size_t i = 0; i < after.size(); ++i) after[i] = -change[i];
     forEachCell([&](std::size_t cell, std::size_t in_frame) {
