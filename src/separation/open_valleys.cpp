@@ -14,6 +14,9 @@ constexpr double kLongestCrack = 4.0;
 constexpr double kLongestShare = 0.5;
 /// From one crack to the next: in between, what opens a valley most is missed by 2 %.
 constexpr double kNextCrack = 1.5;
+/// K at which a valley stays open, of Irwin's: a crack that is not round, as most are not, opens a little earlier than
+/// the round ones that are tried.
+constexpr double kRoundness = 0.95;
 
 /// of F/A
 constexpr double kGriffith = 0.85;
@@ -33,7 +36,7 @@ bool valleysStayOpen(ReliefSpectrum& relief, const BondedBodies& bodies, double 
   const double longest = std::min(kLongestCrack / bodies.waveNumber(), kLongestShare * relief.shorterSide());
   if (shortest > longest) return false;
   const double modulus = bodies.contact_modulus;
-  const double critical = std::sqrt(2.0 * modulus * bodies.work_of_adhesion);
+  const double critical = kRoundness * std::sqrt(2.0 * modulus * bodies.work_of_adhesion);
   const double most_tension = highest(relief.weighed([=](double q) { return -0.5 * modulus * q; }));
   for (double radius = longest; radius >= shortest; radius /= kNextCrack) {
     const double even = 2.0 * std::sqrt(radius / kPi);              // of an even tension

@@ -8,7 +8,10 @@ namespace mems_stiction {
 namespace {
 
 /// f(q) = 1/(1 + (kLengths l q)^4)
-constexpr double kLengths = 2.0;
+constexpr double kLengths = 1.4;
+
+/// A block, or the one that it is the mirror image of.
+int unmirrored(int block, int count) { return block < count ? block : 2 * count - 1 - block; }
 
 }  // namespace
 
@@ -18,8 +21,12 @@ void ReliefWaves::split(ReliefSpectrum& relief, cv::Size cells, double contact_m
     return 1.0 / (1.0 + square * square);
   };
   const cv::Mat1d& tension = relief.weighed([=](double q) { return -0.5 * contact_modulus * q * long_part(q); });
-  cv::minMaxLoc(tension, nullptr, &largest_tension_);
+  cv::Point weakest;
+  cv::minMaxLoc(tension, nullptr, &largest_tension_, nullptr, &weakest);
   largest_tension_ = std::max(0.0, largest_tension_);
+  const cv::Size blocks = relief.blocks();
+  weakest_place_ = {(unmirrored(weakest.x, blocks.width) + 0.5) * cells.width / blocks.width,
+                    (unmirrored(weakest.y, blocks.height) + 0.5) * cells.height / blocks.height};
   cv::resize(relief.weighed(long_part)(cv::Rect({0, 0}, relief.blocks())), long_heights_, cells, 0.0, 0.0,
              cv::INTER_LINEAR);
 }

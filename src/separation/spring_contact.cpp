@@ -99,7 +99,6 @@ void ReliefClasses::add(double depth) {
   const auto place = static_cast<std::size_t>(std::clamp(above * inverse_width_, 0.0, kClasses - 1.0));
   sums_[place] += above;
   ++counts_[place];
-  square_sum_ += above * above;
 }
 
 std::vector<ReliefClass> ReliefClasses::classes() const {
@@ -110,16 +109,6 @@ std::vector<ReliefClass> ReliefClasses::classes() const {
     if (counts_[i] > 0) classes.push_back({sums_[i] / counts_[i], counts_[i] / count});
   }
   return classes;
-}
-
-double ReliefClasses::rms() const {
-  double count = 0.0;
-  double sum = 0.0;
-  for (std::size_t i = 0; i < sums_.size(); ++i) {
-    count += counts_[i];
-    sum += sums_[i];
-  }
-  return count > 0.0 ? std::sqrt(std::max(square_sum_ / count - sum * sum / (count * count), 0.0)) : 0.0;
 }
 
 std::vector<SpringState> springBranch(const std::vector<ReliefClass>& relief, const ContactTraction& law,

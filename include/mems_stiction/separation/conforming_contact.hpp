@@ -8,8 +8,8 @@
 /// The interface breaks
 ///
 /// - as a whole, at the largest traction that the springs of all waves reach, or before that
-/// - from its weakest place: where the long waves (relief_waves.hpp) already pull with p_max, the short ones have
-///   what is left of their own strength, so that the mean traction there is (strength of the short waves) - p_max.
+/// - from its weakest place: where the long waves (relief_waves.hpp) already pull with p_max, the short ones of that
+///   place have what is left of their own strength, so that the mean traction is (strength of the short waves) - p_max.
 ///
 /// For one long wave this is the strength of the law less Westergaard's pressure. Where valleys stay open
 /// (open_valleys.hpp), neither holds: the surfaces part from there. Derivation and figures: doc/separation_curve.md.
@@ -63,7 +63,9 @@ class ConformingContact {
 
  private:
   /// Mean traction at which the weakest place tears [Pa]; negative if flattening alone does it.
-  double weakestPlace(double pressure);
+  double weakestPlace();
+  /// The short waves over the whole frame: rms height [m]; and those near a place, as depths below the mean plane [m].
+  double takeShortWaves(cv::Point2d place, double radius);
   BondedBodies bondedBodies() const;
   ReliefSpectrum& relief();
 
@@ -76,6 +78,7 @@ class ConformingContact {
   ReliefWaves waves_;
   FlatteningEnergy flattening_;  ///< of the short waves
   std::vector<double> line_;
+  std::vector<double> depths_at_place_;  ///< of the short waves [m]
 };
 
 }  // namespace mems_stiction

@@ -26,6 +26,8 @@ class ReliefSpectrum {
   const cv::Mat1d& weighed(const Weigh& weigh);
   /// Rows and columns of blocks of the frame itself.
   cv::Size blocks() const { return blocks_; }
+  /// Whether the frame repeats itself, or is mirrored.
+  bool repeats() const { return frame_.size() == blocks_; }
   /// The shorter side of the frame [m].
   double shorterSide() const;
 

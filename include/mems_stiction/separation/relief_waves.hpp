@@ -35,11 +35,14 @@ class ReliefWaves {
 
   /// Largest tension of the long waves when all is pressed flat [Pa], >= 0.
   double largestTension() const { return largest_tension_; }
+  /// Where it pulls, in columns and rows of the frame from its corner; cell (i, j) lies at (i + 1/2, j + 1/2).
+  cv::Point2d weakestPlace() const { return weakest_place_; }
   /// Height of the long waves at each cell [m].
   const cv::Mat1d& longHeights() const { return long_heights_; }
 
  private:
   double largest_tension_ = 0.0;
+  cv::Point2d weakest_place_;
   cv::Mat1d long_heights_;
 };
 

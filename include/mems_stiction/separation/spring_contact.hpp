@@ -29,15 +29,12 @@ class ReliefClasses {
   void add(double depth);
   /// By ascending depth from the lowest one, which counts as 0.
   std::vector<ReliefClass> classes() const;
-  /// Root mean square about the mean [m].
-  double rms() const;
 
  private:
   double lowest_;
   double inverse_width_;
   std::vector<double> sums_;
   std::vector<int> counts_;
-  double square_sum_ = 0.0;
 };
 
 /// One height of the plane, per area.
