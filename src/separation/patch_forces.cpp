@@ -17,6 +17,12 @@ namespace {
 constexpr double kMaugisPerTabor = 0.75;
 /// What a summit loses by bending even where its neighbours hold on [-], and what it loses more when it stands alone.
 constexpr double kLossInCompany = 0.6;
+/// What is added to the depth that tells a summit's radius, of z0: a patch that has just come into reach has hardly any.
+constexpr double kLeastDepth = 0.05;
+/// Least depth of a patch that opens the gap around it, of z0.
+constexpr double kLeastOpening = 1e-6;
+/// Largest exponent with which a patch is taken to grow with its depth: that of a cone. A paraboloid has 1.
+constexpr double kMostGrowth = 2.0;
 /// P/(Ha A) at which a paraboloid begins to flow: its largest pressure is three times P over the overlapped area.
 constexpr double kFlowOnset = 1.0 / 3.0;
 /// lambda^1.4 of lambda^3
@@ -113,27 +119,40 @@ MEMS_STICTION_VECTORIZED void PatchForces::loadsOf(const OverlapSweep& contacts,
   }
 }
 
-MEMS_STICTION_VECTORIZED double PatchForces::carried(const OverlapSweep& contacts, double approach) const {
-  Lanes sum = 0.0;
+MEMS_STICTION_VECTORIZED PatchSums PatchForces::sums(const OverlapSweep& contacts, double approach) const {
+  Lanes carried = 0.0;
+  Lanes opened = 0.0;
   PatchBlock block;
   for (std::size_t place = 0; place < contacts.livePatches().size(); place += PatchBlock::kMost) {
     block.gather(contacts, place);
     for (std::size_t i = 0; i < block.count; i += Lanes::kCount) {
-      const Loads loads =
-          loadsOf(Lanes::load(block.cells + i), Lanes::load(block.gap_sum + i), Lanes::load(block.kept + i), approach);
-      sum += Lanes::load(block.weight + i) * loads.carried;
+      const Lanes cells = Lanes::load(block.cells + i);
+      const Lanes gap_sum = Lanes::load(block.gap_sum + i);
+      const Lanes weight = Lanes::load(block.weight + i);
+      const Loads loads = loadsOf(cells, gap_sum, Lanes::load(block.kept + i), approach);
+      carried += weight * loads.carried;
+      if (!law_.attracts()) continue;
+      // A grows as delta^m, and V/A is delta/(m + 1)
+      const Lanes depth = greater(approach - gap_sum / cells, Lanes(kLeastOpening * law_.range()));
+      const Lanes delta = greater(approach - Lanes::load(block.first_gap + i), depth);
+      Lanes growth = greater(delta / depth - 1.0, Lanes(1.0));
+      growth = select(growth < kMostGrowth, growth, Lanes(kMostGrowth));
+      const Lanes work = law_.workOfAdhesion() * cells * cell_area_;
+      const Lanes load = loads.elastic * 2.0 * depth / work;  // P/(2 pi Gamma R)
+      opened += weight * growth * work / delta * 0.5 * (growth - 1.0) * load / (1.0 + load);
     }
   }
-  return sum.sum();
+  return {carried.sum(), opened.sum()};
 }
 
 double PatchForces::pullOffPrefactor(double radius) const {
   return maugis::fittedPullOffPrefactorOfPower(power(Lanes(maugis_factor_ * radius), kPowerOfCube)[0]);
 }
 
-MEMS_STICTION_VECTORIZED double PatchForces::bendingFactor(const OverlapSweep& in_reach, double approach) const {
-  const double reach = approach + law_.range();
+MEMS_STICTION_VECTORIZED Bending PatchForces::bending(const OverlapSweep& in_reach, double approach) const {
+  const double reach = in_reach.approach();
   Lanes weights = 0.0;
+  Lanes tabor_parameters = 0.0;
   Lanes losses = 0.0;        // of summits in company
   Lanes losses_alone = 0.0;  // what the same lose more when they stand alone, times their weight
   PatchBlock block;
@@ -141,22 +160,25 @@ MEMS_STICTION_VECTORIZED double PatchForces::bendingFactor(const OverlapSweep& i
     block.gather(in_reach, place);
     for (std::size_t i = 0; i < block.count; i += Lanes::kCount) {
       const Lanes cells = Lanes::load(block.cells + i);
-      const Lanes depth = reach - Lanes::load(block.gap_sum + i) / cells;
+      const Lanes depth = reach - Lanes::load(block.gap_sum + i) / cells + kLeastDepth * law_.range();
       const Lanes radius = cells * cell_area_ / (4.0 * kPi * depth);
       const Lanes distance = greater(Lanes::load(block.first_gap + i) - approach, Lanes(0.0));
       const Lanes weight = Lanes::load(block.weight + i) * radius * law_.energy(distance);
       const Lanes summits = Lanes::load(block.summits + i);
-      const Lanes bend = power(maugis_factor_ * radius / summits, kPowerOfCube);
+      const Lanes cube = maugis_factor_ * radius / summits;
+      const Lanes bend = power(cube, kPowerOfCube);
       const Lanes loss = 1.0 - 0.5 * maugis::fittedPullOffPrefactorOfPower(bend);
       const Lanes lost = weight * loss / squareRoot(summits);
       weights += weight;
+      tabor_parameters += weight * power(cube, 1.0 / 3.0) / kMaugisPerTabor;
       losses += lost;
       losses_alone += lost * weight;
     }
   }
   const double weight = weights.sum();
-  if (!(weight > 0.0)) return 1.0;
-  return 1.0 - (kLossInCompany * losses.sum() + (1.0 - kLossInCompany) * losses_alone.sum() / weight) / weight;
+  if (!(weight > 0.0)) return {};
+  const double loss = kLossInCompany * losses.sum() + (1.0 - kLossInCompany) * losses_alone.sum() / weight;
+  return {1.0 - loss / weight, tabor_parameters.sum() / weight};
 }
 
 }  // namespace mems_stiction

@@ -16,9 +16,9 @@ namespace {
 /// branch is nearer to the half-space than the patches are, above it the patches (doc/separation_curve.md).
 constexpr double kConformingShare = 0.4;
 /// Up to this share, surfaces at rest hold with at least the work of bonded ones (doc/separation_curve.md).
-constexpr double kBondingShare = 1.3;
+constexpr double kBondingShare = 1.05;
 /// if they touch there over this share of the frame: bonded ones do over half of it.
-constexpr double kBondedContact = 0.25;
+constexpr double kBondedContact = 0.2;
 /// A contact of which flow has taken less than this share of the overlap counts as elastic, one that carries more than
 /// this share of what it can as plastic.
 constexpr double kElasticShare = 0.97;
@@ -102,7 +102,7 @@ void SeparationSolver::solve(const ContactProblem& problem, ContactSolution& sol
   takeRest(problem, solution);
   listContacts(problem, solution);
   fillMaps(problem, solution);
-  partFlowed(problem, solution);
+  part(problem, solution);
   solution.flattening_energy = flattening_.of(problem.gap, trace_.patchForces().contactModulus());
   partConforming(problem, solution);
   const double area = problem.gap.validCount() * problem.gap.cellArea();
@@ -248,25 +248,31 @@ void SeparationSolver::fillMaps(const ContactProblem& problem, ContactSolution& 
   });
 }
 
-void SeparationSolver::partFlowed(const ContactProblem& problem, ContactSolution& solution) {
-  if (!has_flowed_) return;
-  const GapField& field = problem.gap;
-  const double approach = curve_.rest().approach;
-  double first_touch = approach;
-  changed_gaps_.resize(static_cast<std::size_t>(curve_.rest().contact_count));
-  for (std::size_t i = 0; i < changed_gaps_.size(); ++i) {
-    const OrderedCell& ordered = trace_.orderedCells()[i];
-    const KeptOverlap& kept = contactOf(trace_.contacts().patchOf(ordered)).kept;
-    changed_gaps_[i] = approach - kept.of(approach - ordered.gap);
-    first_touch = std::min(first_touch, changed_gaps_[i]);
+void SeparationSolver::part(const ContactProblem& problem, ContactSolution& solution) {
+  const double rest = curve_.rest().approach;
+  if (has_flowed_) {
+    double first_touch = rest;
+    changed_gaps_.resize(static_cast<std::size_t>(curve_.rest().contact_count));
+    for (std::size_t i = 0; i < changed_gaps_.size(); ++i) {
+      const OrderedCell& ordered = trace_.orderedCells()[i];
+      const KeptOverlap& kept = contactOf(trace_.contacts().patchOf(ordered)).kept;
+      changed_gaps_[i] = rest - kept.of(rest - ordered.gap);
+      first_touch = std::min(first_touch, changed_gaps_[i]);
+    }
+    trace_.changeGaps(rest, changed_gaps_);
+    followCurveUpTo(trace_, first_touch, rest, way_out_);
+  } else if (trace_.holdsOn()) {
+    trace_.startParting(rest);
+    followCurveUpTo(trace_, 0.0, rest, way_out_);
+  } else {
+    way_out_ = curve_;
+    return;
   }
-  trace_.changeGaps(approach, changed_gaps_);
-  followCurveUpTo(trace_, first_touch, approach, changed_curve_);
   dropWayOut(solution.curve);
-  appendCurve(changed_curve_, true, solution.curve);
-  solution.pull_off_force = changed_curve_.pull_off_force;
-  takeExponents(changed_curve_, solution);
-  solution.apparent_work_of_adhesion = changed_curve_.work / (field.validCount() * field.cellArea());
+  appendCurve(way_out_, true, solution.curve);
+  solution.pull_off_force = way_out_.pull_off_force;
+  takeExponents(way_out_, solution);
+  solution.apparent_work_of_adhesion = way_out_.work / (problem.gap.validCount() * problem.gap.cellArea());
 }
 
 void SeparationSolver::partConforming(const ContactProblem& problem, ContactSolution& solution) {
@@ -280,13 +286,29 @@ void SeparationSolver::partConforming(const ContactProblem& problem, ContactSolu
     takeConforming(problem, stretch, solution);
   } else if (!has_flowed_) {
     const double area = problem.gap.validCount() * problem.gap.cellArea();
-    if (solution.contact_area >= kBondedContact * area) stretchWayOut(problem, stretch, stretch, solution);
-    const double gain = conforming_.openStrength().traction * area / solution.pull_off_force;
-    if (gain > 1.0 && conforming_.hasOpenValleys(problem.settings.load.mechanical_load / area)) {
+    const double bonded = kBondedContact * area;
+    const bool holds_together = unloadedContactArea(solution) >= bonded;
+    if (holds_together) stretchWayOut(problem, std::pow(stretch, 0.75), stretch, solution);
+    if (solution.contact_area < bonded) return;
+    const double pressure = problem.settings.load.mechanical_load / area;
+    if (conforming_.hasOpenValleys(pressure)) {
+      const double gain = conforming_.openStrength().traction * area / solution.pull_off_force;
+      if (!(gain > 1.0)) return;
       stretchWayOut(problem, gain, std::sqrt(gain), solution);
       takeOpenExponents(solution);
+    } else if (holds_together) {
+      const double strength = conforming_.partFrom(pressure, 0.0).strength;
+      stretchWayOut(problem, strength * area / solution.pull_off_force, 1.0, solution);
     }
   }
+}
+
+double SeparationSolver::unloadedContactArea(const ContactSolution& solution) const {
+  const auto push = [](const SeparationState& state) { return state.partingForce() < 0.0; };
+  const auto unloaded = std::find_if(curve_.states.begin(), curve_.states.end(), push);
+  const SeparationState& rest = curve_.rest();
+  if (unloaded == curve_.states.end() || rest.contact_count == 0) return solution.contact_area;
+  return solution.contact_area * unloaded->contact_count / rest.contact_count;
 }
 
 void SeparationSolver::takeConforming(const ContactProblem& problem, double stretch, ContactSolution& solution) {
@@ -320,7 +342,7 @@ void SeparationSolver::stretchWayOut(const ContactProblem& problem, double force
   solution.apparent_work_of_adhesion *= work_factor;
   solution.pull_off_force = std::min(force_factor * solution.pull_off_force, strongest);
   if (std::none_of(solution.curve.begin(), solution.curve.end(), isWayOut)) {
-    appendCurve(curve_, true, solution.curve);
+    appendCurve(way_out_, true, solution.curve);
   }
   const double rest = curve_.rest().approach;
   for (SeparationCurvePoint& point : solution.curve) {

@@ -11,6 +11,13 @@ namespace {
 /// Share of the cells that is put in order first, and by how much more when that does not suffice.
 constexpr double kFirstFraction = 1.0 / 64.0;
 constexpr double kMoreCells = 8.0;
+/// A summit of Tabor's parameter mu lets go 0.77 mu z0 before it would touch (JKR, doc/separation_curve.md); up to 1/2
+/// the law's own range does as much.
+constexpr double kHoldPerTabor = 0.77;
+constexpr double kStiffTabor = 0.5;
+constexpr double kLongestHold = 4.0;  ///< of z0
+/// However the gap opens around contacts, they keep this share of the attraction: that of Hertz' contact.
+constexpr double kLeastShare = 0.5;
 
 }  // namespace
 
@@ -27,6 +34,14 @@ void SeparationTrace::start(const GapField& field, const ContactSettings& settin
   approach_before_limit_ = order_.lowerEndAt(contactLimit() - 1);
   const double farthest = approach_before_limit_ + order_.bucketWidth() + law().range();
   most_fraction_ = std::min(1.0, order_.cellsBelow(farthest) / field.validCount());
+  softest_ = 0.0;
+  longest_hold_ = 0.0;
+  restart();
+}
+
+void SeparationTrace::startParting(double rest) {
+  rest_ = rest;
+  longest_hold_ = holdOf(softest_);
   restart();
 }
 
@@ -40,7 +55,7 @@ void SeparationTrace::changeGaps(double approach, const std::vector<double>& gap
   order_.changeGaps(approach, gaps);
   pyramid_.prepare(order_);
   patch_forces_.emplace(*settings_, field_->cellArea(), false);
-  restart();
+  startParting(approach);
 }
 
 void SeparationTrace::keep() {
@@ -86,23 +101,53 @@ double SeparationTrace::limitApproach() {
 
 SeparationState SeparationTrace::at(double approach, double expected_end) {
   TimeLimit::check();
-  orderUpTo(approach + law().range(), expected_end + law().range());
   SeparationState state;
   state.approach = approach;
-  if (law().attracts()) in_reach_.advanceTo(approach + law().range(), order_);
+  const Bending bending = bendingAt(approach, expected_end);
+  // what has not been nearer than at rest holds nothing
+  const double hold = std::min(holdOf(bending.tabor_parameter), longest_hold_);
+  state.hold = std::clamp(rest_ - approach, 0.0, hold);
   state.contact_count = contacts_.advanceTo(approach, order_, law().attracts() ? &in_reach_ : nullptr);
-  const Attraction attraction = attraction_->forces(pyramid_, approach, state.contact_count);
+  const PatchSums patches = patch_forces_->sums(contacts_, approach);
+  state.carried = patches.carried;
+  const Attraction attraction = attractionAt(state);
   state.electrostatic = attraction.electrostatic;
   state.capillary = capillaryForce(order_, approach, state.contact_count, water_, field_->cellArea());
-  if (law().attracts()) {
-    state.adhesion = attraction.adhesion * patch_forces_->bendingFactor(in_reach_, approach);
-  }
-  state.carried = patch_forces_->carried(contacts_, approach);
+  state.adhesion = bending.factor * std::max(attraction.adhesion - patches.opened, kLeastShare * attraction.adhesion);
   return state;
 }
 
-Attraction SeparationTrace::energiesAt(const SeparationState& state) const {
-  return attraction_->all(pyramid_, state.approach, state.contact_count);
+Bending SeparationTrace::bendingAt(double approach, double expected_end) {
+  const double reach = law().range() + longest_hold_;
+  orderUpTo(approach + reach, expected_end + reach);
+  if (!law().attracts()) return {};
+  in_reach_.advanceTo(approach + reach, order_);
+  const Bending bending = patch_forces_->bending(in_reach_, approach + longest_hold_);
+  softest_ = std::max(softest_, bending.tabor_parameter);
+  return bending;
+}
+
+double SeparationTrace::holdOf(double tabor_parameter) const {
+  return law().range() * std::clamp(kHoldPerTabor * (tabor_parameter - kStiffTabor), 0.0, kLongestHold);
+}
+
+bool SeparationTrace::holdsOn() const { return softest_ > kStiffTabor; }
+
+int SeparationTrace::countBelow(double approach) { return approach > 0.0 ? order_.sortBelow(approach) : 0; }
+
+Attraction SeparationTrace::attractionAt(const SeparationState& state) {
+  if (state.hold == 0.0) return attraction_->forces(pyramid_, state.approach, state.contact_count);
+  const double held = state.approach + state.hold;
+  Attraction attraction = attraction_->forces(pyramid_, held, countBelow(held));
+  if (attraction.electrostatic > 0.0) {
+    attraction.electrostatic = attraction_->forces(pyramid_, state.approach, state.contact_count).electrostatic;
+  }
+  return attraction;
+}
+
+Attraction SeparationTrace::energiesAt(const SeparationState& state) {
+  const double held = state.approach + state.hold;
+  return attraction_->all(pyramid_, held, state.hold == 0.0 ? state.contact_count : countBelow(held));
 }
 
 }  // namespace mems_stiction

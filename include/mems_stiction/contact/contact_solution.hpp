@@ -41,7 +41,7 @@ struct EnergyPoint {
 struct SeparationCurvePoint {
   double displacement = 0.0;   ///< D of the upper surface past first touch, below zero apart [m]
   double force = 0.0;          ///< attraction positive [N]
-  bool is_separation = false;  ///< of the way out, which differs from the way in where surfaces flow or conform
+  bool is_separation = false;  ///< of the way out, where it is another: summits are soft, or have flowed, or conform
 };
 
 /// One contact at equilibrium.

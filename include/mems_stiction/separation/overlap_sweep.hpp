@@ -29,6 +29,8 @@ class OverlapSweep {
   /// @return how many are in
   int advanceTo(double approach, GapOrder& order, const OverlapSweep* ahead = nullptr);
 
+  /// Cells with a smaller gap are in [m].
+  double approach() const { return approach_; }
   /// Ids of the patches that exist now; their order depends on the cells alone.
   const std::vector<std::int32_t>& livePatches() const { return live_; }
   /// The patches of livePatches(), in their order.

@@ -21,6 +21,19 @@ struct PatchLoad {
   double elasticShare() const { return elastic > 0.0 ? carried / elastic : 1.0; }
 };
 
+/// What all patches do together.
+struct PatchSums {
+  double carried = 0.0;  ///< their loads [N]
+  /// Attraction that the undeformed gap around them overstates [N]: (S7b).
+  double opened = 0.0;
+};
+
+/// What bending does to the attraction.
+struct Bending {
+  double factor = 1.0;           ///< s(D), what it leaves of it [-]
+  double tabor_parameter = 0.0;  ///< of the summits in reach, their mean by how much attraction hangs on them [-]
+};
+
 /// Of a pair of surfaces.
 class PatchForces {
  public:
@@ -34,13 +47,12 @@ class PatchForces {
 
   /// What each patch of a sweep carries, in the order of its patches().
   void loadsOf(const OverlapSweep& contacts, double approach, std::vector<PatchLoad>& loads) const;
-  /// By all patches of a sweep together [N].
-  double carried(const OverlapSweep& contacts, double approach) const;
+  /// All patches of a sweep together.
+  PatchSums sums(const OverlapSweep& contacts, double approach) const;
   /// c of a summit of radius R [m]: its pull-off force is c pi Gamma R [-], between DMT (2) and JKR (1.5).
   double pullOffPrefactor(double radius) const;
-  /// s(D): what bending leaves of the attraction [-].
-  /// - @p in_reach the patches of the surfaces brought z0 closer
-  double bendingFactor(const OverlapSweep& in_reach, double approach) const;
+  /// - @p in_reach the patches of the surfaces brought z0 closer, or more
+  Bending bending(const OverlapSweep& in_reach, double approach) const;
 
  private:
   /// PatchLoad of four patches.

@@ -4,8 +4,9 @@
 /// The solver of the separation curve: the force between the surfaces at each displacement, adhesion counted once.
 ///
 /// Rest is where the curve carries the mechanical load. The pull-off force is its largest value on the way out, the
-/// apparent work of adhesion its area, both when the loads that made the contact, voltage too, have been taken away. Surfaces that have flowed on the way in come apart along the curve of the changed
-/// surfaces; surfaces whose flattening costs less than adhesion gives come apart along that of conforming ones
+/// apparent work of adhesion its area, both when the loads that made the contact, voltage too, have been taken away. Soft
+/// summits hold on longer than they would reach on the way in; surfaces that have flowed come apart along the curve of the
+/// changed surfaces, and surfaces whose flattening costs less than adhesion gives along that of conforming ones
 /// (conforming_contact.hpp). Equations, derivation, limits: doc/separation_curve.md.
 ///
 /// Forces (1.5 pi Gamma R) and areas of the paper's asperities by JKR are NaN; contacts have what the patches have: real
@@ -48,10 +49,12 @@ class SeparationSolver : public ContactSolver {
   void visitOverlaps(const GapField& field, const Taker& take);
   void listContacts(const ContactProblem& problem, ContactSolution& solution);
   void fillMaps(const ContactProblem& problem, ContactSolution& solution);
-  /// The way out of surfaces that have flowed, if they have.
-  void partFlowed(const ContactProblem& problem, ContactSolution& solution);
+  /// The way out, if it is another than the way in: of surfaces that have flowed, or with soft summits, which hold on.
+  void part(const ContactProblem& problem, ContactSolution& solution);
   /// The way out of surfaces that conform, or are near to it, if they are.
   void partConforming(const ContactProblem& problem, ContactSolution& solution);
+  /// Contact area of the surfaces when the loads have been taken away [m^2]: theirs at rest, if there were none.
+  double unloadedContactArea(const ContactSolution& solution) const;
   void takeConforming(const ContactProblem& problem, double stretch, ContactSolution& solution);
   /// Makes the way out stronger, if these factors do, by its forces and by its displacements from rest.
   void stretchWayOut(const ContactProblem& problem, double force_factor, double work_factor, ContactSolution& solution);
@@ -67,7 +70,7 @@ class SeparationSolver : public ContactSolver {
   FlatteningEnergy flattening_;
   ConformingContact conforming_;
   std::vector<double> changed_gaps_;  ///< of the cells that overlap, when surfaces have flowed [m]
-  SeparationCurve changed_curve_;
+  SeparationCurve way_out_;
 };
 
 }  // namespace mems_stiction

@@ -36,7 +36,7 @@ TEST(SeparationOfSolvedFrames, pullOffForceIsThatOfTheHalfSpace) {
                             frame["pitch"], frame["pitch"]);
     const Prediction prediction = AdhesionModel(options).predict(surface);
     const double ratio = prediction.pull_off_force / frame["pull_off_force"].get<double>();
-    EXPECT_LT(std::abs(std::log(ratio)), std::log(1.15)) << ratio;
+    EXPECT_LT(std::abs(std::log(ratio)), std::log(1.1)) << ratio;
   }
 }
 
@@ -49,7 +49,7 @@ struct Case {
   double pressure;
 };
 
-TEST(SeparationOfFreshFrames, mostLieWithinFifteenPercentOfTheHalfSpace) {
+TEST(SeparationOfFreshFrames, lieWithinTenPercentOfTheHalfSpace) {
   // from near bonding to single summits, with and without load; pixels resolve the cohesive length
   const Case cases[] = {{true, 0.5e-9, 30e-9, 80e9, 0.05, 0},   {true, 1e-9, 40e-9, 80e9, 0.05, 0},
                         {true, 2e-9, 40e-9, 80e9, 0.05, 0},     {true, 1e-9, 30e-9, 30e9, 0.03, 0},
@@ -59,7 +59,6 @@ TEST(SeparationOfFreshFrames, mostLieWithinFifteenPercentOfTheHalfSpace) {
                         {true, 0.05e-9, 60e-9, 20e9, 0.05, 0},  {true, 0.1e-9, 60e-9, 10e9, 0.03, 0},
                         {false, 0.05e-9, 80e-9, 50e9, 0.05, 0}, {false, 4e-9, 80e-9, 100e9, 0.02, 0},
                         {true, 0.2e-9, 30e-9, 60e9, 0.05, 0}};
-  int close = 0;
   int seed = 100;
   for (const Case& one : cases) {
     const int pixels = 64;
@@ -90,9 +89,8 @@ TEST(SeparationOfFreshFrames, mostLieWithinFifteenPercentOfTheHalfSpace) {
     ASSERT_EQ(solved.status, HalfSpaceStatus::kSolved) << solved.message;
     const double ratio = prediction.pull_off_force / solved.pull_off_force;
     SCOPED_TRACE(testing::Message() << "seed " << seed << ", ratio " << ratio);
-    close += std::abs(std::log(ratio)) < std::log(1.15) ? 1 : 0;
+    EXPECT_LT(std::abs(std::log(ratio)), std::log(1.1));
   }
-  EXPECT_GE(close, 14);  // all but the last, which is near bonding, were within 1.05
 }
 
 TEST(SeparationOfFreshFrames, stiffSurfacesThatHardlyTouchAtRestDoNotHoldAsBondedOnes) {

@@ -100,14 +100,19 @@ TEST_F(PredictScan, TheFormulationsCurveGoesToRestAndBackOverTheHalfSpacesHeight
   EXPECT_EQ(record["formulation"], "consistent");
   const auto approach = pointsOf(ScratchFolder::read(file), "APPROACH");
   const auto retraction = pointsOf(ScratchFolder::read(file), "RETRACTION");
-  ASSERT_EQ(approach.size(), record["curve"].size());
   const double range = std::sqrt(65e-21 / (16.0 * kPi * 0.05));  // z0 of the default interface
-  for (std::size_t i = 0; i < approach.size(); ++i) {
+  std::vector<std::pair<double, double>> both = approach;
+  both.insert(both.end(), retraction.begin(), retraction.end());
+  ASSERT_EQ(both.size(), record["curve"].size());
+  for (std::size_t i = 0; i < both.size(); ++i) {
+    const nlohmann::json& point = record["curve"][i];
     // numbers are written so that they read back as they were; the difference is rounded once
-    EXPECT_NEAR(approach[i].first, range - record["curve"][i]["displacement"].get<double>(), 1e-22) << i;
-    EXPECT_EQ(approach[i].second, record["curve"][i]["force"].get<double>()) << i;
+    EXPECT_NEAR(both[i].first, range - point["displacement"].get<double>(), 1e-22) << i;
+    EXPECT_EQ(both[i].second, point["force"].get<double>()) << i;
+    EXPECT_EQ(point["is_separation"].get<bool>(), i >= approach.size()) << i;
   }
-  EXPECT_EQ(std::vector(approach.rbegin(), approach.rend()), retraction) << "nothing flows";
+  EXPECT_EQ(approach.back().first, retraction.front().first) << "the way out begins at rest";
+  EXPECT_NEAR(retraction.front().second - approach.back().second, 0.0, 0.05 * record["pull_off_force"].get<double>());
   double largest = 0.0;
   for (const auto& point : retraction) largest = std::max(largest, point.second);
   // the pull-off force is the summit of a parabola through the highest points
