@@ -93,9 +93,9 @@ struct ModelError {
 };
 
 ModelError modelError(const Prediction& prediction) {
-  if (prediction.is_conforming) return {0.09, 0.06};
-  if (mayGrowTogether(prediction)) return {0.16, 0.15};
-  return {0.08, 0.07};
+  if (prediction.is_conforming) return {0.08, 0.06};
+  if (mayGrowTogether(prediction)) return {0.13, 0.12};
+  return {0.05, 0.045};
 }
 
 /// Samples of a prediction by the separation curve: its exponents move it with the constants.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace mems_stiction {
@@ -44,12 +45,37 @@ Shares sharesOf(const Prediction& prediction, double cell_area) {
   return shares;
 }
 
+/// Largest rise after a fall, going from a force on [N].
+template <typename Iterator>
+double riseAfterFall(Iterator force, Iterator end) {
+  double lowest = *force;
+  double rise = 0.0;
+  for (; force != end; ++force) {
+    lowest = std::min(lowest, *force);
+    rise = std::max(rise, *force - lowest);
+  }
+  return rise;
+}
+
+/// Largest rise of the force on the way in to either side of its maximum, of the maximum [-].
+double secondRise(const std::vector<SeparationCurvePoint>& curve) {
+  std::vector<double> forces;
+  for (const SeparationCurvePoint& point : curve) {
+    if (!point.is_separation) forces.push_back(point.force);
+  }
+  const auto largest = std::max_element(forces.begin(), forces.end());
+  if (largest == forces.end() || !(*largest > 0.0)) return 0.0;
+  const double inwards = riseAfterFall(largest, forces.end());
+  return std::max(inwards, riseAfterFall(std::make_reverse_iterator(largest + 1), forces.rend())) / *largest;
+}
+
 }  // namespace
 
 bool mayGrowTogether(const Prediction& prediction) {
   // not known where contacts are not listed; infinite without a range of attraction
   const double tabor = std::isnan(prediction.median_tabor_parameter) ? 0.0 : prediction.median_tabor_parameter;
-  return prediction.flattening_ratio < kNearBonding * (1.0 + std::min(tabor, 1.0));
+  if (prediction.flattening_ratio < kNearBonding * (1.0 + std::min(tabor, 1.0))) return true;
+  return prediction.flattening_ratio < kJoiningOnes && secondRise(prediction.curve) > kJoiningRise;
 }
 
 std::uint32_t regimeFlags(const Prediction& prediction, double cell_area) {

@@ -206,7 +206,7 @@ TEST(CleaningInVerdict, AddsToTheIntervalInQuadrature) {
   const Verdict plain = verdictWith(Evidence(), predicted(), 3.0);
   const Verdict verdict = verdictWith(evidence, predicted(), 3.0);
   EXPECT_EQ(verdict.margin, plain.margin);
-  const double model = 1.96 * 0.08;
+  const double model = 1.96 * 0.05;  // of contacts that stay apart
   // two halves of normal numbers, the wider of which reaches somewhat over the middle: 5 %
   EXPECT_NEAR(std::log(verdict.margin_upper / verdict.margin) / std::hypot(model, std::log(2.0)), 1.0, 0.05);
   EXPECT_NEAR(std::log(verdict.margin / verdict.margin_lower) / std::hypot(model, std::log(1.25)), 1.0, 0.05);

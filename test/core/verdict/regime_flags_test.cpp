@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -53,6 +54,25 @@ TEST(RegimeFlags, brittleContactsMayGrowTogetherAtTwiceTheFlatteningRatio) {
       EXPECT_EQ((regimeFlags(prediction, kCell) & kNearBondingFlag) != 0, is_near) << tabor;
     }
   }
+}
+
+TEST(RegimeFlags, contactsThatJoinOneAfterAnotherMayGrowTogetherUpToSix) {
+  // force on the way in, of its largest value; the way out does not count
+  const auto flagged = [](double flattening_ratio, std::vector<double> forces) {
+    Prediction prediction = contactsWith(0.5);
+    prediction.median_tabor_parameter = 0.0;
+    prediction.flattening_ratio = flattening_ratio;
+    for (const double force : forces) prediction.curve.push_back({0.0, force, false});
+    prediction.curve.push_back({0.0, 0.2, true});
+    prediction.curve.push_back({0.0, 0.9, true});
+    return (regimeFlags(prediction, kCell) & kNearBondingFlag) != 0;
+  };
+  EXPECT_TRUE(flagged(5.9, {0.1, 1.0, 0.5, 0.61, 0.0})) << "a rise after the maximum";
+  EXPECT_TRUE(flagged(5.9, {0.1, 0.7, 0.55, 1.0, 0.0})) << "and before it";
+  EXPECT_FALSE(flagged(5.9, {0.1, 1.0, 0.5, 0.59, 0.0}));
+  EXPECT_FALSE(flagged(5.9, {0.1, 0.6, 0.8, 1.0, 0.4, -0.3}));
+  EXPECT_FALSE(flagged(6.1, {0.1, 1.0, 0.5, 0.9, 0.0}));
+  EXPECT_FALSE(flagged(5.9, {}));
 }
 
 }  // namespace
