@@ -138,10 +138,9 @@ int SeparationTrace::countBelow(double approach) { return approach > 0.0 ? order
 Attraction SeparationTrace::attractionAt(const SeparationState& state) {
   if (state.hold == 0.0) return attraction_->forces(pyramid_, state.approach, state.contact_count);
   const double held = state.approach + state.hold;
-  Attraction attraction = attraction_->forces(pyramid_, held, countBelow(held));
-  if (attraction.electrostatic > 0.0) {
-    attraction.electrostatic = attraction_->forces(pyramid_, state.approach, state.contact_count).electrostatic;
-  }
+  Attraction attraction = attraction_->forces(pyramid_, state.approach, state.contact_count);
+  const double adhesion = attraction_->forces(pyramid_, held, countBelow(held)).adhesion;
+  attraction.adhesion = std::max(attraction.adhesion, adhesion);
   return attraction;
 }
 

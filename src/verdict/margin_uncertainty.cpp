@@ -86,7 +86,8 @@ class ContactList {
 };
 
 /// How far the separation curve lies from the half-space: standard deviation of the logarithm of their ratio, by what
-/// flattening costs over what adhesion gives and how brittle contacts are (doc/trust.md).
+/// flattening costs over what adhesion gives and how brittle contacts are: what doc/trust.md asks for, near bonding more, as
+/// the held out frames of doc/separation_curve.md do.
 struct ModelError {
   double pull_off;
   double work;
