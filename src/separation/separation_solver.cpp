@@ -19,6 +19,8 @@ constexpr double kConformingShare = 0.4;
 constexpr double kBondingShare = 1.05;
 /// if they touch there over this share of the frame: bonded ones do over half of it.
 constexpr double kBondedContact = 0.2;
+/// Power of the work with which their force goes.
+constexpr double kForceOfWork = 0.75;
 /// A contact of which flow has taken less than this share of the overlap counts as elastic, one that carries more than
 /// this share of what it can as plastic.
 constexpr double kElasticShare = 0.97;
@@ -288,7 +290,7 @@ void SeparationSolver::partConforming(const ContactProblem& problem, ContactSolu
     const double area = problem.gap.validCount() * problem.gap.cellArea();
     const double bonded = kBondedContact * area;
     const bool holds_together = unloadedContactArea(solution) >= bonded;
-    if (holds_together) stretchWayOut(problem, std::pow(stretch, 0.75), stretch, solution);
+    if (holds_together) stretchWayOut(problem, std::pow(stretch, kForceOfWork), stretch, solution);
     if (solution.contact_area < bonded) return;
     const double pressure = problem.settings.load.mechanical_load / area;
     if (conforming_.hasOpenValleys(pressure)) {

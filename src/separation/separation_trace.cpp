@@ -128,7 +128,8 @@ Bending SeparationTrace::bendingAt(double approach, double expected_end) {
 }
 
 double SeparationTrace::holdOf(double tabor_parameter) const {
-  return law().range() * std::clamp(kHoldPerTabor * (tabor_parameter - kStiffTabor), 0.0, kLongestHold);
+  if (!(tabor_parameter > kStiffTabor)) return 0.0;  // nor if it is not known
+  return law().range() * std::min(kHoldPerTabor * (tabor_parameter - kStiffTabor), kLongestHold);
 }
 
 bool SeparationTrace::holdsOn() const { return softest_ > kStiffTabor; }
