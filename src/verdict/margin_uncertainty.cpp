@@ -86,17 +86,16 @@ class ContactList {
 };
 
 /// How far the separation curve lies from the half-space: standard deviation of the logarithm of their ratio, by what
-/// flattening costs over what adhesion gives and how brittle contacts are: what doc/trust.md asks for, near bonding more, as
-/// the held out frames of doc/separation_curve.md do.
+/// flattening costs over what adhesion gives and how brittle contacts are (doc/trust.md).
 struct ModelError {
   double pull_off;
   double work;
 };
 
 ModelError modelError(const Prediction& prediction) {
-  if (prediction.is_conforming) return {0.08, 0.06};
-  if (mayGrowTogether(prediction)) return {0.13, 0.12};
-  return {0.05, 0.045};
+  if (prediction.is_conforming) return {0.07, 0.06};
+  if (mayGrowTogether(prediction)) return {0.10, 0.11};
+  return {0.05, 0.04};
 }
 
 /// Samples of a prediction by the separation curve: its exponents move it with the constants.
