@@ -81,7 +81,7 @@ double ConformingContact::takeShortWaves(cv::Point2d place, double radius) {
   return std::sqrt(std::max(square_sum / count - sum * sum / (count * count), 0.0));
 }
 
-double ConformingContact::weakestPlace() {
+double ConformingContact::strengthAtWeakestPlace() {
   const double cohesive_length = bondedBodies().cohesiveLength();
   waves_.split(relief(), {field_->cols(), field_->rows()}, bodies_.contact_modulus, cohesive_length);
   const double cell = std::hypot(field_->pitchX(), field_->pitchY());
@@ -95,11 +95,16 @@ double ConformingContact::weakestPlace() {
   return strengthFrom(branch.begin(), branch) - waves_.largestTension();
 }
 
+double ConformingContact::closedStrength(double pressure) {
+  return std::min(strengthFrom(restOf(branch_, pressure), branch_), strengthAtWeakestPlace());
+}
+
 ConformingWayOut ConformingContact::partFrom(double pressure, double least_strength) {
   ConformingWayOut way_out;
   const auto rest = restOf(branch_, pressure);
   way_out.has_open_valleys = hasOpenValleys(pressure);
-  const double strength = way_out.has_open_valleys ? openStrength().traction : std::max(weakestPlace(), least_strength);
+  const double strength =
+      way_out.has_open_valleys ? openStrength().traction : std::max(strengthAtWeakestPlace(), least_strength);
   for (auto state = rest; state != branch_.end(); ++state) {
     const double traction = std::min(state->traction, strength);
     way_out.states.push_back({law_->range() - state->height, traction, state->contact_fraction});

@@ -267,7 +267,6 @@ void SeparationSolver::part(const ContactProblem& problem, ContactSolution& solu
     trace_.startParting(rest);
     followCurveUpTo(trace_, 0.0, rest, way_out_);
   } else {
-    way_out_ = curve_;
     return;
   }
   dropWayOut(solution.curve);
@@ -299,7 +298,7 @@ void SeparationSolver::partConforming(const ContactProblem& problem, ContactSolu
       stretchWayOut(problem, gain, std::sqrt(gain), solution);
       takeOpenExponents(solution);
     } else if (holds_together) {
-      const double strength = conforming_.partFrom(pressure, 0.0).strength;
+      const double strength = conforming_.closedStrength(pressure);
       stretchWayOut(problem, strength * area / solution.pull_off_force, 1.0, solution);
     }
   }
@@ -344,7 +343,7 @@ void SeparationSolver::stretchWayOut(const ContactProblem& problem, double force
   solution.apparent_work_of_adhesion *= work_factor;
   solution.pull_off_force = std::min(force_factor * solution.pull_off_force, strongest);
   if (std::none_of(solution.curve.begin(), solution.curve.end(), isWayOut)) {
-    appendCurve(way_out_, true, solution.curve);
+    appendCurve(curve_, true, solution.curve);
   }
   const double rest = curve_.rest().approach;
   for (SeparationCurvePoint& point : solution.curve) {

@@ -134,20 +134,18 @@ double SeparationTrace::holdOf(double tabor_parameter) const {
 
 bool SeparationTrace::holdsOn() const { return softest_ > kStiffTabor; }
 
-int SeparationTrace::countBelow(double approach) { return approach > 0.0 ? order_.sortBelow(approach) : 0; }
-
 Attraction SeparationTrace::attractionAt(const SeparationState& state) {
-  if (state.hold == 0.0) return attraction_->forces(pyramid_, state.approach, state.contact_count);
-  const double held = state.approach + state.hold;
   Attraction attraction = attraction_->forces(pyramid_, state.approach, state.contact_count);
-  const double adhesion = attraction_->forces(pyramid_, held, countBelow(held)).adhesion;
-  attraction.adhesion = std::max(attraction.adhesion, adhesion);
+  if (state.hold > 0.0) {
+    const double held = state.approach + state.hold;
+    const int touching = held > 0.0 ? order_.sortBelow(held) : 0;
+    attraction.adhesion = std::max(attraction.adhesion, attraction_->forces(pyramid_, held, touching).adhesion);
+  }
   return attraction;
 }
 
-Attraction SeparationTrace::energiesAt(const SeparationState& state) {
-  const double held = state.approach + state.hold;
-  return attraction_->all(pyramid_, held, state.hold == 0.0 ? state.contact_count : countBelow(held));
+Attraction SeparationTrace::energiesAt(const SeparationState& state) const {
+  return attraction_->all(pyramid_, state.approach, state.contact_count);
 }
 
 }  // namespace mems_stiction

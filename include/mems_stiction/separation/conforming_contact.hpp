@@ -55,6 +55,8 @@ class ConformingContact {
   bool hasOpenValleys(double pressure);
   /// What they hold if so.
   OpenValleyStrength openStrength() const { return strengthWithOpenValleys(bondedBodies()); }
+  /// What they hold under a pressure [Pa] if all valleys close [Pa]; negative if the weakest place tears by itself.
+  double closedStrength(double pressure);
   /// What drawing the bonded surfaces apart takes [J/m^2]; 0 if they do not stay together.
   double work() const;
   /// The way out from rest under a pressure [Pa], >= 0.
@@ -63,7 +65,7 @@ class ConformingContact {
 
  private:
   /// Mean traction at which the weakest place tears [Pa]; negative if flattening alone does it.
-  double weakestPlace();
+  double strengthAtWeakestPlace();
   /// The short waves over the whole frame: rms height [m]; and those near a place, as depths below the mean plane [m].
   double takeShortWaves(cv::Point2d place, double radius);
   BondedBodies bondedBodies() const;

@@ -2,7 +2,7 @@
 
 /// @file
 /// What patches carry, one and all, and what the bending of their summits takes from the attraction: equations (S4) to
-/// (S8) of doc/separation_curve.md. Sums over the patches of a sweep take four at a time.
+/// (S8b) of doc/separation_curve.md. Sums over the patches of a sweep take four at a time.
 
 #include <vector>
 
@@ -24,7 +24,7 @@ struct PatchLoad {
 /// What all patches do together.
 struct PatchSums {
   double carried = 0.0;  ///< their loads [N]
-  /// Attraction that the undeformed gap around them overstates [N]: (S7b).
+  /// Attraction that the undeformed gap around them overstates [N]: (S8b).
   double opened = 0.0;
 };
 

@@ -70,7 +70,7 @@ class SeparationSolver : public ContactSolver {
   FlatteningEnergy flattening_;
   ConformingContact conforming_;
   std::vector<double> changed_gaps_;  ///< of the cells that overlap, when surfaces have flowed [m]
-  SeparationCurve way_out_;
+  SeparationCurve way_out_;           ///< where it is another than the way in
 };
 
 }  // namespace mems_stiction

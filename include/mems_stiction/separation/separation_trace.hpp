@@ -58,8 +58,8 @@ class SeparationTrace {
   /// The forces at an approach that is no smaller than the last one [m].
   /// - @p expected_end where the curve probably ends [m]: so many cells are put in order at once when there are not enough
   SeparationState at(double approach, double expected_end = 0.0);
-  /// The attraction with its energies, at the approach of the last call of at().
-  Attraction energiesAt(const SeparationState& state);
+  /// The attraction with its energies, at the approach of the last call of at(), where nothing holds on.
+  Attraction energiesAt(const SeparationState& state) const;
   /// Back to apart.
   void restart();
   /// The same, on the way out from now on: soft summits that have touched hold longer than they would reach.
@@ -94,12 +94,11 @@ class SeparationTrace {
   /// Brings enough cells into order for this approach, and for the expected one.
   void orderUpTo(double approach, double expected);
   void extend(double fraction);
-  /// Number of cells with a smaller gap; they are in order.
-  int countBelow(double approach);
   /// b [m] of summits with this Tabor parameter.
   double holdOf(double tabor_parameter) const;
   /// Takes what is in reach in, and what it holds on with.
   Bending bendingAt(double approach, double expected_end);
+  /// Of the cells apart, or held if that is more.
   Attraction attractionAt(const SeparationState& state);
 
   const GapField* field_ = nullptr;

@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "mems_stiction/base/constants.hpp"
-#include "mems_stiction/surface/gaussian_surface.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/separation_cases.hpp"
 
@@ -19,7 +18,7 @@ using separation_cases::halfSpaceOf;
 using separation_cases::kWork;
 using separation_cases::rangeOf;
 
-/// Force at a displacement, by a line between two points of the curve.
+/// Force at the point of the curve that is nearest to a displacement.
 double forceAt(const Prediction& prediction, double displacement, bool is_separation) {
   const SeparationCurvePoint* nearest = nullptr;
   for (const SeparationCurvePoint& point : prediction.curve) {
