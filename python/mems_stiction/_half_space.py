@@ -18,7 +18,8 @@ class HalfSpace:
     """What the half-space answers. Forces and areas are of the frame, attraction is positive; NaN: not reached.
 
     status: "SOLVED", "LOAD_NOT_REACHED", "NOT_CONVERGED" or "TOO_MANY_STATES". message: the same in a sentence.
-    pull_off_force, pull_off_uncertainty [N]: largest of the retraction, and by which finer steps may exceed it.
+    pull_off_force, pull_off_uncertainty [N]: largest of the retraction, voltage and load having gone, and by which finer steps
+    may exceed it. pull_off_force_under_voltage [N]: the same if the voltage stays on.
     pull_off_height [m]: of the upper body then, over first touch.
     apparent_work_of_adhesion, adhesion_hysteresis [J/m^2]: from zero force to apart; what approach and retraction differ by.
     rest_height [m], rest_force [N]: under the mechanical load. contact_area [m^2], contact_fraction [-], contact_count:
@@ -56,6 +57,7 @@ class HalfSpace:
     iterations: int
     jumps: int
     processing_time: float
+    pull_off_force_under_voltage: float
 
     def __init__(self, core: _core.SolvedScan, surface: Surface) -> None:
         def view(memory: Any) -> Optional[np.ndarray]:
@@ -111,5 +113,5 @@ def half_space(heights: Any, pitch: Optional[Pitch] = None, config: Optional[Con
     Raises OptionsError for a work of adhesion, Hamaker constant, material or load that has no solution; SurfaceError for a
     frame without a valid pixel, or with more than half_space/max_pixels.
     """
-    checked, surface, counter = inputs_of(heights, pitch, config, upper, settings)
-    return HalfSpace(_core.half_space(surface.core, counter, checked._configuration), surface)
+    checked, surface, prepared = inputs_of(heights, pitch, config, upper, settings)
+    return HalfSpace(_core.half_space(prepared, checked._configuration), surface)

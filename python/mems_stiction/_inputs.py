@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from typing import Any, Dict, Iterable, Optional, Tuple
+from typing import Any, Dict, Iterable, List, Optional, Tuple
 
 from mems_stiction import _core
 from mems_stiction._arrays import Pitch, Surface, pixels_of, surface_of
@@ -22,6 +22,18 @@ def warn_about(surface: Surface, texts: Iterable[str]) -> None:
     warn([(surface.name + ": " if surface.name else "") + text for text in texts], ScanWarning)
 
 
+def odd_in(surface: Surface) -> List[str]:
+    """What the programs warn about when they read such a scan, in words."""
+    return list(surface.notes) + _core.scan_warnings(surface.core)
+
+
+def scan_of(heights: Any, pitch: Optional[Pitch], settings: Settings) -> Surface:
+    """A scan by itself, without a counter-surface. Warns about one that does not look like a scan."""
+    surface = surface_of(heights, pitch, settings)
+    warn_about(surface, odd_in(surface))
+    return surface
+
+
 def section_or_surface(upper: Any, settings: Dict[str, Any]) -> Any:
     """`upper` is a counter-surface, and a section of the settings; a dictionary is the latter, and goes there."""
     if not isinstance(upper, Mapping):
@@ -35,15 +47,18 @@ def counter_of(upper: Any, surface: Surface, settings: Settings) -> Optional[_co
     if upper is None:
         return None
     if brings_pitch(upper):
-        return surface_of(upper, None, settings, "upper").core
+        counter = surface_of(upper, None, settings, "upper")
+        warn_about(counter, counter.notes)
+        return counter.core
     return surface_of(surface.back(pixels_of(upper, "upper")), surface.core.pitch, settings, "upper").core
 
 
 def inputs_of(heights: Any, pitch: Optional[Pitch], config: Optional[Config], upper: Any,
-              settings: Dict[str, Any]) -> Tuple[Settings, Surface, Optional[_core.HeightMap]]:
-    """Settings, scan and counter-surface. Warns about a scan that does not look like one."""
+              settings: Dict[str, Any]) -> Tuple[Settings, Surface, _core.PreparedScan]:
+    """Settings, the scan, and it with its counter-surface, ready for the model. Warns about what does not look like a scan."""
     upper = section_or_surface(upper, settings)
     checked = Settings(config, **settings)
     surface = surface_of(heights, pitch, checked)
-    warn_about(surface, _core.scan_warnings(surface.core))
-    return checked, surface, counter_of(upper, surface, checked)
+    prepared = _core.prepare(surface.core, counter_of(upper, surface, checked), checked._configuration)
+    warn_about(surface, list(surface.notes) + prepared.warnings)
+    return checked, surface, prepared

@@ -90,7 +90,8 @@ class Prediction:
     is_conforming: flat against each other nearly everywhere. adhesion_parameter [-]: (14). bonding_regime: "BONDING",
     "ADHERENCE", "NON_BONDING" or "UNKNOWN" (limits: Gui et al. 1999).
 
-    asperity_count, elastic_count, elasto_plastic_count, plastic_count: contacts, by regime. max_tilt [rad]: of a contact.
+    asperity_count, elastic_count, elasto_plastic_count, plastic_count: contacts, by regime. pull_off_contact_count: those
+    that hold at the pull-off, on which flags and verdict rest. max_tilt [rad]: of a contact.
     median_tabor_parameter [-], contact_theory: "DMT", "TRANSITION", "JKR" or "UNKNOWN" (Johnson and Greenwood 1997).
     composite_rms_height, rms_height [m]: of both surfaces (9), of the scan. invalid_fraction [-]: not measured.
     processing_time [s]: that the prediction took. median_contact_pixels [-], median_composite_radius [m]: of the
@@ -136,6 +137,7 @@ class Prediction:
     adhesion_parameter: float
     bonding_regime: str
     asperity_count: int
+    pull_off_contact_count: int
     elastic_count: int
     elasto_plastic_count: int
     plastic_count: int
@@ -323,7 +325,7 @@ class Predictor:
     def predict(self, heights: Any, pitch: Optional[Pitch] = None, upper: Any = None) -> Prediction:
         """As the function predict()."""
         surface = surface_of(heights, pitch, self.settings)
-        predicted = self._core.predict(surface.core, counter_of(upper, surface, self.settings))
+        predicted = self._core.predict(surface.core, counter_of(upper, surface, self.settings), surface.notes)
         warn_about(surface, predicted.scan_warnings)
         return Prediction(predicted, surface)
 
@@ -341,7 +343,7 @@ def predict(heights: Any, pitch: Optional[Pitch] = None, config: Optional[Config
     pitch: distance of neighbouring pixels [m], a number or (x, y). Left out where the object brings it, or scan/pitch_x.
     config: a dictionary, the path of a YAML file, or Settings: materials, interface, loads, cleaning (doc/parameters.md).
     upper: the counter-surface as it was measured beside the scan, on the same grid and in its index order;
-    counter_surface/facing says which way it faces. None: the configured one, a plane unless counter_surface/type says otherwise.
+    counter_surface/facing must say which way it faces, "up" as measured or "down" as mounted. None: the configured one, a plane unless counter_surface/type says otherwise.
     settings: sections that go before config: load={"mechanical_load": 1e-6}. A dictionary as `upper` is the section of
     that name.
 
@@ -374,7 +376,7 @@ def _predictions_under(heights: Any, pitch: Optional[Pitch], configs: Iterator[S
     for settings in configs:
         if scan is None:
             surface = surface_of(heights, pitch, settings)
-            scan = _core.OneScan(surface.core, counter_of(upper, surface, settings), settings._configuration)
+            scan = _core.OneScan(surface.core, counter_of(upper, surface, settings), settings._configuration, surface.notes)
             warn_about(surface, scan.scan_warnings)
         yield Prediction(scan.predict(settings._configuration), surface)
 

@@ -9,7 +9,8 @@ from typing import Any, Dict, List, Optional, Tuple, Union
 import numpy as np
 
 from mems_stiction import _core
-from mems_stiction._arrays import Pitch, Surface, array_of, pitch_of, surface_of
+from mems_stiction._arrays import Pitch, Surface, array_of, pitch_of
+from mems_stiction._inputs import odd_in, scan_of, warn_about
 from mems_stiction._settings import Config, Settings, SurfaceError
 from mems_stiction.quantities import with_unit
 
@@ -19,15 +20,23 @@ class Scan:
 
     heights: rows x columns [m], read-only, NaN where nothing was measured; row 0 is the top, columns go along x.
     pitch: (along columns, along rows) [m]. physical_sizes: (width, height) [m]. unit: always "m".
-    channel: which of the file's; empty where it has one only. notes: what to know of how the file was read.
+    channel: which of the file's; empty where it has one only. notes: what to know of how the file was read. warnings: these,
+    and what does not look like a scan, as the programs say it.
     """
 
     unit = "m"
 
-    def __init__(self, surface: Surface, channel: str = "", notes: Tuple[str, ...] = ()) -> None:
+    def __init__(self, surface: Surface, channel: str = "") -> None:
         self._surface = surface
         self.channel = channel
-        self.notes = notes
+
+    @property
+    def notes(self) -> Tuple[str, ...]:
+        return self._surface.notes
+
+    @property
+    def warnings(self) -> Tuple[str, ...]:
+        return tuple(odd_in(self._surface))
 
     @property
     def heights(self) -> np.ndarray:
@@ -133,11 +142,14 @@ def read(path: Union[str, "os.PathLike[str]"], channel: str = "", pitch: Optiona
     channel: title or number, of a file with several; the likeliest heights if empty. channels() lists them.
     pitch: distance of pixels [m], a number or (x, y); goes before what the file says. Settings scan/... serve where a
     file states nothing. ignore_mask: pixels under the mask of a .gwy file are heights as the others.
-    Raises FileError in one line with file and cause, OptionsError for a bad sidecar.
+    Raises FileError in one line with file and cause, OptionsError for a bad sidecar. Warns (ScanWarning) of what the
+    programs warn about: how the file was read, and what looks like a wrong unit.
     """
     x, y = (0.0, 0.0) if pitch is None else pitch_of(pitch)
     core, chosen, notes = _core.read(os.fspath(path), Settings(config, **settings)._configuration, x, y, str(channel), ignore_mask)
-    return Scan(Surface(core, os.fspath(path), False, chosen), chosen, tuple(notes))
+    surface = Surface(core, os.fspath(path), False, chosen, tuple(notes))
+    warn_about(surface, odd_in(surface))
+    return Scan(surface, chosen)
 
 
 def channels(path: Union[str, "os.PathLike[str]"], config: Optional[Config] = None, **settings: Any) -> List[Dict[str, Any]]:
@@ -154,7 +166,7 @@ def clean(heights: Any, pitch: Optional[Pitch] = None, config: Optional[Config] 
     Raises OptionsError, SurfaceError.
     """
     checked = Settings(config, **settings)
-    surface = surface_of(heights, pitch, checked)
+    surface = scan_of(heights, pitch, checked)
     core, steps = _core.clean(surface.core, checked._configuration)
     cleaned = Cleaned(surface._replace(core=core), surface.channel)
     cleaned.steps = steps
@@ -186,7 +198,7 @@ def decimate(heights: Any, pitch: Optional[Pitch] = None, *, factor: int) -> Sca
     """
     if not isinstance(factor, (int, np.integer)) or factor < 1:
         raise SurfaceError("factor: %r is not allowed, must be an integer >= 1" % (factor,))
-    surface = surface_of(heights, pitch, Settings())
+    surface = scan_of(heights, pitch, Settings())
     return Scan(surface._replace(core=_core.decimate(surface.core, int(factor))), surface.channel)
 
 
@@ -198,4 +210,4 @@ def roughness(heights: Any, pitch: Optional[Pitch] = None, config: Optional[Conf
     Raises SurfaceError without a valid pixel.
     """
     checked = Settings(config, **settings)
-    return Roughness(_core.roughness(surface_of(heights, pitch, checked).core, checked._configuration, spatial))
+    return Roughness(_core.roughness(scan_of(heights, pitch, checked).core, checked._configuration, spatial))

@@ -24,7 +24,7 @@ class LoadSweep:
     (0 no, 1 marginal, 2 yes, 3 unknown), margin, margin_lower, holding_margin, margin_upper [-],
     pull_off_force_lower, pull_off_force_upper [N].
     summaries: a record for each mechanical load: highest_releasing_voltage, highest_safe_voltage, lowest_sticking_voltage,
-    opening_voltage [V]; NaN: none of the sweep.
+    opening_voltage, lowest_safe_voltage [V], as in msg/SweepSummary.msg; NaN: none of the sweep.
     pull_in_voltage [V]: at which the electrodes close; NaN without a device.
     """
 
@@ -95,8 +95,8 @@ def sweep_loads(heights: Any, pitch: Optional[Pitch] = None, voltages: Sequence[
     values and down again. Other arguments are those of predict(). Ctrl-C stops it.
     Raises OptionsError for values that do not ascend or are out of range.
     """
-    checked, surface, counter = inputs_of(heights, pitch, config, upper, settings)
-    return LoadSweep(_core.sweep_loads(surface.core, counter, checked._configuration, _numbers(voltages, "voltages", "V"),
+    checked, _, prepared = inputs_of(heights, pitch, config, upper, settings)
+    return LoadSweep(_core.sweep_loads(prepared, checked._configuration, _numbers(voltages, "voltages", "V"),
                                        _numbers(mechanical_loads, "mechanical_loads", "N")))
 
 
@@ -107,5 +107,5 @@ def cycle_contact(heights: Any, pitch: Optional[Pitch] = None, count: int = 10, 
     """
     if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or not -LARGEST_COUNT <= count <= LARGEST_COUNT:
         raise OptionsError("count: %r is not allowed, must be an integer >= 1" % (count,))
-    checked, surface, counter = inputs_of(heights, pitch, config, upper, settings)
-    return ContactCycles(_core.cycle_contact(surface.core, counter, checked._configuration, count), surface)
+    checked, surface, prepared = inputs_of(heights, pitch, config, upper, settings)
+    return ContactCycles(_core.cycle_contact(prepared, checked._configuration, count), surface)

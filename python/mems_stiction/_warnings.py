@@ -15,7 +15,7 @@ class ScanWarning(UserWarning):
 
 
 class SettingsWarning(UserWarning):
-    """A setting is allowed, but no material, device or instrument is likely to have it: a unit, most likely."""
+    """A setting is allowed, but no material, device or instrument is likely to have it (a unit, most likely), or it has no effect."""
 
 
 def warn(texts: Iterable[str], kind: Type[Warning]) -> None:

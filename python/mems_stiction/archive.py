@@ -3,21 +3,24 @@
     python3 -m mems_stiction.archive --config part.yaml --shard 3/16 -o rows/shard_0003.jsonl --inputs-from scans.txt
 
 A row is the record of predict_scan --json without its time, so that the same scan gives the same row, with `number` (of the
-scan in the list, from 1) and `reason`: empty, or why there is no prediction. Rows are written as they come; the same call
-again goes on with the scans that have none. Beside them FILE.settings.yaml holds the settings, which must stay the same.
+scan in the list, from 1), `reason`: empty, or why there is no prediction, and the state of the file that it is of: its size,
+time and checksum, and those of the files that belong to it. Rows are written as they come; the same call again goes on with
+the scans that have none, and with those whose files have changed since. Beside them FILE.settings.yaml holds the settings, which must stay the same.
 scripts/examples/predict_dask.py and predict_array.sbatch spread an archive over a cluster with it.
 """
 
 from __future__ import annotations
 
 import argparse
+import collections
 import json
 import os
 import pathlib
 import sys
 import warnings
-from typing import Any, Dict, Iterable, Iterator, List, Sequence, Tuple
+from typing import Any, Deque, Dict, Iterable, Iterator, List, Sequence, Tuple
 
+from mems_stiction import _core
 from mems_stiction._prediction import predict_many
 from mems_stiction._settings import Error, OptionsError, Settings
 from mems_stiction._warnings import ScanWarning
@@ -39,7 +42,15 @@ def rows_of(scans: Iterable[Numbered], settings: Settings, workers: int = 1) -> 
     kept = list(scans)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ScanWarning)  # rows have them
-        results = predict_many([path for _, path in kept], config=settings, workers=workers, errors="return")
+        states: Deque[Dict[str, Any]] = collections.deque()
+        settings_files = _core.settings_file_checksum(settings._configuration)
+
+        def paths() -> Iterator[str]:
+            for _, path in kept:
+                states.append(_core.scan_state(path, settings_files))  # before it is read: what changes in between shows next time
+                yield path
+
+        results = predict_many(paths(), config=settings, workers=workers, errors="return")
         for (number, path), result in zip(kept, results):
             row = {"number": number, "file": path, "reason": " ".join(str(result).split()) if isinstance(result, Error) else ""}
             if not isinstance(result, Error):
@@ -47,7 +58,17 @@ def rows_of(scans: Iterable[Numbered], settings: Settings, workers: int = 1) -> 
                 row["warnings"] = "; ".join(result.warnings)
                 if result.verdict is not None:
                     row["verdict_reason"] = result.verdict.reason
+            row.update(states.popleft())
             yield row
+
+
+def _change(row: Dict[str, Any], now: Dict[str, Any], rows: pathlib.Path) -> str:
+    """What has changed since the row was written; a file that is no longer there has not: its row is all that is left of it."""
+    if "file_checksum" not in row:
+        raise OptionsError("%s: row %d does not say which state of its file it is of (no file_checksum): rows of an earlier version; "
+                           "give another name, or remove it" % (rows, row["number"]))
+    changed = [name for name in now if name.endswith("checksum") and row.get(name) != now[name]] if now["file_checksum"] else []
+    return ", ".join("%s is %s, was %s" % (name, now[name] or "none", row.get(name) or "none") for name in changed)
 
 
 class RowFile:
@@ -55,6 +76,7 @@ class RowFile:
 
     def __init__(self, path: str, settings: Settings) -> None:
         self.path = pathlib.Path(path)
+        self._settings = settings
         self.path.parent.mkdir(parents=True, exist_ok=True)
         beside = pathlib.Path(path + ".settings.yaml")
         if self.path.exists() and (not beside.exists() or beside.read_text(encoding="utf-8") != settings.yaml()):
@@ -67,12 +89,21 @@ class RowFile:
             self.path.write_text(whole, encoding="utf-8")
 
     def missing(self, scans: Sequence[Numbered]) -> List[Numbered]:
-        """The scans that have no row yet. Raises OptionsError if a row is of another scan."""
+        """The scans that have no row yet, or one of a file that has changed since, which is said. Raises OptionsError if a row is of
+        another scan, or does not say which state of its file it is of."""
+        settings_files = _core.settings_file_checksum(self._settings._configuration)
+        wanted = []
         for number, path in scans:
             if number in self.rows and self.rows[number]["file"] != path:
                 raise OptionsError("%s: row %d is of %s, not of %s; give another name, or the same scans" % (
                     self.path, number, self.rows[number]["file"], path))
-        return [scan for scan in scans if scan[0] not in self.rows]
+            if number in self.rows:
+                change = _change(self.rows[number], _core.scan_state(path, settings_files), self.path)
+                if not change:
+                    continue
+                print("%s: has changed since its row %d was written, predicted again: %s" % (path, number, change), file=sys.stderr)
+            wanted.append((number, path))
+        return wanted
 
     def add(self, rows: Iterable[Dict[str, Any]]) -> Iterator[Dict[str, Any]]:
         """Writes each row as it comes, and passes it on."""

@@ -17,6 +17,31 @@ def number(text):
     return value
 
 
+def number_in(least, most=math.inf, is_least_allowed=True):
+    """A number of this range, as type=."""
+    allowed = "[%g, %g]" % (least, most) if most < math.inf else "%s %g" % (">=" if is_least_allowed else ">", least)
+
+    def checked(text):
+        value = number(text)
+        if not least <= value <= most or value == least and not is_least_allowed:
+            raise argparse.ArgumentTypeError("'%s' is not allowed, must be %s%s" % (text, "in " if most < math.inf else "", allowed))
+        return value
+
+    return checked
+
+
+not_negative = number_in(0)
+positive = number_in(0, is_least_allowed=False)
+share = number_in(0, 1)
+
+
+def count(text):
+    """A whole number, 0 or more."""
+    if not (text.isascii() and text.isdigit()):
+        raise argparse.ArgumentTypeError("'%s' is not allowed, must be a whole number >= 0" % text)
+    return int(text)
+
+
 def picture(text):
     """The name of a picture that can be drawn."""
     if not text.endswith(PICTURES):

@@ -1,4 +1,5 @@
-"""Ctrl-C ends a program with one line at most, and a shell sees the status 130, as of every program that a signal ends.
+"""Ctrl-C ends a program with one line at most, and a shell sees the status 130, as of every program that a signal ends. TERM and HUP
+(a closed terminal) end it in the same way: a process that they killed would leave its name at the ROS master, and the load that it set.
 
 A program imports this before all that is slow to import. While it loads, Ctrl-C ends it at once: a KeyboardInterrupt would be
 printed as a traceback by whoever is being loaded. When main() begins, it calls raise_from_here_on().
@@ -19,14 +20,16 @@ def _say(kind, error, trace):
 
 
 def raise_from_here_on():
-    """Ctrl-C is a KeyboardInterrupt again, so that what was begun can be put away."""
-    if signal.getsignal(signal.SIGINT) == signal.SIG_DFL:
-        signal.signal(signal.SIGINT, signal.default_int_handler)
+    """Each of them is a KeyboardInterrupt from now on, so that what was begun can be put away."""
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        if signal.getsignal(number) == signal.SIG_DFL:
+            signal.signal(number, signal.default_int_handler)
 
 
 def ignore_from_here_on():
     """For the end of a program: a second Ctrl-C does not tear what others still put away, as rospy does."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, signal.SIG_IGN)
 
 
 sys.excepthook = _say

@@ -7,7 +7,7 @@ from mems_stiction.prediction_text import STATUS_NAMES, STICKS_NAMES, bound_of, 
 from mems_stiction.quantities import area, percent, ratio, with_interval, with_unit
 from mems_stiction.sweep_jumps import UP, jumps_of
 
-NO, MARGINAL = 0, 1  # StictionPrediction.STICKS_...
+NO, MARGINAL, YES = 0, 1, 2  # StictionPrediction.STICKS_...
 WIDTH = 130  # of a sentence, letters
 ROUND_OFF = 1e-9  # of sums over a million cells, with room
 _SWEEP = "%-4s %10s %10s  %-14s %11s %11s %10s %12s %9s %9s  %s"
@@ -40,12 +40,15 @@ def sweep_sentences(result, width=WIDTH):
     sentences = []
     for summary in result.summaries:
         sentences.append("Pressed with %s:" % with_unit(summary.mechanical_load, "N"))
-        for text, voltage in (
-                ("releases after voltages up to", summary.highest_releasing_voltage),
-                ("surely (95 %) releases after voltages up to", summary.highest_safe_voltage),
-                ("first voltage after which it does not release", summary.lowest_sticking_voltage),
-                ("opens on the way down at", summary.opening_voltage)):
-            sentences.append("  %s: %s" % (text, "none of the sweep" if math.isnan(voltage) else with_unit(voltage, "V")))
+        spans = _safe_spans(summary, result.points)
+        for text, words in (
+                ("margin at least 1 after voltages up to", _voltage_words(summary.highest_releasing_voltage)),
+                ("surely (95 %) releases after voltages of" if spans else "surely (95 %) releases after voltages up to",
+                 spans or _voltage_words(summary.highest_safe_voltage)),
+                ("first voltage after which the margin is below 1", _voltage_words(summary.lowest_sticking_voltage)),
+                ("opens on the way down at", _voltage_words(summary.opening_voltage))):
+            sentences.append("  %s: %s" % (text, words))
+        sentences += _verdicts(summary, result.points)
         for jump in jumps_of(result.points, summary.mechanical_load, result.pull_in_voltage):
             sentences += textwrap.wrap("jump " + jump.words(), width or math.inf, initial_indent="  ", subsequent_indent="    ")
         sentences += _first_force(result.points, summary.mechanical_load)
@@ -78,10 +81,48 @@ def _first_force(points, mechanical_load):
         first.pull_off_force, first.pull_off_force_lower, first.pull_off_force_upper, "N"))]
 
 
+def verdict_runs(points, mechanical_load):
+    """[verdict, first voltage, last voltage]: after which voltages of the way up each verdict holds."""
+    runs = []
+    for point in points:
+        if point.mechanical_load != mechanical_load or point.direction != UP:
+            continue
+        if runs and runs[-1][0] == point.sticks:
+            runs[-1][2] = point.voltage
+        else:
+            runs.append([point.sticks, point.voltage, point.voltage])
+    return runs
+
+
+def _span(first, last):
+    return with_unit(first, "V") if first == last else "%s to %s" % (with_unit(first, "V"), with_unit(last, "V"))
+
+
+def _voltage_words(voltage):
+    return "none of the sweep" if math.isnan(voltage) else with_unit(voltage, "V")
+
+
+def _safe_spans(summary, points):
+    """"10.0 V to 40.0 V only": where the verdict is no, if it is not after the lowest voltage. Empty if it is, or nowhere."""
+    if not math.isnan(summary.highest_safe_voltage):
+        return ""
+    spans = [_span(first, last) for word, first, last in verdict_runs(points, summary.mechanical_load) if word == NO]
+    return ", ".join(spans) + " only" if spans else ""
+
+
+def _verdicts(summary, points):
+    """The rows' verdicts, if there is a device."""
+    if all(math.isnan(point.margin) for point in points if not point.is_open):
+        return []
+    runs = verdict_runs(points, summary.mechanical_load)
+    return ["  sticks, after voltages of: " + "; ".join("%s %s" % (STICKS_NAMES.get(word, "?"), _span(first, last)) for word, first, last in runs)]
+
+
 def safe_voltage_words(summary, points):
     """The largest voltage after which the verdict with its interval still releases."""
     if math.isnan(summary.highest_safe_voltage):
-        return "no voltage of the sweep is surely safe (95 %)"
+        spans = _safe_spans(summary, points)
+        return "safe (95 %%) at %s" % spans if spans else "no voltage of the sweep is surely safe (95 %)"
     of_load = [point.voltage for point in points if point.mechanical_load == summary.mechanical_load]
     is_last = summary.highest_safe_voltage == max(of_load, default=math.inf)
     return "safe (95 %%) up to %s%s" % (with_unit(summary.highest_safe_voltage, "V"), ", the highest of the sweep" if is_last else "")
@@ -130,12 +171,15 @@ def cycle_sentences(result):
     settled = [cycle.cycle for cycle in result.cycles if cycle.largest_change == 0.0]
     if settled:
         sentences.append("From contact %d on nothing flows any more." % settled[0])
-    if math.isnan(last.margin):
+    judged = [cycle for cycle in result.cycles if not math.isnan(cycle.margin)]
+    if not judged:
         sentences.append("No device is stated (device/...), so there is no verdict.")
     elif result.first_sticking_cycle:
-        sentences.append("The device fails: from contact %d on it sticks." % result.first_sticking_cycle)
+        sticks_on = all(cycle.sticks == YES for cycle in result.cycles if cycle.cycle >= result.first_sticking_cycle)
+        sentences.append(("The device fails: from contact %d on it sticks." if sticks_on else
+                          "The device fails: it sticks after contact %d, but not surely after each later one.") % result.first_sticking_cycle)
     else:
-        sentences.append("%s; the lowest margin is %s." % (_release_after(result.cycles), _margin_of(min(result.cycles, key=lambda cycle: cycle.margin))))
+        sentences.append("%s; the lowest margin is %s." % (_release_after(result.cycles), _margin_of(min(judged, key=lambda cycle: cycle.margin))))
     return sentences
 
 

@@ -170,9 +170,9 @@ def page(lines, figure):
     text += ["The contact area is a definition: cells that repel each other, which a pixel more or less at each rim changes. Frames that are not resolved "
              "show what the lattice does to the half-space, not how far the curve is off.", "",
              "## The interval of the margin", "",
-             "`uncertainty/...` adds the error of the model to that of the constants: a standard deviation of the logarithm for each regime. It is what the frames with "
-             "even numbers ask for (root mean square, or 95 % of them within 1.96 of it, whichever is more), rounded up; the frames with odd numbers, which it was not made from, are then "
-             "covered as follows by the model's part of the 95 % interval alone.", ""]
+             "`uncertainty/...` adds the error of the model to that of the constants: a standard deviation of the logarithm for each regime. It is made from the frames with "
+             "even numbers: the root mean square of their deviations, or the value of which 95 % of them lie within 1.96 times, whichever is more, rounded up. The frames with odd numbers "
+             "judge it. The table says how many of them the model's part of the 95 % interval covers by itself.", ""]
     text += coverage_rows(resolved)
     return "\n".join(text)
 

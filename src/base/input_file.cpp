@@ -6,8 +6,12 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
+#include <ctime>
+#include <limits>
 
+#include "mems_stiction/base/content_hash.hpp"
 #include "mems_stiction/base/errors.hpp"
 
 namespace mems_stiction {
@@ -15,6 +19,9 @@ namespace {
 
 /// What has no size is read in pieces of so many bytes.
 constexpr std::uint64_t kPiece = 65536;
+/// What may be larger than memory, in pieces of so many.
+constexpr std::uint64_t kLargePiece = 1 << 20;
+constexpr InputKind kAnyFile = {"a file", std::numeric_limits<std::uint64_t>::max()};
 
 /// A file open for reading, closed with the object.
 class OpenFile {
@@ -53,6 +60,20 @@ class OpenFile {
   OpenFile(const OpenFile&) = delete;
   OpenFile& operator=(const OpenFile&) = delete;
 
+  FileState state() const {
+    struct stat status {};
+    if (fstat(descriptor_, &status) != 0) return {};
+    char day[32];
+    char time[48];
+    struct tm parts {};
+    strftime(day, sizeof day, "%Y-%m-%dT%H:%M:%S", gmtime_r(&status.st_mtim.tv_sec, &parts));
+    std::snprintf(time, sizeof time, "%s.%09ldZ", day, status.st_mtim.tv_nsec);
+    ContentHash hash;
+    for (std::string piece = bytes(kLargePiece); !piece.empty(); piece = bytes(kLargePiece)) hash.add(piece);
+    return {size_, time, hash.text()};
+  }
+
+  /// The next of them.
   std::string bytes(std::uint64_t count) const {
     const std::uint64_t end = is_stream_ ? count : std::min(count, size_);
     std::string text;
@@ -91,6 +112,14 @@ std::string readInput(const std::string& path, const InputKind& kind) {
 
 std::string readInputStart(const std::string& path, const InputKind& kind, std::uint64_t count) {
   return OpenFile(path, kind).bytes(count);
+}
+
+FileState fileState(const std::string& path) {
+  try {
+    return OpenFile(path, kAnyFile).state();
+  } catch (const FileError&) {
+    return {};
+  }
 }
 
 }  // namespace mems_stiction

@@ -7,9 +7,11 @@ namespace mems_stiction {
 void ContactSolution::resetKeepingMemory() {
   ContactSolution fresh;
   fresh.asperities.swap(asperities);
+  fresh.pull_off_contacts.swap(pull_off_contacts);
   fresh.energy_curve.swap(energy_curve);
   fresh.curve.swap(curve);
   fresh.asperities.clear();
+  fresh.pull_off_contacts.clear();
   fresh.energy_curve.clear();
   fresh.curve.clear();
   std::swap(fresh.contact_map, contact_map);

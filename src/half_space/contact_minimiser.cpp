@@ -154,6 +154,19 @@ void ContactMinimiser::takeBack() {
   staleness_ = std::numeric_limits<double>::infinity();  // K u may have been worked out afresh since
 }
 
+void ContactMinimiser::setLaw(const TractionLaw& law) {
+  law_ = law;
+  if (windows_ != nullptr) windows_->setLaw(law);
+}
+
+void ContactMinimiser::goTo(Place&& place) {
+  displacement_ = std::move(place.displacement);
+  elastic_traction_ = std::move(place.elastic_traction);
+  relief_ = std::move(place.relief);
+  flowed_ = std::move(place.flowed);
+  staleness_ = place.staleness;
+}
+
 void ContactMinimiser::gapsOfRow(int row, double height, double* gaps) const {
   const double* const relief =
       relief_.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(grid_.frame_cols);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace mems_stiction {
 namespace {
@@ -277,18 +278,40 @@ PathStatus ContactPath::approach(double load) {
   return status;
 }
 
-PathStatus ContactPath::retract() {
+PathStatus ContactPath::change(const TractionLaw& law) {
+  minimiser_.setLaw(law);
+  last_move_ = 0.0;
+  ForcePoint relaxed;
+  ContactState state;
+  const PathStatus status = attempt(present_.height, relaxed, state);
+  if (status != PathStatus::kDone) return status;
+  changed_energy_ += relaxed.energy - present_.energy;
+  present_ = relaxed;
+  present_.energy -= minimiser_.keepFlow(present_.height);
+  strongest_ = std::max(0.0, present_.force);
+  return PathStatus::kDone;
+}
+
+PathStatus ContactPath::retractFrom(Place&& place, ForceCurve& curve) {
+  minimiser_.goTo(std::move(place.contact));
+  minimiser_.setLaw(place.law);
+  present_ = place.present;
+  strongest_ = place.strongest;
+  last_move_ = 0.0;
+  return retract(curve);
+}
+
+PathStatus ContactPath::retract(ForceCurve& curve) {
   const double end = approach_.points.front().height;
-  retraction_.add(present_);
+  curve.add(present_);
   step_ = settings_.step * minimiser_.law().range();
   is_before_jump_ = false;
   PathStatus status = PathStatus::kDone;
   while (status == PathStatus::kDone && (present_.height < end || present_.contact_area > 0.0)) {
     const double left = end - present_.height;
-    status =
-        advance(1.0, left > 0.0 ? left : kLargestStep * step_, -std::numeric_limits<double>::infinity(), retraction_);
+    status = advance(1.0, left > 0.0 ? left : kLargestStep * step_, -std::numeric_limits<double>::infinity(), curve);
   }
-  retraction_.missed_force = std::max(0.0, retraction_.missed_force - retraction_.largest_force);
+  curve.missed_force = std::max(0.0, curve.missed_force - curve.largest_force);
   return status;
 }
 

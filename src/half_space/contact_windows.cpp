@@ -61,6 +61,11 @@ ContactWindows::ContactWindows(const HalfSpaceGrid& grid, const TractionLaw& law
 
 ContactWindows::~ContactWindows() = default;
 
+void ContactWindows::setLaw(const TractionLaw& law) {
+  law_ = law;
+  idle_.clear();  // they have the one before
+}
+
 cv::Mat1b ContactWindows::blocksOf(const Frame& frame) const {
   cv::Mat1b marked = cv::Mat1b::zeros(blockCount(grid_.frame_rows), blockCount(grid_.frame_cols));
   const auto limit = static_cast<float>(kMarkedShare * frame.largest_residual);

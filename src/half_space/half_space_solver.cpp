@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "mems_stiction/approach/gap_field.hpp"
@@ -132,10 +133,35 @@ void takePath(const ContactPath& path, double area, SolvedHalfSpace& solution) {
   solution.pull_off_uncertainty = retraction.missed_force;
   solution.is_step_converged = retraction.missed_force < kStepConvergence * retraction.largest_force;
   solution.work_of_adhesion = (retraction.attracting_work - retraction.points.back().energy) / area;
-  const double both_ways =
-      retraction.work - retraction.points.back().energy + approach.work + approach.points.front().energy;
+  const double both_ways = retraction.work - retraction.points.back().energy + approach.work +
+                           approach.points.front().energy + path.changedEnergy();
   solution.hysteresis = both_ways / area;
   solution.is_converged = true;
+}
+
+/// The way out from rest, when the voltage has gone; and, where there was one, a second one under it.
+/// - @p law of the way in
+/// - @p flowed on the first one
+PathStatus partFromRest(ContactPath& path, const ContactMinimiser& minimiser, TractionLawOptions law,
+                        LargePageVector<float>& flowed, SolvedHalfSpace& solution) {
+  const bool has_voltage = law.voltage != 0.0;
+  std::optional<ContactPath::Place> rest;
+  PathStatus status = PathStatus::kDone;
+  if (has_voltage) {
+    rest = path.place();
+    law.voltage = 0.0;
+    status = path.change(TractionLaw(law));
+  }
+  if (status == PathStatus::kDone) status = path.retract();
+  flowed = minimiser.flowed();
+  if (status != PathStatus::kDone) return status;
+  takePath(path, minimiser.grid().frameArea(), solution);
+  solution.pull_off_force_under_voltage = solution.pull_off_force;
+  if (!has_voltage) return status;
+  ForceCurve held;
+  const bool came_apart = path.retractFrom(std::move(*rest), held) == PathStatus::kDone;
+  solution.pull_off_force_under_voltage = came_apart ? held.largest_force : SolvedHalfSpace::kNone;
+  return status;
 }
 
 /// Every state that was solved, and what it took.
@@ -211,13 +237,11 @@ SolvedHalfSpace HalfSpaceSolver::solve(const HalfSpaceProblem& problem, const Ha
     PathStatus status = minimiser.isSetUp() ? path.approach(problem.load.mechanical_load) : PathStatus::kCancelled;
     if (status == PathStatus::kDone) {
       takeRest(path, minimiser, solution);
-      status = path.retract();
+      status = partFromRest(path, minimiser, law_options, flowed, solution);
     }
-    if (status == PathStatus::kDone) takePath(path, grid.frameArea(), solution);
     solution.status = statusOf(status);
     solution.message = sentenceOf(status, problem, options_, path);
     takeRecord(path, solution);
-    flowed = minimiser.flowed();
   }  // its memory is not needed for the surfaces
   if (solution.status == HalfSpaceStatus::kSolved) takeSurfaces(problem, flowed, solution);
   solution.processing_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <initializer_list>
 #include <limits>
-#include <mutex>
+#include <vector>
 
-#include <fftw3.h>
-
+#include "line_transform.hpp"
 #include "mems_stiction/base/constants.hpp"
 #include "mems_stiction/base/vectorized.hpp"
 #include "mems_stiction/half_space/row_work.hpp"
@@ -21,39 +19,6 @@ namespace {
 constexpr std::size_t kBlock = 8;
 /// Shift of K^-1, of the smallest stiffness: none to speak of, but for the mean that K does not resist.
 constexpr double kNoShift = 1e-6;
-
-/// FFTW's planner is not to be called by two threads at once.
-std::mutex& plannerMutex() {
-  static std::mutex mutex;
-  return mutex;
-}
-
-/// FFTW's names for one precision: transforms of one row or column, from one array into another. Plans are estimated,
-/// never timed, so that they are the same in every run.
-template <typename Scalar>
-struct Fftw;
-
-template <>
-struct Fftw<double> {
-  using Complex = fftw_complex;
-  using Plan = fftw_plan;
-  static Plan plan(int length, Complex* from, Complex* to, int sign) {
-    return fftw_plan_dft_1d(length, from, to, sign, FFTW_ESTIMATE);
-  }
-  static void execute(Plan plan, Complex* from, Complex* to) { fftw_execute_dft(plan, from, to); }
-  static void destroy(Plan plan) { fftw_destroy_plan(plan); }
-};
-
-template <>
-struct Fftw<float> {
-  using Complex = fftwf_complex;
-  using Plan = fftwf_plan;
-  static Plan plan(int length, Complex* from, Complex* to, int sign) {
-    return fftwf_plan_dft_1d(length, from, to, sign, FFTW_ESTIMATE);
-  }
-  static void execute(Plan plan, Complex* from, Complex* to) { fftwf_execute_dft(plan, from, to); }
-  static void destroy(Plan plan) { fftwf_destroy_plan(plan); }
-};
 
 /// Each complex number of a column times the real factor that its wave number has.
 template <typename Scalar, typename Multiplier>
@@ -142,67 +107,38 @@ double loveInfluence(double x, double y, double pitch_x, double pitch_y, double 
 /// Fourier transform of even real sequences, which is real and even, too: of both only the first half is given.
 class EvenTransform {
  public:
-  explicit EvenTransform(int length) : length_(length), half_(static_cast<std::size_t>(length) / 2 + 1) {
-    std::vector<double> values(static_cast<std::size_t>(length_));
-    std::vector<double> spectrum(2 * half_);
-    const std::lock_guard<std::mutex> lock(plannerMutex());
-    plan_ = fftw_plan_dft_r2c_1d(length_, values.data(), reinterpret_cast<fftw_complex*>(spectrum.data()),
-                                 FFTW_ESTIMATE | FFTW_UNALIGNED);
-  }
-  ~EvenTransform() {
-    const std::lock_guard<std::mutex> lock(plannerMutex());
-    fftw_destroy_plan(plan_);
-  }
-  EvenTransform(const EvenTransform&) = delete;
-  EvenTransform& operator=(const EvenTransform&) = delete;
+  explicit EvenTransform(int length)
+      : length_(static_cast<std::size_t>(length)),
+        line_(4 * length_),
+        transform_(length, line_.data(), spectrumIn(line_)) {}
 
   /// Every from_step-th value to every to_step-th; both may be one.
   void apply(const double* from, std::size_t from_step, double* to, std::size_t to_step) const {
-    std::vector<double> values(static_cast<std::size_t>(length_));
-    std::vector<double> spectrum(2 * half_);
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] = from[std::min(i, values.size() - i) * from_step];
-    fftw_execute_dft_r2c(plan_, values.data(), reinterpret_cast<fftw_complex*>(spectrum.data()));
-    for (std::size_t i = 0; i < half_; ++i) to[i * to_step] = spectrum[2 * i];
+    std::vector<double> line(4 * length_);
+    for (std::size_t i = 0; i < length_; ++i) line[2 * i] = from[std::min(i, length_ - i) * from_step];
+    double* const spectrum = spectrumIn(line);
+    transform_.forward(line.data(), spectrum);
+    for (std::size_t i = 0; i <= length_ / 2; ++i) to[i * to_step] = spectrum[2 * i];
   }
 
  private:
-  int length_;
-  std::size_t half_;
-  fftw_plan plan_;
+  /// The second half of complex numbers of a line.
+  static double* spectrumIn(std::vector<double>& line) { return line.data() + line.size() / 2; }
+
+  std::size_t length_;
+  std::vector<double> line_;  ///< only shows the alignment
+  LineTransform<double> transform_;
 };
 
 }  // namespace
 
 template <typename Scalar>
-struct StiffnessOperator<Scalar>::Plans {
-  using Library = Fftw<Scalar>;
-  using Complex = typename Library::Complex;
+struct StiffnessOperator<Scalar>::Transforms {
+  Transforms(const HalfSpaceGrid& grid, Scalar* from, Scalar* to)
+      : rows(grid.cols, from, to), columns(grid.rows, from, to) {}
 
-  /// The array only shows the alignment that all share; nothing is written to it.
-  Plans(const HalfSpaceGrid& grid, Scalar* from, Scalar* to) {
-    auto* const source = reinterpret_cast<Complex*>(from);
-    auto* const target = reinterpret_cast<Complex*>(to);
-    const std::lock_guard<std::mutex> lock(plannerMutex());
-    rows_forward = Library::plan(grid.cols, source, target, FFTW_FORWARD);
-    rows_backward = Library::plan(grid.cols, source, target, FFTW_BACKWARD);
-    columns_forward = Library::plan(grid.rows, source, target, FFTW_FORWARD);
-    columns_backward = Library::plan(grid.rows, source, target, FFTW_BACKWARD);
-  }
-  ~Plans() {
-    const std::lock_guard<std::mutex> lock(plannerMutex());
-    for (const auto plan : {rows_forward, rows_backward, columns_forward, columns_backward}) Library::destroy(plan);
-  }
-  Plans(const Plans&) = delete;
-  Plans& operator=(const Plans&) = delete;
-
-  static void execute(typename Library::Plan plan, Scalar* from, Scalar* to) {
-    Library::execute(plan, reinterpret_cast<Complex*>(from), reinterpret_cast<Complex*>(to));
-  }
-
-  typename Library::Plan rows_forward;
-  typename Library::Plan rows_backward;
-  typename Library::Plan columns_forward;
-  typename Library::Plan columns_backward;
+  LineTransform<Scalar> rows;
+  LineTransform<Scalar> columns;
 };
 
 template <typename Scalar>
@@ -230,7 +166,7 @@ StiffnessOperator<Scalar>::StiffnessOperator(const HalfSpaceGrid& grid, const El
   pad_size_ = 2 * std::max(2 * (cols + kBlock), (kBlock + 1) * (rows + kBlock));
   pads_.resize(static_cast<std::size_t>(threads_));
   for (auto& pad : pads_) pad.resize(pad_size_);
-  plans_ = std::make_unique<Plans>(grid_, pads_.front().data(), pads_.front().data() + pad_size_ / 2);
+  transforms_ = std::make_unique<Transforms>(grid_, pads_.front().data(), pads_.front().data() + pad_size_ / 2);
   if (grid_.boundary == HalfSpaceBoundary::kPeriodic) {
     fillPeriodic(response.contact_modulus);
   } else {
@@ -333,7 +269,7 @@ void StiffnessOperator<Scalar>::apply(const Scalar* from, const Multiplier& mult
   const auto stride = static_cast<std::size_t>(grid_.stride);
   forEachPair([&](std::size_t first, std::size_t second, Scalar* joined, Scalar* spectrum) {
     row_pairs::join(cols, from + first * stride, from + second * stride, joined);
-    Plans::execute(plans_->rows_forward, joined, spectrum);
+    transforms_->rows.forward(joined, spectrum);
     row_pairs::splitSpectrum(cols, spectrum, spectrumOf(first), spectrumOf(second));
   });
   forParts(threads_, [&](int part) {
@@ -351,10 +287,10 @@ void StiffnessOperator<Scalar>::apply(const Scalar* from, const Multiplier& mult
       }
       for (std::size_t k = 0; k < kBlock; ++k) {
         Scalar* const column = block + k * column_size;
-        Plans::execute(plans_->columns_forward, column, spectrum);
+        transforms_->columns.forward(column, spectrum);
         scaleColumn(rows, stiffness_.data() + (first_column + k) * rows, multiplier, spectrum);
         if (first_column + k == 0 && !resistsMean()) spectrum[0] = spectrum[1] = Scalar(0);
-        Plans::execute(plans_->columns_backward, spectrum, column);
+        transforms_->columns.backward(spectrum, column);
       }
       for (std::size_t row = 0; row < rows; ++row) {
         for (std::size_t k = 0; k < kBlock; ++k) {
@@ -365,7 +301,7 @@ void StiffnessOperator<Scalar>::apply(const Scalar* from, const Multiplier& mult
   });
   forEachPair([&](std::size_t first, std::size_t second, Scalar* joined, Scalar* spectrum) {
     row_pairs::joinSpectra(cols, spectrumOf(first), spectrumOf(second), spectrum);
-    Plans::execute(plans_->rows_backward, spectrum, joined);
+    transforms_->rows.backward(spectrum, joined);
     finish(first, second, joined, spectrum);
   });
 }

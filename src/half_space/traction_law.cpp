@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mems_stiction/base/constants.hpp"
 #include "mems_stiction/base/lanes.hpp"
 
 namespace mems_stiction {
@@ -14,18 +13,6 @@ constexpr double kClosestGap = 0.45;
 constexpr int kSecantIterations = 4;
 /// Width over which the water's pressure sets in, of z0.
 constexpr double kWaterFront = 0.25;
-
-/// 9-3 attraction and repulsion; x = z0/g.
-template <typename Number>
-MEMS_STICTION_INLINE void setNineThree(double stress, double range, const Number& x, Number& traction, Number& slope,
-                                       Number& energy) {
-  const Number x2 = x * x;
-  const Number x3 = x2 * x;
-  const Number x6 = x3 * x3;
-  traction = stress * (x3 - x6 * x3);
-  slope = stress / range * (9.0 * x6 - 3.0) * (x2 * x2);
-  energy = stress * range * (0.125 * x6 - 0.5) * x2;
-}
 
 /// Smooth step from 0 to 1 over [-1/2, 1/2] with its derivative and its integral from -infinity.
 struct Step {
@@ -69,14 +56,13 @@ std::vector<std::string> TractionLawOptions::validate() const {
 }
 
 TractionLaw::TractionLaw(const TractionLawOptions& options)
-    : range_(options.range > 0.0 ? options.range
-                                 : std::sqrt(options.hamaker_constant / (16.0 * kPi * options.work_of_adhesion))),
-      stress_(8.0 * options.work_of_adhesion / (3.0 * range_)),
+    : law_(options.work_of_adhesion, options.range > 0.0
+                                         ? options.range
+                                         : AdhesionLaw::rangeOf(options.work_of_adhesion, options.hamaker_constant)),
       attracts_(options.attracts),
-      closest_gap_(kClosestGap * range_),
-      contact_gap_(range_),
-      field_factor_(0.5 * kVacuumPermittivity * options.voltage * options.voltage),
-      insulator_(options.insulator_thickness / options.insulator_relative_permittivity),
+      closest_gap_(kClosestGap * range()),
+      contact_gap_(range()),
+      field_(options.voltage, options.insulator_thickness, options.insulator_relative_permittivity),
       water_(options.water) {
   const Point closest = at(closest_gap_);
   const double narrowest = closest_gap_;
@@ -90,7 +76,7 @@ TractionLaw::TractionLaw(const TractionLawOptions& options)
 
 double TractionLaw::gapOfPressure(double pressure, double narrow) const {
   // t rises without a turn as far as z0: bisection to the last bit
-  double wide = range_;
+  double wide = range();
   while (true) {
     const double middle = 0.5 * (narrow + wide);
     if (middle <= narrow || middle >= wide) return wide;
@@ -98,14 +84,14 @@ double TractionLaw::gapOfPressure(double pressure, double narrow) const {
   }
 }
 
-double TractionLaw::reach() const { return range_ * (water_.isOn() ? 1.0 + kWaterFront : 1.0) + water_.gapLimit(); }
+double TractionLaw::reach() const { return range() * (water_.isOn() ? 1.0 + kWaterFront : 1.0) + water_.gapLimit(); }
 
 double TractionLaw::secant(double gap, double traction, double other_traction) const {
   // y = (z0/g)^3 solves y^3 - y = -t/stress; from above Newton's method does not turn back
-  const double pressure = std::max(0.0, -other_traction / stress_);
+  const double pressure = std::max(0.0, -other_traction / stress());
   double y = std::cbrt(pressure) + 1.0;
   for (int i = 0; i < kSecantIterations; ++i) y -= (y * y * y - y - pressure) / (3.0 * y * y - 1.0);
-  const double other_gap = std::max(range_ / std::cbrt(y), closest_gap_);
+  const double other_gap = std::max(range() / std::cbrt(y), closest_gap_);
   return (other_traction - traction) / (other_gap - gap);
 }
 
@@ -117,7 +103,7 @@ TractionLaw::Point TractionLaw::at(double gap) const {
 
 void TractionLaw::atRow(int count, const double* gaps, double* traction, double* slope, double* energy) const {
   const double smallest = nineThree(count, gaps, traction, slope, energy);
-  if (field_factor_ > 0.0 || water_.isOn()) addField(count, gaps, traction, slope, energy);
+  if (field_.isOn() || water_.isOn()) addField(count, gaps, traction, slope, energy);
   if (smallest >= closest_gap_) return;
   for (int i = 0; i < count; ++i) {
     const double excess = closest_gap_ - gaps[i];
@@ -131,19 +117,19 @@ void TractionLaw::atRow(int count, const double* gaps, double* traction, double*
 MEMS_STICTION_VECTORIZED double TractionLaw::nineThree(int count, const double* gaps, double* traction, double* slope,
                                                        double* energy) const {
   const Lanes closest(closest_gap_);
-  const double energy_at_range = 0.375 * stress_ * range_;
+  const AdhesionLaw law = law_;
+  const double energy_at_range = law.energy(1.0);
   Lanes smallest = closest;
   Lanes t, dt, e;
   const auto evaluate = [&](const Lanes& gap) __attribute__((always_inline)) {
     smallest = select(gap < smallest, gap, smallest);
-    Lanes x = range_ / select(gap > closest, gap, closest);
-    if (attracts_) {
-      setNineThree(stress_, range_, x, t, dt, e);
-      return;
-    }
+    Lanes x = law.range() / select(gap > closest, gap, closest);
     const LaneMask repels = x > 1.0;
-    x = select(repels, x, 1.0);
-    setNineThree(stress_, range_, x, t, dt, e);
+    if (!attracts_) x = select(repels, x, 1.0);
+    t = law.traction(x);
+    dt = law.slope(x);
+    e = 0.0 - law.energy(x);
+    if (attracts_) return;
     dt = select(repels, dt, 0.0);
     e += energy_at_range;
   };
@@ -157,7 +143,7 @@ MEMS_STICTION_VECTORIZED double TractionLaw::nineThree(int count, const double* 
   }
   if (i < size) {
     const std::size_t rest = size - i;
-    evaluate(Lanes::loadFirst(gaps + i, rest, range_));
+    evaluate(Lanes::loadFirst(gaps + i, rest, range()));
     t.storeFirst(rest, traction + i);
     dt.storeFirst(rest, slope + i);
     e.storeFirst(rest, energy + i);
@@ -166,20 +152,18 @@ MEMS_STICTION_VECTORIZED double TractionLaw::nineThree(int count, const double* 
 }
 
 void TractionLaw::addField(int count, const double* gaps, double* traction, double* slope, double* energy) const {
-  const double front = kWaterFront * range_;
-  const double outer = range_ + water_.gapLimit();
+  const double front = kWaterFront * range();
+  const double outer = range() + water_.gapLimit();
   for (int i = 0; i < count; ++i) {
     if (!std::isfinite(gaps[i])) continue;
     const double gap = std::max(gaps[i], closest_gap_);
-    if (field_factor_ > 0.0) {
-      const double inverse = 1.0 / (gap + insulator_);
-      const double pressure = field_factor_ * inverse * inverse;
-      traction[i] += pressure;
-      slope[i] -= 2.0 * pressure * inverse;
-      energy[i] -= field_factor_ * inverse;
+    if (field_.isOn()) {
+      traction[i] += field_.pressure(gap);
+      slope[i] += field_.slope(gap);
+      energy[i] -= field_.energy(gap);
     }
     if (water_.isOn()) {
-      const Step inner = smoothStep((range_ - gap) / front);
+      const Step inner = smoothStep((range() - gap) / front);
       const Step filled = smoothStep((outer - gap) / front);
       traction[i] += water_.pressure() * (filled.value - inner.value);
       slope[i] -= water_.pressure() / front * (filled.slope - inner.slope);

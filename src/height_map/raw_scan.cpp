@@ -55,6 +55,13 @@ void ScanOptions::describe(OptionVisitor& visitor) {
                  "height = pixel x height_scale + height_offset");
   visitor.number("scan/invalid_value", invalid_value, "", Range::anyOrNone(),
                  "pixels of this raw value are invalid; nan = none");
+  visitor.enumeration<DecimalMark>(
+      "scan/decimal_mark", text.decimal_mark,
+      {{"auto", DecimalMark::kAuto}, {"point", DecimalMark::kPoint}, {"comma", DecimalMark::kComma}},
+      "of numbers in text files; auto = what the file's numbers allow, and refused where both are possible");
+  visitor.enumeration<YAxis>("scan/y_axis", text.y_axis,
+                             {{"auto", YAxis::kAuto}, {"down", YAxis::kDown}, {"up", YAxis::kUp}},
+                             "which way y grows in lists of x, y and z; auto = by heading or order, else down");
 }
 
 HeightMap heightMapFromPixels(const cv::Mat& pixels, const ScanOptions& options, const PixelOwner& owner) {

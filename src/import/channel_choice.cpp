@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/short_number.hpp"
 #include "mems_stiction/height_map/sentinels.hpp"
 
 namespace mems_stiction {
@@ -72,10 +73,8 @@ bool isImage(const FileChannel& channel) {
   return !(ratio > kMostElongated || ratio < 1.0 / kMostElongated);
 }
 
-/// Heights that span more than the scan is wide are another quantity, whatever title and unit say: volts of a sensor that
-/// was never calibrated. Nothing is said of values without a unit.
-bool isSteep(const FileChannel& channel) {
-  if (channel.takes_settings || channel.values.type() != CV_64FC1) return false;
+/// Largest less smallest; nothing if there is none.
+double rangeOf(const FileChannel& channel) {
   double least = std::numeric_limits<double>::infinity();
   double most = -least;
   for (int row = 0; row < channel.values.rows; ++row) {
@@ -86,7 +85,22 @@ bool isSteep(const FileChannel& channel) {
       most = std::max(most, line[col]);
     }
   }
-  return most - least > std::max(channel.width, channel.height);
+  return most - least;
+}
+
+/// Closed-loop sensors and the piezo's own calibration differ by some percent.
+constexpr double kReachMargin = 1.2;
+
+bool isBeyondReach(const FileChannel& channel) {
+  return channel.reach > 0.0 && channel.unit_z == "m" && channel.values.type() == CV_64FC1 &&
+         rangeOf(channel) > kReachMargin * channel.reach;
+}
+
+/// Heights that span more than the scan is wide, or than the instrument can move, are another quantity, whatever title
+/// and unit say: volts of a sensor that was never calibrated. Nothing is said of values without a unit.
+bool isSteep(const FileChannel& channel) {
+  if (channel.takes_settings || channel.values.type() != CV_64FC1) return false;
+  return isBeyondReach(channel) || rangeOf(channel) > std::max(channel.width, channel.height);
 }
 
 /// Lower is likelier to be the height; kOtherSignal is never taken by itself.
@@ -131,6 +145,10 @@ Likelihood likelihood(const FileChannel& channel) {
 }
 
 bool isBackward(const FileChannel& channel) {
+  const std::string title = channel.title;
+  const std::string kRhkLeft = " [Left]";  // RHK names the way that the tip went; it begins to the right
+  if (title.size() > kRhkLeft.size() && title.compare(title.size() - kRhkLeft.size(), kRhkLeft.size(), kRhkLeft) == 0)
+    return true;
   if (channel.title.find("<-") != std::string::npos || channel.title.find("\xE2\x86\x90") != std::string::npos) {
     return true;
   }
@@ -211,12 +229,39 @@ std::string passedOver(const std::vector<FileChannel>& channels, std::size_t cho
   for (const FileChannel& channel : channels) {
     if (!isLength(channel) || !isImage(channel) || likelihood(channel) >= taken || !isSteep(channel)) continue;
     return channelName(channels[chosen]) + " is taken: the heights of " + channelName(channel) +
-           " span more than the scan is wide";
+           (isBeyondReach(channel) ? " span more than the piezo can move" : " span more than the scan is wide");
   }
   return "";
 }
 
+std::string othersOfOtherSize(const std::vector<FileChannel>& channels, std::size_t chosen) {
+  const FileChannel& taken = channels[chosen];
+  const auto size = [](const FileChannel& channel) {
+    return std::to_string(channel.values.cols) + " x " + std::to_string(channel.values.rows) + " pixels of " +
+           shortNumber(channel.width) + " x " + shortNumber(channel.height) + " m";
+  };
+  constexpr int kMostNamed = 5;
+  std::string others;
+  int count = 0;
+  for (const FileChannel& channel : channels) {
+    const bool is_alike =
+        isLength(channel) && isImage(channel) && !channel.takes_settings && likelihood(channel) <= likelihood(taken);
+    if (!is_alike || size(channel) == size(taken)) continue;
+    if (++count <= kMostNamed)
+      others += (others.empty() ? "" : ", ") + channelName(channel) + " (" + size(channel) + ")";
+  }
+  if (count == 0) return "";
+  if (count > kMostNamed) others += " and " + std::to_string(count - kMostNamed) + " more";
+  return "of topographies of different size " + channelName(taken) + " (" + size(taken) +
+         ") is taken; --channel takes another: " + others;
+}
+
 HeightMap surfaceOfChannel(const FileChannel& channel) {
+  if (isBeyondReach(channel)) {
+    throw FileError("the heights of " + channelName(channel) + " span " + shortNumber(rangeOf(channel)) +
+                    " m, the piezo can move " + shortNumber(channel.reach) +
+                    " m: they are no heights, or their scale is wrong");
+  }
   if (channel.values.rows < 2 || channel.values.cols < 2) {
     throw FileError("the channel " + channelName(channel) + " has only " + std::to_string(channel.values.cols) + " x " +
                     std::to_string(channel.values.rows) + " pixels");

@@ -65,7 +65,10 @@ std::string converted(const std::string& path, const ImportOptions& options) {
     throw FileError(path + ": gwyddion crashed on this file (" + strsignal(result.signal) + "): it is damaged");
   }
   if (result.exit_code != 0 || !fs::exists(target)) {
-    const std::string cause = complaint(folder.path() / kLog, scan_path);
+    std::string cause = complaint(folder.path() / kLog, scan_path);
+    if (cause.find("failed to report error") != std::string::npos) {
+      cause = "it is of a known format, but cut off, damaged, or without an image; gwyddion does not say which";
+    }
     throw FileError(path + ": gwyddion cannot read it: " +
                     (cause.empty() ? "exit status " + std::to_string(result.exit_code) : cause));
   }

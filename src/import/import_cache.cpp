@@ -5,11 +5,10 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <vector>
 
+#include "mems_stiction/base/content_hash.hpp"
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/output_file.hpp"
 #include "mems_stiction/import/file_bytes.hpp"
@@ -21,25 +20,6 @@ namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kMostKept = std::uintmax_t{1} << 30;  // [bytes]
 constexpr const char* kEnding = ".gwy";
-
-/// Hash of 128 bits after FNV-1a (draft-eastlake-fnv), eight bytes at a time: content is told apart, not protected against
-/// forgers.
-std::string hashOf(const std::string& bytes) {
-  __extension__ using Wide = unsigned __int128;
-  constexpr Wide kPrime = (Wide{1} << 88) + 0x13B;
-  Wide hash = Wide{0x6C62272E07BB0142} << 64 | Wide{0x62B821756295C58D};
-  for (std::size_t at = 0; at < bytes.size(); at += sizeof(std::uint64_t)) {
-    std::uint64_t word = 0;
-    std::memcpy(&word, bytes.data() + at, std::min(sizeof word, bytes.size() - at));
-    hash = (hash ^ word) * kPrime;
-    hash ^= hash >> 64;  // products carry upwards alone
-  }
-  hash = (hash ^ bytes.size()) * kPrime;
-  char text[40];
-  std::snprintf(text, sizeof text, "%016llx%016llx", static_cast<unsigned long long>(hash >> 64),
-                static_cast<unsigned long long>(hash));
-  return text;
-}
 
 /// Path, size and time of the program in PATH: another version may read otherwise.
 std::string installed(const std::string& program) {
@@ -100,8 +80,8 @@ std::optional<std::string> importCacheFolder() {
 
 std::string importCacheKey(const std::string& bytes, const std::string& name_end, const std::string& program,
                            const std::string& readers) {
-  return hashOf(hashOf(bytes) + " " + std::to_string(bytes.size()) + " " + name_end + " " + installed(program) + " " +
-                readers);
+  return contentHash(contentHash(bytes) + " " + std::to_string(bytes.size()) + " " + name_end + " " +
+                     installed(program) + " " + readers);
 }
 
 std::optional<std::string> keptConversion(const std::string& key) {
@@ -111,7 +91,7 @@ std::optional<std::string> keptConversion(const std::string& key) {
     std::string text = readFileBytes(*folder + "/" + key + kEnding);
     const std::string stated = text.substr(0, key.size());
     text.erase(0, key.size());
-    if (hashOf(text) == stated) return text;
+    if (contentHash(text) == stated) return text;
   } catch (const FileError&) {
     // None is kept.
   }
@@ -124,7 +104,7 @@ void keepConversion(const std::string& key, const std::string& gwy) {
   std::error_code error;
   fs::create_directories(*folder, error);
   try {
-    writeFile(*folder + "/" + key + kEnding, hashOf(gwy) + gwy, OutputSafety::kWhole);
+    writeFile(*folder + "/" + key + kEnding, contentHash(gwy) + gwy, OutputSafety::kWhole);
     removeOldest(*folder);
   } catch (const FileError&) {
     // Converted again next time.

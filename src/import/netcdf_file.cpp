@@ -1,12 +1,14 @@
 #include "mems_stiction/import/netcdf_file.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <map>
 #include <vector>
 
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/option_visitor.hpp"
 #include "mems_stiction/import/byte_cursor.hpp"
 #include "mems_stiction/import/file_bytes.hpp"
 #include "mems_stiction/import/length_unit.hpp"
@@ -160,6 +162,27 @@ double sizeAlong(const Netcdf& file, const char* axis) {
   return unit ? variable->attributes.at("length").number * *unit : 0.0;
 }
 
+/// A variable that is one number in metres, which GXSM keeps in Angstrom; none if the file has no such variable.
+std::optional<double> gxsmLength(const Netcdf& file, const char* name) {
+  const Variable* variable = file.find(name);
+  if (variable == nullptr || !variable->dimensions.empty()) return std::nullopt;
+  ByteCursor data = file.data(*variable, 1);
+  return std::abs(numberOf(data, variable->type)) * lengthUnit(textOf(*variable, "var_unit")).value_or(1e-10);
+}
+
+/// [m]; 0 = not stated
+double gxsmPitch(const Netcdf& file, const char* step_name, const char* range_name, std::uint64_t pixels) {
+  const auto step = gxsmLength(file, step_name);
+  const auto range = gxsmLength(file, range_name);
+  const double steps = static_cast<double>(pixels) - 1.0;
+  if (!(steps > 0.0)) return 0.0;
+  if (step && range && std::abs(*range - *step * steps) > 0.01 * *range) {
+    throw FileError("the NetCDF file contradicts itself: " + std::string(step_name) + " " + numberText(*step) + " m, " +
+                    range_name + " " + numberText(*range) + " m, " + std::to_string(pixels) + " pixels");
+  }
+  return step ? *step : range.value_or(0.0) / steps;
+}
+
 }  // namespace
 
 std::optional<FileChannel> parseNetcdfHeights(const std::string& bytes) {
@@ -198,17 +221,22 @@ std::optional<FileChannel> parseNetcdfHeights(const std::string& bytes) {
   return channel;
 }
 
-std::string gxsmOtherUnit(const std::string& bytes) {
+GxsmStatements gxsmStatements(const std::string& bytes) {
   const Netcdf file(bytes);
+  GxsmStatements stated;
   for (const char* name : {"FloatField", "H", "rangez", "dz"}) {
     const Variable* variable = file.find(name);
     if (variable == nullptr) continue;
+    if (variable->dimensions.size() == 4) {
+      stated.pitch_y = gxsmPitch(file, "dy", "rangey", file.length(*variable, 2));
+      stated.pitch_x = gxsmPitch(file, "dx", "rangex", file.length(*variable, 3));
+    }
     for (const char* attribute : {"unit", "units", "var_unit", "var_units", "ZSrcUnit"}) {
-      std::string unit = textOf(*variable, attribute);
-      if (!unit.empty() && unit != "1" && !lengthUnit(unit)) return unit;
+      const std::string unit = textOf(*variable, attribute);
+      if (stated.other_unit.empty() && !unit.empty() && unit != "1" && !lengthUnit(unit)) stated.other_unit = unit;
     }
   }
-  return "";
+  return stated;
 }
 
 }  // namespace mems_stiction

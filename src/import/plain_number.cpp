@@ -31,6 +31,15 @@ std::size_t wordLength(const std::string& text, std::size_t at) {
   return 0;
 }
 
+/// Fortran writes "1.5D-03".
+bool isExponentSign(char c) { return c == 'e' || c == 'E' || c == 'd' || c == 'D'; }
+
+double valueOf(const std::string& text) {
+  const std::size_t exponent = text.find_first_of("dD");
+  if (exponent == std::string::npos) return strtod_l(text.c_str(), nullptr, pointLocale());
+  return strtod_l(std::string(text).replace(exponent, 1, "e").c_str(), nullptr, pointLocale());
+}
+
 }  // namespace
 
 std::size_t numberEnd(const std::string& text, std::size_t at) {
@@ -44,7 +53,7 @@ std::size_t numberEnd(const std::string& text, std::size_t at) {
     for (; isDigit(text, at); ++at) ++digits;
   }
   if (digits == 0) return begin;
-  if (at < text.size() && (text[at] == 'e' || text[at] == 'E')) {
+  if (at < text.size() && isExponentSign(text[at])) {
     std::size_t exponent = at + 1;
     if (exponent < text.size() && (text[exponent] == '+' || text[exponent] == '-')) ++exponent;
     if (isDigit(text, exponent)) {
@@ -60,9 +69,20 @@ double plainNumber(const std::string& text) {
   const bool is_word = text.find_first_of("nN") != std::string::npos;
   const double value = is_word && text.find_first_of("aA") != std::string::npos
                            ? std::numeric_limits<double>::quiet_NaN()
-                           : strtod_l(text.c_str(), nullptr, pointLocale());
+                           : valueOf(text);
   if (std::isinf(value) && !is_word) throw FileError("'" + shownPiece(text) + "' is too large for a number");
   return value;
+}
+
+bool isMissingWord(const std::string& text) {
+  if (text.size() > 8 || text.find_first_of("0123456789") != std::string::npos) return false;
+  std::string word;
+  for (const char c : text) word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (const char* missing :
+       {"na", "n/a", "#n/a", "#nv", "null", "none", "bad", "missing", "no data", "nodata", "void", "--", "---", "*"}) {
+    if (word == missing) return true;
+  }
+  return false;
 }
 
 std::string shownPiece(const std::string& text, std::size_t at) {

@@ -14,6 +14,7 @@
 #include "mems_stiction/base/option_yaml.hpp"
 #include "mems_stiction/base/yaml_trouble.hpp"
 #include "mems_stiction/height_map/sentinels.hpp"
+#include "mems_stiction/height_map/unmeasured.hpp"
 #include "mems_stiction/import/channel_choice.hpp"
 #include "mems_stiction/import/file_bytes.hpp"
 #include "mems_stiction/import/scan_formats.hpp"
@@ -36,38 +37,35 @@ std::array<std::string, 2> sidecarsOf(const std::string& path) {
 
 /// The sidecar's settings over those given. Both spellings, "pitch_x" and "scan/pitch_x", are the same key.
 Settings withSidecar(const std::string& path, const ScanOptions& given) {
-  for (const std::string& sidecar : sidecarsOf(path)) {
-    std::error_code error;
-    if (sidecar == path || !fs::is_regular_file(sidecar, error)) continue;
-    Settings settings{given, false};
-    ScanOptions& options = settings.options;
-    std::vector<std::string> lines;
-    const std::string text = readInput(sidecar, kSettingsInput);
-    try {
-      const YAML::Node tree = YAML::Load(text);
-      YAML::Node scan(YAML::NodeType::Map);
-      if (tree.IsMap()) {
-        for (const auto& entry : tree) {
-          const std::string key = entry.first.Scalar();
-          const bool is_bare = key != "scan" && key.find('/') == std::string::npos;
-          scan.force_insert(is_bare ? "scan/" + key : key, entry.second);
-        }
-      } else if (!tree.IsNull()) {
-        scan = tree;
+  const std::string sidecar = sidecarOf(path);
+  Settings settings{given, false};
+  if (sidecar.empty()) return settings;
+  ScanOptions& options = settings.options;
+  std::vector<std::string> lines;
+  const std::string text = readInput(sidecar, kSettingsInput);
+  try {
+    const YAML::Node tree = YAML::Load(text);
+    YAML::Node scan(YAML::NodeType::Map);
+    if (tree.IsMap()) {
+      for (const auto& entry : tree) {
+        const std::string key = entry.first.Scalar();
+        const bool is_bare = key != "scan" && key.find('/') == std::string::npos;
+        scan.force_insert(is_bare ? "scan/" + key : key, entry.second);
       }
-      const YAML::Node nested = scan["scan"];
-      settings.has_scale = scan["scan/height_scale"].IsDefined() ||
-                           (nested.IsDefined() && nested.IsMap() && nested["height_scale"].IsDefined());
-      lines = readYaml(scan, [&options](OptionVisitor& visitor) { options.describe(visitor); });
-    } catch (const YAML::Exception& yaml_error) {
-      throw FileError(sidecar + ": " + yamlTrouble(text, yaml_error.what()));
+    } else if (!tree.IsNull()) {
+      scan = tree;
     }
-    if (options.height_scale == 0.0) lines.emplace_back("scan/height_scale: 0 is not allowed, must not be 0");
-    for (std::string& line : lines) line.insert(0, sidecar + ": ");
-    if (!lines.empty()) throw OptionsError(std::move(lines));
-    return settings;
+    const YAML::Node nested = scan["scan"];
+    settings.has_scale = scan["scan/height_scale"].IsDefined() ||
+                         (nested.IsDefined() && nested.IsMap() && nested["height_scale"].IsDefined());
+    lines = readYaml(scan, [&options](OptionVisitor& visitor) { options.describe(visitor); });
+  } catch (const YAML::Exception& yaml_error) {
+    throw FileError(sidecar + ": " + yamlTrouble(text, yaml_error.what()));
   }
-  return {given, false};
+  if (options.height_scale == 0.0) lines.emplace_back("scan/height_scale: 0 is not allowed, must not be 0");
+  for (std::string& line : lines) line.insert(0, sidecar + ": ");
+  if (!lines.empty()) throw OptionsError(std::move(lines));
+  return settings;
 }
 
 /// What a file states goes before the settings, its sidecar before the file.
@@ -136,14 +134,19 @@ HeightMap surfaceOf(const std::string& path, const FileChannel& channel, const S
   return heightMapFromPixels(channel.values, settings);
 }
 
-/// @return the surface without numbers that stand for none, and says how many there were
+/// @return the surface without what was not measured, and says how many numbers stood for none
 HeightMap measuredOnly(const HeightMap& surface, std::vector<std::string>& notes) {
-  HeightMap measured = withoutSentinels(surface);
-  if (measured.heights().data != surface.heights().data) {
-    const int count = cv::countNonZero(sentinelMask(surface.heights()));
-    notes.push_back(std::to_string(count) + " heights beyond 1e20 m count as missing");
-  }
+  HeightMap measured = measuredPart(surface);
+  if (measured.heights().data == surface.heights().data) return measured;
+  const int count = cv::countNonZero(sentinelMask(surface.heights()));
+  if (count > 0) notes.push_back(std::to_string(count) + " heights beyond 1e20 m count as missing");
   return measured;
+}
+
+/// What a text file does not say of itself, its sidecar or the settings may.
+ImportOptions withTextOptions(const std::string& path, const ScanOptions& given, ImportOptions options) {
+  options.text = withSidecar(path, given).options.text;
+  return options;
 }
 
 /// A single channel without a title needs no name.
@@ -170,13 +173,15 @@ ScanFile openScanFile(const std::string& path, const ScanOptions& scan, const Sc
   return naming(path, [&] {
     const fs::path extension = fs::path(path).extension();
     if (extension == ".yaml" || extension == ".yml") throw FileError("is a file of settings, not a scan");
-    const std::vector<FileChannel> channels = readChannels(path, options.import);
+    const std::vector<FileChannel> channels = readChannels(path, withTextOptions(path, scan, options.import));
     const std::size_t chosen = chooseHeightChannel(channels, options.import.channel);
     const FileChannel& channel = channels[chosen];
     ScanFile file{surfaceOf(path, channel, scan, options), nameOf(channel, channels.size()), channel.notes};
     file.surface = measuredOnly(file.surface, file.notes);
     const std::string passed_over = options.import.channel.empty() ? passedOver(channels, chosen) : "";
     if (!passed_over.empty()) file.notes.push_back(passed_over);
+    const std::string others = options.import.channel.empty() ? othersOfOtherSize(channels, chosen) : "";
+    if (!others.empty()) file.notes.push_back(others);
     notePitch(channel, file.surface, file.notes);
     return file;
   });
@@ -185,7 +190,7 @@ ScanFile openScanFile(const std::string& path, const ScanOptions& scan, const Sc
 std::vector<ScanChannel> listScanChannels(const std::string& path, const ScanOptions& scan,
                                           const ScanFileOptions& options) {
   return naming(path, [&] {
-    const std::vector<FileChannel> channels = readChannels(path, options.import);
+    const std::vector<FileChannel> channels = readChannels(path, withTextOptions(path, scan, options.import));
     if (channels.empty()) throw FileError("the file has no image channel");
     std::vector<ScanChannel> list;
     for (const FileChannel& channel : channels) {
@@ -215,6 +220,14 @@ std::vector<ScanChannel> listScanChannels(const std::string& path, const ScanOpt
     }
     return list;
   });
+}
+
+std::string sidecarOf(const std::string& path) {
+  for (const std::string& sidecar : sidecarsOf(path)) {
+    std::error_code error;
+    if (sidecar != path && fs::is_regular_file(sidecar, error)) return sidecar;
+  }
+  return "";
 }
 
 std::vector<std::string> withoutSidecars(const std::vector<std::string>& paths) {

@@ -10,12 +10,16 @@
 #include "mems_stiction/import/gwy_file.hpp"
 #include "mems_stiction/import/gwyddion_import.hpp"
 #include "mems_stiction/import/image_file.hpp"
+#include "mems_stiction/import/nanoscope_check.hpp"
 #include "mems_stiction/import/netcdf_file.hpp"
 #include "mems_stiction/import/npy_file.hpp"
+#include "mems_stiction/import/plain_number.hpp"
+#include "mems_stiction/import/stated_length.hpp"
 #include "mems_stiction/import/sur_file.hpp"
 #include "mems_stiction/import/text_grid.hpp"
 #include "mems_stiction/import/tiff_file.hpp"
 #include "mems_stiction/import/tiff_tags.hpp"
+#include "mems_stiction/import/transfer_check.hpp"
 #include "mems_stiction/import/wsxm_file.hpp"
 #include "mems_stiction/import/zip_check.hpp"
 
@@ -53,10 +57,54 @@ Channels readTiff(const std::string& path, const std::string& bytes, const Impor
 
 Channels readNetcdf(const std::string& path, const std::string& bytes, const ImportOptions& options) {
   if (auto heights = parseNetcdfHeights(bytes)) return {*heights};
-  const std::string unit = gxsmOtherUnit(bytes);
+  const GxsmStatements stated = gxsmStatements(bytes);
   Channels channels = channelsByGwyddion(path, bytes, options);
-  if (unit.empty()) return channels;
-  for (FileChannel& channel : channels) channel.unit_z = unit;
+  for (FileChannel& channel : channels) {
+    if (!stated.other_unit.empty()) channel.unit_z = stated.other_unit;
+    if (stated.pitch_x > 0.0 && channel.unit_xy == "m") channel.width = stated.pitch_x * channel.values.cols;
+    if (stated.pitch_y > 0.0 && channel.unit_xy == "m") channel.height = stated.pitch_y * channel.values.rows;
+  }
+  return channels;
+}
+
+/// x3p wants its files at the top of the archive; who packs the folder instead of its content moves them down.
+void checkX3pFolder(const std::vector<std::string>& names) {
+  const std::string file = "main.xml";
+  for (const std::string& name : names) {
+    if (name == file) return;
+  }
+  for (const std::string& name : names) {
+    const std::size_t slash = name.rfind('/');
+    if (slash == std::string::npos || name.substr(slash + 1) != file) continue;
+    throw FileError("the archive has its " + file + " in the folder '" + shownPiece(name.substr(0, slash)) +
+                    "': pack what is in the folder, not the folder itself");
+  }
+}
+
+/// Gwyddion's container of another version than the one that is read here: if at all, gwyddion reads it.
+Channels readOtherGwy(const std::string& path, const std::string& bytes, const ImportOptions& options) {
+  try {
+    Channels channels = channelsByGwyddion(path, bytes, options);
+    if (channels.empty()) throw FileError("gwyddion finds no image in it");
+    return channels;
+  } catch (const FileError& error) {
+    throw FileError(std::string(error.what()) + " (a Gwyddion file of the kind " + bytes.substr(0, 4) +
+                    ": open it in the Gwyddion that wrote it, and save it as one of version 2, GWYP)");
+  }
+}
+
+/// What gwyddion reads, after the file's own statements have been held against each other and against its bytes.
+Channels readByGwyddion(const std::string& path, const std::string& bytes, const ImportOptions& options) {
+  if (beginsWithOneOf(bytes, {"PK\3\4"})) checkX3pFolder(checkZip(bytes));
+  checkNanoscope(bytes);
+  checkStatedLength(bytes);
+  Channels channels = channelsByGwyddion(path, bytes, options);
+  const std::vector<std::string> notes = nanoscopeNotes(bytes);
+  const double reach = nanoscopeReach(bytes).value_or(0.0);
+  for (FileChannel& channel : channels) {
+    channel.reach = reach;
+    channel.notes.insert(channel.notes.end(), notes.begin(), notes.end());
+  }
   return channels;
 }
 
@@ -100,17 +148,18 @@ bool readKnown(const std::string& path, const std::string& bytes, const ImportOp
 
 std::vector<FileChannel> readChannels(const std::string& path, const ImportOptions& options) {
   const std::string bytes = readFileBytes(path);
+  checkTransfer(bytes);
   Channels channels;
   if (readKnown(path, bytes, options, channels)) return channels;
   const std::string name_end = extension(path);
   for (const char* text : {".txt", ".asc", ".csv", ".xyz"}) {
-    if (name_end == text) return {parseTextGrid(bytes)};
+    if (name_end == text) return {parseTextGrid(bytes, options.text)};
   }
+  if (beginsWithOneOf(bytes, {"GWYO", "GWYQ"})) return readOtherGwy(path, bytes, options);
   for (const char* image : {".tif", ".tiff", ".png", ".exr", ".npy", ".gwy"}) {
     if (name_end == image) throw FileError("is not a " + name_end.substr(1) + " image: damaged, or misnamed");
   }
-  if (beginsWithOneOf(bytes, {"PK\3\4"})) checkZip(bytes);
-  return channelsByGwyddion(path, bytes, options);
+  return readByGwyddion(path, bytes, options);
 }
 
 }  // namespace mems_stiction

@@ -10,6 +10,7 @@
 #include "mems_stiction/import/file_bytes.hpp"
 #include "mems_stiction/import/length_unit.hpp"
 #include "mems_stiction/import/plain_number.hpp"
+#include "mems_stiction/import/stated_length.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -155,6 +156,7 @@ std::vector<FileChannel> parseSur(const std::string& bytes) {
     channels.back().id = i;
     channels.back().takes_settings = false;
   }
+  if (header.kind == kSurface && header.objects <= 1) demandLength(".sur", bytes.size(), bytes.size() - file.size());
   if (is_series && channels.size() > 1) {
     channels.front().notes.push_back("the first of " + std::to_string(channels.size()) + " surfaces of a series");
   }

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
+#include <vector>
 
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/option_visitor.hpp"
 #include "mems_stiction/import/file_bytes.hpp"
+#include "mems_stiction/import/index_lines.hpp"
 #include "mems_stiction/import/length_unit.hpp"
+#include "mems_stiction/import/plain_number.hpp"
 #include "mems_stiction/import/text_cells.hpp"
 #include "mems_stiction/import/text_header.hpp"
 #include "mems_stiction/import/xyz_grid.hpp"
@@ -17,8 +20,9 @@ namespace {
 
 constexpr int kListLines = 3;        // this many times as long as wide with 2 or 3 columns: a list or a profile
 constexpr int kProfileNumbers = 18;  // on 2 lines
-constexpr int kLeastIndices = 4;     // fewer numbers are in equal steps by chance
-constexpr double kEqualStep = 0.05;  // of the step: printed coordinates are rounded
+constexpr int kLeastPoints = 4;
+constexpr int kMostListColumns = 8;
+constexpr double kSameSize = 0.01;  // relative: sizes in headings are rounded
 
 std::string lineOf(const TextLines& text, std::size_t row) {
   return "line " + std::to_string(text.data[row].number) + ": ";
@@ -31,38 +35,9 @@ void checkBlocks(const TextLines& text) {
                   "a second grid begins here, column 1: give each grid a file of its own, without empty lines");
 }
 
-/// Numbers in equal steps that are not zero.
-bool isProgression(int count, const std::function<double(int)>& number) {
-  if (count < kLeastIndices) return false;
-  const double step = (number(count - 1) - number(0)) / (count - 1);
-  if (!std::isfinite(step) || step == 0.0) return false;
-  for (int i = 0; i < count; ++i) {
-    if (!(std::abs(number(i) - number(0) - i * step) <= kEqualStep * std::abs(step))) return false;
-  }
-  return true;
-}
-
-/// True if the first line, less its corner, goes in equal steps and most others do not.
-bool hasIndexLine(const cv::Mat& grid) {
-  const auto is_steady = [&grid](int row) {
-    const double* line = grid.ptr<double>(row);
-    return isProgression(grid.cols - 1, [line](int i) { return line[i + 1]; });
-  };
-  if (grid.rows < 3 || !is_steady(0)) return false;
-  int steady = 0;
-  for (int row = 1; row < grid.rows; ++row) steady += is_steady(row) ? 1 : 0;
-  return 2 * steady < grid.rows - 1;
-}
-
 void checkIndices(const TextLines& text, const cv::Mat& grid) {
-  if (hasIndexLine(grid)) {
-    throw FileError(lineOf(text, 0) +
-                    "numbers in equal steps, column 1 on: indices or coordinates, not heights; remove them");
-  }
-  if (hasIndexLine(grid.t())) {
-    throw FileError(lineOf(text, 0) +
-                    "column 1 holds numbers in equal steps: indices or coordinates, not heights; remove it");
-  }
+  const std::string indices = indexLine(grid);
+  if (!indices.empty()) throw FileError(lineOf(text, 0) + indices);
 }
 
 /// A last number without line end is either the end of the file or the beginning of a number.
@@ -99,8 +74,58 @@ void applyUnits(const TextHeader& header, FileChannel& channel) {
   channel.unit_xy = "m";
 }
 
+/// The size that the heading states, by which the pitch is known. @throw FileError for two that differ
+double statedSide(double side, double pitch, int count, const char* what) {
+  if (side > 0.0 && pitch > 0.0 && std::abs(side - pitch * count) > kSameSize * side) {
+    throw FileError("the heading states the " + std::string(what) + " as " + numberText(side) + " m and " +
+                    std::to_string(count) + " pixels of " + numberText(pitch) + " m: remove one");
+  }
+  return side > 0.0 ? side : pitch * count;
+}
+
+void applySize(const TextHeader& header, FileChannel& channel) {
+  const double width = statedSide(header.width, header.pitch_x, channel.values.cols, "width");
+  const double height = statedSide(header.height, header.pitch_y, channel.values.rows, "height");
+  if (width > 0.0 && height > 0.0) {
+    channel.width = width;
+    channel.height = height;
+    channel.unit_xy = "m";
+  } else if (width > 0.0 || height > 0.0) {
+    channel.notes.push_back(std::string("the heading states the ") + (width > 0.0 ? "width" : "height") +
+                            " alone, which does not count: state width and height");
+  }
+}
+
+/// A list with columns beside x, y and z (numbers of points, their quality), or with these in another order.
+void checkListColumns(const cv::Mat& cells) {
+  if (cells.rows < kLeastPoints || cells.cols < 3 || cells.cols > kMostListColumns) return;
+  std::vector<int> axes;
+  for (int col = 0; col < cells.cols; ++col) {
+    if (mayBeAxis(cells.col(col))) axes.push_back(col);
+  }
+  for (const int x : axes) {
+    for (const int y : axes) {
+      if (y <= x || !areOnGrid(cells.col(x), cells.col(y))) continue;
+      throw FileError("columns " + std::to_string(x + 1) + " and " + std::to_string(y + 1) + " of " +
+                      std::to_string(cells.cols) + " are x and y of a list of points: keep three columns, x, y and z");
+    }
+  }
+}
+
+/// Row 0 is the top: the largest y where y grows upward.
+void orientList(const TextHeader& header, YAxis stated, const cv::Mat& points, FileChannel& channel) {
+  const bool is_up = stated != YAxis::kAuto ? stated == YAxis::kUp : header.is_y_up.value_or(runsFromTheTop(points));
+  if (is_up) {
+    cv::flip(channel.values, channel.values, 0);
+  } else if (stated == YAxis::kAuto && !header.is_y_up) {
+    channel.notes.emplace_back(
+        "the list does not say which way y grows, its lowest y is the upper row: state y_axis: up or down in the "
+        "sidecar (SCAN.yaml), or as scan/y_axis");
+  }
+}
+
 /// @return true if the cells were a list of points
-bool readPoints(const TextHeader& header, const cv::Mat& cells, FileChannel& channel) {
+bool readPoints(const TextHeader& header, YAxis y_axis, const cv::Mat& cells, FileChannel& channel) {
   const bool is_stated = header.unit_of_points > 0.0;
   const bool is_list = cells.cols <= 3 && cells.rows > kListLines * cells.cols;
   if (!is_stated && !is_list && !(cells.cols == 3 && cells.rows > 3)) return false;
@@ -116,26 +141,51 @@ bool readPoints(const TextHeader& header, const cv::Mat& cells, FileChannel& cha
     return false;
   }
   channel.values = grid.heights;
-  channel.width = grid.pitch_x * grid.heights.cols;
-  channel.height = grid.pitch_y * grid.heights.rows;
-  if (!is_stated) return true;
-  channel.width *= header.unit_of_points;
-  channel.height *= header.unit_of_points;
+  orientList(header, y_axis, cells, channel);
+  applySize(header, channel);
+  const double width = grid.pitch_x * grid.heights.cols;
+  const double height = grid.pitch_y * grid.heights.rows;
+  if (!is_stated) {
+    if (channel.unit_xy.empty()) {
+      channel.width = width;
+      channel.height = height;
+    }
+    return true;
+  }
+  // The heading's size may be that from the first point to the last.
+  const double across = width * header.unit_of_points;
+  if (channel.width > 0.0 && std::abs(channel.width - across) > (kSameSize + 1.0 / grid.heights.cols) * across) {
+    throw FileError("the heading states a width of " + numberText(channel.width) + " m, the points lie on " +
+                    numberText(across) + " m: remove one");
+  }
+  channel.width = across;
+  channel.height = height * header.unit_of_points;
   channel.unit_xy = "m";
   return true;
 }
 
+char signOf(DecimalMark mark) { return mark == DecimalMark::kAuto ? '\0' : mark == DecimalMark::kPoint ? '.' : ','; }
+
 }  // namespace
 
-FileChannel parseTextGrid(const std::string& bytes) {
-  const TextLines text = textLines(bytes);
-  const TextHeader header = textHeader(text.heading);
+FileChannel parseTextGrid(const std::string& bytes, const TextOptions& options) {
+  TextLines text = textLines(bytes);
   FileChannel channel;
   channel.takes_settings = true;
+  const char stated = signOf(options.decimal_mark);
+  const char hint = stated != '\0' ? stated : headingMark(text.heading);
+  joinThousands(text.data);
+  const TextStyle style = text.data.empty() ? TextStyle() : textStyle(text.data, stated, hint);
+  const TextHeader header = textHeader(text.heading, hint, style.decimal);
   channel.title = header.title;
   channel.notes = header.notes;
+  if (!style.guess.empty()) {
+    channel.notes.push_back("'" + shownPiece(style.guess) +
+                            "' and all others have three digits after the point, which counts as decimal: state "
+                            "decimal_mark: comma in the sidecar (SCAN.yaml) if it groups thousands");
+  }
   TextCells cells;
-  if (!text.data.empty()) cells = textCells(text.data, textStyle(text.data));
+  if (!text.data.empty()) cells = textCells(text.data, style);
   if (cells.rows < 2 || cells.cols < 2) {
     throw FileError("a grid needs at least 2 x 2 numbers, found " + std::to_string(cells.cols) + " x " +
                     std::to_string(cells.rows));
@@ -143,10 +193,11 @@ FileChannel parseTextGrid(const std::string& bytes) {
   checkPixelCount(cells.cols, cells.rows);
   const cv::Mat grid(static_cast<int>(cells.rows), static_cast<int>(cells.cols), CV_64FC1, cells.values.data());
   checkEnd(text, cells, channel);
-  if (readPoints(header, grid, channel)) {
+  if (readPoints(header, options.y_axis, grid, channel)) {
     applyUnits(header, channel);
     return channel;
   }
+  checkListColumns(grid);
   checkBlocks(text);
   if (grid.rows == 2 && grid.cols >= kProfileNumbers) {
     throw FileError("2 lines of " + std::to_string(grid.cols) + " numbers are a profile, not a surface");
@@ -154,9 +205,7 @@ FileChannel parseTextGrid(const std::string& bytes) {
   checkStatedSize(header, grid);
   checkIndices(text, grid);
   channel.values = grid.clone();
-  channel.width = header.width > 0.0 ? header.width : header.pitch_x * grid.cols;
-  channel.height = header.height > 0.0 ? header.height : header.pitch_y * grid.rows;
-  if (channel.width > 0.0 && channel.height > 0.0) channel.unit_xy = "m";
+  applySize(header, channel);
   applyUnits(header, channel);
   return channel;
 }

@@ -5,11 +5,16 @@
 #include <cmath>
 
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/option_visitor.hpp"
 #include "mems_stiction/import/length_unit.hpp"
+#include "mems_stiction/import/number_marks.hpp"
 #include "mems_stiction/import/plain_number.hpp"
+#include "mems_stiction/import/point_heading.hpp"
 
 namespace mems_stiction {
 namespace {
+
+constexpr double kSame = 1e-6;  // relative: what is stated twice may be rounded
 
 std::string lowered(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
@@ -38,16 +43,37 @@ bool isOneOf(const std::string& key, std::initializer_list<const char*> names) {
   return std::any_of(names.begin(), names.end(), [&key](const char* name) { return key == name; });
 }
 
-/// "1,50 µm" from a country of decimal commas.
-std::string withPoint(std::string text) {
-  const std::size_t comma = text.find(',');
-  if (comma != std::string::npos && text.find('.') == std::string::npos) text[comma] = '.';
-  return text;
+/// How the lengths of a heading are read.
+struct Marks {
+  char decimal = '\0';  ///< for marks that may be either; 0 = not known
+  char of_data = '.';
+};
+
+/// Where the number at the beginning ends, whatever marks are in it.
+std::size_t markedNumberEnd(const std::string& value) {
+  const std::size_t end = std::min(value.find_first_not_of("+-0123456789.,"), value.size());
+  const std::size_t exponent = numberEnd("1" + value.substr(end), 0) - 1;
+  return end + exponent;
+}
+
+/// @throw FileError if the number's mark may be decimal or group thousands
+char decimalMarkOf(const std::string& number, const Marks& marks) {
+  const MarkUse comma = markUse(number, ',');
+  const MarkUse point = markUse(number, '.');
+  if (comma == MarkUse::kDecimal || point == MarkUse::kGroups) return ',';
+  if (comma == MarkUse::kGroups || point == MarkUse::kDecimal) return '.';
+  if (comma != MarkUse::kEither && point != MarkUse::kEither) return '.';
+  if (marks.decimal != '\0') return marks.decimal;
+  if ((comma == MarkUse::kEither) == (marks.of_data == ',')) return marks.of_data;
+  throw FileError("'" + shownPiece(number) + "' has a mark that may be decimal or group thousands: write the length " +
+                  "without groups and with a decimal point, as 1.2 or 1200");
 }
 
 /// A length in metres; 0 for a number without unit, which may be a count of pixels.
-double lengthOf(const std::string& value) {
-  const auto stated = statedLength(withPoint(value));
+double lengthOf(const std::string& value, const Marks& marks) {
+  const std::size_t end = markedNumberEnd(value);
+  const std::string number = value.substr(0, end);
+  const auto stated = statedLength(withPlainMarks(number, decimalMarkOf(number, marks)) + value.substr(end));
   if (!stated) throw FileError("'" + shownPiece(value) + "' is not a length");
   if (stated->unit.empty()) return 0.0;
   const auto unit = lengthUnit(stated->unit);
@@ -74,58 +100,88 @@ bool splitKey(const std::string& text, std::string& key, std::string& value) {
   return true;
 }
 
-/// Units in brackets, in their order: "x [nm], y [nm], z [nm]". @return false if the text is no such heading
-bool readPointHeading(const std::string& text, TextHeader& header) {
-  const std::string low = lowered(text);
-  const std::size_t y = low.find('y');
-  const std::size_t z = low.find('z');
-  if (low.empty() || low[0] != 'x' || y == std::string::npos || z == std::string::npos || z < y) return false;
-  std::vector<std::string> units;
-  for (std::size_t open = text.find_first_of("[("); open != std::string::npos;
-       open = text.find_first_of("[(", open + 1)) {
-    const std::size_t close = text.find_first_of("])", open);
-    if (close == std::string::npos) return false;
-    units.push_back(trimmed(text.substr(open + 1, close - open - 1)));
+/// @throw FileError for what the heading states a second time, and otherwise
+template <typename Number>
+void state(Number& field, Number value, const std::string& what) {
+  if (field != Number() && std::abs(static_cast<double>(field) - static_cast<double>(value)) >
+                               kSame * std::abs(static_cast<double>(value))) {
+    throw FileError("the heading states the " + what + " twice, as " + numberText(static_cast<double>(field)) +
+                    " and " + numberText(static_cast<double>(value)) + ": remove one");
   }
-  if (units.empty()) return true;
-  const auto unit_x = lengthUnit(units[0]);
-  if (units.size() != 3 || !unit_x || lengthUnit(units[1]) != unit_x) {
-    throw FileError("x and y must have one unit of length");
+  field = value;
+}
+
+void stateText(std::string& field, const std::string& value, const std::string& what) {
+  const auto unit = lengthUnit(value);
+  if (!field.empty() && field != value && !(unit && lengthUnit(field) == unit)) {
+    throw FileError("the heading states the " + what + " twice, as '" + shownPiece(field) + "' and '" +
+                    shownPiece(value) + "': remove one");
   }
-  header.unit_of_points = *unit_x;
-  header.unit_z = units[2];
+  field = value;
+}
+
+/// @return false if the text does not name the columns of a list. A comment does so if it states their units
+bool readPointHeading(const std::string& text, bool is_comment, TextHeader& header) {
+  const auto stated = pointHeading(text);
+  if (!stated || (is_comment && stated->unit_xy == 0.0)) return false;
+  if (stated->unit_xy == 0.0) return true;
+  state(header.unit_of_points, stated->unit_xy, "unit of x and y");
+  stateText(header.unit_z, trimmed(stated->unit_z), "unit of the heights");
   return true;
 }
 
+/// WSxM writes two lines before its lists, "WSxM file copyright UAM" and "WSxM ASCII XYZ file".
+bool readWsxmLine(const std::string& text, TextHeader& header) {
+  if (text.compare(0, 19, "WSxM file copyright") == 0) return true;
+  if (text.compare(0, 14, "WSxM ASCII XYZ") != 0) return false;
+  header.is_y_up = true;
+  return true;
+}
+
+/// A side of the image or of a pixel. A number without a unit does not count, and is said.
+void readLength(const std::string& value, const std::string& what, const Marks& marks, double& field,
+                TextHeader& header) {
+  const double length = lengthOf(value, marks);
+  if (length > 0.0) {
+    state(field, length, what);
+  } else {
+    header.notes.push_back("the " + what + " '" + shownPiece(value) + "' has no unit and does not count");
+  }
+}
+
 /// @return true if the key is known
-bool readEntry(const std::string& key, const std::string& value, TextHeader& header) {
+bool readEntry(const std::string& key, const std::string& value, const Marks& marks, TextHeader& header) {
   const auto count = [&value] { return static_cast<std::size_t>(std::max(0.0, plainNumber(value))); };
   if (isOneOf(key, {"width", "x-length", "breite", "largeur", "anchura", "larghezza", "largura"})) {
-    header.width = lengthOf(value);
-    if (header.width == 0.0)
-      header.notes.push_back("the width '" + shownPiece(value) + "' has no unit and does not count");
+    readLength(value, "width", marks, header.width, header);
   } else if (isOneOf(key, {"height", "y-length", "höhe", "hauteur", "altura", "altezza"})) {
-    header.height = lengthOf(value);
-    if (header.height == 0.0)
-      header.notes.push_back("the height '" + shownPiece(value) + "' has no unit and does not count");
+    readLength(value, "height", marks, header.height, header);
   } else if (isOneOf(key, {"value units", "value unit", "z-unit", "zunit", "unit data", "einheiten", "unités"})) {
-    header.unit_z = value;
+    stateText(header.unit_z, value, "unit of the heights");
+  } else if (key == "lateral units") {  // Gwyddion's lists: x and y are those of its images
+    const auto unit = lengthUnit(value);
+    if (!unit) throw FileError("'" + shownPiece(value) + "' is not a unit of length");
+    state(header.unit_of_points, *unit, "unit of x and y");
+    header.is_y_up = false;
   } else if (isOneOf(key, {"channel", "kanal", "canal", "canale"})) {
-    header.title = value;
+    stateText(header.title, value, "channel");
   } else if (isOneOf(key, {"x-pixels", "ncols", "nx", "columns"})) {
-    header.cols = count();
+    state(header.cols, count(), "number of columns");
   } else if (isOneOf(key, {"y-pixels", "nrows", "ny", "rows"})) {
-    header.rows = count();
+    state(header.rows, count(), "number of rows");
   } else if (key == "pixel size" || key == "pitch") {
-    header.pitch_x = header.pitch_y = lengthOf(value);
+    readLength(value, "pitch", marks, header.pitch_x, header);
+    if (header.pitch_x > 0.0) state(header.pitch_y, header.pitch_x, "pitch");
   } else if (isOneOf(key, {"pitch_x", "scale x"})) {
-    header.pitch_x = lengthOf(value);
+    readLength(value, "pitch of columns", marks, header.pitch_x, header);
   } else if (isOneOf(key, {"pitch_y", "scale y"})) {
-    header.pitch_y = lengthOf(value);
+    readLength(value, "pitch of rows", marks, header.pitch_y, header);
   } else if (key == "cellsize") {
     header.notes.push_back("the cell size " + shownPiece(value) + " has no unit and does not count");
   } else if (key == "nodata_value") {
-    header.missing_value = plainNumber(value);
+    const double missing = plainNumber(value);
+    if (header.missing_value) state(*header.missing_value, missing, "missing value");
+    header.missing_value = missing;
   } else {
     return isOneOf(key, {"xllcorner", "yllcorner", "xllcenter", "yllcenter"});
   }
@@ -148,7 +204,27 @@ std::string unitMentioned(const std::string& text) {
 
 }  // namespace
 
-TextHeader textHeader(const std::vector<TextLine>& heading) {
+char headingMark(const std::vector<TextLine>& heading) {
+  bool has_comma = false;
+  bool has_point = false;
+  for (const TextLine& line : heading) {
+    std::string key;
+    std::string value;
+    if (!splitKey(content(line.text), key, value)) continue;
+    const std::size_t end = markedNumberEnd(value);
+    if (end == 0 || !lengthUnit(value.substr(end))) continue;
+    const std::string number = value.substr(0, end);
+    const bool is_comma = markUse(number, ',') == MarkUse::kDecimal || markUse(number, '.') == MarkUse::kGroups;
+    const bool is_point = markUse(number, '.') == MarkUse::kDecimal || markUse(number, ',') == MarkUse::kGroups;
+    has_comma = has_comma || is_comma;
+    has_point = has_point || is_point;
+  }
+  if (has_comma == has_point) return '\0';
+  return has_comma ? ',' : '.';
+}
+
+TextHeader textHeader(const std::vector<TextLine>& heading, char decimal, char of_data) {
+  const Marks marks{decimal, of_data};
   TextHeader header;
   std::string mentioned;
   for (const TextLine& line : heading) {
@@ -158,15 +234,17 @@ TextHeader textHeader(const std::vector<TextLine>& heading) {
     std::string key;
     std::string value;
     try {
-      if (splitKey(text, key, value) && readEntry(key, value, header)) continue;
-      if (!is_comment && readPointHeading(text, header)) continue;
-      if (is_comment && text.size() < 80 && readPointHeading(text, header) && header.unit_of_points > 0.0) continue;
+      if (splitKey(text, key, value) && readEntry(key, value, marks, header)) continue;
+      if (readWsxmLine(text, header)) continue;
+      if (readPointHeading(text, is_comment, header)) continue;
     } catch (const FileError& error) {
       throw FileError(where + error.what());
     }
     if (!is_comment) {
       const std::string word = text.substr(0, text.find_first_of(" \t,;"));
-      throw FileError(where + "'" + shownPiece(word) + "' is not a number, column 1");
+      throw FileError(where + "'" + shownPiece(word) +
+                      "' is not a number, column 1, and begins no known heading: keep the numbers, " +
+                      "and state \"# Width: 2 um\", \"# Height: 2 um\" and \"# Value units: nm\"");
     }
     const std::string unit = unitMentioned(text);
     if (mentioned.empty() && !unit.empty()) {

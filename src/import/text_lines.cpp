@@ -6,6 +6,8 @@
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/import/length_unit.hpp"
+#include "mems_stiction/import/number_marks.hpp"
+#include "mems_stiction/import/plain_number.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -52,10 +54,16 @@ std::string decoded(const std::string& bytes) {
 
 bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v'; }
 
-/// Where the comment begins; the size of the text if there is none.
+/// The word that begins here, up to a separator.
+std::string wordFrom(const std::string& text, std::size_t at, const char* separators) {
+  return text.substr(at, std::min(text.find_first_of(separators, at), text.size()) - at);
+}
+
+/// Where the comment begins; the size of the text if there is none. "#N/A" of spreadsheets is a cell.
 std::size_t commentStart(const std::string& text) {
   for (std::size_t at = 0; at < text.size(); ++at) {
-    if ((text[at] == '#' || text[at] == '%') && (at == 0 || isBlank(text[at - 1]))) return at;
+    if (text[at] != '#' && text[at] != '%') continue;
+    if ((at == 0 || isBlank(text[at - 1])) && !isMissingWord(wordFrom(text, at, " \t\r,;"))) return at;
   }
   return text.size();
 }
@@ -71,16 +79,23 @@ std::string trimmed(const std::string& text) {
 
 bool isEmpty(const std::string& text) { return text.find_first_not_of(" \t\r\f\v") == std::string::npos; }
 
-/// A letter that does not begin "nan" or "inf".
+/// A letter that does not begin "nan", "inf" or another word for no number.
 bool isHeading(const std::string& text) {
   const std::size_t at = text.find_first_not_of(" \t\"'");
   if (at == std::string::npos) return false;
   const auto first = static_cast<unsigned char>(text[at]);
   if (first >= 0x80 || first == '[' || first == '(') return true;
   if (std::isalpha(first) == 0) return false;
+  if (isMissingWord(wordFrom(text, at, " \t,;")) || isMissingWord(wordFrom(text, at, "\t,;"))) return false;
   std::string start = text.substr(at, 3);
   for (char& c : start) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return start != "nan" && start != "inf";
+}
+
+/// Signs that may group thousands: seldom, so that nothing is copied for the lines without.
+bool hasSignsBeyondNumbers(const std::string& text) {
+  return std::any_of(text.begin(), text.end(),
+                     [](char c) { return c == '\'' || c == '_' || static_cast<unsigned char>(c) >= 0x80; });
 }
 
 }  // namespace
@@ -101,7 +116,11 @@ TextLines textLines(const std::string& bytes) {
       throw FileError("line " + std::to_string(number) + ": binary data where numbers are expected");
     }
     const std::size_t comment = commentStart(line);
-    const std::string content = trimmed(line.substr(0, comment));
+    std::string content = trimmed(line.substr(0, comment));
+    if (hasSignsBeyondNumbers(content)) {
+      content = toUtf8(content);
+      plainSigns(content);
+    }
     if (isEmpty(content)) {
       begins_block = true;
       if (comment < line.size()) lines.heading.push_back({number, toUtf8(line.substr(comment))});

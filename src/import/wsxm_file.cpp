@@ -1,14 +1,17 @@
 #include "mems_stiction/import/wsxm_file.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <map>
 
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/option_visitor.hpp"
 #include "mems_stiction/import/byte_cursor.hpp"
 #include "mems_stiction/import/file_bytes.hpp"
 #include "mems_stiction/import/length_unit.hpp"
 #include "mems_stiction/import/plain_number.hpp"
+#include "mems_stiction/import/stated_length.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -74,6 +77,17 @@ double next(ByteCursor& cursor, NumberType type) {
   return type == NumberType::kFloat ? static_cast<double>(cursor.number<float>()) : cursor.number<double>();
 }
 
+/// The header states the smallest and the largest number, rounded to six digits.
+void checkExtreme(const std::map<std::string, std::string>& header, const std::string& key, double found,
+                  double range) {
+  const auto stated = header.find(key);
+  if (stated == header.end() || numberEnd(stated->second, 0) != stated->second.size()) return;
+  const double number = plainNumber(stated->second);
+  if (std::abs(number - found) <= 1e-4 * std::max(std::abs(range), std::abs(number))) return;
+  throw FileError("the WSxM header states " + key + " " + shownPiece(stated->second) + ", the data have " +
+                  numberText(found) + ": damaged");
+}
+
 }  // namespace
 
 bool isWsxmImage(const std::string& start) {
@@ -95,14 +109,7 @@ FileChannel parseWsxm(const std::string& bytes) {
   const std::size_t line_end = bytes.find('\n', header_end);
   std::uint64_t begin = stated_size == header.end() ? 0 : static_cast<std::uint64_t>(plainNumber(stated_size->second));
   if (begin < header_end) begin = line_end == std::string::npos ? bytes.size() : line_end + 1;  // not filled in
-  if (begin > bytes.size() || bytes.size() - begin < needed) {
-    throw FileError("the WSxM file has " + std::to_string(bytes.size()) + " bytes, its header states " +
-                    std::to_string(begin + needed) + ": cut off");
-  }
-  if (bytes.size() - begin - needed >= needed / rows) {  // a line or more
-    throw FileError("the WSxM file has " + std::to_string(bytes.size()) + " bytes, its header states " +
-                    std::to_string(begin + needed) + ": the header is damaged");
-  }
+  demandLength("WSxM", bytes.size(), begin + needed);
 
   FileChannel channel;
   const auto title = header.find("General Info/Acquisition channel");
@@ -117,18 +124,19 @@ FileChannel parseWsxm(const std::string& bytes) {
     for (int col = channel.values.cols - 1; col >= 0; --col) line[col] = next(data, type);
   }
 
+  double least = 0.0;
+  double most = 0.0;
+  cv::minMaxLoc(channel.values, &least, &most);
+  checkExtreme(header, "Miscellaneous/Minimum", least, most - least);
+  checkExtreme(header, "Miscellaneous/Maximum", most, most - least);
+
   const std::string& amplitude_text = entry(header, "General Info/Z Amplitude");
   const auto amplitude = statedLength(amplitude_text);
   if (!amplitude) throw FileError("the WSxM header states the z amplitude '" + shownPiece(amplitude_text) + "'");
   const auto unit = lengthUnit(amplitude->unit);
   channel.unit_z = unit ? "m" : amplitude->unit;
   double scale = unit.value_or(1.0);
-  if (type == NumberType::kShort) {
-    double least = 0.0;
-    double most = 0.0;
-    cv::minMaxLoc(channel.values, &least, &most);
-    if (most > least) scale *= amplitude->number / (most - least);
-  }
+  if (type == NumberType::kShort && most > least) scale *= amplitude->number / (most - least);
   channel.values *= scale;
   return channel;
 }

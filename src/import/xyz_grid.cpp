@@ -13,6 +13,7 @@ namespace mems_stiction {
 namespace {
 
 constexpr double kAside = 0.1;        // of a step: printed coordinates are rounded
+constexpr int kManyPoints = 10;       // fewer are on a grid with gaps by chance
 constexpr double kLeastFilled = 0.5;  // a list that fills less is no scan of a rectangle
 
 /// Places along one axis.
@@ -83,6 +84,37 @@ XyzGrid gridOfPoints(const cv::Mat& points) {
     grid.heights.at<double>(row, col) = point[2];
   }
   return grid;
+}
+
+bool mayBeAxis(const cv::Mat& column) {
+  if (!cv::checkRange(column)) return false;
+  cv::Mat sorted;
+  cv::sort(column, sorted, cv::SORT_EVERY_COLUMN | cv::SORT_ASCENDING);
+  const auto* begin = sorted.ptr<double>(0);
+  auto* end = std::unique(sorted.ptr<double>(0), sorted.ptr<double>(0) + sorted.rows);
+  return 2 * (end - begin) <= column.rows;
+}
+
+bool areOnGrid(const cv::Mat& x, const cv::Mat& y) {
+  cv::Mat points;
+  cv::hconcat(std::vector<cv::Mat>{x, y, y}, points);
+  try {
+    const std::size_t places = gridOfPoints(points).heights.total();
+    return points.rows >= kManyPoints || places == static_cast<std::size_t>(points.rows);
+  } catch (const FileError&) {
+    return false;
+  }
+}
+
+bool runsFromTheTop(const cv::Mat& points) {
+  const auto sign_of_first_step = [&points](int column) {
+    for (int i = 1; i < points.rows; ++i) {
+      const double step = points.at<double>(i, column) - points.at<double>(i - 1, column);
+      if (step != 0.0) return step;
+    }
+    return 0.0;
+  };
+  return sign_of_first_step(0) > 0.0 && sign_of_first_step(1) < 0.0;
 }
 
 }  // namespace mems_stiction

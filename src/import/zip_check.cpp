@@ -74,7 +74,8 @@ void checkEntry(const std::string& bytes, const Entry& entry) {
 
 }  // namespace
 
-void checkZip(const std::string& bytes) {
+std::vector<std::string> checkZip(const std::string& bytes) {
+  std::vector<std::string> names;
   const std::size_t end = bytes.rfind(std::string("PK\5\6", 4));
   if (end == std::string::npos) throw FileError("the zip archive has no directory: cut off");
   ByteCursor cursor = from(bytes, end + 8);
@@ -83,7 +84,7 @@ void checkZip(const std::string& bytes) {
   cursor.take(4);
   const auto start = cursor.number<std::uint32_t>();
   cursor.take(cursor.number<std::uint16_t>());  // the archive's comment
-  if (start == kNarrowLimit) return;            // a directory of the 64-bit kind: no scan is that large
+  if (start == kNarrowLimit) return names;      // a directory of the 64-bit kind: no scan is that large
   ByteCursor directory = from(bytes, start);
   std::uint64_t total = 0;
   for (int i = 0; i < count; ++i) {
@@ -102,11 +103,13 @@ void checkZip(const std::string& bytes) {
     entry.offset = directory.number<std::uint32_t>();
     entry.name = std::string(directory.take(name_size), name_size);
     directory.take(std::size_t{extra_size} + comment_size);
+    names.push_back(entry.name);
     if (entry.packed == kNarrowLimit || entry.size == kNarrowLimit) continue;
     total += entry.size;
     if (total > kMaxFileBytes) throw FileError("the zip archive unpacks to more bytes than a scan has");
     checkEntry(bytes, entry);
   }
+  return names;
 }
 
 }  // namespace mems_stiction

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mems_stiction/base/constants.hpp"
+#include "mems_stiction/mechanics/traction_law.hpp"
 
 namespace mems_stiction {
 namespace surface_forces {
@@ -22,11 +23,14 @@ double vanDerWaalsSphereEnergy(double gap, double hamaker_constant, double radiu
   return hamaker_constant * radius / (6.0 * gap);
 }
 
+double gapField(double gap, double voltage, double insulator_thickness, double insulator_relative_permittivity) {
+  return FieldLaw(voltage, insulator_thickness, insulator_relative_permittivity).field(std::max(gap, 0.0));
+}
+
 double electrostaticPressure(double gap, double voltage, double insulator_thickness,
                              double insulator_relative_permittivity) {
   if (voltage == 0.0) return 0.0;
-  const double field = voltage / (std::max(gap, 0.0) + insulator_thickness / insulator_relative_permittivity);
-  return 0.5 * kVacuumPermittivity * field * field;
+  return FieldLaw(voltage, insulator_thickness, insulator_relative_permittivity).pressure(std::max(gap, 0.0));
 }
 
 double pullInVoltage(double spring_constant, double rest_gap, double electrode_area, double insulator_thickness,

@@ -26,6 +26,7 @@ void giveLarger(List& other, List& user) {
 /// What an earlier prediction holds becomes the solution's memory, and every figure as in a new one.
 void handOver(Prediction& prediction, ContactSolution& solution) {
   giveLarger(prediction.asperities, solution.asperities);
+  giveLarger(prediction.pull_off_contacts, solution.pull_off_contacts);
   giveLarger(prediction.energy_curve, solution.energy_curve);
   giveLarger(prediction.curve, solution.curve);
   solution.contact_map = std::move(prediction.contact_map);
@@ -34,9 +35,11 @@ void handOver(Prediction& prediction, ContactSolution& solution) {
   solution.pressure = std::move(prediction.pressure);
   Prediction fresh;
   fresh.asperities.swap(prediction.asperities);
+  fresh.pull_off_contacts.swap(prediction.pull_off_contacts);
   fresh.energy_curve.swap(prediction.energy_curve);
   fresh.curve.swap(prediction.curve);
   fresh.asperities.clear();
+  fresh.pull_off_contacts.clear();
   fresh.energy_curve.clear();
   fresh.curve.clear();
   prediction = std::move(fresh);

@@ -1,5 +1,6 @@
 #include "mems_stiction/prediction/contact_solvers.hpp"
 
+#include <array>
 #include <utility>
 
 #include "mems_stiction/base/errors.hpp"
@@ -13,6 +14,7 @@ namespace {
 struct Entry {
   const char* formulation;
   std::unique_ptr<ContactSolver> (*make)();
+  std::array<const char*, 6> ignored;  ///< keys of settings that have no meaning for it, and of what only they need
 };
 
 template <typename Solver, auto... Arguments>
@@ -22,9 +24,35 @@ std::unique_ptr<ContactSolver> make() {
 
 /// A line per solver, the default first.
 constexpr Entry kSolvers[] = {
-    {"consistent", make<SeparationSolver>},
-    {"paper", make<AsperitySolver, Formulation::kPaper>},
-    {"printed", make<AsperitySolver, Formulation::kPrinted>},
+    {"consistent",
+     make<SeparationSolver>,
+     {"approach/step", "interface/cutoff_distance", "output/energy_curve", "uncertainty/hardness",
+      "uncertainty/cutoff_distance"}},
+    {"paper", make<AsperitySolver, Formulation::kPaper>, {}},
+    {"printed", make<AsperitySolver, Formulation::kPrinted>, {}},
+};
+
+/// A line per setting that has no effect while another one is as it is.
+struct Dependent {
+  const char* key;
+  bool (*is_ignored)(const std::string& formulation, const ContactSettings& settings);
+  const char* why;
+};
+
+bool isDry(const std::string&, const ContactSettings& settings) { return settings.capillary.relative_humidity == 0.0; }
+
+bool hasRange(const std::string& formulation, const ContactSettings& settings) {
+  return formulation == kDefaultFormulation && settings.interface.work_of_adhesion > 0.0 &&
+         settings.interface.hamaker_constant > 0.0;
+}
+
+constexpr const char* kDry = "interface/relative_humidity is 0";
+constexpr Dependent kDependents[] = {
+    {"interface/surface_tension", isDry, kDry},
+    {"interface/contact_angle", isDry, kDry},
+    {"interface/temperature", isDry, kDry},
+    {"interface/molar_volume", isDry, kDry},
+    {"interface/equilibrium_distance", hasRange, "work of adhesion and Hamaker constant tell the range of forces"},
 };
 
 struct Retired {
@@ -57,6 +85,21 @@ std::string retirement(const std::string& formulation) {
     }
   }
   return "";
+}
+
+std::vector<IgnoredSetting> ignoredSettings(const std::string& formulation, const ContactSettings& settings) {
+  std::vector<IgnoredSetting> ignored;
+  for (const Entry& entry : kSolvers) {
+    if (formulation != entry.formulation) continue;
+    for (const char* key : entry.ignored) {
+      if (key == nullptr) break;
+      ignored.push_back({key, "approach/formulation " + formulation + " does not use it"});
+    }
+    for (const Dependent& dependent : kDependents) {
+      if (dependent.is_ignored(formulation, settings)) ignored.push_back({dependent.key, dependent.why});
+    }
+  }
+  return ignored;
 }
 
 std::unique_ptr<ContactSolver> makeContactSolver(const std::string& formulation) {

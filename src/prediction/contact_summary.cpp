@@ -44,6 +44,8 @@ void summarizeAsperities(const ContactProblem& problem, const ContactSolution& s
   const std::vector<Asperity>& asperities = solution.asperities;
   prediction.has_asperities = solution.has_asperities;
   prediction.asperity_count = static_cast<int>(asperities.size());
+  prediction.pull_off_contact_count =
+      static_cast<int>(solution.pull_off_contacts.empty() ? asperities.size() : solution.pull_off_contacts.size());
   prediction.max_tilt = solution.has_asperities ? 0.0 : kUnknown;
   for (const Asperity& asperity : asperities) {
     prediction.max_tilt = std::max(prediction.max_tilt, asperity.tilt);
@@ -102,10 +104,12 @@ void summarizeContact(const ContactProblem& problem, ContactSolution& solution, 
 
   prediction.contact_stiffness = solution.contact_stiffness;
   prediction.flattening_energy = solution.flattening_energy;
-  prediction.adhesion_exponent = solution.adhesion_exponent;
-  prediction.modulus_exponent = solution.modulus_exponent;
+  prediction.pull_off_exponents = solution.pull_off_exponents;
+  prediction.work_exponents = solution.work_exponents;
   prediction.flattening_ratio = work_of_adhesion > 0.0 ? solution.flattening_energy / work_of_adhesion : kUnknown;
   prediction.is_conforming = solution.is_conforming;
+  prediction.is_bonded_by_load = solution.is_bonded_by_load;
+  prediction.joining_rise = solution.joining_rise;
   prediction.adhesion_parameter = solution.adhesion_parameter;
   prediction.bonding_regime = bondingRegimeOf(prediction.adhesion_parameter);
   prediction.composite_rms_height = problem.composite_rms_height;
@@ -113,6 +117,7 @@ void summarizeContact(const ContactProblem& problem, ContactSolution& solution, 
   summarizeAsperities(problem, solution, values, prediction);
 
   if (settings.output.asperities) prediction.asperities.swap(solution.asperities);
+  prediction.pull_off_contacts.swap(solution.pull_off_contacts);
   prediction.energy_curve.swap(solution.energy_curve);
   prediction.curve.swap(solution.curve);
   std::swap(prediction.contact_map, solution.contact_map);

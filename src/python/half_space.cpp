@@ -29,11 +29,8 @@ struct SolvedScan {
 
 using Solved = std::shared_ptr<SolvedScan>;
 
-Solved solve(const HeightMap& scan, const HeightMap* counter_surface, const Configuration& configuration) {
+Solved solve(const PreparedScan& prepared, const Configuration& configuration) {
   return interruptible([&](const std::atomic<bool>& cancel) {
-    ScanPreparer preparer(configuration);
-    if (counter_surface != nullptr) preparer.setMeasuredCounterSurface(*counter_surface);
-    const PreparedScan prepared = preparer.prepare(scan);
     const Options options = onFrame(configuration.model, configuration.device, prepared.surfaces);
     const HalfSpaceProblem problem = halfSpaceProblem(prepared, options);
     HalfSpaceControl control;

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/height_map/sentinels.hpp"
+#include "mems_stiction/height_map/unmeasured.hpp"
 #include "without_lock.hpp"
 
 namespace mems_stiction {
@@ -88,7 +88,7 @@ HeightMap heightMapOf(const py::buffer& pixels, ScanOptions options, double pitc
   const int cols = static_cast<int>(info.shape[1]);
   const std::size_t step = rows > 1 ? static_cast<std::size_t>(info.strides[0]) : std::size_t{cv::Mat::AUTO_STEP};
   const cv::Mat shown(rows, cols, type, info.ptr, step);
-  return withoutSentinels(heightMapFromPixels(shown, options, heldBuffer(std::move(info))));
+  return measuredPart(heightMapFromPixels(shown, options, heldBuffer(std::move(info))));
 }
 
 void bindMemory(py::module& module) {

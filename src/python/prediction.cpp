@@ -14,7 +14,6 @@
 #include "figures.hpp"
 #include "memory.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/height_map/scan_sanity.hpp"
 #include "mems_stiction/prediction/force_curve.hpp"
 #include "mems_stiction/scan/configuration_yaml.hpp"
 #include "mems_stiction/scan/frame_load.hpp"
@@ -47,9 +46,8 @@ struct PredictedScan {
 using Predicted = std::shared_ptr<PredictedScan>;
 
 /// The record of a prediction.
-/// - @p scan_warnings of the scan as it came
 Predicted predictedScan(const HeightMap& scan, const PreparedScan& prepared, Prediction&& prediction,
-                        const Configuration& configuration, const std::vector<std::string>& scan_warnings) {
+                        const Configuration& configuration) {
   auto predicted = std::make_shared<PredictedScan>();
   predicted->scan = scan;
   predicted->surfaces = prepared.surfaces;
@@ -58,14 +56,8 @@ Predicted predictedScan(const HeightMap& scan, const PreparedScan& prepared, Pre
   predicted->extras.formulation = configuration.model.formulation;
   predicted->extras.preprocessing = prepared.record;
   predicted->extras.provenance = provenanceOf({}, configuration);
-  predicted->scan_warnings = scan_warnings;
-  predicted->extras.warnings = scan_warnings;
-  for (std::string& warning : settingsWarnings(configuration)) {
-    predicted->extras.warnings.push_back(std::move(warning));
-  }
-  for (std::string& warning : loadWarnings(predicted->prediction, configuration.model)) {
-    predicted->extras.warnings.push_back(std::move(warning));
-  }
+  predicted->scan_warnings = warningsOf(prepared);
+  predicted->extras.warnings = predictionWarnings(prepared, configuration, predicted->prediction, configuration.model);
   if (configuration.device.isStated()) {
     const Options on_frame = onFrame(configuration.model, configuration.device, prepared.surfaces);
     predicted->extras.verdict =
@@ -82,13 +74,14 @@ class Predictor {
       : configuration_(std::move(configuration)), predictor_(configuration_) {}
 
   /// - @p counter_surface that was measured beside the scan; null: the configured one
-  Predicted predict(const HeightMap& scan, const HeightMap* counter_surface) {
+  /// - @p notes on how the scan was read
+  Predicted predict(const HeightMap& scan, const HeightMap* counter_surface, const std::vector<std::string>& notes) {
     const WithoutLock unlocked;
     const std::lock_guard<std::mutex> lock(mutex_);
     predictor_.preparer().setMeasuredCounterSurface(counter_surface != nullptr ? *counter_surface : HeightMap());
-    const PreparedScan prepared = predictor_.preparer().prepare(scan);
-    Predicted predicted =
-        predictedScan(scan, prepared, predictor_.predict(prepared), configuration_, scanWarnings(scan));
+    PreparedScan prepared = predictor_.preparer().prepare(scan);
+    prepared.warnings.insert(prepared.warnings.begin(), notes.begin(), notes.end());
+    Predicted predicted = predictedScan(scan, prepared, predictor_.predict(prepared), configuration_);
     predictor_.preparer().setMeasuredCounterSurface({});
     return predicted;
   }
@@ -102,12 +95,14 @@ class Predictor {
 /// One scan, prepared once, for settings after settings. Any thread may ask; one is served at a time.
 class OneScan {
  public:
-  OneScan(const HeightMap& scan, const HeightMap* counter_surface, const Configuration& configuration)
+  /// - @p notes on how the scan was read
+  OneScan(const HeightMap& scan, const HeightMap* counter_surface, const Configuration& configuration,
+          const std::vector<std::string>& notes)
       : scan_(scan), configuration_(configuration), predictor_(configuration) {
     const WithoutLock unlocked;
     if (counter_surface != nullptr) predictor_.preparer().setMeasuredCounterSurface(*counter_surface);
     prepared_ = predictor_.preparer().prepare(scan_);
-    scan_warnings_ = scanWarnings(scan_);
+    prepared_.warnings.insert(prepared_.warnings.begin(), notes.begin(), notes.end());
   }
 
   /// @throw OptionsError for settings with another preparation than the first.
@@ -123,10 +118,10 @@ class OneScan {
     predictor_.setDevice(configuration.device);
     Prediction prediction = is_seen_ ? predictor_.predictAgain(prepared_) : predictor_.predict(prepared_);
     is_seen_ = true;
-    return predictedScan(scan_, prepared_, std::move(prediction), configuration, scan_warnings_);
+    return predictedScan(scan_, prepared_, std::move(prediction), configuration);
   }
 
-  const std::vector<std::string>& warnings() const { return scan_warnings_; }
+  std::vector<std::string> warnings() const { return warningsOf(prepared_); }
 
  private:
   /// What bears on the preparation, as text.
@@ -144,7 +139,6 @@ class OneScan {
   Configuration configuration_;
   ScanPredictor predictor_;
   PreparedScan prepared_;
-  std::vector<std::string> scan_warnings_;
   bool is_seen_ = false;
   std::mutex mutex_;
 };
@@ -273,7 +267,7 @@ void bindPrediction(py::module& module) {
 
   py::class_<Predictor>(module, "Predictor").def(py::init<Configuration>()).def("predict", &Predictor::predict);
   py::class_<OneScan>(module, "OneScan")
-      .def(py::init<const HeightMap&, const HeightMap*, const Configuration&>())
+      .def(py::init<const HeightMap&, const HeightMap*, const Configuration&, const std::vector<std::string>&>())
       .def_property_readonly("scan_warnings", &OneScan::warnings)
       .def("predict", &OneScan::predict);
   module.def("prediction_units", &predictionUnits);

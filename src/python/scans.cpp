@@ -6,6 +6,7 @@
 
 #include "bindings.hpp"
 #include "figures.hpp"
+#include "interruptible.hpp"
 #include "memory.hpp"
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/height_map/scan_sanity.hpp"
@@ -15,6 +16,9 @@
 #include "mems_stiction/roughness/spatial_roughness.hpp"
 #include "mems_stiction/scan/configuration.hpp"
 #include "mems_stiction/scan/convergence.hpp"
+#include "mems_stiction/scan/plausibility.hpp"
+#include "mems_stiction/scan/prepared_scan.hpp"
+#include "mems_stiction/scan/scan_state.hpp"
 #include "mems_stiction/surface/counter_surface.hpp"
 #include "preprocess_steps.hpp"
 #include "without_lock.hpp"
@@ -64,6 +68,17 @@ py::list channelsOf(const std::string& path, const Configuration& configuration)
   return list;
 }
 
+py::dict stateOf(const std::string& path, const std::string& settings_file_checksum) {
+  ScanState state;
+  {
+    const WithoutLock unlocked;
+    state = scanState(path, true, settings_file_checksum);
+  }
+  py::dict fields;
+  visitScanStateFields(state, [&](const char* name, const auto& value, const char*) { fields[name] = value; });
+  return fields;
+}
+
 py::tuple cleaned(const HeightMap& scan, const Configuration& configuration) {
   CleanedScan result;
   {
@@ -107,6 +122,15 @@ HeightMap generated(int rows, int cols, double pitch_x, double pitch_y, const Co
   return turnedOver(generatedCounterSurface(grid, options));
 }
 
+/// - @p counter_surface that was measured beside the scan; null: the configured one
+PreparedScan prepared(const HeightMap& scan, const HeightMap* counter_surface, const Configuration& configuration) {
+  return interruptible([&](const std::atomic<bool>& /*cancel*/) {
+    ScanPreparer preparer(configuration);
+    if (counter_surface != nullptr) preparer.setMeasuredCounterSurface(*counter_surface);
+    return preparer.prepare(scan);
+  });
+}
+
 }  // namespace
 
 void bindScans(py::module& module) {
@@ -114,8 +138,12 @@ void bindScans(py::module& module) {
              [](const py::buffer& pixels, double pitch_x, double pitch_y, const Configuration& configuration) {
                return heightMapOf(pixels, configuration.scan, pitch_x, pitch_y);
              });
+  py::class_<PreparedScan>(module, "PreparedScan").def_property_readonly("warnings", &warningsOf);
+  module.def("prepare", &prepared);
   module.def("scan_warnings", &scanWarnings, py::call_guard<WithoutLock>());
   module.def("read", &readScan);
+  module.def("scan_state", &stateOf);
+  module.def("settings_file_checksum", &settingsFilesChecksum, py::call_guard<WithoutLock>());
   module.def("channels", &channelsOf);
   module.def("clean", &cleaned);
   module.def("roughness", &roughnessOf);

@@ -7,6 +7,7 @@
 #include "bindings.hpp"
 #include "interruptible.hpp"
 #include "memory.hpp"
+#include "mems_stiction/scan/frame_load.hpp"
 #include "mems_stiction/scan/prepared_scan.hpp"
 #include "mems_stiction/station/contact_cycles.hpp"
 #include "mems_stiction/station/load_sweep.hpp"
@@ -20,30 +21,24 @@ namespace py = pybind11;
 using Sweep = std::shared_ptr<LoadSweepResult>;
 using Cycles = std::shared_ptr<ContactCyclesResult>;
 
-SurfacePair modelSurfaces(const HeightMap& scan, const HeightMap* counter_surface, const Configuration& configuration) {
-  ScanPreparer preparer(configuration);
-  if (counter_surface != nullptr) preparer.setMeasuredCounterSurface(*counter_surface);
-  return preparer.prepare(scan).model_surfaces;
-}
-
-Sweep sweep(const HeightMap& scan, const HeightMap* counter_surface, const Configuration& configuration,
-            const std::vector<double>& voltages, const std::vector<double>& mechanical_loads) {
+Sweep sweep(const PreparedScan& prepared, const Configuration& configuration, const std::vector<double>& voltages,
+            const std::vector<double>& mechanical_loads) {
   return interruptible([&](const std::atomic<bool>& cancel) {
     RunControl control;
     control.cancel = &cancel;
     return std::make_shared<LoadSweepResult>(
-        sweepLoads(configuration.model, modelSurfaces(scan, counter_surface, configuration),
+        sweepLoads(onFrame(configuration.model, configuration.device, prepared.surfaces), prepared.model_surfaces,
                    {voltages, mechanical_loads}, configuration.device, configuration.uncertainty, control));
   });
 }
 
-Cycles cycle(const HeightMap& scan, const HeightMap* counter_surface, const Configuration& configuration, int count) {
+Cycles cycle(const PreparedScan& prepared, const Configuration& configuration, int count) {
   return interruptible([&](const std::atomic<bool>& cancel) {
     RunControl control;
     control.cancel = &cancel;
     return std::make_shared<ContactCyclesResult>(
-        cycleContacts(configuration.model, modelSurfaces(scan, counter_surface, configuration), count,
-                      configuration.device, configuration.uncertainty, control));
+        cycleContacts(onFrame(configuration.model, configuration.device, prepared.surfaces), prepared.model_surfaces,
+                      count, configuration.device, configuration.uncertainty, control));
   });
 }
 
@@ -81,6 +76,7 @@ Records summariesOf(const Sweep& result) {
   fields("highest_releasing_voltage", one.highest_releasing_voltage);
   fields("highest_safe_voltage", one.highest_safe_voltage);
   fields("lowest_sticking_voltage", one.lowest_sticking_voltage);
+  fields("lowest_safe_voltage", one.lowest_safe_voltage);
   fields("opening_voltage", one.opening_voltage);
   return recordsOf(result->summaries, fields.fields, result);
 }

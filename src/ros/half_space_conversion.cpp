@@ -50,6 +50,7 @@ HalfSpaceSolution halfSpaceMessage(const SolvedHalfSpace& solved, const LoadOpti
 
   message.pull_off_force = solved.pull_off_force;
   message.pull_off_uncertainty = solved.pull_off_uncertainty;
+  message.pull_off_force_under_voltage = solved.pull_off_force_under_voltage;
   message.pull_off_height = solved.pull_off_height;
   message.apparent_work_of_adhesion = solved.work_of_adhesion;
   message.adhesion_hysteresis = solved.hysteresis;

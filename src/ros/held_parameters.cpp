@@ -2,9 +2,6 @@
 
 #include <algorithm>
 
-#include <ros/master.h>
-#include <ros/this_node.h>
-
 #include "mems_stiction/ros/topic_names.hpp"
 
 namespace mems_stiction {
@@ -18,16 +15,9 @@ HeldParameters::HeldParameters(const ros::NodeHandle& handle, const ros::NodeHan
   }
 }
 
-bool HeldParameters::putBack() const {
-  return std::all_of(parameters_.begin(), parameters_.end(), [](const auto& parameter) {
-    XmlRpc::XmlRpcValue request;
-    request[0] = ros::this_node::getName();
-    request[1] = parameter.first;
-    request[2] = parameter.second;
-    XmlRpc::XmlRpcValue response;
-    XmlRpc::XmlRpcValue ignored;
-    return ros::master::execute("setParam", request, response, ignored, false);
-  });
+bool HeldParameters::putBack(const MasterCalls& calls) const {
+  return std::all_of(parameters_.begin(), parameters_.end(),
+                     [&calls](const auto& parameter) { return calls.setParameter(parameter.first, parameter.second); });
 }
 
 }  // namespace mems_stiction

@@ -10,7 +10,8 @@
 #include <boost/make_shared.hpp>
 
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/height_map/sentinels.hpp"
+#include "mems_stiction/height_map/scan_sanity.hpp"
+#include "mems_stiction/height_map/unmeasured.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -135,12 +136,12 @@ ReceivedScan receiveScan(const sensor_msgs::ImageConstPtr& image, const ScanOpti
   const HeightEncoding& encoding = checkedEncoding(*image);
   const bool foreign_order = encoding.scalar_size > 1 && (image->is_bigendian != 0) != kThisMachineIsBigEndian;
   if (foreign_order) {
-    return {image->header, withoutSentinels(heightMapFromPixels(swappedPixels(*image, encoding), options)),
-            std::nullopt, identityOf(image->header, nullptr)};
+    return {image->header, measuredPart(heightMapFromPixels(swappedPixels(*image, encoding), options)), std::nullopt,
+            identityOf(image->header, nullptr)};
   }
   const cv_bridge::CvImageConstPtr shown = cv_bridge::toCvShare(image);
   const PixelOwner message(image.get(), [image](const void* /*message*/) {});
-  return {image->header, withoutSentinels(heightMapFromPixels(shown->image, options, message)), std::nullopt,
+  return {image->header, measuredPart(heightMapFromPixels(shown->image, options, message)), std::nullopt,
           identityOf(image->header, nullptr)};
 }
 
@@ -148,6 +149,11 @@ sensor_msgs::ImagePtr heightImage(const cv::Mat& heights, const std_msgs::Header
   cv::Mat narrow;
   heights.convertTo(narrow, CV_32F);
   return cv_bridge::CvImage(header, enc::TYPE_32FC1, narrow).toImageMsg();
+}
+
+sensor_msgs::ImagePtr exactHeightImage(const cv::Mat& heights, const std_msgs::Header& header) {
+  if (isSinglePrecision(heights)) return heightImage(heights, header);
+  return cv_bridge::CvImage(header, enc::TYPE_64FC1, heights).toImageMsg();
 }
 
 sensor_msgs::ImagePtr contactMapImage(const cv::Mat& contact_map, const std_msgs::Header& header) {

@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/height_map/scan_sanity.hpp"
 #include "mems_stiction/prediction/deformed_surfaces.hpp"
 #include "mems_stiction/prediction/force_curve.hpp"
 #include "mems_stiction/scan/plausibility.hpp"
@@ -27,20 +26,6 @@ OutputOptions figuresOnly() {
   return output;
 }
 
-/// The surface less what the contacts before have pressed in; a wear map of another size is that of another surface.
-HeightMap worn(const HeightMap& surface, const cv::Mat& wear) {
-  if (wear.size() != surface.heights().size()) return surface;
-  const HeightMap wide = surface.asDouble();
-  return {cv::Mat(wide.heights() - wear), surface.pitchX(), surface.pitchY()};
-}
-
-/// `wear` and the depth from `before` to `after`; cells that are invalid in either keep what they had.
-cv::Mat deepened(const cv::Mat& wear, const cv::Mat& before, const cv::Mat& after) {
-  cv::Mat depth = before - after;
-  depth.setTo(0.0, depth != depth);  // NaN alone differs from itself
-  return wear.size() == depth.size() ? cv::Mat(wear + depth) : depth;
-}
-
 PartKey keyOf(const ScanOfPart& scan) {
   return {scan.provenance.part_id, scan.provenance.serial_id, scan.pool_settings_hash};
 }
@@ -62,37 +47,34 @@ void LivePredictor::setPoseOf(const ReceivedScan& scan) {
   if (scan.counter_surface_pose) predictor_.preparer().setCounterSurfacePose(*scan.counter_surface_pose);
 }
 
-PreparedScan LivePredictor::prepare(const ReceivedScan& scan, const cv::Mat& wear) {
+PreparedScan LivePredictor::prepare(const ReceivedScan& scan) {
   requireCounterSurface();
   setPoseOf(scan);
-  return predictor_.preparer().prepare(worn(scan.surface, wear));
+  return predictor_.preparer().prepare(scan.surface);
 }
 
 const PreparedScan& LivePredictor::lastPrepared() {
-  if (last_->is_reset) {
-    last_->prepared = prepare(last_->received, last_->wear_before);
-  } else if (last_->has_newer_counter) {
+  if (last_->has_newer_counter) {
     setPoseOf(last_->received);
-    predictor_.preparer().mount(last_->prepared);
+    predictor_.preparer().mount(last_->as_made);
+  }
+  if (last_->has_newer_counter || last_->is_reset) {
+    last_->prepared = predictor_.preparer().worn(last_->as_made, last_->wear_before);
   }
   last_->is_reset = last_->has_newer_counter = false;
   return last_->prepared;
 }
 
 PredictedScan LivePredictor::judged(const PreparedScan& prepared, const Configuration& settings,
-                                    const ScanIdentity& identity, const std::vector<std::string>& warnings) {
+                                    const ScanIdentity& identity, const ScanPredictor::OnModel& on_model) {
   PredictedScan predicted;
   predictor_.setDevice(settings.device);
-  predicted.prediction = predictor_.predict(prepared);
+  predicted.prediction = predictor_.predict(prepared, on_model);
   predicted.verdict = verdictOf(predicted.prediction, settings.device, settings.uncertainty, predictor_.options(),
                                 prepared.surfaces.lower.cellArea());
   predicted.preprocessing = prepared.record;
   predicted.formulation = predictor_.options().formulation;
-  predicted.warnings = warnings;
-  for (std::string& line : settingsWarnings(settings)) predicted.warnings.push_back(std::move(line));
-  for (std::string& line : loadWarnings(predicted.prediction, predictor_.options())) {
-    predicted.warnings.push_back(std::move(line));
-  }
+  predicted.warnings = predictionWarnings(prepared, settings, predicted.prediction, predictor_.options());
   Configuration used = settings;
   used.model = predictor_.options();
   used.counter_surface.pose = predictor_.preparer().counterSurfacePose();  // that of the scan, if it came with one
@@ -124,17 +106,20 @@ PredictedScan LivePredictor::predictScan(const ReceivedScan& scan, const OutputO
   options.output.deformed_surfaces = output.deformed_surfaces || accumulate_deformation_;
   predictor_.setOptions(options);
 
-  const PreparedScan prepared = prepare(scan, wear_);
-  std::vector<std::string> warnings = scanWarnings(scan.surface);
-  PredictedScan predicted = judged(prepared, *settings, scan.identity, warnings);
-  if (accumulate_deformation_) requireDeformedSurfaces(predicted.prediction);
+  PreparedScan as_made = prepare(scan);
+  const PreparedScan prepared = predictor_.preparer().worn(as_made, wear_);
+  Wear wear = wear_;
+  const auto addWear = [&](const Prediction& contact) {
+    requireDeformedSurfaces(contact);
+    wear.add(as_made.model_surfaces, contact.deformed_lower, contact.deformed_upper);
+  };
+  PredictedScan predicted =
+      judged(prepared, *settings, scan.identity, accumulate_deformation_ ? ScanPredictor::OnModel(addWear) : nullptr);
   addToPart(scan, *settings, predicted);
-  last_ = LastScan{
-      scan, prepared, {scan.header, predicted.provenance, predicted.pool_settings_hash}, std::move(warnings), wear_};
-  last_->prepared.preparation_time = 0.0;  // later predictions of this scan do not prepare it
-  if (accumulate_deformation_) {
-    wear_ = deepened(wear_, prepared.surfaces.lower.asDouble().heights(), predicted.prediction.deformed_lower);
-  }
+  as_made.preparation_time = 0.0;  // later predictions of this scan do not prepare it
+  last_ = LastScan{scan, as_made, prepared, {scan.header, predicted.provenance, predicted.pool_settings_hash}, wear_};
+  last_->prepared.preparation_time = 0.0;
+  wear_ = std::move(wear);
   return predicted;
 }
 
@@ -144,7 +129,7 @@ std::optional<PredictedScan> LivePredictor::predictLastScan() {
   Options options = settings->model;
   options.output = figuresOnly();
   predictor_.setOptions(options);
-  return judged(lastPrepared(), *settings, last_->received.identity, last_->warnings);
+  return judged(lastPrepared(), *settings, last_->received.identity);
 }
 
 PredictedScan LivePredictor::predictOnce(const ReceivedScan& scan, double voltage, double mechanical_load) {
@@ -154,11 +139,11 @@ PredictedScan LivePredictor::predictOnce(const ReceivedScan& scan, double voltag
   options.load.voltage = voltage;
   options.load.setMechanicalLoad(mechanical_load);
   predictor_.setOptions(options);  // refuses before the scan is touched
-  return judged(prepare(scan, cv::Mat()), *settings, scan.identity, scanWarnings(scan.surface));
+  return judged(prepare(scan), *settings, scan.identity);
 }
 
 StationCase LivePredictor::stationCase(const ReceivedScan* given) {
-  if (given != nullptr) return {given->header, given->identity, prepare(*given, cv::Mat()), settings_.snapshot()};
+  if (given != nullptr) return {given->header, given->identity, prepare(*given), settings_.snapshot()};
   if (!last_) throw SurfaceError("no scan yet, and none was given");
   return {last_->received.header, last_->received.identity, lastPrepared(), settings_.snapshot()};
 }
@@ -170,9 +155,9 @@ void LivePredictor::setCounterSurface(const ReceivedScan& counter_surface) {
 }
 
 void LivePredictor::resetSurface() {
-  wear_.release();
+  wear_ = Wear();
   if (!last_ || last_->wear_before.empty()) return;
-  last_->wear_before.release();
+  last_->wear_before = Wear();
   last_->is_reset = true;
 }
 

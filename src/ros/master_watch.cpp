@@ -8,6 +8,8 @@
 #include <ros/console.h>
 #include <ros/master.h>
 
+#include "mems_stiction/ros/own_log.hpp"
+
 namespace mems_stiction {
 namespace {
 
@@ -46,6 +48,7 @@ std::shared_ptr<MasterWatch> MasterWatch::ofThisProcess() {
 MasterWatch::MasterWatch() : thread_([this] { loop(); }) {}
 
 MasterWatch::~MasterWatch() {
+  ++calls_.give_up;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     stopping_ = true;
@@ -54,43 +57,85 @@ MasterWatch::~MasterWatch() {
   thread_.join();
 }
 
-void MasterWatch::add(const void* member, Restore restore) {
+void MasterWatch::add(const void* owner, Member member) {
   const std::lock_guard<std::mutex> lock(members_mutex_);
-  members_[member] = std::move(restore);
+  members_[owner] = std::move(member);
 }
 
-void MasterWatch::remove(const void* member) {
-  const std::lock_guard<std::mutex> lock(members_mutex_);
-  members_.erase(member);
+void MasterWatch::remove(const void* owner) {
+  ++calls_.give_up;
+  {
+    const std::lock_guard<std::mutex> lock(members_mutex_);
+    members_.erase(owner);
+  }
+  --calls_.give_up;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  due_.erase(owner);
+}
+
+void MasterWatch::writeSoon(const void* owner) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    due_.insert(owner);
+    is_asked_ = true;
+  }
+  changed_.notify_all();
 }
 
 void MasterWatch::loop() {
-  std::unique_lock<std::mutex> lock(mutex_);
-  do {
-    lock.unlock();
-    look();
-    lock.lock();
-  } while (!changed_.wait_for(lock, kPeriod, [this] { return stopping_; }));
+  auto next_look = std::chrono::steady_clock::now();
+  for (;;) {
+    if (std::chrono::steady_clock::now() >= next_look) {
+      look();
+      next_look = std::chrono::steady_clock::now() + kPeriod;
+    }
+    write();
+    std::unique_lock<std::mutex> lock(mutex_);
+    changed_.wait_until(lock, next_look, [this] { return stopping_ || is_asked_; });
+    if (stopping_) return;
+  }
 }
 
 void MasterWatch::look() {
-  const Registrations::State state = registrations_.look();
-  if (ros::isShuttingDown()) return;
+  const Registrations::State state = registrations_.look(calls_);
+  if (ros::isShuttingDown() || calls_.give_up > 0) return;
   enter(state);
   if (state == Registrations::State::kForgotten) registerAgain();
+}
+
+/// What is due, unless the name is another node's, or nobody is there to take it: then later.
+void MasterWatch::write() {
+  std::set<const void*> due;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    is_asked_ = false;
+    if (state_ != Registrations::State::kKnown) return;
+    due.swap(due_);
+  }
+  for (const void* owner : due) {
+    const std::lock_guard<std::mutex> lock(members_mutex_);
+    const auto member = members_.find(owner);
+    if (member == members_.end()) continue;
+    const bool is_written = member->second.write(calls_);
+    if (!std::exchange(member->second.is_doubtful, !is_written) && is_written) continue;
+    const std::lock_guard<std::mutex> due_lock(mutex_);
+    due_.insert(owner);
+  }
 }
 
 void MasterWatch::registerAgain() {
   {
     const std::lock_guard<std::mutex> lock(members_mutex_);
-    if (!std::all_of(members_.begin(), members_.end(), [](const auto& member) { return member.second(); })) return;
+    if (!std::all_of(members_.begin(), members_.end(),
+                     [this](const auto& member) { return member.second.put_back(calls_); }))
+      return;
   }
-  if (!registrations_.repeat()) return;
+  if (!registrations_.repeat(calls_)) return;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     ++registered_again_;
   }
-  ROS_WARN("registered again, with the settings, loads and counts of before");
+  logSoon(ros::console::levels::Warn, "registered again, with the settings, loads and counts of before");
   enter(Registrations::State::kKnown);
 }
 
@@ -100,7 +145,7 @@ void MasterWatch::enter(Registrations::State state) {
     if (state == Registrations::State::kKnown) last_known_ = ros::SteadyTime::now();
     if (std::exchange(state_, state) == state || state == Registrations::State::kKnown) return;
   }
-  ROS_WARN_STREAM(ros::master::getURI() << ": " << meaningOf(state));
+  logSoon(ros::console::levels::Warn, ros::master::getURI() + ": " + meaningOf(state));
 }
 
 void MasterWatch::report(diagnostic_updater::DiagnosticStatusWrapper& status) const {

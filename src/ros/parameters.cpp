@@ -12,9 +12,12 @@
 #include <yaml-cpp/yaml.h>
 
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/one_line.hpp"
 #include "mems_stiction/base/option_yaml.hpp"
 #include "mems_stiction/base/yaml_trouble.hpp"
+#include "mems_stiction/ros/master_calls.hpp"
 #include "mems_stiction/ros/topic_names.hpp"
+#include "mems_stiction/scan/provenance.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -151,7 +154,7 @@ class ParameterWriter : public OptionVisitor {
  private:
   template <typename Value>
   void set(const std::string& key, const Value& value) {
-    if (std::find(keys_.begin(), keys_.end(), key) != keys_.end()) handle_.setParam(key, value);
+    if (std::find(keys_.begin(), keys_.end(), key) != keys_.end()) setParameterAtStart(handle_.resolveName(key), value);
   }
 
   const ros::NodeHandle& handle_;
@@ -231,6 +234,7 @@ StatedConfiguration statedConfiguration(const YAML::Node& tree) {
   for (const char* section : kFileTexts) {
     if (!tree[section]) continue;
     const FileText file(section, tree[section], violations);
+    stated.files.push_back(file.name);
     for (const std::string& line : readYaml(file.tree, describe)) violations.push_back(file.name + ": " + line);
     for (const std::string& key : keysOf(file.tree)) in_files.insert(key);
   }
@@ -261,14 +265,34 @@ StatedConfiguration statedConfiguration(const YAML::Node& tree) {
 
 NodeConfiguration nodeConfigurationFromYaml(const YAML::Node& tree) { return statedConfiguration(tree).configuration; }
 
+namespace {
+
+/// The node's first line: a launch file's argument that is misspelt, or forgotten, leaves the default in its place.
+void tellSource(const ros::NodeHandle& private_handle, const StatedConfiguration& stated) {
+  std::string files;
+  for (const std::string& file : stated.files) files += (files.empty() ? "" : ", then ") + oneLine(file);
+  ROS_INFO_STREAM("configuration: " << (files.empty() ? "no file, the defaults and parameters under " +
+                                                            private_handle.getNamespace()
+                                                      : files)
+                                    << "; settings " << settingsHash(stated.configuration.core));
+}
+
+}  // namespace
+
 NodeConfiguration readParameters(const ros::NodeHandle& private_handle) {
   XmlRpc::XmlRpcValue tree;
-  if (!private_handle.getParam(private_handle.getNamespace(), tree)) return {};
+  if (!private_handle.getParam(private_handle.getNamespace(), tree)) {
+    tellSource(private_handle, {});
+    return {};
+  }
   if (tree.getType() != XmlRpc::XmlRpcValue::TypeStruct) {
     throw OptionsError({private_handle.getNamespace() + ": a single value is not allowed, must be a map of settings"});
   }
   const StatedConfiguration stated = statedConfiguration(yamlFromParameters(tree));
-  if (!stated.taken.empty()) private_handle.setParam(kTakenParameters, stated.taken);
+  tellSource(private_handle, stated);
+  if (!stated.taken.empty()) {
+    setParameterAtStart(private_handle.resolveName(kTakenParameters), stated.taken);
+  }
   ParameterWriter writer(private_handle, stated.from_files);
   describeConst(stated.configuration, writer);
   if (!stated.overrides.empty()) {

@@ -192,10 +192,11 @@ StictionPrediction predictionMessage(const PredictedScan& scan, const std_msgs::
   message.contact_stiffness = prediction.contact_stiffness;
   message.flattening_energy = prediction.flattening_energy;
   message.flattening_ratio = prediction.flattening_ratio;
-  message.adhesion_exponent = prediction.adhesion_exponent;
-  message.modulus_exponent = prediction.modulus_exponent;
+  message.adhesion_exponent = prediction.pull_off_exponents.adhesion;
+  message.modulus_exponent = prediction.pull_off_exponents.modulus;
   message.is_conforming = static_cast<std::uint8_t>(prediction.is_conforming);
   message.curve = curveMessage(prediction.curve);
+  message.pull_off_contact_count = prediction.pull_off_contact_count;
   return message;
 }
 

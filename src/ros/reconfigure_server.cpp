@@ -7,14 +7,15 @@
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/one_line.hpp"
+#include "mems_stiction/ros/own_log.hpp"
 #include "mems_stiction/ros/reconfigure_conversion.hpp"
 #include "mems_stiction/ros/topic_names.hpp"
 
 namespace mems_stiction {
 namespace {
 
-StictionConfig configOf(const RunningSettings& settings) {
-  StictionConfig config = StictionConfig::__getDefault__();
+ShownConfig configOf(const RunningSettings& settings) {
+  ShownConfig config(StictionConfig::__getDefault__());
   dynamic_reconfigure::Config message = reconfigureMessage(settings);
   config.__fromMessage__(message);
   return config;
@@ -65,26 +66,40 @@ ros::NodeHandle reconfigureHandle(const ros::NodeHandle& private_handle) {
 }  // namespace
 
 ReconfigureServer::ReconfigureServer(const ros::NodeHandle& private_handle, const SettingsOwner& settings,
-                                     Change change)
+                                     Change change, std::function<void()> changed)
     : settings_(settings),
       change_(std::move(change)),
+      changed_(std::move(changed)),
+      mirror_name_(private_handle.resolveName(kReconfigureParameters)),
       lost_(lostSettings(private_handle, settings.current())),
-      server_(
-          std::make_unique<dynamic_reconfigure::Server<StictionConfig>>(mutex_, reconfigureHandle(private_handle))) {
-  if (!lost_.empty()) ROS_WARN_STREAM(lost_);
+      server_(std::make_unique<dynamic_reconfigure::Server<ShownConfig>>(mutex_, reconfigureHandle(private_handle))) {
+  if (!lost_.empty()) logSoon(ros::console::levels::Warn, lost_);
   server_->updateConfig(configOf(settings.current()));
+  setParameterAtStart(mirror_name_, mirror());
   bool is_first = true;  // setCallback() calls at once, with what is set
-  server_->setCallback([this, is_first](StictionConfig& config, std::uint32_t) mutable {
+  server_->setCallback([this, is_first](ShownConfig& config, std::uint32_t) mutable {
     if (!std::exchange(is_first, false)) take(config);
   });
 }
 
 void ReconfigureServer::show() {
   forgetLost();
-  putBack();
+  server_->updateConfig(configOf(settings_.current()));
+  changed_();
 }
 
-void ReconfigureServer::putBack() { server_->updateConfig(configOf(settings_.current())); }
+XmlRpc::XmlRpcValue ReconfigureServer::mirror() const {
+  dynamic_reconfigure::Config shown;
+  configOf(settings_.current()).__toMessage__(shown);
+  XmlRpc::XmlRpcValue mirror;
+  for (const auto& entry : shown.doubles) mirror[entry.name] = entry.value;
+  for (const auto& entry : shown.strs) mirror[entry.name] = entry.value;
+  return mirror;
+}
+
+bool ReconfigureServer::writeMirror(const MasterCalls& calls) const {
+  return calls.setParameter(mirror_name_, mirror());
+}
 
 std::string ReconfigureServer::lost() const {
   const std::lock_guard<std::mutex> lock(lost_mutex_);
@@ -96,7 +111,7 @@ void ReconfigureServer::forgetLost() {
   lost_.clear();
 }
 
-void ReconfigureServer::take(StictionConfig& config) {
+void ReconfigureServer::take(ShownConfig& config) {
   try {
     dynamic_reconfigure::Config message;
     config.__toMessage__(message);
@@ -104,9 +119,11 @@ void ReconfigureServer::take(StictionConfig& config) {
     applyReconfigure(message, changed);
     change_(changed);
     forgetLost();
+    changed_();
   } catch (const OptionsError& error) {
-    for (const std::string& line : error.violations())
-      ROS_WARN_STREAM("reconfigure refused, nothing changed: " << line);
+    for (const std::string& line : error.violations()) {
+      logSoon(ros::console::levels::Warn, "reconfigure refused, nothing changed: " + line);
+    }
     config = configOf(settings_.current());
   } catch (const std::future_error&) {
     config = configOf(settings_.current());  // the node is shutting down

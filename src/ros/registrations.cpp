@@ -11,7 +11,6 @@
 #include <ros/ros.h>
 #include <ros/service_manager.h>
 #include <ros/xmlrpc_manager.h>
-#include <xmlrpcpp/XmlRpcClient.h>
 #include <xmlrpcpp/XmlRpcValue.h>
 
 namespace mems_stiction {
@@ -29,39 +28,6 @@ XmlRpcValue listOf(std::initializer_list<std::string> texts) {
 
 std::string ownAddress() { return ros::XMLRPCManager::instance()->getServerURI(); }
 
-/// The payload of [code, status message, payload] if the code says success.
-bool payloadOf(XmlRpcValue& response, XmlRpcValue& payload) {
-  if (response.getType() != XmlRpcValue::TypeArray || response.size() != 3) return false;
-  if (response[0].getType() != XmlRpcValue::TypeInt || static_cast<int>(response[0]) != 1) return false;
-  payload = response[2];
-  return true;
-}
-
-/// Without waiting for a master that is not there. @return whether it answered at all; `payload` is invalid if it refused
-bool hears(const char* method, const XmlRpcValue& request, XmlRpcValue& payload) {
-  if (ros::isShuttingDown()) return false;
-  payload.clear();
-  XmlRpcValue response;
-  XmlRpcValue ignored;
-  ros::master::execute(method, request, response, ignored, false);
-  payloadOf(response, payload);
-  return response.valid();
-}
-
-bool askMaster(const char* method, const XmlRpcValue& request, XmlRpcValue& payload) {
-  return hears(method, request, payload) && payload.valid();
-}
-
-/// The same for the slave API of this process, which alone lists its topics with their types.
-bool askOurselves(const char* method, const XmlRpcValue& request, XmlRpcValue& payload) {
-  std::string host;
-  std::uint32_t port = 0;
-  if (ros::isShuttingDown() || !ros::network::splitURI(ownAddress(), host, port)) return false;
-  XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port), "/");
-  XmlRpcValue response;
-  return client.execute(method, request, response) && payloadOf(response, payload);
-}
-
 /// What an array holds.
 std::vector<XmlRpcValue> elementsOf(XmlRpcValue& array) {
   std::vector<XmlRpcValue> elements;
@@ -78,10 +44,10 @@ bool contains(XmlRpcValue& names, const std::string& name) {
 }
 
 /// Addresses of those that this process gets messages of the topic from.
-std::vector<std::string> connectedPublishers(const std::string& topic) {
+std::vector<std::string> connectedPublishers(const MasterCalls& calls, const std::string& topic) {
   std::vector<std::string> addresses;
   XmlRpcValue connections;
-  if (!askOurselves("getBusInfo", listOf({ros::this_node::getName()}), connections)) return addresses;
+  if (!calls.askOurselves("getBusInfo", listOf({ros::this_node::getName()}), connections)) return addresses;
   // Each [number, address of the other end, "i" for in, transport, topic, ...].
   for (XmlRpcValue& connection : elementsOf(connections)) {
     const std::string direction = connection[2];
@@ -92,14 +58,14 @@ std::vector<std::string> connectedPublishers(const std::string& topic) {
 
 }  // namespace
 
-Registrations::State Registrations::look() {
+Registrations::State Registrations::look(const MasterCalls& calls) {
   const std::string& name = ros::this_node::getName();
   XmlRpcValue address;
-  if (!hears("lookupNode", listOf({name, name}), address)) return State::kNoMaster;
+  if (!calls.hears("lookupNode", listOf({name, name}), address)) return State::kNoMaster;
   if (!address.valid()) return State::kForgotten;
   if (static_cast<std::string>(address) != ownAddress()) return State::kTaken;
   XmlRpcValue state;
-  if (!askMaster("getSystemState", listOf({name}), state)) return State::kNoMaster;
+  if (!calls.ask("getSystemState", listOf({name}), state)) return State::kNoMaster;
   // Publishers, subscribers, services: each a list of [name, [nodes]].
   std::set<std::string> services;
   for (XmlRpcValue& service : elementsOf(state[2])) {
@@ -111,40 +77,42 @@ Registrations::State Registrations::look() {
   return State::kKnown;
 }
 
-bool Registrations::repeat() { return repeatPublications() && repeatSubscriptions() && repeatServices(); }
+bool Registrations::repeat(const MasterCalls& calls) const {
+  return repeatPublications(calls) && repeatSubscriptions(calls) && repeatServices(calls);
+}
 
-bool Registrations::repeatPublications() const {
+bool Registrations::repeatPublications(const MasterCalls& calls) {
   const std::string& name = ros::this_node::getName();
   XmlRpcValue topics;
-  if (!askOurselves("getPublications", listOf({name}), topics)) return false;
+  if (!calls.askOurselves("getPublications", listOf({name}), topics)) return false;
   for (XmlRpcValue& topic : elementsOf(topics)) {
     XmlRpcValue subscribers;
-    if (!askMaster("registerPublisher", listOf({name, topic[0], topic[1], ownAddress()}), subscribers)) return false;
+    if (!calls.ask("registerPublisher", listOf({name, topic[0], topic[1], ownAddress()}), subscribers)) return false;
   }
   return true;
 }
 
-bool Registrations::repeatSubscriptions() const {
+bool Registrations::repeatSubscriptions(const MasterCalls& calls) {
   const std::string& name = ros::this_node::getName();
   XmlRpcValue topics;
-  if (!askOurselves("getSubscriptions", listOf({name}), topics)) return false;
+  if (!calls.askOurselves("getSubscriptions", listOf({name}), topics)) return false;
   for (XmlRpcValue& topic : elementsOf(topics)) {
     XmlRpcValue publishers;
-    if (!askMaster("registerSubscriber", listOf({name, topic[0], topic[1], ownAddress()}), publishers)) return false;
+    if (!calls.ask("registerSubscriber", listOf({name, topic[0], topic[1], ownAddress()}), publishers)) return false;
     // Publishers that are connected and have not registered anew stay: what is not in the list is disconnected.
-    for (const std::string& publisher : connectedPublishers(topic[0])) {
+    for (const std::string& publisher : connectedPublishers(calls, topic[0])) {
       if (!contains(publishers, publisher)) append(publishers, publisher);
     }
     if (publishers.size() == 0) continue;
     XmlRpcValue update = listOf({name, topic[0]});
     update[2] = publishers;
     XmlRpcValue ignored;
-    if (!askOurselves("publisherUpdate", update, ignored)) return false;
+    if (!calls.askOurselves("publisherUpdate", update, ignored)) return false;
   }
   return true;
 }
 
-bool Registrations::repeatServices() const {
+bool Registrations::repeatServices(const MasterCalls& calls) const {
   const std::string& name = ros::this_node::getName();
   const std::string address =
       "rosrpc://" + ros::network::getHost() + ":" + std::to_string(ros::ConnectionManager::instance()->getTCPPort());
@@ -153,7 +121,7 @@ bool Registrations::repeatServices() const {
   const auto isRegistered = [&](const std::string& service) {
     XmlRpcValue ignored;
     if (!ros::ServiceManager::instance()->lookupServicePublication(service)) return true;  // no longer offered
-    return askMaster("registerService", listOf({name, service, address, ownAddress()}), ignored);
+    return calls.ask("registerService", listOf({name, service, address, ownAddress()}), ignored);
   };
   for (const std::string& service : services_) {
     if (service != last && !isRegistered(service)) return false;

@@ -6,7 +6,8 @@
 #include <iterator>
 
 #include <diagnostic_msgs/DiagnosticStatus.h>
-#include <ros/console.h>
+
+#include "mems_stiction/ros/own_log.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -68,7 +69,7 @@ void ScanAccounting::arrived(const std_msgs::Header& header) {
   Sequence next{header.seq, header.stamp, 0};
   if (chosen != sequences_.end()) {
     counts_.missing_by_sequence -= chosen->missing;
-    const std::uint64_t missing = header.stamp > chosen->stamp ? header.seq - chosen->last - 1 : 0;
+    const std::uint64_t missing = header.stamp >= chosen->stamp ? header.seq - chosen->last - 1 : 0;
     counts_.missing_by_sequence += missing;
     chosen->missing = missing;
     // After a gap the old end stays: the number may be another publisher's.
@@ -130,11 +131,10 @@ void ScanAccounting::warnThrottled(const std::string& kind, const std::string& t
     ++throttle.suppressed;
     return;
   }
-  if (throttle.suppressed > 0) {
-    ROS_WARN_STREAM(text << " (and " << throttle.suppressed << " warnings of this kind since the last one shown)");
-  } else {
-    ROS_WARN_STREAM(text);
-  }
+  logSoon(ros::console::levels::Warn, throttle.suppressed == 0
+                                          ? text
+                                          : text + " (and " + std::to_string(throttle.suppressed) +
+                                                " warnings of this kind since the last one shown)");
   throttle.last_shown = now;
   throttle.suppressed = 0;
 }

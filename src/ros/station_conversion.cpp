@@ -38,6 +38,7 @@ SweepSummary summaryMessage(const LoadSweepSummary& summary) {
   message.highest_releasing_voltage = summary.highest_releasing_voltage;
   message.highest_safe_voltage = summary.highest_safe_voltage;
   message.lowest_sticking_voltage = summary.lowest_sticking_voltage;
+  message.lowest_safe_voltage = summary.lowest_safe_voltage;
   message.opening_voltage = summary.opening_voltage;
   return message;
 }

@@ -9,13 +9,14 @@
 #include "mems_stiction/base/error_text.hpp"
 #include "mems_stiction/base/one_line.hpp"
 #include "mems_stiction/ros/force_curve_picture.hpp"
+#include "mems_stiction/ros/own_log.hpp"
 #include "mems_stiction/ros/scan_folders.hpp"
 #include "mems_stiction/ros/topic_names.hpp"
+#include "mems_stiction/scan/plausibility.hpp"
 
 namespace mems_stiction {
 namespace {
 
-constexpr std::uint32_t kServiceThreads = 2;
 const ros::WallDuration kGatePeriod(0.01);
 constexpr const char* kTooMuchWaits = "what waits holds more than max_waiting_memory";
 
@@ -43,11 +44,13 @@ StictionServer::StictionServer(const ros::NodeHandle& handle, const ros::NodeHan
       options_(configuration.node),
       accounting_(ros::WallDuration(options_.warning_period), ros::WallDuration(options_.diagnostic_period)),
       predictor_(predictorFromFolders(configuration.core, options_.accumulate_deformation)),
-      publisher_(handle_, options_.display, [this] { worker_.push([this] { showLastScan(); }); }),
+      // image_transport's plugins serve dynamic_reconfigure, which talks to the master: not on the topic thread
+      publisher_(withQueue(handle, service_queue_), options_.display,
+                 [this] { worker_.push([this] { showLastScan(); }); }),
       half_space_(!configuration.core.half_space.enabled
                       ? nullptr
                       : std::make_unique<HalfSpaceStream>(
-                            handle_, configuration.core.half_space, half_space_pause_,
+                            withQueue(handle, service_queue_), configuration.core.half_space, half_space_pause_,
                             [this](const auto& header, const auto& text) { accounting_.warn(header, text); },
                             [this](const auto& scan, const auto& verdict) {
                               worker_.push([=] { judgePartAgain(scan, verdict); });
@@ -71,16 +74,17 @@ StictionServer::StictionServer(const ros::NodeHandle& handle, const ros::NodeHan
           [this](const auto& header, const auto& reason) { accounting_.counterSurfaceRejected(header, reason); },
           static_cast<std::size_t>(options_.max_waiting_memory)),
       transport_(handle_),
-      reconfigure_(service_handle_, predictor_.settings(), [this](const auto& settings) { change(settings); }),
+      reconfigure_(
+          service_handle_, predictor_.settings(), [this](const auto& settings) { change(settings); },
+          [this] { master_->writeSoon(this); }),
       actions_(service_handle_, [this](const auto& height, const auto& info) { return findCase(height, info); }),
       half_space_calls_(service_handle_, configuration.core.half_space, half_space_pause_,
                         [this](const auto& height, const auto& info) { return findCase(height, info); }),
-      // not below ~, where it would read ~diagnostic_period anew, whatever was put there
-      diagnostics_(handle_, ros::NodeHandle(private_handle_, "diagnostic_updater"), name),
+      diagnostics_(handle_, name),
       parameters_(handle_, private_handle_),
       master_(MasterWatch::ofThisProcess()),
-      topic_spinner_(1, &topic_queue_),
-      service_spinner_(kServiceThreads, &service_queue_) {
+      topic_spinner_(1, &topic_queue_) {
+  prepareLog();
   advertiseServices();
   subscribe();
   startTimers();
@@ -88,9 +92,10 @@ StictionServer::StictionServer(const ros::NodeHandle& handle, const ros::NodeHan
   worker_.start();
   actions_.start();
   half_space_calls_.start();
-  service_spinner_.start();
+  master_->add(this, {[this](const MasterCalls& calls) { return putParametersBack(calls); },
+                      [this](const MasterCalls& calls) { return reconfigure_.writeMirror(calls); }});
+  service_queue_.start();
   topic_spinner_.start();
-  master_->add(this, [this] { return putParametersBack(); });
 }
 
 StictionServer::~StictionServer() {
@@ -101,10 +106,13 @@ StictionServer::~StictionServer() {
   half_space_calls_.stop();
   worker_.stop();
   if (half_space_) half_space_->stop();
-  service_spinner_.stop();
+  service_queue_.stop();
   topic_spinner_.stop();
   const ScanCounts counts = accounting_.counts();
-  if (counts.waiting() > 0) ROS_INFO_STREAM(counts.waiting() << " scans were still waiting at shutdown");
+  if (counts.waiting() > 0) {
+    logSoon(ros::console::levels::Info, std::to_string(counts.waiting()) + " scans were still waiting at shutdown");
+  }
+  finishLog();
 }
 
 void StictionServer::subscribe() {
@@ -141,12 +149,11 @@ void StictionServer::subscribe() {
 }
 
 void StictionServer::startTimers() {
-  diagnostics_.setHardwareID("none");
-  diagnostics_.add("scans", this, &StictionServer::report);
-  diagnostics_.add("master", [this](diagnostic_updater::DiagnosticStatusWrapper& status) { master_->report(status); });
-  if (half_space_) diagnostics_.add("half_space", half_space_.get(), &HalfSpaceStream::report);
+  diagnostics_.add("scans", [this](auto& status) { report(status); });
+  diagnostics_.add("master", [this](auto& status) { master_->report(status); });
+  if (half_space_) diagnostics_.add("half_space", [this](auto& status) { half_space_->report(status); });
   diagnostic_timer_ = handle_.createWallTimer(ros::WallDuration(options_.diagnostic_period),
-                                              [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
+                                              [this](const ros::WallTimerEvent&) { diagnostics_.publish(); });
   pairing_timer_ = handle_.createWallTimer(ros::WallDuration(0.2 * options_.pairing_timeout), [this](const auto&) {
     scans_.expire(ros::WallTime::now());
     counter_surfaces_.expire(ros::WallTime::now());
@@ -156,11 +163,8 @@ void StictionServer::startTimers() {
   }
 }
 
-bool StictionServer::putParametersBack() {
-  if (!parameters_.putBack()) return false;
-  const boost::recursive_mutex::scoped_lock lock(reconfigure_.mutex());
-  reconfigure_.putBack();
-  return true;
+bool StictionServer::putParametersBack(const MasterCalls& calls) const {
+  return parameters_.putBack(calls) && reconfigure_.writeMirror(calls);
 }
 
 void StictionServer::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
@@ -242,14 +246,16 @@ ReceivedScan StictionServer::receiveByCall(sensor_msgs::Image image, const ScanI
     } catch (const NoTransform&) {
       if (stopping_ || ros::WallTime::now() >= deadline) throw;
     }
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
 }
 
 StationCase StictionServer::findCase(const sensor_msgs::Image& height, const ScanInfo& info) {
   if (height.width == 0) return worker_.call([this] { return predictor_.stationCase(nullptr); });
   const ReceivedScan scan = receiveByCall(height, info);
-  return worker_.call([&] { return predictor_.stationCase(&scan); });
+  StationCase found = worker_.call([&] { return predictor_.stationCase(&scan); });
+  for (const std::string& line : warningsOf(found.scan)) accounting_.warn(found.header, line);
+  return found;
 }
 
 void StictionServer::change(const RunningSettings& settings) {

@@ -50,6 +50,9 @@ std::vector<std::string> Configuration::validate() const {
   if (counter_surface.type == CounterSurfaceType::kFile && counter_surface.file.empty()) {
     violations.emplace_back("counter_surface/file: '' is not allowed with counter_surface/type file; must name a file");
   }
+  if (counter_surface.isMeasured() && counter_surface.facing == CounterSurfaceFacing::kUnstated) {
+    violations.push_back(facingComplaint());
+  }
   return violations;
 }
 

@@ -4,30 +4,49 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <utility>
+
+#include "mems_stiction/scan/breakdown.hpp"
+#include "mems_stiction/scan/idle_settings.hpp"
+#include "mems_stiction/verdict/contact_size.hpp"
 
 namespace mems_stiction {
 namespace {
 
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kSoftestShare =
+    2e-4;  // hardness over modulus: a quarter of that of indium, the softest metal for devices
+constexpr double kSlenderness = 5.0;  // length over thickness of a beam
+
 struct Unit {
   const char* name;
-  double factor;  ///< in SI
+  double factor;       ///< in SI
+  double shift = 1.0;  ///< of them are meant by a stated 1: 40e-6 is 40 um^2 with the prefix of um
 };
 
 /// What is usual: wide enough for every material, device and instrument that we know of.
 struct Usual {
-  double lower, upper;      ///< SI
+  double lower, upper;      ///< of the magnitude, SI
   std::vector<Unit> units;  ///< in which it is often stated, the likeliest first
+
+  bool holds(double value) const { return lower <= std::abs(value) && std::abs(value) <= upper; }
 };
 
 const std::map<std::string, Usual>& usualValues() {
   static const Usual modulus{1e5, 2e12, {{"GPa", 1e9}, {"MPa", 1e6}, {"kPa", 1e3}}};
   static const Usual hardness{1e5, 2e11, {{"GPa", 1e9}, {"MPa", 1e6}, {"kPa", 1e3}}};
   static const Usual atomic{3e-11, 5e-9, {{"nm", 1e-9}, {"Angstrom", 1e-10}, {"pm", 1e-12}}};
-  static const Usual layer{1e-10, 1e-4, {{"nm", 1e-9}, {"um", 1e-6}, {"Angstrom", 1e-10}}};
+  static const Usual layer{3e-10, 1e-4, {{"nm", 1e-9}, {"um", 1e-6}, {"Angstrom", 1e-10}}};
   static const Usual tip{1e-10, 1e-3, {{"nm", 1e-9}, {"um", 1e-6}}};
   static const Usual travel{1e-9, 1e-3, {{"um", 1e-6}, {"nm", 1e-9}, {"mm", 1e-3}}};
-  static const Usual area{1e-16, 1e-3, {{"um^2", 1e-12}, {"mm^2", 1e-6}}};
+  static const std::vector<Unit> areas{{"um^2", 1e-12}, {"um^2", 1e-12, 1e6}, {"mm^2", 1e-6}};
+  static const Usual contact_area{1e-14, 1e-6, areas};
+  static const Usual electrode_area{1e-14, 1e-5, areas};
   static const Usual beam{1e-8, 1e-1, {{"um", 1e-6}, {"mm", 1e-3}, {"nm", 1e-9}}};
+  static const Usual roughness{1e-12, 1e-4, {{"nm", 1e-9}, {"um", 1e-6}, {"Angstrom", 1e-10}}};
+  static const Usual wavelength{1e-10, 1e-2, {{"nm", 1e-9}, {"um", 1e-6}}};
+  static const Usual place{1e-12, 1e-1, {{"um", 1e-6}, {"nm", 1e-9}}};
+  static const std::vector<Unit> degrees{{"degrees", kPi / 180.0}};
   static const std::map<std::string, Usual> values = {
       {"lower/youngs_modulus", modulus},
       {"upper/youngs_modulus", modulus},
@@ -42,17 +61,37 @@ const std::map<std::string, Usual>& usualValues() {
       {"interface/insulator_thickness", layer},
       {"interface/surface_tension", {1e-3, 2.0, {{"mN/m", 1e-3}}}},
       {"interface/molar_volume", {1e-6, 1e-3, {{"cm^3/mol", 1e-6}}}},
+      {"device/spring_stiffness", {1e-5, 1e5, {{"mN/m", 1e-3}}}},
       {"device/travel", travel},
       {"device/electrode_gap", travel},
-      {"device/contact_area", area},
-      {"device/electrode_area", area},
+      {"device/contact_area", contact_area},
+      {"device/electrode_area", electrode_area},
       {"device/beam_length", beam},
       {"device/beam_thickness", beam},
       {"device/beam_gap", travel},
+      {"device/beam_residual_stress", {1e3, 2e10, {{"MPa", 1e6}, {"GPa", 1e9}}}},
       {"approach/step", {1e-14, 1e-7, {{"nm", 1e-9}, {"pm", 1e-12}}}},
+      {"counter_surface/gaussian/rms_height", roughness},
+      {"counter_surface/gaussian/correlation_length_x", wavelength},
+      {"counter_surface/gaussian/correlation_length_y", wavelength},
+      {"counter_surface/self_affine/rms_height", roughness},
+      {"counter_surface/self_affine/rolloff_wavelength", wavelength},
+      {"counter_surface/self_affine/cutoff_wavelength", wavelength},
+      {"counter_surface/pose/offset_x", place},
+      {"counter_surface/pose/offset_y", place},
+      {"counter_surface/pose/rotation", {0.0, 2.0 * kPi, degrees}},
+      {"counter_surface/pose/tilt_x", {0.0, 0.3, degrees}},
+      {"counter_surface/pose/tilt_y", {0.0, 0.3, degrees}},
+      {"half_space/range", atomic},
+      {"output/hurst_shortest_wavelength", wavelength},
+      {"output/hurst_longest_wavelength", wavelength},
       {"resolution/tip_radius", tip},
       {"preprocessing/tip/radius", tip},
       {"preprocessing/low_pass/cutoff_wavelength", tip},
+      {"preprocessing/region/left", place},
+      {"preprocessing/region/top", place},
+      {"preprocessing/region/width", place},
+      {"preprocessing/region/height", place},
   };
   return values;
 }
@@ -80,13 +119,14 @@ class PlausibilityCheck : public OptionVisitor {
     const auto found = usualValues().find(key);
     if (found == usualValues().end() || value == 0.0) return;
     const Usual& usual = found->second;
-    if (usual.lower <= value && value <= usual.upper) return;
+    if (usual.holds(value)) return;
     std::string line = key + " " + rounded(value) + " " + unit + " is outside the usual " + rounded(usual.lower) +
                        " to " + rounded(usual.upper) + " " + unit + ": ";
     for (const Unit& meant : usual.units) {
-      const double in_si = value * meant.factor;
-      if (usual.lower <= in_si && in_si <= usual.upper) {
-        lines_.push_back(line + "probably " + rounded(value) + " " + meant.name + "; write " + rounded(in_si));
+      const double number = value * meant.shift;
+      const double in_si = number * meant.factor;
+      if (usual.holds(in_si)) {
+        lines_.push_back(line + "probably " + rounded(number) + " " + meant.name + "; write " + rounded(in_si));
         return;
       }
     }
@@ -103,21 +143,66 @@ class PlausibilityCheck : public OptionVisitor {
   std::vector<std::string> lines_;
 };
 
+/// What settings say of each other.
+void addContradictions(const Configuration& configuration, std::vector<std::string>& lines) {
+  const auto checkBody = [&lines](const std::string& body, const Material& material) {
+    const bool is_named = !usualValues().at(body + "/hardness").holds(material.hardness);
+    if (is_named || material.hardness >= kSoftestShare * material.youngs_modulus) return;
+    lines.push_back(body + "/hardness " + rounded(material.hardness) + " Pa beside " + body + "/youngs_modulus " +
+                    rounded(material.youngs_modulus) + " Pa is softer than any solid (" + rounded(kSoftestShare) +
+                    " of its modulus): are both units right?");
+  };
+  checkBody("lower", configuration.model.lower);
+  checkBody("upper", configuration.model.upper);
+  const DeviceOptions& device = configuration.device;
+  if (device.hasBeam() && device.beam_length < kSlenderness * device.beam_thickness) {
+    lines.push_back("device/beam_length " + rounded(device.beam_length) + " m beside device/beam_thickness " +
+                    rounded(device.beam_thickness) + " m is no beam (at least " + rounded(kSlenderness) +
+                    " times as long as thick): were they swapped?");
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> settingsWarnings(const Configuration& configuration) {
   PlausibilityCheck check;
   describeConst(configuration, check);
-  return check.lines();
+  std::vector<std::string> lines = check.lines();
+  addContradictions(configuration, lines);
+  for (std::string& line : idleSettings(configuration)) lines.push_back(std::move(line));
+  return lines;
 }
 
-std::vector<std::string> loadWarnings(const Prediction& prediction, const Options& options) {
+std::vector<std::string> frameWarnings(const Prediction& prediction, const Options& options,
+                                       const DeviceOptions& device) {
+  std::vector<std::string> lines;
   const double pressure = prediction.mechanical_load / prediction.nominal_area;
   const double hardness = std::min(options.lower.hardness, options.upper.hardness);
-  if (!(pressure > hardness)) return {};
-  return {"the mechanical load of " + rounded(prediction.mechanical_load) + " N is " + rounded(pressure) +
-          " Pa on this frame and more than the hardness of " + rounded(hardness) +
-          " Pa: it is the load on the scanned area; load/device_force is that on the device"};
+  if (pressure > hardness) {
+    lines.push_back("the mechanical load of " + rounded(prediction.mechanical_load) + " N is " + rounded(pressure) +
+                    " Pa on this frame and more than the hardness of " + rounded(hardness) +
+                    " Pa: it is the load on the scanned area; load/device_force is that on the device");
+  }
+  for (std::string& line : breakdownWarnings(options, device, prediction.mean_gap)) lines.push_back(std::move(line));
+  std::string objection = contactSizeObjection(prediction, device);
+  if (!objection.empty()) lines.push_back(std::move(objection));
+  return lines;
+}
+
+std::vector<std::string> warningsOf(const PreparedScan& prepared) {
+  std::vector<std::string> lines = prepared.warnings;
+  lines.insert(lines.end(), prepared.counter_warnings.begin(), prepared.counter_warnings.end());
+  return lines;
+}
+
+std::vector<std::string> predictionWarnings(const PreparedScan& prepared, const Configuration& configuration,
+                                            const Prediction& prediction, const Options& options) {
+  std::vector<std::string> lines = warningsOf(prepared);
+  for (const std::vector<std::string>& more :
+       {settingsWarnings(configuration), frameWarnings(prediction, options, configuration.device)}) {
+    lines.insert(lines.end(), more.begin(), more.end());
+  }
+  return lines;
 }
 
 }  // namespace mems_stiction

@@ -1,10 +1,15 @@
 #include "mems_stiction/scan/prepared_scan.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
+#include <opencv2/imgproc.hpp>
+
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/short_number.hpp"
 #include "mems_stiction/base/time_limit.hpp"
+#include "mems_stiction/height_map/scan_sanity.hpp"
 #include "mems_stiction/preprocess/refine.hpp"
 
 namespace mems_stiction {
@@ -32,7 +37,52 @@ PipelineOptions refinementAlone(const PipelineOptions& options) {
   return alone;
 }
 
+/// Means over blocks of factor x factor cells.
+cv::Mat blockMeans(const cv::Mat& cells, int factor) {
+  cv::Mat means;
+  cv::resize(cells, means, cells.size() / factor, 0.0, 0.0, cv::INTER_AREA);
+  return means;
+}
+
+/// A refusal ends with what looks wrong in the scan, most likely its cause: lines that a stopped scan did not reach.
+CleanedScan cleanedOrWhyNot(ScanCleaner& cleaner, const HeightMap& scan) {
+  try {
+    return cleaner.clean(scan);
+  } catch (const TimeLimitError&) {
+    throw;
+  } catch (const SurfaceError& error) {
+    std::string reason = error.what();
+    for (const std::string& line : scanWarnings(scan)) reason += "; " + line;
+    throw SurfaceError(reason);
+  }
+}
+
+/// A filter that is longer than the scan leaves nothing.
+void addSmoothing(const HeightMap& scan, double cutoff_wavelength, std::vector<std::string>& warnings) {
+  const double width = std::max(scan.cols() * scan.pitchX(), scan.rows() * scan.pitchY());
+  if (cutoff_wavelength < width) return;
+  warnings.push_back("preprocessing/low_pass/cutoff_wavelength " + shortNumber(cutoff_wavelength) +
+                     " m is longer than the scan's width of " + shortNumber(width) +
+                     " m: it leaves no roughness and such a surface bonds");
+}
+
 }  // namespace
+
+SurfacePair onScanGrid(const PreparedScan& prepared, const SurfacePair& after) {
+  const int factor = prepared.refinement;
+  const HeightMap& grid = prepared.surfaces.lower;
+  const auto onGrid = [&](const HeightMap& scan, const HeightMap& before, const HeightMap& now) -> HeightMap {
+    if (now.empty()) return {};
+    const cv::Mat heights = now.asDouble().heights();
+    if (before.empty()) return {blockMeans(heights, factor), grid.pitchX(), grid.pitchY()};
+    const cv::Mat depth = before.asDouble().heights() - heights;
+    const cv::Mat brought = scan.asDouble().heights() - blockMeans(depth, factor);
+    return {brought, grid.pitchX(), grid.pitchY()};
+  };
+  const SurfacePair& scan = prepared.surfaces;
+  const SurfacePair& before = prepared.model_surfaces;
+  return {onGrid(scan.lower, before.lower, after.lower), onGrid(scan.upper, before.upper, after.upper)};
+}
 
 ScanPreparer::ScanPreparer(const Configuration& configuration)
     : cleaner_(withoutRefinement(checked(configuration).preprocessing)),
@@ -72,19 +122,35 @@ PreparedScan ScanPreparer::prepare(const HeightMap& scan) {
   limits_.checkSize(scan, refinement_.refine.factor);
   const TimeLimit limit(limits_.longestTime(), ScanLimits::kMaxTime);
   ++scans_cleaned_;
-  CleanedScan cleaned = cleaner_.clean(scan);
+  CleanedScan cleaned = cleanedOrWhyNot(cleaner_, scan);
   cleaner_.letGo();
   PreparedScan prepared = ready({cleaned.surface, counter_surface_.over(cleaned.surface)});
   PreprocessRecord& record = cleaned.record;
   record.steps.insert(record.steps.end(), prepared.record.steps.begin(), prepared.record.steps.end());
   prepared.record = std::move(record);
+  prepared.warnings = scanWarnings(scan);
+  addSmoothing(scan, cleaner_.options().low_pass.cutoff_wavelength, prepared.warnings);
+  prepared.counter_warnings = counter_surface_.warnings(cleaned.surface);
   prepared.outside = cleaned.outside;
   TimeLimit::check();
+  addRoughness(prepared);
+  prepared.preparation_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return prepared;
+}
+
+void ScanPreparer::addRoughness(PreparedScan& prepared) const {
   if (with_roughness_) prepared.roughness = arealParameters(prepared.model_surfaces.lower);
   if (spatial_roughness_.enabled) {
     prepared.spatial_roughness = spatialRoughness(prepared.surfaces.lower, spatial_roughness_);
   }
-  prepared.preparation_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+PreparedScan ScanPreparer::worn(const PreparedScan& as_made, const Wear& wear) const {
+  if (wear.empty()) return as_made;
+  PreparedScan prepared = as_made;
+  prepared.model_surfaces = wear.on(as_made.model_surfaces);
+  prepared.surfaces = as_made.refinement > 1 ? onScanGrid(as_made, prepared.model_surfaces) : prepared.model_surfaces;
+  addRoughness(prepared);
   return prepared;
 }
 
@@ -92,6 +158,7 @@ void ScanPreparer::mount(PreparedScan& prepared) {
   const HeightMap upper = counter_surface_.over(prepared.surfaces.lower);
   prepared.model_surfaces.upper = refinedUpper(upper);
   prepared.surfaces.upper = upper;
+  prepared.counter_warnings = counter_surface_.warnings(prepared.surfaces.lower);
 }
 
 }  // namespace mems_stiction

@@ -172,6 +172,11 @@ std::string yamlRecord(const std::string& file, const HeightMap& scan, const Pre
   visitRoughnessFields(prediction.roughness, fields);
   if (isComputed(prediction.spatial_roughness)) visitSpatialRoughnessFields(prediction.spatial_roughness, fields);
   emitter << YAML::EndMap;
+  if (!extras.warnings.empty()) {
+    emitter << YAML::Key << "warnings" << YAML::Value << YAML::BeginSeq;
+    for (const std::string& warning : extras.warnings) emitter << YAML::DoubleQuoted << warning;
+    emitter << YAML::EndSeq;
+  }
   addYamlList(emitter, "preprocessing", extras.preprocessing.steps, kVisitStep);
   if (hasTipStep(extras.preprocessing)) {
     fields("tip_unreached_fraction", extras.preprocessing.tip_unreached_fraction, "");

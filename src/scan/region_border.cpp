@@ -19,13 +19,15 @@ void countRegionAlone(const PreparedScan& prepared, Prediction& prediction) {
   cv::Mat distance;
   cv::distanceTransform(prepared.outside == 0, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
   const double pitch = std::max(scan.pitchX(), scan.pitchY());
-  for (Asperity& asperity : prediction.asperities) {
+  const auto mark = [&](Asperity& asperity) {
     const int col = std::clamp(static_cast<int>(std::lround(asperity.x / scan.pitchX())), 0, scan.cols() - 1);
     const int row = std::clamp(static_cast<int>(std::lround(asperity.y / scan.pitchY())), 0, scan.rows() - 1);
     const double radius = std::sqrt(asperity.area / kPi);
     // A contact ends half a pixel before the middle of the first one outside.
     if ((static_cast<double>(distance.at<float>(row, col)) - 1.0) * pitch <= radius) asperity.is_at_border = true;
-  }
+  };
+  std::for_each(prediction.asperities.begin(), prediction.asperities.end(), mark);
+  std::for_each(prediction.pull_off_contacts.begin(), prediction.pull_off_contacts.end(), mark);
 }
 
 }  // namespace mems_stiction

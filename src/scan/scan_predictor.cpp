@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include <opencv2/imgproc.hpp>
-
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/time_limit.hpp"
 #include "mems_stiction/scan/block_maxima.hpp"
@@ -30,13 +28,6 @@ Options withoutFrameLoad(Options options) {
   return options;
 }
 
-/// Means over blocks of factor x factor cells.
-cv::Mat blockMeans(const cv::Mat& cells, int factor) {
-  cv::Mat means;
-  cv::resize(cells, means, cells.size() / factor, 0.0, 0.0, cv::INTER_AREA);
-  return means;
-}
-
 HeightMap cropped(const HeightMap& surface, int multiple) {
   if (surface.empty()) return surface;
   const cv::Rect frame(0, 0, surface.cols() / multiple * multiple, surface.rows() / multiple * multiple);
@@ -46,23 +37,21 @@ HeightMap cropped(const HeightMap& surface, int multiple) {
 /// What the model says of finer surfaces, said of the pixels of the scan.
 void bringToScan(const PreparedScan& prepared, Prediction& prediction) {
   const int factor = prepared.refinement;
-  const SurfacePair& scan = prepared.surfaces;
-  const SurfacePair& fine = prepared.model_surfaces;
+  const HeightMap& fine = prepared.model_surfaces.lower;
   prediction.median_contact_pixels /= factor * factor;
-  for (Asperity& asperity : prediction.asperities) {  // from the middle of the first fine pixel to that of the scan's
-    asperity.x -= 0.5 * (factor - 1) * fine.lower.pitchX();
-    asperity.y -= 0.5 * (factor - 1) * fine.lower.pitchY();
+  for (auto* const contacts : {&prediction.asperities, &prediction.pull_off_contacts}) {
+    for (Asperity& contact : *contacts) {  // from the middle of the first fine pixel to that of the scan's
+      contact.x -= 0.5 * (factor - 1) * fine.pitchX();
+      contact.y -= 0.5 * (factor - 1) * fine.pitchY();
+    }
   }
   if (!prediction.contact_map.empty()) prediction.contact_map = blockMaxima(prediction.contact_map, factor);
   if (!prediction.deformed_lower.empty()) {
-    const cv::Mat depth = fine.lower.asDouble().heights() - prediction.deformed_lower;
-    prediction.deformed_lower = scan.lower.asDouble().heights() - blockMeans(depth, factor);
-    if (scan.upperIsPlane()) {
-      prediction.deformed_upper = blockMeans(prediction.deformed_upper, factor);
-    } else {
-      const cv::Mat lift = prediction.deformed_upper - fine.upper.asDouble().heights();
-      prediction.deformed_upper = scan.upper.asDouble().heights() + blockMeans(lift, factor);
-    }
+    const SurfacePair after =
+        onScanGrid(prepared, {HeightMap(prediction.deformed_lower, fine.pitchX(), fine.pitchY()),
+                              HeightMap(prediction.deformed_upper, fine.pitchX(), fine.pitchY())});
+    prediction.deformed_lower = after.lower.heights();
+    prediction.deformed_upper = after.upper.heights();
   }
 }
 
@@ -92,10 +81,12 @@ void ScanPredictor::setFrame(const PreparedScan& prepared) {
   if (options_.load.isPerArea()) model_.setOptions(onFrame(options_, device_, prepared.surfaces));
 }
 
-Prediction ScanPredictor::predict(const PreparedScan& prepared) {
+Prediction ScanPredictor::predict(const PreparedScan& prepared, const OnModel& on_model) {
   const TimeLimit limit(limits_.longestTime(), ScanLimits::kMaxTime, prepared.preparation_time);
   setFrame(prepared);
-  return finished(prepared, model_.predict(prepared.model_surfaces));
+  Prediction prediction = model_.predict(prepared.model_surfaces);
+  if (on_model) on_model(prediction);
+  return finished(prepared, std::move(prediction));
 }
 
 Prediction ScanPredictor::predictAgain(const PreparedScan& prepared) {

@@ -53,8 +53,10 @@ OpenValleyStrength strengthWithOpenValleys(const BondedBodies& bodies) {
   const double wave_number = bodies.waveNumber();
   const double brittle = std::sqrt(bodies.contact_modulus * bodies.work_of_adhesion * wave_number);
   const double cohesion = 1.0 + kCohesion * bodies.cohesiveLength() * wave_number;
-  // of sqrt(Gamma U) exp(-2 U/Gamma), U in proportion to the modulus
-  return {kGriffith * std::exp(-kDecay * ratio) * brittle / cohesion, 0.5 + kDecay * ratio, 0.5 - kDecay * ratio};
+  // of sqrt(Gamma U) exp(-2 U/Gamma) with U in proportion to E, over 1 + 0.56 l q with l in proportion to E H/Gamma^2
+  const double blunt = 1.0 - 1.0 / cohesion;
+  return {kGriffith * std::exp(-kDecay * ratio) * brittle / cohesion,
+          {0.5 + kDecay * ratio + 2.0 * blunt, 0.5 - kDecay * ratio - blunt, -blunt}};
 }
 
 }  // namespace mems_stiction

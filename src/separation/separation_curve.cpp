@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace mems_stiction {
 namespace {
@@ -27,8 +28,7 @@ void takeMaximum(const std::vector<SeparationState>& states, SeparationCurve& cu
   }
   curve.pull_off_force = std::max(0.0, states[best].partingForce());
   curve.pull_off_approach = states[best].approach;
-  curve.pull_off_adhesion = states[best].adhesion;
-  curve.pull_off_carried = states[best].carried;
+  curve.strongest = best;
   if (best == 0 || best + 1 == states.size() || !(curve.pull_off_force > 0.0)) return;
   const SeparationState& before = states[best - 1];
   const SeparationState& after = states[best + 1];
@@ -52,9 +52,9 @@ double positivePart(double from, double to, double length) {
 }
 
 /// Integrals along the states; the part before the first one by its energies.
-void takeWork(const Attraction& at_first, SeparationCurve& curve) {
+void takeWork(double work_apart, SeparationCurve& curve) {
   curve.elastic_energy = 0.0;
-  curve.work = at_first.adhesion_energy;
+  curve.work = curve.work_apart = work_apart;
   for (std::size_t i = 1; i < curve.states.size(); ++i) {
     const SeparationState& from = curve.states[i - 1];
     const SeparationState& to = curve.states[i];
@@ -62,6 +62,14 @@ void takeWork(const Attraction& at_first, SeparationCurve& curve) {
     curve.elastic_energy += 0.5 * (from.carried + to.carried) * length;
     curve.work += positivePart(from.partingForce(), to.partingForce(), length);
   }
+}
+
+/// Of a figure with its parts: attraction, what of it goes with ln(Hamaker constant), and load of the patches. The law's
+/// range goes with sqrt(H/Gamma), so that at a given H Gamma moves the attraction by the rest.
+Exponents exponentsOf(double figure, double adhesion, double hamaker_exponent, double carried) {
+  if (!(figure > 0.0)) return {};
+  const double by_hamaker = adhesion * hamaker_exponent;
+  return {(adhesion - by_hamaker) / figure, -carried / figure, by_hamaker / figure};
 }
 
 double nextApproach(double approach, double range) {
@@ -110,14 +118,40 @@ void settle(SeparationTrace& trace, double load, SeparationCurve& curve) {
   }
 }
 
+/// Largest rise after a fall, going from a state on [N].
+template <typename Iterator>
+double riseAfterFall(Iterator state, Iterator end) {
+  double lowest = state->partingForce();
+  double rise = 0.0;
+  for (; state != end; ++state) {
+    lowest = std::min(lowest, state->partingForce());
+    rise = std::max(rise, state->partingForce() - lowest);
+  }
+  return rise;
+}
+
 }  // namespace
+
+std::vector<SeparationState>::const_iterator SeparationCurve::firstPushing() const {
+  return std::find_if(states.begin(), states.end(), [](const auto& state) { return state.partingForce() < 0.0; });
+}
+
+double joiningRise(const SeparationCurve& curve) {
+  const auto end = curve.firstPushing();
+  const auto largest = std::max_element(curve.states.begin(), end, [](const auto& one, const auto& other) {
+    return one.partingForce() < other.partingForce();
+  });
+  if (largest == end || !(largest->partingForce() > 0.0)) return 0.0;
+  const double outwards = riseAfterFall(std::make_reverse_iterator(largest + 1), curve.states.rend());
+  return std::max(riseAfterFall(largest, end), outwards) / largest->partingForce();
+}
 
 void followCurve(SeparationTrace& trace, const ContactSettings& settings, SeparationCurve& curve) {
   const double range = trace.law().range();
   const double load = settings.load.mechanical_load;
   curve.states.clear();
   for (const double apart : kApart) curve.states.push_back(trace.at(apart * range));
-  const Attraction at_first = trace.energiesAt(curve.states.front());
+  const double work_apart = trace.energyAt(curve.states.front());
   curve.status = Status::kNoEquilibrium;
   int steps = 0;
   while (steps++ < settings.approach.max_steps) {
@@ -136,7 +170,7 @@ void followCurve(SeparationTrace& trace, const ContactSettings& settings, Separa
   }
   if (curve.status == Status::kEquilibrium) settle(trace, load, curve);
   takeMaximum(curve.states, curve);
-  takeWork(at_first, curve);
+  takeWork(work_apart, curve);
 }
 
 void followCurveUpTo(SeparationTrace& trace, double first_touch, double rest, SeparationCurve& curve) {
@@ -147,7 +181,7 @@ void followCurveUpTo(SeparationTrace& trace, double first_touch, double rest, Se
     if (approach < rest) curve.states.push_back(trace.at(approach));
   }
   if (curve.states.empty()) curve.states.push_back(trace.at(rest));
-  const Attraction at_first = trace.energiesAt(curve.states.front());
+  const double work_apart = trace.energyAt(curve.states.front());
   double pushing_step = 0.0;
   while (curve.states.back().approach < rest) {
     const SeparationState& last = curve.states.back();
@@ -158,7 +192,27 @@ void followCurveUpTo(SeparationTrace& trace, double first_touch, double rest, Se
     curve.states.push_back(trace.at(std::min(std::max(step_end, last.approach + pushing_step), rest)));
   }
   takeMaximum(curve.states, curve);
-  takeWork(at_first, curve);
+  takeWork(work_apart, curve);
+}
+
+CurveExponents exponentsOf(SeparationTrace& trace, const SeparationCurve& curve) {
+  // force and work are stationary in the displacements where they are taken: their parts there tell how they change
+  const SeparationState& strongest = curve.states[curve.strongest];
+  double adhesion = curve.work_apart;
+  double carried = 0.0;
+  const SeparationState* last = &curve.states.front();
+  for (std::size_t i = 1; i < curve.states.size(); ++i) {
+    const SeparationState& from = curve.states[i - 1];
+    const SeparationState& to = curve.states[i];
+    if (!(from.partingForce() + to.partingForce() > 0.0)) continue;  // a step that pushes more than it pulls
+    const double length = to.approach - from.approach;
+    adhesion += 0.5 * (from.adhesion + to.adhesion) * length;
+    carried += 0.5 * (from.carried + to.carried) * length;
+    last = &to;
+  }
+  return {
+      exponentsOf(curve.pull_off_force, strongest.adhesion, trace.hamakerExponentOfForce(strongest), strongest.carried),
+      exponentsOf(curve.work, adhesion, trace.hamakerExponentOfEnergy(*last), carried)};
 }
 
 }  // namespace mems_stiction

@@ -75,11 +75,10 @@ double stiffnessAtRest(const std::vector<SeparationState>& states, double range)
   return ContactSolution::kUnknown;
 }
 
-/// At its maximum the force is stationary in the displacement, so it changes with a constant as its parts do there.
-void takeExponents(const SeparationCurve& curve, ContactSolution& solution) {
-  if (!(curve.pull_off_force > 0.0)) return;
-  solution.adhesion_exponent = curve.pull_off_adhesion / curve.pull_off_force;
-  solution.modulus_exponent = -curve.pull_off_carried / curve.pull_off_force;
+void takeExponents(SeparationTrace& trace, const SeparationCurve& curve, ContactSolution& solution) {
+  const CurveExponents exponents = exponentsOf(trace, curve);
+  solution.pull_off_exponents = exponents.pull_off;
+  solution.work_exponents = exponents.work;
 }
 
 bool isWayOut(const SeparationCurvePoint& point) { return point.is_separation; }
@@ -100,13 +99,15 @@ void SeparationSolver::solve(const ContactProblem& problem, ContactSolution& sol
   solution.steps = static_cast<int>(curve_.states.size());
   solution.pull_off_force = curve_.pull_off_force;
   solution.apparent_work_of_adhesion = curve_.work / (problem.gap.validCount() * problem.gap.cellArea());
-  takeExponents(curve_, solution);
   takeRest(problem, solution);
   listContacts(problem, solution);
   fillMaps(problem, solution);
   part(problem, solution);
   solution.flattening_energy = flattening_.of(problem.gap, trace_.patchForces().contactModulus());
+  solution.joining_rise = joiningRise(curve_);
+  solution.is_bonded_by_load = curve_.status == Status::kBonded && curve_.firstPushing() != curve_.states.end();
   partConforming(problem, solution);
+  listPullOffContacts(problem, solution);
   const double area = problem.gap.validCount() * problem.gap.cellArea();
   solution.contact_area = std::min(solution.contact_area, area);  // a sum over all cells may be larger by rounding
   solution.contact_fraction = solution.contact_area / area;
@@ -121,7 +122,7 @@ void SeparationSolver::takeRest(const ContactProblem& problem, ContactSolution& 
   solution.load.mechanical = problem.settings.load.mechanical_load;
   solution.load.capillary = rest.capillary;
   solution.energies.elastic = curve_.elastic_energy;
-  solution.energies.surface = trace_.energiesAt(rest).adhesion_energy;
+  solution.energies.surface = trace_.energyAt(rest);
   solution.contact_stiffness = stiffnessAtRest(curve_.states, trace_.law().range());
 
   const OverlapSweep& sweep = trace_.contacts();
@@ -252,27 +253,33 @@ void SeparationSolver::fillMaps(const ContactProblem& problem, ContactSolution& 
 
 void SeparationSolver::part(const ContactProblem& problem, ContactSolution& solution) {
   const double rest = curve_.rest().approach;
+  has_way_out_ = has_flowed_ || trace_.holdsOn();
+  regime_of_dale_.clear();
   if (has_flowed_) {
     double first_touch = rest;
     changed_gaps_.resize(static_cast<std::size_t>(curve_.rest().contact_count));
     for (std::size_t i = 0; i < changed_gaps_.size(); ++i) {
       const OrderedCell& ordered = trace_.orderedCells()[i];
-      const KeptOverlap& kept = contactOf(trace_.contacts().patchOf(ordered)).kept;
-      changed_gaps_[i] = rest - kept.of(rest - ordered.gap);
+      const Contact& contact = contactOf(trace_.contacts().patchOf(ordered));
+      changed_gaps_[i] = rest - contact.kept.of(rest - ordered.gap);
+      const auto dale = static_cast<std::size_t>(ordered.tag.dale());
+      if (dale >= regime_of_dale_.size()) regime_of_dale_.resize(dale + 1, Regime::kElastic);
+      regime_of_dale_[dale] = contact.regime;
       first_touch = std::min(first_touch, changed_gaps_[i]);
     }
     trace_.changeGaps(rest, changed_gaps_);
     followCurveUpTo(trace_, first_touch, rest, way_out_);
-  } else if (trace_.holdsOn()) {
+  } else if (has_way_out_) {
     trace_.startParting(rest);
     followCurveUpTo(trace_, 0.0, rest, way_out_);
   } else {
+    takeExponents(trace_, curve_, solution);
     return;
   }
   dropWayOut(solution.curve);
   appendCurve(way_out_, true, solution.curve);
   solution.pull_off_force = way_out_.pull_off_force;
-  takeExponents(way_out_, solution);
+  takeExponents(trace_, way_out_, solution);
   solution.apparent_work_of_adhesion = way_out_.work / (problem.gap.validCount() * problem.gap.cellArea());
 }
 
@@ -296,7 +303,7 @@ void SeparationSolver::partConforming(const ContactProblem& problem, ContactSolu
       const double gain = conforming_.openStrength().traction * area / solution.pull_off_force;
       if (!(gain > 1.0)) return;
       stretchWayOut(problem, gain, std::sqrt(gain), solution);
-      takeOpenExponents(solution);
+      solution.pull_off_exponents = conforming_.openStrength().exponents;
     } else if (holds_together) {
       const double strength = conforming_.closedStrength(pressure);
       stretchWayOut(problem, strength * area / solution.pull_off_force, 1.0, solution);
@@ -304,9 +311,42 @@ void SeparationSolver::partConforming(const ContactProblem& problem, ContactSolu
   }
 }
 
+void SeparationSolver::listPullOffContacts(const ContactProblem& problem, ContactSolution& solution) {
+  if (!(solution.pull_off_force > 0.0)) return;
+  const GapField& field = problem.gap;
+  const ContactSettings& settings = problem.settings;
+  const double modulus = trace_.patchForces().contactModulus();
+  trace_.restart();
+  trace_.at((has_way_out_ ? way_out_ : curve_).pull_off_approach);
+  const OverlapSweep& reached = trace_.inReach();
+  std::vector<Asperity>& contacts = solution.pull_off_contacts;
+  for (const OverlapPatch& patch : reached.patches()) {
+    const GridCell cell = field.cellAt(patch.first_cell);
+    Asperity contact;
+    contact.x = cell.col * field.pitchX();
+    contact.y = cell.row * field.pitchY();
+    contact.area = patch.cells * field.cellArea();
+    contact.composite_radius = patch.radius(reached.approach(), field.cellArea());
+    contact.tabor_parameter =
+        taborParameter(contact.composite_radius, settings.interface.work_of_adhesion, modulus, trace_.law().range());
+    contacts.push_back(contact);
+  }
+  for (int place = 0; place < reached.cellCount(); ++place) {
+    const OrderedCell& ordered = trace_.orderedCells()[static_cast<std::size_t>(place)];
+    const GridCell cell = field.cellAt(ordered.cell);
+    const bool is_at_border =
+        cell.row == 0 || cell.col == 0 || cell.row == field.rows() - 1 || cell.col == field.cols() - 1;
+    const auto dale = static_cast<std::size_t>(ordered.tag.dale());
+    if (!is_at_border && dale >= regime_of_dale_.size()) continue;
+    const auto of_patch = static_cast<std::size_t>(reached.livePlace(reached.patchOf(ordered)));
+    contacts[of_patch].is_at_border = contacts[of_patch].is_at_border || is_at_border;
+    const bool is_summit = reached.patches()[of_patch].first_cell == ordered.cell;
+    if (is_summit && dale < regime_of_dale_.size()) contacts[of_patch].regime = regime_of_dale_[dale];
+  }
+}
+
 double SeparationSolver::unloadedContactArea(const ContactSolution& solution) const {
-  const auto push = [](const SeparationState& state) { return state.partingForce() < 0.0; };
-  const auto unloaded = std::find_if(curve_.states.begin(), curve_.states.end(), push);
+  const auto unloaded = curve_.firstPushing();
   const SeparationState& rest = curve_.rest();
   if (unloaded == curve_.states.end() || rest.contact_count == 0) return solution.contact_area;
   return solution.contact_area * unloaded->contact_count / rest.contact_count;
@@ -317,23 +357,20 @@ void SeparationSolver::takeConforming(const ContactProblem& problem, double stre
   const ConformingWayOut way_out =
       conforming_.partFrom(problem.settings.load.mechanical_load / area, stretch * solution.pull_off_force / area);
   solution.is_conforming = true;
+  solution.is_bonded_by_load = false;
   solution.status = Status::kBonded;
   solution.pull_off_force = way_out.strength * area;
-  solution.adhesion_exponent = 1.0;  // nearly the strength of the law
-  solution.modulus_exponent = 0.0;
-  if (way_out.has_open_valleys) takeOpenExponents(solution);
+  solution.pull_off_exponents = {1.5, 0.0, -0.5};  // nearly the strength of the law, Gamma/z0
+  if (way_out.has_open_valleys) solution.pull_off_exponents = conforming_.openStrength().exponents;
+  // nearly what flattening, which goes with the modulus, leaves of the work of adhesion
+  const double flattening = solution.flattening_energy / conforming_.work();
+  solution.work_exponents = {1.0 + flattening, -flattening, 0.0};
   solution.apparent_work_of_adhesion = conforming_.work();
   solution.contact_area = way_out.states.front().contact_fraction * area;
   dropWayOut(solution.curve);
   for (const ConformingState& state : way_out.states) {
     solution.curve.push_back({state.approach, state.traction * area, true});
   }
-}
-
-void SeparationSolver::takeOpenExponents(ContactSolution& solution) const {
-  const OpenValleyStrength open = conforming_.openStrength();
-  solution.adhesion_exponent = open.adhesion_exponent;
-  solution.modulus_exponent = open.modulus_exponent;
 }
 
 void SeparationSolver::stretchWayOut(const ContactProblem& problem, double force_factor, double work_factor,

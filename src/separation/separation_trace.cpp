@@ -18,6 +18,17 @@ constexpr double kStiffTabor = 0.5;
 constexpr double kLongestHold = 4.0;  ///< of z0
 /// However the gap opens around contacts, they keep this share of the attraction: that of Hertz' contact.
 constexpr double kLeastShare = 0.5;
+/// By how much the Hamaker constant is changed to see what that does.
+constexpr double kMoreHamaker = 1.02;
+
+InterfaceOptions withMoreHamaker(InterfaceOptions interface) {
+  interface.hamaker_constant *= kMoreHamaker;
+  return interface;
+}
+
+double exponentOf(double with_more_hamaker, double value) {
+  return value > 0.0 ? std::log(with_more_hamaker / value) / std::log(kMoreHamaker) : 0.0;
+}
 
 }  // namespace
 
@@ -25,6 +36,7 @@ void SeparationTrace::start(const GapField& field, const ContactSettings& settin
   field_ = &field;
   settings_ = &settings;
   attraction_.emplace(settings.interface, settings.load.voltage, field.cellArea());
+  wider_attraction_.emplace(withMoreHamaker(settings.interface), 0.0, field.cellArea());
   water_ = CapillaryForce(settings.capillary);
   patch_forces_.emplace(settings, field.cellArea(), flows);
   dales_.start(field);
@@ -110,7 +122,7 @@ SeparationState SeparationTrace::at(double approach, double expected_end) {
   state.contact_count = contacts_.advanceTo(approach, order_, law().attracts() ? &in_reach_ : nullptr);
   const PatchSums patches = patch_forces_->sums(contacts_, approach);
   state.carried = patches.carried;
-  const Attraction attraction = attractionAt(state);
+  const Attraction attraction = attractionAt(*attraction_, state);
   state.electrostatic = attraction.electrostatic;
   state.capillary = capillaryForce(order_, approach, state.contact_count, water_, field_->cellArea());
   state.adhesion = bending.factor * std::max(attraction.adhesion - patches.opened, kLeastShare * attraction.adhesion);
@@ -134,18 +146,26 @@ double SeparationTrace::holdOf(double tabor_parameter) const {
 
 bool SeparationTrace::holdsOn() const { return softest_ > kStiffTabor; }
 
-Attraction SeparationTrace::attractionAt(const SeparationState& state) {
-  Attraction attraction = attraction_->forces(pyramid_, state.approach, state.contact_count);
+Attraction SeparationTrace::attractionAt(const AttractionSum& sum, const SeparationState& state) {
+  Attraction attraction = sum.forces(pyramid_, state.approach, state.contact_count);
   if (state.hold > 0.0) {
     const double held = state.approach + state.hold;
     const int touching = held > 0.0 ? order_.sortBelow(held) : 0;
-    attraction.adhesion = std::max(attraction.adhesion, attraction_->forces(pyramid_, held, touching).adhesion);
+    attraction.adhesion = std::max(attraction.adhesion, sum.forces(pyramid_, held, touching).adhesion);
   }
   return attraction;
 }
 
-Attraction SeparationTrace::energiesAt(const SeparationState& state) const {
-  return attraction_->all(pyramid_, state.approach, state.contact_count);
+double SeparationTrace::energyAt(const SeparationState& state) const {
+  return attraction_->energy(pyramid_, state.approach, state.contact_count);
+}
+
+double SeparationTrace::hamakerExponentOfForce(const SeparationState& state) {
+  return exponentOf(attractionAt(*wider_attraction_, state).adhesion, attractionAt(*attraction_, state).adhesion);
+}
+
+double SeparationTrace::hamakerExponentOfEnergy(const SeparationState& state) const {
+  return exponentOf(wider_attraction_->energy(pyramid_, state.approach, state.contact_count), energyAt(state));
 }
 
 }  // namespace mems_stiction

@@ -6,6 +6,7 @@
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
 #include "mems_stiction/prediction/deformed_surfaces.hpp"
+#include "mems_stiction/surface/wear.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -34,9 +35,9 @@ double largestDifference(const cv::Mat& before, const cv::Mat& after) {
   return largest;
 }
 
-/// A level plane that can be worn.
-HeightMap planeOn(const HeightMap& grid) {
-  return {cv::Mat::zeros(grid.rows(), grid.cols(), CV_64FC1), grid.pitchX(), grid.pitchY()};
+/// Its heights on the grid; those of a level plane are 0.
+cv::Mat heightsOn(const HeightMap& grid, const HeightMap& surface) {
+  return surface.empty() ? cv::Mat(cv::Mat::zeros(grid.rows(), grid.cols(), CV_64FC1)) : surface.asDouble().heights();
 }
 
 }  // namespace
@@ -50,14 +51,13 @@ ContactCyclesResult cycleContacts(const Options& options, const SurfacePair& sur
   AdhesionModel model(withSurfaces(options));
   ContactCyclesResult result;
   const HeightMap& grid = surfaces.lower;
-  HeightMap& lower = result.surfaces.lower;
-  HeightMap& upper = result.surfaces.upper;
-  lower = surfaces.lower.asDouble();
-  if (!surfaces.upperIsPlane()) upper = surfaces.upper.asDouble();
+  result.surfaces = {surfaces.lower.asDouble(), surfaces.upperIsPlane() ? HeightMap() : surfaces.upper.asDouble()};
+  Wear wear;
 
   for (int cycle = 1; cycle <= count; ++cycle) {
     if (control.isCancelled()) return result;
-    const Prediction prediction = model.predict(result.surfaces);
+    const SurfacePair worn = wear.on(surfaces);
+    const Prediction prediction = model.predict(worn);
     requireDeformedSurfaces(prediction);
     const Verdict verdict = verdictOf(prediction, device, uncertainty, options, grid.cellArea());
 
@@ -71,12 +71,12 @@ ContactCyclesResult cycleContacts(const Options& options, const SurfacePair& sur
     row.contact_fraction = prediction.contact_fraction;
     row.asperity_count = prediction.asperity_count;
     row.plastic_count = prediction.plastic_count;
-    if (upper.empty()) upper = planeOn(grid);
-    row.largest_change = std::max(largestDifference(lower.heights(), prediction.deformed_lower),
-                                  largestDifference(upper.heights(), prediction.deformed_upper));
-    lower = HeightMap(prediction.deformed_lower, grid.pitchX(), grid.pitchY());
-    upper = HeightMap(prediction.deformed_upper, grid.pitchX(), grid.pitchY());
-    row.rms_height = heightStatistics(lower).rms_height;
+    row.largest_change = std::max(largestDifference(heightsOn(grid, worn.lower), prediction.deformed_lower),
+                                  largestDifference(heightsOn(grid, worn.upper), prediction.deformed_upper));
+    wear.add(surfaces, prediction.deformed_lower, prediction.deformed_upper);
+    result.surfaces.lower = HeightMap(prediction.deformed_lower, grid.pitchX(), grid.pitchY());
+    result.surfaces.upper = HeightMap(prediction.deformed_upper, grid.pitchX(), grid.pitchY());
+    row.rms_height = heightStatistics(result.surfaces.lower).rms_height;
     row.sticks = verdict.sticks;
     row.margin = verdict.margin;
     row.margin_lower = verdict.margin_lower;

@@ -69,20 +69,24 @@ HeldState HeldContact::advance(double voltage, double mechanical_load) {
       state.electrostatic_force = contact_.electrostatic_force;
       state.normal_load = contact_.normal_load;
       state.contact_area = contact_.contact_area;
+      state.contact_fraction = contact_.contact_fraction;
       state.contact_area_jkr = contact_.contact_area_jkr;
       return state;
     }
   }
   if (contact_.followsCurve()) {
     const Prediction now = model_.predict(pressed_);
-    const double area_as_new = model_.predict(surfaces_).contact_area;
+    const Prediction as_new = model_.predict(surfaces_);
+    const Prediction& wider = now.contact_area < as_new.contact_area ? as_new : now;  // what is flatter touches no less
     state.electrostatic_force = now.electrostatic_force;
     state.normal_load = now.normal_load;
-    state.contact_area = std::max(now.contact_area, area_as_new);  // what is flatter touches no less
+    state.contact_area = wider.contact_area;
+    state.contact_fraction = wider.contact_fraction;
     state.contact_area_jkr = now.contact_area_jkr;
     return state;
   }
   state.contact_area = contact_.contact_area;
+  state.contact_fraction = contact_.contact_fraction;
   state.electrostatic_force = field_factor_ * voltage * voltage;
   const double attraction = contact_.normal_load - contact_.electrostatic_force - contact_.mechanical_load;
   state.normal_load = attraction + state.electrostatic_force + mechanical_load;

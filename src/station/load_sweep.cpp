@@ -63,7 +63,7 @@ class Loop {
     open.direction = direction;
     open.status = contact_.contact().status;
     open.is_open = true;
-    open.sticks = Sticks::kNo;
+    open.sticks = verdict_.size_objection.empty() ? Sticks::kNo : Sticks::kUnknown;
     return open;
   }
 
@@ -82,7 +82,7 @@ class Loop {
     row.normal_load = state.normal_load;
     row.contact_area = state.contact_area;
     row.contact_area_jkr = state.contact_area_jkr;
-    row.contact_fraction = state.contact_area / contact.nominal_area;
+    row.contact_fraction = state.contact_fraction;
     row.asperity_count = contact.asperity_count;
     row.approach = contact.approach;
     row.sticks = verdict_.sticks;
@@ -107,30 +107,29 @@ class Loop {
   bool is_open_ = false;
 };
 
-LoadSweepSummary summarized(double mechanical_load, const std::vector<LoadSweepRow>& rows, std::size_t begin) {
+}  // namespace
+
+LoadSweepSummary summaryOf(double mechanical_load, const std::vector<LoadSweepRow>& rows) {
   LoadSweepSummary summary;
   summary.mechanical_load = mechanical_load;
   bool releases = true;
   bool is_safe = true;
-  for (std::size_t i = begin; i < rows.size(); ++i) {
-    const LoadSweepRow& row = rows[i];
+  for (const LoadSweepRow& row : rows) {
+    if (row.mechanical_load != mechanical_load) continue;
     if (row.direction == SweepDirection::kDown) {
       if (row.is_open && std::isnan(summary.opening_voltage)) summary.opening_voltage = row.voltage;
       continue;
     }
-    if (std::isnan(row.margin)) continue;
-    // one contact carries no statement, the more that a higher voltage brings do, and they hold the first as well
-    is_safe = is_safe && (row.sticks == Sticks::kNo || row.sticks == Sticks::kUnknown);
-    if (is_safe && row.sticks == Sticks::kNo) summary.highest_safe_voltage = row.voltage;
-    const bool releases_here = row.margin >= 1.0 && row.status != Status::kNoEquilibrium && !row.is_lower_bound;
-    if (releases && !releases_here) summary.lowest_sticking_voltage = row.voltage;
-    releases = releases && releases_here;
+    const bool is_safe_here = row.sticks == Sticks::kNo;
+    is_safe = is_safe && is_safe_here;
+    if (is_safe) summary.highest_safe_voltage = row.voltage;
+    if (is_safe_here && std::isnan(summary.lowest_safe_voltage)) summary.lowest_safe_voltage = row.voltage;
+    releases = releases && row.margin >= 1.0 && row.status != Status::kNoEquilibrium && !row.is_lower_bound;
     if (releases) summary.highest_releasing_voltage = row.voltage;
+    if (row.margin < 1.0 && std::isnan(summary.lowest_sticking_voltage)) summary.lowest_sticking_voltage = row.voltage;
   }
   return summary;
 }
-
-}  // namespace
 
 std::vector<std::string> LoadSweepRequest::validate(const Options& options) const {
   std::vector<std::string> violations;
@@ -160,7 +159,6 @@ LoadSweepResult sweepLoads(const Options& options, const SurfacePair& surfaces, 
   LoadSweepResult result;
   result.pull_in_voltage = closingVoltage(device, options.interface);
   for (const double mechanical_load : request.mechanical_loads) {
-    const std::size_t begin = result.rows.size();
     Loop loop(options, surfaces, device, uncertainty);
     for (int step = 0; step < step_count; ++step) {
       if (control.isCancelled()) return result;
@@ -171,7 +169,7 @@ LoadSweepResult sweepLoads(const Options& options, const SurfacePair& surfaces, 
                                       is_up ? SweepDirection::kUp : SweepDirection::kDown));
       control.report(static_cast<int>(result.rows.size()), total);
     }
-    result.summaries.push_back(summarized(mechanical_load, result.rows, begin));
+    result.summaries.push_back(summaryOf(mechanical_load, result.rows));
   }
   result.is_complete = true;
   return result;

@@ -66,9 +66,11 @@ void CounterSurfaceOptions::describe(OptionVisitor& visitor) {
                       "what the scan touches: a plane, the latest measured counter-surface, a scan file, or a random "
                       "rough surface");
   visitor.enumeration("counter_surface/facing", facing,
-                      {{"down", CounterSurfaceFacing::kDown}, {"up", CounterSurfaceFacing::kUp}},
-                      "which way a measured counter-surface faces: down as mounted, or up as measured and still to be "
-                      "turned over about its y axis");
+                      {{"unstated", CounterSurfaceFacing::kUnstated},
+                       {"down", CounterSurfaceFacing::kDown},
+                       {"up", CounterSurfaceFacing::kUp}},
+                      "which way the asperities of a measured counter-surface point, which must be stated with one: up "
+                      "as an instrument measures them, to be turned over about its y axis here; or down as mounted");
   visitor.text("counter_surface/file", file, "scan file of the counter-surface, for type file");
   visitor.text("counter_surface/channel", channel,
                "title or number of the channel of that file; empty = the likeliest height channel");
@@ -86,7 +88,14 @@ HeightMap turnedOver(const HeightMap& surface) {
   return {turned, surface.pitchX(), surface.pitchY()};
 }
 
+std::string facingComplaint() {
+  return "counter_surface/facing: must be stated for a measured counter-surface: up = its heights are as an instrument "
+         "measures them, asperities up, and it is turned over here (a file of an AFM or interferometer); down = its "
+         "heights are already those of the mounted surface in the scan's frame, asperities down";
+}
+
 HeightMap mountedCounterSurface(const HeightMap& measured, CounterSurfaceFacing facing) {
+  if (facing == CounterSurfaceFacing::kUnstated) throw OptionsError({facingComplaint()});
   return facing == CounterSurfaceFacing::kDown ? measured : turnedOver(measured);
 }
 

@@ -68,7 +68,10 @@ std::string rowsFrom(const std::string& path, RowFormat format, const std::strin
   const std::string begin(is_json ? kJsonStart : heading);
   const std::string found = readInputStart(path, kRows, begin.size());
   if (begin.compare(0, found.size(), found) != 0) {
-    throw FileError(path + (is_json ? ": line 1 is no row" : ": line 1 has other columns than this run writes"));
+    throw FileError(path +
+                    (is_json ? ": line 1 is no row"
+                             : ": line 1 has other columns than this run writes: rows of another version or with other "
+                               "options; write another file"));
   }
   return readRows(path);
 }
@@ -119,13 +122,9 @@ std::string headingText(RowFormat format, const std::vector<std::string>& column
 
 RowFile::RowFile(const std::string& path, RowFormat format, const std::string& heading,
                  const std::vector<std::size_t>& numbers)
-    : path_(path) {
-  descriptor_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) failWithSystemsReason(path);
+    : path_(path), format_(format), heading_(heading) {
+  openLocked();
   try {
-    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-      throw FileError(path + ": another program is writing it");
-    }
     const std::string text = hasRows(path) ? rowsFrom(path, format, heading) : "";
     std::string torn;
     std::vector<std::string> lines = linesOf(text, torn);
@@ -137,12 +136,7 @@ RowFile::RowFile(const std::string& path, RowFormat format, const std::string& h
     } else if (!heading.empty()) {
       lines.erase(lines.begin());
     }
-    done_ = lines.size();
-    for (std::size_t i = 0; i < done_; ++i) {
-      if (i < numbers.size() && numberOf(lines[i], format) == numbers[i]) continue;
-      throw FileError(path + ": line " + std::to_string(i + (heading.empty() ? 1 : 2)) +
-                      " is not a row of this shard: continue with the same --shard, or write another file");
-    }
+    keep(std::move(lines), numbers);
   } catch (...) {
     ::close(descriptor_);
     throw;
@@ -151,9 +145,53 @@ RowFile::RowFile(const std::string& path, RowFormat format, const std::string& h
 
 RowFile::~RowFile() { ::close(descriptor_); }
 
+void RowFile::openLocked() {
+  descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) failWithSystemsReason(path_);
+  if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+  ::close(descriptor_);
+  throw FileError(path_ + ": another program is writing it");
+}
+
+void RowFile::keep(std::vector<std::string> lines, const std::vector<std::size_t>& numbers) {
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const std::size_t number = numberOf(lines[i], format_);
+    const auto end = numbers.begin() + static_cast<std::ptrdiff_t>(kept_.size());
+    const auto found = std::lower_bound(numbers.begin(), end, number);
+    if (found != end && *found == number) {
+      kept_[static_cast<std::size_t>(found - numbers.begin())] = std::move(lines[i]);
+      is_replaced_ = true;
+    } else if (end != numbers.end() && *end == number) {
+      kept_.push_back(std::move(lines[i]));
+    } else {
+      throw FileError(path_ + ": line " + std::to_string(i + (heading_.empty() ? 1 : 2)) +
+                      " is not a row of this shard: continue with the same --shard, or write another file");
+    }
+  }
+  done_ = kept_.size();
+}
+
 void RowFile::append(const std::string& line) {
   writeAll(descriptor_, line, path_);
   ++done_;
+}
+
+void RowFile::replace(std::size_t place, const std::string& line) {
+  writeAll(descriptor_, line, path_);
+  kept_[place] = line.substr(0, line.size() - 1);
+  is_replaced_ = true;
+}
+
+void RowFile::settle() {
+  const std::vector<std::string> rows = std::move(kept_);
+  kept_.clear();
+  if (!is_replaced_) return;
+  std::string text = heading_;
+  for (const std::string& row : rows) text += row + "\n";
+  writeFile(path_, text);
+  ::close(descriptor_);  // of the file that was there before
+  openLocked();
+  is_replaced_ = false;
 }
 
 std::string settingsPathOf(const std::string& rows_path) { return rows_path + ".settings.yaml"; }

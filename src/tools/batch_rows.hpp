@@ -31,7 +31,8 @@ std::string headingText(RowFormat format, const std::vector<std::string>& column
 class RowFile {
  public:
   /// Opens the file or makes it, locks it, takes off a torn last line and checks that what is there are the first of
-  /// these rows. @param numbers of the rows of this shard, in order
+  /// these rows, perhaps with others in place of some of them at the end. @param numbers of the rows of this shard, in
+  /// order
   /// @throw FileError if it cannot be written, another program writes it, or it holds other rows.
   RowFile(const std::string& path, RowFormat format, const std::string& heading,
           const std::vector<std::size_t>& numbers);
@@ -41,13 +42,26 @@ class RowFile {
 
   /// Rows that are in the file.
   std::size_t done() const { return done_; }
+  /// The rows that are there from before, by their places among the numbers, until settle().
+  const std::vector<std::string>& kept() const { return kept_; }
   /// Hands the line to the system in one piece. @throw FileError
   void append(const std::string& line);
+  /// Another row in the place of one that is kept: appended, so that an interruption costs nothing. @throw FileError
+  void replace(std::size_t place, const std::string& line);
+  /// Puts rows that were replaced into their places, before others are appended. @throw FileError
+  void settle();
 
  private:
+  void openLocked();
+  void keep(std::vector<std::string> lines, const std::vector<std::size_t>& numbers);
+
   std::string path_;
+  RowFormat format_;
+  std::string heading_;
   int descriptor_ = -1;
   std::size_t done_ = 0;
+  std::vector<std::string> kept_;
+  bool is_replaced_ = false;  ///< the file has rows that others stand for
 };
 
 /// Where the settings of a file of rows are kept, so that rows of different settings never mix.

@@ -1,5 +1,6 @@
 #include "batch_scans.hpp"
 
+#include <exception>
 #include <filesystem>
 #include <iomanip>
 #include <sstream>
@@ -7,7 +8,6 @@
 
 #include "half_space_run.hpp"
 #include "mems_stiction/base/error_text.hpp"
-#include "mems_stiction/height_map/scan_sanity.hpp"
 #include "mems_stiction/import/waiting_gwyddion.hpp"
 #include "mems_stiction/prediction/force_curve.hpp"
 #include "mems_stiction/scan/frame_load.hpp"
@@ -43,16 +43,24 @@ BatchScans::BatchScans(const BatchArguments& arguments, std::vector<std::string>
     : arguments_(arguments),
       inputs_(std::move(inputs)),
       configuration_(configuration),
+      settings_file_checksum_(settingsFilesChecksum(configuration)),
       predictor_(configuration),
       half_space_(configuration.half_space),
-      ahead_(configuration.scan, fileOptions(arguments)) {
+      ahead_(configuration.scan, fileOptions(arguments), settings_file_checksum_) {
   for (std::size_t input = 0; input < inputs_.size(); ++input) list(input);
 }
 
-void BatchScans::expect(const std::vector<std::size_t>& numbers, std::size_t first) {
+std::string BatchScans::changeSince(const RowTexts& row, std::size_t number) const {
+  const std::size_t input = items_[number - 1].input;
+  const auto bag = bag_states_.find(input);
+  return mems_stiction::changeSince(
+      row, bag != bag_states_.end() ? bag->second : scanState(inputs_[input], true, settings_file_checksum_));
+}
+
+void BatchScans::expect(const std::vector<std::size_t>& numbers) {
   std::vector<std::string> paths;
-  for (std::size_t i = first; i < numbers.size(); ++i) {
-    const Item& item = items_[numbers[i] - 1];
+  for (const std::size_t number : numbers) {
+    const Item& item = items_[number - 1];
     if (item.scan == 0 && item.reason.empty()) paths.push_back(inputs_[item.input]);
   }
   ahead_.expect(std::move(paths));
@@ -63,12 +71,14 @@ std::vector<std::string> BatchScans::columns() const {
   if (arguments_.half_space) {
     for (std::string& name : halfSpaceColumnNames(hasDevice())) names.push_back(std::move(name));
   }
+  for (auto& field : stateFields({})) names.push_back(std::move(field.first));
   return names;
 }
 
 std::map<std::string, std::string> BatchScans::units() const {
   std::map<std::string, std::string> units = columnUnits(hasDevice());
   if (arguments_.half_space) units.merge(halfSpaceColumnUnits());
+  units.merge(stateUnits());
   return units;
 }
 
@@ -80,9 +90,12 @@ BatchRow BatchScans::row(std::size_t number, const std::function<void(const std:
   origin.scan = item.scan;
   std::string reason = item.reason;
   Subject subject;
+  ScanState state;
+  const auto bag = bag_states_.find(item.input);
+  if (bag != bag_states_.end()) state = bag->second;
   if (reason.empty()) {
     try {
-      subject = predict(item, origin);
+      subject = predict(item, origin, state);
     } catch (const std::exception& error) {
       reason = reasonOf(error);
     }
@@ -91,7 +104,10 @@ BatchRow BatchScans::row(std::size_t number, const std::function<void(const std:
   row.is_predicted = reason.empty();
   row.reason = reason;
   row.fields = originFields(origin, reason);
-  if (!row.is_predicted) return row;
+  if (!row.is_predicted) {
+    append(stateFields(state), row.fields);
+    return row;
+  }
   HalfSpaceAnswer half_space;
   if (arguments_.half_space) {
     half_space = solve(tell);
@@ -102,6 +118,7 @@ BatchRow BatchScans::row(std::size_t number, const std::function<void(const std:
                       provenanceOf(subject.identity, configuration_)),
          row.fields);
   if (arguments_.half_space) append(halfSpaceFields(half_space, verdict), row.fields);
+  append(stateFields(state), row.fields);
   if (!arguments_.dump.empty()) dump(number, row.fields, half_space.solution);
   return row;
 }
@@ -111,6 +128,7 @@ void BatchScans::list(std::size_t input) {
     items_.push_back({input, 0, ""});
     return;
   }
+  bag_states_[input] = scanState(inputs_[input], false, settings_file_checksum_);
   try {
     const ScanBagReader& bag = open(input);
     for (std::size_t scan = 1; scan <= bag.count(); ++scan) items_.push_back({input, scan, ""});
@@ -133,15 +151,17 @@ const ScanBagReader& BatchScans::open(std::size_t input) {
   return *bag_;
 }
 
-BatchScans::Subject BatchScans::predict(const Item& item, ScanOrigin& origin) {
+BatchScans::Subject BatchScans::predict(const Item& item, ScanOrigin& origin, ScanState& state) {
   HeightMap counter_surface;
   Subject subject;
   subject.identity.scan_name = std::filesystem::path(inputs_[item.input]).stem().string();
   if (item.scan == 0) {
-    const ScanFile file = ahead_.take(inputs_[item.input]);
-    surface_ = file.surface;
-    subject.warnings = file.notes;
-    origin.channel = file.channel;
+    const ScanAhead ahead = ahead_.take(inputs_[item.input]);
+    state = ahead.state;
+    if (ahead.failure) std::rethrow_exception(ahead.failure);
+    surface_ = ahead.scan.surface;
+    subject.warnings = ahead.scan.notes;
+    origin.channel = ahead.scan.channel;
   } else {
     const bool wants_counter = configuration_.counter_surface.type == CounterSurfaceType::kTopic;
     const BagScan of_bag = open(item.input).read(item.scan - 1, wants_counter);
@@ -156,10 +176,9 @@ BatchScans::Subject BatchScans::predict(const Item& item, ScanOrigin& origin) {
   predictor_.preparer().setMeasuredCounterSurface(counter_surface);
   prepared_ = predictor_.preparer().prepare(surface_);
   prediction_ = predictor_.predict(prepared_);
-  for (const std::string& warning : scanWarnings(surface_)) subject.warnings.push_back(warning);
-  for (const std::string& warning : settingsWarnings(configuration_)) subject.warnings.push_back(warning);
-  for (const std::string& warning : loadWarnings(prediction_, configuration_.model))
-    subject.warnings.push_back(warning);
+  for (std::string& line : predictionWarnings(prepared_, configuration_, prediction_, configuration_.model)) {
+    subject.warnings.push_back(std::move(line));
+  }
   return subject;
 }
 

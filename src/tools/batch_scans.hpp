@@ -14,6 +14,7 @@
 #include "half_space_row.hpp"
 #include "mems_stiction/half_space/half_space_solver.hpp"
 #include "mems_stiction/scan/scan_predictor.hpp"
+#include "row_states.hpp"
 #include "scan_bag_reader.hpp"
 #include "scan_row.hpp"
 #include "scans_ahead.hpp"
@@ -38,9 +39,15 @@ class BatchScans {
   std::vector<std::string> columns() const;
   std::map<std::string, std::string> units() const;
 
+  /// What has changed in the files of a scan since this row of it was written, in words; empty if nothing has.
+  /// @throw FileError without a file name for a row that does not say what it is of
+  std::string changeSince(const RowTexts& row, std::size_t number) const;
+
   /// Which rows will be asked for, in this order: their files are read ahead.
-  /// @param first place in `numbers` of the first that will
-  void expect(const std::vector<std::size_t>& numbers, std::size_t first);
+  void expect(const std::vector<std::size_t>& numbers);
+
+  /// Of a number, as the user wrote it.
+  const std::string& file(std::size_t number) const { return inputs_[items_[number - 1].input]; }
 
   /// Predicts a scan; what is wrong with it is in its row. Writes its folder if arguments.dump says so.
   /// @param number from 1 to size()
@@ -65,7 +72,7 @@ class BatchScans {
   bool hasDevice() const { return configuration_.device.isStated(); }
   void list(std::size_t input);
   const ScanBagReader& open(std::size_t input);
-  Subject predict(const Item& item, ScanOrigin& origin);
+  Subject predict(const Item& item, ScanOrigin& origin, ScanState& state);
   HalfSpaceAnswer solve(const std::function<void(const std::string&)>& tell) const;
   /// On the device, if it is stated; by the half-space, if it was asked and can.
   std::optional<Verdict> judge(const HalfSpaceAnswer& half_space) const;
@@ -74,6 +81,8 @@ class BatchScans {
   const BatchArguments& arguments_;
   std::vector<std::string> inputs_;
   const Configuration& configuration_;
+  std::string settings_file_checksum_;           ///< before the files are read
+  std::map<std::size_t, ScanState> bag_states_;  ///< by the places of the inputs, before the bags are read
   ScanPredictor predictor_;
   HalfSpaceSolver half_space_;
   ScansAhead ahead_;

@@ -50,7 +50,8 @@ struct Arguments {
 
 void describe(CLI::App& app, Arguments& arguments) {
   app.description(
-      "Writes scans to a bag: topics /height (32FC1, metres, about their mean) and /scan_info, with the same stamps.\n"
+      "Writes scans to a bag: topics /height (metres; 32FC1, or 64FC1 where that would round) and /scan_info, with\n"
+      "the same stamps. A scan of the bag is predicted to the bits of its file.\n"
       "Without files, generates Gaussian rough surfaces from smooth to rough.");
   app.add_option("-o,--output", arguments.bag, "the bag; replaced if it exists")->required()->type_name("OUT.bag");
   app.add_option("scans", arguments.scans, "scan files, of every kind that predict_scan reads")->type_name("SCAN");
@@ -117,10 +118,7 @@ class ScanBag {
     header.stamp = ros::Time(kFirstStamp) + ros::Duration(count_ * period_);
     header.frame_id = frame;
     ++count_;
-    // A stage offset must come off in double: float32 metres lose nanometres under millimetres.
     for (const std::string& warning : scanWarnings(surface)) warn(frame, warning);
-    const HeightMap wide = surface.asDouble();
-    const cv::Mat about_mean = wide.heights() - heightStatistics(wide).mean;
     ScanOptions calibration;
     calibration.pitch_x = surface.pitchX();
     calibration.pitch_y = surface.pitchY();
@@ -128,7 +126,7 @@ class ScanBag {
     info.part_id = part_id_;
     info.serial_id = serial_id_;
     guarded([&] {
-      bag_->write(absolute(kHeightTopic), header.stamp, *heightImage(about_mean, header));
+      bag_->write(absolute(kHeightTopic), header.stamp, *exactHeightImage(surface.heights(), header));
       bag_->write(absolute(kScanInfoTopic), header.stamp, info);
     });
   }

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <limits>
-#include <map>
-#include <sstream>
 #include <type_traits>
 #include <utility>
 
@@ -14,6 +12,7 @@
 #include "mems_stiction/scan/part_scans.hpp"
 #include "mems_stiction/verdict/part_verdict_fields.hpp"
 #include "mems_stiction/verdict/regime_flags.hpp"
+#include "row_texts.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -21,15 +20,12 @@ namespace {
 constexpr auto kNotStated = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
 
-/// The texts of a row by the names of their columns, whatever the format; empty where there is nothing.
+/// The figures of a row.
 class Row {
  public:
-  explicit Row(std::map<std::string, std::string> texts) : texts_(std::move(texts)) {}
+  explicit Row(RowTexts texts) : texts_(std::move(texts)) {}
 
-  std::string text(const std::string& name) const {
-    const auto found = texts_.find(name);
-    return found == texts_.end() ? "" : found->second;
-  }
+  std::string text(const std::string& name) const { return textOf(texts_, name); }
   double number(const std::string& name) const {
     const std::string value = text(name);
     return value.empty() ? kNotStated : std::strtod(value.c_str(), nullptr);
@@ -42,38 +38,8 @@ class Row {
   }
 
  private:
-  std::map<std::string, std::string> texts_;
+  RowTexts texts_;
 };
-
-Row rowOfJson(const std::string& line) {
-  std::map<std::string, std::string> texts;
-  const nlohmann::json fields = nlohmann::json::parse(line);
-  for (const auto& [name, value] : fields.items()) {
-    if (!value.is_null()) texts[name] = value.is_string() ? value.get<std::string>() : value.dump();
-  }
-  return Row(std::move(texts));
-}
-
-std::vector<Row> rowsOf(const std::string& path) {
-  const RowFormat format = rowFormatOf(path);
-  std::istringstream stream(readRows(path));
-  std::string line;
-  std::vector<Row> rows;
-  std::vector<std::string> names;
-  while (std::getline(stream, line)) {
-    if (format == RowFormat::kJsonLines) {
-      rows.push_back(rowOfJson(line));
-    } else if (names.empty()) {
-      names = cellsOf(line);
-    } else {
-      const std::vector<std::string> cells = cellsOf(line);
-      std::map<std::string, std::string> texts;
-      for (std::size_t i = 0; i < std::min(cells.size(), names.size()); ++i) texts[names[i]] = cells[i];
-      rows.emplace_back(std::move(texts));
-    }
-  }
-  return rows;
-}
 
 Sticks sticksOf(const std::string& text) {
   for (const Sticks sticks : {Sticks::kNo, Sticks::kMarginal, Sticks::kYes}) {
@@ -95,7 +61,8 @@ ScanStatement statementOf(const Row& row) {
   scan.peel_number = row.ratio("peel_number");
   scan.margin_transition = row.number("margin_transition");
   scan.place_deviation = row.number("place_deviation");
-  scan.contacts = static_cast<int>(row.count("asperity_count"));
+  scan.size_objection = row.text("size_objection");
+  scan.contacts = static_cast<int>(row.count("pull_off_contact_count"));
   scan.regime_flags = row.count("regime_flags");
   return scan;
 }
@@ -127,28 +94,11 @@ RowFields fieldsOf(std::size_t number, const PartKey& key, const PooledVerdict& 
 
 }  // namespace
 
-std::vector<std::string> cellsOf(const std::string& line) {
-  std::vector<std::string> cells(1);
-  bool is_quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const bool is_mark = line[i] == '"';
-    if (is_mark && is_quoted && i + 1 < line.size() && line[i + 1] == '"') {
-      cells.back() += line[i++];
-    } else if (is_mark) {
-      is_quoted = !is_quoted;
-    } else if (line[i] == ',' && !is_quoted) {
-      cells.emplace_back();
-    } else {
-      cells.back() += line[i];
-    }
-  }
-  return cells;
-}
-
 std::size_t writeParts(const std::string& rows_path, const std::string& path) {
   const RowFormat format = rowFormatOf(path, "--parts");
   PartScans parts(kNoLimit, kNoLimit);
-  for (const Row& row : rowsOf(rows_path)) {
+  for (RowTexts& texts : rowTextsOf(rows_path)) {
+    const Row row(std::move(texts));
     if (!row.text("reason").empty()) continue;
     parts.add({row.text("part_id"), row.text("serial_id"), row.text("settings_hash")}, row.count("number"),
               statementOf(row));

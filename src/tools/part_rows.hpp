@@ -17,7 +17,4 @@ namespace mems_stiction {
 /// @return how many parts there are. @throw FileError, OptionsError
 std::size_t writeParts(const std::string& rows_path, const std::string& path);
 
-/// A line of CSV as rowText() writes it, in its cells.
-std::vector<std::string> cellsOf(const std::string& line);
-
 }  // namespace mems_stiction

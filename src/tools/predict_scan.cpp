@@ -14,7 +14,6 @@
 #include "half_space_run.hpp"
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/half_space/half_space_fields.hpp"
-#include "mems_stiction/height_map/scan_sanity.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 #include "mems_stiction/import/scan_writer.hpp"
 #include "mems_stiction/prediction/deformed_surfaces.hpp"
@@ -198,7 +197,10 @@ void predictScan(const std::string& path, const Arguments& arguments, const Scan
   const CurveFiles curve_files = curveFilesOf(arguments);
   const ScanFile scan =
       whileSaying(path + ": reading", [&] { return openScanFile(path, configuration.scan, file_options); });
-  for (const std::string& note : scan.notes) warn(path, note);
+  const auto warnAll = [&](const std::vector<std::string>& lines) {
+    for (const std::string& line : lines) warn(path, line);
+  };
+  warnAll(scan.notes);
 
   Prediction prediction;
   RecordExtras extras;
@@ -206,14 +208,18 @@ void predictScan(const std::string& path, const Arguments& arguments, const Scan
   extras.formulation = configuration.model.formulation;
   extras.provenance = provenanceOf({std::filesystem::path(path).stem().string(), "", ""}, configuration);
   extras.has_curve = arguments.record_curve;
-  extras.warnings = scanWarnings(scan.surface);
-  for (const std::string& warning : extras.warnings) warn(path, warning);
+  extras.warnings = scan.notes;
   Options options = configuration.model;
   try {
     const PreparedScan prepared =
         whileSaying(path + ": cleaning", [&] { return predictor.preparer().prepare(scan.surface); });
+    warnAll(warningsOf(prepared));
     options = onFrame(configuration.model, configuration.device, prepared.surfaces);
     prediction = whileSaying(path + ": predicting", [&] { return predictor.predict(prepared); });
+    warnAll(frameWarnings(prediction, options, configuration.device));
+    for (std::string& line : predictionWarnings(prepared, configuration, prediction, options)) {
+      extras.warnings.push_back(std::move(line));
+    }
     if (!arguments.deformed.empty()) requireDeformedSurfaces(prediction);
     if (!curve_files.formulation.empty() || extras.has_curve) requireCurve(prediction, options.formulation);
     extras.preprocessing = prepared.record;
@@ -231,11 +237,6 @@ void predictScan(const std::string& path, const Arguments& arguments, const Scan
     }
   } catch (const SurfaceError& error) {
     throw SurfaceError(path + ": " + error.what());
-  }
-  for (std::string& warning : settingsWarnings(configuration)) extras.warnings.push_back(std::move(warning));
-  for (std::string& warning : loadWarnings(prediction, options)) {
-    warn(path, warning);
-    extras.warnings.push_back(std::move(warning));
   }
   if (configuration.device.isStated()) {
     Evidence evidence;

@@ -15,6 +15,7 @@
 #include "mems_stiction/base/child_process.hpp"
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/input_file.hpp"
+#include "mems_stiction/ros/scan_pairer.hpp"
 #include "mems_stiction/ros/topic_names.hpp"
 
 namespace mems_stiction {
@@ -177,17 +178,20 @@ ReceivedScan ScanBagReader::pair(const rosbag::MessageInstance& message, const M
       [](const rosbag::MessageInstance& info, const ros::Time& time) { return info.getTime() < time; });
   const std::ptrdiff_t middle = after - infos.begin();
   const auto size = static_cast<std::ptrdiff_t>(infos.size());
+  ScanInfoConstPtr found;
   for (std::ptrdiff_t distance = 0; distance < kNearest; ++distance) {
     for (const std::ptrdiff_t place : {middle + distance, middle - distance - 1}) {
       if (place < 0 || place >= size) continue;
       const auto info = instantiateInfo(infos[static_cast<std::size_t>(place)]);
       if (info->header.stamp != image->header.stamp) continue;
-      ReceivedScan scan = receiveScan(image, scanOptions(*info, parameters_));
-      scan.identity = identityOf(image->header, info.get());
-      return scan;
+      if (found && contentOf(*info) != contentOf(*found)) throw SurfaceError(kAmbiguousStamp);
+      if (!found) found = info;
     }
   }
-  throw SurfaceError("the bag has no scan_info with the stamp of the scan");
+  if (!found) throw SurfaceError("the bag has no scan_info with the stamp of the scan");
+  ReceivedScan scan = receiveScan(image, scanOptions(*found, parameters_));
+  scan.identity = identityOf(image->header, found.get());
+  return scan;
 }
 
 BagScan ScanBagReader::read(std::size_t index, bool with_counter_surface) const {

@@ -53,6 +53,7 @@ void visitFigures(const HeightMap& scan, const std::vector<std::string>& warning
       visit(std::strcmp(name, "reason") == 0 ? "verdict_reason" : name, value, unit);
     });
     visit("place_deviation", verdict->place_deviation, "");
+    visit("size_objection", oneLine(verdict->size_objection), "");
   } else {
     visit("regime_flags", flags, "");
   }

@@ -11,9 +11,20 @@ void ScansAhead::expect(std::vector<std::string> paths) {
   startMore();
 }
 
-ScanFile ScansAhead::take(const std::string& path) {
-  if (reading_.empty() || reading_.front().first != path) return openScanFile(path, scan_, options_);
-  std::future<ScanFile> next = std::move(reading_.front().second);
+ScanAhead ScansAhead::read(const std::string& path) const {
+  ScanAhead ahead;
+  ahead.state = scanState(path, true, settings_file_checksum_);
+  try {
+    ahead.scan = openScanFile(path, scan_, options_);
+  } catch (...) {
+    ahead.failure = std::current_exception();
+  }
+  return ahead;
+}
+
+ScanAhead ScansAhead::take(const std::string& path) {
+  if (reading_.empty() || reading_.front().first != path) return read(path);
+  std::future<ScanAhead> next = std::move(reading_.front().second);
   reading_.pop_front();
   next.wait();
   startMore();
@@ -24,8 +35,7 @@ void ScansAhead::startMore() {
   const std::size_t at_a_time = std::max(1u, std::thread::hardware_concurrency()) + 1;
   for (; started_ < paths_.size() && reading_.size() < at_a_time; ++started_) {
     const std::string& path = paths_[started_];
-    reading_.emplace_back(
-        path, std::async(std::launch::async, [this, &path] { return openScanFile(path, scan_, options_); }));
+    reading_.emplace_back(path, std::async(std::launch::async, [this, &path] { return read(path); }));
   }
 }
 

@@ -3,33 +3,47 @@
 /// Scan files are read side by side while others are predicted.
 
 #include <deque>
+#include <exception>
 #include <future>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mems_stiction/import/scan_file.hpp"
+#include "mems_stiction/scan/scan_state.hpp"
 
 namespace mems_stiction {
+
+/// A file as it was when it was read.
+struct ScanAhead {
+  ScanState state;
+  ScanFile scan;
+  std::exception_ptr failure;  ///< what openScanFile() has thrown; else null
+};
 
 /// The files of a batch in their order, each read once; as many at a time as there are processors.
 class ScansAhead {
  public:
-  ScansAhead(const ScanOptions& scan, const ScanFileOptions& options) : scan_(scan), options_(options) {}
+  /// - @p settings_file_checksum goes into the state of each scan
+  ScansAhead(const ScanOptions& scan, const ScanFileOptions& options, std::string settings_file_checksum)
+      : scan_(scan), options_(options), settings_file_checksum_(std::move(settings_file_checksum)) {}
 
   /// The files that will be taken, in this order.
   void expect(std::vector<std::string> paths);
 
-  /// The next of the expected files, or any other. @throw as openScanFile()
-  ScanFile take(const std::string& path);
+  /// The next of the expected files, or any other.
+  ScanAhead take(const std::string& path);
 
  private:
   void startMore();
+  ScanAhead read(const std::string& path) const;
 
   ScanOptions scan_;
   ScanFileOptions options_;
+  std::string settings_file_checksum_;
   std::vector<std::string> paths_;
   std::size_t started_ = 0;
-  std::deque<std::pair<std::string, std::future<ScanFile>>> reading_;
+  std::deque<std::pair<std::string, std::future<ScanAhead>>> reading_;
 };
 
 }  // namespace mems_stiction

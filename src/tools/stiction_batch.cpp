@@ -1,6 +1,7 @@
 /// stiction_batch: one row per scan over many bags and scan files; goes on where it was interrupted, in shards that join
 /// to what one run gives. No ROS master needed.
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <string>
@@ -16,8 +17,10 @@
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/output_file.hpp"
 #include "mems_stiction/import/import_cache.hpp"
+#include "mems_stiction/scan/plausibility.hpp"
 #include "part_rows.hpp"
 #include "progress_bar.hpp"
+#include "row_states.hpp"
 
 namespace {
 
@@ -25,6 +28,8 @@ using namespace mems_stiction;
 
 /// Exit status when no scan of the call could be predicted.
 constexpr int kNonePredicted = 1;
+/// Changed files that are named one by one.
+constexpr std::size_t kMostNamed = 10;
 
 /// Refuses before the work what could not be written after it. @throw OptionsError, FileError
 void checkOutputs(const BatchArguments& arguments) {
@@ -36,11 +41,45 @@ void checkOutputs(const BatchArguments& arguments) {
   if (arguments.parts == arguments.output) throw OptionsError({"--parts: must be another file than --output"});
 }
 
+/// Whether the solver at work leaves a setting alone: it would be warned of.
+bool isIgnored(const std::string& key, const Options& options) {
+  const std::vector<IgnoredSetting> ignored = ignoredSettings(options.formulation, options);
+  return std::any_of(ignored.begin(), ignored.end(), [&](const IgnoredSetting& setting) { return setting.key == key; });
+}
+
 /// If they are asked for, by the rows that are there.
 void pool(const BatchArguments& arguments) {
   if (arguments.parts.empty()) return;
   const std::size_t count = writeParts(arguments.output, arguments.parts);
   std::cout << oneLine(arguments.parts) << ": " << count << " parts\n";
+}
+
+/// Places of the rows whose files have changed since; says which.
+std::vector<std::size_t> changedRows(const RowFile& rows, RowFormat format, const BatchArguments& arguments,
+                                     const BatchScans& scans, const std::vector<std::size_t>& numbers) {
+  std::vector<std::size_t> changed;
+  const std::vector<std::string> columns = scans.columns();
+  for (std::size_t place = 0; place < rows.kept().size(); ++place) {
+    std::string change;
+    try {
+      change = scans.changeSince(rowTextsOf(rows.kept()[place], format, columns), numbers[place]);
+    } catch (const FileError& error) {
+      throw FileError(arguments.output + ": " + error.what());
+    } catch (const nlohmann::json::exception&) {
+      change = "its row cannot be read";
+    }
+    if (change.empty()) continue;
+    changed.push_back(place);
+    if (changed.size() <= kMostNamed) {
+      complain("stiction_batch", scans.file(numbers[place]) + ": has changed since its row " +
+                                     std::to_string(numbers[place]) + " was written, predicted again: " + change);
+    }
+  }
+  if (changed.size() > kMostNamed) {
+    complain("stiction_batch",
+             std::to_string(changed.size() - kMostNamed) + " more rows are of files that have changed");
+  }
+  return changed;
 }
 
 int run(const BatchArguments& arguments) {
@@ -51,9 +90,11 @@ int run(const BatchArguments& arguments) {
   checkOutputs(arguments);
   const std::vector<std::string> inputs = inputsOf(arguments);
   Configuration configuration = configurationOf(arguments);
+  for (const std::string& doubt : settingsWarnings(configuration)) warn("stiction_batch", doubt);
   OutputOptions& output = configuration.model.output;
   output = OutputOptions{};  // figures do not depend on it
-  output.deformed_surfaces = output.contact_map = output.energy_curve = !arguments.dump.empty();
+  output.deformed_surfaces = output.contact_map = !arguments.dump.empty();
+  output.energy_curve = !arguments.dump.empty() && !isIgnored("output/energy_curve", configuration.model);
   const OutputOptions wanted = output;
   output.energy_curve = output.deformed_surfaces = output.contact_map = false;
   const Configuration stated = configuration;  // the same settings with and without --dump
@@ -66,22 +107,36 @@ int run(const BatchArguments& arguments) {
   for (std::size_t number = shard.index; number <= scans.size(); number += shard.count) numbers.push_back(number);
 
   RowFile rows(arguments.output, format, headingText(format, columns), numbers);
-  const std::size_t before = rows.done();
-  scans.expect(numbers, before);
+  const std::vector<std::size_t> changed = changedRows(rows, format, arguments, scans, numbers);
+  const std::size_t before = rows.done() - changed.size();
+  std::vector<std::size_t> wanted_numbers;
+  wanted_numbers.reserve(numbers.size());
+  for (const std::size_t place : changed) wanted_numbers.push_back(numbers[place]);
+  wanted_numbers.insert(wanted_numbers.end(), numbers.begin() + static_cast<std::ptrdiff_t>(rows.done()),
+                        numbers.end());
+  scans.expect(wanted_numbers);
   std::size_t failed_count = 0;
   std::size_t unsolved_count = 0;
   std::string first_reason;
   {
     ProgressBar progress(numbers.size(), before);
-    const auto show = [&](const std::string& doing) { progress.show(rows.done(), failed_count, doing); };
-    while (rows.done() < numbers.size()) {
+    std::size_t made = 0;
+    const auto show = [&](const std::string& doing) { progress.show(before + made, failed_count, doing); };
+    for (; made < wanted_numbers.size(); ++made) {
       show("");
-      const BatchRow row = scans.row(numbers[rows.done()], show);
-      rows.append(rowText(row.fields, format, columns));
+      const BatchRow row = scans.row(wanted_numbers[made], show);
+      const std::string line = rowText(row.fields, format, columns);
+      if (made == changed.size()) rows.settle();
+      if (made < changed.size()) {
+        rows.replace(changed[made], line);
+      } else {
+        rows.append(line);
+      }
       if (!row.is_predicted && ++failed_count == 1) first_reason = row.reason;
       if (row.is_predicted && !row.is_solved) ++unsolved_count;
     }
   }
+  rows.settle();
   std::cout << oneLine(arguments.output) << ": " << rows.done() << " rows, " << before << " of them from before, "
             << failed_count << " scans failed in this run";
   if (arguments.half_space) std::cout << ", half-space not solved for " << unsolved_count << " others";
@@ -91,7 +146,7 @@ int run(const BatchArguments& arguments) {
              (failed_count > 1 ? "the first of " + std::to_string(failed_count) + ": " : "") + first_reason);
   }
   pool(arguments);
-  return failed_count > 0 && failed_count == rows.done() - before ? kNonePredicted : 0;
+  return failed_count > 0 && failed_count == wanted_numbers.size() ? kNonePredicted : 0;
 }
 
 int merge(const BatchArguments& arguments) {
@@ -113,6 +168,7 @@ int merge(const BatchArguments& arguments) {
     }
   }
   const std::size_t total = totalOf(shards.front(), settings);
+  requireOneState(shards);
   mergeRows(shards, arguments.output, total);
   writeFile(settingsPathOf(arguments.output), settings);
   std::cout << oneLine(arguments.output) << ": " << total << " rows of " << shards.size() << " shards\n";

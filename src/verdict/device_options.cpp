@@ -32,6 +32,8 @@ void DeviceOptions::describe(OptionVisitor& visitor) {
                  "travel of the part from rest to contact; 0 = not stated");
   visitor.number("device/contact_area", contact_area, "m^2", Range::nonNegative(),
                  "nominal area of all dimples together; 0 = not stated");
+  visitor.integer("device/contacts", contacts, Range::within(1, 1000000),
+                  "separate dimples or pads that share the contact area");
   visitor.number("device/electrode_area", electrode_area, "m^2", Range::nonNegative(),
                  "area that the voltage acts on, for the pull-in voltage; 0 = not stated");
   visitor.number("device/electrode_gap", electrode_gap, "m", Range::nonNegative(),

@@ -47,6 +47,9 @@ class NormalNumbers {
   std::mt19937_64 engine_;
 };
 
+/// No other seed is below 0: the numbers of the other constants are the same with and without it.
+int hamakerSeed(const UncertaintyOptions& uncertainty) { return -1 - uncertainty.seed; }
+
 /// What a sample needs of the contacts, as arrays.
 class ContactList {
  public:
@@ -105,7 +108,7 @@ AdhesionSpread curveSpread(const Prediction& prediction, const UncertaintyOption
   if (!prediction.listsContacts() || !(prediction.pull_off_force > 0.0)) return spread;
   double radius_sum = 0.0;
   double square_sum = 0.0;
-  for (const Asperity& asperity : prediction.asperities) {
+  for (const Asperity& asperity : prediction.holdingContacts()) {
     radius_sum += asperity.composite_radius;
     square_sum += asperity.composite_radius * asperity.composite_radius;
   }
@@ -113,19 +116,23 @@ AdhesionSpread curveSpread(const Prediction& prediction, const UncertaintyOption
   const double sampling = is_local ? std::sqrt(square_sum) / radius_sum : 0.0;
   spread.place_deviation = logDeviation(sampling);
   NormalNumbers numbers(uncertainty.seed);
+  NormalNumbers hamaker_numbers(hamakerSeed(uncertainty));
   for (int i = 0; i < uncertainty.samples; ++i) {
     const double work = numbers.factor(uncertainty.work_of_adhesion);
     numbers.factor(uncertainty.hardness);
     const double modulus = numbers.factor(uncertainty.youngs_modulus);
     const double pitch = numbers.factor(uncertainty.pitch);
     numbers.factor(uncertainty.cutoff_distance);
+    const double hamaker = hamaker_numbers.factor(uncertainty.hamaker_constant);
     const double place = numbers.factor(sampling);
     const double model = numbers.next();
-    const double constants =
-        std::pow(work, prediction.adhesion_exponent) * std::pow(modulus, prediction.modulus_exponent);
+    const auto moved = [&](const Exponents& exponents) {
+      return std::pow(work, exponents.adhesion) * std::pow(modulus, exponents.modulus) *
+             std::pow(hamaker, exponents.hamaker);
+    };
     // radii go with the square of the pitch, as the nominal area does
-    spread.pull_off.push_back(place * constants * std::exp(error.pull_off * model));
-    spread.apparent_work.push_back(place * constants * std::exp(error.work * model) / pitch);
+    spread.pull_off.push_back(place * moved(prediction.pull_off_exponents) * std::exp(error.pull_off * model));
+    spread.apparent_work.push_back(place * moved(prediction.work_exponents) * std::exp(error.work * model) / pitch);
   }
   return spread;
 }
@@ -157,6 +164,7 @@ AdhesionSpread contactSpread(const Prediction& prediction, const Options& option
   spread.place_deviation = pull_off > 0.0 ? logDeviation(sampling) * (pull_off - far) / pull_off : 0.0;
 
   NormalNumbers numbers(uncertainty.seed);
+  NormalNumbers hamaker_numbers(hamakerSeed(uncertainty));
   const auto count = static_cast<std::size_t>(uncertainty.samples);
   spread.pull_off.reserve(count);
   spread.apparent_work.reserve(count);
@@ -166,14 +174,15 @@ AdhesionSpread contactSpread(const Prediction& prediction, const Options& option
     const double modulus = numbers.factor(uncertainty.youngs_modulus);
     const double pitch = numbers.factor(uncertainty.pitch);
     const double cutoff = numbers.factor(uncertainty.cutoff_distance);
+    const double hamaker = hamaker_numbers.factor(uncertainty.hamaker_constant);
     const double place = numbers.factor(sampling);
 
     const double area = pitch * pitch;
-    const double near_now = area * (near / (cutoff * cutoff) + other);
-    const double demand_now = applied + near_now + area * far + 2.0 * area * work * adhesion;
+    const double near_now = area * (hamaker * near / (cutoff * cutoff) + other);
+    const double demand_now = applied + near_now + area * hamaker * far + 2.0 * area * work * adhesion;
     const double carried_now = contacts.carriedLoad(modulus * pitch, hardness * area, modulus / hardness / pitch);
     const double growth = demand > 0.0 && carried > 0.0 ? demand_now / carried_now * (carried / demand) : 1.0;
-    const double pull_off_now = place * growth * (1.5 * area * work * adhesion + near_now) + area * far;
+    const double pull_off_now = place * growth * (1.5 * area * work * adhesion + near_now) + area * hamaker * far;
     spread.pull_off.push_back(pull_off > 0.0 ? pull_off_now / area / pull_off : 1.0);
     // JKR's energy at no load goes with Gamma^(5/3) R^(4/3) K^(-2/3)
     const double energy = std::pow(work, 5.0 / 3.0) * std::pow(area, 4.0 / 3.0) * std::pow(modulus, -2.0 / 3.0);

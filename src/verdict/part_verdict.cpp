@@ -26,13 +26,14 @@ bool isKnown(const JudgedRatio& ratio) {
   return std::isfinite(ratio.value) && std::isfinite(ratio.lower) && std::isfinite(ratio.upper) && ratio.value != 0.0;
 }
 
-/// Whether nothing but the number of its contacts keeps the scan from a statement.
-bool lacksOnlyContacts(const ScanStatement& scan) {
+/// Whether nothing but the number of its contacts, or its size, keeps the scan from a statement.
+bool lacksOnlyContactsOrSize(const ScanStatement& scan) {
   return scan.sticks == Sticks::kUnknown && (isKnown(scan.margin) || isKnown(scan.peel_number)) &&
-         (scan.regime_flags & kNoStatementFlags) == 0 && scan.contacts < kFewestContactsForStatement;
+         (scan.regime_flags & kNoStatementFlags) == 0 &&
+         (scan.contacts < kFewestContactsForStatement || !scan.size_objection.empty());
 }
 
-bool counts(const ScanStatement& scan) { return scan.sticks != Sticks::kUnknown || lacksOnlyContacts(scan); }
+bool counts(const ScanStatement& scan) { return scan.sticks != Sticks::kUnknown || lacksOnlyContactsOrSize(scan); }
 
 double squared(double value) { return value * value; }
 
@@ -165,7 +166,10 @@ Finding findingOf(const std::vector<const ScanStatement*>& scans, const PooledVe
   };
   if (has_margin) {
     const double lowest = std::min(part.margin.lower, pooledTransition(scans));
-    finding = judgedRatio("margin", part.margin.value, lowest, part.margin.upper, false, false);
+    const auto objecting =
+        std::find_if(scans.begin(), scans.end(), [](const auto* scan) { return !scan->size_objection.empty(); });
+    finding = withObjection(judgedRatio("margin", part.margin.value, lowest, part.margin.upper, false, false),
+                            objecting == scans.end() ? "" : (*objecting)->size_objection);
     finding.reason += worst("margin", part.margin);
   }
   if (isKnown(part.peel_number)) {
@@ -231,7 +235,7 @@ std::vector<std::string> warningsOf(const std::vector<ScanStatement>& scans, con
 ScanStatement statementOf(const std::string& scan_name, const Prediction& prediction, const Verdict& verdict) {
   ScanStatement statement;
   statement.scan_name = scan_name;
-  statement.contacts = prediction.asperity_count;
+  statement.contacts = prediction.pull_off_contact_count;
   judgeAgain(statement, verdict);
   return statement;
 }
@@ -243,6 +247,7 @@ void judgeAgain(ScanStatement& statement, const Verdict& verdict) {
   statement.margin = {verdict.margin, verdict.margin_lower, verdict.margin_upper};
   statement.peel_number = {verdict.peel_number, verdict.peel_number_lower, verdict.peel_number_upper};
   statement.margin_transition = verdict.margin_transition;
+  statement.size_objection = verdict.size_objection;
   statement.place_deviation = verdict.place_deviation;
   statement.regime_flags = verdict.regime_flags;
 }

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <utility>
+
+#include "mems_stiction/base/median.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -22,7 +23,8 @@ struct Shares {
 Shares sharesOf(const Prediction& prediction, double cell_area) {
   Shares shares;
   const double smallest_area = kFewestCellsPerContact * cell_area;
-  if (prediction.asperities.empty()) {
+  const std::vector<Asperity>& contacts = prediction.holdingContacts();
+  if (contacts.empty()) {
     const double mean_area = prediction.contact_area / prediction.asperity_count;
     shares.flowing =
         static_cast<double>(prediction.asperity_count - prediction.elastic_count) / prediction.asperity_count;
@@ -31,7 +33,7 @@ Shares sharesOf(const Prediction& prediction, double cell_area) {
     return shares;
   }
   double sum = 0.0;
-  for (const Asperity& asperity : prediction.asperities) {
+  for (const Asperity& asperity : contacts) {
     sum += asperity.composite_radius;
     if (asperity.regime != Regime::kElastic) shares.flowing += asperity.composite_radius;
     if (asperity.area < smallest_area) shares.small += asperity.composite_radius;
@@ -45,53 +47,37 @@ Shares sharesOf(const Prediction& prediction, double cell_area) {
   return shares;
 }
 
-/// Largest rise after a fall, going from a force on [N].
-template <typename Iterator>
-double riseAfterFall(Iterator force, Iterator end) {
-  double lowest = *force;
-  double rise = 0.0;
-  for (; force != end; ++force) {
-    lowest = std::min(lowest, *force);
-    rise = std::max(rise, *force - lowest);
-  }
-  return rise;
-}
-
-/// Largest rise of the force on the way in to either side of its maximum, of the maximum [-].
-double secondRise(const std::vector<SeparationCurvePoint>& curve) {
-  std::vector<double> forces;
-  for (const SeparationCurvePoint& point : curve) {
-    if (!point.is_separation) forces.push_back(point.force);
-  }
-  const auto largest = std::max_element(forces.begin(), forces.end());
-  if (largest == forces.end() || !(*largest > 0.0)) return 0.0;
-  const double inwards = riseAfterFall(largest, forces.end());
-  return std::max(inwards, riseAfterFall(std::make_reverse_iterator(largest + 1), forces.rend())) / *largest;
+/// Of the contacts that hold; not known where contacts are not listed, infinite without a range of attraction.
+double medianTaborOf(const Prediction& prediction) {
+  if (prediction.pull_off_contacts.empty()) return prediction.median_tabor_parameter;
+  std::vector<double> values;
+  for (const Asperity& contact : prediction.pull_off_contacts) values.push_back(contact.tabor_parameter);
+  return medianOf(values);
 }
 
 }  // namespace
 
 bool mayGrowTogether(const Prediction& prediction) {
-  // not known where contacts are not listed; infinite without a range of attraction
-  const double tabor = std::isnan(prediction.median_tabor_parameter) ? 0.0 : prediction.median_tabor_parameter;
-  if (prediction.flattening_ratio < kNearBonding * (1.0 + std::min(tabor, 1.0))) return true;
-  return prediction.flattening_ratio < kJoiningOnes && secondRise(prediction.curve) > kJoiningRise;
+  const double tabor = medianTaborOf(prediction);
+  const double softness = std::isnan(tabor) ? 0.0 : std::min(tabor, 1.0);
+  if (prediction.flattening_ratio < kNearBonding * (1.0 + softness)) return true;
+  return prediction.flattening_ratio < kJoiningOnes && prediction.joining_rise > kJoiningRise;
 }
 
 std::uint32_t regimeFlags(const Prediction& prediction, double cell_area) {
   std::uint32_t flags = 0;
-  if (prediction.status == Status::kBonded) flags |= kBondedFlag;
+  if (prediction.status == Status::kBonded && !prediction.is_bonded_by_load) flags |= kBondedFlag;
   if (prediction.status == Status::kNoEquilibrium) flags |= kNoEquilibriumFlag;
   if (mayGrowTogether(prediction)) flags |= kNearBondingFlag;
   if (!prediction.has_asperities) return flags;  // nothing is known of single contacts
-  if (prediction.asperity_count == 0) return flags | kFewContactsFlag;
+  if (prediction.pull_off_contact_count == 0) return flags | kFewContactsFlag;
   if (!prediction.followsCurve() && prediction.contact_theory != ContactTheory::kJkr) flags |= kTaborFlag;
   const Shares shares = sharesOf(prediction, cell_area);
   if (shares.flowing > kLargeShare) flags |= kPlasticityFlag;
   if (shares.small > kLargeShare) flags |= kResolutionFlag;
   if (shares.border > kLargeShare) flags |= kBorderFlag;
   if (shares.single > kLargeShare) flags |= kOnePixelFlag;
-  if (prediction.asperity_count < kFewestContacts) flags |= kFewContactsFlag;
+  if (prediction.pull_off_contact_count < kFewestContacts) flags |= kFewContactsFlag;
   return flags;
 }
 

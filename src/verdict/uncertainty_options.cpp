@@ -12,6 +12,8 @@ void UncertaintyOptions::describe(OptionVisitor& visitor) {
   visitor.number("uncertainty/pitch", pitch, "", relative, "relative standard uncertainty of the scan's pitch");
   visitor.number("uncertainty/cutoff_distance", cutoff_distance, "", relative,
                  "relative standard uncertainty of the cut-off distance");
+  visitor.number("uncertainty/hamaker_constant", hamaker_constant, "", relative,
+                 "relative standard uncertainty of the Hamaker constant");
   visitor.flag("uncertainty/scan_sampling", scan_sampling,
                "count that another place of the surface would have other contacts");
   visitor.integer("uncertainty/samples", samples, Range::within(20, 100000), "samples of the uncertain constants");

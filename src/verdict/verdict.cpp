@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "mems_stiction/verdict/contact_size.hpp"
 #include "mems_stiction/verdict/finding.hpp"
 #include "mems_stiction/verdict/regime_flags.hpp"
 
@@ -33,9 +34,9 @@ std::string whatLacks(const Prediction& prediction, std::uint32_t flags) {
            "place, "
            "or a larger one";
   }
-  if (prediction.has_asperities && prediction.asperity_count < kFewestContactsForStatement) {
-    return "the answer rests on " + std::to_string(prediction.asperity_count) +
-           (prediction.asperity_count == 1 ? " contact" : " contacts") +
+  if (prediction.has_asperities && prediction.pull_off_contact_count < kFewestContactsForStatement) {
+    return "the answer rests on " + std::to_string(prediction.pull_off_contact_count) +
+           (prediction.pull_off_contact_count == 1 ? " contact" : " contacts") +
            ": scan a larger area or more places, another may have higher summits";
   }
   return "";
@@ -61,7 +62,10 @@ Finding springFinding(const Prediction& prediction, const DeviceOptions& device,
       0.5 * verdict.margin *
       (1.0 / quantile(spread.pull_off, kStandardLower) - 1.0 / quantile(spread.pull_off, kStandardUpper));
   const double lowest = std::min(verdict.margin_lower, verdict.margin_transition);
-  return judgedRatio("margin", verdict.margin, lowest, verdict.margin_upper, prediction.isLowerBound(), has_cleanings);
+  verdict.size_objection = contactSizeObjection(prediction, device);
+  return withObjection(
+      judgedRatio("margin", verdict.margin, lowest, verdict.margin_upper, prediction.isLowerBound(), has_cleanings),
+      verdict.size_objection);
 }
 
 Finding beamFinding(const Prediction& prediction, const DeviceOptions& device, const AdhesionSpread& spread,

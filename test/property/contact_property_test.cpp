@@ -18,7 +18,7 @@ namespace property {
 namespace {
 
 constexpr double kReordered = 1e-9;  // round-off of some thousand terms
-/// Promised for the histograms' sums: 1e-3. Measured on many frames: 2e-4 (normal_load_test).
+/// Promised for the histograms' sums: 1e-3. Measured on many frames: 2e-4 (cell_forces_test).
 constexpr double kHistogram = 2e-4;
 
 bool isNear(double value, double expected, double tolerance) {
@@ -239,6 +239,7 @@ RC_GTEST_PROP(ScanPredictor, isTheModelWhereNothingIsPrepared, (PairCase pair_ca
   Configuration configuration;
   configuration.model = optionsOf(setting);
   if (!pair.upperIsPlane()) configuration.counter_surface.type = CounterSurfaceType::kTopic;
+  configuration.counter_surface.facing = CounterSurfaceFacing::kDown;
   ScanPredictor predictor(configuration);
   const Prediction found = predictor.predict(pair.lower, pair.upper);
   const Prediction expected = predict(configuration.model, pair);

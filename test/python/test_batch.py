@@ -24,7 +24,7 @@ from roslib.packages import find_node
 SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "scripts"
 CONFIG = """
 load: {mechanical_load: 1.0e-6}
-device: {spring_stiffness: 2.0, travel: 1.0e-6, contact_area: 1.0e-11}
+device: {spring_stiffness: 2.0, travel: 1.0e-6, contact_area: 1.0e-11, contacts: 8}
 """
 
 
@@ -129,6 +129,105 @@ class BatchTest(unittest.TestCase):
             self.assertEqual(done.returncode, 2)
             self.assertIn("rows are missing", done.stderr)
 
+    def scan(self, name, seed):
+        np.savetxt(str(self.folder / name), 1e-9 * np.random.RandomState(seed).standard_normal((64, 64)), fmt="%.17g")
+        (self.folder / (name + ".yaml")).write_text("pitch_x: 2.0e-8\npitch_y: 2.0e-8\n")
+        return self.folder / name
+
+    def test_a_row_is_not_kept_for_a_file_that_was_measured_anew(self):
+        for kind in ("csv", "jsonl"):
+            rows = "rows." + kind
+            scans = [self.scan("%s_%d.txt" % (kind, number), number) for number in range(4)]
+            self.predict(rows, inputs=scans)
+            before = (self.folder / rows).read_text().splitlines()
+            status = os.stat(str(scans[1]))
+            text = scans[1].read_text()
+            scans[1].write_text(text.replace(text[:6], "9.1234" if text[0] != "-" else "-9.123", 1)[:len(text)])  # of the same size ...
+            os.utime(str(scans[1]), ns=(status.st_atime_ns, status.st_mtime_ns))  # ... and time
+            os.utime(str(scans[2]))  # touched alone
+            (self.folder / (scans[3].name + ".yaml")).write_text("pitch_x: 3.0e-8\npitch_y: 3.0e-8\n")
+            done = self.predict(rows, inputs=scans)
+            self.assertIn("%s: has changed since its row 2 was written, predicted again" % scans[1], done.stderr)
+            self.assertIn("%s: has changed since its row 4 was written, predicted again: the settings beside it" % scans[3], done.stderr)
+            self.assertNotIn(str(scans[2]), done.stderr)
+            self.assertIn("4 rows, 2 of them from before", done.stdout)
+            after = (self.folder / rows).read_text().splitlines()
+            first = 1 if kind == "csv" else 0
+            changed = [number for number, (old, new) in enumerate(zip(before[first:], after[first:]), 1) if old != new]
+            self.assertEqual(changed, [2, 4])
+            self.predict("fresh." + kind, inputs=scans)
+            kept = (self.folder / ("fresh." + kind)).read_text().splitlines()
+            self.assertEqual(after[:first + 2] + after[first + 3:], kept[:first + 2] + kept[first + 3:])  # but the time of the touched one
+            os.remove(str(scans[0]))
+            self.assertEqual(self.predict(rows, inputs=scans).stderr, "")  # its row is all that is left of it
+
+    def test_a_bag_that_was_recorded_anew_is_predicted_again(self):
+        self.make_bag(self.folder / "day.bag", "--count", 3)
+        self.predict("rows.csv", inputs=[self.folder / "day.bag"])
+        before = self.rows("rows.csv")
+        self.make_bag(self.folder / "day.bag", "--count", 3, "--seed", 9)
+        self.predict("rows.csv", inputs=[self.folder / "day.bag"])
+        for old, new in zip(before, self.rows("rows.csv")):
+            self.assertNotEqual(old["pull_off_force"], new["pull_off_force"])
+
+    def test_another_counter_surface_under_its_name_is_another_prediction(self):
+        counter = self.scan("counter.txt", 7)
+        scans = [self.scan("a.txt", 1), self.scan("b.txt", 2)]
+        (self.folder / "pair.yaml").write_text("counter_surface: {type: file, file: %s, facing: up}\n" % counter)
+        config = ["--config", self.folder / "pair.yaml"]
+        for shard in (1, 2):
+            self.predict("shard%d.csv" % shard, "--shard", "%d/2" % shard, *config, inputs=scans)
+        self.scan("counter.txt", 8)
+        done = self.predict("shard1.csv", "--shard", "1/2", *config, inputs=scans)
+        self.assertIn("a file that the settings name is another", done.stderr)
+        done = run([self.batch, "--merge", "-o", self.folder / "all.csv", self.folder / "shard1.csv", self.folder / "shard2.csv"])
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("is of another state of the files that the settings name", done.stderr)
+        self.predict("shard2.csv", "--shard", "2/2", *config, inputs=scans)
+        self.assertEqual(run([self.batch, "--merge", "-o", self.folder / "all.csv", self.folder / "shard1.csv",
+                              self.folder / "shard2.csv"]).returncode, 0)
+
+    def test_shards_of_files_that_have_changed_are_not_merged(self):
+        scans = [self.scan("a.txt", 1), self.scan("b.txt", 2)]
+        for shard in (1, 2):
+            self.predict("shard%d.jsonl" % shard, "--shard", "%d/2" % shard, inputs=scans)
+        merge = [self.batch, "--merge", "-o", self.folder / "all.jsonl", self.folder / "shard1.jsonl", self.folder / "shard2.jsonl"]
+        self.scan("b.txt", 3)
+        done = run(merge)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("shard2.jsonl: %s has changed since its row 2 was written" % scans[1], done.stderr)
+        os.remove(str(scans[1]))
+        self.assertEqual(run(merge).returncode, 0)
+
+    def test_killed_while_it_predicts_again_no_row_is_lost(self):
+        scans = [self.scan("%d.txt" % number, number) for number in range(40)]
+        self.predict("rows.jsonl", inputs=scans)
+        for number in range(40):
+            self.scan("%d.txt" % number, 100 + number)
+        path = self.folder / "rows.jsonl"
+        size = path.stat().st_size
+        process = subprocess.Popen([str(part) for part in [self.batch, "-o", path, "--config", self.inputs / "device.yaml"] + scans],
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        while process.poll() is None and path.stat().st_size < size + size // 10:
+            time.sleep(0.001)
+        process.kill()
+        process.wait()
+        self.predict("rows.jsonl", inputs=scans)
+        self.predict("fresh.jsonl", inputs=scans)
+        self.assertEqual(path.read_bytes(), (self.folder / "fresh.jsonl").read_bytes())
+
+    def test_rows_of_an_earlier_version_are_refused(self):
+        scans = [self.scan("a.txt", 1)]
+        self.predict("rows.jsonl", inputs=scans)
+        path = self.folder / "rows.jsonl"
+        row = json.loads(path.read_text())
+        for name in [name for name in row if name.startswith("file_")]:
+            del row[name]
+        path.write_text(json.dumps(row, separators=(",", ":")) + "\n")
+        done = self.predict("rows.jsonl", inputs=scans, status=2)
+        self.assertIn("row 1 does not say which state of its file it is of", done.stderr)
+        self.assertIn("write another file", done.stderr)
+
     def test_killed_in_the_middle_it_goes_on_without_loss_or_repetition(self):
         self.make_bag(self.folder / "long.bag", "--count", 150, "--rms-height", "1e-9", "8e-9")
         inputs = [self.folder / "long.bag"]
@@ -187,6 +286,28 @@ class BatchTest(unittest.TestCase):
         self.assertIn(len(of_cut) - len(predicted), (1, 2))
         self.assertEqual(predicted, sound[:len(predicted)])
         self.assertEqual(len(rows) - len(of_cut), 3)
+
+    def test_of_a_bag_whose_scans_share_a_stamp_none_gets_the_scan_info_of_another(self):
+        def without_stamps(path, differ):
+            """The scans of a.bag, of which one has lost its scan_info."""
+            lost = 0
+            with rosbag.Bag(str(path), "w") as copy:
+                for topic, message, when in rosbag.Bag(str(self.inputs / "a.bag")).read_messages():
+                    message.header.stamp = rospy.Time()
+                    if topic.endswith("scan_info"):
+                        lost += 1
+                        if lost == 3:
+                            continue
+                        message.scan_name = "scan %d" % lost if differ else "scan"
+                    copy.write(topic, message, when)
+
+        for differ in (True, False):
+            without_stamps(self.folder / "unset.bag", differ)
+            self.predict("rows.csv", inputs=[self.folder / "unset.bag"], status=1 if differ else 0)
+            rows = self.rows("rows.csv")
+            self.assertEqual(len(rows), 5)
+            for row in rows:
+                self.assertEqual("give each scan a header.stamp of its own" in row["reason"], differ, row)
 
     def test_a_bag_that_cannot_be_written_leaves_the_one_before(self):
         def full():
@@ -273,6 +394,27 @@ class BatchTest(unittest.TestCase):
         self.predict("whole.csv", inputs=[self.inputs / "b.bag"])
         self.assertEqual([row["pull_off_force"] for row in self.rows("pitch.csv")],
                          [row["pull_off_force"] for row in self.rows("whole.csv")])
+
+    def test_a_scan_of_a_bag_is_predicted_to_the_bits_of_its_file(self):
+        heights = 3e-9 * np.random.RandomState(5).standard_normal((48, 64))
+        slow = 2e-9 * np.sin(np.arange(64) / 5.0)[None, :] * np.cos(np.arange(48) / 4.0)[:, None]
+        scans = {"double.npy": heights + slow, "offset.npy": slow + 0.0763, "single.npy": (heights + slow).astype(np.float32)}
+        for name, array in scans.items():
+            np.save(str(self.folder / name), array)
+        paths = [self.folder / name for name in scans]
+        done = run([program("make_scan_bag"), "-o", self.folder / "all.bag", "--pitch", "10e-9"] + paths)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with rosbag.Bag(str(self.folder / "all.bag")) as bag:
+            encodings = [message.encoding for _, message, _ in bag.read_messages(topics=["/height"])]
+        self.assertEqual(encodings, ["64FC1", "64FC1", "32FC1"])
+        self.predict("bag.jsonl", inputs=[self.folder / "all.bag"])
+        done = run([program("predict_scan"), "--json", "--config", self.inputs / "device.yaml", "--pitch", "10e-9"] + paths)
+        rows = [json.loads(line) for line in (self.folder / "bag.jsonl").read_text().splitlines()]
+        records = [json.loads(line) for line in done.stdout.splitlines()]
+        self.assertEqual([len(rows), len(records)], [len(scans)] * 2)
+        for row, record in zip(rows, records):
+            for name in ("pull_off_force", "contact_area", "mean_gap", "composite_rms_height", "margin", "margin_lower"):
+                self.assertEqual(row[name], record[name], (record["file"], name))
 
     def test_a_recorded_counter_surface_is_met(self):
         bag = self.rewritten("counter.bag", lambda topic: ["/counter_" + topic.strip("/"), topic])

@@ -71,7 +71,7 @@ class MigrationTest(unittest.TestCase):
         return MessageMigrator(rule_files(), plugins=False)
 
     def test_what_was_recorded_stays_and_what_was_not_known_is_nan(self):
-        self.assertEqual(len(old_predictions()), 2)
+        self.assertEqual(len(old_predictions()), 3)
         for old_class in old_predictions():
             self.record(old_class)
             with contextlib.redirect_stdout(io.StringIO()):
@@ -87,6 +87,7 @@ class MigrationTest(unittest.TestCase):
             self.assertEqual((message.roughness.sq, message.spatial_roughness.hurst), (3e-9, 0.8))
             self.assertEqual((message.preprocessing, message.regime_flags), (["level (shape=plane)"], 5))
             self.assertEqual((message.version, message.settings_hash, message.part_id, message.flags), ("", "", "", []))
+            self.assertEqual(message.pull_off_contact_count, -1)
             if "curve" in old_class.__slots__:
                 self.assertEqual((message.formulation, message.warnings), ("consistent", ["a stage offset"]))
                 self.assertEqual([(point.displacement, point.force) for point in message.curve], [(1e-9, 2e-7)])
@@ -111,7 +112,7 @@ class MigrationTest(unittest.TestCase):
         self.assertEqual((new.scan_name, new.part_id, new.serial_id), ("", "", ""))
 
     def test_a_half_space_that_was_recorded_before_it_judged_has_no_verdict(self):
-        old, judged = (kind for kind in old_classes() if kind._type == "mems_stiction/HalfSpaceSolution")
+        old, judged, _ = (kind for kind in old_classes() if kind._type == "mems_stiction/HalfSpaceSolution")
         self.assertNotIn("sticks", old.__slots__)
         self.assertIn("sticks", judged.__slots__)
         message = old(status=HalfSpaceSolution.TOO_MANY_STATES, message="a sentence", pull_off_force=2e-7, contact_count=-1,
@@ -127,6 +128,7 @@ class MigrationTest(unittest.TestCase):
         self.assertEqual(new._md5sum, HalfSpaceSolution._md5sum)
         self.assertEqual((new.header.stamp, new.status, new.message), (rospy.Time(12, 34), message.status, "a sentence"))
         self.assertEqual((new.pull_off_force, new.contact_count, new.is_resolved), (2e-7, -1, True))
+        self.assertEqual(new.pull_off_force_under_voltage, 2e-7)
         self.assertEqual((new.jumps, new.processing_time), (4, 0.5))
         point, = new.curve
         self.assertEqual((point.height, point.force, point.direction), (1e-9, 2e-7, HalfSpacePoint.RETRACTION))
@@ -134,7 +136,7 @@ class MigrationTest(unittest.TestCase):
         self.assertTrue(all(math.isnan(value) for value in (new.margin, new.margin_upper, new.peel_number)))
 
     def test_a_half_space_that_was_recorded_before_it_named_its_scan_keeps_its_verdict(self):
-        _, old = (kind for kind in old_classes() if kind._type == "mems_stiction/HalfSpaceSolution")
+        _, old, _ = (kind for kind in old_classes() if kind._type == "mems_stiction/HalfSpaceSolution")
         message = old(pull_off_force=2e-7, sticks=StictionPrediction.STICKS_NO, verdict_reason="why", verdict_by="half_space", margin=2.0)
         with rosbag.Bag(self.bag, "w") as bag:
             bag.write("half_space", message, rospy.Time(12, 50))
@@ -145,6 +147,23 @@ class MigrationTest(unittest.TestCase):
         self.assertEqual(new._md5sum, HalfSpaceSolution._md5sum)
         self.assertEqual((new.pull_off_force, new.sticks, new.verdict_reason, new.verdict_by, new.margin), (2e-7, 0, "why", "half_space", 2.0))
         self.assertEqual((new.version, new.settings_hash, new.scan_name, new.part_id, new.serial_id), ("", "", "", "", ""))
+
+    def test_a_half_space_that_was_held_by_its_voltage_says_so_and_judges_no_more(self):
+        *_, old = (kind for kind in old_classes() if kind._type == "mems_stiction/HalfSpaceSolution")
+        with rosbag.Bag(self.bag, "w") as bag:
+            for voltage, judge in ((20.0, "half_space"), (20.0, "prediction"), (0.0, "half_space")):
+                bag.write("half_space", old(voltage=voltage, pull_off_force=2e-5, sticks=2, verdict_reason="why", verdict_by=judge, margin=0.1,
+                                            scan_name="wafer"), rospy.Time(12, 50))
+        with contextlib.redirect_stdout(io.StringIO()):
+            self.assertEqual(fixbag2(self.migrator(), self.bag, self.fixed), [])
+        with rosbag.Bag(self.fixed) as bag:
+            held, predicted, plain = (message for _, message, _ in bag.read_messages())
+        self.assertEqual([one.pull_off_force_under_voltage for one in (held, predicted, plain)], [2e-5] * 3)
+        self.assertTrue(math.isnan(held.pull_off_force) and math.isnan(predicted.pull_off_force) and math.isnan(held.margin))
+        self.assertEqual((held.sticks, held.scan_name), (StictionPrediction.STICKS_UNKNOWN, "wafer"))
+        self.assertIn("voltage on", held.verdict_reason)
+        self.assertEqual((predicted.sticks, predicted.verdict_reason, predicted.margin), (2, "why", 0.1))
+        self.assertEqual((plain.sticks, plain.pull_off_force, plain.margin), (2, 2e-5, 0.1))
 
     def test_the_batch_reads_scans_that_were_recorded_before(self):
         old, = (kind for kind in old_classes() if kind._type == "mems_stiction/ScanInfo")
@@ -161,7 +180,8 @@ class MigrationTest(unittest.TestCase):
             subprocess.run([find_node("mems_stiction", "stiction_batch")[0], "-o", str(self.folder / (name + ".jsonl")), str(bag_path)],
                            check=True, timeout=60, stdout=subprocess.DEVNULL)
             rows[name] = json.loads((self.folder / (name + ".jsonl")).read_text())
-            rows[name].pop("file")
+            for of_the_file in ("file", "file_size", "file_time", "file_checksum"):
+                rows[name].pop(of_the_file)
         self.assertEqual(rows["new"]["pitch_y"], 2e-8)
         self.assertEqual(rows["old"], rows["new"])
 

@@ -17,7 +17,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 from module_cases import REPOSITORY, program, rough  # noqa: E402  (the path comes first)
 
 EXAMPLES = REPOSITORY / "scripts" / "examples"
-CONFIG = "load: {mechanical_load: 1.0e-6}\ndevice: {spring_stiffness: 2.0, travel: 1.0e-6, contact_area: 1.0e-11}\n"
+CONFIG = "load: {mechanical_load: 1.0e-6}\ndevice: {spring_stiffness: 2.0, travel: 1.0e-6, contact_area: 1.0e-11, contacts: 8}\n"
 COUNT = 24
 
 
@@ -70,10 +70,38 @@ class ArchiveTest(unittest.TestCase):
         done = run(program(), "--json", "--config", self.folder / "part.yaml", *self.scans)
         records = [json.loads(line) for line in done.stdout.splitlines()]
         for row, record in zip([row for row in rows if not row["reason"]], records):
-            common = set(row) & set(record) - {"reason"}
+            common = set(row) & set(record) - {"reason", "warnings"}
             self.assertGreater(len(common), 50)
             self.assertEqual({name: row[name] for name in common}, {name: record[name] for name in common})
-            self.assertEqual(row["verdict_reason"], record["reason"])
+            self.assertEqual((row["verdict_reason"], row["warnings"]), (record["reason"], "; ".join(record["warnings"])))
+
+    def test_a_row_is_not_kept_for_a_file_that_was_measured_anew(self):
+        scans = [self.folder / ("anew_%d.npy" % number) for number in range(3)]
+        for number, scan in enumerate(scans):
+            np.save(str(scan), rough(64, 64, 4e-9, number))
+            (scan.parent / (scan.name + ".yaml")).write_text("pitch_x: 20.0e-9\npitch_y: 20.0e-9\n")
+        path = self.folder / "anew.jsonl"
+        self.assertEqual(self.archive("-o", path, *scans).returncode, 0)
+        before = rows_in(path)
+        status = os.stat(str(scans[1]))
+        np.save(str(scans[1]), rough(64, 64, 4e-9, 77))  # of the same size and time
+        os.utime(str(scans[1]), ns=(status.st_atime_ns, status.st_mtime_ns))
+        (self.folder / (scans[2].name + ".yaml")).write_text("pitch_x: 30.0e-9\npitch_y: 30.0e-9\n")
+        done = self.archive("-o", path, *scans)
+        self.assertIn("%s: has changed since its row 2 was written, predicted again: file_checksum" % scans[1], done.stderr)
+        self.assertIn("%s: has changed since its row 3 was written, predicted again: sidecar_checksum" % scans[2], done.stderr)
+        after = rows_in(path)
+        self.assertEqual([old == new for old, new in zip(before, after)], [True, False, False])
+        self.archive("-o", self.folder / "anew_fresh.jsonl", *scans)
+        self.assertEqual(after, rows_in(self.folder / "anew_fresh.jsonl"))
+        os.remove(str(scans[0]))
+        self.assertEqual(self.archive("-o", path, *scans).stderr, "")  # its row is all that is left of it
+        row = rows_in(path)[0]
+        del row["file_checksum"]
+        path.write_text(json.dumps(row) + "\n")
+        done = self.archive("-o", path, *scans)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("does not say which state of its file it is of", done.stderr)
 
     def test_a_call_goes_on_behind_half_a_line(self):
         path = self.folder / "torn.jsonl"

@@ -1,6 +1,7 @@
 """The Python module for somebody who has not seen it: slips are named or warned of at the caller's line, results can be copied and sent."""
 
 import copy
+import json
 import multiprocessing
 import pathlib
 import pickle
@@ -113,6 +114,40 @@ class WarningTest(unittest.TestCase):
             _, found = self.caught(call)
             self.assertTrue(found)
             self.assertEqual({(one.category, one.filename) for one in found}, {(mems_stiction.ScanWarning, __file__)})
+
+
+    def test_what_the_programs_say_of_a_file_is_said_where_it_is_read(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = str(pathlib.Path(folder, "scan.txt"))
+            np.savetxt(path, rough(20, 30))
+            pathlib.Path(path).write_text(pathlib.Path(path).read_text().rstrip())  # no line end: cut off, maybe
+            done = subprocess.run([program(), "--json", "--pitch", "20e-6", path], check=True, stdout=subprocess.PIPE,
+                                  stderr=subprocess.PIPE, universal_newlines=True)
+            expected = json.loads(done.stdout)["warnings"]
+            self.assertEqual(len(expected), 2, expected)
+            scan, found = self.caught(lambda: mems_stiction.read(path, pitch=20e-6))
+            self.assertEqual(list(scan.warnings), expected)
+            self.assertEqual([(one.category, one.filename, str(one.message)) for one in found],
+                             [(mems_stiction.ScanWarning, __file__, path + ": " + text) for text in expected])
+            for call in (mems_stiction.predict, mems_stiction.clean, mems_stiction.roughness, mems_stiction.sweep_loads):
+                _, found = self.caught(lambda: call(scan))
+                self.assertEqual([str(one.message) for one in found], [path + ": " + text for text in expected])
+            prediction, _ = self.caught(lambda: mems_stiction.predict(path, 20e-6))
+            self.assertEqual((list(prediction.warnings), prediction.to_dict()["warnings"]), (expected, expected))
+
+    def test_a_counter_surface_is_looked_at_too(self):
+        lower, upper = rough(40, 40), rough(40, 40, seed=2)
+        holed = upper.copy()
+        holed[10:] = np.nan  # whole lines, which are said apart
+        for given, texts in ((1e-9 * upper, ["the counter-surface: rms slope"]),
+                             (holed, ["the counter-surface: 30 of 40 rows were not measured", "covers 25 % of the scan"])):
+            for call in (mems_stiction.predict, mems_stiction.cycle_contact):
+                result, found = self.caught(lambda: call(lower, PITCH, upper=given, counter_surface={"facing": "up"}))
+                self.assertEqual(len(found), len(texts))
+                for one, text in zip(found, texts):
+                    self.assertIn(text, str(one.message))
+        with self.assertRaisesRegex(mems_stiction.OptionsError, "counter_surface/facing: must be stated .*up = .*down = "):
+            mems_stiction.predict(lower, PITCH, upper=upper)
 
 
 class VerdictTest(unittest.TestCase):

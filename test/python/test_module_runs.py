@@ -45,7 +45,7 @@ class WrongInputTest(unittest.TestCase):
                 self.assertIsInstance(caught.exception, ValueError)
                 self.assertEqual(len(str(caught.exception).splitlines()), 1)
         with self.assertRaisesRegex(surface, "grid"):
-            mems_stiction.predict(good, PITCH, upper=good[:-1])
+            mems_stiction.predict(good, PITCH, upper=good[:-1], counter_surface={"facing": "up"})
         with self.assertRaisesRegex(surface, "^upper: .*two dimensions"):
             mems_stiction.predict(good, PITCH, upper=good[0])
         with self.assertRaisesRegex(options, "config: 3 is not allowed"):

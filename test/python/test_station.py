@@ -58,14 +58,28 @@ class SweepTextTest(unittest.TestCase):
         self.assertTrue(sweep_line(point(0.0, 1, is_open=True)).split()[5] == "open")
 
     def test_what_is_not_among_the_voltages_is_said(self):
-        points = [point(0.0), point(20.0, contact_area_jkr=9e-15), point(0.0, 1, contact_area_jkr=8e-15)]
+        points = [point(0.0, sticks=1), point(20.0, contact_area_jkr=9e-15, sticks=1), point(0.0, 1, contact_area_jkr=8e-15)]
         text = "\n".join(sweep_sentences(SimpleNamespace(points=points, summaries=[summary()], pull_in_voltage=NAN)))
-        self.assertIn("  releases after voltages up to: 20.0 V", text)
+        self.assertIn("  margin at least 1 after voltages up to: 20.0 V", text)
         self.assertIn("surely (95 %) releases after voltages up to: none of the sweep", text)
-        self.assertIn("does not release: 30.0 V", text)
+        self.assertIn("the margin is below 1: 30.0 V", text)
+        self.assertIn("  sticks, after voltages of: marginal 0 V to 20.0 V", text)
         self.assertIn("opens on the way down at: none of the sweep", text)
         self.assertIn("hysteresis, widest at 0 V: JKR contact area 2000 nm^2 on the way up, 8000 nm^2 on the way down", text)
         self.assertIn("Pull-in voltage: not stated", text)
+
+    def test_what_surely_releases_is_what_the_rows_say(self):
+        def text(verdicts, safe):
+            points = [point(20.0 * place, sticks=sticks) for place, sticks in enumerate(verdicts)] + [point(0.0, 1, sticks=0)]
+            return "\n".join(sweep_sentences(SimpleNamespace(points=points, summaries=[summary(highest_safe_voltage=safe)], pull_in_voltage=NAN)))
+
+        unknown_below = text([3, 3, 3, 3, 3, 0], NAN)
+        self.assertIn("surely (95 %) releases after voltages of: 100 V only", unknown_below)
+        self.assertIn("  sticks, after voltages of: unknown 0 V to 80.0 V; no 100 V", unknown_below)
+        self.assertIn("surely (95 %) releases after voltages of: 20.0 V to 60.0 V only", text([1, 0, 0, 0], NAN))
+        self.assertIn("surely (95 %) releases after voltages up to: 20.0 V", text([0, 0, 1, 0], 20.0))
+        self.assertIn("  sticks, after voltages of: no 0 V to 20.0 V; marginal 40.0 V; no 60.0 V", text([0, 0, 1, 0], 20.0))
+        self.assertIn("surely (95 %) releases after voltages up to: none of the sweep", text([3, 1, 2], NAN))
 
     def test_a_formulation_without_jkr_contacts_shows_the_area_itself(self):
         points = [point(0.0, contact_area_jkr=NAN, status=1), point(20.0, contact_area_jkr=NAN, contact_area=9e-15),
@@ -94,6 +108,11 @@ class CycleTextTest(unittest.TestCase):
         self.assertIn("from 100 nN to 300 nN (+200 %)", text)
         self.assertIn("From contact 3 on nothing flows any more.", text)
         self.assertIn("from contact 2 on it sticks", text)
+        result.cycles[2].sticks = 1
+        self.assertIn("it sticks after contact 2, but not surely after each later one", "\n".join(cycle_sentences(result)))
+        result.cycles[2].sticks, result.cycles[2].margin = 3, NAN  # an ended search: the device is stated all the same
+        self.assertIn("it sticks after contact 2, but not surely", "\n".join(cycle_sentences(result)))
+        result.cycles[2].sticks, result.cycles[2].margin = 2, 4.0 / 3
         result.cycles[2].pull_off_force = result.cycles[0].pull_off_force * (1 + 1e-15)
         self.assertIn("the pull-off force stays at 100 nN", cycle_sentences(result)[0])
         result.first_sticking_cycle = 0

@@ -84,7 +84,10 @@ class SafeVoltageTest(unittest.TestCase):
         points = [point(v) for v in (0.0, 5.0, 10.0)]
         self.assertEqual(safe_voltage_words(sweep(points, 5.0).summaries[0], points), "safe (95 %) up to 5.00 V")
         self.assertEqual(safe_voltage_words(sweep(points, 10.0).summaries[0], points), "safe (95 %) up to 10.0 V, the highest of the sweep")
-        self.assertEqual(safe_voltage_words(sweep(points).summaries[0], points), "no voltage of the sweep is surely safe (95 %)")
+        doubtful = [point(v, sticks=3) for v in (0.0, 5.0, 10.0)]
+        self.assertEqual(safe_voltage_words(sweep(doubtful).summaries[0], doubtful), "no voltage of the sweep is surely safe (95 %)")
+        later = [point(0.0, sticks=3), point(5.0), point(10.0)]
+        self.assertEqual(safe_voltage_words(sweep(later).summaries[0], later), "safe (95 %) at 5.00 V to 10.0 V only")
 
 
 class PictureTest(unittest.TestCase):

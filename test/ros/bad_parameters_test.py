@@ -35,7 +35,7 @@ class BadParametersTest(unittest.TestCase):
             secret = pathlib.Path(folder, "secret.txt")
             secret.write_text("hunter2 hunter2\n")
             for path, reason in ((str(secret), "cannot be used"), ("/etc/passwd", "must lie below")):
-                rospy.set_param("/curious_node", {"counter_surface": {"type": "file", "file": path}})
+                rospy.set_param("/curious_node", {"counter_surface": {"type": "file", "facing": "up", "file": path}})
                 ended = subprocess.run([find_node("mems_stiction", "stiction_node")[0], "__name:=curious_node"], timeout=60,
                                        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
                 self.assertEqual(ended.returncode, 1, ended.stdout)

@@ -114,8 +114,9 @@ class Browser:
         return self.value("document.querySelector(%s).innerText" % json.dumps(selector))
 
     def click(self, selector):
-        """With the mouse, in the middle of the element."""
-        x, y = self.value("(() => { const box = document.querySelector(%s).getBoundingClientRect();"
+        """With the mouse, in the middle of the element, scrolled to as a person would."""
+        x, y = self.value("(() => { const found = document.querySelector(%s); found.scrollIntoView({block: 'nearest'});"
+                          "const box = found.getBoundingClientRect();"
                           "return [box.x + box.width / 2, box.y + box.height / 2]; })()" % json.dumps(selector))
         for kind in ("mousePressed", "mouseReleased"):
             self._call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", clickCount=1)

@@ -30,7 +30,7 @@ CHANGED = {
     "interface/insulator_thickness": 50e-9, "interface/insulator_relative_permittivity": 7.0, "interface/hardness_ratio_limit": 0.6,
     "interface/relative_humidity": 0.4, "interface/surface_tension": 0.03, "interface/contact_angle": 0.5, "interface/temperature": 350.0,
     "interface/molar_volume": 3e-5,
-    "device/spring_stiffness": 5.0, "device/travel": 2e-6, "device/contact_area": 2e-12, "device/electrode_area": 2e-8,
+    "device/spring_stiffness": 5.0, "device/travel": 2e-6, "device/contact_area": 2e-12, "device/contacts": 3, "device/electrode_area": 2e-8,
     "device/electrode_gap": 3e-6, "device/beam_residual_stress": 1e6, "device/apparent_work_of_adhesion": 1e-3}
 BEAM = {"device/beam_type": "cantilever", "device/beam_length": 100e-6, "device/beam_thickness": 2e-6, "device/beam_gap": 2e-6,
         "device/beam_modulus": 160e9}
@@ -270,7 +270,7 @@ class FiguresTest(unittest.TestCase):
 
     def test_7_a_counter_surface_and_a_node_without_scan_info(self):
         counters = [rough_surface(seed) for seed in (11, 12)]
-        with OwnNode("counter", **dict(SETTINGS, **{"counter_surface/type": "topic"})):
+        with OwnNode("counter", **dict(SETTINGS, **{"counter_surface/type": "topic", "counter_surface/facing": "down"})):
             predictions = Collector("/counter/prediction", StictionPrediction).connect()
             station, counter_station = Station("/counter/"), Station("/counter/counter_")
             counts = Counts("counter/node")

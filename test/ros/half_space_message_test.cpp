@@ -75,7 +75,7 @@ TEST(HalfSpaceMessage, HoldsEveryFieldOfTheRecord) {
     EXPECT_TRUE(lines.count(std::string(name) + ": " + text(value))) << name << " in\n" << stream.str();
     ++visited;
   });
-  EXPECT_EQ(visited, 11);
+  EXPECT_EQ(visited, 12);
   EXPECT_EQ(message.header.frame_id, "stage");
   EXPECT_EQ(message.message, "a sentence");
   EXPECT_EQ(message.voltage, 3.0);
@@ -135,10 +135,11 @@ TEST(HalfSpaceMessage, ARefusalHasNoFigures) {
   const HalfSpaceSolution message = refusedMessage("two\nlines", someLoad(), {});
   EXPECT_EQ(message.status, HalfSpaceSolution::REFUSED);
   EXPECT_EQ(message.message, "two; lines");
-  for (const double figure : {message.pull_off_force, message.pull_off_uncertainty, message.pull_off_height,
-                              message.apparent_work_of_adhesion, message.adhesion_hysteresis, message.rest_height,
-                              message.contact_area, message.contact_fraction, message.mean_gap, message.flowed_volume,
-                              message.cohesive_length, message.range, message.processing_time}) {
+  for (const double figure :
+       {message.pull_off_force, message.pull_off_uncertainty, message.pull_off_height,
+        message.apparent_work_of_adhesion, message.adhesion_hysteresis, message.rest_height, message.contact_area,
+        message.contact_fraction, message.mean_gap, message.flowed_volume, message.cohesive_length, message.range,
+        message.processing_time, message.pull_off_force_under_voltage}) {
     EXPECT_TRUE(std::isnan(figure));
   }
   EXPECT_EQ(message.contact_count, -1);

@@ -164,7 +164,8 @@ class HalfSpaceTest(unittest.TestCase):
             info = info_message(stamp)
             info.scan_name, info.part_id, info.serial_id = "place %d" % place, "lot 3", "0012"
             count, solved = len(parts.messages), len(self.solutions.messages)
-            self.station.height.publish(image_message(rough_surface(place, rows=64, cols=64), stamp))
+            surface = rough_surface(place, rows=64, cols=64, rms_height=2e-9)  # whose contact is more than a pixel, so that it counts
+            self.station.height.publish(image_message(surface, stamp))
             self.station.info.publish(info)
             solution = self.solutions.wait(solved + 1)[solved]
             before, after = parts.wait(count + 2)[count:]

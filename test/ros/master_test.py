@@ -1,60 +1,30 @@
 #!/usr/bin/env python3
 """A roscore of the test's own is killed and started again on the same port, while a bag is played to the node."""
 
-import os
 import pathlib
 import signal
-import socket
 import subprocess
 import sys
 import tempfile
 import time
 import unittest
 
-with socket.socket() as free:
-    free.bind(("127.0.0.1", 0))
-    PORT = free.getsockname()[1]
-os.environ["ROS_MASTER_URI"] = "http://localhost:%d" % PORT  # before rospy reads it
+from own_roscore import Roscore  # isort: skip: before rospy reads ROS_MASTER_URI
 
-import rosgraph  # noqa: E402
-import rospy  # noqa: E402
-import rostest  # noqa: E402
-from diagnostic_msgs.msg import DiagnosticArray  # noqa: E402
-from mems_stiction.msg import StictionPrediction  # noqa: E402
-from mems_stiction.srv import GetLoad, SetLoad  # noqa: E402
-from rosgraph_msgs.msg import Log  # noqa: E402
-from stiction_client import (Collector, Counts, Station, figures, make_bag, predict_scan, rough_surface,  # noqa: E402
-                             wait_until)
+import rosgraph
+import rospy
+import rostest
+from diagnostic_msgs.msg import DiagnosticArray
+from mems_stiction.msg import StictionPrediction
+from mems_stiction.srv import GetLoad, SetLoad
+from rosgraph_msgs.msg import Log
+from stiction_client import Collector, Counts, Station, make_bag, predict_scan, rough_surface, wait_until
 
 CONFIG = pathlib.Path(__file__).parent / "station.yaml"
 NODELET = "true" in sys.argv
 PROCESS = "/stiction_node_manager" if NODELET else "/stiction_node"
 LOAD = 1e-6
 SCANS = 60
-
-
-def master_is_there():
-    try:
-        rosgraph.Master("/master_test").getPid()
-        return True
-    except OSError:
-        return False
-
-
-class Roscore:
-    """roscore and the processes that it starts."""
-
-    def start(self):
-        self.process = subprocess.Popen(["roscore", "-p", str(PORT)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        wait_until(master_is_there, "roscore")
-        wait_until(lambda: "/rosout" in str(rosgraph.Master("/master_test").getSystemState()), "rosout")
-
-    def kill(self):
-        children = subprocess.run(["pgrep", "-P", str(self.process.pid)], stdout=subprocess.PIPE, universal_newlines=True).stdout
-        for process in [self.process.pid] + [int(child) for child in children.split()]:
-            os.kill(process, signal.SIGKILL)
-        self.process.wait()
-        wait_until(lambda: not master_is_there(), "the end of roscore")
 
 
 def launch_node():
@@ -87,8 +57,9 @@ class MasterTest(unittest.TestCase):
         self.diagnostics = Collector("/diagnostics", DiagnosticArray).connect()
         log = Collector("/rosout", Log)
         station = Station()
-        set_load = rospy.ServiceProxy("/stiction_node/set_load", SetLoad)
+        set_load = rospy.ServiceProxy("/stiction_node/set_load", SetLoad, persistent=True)
         self.assertTrue(set_load(3.0, 2 * LOAD).success)
+        wait_until(lambda: rospy.get_param("/stiction_node/reconfigure/voltage") == 3.0, "the mirror of the load")
         stated = rospy.get_param("/stiction_node")
         with_first_master = rosgraph.Master("/master_test").getSystemState()
 
@@ -101,6 +72,7 @@ class MasterTest(unittest.TestCase):
                 predictions.wait(5)
                 self.roscore.kill()
                 wait_until(lambda: self.master_reports("does not answer"), "a report that the master is gone", timeout=10.0)
+                self.assertTrue(set_load(3.0, 2 * LOAD).success)
                 self.roscore.start()
                 rospy.wait_for_service("/stiction_node/get_load", timeout=10.0)
                 self.assertIsNone(play.poll(), "the bag is to outlast the restart")

@@ -21,7 +21,7 @@ from roslib.packages import find_node
 from stiction_client import Collector, Counts, Station, Traffic, image_message, info_message, rough_surface, wait_until
 
 # A spring of 1 N/m over 1 um is far stronger than 3e-13 m^2 of these surfaces hold; three contacts carry a statement.
-DEVICE = dict(spring_stiffness=1.0, travel=1e-6, contact_area=48 * 64 * 1e-16, mechanical_load=1e-5, electrode_area=1e-8)
+DEVICE = dict(spring_stiffness=100.0, travel=1e-6, contact_area=48 * 64 * 1e-16, mechanical_load=1e-5, electrode_area=1e-8)
 HOSTILE = "<img src=x onerror=\"document.title='broken'\"><script>alert(1)</script>&amp;"
 SHOWN = ("pull_off_force", "device_pull_off_force", "restoring_force", "contact_fraction", "asperity_count", "rms_height",
          "mechanical_load", "flattening_ratio")
@@ -93,7 +93,8 @@ class PageTest(unittest.TestCase):
 
     def test_3_verdict_margin_and_figures_are_those_of_the_message(self):
         self.settings.update_configuration(DEVICE)
-        prediction = self.live(rough_surface(2))
+        smooth = rough_surface(2, rms_height=5e-10)  # three contacts hold it: one carries no statement
+        prediction = self.live(smooth)
         self.assertEqual(prediction.sticks, StictionPrediction.STICKS_NO)
         self.assertEqual(self.page.text("#word"), "RELEASES")
         self.assertEqual(self.page.value("document.querySelector('#verdict').className"), "releases")
@@ -109,7 +110,7 @@ class PageTest(unittest.TestCase):
         self.assertEqual(self.page.value("document.querySelectorAll('#trend-ratio circle').length"), 1)  # the first had no device
 
         self.settings.update_configuration(dict(spring_stiffness=1e-4))
-        self.live(rough_surface(2))
+        self.live(smooth)
         self.assertEqual(self.page.text("#word"), "STICKS")
         self.assertEqual(self.page.value("document.querySelector('#verdict').className"), "sticks")
         self.settings.update_configuration(DEVICE)
@@ -159,7 +160,7 @@ class PageTest(unittest.TestCase):
 
     def test_6b_the_part_and_what_the_scan_was_made_with_are_shown(self):
         parts = Collector("part_verdict", PartVerdict).connect()
-        for seed, serial in ((11, "0012"), (12, "0012"), (13, HOSTILE)):
+        for seed, serial in ((11, "0012"), (12, "0012"), (16, HOSTILE)):
             stamp = self.station.stamp()
             info = info_message(stamp)
             info.scan_name, info.part_id, info.serial_id = "place %d" % seed, "lot 3", serial

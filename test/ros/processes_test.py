@@ -18,6 +18,7 @@ from actionlib_msgs.msg import GoalID
 from geometry_msgs.msg import TransformStamped
 from mems_stiction.msg import StictionPrediction
 from mems_stiction.srv import GetLoad, SetLoad
+from roslib.packages import find_node
 from rosgraph_msgs.msg import Clock
 from stiction_client import (SANITIZER, Collector, Counts, OwnNode, Station, Traffic, image_message, info_message, predict_scan, rough_surface,
                              wait_until)
@@ -156,6 +157,47 @@ class ProcessesTest(unittest.TestCase):
             if not SANITIZER:
                 self.assertLess(node.resident() - before, 100 * MB)
 
+    def second(self, *arguments, **more):
+        return subprocess.run([find_node("mems_stiction", "stiction_node")[0], "__name:=node"] + list(arguments), timeout=60,
+                              env=dict(os.environ, ROS_NAMESPACE="/named"), stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                              universal_newlines=True, **more)
+
+    def test_3a_a_second_node_of_the_name_is_refused_and_the_first_goes_on(self):
+        with OwnNode("named") as node:
+            for argument, status, words in (("--help", 0, "--take-over"), ("--voltge", 2, "--voltge: there is no such option"),
+                                            ("scan.tiff", 2, "scan.tiff: is not expected here")):
+                done = self.second(argument)
+                self.assertEqual(done.returncode, status, done.stderr)
+                self.assertIn(words, done.stdout + done.stderr)
+            done = self.second()
+            self.assertEqual(done.returncode, 1)
+            self.assertIn("a node of the name /named/node runs already, at http://", done.stderr)
+            self.assertEqual(rospy.ServiceProxy("/named/node/get_load", GetLoad)().mechanical_load, LOAD)
+            self.assertIsNone(node.process.poll())
+            node.kill()  # the master still has its name
+            with OwnNode("named"):
+                pass
+        with OwnNode("named") as node:
+            other = subprocess.Popen([find_node("mems_stiction", "stiction_node")[0], "__name:=node", "--take-over"],
+                                     env=dict(os.environ, ROS_NAMESPACE="/named"))
+            try:
+                self.assertEqual(node.process.wait(timeout=30), 0)
+                wait_until(lambda: rospy.ServiceProxy("/named/node/get_load", GetLoad)().mechanical_load == LOAD, "the other node")
+            finally:
+                other.terminate()
+                other.wait()
+
+    def test_3b_the_first_line_says_what_a_node_runs_with(self):
+        rospy.set_param("/named/node", {"config": {"file": "/parts/left.yaml", "text": "load: {mechanical_load: 1.0e-6}"}, "queue_size": 3})
+        node = subprocess.Popen([find_node("mems_stiction", "stiction_node")[0], "__name:=node"], stdout=subprocess.PIPE,
+                                env=dict(os.environ, ROS_NAMESPACE="/named", ROSCONSOLE_FORMAT="${message}"), universal_newlines=True)
+        try:
+            self.assertRegex(node.stdout.readline(), r"configuration: /parts/left\.yaml; settings [0-9a-f]{16}")
+        finally:
+            node.terminate()
+            node.communicate()
+            rospy.delete_param("/named/node")
+
     def test_4_a_stopped_node_says_so_when_it_goes_on(self):
         with OwnNode("stopped") as node:
             counts = Counts("stopped/node")
@@ -281,7 +323,7 @@ class ProcessesTest(unittest.TestCase):
                         "waiting_for_partner", "rejected"),
             "transform": ({"counter_surface/frame": "upper", "counter_surface/transform_timeout": 60.0},
                           lambda station, height: station.send(height), "waiting_for_transform", "dropped"),
-            "worker": (dict(slow, **{"counter_surface/type": "topic"}),
+            "worker": (dict(slow, **{"counter_surface/type": "topic", "counter_surface/facing": "down"}),
                        lambda station, height: counter.send(height), None, "counter_surfaces_rejected")}
         for name, (more, send, waiting, gone) in cases.items():
             with OwnNode("wait_" + name, max_waiting_memory=float(most), pairing_timeout=60.0, **more) as node:

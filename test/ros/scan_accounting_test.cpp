@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 #include <ros/console.h>
 
+#include "mems_stiction/ros/own_log.hpp"
+
 namespace mems_stiction {
 namespace {
 
@@ -27,6 +29,11 @@ class ScanAccountingTest : public ::testing::Test {
 TEST_F(ScanAccountingTest, NumbersThatOnePublisherSkipsAreMissing) {
   image(1, 1), image(2, 2), image(6, 3), image(7, 4), image(9, 5);
   EXPECT_EQ(missing(), 4U);
+}
+
+TEST_F(ScanAccountingTest, NumbersAreMissingAlsoWhereStampsStandStill) {
+  image(1, 0), image(2, 0), image(6, 0), image(7, 0);
+  EXPECT_EQ(missing(), 3U);
 }
 
 TEST_F(ScanAccountingTest, SeveralPublishersAreNoLosses) {
@@ -95,11 +102,14 @@ TEST(ScanAccounting, WhatAMessageSaysMakesNoNewKindOfWarning) {
   };
   for (char letter = 'a'; letter <= 'z'; ++letter) reject(std::string(3, letter) + "7");
   reject(""), reject("'"), reject("a' or 'b"), reject("it's"), reject("x 'y");
+  finishLog();
   EXPECT_EQ(warnings.texts.size(), 1U);
   for (const char* frame : {"left", "right"}) books.rejected(header, '"' + std::string(frame) + "\" does not exist");
+  finishLog();
   EXPECT_EQ(warnings.texts.size(), 2U);
   books.warn(header, "the scan's pitch is odd, and the counter's too");
   books.warn(header, "the scan's range is odd, and the counter's too");
+  finishLog();
   EXPECT_EQ(warnings.texts.size(), 4U);  // an apostrophe is no quotation mark
 }
 

@@ -22,6 +22,7 @@ class Stated {
 Configuration under(const std::string& file) {
   Configuration configuration;
   configuration.counter_surface.type = CounterSurfaceType::kFile;
+  configuration.counter_surface.facing = CounterSurfaceFacing::kDown;
   configuration.counter_surface.file = file;
   configuration.scan.pitch_x = configuration.scan.pitch_y = 1e-8;
   return configuration;

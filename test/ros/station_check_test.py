@@ -8,6 +8,7 @@ import tempfile
 import unittest
 
 import dynamic_reconfigure.client
+import rosnode
 import rospy
 import rostest
 from mems_stiction.srv import GetLoad
@@ -60,13 +61,41 @@ class StationCheckTest(unittest.TestCase):
         self.assertEqual(done.returncode, FAIL, done.stderr)
         self.assertIn("FAIL: sticks: unknown, ", done.stdout)  # no device is stated
         settings = dynamic_reconfigure.client.Client("stiction_node", timeout=30.0)
-        device = dict(spring_stiffness=10.0, travel=1e-6, contact_area=1e-13, mechanical_load=1e-4)  # on ten contacts and more
+        device = dict(spring_stiffness=160.0, travel=1e-6, contact_area=1.6e-12)
+        smooth = os.path.join(self.folder.name, "smooth.bag")  # so smooth that more than ten contacts hold at the pull-off
+        make_bag(smooth, "--count", "2", "--rows", "128", "--cols", "128", "--rms-height", "5e-10")
         for change, status, line in ((device, PASS, "PASS"), (dict(spring_stiffness=1e-6), FAIL, "FAIL: sticks: yes, margin ")):
             settings.update_configuration(change)
-            done = self.run_check("--verdict")
+            done = self.run_check("--verdict", bag=smooth)
             self.assertEqual(done.returncode, status, done.stdout)
             self.assertIn(line, done.stdout)
-        settings.update_configuration(dict({name: 0.0 for name in device}, mechanical_load=1e-6))
+        settings.update_configuration({name: 0.0 for name in device})
+
+    def test_limits_that_no_device_has_are_refused(self):
+        for arguments in (["--max-pull-off-force=-1e-9"], ["--max-pull-off-force=nan"], ["--max-pull-off-force=inf"], ["--max-contact-fraction=-0.1"],
+                          ["--max-contact-fraction=40"], ["--verdict", "--load=-1e-6"], ["--verdict", "--timeout=0"]):
+            done = self.run_check(*arguments)
+            self.assertEqual(done.returncode, NOT_MADE, done.stdout)
+            self.assertIn("is not allowed, must be", done.stderr)
+
+    def test_no_dead_node_stays_at_the_master_however_it_ends(self):
+        def ours():
+            return [name for name in rosnode.get_node_names() if name.startswith(("/station_check", "/play"))
+                    and name != rospy.get_name()]
+
+        long_bag = os.path.join(self.folder.name, "long.bag")
+        make_bag(long_bag, "--count", "100", "--rows", "64", "--cols", "64")
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            check = subprocess.Popen([find_node("mems_stiction", "station_check")[0], "--bag", long_bag, "--voltages", "5",
+                                      "--max-contact-fraction", "1"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
+            check.stdout.readline()
+            check.send_signal(number)
+            error = check.communicate(timeout=30)[1]
+            self.assertIn("station_check: interrupted", error)
+            self.assertEqual(ours(), [], number)
+            self.assert_load_is_put_back()
+        self.run_check("--max-contact-fraction", "0.9")
+        self.assertEqual(ours(), [])
 
     def test_what_cannot_be_checked_neither_passes_nor_fails(self):
         for arguments, changes, reason in [

@@ -80,7 +80,7 @@ class StationScriptsTest(unittest.TestCase):
                          [["up", "0", "V"], ["up", "5.00", "V"], ["up", "10.0", "V"], ["up", "15.0", "V"], ["up", "20.0", "V"],
                           ["down", "15.0", "V"], ["down", "10.0", "V"], ["down", "5.00", "V"], ["down", "0", "V"]])
         self.assertTrue(all(len(line) <= 140 for line in lines))
-        for sentence in ("releases after voltages up to: ", "opens on the way down at: ", "hysteresis, widest at", "Pull-in voltage: "):
+        for sentence in ("margin at least 1 after voltages up to: ", "sticks, after voltages of: ", "opens on the way down at: ", "hysteresis, widest at", "Pull-in voltage: "):
             self.assertIn(sentence, output)
         rows = self.rows("sweep.csv")
         self.assertEqual(len(rows), 9)

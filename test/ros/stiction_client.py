@@ -202,7 +202,7 @@ def predict_scan(heights, load, voltage=0.0, counter=None, arguments=(), setting
         _write_grid(folder / "scan.txt", heights)
         if counter is not None:
             _write_grid(folder / "counter.txt", counter)
-            settings.update(counter_surface={"type": "file", "file": str(folder / "counter.txt")},
+            settings.update(counter_surface={"type": "file", "file": str(folder / "counter.txt"), "facing": "down"},
                             scan={"pitch_x": PITCH, "pitch_y": PITCH})
         (folder / "config.yaml").write_text(yaml.safe_dump(settings))
         given = [] if load is None else ["--load", repr(load)]

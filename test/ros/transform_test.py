@@ -179,7 +179,8 @@ class TransformTest(unittest.TestCase):
 
     def test_7_a_counter_surface_comes_behind_the_scan_that_waits(self):
         surface, counters = rough_surface(7), [rough_surface(8), rough_surface(9)]
-        with OwnNode("behind", **{"counter_surface/type": "topic", "counter_surface/frame": "behind", "counter_surface/transform_timeout": 10.0}):
+        with OwnNode("behind", **{"counter_surface/type": "topic", "counter_surface/facing": "down", "counter_surface/frame": "behind",
+                                  "counter_surface/transform_timeout": 10.0}):
             counts = Counts("behind/node")
             predictions = Collector("/behind/prediction", StictionPrediction).connect()
             station, counter_station = Station("/behind/"), Station("/behind/counter_")

@@ -102,10 +102,9 @@ class ViewsTest(unittest.TestCase):
         wait_until(lambda: os.path.exists(path), "the empty picture")
 
         trend = Collector("trend", Image).connect()  # of view.launch
-        surface = rough_surface(2)
-        # A spring of 1 N/m over 1 um is far stronger than 3e-13 m^2 of this surface hold.
-        self.settings.update_configuration(dict(spring_stiffness=1.0, travel=1e-6, contact_area=48 * 64 * 1e-16,
-                                                mechanical_load=1e-5))  # three contacts carry a statement, one does not
+        surface = rough_surface(2, rms_height=5e-10)  # so smooth that three contacts hold it: one carries no statement
+        # A spring of 100 N/m over 1 um is far stronger than 3e-13 m^2 of this surface hold.
+        self.settings.update_configuration(dict(spring_stiffness=100.0, travel=1e-6, contact_area=48 * 64 * 1e-16))
         self.live(surface)
         self.assertEqual(self.predictions.messages[-1].sticks, StictionPrediction.STICKS_NO)
         headline = slice(20, 70)
@@ -133,7 +132,7 @@ class ViewsTest(unittest.TestCase):
 
     def test_4_wrong_arguments_are_named(self):
         for arguments, reason in ((["--output", "trend.jpg"], "must end in .png"), (["--size", "1280"], "WIDTHxHEIGHT"),
-                                  (["--output", "/no/such/folder/t.png"], "there is no folder"), (["--last", "-1"], "--last: -1")):
+                                  (["--output", "/no/such/folder/t.png"], "there is no folder"), (["--last", "-1"], "--last: '-1' is not allowed, must be a whole number >= 0")):
             done = subprocess.run([find_node("mems_stiction", "plot_trend")[0]] + arguments, stdout=subprocess.PIPE,
                                   stderr=subprocess.PIPE, universal_newlines=True, timeout=30)
             self.assertEqual(done.returncode, 2)

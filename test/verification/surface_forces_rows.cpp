@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "mems_stiction/loads/normal_load.hpp"
+#include "mems_stiction/loads/cell_forces.hpp"
 #include "mems_stiction/mechanics/surface_forces.hpp"
 #include "verification/closed_forms.hpp"
 #include "verification/sections.hpp"

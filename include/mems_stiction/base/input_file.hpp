@@ -28,4 +28,14 @@ std::string readInput(const std::string& path, const InputKind& kind);
 /// At most the first `count` bytes. @throw FileError as readInput()
 std::string readInputStart(const std::string& path, const InputKind& kind, std::uint64_t count);
 
+/// A file as it was at one moment.
+struct FileState {
+  std::uint64_t size = 0;  ///< [bytes]
+  std::string time;        ///< of its last change, UTC, "2026-01-31T12:00:00.123456789Z"
+  std::string checksum;    ///< contentHash() of it; empty where there is no file that can be read
+};
+
+/// Of a file of any size; no error where there is none.
+FileState fileState(const std::string& path);
+
 }  // namespace mems_stiction

@@ -17,10 +17,11 @@
 
 namespace mems_stiction {
 
-/// How the search for equilibrium ended.
+/// How the search for the place of rest ended.
 enum class Status : std::uint8_t {
-  kEquilibrium = 0,    ///< the free energy has its extremum and the contacts carry the load
-  kBonded = 1,         ///< no extremum before the contact fraction limit: forces are lower bounds
+  kEquilibrium = 0,  ///< the contacts carry the loads: the surfaces rest
+  kBonded = 1,  ///< the surfaces lie against each other nearly everywhere; forces are lower bounds (isLowerBound())
+                ///< where the search ended at the contact fraction limit instead of at rest
   kNoEquilibrium = 2,  ///< the search range ended first: results are those of the last step
 };
 
@@ -59,6 +60,15 @@ struct Asperity {
   Regime regime = Regime::kElastic;
 };
 
+/// With which powers a figure goes with the constants, each changed alone: d ln(figure)/d ln(constant) [-].
+struct Exponents {
+  static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+  double adhesion = kUnknown;  ///< with the work of adhesion
+  double modulus = kUnknown;   ///< with the contact modulus
+  double hamaker = kUnknown;   ///< with the Hamaker constant
+};
+
 /// The energies of a contact.
 struct ContactEnergies {
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
@@ -91,14 +101,20 @@ struct ContactSolution {
   double apparent_work_of_adhesion = kUnknown;  ///< of drawing the surfaces apart, per area [J/m^2]
   double contact_stiffness = kUnknown;          ///< -dF/dD at rest [N/m]
   double flattening_energy = kUnknown;          ///< that pressing the surfaces flat would store, per area [J/m^2]
-  double adhesion_exponent = kUnknown;          ///< d ln(pull-off force)/d ln(Gamma) [-]
-  double modulus_exponent = kUnknown;           ///< d ln(pull-off force)/d ln(E) [-]
+  Exponents pull_off_exponents;                 ///< of the pull-off force
+  Exponents work_exponents;                     ///< of the apparent work of adhesion
   bool is_conforming = false;                   ///< the surfaces lie against each other nearly everywhere
-  double contact_area_jkr = kUnknown;           ///< sum pi a_i^2 [m^2]
-  double adhesion_parameter = kUnknown;         ///< (14) [-]; infinite without work of adhesion
+  bool is_bonded_by_load = false;               ///< bonded, but without the loads they would have come to rest before
+  /// Largest rise of the force on the way in, without loads, after it has fallen: of its largest value [-]
+  double joining_rise = 0.0;
+  double contact_area_jkr = kUnknown;    ///< sum pi a_i^2 [m^2]
+  double adhesion_parameter = kUnknown;  ///< (14) [-]; infinite without work of adhesion
 
   bool has_asperities = false;  ///< false: `asperities` is empty because the solver knows none
   std::vector<Asperity> asperities;
+  /// Those that hold at the pull-off, which the load that made the contact does not choose: centre, composite_radius, area,
+  /// tabor_parameter, is_at_border and regime. Empty if they are those at rest.
+  std::vector<Asperity> pull_off_contacts;
   std::vector<EnergyPoint> energy_curve;    ///< if output.energy_curve asks for it
   std::vector<SeparationCurvePoint> curve;  ///< force over displacement; empty if the solver does not follow it
 

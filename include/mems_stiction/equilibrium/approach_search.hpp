@@ -19,7 +19,7 @@
 #include "mems_stiction/approach/patch_sweep.hpp"
 #include "mems_stiction/equilibrium/equilibrium_state.hpp"
 #include "mems_stiction/loads/capillary.hpp"
-#include "mems_stiction/loads/normal_load.hpp"
+#include "mems_stiction/loads/cell_forces.hpp"
 
 namespace mems_stiction {
 

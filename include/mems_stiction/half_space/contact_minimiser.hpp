@@ -79,6 +79,20 @@ class ContactMinimiser {
   /// @return the work that the flow took [J]
   double keepFlow(double height);
 
+  /// Another law holds from now on; displacement and what has flowed stay.
+  void setLaw(const TractionLaw& law);
+
+  /// A state to come back to.
+  struct Place {
+    LargePageVector<double> displacement;
+    LargePageVector<double> elastic_traction;
+    LargePageVector<double> relief;
+    LargePageVector<float> flowed;
+    double staleness;
+  };
+  Place place() const { return {displacement_, elastic_traction_, relief_, flowed_, staleness_}; }
+  void goTo(Place&& place);
+
   /// K u, an array of the grid [Pa].
   const double* elasticTraction() const { return elastic_traction_.data(); }
   /// Gap [m] and pressure [Pa], positive where the cells repel each other; frame_rows x frame_cols CV_32FC1; NaN where

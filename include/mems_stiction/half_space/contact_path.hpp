@@ -10,6 +10,10 @@
 /// matter to the largest force; where
 /// the curve is straight, steps grow. Between two states without a jump the force is the parabola through both with the
 /// mean that the energies give.
+///
+/// What a voltage adds to the traction goes at rest, at constant height, before the bodies are drawn apart: the device opens
+/// when its loads have gone. From there to no force the way out takes the load that the voltage was, and then the
+/// mechanical one.
 
 #include <functional>
 #include <vector>
@@ -67,11 +71,26 @@ class ContactPath {
 
   /// From apart until the bodies press each other with `load` [N], >= 0, without further force.
   PathStatus approach(double load);
+  /// Another law holds from now on: what is out of equilibrium then relaxes at the present height.
+  PathStatus change(const TractionLaw& law);
   /// From there until they are apart.
-  PathStatus retract();
+  PathStatus retract() { return retract(retraction_); }
+
+  /// A state to come back to.
+  struct Place {
+    ContactMinimiser::Place contact;
+    TractionLaw law;
+    ForcePoint present;
+    double strongest;
+  };
+  Place place() const { return {minimiser_.place(), minimiser_.law(), present_, strongest_}; }
+  /// Once more until they are apart, from another state.
+  PathStatus retractFrom(Place&& place, ForceCurve& curve);
 
   const ForceCurve& approachCurve() const { return approach_; }
   const ForceCurve& retractionCurve() const { return retraction_; }
+  /// By which changes of the law have moved the energy, at constant height [J].
+  double changedEnergy() const { return changed_energy_; }
   const ForcePoint& present() const { return present_; }
   /// The largest load of any state [N], or that of all cells flowing if that is smaller than what was asked for.
   double largestLoad() const;
@@ -81,6 +100,7 @@ class ContactPath {
   int products() const { return products_; }
 
  private:
+  PathStatus retract(ForceCurve& curve);
   double startHeight() const;
   /// Solves at a height next to the present state, which must be taken back or kept then.
   PathStatus attempt(double height, ForcePoint& next, ContactState& state);
@@ -110,7 +130,8 @@ class ContactPath {
   bool is_before_jump_ = false;  ///< the present branch is known to end before jump_height_
   double jump_height_ = 0.0;     ///< [m]
   double finest_ = 0.0;          ///< how close to the jump the branch is to be followed [m]
-  double strongest_ = 0.0;       ///< largest attraction so far [N]
+  double strongest_ = 0.0;       ///< largest attraction so far under the present law [N]
+  double changed_energy_ = 0.0;  ///< [J]
   double largest_residual_ = 0.0;
   int states_ = 0;
   int newton_steps_ = 0;

@@ -55,6 +55,8 @@ class ContactWindows {
   /// - @p stiffness K; used once
   /// @return whether it did: not where windows would fill much of the frame, nor where one has no answer
   bool relax(const Frame& frame, StiffnessOperator<double>& stiffness, float* change);
+  /// Another law holds from now on.
+  void setLaw(const TractionLaw& law);
 
  private:
   /// Blocks of cells; beyond the frame's edges they go on at the opposite ones.

@@ -60,6 +60,7 @@ void visitHalfSpaceFields(const SolvedHalfSpace& solution, Visitor&& visit) {
   visit("is_resolved", solution.is_resolved, "");
   visit("iterations", solution.newton_steps, "");
   visit("processing_time", solution.processing_time, "s");
+  visit("pull_off_force_under_voltage", solution.pull_off_force_under_voltage, "N");
 }
 
 }  // namespace mems_stiction

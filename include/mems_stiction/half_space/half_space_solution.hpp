@@ -31,7 +31,7 @@ struct SolvedHalfSpace {
   HalfSpaceStatus status = HalfSpaceStatus::kCancelled;
   std::string message;  ///< the status in a sentence
 
-  double pull_off_force = kNone;        ///< largest force of the retraction [N]
+  double pull_off_force = kNone;        ///< largest force of the retraction, without voltage and load [N]
   double pull_off_uncertainty = kNone;  ///< by which finer steps may exceed it [N]
   double pull_off_height = kNone;       ///< where the upper body is then, over first touch [m]
   double work_of_adhesion = kNone;      ///< apparent: from zero force to apart, per area of the frame [J/m^2]
@@ -54,9 +54,12 @@ struct SolvedHalfSpace {
   int products = 0;                ///< pairs of Fourier transforms
   int jumps = 0;                   ///< places where the curve is not continuous, both ways
   double processing_time = kNone;  ///< that the solution took [s]
+  /// Largest force of a second retraction from the same rest, on which the voltage stays on; pull_off_force without one
+  /// [N]. In no curve.
+  double pull_off_force_under_voltage = kNone;
 
   std::vector<ForcePoint> approach;    ///< from apart to rest
-  std::vector<ForcePoint> retraction;  ///< from rest to apart
+  std::vector<ForcePoint> retraction;  ///< from rest to apart, the voltage having gone at rest
 
   cv::Mat pressure;          ///< at rest, positive where surfaces repel [Pa]; CV_32FC1, NaN where not valid
   cv::Mat gap;               ///< at rest, z0 where the traction vanishes [m]; CV_32FC1, NaN where not valid

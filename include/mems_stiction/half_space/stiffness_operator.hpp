@@ -80,7 +80,7 @@ class StiffnessOperator {
   bool resistsMean() const { return grid_.boundary == HalfSpaceBoundary::kFree; }
 
  private:
-  struct Plans;
+  struct Transforms;
   /// finish(first, second, joined, spare) is called with two rows of the result, joined, and a pad as long.
   template <typename Multiplier, typename Finish>
   void apply(const Scalar* from, const Multiplier& multiplier, const Finish& finish);
@@ -107,7 +107,7 @@ class StiffnessOperator {
   std::size_t pad_size_;                       ///< of each pad
   std::vector<LargePageVector<Scalar>> pads_;  ///< for what each thread transforms
   std::vector<double> row_products_;
-  std::unique_ptr<Plans> plans_;
+  std::unique_ptr<Transforms> transforms_;
 };
 
 }  // namespace mems_stiction

@@ -3,11 +3,9 @@
 /// @file
 /// With which traction do two surfaces a gap apart attract or repel each other, and what does that cost per area?
 ///
-///     t(g) = (8 Gamma/(3 z0)) [(z0/g)^3 - (z0/g)^9]                   attraction and repulsion: zero at z0, integral
-///                                                                     from there Gamma, largest 1.026 Gamma/z0
-///     z0   = sqrt(H/(16 pi Gamma))                                    so that it falls off as H/(6 pi g^3)
-///          + eps0 U^2/(2 (g + t/eps_r)^2)                             field over an insulator
-///          + p where z0 < g < z0 + d_K                                condensed water (loads/capillary.hpp)
+///     t(g) = 9-3 law at x = z0/g                   attraction and repulsion (mechanics/traction_law.hpp)
+///          + eps0 U^2/(2 (g + t/eps_r)^2)          field over an insulator (the same)
+///          + p where z0 < g < z0 + d_K             condensed water (loads/capillary.hpp)
 ///     t >= -Ha                                                        beyond, the softer body flows
 ///
 /// Attraction is positive; the energy is minus the work that separation to infinity takes. Assumptions: the traction at
@@ -16,8 +14,7 @@
 /// than where t = -Ha (or, without a hardness, than 0.45 z0, hundreds of GPa for any solid) take the traction on as a
 /// straight line, so that it is finite for every gap. Electric field and water change the gap of zero traction by less
 /// than z0/100; g counts from the centres of the outermost atoms, so the insulator's thickness includes z0.
-/// Sources: Israelachvili, Intermolecular and Surface Forces (3rd ed., 2011), chapter 13; Persson and Scaraggi, J. Chem.
-/// Phys. 141 (2014) 124701 for rough surfaces under such a law; loads/normal_load.hpp for (3).
+/// Source: Persson and Scaraggi, J. Chem. Phys. 141 (2014) 124701 for rough surfaces under such a law.
 ///
 ///     TractionLawOptions options;
 ///     const TractionLaw law(options);
@@ -28,6 +25,7 @@
 #include <vector>
 
 #include "mems_stiction/loads/capillary.hpp"
+#include "mems_stiction/mechanics/traction_law.hpp"
 
 namespace mems_stiction {
 
@@ -68,8 +66,8 @@ class TractionLaw {
   /// first part of the law [Pa/m].
   double secant(double gap, double traction, double other_traction) const;
 
-  double range() const { return range_; }             ///< z0 [m]
-  double stress() const { return stress_; }           ///< 8 Gamma/(3 z0) [Pa]
+  double range() const { return law_.range(); }       ///< z0 [m]
+  double stress() const { return law_.stress(); }     ///< 8 Gamma/(3 z0) [Pa]
   bool flows() const { return flows_; }               ///< whether a hardness limits the repulsion
   double closestGap() const { return closest_gap_; }  ///< where t = -Ha; narrower gaps flow [m]
   double contactGap() const { return contact_gap_; }  ///< narrower gaps repel [m]; z0 but for field and water
@@ -83,15 +81,13 @@ class TractionLaw {
   double gapOfPressure(double pressure, double narrow) const;
   void addField(int count, const double* gaps, double* traction, double* slope, double* energy) const;
 
-  double range_;
-  double stress_;
+  AdhesionLaw law_;
   bool attracts_;
   bool flows_ = false;
   double closest_gap_;
   double contact_gap_;
   double slope_of_line_ = 0.0;  ///< of t for narrower gaps [Pa/m]
-  double field_factor_;         ///< eps0 U^2/2 [N]
-  double insulator_;            ///< t/eps_r [m]
+  FieldLaw field_;
   CapillaryForce water_;
 };
 

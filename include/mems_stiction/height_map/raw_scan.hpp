@@ -12,6 +12,18 @@
 
 namespace mems_stiction {
 
+/// The sign before the decimals of numbers in text.
+enum class DecimalMark { kAuto, kPoint, kComma };
+
+/// Which way y grows in a list of x, y and z; "down" is along rows.
+enum class YAxis { kAuto, kDown, kUp };
+
+/// What a text file does not say of itself.
+struct TextOptions {
+  DecimalMark decimal_mark = DecimalMark::kAuto;  ///< auto: what the numbers of the file allow
+  YAxis y_axis = YAxis::kAuto;                    ///< auto: what heading or order of a list say, else down
+};
+
 /// How pixels become heights: height = pixel x height_scale + height_offset.
 struct ScanOptions {
   double pitch_x = 0.0;  ///< distance of neighbouring columns [m], >= 0; 0 = not stated, the scan must bring its own
@@ -20,6 +32,8 @@ struct ScanOptions {
   double height_offset = 0.0;  ///< [m]
   double invalid_value =
       std::numeric_limits<double>::quiet_NaN();  ///< pixels of this raw value are invalid; NaN = none
+
+  TextOptions text;
 
   void describe(OptionVisitor& visitor);
 };

@@ -11,11 +11,19 @@
 
 namespace mems_stiction {
 
-/// One line for each of these, naming the value and the likely slip of units; empty for a plausible scan:
-/// - a pitch outside 1 pm .. 1 mm
-/// - a range of heights above the scan's width
+/// One line for each of these, naming the value, what is usual and the likely slip of units, without commas; empty for a
+/// plausible scan:
+/// - a pitch outside 1 pm .. 1 mm, or pixels more than 100 times as long as wide
+/// - rows or columns without a measured pixel
+/// - fewer than 8 x 8 pixels, or one height alone: no roughness can be seen
+/// - a range of heights above the scan's width, else an rms slope above 10, or below what the noise of any instrument
+///   gives at this pitch (1e-4 at 1 um, falling with its root), or below pitch/1 cm, where asperities would have radii of
+///   centimetres: the slope is that between neighbours, about the mean slope
 /// - float32 heights (in a double map too, if every height is exactly a float32) whose spacing exceeds a tenth of their
 ///   rms height: a stage offset has swallowed the roughness.
 std::vector<std::string> scanWarnings(const HeightMap& scan);
+
+/// Every finite height is a float32: the data has passed through one, or may do so without a loss.
+bool isSinglePrecision(const cv::Mat& heights);
 
 }  // namespace mems_stiction

@@ -14,7 +14,7 @@ namespace mems_stiction {
 /// Position in `channels` of the one to take: lengths in metres along x, y and z, and a title that says height. A
 /// closed-loop sensor ("ZSensor", "Z-AxisSensor", "Height (measured)") goes before "Height" and "Topography", these
 /// before unknown titles; then forward before backward, then the lower id. All of them go before a channel whose heights
-/// span more than the scan is wide. Titles of other signals ("AmplitudeError", "Deflection") and arrays of curves, whose
+/// span more than the scan is wide or the piezo can move. Titles of other signals ("AmplitudeError", "Deflection") and arrays of curves, whose
 /// pixels are a thousand times as long as wide, are never chosen without being named. Of several pages without a title none is chosen.
 /// - @p wanted title or number; empty = as above
 /// @throw FileError without a file name: which channels there are, and why none can be taken.
@@ -23,11 +23,16 @@ std::size_t chooseHeightChannel(const std::vector<FileChannel>& channels, const 
 /// What the user should know where a likelier title was not taken; empty if there is none.
 std::string passedOver(const std::vector<FileChannel>& channels, std::size_t chosen);
 
+/// Which was taken of several topographies that differ in pixels or size, as images of several places or zooms in one file
+/// do, and which else there are; empty if there is none.
+std::string othersOfOtherSize(const std::vector<FileChannel>& channels, std::size_t chosen);
+
 /// "0: ZSensor"
 std::string channelName(const FileChannel& channel);
 
 /// The channel as a surface, pitch = size / pixels.
-/// @throw FileError without a file name if the lengths or the pixels are not those of a surface.
+/// @throw FileError without a file name if the lengths or the pixels are not those of a surface, or the heights span more
+/// than the instrument can move.
 HeightMap surfaceOfChannel(const FileChannel& channel);
 
 }  // namespace mems_stiction

@@ -9,6 +9,8 @@
 
 #include <opencv2/core.hpp>
 
+#include "mems_stiction/height_map/raw_scan.hpp"
+
 namespace mems_stiction {
 
 /// Values on a grid with what the file says of them. Lengths are converted to metres where the file states their unit.
@@ -24,6 +26,7 @@ struct FileChannel {
   bool takes_settings = false;
   /// The pitch is from a field that programs fill without being asked (dots per inch): ScanOptions go before it.
   bool is_pitch_a_guess = false;
+  double reach = 0.0;              ///< what the instrument can move in z [unit_z]: no heights span more; 0 = not stated
   std::vector<std::string> notes;  ///< what the user should know of how it was read, a line each
 };
 
@@ -37,6 +40,7 @@ struct ImportOptions {
   bool use_cache = false;            ///< keep what gwyddion makes of a file for the next time, import_cache.hpp
   std::shared_ptr<WaitingGwyddions> waiting;  ///< started once for many files; null = the program is started for each
   bool ignore_mask = false;                   ///< pixels under the mask of a .gwy file are heights as the others
+  TextOptions text;                           ///< openScanFile() sets it from settings and sidecar
 };
 
 }  // namespace mems_stiction

@@ -51,6 +51,9 @@ struct ScanChannel {
 std::vector<ScanChannel> listScanChannels(const std::string& path, const ScanOptions& scan = {},
                                           const ScanFileOptions& options = {});
 
+/// The file of settings that is read with this scan; empty if there is none.
+std::string sidecarOf(const std::string& path);
+
 /// The paths without the sidecars of others among them, as "SCANS/*" lists both: those are read with their scans.
 std::vector<std::string> withoutSidecars(const std::vector<std::string>& paths);
 

@@ -17,4 +17,15 @@ struct XyzGrid {
 /// @throw FileError without a file name if the points are on no regular grid or two are in one place.
 XyzGrid gridOfPoints(const cv::Mat& points);
 
+/// True if each number of the column stands there twice on average, as the coordinates of a grid do.
+bool mayBeAxis(const cv::Mat& column);
+
+/// True if these columns are x and y of a regular grid of two rows and columns or more, with a point in each place. Of many
+/// points some may be missing.
+bool areOnGrid(const cv::Mat& x, const cv::Mat& y);
+
+/// True if the list begins with the largest y and the smallest x: an image of an upward y, written from its top. A list
+/// that begins with the largest x was turned over, and says nothing.
+bool runsFromTheTop(const cv::Mat& points);
+
 }  // namespace mems_stiction

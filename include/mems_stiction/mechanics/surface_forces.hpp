@@ -38,6 +38,10 @@ double vanDerWaalsSphereForce(double gap, double hamaker_constant, double radius
 /// U of a sphere before a plate [J].
 double vanDerWaalsSphereEnergy(double gap, double hamaker_constant, double radius);
 
+/// U/(d + t/eps_r), the field in the gap of such electrodes [V/m]; in the insulator it is 1/eps_r of that, so that in
+/// contact the whole voltage lies over it.
+double gapField(double gap, double voltage, double insulator_thickness, double insulator_relative_permittivity);
+
 /// p of parallel electrodes with an insulator on one of them [Pa]. gap = 0 is contact, gap < 0 counts as contact.
 double electrostaticPressure(double gap, double voltage, double insulator_thickness,
                              double insulator_relative_permittivity);

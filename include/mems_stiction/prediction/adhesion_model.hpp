@@ -3,8 +3,8 @@
 /// @file
 /// Will this part stick? The one door for users of the core.
 ///
-/// AdhesionModel brings two measured surfaces together until the free energy of the contact has its extremum, and reads
-/// off pull-off force, contact area and the deformed surfaces.
+/// AdhesionModel brings two measured surfaces together until they rest on each other under the loads, takes the loads
+/// away, and draws them apart again. It tells the largest force on the way, the contact at rest, and the surfaces after it.
 ///
 ///     Options options;
 ///     options.load.mechanical_load = 1e-6;                        // N
@@ -13,7 +13,8 @@
 ///     if (prediction.status == Status::kEquilibrium) use(prediction.pull_off_force);
 ///
 /// Which solver answers is a matter of options.formulation (contact_solvers.hpp); assumptions stand with each solver.
-/// Source: Deladi, Krijnen, Tas, Elwenspoek 2002; doc/theory.md has every equation as implemented.
+/// Equations: doc/separation_curve.md for the default, doc/theory.md for what all solvers share and for the paper's
+/// (Deladi, Krijnen, Tas, Elwenspoek 2002).
 
 #include <memory>
 

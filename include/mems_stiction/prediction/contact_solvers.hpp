@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "mems_stiction/contact/contact_settings.hpp"
 #include "mems_stiction/contact/contact_solver.hpp"
 
 namespace mems_stiction {
@@ -21,6 +22,15 @@ const std::vector<std::string>& formulationNames();
 /// Why a formulation of earlier versions is refused and what serves instead, as a line for messages; empty for any
 /// other name.
 std::string retirement(const std::string& formulation);
+
+/// A setting without effect, and why.
+struct IgnoredSetting {
+  const char* key;
+  std::string why;
+};
+/// The settings that bear on nothing that a formulation predicts, nor on the intervals of that, while the others are as
+/// given; none if there is no such formulation. A test changes every setting and compares bits.
+std::vector<IgnoredSetting> ignoredSettings(const std::string& formulation, const ContactSettings& settings);
 
 /// @throw OptionsError if there is no formulation of this name; it lists those that there are.
 std::unique_ptr<ContactSolver> makeContactSolver(const std::string& formulation);

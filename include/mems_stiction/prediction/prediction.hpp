@@ -62,9 +62,12 @@ struct Prediction {
   double contact_stiffness = kUnknown;          ///< -dF/dD at rest [N/m]
   double flattening_energy = kUnknown;          ///< that pressing the surfaces flat would store, per area [J/m^2]
   double flattening_ratio = kUnknown;           ///< flattening_energy/Gamma [-]
-  double adhesion_exponent = kUnknown;          ///< d ln(pull_off_force)/d ln(work of adhesion) [-]
-  double modulus_exponent = kUnknown;           ///< d ln(pull_off_force)/d ln(contact modulus) [-]
+  Exponents pull_off_exponents;                 ///< of the pull-off force
+  Exponents work_exponents;                     ///< of the apparent work of adhesion
   bool is_conforming = false;                   ///< flattening costs less than adhesion gives: flat nearly everywhere
+  bool is_bonded_by_load = false;               ///< bonded, but not without voltage and load
+  /// Largest rise of the force on the way in, without loads, after it has fallen: of its largest value [-]
+  double joining_rise = 0.0;
 
   double adhesion_parameter = 0.0;  ///< (14) [-]; infinite when Gamma = 0
   BondingRegime bonding_regime = BondingRegime::kNonBonding;
@@ -73,6 +76,8 @@ struct Prediction {
   int elastic_count = 0;
   int elasto_plastic_count = 0;
   int plastic_count = 0;
+  int pull_off_contact_count =
+      0;                  ///< contacts that hold at the pull-off: what the load presses beside them does not count
   double max_tilt = 0.0;  ///< [rad]
   /// [-]; infinite when adhesion has no range (interface/hamaker_constant 0), NaN without contact
   double median_tabor_parameter = 0.0;
@@ -92,6 +97,12 @@ struct Prediction {
   /// Whether `asperities` lists every contact: it does not if the solver knows none, or output/asperities is off.
   bool listsContacts() const { return has_asperities && static_cast<int>(asperities.size()) == asperity_count; }
   std::vector<Asperity> asperities;
+  std::vector<Asperity>
+      pull_off_contacts;  ///< that hold at the pull-off (contact_solution.hpp), also with output/asperities off
+  /// Those that a verdict rests on: at the pull-off, or at rest where the formulation knows no others.
+  const std::vector<Asperity>& holdingContacts() const {
+    return pull_off_contacts.empty() ? asperities : pull_off_contacts;
+  }
   std::vector<EnergyPoint> energy_curve;
   std::vector<SeparationCurvePoint> curve;  ///< force over displacement; empty if the formulation does not follow it
   cv::Mat deformed_lower;                   ///< rows x cols CV_64FC1 [m], NaN where invalid

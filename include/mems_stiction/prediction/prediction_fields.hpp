@@ -139,8 +139,8 @@ void visitPredictionFields(PredictionType& prediction, Visitor&& visit) {
   visit("contact_stiffness", prediction.contact_stiffness, "N/m");
   visit("flattening_energy", prediction.flattening_energy, "J/m^2");
   visit("flattening_ratio", prediction.flattening_ratio, "");
-  visit("adhesion_exponent", prediction.adhesion_exponent, "");
-  visit("modulus_exponent", prediction.modulus_exponent, "");
+  visit("adhesion_exponent", prediction.pull_off_exponents.adhesion, "");
+  visit("modulus_exponent", prediction.pull_off_exponents.modulus, "");
   visit("is_conforming", prediction.is_conforming, "");
   visit("adhesion_parameter", prediction.adhesion_parameter, "");
   visit("bonding_regime", prediction.bonding_regime, "");
@@ -161,6 +161,7 @@ void visitPredictionFields(PredictionType& prediction, Visitor&& visit) {
   visit("median_composite_radius", prediction.median_composite_radius, "m");
   visit("is_resolution_limited", prediction.is_resolution_limited, "");
   visit("is_tip_limited", prediction.is_tip_limited, "");
+  visit("pull_off_contact_count", prediction.pull_off_contact_count, "");
 }
 
 /// The fields of one point of the energy curve.

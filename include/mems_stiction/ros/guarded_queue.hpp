@@ -6,12 +6,16 @@
 /// Nothing of this package throws there. Libraries do that act on what peers send, such as stamps whose sums are beyond 32 bits
 /// (tf2_ros, actionlib); the threads that call would end the process, or the manager of nodelets and all that it holds.
 
+#include <atomic>
+#include <chrono>
 #include <exception>
+#include <string>
 #include <utility>
 
 #include <ros/callback_queue.h>
-#include <ros/console.h>
 #include <boost/make_shared.hpp>
+
+#include "mems_stiction/ros/own_log.hpp"
 
 namespace mems_stiction {
 
@@ -31,14 +35,22 @@ class GuardedQueue : public ros::CallbackQueue {
       try {
         return callback_->call();
       } catch (const std::exception& error) {
-        ROS_ERROR_STREAM_THROTTLE(kPause, "a message or call of a peer is passed over: " << error.what());
+        say(error.what());
         return Invalid;
       }
     }
     bool ready() override { return callback_->ready(); }
 
    private:
-    static constexpr double kPause = 5.0;  // [s]
+    /// Not more often than once in so long a time.
+    static void say(const std::string& what) {
+      constexpr std::chrono::seconds kPause{5};
+      static std::atomic<std::chrono::steady_clock::time_point> next{std::chrono::steady_clock::time_point::min()};
+      const auto now = std::chrono::steady_clock::now();
+      if (now < next.load()) return;
+      next = now + kPause;
+      logSoon(ros::console::levels::Error, "a message or call of a peer is passed over: " + what);
+    }
 
     ros::CallbackInterfacePtr callback_;
   };

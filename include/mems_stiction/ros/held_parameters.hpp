@@ -10,6 +10,8 @@
 #include <ros/node_handle.h>
 #include <xmlrpcpp/XmlRpcValue.h>
 
+#include "mems_stiction/ros/master_calls.hpp"
+
 namespace mems_stiction {
 
 /// The private namespace, and which plugins may publish the topics with heights, as they are when it is made. The node reads them at
@@ -19,7 +21,7 @@ class HeldParameters {
   HeldParameters(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
 
   /// Whatever stands there goes. @return false: no answer from the master.
-  bool putBack() const;
+  bool putBack(const MasterCalls& calls) const;
 
  private:
   std::vector<std::pair<std::string, XmlRpc::XmlRpcValue>> parameters_;  ///< those that were set, full names

@@ -49,6 +49,9 @@ ReceivedScan receiveScan(const sensor_msgs::ImageConstPtr& image, const ScanOpti
 /// stage offset should have come off before.
 sensor_msgs::ImagePtr heightImage(const cv::Mat& heights, const std_msgs::Header& header);
 
+/// The same without a loss: as 64FC1 where a height is no float32.
+sensor_msgs::ImagePtr exactHeightImage(const cv::Mat& heights, const std_msgs::Header& header);
+
 /// rows x cols CV_8UC1 as mono8.
 sensor_msgs::ImagePtr contactMapImage(const cv::Mat& contact_map, const std_msgs::Header& header);
 

@@ -5,8 +5,8 @@
 /// counter-surface and the deformation that has accumulated. No ROS graph; one object serves one thread.
 ///
 /// A scan is cleaned once, when it comes. As the last scan it stays prepared: new loads, long runs and the preview take
-/// it from there. It is prepared again only when the wear that it was measured against is forgotten (resetSurface());
-/// under a newer counter-surface it is mounted again, not cleaned. No running setting bears on its preparation.
+/// it from there; under a newer counter-surface it is mounted again, not cleaned. The contacts before have left their mark on
+/// both cleaned surfaces (surface/wear.hpp), as in cycles. No running setting bears on its preparation.
 
 #include <cstdint>
 #include <optional>
@@ -37,8 +37,9 @@ inline constexpr std::size_t kMostScansOfAPart = 1000;
 /// The core as the node uses it, one scan after the other.
 class LivePredictor {
  public:
-  /// - @p accumulate_deformation the depth that a contact has pressed into a scan is taken off the scans of the same
-  ///        size that follow: every scan is then taken for the surface as it was made, worn by the contacts before.
+  /// - @p accumulate_deformation the depth that a contact has pressed into a scan and into what it meets is taken off the
+  ///        scans of the same size that follow: every scan, and the counter-surface, is then taken for the surface as it
+  ///        was made, worn by the contacts before. The same scan again and again is cycleContacts(), to the bit.
   /// @throw OptionsError if the configuration is out of range.
   LivePredictor(const Configuration& configuration, bool accumulate_deformation);
 
@@ -82,15 +83,15 @@ class LivePredictor {
  private:
   struct LastScan {
     ReceivedScan received;
-    PreparedScan prepared;
+    PreparedScan as_made;
+    PreparedScan prepared;  ///< the same as the contacts before have left it
     ScanOfPart part;
-    std::vector<std::string> warnings;  ///< about it, in words
-    cv::Mat wear_before;                ///< what had been pressed in when it came
-    bool is_reset = false;              ///< the wear has been forgotten since
-    bool has_newer_counter = false;     ///< another counter-surface has come since
+    Wear wear_before;                ///< what had been pressed in when it came
+    bool is_reset = false;           ///< the wear has been forgotten since
+    bool has_newer_counter = false;  ///< another counter-surface has come since
   };
 
-  PreparedScan prepare(const ReceivedScan& scan, const cv::Mat& wear);
+  PreparedScan prepare(const ReceivedScan& scan);
   /// Brought up to date, if need be.
   const PreparedScan& lastPrepared();
   void setPoseOf(const ReceivedScan& scan);
@@ -99,7 +100,7 @@ class LivePredictor {
   void addToPart(const ReceivedScan& scan, const Configuration& settings, PredictedScan& predicted);
   /// The prediction with `options` set before, and its verdict.
   PredictedScan judged(const PreparedScan& prepared, const Configuration& settings, const ScanIdentity& identity,
-                       const std::vector<std::string>& warnings);
+                       const ScanPredictor::OnModel& on_model = {});
 
   SettingsOwner settings_;
   ScanPredictor predictor_;
@@ -107,7 +108,7 @@ class LivePredictor {
   bool has_counter_surface_ = false;
   std::optional<LastScan> last_;
   PartScans parts_{kMostParts, kMostScansOfAPart};
-  cv::Mat wear_;  ///< depth pressed in by the contacts so far, rows x cols CV_64FC1 [m]; empty = none
+  Wear wear_;  ///< of the contacts so far
 };
 
 }  // namespace mems_stiction

@@ -82,6 +82,7 @@ struct StatedConfiguration {
   NodeConfiguration configuration;
   std::vector<std::string> from_files;  ///< keys that the text of a configuration file states, and nothing else
   std::string taken;                    ///< without files: all that was stated, for the next start to compare with
+  std::vector<std::string> files;       ///< that such texts are of
   std::vector<std::string> overrides;   ///< keys that stand beside such texts and go before them
 };
 

@@ -10,6 +10,8 @@
 #include <set>
 #include <string>
 
+#include "mems_stiction/ros/master_calls.hpp"
+
 namespace mems_stiction {
 
 /// One per process; for one thread.
@@ -23,16 +25,16 @@ class Registrations {
   };
 
   /// Asks the master. While the process is known, also notes which services it has there, since roscpp has no list of them.
-  State look();
+  State look(const MasterCalls& calls);
 
   /// Registers every topic of the process, and every service that was noted and is still offered.
   /// @return false: the master was gone before the end, or ROS is shutting down; to be called again.
-  bool repeat();
+  bool repeat(const MasterCalls& calls) const;
 
  private:
-  bool repeatPublications() const;
-  bool repeatSubscriptions() const;
-  bool repeatServices() const;
+  static bool repeatPublications(const MasterCalls& calls);
+  static bool repeatSubscriptions(const MasterCalls& calls);
+  bool repeatServices(const MasterCalls& calls) const;
 
   std::set<std::string> services_;  ///< names, as noted
 };

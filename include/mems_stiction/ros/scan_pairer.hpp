@@ -8,12 +8,16 @@
 /// alone for good. That says nothing once stamps go back, as in a bag that starts again, or while several publishers
 /// send: then only the timeout tells who is alone. A scan whose halves are given up at different times counts once.
 ///
-/// Scans of one publisher with equal stamps are pairs as long as they come one after the other. Once two of them wait at the
-/// same time they are rejected, until none has come for the timeout.
+/// A stamp that several scans bear does not tell which scan_info belongs to which image, and neither does the order of arrival
+/// or header.seq: a half that is lost, or was never sent, shifts all after it. Such scans are pairs only if there are as many
+/// of one kind as of the other, and every scan_info says the same, also the one after; else all of them are rejected, until
+/// none has come for the timeout. The same goes for stamps that are not set (0), and for all while others repeat.
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -23,6 +27,15 @@
 #include "mems_stiction/ScanInfo.h"
 
 namespace mems_stiction {
+
+/// Why scans of one stamp are not taken.
+inline constexpr char kAmbiguousStamp[] =
+    "several scans bear its stamp and differ in their scan_info, or one half is missing: nobody can tell which "
+    "scan_info "
+    "belongs to which image; give each scan a header.stamp of its own, or set use_scan_info to false";
+
+/// A hash of all that a scan_info says but its number.
+std::size_t contentOf(ScanInfo info);
 
 /// Holds back each half of a pair until the other one comes, or time is up.
 class ScanPairer {
@@ -57,9 +70,10 @@ class ScanPairer {
     int looks = 0;          ///< of expire()
   };
 
+  /// Those of one stamp.
   struct GivenUp {
-    ros::Time stamp;
-    ros::WallTime at;
+    unsigned count = 0;
+    std::uint64_t arrival = 0;  ///< of its topic, when the latest was
   };
 
   /// One of the two topics.
@@ -67,22 +81,41 @@ class ScanPairer {
   struct Topic {
     const char* reason;  ///< of a half of this topic that is alone
     std::deque<Waiting<Message>> waiting{};
-    std::deque<GivenUp> given_up{};  ///< lately: their partners are no scans of their own
+    std::map<ros::Time, GivenUp> given_up{};  ///< their partners are no scans of their own
     ros::Time last_stamp{};
     std::uint64_t arrivals = 0;
     std::uint64_t anew = 0;  ///< the last arrival whose stamp went back
   };
 
-  bool isAmbiguous(const ros::Time& stamp, bool waits_twice, ros::WallTime now);
-  template <typename Message, typename Other, typename Pair>
-  void add(const Message& message, ros::WallTime now, Topic<Message>& topic, Topic<Other>& other, const Pair& pair);
-  void pair(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info, ros::WallTime now);
-  template <typename Message, typename Other, typename Predicate>
-  void rejectIf(Topic<Message>& topic, Topic<Other>& other, const Predicate& is_lone, const std::string& reason,
-                const std::vector<ros::Time>& partners, ros::WallTime now);
+  /// What came with one stamp, until none has for the timeout, or the stamps of the one publisher went back.
+  struct Bearers {
+    unsigned images = 0;
+    unsigned infos = 0;
+    std::size_t content = 0;  ///< of the latest scan_info, as a hash
+    bool differ = false;      ///< two scan_infos do
+    bool accepted = false;    ///< a scan
+    ros::WallTime last{};     ///< when the latest came
+    std::uint64_t round = 0;
+  };
+
+  void end(const ros::Time& stamp, const Bearers& bearers);
+  Bearers& bearersOf(const ros::Time& stamp, ros::WallTime now);
+  static void count(const sensor_msgs::ImageConstPtr& image, Bearers& bearers);
+  static void count(const ScanInfoConstPtr& info, Bearers& bearers);
+  void pairAllBut(std::size_t held, const ros::Time& stamp);
+  void rejectAllOf(const ros::Time& stamp);
+  void settleLate(ros::WallTime now);
 
   template <typename Message, typename Other>
-  void makeRoom(Topic<Message>& topic, Topic<Other>& other, ros::WallTime now);
+  void add(const Message& message, ros::WallTime now, Topic<Message>& topic, Topic<Other>& other);
+  void pair(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info);
+  template <typename Message, typename Other, typename Predicate>
+  void rejectIf(Topic<Message>& topic, Topic<Other>& other, const Predicate& is_lone, const std::string& reason,
+                const std::vector<ros::Time>& partners);
+  template <typename Message, typename Other>
+  void makeRoom(Topic<Message>& topic, Topic<Other>& other);
+  template <typename Message>
+  bool isLate(const Waiting<Message>& waiting, ros::WallTime now) const;
 
   ros::WallDuration timeout_;
   std::size_t max_bytes_;
@@ -93,9 +126,10 @@ class ScanPairer {
   bool several_publishers_ = false;
   bool went_back_ = false;        ///< the stamps of a topic did, in the last kSettling timeouts
   ros::WallTime went_back_at_{};  ///< when they did last
-  bool is_ambiguous_ = false;     ///< several scans bore one stamp
-  ros::Time ambiguous_stamp_{};
-  ros::WallTime ambiguous_at_{};  ///< when the last of them came
+  std::uint64_t round_ = 0;       ///< how often they did while there was one publisher
+  std::map<ros::Time, Bearers> bearers_;
+  bool repeats_ = false;         ///< scans that differ bore one stamp, in the last kSettling timeouts
+  ros::WallTime repeated_at_{};  ///< when they did last
 };
 
 }  // namespace mems_stiction

@@ -3,9 +3,9 @@
 /// @file
 /// The one implementation behind node and nodelet: connects topics and services with the worker that owns the core.
 ///
-/// Threads: one for topics, transforms and timers, one for the core (WorkQueue), two for services, one for each action,
-/// one for ~solve_half_space, one that solves the newest scan as a half-space, one that watches the master. A service that
-/// needs the core is run by the worker before the scans that wait; an action, and the half-space, take from it what they
+/// Threads: one for topics, transforms and timers, one for the core (WorkQueue), one for each call of a service that waits and one for the
+/// next, one for each action, one for ~solve_half_space, one that solves the newest scan as a half-space; of the process, one that
+/// writes the log, and one that watches the master and alone talks to it. A service that needs the core is run by the worker before the scans that wait; an action, and the half-space, take from it what they
 /// need and then work by themselves.
 
 #include <atomic>
@@ -15,7 +15,6 @@
 #include <string>
 #include <vector>
 
-#include <diagnostic_updater/diagnostic_updater.h>
 #include <image_transport/image_transport.h>
 #include <ros/ros.h>
 #include <std_srvs/Trigger.h>
@@ -25,7 +24,9 @@
 #include "mems_stiction/SetLoad.h"
 #include "mems_stiction/SetMechanicalLoad.h"
 #include "mems_stiction/SetVoltage.h"
+#include "mems_stiction/ros/call_queue.hpp"
 #include "mems_stiction/ros/counter_surface_frame.hpp"
+#include "mems_stiction/ros/diagnostics.hpp"
 #include "mems_stiction/ros/guarded_queue.hpp"
 #include "mems_stiction/ros/half_space_calls.hpp"
 #include "mems_stiction/ros/half_space_stream.hpp"
@@ -73,7 +74,7 @@ class StictionServer {
   void takeCounterSurface(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info);
   void rejectLone(const std_msgs::Header& header, const std::string& reason);
   /// What a restarted master has lost; the mirror of reconfigure shows the settings of now. @return false: no master
-  bool putParametersBack();
+  bool putParametersBack(const MasterCalls& calls) const;
   void report(diagnostic_updater::DiagnosticStatusWrapper& status);
   /// @param info null: the parameters serve.
   ReceivedScan receive(const sensor_msgs::ImageConstPtr& image, const ScanInfo* info) const;
@@ -97,7 +98,7 @@ class StictionServer {
 
   // Declared before everything that holds handles on them.
   GuardedQueue topic_queue_;
-  GuardedQueue service_queue_;
+  CallQueue service_queue_;
   ros::NodeHandle handle_;
   ros::NodeHandle private_handle_;
   ros::NodeHandle service_handle_;
@@ -124,7 +125,7 @@ class StictionServer {
   ReconfigureServer reconfigure_;
   StationActions actions_;
   HalfSpaceCalls half_space_calls_;
-  diagnostic_updater::Updater diagnostics_;
+  Diagnostics diagnostics_;
   HeldParameters parameters_;
   std::shared_ptr<MasterWatch> master_;
   ros::WallTimer diagnostic_timer_;
@@ -132,7 +133,6 @@ class StictionServer {
   ros::WallTimer gate_timer_;
 
   ros::AsyncSpinner topic_spinner_;
-  ros::AsyncSpinner service_spinner_;
 };
 
 }  // namespace mems_stiction

@@ -9,6 +9,8 @@
 
 #include <atomic>
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "mems_stiction/height_map/height_map.hpp"
 #include "mems_stiction/height_map/raw_scan.hpp"
@@ -34,6 +36,7 @@ class CounterSurfaceSource {
 
   /// A surface that was measured beside the scans takes the place of the configured one; empty: no longer. It is
   /// cleaned when it is first asked for.
+  /// @throw OptionsError if counter_surface/facing does not say how it lies; then nothing changes.
   void setMeasured(const HeightMap& measured);
 
   /// The counter-surface on the scan's grid; empty for a level plane. A measured one of another grid is not resampled,
@@ -41,6 +44,10 @@ class CounterSurfaceSource {
   /// @throw SurfaceError for type topic without a measured surface, or one that cannot be cleaned, cannot be drawn on
   /// this grid or does not overlap it.
   HeightMap over(const HeightMap& scan);
+
+  /// What is odd about the counter-surface that over() has given for this scan, in words: a measured one that does not
+  /// look like a scan (scan_sanity.hpp), or that covers less than nine tenths of the scan's valid pixels.
+  std::vector<std::string> warnings(const HeightMap& scan) const;
 
   /// How many measured surfaces have been cleaned so far. For any thread.
   std::uint64_t cleanings() const { return cleanings_; }
@@ -58,6 +65,8 @@ class CounterSurfaceSource {
   HeightMap mounted_measured_;  ///< the same before its pose; empty: not asked for yet
   HeightMap surface_;           ///< mounted, before its pose; of type file, or the generated one of the latest grid
   HeightMap placed_;            ///< in its pose, on the latest grid
+  std::vector<std::string> warnings_;           ///< about the surface of the file
+  std::vector<std::string> measured_warnings_;  ///< about the measured one
   std::atomic<std::uint64_t> cleanings_{0};
 };
 

@@ -13,6 +13,8 @@
 
 #include <atomic>
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "mems_stiction/preprocess/pipeline.hpp"
 #include "mems_stiction/roughness/areal_parameters.hpp"
@@ -20,20 +22,27 @@
 #include "mems_stiction/scan/configuration.hpp"
 #include "mems_stiction/scan/counter_surface_source.hpp"
 #include "mems_stiction/surface/surface_pair.hpp"
+#include "mems_stiction/surface/wear.hpp"
 
 namespace mems_stiction {
 
 /// A scan as the model gets it. Copies share their pixels, and hold them.
 struct PreparedScan {
-  SurfacePair surfaces;                ///< the cleaned scan and what it meets, on the scan's own grid
-  SurfacePair model_surfaces;          ///< the same for the model: on a finer grid if preprocessing/refine asks for it
-  int refinement = 1;                  ///< cells of the model along a pixel of the scan [-]
-  PreprocessRecord record;             ///< what was done to the scan
-  cv::Mat outside;                     ///< pixels of the scan that preprocessing/region leaves out; empty = none
-  ArealParameters roughness;           ///< of model_surfaces.lower, if output/roughness asks for it
-  SpatialRoughness spatial_roughness;  ///< of surfaces.lower; NaN unless output/spatial_roughness asks for it
-  double preparation_time = 0.0;       ///< wall time of prepare() [s], part of the time of the scan's prediction
+  SurfacePair surfaces;               ///< the cleaned scan and what it meets, on the scan's own grid
+  SurfacePair model_surfaces;         ///< the same for the model: on a finer grid if preprocessing/refine asks for it
+  int refinement = 1;                 ///< cells of the model along a pixel of the scan [-]
+  std::vector<std::string> warnings;  ///< about the scan as it came, in words (scan_sanity.hpp)
+  std::vector<std::string> counter_warnings;  ///< about what it meets
+  PreprocessRecord record;                    ///< what was done to the scan
+  cv::Mat outside;                            ///< pixels of the scan that preprocessing/region leaves out; empty = none
+  ArealParameters roughness;                  ///< of model_surfaces.lower, if output/roughness asks for it
+  SpatialRoughness spatial_roughness;         ///< of surfaces.lower; NaN unless output/spatial_roughness asks for it
+  double preparation_time = 0.0;              ///< wall time of prepare() [s], part of the time of the scan's prediction
 };
+
+/// Surfaces on the model's grid that have become `after` of prepared.model_surfaces, as those of the scan's grid: each
+/// pixel less the mean depth over it, so that untouched pixels keep their heights. A plane stays one.
+SurfacePair onScanGrid(const PreparedScan& prepared, const SurfacePair& after);
 
 /// Prepares scan after scan with one configuration. One object serves one thread at a time.
 class ScanPreparer {
@@ -58,6 +67,9 @@ class ScanPreparer {
   /// @throw SurfaceError as prepare(); then nothing changes.
   void mount(PreparedScan& prepared);
 
+  /// A prepared scan as the contacts before have left its surfaces, with the roughness that they have now.
+  PreparedScan worn(const PreparedScan& as_made, const Wear& wear) const;
+
   /// Surfaces that are clean and in place, ready for the model: refined, without roughness.
   PreparedScan ready(const SurfacePair& surfaces) const;
 
@@ -66,6 +78,7 @@ class ScanPreparer {
 
  private:
   bool isRefining() const { return refinement_.refine.factor > 1; }
+  void addRoughness(PreparedScan& prepared) const;
   /// Empty stays empty.
   HeightMap refinedUpper(const HeightMap& upper) const;
 

@@ -24,7 +24,7 @@ struct RecordExtras {
   std::string formulation;                         ///< that the prediction is of
   std::optional<Verdict> verdict;                  ///< on the device
   std::optional<Provenance> provenance;            ///< version, hash of the settings, what was scanned
-  std::vector<std::string> warnings;               ///< about scan and settings: a list of texts, in JSON alone
+  std::vector<std::string> warnings;               ///< about scan and settings: a list of texts
   std::optional<ForceInterval> pull_off_interval;  ///< a sentence in YAML's comments, for people
   bool has_curve = false;                          ///< the prediction's curve, as a list of maps
   PreprocessRecord preprocessing;             ///< a list of maps: step, parameters, rms_change, changed_pixels, ...

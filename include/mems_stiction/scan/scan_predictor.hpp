@@ -3,6 +3,7 @@
 /// @file
 /// From a scan to its prediction with one configuration: what node, command line and bag tools share to the last line.
 
+#include <functional>
 #include <vector>
 
 #include "mems_stiction/height_map/height_map.hpp"
@@ -41,7 +42,9 @@ class ScanPredictor {
   void setDevice(const DeviceOptions& device) { device_ = device; }
 
   /// @throw SurfaceError if the two surfaces do not fit, or it takes longer than configuration.limits allows.
-  Prediction predict(const PreparedScan& prepared);
+  /// - @p on_model gets what the model says on its own grid, before it is brought to the scan's
+  using OnModel = std::function<void(const Prediction&)>;
+  Prediction predict(const PreparedScan& prepared, const OnModel& on_model = {});
 
   /// The scan of the last predict() once more, under the options and device of now; what follows from its surfaces alone
   /// is not computed again.

@@ -11,9 +11,8 @@ namespace mems_stiction {
 
 /// Of a frame at one approach.
 struct Attraction {
-  double adhesion = 0.0;         ///< sum of t(d) dA over the cells apart [N]
-  double electrostatic = 0.0;    ///< sum of eps0 U^2/(2 (d + h/eps_r)^2) dA over all, d = 0 in contact [N]
-  double adhesion_energy = 0.0;  ///< sum of w(d) dA over all cells, Gamma in contact [J]
+  double adhesion = 0.0;       ///< sum of t(d) dA over the cells apart [N]
+  double electrostatic = 0.0;  ///< sum of eps0 U^2/(2 (d + h/eps_r)^2) dA over all, d = 0 in contact [N]
 };
 
 /// Sums over the frame without a pass over it.
@@ -24,20 +23,17 @@ class AttractionSum {
   const ContactTraction& law() const { return law_; }
   /// The forces when the first `contact_count` ordered cells are in contact and the others apart by gap - approach.
   Attraction forces(const GapPyramid& gaps, double approach, int contact_count) const;
-  /// The forces and the energies, which take longer.
-  Attraction all(const GapPyramid& gaps, double approach, int contact_count) const;
+  /// Sum of w(d) dA over all cells, Gamma in contact [J]: takes longer.
+  double energy(const GapPyramid& gaps, double approach, int contact_count) const;
 
  private:
   void addForces(const OrderedCell* cells, std::size_t count, double approach, Attraction& sum) const;
   void addForces(const GapMoments& gaps, double approach, Attraction& sum) const;
-  void addEnergies(const OrderedCell* cells, std::size_t count, double approach, Attraction& sum) const;
-  void addEnergies(const GapMoments& gaps, double approach, Attraction& sum) const;
   PyramidRule rule() const { return {0.0, law_.range()}; }
 
   ContactTraction law_;
   double cell_area_;
-  double field_factor_;  ///< eps0 U^2/2 [N]
-  double insulator_;     ///< h/eps_r [m]
+  FieldLaw field_;
 };
 
 }  // namespace mems_stiction

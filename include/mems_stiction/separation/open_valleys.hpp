@@ -19,6 +19,7 @@
 /// U is the flattening energy per area, sigma the rms height, q the mean wave number that both tell of. The three numbers
 /// are chosen on frames of the half-space (doc/separation_curve.md).
 
+#include "mems_stiction/contact/contact_solution.hpp"
 #include "mems_stiction/separation/relief_spectrum.hpp"
 
 namespace mems_stiction {
@@ -43,9 +44,8 @@ bool valleysStayOpen(ReliefSpectrum& relief, const BondedBodies& bodies, double 
 
 /// What surfaces with open valleys hold.
 struct OpenValleyStrength {
-  double traction = 0.0;           ///< mean, at which they part [Pa]
-  double adhesion_exponent = 0.0;  ///< with which it goes with Gamma, but for the denominator
-  double modulus_exponent = 0.0;   ///< and with E
+  double traction = 0.0;  ///< mean, at which they part [Pa]
+  Exponents exponents;
 };
 OpenValleyStrength strengthWithOpenValleys(const BondedBodies& bodies);
 

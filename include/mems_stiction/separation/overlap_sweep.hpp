@@ -31,6 +31,8 @@ class OverlapSweep {
 
   /// Cells with a smaller gap are in [m].
   double approach() const { return approach_; }
+  /// That are in.
+  int cellCount() const { return inserted_; }
   /// Ids of the patches that exist now; their order depends on the cells alone.
   const std::vector<std::int32_t>& livePatches() const { return live_; }
   /// The patches of livePatches(), in their order.

@@ -53,12 +53,13 @@ class SeparationSolver : public ContactSolver {
   void part(const ContactProblem& problem, ContactSolution& solution);
   /// The way out of surfaces that conform, or are near to it, if they are.
   void partConforming(const ContactProblem& problem, ContactSolution& solution);
+  /// The contacts that hold at the pull-off: patches within reach of the attraction there. The trace leaves rest.
+  void listPullOffContacts(const ContactProblem& problem, ContactSolution& solution);
   /// Contact area of the surfaces when the loads have been taken away [m^2]: theirs at rest, if there were none.
   double unloadedContactArea(const ContactSolution& solution) const;
   void takeConforming(const ContactProblem& problem, double stretch, ContactSolution& solution);
   /// Makes the way out stronger, if these factors do, by its forces and by its displacements from rest.
   void stretchWayOut(const ContactProblem& problem, double force_factor, double work_factor, ContactSolution& solution);
-  void takeOpenExponents(ContactSolution& solution) const;
 
   SeparationTrace trace_;
   SeparationCurve curve_;
@@ -71,6 +72,8 @@ class SeparationSolver : public ContactSolver {
   ConformingContact conforming_;
   std::vector<double> changed_gaps_;  ///< of the cells that overlap, when surfaces have flowed [m]
   SeparationCurve way_out_;           ///< where it is another than the way in
+  bool has_way_out_ = false;
+  std::vector<Regime> regime_of_dale_;  ///< at rest, when surfaces have flowed
 };
 
 }  // namespace mems_stiction

@@ -58,8 +58,12 @@ class SeparationTrace {
   /// The forces at an approach that is no smaller than the last one [m].
   /// - @p expected_end where the curve probably ends [m]: so many cells are put in order at once when there are not enough
   SeparationState at(double approach, double expected_end = 0.0);
-  /// The attraction with its energies, at the approach of the last call of at(), where nothing holds on.
-  Attraction energiesAt(const SeparationState& state) const;
+  /// What taking the surfaces apart from a state would cost if they only attracted each other [J], where nothing holds on.
+  double energyAt(const SeparationState& state) const;
+  /// With which power of the Hamaker constant the attraction of a state goes [-], and its energy: a larger one widens the
+  /// law's range, which pulls more over wide gaps and less near contacts.
+  double hamakerExponentOfForce(const SeparationState& state);
+  double hamakerExponentOfEnergy(const SeparationState& state) const;
   /// Back to apart.
   void restart();
   /// The same, on the way out from now on: soft summits that have touched hold longer than they would reach.
@@ -87,6 +91,9 @@ class SeparationTrace {
   /// Where it is reached [m].
   double limitApproach();
   OverlapSweep& contacts() { return contacts_; }
+  /// The patches of the surfaces brought closer by as much as attraction, and summits that hold on, reach: where the trace
+  /// stands.
+  const OverlapSweep& inReach() const { return in_reach_; }
   /// The cells that overlap come first.
   const LargePageVector<OrderedCell>& orderedCells() const { return order_.cells(); }
 
@@ -99,11 +106,12 @@ class SeparationTrace {
   /// Takes what is in reach in, and what it holds on with.
   Bending bendingAt(double approach, double expected_end);
   /// Of the cells apart, or held if that is more.
-  Attraction attractionAt(const SeparationState& state);
+  Attraction attractionAt(const AttractionSum& sum, const SeparationState& state);
 
   const GapField* field_ = nullptr;
   const ContactSettings* settings_ = nullptr;
   std::optional<AttractionSum> attraction_;
+  std::optional<AttractionSum> wider_attraction_;  ///< with a Hamaker constant that is larger by kMoreHamaker
   CapillaryForce water_;
   std::optional<PatchForces> patch_forces_;
   double approach_before_limit_ = 0.0;

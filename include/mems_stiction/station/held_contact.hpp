@@ -32,6 +32,7 @@ struct HeldState {
   double electrostatic_force = 0.0;  ///< at this voltage [N]
   double normal_load = 0.0;          ///< F_w + F_e + F_m + F_c [N]
   double contact_area = 0.0;         ///< real area [m^2]; of the paper's formulations that of the largest load
+  double contact_fraction = 0.0;     ///< of contact_area [-]
   double contact_area_jkr = 0.0;     ///< sum pi a_i^2 at this load [m^2]
   bool is_searched = false;          ///< the equilibrium was searched at this load; else the contact was held
 };

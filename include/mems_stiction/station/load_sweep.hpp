@@ -76,10 +76,14 @@ struct LoadSweepRow {
 struct LoadSweepSummary {
   double mechanical_load = 0.0;                            ///< [N]
   double highest_releasing_voltage = Verdict::kNotStated;  ///< margin >= 1 up to here, in equilibrium [V]
-  double highest_safe_voltage = Verdict::kNotStated;       ///< the verdict is "no" up to here [V]
-  double lowest_sticking_voltage = Verdict::kNotStated;    ///< the first that does not release [V]
-  double opening_voltage = Verdict::kNotStated;  ///< the highest at which the device opens on the way down [V]
+  double highest_safe_voltage = Verdict::kNotStated;       ///< the verdict is "no" at each voltage up to here [V]
+  double lowest_sticking_voltage = Verdict::kNotStated;    ///< the first with a margin below 1 [V]
+  double opening_voltage = Verdict::kNotStated;      ///< the highest at which the device opens on the way down [V]
+  double lowest_safe_voltage = Verdict::kNotStated;  ///< the first with the verdict "no", whatever lower ones have [V]
 };
+
+/// Of the rows of one mechanical load [N]: as their verdicts say.
+LoadSweepSummary summaryOf(double mechanical_load, const std::vector<LoadSweepRow>& rows);
 
 /// The curve, and what it says.
 struct LoadSweepResult {

@@ -36,14 +36,15 @@ enum class CounterSurfaceType {
 
 /// Which way the heights of a measured counter-surface point.
 enum class CounterSurfaceFacing {
-  kDown,  ///< as mounted: z and columns are those of the scan's frame
-  kUp,    ///< as measured, asperities up: turned over about its y axis (z negated, columns mirrored)
+  kUnstated,  ///< nobody has said it: a measured counter-surface is refused
+  kDown,      ///< as mounted: z and columns are those of the scan's frame
+  kUp,        ///< as measured, asperities up: turned over about its y axis (z negated, columns mirrored)
 };
 
 /// What the counter-surface is and how it lies.
 struct CounterSurfaceOptions {
   CounterSurfaceType type = CounterSurfaceType::kFlat;
-  CounterSurfaceFacing facing = CounterSurfaceFacing::kDown;
+  CounterSurfaceFacing facing = CounterSurfaceFacing::kUnstated;
   std::string file;     ///< for type file
   std::string channel;  ///< title or number, of an instrument maker's file; empty = the likeliest height channel
   SurfacePose pose;
@@ -60,7 +61,11 @@ struct CounterSurfaceOptions {
 /// A height map that faces the other way: z negated, columns mirrored. Twice gives back the surface.
 HeightMap turnedOver(const HeightMap& surface);
 
+/// "must be stated: up = ..., down = ...", where a measured counter-surface comes without its facing.
+std::string facingComplaint();
+
 /// The counter-surface in the scan's frame.
+/// @throw OptionsError if `facing` is unstated.
 HeightMap mountedCounterSurface(const HeightMap& measured, CounterSurfaceFacing facing);
 
 /// A generated counter-surface as it is mounted, on the scan's grid, before its pose.

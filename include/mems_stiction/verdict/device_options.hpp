@@ -17,6 +17,7 @@ struct DeviceOptions {
   double spring_stiffness = 0.0;  ///< k of the suspension along z [N/m], >= 0
   double travel = 0.0;            ///< from rest to contact [m], >= 0
   double contact_area = 0.0;      ///< nominal area of dimples or landing pads, all together [m^2], >= 0
+  int contacts = 1;               ///< separate ones that share the contact area, >= 1
   double electrode_area = 0.0;    ///< that the voltage acts on [m^2], >= 0
   double electrode_gap = 0.0;     ///< at rest [m], >= 0; 0 = the travel
 

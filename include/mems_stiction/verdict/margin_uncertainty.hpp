@@ -4,14 +4,14 @@
 /// How far may the predicted pull-off force be off, given how well the constants are known?
 ///
 /// Each sample draws one factor per uncertain constant, lognormal with median 1: w for the work of adhesion, h for the
-/// hardness, e for the modulus, x for the pitch, c for the cut-off. The contacts of the prediction are then moved:
+/// hardness, e for the modulus, x for the pitch, c for the cut-off, a for the Hamaker constant. The contacts of the prediction are then moved:
 ///
 ///     R_i -> x^2 R_i     P1_i -> e x P1_i     yield load Y_i = Ha pi rc_i^2 -> h x^2 Y_i
 ///     phi_i -> (e/h) phi_i/x, and with it the elastic share chi_i
 ///     carried load  C = sum [chi_i P1_i + (1 - chi_i) min(P1_i, Y_i)]
 ///     demand        B = F_m + F_e + F_w + F_c + 2 pi Gamma sum R_i
 ///     growth        n = (B'/C')/(B/C), with F_w' and F_c' in B' for n = 1
-///     F_w -> x^2 (n c^-2 near + far),    far = H A/(6 pi (mean gap)^3), which the cut-off does not touch
+///     F_w -> x^2 a (n c^-2 near + far),  far = H A/(6 pi (mean gap)^3), which the cut-off does not touch
 ///     F_c -> x^2 n F_c
 ///     pull-off per nominal area -> [n (3/2) pi (w Gamma) sum x^2 R_i + F_w' + F_c']/(x^2 A0)
 ///
@@ -27,7 +27,8 @@
 /// powers of 4 of pitch and cut-off. With a few contacts the search goes in steps, and this is the smooth mean at best. A single contact that carries more than it must does not react at all: this is then wider than
 /// what the search would say.
 ///
-/// A prediction by the separation curve moves with its exponents instead, and has the model's own error (doc/trust.md).
+/// A prediction by the separation curve moves with its exponents instead, force and work each with their own, and has the
+/// model's own error (doc/trust.md).
 /// Where a half-space judges, its error takes the place of that (evidence.hpp). The choice of cleaning is a further
 /// factor: normal in the logarithm, whose 2.5 % and 97.5 % quantiles are the lowest and the highest of the cleanings. Both
 /// add in quadrature there, quantile by quantile.

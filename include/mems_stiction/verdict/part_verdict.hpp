@@ -25,7 +25,8 @@
 /// The word is that of one scan (verdict.hpp), for this interval. A plain "no" is withheld where one scan by itself says
 /// "yes" (then it is marginal), and where scans that cannot count leave a doubt (then it is unknown): one that bonds or has
 /// no equilibrium, or more than half of all. A scan that may not say "no" for its few contacts alone counts, since contacts
-/// of several scans add up; together they must be three. A scan without adhesion (an infinite margin) counts, and is left
+/// of several scans add up; together they must be three. A scan whose area is not that of one of
+/// the device's contacts (contact_size.hpp) counts for the figures, but then neither "no" nor "yes" is said. A scan without adhesion (an infinite margin) counts, and is left
 /// out of the mean.
 ///
 /// Assumptions: every scan is another place of one part, predicted with the same settings and judged for the same device. A
@@ -73,6 +74,7 @@ struct ScanStatement {
   JudgedRatio peel_number;
   double margin_transition = Verdict::kNotStated;  ///< with the prefactors of the JKR-DMT transition [-]
   double place_deviation = Verdict::kNotStated;    ///< p_i before it is bounded [-]; NaN: nothing is known, as 0
+  std::string size_objection;                      ///< of the scan's verdict
   int contacts = 0;
   std::uint32_t regime_flags = 0;  ///< bits of RegimeFlag
 };

@@ -1,7 +1,8 @@
 #pragma once
 
 /// @file
-/// Where does a prediction leave the range of the model that made it?
+/// Where does a prediction leave the range of the model that made it? What a flag says of contacts it says of those that
+/// hold at the pull-off: a load that presses more of them together at rest changes no flag.
 
 #include <cstdint>
 #include <string>
@@ -13,7 +14,7 @@ namespace mems_stiction {
 
 /// Bits of a set of flags; the values are those of the message.
 enum RegimeFlag : std::uint32_t {
-  kBondedFlag = 1,         ///< contacts percolate: the pull-off force is a lower bound
+  kBondedFlag = 1,         ///< contacts percolate without the loads: the pull-off force is a lower bound
   kNoEquilibriumFlag = 2,  ///< the search ended first: the figures are those of its last step
   kTaborFlag = 4,          ///< JKR's pull-off is too low: the median Tabor parameter asks for the transition or DMT
   kPlasticityFlag = 8,     ///< more than half of the adhesion is of contacts that flow: their radii have changed
@@ -45,7 +46,7 @@ inline constexpr int kFewestContacts = 10;
 bool mayGrowTogether(const Prediction& prediction);
 
 /// Shares are of the sum of composite radii, which the adhesion is proportional to; without a list of contacts
-/// (output/asperities off) they are of the number of contacts, and the mean contact stands for all.
+/// (output/asperities off, paper's formulations) they are of the number of contacts, and the mean contact stands for all.
 /// - @p cell_area of the scan [m^2], > 0
 std::uint32_t regimeFlags(const Prediction& prediction, double cell_area);
 

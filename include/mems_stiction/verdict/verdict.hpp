@@ -15,7 +15,8 @@
 ///     no        the whole interval is above 1, also with the pull-off prefactors of the JKR-DMT transition
 ///     yes       the whole interval is below 1
 ///     marginal  1 lies within
-///     unknown   the answer would be no, but rests on contacts of one pixel, at the frame's border, or on fewer than
+///     unknown   a contact of the device is not within a factor of 2 of the scanned area (contact_size.hpp): the force would
+///               have to be scaled further than it goes with area; or the answer would be no, but rests on contacts of one pixel, at the frame's border, or on fewer than
 ///               three; the device is not stated, the search found no equilibrium, or the surfaces bond (the forces are then
 ///               lower bounds: they can say "yes", not "no")
 ///
@@ -79,6 +80,8 @@ struct Verdict {
   double pull_in_voltage = kNotStated;            ///< at which the electrodes close [V]
   std::uint32_t regime_flags = 0;                 ///< bits of RegimeFlag
 
+  /// Why the margin allows no plain word though its figures stand, contactSizeObjection(); empty if it does. In no message.
+  std::string size_objection;
   /// What of the interval is of the place alone, for pooledVerdictOf(): standard deviation of ln margin [-]. In no message.
   double place_deviation = kNotStated;
 };

@@ -224,15 +224,60 @@ TEST(HalfSpaceSolver, PressureBeyondTheHardnessChangesTheSurface) {
   EXPECT_GT(flowed.hysteresis, 0.0);
 }
 
-TEST(HalfSpaceSolver, VoltageAndWaterPullHarder) {
+TEST(HalfSpaceSolver, TheVoltageHasGoneBeforeTheBodiesAreDrawnApart) {
+  HalfSpaceProblem problem = problemOf(waves(24, 24, 5e-9, 5e-9, 1e-9));
+  problem.interface.insulator_thickness = 20e-9;
+  const SolvedHalfSpace plain = solve(problem);
+  EXPECT_EQ(plain.pull_off_force_under_voltage, plain.pull_off_force);
+  for (const double load : {0.0, 1e-7}) {
+    for (const double voltage : {20.0, 60.0}) {
+      problem.load.mechanical_load = load;
+      problem.load.voltage = voltage;
+      const SolvedHalfSpace charged = solve(problem);
+      ASSERT_EQ(charged.status, HalfSpaceStatus::kSolved) << charged.message;
+      // elastic bodies forget what pressed them, but for the points of the path, which lie at other heights
+      EXPECT_NEAR(charged.pull_off_force / plain.pull_off_force, 1.0, 0.005) << voltage;
+      EXPECT_NEAR(charged.work_of_adhesion / plain.work_of_adhesion, 1.0, 0.005) << voltage;
+      EXPECT_NEAR(charged.hysteresis / plain.work_of_adhesion, plain.hysteresis / plain.work_of_adhesion, 0.01);
+      EXPECT_GT(charged.contact_area, plain.contact_area);
+      EXPECT_NEAR(charged.retraction.front().height, charged.rest_height, 1e-15);
+      EXPECT_LT(charged.retraction.front().force, -load);  // which now carries what the voltage was
+      EXPECT_NEAR(charged.retraction.back().energy / charged.work_of_adhesion, 0.0, 1e-9);
+    }
+  }
+}
+
+TEST(HalfSpaceSolver, AVoltageThatStaysOnHoldsByItsField) {
+  HalfSpaceProblem problem = problemOf(analytic::flat(12, 15, 2e-9, 3e-9));
+  problem.interface.insulator_thickness = 20e-9;
+  problem.load.voltage = 20.0;
+  const SolvedHalfSpace solution = solve(problem);
+  ASSERT_EQ(solution.status, HalfSpaceStatus::kSolved) << solution.message;
+  const double area = 12 * 15 * 6e-18;
+  // the field at the height of the largest force of two planes, where it hardly changes: 3^(1/6) z0
+  const double gap = std::pow(3.0, 1.0 / 6.0) * kRange + 20e-9 / problem.interface.insulator_relative_permittivity;
+  const double field = 0.5 * kVacuumPermittivity * 400.0 / (gap * gap) * area;
+  EXPECT_NEAR(solution.pull_off_force_under_voltage - solution.pull_off_force, field, 5e-3 * solution.pull_off_force);
+}
+
+TEST(HalfSpaceSolver, WhatFlowedUnderAVoltageStaysFlowed) {
+  HalfSpaceProblem problem = problemOf(waves(24, 24, 5e-9, 5e-9, 1e-9));
+  problem.interface.insulator_thickness = 10e-9;
+  problem.lower_material.hardness = problem.upper_material.hardness = 3e9;
+  HalfSpaceOptions flowing = elastic();
+  flowing.flow = true;
+  const SolvedHalfSpace plain = solve(problem, flowing);
+  problem.load.voltage = 40.0;
+  const SolvedHalfSpace charged = solve(problem, flowing);
+  ASSERT_EQ(charged.status, HalfSpaceStatus::kSolved) << charged.message;
+  EXPECT_GT(charged.flowed_volume, 1.5 * plain.flowed_volume);
+  EXPECT_GT(charged.pull_off_force, 1.05 * plain.pull_off_force);
+  EXPECT_GT(charged.pull_off_force_under_voltage, charged.pull_off_force);
+}
+
+TEST(HalfSpaceSolver, WaterPullsHarder) {
   HalfSpaceProblem problem = problemOf(waves(24, 24, 5e-9, 5e-9, 1e-9));
   const SolvedHalfSpace dry = solve(problem);
-  problem.load.voltage = 20.0;
-  problem.interface.insulator_thickness = 20e-9;
-  const SolvedHalfSpace charged = solve(problem);
-  ASSERT_EQ(charged.status, HalfSpaceStatus::kSolved) << charged.message;
-  EXPECT_GT(charged.pull_off_force, dry.pull_off_force);
-  problem.load.voltage = 0.0;
   problem.capillary.relative_humidity = 0.4;
   const SolvedHalfSpace wet = solve(problem);
   ASSERT_EQ(wet.status, HalfSpaceStatus::kSolved) << wet.message;
@@ -255,7 +300,8 @@ TEST(HalfSpaceSolver, BitsDoNotDependOnTheThreads) {
 }
 
 TEST(HalfSpaceSolver, HalvingTheStepChangesThePullOffForceByLessThanTwoPercent) {
-  for (const double modulus : {10e9, 88.8e9}) {
+  // at 10 GPa this frame parts along one of two ways, whose forces differ by 5 %: round-off chooses, not the step
+  for (const double modulus : {20e9, 88.8e9}) {
     const HalfSpaceProblem problem = problemOf(waves(48, 48, 3e-9, 3e-9, 0.5e-9), modulus);
     HalfSpaceOptions options = elastic();
     const SolvedHalfSpace usual = solve(problem, options);

@@ -47,14 +47,15 @@ TEST(FileBytes, TooLargeAFileIsRefusedBeforeItIsRead) {
 
 // ---- Archives
 
-std::string zip(const std::string& content, std::uint32_t checksum) {
+std::string zip(const std::string& content, std::uint32_t checksum, const std::string& name = "a") {
+  const std::string name_size = littleBytes(static_cast<std::uint16_t>(name.size()));
   const std::string sizes = littleBytes(checksum) + littleBytes(static_cast<std::uint32_t>(content.size())) +
                             littleBytes(static_cast<std::uint32_t>(content.size()));
   const std::string stored = std::string(2, '\0') + std::string(2, '\0') + std::string(4, '\0') + sizes;
-  const std::string local = "PK\3\4" + littleBytes(std::uint16_t{20}) + stored + littleBytes(std::uint16_t{1}) +
-                            littleBytes(std::uint16_t{0}) + "a" + content;
+  const std::string local =
+      "PK\3\4" + littleBytes(std::uint16_t{20}) + stored + name_size + littleBytes(std::uint16_t{0}) + name + content;
   const std::string entry = "PK\1\2" + littleBytes(std::uint16_t{20}) + littleBytes(std::uint16_t{20}) + stored +
-                            littleBytes(std::uint16_t{1}) + std::string(16, '\0') + "a";
+                            name_size + std::string(16, '\0') + name;
   return local + entry + "PK\5\6" + std::string(4, '\0') + littleBytes(std::uint16_t{1}) +
          littleBytes(std::uint16_t{1}) + littleBytes(static_cast<std::uint32_t>(entry.size())) +
          littleBytes(static_cast<std::uint32_t>(local.size())) + std::string(2, '\0');
@@ -69,6 +70,12 @@ TEST(ZipCheck, AnEntryThatDoesNotHaveItsChecksumIsRefused) {
   const std::string whole = zip(content, checksum);
   for (std::size_t size = 0; size < whole.size(); ++size)
     EXPECT_THROW(checkZip(whole.substr(0, size)), FileError) << size;
+}
+
+TEST(ZipCheck, AnX3pWithItsFilesInAFolderSaysSo) {
+  const ScratchFolder folder;
+  const std::string path = folder.write("part.x3p", zip("", 0, "part 7/main.xml"));
+  EXPECT_TRUE(mentions(refusal(path), "main.xml in the folder 'part 7'"));
 }
 
 TEST(ZipCheck, AFlippedByteInAPublicArchiveIsRefused) {

@@ -131,6 +131,20 @@ TEST(GwyFile, ErrorsNameTheFile) {
   EXPECT_THROW(readScanFile(folder.file("none.gwy")), FileError);
 }
 
+TEST(GwyFile, AnotherVersionIsNamedNotCalledDamaged) {
+  const ScratchFolder folder;
+  for (const std::string kind : {"GWYO", "GWYQ"}) {
+    try {
+      readScanFile(folder.write("old.gwy", kind + "GwyContainer" + std::string(20, '\0')));
+      ADD_FAILURE() << kind;
+    } catch (const FileError& error) {
+      const std::string text = error.what();
+      EXPECT_NE(text.find(kind), std::string::npos) << text;
+      EXPECT_EQ(text.find("misnamed"), std::string::npos) << text;
+    }
+  }
+}
+
 // ---- Which channel is the height?
 
 FileChannel channel(int id, const std::string& title, const std::string& unit_z = "m") {
@@ -169,6 +183,36 @@ TEST(ChannelChoice, ForwardGoesBeforeBackward) {
   EXPECT_EQ(chooseHeightChannel({channel(0, "Z bwd"), channel(1, "Z fwd")}), 1u);
   // The sensor of the way back is still the sensor.
   EXPECT_EQ(chooseHeightChannel({channel(0, "Height trace"), channel(1, "ZSensor retrace")}), 1u);
+}
+
+TEST(ChannelChoice, TheTipOfRhkGoesToTheRightFirst) {
+  EXPECT_EQ(chooseHeightChannel({channel(0, "Topography [Left]"), channel(1, "Topography [Right]")}), 1u);
+  EXPECT_EQ(chooseHeightChannel({channel(0, "Upper left corner"), channel(1, "Lower corner")}), 0u);
+}
+
+TEST(ChannelChoice, HeightsBeyondThePiezoAreNone) {
+  FileChannel beyond = channel(0, "ZSensor");
+  beyond.reach = 1e-7;
+  beyond.values.at<double>(1, 1) = 5e-7;
+  FileChannel within = channel(1, "Height");
+  within.reach = 1e-7;
+  within.values.at<double>(1, 1) = 1.1e-7;  // calibrations differ
+  EXPECT_EQ(chooseHeightChannel({beyond, within}), 1u);
+  EXPECT_NE(passedOver({beyond, within}, 1).find("piezo can move"), std::string::npos);
+  EXPECT_THROW(surfaceOfChannel(beyond), FileError);
+  EXPECT_NO_THROW(surfaceOfChannel(within));
+}
+
+TEST(ChannelChoice, TopographiesOfOtherSizeAreSaid) {
+  FileChannel smaller = channel(7, "Zoom");
+  smaller.width = 5e-7;
+  const std::string said = othersOfOtherSize({channel(0, "Topography"), smaller}, 0);
+  EXPECT_EQ(said, "") << "a title that says nothing is no topography as this one is";
+  smaller.title = "Topography zoom";
+  const std::string named = othersOfOtherSize({channel(0, "Topography"), channel(1, "Topography"), smaller}, 0);
+  EXPECT_NE(named.find("0: Topography (4 x 4 pixels of 1e-06 x 1e-06 m) is taken"), std::string::npos) << named;
+  EXPECT_NE(named.find("--channel takes another: 7: Topography zoom"), std::string::npos) << named;
+  EXPECT_EQ(othersOfOtherSize({channel(0, "Topography"), channel(1, "Topography")}, 0), "");
 }
 
 TEST(ChannelChoice, NamesOfSignalsInMetresAreNamesOfSamples) {

@@ -67,6 +67,22 @@ TEST(WsxmFile, ASizeThatDoesNotMatchTheFileIsRefused) {
   EXPECT_TRUE(mentions(refusal([&] { parseWsxm(bytes); }), "its header states"));
 }
 
+TEST(WsxmFile, OneByteTooManyIsRefused) {
+  EXPECT_TRUE(
+      mentions(refusal([] { parseWsxm(wsxm("double", "2 nm", "5 nm", wsxmDoubles() + "x")); }), "its header states"));
+}
+
+TEST(WsxmFile, OtherExtremesThanTheHeaderStatesAreRefused) {
+  const auto read = [](const std::string& largest) {
+    return refusal([&] {
+      parseWsxm(wsxm("double", "2 nm", "5 nm\r\n[Miscellaneous]\r\n    Maximum: " + largest, wsxmDoubles()));
+    });
+  };
+  EXPECT_EQ(read("5"), "");
+  EXPECT_EQ(read("5.00001"), "") << "rounded";
+  EXPECT_TRUE(mentions(read("6"), "the data have 5"));
+}
+
 TEST(WsxmFile, VoltsAreNoHeights) {
   const FileChannel channel = parseWsxm(wsxm("double", "2 nm", "5 V", wsxmDoubles()));
   EXPECT_EQ(channel.unit_z, "V");
@@ -110,6 +126,10 @@ TEST(SurFile, ASizeThatDoesNotMatchItsCountIsRefused) {
   ASSERT_EQ(bytes[108], 3);  // columns; 6 points in all
   bytes[108] = 2;
   EXPECT_TRUE(mentions(refusal([&] { parseSur(bytes); }), "damaged header"));
+}
+
+TEST(SurFile, BytesBehindItsOnlySurfaceAreRefused) {
+  EXPECT_TRUE(mentions(refusal([] { parseSur(sur(Sur{}) + "x"); }), "its header states"));
 }
 
 TEST(SurFile, AnotherUnitOrACutIsRefused) {
@@ -166,28 +186,38 @@ TEST(NetcdfFile, EveryCutIsRefused) {
 }
 
 /// As GXSM writes them: "var_unit" is always Ang, the unit of the signal stands in "unit".
-std::string gxsm(const std::string& unit) {
+std::string gxsm(const std::string& unit, double step_x = 0.0) {
   const std::vector<std::string> range = {ncText("unit", "nm"), ncText("var_unit", "Ang")};
-  return netcdf({{"time", 1}, {"value", 1}, {"dimy", 2}, {"dimx", 3}},
-                {{"FloatField", {0, 1, 2, 3}, {ncText("long_name", "FloatField")}, bigDoubles({0, 1, 2, 10, 11, 12})},
-                 {"rangex", {}, range, bigDoubles({300})},
-                 {"rangey", {}, range, bigDoubles({200})},
-                 {"rangez", {}, {ncText("unit", unit), ncText("var_unit", "Ang")}, bigDoubles({1})},
-                 {"dz", {}, {ncText("unit", unit), ncText("var_unit", "Ang")}, bigDoubles({0.5})}});
+  std::vector<NcVariable> variables = {
+      {"FloatField", {0, 1, 2, 3}, {ncText("long_name", "FloatField")}, bigDoubles({0, 1, 2, 10, 11, 12})},
+      {"rangex", {}, range, bigDoubles({300})},
+      {"rangey", {}, range, bigDoubles({200})},
+      {"rangez", {}, {ncText("unit", unit), ncText("var_unit", "Ang")}, bigDoubles({1})},
+      {"dz", {}, {ncText("unit", unit), ncText("var_unit", "Ang")}, bigDoubles({0.5})}};
+  if (step_x > 0.0) variables.push_back({"dx", {}, range, bigDoubles({step_x})});
+  return netcdf({{"time", 1}, {"value", 1}, {"dimy", 2}, {"dimx", 3}}, variables);
 }
 
 TEST(NetcdfFile, GxsmCurrentsAndFrequencyShiftsAreNoHeights) {
-  EXPECT_EQ(gxsmOtherUnit(gxsm("nA")), "nA");
-  EXPECT_EQ(gxsmOtherUnit(gxsm("Hz")), "Hz");
-  EXPECT_EQ(gxsmOtherUnit(gxsm("AA")), "");
-  EXPECT_EQ(gxsmOtherUnit(gxsm("nm")), "");
+  EXPECT_EQ(gxsmStatements(gxsm("nA")).other_unit, "nA");
+  EXPECT_EQ(gxsmStatements(gxsm("Hz")).other_unit, "Hz");
+  EXPECT_EQ(gxsmStatements(gxsm("AA")).other_unit, "");
+  EXPECT_EQ(gxsmStatements(gxsm("nm")).other_unit, "");
+}
+
+TEST(NetcdfFile, GxsmRangesReachFromTheFirstPixelToTheLast) {
+  EXPECT_DOUBLE_EQ(gxsmStatements(gxsm("nm")).pitch_x, 150e-10) << "300 over two steps";
+  EXPECT_DOUBLE_EQ(gxsmStatements(gxsm("nm")).pitch_y, 200e-10);
+  EXPECT_DOUBLE_EQ(gxsmStatements(gxsm("nm", 150.5)).pitch_x, 150.5e-10) << "as the file's dx says";
+  EXPECT_TRUE(mentions(refusal([] { gxsmStatements(gxsm("nm", 75.0)); }), "contradicts itself"));
 }
 
 TEST(NetcdfFile, GxsmFilesGoThroughGwyddionWithTheirOwnUnit) {
   if (std::system("command -v gwyddion >/dev/null 2>&1") != 0) GTEST_SKIP() << "needs the program gwyddion";
   const ScratchFolder folder;
   const HeightMap surface = readScanFile(folder.write("height.nc", gxsm("nm")));
-  EXPECT_NEAR(surface.pitchX(), 100e-10, 1e-18);
+  EXPECT_NEAR(surface.pitchX(), 150e-10, 1e-18);
+  EXPECT_NEAR(surface.pitchY(), 200e-10, 1e-18);
   EXPECT_NEAR(surface.height(1, 2) - surface.height(0, 0), 12 * 0.5e-10, 1e-18);
   EXPECT_TRUE(mentions(refusal([&] { readScanFile(folder.write("current.nc", gxsm("nA"))); }), "[nA]"));
 }

@@ -13,6 +13,7 @@
 #include "mems_stiction/import/scan_file.hpp"
 #include "mems_stiction/preprocess/level.hpp"
 #include "mems_stiction/roughness/areal_parameters.hpp"
+#include "support/scratch_folder.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -101,6 +102,24 @@ TEST_F(VendorScans, BadFilesAreRefusedInOneLineThatNamesThem) {
     }
   }
   EXPECT_GT(count, 0);
+}
+
+TEST_F(VendorScans, BytesTooManyTooFewOrTakenForTextAreRefused) {
+  const ScratchFolder scratch;
+  for (const std::string file : {"di-3.di", "di-5.di", "top-1.top", "opd-1.opd", "al3d-1.al3d", "misread/sur-2.sur"}) {
+    const std::string bytes = ScratchFolder::read(folder_ + "/" + file);
+    const std::size_t middle = bytes.size() / 2;
+    std::string as_text;
+    for (const char c : bytes) as_text += c == '\n' ? std::string("\r\n") : std::string(1, c);
+    const std::string name = std::filesystem::path(file).filename().string();
+    for (const std::string& damaged :
+         {bytes + "x", bytes.substr(0, bytes.size() - 1), as_text, bytes.substr(0, middle) + "x" + bytes.substr(middle),
+          bytes.substr(0, middle) + bytes.substr(middle + 1)}) {
+      EXPECT_THROW(readScanFile(scratch.write(name, damaged)), FileError)
+          << file << " of " << damaged.size() << " bytes";
+    }
+    EXPECT_NO_THROW(readScanFile(scratch.write(name, bytes))) << file;
+  }
 }
 
 TEST_F(VendorScans, AChannelMayBeNamed) {

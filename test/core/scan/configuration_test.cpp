@@ -155,6 +155,18 @@ TEST(Configuration, UnphysicalValuesAreRefused) {
                        "load/voltage: 5 V is not allowed, must be in [-2, 2]"));
 }
 
+TEST(Configuration, AMeasuredCounterSurfaceSaysWhichWayItFaces) {
+  for (const char* type : {"topic", "file"}) {
+    const std::string stated = std::string("counter_surface: {file: upper.di, type: ") + type;
+    const std::string refused = refusal(stated + "}");
+    EXPECT_TRUE(mentions(refused, "counter_surface/facing: must be stated")) << refused;
+    EXPECT_TRUE(mentions(refused, "up = its heights are as an instrument measures them")) << refused;
+    EXPECT_TRUE(mentions(refused, "down = its heights are already those of the mounted surface")) << refused;
+    for (const char* facing : {"up", "down"}) EXPECT_NO_THROW(read(stated + ", facing: " + facing + "}"));
+  }
+  EXPECT_NO_THROW(read("counter_surface/type: gaussian")) << "drawn as it is mounted";
+}
+
 TEST(Configuration, CombinationsThatMeanNothingAreRefused) {
   EXPECT_TRUE(mentions(refusal("counter_surface/type: file"), "counter_surface/file: ''"));
   EXPECT_TRUE(mentions(refusal("output: {hurst_shortest_wavelength: 2e-7, hurst_longest_wavelength: 1e-7}"),
@@ -301,6 +313,7 @@ TEST(ScanPredictor, RefusedLoadNamesEachValueAndChangesNothing) {
 TEST(ScanPredictor, NeedsTheCounterSurfaceThatIsConfigured) {
   Configuration configuration;
   configuration.counter_surface.type = CounterSurfaceType::kTopic;
+  configuration.counter_surface.facing = CounterSurfaceFacing::kDown;
   ScanPredictor predictor(configuration);
   const HeightMap scan(cv::Mat::eye(8, 8, CV_64FC1) * 1e-9, 1e-8, 1e-8);
   EXPECT_THROW(predictor.predict(scan), SurfaceError);

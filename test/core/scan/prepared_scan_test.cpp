@@ -3,13 +3,18 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <memory>
+#include <string>
 
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/height_map/scan_sanity.hpp"
+#include "mems_stiction/import/scan_writer.hpp"
 #include "mems_stiction/preprocess/refine.hpp"
 #include "mems_stiction/scan/scan_predictor.hpp"
 #include "mems_stiction/surface/gaussian_surface.hpp"
 #include "support/analytic_surfaces.hpp"
+#include "support/scratch_folder.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -31,6 +36,7 @@ Configuration cleaning(CounterSurfaceType type = CounterSurfaceType::kFlat) {
   configuration.preprocessing.offset.enabled = true;
   configuration.preprocessing.level.shape = LevelShape::kPlane;
   configuration.counter_surface.type = type;
+  configuration.counter_surface.facing = CounterSurfaceFacing::kDown;
   return configuration;
 }
 
@@ -56,6 +62,7 @@ TEST(PreparedScan, OfAScanThatNeedsNothingIsTheScan) {
 TEST(ScanPreparer, HoldsNoScanForLongerThanItTakes) {
   Configuration configuration;
   configuration.counter_surface.type = CounterSurfaceType::kTopic;
+  configuration.counter_surface.facing = CounterSurfaceFacing::kDown;
   ScanPreparer preparer(configuration);
   preparer.setMeasuredCounterSurface(rough(2));
   const auto message = std::make_shared<HeightMap>(rough(1));
@@ -156,6 +163,114 @@ TEST(ScanPreparer, AnotherCounterSurfaceOrPoseTakesNoCleaningOfTheScan) {
   const PreparedScan kept = prepared;
   EXPECT_THROW(preparer.mount(prepared), SurfaceError);
   EXPECT_TRUE(showSamePixels(prepared.surfaces.upper, kept.surfaces.upper));
+}
+
+/// The one warning about what the scan meets; empty if there is none.
+std::string counterWarning(const PreparedScan& prepared) {
+  EXPECT_LE(prepared.counter_warnings.size(), 1U) << prepared.counter_warnings.front();
+  return prepared.counter_warnings.empty() ? "" : prepared.counter_warnings.front();
+}
+
+TEST(ScanPreparer, ARefusalSaysWhatLooksWrongInTheScan) {
+  cv::Mat heights = rough(1).asDouble().heights().clone();
+  heights.rowRange(32, 64).setTo(std::numeric_limits<double>::quiet_NaN());  // stopped half-way
+  Configuration configuration;
+  configuration.preprocessing.fill.enabled = true;
+  try {
+    ScanPreparer(configuration).prepare({heights, 5e-9, 5e-9});
+    FAIL() << "half of a scan was filled";
+  } catch (const SurfaceError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("preprocessing/fill/max_fraction"), std::string::npos) << text;
+    EXPECT_NE(text.find("32 of 64 rows were not measured"), std::string::npos) << text;
+  }
+}
+
+TEST(ScanPreparer, SaysThatTheScanMeetsItsOwnCast) {
+  const ScratchFolder folder;
+  writeScan(folder.file("same.tiff"), rough(1), "a counter-surface");
+  Configuration configuration;
+  configuration.counter_surface.type = CounterSurfaceType::kFile;
+  configuration.counter_surface.file = folder.file("same.tiff");
+  configuration.counter_surface.facing = CounterSurfaceFacing::kDown;
+  EXPECT_NE(counterWarning(ScanPreparer(configuration).prepare(rough(1))).find("as its cast does"), std::string::npos);
+  EXPECT_EQ(counterWarning(ScanPreparer(configuration).prepare(rough(2))), "");
+  configuration.counter_surface.facing = CounterSurfaceFacing::kUp;
+  EXPECT_EQ(counterWarning(ScanPreparer(configuration).prepare(rough(1))), "");
+}
+
+TEST(ScanPreparer, SaysThatAFilterLongerThanTheScanLeavesNothing) {
+  Configuration configuration;
+  configuration.preprocessing.low_pass.cutoff_wavelength = 1e-6;  // um for nm; the scan is half as wide
+  const std::vector<std::string> warnings = ScanPreparer(configuration).prepare(rough(1)).warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("longer than the scan's width"), std::string::npos) << warnings[0];
+  EXPECT_EQ(warnings[0].find(','), std::string::npos);
+  configuration.preprocessing.low_pass.cutoff_wavelength = 50e-9;
+  EXPECT_TRUE(ScanPreparer(configuration).prepare(rough(1)).warnings.empty());
+}
+
+TEST(ScanPreparer, SaysHowMuchOfTheScanACounterSurfaceCovers) {
+  const ScratchFolder folder;
+  const HeightMap scan = rough(1);  // 64 x 96
+  const HeightMap quarter(rough(2).heights()(cv::Rect(0, 0, 48, 32)).clone(), scan.pitchX(), scan.pitchY());
+  writeScan(folder.file("quarter.tiff"), quarter, "a counter-surface");
+  writeScan(folder.file("whole.tiff"), rough(2), "a counter-surface");
+  const std::string a_quarter = "the counter-surface covers 25 % of the scan";
+  Configuration configuration = cleaning(CounterSurfaceType::kFile);
+  configuration.counter_surface.file = folder.file("quarter.tiff");
+  EXPECT_EQ(counterWarning(ScanPreparer(configuration).prepare(scan)).find(a_quarter), 0U);
+
+  configuration.counter_surface.file = folder.file("whole.tiff");
+  ScanPreparer of_file(configuration);
+  PreparedScan prepared = of_file.prepare(scan);
+  EXPECT_EQ(counterWarning(prepared), "");
+  SurfacePose pose;  // of the settings or of tf
+  pose.offset_x = 48 * scan.pitchX();
+  pose.offset_y = -32 * scan.pitchY();
+  of_file.setCounterSurfacePose(pose);
+  of_file.mount(prepared);
+  EXPECT_EQ(counterWarning(prepared).find(a_quarter), 0U);
+  EXPECT_EQ(counterWarning(of_file.prepare(scan)).find(a_quarter), 0U);
+
+  ScanPreparer of_topic(cleaning(CounterSurfaceType::kTopic));
+  HeightMap holed = rough(2).asDouble();
+  cv::Mat heights = holed.heights().clone();
+  for (int row = 0; row < heights.rows; ++row) {  // no whole lines, which would be said apart
+    for (int col = 0; col < heights.cols; ++col) {
+      if ((row + col) % 4 != 0) heights.at<double>(row, col) = std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+  of_topic.setMeasuredCounterSurface({heights, scan.pitchX(), scan.pitchY()});
+  EXPECT_EQ(counterWarning(of_topic.prepare(scan)).find(a_quarter), 0U);
+  of_topic.setMeasuredCounterSurface(rough(2));
+  EXPECT_EQ(counterWarning(of_topic.prepare(scan)), "");
+  EXPECT_EQ(counterWarning(ScanPreparer(cleaning(CounterSurfaceType::kGaussian)).prepare(scan)), "");
+}
+
+TEST(ScanPreparer, LooksAtCounterSurfacesAsAtScans) {
+  const ScratchFolder folder;
+  const HeightMap scan = rough(1);
+  const HeightMap coarse(rough(2).heights(), 5e-6, 5e-6);  // um for nm
+  EXPECT_EQ(ScanPreparer(cleaning()).prepare(coarse).warnings, scanWarnings(coarse));
+  writeScan(folder.file("coarse.tiff"), coarse, "a counter-surface");
+  Configuration configuration = cleaning(CounterSurfaceType::kFile);
+  configuration.counter_surface.file = folder.file("coarse.tiff");
+  const std::string of_file = counterWarning(ScanPreparer(configuration).prepare(scan));
+  EXPECT_NE(of_file.find("coarse.tiff: rms slope"), std::string::npos) << of_file;
+  EXPECT_NE(of_file.find("was 5e-09 m meant?"), std::string::npos) << of_file;
+
+  ScanPreparer of_topic(cleaning(CounterSurfaceType::kTopic));
+  of_topic.setMeasuredCounterSurface({rough(2).asDouble().heights() * 1e-9, scan.pitchX(), scan.pitchY()});
+  const std::string measured = counterWarning(of_topic.prepare(scan));
+  EXPECT_EQ(measured.find("the counter-surface: rms slope"), 0U) << measured;
+}
+
+TEST(ScanPreparer, RefusesAMeasuredCounterSurfaceThatMayFaceEitherWay) {
+  ScanPreparer preparer{Configuration()};
+  const PreparedScan before = preparer.prepare(rough(1));
+  EXPECT_THROW(preparer.setMeasuredCounterSurface(rough(2)), OptionsError);
+  EXPECT_TRUE(preparer.prepare(rough(1)).surfaces.upperIsPlane());
 }
 
 }  // namespace

@@ -38,6 +38,15 @@ std::set<std::string> fieldNames() {
   return names;
 }
 
+TEST(Record, HasItsWarningsInYamlAsInJson) {
+  RecordExtras extras;
+  extras.warnings = {"the pitch: is \"odd\"", "# and - so: {is this"};
+  const YAML::Node record = YAML::Load(yamlRecord("scan.tiff", scan(), example(), extras));
+  EXPECT_EQ(record["warnings"].as<std::vector<std::string>>(), extras.warnings);
+  EXPECT_EQ(nlohmann::json::parse(jsonRecord("scan.tiff", scan(), example(), extras))["warnings"], extras.warnings);
+  EXPECT_FALSE(YAML::Load(yamlRecord("scan.tiff", scan(), example()))["warnings"]);
+}
+
 TEST(Record, HasTheFieldsThatScriptsRead) {
   const std::set<std::string> names = fieldNames();
   for (const char* name : {"status",

@@ -248,6 +248,7 @@ TEST(CounterSurface, AFileThatCannotBeUsedIsRefusedAtTheStart) {
   const ScratchFolder folder;
   Configuration configuration = paperConfiguration();
   configuration.counter_surface.type = CounterSurfaceType::kFile;
+  configuration.counter_surface.facing = CounterSurfaceFacing::kUp;
   configuration.counter_surface.file = folder.file("none.tiff");
   try {
     ScanPredictor predictor(configuration);

@@ -120,6 +120,23 @@ LoadSweepRequest upTo(double voltage, int count, std::vector<double> loads = {0.
   return request;
 }
 
+TEST(LoadSweep, contactFractionIsThatOfThePredictionToTheBit) {
+  for (const char* formulation : {"paper", "consistent"}) {
+    Options options = insulated();
+    options.formulation = formulation;
+    for (const double load : {1e-6, 3e-6, 7e-6, 2e-5}) {
+      const LoadSweepResult swept = sweepLoads(options, rough(), {{0.0, 3.0}, {load}}, {}, {}, {});
+      for (const LoadSweepRow& row : swept.rows) {
+        if (row.direction == SweepDirection::kDown) continue;
+        Options one = options;
+        one.load.voltage = row.voltage;
+        one.load.mechanical_load = load;
+        EXPECT_EQ(row.contact_fraction, AdhesionModel(one).predict(rough()).contact_fraction) << formulation << load;
+      }
+    }
+  }
+}
+
 TEST(LoadSweep, showsHysteresisOnARoughSurface) {
   const LoadSweepResult result = sweepLoads(insulated(), rough(), upTo(40.0, 5, {0.0, 1e-6}), DeviceOptions(), {}, {});
   ASSERT_TRUE(result.is_complete);
@@ -157,6 +174,44 @@ TEST(LoadSweep, findsTheHighestVoltageThatReleases) {
   EXPECT_FALSE(result.summaries[0].highest_safe_voltage > 20.0);  // NaN or lower: the interval is wider
   EXPECT_NEAR(result.rows[2].margin, between / plain.rows[2].pull_off_force, 1e-9);
   EXPECT_EQ(result.pull_in_voltage, closingVoltage(device, insulated().interface));
+}
+
+TEST(LoadSweep, theSummaryFollowsFromTheVerdictsOfItsRows) {
+  const double nan = Verdict::kNotStated;
+  struct Case {
+    std::vector<Sticks> verdicts;  // at 0, 10, 20 V
+    double highest_safe;
+    double lowest_safe;
+  };
+  const Sticks no = Sticks::kNo, marginal = Sticks::kMarginal, unknown = Sticks::kUnknown, yes = Sticks::kYes;
+  for (const Case& one : {Case{{no, no, no}, 20.0, 0.0},
+                          {{no, no, unknown}, 10.0, 0.0},
+                          {{no, unknown, no}, 0.0, 0.0},
+                          {{unknown, unknown, no}, nan, 20.0},
+                          {{marginal, no, no}, nan, 10.0},
+                          {{marginal, yes, unknown}, nan, nan}}) {
+    std::vector<LoadSweepRow> rows;
+    for (const Sticks sticks : one.verdicts) {
+      LoadSweepRow row;
+      row.voltage = 10.0 * static_cast<double>(rows.size());
+      row.status = Status::kEquilibrium;
+      row.margin = sticks == yes ? 0.5 : 3.0;
+      row.sticks = sticks;
+      rows.push_back(row);
+    }
+    rows.back().direction = SweepDirection::kUp;
+    LoadSweepRow open;
+    open.direction = SweepDirection::kDown;
+    open.sticks = no;
+    rows.push_back(open);
+    const LoadSweepSummary summary = summaryOf(0.0, rows);
+    const auto is = [](double value, double expected) {
+      return std::isnan(expected) ? std::isnan(value) : value == expected;
+    };
+    EXPECT_TRUE(is(summary.highest_safe_voltage, one.highest_safe)) << summary.highest_safe_voltage;
+    EXPECT_TRUE(is(summary.lowest_safe_voltage, one.lowest_safe)) << summary.lowest_safe_voltage;
+    EXPECT_TRUE(is(summary.lowest_sticking_voltage, one.verdicts[1] == yes ? 10.0 : nan));
+  }
 }
 
 TEST(LoadSweep, theForceHasItsIntervalWithADeviceAndWithout) {

@@ -69,7 +69,7 @@ TEST(CounterSurfaceOptions, defaultsAreValid) {
   options.describe(validator);
   EXPECT_TRUE(validator.violations().empty());
   EXPECT_EQ(options.type, CounterSurfaceType::kFlat);
-  EXPECT_EQ(options.facing, CounterSurfaceFacing::kDown);
+  EXPECT_EQ(options.facing, CounterSurfaceFacing::kUnstated) << "what a measured one must say";
 }
 
 }  // namespace

@@ -24,10 +24,9 @@ Prediction predicted() {
   prediction.nominal_area = kArea;
   prediction.pull_off_force = prediction.pull_off_force_jkr = prediction.pull_off_force_transition = kPullOff;
   prediction.apparent_work_of_adhesion = 0.01;
-  prediction.adhesion_exponent = 1.0;
-  prediction.modulus_exponent = 0.0;
+  prediction.pull_off_exponents = prediction.work_exponents = {1.0, 0.0, 0.0};
   prediction.flattening_ratio = 10.0;
-  prediction.asperity_count = 25;
+  prediction.asperity_count = prediction.pull_off_contact_count = 25;
   for (int i = 0; i < prediction.asperity_count; ++i) {
     Asperity asperity;
     asperity.composite_radius = 1e-6;
@@ -60,7 +59,7 @@ DeviceOptions springOf(double margin) {
 UncertaintyOptions exact() {
   UncertaintyOptions uncertainty;
   uncertainty.work_of_adhesion = uncertainty.hardness = uncertainty.youngs_modulus = 0.0;
-  uncertainty.pitch = uncertainty.cutoff_distance = 0.0;
+  uncertainty.pitch = uncertainty.cutoff_distance = uncertainty.hamaker_constant = 0.0;
   uncertainty.scan_sampling = false;
   uncertainty.samples = 20000;
   return uncertainty;

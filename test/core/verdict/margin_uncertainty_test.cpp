@@ -19,7 +19,7 @@ constexpr double kNm = 1e-9;
 UncertaintyOptions exact() {
   UncertaintyOptions uncertainty;
   uncertainty.work_of_adhesion = uncertainty.hardness = uncertainty.youngs_modulus = 0.0;
-  uncertainty.pitch = uncertainty.cutoff_distance = 0.0;
+  uncertainty.pitch = uncertainty.cutoff_distance = uncertainty.hamaker_constant = 0.0;
   uncertainty.scan_sampling = false;
   return uncertainty;
 }

@@ -17,7 +17,7 @@ constexpr double kCell = 1e-18;
 /// Two contacts; `marked` of the sum of radii belongs to the second.
 Prediction contactsWith(double marked) {
   Prediction prediction;
-  prediction.asperity_count = 2;
+  prediction.asperity_count = prediction.pull_off_contact_count = 2;
   Asperity first, second;
   first.composite_radius = (1.0 - marked) * 1e-6;
   second.composite_radius = marked * 1e-6;
@@ -57,22 +57,41 @@ TEST(RegimeFlags, brittleContactsMayGrowTogetherAtTwiceTheFlatteningRatio) {
 }
 
 TEST(RegimeFlags, contactsThatJoinOneAfterAnotherMayGrowTogetherUpToSix) {
-  // force on the way in, of its largest value; the way out does not count
-  const auto flagged = [](double flattening_ratio, std::vector<double> forces) {
+  const auto flagged = [](double flattening_ratio, double rise) {
     Prediction prediction = contactsWith(0.5);
     prediction.median_tabor_parameter = 0.0;
     prediction.flattening_ratio = flattening_ratio;
-    for (const double force : forces) prediction.curve.push_back({0.0, force, false});
-    prediction.curve.push_back({0.0, 0.2, true});
-    prediction.curve.push_back({0.0, 0.9, true});
+    prediction.joining_rise = rise;
     return (regimeFlags(prediction, kCell) & kNearBondingFlag) != 0;
   };
-  EXPECT_TRUE(flagged(5.9, {0.1, 1.0, 0.5, 0.61, 0.0})) << "a rise after the maximum";
-  EXPECT_TRUE(flagged(5.9, {0.1, 0.7, 0.55, 1.0, 0.0})) << "and before it";
-  EXPECT_FALSE(flagged(5.9, {0.1, 1.0, 0.5, 0.59, 0.0}));
-  EXPECT_FALSE(flagged(5.9, {0.1, 0.6, 0.8, 1.0, 0.4, -0.3}));
-  EXPECT_FALSE(flagged(6.1, {0.1, 1.0, 0.5, 0.9, 0.0}));
-  EXPECT_FALSE(flagged(5.9, {}));
+  EXPECT_TRUE(flagged(5.9, 0.11));
+  EXPECT_FALSE(flagged(5.9, 0.09));
+  EXPECT_FALSE(flagged(6.1, 0.4));
+}
+
+TEST(RegimeFlags, areThoseOfTheContactsThatHoldAtThePullOff) {
+  Prediction prediction = contactsWith(0.5);
+  prediction.status = Status::kEquilibrium;
+  prediction.apparent_work_of_adhesion = 1e-4;
+  prediction.asperity_count = 200;  // what a load presses together
+  prediction.pull_off_contact_count = 1;
+  Asperity holding;
+  holding.composite_radius = 1e-6;
+  holding.area = kCell;
+  holding.is_at_border = true;
+  holding.tabor_parameter = 1.0;
+  prediction.pull_off_contacts = {holding};
+  prediction.flattening_ratio = 3.9;
+  EXPECT_EQ(regimeFlagNames(regimeFlags(prediction, kCell)),
+            "resolution, few_contacts, near_bonding, border, one_pixel");
+}
+
+TEST(RegimeFlags, surfacesThatALoadPressesTogetherNearlyEverywhereAreNotBonded) {
+  Prediction prediction = contactsWith(0.5);
+  prediction.status = Status::kBonded;
+  EXPECT_TRUE(regimeFlags(prediction, kCell) & kBondedFlag);
+  prediction.is_bonded_by_load = true;
+  EXPECT_FALSE(regimeFlags(prediction, kCell) & kBondedFlag);
 }
 
 }  // namespace

@@ -85,6 +85,7 @@ TEST(Verdict, exactConstantsStillLeaveTheTheoriesApart) {
   const Spheres spheres;
   UncertaintyOptions exact;
   exact.work_of_adhesion = exact.hardness = exact.youngs_modulus = exact.pitch = exact.cutoff_distance = 0.0;
+  exact.hamaker_constant = 0.0;
   exact.scan_sampling = false;
   const double between = 0.5 * (spheres.prediction.pull_off_force_transition + spheres.prediction.pull_off_force);
   const Verdict verdict = verdictFor(spheres, springOf(between, spheres.prediction.nominal_area), exact);
@@ -264,7 +265,7 @@ TEST(RegimeFlags, nameWhatLeavesTheModel) {
   EXPECT_TRUE(regimeFlags(spheres.prediction, 1e3 * kCell) & kResolutionFlag);  // the same contacts on coarse pixels
   spheres.prediction.status = Status::kBonded;
   for (Asperity& asperity : spheres.prediction.asperities) asperity.regime = Regime::kPlastic;
-  spheres.prediction.asperity_count = 9;
+  spheres.prediction.pull_off_contact_count = 9;
   const std::uint32_t more = regimeFlags(spheres.prediction, kCell);
   EXPECT_EQ(regimeFlagNames(more), "bonded, tabor, plasticity, few_contacts");
   EXPECT_EQ(regimeFlagNames(0), "");

@@ -1,4 +1,4 @@
-#include "mems_stiction/loads/normal_load.hpp"
+#include "mems_stiction/loads/cell_forces.hpp"
 
 #include "mems_stiction/base/constants.hpp"
 #include "mems_stiction/base/lanes.hpp"
@@ -14,26 +14,19 @@ MEMS_STICTION_INLINE Real cubedDistance(const Real& gap, double cutoff) {
   return distance * distance * distance;
 }
 
-/// The denominator of (3), of one gap or of several.
-template <typename Real>
-MEMS_STICTION_INLINE Real squaredDistance(const Real& gap, double insulator) {
-  const Real distance = gap + insulator;
-  return distance * distance;
-}
-
 }  // namespace
 
 CellForces::CellForces(const InterfaceOptions& interface, double voltage, double cell_area)
     : van_der_waals_factor_(interface.hamaker_constant * cell_area / (6.0 * kPi)),
       cutoff_(interface.cutoff_distance),
-      electrostatic_factor_(0.5 * kVacuumPermittivity * cell_area * voltage * voltage),
-      insulator_(interface.insulator_thickness / interface.insulator_relative_permittivity) {}
+      field_(voltage, interface.insulator_thickness, interface.insulator_relative_permittivity),
+      electrostatic_factor_(field_.factor(cell_area)) {}
 
 double CellForces::vanDerWaals(double gap) const { return van_der_waals_factor_ / cubedDistance(gap, cutoff_); }
 
 double CellForces::electrostatic(double gap) const {
   if (!hasElectrostatic()) return 0.0;
-  return electrostatic_factor_ / squaredDistance(gap, insulator_);
+  return electrostatic_factor_ / field_.squaredDistance(gap);
 }
 
 double CellForces::electrostaticInContact() const { return electrostatic(0.0); }
@@ -46,7 +39,7 @@ MEMS_STICTION_VECTORIZED void CellForces::addCells(const OrderedCell* cells, std
   for (std::size_t i = 0; i < in_lanes; i += Lanes::kCount) {
     const Lanes gap = Lanes(cells[i].gap, cells[i + 1].gap, cells[i + 2].gap, cells[i + 3].gap) - approach;
     inverse_cubes += 1.0 / cubedDistance(gap, cutoff_);
-    inverse_squares += 1.0 / squaredDistance(gap, insulator_);
+    inverse_squares += 1.0 / field_.squaredDistance(gap);
   }
   load.van_der_waals += van_der_waals_factor_ * inverse_cubes.sum();
   if (hasElectrostatic()) load.electrostatic += electrostatic_factor_ * inverse_squares.sum();
@@ -64,9 +57,8 @@ double CellForces::vanDerWaals(const GapMoments& gaps, double approach) const {
 
 double CellForces::electrostatic(const GapMoments& gaps, double approach) const {
   if (!hasElectrostatic()) return 0.0;
-  const double distance = gaps.mean - approach + insulator_;
-  return gaps.count * electrostatic_factor_ / (distance * distance) *
-         (1.0 + 3.0 * gaps.variance / (distance * distance));
+  const double square = field_.squaredDistance(gaps.mean - approach);
+  return gaps.count * electrostatic_factor_ / square * (1.0 + 3.0 * gaps.variance / square);
 }
 
 MEMS_STICTION_VECTORIZED NormalLoad GapLoads::at(double approach, int contact_count, const CellForces& forces,

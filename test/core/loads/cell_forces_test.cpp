@@ -1,4 +1,4 @@
-#include "mems_stiction/loads/normal_load.hpp"
+#include "mems_stiction/loads/cell_forces.hpp"
 
 #include <cmath>
 

@@ -1,0 +1,112 @@
+#pragma once
+
+/// @file
+/// With which traction do two flat surfaces a gap apart attract or repel each other: by their atoms, and by a voltage?
+///
+///     t(x) = (8 Gamma/(3 z0)) (x^3 - x^9),   x = z0/g                    two half-spaces of atoms: zero at z0, largest
+///                                                                        1.026 Gamma/z0 at 3^(1/6) z0
+///     w(x) = (8 Gamma/3) (x^2/2 - x^8/8)                                 its integral from g on; Gamma at z0
+///     z0   = sqrt(H/(16 pi Gamma))                                       so that t falls off as H/(6 pi g^3)
+///     p(d) = eps0 U^2/(2 (d + h/eps_r)^2)                                field over a gap d and an insulator h   (3)
+///
+/// Attraction is positive. Whoever counts the gap from contact, d = g - z0, takes x = z0/(d + z0); whoever counts it from
+/// the outermost atoms takes x = z0/g. Assumptions: the traction at a place depends on the gap there alone (Derjaguin);
+/// smooth electrodes, no charge in the insulator. Outside: t has no lower limit as g goes to 0, p diverges there without
+/// an insulator; callers say where their bodies end. Sources: Israelachvili, Intermolecular and Surface Forces (3rd ed.,
+/// 2011), chapter 13; Deladi et al. 2002, (3), the insulator's thickness there without eps_r.
+///
+///     const AdhesionLaw law(work_of_adhesion, AdhesionLaw::rangeOf(work_of_adhesion, hamaker_constant));
+///     const double pull = law.traction(law.range() / gap);
+
+#include "mems_stiction/base/constants.hpp"
+#include "mems_stiction/base/vectorized.hpp"
+
+namespace mems_stiction {
+
+/// The 9-3 law. Its functions take one number or several (Lanes), so that a formula stands once.
+class AdhesionLaw {
+ public:
+  /// - @p work_of_adhesion Gamma [J/m^2], >= 0; without it nothing attracts
+  /// - @p range z0 [m], > 0
+  AdhesionLaw(double work_of_adhesion, double range);
+
+  /// z0 at which the Hamaker constant gives the work of adhesion [m]. Both > 0.
+  static double rangeOf(double work_of_adhesion, double hamaker_constant);
+
+  double range() const { return range_; }    ///< z0 [m]
+  double stress() const { return stress_; }  ///< 8 Gamma/(3 z0) [Pa]
+  /// Largest traction: what no interface exceeds, 1.026 Gamma/z0 [Pa].
+  double strength() const;
+
+  /// t [Pa]
+  template <typename Real>
+  MEMS_STICTION_INLINE Real traction(const Real& x) const {
+    const Real cube = x * x * x;
+    return stress_ * (cube - cube * cube * cube);
+  }
+  /// dt/dg [Pa/m]
+  template <typename Real>
+  MEMS_STICTION_INLINE Real slope(const Real& x) const {
+    const Real square = x * x;
+    const Real cube = square * x;
+    return stress_ / range_ * (9.0 * (cube * cube) - 3.0) * (square * square);
+  }
+  /// d^2t/dg^2 [Pa/m^2]
+  template <typename Real>
+  MEMS_STICTION_INLINE Real curvature(const Real& x) const {
+    const Real fifth = x * x * x * x * x;
+    return stress_ / (range_ * range_) * (12.0 * fifth - 90.0 * fifth * fifth * x);
+  }
+  /// w [J/m^2]
+  template <typename Real>
+  MEMS_STICTION_INLINE Real energy(const Real& x) const {
+    const Real square = x * x;
+    const Real cube = square * x;
+    return stress_ * range_ * (0.5 - 0.125 * (cube * cube)) * square;
+  }
+
+ private:
+  double range_;
+  double stress_;
+};
+
+/// The field of a voltage between the surfaces.
+class FieldLaw {
+ public:
+  /// - @p voltage U [V]; without it nothing attracts
+  /// - @p insulator_thickness h [m], >= 0
+  /// - @p insulator_relative_permittivity eps_r [-], >= 1
+  FieldLaw(double voltage, double insulator_thickness, double insulator_relative_permittivity);
+
+  bool isOn() const { return voltage_ != 0.0; }
+  /// h/eps_r [m]: the vacuum that the insulator is worth
+  double insulator() const { return insulator_; }
+  /// eps0 U^2/2 times an area: over squaredDistance() it is the force on that area [N m^2].
+  double factor(double area = 1.0) const { return 0.5 * kVacuumPermittivity * area * voltage_ * voltage_; }
+  /// (d + h/eps_r)^2 [m^2]
+  template <typename Real>
+  MEMS_STICTION_INLINE Real squaredDistance(const Real& gap) const {
+    const Real distance = gap + insulator_;
+    return distance * distance;
+  }
+
+  /// Of the gap, U/(d + h/eps_r) [V/m]
+  double field(double gap) const { return voltage_ / (gap + insulator_); }
+  /// p [Pa]
+  double pressure(double gap) const {
+    const double inverse = inverseDistance(gap);
+    return factor() * inverse * inverse;
+  }
+  /// dp/dd [Pa/m]
+  double slope(double gap) const { return -2.0 * pressure(gap) * inverseDistance(gap); }
+  /// What separation to infinity costs [J/m^2]
+  double energy(double gap) const { return factor() * inverseDistance(gap); }
+
+ private:
+  double inverseDistance(double gap) const { return 1.0 / (gap + insulator_); }
+
+  double voltage_;
+  double insulator_;
+};
+
+}  // namespace mems_stiction

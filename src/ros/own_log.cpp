@@ -1,0 +1,80 @@
+#include "mems_stiction/ros/own_log.hpp"
+
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include <ros/param.h>
+
+namespace mems_stiction {
+namespace {
+
+constexpr std::size_t kMostLines = 1000;
+constexpr std::chrono::seconds kLongestFinish{1};
+
+/// Lives as long as the process, since nobody can end a thread that rosconsole holds.
+class OwnLog {
+ public:
+  static OwnLog& ofThisProcess() {
+    static OwnLog* const log = new OwnLog;  // NOLINT(cppcoreguidelines-owning-memory): its thread uses it to the end
+    return *log;
+  }
+
+  void push(ros::console::Level level, std::string text) {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      if (lines_.size() < kMostLines) {
+        lines_.emplace_back(level, std::move(text));
+      } else {
+        ++lost_;
+      }
+    }
+    changed_.notify_all();
+  }
+
+  void finish() {
+    std::unique_lock<std::mutex> lock(mutex_);
+    changed_.wait_for(lock, kLongestFinish, [this] { return lines_.empty(); });
+  }
+
+ private:
+  OwnLog() {
+    std::thread([this] { loop(); }).detach();
+  }
+
+  [[noreturn]] void loop() {
+    std::unique_lock<std::mutex> lock(mutex_);
+    for (;;) {
+      changed_.wait(lock, [this] { return !lines_.empty(); });
+      const auto [level, text] = lines_.front();
+      const std::size_t lost = std::exchange(lost_, 0);
+      lock.unlock();
+      ROS_LOG_STREAM(level, ROSCONSOLE_DEFAULT_NAME, text);
+      if (lost > 0) ROS_WARN_STREAM(lost << " lines of the log are missing: it could not be written for a while");
+      lock.lock();
+      lines_.pop_front();  // only now, so that finish() waits for it
+      if (lines_.empty()) changed_.notify_all();
+    }
+  }
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<std::pair<ros::console::Level, std::string>> lines_;
+  std::size_t lost_ = 0;
+};
+
+}  // namespace
+
+void logSoon(ros::console::Level level, std::string text) { OwnLog::ofThisProcess().push(level, std::move(text)); }
+
+void prepareLog() {
+  bool ignored = false;
+  ros::param::getCached("/rosout_disable_topics_generation", ignored);
+}
+
+void finishLog() { OwnLog::ofThisProcess().finish(); }
+
+}  // namespace mems_stiction

@@ -1,0 +1,126 @@
+/// Forces are not scaled further than they go with area.
+
+#include "mems_stiction/verdict/contact_size.hpp"
+
+#include <gtest/gtest.h>
+
+#include "mems_stiction/verdict/part_verdict.hpp"
+#include "mems_stiction/verdict/verdict.hpp"
+
+namespace mems_stiction {
+namespace {
+
+constexpr double kArea = 26e-12;
+constexpr double kPullOff = 2e-7;
+
+Prediction predicted() {
+  Prediction prediction;
+  prediction.status = Status::kEquilibrium;
+  prediction.nominal_area = kArea;
+  prediction.pull_off_force = kPullOff;
+  prediction.apparent_work_of_adhesion = 1e-5;
+  prediction.pull_off_exponents = prediction.work_exponents = {1.0, 0.0, 0.0};
+  prediction.flattening_ratio = 10.0;
+  prediction.asperity_count = prediction.pull_off_contact_count = 25;
+  Asperity asperity;
+  asperity.composite_radius = 1e-6;
+  asperity.area = 2500e-18;
+  prediction.asperities.assign(25, asperity);
+  return prediction;
+}
+
+/// @param margin by the scan's force, scaled to the area
+DeviceOptions device(double margin, double area, int contacts = 1) {
+  DeviceOptions device;
+  device.travel = 1e-6;
+  device.contact_area = area;
+  device.contacts = contacts;
+  device.spring_stiffness = margin * kPullOff * area / kArea / device.travel;
+  return device;
+}
+
+Verdict verdictFor(const DeviceOptions& device) {
+  return verdictOf(predicted(), device, UncertaintyOptions(), Options(), 25e-18);
+}
+
+TEST(ContactSize, agreesWithinAFactorOfTwo) {
+  for (const double ratio : {0.5, 1.0, 2.0}) {
+    EXPECT_EQ(contactSizeObjection(predicted(), device(1.0, ratio * kArea)), "") << ratio;
+  }
+  for (const double ratio : {0.49, 2.01, 64.0}) {
+    EXPECT_NE(contactSizeObjection(predicted(), device(1.0, ratio * kArea)), "") << ratio;
+  }
+  EXPECT_EQ(contactSizeObjection(predicted(), DeviceOptions()), "");
+}
+
+TEST(ContactSize, isThatOfOneContact) {
+  EXPECT_EQ(contactSizeObjection(predicted(), device(1.0, 40.0 * kArea, 40)), "");
+  EXPECT_NE(contactSizeObjection(predicted(), device(1.0, kArea, 40)), "");
+}
+
+TEST(ContactSize, objectionNamesBothAreasAndSettingsWithoutCommas) {
+  const std::string objection = contactSizeObjection(predicted(), device(1.0, 104e-12, 1));
+  for (const char* word : {"device/contact_area", "device/contacts", "1.04e-10", "2.6e-11"}) {
+    EXPECT_NE(objection.find(word), std::string::npos) << objection;
+  }
+  EXPECT_EQ(objection.find(','), std::string::npos) << objection;
+}
+
+TEST(ContactSize, beyondItNoAndYesBecomeUnknownAndFiguresStay) {
+  for (const double margin : {50.0, 0.02}) {
+    const Verdict fitting = verdictFor(device(margin, kArea));
+    EXPECT_EQ(fitting.sticks, margin > 1.0 ? Sticks::kNo : Sticks::kYes);
+    const Verdict larger = verdictFor(device(margin, 10.0 * kArea));
+    EXPECT_EQ(larger.sticks, Sticks::kUnknown);
+    EXPECT_NE(larger.reason.find("forces do not go with area"), std::string::npos) << larger.reason;
+    EXPECT_NEAR(larger.margin / fitting.margin, 1.0, 1e-12);
+    EXPECT_NEAR(larger.margin_lower / fitting.margin_lower, 1.0, 1e-12);
+    EXPECT_NEAR(larger.margin_upper / fitting.margin_upper, 1.0, 1e-12);
+    EXPECT_EQ(verdictFor(device(margin, 10.0 * kArea, 10)).sticks, fitting.sticks);
+  }
+  EXPECT_EQ(verdictFor(device(1.05, 10.0 * kArea)).sticks, Sticks::kMarginal);
+}
+
+TEST(ContactSize, holdsForTheHalfSpaceToo) {
+  SolvedHalfSpace solution;
+  solution.status = HalfSpaceStatus::kSolved;
+  solution.is_converged = solution.is_resolved = solution.is_step_converged = true;
+  solution.pull_off_force = kPullOff;
+  solution.pull_off_uncertainty = 0.0;
+  solution.work_of_adhesion = 1e-5;
+  Evidence evidence;
+  evidence.half_space = &solution;
+  const auto judged = [&](double area) {
+    return verdictOf(predicted(), device(50.0, area), UncertaintyOptions(), Options(), 25e-18, evidence).sticks;
+  };
+  EXPECT_EQ(judged(kArea), Sticks::kNo);
+  EXPECT_EQ(judged(10.0 * kArea), Sticks::kUnknown);
+}
+
+TEST(ContactSize, aBeamsPeelNumberDoesNotAskForIt) {
+  DeviceOptions beam = device(50.0, 10.0 * kArea);
+  beam.beam_type = BeamType::kCantilever;
+  beam.beam_length = 1e-2;
+  beam.beam_thickness = 1e-6;
+  beam.beam_gap = 1e-6;
+  beam.beam_modulus = 169e9;
+  EXPECT_EQ(verdictFor(beam).sticks, Sticks::kYes) << "the beam's statement, which is worse than unknown";
+  beam.spring_stiffness = 0.0;
+  beam.beam_length = 1e-5;
+  EXPECT_EQ(verdictFor(beam).sticks, Sticks::kNo);
+}
+
+TEST(ContactSize, ofOneScanTakesTheWordFromThePart) {
+  const auto statement = [](const std::string& name, double area) {
+    return statementOf(name, predicted(), verdictFor(device(50.0, area)));
+  };
+  EXPECT_EQ(pooledVerdictOf({statement("a", kArea), statement("b", kArea)}).sticks, Sticks::kNo);
+  const PooledVerdict part = pooledVerdictOf({statement("a", 10.0 * kArea), statement("b", 10.0 * kArea)});
+  EXPECT_EQ(part.sticks, Sticks::kUnknown);
+  EXPECT_EQ(part.counted_scans, 2);
+  EXPECT_NEAR(part.margin.value, 50.0, 1e-9);
+  EXPECT_NE(part.reason.find("forces do not go with area"), std::string::npos) << part.reason;
+}
+
+}  // namespace
+}  // namespace mems_stiction
