@@ -3,20 +3,47 @@
 
 A program imports this before all that is slow to import. While it loads, Ctrl-C ends it at once: a KeyboardInterrupt would be
 printed as a traceback by whoever is being loaded. When main() begins, it calls raise_from_here_on().
+
+Python drops a KeyboardInterrupt that falls into a finalizer or a callback of a weak reference, and prints its traceback. Here it comes once
+more a moment later. A library that turns it into an error of its own (an import that failed) is told apart by the error's context.
 """
 
+import atexit
 import os
 import signal
 import sys
 
+AGAIN_AFTER = 0.02  # [s]
+
 _show = sys.excepthook
+_show_dropped = sys.unraisablehook
+
+
+def _is_interrupted(error):
+    """Whether a KeyboardInterrupt is this error, or led to it."""
+    while error is not None and not isinstance(error, KeyboardInterrupt):
+        error = error.__cause__ or error.__context__
+    return error is not None
 
 
 def _say(kind, error, trace):
-    if issubclass(kind, KeyboardInterrupt):
-        print("%s: interrupted" % os.path.basename(sys.argv[0]), file=sys.stderr)
-    else:
+    if not _is_interrupted(error):
         _show(kind, error, trace)
+        return
+    print("%s: interrupted" % os.path.basename(sys.argv[0]), file=sys.stderr)
+    if not issubclass(kind, KeyboardInterrupt):  # Python ends by the signal only for that
+        atexit._run_exitfuncs()
+        sys.stderr.flush()
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+        os.kill(os.getpid(), signal.SIGINT)
+
+
+def _raise_again(dropped):
+    if not issubclass(dropped.exc_type, KeyboardInterrupt):
+        _show_dropped(dropped)
+        return
+    signal.signal(signal.SIGALRM, signal.default_int_handler)
+    signal.setitimer(signal.ITIMER_REAL, AGAIN_AFTER)
 
 
 def raise_from_here_on():
@@ -33,5 +60,6 @@ def ignore_from_here_on():
 
 
 sys.excepthook = _say
+sys.unraisablehook = _raise_again
 if signal.getsignal(signal.SIGINT) == signal.default_int_handler:
     signal.signal(signal.SIGINT, signal.SIG_DFL)

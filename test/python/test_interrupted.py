@@ -4,6 +4,7 @@ import os
 import pathlib
 import signal
 import subprocess
+import sys
 import tempfile
 import time
 import unittest
@@ -13,6 +14,31 @@ from roslib.packages import find_node
 
 SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "scripts"
 OLD = "what was there before"
+
+
+# Python drops what is raised in a finalizer; a library may make an error of its own of it
+DROPS_IT = """
+from mems_stiction import interrupted
+import time
+class Slow:
+    def __del__(self):
+        print("in the finalizer", flush=True)
+        time.sleep(60)
+interrupted.raise_from_here_on()
+slow = Slow()
+del slow
+time.sleep(60)
+"""
+HIDES_IT = """
+from mems_stiction import interrupted
+import time
+interrupted.raise_from_here_on()
+try:
+    print("loading", flush=True)
+    time.sleep(60)
+except KeyboardInterrupt:
+    raise ImportError("not loaded")
+"""
 
 
 def program(name):
@@ -48,7 +74,7 @@ class InterruptedTest(unittest.TestCase):
             os.killpg(process.pid, signal.SIGINT)
         begin = time.monotonic()
         output, errors = process.communicate(timeout=60)
-        self.assertNotIn("Traceback", errors)
+        self.assertNotIn("Traceback", errors, errors)
         return process.returncode, output, errors, time.monotonic() - begin
 
     def whole_run(self, command):
@@ -131,6 +157,15 @@ class InterruptedTest(unittest.TestCase):
         self.assertEqual(left, set())
         if errors:
             self.assertEqual(errors.splitlines()[-1], "stiction_report: interrupted")
+
+    def test_an_interruption_that_python_drops_or_a_library_hides(self):
+        for text in (DROPS_IT, HIDES_IT):
+            process = subprocess.Popen([sys.executable, "-c", text], stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True,
+                                       preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))
+            process.stdout.readline()
+            process.send_signal(signal.SIGINT)
+            _, errors = process.communicate(timeout=30)
+            self.assertEqual((process.returncode, errors), (-signal.SIGINT, "-c: interrupted\n"))
 
     def test_a_page_that_runs_until_it_is_stopped(self):
         process = subprocess.Popen([str(SCRIPTS / "station_page"), "--port", "0"], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
