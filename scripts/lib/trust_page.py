@@ -82,8 +82,8 @@ def rounded_up(value):
 
 
 def coverage_rows(frames):
-    """Deviations from frames with even numbers, coverage on those with odd ones."""
-    lines = ["| regime | made from | pull-off force | work | judged by | covered, pull-off force | covered, work |", "|---|---|---|---|---|---|---|"]
+    """Deviations of the frames with even numbers, and how many of the others they cover."""
+    lines = ["| regime | set by | pull-off force | work | judged by | covered, pull-off force | covered, work |", "|---|---|---|---|---|---|---|"]
     hits, total = np.zeros(2), np.zeros(2)
     for name in (CONFORMING, NEAR_BONDING, SPARSE):
         of_regime = [frame for frame in frames if regime(frame) == name]
@@ -144,11 +144,12 @@ def page(lines, figure):
     text = [
         "# Error map", "",
         "How far each formulation lies from the [adhesive half-space](half_space.md), over a wide field of surfaces. Written by `scripts/trust`.", "",
-        "%d frames of %d x %d pixels were drawn: Gaussian, skewed, self-affine (H 0.5 to 0.9), arrays of spheres%s; rms height 0.03 to 12 nm, correlation "
-        "length 10 to 300 nm, contact modulus 0.1 to 100 GPa, work of adhesion 5 to 150 mJ/m^2, Hamaker constant 65 or 200 zJ; a third pressed with 0.1 to "
-        "100 MPa. Nothing flows. The half-space solved %d in the time given; in %d of these its pixels resolve the cohesive length E z0^2/Gamma, and only "
-        "those judge. Ratios are over the half-space; bias is their geometric mean, spread the standard deviation of their logarithm."
-        % (len(lines), size, size, ", parts of measured scans" if "scan" in of_kinds else "", len(solved), len(resolved)), "",
+        "- **Frames.** %d of %d x %d pixels: Gaussian, skewed, self-affine (H 0.5 to 0.9), arrays of spheres%s. Nothing flows."
+        % (len(lines), size, size, ", parts of measured scans" if "scan" in of_kinds else ""),
+        "- **Drawn from** rms heights of 0.03 to 12 nm, correlation lengths of 10 to 300 nm, contact moduli of 0.1 to 100 GPa, works of adhesion of 5 to 150 mJ/m^2, Hamaker "
+        "constants of 65 and 200 zJ. A third is pressed with 0.1 to 100 MPa.",
+        "- **Judges.** The half-space solved %d in the time given. In %d of these its pixels resolve the cohesive length E z0^2/Gamma, and only those judge." % (len(solved), len(resolved)),
+        "- **Figures** are ratios to the half-space's: *bias* is their geometric mean, *spread* the standard deviation of their logarithm.", "",
         "![error of the pull-off force](images/%s)" % pathlib.Path(figure).name, "",
         "## Formulations", ""]
     text += table("pull-off force", [row("`consistent`", ratios(resolved, ours, reference)), row("`paper`", ratios(resolved, pull_off("paper"), reference)),
@@ -167,12 +168,14 @@ def page(lines, figure):
             row("RESOLUTION alone", ratios([line for line in resolved if flags_of(line) & WARNING_FLAGS == {"resolution"}], ours, reference)),
             row("NEAR_BONDING", ratios([line for line in resolved if "near_bonding" in flags_of(line)], ours, reference))]
     text += table("pull-off force, by [flags](validity.md#the-flags)", rows)
-    text += ["The contact area is a definition: cells that repel each other, which a pixel more or less at each rim changes. Frames that are not resolved "
+    text += ["The contact area hangs on a definition: cells that repel each other, and a pixel more or less at each rim changes it. Frames that are not resolved "
              "show what the lattice does to the half-space, not how far the curve is off.", "",
              "## The interval of the margin", "",
-             "`uncertainty/...` adds the error of the model to that of the constants: a standard deviation of the logarithm for each regime. It is made from the frames with "
-             "even numbers: the root mean square of their deviations, or the value of which 95 % of them lie within 1.96 times, whichever is more, rounded up. The frames with odd numbers "
-             "judge it. The table says how many of them the model's part of the 95 % interval covers by itself.", ""]
+             "The margin's interval contains the error of the model beside that of the constants (`uncertainty/...`). For each regime it is a standard deviation of the logarithm. "
+             "One half of the frames sets it, the other half judges it.", "",
+             "- *Set by* the frames with even numbers: the root mean square of their deviations. Where less than 95 % of them would lie within 1.96 times that, it is the value within "
+             "1.96 times of which 95 % do lie. It is rounded up.",
+             "- *Judged by* the frames with odd numbers: the share of them that the model's part of the 95 % interval covers by itself.", ""]
     text += coverage_rows(resolved)
     return "\n".join(text)
 
