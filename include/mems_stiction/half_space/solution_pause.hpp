@@ -4,8 +4,8 @@
 /// How does a solution wait while something more urgent is computed, without being starved?
 ///
 /// Whoever does urgent work holds the pause meanwhile; solutions ask between their products and sleep until it is let
-/// go. A solution waits no longer at once than nine times as long as it has worked since it waited last, nor longer than
-/// a second, so that it keeps a tenth of the time even where urgent work never ends. It wakes up when it is cancelled.
+/// go. A wait lasts at most a second, and at most nine times as long as the work since the last one. So a solution keeps
+/// a tenth of the time even where urgent work never ends. It wakes up when it is cancelled.
 ///
 ///     SolutionPause pause;
 ///     control.give_way = pause.waiter(cancel);              // the solving thread
@@ -26,7 +26,7 @@ class SolutionPause {
   /// Longest wait at once, over the work since the last one.
   static constexpr int kMostPatience = 9;
   static constexpr std::chrono::seconds kLongestWait{1};
-  /// A waiter looks at its cancel after no longer than this.
+  /// A waiter looks at its cancel at least this often.
   static constexpr std::chrono::milliseconds kCancelPeriod{50};
 
   /// Solutions wait while it lives.
