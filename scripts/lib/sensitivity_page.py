@@ -218,7 +218,8 @@ def setting_section(study, key):
         lines += ["Nothing moves with %s." % ", ".join(unmoved), ""]
     default = "" if key == "pitch" else "Default: %s. %s" % (default_of(study, key), why)
     lines += [" ".join(part for part in (default, more.format(**study.record)) if part), ""]
-    lines += [digits(study, key), ""]
+    if rows:
+        lines += [digits(study, key), ""]
     return lines
 
 
@@ -290,12 +291,13 @@ def in_short(study):
         "- **Another place of the same surface** moves the pull-off force by %s %% (standard deviation), the contact area by %s %%, "
         "the mean gap by %s %%. Digits below that say something about this scan, not about the surface."
         % (span(spreads), span(area), span(gap)),
-        "- **The step is converged** as far as that: steps of half to a tenth of the default move the mean pull-off force by %s %% at most." % percent(step)
+        "- **The step is converged**: steps of half to a tenth of the default move the mean pull-off force by %s %% at most." % percent(step)
         if abs(step) < max(spreads) else
         "- **The step is not converged:** shorter ones move the mean pull-off force by %s %%." % percent(step),
         "- **The cut-off distance** is the one setting that decides the first digit of `pull_off_force`: %s to %s %% over the values in use. "
         "It leaves contact area and gap nearly alone, unless the surface is so smooth that its own attraction presses it together."
         % (min(cutoff, key=number), max(cutoff, key=number)) if max(abs(number(text)) for text in cutoff) > 100 * max(spreads) else
+        "- **The cut-off distance** does not move `pull_off_force`." if set(cutoff) == {"0"} else
         "- **The cut-off distance** moves `pull_off_force` by %s to %s %% over the values in use, less than another place does."
         % (min(cutoff, key=number), max(cutoff, key=number)),
     ]
@@ -331,10 +333,10 @@ def page(study, figure, is_generated):
     pressure = "%g MPa" % (1e-6 * study.record["pressure"])
     lines = ["# Sensitivities: which digits mean something", "",
              "*Written by `scripts/sensitivity`%s; do not edit it by hand.*" % ("" if is_generated else " for the scans named below"), "",
-             "How far does a prediction move when a numerical setting is changed, everything else being equal? Each setting is changed alone, "
-             "on every scan; the table gives the mean change and its standard deviation over the scans, in percent. What counts is the comparison with "
-             "the spread from scan to scan: a shift below it cannot be seen in practice. A scan *moves* when its pull-off force "
-             "changes by more than %g %%. Words: [terminology](terminology.md); keys: [parameters](parameters.md)." % (100 * MOVED), "",
+             "How far does a prediction move when one numerical setting is changed? Each setting is changed alone, on every scan. Tables give the mean "
+             "change and its standard deviation over the scans, in percent. A shift below the spread from scan to scan cannot be seen in practice. A scan "
+             "*moves* when its pull-off force changes by more than %g %%. Words: [terminology](terminology.md); keys: [parameters](parameters.md)."
+             % (100 * MOVED), "",
              "## In short", ""]
     lines += in_short(study)
     lines += ["![Change of pull-off force and contact area with each setting](%s)" % figure, "",
@@ -351,13 +353,13 @@ def page(study, figure, is_generated):
     for key in ["pitch"] + settings_of(study):
         lines += setting_section(study, key)
     lines += ["## Near bonding", "",
-              "`approach/max_contact_fraction` matters only on surfaces so smooth that their attraction closes them. Gaussian ones with a correlation "
-              "length of 80 nm, no mechanical load: how many of the scans bond, and the mean pull-off force.", ""]
+              "`approach/max_contact_fraction` matters only on surfaces so smooth that their attraction closes them. Here are Gaussian ones with a "
+              "correlation length of 80 nm, without mechanical load: how many of the scans bond, and the mean pull-off force.", ""]
     lines += near_bonding_table(study)
-    lines += ["A limit below 0.3 calls surfaces bonded that rest. Above 0.9 the whole frame has become a single contact, whose one cap is meaningless: "
-              "forces drop by powers of ten. Between, the limit decides nothing but how large the lower bound is; 0.5 lies in the middle.", "",
+    lines += ["Only the smoothest surface minds the limit. Where a low limit calls it bonded, a higher one lets it rest, at nearly the same force. 0.5 lies "
+              "between what rests and what has closed.", "",
               "## Samples of the interval", "",
-              "The margin's 95 %% interval is drawn at random. Its ends, as pull-off force over the predicted one, and how they scatter from seed to seed. "
+              "The margin's 95 %% interval is drawn at random. The table has its ends, as pull-off force over the predicted one, and how they scatter from seed to seed. "
               "With the default of %d they are good to a tenth; take more for figures that are to be published." % study.record["samples"], ""]
     lines += intervals_table(study)
     lines += ["## For comparison: the constants", "", "Each larger by its standard uncertainty (`uncertainty/...`).", ""]
