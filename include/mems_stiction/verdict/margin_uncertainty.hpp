@@ -4,7 +4,13 @@
 /// How far may the predicted pull-off force be off, given how well the constants are known?
 ///
 /// Each sample draws one factor per uncertain constant, lognormal with median 1: w for the work of adhesion, h for the
-/// hardness, e for the modulus, x for the pitch, c for the cut-off, a for the Hamaker constant. The contacts of the prediction are then moved:
+/// hardness, e for the modulus, x for the pitch, c for the cut-off, a for the Hamaker constant. Nothing is searched
+/// again.
+///
+/// A prediction by the separation curve moves with its exponents, force and work each with their own, and has the
+/// model's own error (doc/trust.md). Where a half-space judges, its error takes the place of that (evidence.hpp).
+///
+/// A prediction by paper or printed moves the contacts that were found:
 ///
 ///     R_i -> x^2 R_i     P1_i -> e x P1_i     yield load Y_i = Ha pi rc_i^2 -> h x^2 Y_i
 ///     phi_i -> (e/h) phi_i/x, and with it the elastic share chi_i
@@ -16,22 +22,21 @@
 ///     pull-off per nominal area -> [n (3/2) pi (w Gamma) sum x^2 R_i + F_w' + F_c']/(x^2 A0)
 ///
 /// The growth says that a surface that must carry more, or carries less per contact, brings proportionally more
-/// contacts of the same kind into play (Archard; Greenwood and Williamson's exponential summits). It is a first-order
-/// model: the contacts are not searched again. Left out: the feedback of new contacts on the demand (it makes sticky
-/// surfaces near bonding more sensitive than said here), the change of the shares of large and small contacts, and
-/// steps of the contact count when there are few. F_w ~ c^-2 is the edge of a contact, a gap that grows evenly from 0.
-/// Condensed water goes with the contacts that it surrounds.
-/// Judged by searching again with each constant changed (tested): on Gaussian surfaces with 30 elastic contacts and
-/// more, the powers with which the pull-off force goes with the constants agree within 0.3. Contacts that flow resist
-/// less than the load that they carry (asperity_response.hpp): there the search moves by several times more, with
-/// powers of 4 of pitch and cut-off. With a few contacts the search goes in steps, and this is the smooth mean at best. A single contact that carries more than it must does not react at all: this is then wider than
-/// what the search would say.
+/// contacts of the same kind into play (Archard; Greenwood and Williamson's exponential summits). F_w ~ c^-2 is the
+/// edge of a contact, a gap that grows evenly from 0. Condensed water goes with the contacts that it surrounds.
 ///
-/// A prediction by the separation curve moves with its exponents instead, force and work each with their own, and has the
-/// model's own error (doc/trust.md).
-/// Where a half-space judges, its error takes the place of that (evidence.hpp). The choice of cleaning is a further
-/// factor: normal in the logarithm, whose 2.5 % and 97.5 % quantiles are the lowest and the highest of the cleanings. Both
-/// add in quadrature there, quantile by quantile.
+/// This is a first-order model. Left out: the feedback of new contacts on the demand (it makes sticky surfaces near
+/// bonding more sensitive than said here), the change of the shares of large and small contacts, and steps of the
+/// contact count when there are few. Tests search again with each constant changed:
+///
+/// - From 30 elastic contacts on Gaussian surfaces, the powers of the pull-off force agree within 0.3.
+/// - Where contacts flow, the search moves by several times more, with powers of 4 of pitch and cut-off: they resist
+///   less than the load that they carry (asperity_response.hpp).
+/// - With a few contacts the search goes in steps, and this is the smooth mean at best. A single contact that carries
+///   more than it must does not react at all: this is then wider than what the search would say.
+///
+/// The choice of cleaning is a further factor: normal in the logarithm, whose 2.5 % and 97.5 % quantiles are the lowest
+/// and the highest of the cleanings. It adds in quadrature there, quantile by quantile.
 ///
 /// With scan_sampling, a further factor has the variance sum R_i^2/(sum R_i)^2: a scan is one sample of the surface,
 /// and another place would have other contacts (Poisson).
@@ -56,8 +61,9 @@ constexpr double kUpperShare = 0.975;
 struct AdhesionSpread {
   std::vector<double> pull_off;       ///< pull-off force over the prediction's [-]
   std::vector<double> apparent_work;  ///< apparent work of adhesion over apparentWorkOfAdhesion() [-]
-  /// What of it is of the place alone: standard deviation of the logarithm of the pull-off force from place to place, by
-  /// the number of contacts [-]; 0 without scan_sampling, and of conforming surfaces. The rest is the same at every place.
+  /// What of it is of the place alone: standard deviation of the logarithm of the pull-off force from place to place,
+  /// by the number of contacts [-]; 0 without scan_sampling, and of conforming surfaces. The rest is the same at every
+  /// place.
   double place_deviation = 0.0;
 
   bool isKnown() const { return !pull_off.empty(); }

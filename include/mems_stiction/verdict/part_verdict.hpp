@@ -22,26 +22,29 @@
 /// Two scans that agree leave t = 1.96, two that contradict each other let it grow up to 12.7. What is common does not
 /// shrink: its c_i are wholly correlated, and so averaged as they are. One scan gives its own verdict, unchanged.
 ///
-/// The word is that of one scan (verdict.hpp), for this interval. A plain "no" is withheld where one scan by itself says
-/// "yes" (then it is marginal), and where scans that cannot count leave a doubt (then it is unknown): one that bonds or has
-/// no equilibrium, or more than half of all. A scan that may not say "no" for its few contacts alone counts, since contacts
-/// of several scans add up; together they must be three. A scan whose area is not that of one of
-/// the device's contacts (contact_size.hpp) counts for the figures, but then neither "no" nor "yes" is said. A scan without adhesion (an infinite margin) counts, and is left
-/// out of the mean.
+/// The word is that of one scan (verdict.hpp), for this interval, with these exceptions:
 ///
-/// Assumptions: every scan is another place of one part, predicted with the same settings and judged for the same device. A
-/// place that is scanned again is counted again, and then the interval is too narrow in its part of the place. The mean
-/// stands for a device whose contacts are many such places. The pull-off force of that is the arithmetic mean of the
-/// forces, which is exp(s^2/2) times the geometric one: 2 % for a spread of 0.2, 13 % for one of 0.5. A device that rests
-/// on a single place is judged by the worst scan, which is stated.
+/// - One scan that by itself says "yes" makes a "no" marginal.
+/// - Scans that cannot count make a "no" unknown: one that bonds or has no equilibrium, or more than half of all.
+/// - A scan that may not say "no" for its few contacts alone counts, since contacts of several scans add up; together
+///   they must be three.
+/// - A scan whose area is not that of one of the device's contacts (contact_size.hpp) counts for the figures, but then
+///   neither "no" nor "yes" is said.
+/// - A scan without adhesion (an infinite margin) counts, and is left out of the mean.
 ///
-/// Simulated parts with c = p = 0.3 find the truth within the interval in 95 +- 1 of 100 cases as long as tau is not above p,
-/// from two scans on. A tau of 1 (places that differ by a factor of e) is seen by few scans: 87 of 100 with two, 92 with
-/// three, 94 with five.
+/// Assumptions: every scan is another place of one part, predicted with the same settings and judged for the same
+/// device. A place that is scanned again is counted again, and then the interval is too narrow in its part of the
+/// place. The mean stands for a device whose contacts are many such places. The pull-off force of that is the
+/// arithmetic mean of the forces, which is exp(s^2/2) times the geometric one: 2 % for a spread of 0.2, 13 % for one of
+/// 0.5. A device that rests on a single place is judged by the worst scan, which is stated.
 ///
-/// Sources: random effects with the between-scan variance by the method of moments, unweighted (Cochran 1954; Hedges and
-/// Olkin 1985; DerSimonian and Laird, Controlled Clinical Trials 7 (1986) 177, weight the same moments); fully correlated
-/// inputs and effective degrees of freedom: JCGM 100:2008 (GUM), equations 16 and G.2b.
+/// Simulated parts with c = p = 0.3 have the truth within the interval in 95 +- 1 of 100 cases, from two scans on, as
+/// long as tau is not above p. A tau of 1 (places that differ by a factor of e) is seen by few scans: 87 of 100 with
+/// two, 92 with three, 94 with five.
+///
+/// Sources: random effects with the between-scan variance by the method of moments, unweighted (Cochran 1954; Hedges
+/// and Olkin 1985; DerSimonian and Laird, Controlled Clinical Trials 7 (1986) 177, weight the same moments); fully
+/// correlated inputs and effective degrees of freedom: JCGM 100:2008 (GUM), equations 16 and G.2b.
 ///
 ///     std::vector<ScanStatement> scans;
 ///     scans.push_back(statementOf("place 1", prediction, verdict));

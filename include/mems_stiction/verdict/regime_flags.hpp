@@ -1,8 +1,8 @@
 #pragma once
 
 /// @file
-/// Where does a prediction leave the range of the model that made it? What a flag says of contacts it says of those that
-/// hold at the pull-off: a load that presses more of them together at rest changes no flag.
+/// Where does a prediction leave the range of the model that made it? Flags speak of the contacts that hold at the
+/// pull-off: a load that presses more of them together at rest changes no flag.
 
 #include <cstdint>
 #include <string>
@@ -40,13 +40,14 @@ inline constexpr double kJoiningRise = 0.1;
 inline constexpr int kFewestContacts = 10;
 
 /// Whether the flattening ratio lies below 2 (1 + mu), mu the median Tabor parameter, at most 1: where contacts are
-/// brittle, they grow together over barriers at which the separation curve rests (doc/trust.md). Or below 6, if the force
-/// on the way in rises again by a tenth of its largest value after it has fallen: contacts join one after another there,
-/// and those that hold draw the next ones near.
+/// brittle, they grow together over barriers at which the separation curve rests (doc/trust.md). Or below 6, if the
+/// force on the way in rises again by a tenth of its largest value after it has fallen: contacts join one after another
+/// there, and those that hold draw the next ones near.
 bool mayGrowTogether(const Prediction& prediction);
 
 /// Shares are of the sum of composite radii, which the adhesion is proportional to; without a list of contacts
-/// (output/asperities off, paper's formulations) they are of the number of contacts, and the mean contact stands for all.
+/// (output/asperities off, paper's formulations) they are of the number of contacts, and the mean contact stands for
+/// all.
 /// - @p cell_area of the scan [m^2], > 0
 std::uint32_t regimeFlags(const Prediction& prediction, double cell_area);
 

@@ -6,8 +6,7 @@
 ///     restoring force = k travel
 ///     pull-off force  = pull-off force of the scan, contact area of the device/nominal area of the scan
 ///     margin          = restoring force/pull-off force: above 1 the spring pulls the contact open
-///     peel number     = what bending gives per what adhesion takes, of a beam (beam_adhesion.hpp): above 1 it comes
-///     off
+///     peel number     = what bending gives per what adhesion takes, of a beam (beam_adhesion.hpp): above 1 it comes off
 ///
 /// The margin is a ratio, so that 2 reads "twice the force needed" for every device, and beams and springs compare.
 /// Its 95 % interval is that of the uncertain constants (margin_uncertainty.hpp). The word:
@@ -15,14 +14,14 @@
 ///     no        the whole interval is above 1, also with the pull-off prefactors of the JKR-DMT transition
 ///     yes       the whole interval is below 1
 ///     marginal  1 lies within
-///     unknown   a contact of the device is not within a factor of 2 of the scanned area (contact_size.hpp): the force would
-///               have to be scaled further than it goes with area; or the answer would be no, but rests on contacts of one pixel, at the frame's border, or on fewer than
-///               three; the device is not stated, the search found no equilibrium, or the surfaces bond (the forces are then
-///               lower bounds: they can say "yes", not "no")
+///     unknown   the device is not stated, or the search found no equilibrium; a contact of the device is not within a
+///               factor of 2 of the scanned area (contact_size.hpp); the answer would be no, but rests on contacts of one
+///               pixel, at the frame's border, or on fewer than three; or the surfaces bond under paper or printed (the
+///               forces are then lower bounds: they can say "yes", not "no")
 ///
-/// A half-space of the same scan judges in the prediction's place if it is solved, converged, resolved and converged with
-/// its steps (whyNotJudging()): its pull-off force and work, with its error for that of the model. What speaks of the scan
-/// still counts. Other cleanings of the scan, if they were tried, widen the interval. The reason says both.
+/// A half-space of the same scan judges in the prediction's place if it is solved, converged, resolved and converged
+/// with its steps (whyNotJudging()): its pull-off force and work, with its error for that of the model. What speaks of
+/// the scan still counts. Other cleanings of the scan, if they were tried, widen the interval. The reason says both.
 ///
 /// With a spring and a beam stated, the worse of both counts: yes, unknown, marginal, no.
 /// Assumptions: the scan stands for the whole contact area; the load has been taken away before the device is to open
@@ -80,9 +79,11 @@ struct Verdict {
   double pull_in_voltage = kNotStated;            ///< at which the electrodes close [V]
   std::uint32_t regime_flags = 0;                 ///< bits of RegimeFlag
 
-  /// Why the margin allows no plain word though its figures stand, contactSizeObjection(); empty if it does. In no message.
+  /// Why the margin allows no plain word though its figures stand, contactSizeObjection(); empty if it does. In no
+  /// message.
   std::string size_objection;
-  /// What of the interval is of the place alone, for pooledVerdictOf(): standard deviation of ln margin [-]. In no message.
+  /// What of the interval is of the place alone, for pooledVerdictOf(): standard deviation of ln margin [-]. In no
+  /// message.
   double place_deviation = kNotStated;
 };
 
