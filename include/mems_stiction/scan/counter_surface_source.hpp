@@ -4,8 +4,9 @@
 /// The configured counter-surface, ready on the grid of whatever scan comes: cleaned, mounted, in its pose.
 ///
 /// A measured counter-surface is cleaned as the scan is (same steps; the tip is taken off while its asperities point
-/// up), then turned over if it faces up, then put in its pose. A generated one needs no cleaning. Results are kept: a
-/// measured surface is cleaned once, a generated one is drawn once per scan grid, either is resampled once per pose.
+/// up), then turned over if it faces up, then put in its pose. A generated one needs no cleaning. No work is done
+/// twice: a measured surface is cleaned once, a generated one is drawn once per scan grid, either is resampled once per
+/// pose.
 
 #include <atomic>
 #include <cstdint>

@@ -1,9 +1,9 @@
 #pragma once
 
 /// @file
-/// Settings that are allowed, but that nobody means. Constants that no material, device or instrument is likely to have are
-/// slips of a unit: a modulus of 169 is 169 GPa, a hundred metres of insulator are 100 nm. Settings that the solver at work
-/// does not use were meant for another one. Fields that no insulator stands are no operating point.
+/// Which settings are allowed, but hardly meant? Constants that no material, device or instrument is likely to have are
+/// slips of a unit: a modulus of 169 is 169 GPa, a hundred metres of insulator are 100 nm. Settings that the solver at
+/// work does not use were meant for another one. Fields that no insulator stands are no operating point.
 
 #include <string>
 #include <vector>
@@ -14,12 +14,12 @@
 
 namespace mems_stiction {
 
-/// One sentence for each stated constant outside what is usual, with the unit that was probably meant; empty when all is
-/// well. Zeros say "not stated". Then one for each setting that is not its default, but has no effect.
+/// One sentence for each stated constant outside what is usual, with the unit that was probably meant; empty when all
+/// is well. Zeros say "not stated". Then one for each setting that is not its default, but has no effect.
 std::vector<std::string> settingsWarnings(const Configuration& configuration);
 
-/// What only a frame tells: a sentence for a load that is more than the softer surface could carry with all of its area, one
-/// for a device whose contacts have not the scan's size, and those about fields.
+/// What only a frame tells: a sentence for a load that is more than the softer surface could carry with all of its
+/// area, one for a device whose contacts have not the scan's size, and those about fields.
 /// - @p options that the prediction was made with
 std::vector<std::string> frameWarnings(const Prediction& prediction, const Options& options,
                                        const DeviceOptions& device);

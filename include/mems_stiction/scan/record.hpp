@@ -36,9 +36,9 @@ struct RecordExtras {
 
 /// One YAML document, from its "---" to the end of its last line. Numbers that are not finite are .nan, .inf, -.inf.
 /// The energy curve is a list of maps, left out when the prediction has none; spatial roughness is a part of
-/// `roughness`, left out when it was not computed. Flags of the model's range are there with and without a device. For people, comments at the end say the
-/// pull-off force and the margin with what is known of them, rounded so, and repeat convergence and cleanings as tables;
-/// all fields keep all digits.
+/// `roughness`, left out when it was not computed. Flags of the model's range are there with and without a device. All
+/// fields have all digits. For people, comments at the end repeat the pull-off force and the margin, rounded to what is
+/// known, and convergence and cleanings as tables.
 /// - @p file the scan's name, as the user wrote it
 std::string yamlRecord(const std::string& file, const HeightMap& scan, const Prediction& prediction,
                        const RecordExtras& extras = {});

@@ -3,9 +3,9 @@
 /// @file
 /// The settings that may change while a node runs, and the one place where they are.
 ///
-/// Whoever needs a setting asks the owner each time, and keeps a snapshot for as long as one piece of work takes: what is
+/// Whoever needs a setting asks the owner, and works with that snapshot until one piece of work is done. So what is
 /// predicted, judged and published belongs together, whatever changes meanwhile. What prepares a scan
-/// (prepared_scan.hpp) is not among these settings, so that a change never makes a prepared scan stale.
+/// (prepared_scan.hpp) is not among these settings: a change never makes a prepared scan stale.
 
 #include <memory>
 #include <mutex>
