@@ -13,9 +13,10 @@ namespace mems_stiction {
 
 /// Position in `channels` of the one to take: lengths in metres along x, y and z, and a title that says height. A
 /// closed-loop sensor ("ZSensor", "Z-AxisSensor", "Height (measured)") goes before "Height" and "Topography", these
-/// before unknown titles; then forward before backward, then the lower id. All of them go before a channel whose heights
-/// span more than the scan is wide or the piezo can move. Titles of other signals ("AmplitudeError", "Deflection") and arrays of curves, whose
-/// pixels are a thousand times as long as wide, are never chosen without being named. Of several pages without a title none is chosen.
+/// before unknown titles; then forward before backward, then the lower id. All of them go before a channel whose
+/// heights span more than the scan is wide or the piezo can move. Never chosen without being named: other signals
+/// ("AmplitudeError", "Deflection"), arrays of curves, whose pixels are a thousand times as long as wide, and one of
+/// several pages without a title.
 /// - @p wanted title or number; empty = as above
 /// @throw FileError without a file name: which channels there are, and why none can be taken.
 std::size_t chooseHeightChannel(const std::vector<FileChannel>& channels, const std::string& wanted = {});
@@ -23,8 +24,8 @@ std::size_t chooseHeightChannel(const std::vector<FileChannel>& channels, const 
 /// What the user should know where a likelier title was not taken; empty if there is none.
 std::string passedOver(const std::vector<FileChannel>& channels, std::size_t chosen);
 
-/// Which was taken of several topographies that differ in pixels or size, as images of several places or zooms in one file
-/// do, and which else there are; empty if there is none.
+/// Which of several topographies was taken, and which else there are, where they differ in pixels or size: images of
+/// several places or zooms in one file. Else empty.
 std::string othersOfOtherSize(const std::vector<FileChannel>& channels, std::size_t chosen);
 
 /// "0: ZSensor"

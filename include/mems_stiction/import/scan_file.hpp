@@ -3,10 +3,9 @@
 /// @file
 /// A scan from any file that we can read. doc/scans.md lists the formats.
 ///
-/// What a format or a file states of pitch and unit holds. Images, arrays and text often state nothing: then ScanOptions
-/// do. The sidecar is a YAML file beside such a scan, "scan.tiff.yaml" or "scan.yaml" for "scan.tiff", with keys of
-/// ScanOptions, with or without "scan/" before them; it goes before the file and ScanOptions, a pitch in ScanFileOptions
-/// before all.
+/// Pitch and unit are those that the format or the file states. Images, arrays and text often state nothing: then
+/// ScanOptions do. A sidecar goes before both, and a pitch in ScanFileOptions before all. The sidecar is a YAML file
+/// beside the scan, "scan.tiff.yaml" or "scan.yaml" for "scan.tiff", with keys of ScanOptions, with or without "scan/".
 
 #include <string>
 #include <vector>

@@ -1,8 +1,8 @@
 #pragma once
 
 /// @file
-/// gwyddion takes ten times as long to start as to read a small file. For many files it is started once for each thread
-/// that reads, and each file is read by a copy of that process: what a damaged file does to its copy ends with it.
+/// gwyddion takes ten times as long to start as to read a small file. For many files it is started once per reading
+/// thread, and a copy of that process reads each file: a damaged one ends its copy only.
 
 #include <memory>
 #include <mutex>
