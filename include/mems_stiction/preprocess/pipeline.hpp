@@ -88,9 +88,8 @@ class ScanCleaner {
 
   const PipelineOptions& options() const { return options_; }
 
-  /// The result stays until the next scan; whoever copies its surface may hold that for longer: pixels that somebody
-  /// holds are never written to again. Without any step the surface is the scan itself, to the bit, and shares its
-  /// pixels.
+  /// The result stays until the next scan. A copy of its surface stays longer: pixels that somebody shares are never
+  /// written to again. Without any step the surface is the scan itself, to the bit, and shares its pixels.
   /// @throw SurfaceError if no pixel is valid, or more are missing than fill/max_fraction allows.
   const CleanedScan& clean(const HeightMap& scan);
   /// Ends the hold on the last surface, which without any step is the scan that somebody may wait to be free of.

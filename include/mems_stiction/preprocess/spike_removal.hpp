@@ -9,10 +9,10 @@
 /// fill_holes.hpp gives them a height again. Where more than half of the residuals are equal (coarsely counted
 /// heights), the median runs over those that differ. Assumptions: a spike covers less than half a window. On Gaussian
 /// roughness a threshold of 6 removes two pixels in 10^9; surfaces that carry real particles of a few pixels lose them:
-/// choose a smaller window or a higher threshold.
-/// The polynomial rests to 1e-4 of its noise (fitPolynomialBySamples), which moves a residual by its slope over a window,
-/// some 1e-6 of the noise. Where heights are counted in steps as coarse as the roughness, distances come in clusters, and
-/// whether one that meets the limit is taken can hang on that.
+/// choose a smaller window or a higher threshold. The polynomial is found to 1e-4 of its noise
+/// (fitPolynomialBySamples), which moves a residual by some 1e-6 of the noise. That can decide about a pixel only where
+/// heights are counted in steps as coarse as the roughness: distances then come in clusters, and one can meet the
+/// limit.
 
 #include "mems_stiction/base/option_visitor.hpp"
 #include "mems_stiction/height_map/height_map.hpp"
