@@ -1,10 +1,9 @@
 #pragma once
 
 /// @file
-/// half_space/enabled: the half-space beside the predictions. A thread of its own solves the newest scan, publishes it,
-/// and takes the scan that is the newest then; scans between are skipped. It solves what was predicted, the prepared scan
-/// and the settings of its prediction, whatever changes meanwhile: a solution that runs while a load is set is finished,
-/// and so belongs to the prediction of its stamp.
+/// half_space/enabled: the half-space beside the predictions. A thread of its own solves the newest scan, publishes the
+/// answer, and takes the scan that is the newest then; scans between are skipped. It takes the prepared scan and the
+/// settings of its prediction, whatever changes meanwhile: the answer belongs to the prediction of its stamp.
 
 #include <atomic>
 #include <condition_variable>

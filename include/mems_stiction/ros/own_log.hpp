@@ -1,8 +1,8 @@
 #pragma once
 
 /// @file
-/// Log lines of threads that must not wait. rosconsole holds a lock while roscpp looks up a cached parameter for each line, and whoever
-/// sets a parameter in this process holds the lock of all parameters until the master has answered.
+/// Log lines of threads that must not wait. rosconsole locks while roscpp looks up a cached parameter for each line,
+/// and whoever sets a parameter in this process locks all of them until the master has answered.
 
 #include <string>
 
@@ -14,8 +14,8 @@ namespace mems_stiction {
 /// counted instead.
 void logSoon(ros::console::Level level, std::string text);
 
-/// While the master is there: asks it what roscpp else would ask with the first line of the log, and with each one after it until
-/// it is answered.
+/// While the master is there: asks it what roscpp else would ask with the first line of the log, and with each one
+/// after it until it is answered.
 void prepareLog();
 
 /// Waits for the lines that wait, but not for long.

@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// What goes out for a predicted scan, and what somebody listens to: nothing else is computed or published.
+/// What goes out for a predicted scan: the prediction, and what somebody listens to. Nothing else is computed.
 
 #include <functional>
 

@@ -3,8 +3,8 @@
 /// @file
 /// Which files a node reads, and what it says of those that it cannot.
 ///
-/// Parameters come from anybody in the network, and what the node says reaches everybody. So it reads files that parameters
-/// name only below folders that its environment states, and never says what stands in them.
+/// Parameters come from anybody in the network, and what the node says reaches everybody. So it reads files that
+/// parameters name only below folders that its environment states, and never says what stands in them.
 
 #include <filesystem>
 #include <string>
@@ -15,8 +15,8 @@
 
 namespace mems_stiction {
 
-/// Folders with a colon between them; not set: the user's home and the folder for temporary files. A parameter could be set by
-/// whoever is to be kept out.
+/// Folders with a colon between them; not set: the user's home and the folder for temporary files. It is no parameter,
+/// which whoever is to be kept out could set.
 inline constexpr char kScanFoldersVariable[] = "MEMS_STICTION_SCAN_FOLDERS";
 
 /// Where links lead, without those that do not exist.

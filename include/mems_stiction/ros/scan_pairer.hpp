@@ -4,14 +4,15 @@
 /// Puts each height image together with the scan_info of the same stamp, and tells who was left alone and why. One
 /// object serves one thread.
 ///
-/// Each topic of one publisher keeps its order, so whoever came on it before a half of a newer pair, and is older, is
-/// alone for good. That says nothing once stamps go back, as in a bag that starts again, or while several publishers
-/// send: then only the timeout tells who is alone. A scan whose halves are given up at different times counts once.
+/// The messages of one publisher come in order. So a half that came before one of a newer pair, and is older, is alone
+/// for good. Not so once stamps go back, as in a bag that starts again, or while several publishers send: then only the
+/// timeout tells who is alone. A scan whose halves are given up at different times counts once.
 ///
-/// A stamp that several scans bear does not tell which scan_info belongs to which image, and neither does the order of arrival
-/// or header.seq: a half that is lost, or was never sent, shifts all after it. Such scans are pairs only if there are as many
-/// of one kind as of the other, and every scan_info says the same, also the one after; else all of them are rejected, until
-/// none has come for the timeout. The same goes for stamps that are not set (0), and for all while others repeat.
+/// A stamp that several scans bear does not tell which scan_info belongs to which image. Neither does the order of
+/// arrival or header.seq: a half that is lost, or was never sent, shifts all after it. Such scans are pairs only if
+/// there are as many images as scan_infos, and every scan_info says the same, also the one after. Else all of them are
+/// rejected, until none has come for the timeout. The same goes for stamps that are not set (0), and for all while
+/// others repeat.
 
 #include <cstddef>
 #include <cstdint>
@@ -54,8 +55,8 @@ class ScanPairer {
   void add(const sensor_msgs::ImageConstPtr& image, ros::WallTime now);
   void add(const ScanInfoConstPtr& info, ros::WallTime now);
 
-  /// Rejects what has waited for longer than the timeout and was looked at by this call several times: what a process that
-  /// stood still finds waiting may have its partner in the queue. To be called a few times in each timeout.
+  /// Rejects what has waited for longer than the timeout and was looked at by this call several times: what a process
+  /// that stood still finds waiting may have its partner in the queue. To be called a few times in each timeout.
   void expire(ros::WallTime now);
 
   std::size_t waiting() const { return images_.waiting.size() + infos_.waiting.size(); }

@@ -3,10 +3,11 @@
 /// @file
 /// The one implementation behind node and nodelet: connects topics and services with the worker that owns the core.
 ///
-/// Threads: one for topics, transforms and timers, one for the core (WorkQueue), one for each call of a service that waits and one for the
-/// next, one for each action, one for ~solve_half_space, one that solves the newest scan as a half-space; of the process, one that
-/// writes the log, and one that watches the master and alone talks to it. A service that needs the core is run by the worker before the scans that wait; an action, and the half-space, take from it what they
-/// need and then work by themselves.
+/// Threads of the node: one for topics, transforms and timers; one for the core (WorkQueue); one for each call of a
+/// service that waits, and one for the next; one for each action; one for ~solve_half_space; one that solves the newest
+/// scan as a half-space. Threads of the process: one that writes the log, and one that watches the master and alone
+/// talks to it. The worker serves services that need the core before the scans that wait. Actions and half-spaces take
+/// from it what they need, and then work by themselves.
 
 #include <atomic>
 #include <functional>

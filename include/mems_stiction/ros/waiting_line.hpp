@@ -1,10 +1,10 @@
 #pragma once
 
 /// @file
-/// A line of scans and counter-surfaces in the order of arrival, and who leaves it before his turn when it holds too much.
+/// A line of scans and counter-surfaces in the order of arrival. When it has too many, some leave it before their turn.
 ///
-/// The oldest scans go first. A counter-surface goes once no scan stands between it and a newer one: those behind it are
-/// pressed against it. The newest scan and the newest counter-surface stay.
+/// The oldest scans go first. A counter-surface goes once no scan stands between it and a newer one: those behind it
+/// are pressed against it. The newest scan and the newest counter-surface stay.
 
 #include <algorithm>
 #include <cstdint>

@@ -1,8 +1,9 @@
 #pragma once
 
 /// @file
-/// One worker thread that owns the core: scans and counter-surfaces in the order of arrival, and calls that go before them and whose answer
-/// is waited for. Calls get half of the time while scans wait. Everything that touches the core runs here, so nothing else needs a lock.
+/// The one thread that owns the core. It takes scans and counter-surfaces in the order of arrival, and before them
+/// calls, whose callers wait for the answer. Calls get half of the time while scans wait. Everything that touches the
+/// core runs here, so nothing else needs a lock.
 
 #include <condition_variable>
 #include <deque>
@@ -30,8 +31,9 @@ class WorkQueue {
   /// Finishes the job at hand, forgets the others and joins the thread. Calls that wait get std::future_error.
   void stop();
 
-  /// Appends a scan that holds so many bytes. When more than `capacity` or `max_bytes` wait, the oldest ones go (WaitingLine)
-  /// and their `drop` is called on this thread. Once a large backlog is worked off, its memory goes back to the system.
+  /// Appends a scan that holds so many bytes. When more than `capacity` or `max_bytes` wait, the oldest ones go
+  /// (WaitingLine) and their `drop` is called on this thread. Once a large backlog is worked off, its memory goes back
+  /// to the system.
   void pushScan(std::function<void()> run, std::function<void()> drop, std::size_t bytes = 0);
   /// The same for a counter-surface, which goes only for a newer one, once no scan stands between the two.
   void pushCounterSurface(std::function<void()> run, std::function<void()> drop, std::size_t bytes);
