@@ -130,6 +130,15 @@ class ValidityTest(unittest.TestCase):
         self.assertIn("fewer than %g pixels) and" % float(re.search(r"min_contact_pixels = ([\d.]+)", resolution).group(1)), page)
 
 
+class ReleaseTest(unittest.TestCase):
+    def test_versions_agree(self):
+        released = re.search(r"^(\d+\.\d+\.\d+) \((\S+)\)$", source("CHANGELOG.rst"), re.MULTILINE).groups()
+        citation = source("CITATION.cff")
+        self.assertEqual(re.search(r"^version: (\S+)$\n^date-released: (\S+)$", citation, re.MULTILINE).groups(), released)
+        self.assertIn("<version>%s</version>" % released[0], source("package.xml"))  # setup.py reads it there
+        self.assertIn("project(mems_stiction VERSION %s " % released[0], source("CMakeLists.txt"))
+
+
 class HeaderTest(unittest.TestCase):
     def test_opening_comments_belong_to_their_files(self):
         """Without @file doxygen takes the comment that opens a header for one on whatever follows."""
