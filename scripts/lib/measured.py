@@ -105,35 +105,40 @@ def page(study):
     text = [
         "# Against measurement", "",
         "What others measured on rough surfaces, beside what `approach/formulation: consistent` predicts from surfaces with the same statistics. Written by `scripts/measured`.", "",
-        "**What this page can show is an order of magnitude and a trend.** No source whose full text was to be had gives all that a prediction needs: roughness, correlation length, "
-        "work of adhesion, Hamaker constant, humidity and area. Most were read as abstracts. What is missing is assumed, and [the second table](#what-the-assumptions-move) says what each "
-        "assumption moves. How far the model is from the mechanics that it approximates is another question, which the [error map](trust.md) answers with much smaller numbers.", "",
+        "**This page shows an order of magnitude and a trend, no more.** A prediction needs roughness, correlation length, work of adhesion, Hamaker "
+        "constant, humidity and area. No source whose full text was to be had gives all of them, and most were read as abstracts. What is missing is "
+        "assumed; [the second table](#what-the-assumptions-move) says what each assumption moves. The [error map](trust.md) answers another question, "
+        "with much smaller numbers: how far the model is from the mechanics that it approximates.", "",
         "## Measured and predicted", "",
         "%d Gaussian surfaces each; median, lowest and highest. *factor*: predicted median over measured. *recalled*: not checked against the source." % len(study.seeds), "",
         "| case | rms height | measured | predicted | over seeds | factor |", "|---|---|---|---|---|---|"]
     text += list(result_rows(study, results))
     text += ["", "| case | source | says | assumed |", "|---|---|---|---|"]
     text += ["| %s | %s (%s) | %s | %s |" % (case.key, case.source.name, case.source.where, case.source.says, case.assumed) for case in cases.CASES]
-    text += ["", "A ratio is that of the apparent works of two rough planes. It stands for the forces of a large sphere, because the force between a sphere and a plane is 2 pi R times the "
-             "energy per area of planes at the same separation (Derjaguin), so the sphere's pull-off force is 2 pi R times the work of the planes from rest on.", "",
-             "A plate that is torn off by its springs does not stay parallel: it peels, and the largest force is not that of all its area at once. A prediction for a parallel plate is an upper bound for it in that respect. "
-             "Where the measured force is larger still, the plates were smoother, wet or charged, or fitted each other; the source does not say.", "",
+    text += ["",
+             "A ratio is that of the apparent works of two rough planes. It stands for the forces of a large sphere: the force between a sphere and a "
+             "plane is 2 pi R times the energy per area of planes at the same separation (Derjaguin). So the sphere's pull-off force is 2 pi R times "
+             "the work of the planes from rest on.", "",
+             "A plate that springs tear off does not stay parallel. It peels, and the largest force is not that of all its area at once: for such a "
+             "plate the prediction is an upper bound. Where the measured force is larger still, the plates were smoother, wet or charged, or fitted "
+             "each other; the source does not say.", "",
              "## The separation law", "",
-             "The one statement of the polysilicon measurements that was read and that needs no constant but the Hamaker constant: at small roughness the work is that of planes at the average "
-             "separation, H/(12 pi D_ave^2); at large roughness contacts take over. Predicted, for the beams' settings:", "",
+             "One statement of the polysilicon measurements was read that needs no constant but the Hamaker constant. At small roughness the work is "
+             "that of planes at the average separation, H/(12 pi D_ave^2); at large roughness contacts take over. Predicted, for the beams' settings:", "",
              "| rms height | D_ave | work [uJ/m^2] | H/(12 pi D_ave^2) [uJ/m^2] | ratio |", "|---|---|---|---|---|"]
     text += [row for _, _, row in separations]
-    text += ["", "The work goes with D_ave to the power of %.2f. What it has beyond the planes', the contacts' share and that of the uneven gap, is largest where the surfaces are roughest." % exponent(separations), "",
+    text += ["", "The work goes with D_ave to the power of %.2f. What it has beyond the planes' work, from contacts and the uneven gap, is most where the surfaces are roughest." % exponent(separations), "",
              "## What the assumptions move", "",
              "Median with the change over the median without; geometric mean over the rms heights of a case. Where the correlation length changes, pixels and frame change with it.", "",
              "| | %s |" % " | ".join(case.key for case in cases.CASES), "|---|%s" % ("---|" * len(cases.CASES))]
     text += ["| %s | %s |" % (variation.name, " | ".join(number(moved_by(results, case, variation)) for case in cases.CASES))
              for variation in cases.VARIATIONS]
     text += ["", "What moves each most: %s." % "; ".join("%s, %s" % (case.key, most_moving(results, case).name) for case in cases.CASES), "",
-             "The rms height is that of both surfaces together: a source that gives that of one leaves a factor open. The highest summit of a larger frame is higher "
-             "and holds the rest further apart. Real plates are larger still, but not flat over their length. Surfaces that were grown on each other fit each other (DelRio et al. 2005 say that this "
-             "correlation must be considered); their composite roughness is smaller than either's.", "",
-             "## Found, but not predicted", "", "Because the text that was to be had lacks the roughness, or the force:", "",
+             "The rms height is that of both surfaces together: a source that gives that of one leaves a factor open. A larger frame has a higher "
+             "highest summit, which holds the rest further apart. Real plates are larger still, but not flat over their length. Surfaces that were "
+             "grown on each other fit each other, so their composite roughness is smaller than either's (DelRio et al. 2005 say that this correlation "
+             "must be considered).", "",
+             "## Found, but not predicted", "", "The text that was to be had lacks the roughness, or the force:", "",
              "| source | read | says |", "|---|---|---|"]
     text += ["| %s | %s | %s |" % found for found in cases.FOUND]
     text += ["", "Whoever has the full texts, or a beam and its AFM scan, can replace an assumption in `scripts/lib/measured_cases.py` and run `scripts/measured` again.", ""]
