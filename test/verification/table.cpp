@@ -191,12 +191,13 @@ std::string terminalTable(const std::vector<Section>& sections) {
 std::string markdownPage(const std::vector<Section>& sections) {
   std::ostringstream page;
   page << "# Verification\n\n"
-          "Every closed form that the model is built from, and every published number that it must give: written by\n"
-          "`scripts/verify`, which fails when a row is out. References do not come from this package's code: they are\n"
-          "published numbers, or closed forms and quadratures written down separately in test/verification.\n\n"
-          "*error* is |computed/reference - 1|, or |computed| where the reference is 0; *order* is p in\n"
-          "error ~ pitch^p, of rows that hang on the grid. Values of such rows are those of the finest grid, at the\n"
-          "grid's worst phase. A row is out when its error exceeds the tolerance or its order falls short.\n\n"
+          "Every closed form that the model is built from, and every published number that it must give, beside\n"
+          "what the code computes. Written by `scripts/verify`, which fails when a row is out. The references are\n"
+          "published numbers, or closed forms and quadratures written down separately in test/verification: none\n"
+          "comes from this package's code.\n\n"
+          "*error* is |computed/reference - 1|, or |computed| where the reference is 0. *order* is p in error ~\n"
+          "pitch^p, of rows that depend on the grid; their values are those of the finest grid, at its worst\n"
+          "phase. A row is out when its error exceeds the tolerance or its order falls short.\n\n"
        << "**" << countText(countRows(sections)) << ".**\n";
   for (const Section& section : sections) {
     page << "\n## " << section.title << "\n\n"
