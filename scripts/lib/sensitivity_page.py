@@ -192,7 +192,7 @@ def defaults_table(study):
 
 
 def setting_section(study, key):
-    what, why, more = SETTINGS[key]
+    what, _, more = SETTINGS[key]
     quantities = list(QUANTITIES)
     lines = ["### %s" % ("pitch" if key == "pitch" else "`%s`" % key), "", what, ""]
     rows = []
@@ -216,28 +216,9 @@ def setting_section(study, key):
         lines += table(["value", "surface"] + [title + " [%]" for _, title in quantities] + ["scans that move"], rows)
     if unmoved:
         lines += ["Nothing moves with %s." % ", ".join(unmoved), ""]
-    default = "" if key == "pitch" else "Default: %s. %s" % (default_of(study, key), why)
-    lines += [" ".join(part for part in (default, more.format(**study.record)) if part), ""]
-    if rows:
-        lines += [digits(study, key), ""]
+    if more:
+        lines += [more.format(**study.record), ""]
     return lines
-
-
-def digits(study, key):
-    """Which digits mean something: shifts beside the scan-to-scan spread."""
-    words = []
-    for name, title in (("pull_off_force", "pull-off force"), ("contact_area", "contact area"), ("mean_gap", "mean gap")):
-        shift, beside = abs(study.largest_shift(key, name)), max(study.spreads(name))
-        if shift < UNTOUCHED:
-            verdict = "untouched"
-        elif shift < beside / 3:
-            verdict = "%s %%, lost beside the %s %% from scan to scan" % (percent(shift, False), percent(beside, False))
-        elif shift < beside:
-            verdict = "%s %%, below the %s %% from scan to scan" % (percent(shift, False), percent(beside, False))
-        else:
-            verdict = "%s %%, **above** the %s %% from scan to scan" % (percent(shift, False), percent(beside, False))
-        words.append("%s %s" % (title, verdict))
-    return "*Digits:* at most, on the mean: " + "; ".join(words) + "."
 
 
 def yardstick_table(study):
