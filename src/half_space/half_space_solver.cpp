@@ -177,8 +177,7 @@ void takeRecord(const ContactPath& path, SolvedHalfSpace& solution) {
 
 /// The surfaces after contact: what flowed is shared by the bodies as (12) says.
 void takeSurfaces(const HalfSpaceProblem& problem, const LargePageVector<float>& flowed, SolvedHalfSpace& solution) {
-  const DeformationShare share(problem.lower_material, problem.upper_material, problem.interface.hardness_ratio_limit,
-                               Formulation::kPaper, Deformation::kThreeRegimes);
+  const DeformationShare share(problem.lower_material, problem.upper_material, problem.interface.hardness_ratio_limit);
   double depth = 0.0;
   for (const float lost : flowed) depth += static_cast<double>(lost);
   const HeightMap& lower = problem.surfaces.lower;

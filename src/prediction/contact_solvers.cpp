@@ -5,7 +5,7 @@
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
-#include "mems_stiction/equilibrium/asperity_solver.hpp"
+#include "mems_stiction/paper/asperity_solver.hpp"
 #include "mems_stiction/separation/separation_solver.hpp"
 
 namespace mems_stiction {

@@ -231,8 +231,7 @@ void SeparationSolver::fillMaps(const ContactProblem& problem, ContactSolution& 
   prepareMaps(problem, solution);
   if (!wants_map && !wants_surfaces) return;
 
-  const DeformationShare share(settings.lower, settings.upper, settings.interface.hardness_ratio_limit,
-                               Formulation::kPaper, settings.deformation);
+  const DeformationShare share(settings.lower, settings.upper, settings.interface.hardness_ratio_limit);
   const double approach = curve_.rest().approach;
   visitOverlaps(field, [&](int row, int col, double overlap, const OverlapPatch& patch, const Contact& contact) {
     if (wants_map) {

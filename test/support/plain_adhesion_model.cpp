@@ -6,10 +6,10 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "mems_stiction/approach/cap_couple.hpp"
-#include "mems_stiction/equilibrium/approach_search.hpp"
-#include "mems_stiction/equilibrium/asperity_summary.hpp"
-#include "mems_stiction/equilibrium/level_search.hpp"
+#include "mems_stiction/paper/approach_search.hpp"
+#include "mems_stiction/paper/asperity_summary.hpp"
+#include "mems_stiction/paper/cap_couple.hpp"
+#include "mems_stiction/paper/level_search.hpp"
 #include "support/frame_gaps.hpp"
 
 namespace mems_stiction {

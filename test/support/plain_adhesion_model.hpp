@@ -9,9 +9,9 @@
 
 #include <opencv2/core.hpp>
 
-#include "mems_stiction/approach/contact_patch.hpp"
 #include "mems_stiction/approach/gap_field.hpp"
-#include "mems_stiction/loads/cell_forces.hpp"
+#include "mems_stiction/paper/cell_forces.hpp"
+#include "mems_stiction/paper/contact_patch.hpp"
 #include "mems_stiction/prediction/options.hpp"
 #include "mems_stiction/prediction/prediction.hpp"
 

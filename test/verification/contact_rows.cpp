@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "mems_stiction/deformation/modified_topography.hpp"
-#include "mems_stiction/equilibrium/force_balance.hpp"
 #include "mems_stiction/mechanics/plasticity.hpp"
+#include "mems_stiction/paper/force_balance.hpp"
+#include "mems_stiction/paper/formulation_share.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/sphere_contact.hpp"
@@ -47,7 +47,7 @@ double slopeOfEnergy(double contact_radius, double elastic_share, double load, F
   return (energyAt(step) - energyAt(-step)) / (2.0 * step);
 }
 
-DeformationShare shareOf(double lower_hardness, double upper_hardness, Formulation formulation) {
+FormulationShare shareOf(double lower_hardness, double upper_hardness, Formulation formulation) {
   Material lower, upper;
   lower.hardness = lower_hardness;
   upper.hardness = upper_hardness;
@@ -229,7 +229,7 @@ Section equilibriumSection() {
 
 Section deformedSurfacesSection() {
   const double log_ratio = std::log(1.05) / std::log(1.0 / 0.9);
-  const DeformationShare softer = shareOf(10e9, 10.5e9, Formulation::kPaper);
+  const FormulationShare softer = shareOf(10e9, 10.5e9, Formulation::kPaper);
   Section section{"Surfaces after contact", {}};
   section.rows = {
       exact("share of the lower body, equal hardness", "", "1/2", shareOf(12e9, 12e9, Formulation::kPaper).lower(2.0),

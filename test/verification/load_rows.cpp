@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "mems_stiction/loads/cell_forces.hpp"
+#include "mems_stiction/paper/cell_forces.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/paper_options.hpp"

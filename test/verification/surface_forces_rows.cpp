@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "mems_stiction/loads/cell_forces.hpp"
 #include "mems_stiction/mechanics/surface_forces.hpp"
+#include "mems_stiction/paper/cell_forces.hpp"
 #include "verification/closed_forms.hpp"
 #include "verification/sections.hpp"
 

@@ -6,8 +6,8 @@
 #include "mems_stiction/approach/approach_options.hpp"
 #include "mems_stiction/loads/capillary.hpp"
 #include "mems_stiction/loads/interface.hpp"
-#include "mems_stiction/mechanics/formulation.hpp"
 #include "mems_stiction/mechanics/material.hpp"
+#include "mems_stiction/mechanics/regime.hpp"
 
 namespace mems_stiction {
 

@@ -9,10 +9,8 @@
 ///     s   = 1/2 + (1/2) ln(H2/H1)/|ln a|     for a H1 <= H2 <= H1/a; else the softer body takes all
 ///     c   = 0 for phi <= 0.6, 2 (phi - 0.6) between, 1 for phi >= 1.1
 ///
-/// A fully plastic patch ends with z1' = z2'; an elastic one comes back unchanged. The share of (12) as printed, for
-/// Formulation::kPrinted, is P/w; (13) is then used without the regime.
+/// A fully plastic patch ends with z1' = z2'; an elastic one comes back unchanged.
 
-#include "mems_stiction/mechanics/formulation.hpp"
 #include "mems_stiction/mechanics/material.hpp"
 
 namespace mems_stiction {
@@ -21,8 +19,7 @@ namespace mems_stiction {
 class DeformationShare {
  public:
   /// - @p hardness_ratio_limit a of (12), in (0, 1)
-  DeformationShare(const Material& lower, const Material& upper, double hardness_ratio_limit, Formulation formulation,
-                   Deformation deformation);
+  DeformationShare(const Material& lower, const Material& upper, double hardness_ratio_limit);
 
   /// Share of w that the lower surface loses, c s [-].
   double lower(double plasticity_index) const { return flow(plasticity_index) * lower_share_; }
@@ -30,10 +27,10 @@ class DeformationShare {
   double upper(double plasticity_index) const { return flow(plasticity_index) * (1.0 - lower_share_); }
 
  private:
-  double flow(double plasticity_index) const;
+  /// c [-]
+  static double flow(double plasticity_index);
 
   double lower_share_ = 0.5;  ///< s [-], in [0, 1]
-  bool flows_in_every_regime_ = false;
 };
 
 }  // namespace mems_stiction

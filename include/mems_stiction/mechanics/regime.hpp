@@ -12,6 +12,9 @@ namespace mems_stiction {
 /// The values are those of the contact map.
 enum class Regime : std::uint8_t { kApart = 0, kElastic = 1, kElastoPlastic = 2, kPlastic = 3 };
 
+/// Whether hardness plays a part. kElastic keeps every contact elastic.
+enum class Deformation { kThreeRegimes, kElastic };
+
 inline Regime regimeOf(double plasticity_index) {
   if (plasticity_index <= kElasticLimit) return Regime::kElastic;
   return plasticity_index < kPlasticLimit ? Regime::kElastoPlastic : Regime::kPlastic;

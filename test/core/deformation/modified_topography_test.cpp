@@ -14,24 +14,20 @@ namespace {
 
 constexpr double kLimit = 0.9;  // a of (12)
 constexpr double kPlastic = 2.0;
-constexpr double kElastic = 0.3;
 constexpr double kNm = 1e-9;
 constexpr double kRoundOff = 1e-20;  // m, of sums of some ten nanometres
 
-DeformationShare shareOf(double lower_hardness, double upper_hardness, Formulation formulation = Formulation::kPaper,
-                         Deformation deformation = Deformation::kThreeRegimes) {
+DeformationShare shareOf(double lower_hardness, double upper_hardness) {
   Material lower;
   Material upper;
   lower.hardness = lower_hardness;
   upper.hardness = upper_hardness;
-  return {lower, upper, kLimit, formulation, deformation};
+  return {lower, upper, kLimit};
 }
 
 TEST(DeformationShare, isHalfForEqualHardness) {
-  for (const Formulation formulation : {Formulation::kPaper, Formulation::kPrinted}) {
-    EXPECT_DOUBLE_EQ(shareOf(12e9, 12e9, formulation).lower(kPlastic), 0.5);
-    EXPECT_DOUBLE_EQ(shareOf(12e9, 12e9, formulation).upper(kPlastic), 0.5);
-  }
+  EXPECT_DOUBLE_EQ(shareOf(12e9, 12e9).lower(kPlastic), 0.5);
+  EXPECT_DOUBLE_EQ(shareOf(12e9, 12e9).upper(kPlastic), 0.5);
 }
 
 TEST(DeformationShare, growsWithTheHardnessOfTheOther) {
@@ -58,23 +54,6 @@ TEST(DeformationShare, dependsOnTheRegime) {
   EXPECT_NEAR(share.upper(0.8), 0.4 * (1.0 - s), 1e-12);
   EXPECT_DOUBLE_EQ(share.lower(1.1), s);
   EXPECT_DOUBLE_EQ(share.lower(kPlastic) + share.upper(kPlastic), 1.0);
-}
-
-TEST(DeformationShare, jumpsInPrintAtEqualHardness) {
-  // P/w = 1/2 +- 1/(4 (1 + |ln(H2/H1)/ln a|))
-  EXPECT_NEAR(shareOf(10e9, 10e9 * 1.000001, Formulation::kPrinted).lower(kPlastic), 0.75, 1e-5);
-  EXPECT_NEAR(shareOf(10e9 * 1.000001, 10e9, Formulation::kPrinted).lower(kPlastic), 0.25, 1e-5);
-  const double at_five_percent = 0.5 + 0.25 / (1.0 + std::log(1.05) / std::log(1 / 0.9));
-  EXPECT_NEAR(shareOf(10e9, 10.5e9, Formulation::kPrinted).lower(kPlastic), at_five_percent, 1e-12);
-  EXPECT_NEAR(shareOf(10.5e9, 10e9, Formulation::kPrinted).lower(kPlastic), 1.0 - at_five_percent, 1e-12);
-}
-
-TEST(DeformationShare, takesNoHeedOfTheRegimeInPrintedThirteen) {
-  EXPECT_EQ(shareOf(1e9, 12e9, Formulation::kPrinted).lower(kElastic), 1.0);
-  EXPECT_EQ(shareOf(12e9, 1e9, Formulation::kPrinted).upper(kElastic), 1.0);
-  EXPECT_EQ(shareOf(1e9, 12e9, Formulation::kPaper).lower(kElastic), 0.0);
-  EXPECT_EQ(shareOf(10e9, 10.5e9, Formulation::kPrinted).lower(kElastic), 0.0);  // (12) does
-  EXPECT_EQ(shareOf(1e9, 12e9, Formulation::kPrinted, Deformation::kElastic).lower(0.0), 0.0);
 }
 
 /// Two rough surfaces that press on each other.

@@ -10,7 +10,7 @@
 #include <map>
 #include <sstream>
 
-#include "mems_stiction/equilibrium/approach_search.hpp"
+#include "mems_stiction/paper/approach_search.hpp"
 #include "mems_stiction/scan/configuration.hpp"
 
 namespace mems_stiction {

@@ -1,0 +1,66 @@
+#include "mems_stiction/paper/asperity_solver.hpp"
+
+#include "mems_stiction/paper/asperity_summary.hpp"
+
+namespace mems_stiction {
+namespace {
+
+/// Mean gap over the cells that stay apart [m]; 0 when every cell touches.
+double meanGapApart(const EquilibriumState& state, const GapField& field, const GapOrder& order) {
+  const int apart = field.validCount() - state.contact_count;
+  if (apart == 0) return 0.0;
+  double touching = 0.0;
+  for (int i = 0; i < state.contact_count; ++i) touching += order.cells()[static_cast<std::size_t>(i)].gap;
+  return (field.meanGap() * field.validCount() - touching) / apart - state.approach;
+}
+
+}  // namespace
+
+void AsperitySolver::solve(const ContactProblem& problem, ContactSolution& solution) {
+  const ContactSettings& settings = problem.settings;
+  const double cutoff = settings.interface.cutoff_distance;
+  const double step = approachStep(settings.approach, problem.composite_rms_height, cutoff);
+  order_.build(problem.gap, settings.approach.max_contact_fraction, step);
+
+  const ContactPair pair(settings.lower, settings.upper);
+  const SearchSetting setting{AsperityLaw(pair, settings.interface.work_of_adhesion, problem.composite_rms_height,
+                                          formulation_, settings.deformation),
+                              CellForces(settings.interface, settings.load.voltage, problem.gap.cellArea()),
+                              settings.load.mechanical_load,
+                              step,
+                              settings.approach.max_steps,
+                              cutoff,
+                              settings.output.energy_curve,
+                              CapillaryForce(settings.capillary)};
+  search_.run(problem.gap, order_, settings.approach.connectivity, setting, state_);
+
+  solution.resetKeepingMemory();
+  solution.status = state_.status;
+  solution.steps = state_.steps;
+  solution.approach = state_.approach;
+  solution.mean_gap = meanGapApart(state_, problem.gap, order_);
+  solution.contact_area = state_.contact_count * problem.gap.cellArea();
+  solution.contact_fraction = static_cast<double>(state_.contact_count) / problem.gap.validCount();
+  solution.load = state_.load;
+  const Energies energies = totalEnergies(search_.responses(), state_.balance, setting.law);
+  solution.energies = {energies.mechanical, energies.surface, energies.elastic, state_.plastic_work};
+  listAsperities(problem, setting.law, solution);
+  sumAsperities(setting.law, solution);
+  solution.pull_off_force = solution.pull_off_force_jkr + solution.load.van_der_waals + solution.load.capillary;
+  solution.energy_curve.assign(state_.curve.begin(), state_.curve.end());
+  maps_.fill(problem, state_, search_, setting.law, solution);
+}
+
+void AsperitySolver::listAsperities(const ContactProblem& problem, const AsperityLaw& law,
+                                    ContactSolution& solution) const {
+  const std::vector<std::int32_t>& patches = search_.sweep().livePatches();
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    const CapCouple& caps = search_.caps()[i];
+    solution.asperities.push_back(asperityAt(search_.sweep().patch(patches[i]), caps, search_.responses()[i],
+                                             state_.balance.load_share, problem.gap, law, problem.settings.interface));
+    solution.asperities.back().z = problem.surfaces.lower.height(caps.centre.row, caps.centre.col);
+  }
+  solution.has_asperities = true;
+}
+
+}  // namespace mems_stiction

@@ -1,0 +1,132 @@
+/// The frame of 4 x 4 cells on which doc/architecture.md explains the approach: its numbers are those of the code.
+
+#include <cstdarg>
+#include <cstdio>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "mems_stiction/paper/patch_sweep.hpp"
+#include "support/documents.hpp"
+
+namespace mems_stiction {
+namespace {
+
+const std::string kPage = std::string(MEMS_STICTION_DOC_DIR) + "/architecture.md";
+constexpr double kStep = 1e-9;
+constexpr int kSteps = 5;
+
+__attribute__((format(printf, 1, 2))) std::string format(const char* pattern, ...) {
+  char line[128];
+  std::va_list arguments;
+  va_start(arguments, pattern);
+  std::vsnprintf(line, sizeof(line), pattern, arguments);
+  va_end(arguments);
+  return line;
+}
+
+/// A gap in nanometres, a dash where there is no neighbour.
+std::string nanometres(double gap) { return gap < GapField::kInvalidGap ? format("%3.1f", gap * 1e9) : "  -"; }
+
+std::string letter(std::int32_t dale) { return {static_cast<char>('A' + dale)}; }
+
+std::string withoutTrailingSpaces(const std::string& line) { return line.substr(0, line.find_last_not_of(' ') + 1); }
+
+std::string fenced(const std::string& text) { return "```text\n" + text + "```\n"; }
+
+class WorkedFrame : public testing::Test {
+ protected:
+  WorkedFrame() {
+    // heights [nm]; the highest cell touches first and has gap 0
+    const cv::Mat heights = (cv::Mat1d(4, 4) << 8.8, 9.6, 8.3, 6.4,  //
+                             7.7, 8.5, 6.8, 7.2,                     //
+                             6.6, 5.9, 8.9, 10.0,                    //
+                             7.4, 6.3, 7.8, 9.1);
+    field_.compute({HeightMap(heights * 1e-9, 20e-9, 20e-9), {}});
+    order_.build(field_, 1.0, kStep);
+    dales_.start(field_);
+    table_.start(field_, order_, dales_);
+  }
+
+  /// What lies around the cell at a place of the order, from the window that starts with its group.
+  CellSurroundings surroundings(int place) {
+    if (place == order_.groupStart(order_.groupOfPlace(place))) table_.collectFrom(place);
+    return table_.at(place);
+  }
+
+  GapField field_;
+  GapOrder order_;
+  DaleMap dales_;
+  SurroundingsTable table_;
+};
+
+TEST_F(WorkedFrame, HasTheGroupsAndDalesOfThePage) {
+  // dales are numbered in the order in which the approach asks for them
+  for (int place = 0; place < field_.validCount(); ++place) surroundings(place);
+  std::string text = "gap [nm]                  group            dale\n";
+  for (int row = 0; row < field_.rows(); ++row) {
+    std::string gaps;
+    std::string groups;
+    std::string dales;
+    for (int col = 0; col < field_.cols(); ++col) {
+      const GridCell cell = field_.cellAt(row, col);
+      gaps += nanometres(field_.gap(cell.index)) + "  ";
+      groups += format("%d  ", order_.groupOf(field_.gap(cell.index)));
+      dales += letter(dales_.find(cell)) + "  ";
+    }
+    text += withoutTrailingSpaces(format("%-26s%-17s%s", gaps.c_str(), groups.c_str(), dales.c_str())) + "\n";
+  }
+  documents::expectUpToDate(kPage, "frame", fenced(text));
+}
+
+TEST_F(WorkedFrame, HasTheOrderAndSurroundingsOfThePage) {
+  std::string text = "place  group  cell    gap   left  right  above  below  dale  touches another dale\n";
+  for (int place = 0; place < field_.validCount(); ++place) {
+    const OrderedCell& cell = order_.cells()[static_cast<std::size_t>(place)];
+    const CellSurroundings around = surroundings(place);
+    ASSERT_EQ(around.cell, cell.cell);
+    text += withoutTrailingSpaces(
+                format("%5d  %5d  (%d, %d)  %s   %s    %s    %s    %s  %s     %s", place, order_.groupOfPlace(place),
+                       cell.cell / field_.cols(), cell.cell % field_.cols(), nanometres(cell.gap).c_str(),
+                       nanometres(around.gaps[kLeft]).c_str(), nanometres(around.gaps[kRight]).c_str(),
+                       nanometres(around.gaps[kTop]).c_str(), nanometres(around.gaps[kBottom]).c_str(),
+                       letter(around.dale()).c_str(), around.isBorder() ? "yes" : "")) +
+            "\n";
+  }
+  documents::expectUpToDate(kPage, "surroundings", fenced(text));
+}
+
+TEST_F(WorkedFrame, HasThePatchesOfThePage) {
+  PatchSweep sweep;
+  sweep.start(field_, order_, Connectivity::kFour);
+  std::string heading;
+  std::string frames[4];
+  std::string figures = "\nD     cells in  patch  cells  rows  columns  edges  deepest cell\n";
+  for (int step = 1; step <= kSteps; ++step) {
+    const int count = order_.sortBelow(step * kStep);
+    sweep.advanceTo(count);
+    heading += format("%-16s", format("D = %d nm", step).c_str());
+    for (int row = 0; row < field_.rows(); ++row) {
+      for (int col = 0; col < field_.cols(); ++col) {
+        const std::int32_t id = sweep.patchOf(field_.cellAt(row, col));
+        frames[row] += (id < 0 ? "." : letter(id)) + "  ";
+      }
+      frames[row] += "    ";
+    }
+    std::string before = format("%d nm  %8d", step, count);
+    for (const std::int32_t id : sweep.livePatches()) {
+      const ContactPatch& patch = sweep.patch(id);
+      const GridCell deepest = field_.cellAt(patch.deepest);
+      figures += format("%-14s  %-5s  %5d  %d..%d  %d..%d     %5.0f  (%d, %d), %s nm\n", before.c_str(),
+                        letter(id).c_str(), patch.area, patch.min_row, patch.max_row, patch.min_col, patch.max_col,
+                        patch.boundary.count, deepest.row, deepest.col, nanometres(patch.deepest_gap).c_str());
+      before.clear();
+    }
+  }
+  std::string text = withoutTrailingSpaces(heading) + "\n";
+  for (const std::string& frame : frames) text += withoutTrailingSpaces(frame) + "\n";
+  documents::expectUpToDate(kPage, "patches", fenced(text + figures));
+}
+
+}  // namespace
+}  // namespace mems_stiction
