@@ -32,10 +32,10 @@ SETTINGS = {
         "setting: the scan brings it. *refined by N*: coarse pixels, then `preprocessing/refine/factor: N`.",
         "", "The mean gap holds longest, then the contact area; the pull-off force goes first: "
         "radii need pixels. Aim at {min_contact_pixels:g} pixels in the median contact, below which `is_resolution_limited` is set."),
-    "approach/step": (
+    "paper/step": (
         "Approach per step; sigma is the composite rms height.",
         "Shorter steps say the same to well within the scan-to-scan spread; longer ones overlook places of rest.",
-        "The separation curve chooses its own, a tenth of z0 and more where the surfaces are deep in contact; `approach/step` is that of "
+        "The separation curve chooses its own, a tenth of z0 and more where the surfaces are deep in contact; `paper/step` is that of "
         "`formulation: paper`."),
     "approach/max_steps": (
         "Steps after which the search gives up, with the status NO_EQUILIBRIUM.",
@@ -46,7 +46,7 @@ SETTINGS = {
     "approach/max_contact_fraction": (
         "Contact fraction from which on the surfaces count as bonded.",
         "Decides only [near bonding](#near-bonding), where it lies between what rests and what has closed.", ""),
-    "interface/cutoff_distance": (
+    "paper/cutoff_distance": (
         "The smallest distance D0 [m] in van der Waals sums.",
         "The usual value of the literature; the others tried are those in use.",
         "The separation curve does not have it: it counts attraction from z0 = sqrt(H/(16 pi Gamma)) on, so that it sums to Gamma. Under "
@@ -165,7 +165,7 @@ def surfaces_table(study):
 
 def default_of(study, key):
     value = study.label(next(cases for cases in study.cases(key) if cases[0]["is_default"]))
-    if key == "approach/step":
+    if key == "paper/step":
         return "0 (automatic: sigma/%g)" % study.record["steps_per_rms_height"]
     return value
 
@@ -260,11 +260,11 @@ def intervals_table(study):
 
 def in_short(study):
     numerical = [key for key in settings_of(study) if study.cases(key)[0][0]["kind"] == "numerical"
-                 and key not in ("interface/cutoff_distance", "approach/max_steps")]
-    halved = [(cases, surface, case) for cases in study.cases("approach/step") for surface, case in zip(study.surfaces, cases)
+                 and key not in ("paper/cutoff_distance", "approach/max_steps")]
+    halved = [(cases, surface, case) for cases in study.cases("paper/step") for surface, case in zip(study.surfaces, cases)
               if case["value"] in ("sigma/100", "sigma/200", "sigma/500")]
     step = max((statistics.mean(surface.changes(case, "pull_off_force")) for _, surface, case in halved), key=abs)
-    cutoff = [percent(statistics.mean(surface.changes(case, "pull_off_force"))) for cases in study.cases("interface/cutoff_distance")
+    cutoff = [percent(statistics.mean(surface.changes(case, "pull_off_force"))) for cases in study.cases("paper/cutoff_distance")
               for surface, case in zip(study.surfaces, cases) if not case["is_default"]]
     spreads = study.spreads("pull_off_force")
     area, gap = study.spreads("contact_area"), study.spreads("mean_gap")
@@ -287,7 +287,7 @@ def in_short(study):
         lines.insert(0, "- **Too few contacts** on %s (fewer than %d a scan): single contacts come and go, and the figures say little. Try a higher `--pressure`."
                      % (", ".join(few), FEWEST_CONTACTS))
     others = [key for key in numerical if abs(study.largest_shift(key, "pull_off_force")) < max(spreads) / 3
-              and key != "approach/step"]
+              and key != "paper/step"]
     lines.append("- **Lost beside the scan-to-scan spread**, whatever they are set to here: %s." % ", ".join("`%s`" % key for key in others))
     return lines + [""]
 

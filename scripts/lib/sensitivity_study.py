@@ -24,7 +24,7 @@ import yaml
 SCAN_PITCH = 10e-9  # [m], a usual one of an AFM on a frame of 10 um
 SCAN_FACTOR = 2  # generated places are so many times as fine as their scans
 SMALLEST_SIDE = 64
-STEPS_PER_RMS_HEIGHT = 50  # of the automatic step, approach/step: 0
+STEPS_PER_RMS_HEIGHT = 50  # of the automatic step, paper/step: 0
 FIGURES = [name for name in mems_stiction.Prediction.__annotations__
            if not name.startswith("_") and name not in ("formulation", "regime_flags", "processing_time")]
 SAMPLES, SEEDS = (50, 200, 1000, 5000), range(1, 41)
@@ -42,7 +42,7 @@ class Configuration:
 
     def __init__(self, settings):
         tree = yaml.safe_load(settings.yaml())
-        tree["approach"]["step"] = 0.0  # the automatic one, which the others are compared with
+        tree["paper"]["step"] = 0.0  # the automatic one, which the others are compared with
         self.settings = mems_stiction.Settings(tree)
         self.tree = yaml.safe_load(self.settings.yaml())
 
@@ -56,7 +56,7 @@ class Configuration:
         load = pressure * (scan.pitch[0] * scan.pitch[1]) * float(rows) * columns
         refine = {name: value for name, value in self.tree["preprocessing"].items() if name.startswith("refine/")}
         settings = mems_stiction.Settings({**self.tree, "preprocessing": refine}, **case.changes)
-        step = {"approach/step": composite_rms_height / case.steps_per_rms} if case.steps_per_rms else {}
+        step = {"paper/step": composite_rms_height / case.steps_per_rms} if case.steps_per_rms else {}
         return mems_stiction.Settings(
             settings, output={"deformed_surfaces": False, "contact_map": False, "asperities": True, "roughness": False, "energy_curve": False},
             load={"max_mechanical_load": max(self.value("load/max_mechanical_load"), load), "mechanical_load": load}, **step)
@@ -92,10 +92,10 @@ def all_cases(configuration, has_finer):
               for factor in (2, 4)]
     for divisor in (5, 10, 25, 50, 100, 200, 500):
         is_default = divisor == STEPS_PER_RMS_HEIGHT
-        cases.append(Case("approach/step", "sigma/%d" % divisor, "numerical", is_default, {}, 0 if is_default else divisor))
+        cases.append(Case("paper/step", "sigma/%d" % divisor, "numerical", is_default, {}, 0 if is_default else divisor))
     for key, values in (("approach/max_steps", ("100", "1000", "10000", "100000")), ("approach/connectivity", ("4", "8")),
                         ("approach/max_contact_fraction", ("0.1", "0.3", "0.5", "0.7", "1")),
-                        ("interface/cutoff_distance", ("1.4e-10", "1.65e-10", "2e-10", "3e-10")),
+                        ("paper/cutoff_distance", ("1.4e-10", "1.65e-10", "2e-10", "3e-10")),
                         ("interface/equilibrium_distance", ("1.65e-10", "2e-10", "3e-10")),
                         ("preprocessing/refine/factor", ("1", "2", "4"))):
         cases += cases_of_key(configuration, key, values)

@@ -135,7 +135,7 @@ def configuration(frame, formulation):
         2 * frame["modulus"] * (1 - POISSON_RATIO ** 2), POISSON_RATIO, frame.get("hardness", NO_HARDNESS))
     cut_off = math.sqrt(frame["hamaker"] / (12 * math.pi * frame["work"]))
     return ("lower: %s\nupper: %s\napproach: {formulation: %s}\n" % (body, body, formulation) +
-            "interface: {work_of_adhesion: %r, hamaker_constant: %r, cutoff_distance: %r}\n"
+            "interface: {work_of_adhesion: %r, hamaker_constant: %r}\npaper: {cutoff_distance: %r}\n"
             % (frame["work"], frame["hamaker"], cut_off) +
             "output: {roughness: false}\nload: {max_mechanical_load: 1.0e+3}\nhalf_space: {flow: false, step: 0.3}\n")
 

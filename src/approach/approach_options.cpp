@@ -3,8 +3,6 @@
 namespace mems_stiction {
 
 void ApproachOptions::describe(OptionVisitor& visitor) {
-  visitor.number("approach/step", step, "m", Range::nonNegative(),
-                 "approach per step; 0 = a fiftieth of the composite rms height");
   visitor.integer("approach/max_steps", max_steps, Range::within(1, 10000000),
                   "the search ends after so many steps, without equilibrium");
   visitor.number("approach/max_contact_fraction", max_contact_fraction, "", Range{0.0, 1.0, true, false},

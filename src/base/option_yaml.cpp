@@ -186,6 +186,8 @@ class YamlReader : public OptionVisitor {
     append(validator);
   }
 
+  void formerName(const std::string& former, const std::string& key) override { former_names_[former] = key; }
+
   /// Call after every field was shown.
   std::vector<std::string> violations() const {
     std::vector<std::string> lines = lines_;
@@ -198,6 +200,11 @@ class YamlReader : public OptionVisitor {
           });
       if (leaf.uses == 0 && !empty_section) {
         if (++unknown_count > kMostUnknown) continue;
+        const auto former = former_names_.find(leaf.key);
+        if (former != former_names_.end()) {
+          lines.push_back(leaf.key + ": " + shown(leaf.node) + " is given, but its name is " + former->second + " now");
+          continue;
+        }
         const std::string name = lastPart(leaf.key);
         const bool is_fraction = leaf.node.IsNull() && !name.empty() &&
                                  name.find_first_not_of("0123456789") == std::string::npos;  // {voltage: 0,05}
@@ -244,6 +251,7 @@ class YamlReader : public OptionVisitor {
   std::vector<Leaf> leaves_;
   std::map<std::string, std::vector<std::size_t>> places_;  ///< in leaves_, of each key
   std::vector<std::string> known_;
+  std::map<std::string, std::string> former_names_;  ///< what they are called now
   std::vector<std::string> lines_;
 };
 

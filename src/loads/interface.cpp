@@ -7,8 +7,6 @@ void InterfaceOptions::describe(OptionVisitor& visitor) {
                  "thermodynamic work of adhesion of the flat interface");
   visitor.number("interface/hamaker_constant", hamaker_constant, "J", Range::nonNegative(),
                  "Hamaker constant of the pair across the medium in the gap");
-  visitor.number("interface/cutoff_distance", cutoff_distance, "m", Range::positive(),
-                 "interatomic cut-off: smaller gaps count as this in van der Waals sums");
   visitor.number("interface/equilibrium_distance", equilibrium_distance, "m", Range::positive(),
                  "equilibrium distance of Tabor's parameter");
   visitor.number("interface/insulator_thickness", insulator_thickness, "m", Range::nonNegative(),

@@ -14,11 +14,11 @@ constexpr double kLevelWidth = 1e-6;
 
 }  // namespace
 
-double approachStep(const ApproachOptions& options, double composite_rms_height, double cutoff_distance) {
+double approachStep(const PaperOptions& options, double composite_rms_height) {
   constexpr double kStepsPerRmsHeight = 50.0;
   if (options.step > 0.0) return options.step;
   const double step = composite_rms_height / kStepsPerRmsHeight;
-  return step > 0.0 ? step : cutoff_distance;
+  return step > 0.0 ? step : options.cutoff_distance;
 }
 
 void ApproachSearch::run(const GapField& field, GapOrder& order, Connectivity connectivity,

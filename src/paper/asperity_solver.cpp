@@ -18,14 +18,14 @@ double meanGapApart(const EquilibriumState& state, const GapField& field, const 
 
 void AsperitySolver::solve(const ContactProblem& problem, ContactSolution& solution) {
   const ContactSettings& settings = problem.settings;
-  const double cutoff = settings.interface.cutoff_distance;
-  const double step = approachStep(settings.approach, problem.composite_rms_height, cutoff);
+  const double cutoff = settings.paper.cutoff_distance;
+  const double step = approachStep(settings.paper, problem.composite_rms_height);
   order_.build(problem.gap, settings.approach.max_contact_fraction, step);
 
   const ContactPair pair(settings.lower, settings.upper);
   const SearchSetting setting{AsperityLaw(pair, settings.interface.work_of_adhesion, problem.composite_rms_height,
                                           formulation_, settings.deformation),
-                              CellForces(settings.interface, settings.load.voltage, problem.gap.cellArea()),
+                              CellForces(settings.interface, cutoff, settings.load.voltage, problem.gap.cellArea()),
                               settings.load.mechanical_load,
                               step,
                               settings.approach.max_steps,

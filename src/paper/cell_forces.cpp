@@ -16,9 +16,9 @@ MEMS_STICTION_INLINE Real cubedDistance(const Real& gap, double cutoff) {
 
 }  // namespace
 
-CellForces::CellForces(const InterfaceOptions& interface, double voltage, double cell_area)
+CellForces::CellForces(const InterfaceOptions& interface, double cutoff_distance, double voltage, double cell_area)
     : van_der_waals_factor_(interface.hamaker_constant * cell_area / (6.0 * kPi)),
-      cutoff_(interface.cutoff_distance),
+      cutoff_(cutoff_distance),
       field_(voltage, interface.insulator_thickness, interface.insulator_relative_permittivity),
       electrostatic_factor_(field_.factor(cell_area)) {}
 

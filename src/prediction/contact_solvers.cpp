@@ -26,7 +26,7 @@ std::unique_ptr<ContactSolver> make() {
 constexpr Entry kSolvers[] = {
     {"consistent",
      make<SeparationSolver>,
-     {"approach/step", "interface/cutoff_distance", "output/energy_curve", "uncertainty/hardness",
+     {"paper/step", "paper/cutoff_distance", "output/energy_curve", "uncertainty/hardness",
       "uncertainty/cutoff_distance"}},
     {"paper", make<AsperitySolver, Formulation::kPaper>, {}},
     {"printed", make<AsperitySolver, Formulation::kPrinted>, {}},

@@ -16,13 +16,15 @@ RunningSettings::RunningSettings(const Configuration& configuration)
     : interface(configuration.model.interface),
       capillary(configuration.model.capillary),
       load(configuration.model.load),
-      device(configuration.device) {}
+      device(configuration.device),
+      paper(configuration.model.paper) {}
 
 void RunningSettings::describe(OptionVisitor& visitor) {
   interface.describe(visitor);
   capillary.describe(visitor);
   load.describe(visitor);
   device.describe(visitor);
+  paper.describe(visitor);
 }
 
 SettingsOwner::SettingsOwner(const Configuration& configuration) : configuration_(checked(configuration)) {}
@@ -39,6 +41,7 @@ void SettingsOwner::change(const RunningSettings& settings) {
   configuration.model.capillary = settings.capillary;
   configuration.model.load = settings.load;
   configuration.device = settings.device;
+  configuration.model.paper = settings.paper;
   configuration_ = checked(std::move(configuration));
 }
 

@@ -70,7 +70,7 @@ void describe(CLI::App& app, Arguments& arguments) {
   addLoadOptions(app, arguments);
   app.add_option_function<double>(
          "-s,--step", [&arguments](const double& value) { arguments.step = value; },
-         "approach per step [m]; 0 = automatic")
+         "approach per step of paper and printed [m], paper/step; 0 = automatic")
       ->type_name("M");
   app.add_option("--channel", arguments.channel,
                  "title or number of the channel to take from an instrument maker's file")
@@ -163,7 +163,7 @@ Configuration configurationOf(const Arguments& arguments) {
   Configuration configuration;
   if (!arguments.configuration.empty()) configuration = loadConfiguration(arguments.configuration);
   applyLoads(arguments, configuration.model.load);
-  if (arguments.step) configuration.model.approach.step = *arguments.step;
+  if (arguments.step) configuration.model.paper.step = *arguments.step;
   configuration.check();
   for (const auto& [option, path] :
        {std::make_pair("--deformed", arguments.deformed), std::make_pair("--curve", arguments.curve),

@@ -28,7 +28,7 @@ Options optionsFor(const Case& setting, const std::string& formulation, Pressing
     options.interface.insulator_thickness = 100e-9;
   }
   options.approach.max_contact_fraction = kContactFraction;
-  options.approach.step = fullApproach(frameOf(setting.frame, setting.size)) / setting.steps;
+  options.paper.step = fullApproach(frameOf(setting.frame, setting.size)) / setting.steps;
   options.output = {all_outputs, all_outputs, all_outputs, false, false};
   return options;
 }

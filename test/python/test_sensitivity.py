@@ -61,12 +61,12 @@ class SensitivityTest(unittest.TestCase):
         for surface in record["surfaces"]:
             cases = {(case["key"], case["value"]): case for case in surface["cases"] if case["key"] != "pitch"}
             default = [case for case in surface["cases"] if case["key"] == "pitch" and case["is_default"]][0]["outcomes"]
-            for key in ("approach/connectivity", "approach/step", "approach/formulation", "interface/cutoff_distance"):
+            for key in ("approach/connectivity", "paper/step", "approach/formulation", "paper/cutoff_distance"):
                 of_key = [case for case in surface["cases"] if case["key"] == key and case["is_default"]]
                 self.assertEqual(len(of_key), 1, key)
                 self.assertEqual(of_key[0]["outcomes"], default, key)
             # The separation curve has no cut-off; the paper's form lets the rim of each contact pull three times and more.
-            far, near = cases["interface/cutoff_distance", "3e-10"], cases["interface/cutoff_distance", "1.4e-10"]
+            far, near = cases["paper/cutoff_distance", "3e-10"], cases["paper/cutoff_distance", "1.4e-10"]
             paper = cases["approach/formulation", "paper"]["outcomes"]
             for outcome_far, outcome_near, outcome_paper in zip(far["outcomes"], near["outcomes"], paper):
                 self.assertEqual(outcome_far["pull_off_force"], outcome_near["pull_off_force"])

@@ -186,7 +186,7 @@ class MasterAwayTest(unittest.TestCase):
         node.end(self)
 
     def test_5_long_predictions_keep_no_call_waiting_that_does_not_need_the_core(self):
-        node = Node(**{"approach/formulation": "paper", "approach/max_steps": 5000000, "approach/step": 1e-14})
+        node = Node(**{"approach/formulation": "paper", "approach/max_steps": 5000000, "paper/step": 1e-14})
         get_load = node.proxy("get_load", GetLoad)
         get_load()
         surface = rough_surface(2, rows=256, cols=256, rms_height=2e-8)

@@ -244,7 +244,7 @@ class ProcessesTest(unittest.TestCase):
             for half_space in (False, True):
                 name = "overload_%s_%s" % (policy, "half_space" if half_space else "alone")
                 more = {"drop_policy": policy, "max_waiting_memory": float(most), "queue_size": 5,
-                        "approach/formulation": "paper", "approach/max_steps": 20000, "approach/step": 1e-12}
+                        "approach/formulation": "paper", "approach/max_steps": 20000, "paper/step": 1e-12}
                 if half_space:
                     more["half_space/enabled"] = True
                 with OwnNode(name, **more) as node:
@@ -317,7 +317,7 @@ class ProcessesTest(unittest.TestCase):
     def test_8_whatever_waits_holds_no_more_than_it_may(self):
         frame = rough_surface(7, rows=1024, cols=1024, rms_height=2e-8)
         sent, most = 60, 5 * frame.nbytes - 1  # 4 may wait
-        slow = {"approach/formulation": "paper", "approach/max_steps": 5000000, "approach/step": 1e-14}
+        slow = {"approach/formulation": "paper", "approach/max_steps": 5000000, "paper/step": 1e-14}
         cases = {  # how a scan is sent, what waits, and as what the others count
             "partner": ({}, lambda station, height: station.height.publish(image_message(height, station.stamp())),
                         "waiting_for_partner", "rejected"),

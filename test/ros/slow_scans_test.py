@@ -19,7 +19,7 @@ from stiction_client import (Collector, Counts, Station, image_message, info_mes
 
 LOAD = 1e-6
 LIMIT = 2.0  # of the launch file [s]
-SETTINGS = settings_of(pathlib.Path(__file__).with_name("device_station.yaml"), approach={"formulation": "paper", "step": 1e-21, "max_steps": 10000000},
+SETTINGS = settings_of(pathlib.Path(__file__).with_name("device_station.yaml"), approach={"formulation": "paper", "max_steps": 10000000}, paper={"step": 1e-21},
                        limits={"max_time": LIMIT})
 REASON = "the scan was given up after 2 s (limits/max_time)"
 
@@ -43,7 +43,7 @@ class SlowScansTest(unittest.TestCase):
         prediction = self.predictions.wait(count + 1)[count]
         self.assertEqual(prediction.header.stamp, stamp)
         self.assertEqual(unlike(prediction, predict_scan(self.flat, load, settings=SETTINGS)), [])
-        self.assertTrue(any(text.startswith("approach/step 1e-21 m is outside the usual") for text in prediction.warnings))
+        self.assertTrue(any(text.startswith("paper/step 1e-21 m is outside the usual") for text in prediction.warnings))
 
     def while_a_scan_is_at_hand(self):
         """Sends one that takes LIMIT and returns when it has certainly begun, which is so late [s of monotonic()]."""

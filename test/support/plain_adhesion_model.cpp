@@ -86,10 +86,11 @@ State stateAt(const Problem& problem, double approach, Touch touch) {
     const auto label = static_cast<int>(state.caps.size()) + 1;
     const bool is_inside = state.labelling.labels.at<int>(centre.cell.row, centre.cell.col) == label;
     if (!is_inside) centre = deepestCentre(patch, problem.field);
-    state.caps.push_back(capCouple(patch, problem.field, centre, problem.options.interface.cutoff_distance));
+    state.caps.push_back(capCouple(patch, problem.field, centre, problem.options.paper.cutoff_distance));
     state.responses.emplace_back(state.caps.back(), problem.law);
   }
-  const CellForces forces(problem.options.interface, problem.options.load.voltage, problem.field.cellArea());
+  const CellForces forces(problem.options.interface, problem.options.paper.cutoff_distance,
+                          problem.options.load.voltage, problem.field.cellArea());
   state.load = sumLoads(problem.field, approach, touch, forces, problem.options.load.mechanical_load);
   state.balance = forceBalance(state.responses, state.load.total(), problem.law);
   return state;
@@ -260,8 +261,7 @@ Prediction predict(const Options& options, const SurfacePair& surfaces) {
   prediction.invalid_fraction = 1.0 - static_cast<double>(problem.field.validCount()) / problem.field.cellCount();
 
   const double limit_gap = limitGap(problem.field, options.approach.max_contact_fraction);
-  const double step =
-      approachStep(options.approach, prediction.composite_rms_height, options.interface.cutoff_distance);
+  const double step = approachStep(options.paper, prediction.composite_rms_height);
   State state;
   bool has_ended = false;
   while (!has_ended && prediction.steps < options.approach.max_steps) {

@@ -126,7 +126,7 @@ Section plasticitySection() {
   const auto predict = [=](double pixels, double step, const Phase& phase) {
     Options options = contactOnly(load, work);
     options.lower.hardness = hardness;
-    options.approach.step = step;
+    options.paper.step = step;
     return AdhesionModel(options).predict(sphereOn({"", 4, 4, 0, 1.0, phase.x, phase.y}, radius, a, pixels));
   };
   const std::vector<Row> area_row =

@@ -37,7 +37,7 @@ NormalLoad heldApart(const HeightMap& surface, double gap, double voltage) {
   order.build(field, 0.5);
   GapLoads loads;
   loads.prepare(order);
-  const CellForces forces(insulated(), voltage, field.cellArea());
+  const CellForces forces(insulated(), PaperOptions().cutoff_distance, voltage, field.cellArea());
   NormalLoad load = loads.at(0.0, 1, forces, 0.0);
   load.electrostatic -=
       0.5 * closed_form::kVacuumPermittivity * field.cellArea() * std::pow(voltage * kPermittivity / kThickness, 2);

@@ -20,7 +20,7 @@ Section surfaceForcesSection() {
   interface.insulator_thickness = 100e-9;
   interface.insulator_relative_permittivity = 3.9;
   const double cell_area = 400e-18;
-  const CellForces cell(interface, 10.0, cell_area);
+  const CellForces cell(interface, PaperOptions().cutoff_distance, 10.0, cell_area);
   InterfaceOptions vacuum = interface;
   vacuum.insulator_thickness = 0.0;
 
@@ -41,7 +41,8 @@ Section surfaceForcesSection() {
       published("(3), 10 V across 100 nm of vacuum", "Pa", kField, electrostaticPressure(100e-9, 10.0, 0.0, 1.0),
                 "44.271e3"),
       published("(3), vacuum, by one cell of the model", "Pa", kField,
-                CellForces(vacuum, 10.0, cell_area).electrostatic(100e-9) / cell_area, "44.271e3"),
+                CellForces(vacuum, PaperOptions().cutoff_distance, 10.0, cell_area).electrostatic(100e-9) / cell_area,
+                "44.271e3"),
       published("(3), 10 V, closed on 100 nm of oxide", "Pa", kField, electrostaticPressure(0.0, 10.0, 100e-9, 3.9),
                 "673.36e3"),
       published("(3), oxide, by one cell of the model", "Pa", kField, cell.electrostaticInContact() / cell_area,

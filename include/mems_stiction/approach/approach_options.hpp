@@ -11,7 +11,6 @@ enum class Connectivity { kFour, kEight };
 
 /// Settings of the approach; keys approach/...
 struct ApproachOptions {
-  double step = 0.0;                  ///< delta of (1) [m]; 0 = composite rms height / 50
   int max_steps = 100000;             ///< the search range ends after so many steps
   double max_contact_fraction = 0.5;  ///< beyond it the surfaces count as bonded, in (0, 1]
   Connectivity connectivity = Connectivity::kFour;

@@ -45,6 +45,8 @@ class OptionVisitor {
   /// `value` is one of `names`.
   virtual void choice(const std::string& key, std::string& value, const std::vector<std::string>& names,
                       const std::string& meaning) = 0;
+  /// Earlier versions called `key` so: whoever still does is told.
+  virtual void formerName(const std::string& /*former*/, const std::string& /*key*/) {}
 
   /// An enumeration, through choice(). A value that choice() leaves outside the table keeps the previous enumerator.
   template <typename Enum>

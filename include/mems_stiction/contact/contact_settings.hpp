@@ -22,6 +22,14 @@ struct OutputOptions {
   void describe(OptionVisitor& visitor);
 };
 
+/// Settings that the paper's formulations use alone; keys paper/...
+struct PaperOptions {
+  double step = 0.0;                  ///< delta of (1) [m]; 0 = composite rms height / 50
+  double cutoff_distance = 0.165e-9;  ///< D0: gaps are not taken smaller in van der Waals sums [m], > 0
+
+  void describe(OptionVisitor& visitor);
+};
+
 /// What every solver is given. A solver leaves alone what has no meaning for it.
 struct ContactSettings {
   Material lower;
@@ -31,6 +39,7 @@ struct ContactSettings {
   LoadOptions load;
   ApproachOptions approach;
   Deformation deformation = Deformation::kThreeRegimes;
+  PaperOptions paper;
   OutputOptions output;
 };
 

@@ -11,7 +11,6 @@ namespace mems_stiction {
 struct InterfaceOptions {
   double work_of_adhesion = 0.05;        ///< Gamma, thermodynamic, of the flat interface [J/m^2], >= 0
   double hamaker_constant = 65e-21;      ///< H across the gap's medium [J], >= 0 (SiO2 across air: Bergstrom 1997)
-  double cutoff_distance = 0.165e-9;     ///< D0: gaps are not taken smaller in van der Waals sums [m], > 0
   double equilibrium_distance = 0.2e-9;  ///< z0 of Tabor's parameter [m], > 0
   double insulator_thickness = 0.0;      ///< t [m], >= 0; must be > 0 when the voltage is not 0
   double insulator_relative_permittivity = 3.9;  ///< eps_r [-], >= 1 (thermal SiO2)

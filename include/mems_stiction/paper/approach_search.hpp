@@ -14,7 +14,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "mems_stiction/approach/approach_options.hpp"
+#include "mems_stiction/contact/contact_settings.hpp"
 #include "mems_stiction/loads/capillary.hpp"
 #include "mems_stiction/paper/cap_couple.hpp"
 #include "mems_stiction/paper/cell_forces.hpp"
@@ -25,7 +25,7 @@ namespace mems_stiction {
 
 /// Delta of (1) [m]: as set, or a fiftieth of the composite rms height, or the cut-off distance for surfaces without
 /// relief.
-double approachStep(const ApproachOptions& options, double composite_rms_height, double cutoff_distance);
+double approachStep(const PaperOptions& options, double composite_rms_height);
 
 /// What the search needs to know beside the surfaces.
 struct SearchSetting {

@@ -19,7 +19,8 @@ namespace mems_stiction {
 /// The integrands of (2) and (3) for one cell.
 class CellForces {
  public:
-  CellForces(const InterfaceOptions& interface, double voltage, double cell_area);
+  /// - @p cutoff_distance D0 [m], > 0
+  CellForces(const InterfaceOptions& interface, double cutoff_distance, double voltage, double cell_area);
 
   double vanDerWaals(double gap) const;    ///< of a cell apart by gap [m]: [N]
   double electrostatic(double gap) const;  ///< of a cell apart by gap [m]: [N]

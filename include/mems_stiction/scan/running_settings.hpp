@@ -14,12 +14,13 @@
 
 namespace mems_stiction {
 
-/// Four sections of the configuration.
+/// Five sections of the configuration.
 struct RunningSettings {
   InterfaceOptions interface;
   CapillaryOptions capillary;
   LoadOptions load;
   DeviceOptions device;
+  PaperOptions paper;
 
   explicit RunningSettings(const Configuration& configuration);
 

@@ -21,7 +21,7 @@ struct Search {
       : field(field_in),
         setting{AsperityLaw(ContactPair(Material(), Material()), 0.05, 3 * kNm, Formulation::kPaper,
                             Deformation::kThreeRegimes),
-                CellForces(InterfaceOptions(), 0.0, field_in.cellArea()),
+                CellForces(InterfaceOptions(), kCutoffDistance, 0.0, field_in.cellArea()),
                 mechanical_load,
                 field_in.largestGap() / 60,
                 1000,
@@ -71,11 +71,11 @@ void expectPatchesDescribed(ApproachSearch& search, const GapField& field, const
 }
 
 TEST(ApproachStep, isAsSetOrAFiftiethOfTheRoughnessOrTheCutOff) {
-  ApproachOptions options;
-  EXPECT_EQ(approachStep(options, 5 * kNm, kCutoffDistance), 5 * kNm / 50);
-  EXPECT_EQ(approachStep(options, 0.0, kCutoffDistance), kCutoffDistance);
+  PaperOptions options;
+  EXPECT_EQ(approachStep(options, 5 * kNm), 5 * kNm / 50);
+  EXPECT_EQ(approachStep(options, 0.0), kCutoffDistance);
   options.step = 2 * kNm;
-  EXPECT_EQ(approachStep(options, 5 * kNm, kCutoffDistance), 2 * kNm);
+  EXPECT_EQ(approachStep(options, 5 * kNm), 2 * kNm);
 }
 
 TEST(ApproachSearch, endsInEquilibriumUnderALoadThatTheContactsCarry) {

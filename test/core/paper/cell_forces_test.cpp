@@ -16,6 +16,7 @@ namespace {
 constexpr double kSumTolerance = 2e-4;
 constexpr double kClosedForm = 1e-12;  // a few operations of round-off
 constexpr double kNm = 1e-9;
+constexpr double kCutoffDistance = 0.165e-9;
 
 InterfaceOptions insulated() {
   InterfaceOptions interface;
@@ -84,15 +85,14 @@ INSTANTIATE_TEST_SUITE_P(Frames, LoadedFrame, testing::ValuesIn(loadedFrames()),
 
 TEST_P(LoadedFrame, hasTheSumOverItsCellsAtEveryApproach) {
   for (const double fraction : {0.02, 0.5, 1.0}) {
-    expectSumsOverCells(CellForces(insulated(), 40.0, field_.cellArea()), fraction);
+    expectSumsOverCells(CellForces(insulated(), kCutoffDistance, 40.0, field_.cellArea()), fraction);
   }
 }
 
 TEST_P(LoadedFrame, hasTheSumOverItsCellsWhateverTheCutOff) {
   InterfaceOptions interface = insulated();
   for (const double cutoff : {1e-12, 1e-10, 2e-9, 5e-8, 1e-5}) {
-    interface.cutoff_distance = cutoff;
-    expectSumsOverCells(CellForces(interface, 0.0, field_.cellArea()), 0.5);
+    expectSumsOverCells(CellForces(interface, cutoff, 0.0, field_.cellArea()), 0.5);
   }
 }
 
@@ -100,7 +100,7 @@ TEST_P(LoadedFrame, hasTheFieldOfAThinInsulatorToo) {
   InterfaceOptions interface = insulated();
   for (const double thickness : {1e-10, 2e-9}) {
     interface.insulator_thickness = thickness;
-    expectSumsOverCells(CellForces(interface, -5.0, field_.cellArea()), 0.5);
+    expectSumsOverCells(CellForces(interface, kCutoffDistance, -5.0, field_.cellArea()), 0.5);
   }
 }
 
@@ -108,9 +108,8 @@ TEST(CellForces, ofSeveralCellsAtOnceAreThoseOfOneAfterTheOther) {
   // factors of one, so that it does not matter to the bit whether they are multiplied before or after the sum
   InterfaceOptions interface = insulated();
   interface.hamaker_constant = 6.0 * kPi;
-  interface.cutoff_distance = 0.3;
-  const CellForces van_der_waals(interface, 0.0, 1.0);
-  const CellForces electrostatic(interface, 1.0, 2.0 / kVacuumPermittivity);
+  const CellForces van_der_waals(interface, 0.3, 0.0, 1.0);
+  const CellForces electrostatic(interface, 0.3, 1.0, 2.0 / kVacuumPermittivity);
   ASSERT_EQ(van_der_waals.vanDerWaals(1.0), 1.0);
   constexpr double kApproach = 0.7;
   std::vector<OrderedCell> cells;
@@ -133,7 +132,7 @@ TEST(CellForces, ofSeveralCellsAtOnceAreThoseOfOneAfterTheOther) {
 TEST(CellForces, areThoseOfParallelPlates) {
   const InterfaceOptions interface = insulated();
   const double area = 20e-18;
-  const CellForces forces(interface, 10.0, area);
+  const CellForces forces(interface, kCutoffDistance, 10.0, area);
   const double attraction = 6.5e-20 * area / (6 * kPi * 1e-24);
   EXPECT_NEAR(forces.vanDerWaals(10 * kNm), attraction, kClosedForm * attraction);
   const double distance = 10 * kNm + 100 * kNm / 3.9;
@@ -146,7 +145,7 @@ TEST(CellForces, areThoseOfParallelPlates) {
 }
 
 TEST(CellForces, stayFiniteBelowTheCutOff) {
-  const CellForces forces(insulated(), 0.0, 1e-16);
+  const CellForces forces(insulated(), kCutoffDistance, 0.0, 1e-16);
   EXPECT_EQ(forces.vanDerWaals(0.0), forces.vanDerWaals(forces.cutoff()));
   EXPECT_EQ(forces.vanDerWaals(0.5 * forces.cutoff()), forces.vanDerWaals(forces.cutoff()));
   EXPECT_LT(forces.vanDerWaals(1.1 * forces.cutoff()), forces.vanDerWaals(forces.cutoff()));
@@ -157,7 +156,8 @@ TEST(CellForces, takeTheInsulatorToTheLetterWithPermittivityOne) {
   interface.insulator_relative_permittivity = 1.0;
   const double distance = 110 * kNm;  // d + t of (3)
   const double expected = kVacuumPermittivity * 1e-16 * 100.0 / (2 * distance * distance);
-  EXPECT_NEAR(CellForces(interface, 10.0, 1e-16).electrostatic(10 * kNm), expected, kClosedForm * expected);
+  EXPECT_NEAR(CellForces(interface, kCutoffDistance, 10.0, 1e-16).electrostatic(10 * kNm), expected,
+              kClosedForm * expected);
 }
 
 struct Bump {
@@ -181,7 +181,7 @@ TEST_P(FlatWithBump, isHeldApartByItAndPulledByTheRest) {
   order.build(field, 0.5);
   GapLoads loads;
   loads.prepare(order);
-  const CellForces forces(insulated(), 3.0, field.cellArea());
+  const CellForces forces(insulated(), kCutoffDistance, 3.0, field.cellArea());
   const double area = (bump.rows * bump.cols - 1) * bump.pitch_x * bump.pitch_y;
   const double bump_area = bump.pitch_x * bump.pitch_y;
   const double insulator = 100e-9 / 3.9;

@@ -47,8 +47,8 @@ TEST(ModelOptions, nameWhatIsWrongItsValueAndWhatIsAllowed) {
   options.interface.work_of_adhesion = -0.01;
   expectViolation(options, "interface/work_of_adhesion", "-0.01", ">= 0");
   options = Options();
-  options.interface.cutoff_distance = 0.0;
-  expectViolation(options, "interface/cutoff_distance", "0", "> 0");
+  options.paper.cutoff_distance = 0.0;
+  expectViolation(options, "paper/cutoff_distance", "0", "> 0");
   options = Options();
   options.interface.hardness_ratio_limit = 1.0;
   expectViolation(options, "interface/hardness_ratio_limit", "1", "(0, 1)");
@@ -62,8 +62,8 @@ TEST(ModelOptions, nameWhatIsWrongItsValueAndWhatIsAllowed) {
   options.approach.max_steps = 0;
   expectViolation(options, "approach/max_steps", "0", "[1,");
   options = Options();
-  options.approach.step = std::numeric_limits<double>::infinity();
-  expectViolation(options, "approach/step", "inf", ">= 0");
+  options.paper.step = std::numeric_limits<double>::infinity();
+  expectViolation(options, "paper/step", "inf", ">= 0");
 }
 
 TEST(ModelOptions, needAnInsulatorUnderAVoltage) {

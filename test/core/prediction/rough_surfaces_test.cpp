@@ -137,7 +137,7 @@ TEST_P(RoughSurface, hardlyDependsOnTheStep) {
   Options options = optionsOf(Deformation::kThreeRegimes, 5e-6);
   const Prediction automatic = AdhesionModel(options).predict(surface);
   for (const double divisor : {20.0, 100.0, 500.0}) {
-    options.approach.step = 1.5 * kNm / divisor;
+    options.paper.step = 1.5 * kNm / divisor;
     const Prediction prediction = AdhesionModel(options).predict(surface);
     EXPECT_EQ(prediction.status, automatic.status);
     EXPECT_NEAR(prediction.contact_area, automatic.contact_area, 0.05 * automatic.contact_area) << divisor;

@@ -81,9 +81,15 @@ TEST(Configuration, NothingGivenKeepsTheDefaults) {
 TEST(Configuration, GivenDefaultsAreKept) {
   Configuration defaults;
   defaults.model.load.mechanical_load = 1e-6;
-  const Configuration configuration = configurationFromYaml(YAML::Load("approach/step: 1e-10"), defaults);
+  const Configuration configuration = configurationFromYaml(YAML::Load("paper/step: 1e-10"), defaults);
   EXPECT_EQ(configuration.model.load.mechanical_load, 1e-6);
-  EXPECT_EQ(configuration.model.approach.step, 1e-10);
+  EXPECT_EQ(configuration.model.paper.step, 1e-10);
+}
+
+TEST(Configuration, FormerNamesAreRefusedWithThoseOfNow) {
+  EXPECT_EQ(refusal("approach: {step: 1e-10}"), "approach/step: '1e-10' is given, but its name is paper/step now");
+  EXPECT_EQ(refusal("interface/cutoff_distance: 2e-10"),
+            "interface/cutoff_distance: '2e-10' is given, but its name is paper/cutoff_distance now");
 }
 
 TEST(Configuration, NumbersMayBeQuotedAsPythonDoes) {

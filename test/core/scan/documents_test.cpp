@@ -46,8 +46,8 @@ std::map<std::string, std::string> defaultsOfSensitivityPage() {
 TEST(Documents, SensitivitiesStateTheDefaultsOfTheCode) {
   const std::map<std::string, std::string> stated = defaultsOfSensitivityPage();
   for (const char* key :
-       {"approach/step", "approach/max_steps", "approach/max_contact_fraction", "approach/connectivity",
-        "approach/formulation", "approach/deformation", "interface/cutoff_distance", "interface/equilibrium_distance",
+       {"paper/step", "approach/max_steps", "approach/max_contact_fraction", "approach/connectivity",
+        "approach/formulation", "approach/deformation", "paper/cutoff_distance", "interface/equilibrium_distance",
         "preprocessing/refine/factor", "preprocessing/refine/interpolation", "uncertainty/samples"}) {
     ASSERT_EQ(stated.count(key), 1u) << key << " is missing";
   }
@@ -64,8 +64,8 @@ TEST(Documents, SensitivitiesStateTheDefaultsOfTheCode) {
   }
   // The automatic step is no default of a field but what 0 is taken for.
   std::ostringstream automatic;
-  automatic << "sigma/" << std::lround(1.0 / approachStep(ApproachOptions(), 1.0, 1.0)) << ")";
-  EXPECT_NE(stated.at("approach/step").find(automatic.str()), std::string::npos) << stated.at("approach/step");
+  automatic << "sigma/" << std::lround(1.0 / approachStep(PaperOptions(), 1.0)) << ")";
+  EXPECT_NE(stated.at("paper/step").find(automatic.str()), std::string::npos) << stated.at("paper/step");
 }
 
 }  // namespace

@@ -27,11 +27,13 @@ TEST(SettingsOwner, ChangesTheRunningSettingsAndNoOthers) {
   settings.interface.work_of_adhesion = 0.1;
   settings.capillary.relative_humidity = 0.4;
   settings.device.spring_stiffness = 2.0;
+  settings.paper.cutoff_distance = 0.2e-9;
   owner.change(settings);
   configuration.model.load.voltage = 3.0;
   configuration.model.interface.work_of_adhesion = 0.1;
   configuration.model.capillary.relative_humidity = 0.4;
   configuration.device.spring_stiffness = 2.0;
+  configuration.model.paper.cutoff_distance = 0.2e-9;
   EXPECT_EQ(toYaml(*owner.snapshot()), toYaml(configuration));
 }
 

@@ -139,8 +139,8 @@ TEST_F(PredictScan, SlipsOfAUnitInLoadAndStepAreWarnedOf) {
   EXPECT_EQ(nlohmann::json::parse(pressed.output)["warnings"].size(), 1u);
   const Outcome coarse = run("--step 1 " + call);
   ASSERT_EQ(coarse.errors.size(), 2u);
-  EXPECT_NE(coarse.errors[1].find("approach/step 1 has no effect"), std::string::npos) << coarse.errors[1];
-  EXPECT_NE(coarse.errors[0].find("approach/step 1 m is outside the usual"), std::string::npos) << coarse.errors[0];
+  EXPECT_NE(coarse.errors[1].find("paper/step 1 has no effect"), std::string::npos) << coarse.errors[1];
+  EXPECT_NE(coarse.errors[0].find("paper/step 1 m is outside the usual"), std::string::npos) << coarse.errors[0];
 }
 
 TEST_F(PredictScan, NoLineOfProgressReachesWhatIsNoTerminal) {

@@ -52,7 +52,7 @@ class Change : public OptionVisitor {
   explicit Change(std::string key) : changed_(std::move(key)) {}
 
   void number(const std::string& key, double& value, const std::string&, const Range&, const std::string&) override {
-    static const std::map<std::string, double> others = {{"approach/step", 0.3e-9},
+    static const std::map<std::string, double> others = {{"paper/step", 0.3e-9},
                                                          {"approach/max_contact_fraction", 1e-3},
                                                          {"interface/hardness_ratio_limit", 0.99},
                                                          {"interface/contact_angle", 0.5}};

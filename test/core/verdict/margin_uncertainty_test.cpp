@@ -186,7 +186,7 @@ class SearchedAgain {
     };
     return {power([](Options& options, double&, double factor) { options.interface.work_of_adhesion *= factor; }),
             power(ofHardness), power(ofModulus), power([](Options&, double& pitch, double factor) { pitch = factor; }),
-            power([](Options& options, double&, double factor) { options.interface.cutoff_distance *= factor; })};
+            power([](Options& options, double&, double factor) { options.paper.cutoff_distance *= factor; })};
   }
 
  private:
