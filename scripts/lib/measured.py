@@ -23,7 +23,7 @@ CHECKED_RMS = (1e-9, 2e-9, 5e-9, 10e-9)
 
 
 class Study:
-    """Predictions of frames by `consistent`, those of the seeds side by side; seeds are drawn alike for all settings, so that differences
+    """Predictions of frames by `separation_curve`, those of the seeds side by side; seeds are drawn alike for all settings, so that differences
     are those of the settings."""
 
     def __init__(self, seeds, is_quick, pool):
@@ -34,7 +34,7 @@ class Study:
 
         def record(seed):
             frame, heights = cases.surface(case, variation, rms_height, seed, pixels)
-            return mems_stiction.predict(heights, frame["pitch"], trust_run.settings_of(frame, "consistent")).to_dict()
+            return mems_stiction.predict(heights, frame["pitch"], trust_run.settings_of(frame, "separation_curve")).to_dict()
 
         return list(self.pool.map(record, self.seeds))
 

@@ -102,7 +102,7 @@ def all_cases(configuration, has_finer):
     key = "preprocessing/refine/interpolation"
     cases += [Case(key, value, "numerical", value == configuration.value(key),
                    {"preprocessing/refine/factor": 2, key: value}) for value in ("cubic", "lanczos")]
-    cases += cases_of_key(configuration, "approach/formulation", ("consistent", "paper", "printed"), "model")
+    cases += cases_of_key(configuration, "approach/formulation", ("separation_curve", "paper", "printed"), "model")
     cases += cases_of_key(configuration, "approach/deformation", ("three_regimes", "elastic"), "model")
     known = configuration.tree["uncertainty"]
     return cases + [

@@ -26,13 +26,13 @@ NORMAL_95 = 1.96
 
 
 def regime(frame):
-    if frame["consistent"]["is_conforming"]:
+    if frame["separation_curve"]["is_conforming"]:
         return CONFORMING
     return NEAR_BONDING if "near_bonding" in flags_of(frame) else SPARSE
 
 
 def flags_of(frame):
-    return set(frame["consistent"]["regime_flag_names"].split(", "))
+    return set(frame["separation_curve"]["regime_flag_names"].split(", "))
 
 
 def ratios(frames, value, reference):
@@ -91,8 +91,8 @@ def coverage_rows(frames):
         judged = [frame for frame in of_regime if frame["frame"]["number"] % 2 == 1]
         cells = []
         for i, quantity in enumerate((pull_off, work)):
-            sigma = rounded_up(deviation(ratios(made, quantity("consistent"), quantity("half_space"))))
-            logs = ratios(judged, quantity("consistent"), quantity("half_space"))
+            sigma = rounded_up(deviation(ratios(made, quantity("separation_curve"), quantity("half_space"))))
+            logs = ratios(judged, quantity("separation_curve"), quantity("half_space"))
             logs = logs[np.isfinite(logs)]
             inside = np.abs(logs) <= NORMAL_95 * sigma
             hits[i] += inside.sum()
@@ -108,15 +108,15 @@ def draw(frames, figure):
     for name, colour in COLOURS.items():
         chosen = [frame for frame in frames if regime(frame) == name]
         if chosen:
-            axes[0].loglog([frame["consistent"]["flattening_ratio"] for frame in chosen],
-                           np.exp(ratios(chosen, pull_off("consistent"), pull_off("half_space"))), ".", color=colour, label=name)
+            axes[0].loglog([frame["separation_curve"]["flattening_ratio"] for frame in chosen],
+                           np.exp(ratios(chosen, pull_off("separation_curve"), pull_off("half_space"))), ".", color=colour, label=name)
     axes[0].axhspan(1 / 1.15, 1.15, color="#dddddd", zorder=0)
-    axes[0].set(xlabel="flattening energy / work of adhesion", ylabel="consistent / half-space", title="pull-off force, resolved frames")
+    axes[0].set(xlabel="flattening energy / work of adhesion", ylabel="separation curve / half-space", title="pull-off force, resolved frames")
     axes[0].yaxis.set_major_locator(matplotlib.ticker.LogLocator(subs=(1, 1.5, 2, 3, 5, 7)))
     axes[0].yaxis.set_major_formatter(matplotlib.ticker.FormatStrFormatter("%g"))
     axes[0].yaxis.set_minor_formatter(matplotlib.ticker.NullFormatter())
     axes[0].legend()
-    for name, colour in (("consistent", "#2f7fd1"), ("paper", "#d1322f"), ("printed", "#f2b705"), ("rigid", "#7a7a7a")):
+    for name, colour in (("separation_curve", "#2f7fd1"), ("paper", "#d1322f"), ("printed", "#f2b705"), ("rigid", "#7a7a7a")):
         value = (lambda frame: frame["rigid"]) if name == "rigid" else pull_off(name)
         logs = ratios(frames, value, pull_off("half_space"))
         logs = np.sort(np.abs(logs[np.isfinite(logs)]))
@@ -134,11 +134,11 @@ def page(lines, figure):
     resolved = [line for line in solved if line["half_space"]["is_resolved"]]
     unresolved = [line for line in solved if not line["half_space"]["is_resolved"]]
     reference = pull_off("half_space")
-    ours = pull_off("consistent")
+    ours = pull_off("separation_curve")
     size = lines[0]["frame"]["pixels"]
     loaded = [line for line in resolved if line["frame"]["pressure"] > 0]
-    few = [line for line in resolved if line["consistent"]["asperity_count"] < FEW_CONTACTS]
-    many = [line for line in resolved if line["consistent"]["asperity_count"] >= FEW_CONTACTS]
+    few = [line for line in resolved if line["separation_curve"]["asperity_count"] < FEW_CONTACTS]
+    many = [line for line in resolved if line["separation_curve"]["asperity_count"] >= FEW_CONTACTS]
     rigid = ratios(resolved, lambda frame: frame["rigid"], reference)
     of_kinds = sorted({line["frame"]["kind"] for line in resolved})
     text = [
@@ -152,13 +152,13 @@ def page(lines, figure):
         "- **Figures** are ratios to the half-space's: *bias* is their geometric mean, *spread* the standard deviation of their logarithm.", "",
         "![error of the pull-off force](images/%s)" % pathlib.Path(figure).name, "",
         "## Formulations", ""]
-    text += table("pull-off force", [row("`consistent`", ratios(resolved, ours, reference)), row("`paper`", ratios(resolved, pull_off("paper"), reference)),
+    text += table("pull-off force", [row("`separation_curve`", ratios(resolved, ours, reference)), row("`paper`", ratios(resolved, pull_off("paper"), reference)),
                                      row("`printed`", ratios(resolved, pull_off("printed"), reference)), row("rigid, at first touch", rigid)])
-    text += ["## Where `consistent` is right", "", "*conforming*: its own branch; *near bonding*: other frames with the flag NEAR_BONDING; *sparse*: the rest.", ""]
+    text += ["## Where `separation_curve` is right", "", "*conforming*: its own branch; *near bonding*: other frames with the flag NEAR_BONDING; *sparse*: the rest.", ""]
     for title, quantity in (("pull-off force", pull_off), ("apparent work of adhesion", work), ("contact area at rest", area)):
-        rows = [row("all", ratios(resolved, quantity("consistent"), quantity("half_space")))]
+        rows = [row("all", ratios(resolved, quantity("separation_curve"), quantity("half_space")))]
         for name in (SPARSE, NEAR_BONDING, CONFORMING):
-            rows.append(row(name, ratios([line for line in resolved if regime(line) == name], quantity("consistent"), quantity("half_space"))))
+            rows.append(row(name, ratios([line for line in resolved if regime(line) == name], quantity("separation_curve"), quantity("half_space"))))
         text += table(title, rows)
     rows = [row(kind, ratios([line for line in resolved if line["frame"]["kind"] == kind], ours, reference)) for kind in of_kinds]
     rows += [row("under load", ratios(loaded, ours, reference)), row("fewer than %d contacts" % FEW_CONTACTS, ratios(few, ours, reference)),

@@ -20,7 +20,7 @@ import yaml
 
 import trust_frames
 
-FORMULATIONS = ("consistent", "paper", "printed")
+FORMULATIONS = ("separation_curve", "paper", "printed")
 HALF_SPACE_FIGURES = ("status", "pull_off_force", "apparent_work_of_adhesion", "contact_area", "contact_count", "is_resolved",
                       "processing_time")
 FIGURES = ("status", "pull_off_force", "apparent_work_of_adhesion", "contact_area", "nominal_area", "flattening_ratio",
@@ -55,7 +55,7 @@ def half_space_of(frame, heights, limit):
     """Its figures, or why there are none."""
     try:
         with time_limit(limit):
-            solved = mems_stiction.half_space(heights, frame["pitch"], settings_of(frame, "consistent"))
+            solved = mems_stiction.half_space(heights, frame["pitch"], settings_of(frame, "separation_curve"))
     except TooLong:
         return {"status": "TOO_LONG"}
     return {name: None if value != value else value for name, value in vars(solved).items() if name in HALF_SPACE_FIGURES}

@@ -24,7 +24,7 @@ std::unique_ptr<ContactSolver> make() {
 
 /// A line per solver, the default first.
 constexpr Entry kSolvers[] = {
-    {"consistent",
+    {"separation_curve",
      make<SeparationSolver>,
      {"paper/step", "paper/cutoff_distance", "output/energy_curve", "uncertainty/hardness",
       "uncertainty/cutoff_distance"}},
@@ -62,7 +62,8 @@ struct Retired {
 
 /// A line per name that settings of earlier versions may hold.
 constexpr Retired kRetired[] = {
-    {"corrected", "`consistent` is the default, `paper` is nearest to what it was"},
+    {"consistent", "its name is `separation_curve` now"},
+    {"corrected", "`separation_curve` is the default, `paper` is nearest to what it was"},
 };
 
 }  // namespace

@@ -7,7 +7,7 @@ import numpy as np
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 PITCH = 20e-9
-FORMULATIONS = ("consistent", "paper", "printed")
+FORMULATIONS = ("separation_curve", "paper", "printed")
 DEVICE = {"spring_stiffness": 2.0, "travel": 1e-6, "contact_area": 1e-11}
 CLEANING = {"level": "plane", "spikes": {"enabled": True}, "fill": {"enabled": True, "max_fraction": 0.5}}
 

@@ -62,7 +62,7 @@ class MigrationTest(unittest.TestCase):
         message.preprocessing = ["level (shape=plane)"]
         message.regime_flags = 5
         if "curve" in message.__slots__:
-            message.formulation, message.warnings = "consistent", ["a stage offset"]
+            message.formulation, message.warnings = "separation_curve", ["a stage offset"]
             message.curve = [SeparationPoint(displacement=1e-9, force=2e-7)]
         with rosbag.Bag(self.bag, "w") as bag:
             bag.write("prediction", message, rospy.Time(12, 50))
@@ -89,7 +89,7 @@ class MigrationTest(unittest.TestCase):
             self.assertEqual((message.version, message.settings_hash, message.part_id, message.flags), ("", "", "", []))
             self.assertEqual(message.pull_off_contact_count, -1)
             if "curve" in old_class.__slots__:
-                self.assertEqual((message.formulation, message.warnings), ("consistent", ["a stage offset"]))
+                self.assertEqual((message.formulation, message.warnings), ("separation_curve", ["a stage offset"]))
                 self.assertEqual([(point.displacement, point.force) for point in message.curve], [(1e-9, 2e-7)])
             else:
                 self.assertEqual((message.formulation, message.warnings, message.curve), ("", [], []))

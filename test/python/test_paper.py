@@ -165,8 +165,8 @@ class TrialRun(unittest.TestCase):
     def test_the_paper_s_formulation_is_stated_whatever_the_default(self):
         for pair in cases.all_pairs(self.study, pathlib.Path("dump")):
             for case in pair["cases"]:
-                is_beside = case["name"].startswith("half_space/") or "/consistent/" in case["name"]
-                self.assertEqual(case["settings"]["approach/formulation"], "consistent" if is_beside else "paper", case["name"])
+                is_beside = case["name"].startswith("half_space/") or "/separation_curve/" in case["name"]
+                self.assertEqual(case["settings"]["approach/formulation"], "separation_curve" if is_beside else "paper", case["name"])
 
     def test_beside_the_paper_s_forms_no_energy_exceeds_the_work_of_adhesion(self):
         sweep = self.facts().sweep

@@ -108,7 +108,7 @@ class PictureTest(unittest.TestCase):
     def test_no_label_leaves_the_picture(self):
         curve = {"height": [2e-9, 1e-10, 1e-10, 2e-9], "force": [0.0, -1e-7, -1e-7, 4e-7], "direction": ["APPROACH", "APPROACH", "RETRACTION", "RETRACTION"]}
         for module, draw in ((report_figures, lambda: report_figures.scan_figure(result())),
-                             (report_figures, lambda: report_figures.scan_figure(result(formulation="consistent", force_curve=curve))),
+                             (report_figures, lambda: report_figures.scan_figure(result(formulation="separation_curve", force_curve=curve))),
                              (report_figures, lambda: report_figures.trend_figure(self.rows())),
                              (cleaning_steps, lambda: cleaning_figure(self.stages(), 1e-8, 1e-8)),
                              (surface_figures, lambda: surface_figure(rough(), 1e-8, 2e-8))):

@@ -58,7 +58,7 @@ class TrustTest(unittest.TestCase):
         for text in (self.folder / "predictions.jsonl").read_text().splitlines():
             line = json.loads(text)
             if line["half_space"]["status"] == "SOLVED" and line["half_space"]["is_resolved"]:
-                ratio = line["consistent"]["pull_off_force"] / line["half_space"]["pull_off_force"]
+                ratio = line["separation_curve"]["pull_off_force"] / line["half_space"]["pull_off_force"]
                 self.assertTrue(0.5 < ratio < 2, (line["frame"], ratio))  # what the map has at worst
 
     def test_frames_are_the_same_in_every_run(self):

@@ -35,7 +35,7 @@ int warningPixels(const sensor_msgs::Image& image) {
 /// The attraction of flat surfaces, both ways; the way out is the stronger one.
 PredictedScan predicted() {
   PredictedScan scan;
-  scan.formulation = "consistent";
+  scan.formulation = "separation_curve";
   scan.prediction.pull_off_force = 2.02e-7;
   for (const CurveDirection direction : {CurveDirection::kApproach, CurveDirection::kRetraction}) {
     const double strength = direction == CurveDirection::kApproach ? 1e-7 : 2e-7;
@@ -51,7 +51,7 @@ PredictedScan predicted() {
 TEST(ForceCurvePicture, ShowsBothWaysAndTheStatedPullOffForceAtTheHighestPointOfTheWayOut) {
   const PredictedScan scan = predicted();
   const DrawnCurve curve = drawnCurve(scan);
-  EXPECT_EQ(curve.name, "consistent");
+  EXPECT_EQ(curve.name, "separation_curve");
   EXPECT_EQ(curve.pull_off_force, 2.02e-7);
   EXPECT_NEAR(curve.pull_off_height, 2e-10, 1e-12) << "3 x^2 - 2 x^3 is largest at x = 1";
   std_msgs::Header header;

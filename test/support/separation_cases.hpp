@@ -20,7 +20,7 @@ inline double rangeOf(const Options& options) {
 /// Elastic bodies with this contact modulus, the upper one rigid.
 inline Options elastic(double contact_modulus, double load = 0.0) {
   Options options;
-  options.formulation = "consistent";
+  options.formulation = "separation_curve";
   options.lower.youngs_modulus = contact_modulus;
   options.lower.poisson_ratio = 0.0;
   options.upper.youngs_modulus = 1e30;

@@ -86,7 +86,7 @@ SERIES = (
     Series("regimes_vdw", "three regimes, with van der Waals", {}),
 )
 # Drawn beside the paper's: the default formulation on the same pairs; no claim of the paper is held against it.
-BESIDE = Series("consistent", "consistent, with van der Waals", {"approach/formulation": "consistent"})
+BESIDE = Series("separation_curve", "separation curve, with van der Waals", {"approach/formulation": "separation_curve"})
 WITH_AND_WITHOUT_REGIMES = (("regimes", "elastic"), ("regimes_vdw", "elastic_vdw"))
 
 

@@ -15,7 +15,7 @@ GREY, DARK = "#888888", "#333333"
 # By series: with van der Waals in warm colours; three regimes as full lines, all-elastic dashed.
 SERIES_STYLE = {"elastic": ("#2f7fd1", (0, (5, 2))), "regimes": ("#0b4f9e", "-"),
                 "elastic_vdw": ("#f2a33c", (0, (5, 2))), "regimes_vdw": ("#b0413e", "-"),
-                "consistent": ("#1d8348", "-")}
+                "separation_curve": ("#1d8348", "-")}
 
 
 def save(figure, path):
@@ -230,7 +230,7 @@ def half_space_energy(frames, material):
 def draw_frames(axes, parameters, half_space, model):
     """Half-space and default formulation on the same small frames, each frame a mark."""
     color = SERIES_STYLE[cases.BESIDE.name][0]
-    for values, marker, face, name in ((half_space, "s", "none", "half-space, small frames"), (model, "x", color, "consistent, the same frames")):
+    for values, marker, face, name in ((half_space, "s", "none", "half-space, small frames"), (model, "x", color, "separation curve, the same frames")):
         axes.plot(np.repeat(parameters, values.shape[1]), values.ravel(), linestyle="none", marker=marker, markersize=5, color=color,
                   markerfacecolor=face, label=name, zorder=5)
 

@@ -101,7 +101,7 @@ TEST(ContactSolvers, refuseAnUnknownFormulationInTheWordsOfTheOptions) {
 
 TEST(ContactSolvers, sayWhatServesInPlaceOfAFormulationOfEarlierVersions) {
   const std::string reason = retirement("corrected");
-  for (const char* part : {"approach/formulation", "'corrected'", "`consistent`", "`paper`"}) {
+  for (const char* part : {"approach/formulation", "'corrected'", "`separation_curve`", "`paper`"}) {
     EXPECT_NE(reason.find(part), std::string::npos) << reason;
   }
   Options options;

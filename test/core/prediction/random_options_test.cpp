@@ -123,7 +123,7 @@ class OneAtItsEnd : public OptionVisitor {
 
 TEST(RandomOptions, EachNumberIsBoundedAndNothingIsInfiniteAtTheEnds) {
   const SurfacePair pair{samples::gaussian(16, 16, 5e-9, 5e-9, 2e-9, 15e-9, 3), {}};
-  for (const char* formulation : {"consistent", "paper"}) {
+  for (const char* formulation : {"separation_curve", "paper"}) {
     for (const bool upper : {false, true}) {
       for (int setting = 0;; ++setting) {
         Options options;

@@ -136,7 +136,7 @@ TEST(Configuration, WrongTypesNameKeyValueAndWhatIsAllowed) {
   EXPECT_TRUE(mentions(refusal("approach/max_steps: 2.5"), "approach/max_steps: '2.5'"));
   EXPECT_TRUE(mentions(refusal("approach/max_steps: 1e300"), "approach/max_steps: '1e300'"));
   EXPECT_TRUE(mentions(refusal("output/roughness: maybe"), "output/roughness: 'maybe'"));
-  EXPECT_TRUE(mentions(refusal("approach/formulation: printd"), "one of: consistent, paper, printed"));
+  EXPECT_TRUE(mentions(refusal("approach/formulation: printd"), "one of: separation_curve, paper, printed"));
   EXPECT_TRUE(mentions(refusal("lower/hardness: {vickers: 1}"), "lower/hardness/vickers"));
   EXPECT_TRUE(mentions(refusal("[1, 2]"), "must be a map"));
 }
@@ -144,8 +144,9 @@ TEST(Configuration, WrongTypesNameKeyValueAndWhatIsAllowed) {
 TEST(Configuration, AFormulationOfEarlierVersionsIsRefusedWithWhatServesInstead) {
   const std::string text = refusal("approach: {formulation: corrected}");
   EXPECT_TRUE(mentions(text, "approach/formulation: 'corrected' is no longer there")) << text;
-  EXPECT_TRUE(mentions(text, "`consistent`")) << text;
+  EXPECT_TRUE(mentions(text, "`separation_curve`")) << text;
   EXPECT_TRUE(mentions(text, "`paper`")) << text;
+  EXPECT_TRUE(mentions(refusal("approach: {formulation: consistent}"), "its name is `separation_curve` now"));
   EXPECT_FALSE(mentions(refusal("approach/formulation: printd"), "no longer")) << text;
 }
 

@@ -159,9 +159,9 @@ TEST(Record, CurveIsAListWhenItIsAskedFor) {
 
 TEST(Record, FlagsAndFormulationAreThereWithoutADevice) {
   RecordExtras extras;
-  extras.formulation = "consistent";
+  extras.formulation = "separation_curve";
   const YAML::Node yaml = YAML::Load(yamlRecord("a", scan(), example(), extras));
-  EXPECT_EQ(yaml["formulation"].as<std::string>(), "consistent");
+  EXPECT_EQ(yaml["formulation"].as<std::string>(), "separation_curve");
   EXPECT_EQ(yaml["regime_flags"].as<unsigned>() & 1u, 1u) << "bonded";
   EXPECT_EQ(yaml["regime_flag_names"].as<std::string>().substr(0, 6), "bonded");
   EXPECT_FALSE(yaml["sticks"].IsDefined());

@@ -60,7 +60,7 @@ TEST(ScanPredictor, SaysTheSameOfAScanThatItHasSeen) {
   Configuration configuration = pressed();
   configuration.preprocessing.refine.factor = 2;
   Configuration other = configuration;
-  other.model.formulation = "consistent";
+  other.model.formulation = "separation_curve";
   other.model.load = LoadOptions();
   other.model.load.pressure = 5e6;
   for (const Configuration& second : {configuration, other}) {

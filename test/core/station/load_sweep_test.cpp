@@ -121,7 +121,7 @@ LoadSweepRequest upTo(double voltage, int count, std::vector<double> loads = {0.
 }
 
 TEST(LoadSweep, contactFractionIsThatOfThePredictionToTheBit) {
-  for (const char* formulation : {"paper", "consistent"}) {
+  for (const char* formulation : {"paper", "separation_curve"}) {
     Options options = insulated();
     options.formulation = formulation;
     for (const double load : {1e-6, 3e-6, 7e-6, 2e-5}) {

@@ -97,7 +97,7 @@ TEST_F(PredictScan, TheFormulationsCurveGoesToRestAndBackOverTheHalfSpacesHeight
   const Outcome outcome = run("--json --record-curve --pitch 20e-9 --curve " + file + " " + sphere());
   ASSERT_EQ(outcome.status, 0);
   const nlohmann::json record = nlohmann::json::parse(outcome.output);
-  EXPECT_EQ(record["formulation"], "consistent");
+  EXPECT_EQ(record["formulation"], "separation_curve");
   const auto approach = pointsOf(ScratchFolder::read(file), "APPROACH");
   const auto retraction = pointsOf(ScratchFolder::read(file), "RETRACTION");
   const double range = std::sqrt(65e-21 / (16.0 * kPi * 0.05));  // z0 of the default interface
