@@ -4,25 +4,39 @@
 usage: batch_dask.py [--config FILE.yaml] [--workers N | --scheduler HOST:PORT] [--shards N] -o ROWS.csv BAG|SCAN...
 
 Without --scheduler the workers run on this machine. With one, workers must see the same folders and have stiction_batch
-on their PATH. Called again after an interruption, every shard goes on where it was.
+on their PATH, from ROS or from pip. A shard whose worker dies goes to another, which goes on where it was; so does every
+shard when this is called again after an interruption.
 """
 
 import argparse
+import ctypes
 import os
 import pathlib
+import signal
 import subprocess
 import sys
 
 
 NONE_PREDICTED = 1  # every scan of the shard has its row, with a reason
+DIE_WITH_PARENT = 1  # PR_SET_PDEATHSIG of Linux
 
 
 def run_shard(command):
-    """One shard, in a process of its own; its last line."""
-    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
+    """One shard, in a process of its own; its last line. It ends with its worker: two must not write one file."""
+    def die_with_worker():
+        ctypes.CDLL(None).prctl(DIE_WITH_PARENT, signal.SIGKILL)
+
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True,
+                          preexec_fn=die_with_worker)
     if done.returncode not in (0, NONE_PREDICTED):
         raise RuntimeError(done.stderr.strip() or "stiction_batch ended with status %d" % done.returncode)
     return done.stdout.strip()
+
+
+def positive(text):
+    if not text.isdigit() or int(text) < 1:
+        raise argparse.ArgumentTypeError("'%s' is not allowed, must be a whole number > 0" % text)
+    return int(text)
 
 
 def main():
@@ -30,12 +44,12 @@ def main():
     parser.add_argument("inputs", nargs="+", metavar="BAG|SCAN")
     parser.add_argument("-o", "--output", required=True, metavar="ROWS.csv|ROWS.jsonl")
     parser.add_argument("-c", "--config", metavar="FILE.yaml")
-    parser.add_argument("--workers", type=int, default=2, help="on this machine (2)")
+    parser.add_argument("--workers", type=positive, default=2, help="on this machine (2)")
     parser.add_argument("--scheduler", metavar="HOST:PORT", help="of a cluster that runs already")
-    parser.add_argument("--shards", type=int, default=0, help="four for each worker if not given")
+    parser.add_argument("--shards", type=positive, help="four for each worker if not given")
     arguments = parser.parse_args()
 
-    from distributed import Client, LocalCluster, as_completed
+    from distributed import Client, KilledWorker, LocalCluster, as_completed
 
     output = pathlib.Path(os.path.abspath(arguments.output))
     count = arguments.shards or 4 * arguments.workers
@@ -56,7 +70,7 @@ def main():
             for done, future in enumerate(as_completed(futures), 1):
                 future.result()
                 print("%d of %d shards" % (done, count), file=sys.stderr, flush=True)
-    except RuntimeError as error:
+    except (KilledWorker, OSError, RuntimeError) as error:
         print("batch_dask: %s" % error, file=sys.stderr)
         return 2
     finally:

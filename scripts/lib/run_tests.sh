@@ -12,10 +12,10 @@ hasRapidCheck() { grep -qx 'MEMS_STICTION_HAS_RAPIDCHECK:INTERNAL=ON' "$build_fo
 listGoogleTests() {
   local name
   google_tests=("$repository"/test/core/*/*_test.cpp "$repository"/test/verification/*_test.cpp)
-  for name in configuration gwy prediction sidecar text; do google_tests+=("$repository/test/fuzz/${name}_fuzz.cpp"); done
+  for name in configuration gwy prediction resume sidecar text; do google_tests+=("$repository/test/fuzz/${name}_fuzz.cpp"); done
   if hasRapidCheck; then google_tests+=("$repository"/test/property/*_test.cpp); fi
   if [ "$with_ros" = ON ]; then
-    google_tests+=("$repository"/test/ros/*_test.cpp "$repository"/test/fuzz/{bag,image,resume}_fuzz.cpp)
+    google_tests+=("$repository"/test/ros/*_test.cpp "$repository"/test/fuzz/{bag,image}_fuzz.cpp)
   fi
 }
 

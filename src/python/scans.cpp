@@ -18,7 +18,6 @@
 #include "mems_stiction/scan/convergence.hpp"
 #include "mems_stiction/scan/plausibility.hpp"
 #include "mems_stiction/scan/prepared_scan.hpp"
-#include "mems_stiction/scan/scan_state.hpp"
 #include "mems_stiction/surface/counter_surface.hpp"
 #include "preprocess_steps.hpp"
 #include "without_lock.hpp"
@@ -66,17 +65,6 @@ py::list channelsOf(const std::string& path, const Configuration& configuration)
     list.append(entry);
   }
   return list;
-}
-
-py::dict stateOf(const std::string& path, const std::string& settings_file_checksum) {
-  ScanState state;
-  {
-    const WithoutLock unlocked;
-    state = scanState(path, true, settings_file_checksum);
-  }
-  py::dict fields;
-  visitScanStateFields(state, [&](const char* name, const auto& value, const char*) { fields[name] = value; });
-  return fields;
 }
 
 py::tuple cleaned(const HeightMap& scan, const Configuration& configuration) {
@@ -142,8 +130,6 @@ void bindScans(py::module& module) {
   module.def("prepare", &prepared);
   module.def("scan_warnings", &scanWarnings, py::call_guard<WithoutLock>());
   module.def("read", &readScan);
-  module.def("scan_state", &stateOf);
-  module.def("settings_file_checksum", &settingsFilesChecksum, py::call_guard<WithoutLock>());
   module.def("channels", &channelsOf);
   module.def("clean", &cleaned);
   module.def("roughness", &roughnessOf);

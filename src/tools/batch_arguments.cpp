@@ -6,13 +6,15 @@
 #include "command_line.hpp"
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/input_file.hpp"
-#include "mems_stiction/import/scan_file.hpp"
+#include "mems_stiction/import/waiting_gwyddion.hpp"
 #include "mems_stiction/scan/configuration_yaml.hpp"
 
 namespace mems_stiction {
 namespace {
 
 constexpr InputKind kInputList = {"a list of inputs", 100'000'000, true};
+
+constexpr unsigned kMostWorkers = 1024;
 
 }  // namespace
 
@@ -36,6 +38,10 @@ void describe(CLI::App& app, BatchArguments& arguments) {
   app.add_option("-s,--shard", arguments.shard, "part I of N parts of about the same number of scans")
       ->type_name("I/N")
       ->capture_default_str();
+  app.add_option("--workers", arguments.workers, "scans that are predicted side by side, each on a thread")
+      ->type_name("N")
+      ->check(CLI::Range(1U, kMostWorkers))
+      ->capture_default_str();
   app.add_flag("-m,--merge", arguments.merge,
                "INPUTs are the rows of all shards: joins them to what one run writes, byte for byte");
   app.add_option("--parts", arguments.parts,
@@ -58,6 +64,14 @@ void describe(CLI::App& app, BatchArguments& arguments) {
       "could be predicted, 2 bad input.\n\n"
       "Example: stiction_batch --config device.yaml --shard 1/2 -o part1.csv 2026-*.bag   # and 2/2 elsewhere\n"
       "         stiction_batch --merge -o all.csv part1.csv part2.csv");
+}
+
+ScanFileOptions fileOptions(const BatchArguments& arguments) {
+  ScanFileOptions options;
+  options.import.use_cache = !arguments.no_cache;
+  options.import.ignore_mask = arguments.ignore_mask;
+  options.import.waiting = std::make_shared<WaitingGwyddions>(options.import.program);
+  return options;
 }
 
 Shard shardOf(const std::string& text) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "mems_stiction/import/scan_file.hpp"
 #include "mems_stiction/scan/configuration.hpp"
 
 namespace mems_stiction {
@@ -22,6 +23,7 @@ struct BatchArguments {
   std::string dump;
   std::string topic = "height";
   std::string input_list;
+  unsigned workers = 1;
   bool half_space = false;
   bool merge = false;
   bool no_cache = false;
@@ -39,6 +41,9 @@ struct Shard {
 
 /// @throw OptionsError
 Shard shardOf(const std::string& text);
+
+/// How files are read.
+ScanFileOptions fileOptions(const BatchArguments& arguments);
 
 /// INPUTs of the command line and of its list. @throw FileError, OptionsError
 std::vector<std::string> inputsOf(const BatchArguments& arguments);

@@ -1,32 +1,28 @@
 #pragma once
 
-/// The scans of all inputs of a batch, and the row of each.
+/// The scans of all inputs of a batch.
 
-#include <functional>
+#include <cstddef>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "bag_scans.hpp"
 #include "batch_arguments.hpp"
-#include "batch_rows.hpp"
-#include "half_space_row.hpp"
-#include "mems_stiction/half_space/half_space_solver.hpp"
-#include "mems_stiction/scan/scan_predictor.hpp"
-#include "row_states.hpp"
-#include "scan_bag_reader.hpp"
-#include "scan_row.hpp"
-#include "scans_ahead.hpp"
+#include "mems_stiction/scan/configuration.hpp"
+#include "mems_stiction/scan/scan_state.hpp"
 
 namespace mems_stiction {
 
-/// One row, and what it lacks.
-struct BatchRow {
-  RowFields fields;
-  std::string reason;  ///< why it is not predicted; empty if it is
-  bool is_predicted = false;
-  bool is_solved = false;  ///< by the half-space
+/// A scan on its way to its row. Of a file it is the path alone: whoever makes the row reads it.
+struct BatchScan {
+  std::size_t number = 0;
+  std::string input;      ///< as the user wrote it
+  std::size_t place = 0;  ///< in its bag, from 1; 0: a file, or a bag as a whole
+  std::string reason;     ///< why there is nothing to predict; else empty
+  BagScan of_bag;
+  ScanState state;  ///< of a bag
 };
 
 /// Numbers the scans from 1, in the order of the inputs.
@@ -36,62 +32,38 @@ class BatchScans {
   BatchScans(const BatchArguments& arguments, std::vector<std::string> inputs, const Configuration& configuration);
 
   std::size_t size() const { return items_.size(); }
-  std::vector<std::string> columns() const;
-  std::map<std::string, std::string> units() const;
-
-  /// What has changed in the files of a scan since this row of it was written, in words; empty if nothing has.
-  /// @throw FileError without a file name for a row that does not say what it is of
-  std::string changeSince(const RowTexts& row, std::size_t number) const;
-
-  /// Which rows will be asked for, in this order: their files are read ahead.
-  void expect(const std::vector<std::size_t>& numbers);
-
+  const std::vector<std::string>& inputs() const { return inputs_; }
   /// Of a number, as the user wrote it.
   const std::string& file(std::size_t number) const { return inputs_[items_[number - 1].input]; }
+  /// settingsFilesChecksum() before the files are read.
+  const std::string& settingsFileChecksum() const { return settings_file_checksum_; }
 
-  /// Predicts a scan; what is wrong with it is in its row. Writes its folder if arguments.dump says so.
-  /// @param number from 1 to size()
-  /// @param tell what the half-space is at, again and again while it is solved
-  /// @throw FileError if the folder cannot be written
-  BatchRow row(std::size_t number, const std::function<void(const std::string&)>& tell);
+  /// The state of the files of a scan now; of a bag, when it was looked into.
+  ScanState state(std::size_t number) const;
+  /// Which of these are files, in this order.
+  std::vector<std::string> files(const std::vector<std::size_t>& numbers) const;
+  /// Takes a scan out of its bag; what is wrong with it is its reason.
+  BatchScan read(std::size_t number);
 
  private:
   /// One row to come.
   struct Item {
     std::size_t input = 0;  ///< place in the list of inputs
-    std::size_t scan = 0;   ///< of the bag, from 1; 0: a file, or a bag as a whole
-    std::string reason;     ///< why there is nothing to predict; else empty
+    std::size_t scan = 0;   ///< as BatchScan::place
+    std::string reason;
   };
 
-  /// What a row says of a scan beside its figures.
-  struct Subject {
-    std::vector<std::string> warnings;
-    ScanIdentity identity;
-  };
-
-  bool hasDevice() const { return configuration_.device.isStated(); }
   void list(std::size_t input);
-  const ScanBagReader& open(std::size_t input);
-  Subject predict(const Item& item, ScanOrigin& origin, ScanState& state);
-  HalfSpaceAnswer solve(const std::function<void(const std::string&)>& tell) const;
-  /// On the device, if it is stated; by the half-space, if it was asked and can.
-  std::optional<Verdict> judge(const HalfSpaceAnswer& half_space) const;
-  void dump(std::size_t number, RowFields fields, const std::optional<SolvedHalfSpace>& half_space) const;
+  const BagScans& open(std::size_t input);
 
   const BatchArguments& arguments_;
   std::vector<std::string> inputs_;
   const Configuration& configuration_;
-  std::string settings_file_checksum_;           ///< before the files are read
+  std::string settings_file_checksum_;
   std::map<std::size_t, ScanState> bag_states_;  ///< by the places of the inputs, before the bags are read
-  ScanPredictor predictor_;
-  HalfSpaceSolver half_space_;
-  ScansAhead ahead_;
   std::vector<Item> items_;
-  std::unique_ptr<ScanBagReader> bag_;  ///< the one that was opened last
+  std::unique_ptr<BagScans> bag_;  ///< the one that was opened last
   std::size_t bag_input_ = 0;
-  HeightMap surface_;      ///< as it was read
-  PreparedScan prepared_;  ///< and what belongs to it, for the full result
-  Prediction prediction_;
 };
 
 }  // namespace mems_stiction

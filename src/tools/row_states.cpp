@@ -71,7 +71,12 @@ std::string changeSince(const RowTexts& row, const ScanState& now) {
   return "";
 }
 
-void requireOneState(const std::vector<std::string>& shards) {
+bool isGone(const RowTexts& row, const ScanState& now) {
+  return now.file.checksum.empty() && !textOf(row, kChecksum).empty();
+}
+
+std::vector<std::string> requireOneState(const std::vector<std::string>& shards) {
+  std::vector<std::string> gone;
   std::map<std::string, Seen> files;
   std::map<std::string, Seen> settings_files;
   for (const std::string& shard : shards) {
@@ -85,12 +90,15 @@ void requireOneState(const std::vector<std::string>& shards) {
       const bool is_new = files.count(file) == 0;
       requireSame(files, file, {shard, number, textOf(row, kChecksum) + sidecar}, file);
       if (!is_new) continue;
-      const std::string change = changeSince(row, scanState(file, textOf(row, "scan").empty(), of_settings));
+      const ScanState now = scanState(file, textOf(row, "scan").empty(), of_settings);
+      if (isGone(row, now)) gone.push_back(file);
+      const std::string change = changeSince(row, now);
       if (change.empty()) continue;
       throw FileError(shard + ": " + file + " has changed since its row " + number + " was written (" + change +
                       "): run this shard again, it predicts anew what has changed");
     }
   }
+  return gone;
 }
 
 }  // namespace mems_stiction

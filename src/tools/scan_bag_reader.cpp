@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <limits>
 #include <set>
+#include <sstream>
 #include <vector>
 
 #include <ros/serialization.h>
@@ -196,7 +197,10 @@ ReceivedScan ScanBagReader::pair(const rosbag::MessageInstance& message, const M
 
 BagScan ScanBagReader::read(std::size_t index, bool with_counter_surface) const {
   const rosbag::MessageInstance& message = heights_.at(index);
-  BagScan result{pair(message, infos_), std::nullopt};
+  const ReceivedScan scan = pair(message, infos_);
+  std::ostringstream stamp;
+  stamp << scan.header.stamp;
+  BagScan result{scan.surface, {}, scan.identity, scan.header.frame_id, stamp.str()};
   if (!with_counter_surface) return result;
   const auto after = std::upper_bound(
       counter_heights_.begin(), counter_heights_.end(), message.getTime(),
@@ -204,8 +208,13 @@ BagScan ScanBagReader::read(std::size_t index, bool with_counter_surface) const 
   if (after == counter_heights_.begin()) {
     throw SurfaceError("no counter-surface was recorded before the scan (counter_surface/type is topic)");
   }
-  result.counter_surface = pair(*(after - 1), counter_infos_);
+  result.counter_surface = pair(*(after - 1), counter_infos_).surface;
   return result;
+}
+
+std::unique_ptr<BagScans> openBag(const std::string& path, const std::string& height_topic,
+                                  const ScanOptions& parameters) {
+  return std::make_unique<ScanBagReader>(path, height_topic, parameters);
 }
 
 }  // namespace mems_stiction

@@ -4,42 +4,34 @@
 
 #include <cstddef>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 
+#include "bag_scans.hpp"
 #include "mems_stiction/base/private_folder.hpp"
-#include "mems_stiction/height_map/height_map.hpp"
 #include "mems_stiction/height_map/raw_scan.hpp"
 #include "mems_stiction/ros/image_conversion.hpp"
 
 namespace mems_stiction {
 
-struct BagScan {
-  ReceivedScan scan;
-  std::optional<ReceivedScan> counter_surface;  ///< the latest one recorded before the scan, if the bag has any
-};
-
 /// A bag that was cut off (a recorder that was killed) has lost its index: it is read from a copy that `rosbag reindex`
 /// mends in a folder for temporary files, and wasCutOff() says so.
-class ScanBagReader {
+class ScanBagReader : public BagScans {
  public:
   /// @param height_topic with or without the leading slash; scan_info, counter_height and counter_scan_info are looked
   ///        for in its namespace.
   /// @throw FileError naming the bag if it cannot be opened or has no such topic.
   ScanBagReader(const std::string& path, const std::string& height_topic, const ScanOptions& parameters);
 
-  std::size_t count() const { return heights_.size(); }
-  bool wasCutOff() const { return mended_folder_ != nullptr; }
+  std::size_t count() const override { return heights_.size(); }
+  bool wasCutOff() const override { return mended_folder_ != nullptr; }
 
   /// A scan without a scan_info of its stamp is refused, unless the bag has no scan_info at all: then the parameters
   /// serve for every scan.
-  /// @param index from 0, in the order of recording
-  /// @throw std::exception with the reason if the scan cannot be used
-  BagScan read(std::size_t index, bool with_counter_surface) const;
+  BagScan read(std::size_t index, bool with_counter_surface) const override;
 
  private:
   using Messages = std::vector<rosbag::MessageInstance>;

@@ -5,6 +5,13 @@
 
 namespace mems_stiction {
 
+ScansAhead::ScansAhead(const ScanOptions& scan, const ScanFileOptions& options, std::string settings_file_checksum,
+                       unsigned takers)
+    : scan_(scan),
+      options_(options),
+      settings_file_checksum_(std::move(settings_file_checksum)),
+      at_a_time_(std::max({1u, std::thread::hardware_concurrency(), takers}) + 1) {}
+
 void ScansAhead::expect(std::vector<std::string> paths) {
   paths_ = std::move(paths);
   started_ = 0;
@@ -23,17 +30,25 @@ ScanAhead ScansAhead::read(const std::string& path) const {
 }
 
 ScanAhead ScansAhead::take(const std::string& path) {
-  if (reading_.empty() || reading_.front().first != path) return read(path);
-  std::future<ScanAhead> next = std::move(reading_.front().second);
-  reading_.pop_front();
+  std::future<ScanAhead> next;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const auto found =
+        std::find_if(reading_.begin(), reading_.end(), [&](const auto& reading) { return reading.first == path; });
+    if (found != reading_.end()) {
+      next = std::move(found->second);
+      reading_.erase(found);
+    }
+  }
+  if (!next.valid()) return read(path);
   next.wait();
+  const std::lock_guard<std::mutex> lock(mutex_);
   startMore();
   return next.get();
 }
 
 void ScansAhead::startMore() {
-  const std::size_t at_a_time = std::max(1u, std::thread::hardware_concurrency()) + 1;
-  for (; started_ < paths_.size() && reading_.size() < at_a_time; ++started_) {
+  for (; started_ < paths_.size() && reading_.size() < at_a_time_; ++started_) {
     const std::string& path = paths_[started_];
     reading_.emplace_back(path, std::async(std::launch::async, [this, &path] { return read(path); }));
   }

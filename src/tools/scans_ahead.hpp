@@ -5,6 +5,7 @@
 #include <deque>
 #include <exception>
 #include <future>
+#include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,17 +22,19 @@ struct ScanAhead {
   std::exception_ptr failure;  ///< what openScanFile() has thrown; else null
 };
 
-/// The files of a batch in their order, each read once; as many at a time as there are processors.
+/// The files of a batch in their order, each read once; as many at a time as there are processors, or takers. Any number of threads
+/// may take them.
 class ScansAhead {
  public:
   /// - @p settings_file_checksum goes into the state of each scan
-  ScansAhead(const ScanOptions& scan, const ScanFileOptions& options, std::string settings_file_checksum)
-      : scan_(scan), options_(options), settings_file_checksum_(std::move(settings_file_checksum)) {}
+  /// - @p takers threads that will take files
+  ScansAhead(const ScanOptions& scan, const ScanFileOptions& options, std::string settings_file_checksum,
+             unsigned takers);
 
   /// The files that will be taken, in this order.
   void expect(std::vector<std::string> paths);
 
-  /// The next of the expected files, or any other.
+  /// One of the expected files, or any other.
   ScanAhead take(const std::string& path);
 
  private:
@@ -41,6 +44,8 @@ class ScansAhead {
   ScanOptions scan_;
   ScanFileOptions options_;
   std::string settings_file_checksum_;
+  std::size_t at_a_time_;
+  std::mutex mutex_;
   std::vector<std::string> paths_;
   std::size_t started_ = 0;
   std::deque<std::pair<std::string, std::future<ScanAhead>>> reading_;

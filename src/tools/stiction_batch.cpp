@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <opencv2/core/utils/logger.hpp>
@@ -20,6 +21,7 @@
 #include "mems_stiction/scan/plausibility.hpp"
 #include "part_rows.hpp"
 #include "progress_bar.hpp"
+#include "row_queue.hpp"
 #include "row_states.hpp"
 
 namespace {
@@ -54,15 +56,46 @@ void pool(const BatchArguments& arguments) {
   std::cout << oneLine(arguments.parts) << ": " << count << " parts\n";
 }
 
-/// Places of the rows whose files have changed since; says which.
+/// Complains of the first of many things in full, and of how many more there are.
+class Complaints {
+ public:
+  /// @param rest "more rows are of files that ..."
+  explicit Complaints(std::string rest) : rest_(std::move(rest)) {}
+  ~Complaints() {
+    if (count_ > kMostNamed) complain("stiction_batch", std::to_string(count_ - kMostNamed) + " " + rest_);
+  }
+  Complaints(const Complaints&) = delete;
+  Complaints& operator=(const Complaints&) = delete;
+
+  void add(const std::string& what) {
+    if (++count_ <= kMostNamed) complain("stiction_batch", what);
+  }
+
+ private:
+  std::string rest_;
+  std::size_t count_ = 0;
+};
+
+constexpr const char* kMoreGone = "more rows are of files that are no longer there";
+
+/// Places of the rows whose files have changed since; says which, and which files are gone.
 std::vector<std::size_t> changedRows(const RowFile& rows, RowFormat format, const BatchArguments& arguments,
-                                     const BatchScans& scans, const std::vector<std::size_t>& numbers) {
+                                     const std::vector<std::string>& columns, const BatchScans& scans,
+                                     const std::vector<std::size_t>& numbers) {
   std::vector<std::size_t> changed;
-  const std::vector<std::string> columns = scans.columns();
+  Complaints of_changed("more rows are of files that have changed");
+  Complaints of_gone(kMoreGone);
   for (std::size_t place = 0; place < rows.kept().size(); ++place) {
+    const std::size_t number = numbers[place];
     std::string change;
     try {
-      change = scans.changeSince(rowTextsOf(rows.kept()[place], format, columns), numbers[place]);
+      const RowTexts row = rowTextsOf(rows.kept()[place], format, columns);
+      const ScanState now = scans.state(number);
+      change = changeSince(row, now);
+      if (isGone(row, now)) {
+        of_gone.add(scans.file(number) + ": is no longer there; its row " + std::to_string(number) +
+                    " stays as it was");
+      }
     } catch (const FileError& error) {
       throw FileError(arguments.output + ": " + error.what());
     } catch (const nlohmann::json::exception&) {
@@ -70,14 +103,8 @@ std::vector<std::size_t> changedRows(const RowFile& rows, RowFormat format, cons
     }
     if (change.empty()) continue;
     changed.push_back(place);
-    if (changed.size() <= kMostNamed) {
-      complain("stiction_batch", scans.file(numbers[place]) + ": has changed since its row " +
-                                     std::to_string(numbers[place]) + " was written, predicted again: " + change);
-    }
-  }
-  if (changed.size() > kMostNamed) {
-    complain("stiction_batch",
-             std::to_string(changed.size() - kMostNamed) + " more rows are of files that have changed");
+    of_changed.add(scans.file(number) + ": has changed since its row " + std::to_string(number) +
+                   " was written, predicted again: " + change);
   }
   return changed;
 }
@@ -101,20 +128,23 @@ int run(const BatchArguments& arguments) {
   output = wanted;
 
   BatchScans scans(arguments, inputs, configuration);
-  const std::vector<std::string> columns = scans.columns();
-  checkSettings(arguments.output, settingsText(scans.size(), inputs, arguments, scans.units(), stated));
+  RowQueue queue(arguments, configuration, scans);
+  const bool has_device = configuration.device.isStated();
+  const std::vector<std::string> columns = batchColumns(has_device, arguments.half_space);
+  checkSettings(arguments.output,
+                settingsText(scans.size(), inputs, arguments, batchUnits(has_device, arguments.half_space), stated));
   std::vector<std::size_t> numbers;
   for (std::size_t number = shard.index; number <= scans.size(); number += shard.count) numbers.push_back(number);
 
   RowFile rows(arguments.output, format, headingText(format, columns), numbers);
-  const std::vector<std::size_t> changed = changedRows(rows, format, arguments, scans, numbers);
+  const std::vector<std::size_t> changed = changedRows(rows, format, arguments, columns, scans, numbers);
   const std::size_t before = rows.done() - changed.size();
   std::vector<std::size_t> wanted_numbers;
   wanted_numbers.reserve(numbers.size());
   for (const std::size_t place : changed) wanted_numbers.push_back(numbers[place]);
   wanted_numbers.insert(wanted_numbers.end(), numbers.begin() + static_cast<std::ptrdiff_t>(rows.done()),
                         numbers.end());
-  scans.expect(wanted_numbers);
+  queue.expect(wanted_numbers);
   std::size_t failed_count = 0;
   std::size_t unsolved_count = 0;
   std::string first_reason;
@@ -124,7 +154,7 @@ int run(const BatchArguments& arguments) {
     const auto show = [&](const std::string& doing) { progress.show(before + made, failed_count, doing); };
     for (; made < wanted_numbers.size(); ++made) {
       show("");
-      const BatchRow row = scans.row(wanted_numbers[made], show);
+      const BatchRow row = queue.next(show);
       const std::string line = rowText(row.fields, format, columns);
       if (made == changed.size()) rows.settle();
       if (made < changed.size()) {
@@ -168,7 +198,11 @@ int merge(const BatchArguments& arguments) {
     }
   }
   const std::size_t total = totalOf(shards.front(), settings);
-  requireOneState(shards);
+  {
+    Complaints of_gone(kMoreGone);
+    for (const std::string& file : requireOneState(shards))
+      of_gone.add(file + ": is no longer there; its rows stay as they were");
+  }
   mergeRows(shards, arguments.output, total);
   writeFile(settingsPathOf(arguments.output), settings);
   std::cout << oneLine(arguments.output) << ": " << total << " rows of " << shards.size() << " shards\n";

@@ -17,7 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (std::size_t scan = 0; scan < reader.count(); ++scan) {
       fuzzing::accepted([&] {
         const BagScan read = reader.read(scan, true);
-        fuzzing::require(read.scan.surface.rows() > 0, "a scan has rows");
+        fuzzing::require(read.surface.rows() > 0, "a scan has rows");
       });
     }
   });

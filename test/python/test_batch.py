@@ -159,7 +159,9 @@ class BatchTest(unittest.TestCase):
             kept = (self.folder / ("fresh." + kind)).read_text().splitlines()
             self.assertEqual(after[:first + 2] + after[first + 3:], kept[:first + 2] + kept[first + 3:])  # but the time of the touched one
             os.remove(str(scans[0]))
-            self.assertEqual(self.predict(rows, inputs=scans).stderr, "")  # its row is all that is left of it
+            self.assertEqual(self.predict(rows, inputs=scans).stderr,
+                             "stiction_batch: %s: is no longer there; its row 1 stays as it was\n" % scans[0])
+            self.assertEqual((self.folder / rows).read_text().splitlines(), after)
 
     def test_a_bag_that_was_recorded_anew_is_predicted_again(self):
         self.make_bag(self.folder / "day.bag", "--count", 3)
@@ -197,7 +199,8 @@ class BatchTest(unittest.TestCase):
         self.assertEqual(done.returncode, 2)
         self.assertIn("shard2.jsonl: %s has changed since its row 2 was written" % scans[1], done.stderr)
         os.remove(str(scans[1]))
-        self.assertEqual(run(merge).returncode, 0)
+        done = run(merge)
+        self.assertEqual((done.returncode, done.stderr), (0, "stiction_batch: %s: is no longer there; its rows stay as they were\n" % scans[1]))
 
     def test_killed_while_it_predicts_again_no_row_is_lost(self):
         scans = [self.scan("%d.txt" % number, number) for number in range(40)]

@@ -1,5 +1,5 @@
-"""Archives through the Python module: rows are those of predict_scan, links keep their sidecars, interruptions and workers that
-die cost nothing."""
+"""Archives where Python is: python3 -m mems_stiction.archive is stiction_batch, links keep their sidecars, interruptions and
+workers that die cost nothing."""
 
 import json
 import os
@@ -12,6 +12,7 @@ import time
 import unittest
 
 import numpy as np
+from mems_stiction import archive
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 from module_cases import REPOSITORY, program, rough  # noqa: E402  (the path comes first)
@@ -30,6 +31,11 @@ def rows_in(path):
     return [json.loads(line) for line in path.read_text().splitlines()]
 
 
+def with_program():
+    """The environment in which the examples find the program."""
+    return dict(os.environ, PATH=str(pathlib.Path(archive.program()).parent) + os.pathsep + os.environ["PATH"])
+
+
 class ArchiveTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -41,10 +47,10 @@ class ArchiveTest(unittest.TestCase):
         (cls.folder / "part.yaml").write_text(CONFIG)
         cls.scans = []
         for number in range(COUNT):
-            kept = cls.folder / "store" / ("%x.npy" % (7919 * (number + 1)))
-            np.save(str(kept), rough(96, 96, 4e-9, number + 1))
+            stored = cls.folder / "store" / ("%x.npy" % (7919 * (number + 1)))
+            np.save(str(stored), rough(96, 96, 4e-9, number + 1))
             link = cls.folder / "links" / ("scan_%02d.npy" % number)
-            link.symlink_to(kept)
+            link.symlink_to(stored)
             (link.parent / (link.name + ".yaml")).write_text("pitch_x: 20.0e-9\npitch_y: 20.0e-9\n")
             cls.scans.append(link)
         (cls.folder / "links" / "broken.npy").write_text("no array")
@@ -75,71 +81,65 @@ class ArchiveTest(unittest.TestCase):
             self.assertEqual({name: row[name] for name in common}, {name: record[name] for name in common})
             self.assertEqual((row["verdict_reason"], row["warnings"]), (record["reason"], "; ".join(record["warnings"])))
 
-    def test_a_row_is_not_kept_for_a_file_that_was_measured_anew(self):
-        scans = [self.folder / ("anew_%d.npy" % number) for number in range(3)]
-        for number, scan in enumerate(scans):
-            np.save(str(scan), rough(64, 64, 4e-9, number))
-            (scan.parent / (scan.name + ".yaml")).write_text("pitch_x: 20.0e-9\npitch_y: 20.0e-9\n")
-        path = self.folder / "anew.jsonl"
-        self.assertEqual(self.archive("-o", path, *scans).returncode, 0)
-        before = rows_in(path)
-        status = os.stat(str(scans[1]))
-        np.save(str(scans[1]), rough(64, 64, 4e-9, 77))  # of the same size and time
-        os.utime(str(scans[1]), ns=(status.st_atime_ns, status.st_mtime_ns))
-        (self.folder / (scans[2].name + ".yaml")).write_text("pitch_x: 30.0e-9\npitch_y: 30.0e-9\n")
-        done = self.archive("-o", path, *scans)
-        self.assertIn("%s: has changed since its row 2 was written, predicted again: file_checksum" % scans[1], done.stderr)
-        self.assertIn("%s: has changed since its row 3 was written, predicted again: sidecar_checksum" % scans[2], done.stderr)
-        after = rows_in(path)
-        self.assertEqual([old == new for old, new in zip(before, after)], [True, False, False])
-        self.archive("-o", self.folder / "anew_fresh.jsonl", *scans)
-        self.assertEqual(after, rows_in(self.folder / "anew_fresh.jsonl"))
-        os.remove(str(scans[0]))
-        self.assertEqual(self.archive("-o", path, *scans).stderr, "")  # its row is all that is left of it
-        row = rows_in(path)[0]
-        del row["file_checksum"]
-        path.write_text(json.dumps(row) + "\n")
-        done = self.archive("-o", path, *scans)
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("does not say which state of its file it is of", done.stderr)
-
-    def test_a_call_goes_on_behind_half_a_line(self):
+    def test_several_workers_go_on_behind_half_a_line_and_write_the_rows_of_one(self):
         path = self.folder / "torn.jsonl"
-        self.archive("-o", path, *self.scans)
-        text = path.read_text()
-        path.write_text(text[:len(text) // 2])
-        done = self.archive("-o", path, "--workers", 2, "--inputs-from", self.folder / "scans.txt")
+        path.write_text(self.expected.read_text()[:self.expected.stat().st_size // 2])
+        settings = ".settings.yaml"
+        (self.folder / ("torn.jsonl" + settings)).write_text((self.folder / ("expected.jsonl" + settings)).read_text())
+        done = self.archive("-o", path, "--workers", 5, "--inputs-from", self.folder / "scans.txt")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(path.read_text(), self.expected.read_text())
-        self.assertIn("%d rows, 1 of them" % (COUNT + 1), done.stdout)
+        self.assertRegex(done.stdout, r"%d rows, 1\d of them from before, 0 scans failed" % (COUNT + 1))
 
-    def test_a_list_without_end_is_refused(self):
-        pipe = self.folder / "pipe.txt"
-        os.mkfifo(str(pipe))
-        hole = self.folder / "hole.txt"
-        with hole.open("wb") as stream:
-            stream.truncate(100 << 30)
-        for name, words in ((pipe, "is a pipe, a socket or a device"), ("/dev/zero", "is a pipe, a socket or a device"),
-                            (hole, "has 107374182400 bytes, more than the 100000000 of a list of scans")):
-            done = self.archive("-o", self.folder / "none.jsonl", "--inputs-from", name)
-            self.assertEqual(done.returncode, 2)
-            self.assertIn("%s: %s" % (name, words), done.stderr)
+    def test_there_is_at_least_one_worker(self):
+        for workers in ("0", "-1", "two"):
+            done = self.archive("-o", self.folder / "none.jsonl", "--workers", workers, *self.scans)
+            self.assertEqual((done.returncode, len(done.stderr.splitlines())), (2, 1), done.stderr)
+            self.assertIn("--workers", done.stderr)
 
-    def test_other_settings_or_scans_are_refused(self):
-        path = self.folder / "refused.jsonl"
-        self.archive("-o", path, *self.scans[:2])
-        for arguments, words in ((self.scans[1:3], "row 1 is of"), (["--config", os.devnull] + self.scans[:2], "other settings")):
-            done = self.archive("-o", path, *arguments)
-            self.assertEqual(done.returncode, 2)
-            self.assertIn(words, done.stderr)
+    def test_interrupted_it_ends_as_the_program_does(self):
+        slow = self.folder / "slow_one.yaml"
+        slow.write_text(CONFIG + "preprocessing: {refine: {factor: 8}}\n")
+        path = self.folder / "interrupted.jsonl"
+        process = subprocess.Popen([sys.executable, "-m", "mems_stiction.archive", "--config", str(slow), "-o", str(path)]
+                                   + [str(scan) for scan in self.scans], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                                   preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
+        deadline = time.monotonic() + 60
+        while not path.exists() or not path.stat().st_size:
+            self.assertLess(time.monotonic(), deadline)
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        self.assertEqual((process.communicate(timeout=60)[1], process.returncode), (b"", -signal.SIGINT))
+
+    def test_without_its_program_it_says_where_it_looked(self):
+        empty = self.folder / "package" / "mems_stiction"
+        empty.mkdir(parents=True)
+        for name in ("__init__.py", "archive.py"):
+            (empty / name).write_text((pathlib.Path(archive.__file__).parent / name).read_text())
+        (empty / "_core.py").write_text("")
+        done = run(sys.executable, "-m", "mems_stiction.archive", env=dict(os.environ, PYTHONPATH=str(empty.parent)))
+        self.assertEqual((done.returncode, len(done.stderr.splitlines())), (2, 1), done.stderr)
+        self.assertIn("stiction_batch is in none of its places: %s/stiction_batch" % empty, done.stderr)
 
     def test_tasks_of_an_array_have_the_rows_of_one_call(self):
         for task in (1, 2, 3):
-            done = run(EXAMPLES / "predict_array.sbatch", self.folder / "scans.txt", self.folder / "part.yaml", self.folder / "rows",
-                       env=dict(os.environ, SLURM_ARRAY_TASK_ID=str(task), SLURM_ARRAY_TASK_COUNT="3", SLURM_CPUS_PER_TASK="2"))
+            done = run(EXAMPLES / "batch_array.sbatch", self.folder / "scans.txt", self.folder / "part.yaml", self.folder / "rows",
+                       env=dict(with_program(), SLURM_ARRAY_TASK_ID=str(task), SLURM_ARRAY_TASK_COUNT="3", SLURM_CPUS_PER_TASK="2"))
             self.assertEqual(done.returncode, 0, done.stderr)
-        lines = [line for path in (self.folder / "rows").glob("*.jsonl") for line in path.read_text().splitlines()]
-        self.assertEqual(sorted(lines), sorted(self.expected.read_text().splitlines()))
+        one = self.folder / "one.csv"
+        self.assertEqual(self.archive("-o", one, *self.scans).returncode, 0)
+        joined = self.folder / "joined.csv"
+        done = run(sys.executable, "-m", "mems_stiction.archive", "--merge", "-o", joined, *(self.folder / "rows").glob("*.csv"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(joined.read_text(), one.read_text())
+
+    def test_counts_of_the_dask_example_are_above_zero(self):
+        for option in ("--workers", "--shards"):
+            for value in ("0", "-3", "many"):
+                done = run(EXAMPLES / "batch_dask.py", option, value, "-o", self.folder / "none.jsonl", *self.scans)
+                self.assertEqual(done.returncode, 2)
+                self.assertNotIn("Traceback", done.stderr)
+                self.assertIn("argument %s: '%s' is not allowed, must be a whole number > 0" % (option, value), done.stderr)
 
     def test_a_worker_that_is_killed_costs_nothing(self):
         """A real cluster: a scheduler and two workers, of which one is killed when it has work and some rows are there."""
@@ -155,7 +155,7 @@ class ArchiveTest(unittest.TestCase):
 
         def start(*command):
             processes.append(subprocess.Popen([str(part) for part in command], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                                              cwd=str(self.folder)))
+                                              cwd=str(self.folder), env=with_program()))
             return processes[-1]
 
         def wait_for(condition, what):
@@ -163,6 +163,9 @@ class ArchiveTest(unittest.TestCase):
             while not condition():
                 self.assertLess(time.monotonic(), end, what)
                 time.sleep(0.01)
+
+        def rows_so_far():
+            return sum(len(path.read_text().splitlines()) for path in self.folder.glob("dask.shard_*.jsonl"))
 
         try:
             address_file = self.folder / "scheduler.json"
@@ -175,13 +178,13 @@ class ArchiveTest(unittest.TestCase):
             with distributed.Client(address, timeout=60) as client:
                 client.wait_for_workers(2, timeout=60)
                 output = self.folder / "dask.jsonl"
-                call = subprocess.Popen([sys.executable, str(EXAMPLES / "predict_dask.py"), "--scheduler", address, "--config", str(slow),
-                                         "--part", "1", "-o", str(output)] + [str(path) for path in self.scans],
-                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
+                call = subprocess.Popen([sys.executable, str(EXAMPLES / "batch_dask.py"), "--scheduler", address, "--config", str(slow),
+                                         "--shards", "3", "-o", str(output)] + [str(path) for path in self.scans],
+                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True, env=with_program())
                 processes.append(call)
-                wait_for(lambda: output.exists() and len(output.read_text().splitlines()) >= 3, "no rows")
+                wait_for(lambda: rows_so_far() >= 3, "no rows")
                 workers[0].send_signal(signal.SIGKILL)
-                done_before = len(output.read_text().splitlines())
+                done_before = rows_so_far()
                 out, err = call.communicate(timeout=150)
                 self.assertEqual(call.returncode, 0, err)
                 self.assertLess(done_before, COUNT)
@@ -200,7 +203,8 @@ class ArchiveTest(unittest.TestCase):
         except ImportError:
             self.skipTest("distributed is not installed")
         path = self.folder / "local.jsonl"
-        done = run(EXAMPLES / "predict_dask.py", "--config", self.folder / "part.yaml", "-o", path, *self.scans)
+        done = run(sys.executable, EXAMPLES / "batch_dask.py", "--config", self.folder / "part.yaml", "-o", path, *self.scans,
+                   env=with_program())
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(path.read_text(), self.expected.read_text())
 

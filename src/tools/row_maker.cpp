@@ -1,0 +1,145 @@
+#include "row_maker.hpp"
+
+#include <exception>
+#include <filesystem>
+#include <iomanip>
+#include <sstream>
+#include <utility>
+
+#include "half_space_run.hpp"
+#include "mems_stiction/base/error_text.hpp"
+#include "mems_stiction/prediction/force_curve.hpp"
+#include "mems_stiction/scan/frame_load.hpp"
+#include "mems_stiction/scan/half_space_scan.hpp"
+#include "mems_stiction/scan/plausibility.hpp"
+
+namespace mems_stiction {
+namespace {
+
+void append(const RowFields& more, RowFields& fields) { fields.insert(fields.end(), more.begin(), more.end()); }
+
+}  // namespace
+
+std::vector<std::string> batchColumns(bool with_verdict, bool with_half_space) {
+  std::vector<std::string> names = columnNames(with_verdict);
+  if (with_half_space) {
+    for (std::string& name : halfSpaceColumnNames(with_verdict)) names.push_back(std::move(name));
+  }
+  for (auto& field : stateFields({})) names.push_back(std::move(field.first));
+  return names;
+}
+
+std::map<std::string, std::string> batchUnits(bool with_verdict, bool with_half_space) {
+  std::map<std::string, std::string> units = columnUnits(with_verdict);
+  if (with_half_space) units.merge(halfSpaceColumnUnits());
+  units.merge(stateUnits());
+  return units;
+}
+
+RowMaker::RowMaker(const BatchArguments& arguments, const Configuration& configuration, ScansAhead& ahead)
+    : arguments_(arguments),
+      configuration_(configuration),
+      predictor_(configuration),
+      half_space_(configuration.half_space),
+      ahead_(ahead) {}
+
+BatchRow RowMaker::row(const BatchScan& scan, const std::function<void(const std::string&)>& tell) {
+  ScanOrigin origin;
+  origin.number = scan.number;
+  origin.file = scan.input;
+  origin.scan = scan.place;
+  std::string reason = scan.reason;
+  Subject subject;
+  ScanState state = scan.state;
+  if (reason.empty()) {
+    try {
+      subject = predict(scan, origin, state);
+    } catch (const std::exception& error) {
+      reason = reasonOf(error);
+    }
+  }
+  BatchRow row;
+  row.is_predicted = reason.empty();
+  row.reason = reason;
+  row.fields = originFields(origin, reason);
+  if (!row.is_predicted) {
+    append(stateFields(state), row.fields);
+    return row;
+  }
+  HalfSpaceAnswer half_space;
+  if (arguments_.half_space) {
+    half_space = solve(tell);
+    row.is_solved = half_space.reason.empty();
+  }
+  const std::optional<Verdict> verdict = judge(half_space);
+  append(figureFields(surface_, subject.warnings, prediction_, verdict, configuration_.model.formulation,
+                      provenanceOf(subject.identity, configuration_)),
+         row.fields);
+  if (arguments_.half_space) append(halfSpaceFields(half_space, verdict), row.fields);
+  append(stateFields(state), row.fields);
+  if (!arguments_.dump.empty()) dump(scan.number, row.fields, half_space.solution);
+  return row;
+}
+
+RowMaker::Subject RowMaker::predict(const BatchScan& scan, ScanOrigin& origin, ScanState& state) {
+  Subject subject;
+  if (scan.place == 0) {
+    subject.identity.scan_name = std::filesystem::path(scan.input).stem().string();
+    const ScanAhead ahead = ahead_.take(scan.input);
+    state = ahead.state;
+    if (ahead.failure) std::rethrow_exception(ahead.failure);
+    surface_ = ahead.scan.surface;
+    subject.warnings = ahead.scan.notes;
+    origin.channel = ahead.scan.channel;
+  } else {
+    surface_ = scan.of_bag.surface;
+    origin.name = scan.of_bag.frame_id;
+    origin.stamp = scan.of_bag.stamp;
+    subject.identity = scan.of_bag.identity;
+  }
+  predictor_.preparer().setMeasuredCounterSurface(scan.of_bag.counter_surface);
+  prepared_ = predictor_.preparer().prepare(surface_);
+  prediction_ = predictor_.predict(prepared_);
+  for (std::string& line : predictionWarnings(prepared_, configuration_, prediction_, configuration_.model)) {
+    subject.warnings.push_back(std::move(line));
+  }
+  return subject;
+}
+
+std::optional<Verdict> RowMaker::judge(const HalfSpaceAnswer& half_space) const {
+  if (!hasDevice()) return std::nullopt;
+  const SolvedHalfSpace unsolved = unsolvedHalfSpace(half_space.reason);
+  Evidence evidence;
+  if (arguments_.half_space) evidence.half_space = half_space.solution ? &*half_space.solution : &unsolved;
+  return verdictOf(prediction_, configuration_.device, configuration_.uncertainty, configuration_.model,
+                   surface_.cellArea(), evidence);
+}
+
+HalfSpaceAnswer RowMaker::solve(const std::function<void(const std::string&)>& tell) const {
+  HalfSpaceAnswer answer;
+  try {
+    HalfSpaceText text;
+    HalfSpaceControl control;
+    control.on_state = [&](const ForcePoint& point) { tell(text.next(point)); };
+    answer.solution = half_space_.solve(
+        halfSpaceProblem(prepared_, onFrame(configuration_.model, configuration_.device, prepared_.surfaces)), control);
+    if (answer.solution->status != HalfSpaceStatus::kSolved) answer.reason = answer.solution->message;
+  } catch (const std::exception& error) {
+    answer.reason = reasonOf(error);
+  }
+  return answer;
+}
+
+void RowMaker::dump(std::size_t number, RowFields fields, const std::optional<SolvedHalfSpace>& half_space) const {
+  std::ostringstream folder;
+  folder << arguments_.dump << "/" << std::setw(6) << std::setfill('0') << number;
+  NamedMaps maps;
+  if (half_space) {
+    append(halfSpaceExtras(*half_space), fields);
+    maps = halfSpaceMaps(*half_space);
+  }
+  writeFullResult(folder.str(), fields, prepared_.surfaces.lower, prediction_,
+                  curveOf(prediction_, configuration_.model.interface), maps);
+}
+
+}  // namespace mems_stiction
