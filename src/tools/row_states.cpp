@@ -91,7 +91,7 @@ std::vector<std::string> requireOneState(const std::vector<std::string>& shards)
       requireSame(files, file, {shard, number, textOf(row, kChecksum) + sidecar}, file);
       if (!is_new) continue;
       const ScanState now = scanState(file, textOf(row, "scan").empty(), of_settings);
-      if (isGone(row, now)) gone.push_back(file);
+      if (isGone(row, now)) gone.push_back(file + ": is no longer there; its rows stay as they were");
       const std::string change = changeSince(row, now);
       if (change.empty()) continue;
       throw FileError(shard + ": " + file + " has changed since its row " + number + " was written (" + change +

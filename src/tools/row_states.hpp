@@ -28,7 +28,7 @@ bool isGone(const RowTexts& row, const ScanState& now);
 
 /// Before the rows of shards are joined: all rows of a file, and of the settings' files, are of one state, and none of
 /// a scan that has changed since. Rows without a state are joined as they are.
-/// @return the files that are gone. @throw FileError naming a shard to run again
+/// @return a sentence for each file that is gone. @throw FileError naming a shard to run again
 std::vector<std::string> requireOneState(const std::vector<std::string>& shards);
 
 }  // namespace mems_stiction

@@ -56,35 +56,22 @@ void pool(const BatchArguments& arguments) {
   std::cout << oneLine(arguments.parts) << ": " << count << " parts\n";
 }
 
-/// Complains of the first of many things in full, and of how many more there are.
-class Complaints {
- public:
-  /// @param rest "more rows are of files that ..."
-  explicit Complaints(std::string rest) : rest_(std::move(rest)) {}
-  ~Complaints() {
-    if (count_ > kMostNamed) complain("stiction_batch", std::to_string(count_ - kMostNamed) + " " + rest_);
-  }
-  Complaints(const Complaints&) = delete;
-  Complaints& operator=(const Complaints&) = delete;
+constexpr const char* kGone = "rows are of files that are no longer there";
 
-  void add(const std::string& what) {
-    if (++count_ <= kMostNamed) complain("stiction_batch", what);
-  }
-
- private:
-  std::string rest_;
-  std::size_t count_ = 0;
-};
-
-constexpr const char* kMoreGone = "more rows are of files that are no longer there";
+/// Complains of the first of many things in full, and of how many more there are: "more " + rest.
+void complainOfMany(const std::vector<std::string>& things, const std::string& rest) {
+  for (std::size_t i = 0; i < std::min(things.size(), kMostNamed); ++i) complain("stiction_batch", things[i]);
+  if (things.size() <= kMostNamed) return;
+  complain("stiction_batch", std::to_string(things.size() - kMostNamed) + " more " + rest);
+}
 
 /// Places of the rows whose files have changed since; says which, and which files are gone.
 std::vector<std::size_t> changedRows(const RowFile& rows, RowFormat format, const BatchArguments& arguments,
                                      const std::vector<std::string>& columns, const BatchScans& scans,
                                      const std::vector<std::size_t>& numbers) {
   std::vector<std::size_t> changed;
-  Complaints of_changed("more rows are of files that have changed");
-  Complaints of_gone(kMoreGone);
+  std::vector<std::string> changes;
+  std::vector<std::string> gone;
   for (std::size_t place = 0; place < rows.kept().size(); ++place) {
     const std::size_t number = numbers[place];
     std::string change;
@@ -93,8 +80,8 @@ std::vector<std::size_t> changedRows(const RowFile& rows, RowFormat format, cons
       const ScanState now = scans.state(number);
       change = changeSince(row, now);
       if (isGone(row, now)) {
-        of_gone.add(scans.file(number) + ": is no longer there; its row " + std::to_string(number) +
-                    " stays as it was");
+        gone.push_back(scans.file(number) + ": is no longer there; its row " + std::to_string(number) +
+                       " stays as it was");
       }
     } catch (const FileError& error) {
       throw FileError(arguments.output + ": " + error.what());
@@ -103,9 +90,11 @@ std::vector<std::size_t> changedRows(const RowFile& rows, RowFormat format, cons
     }
     if (change.empty()) continue;
     changed.push_back(place);
-    of_changed.add(scans.file(number) + ": has changed since its row " + std::to_string(number) +
-                   " was written, predicted again: " + change);
+    changes.push_back(scans.file(number) + ": has changed since its row " + std::to_string(number) +
+                      " was written, predicted again: " + change);
   }
+  complainOfMany(changes, "rows are of files that have changed");
+  complainOfMany(gone, kGone);
   return changed;
 }
 
@@ -198,11 +187,7 @@ int merge(const BatchArguments& arguments) {
     }
   }
   const std::size_t total = totalOf(shards.front(), settings);
-  {
-    Complaints of_gone(kMoreGone);
-    for (const std::string& file : requireOneState(shards))
-      of_gone.add(file + ": is no longer there; its rows stay as they were");
-  }
+  complainOfMany(requireOneState(shards), kGone);
   mergeRows(shards, arguments.output, total);
   writeFile(settingsPathOf(arguments.output), settings);
   std::cout << oneLine(arguments.output) << ": " << total << " rows of " << shards.size() << " shards\n";
