@@ -169,7 +169,7 @@ class Prediction:
         self._is_transposed = surface.is_transposed
         self._json: Optional[str] = None
 
-    def _kept(self, name: str, make: Any) -> Any:
+    def _cached(self, name: str, make: Any) -> Any:
         """A view of the core's memory, made when it is first asked for."""
         key = "_" + name
         if key not in self.__dict__:
@@ -181,7 +181,7 @@ class Prediction:
             array = array_of(memory(self._core))
             return None if array is None else self._surface.back(array)  # type: ignore[union-attr]
 
-        return self._kept(name, view)
+        return self._cached(name, view)
 
     @property
     def contact_map(self) -> Optional[np.ndarray]:
@@ -221,41 +221,41 @@ class Prediction:
         """One record for each contact: x, y, z (column times pitch, row times pitch, height), cap_radius,
         composite_radius, contact_radius [m], load [N], area [m^2], tilt [rad], plasticity_index, tabor_parameter [-],
         is_at_border, regime (1 elastic, 2 elasto-plastic, 3 plastic)."""
-        return self._kept("asperities", lambda: records_of(self._core.asperities))  # type: ignore[union-attr]
+        return self._cached("asperities", lambda: records_of(self._core.asperities))  # type: ignore[union-attr]
 
     @property
     def energy_curve(self) -> np.recarray:
         """One record for each step of the approach: approach [m], contact_fraction, normal_load, carried_load,
         generalized_force [N], mechanical_energy, surface_energy, elastic_energy, total_energy [J]. Empty unless
         output/energy_curve."""
-        return self._kept("energy_curve", lambda: records_of(self._core.energy_curve))  # type: ignore[union-attr]
+        return self._cached("energy_curve", lambda: records_of(self._core.energy_curve))  # type: ignore[union-attr]
 
     @property
     def curve(self) -> np.recarray:
         """Force over displacement: displacement [m] past first touch, force [N] (attraction positive), is_separation (of
         the way out). Empty if the formulation does not follow the force."""
-        return self._kept("curve", lambda: records_of(self._core.curve))  # type: ignore[union-attr]
+        return self._cached("curve", lambda: records_of(self._core.curve))  # type: ignore[union-attr]
 
     @property
     def curve_over_height(self) -> np.recarray:
         """The same over the height of HalfSpace.curve, to be laid over it: height [m], force [N], direction (0 approach, 1
         retraction)."""
-        return self._kept("curve_over_height", lambda: records_of(self._core.curve_over_height))  # type: ignore[union-attr]
+        return self._cached("curve_over_height", lambda: records_of(self._core.curve_over_height))  # type: ignore[union-attr]
 
     @property
     def preprocessing(self) -> List[Dict[str, Any]]:
         """step, parameters, rms_change [m], changed_pixels, invalid_pixels of each step that ran."""
-        return self._kept("preprocessing", lambda: self._core.preprocessing)  # type: ignore[union-attr]
+        return self._cached("preprocessing", lambda: self._core.preprocessing)  # type: ignore[union-attr]
 
     @property
     def roughness(self) -> Roughness:
         """Of the cleaned scan; its spatial figures only with output/spatial_roughness."""
-        return self._kept("roughness", lambda: Roughness(self._core.roughness))  # type: ignore[union-attr]
+        return self._cached("roughness", lambda: Roughness(self._core.roughness))  # type: ignore[union-attr]
 
     @property
     def flags(self) -> Tuple[str, ...]:
         """The names of the bits of regime_flags, as in doc/validity.md."""
-        return self._kept("flags", lambda: tuple(filter(None, self._core.flag_names.split(", "))))  # type: ignore[union-attr]
+        return self._cached("flags", lambda: tuple(filter(None, self._core.flag_names.split(", "))))  # type: ignore[union-attr]
 
     def json(self) -> str:
         """The record that predict_scan --json prints, one line."""

@@ -64,12 +64,12 @@ class _Drawn:
     """The last thing that was made of each image."""
 
     def __init__(self):
-        self._kept = {}
+        self._cached = {}
 
     def get(self, name, stamp, image, make):
-        if self._kept.get(name, (None,))[0] is not image:
-            self._kept[name] = (image, make(image))
-        return self._kept[name][1]
+        if self._cached.get(name, (None,))[0] is not image:
+            self._cached[name] = (image, make(image))
+        return self._cached[name][1]
 
 
 class _StateSocket(_Guarded, tornado.websocket.WebSocketHandler):

@@ -88,12 +88,12 @@ std::vector<FileChannel> channelsByGwyddion(const std::string& path, const std::
   std::string key;
   if (options.use_cache) {
     key = importCacheKey(bytes, fs::path(path).extension().string(), options.program, readerVersion());
-    if (const auto kept = keptConversion(key)) return measured(parseGwy(*kept));
+    if (const auto cached = cachedConversion(key)) return measured(parseGwy(*cached));
   }
   const std::string gwy = converted(path, options);
   try {
     std::vector<FileChannel> channels = measured(parseGwy(gwy));
-    if (options.use_cache) keepConversion(key, gwy);
+    if (options.use_cache) cacheConversion(key, gwy);
     return channels;
   } catch (const FileError& error) {
     throw FileError(path + ": what gwyddion made of it cannot be read: " + error.what());

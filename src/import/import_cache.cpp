@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kMostKept = std::uintmax_t{1} << 30;  // [bytes]
+constexpr std::uintmax_t kMostCached = std::uintmax_t{1} << 30;  // [bytes]
 constexpr const char* kEnding = ".gwy";
 
 /// Path, size and time of the program in PATH: another version may read otherwise.
@@ -38,14 +38,14 @@ std::string installed(const std::string& program) {
   return program;
 }
 
-struct Kept {
+struct Cached {
   fs::path path;
   fs::file_time_type time;
   std::uintmax_t size = 0;
 };
 
-std::vector<Kept> allKept(const std::string& folder) {
-  std::vector<Kept> all;
+std::vector<Cached> allCached(const std::string& folder) {
+  std::vector<Cached> all;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     if (entry.path().extension() != kEnding || !entry.is_regular_file(error)) continue;
@@ -55,16 +55,16 @@ std::vector<Kept> allKept(const std::string& folder) {
 }
 
 void removeOldest(const std::string& folder) {
-  std::vector<Kept> all = allKept(folder);
+  std::vector<Cached> all = allCached(folder);
   std::uintmax_t total = 0;
-  for (const Kept& kept : all) total += kept.size;
-  if (total <= kMostKept) return;
-  std::sort(all.begin(), all.end(), [](const Kept& a, const Kept& b) { return a.time < b.time; });
-  for (const Kept& kept : all) {
-    if (total <= kMostKept / 2) return;
+  for (const Cached& cached : all) total += cached.size;
+  if (total <= kMostCached) return;
+  std::sort(all.begin(), all.end(), [](const Cached& a, const Cached& b) { return a.time < b.time; });
+  for (const Cached& cached : all) {
+    if (total <= kMostCached / 2) return;
     std::error_code ignored;
-    fs::remove(kept.path, ignored);
-    total -= kept.size;
+    fs::remove(cached.path, ignored);
+    total -= cached.size;
   }
 }
 
@@ -84,7 +84,7 @@ std::string importCacheKey(const std::string& bytes, const std::string& name_end
                      installed(program) + " " + readers);
 }
 
-std::optional<std::string> keptConversion(const std::string& key) {
+std::optional<std::string> cachedConversion(const std::string& key) {
   const auto folder = importCacheFolder();
   if (!folder) return std::nullopt;
   try {
@@ -93,12 +93,12 @@ std::optional<std::string> keptConversion(const std::string& key) {
     text.erase(0, key.size());
     if (contentHash(text) == stated) return text;
   } catch (const FileError&) {
-    // None is kept.
+    // None is cached.
   }
   return std::nullopt;
 }
 
-void keepConversion(const std::string& key, const std::string& gwy) {
+void cacheConversion(const std::string& key, const std::string& gwy) {
   const auto folder = importCacheFolder();
   if (!folder) return;
   std::error_code error;
@@ -114,9 +114,9 @@ void keepConversion(const std::string& key, const std::string& gwy) {
 void clearImportCache() {
   const auto folder = importCacheFolder();
   if (!folder) return;
-  for (const Kept& kept : allKept(*folder)) {
+  for (const Cached& cached : allCached(*folder)) {
     std::error_code ignored;
-    fs::remove(kept.path, ignored);
+    fs::remove(cached.path, ignored);
   }
 }
 

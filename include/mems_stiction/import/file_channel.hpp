@@ -37,7 +37,7 @@ struct ImportOptions {
   std::string program = "gwyddion";  ///< looked up in PATH
   double timeout = 60.0;             ///< for one file [s]; usual files take 0.02 to 0.2 s
   std::string channel;               ///< title or number of the channel to take; empty = the likeliest height channel
-  bool use_cache = false;            ///< keep what gwyddion makes of a file for the next time, import_cache.hpp
+  bool use_cache = false;            ///< cache what gwyddion makes of a file for the next time, import_cache.hpp
   std::shared_ptr<WaitingGwyddions> waiting;  ///< started once for many files; null = the program is started for each
   bool ignore_mask = false;                   ///< pixels under the mask of a .gwy file are heights as the others
   TextOptions text;                           ///< openScanFile() sets it from settings and sidecar

@@ -12,7 +12,7 @@
 namespace mems_stiction {
 
 /// Every image channel of the file, whatever its unit.
-/// - @p bytes the file's content, by which a conversion is kept and found again if ImportOptions say so
+/// - @p bytes the file's content, by which a conversion is cached and found again if ImportOptions say so
 /// @throw FileError in one line with the file and the cause: not installed, crashed, failed, timed out, unreadable.
 std::vector<FileChannel> channelsByGwyddion(const std::string& path, const std::string& bytes,
                                             const ImportOptions& options);

@@ -1,14 +1,14 @@
 #pragma once
 
 /// @file
-/// What gwyddion made of a file, kept by the file's content: the next time nothing needs to be converted.
+/// What gwyddion made of a file, cached by the file's content: the next time nothing needs to be converted.
 
 #include <optional>
 #include <string>
 
 namespace mems_stiction {
 
-/// Where conversions are kept: $XDG_CACHE_HOME/mems_stiction or ~/.cache/mems_stiction; none without a home.
+/// Where conversions are cached: $XDG_CACHE_HOME/mems_stiction or ~/.cache/mems_stiction; none without a home.
 std::optional<std::string> importCacheFolder();
 
 /// Name of what belongs to these bytes, this ending of the file's name, this program as it is installed now, and the
@@ -16,13 +16,13 @@ std::optional<std::string> importCacheFolder();
 std::string importCacheKey(const std::string& bytes, const std::string& name_end, const std::string& program,
                            const std::string& readers);
 
-/// The .gwy container kept under this name; none if there is none, or if it is not as it was kept.
-std::optional<std::string> keptConversion(const std::string& key);
+/// The .gwy container cached under this name; none if there is none, or if it is not as it was cached.
+std::optional<std::string> cachedConversion(const std::string& key);
 
-/// Keeps it, and removes the oldest if all together are more than a gigabyte. Failing is no error: a cache may be full.
-void keepConversion(const std::string& key, const std::string& gwy);
+/// Caches it, and removes the oldest if all together are more than a gigabyte. Failing is no error: a cache may be full.
+void cacheConversion(const std::string& key, const std::string& gwy);
 
-/// Removes all that is kept.
+/// Removes all that is cached.
 void clearImportCache();
 
 }  // namespace mems_stiction
