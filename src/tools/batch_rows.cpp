@@ -136,7 +136,7 @@ RowFile::RowFile(const std::string& path, RowFormat format, const std::string& h
     } else if (!heading.empty()) {
       lines.erase(lines.begin());
     }
-    keep(std::move(lines), numbers);
+    takeUp(std::move(lines), numbers);
   } catch (...) {
     ::close(descriptor_);
     throw;
@@ -153,22 +153,22 @@ void RowFile::openLocked() {
   throw FileError(path_ + ": another program is writing it");
 }
 
-void RowFile::keep(std::vector<std::string> lines, const std::vector<std::size_t>& numbers) {
+void RowFile::takeUp(std::vector<std::string> lines, const std::vector<std::size_t>& numbers) {
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const std::size_t number = numberOf(lines[i], format_);
-    const auto end = numbers.begin() + static_cast<std::ptrdiff_t>(kept_.size());
+    const auto end = numbers.begin() + static_cast<std::ptrdiff_t>(earlier_.size());
     const auto found = std::lower_bound(numbers.begin(), end, number);
     if (found != end && *found == number) {
-      kept_[static_cast<std::size_t>(found - numbers.begin())] = std::move(lines[i]);
+      earlier_[static_cast<std::size_t>(found - numbers.begin())] = std::move(lines[i]);
       is_replaced_ = true;
     } else if (end != numbers.end() && *end == number) {
-      kept_.push_back(std::move(lines[i]));
+      earlier_.push_back(std::move(lines[i]));
     } else {
       throw FileError(path_ + ": line " + std::to_string(i + (heading_.empty() ? 1 : 2)) +
                       " is not a row of this shard: continue with the same --shard, or write another file");
     }
   }
-  done_ = kept_.size();
+  done_ = earlier_.size();
 }
 
 void RowFile::append(const std::string& line) {
@@ -178,13 +178,13 @@ void RowFile::append(const std::string& line) {
 
 void RowFile::replace(std::size_t place, const std::string& line) {
   writeAll(descriptor_, line, path_);
-  kept_[place] = line.substr(0, line.size() - 1);
+  earlier_[place] = line.substr(0, line.size() - 1);
   is_replaced_ = true;
 }
 
 void RowFile::settle() {
-  const std::vector<std::string> rows = std::move(kept_);
-  kept_.clear();
+  const std::vector<std::string> rows = std::move(earlier_);
+  earlier_.clear();
   if (!is_replaced_) return;
   std::string text = heading_;
   for (const std::string& row : rows) text += row + "\n";

@@ -42,29 +42,29 @@ class RowFile {
 
   /// Rows that are in the file.
   std::size_t done() const { return done_; }
-  /// The rows that are there from before, by their places among the numbers, until settle().
-  const std::vector<std::string>& kept() const { return kept_; }
+  /// The rows of earlier calls, by their places among the numbers, until settle().
+  const std::vector<std::string>& earlier() const { return earlier_; }
   /// Hands the line to the system in one piece. @throw FileError
   void append(const std::string& line);
-  /// Another row in the place of one that is kept: appended, so that an interruption costs nothing. @throw FileError
+  /// Another row in the place of an earlier one: appended, so that an interruption costs nothing. @throw FileError
   void replace(std::size_t place, const std::string& line);
   /// Puts rows that were replaced into their places, before others are appended. @throw FileError
   void settle();
 
  private:
   void openLocked();
-  void keep(std::vector<std::string> lines, const std::vector<std::size_t>& numbers);
+  void takeUp(std::vector<std::string> lines, const std::vector<std::size_t>& numbers);
 
   std::string path_;
   RowFormat format_;
   std::string heading_;
   int descriptor_ = -1;
   std::size_t done_ = 0;
-  std::vector<std::string> kept_;
+  std::vector<std::string> earlier_;
   bool is_replaced_ = false;  ///< the file has rows that others stand for
 };
 
-/// Where the settings of a file of rows are kept, so that rows of different settings never mix.
+/// Where the settings of a file of rows stand, so that rows of different settings never mix.
 std::string settingsPathOf(const std::string& rows_path);
 
 /// Whether rows of an earlier call may be there: nothing is read back from a device. @throw FileError for a folder

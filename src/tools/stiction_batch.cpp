@@ -72,11 +72,11 @@ std::vector<std::size_t> changedRows(const RowFile& rows, RowFormat format, cons
   std::vector<std::size_t> changed;
   std::vector<std::string> changes;
   std::vector<std::string> gone;
-  for (std::size_t place = 0; place < rows.kept().size(); ++place) {
+  for (std::size_t place = 0; place < rows.earlier().size(); ++place) {
     const std::size_t number = numbers[place];
     std::string change;
     try {
-      const RowTexts row = rowTextsOf(rows.kept()[place], format, columns);
+      const RowTexts row = rowTextsOf(rows.earlier()[place], format, columns);
       const ScanState now = scans.state(number);
       change = changeSince(row, now);
       if (isGone(row, now)) {
