@@ -179,7 +179,7 @@ double ContactMinimiser::largestLoad() const {
   return -law_.at(law_.closestGap()).traction * validArea();
 }
 
-double ContactMinimiser::keepFlow(double height) {
+double ContactMinimiser::acceptFlow(double height) {
   if (!law_.flows() || !(lowest_gap_ < law_.closestGap())) return 0.0;
   const auto cols = static_cast<std::size_t>(grid_.frame_cols);
   if (flowed_.empty()) flowed_.resize(relief_.size(), 0.0F);

@@ -139,7 +139,7 @@ double ContactPath::continued(double move) const {
   return present_.force + std::max(0.0, further * (rise + bend * further));
 }
 
-void ContactPath::keep(const ForcePoint& next, bool is_jump, ForceCurve& curve) {
+void ContactPath::accept(const ForcePoint& next, bool is_jump, ForceCurve& curve) {
   const double move = next.height - present_.height;
   const StepParabola parabola(present_, next);
   const double attracting = attractingShare(parabola);
@@ -176,7 +176,7 @@ void ContactPath::keep(const ForcePoint& next, bool is_jump, ForceCurve& curve) 
   last_move_ = is_jump ? 0.0 : move;
   last_parabola_ = parabola;
   strongest_ = std::max(strongest_, next.force);
-  present_.energy -= minimiser_.keepFlow(next.height);
+  present_.energy -= minimiser_.acceptFlow(next.height);
   if (settings_.on_state) settings_.on_state(next);
 }
 
@@ -233,7 +233,7 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
       farthest = step;
       continue;
     }
-    keep(next, is_jump, curve);
+    accept(next, is_jump, curve);
     is_before_jump_ = is_before_jump_ && direction * (jump_height_ - present_.height) > kSameHeight * usual;
     double change = std::clamp(std::sqrt(kWantedSag / std::max(sag, 1e-12)), 1.0 / kLargestChange, kLargestChange);
     if (state.newton_steps > kManyNewtonSteps) change = std::min(change, 1.0);
@@ -287,7 +287,7 @@ PathStatus ContactPath::change(const TractionLaw& law) {
   if (status != PathStatus::kDone) return status;
   changed_energy_ += relaxed.energy - present_.energy;
   present_ = relaxed;
-  present_.energy -= minimiser_.keepFlow(present_.height);
+  present_.energy -= minimiser_.acceptFlow(present_.height);
   strongest_ = std::max(0.0, present_.force);
   return PathStatus::kDone;
 }

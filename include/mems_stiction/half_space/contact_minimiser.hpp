@@ -77,7 +77,7 @@ class ContactMinimiser {
   void takeBack();
   /// What flowed in the state just solved stays: cells closer than the closest gap lose the excess of their height.
   /// @return the work that the flow took [J]
-  double keepFlow(double height);
+  double acceptFlow(double height);
 
   /// Another law holds from now on; displacement and what has flowed stay.
   void setLaw(const TractionLaw& law);

@@ -102,9 +102,9 @@ class ContactPath {
  private:
   PathStatus retract(ForceCurve& curve);
   double startHeight() const;
-  /// Solves at a height next to the present state, which must be taken back or kept then.
+  /// Solves at a height next to the present state, which must be taken back or accepted then.
   PathStatus attempt(double height, ForcePoint& next, ContactState& state);
-  void keep(const ForcePoint& next, bool is_jump, ForceCurve& curve);
+  void accept(const ForcePoint& next, bool is_jump, ForceCurve& curve);
   /// The largest force of the present branch over a further change of height, if it went on as it came [N].
   double continued(double move) const;
   PathStatus begin(double height);
