@@ -36,7 +36,7 @@ double* roomFor(std::size_t count, std::vector<double>& memory) {
 
 void WorkingSurface::take(const HeightMap& surface) {
   const cv::Mat& source = surface.heights();
-  if (isHeld(heights)) std::swap(heights, spare);
+  if (isShared(heights)) std::swap(heights, spare);
   makeWritable(heights, source.rows, source.cols, CV_64FC1);
   for (int row = 0; row < source.rows; ++row) {
     const auto size = static_cast<std::size_t>(source.cols);

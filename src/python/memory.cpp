@@ -47,11 +47,11 @@ Memory memoryOfMap(const cv::Mat& map, PixelOwner owner) {
 }
 
 /// Holds a Python object; whichever thread lets go of it last takes the interpreter's lock for that.
-PixelOwner heldBuffer(py::buffer_info&& info) {
-  return {new py::buffer_info(std::move(info)), [](const void* held) {
-            takingLock([held] {
+PixelOwner ownedBuffer(py::buffer_info&& info) {
+  return {new py::buffer_info(std::move(info)), [](const void* owned) {
+            takingLock([owned] {
               const py::gil_scoped_acquire lock;
-              delete static_cast<const py::buffer_info*>(held);
+              delete static_cast<const py::buffer_info*>(owned);
             });
           }};
 }
@@ -69,8 +69,8 @@ py::buffer_info bufferOf(Memory& memory) {
 
 py::object memoryOf(const cv::Mat& map) {
   if (map.empty()) return py::none();
-  const auto held = std::make_shared<cv::Mat>(map);
-  return py::cast(memoryOfMap(*held, held));
+  const auto owned = std::make_shared<cv::Mat>(map);
+  return py::cast(memoryOfMap(*owned, owned));
 }
 
 HeightMap heightMapOf(const py::buffer& pixels, ScanOptions options, double pitch_x, double pitch_y) {
@@ -88,7 +88,7 @@ HeightMap heightMapOf(const py::buffer& pixels, ScanOptions options, double pitc
   const int cols = static_cast<int>(info.shape[1]);
   const std::size_t step = rows > 1 ? static_cast<std::size_t>(info.strides[0]) : std::size_t{cv::Mat::AUTO_STEP};
   const cv::Mat shown(rows, cols, type, info.ptr, step);
-  return measuredPart(heightMapFromPixels(shown, options, heldBuffer(std::move(info))));
+  return measuredPart(heightMapFromPixels(shown, options, ownedBuffer(std::move(info))));
 }
 
 void bindMemory(py::module& module) {
@@ -107,8 +107,8 @@ void bindMemory(py::module& module) {
       .def_property_readonly("pixels",
                              [](const HeightMap& map) {
                                if (map.empty()) return py::object(py::none());
-                               const auto held = std::make_shared<HeightMap>(map);
-                               return py::cast(memoryOfMap(held->heights(), held));
+                               const auto owned = std::make_shared<HeightMap>(map);
+                               return py::cast(memoryOfMap(owned->heights(), owned));
                              })
       .def_property_readonly("pitch", [](const HeightMap& map) { return py::make_tuple(map.pitchX(), map.pitchY()); });
 }

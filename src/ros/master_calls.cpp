@@ -88,7 +88,7 @@ bool MasterCalls::setParameter(const std::string& name, const XmlRpcValue& value
   return ask("setParam", parameterRequest(name, value), ignored);
 }
 
-std::string livingHolderOf(const std::string& name) {
+std::string livingOwnerOf(const std::string& name) {
   const MasterCalls calls;
   XmlRpcValue request;
   request[0] = ros::this_node::getName();
@@ -97,8 +97,8 @@ std::string livingHolderOf(const std::string& name) {
   XmlRpcValue address;
   XmlRpcValue process;
   if (!calls.ask("lookupNode", of_name, address) || address.getType() != XmlRpcValue::TypeString) return "";
-  const std::string holder = address;
-  return calls.askProcess(holder, "getPid", request, process) ? holder : "";
+  const std::string owner = address;
+  return calls.askProcess(owner, "getPid", request, process) ? owner : "";
 }
 
 void setParameterAtStart(const std::string& name, const XmlRpcValue& value) {

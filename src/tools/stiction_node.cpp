@@ -77,9 +77,9 @@ int run(int argc, char** argv) {
   shutDownOn(SIGTERM);
   shutDownOn(SIGHUP);
   const std::string& name = ros::this_node::getName();
-  const std::string holder = takes_over ? "" : livingHolderOf(name);
-  if (!holder.empty()) {
-    complain("stiction_node", "a node of the name " + name + " runs already, at " + holder +
+  const std::string owner = takes_over ? "" : livingOwnerOf(name);
+  if (!owner.empty()) {
+    complain("stiction_node", "a node of the name " + name + " runs already, at " + owner +
                                   ": give another name (__name:=NAME), end that one (rosnode kill " + name +
                                   "), or take its place with --take-over");
     return EXIT_FAILURE;

@@ -7,12 +7,12 @@
 
 namespace mems_stiction {
 
-/// Whether somebody else holds these pixels: they must not be written.
-inline bool isHeld(const cv::Mat& pixels) { return pixels.u != nullptr && pixels.u->refcount > 1; }
+/// Whether somebody else shows these pixels: they must not be written.
+inline bool isShared(const cv::Mat& pixels) { return pixels.u != nullptr && pixels.u->refcount > 1; }
 
-/// Makes a matrix of this size and type that nobody else holds: the one that is there, if it can be written over.
+/// Makes a matrix of this size and type that nobody else shows: the one that is there, if it can be written over.
 inline void makeWritable(cv::Mat& pixels, int rows, int cols, int type) {
-  if (isHeld(pixels)) pixels.release();
+  if (isShared(pixels)) pixels.release();
   pixels.create(rows, cols, type);
 }
 

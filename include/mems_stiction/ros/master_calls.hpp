@@ -31,9 +31,9 @@ class MasterCalls {
 };
 
 /// Does a node of this name run already? A master gives a name to whoever asks last, and ends the node that had it. Address of
-/// the process that holds the name at the master and answers there. Empty: there is none, it has died, or there is no master
+/// the process that has the name at the master and answers there. Empty: there is none, it has died, or there is no master
 /// to ask. After ros::init(), before ros::start().
-std::string livingHolderOf(const std::string& name);
+std::string livingOwnerOf(const std::string& name);
 
 /// While the node starts: waits for the master, as ros::param::set() does, but without its lock.
 void setParameterAtStart(const std::string& name, const XmlRpc::XmlRpcValue& value);

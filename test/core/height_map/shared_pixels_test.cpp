@@ -12,7 +12,7 @@ namespace {
 TEST(SharedPixels, OnesOwnMemoryIsUsedAgain) {
   cv::Mat pixels(3, 4, CV_64FC1, cv::Scalar(1.0));
   const uchar* const before = pixels.data;
-  EXPECT_FALSE(isHeld(pixels));
+  EXPECT_FALSE(isShared(pixels));
   makeWritable(pixels, 3, 4, CV_64FC1);
   EXPECT_EQ(pixels.data, before);
 }
@@ -20,9 +20,9 @@ TEST(SharedPixels, OnesOwnMemoryIsUsedAgain) {
 TEST(SharedPixels, WhatSomebodyHoldsStaysAsItIs) {
   cv::Mat pixels(3, 4, CV_64FC1, cv::Scalar(1.0));
   const cv::Mat held = pixels;
-  EXPECT_TRUE(isHeld(pixels));
+  EXPECT_TRUE(isShared(pixels));
   makeWritable(pixels, 3, 4, CV_64FC1);
-  EXPECT_FALSE(isHeld(pixels));
+  EXPECT_FALSE(isShared(pixels));
   pixels.setTo(2.0);
   EXPECT_EQ(cv::countNonZero(held != 1.0), 0);
 }
