@@ -4,15 +4,15 @@
 
 namespace mems_stiction {
 
-SolutionPause::Hold::Hold(SolutionPause& pause) : pause_(pause) {
+SolutionPause::Request::Request(SolutionPause& pause) : pause_(pause) {
   const std::lock_guard<std::mutex> lock(pause_.mutex_);
-  ++pause_.holds_;
+  ++pause_.requests_;
 }
 
-SolutionPause::Hold::~Hold() {
+SolutionPause::Request::~Request() {
   // told under the lock: a waiter that has seen the end may destroy the pause
   const std::lock_guard<std::mutex> lock(pause_.mutex_);
-  if (--pause_.holds_ == 0) pause_.released_.notify_all();
+  if (--pause_.requests_ == 0) pause_.released_.notify_all();
 }
 
 std::function<void()> SolutionPause::waiter(const std::atomic<bool>& cancel) {
@@ -24,9 +24,9 @@ std::function<void()> SolutionPause::waiter(const std::atomic<bool>& cancel) {
 
 bool SolutionPause::wait(Clock::duration longest, const std::atomic<bool>& cancel) {
   std::unique_lock<std::mutex> lock(mutex_);
-  if (holds_ == 0) return false;
+  if (requests_ == 0) return false;
   const Clock::time_point until = Clock::now() + longest;
-  while (holds_ > 0 && !cancel && Clock::now() < until) {
+  while (requests_ > 0 && !cancel && Clock::now() < until) {
     released_.wait_until(lock, std::min(until, Clock::now() + kCancelPeriod));
   }
   return true;

@@ -265,7 +265,7 @@ void StictionServer::change(const RunningSettings& settings) {
 
 void StictionServer::predictAndPublish(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info,
                                        ros::WallTime arrival, const std::optional<SurfacePose>& pose) {
-  const SolutionPause::Hold hold(half_space_pause_);
+  const SolutionPause::Request request(half_space_pause_);
   try {
     ReceivedScan scan = receive(image, info.get());
     scan.counter_surface_pose = pose;

@@ -9,7 +9,7 @@
 ///
 ///     SolutionPause pause;
 ///     control.give_way = pause.waiter(cancel);              // the solving thread
-///     const SolutionPause::Hold hold(pause);                // any other thread
+///     const SolutionPause::Request request(pause);                // any other thread
 
 #include <atomic>
 #include <chrono>
@@ -20,7 +20,7 @@
 namespace mems_stiction {
 
 /// Between those who work urgently and the solutions that give way to them; for any number of threads. It must outlive
-/// its holds and waiters.
+/// its requests and waiters.
 class SolutionPause {
  public:
   /// Longest wait at once, over the work since the last one.
@@ -30,12 +30,12 @@ class SolutionPause {
   static constexpr std::chrono::milliseconds kCancelPeriod{50};
 
   /// Solutions wait while it lives.
-  class Hold {
+  class Request {
    public:
-    explicit Hold(SolutionPause& pause);
-    ~Hold();
-    Hold(const Hold&) = delete;
-    Hold& operator=(const Hold&) = delete;
+    explicit Request(SolutionPause& pause);
+    ~Request();
+    Request(const Request&) = delete;
+    Request& operator=(const Request&) = delete;
 
    private:
     SolutionPause& pause_;
@@ -52,7 +52,7 @@ class SolutionPause {
 
   std::mutex mutex_;
   std::condition_variable released_;
-  int holds_ = 0;
+  int requests_ = 0;
 };
 
 }  // namespace mems_stiction

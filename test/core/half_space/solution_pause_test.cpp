@@ -34,7 +34,7 @@ TEST(SolutionPause, NobodyWaitsForNothing) {
   SolutionPause pause;
   const std::atomic<bool> cancel{false};
   const std::function<void()> give_way = pause.waiter(cancel);
-  { const SolutionPause::Hold hold(pause); }
+  { const SolutionPause::Request request(pause); }
   std::this_thread::sleep_for(milliseconds(50));
   EXPECT_LT(timeOf(give_way), milliseconds(20));  // a busy machine; nine times 50 ms if it were held
 }
@@ -44,8 +44,8 @@ TEST(SolutionPause, WaitsUntilTheLastHoldIsLetGo) {
   const std::atomic<bool> cancel{false};
   const std::function<void()> give_way = pause.waiter(cancel);
   std::this_thread::sleep_for(milliseconds(100));  // patience for 900 ms
-  auto first = std::make_unique<SolutionPause::Hold>(pause);
-  auto second = std::make_unique<SolutionPause::Hold>(pause);
+  auto first = std::make_unique<SolutionPause::Request>(pause);
+  auto second = std::make_unique<SolutionPause::Request>(pause);
   std::atomic<bool> is_let_go{false};
   std::thread urgent([&] {
     std::this_thread::sleep_for(milliseconds(50));
@@ -63,7 +63,7 @@ TEST(SolutionPause, EndlessUrgentWorkLeavesATenth) {
   SolutionPause pause;
   const std::atomic<bool> cancel{false};
   const std::function<void()> give_way = pause.waiter(cancel);
-  const SolutionPause::Hold hold(pause);
+  const SolutionPause::Request request(pause);
   give_way();  // what it has worked before counts once
   for (int i = 0; i < 3; ++i) {
     Clock::duration worked = timeOf([] { std::this_thread::sleep_for(milliseconds(10)); });
@@ -78,7 +78,7 @@ TEST(SolutionPause, LongWorkDoesNotWaitForMoreThanASecond) {
   const std::atomic<bool> cancel{false};
   const std::function<void()> give_way = pause.waiter(cancel);
   std::this_thread::sleep_for(milliseconds(200));
-  const SolutionPause::Hold hold(pause);
+  const SolutionPause::Request request(pause);
   EXPECT_LT(timeOf(give_way), milliseconds(1500));  // 1800 ms by its work alone
 }
 
@@ -87,7 +87,7 @@ TEST(SolutionPause, CancelEndsTheWait) {
   std::atomic<bool> cancel{false};
   const std::function<void()> give_way = pause.waiter(cancel);
   std::this_thread::sleep_for(milliseconds(100));
-  const SolutionPause::Hold hold(pause);
+  const SolutionPause::Request request(pause);
   std::thread other([&] {
     std::this_thread::sleep_for(milliseconds(50));
     cancel = true;
@@ -122,7 +122,7 @@ TEST(SolutionPause, ASolutionInHoldIsCancelledWithinASecond) {
   std::thread solving(
       [&] { solution = HalfSpaceSolver(half_space_cases::elastic(1.608e-10)).solve(problem, control); });
   while (!has_begun) std::this_thread::sleep_for(milliseconds(1));
-  const SolutionPause::Hold hold(pause);
+  const SolutionPause::Request request(pause);
   std::this_thread::sleep_for(milliseconds(50));
   const Clock::duration ended = timeOf([&] {
     cancel = true;
