@@ -88,16 +88,16 @@ void ContactMinimiser::takeRelief(LargePageVector<double> relief) {
   }
 }
 
-void ContactMinimiser::restart(LargePageVector<double> relief, LargePageVector<float> held, double tolerance) {
+void ContactMinimiser::restart(LargePageVector<double> relief, LargePageVector<float> fixed, double tolerance) {
   takeRelief(std::move(relief));
-  held_ = std::move(held);
+  fixed_ = std::move(fixed);
   settings_.tolerance = tolerance;
   for (auto* const array : {&displacement_, &elastic_traction_}) std::fill(array->begin(), array->end(), 0.0);
   staleness_ = 0.0;
 }
 
 ContactMinimiser::ContactMinimiser(const HalfSpaceGrid& grid, const TractionLaw& law, const ElasticResponse& response,
-                                   LargePageVector<double> relief, LargePageVector<float> held,
+                                   LargePageVector<double> relief, LargePageVector<float> fixed,
                                    const MinimiserSettings& settings)
     : grid_(grid),
       law_(law),
@@ -105,7 +105,7 @@ ContactMinimiser::ContactMinimiser(const HalfSpaceGrid& grid, const TractionLaw&
       stiffness_(grid, response, settings.threads, spectrum_, settings.cancel),
       exact_stiffness_(grid, response, settings.threads, spectrum_, settings.cancel),
       gradients_(grid, stiffness_, settings.threads, settings.cancel, settings.give_way),
-      held_(std::move(held)) {
+      fixed_(std::move(fixed)) {
   takeRelief(std::move(relief));
   for (auto* const array : {&displacement_, &elastic_traction_}) {
     if (!isCancelled()) array->assign(grid.size(), 0.0);
@@ -238,7 +238,7 @@ evaluation_rows::Sums ContactMinimiser::evaluateRow(int row, double height, cons
   if (row >= grid_.frame_rows) return evaluation_rows::evaluateFree(grid_.cols, step.length, arraysFrom(0));
   const std::size_t in_frame = static_cast<std::size_t>(row) * static_cast<std::size_t>(grid_.frame_cols);
   evaluation_rows::RowArrays arrays = arraysFrom(0);
-  if (!held_.empty()) arrays.held = held_.data() + in_frame;
+  if (!fixed_.empty()) arrays.fixed = fixed_.data() + in_frame;
   auto sums = evaluation_rows::evaluate(law_, grid_.frame_cols, height, relief_.data() + in_frame, step.length, arrays);
   if (grid_.cols > grid_.frame_cols) {
     sums += evaluation_rows::evaluateFree(grid_.cols - grid_.frame_cols, step.length, arraysFrom(grid_.frame_cols));

@@ -194,18 +194,18 @@ ContactWindows::Relaxed ContactWindows::relaxOne(const Frame& frame, const Windo
   const cv::Rect cells = cellsOf(window);
   const HalfSpaceGrid grid(cells.height, cells.width, grid_.pitch_x, grid_.pitch_y, HalfSpaceBoundary::kFree);
   LargePageVector<double> relief(static_cast<std::size_t>(cells.area()));
-  LargePageVector<float> held(relief.size());
+  LargePageVector<float> fixed(relief.size());
   forEachCell(cells, [&](std::size_t place, std::size_t cell, int row, int col) {
     const std::size_t in_frame =
         static_cast<std::size_t>(row) * static_cast<std::size_t>(grid_.frame_cols) + static_cast<std::size_t>(col);
     relief[place] = frame.relief[in_frame] - frame.displacement[cell];
-    held[place] = static_cast<float>(frame.elastic_traction[cell] + frame.mean_residual);
+    fixed[place] = static_cast<float>(frame.elastic_traction[cell] + frame.mean_residual);
   });
   Relaxed relaxed;
   relaxed.change.resize(static_cast<std::size_t>(cells.area()));
   std::unique_ptr<ContactMinimiser> minimiser = takeMinimiser(grid);
   if (!minimiser->isSetUp()) return relaxed;
-  minimiser->restart(std::move(relief), std::move(held), kRelaxedShare * frame.largest_residual / law_.stress());
+  minimiser->restart(std::move(relief), std::move(fixed), kRelaxedShare * frame.largest_residual / law_.stress());
   minimiser->solve(frame.height);
   const double limit = kLargestChange * law_.stress();
   relaxed.is_sound = true;

@@ -52,10 +52,10 @@ MEMS_STICTION_VECTORIZED double addGaps(int count, double contact_gap, Tile& til
   return lowest_gap;
 }
 
-/// The traction against which u moves, less what is held, and what that adds to the energy.
-void hold(int count, const float* held, const double* displacement, Tile& tile) {
+/// The traction against which u moves, less what is fixed, and what that adds to the energy.
+void addFixed(int count, const float* fixed, const double* displacement, Tile& tile) {
   for (int i = 0; i < count; ++i) {
-    const auto here = static_cast<double>(held[i]);
+    const auto here = static_cast<double>(fixed[i]);
     tile.traction[i] -= here;
     tile.energy[i] += here * displacement[i];
   }
@@ -69,7 +69,7 @@ MEMS_STICTION_VECTORIZED void addTile(int count, double length, const RowArrays&
     displacement[i] = arrays.displacement[i] + length * static_cast<double>(arrays.step[i]);
     elastic[i] = arrays.elastic_traction[i] + length * static_cast<double>(arrays.step_traction[i]);
   }
-  if (arrays.held != nullptr) hold(count, arrays.held, displacement, tile);
+  if (arrays.fixed != nullptr) addFixed(count, arrays.fixed, displacement, tile);
   int end = count;
   for (; end % kLanes != 0; ++end) {
     displacement[end] = tile.slope[end] = tile.energy[end] = 0.0;
@@ -120,8 +120,8 @@ void useSecants(const TractionLaw& law, int count, double length, const RowArray
   const double least = kSecantShare * law.stress();
   for (int i = 0; i < count; ++i) {
     if (!(tile.gaps[i] < law.contactGap())) continue;
-    const double held = arrays.held != nullptr ? static_cast<double>(arrays.held[i]) : 0.0;
-    const double elastic = held + arrays.elastic_traction[i] + length * static_cast<double>(arrays.step_traction[i]);
+    const double fixed = arrays.fixed != nullptr ? static_cast<double>(arrays.fixed[i]) : 0.0;
+    const double elastic = fixed + arrays.elastic_traction[i] + length * static_cast<double>(arrays.step_traction[i]);
     const double wanted = std::min(elastic, 0.0);
     if (std::abs(wanted - tile.traction[i]) < least) continue;
     const double secant = law.secant(tile.gaps[i], tile.traction[i], wanted);
@@ -136,7 +136,7 @@ RowArrays shifted(const RowArrays& arrays, int cells) {
           arrays.step_traction + cells,
           arrays.residual + cells,
           arrays.slope == nullptr ? nullptr : arrays.slope + cells,
-          arrays.held == nullptr ? nullptr : arrays.held + cells};
+          arrays.fixed == nullptr ? nullptr : arrays.fixed + cells};
 }
 
 }  // namespace

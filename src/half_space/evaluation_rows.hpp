@@ -27,15 +27,15 @@ struct Sums {
   Sums& operator+=(const Sums& other);
 };
 
-/// The arrays of a row: u, K u, a step s and K s; and what is written, t - K (u + length s) - held and t'.
+/// The arrays of a row: u, K u, a step s and K s; and what is written, t - K (u + length s) - fixed and t'.
 struct RowArrays {
   const double* displacement;
   const double* elastic_traction;
   const float* step;
   const float* step_traction;
   float* residual;
-  float* slope;       ///< null where nobody asks for it
-  const float* held;  ///< a further elastic traction that does not change with u; null for none
+  float* slope;        ///< null where nobody asks for it
+  const float* fixed;  ///< a further elastic traction that does not change with u; null for none
 };
 
 /// Cells of the frame, with relief and a traction. @param level height of the upper body over first touch [m]

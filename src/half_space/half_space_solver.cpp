@@ -158,9 +158,9 @@ PathStatus partFromRest(ContactPath& path, const ContactMinimiser& minimiser, Tr
   takePath(path, minimiser.grid().frameArea(), solution);
   solution.pull_off_force_under_voltage = solution.pull_off_force;
   if (!has_voltage) return status;
-  ForceCurve held;
-  const bool came_apart = path.retractFrom(std::move(*rest), held) == PathStatus::kDone;
-  solution.pull_off_force_under_voltage = came_apart ? held.largest_force : SolvedHalfSpace::kNone;
+  ForceCurve under_voltage;
+  const bool came_apart = path.retractFrom(std::move(*rest), under_voltage) == PathStatus::kDone;
+  solution.pull_off_force_under_voltage = came_apart ? under_voltage.largest_force : SolvedHalfSpace::kNone;
   return status;
 }
 

@@ -56,13 +56,13 @@ class ContactMinimiser {
                    LargePageVector<double> relief, const MinimiserSettings& settings);
   /// A window of a larger frame, with free edges, which has no windows of its own.
   /// - @p relief as above, less the displacement that is not this one's
-  /// - @p held traction that this other displacement takes, frame_rows x frame_cols [Pa]; empty for none
+  /// - @p fixed traction that this other displacement takes, frame_rows x frame_cols [Pa]; empty for none
   ContactMinimiser(const HalfSpaceGrid& grid, const TractionLaw& law, const ElasticResponse& response,
-                   LargePageVector<double> relief, LargePageVector<float> held, const MinimiserSettings& settings);
+                   LargePageVector<double> relief, LargePageVector<float> fixed, const MinimiserSettings& settings);
 
   /// The same window about other cells, as if it had just been made.
   /// - @p tolerance of the settings
-  void restart(LargePageVector<double> relief, LargePageVector<float> held, double tolerance);
+  void restart(LargePageVector<double> relief, LargePageVector<float> fixed, double tolerance);
 
   /// False if it was cancelled while it set itself up: then only what follows from the frame may be asked for.
   bool isSetUp() const { return is_set_up_; }
@@ -166,7 +166,7 @@ class ContactMinimiser {
   LargePageVector<float> last_change_;        ///< the one before [m]
   LargePageVector<float> last_change_traction_;
   LargePageVector<float> flowed_;
-  LargePageVector<float> held_;              ///< traction of another displacement [Pa]; none but in a window
+  LargePageVector<float> fixed_;             ///< traction of another displacement [Pa]; none but in a window
   std::unique_ptr<ContactWindows> windows_;  ///< none in a window
   float pending_share_ = 0.0F;               ///< of the last change, by which u is still to go on
   double lowest_gap_ = 0.0;                  ///< in the state just solved [m]
