@@ -37,11 +37,11 @@ bool DaleRows::next() {
 
 const double* DaleRows::gapsOf(int row) const {
   const bool is_in_frame = row >= 0 && row < field_->rows();
-  return (is_in_frame ? gaps_[row % kRowsKept] : no_row_).data() + 1;
+  return (is_in_frame ? gaps_[row % kRows] : no_row_).data() + 1;
 }
 
 void DaleRows::read(int row) {
-  double* gaps = gaps_[row % kRowsKept].data() + 1;
+  double* gaps = gaps_[row % kRows].data() + 1;
   field_->gapsOfRow(row, gaps);
   std::int32_t* columns = columns_[row % 2].data();
   counts_[row % 2] = columnsBetween(from_, limit_, gaps, field_->cols(), columns);

@@ -82,8 +82,8 @@ std::vector<std::string> filesElsewhere(const Configuration& configuration, cons
   for (const auto& [key, path] : filesOf(configuration)) {
     std::error_code failed;
     const fs::path target = fs::weakly_canonical(fs::absolute(path, failed), failed);
-    const auto holds = [&target = target](const fs::path& folder) { return isBelow(target, folder); };
-    if (!failed && std::any_of(folders.begin(), folders.end(), holds)) continue;
+    const auto contains = [&target = target](const fs::path& folder) { return isBelow(target, folder); };
+    if (!failed && std::any_of(folders.begin(), folders.end(), contains)) continue;
     std::string line = key + ": " + oneLine(path) + " is not allowed, must lie below";
     for (const fs::path& folder : folders) line += " " + folder.string();
     lines.push_back(line + " (the environment variable " + kScanFoldersVariable + " of the node states these folders)");

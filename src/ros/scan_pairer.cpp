@@ -155,9 +155,9 @@ void ScanPairer::count(const ScanInfoConstPtr& info, Bearers& bearers) {
 }
 
 /// Pairs those of the stamp in the order of arrival.
-/// - @p held how many pairs, the newest, are to wait on
-void ScanPairer::pairAllBut(std::size_t held, const ros::Time& stamp) {
-  for (std::size_t count = countOf(images_.waiting, stamp); count > held; --count) {
+/// - @p most_waiting how many pairs, the newest, are to wait on
+void ScanPairer::pairAllBut(std::size_t most_waiting, const ros::Time& stamp) {
+  for (std::size_t count = countOf(images_.waiting, stamp); count > most_waiting; --count) {
     const auto image = std::find_if(images_.waiting.begin(), images_.waiting.end(), bears(stamp));
     const auto info = std::find_if(infos_.waiting.begin(), infos_.waiting.end(), bears(stamp));
     if (image == images_.waiting.end() || info == infos_.waiting.end()) return;

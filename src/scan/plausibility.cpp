@@ -29,7 +29,7 @@ struct Usual {
   double lower, upper;      ///< of the magnitude, SI
   std::vector<Unit> units;  ///< in which it is often stated, the likeliest first
 
-  bool holds(double value) const { return lower <= std::abs(value) && std::abs(value) <= upper; }
+  bool contains(double value) const { return lower <= std::abs(value) && std::abs(value) <= upper; }
 };
 
 const std::map<std::string, Usual>& usualValues() {
@@ -119,13 +119,13 @@ class PlausibilityCheck : public OptionVisitor {
     const auto found = usualValues().find(key);
     if (found == usualValues().end() || value == 0.0) return;
     const Usual& usual = found->second;
-    if (usual.holds(value)) return;
+    if (usual.contains(value)) return;
     std::string line = key + " " + rounded(value) + " " + unit + " is outside the usual " + rounded(usual.lower) +
                        " to " + rounded(usual.upper) + " " + unit + ": ";
     for (const Unit& meant : usual.units) {
       const double number = value * meant.shift;
       const double in_si = number * meant.factor;
-      if (usual.holds(in_si)) {
+      if (usual.contains(in_si)) {
         lines_.push_back(line + "probably " + rounded(number) + " " + meant.name + "; write " + rounded(in_si));
         return;
       }
@@ -146,7 +146,7 @@ class PlausibilityCheck : public OptionVisitor {
 /// What settings say of each other.
 void addContradictions(const Configuration& configuration, std::vector<std::string>& lines) {
   const auto checkBody = [&lines](const std::string& body, const Material& material) {
-    const bool is_named = !usualValues().at(body + "/hardness").holds(material.hardness);
+    const bool is_named = !usualValues().at(body + "/hardness").contains(material.hardness);
     if (is_named || material.hardness >= kSoftestShare * material.youngs_modulus) return;
     lines.push_back(body + "/hardness " + rounded(material.hardness) + " Pa beside " + body + "/youngs_modulus " +
                     rounded(material.youngs_modulus) + " Pa is softer than any solid (" + rounded(kSoftestShare) +

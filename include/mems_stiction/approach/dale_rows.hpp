@@ -75,9 +75,9 @@ class DaleRows {
   double from_ = 0.0;
   double limit_ = 0.0;
   int row_ = -1;
-  static constexpr int kRowsKept = 3;
-  std::vector<double> gaps_[kRowsKept];  ///< of the row, the one above and the one below
-  std::vector<double> no_row_;           ///< the gaps above and below the frame
+  static constexpr int kRows = 3;
+  std::vector<double> gaps_[kRows];  ///< of the row, the one above and the one below
+  std::vector<double> no_row_;       ///< the gaps above and below the frame
   std::vector<std::int32_t> columns_[2];
   int counts_[2] = {0, 0};
   RowsAround around_ = {};

@@ -103,7 +103,7 @@ class ScanPairer {
   Bearers& bearersOf(const ros::Time& stamp, ros::WallTime now);
   static void count(const sensor_msgs::ImageConstPtr& image, Bearers& bearers);
   static void count(const ScanInfoConstPtr& info, Bearers& bearers);
-  void pairAllBut(std::size_t held, const ros::Time& stamp);
+  void pairAllBut(std::size_t most_waiting, const ros::Time& stamp);
   void rejectAllOf(const ros::Time& stamp);
   void settleLate(ros::WallTime now);
 
