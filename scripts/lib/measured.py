@@ -104,7 +104,7 @@ def page(study):
     separations = list(separation_rows(study))
     text = [
         "# Against measurement", "",
-        "What others measured on rough surfaces, beside what `approach/formulation: consistent` predicts from surfaces with the same statistics. Written by `scripts/measured`.", "",
+        "What others measured on rough surfaces, beside what `approach/formulation: separation_curve` predicts from surfaces with the same statistics. Written by `scripts/measured`.", "",
         "**This page shows an order of magnitude and a trend, no more.** A prediction needs roughness, correlation length, work of adhesion, Hamaker "
         "constant, humidity and area. No source whose full text was to be had gives all of them, and most were read as abstracts. What is missing is "
         "assumed; [the second table](#what-the-assumptions-move) says what each assumption moves. The [error map](trust.md) answers another question, "

@@ -3,7 +3,7 @@
 /// @file
 /// How does a solution wait while something more urgent is computed, without being starved?
 ///
-/// Whoever does urgent work holds the pause meanwhile; solutions ask between their products and sleep until it is let
+/// Whoever does urgent work requests the pause meanwhile; solutions ask between their products and sleep until it is let
 /// go. A wait lasts at most a second, and at most nine times as long as the work since the last one. So a solution keeps
 /// a tenth of the time even where urgent work never ends. It wakes up when it is cancelled.
 ///
