@@ -1,6 +1,7 @@
 #include "mems_stiction/paper/asperity_solver.hpp"
 
 #include "mems_stiction/paper/asperity_summary.hpp"
+#include "mems_stiction/paper/contact_growth.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -35,6 +36,7 @@ void AsperitySolver::solve(const ContactProblem& problem, ContactSolution& solut
   search_.run(problem.gap, order_, settings.approach.connectivity, setting, state_);
 
   solution.resetKeepingMemory();
+  solution.model.respond = contactGrowth;
   solution.status = state_.status;
   solution.steps = state_.steps;
   solution.approach = state_.approach;

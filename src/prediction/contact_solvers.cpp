@@ -1,6 +1,5 @@
 #include "mems_stiction/prediction/contact_solvers.hpp"
 
-#include <array>
 #include <utility>
 
 #include "mems_stiction/base/errors.hpp"
@@ -14,7 +13,7 @@ namespace {
 struct Entry {
   const char* formulation;
   std::unique_ptr<ContactSolver> (*make)();
-  std::array<const char*, 6> ignored;  ///< keys of settings that have no meaning for it, and of what only they need
+  std::vector<UnusedSetting> (*unused)(const ContactSettings&);  ///< that have no meaning for it
 };
 
 template <typename Solver, auto... Arguments>
@@ -22,38 +21,18 @@ std::unique_ptr<ContactSolver> make() {
   return std::make_unique<Solver>(Arguments...);
 }
 
+std::vector<UnusedSetting> usesAll(const ContactSettings&) { return {}; }
+
 /// A line per solver, the default first.
 constexpr Entry kSolvers[] = {
-    {"separation_curve",
-     make<SeparationSolver>,
-     {"paper/step", "paper/cutoff_distance", "output/energy_curve", "uncertainty/hardness",
-      "uncertainty/cutoff_distance"}},
-    {"paper", make<AsperitySolver, Formulation::kPaper>, {}},
-    {"printed", make<AsperitySolver, Formulation::kPrinted>, {}},
+    {"separation_curve", make<SeparationSolver>, CurveStatement::unusedSettings},
+    {"paper", make<AsperitySolver, Formulation::kPaper>, usesAll},
+    {"printed", make<AsperitySolver, Formulation::kPrinted>, usesAll},
 };
 
-/// A line per setting that has no effect while another one is as it is.
-struct Dependent {
-  const char* key;
-  bool (*is_ignored)(const std::string& formulation, const ContactSettings& settings);
-  const char* why;
-};
-
-bool isDry(const std::string&, const ContactSettings& settings) { return settings.capillary.relative_humidity == 0.0; }
-
-bool hasRange(const std::string& formulation, const ContactSettings& settings) {
-  return formulation == kDefaultFormulation && settings.interface.work_of_adhesion > 0.0 &&
-         settings.interface.hamaker_constant > 0.0;
-}
-
-constexpr const char* kDry = "interface/relative_humidity is 0";
-constexpr Dependent kDependents[] = {
-    {"interface/surface_tension", isDry, kDry},
-    {"interface/contact_angle", isDry, kDry},
-    {"interface/temperature", isDry, kDry},
-    {"interface/molar_volume", isDry, kDry},
-    {"interface/equilibrium_distance", hasRange, "work of adhesion and Hamaker constant tell the range of forces"},
-};
+/// What only condensed water needs.
+constexpr const char* kOfWater[] = {"interface/surface_tension", "interface/contact_angle", "interface/temperature",
+                                    "interface/molar_volume"};
 
 struct Retired {
   const char* formulation;
@@ -92,13 +71,13 @@ std::vector<IgnoredSetting> ignoredSettings(const std::string& formulation, cons
   std::vector<IgnoredSetting> ignored;
   for (const Entry& entry : kSolvers) {
     if (formulation != entry.formulation) continue;
-    for (const char* key : entry.ignored) {
-      if (key == nullptr) break;
-      ignored.push_back({key, "approach/formulation " + formulation + " does not use it"});
+    for (const UnusedSetting& unused : entry.unused(settings)) {
+      ignored.push_back({unused.key, unused.why != nullptr
+                                         ? std::string(unused.why)
+                                         : "approach/formulation " + formulation + " does not use it"});
     }
-    for (const Dependent& dependent : kDependents) {
-      if (dependent.is_ignored(formulation, settings)) ignored.push_back({dependent.key, dependent.why});
-    }
+    if (settings.capillary.relative_humidity > 0.0) continue;
+    for (const char* key : kOfWater) ignored.push_back({key, "interface/relative_humidity is 0"});
   }
   return ignored;
 }

@@ -71,6 +71,7 @@ void summarizeContact(const ContactProblem& problem, ContactSolution& solution, 
   const ContactSettings& settings = problem.settings;
   prediction.status = solution.status;
   prediction.steps = solution.steps;
+  prediction.model = solution.model;
   prediction.voltage = settings.load.voltage;
   prediction.mechanical_load = settings.load.mechanical_load;
   prediction.van_der_waals_force = solution.load.van_der_waals;

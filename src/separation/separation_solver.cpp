@@ -108,6 +108,7 @@ void SeparationSolver::solve(const ContactProblem& problem, ContactSolution& sol
   solution.is_bonded_by_load = curve_.status == Status::kBonded && curve_.firstPushing() != curve_.states.end();
   partConforming(problem, solution);
   listPullOffContacts(problem, solution);
+  solution.model = statement_.of(solution, problem.settings.interface.work_of_adhesion);
   const double area = problem.gap.validCount() * problem.gap.cellArea();
   solution.contact_area = std::min(solution.contact_area, area);  // a sum over all cells may be larger by rounding
   solution.contact_fraction = solution.contact_area / area;

@@ -74,7 +74,7 @@ HeldState HeldContact::advance(double voltage, double mechanical_load) {
       return state;
     }
   }
-  if (contact_.followsCurve()) {
+  if (contact_.model.knows_every_load) {
     const Prediction now = model_.predict(pressed_);
     const Prediction as_new = model_.predict(surfaces_);
     const Prediction& wider = now.contact_area < as_new.contact_area ? as_new : now;  // what is flatter touches no less

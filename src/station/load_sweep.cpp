@@ -90,7 +90,7 @@ class Loop {
     row.margin_lower = verdict_.margin_lower;
     row.margin_upper = verdict_.margin_upper;
     row.pull_off_interval = pull_off_interval_;
-    const bool is_known = contact.status == Status::kEquilibrium || contact.followsCurve();
+    const bool is_known = contact.status == Status::kEquilibrium || contact.model.knows_every_load;
     if (std::isnan(verdict_.margin) || !is_known) return;
     const double pressing = state.mechanical_load * device_.contact_area / contact.nominal_area;
     row.holding_margin = verdict_.restoring_force / (verdict_.device_pull_off_force + pressing +

@@ -181,7 +181,7 @@ Configuration configurationOf(const Arguments& arguments) {
 
 /// @throw SurfaceError if the formulation does not follow the force
 void requireCurve(const Prediction& prediction, const std::string& formulation) {
-  if (prediction.followsCurve()) return;
+  if (!prediction.curve.empty()) return;
   throw SurfaceError("formulation " + formulation + " does not follow the force, so that there is no curve of it");
 }
 

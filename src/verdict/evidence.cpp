@@ -31,6 +31,7 @@ Prediction withHalfSpace(const Prediction& prediction, const SolvedHalfSpace& so
   judged.status = Status::kEquilibrium;
   judged.pull_off_force = judged.pull_off_force_jkr = judged.pull_off_force_transition = solution.pull_off_force;
   judged.apparent_work_of_adhesion = solution.work_of_adhesion;
+  judged.model.respond = nullptr;  // the work is not that of its contacts
   return judged;
 }
 

@@ -1,10 +1,6 @@
 #include "mems_stiction/verdict/regime_flags.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
-
-#include "mems_stiction/base/median.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -47,31 +43,16 @@ Shares sharesOf(const Prediction& prediction, double cell_area) {
   return shares;
 }
 
-/// Of the contacts that hold; not known where contacts are not listed, infinite without a range of attraction.
-double medianTaborOf(const Prediction& prediction) {
-  if (prediction.pull_off_contacts.empty()) return prediction.median_tabor_parameter;
-  std::vector<double> values;
-  for (const Asperity& contact : prediction.pull_off_contacts) values.push_back(contact.tabor_parameter);
-  return medianOf(values);
-}
-
 }  // namespace
-
-bool mayGrowTogether(const Prediction& prediction) {
-  const double tabor = medianTaborOf(prediction);
-  const double softness = std::isnan(tabor) ? 0.0 : std::min(tabor, 1.0);
-  if (prediction.flattening_ratio < kNearBonding * (1.0 + softness)) return true;
-  return prediction.flattening_ratio < kJoiningOnes && prediction.joining_rise > kJoiningRise;
-}
 
 std::uint32_t regimeFlags(const Prediction& prediction, double cell_area) {
   std::uint32_t flags = 0;
   if (prediction.status == Status::kBonded && !prediction.is_bonded_by_load) flags |= kBondedFlag;
   if (prediction.status == Status::kNoEquilibrium) flags |= kNoEquilibriumFlag;
-  if (mayGrowTogether(prediction)) flags |= kNearBondingFlag;
+  if (prediction.model.may_grow_together) flags |= kNearBondingFlag;
   if (!prediction.has_asperities) return flags;  // nothing is known of single contacts
   if (prediction.pull_off_contact_count == 0) return flags | kFewContactsFlag;
-  if (!prediction.followsCurve() && prediction.contact_theory != ContactTheory::kJkr) flags |= kTaborFlag;
+  if (prediction.model.assumes_jkr && prediction.contact_theory != ContactTheory::kJkr) flags |= kTaborFlag;
   const Shares shares = sharesOf(prediction, cell_area);
   if (shares.flowing > kLargeShare) flags |= kPlasticityFlag;
   if (shares.small > kLargeShare) flags |= kResolutionFlag;

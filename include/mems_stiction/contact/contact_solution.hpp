@@ -12,6 +12,7 @@
 
 #include <opencv2/core.hpp>
 
+#include "mems_stiction/contact/model_statement.hpp"
 #include "mems_stiction/loads/normal_load.hpp"
 #include "mems_stiction/mechanics/regime.hpp"
 
@@ -19,9 +20,9 @@ namespace mems_stiction {
 
 /// How the search for the place of rest ended.
 enum class Status : std::uint8_t {
-  kEquilibrium = 0,  ///< the contacts carry the loads: the surfaces rest
-  kBonded = 1,  ///< the surfaces lie against each other nearly everywhere; forces are lower bounds (isLowerBound())
-                ///< where the search ended at the contact fraction limit instead of at rest
+  kEquilibrium = 0,    ///< the contacts carry the loads: the surfaces rest
+  kBonded = 1,         ///< the surfaces lie against each other nearly everywhere; forces are lower bounds
+                       ///< where the model says so (ModelStatement::is_bound_where_bonded)
   kNoEquilibrium = 2,  ///< the search range ended first: results are those of the last step
 };
 
@@ -88,6 +89,7 @@ struct ContactSolution {
 
   Status status = Status::kNoEquilibrium;
   int steps = 0;                       ///< that the solver took
+  ModelStatement model;                ///< what holds of these figures
   double approach = kUnknown;          ///< D from first touch [m]
   double mean_gap = kUnknown;          ///< over the cells out of contact [m]; 0 when every cell touches
   double contact_area = kUnknown;      ///< real area of contact [m^2]

@@ -4,7 +4,6 @@
 /// The answer of the model for one pair of surfaces. Field names are those of msg/StictionPrediction.msg and of the
 /// records that predict_scan prints.
 
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -89,11 +88,9 @@ struct Prediction {
   double invalid_fraction = 0.0;      ///< share of pixels that are invalid in either surface [-]
   double processing_time = 0.0;       ///< wall time of this prediction, its preparation included [s]
 
-  /// Whether the solver has followed the force between the surfaces over their displacement.
-  bool followsCurve() const { return !std::isnan(apparent_work_of_adhesion); }
-  /// Whether the pull-off force is a lower bound: the paper's search ended before the contacts stopped growing. The
-  /// separation curve knows bonded surfaces by the strength of the law and by what flattening them costs.
-  bool isLowerBound() const { return status == Status::kBonded && !followsCurve(); }
+  ModelStatement model;  ///< what the solver says of these figures
+  /// Whether the pull-off force is a lower bound: the search ended before the contacts stopped growing.
+  bool isLowerBound() const { return status == Status::kBonded && model.is_bound_where_bonded; }
   /// Whether `asperities` lists every contact: it does not if the solver knows none, or output/asperities is off.
   bool listsContacts() const { return has_asperities && static_cast<int>(asperities.size()) == asperity_count; }
   std::vector<Asperity> asperities;

@@ -19,6 +19,7 @@
 
 #include "mems_stiction/contact/contact_solver.hpp"
 #include "mems_stiction/separation/conforming_contact.hpp"
+#include "mems_stiction/separation/curve_statement.hpp"
 #include "mems_stiction/separation/flattening.hpp"
 #include "mems_stiction/separation/kept_overlap.hpp"
 #include "mems_stiction/separation/separation_curve.hpp"
@@ -73,6 +74,7 @@ class SeparationSolver : public ContactSolver {
   std::vector<double> changed_gaps_;  ///< of the cells that overlap, when surfaces have flowed [m]
   SeparationCurve way_out_;           ///< where it is another than the way in
   bool has_way_out_ = false;
+  CurveStatement statement_;
   std::vector<Regime> regime_of_dale_;  ///< at rest, when surfaces have flowed
 };
 

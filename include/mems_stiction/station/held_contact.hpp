@@ -14,7 +14,7 @@
 ///     - an elastic contact's radius follows (7) down its new share P0; what has flowed keeps its radius:
 ///       a^2 = chi a(P0)^2 + (1 - chi) a(largest)^2.
 ///
-/// The separation curve knows what a contact is at each load: it is read off again there, for the surfaces as the largest
+/// A solver that knows every load (ModelStatement) is asked again at each, for the surfaces as the largest
 /// load has left them. What holds them, which flow and conforming have increased, stays that of the largest load.
 ///
 /// A load beyond the largest so far searches the equilibrium of the undeformed surfaces again: loading passes the

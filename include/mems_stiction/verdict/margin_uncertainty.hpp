@@ -3,40 +3,12 @@
 /// @file
 /// How far may the predicted pull-off force be off, given how well the constants are known?
 ///
-/// Each sample draws one factor per uncertain constant, lognormal with median 1: w for the work of adhesion, h for the
-/// hardness, e for the modulus, x for the pitch, c for the cut-off, a for the Hamaker constant. Nothing is searched
-/// again.
-///
-/// A prediction by the separation curve moves with its exponents, force and work each with their own, and has the
-/// model's own error (doc/trust.md). Where a half-space judges, its error takes the place of that (evidence.hpp).
-///
-/// A prediction by paper or printed moves the contacts that were found:
-///
-///     R_i -> x^2 R_i     P1_i -> e x P1_i     yield load Y_i = Ha pi rc_i^2 -> h x^2 Y_i
-///     phi_i -> (e/h) phi_i/x, and with it the elastic share chi_i
-///     carried load  C = sum [chi_i P1_i + (1 - chi_i) min(P1_i, Y_i)]
-///     demand        B = F_m + F_e + F_w + F_c + 2 pi Gamma sum R_i
-///     growth        n = (B'/C')/(B/C), with F_w' and F_c' in B' for n = 1
-///     F_w -> x^2 a (n c^-2 near + far),  far = H A/(6 pi (mean gap)^3), which the cut-off does not touch
-///     F_c -> x^2 n F_c
-///     pull-off per nominal area -> [n (3/2) pi (w Gamma) sum x^2 R_i + F_w' + F_c']/(x^2 A0)
-///
-/// The growth says that a surface that must carry more, or carries less per contact, brings proportionally more
-/// contacts of the same kind into play (Archard; Greenwood and Williamson's exponential summits). F_w ~ c^-2 is the
-/// edge of a contact, a gap that grows evenly from 0. Condensed water goes with the contacts that it surrounds.
-///
-/// This is a first-order model. Left out: the feedback of new contacts on the demand (it makes sticky surfaces near
-/// bonding more sensitive than said here), the change of the shares of large and small contacts, and steps of the
-/// contact count when there are few. Tests search again with each constant changed:
-///
-/// - From 30 elastic contacts on Gaussian surfaces, the powers of the pull-off force agree within 0.3.
-/// - Where contacts flow, the search moves by several times more, with powers of 4 of pitch and cut-off: they resist
-///   less than the load that they carry (asperity_response.hpp).
-/// - With a few contacts the search goes in steps, and this is the smooth mean at best. A single contact that carries
-///   more than it must does not react at all: this is then wider than what the search would say.
-///
-/// The choice of cleaning is a further factor: normal in the logarithm, whose 2.5 % and 97.5 % quantiles are the lowest
-/// and the highest of the cleanings. It adds in quadrature there, quantile by quantile.
+/// Each sample draws one factor per uncertain constant, lognormal with median 1. The figures move with them as the solver
+/// says (contact_response.hpp), or with the prediction's exponents, force and work each with their own; the model's own
+/// error (ModelStatement) is a further factor then.
+/// Where a half-space judges, its error takes the place of that (evidence.hpp). The choice of cleaning is a further
+/// factor: normal in the logarithm, whose 2.5 % and 97.5 % quantiles are the lowest and the highest of the cleanings. Both
+/// add in quadrature there, quantile by quantile.
 ///
 /// With scan_sampling, a further factor has the variance sum R_i^2/(sum R_i)^2: a scan is one sample of the surface,
 /// and another place would have other contacts (Poisson).
@@ -69,9 +41,8 @@ struct AdhesionSpread {
   bool isKnown() const { return !pull_off.empty(); }
 };
 
-/// Energy per nominal area that separating the contacts costs when no load presses: the sum of JKR's energies over the
-/// contacts [J/m^2]. This is what beams of this rough surface would measure, without the van der Waals attraction
-/// across the open gap (which adds at most F_w (mean gap)/2 per nominal area). NaN without a list of contacts.
+/// Energy per nominal area that separating the surfaces costs when no load presses [J/m^2]: what beams of this rough surface
+/// would measure. NaN if it is a sum over contacts that are not listed.
 double apparentWorkOfAdhesion(const Prediction& prediction, const Options& options);
 
 /// - @p prediction of the formulation, also where a half-space judges: contacts and exponents are its own

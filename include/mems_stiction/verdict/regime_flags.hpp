@@ -20,7 +20,7 @@ enum RegimeFlag : std::uint32_t {
   kPlasticityFlag = 8,     ///< more than half of the adhesion is of contacts that flow: their radii have changed
   kResolutionFlag = 16,    ///< more than half of the adhesion is of contacts of few pixels: a finer pitch may change it
   kFewContactsFlag = 32,   ///< so few contacts that another place of the surface may differ much
-  kNearBondingFlag = 64,   ///< mayGrowTogether()
+  kNearBondingFlag = 64,   ///< contacts may draw the next ones near (ModelStatement::may_grow_together)
   kBorderFlag = 128,       ///< more than half of the adhesion is of contacts at the frame's border
   kOnePixelFlag = 256,     ///< more than half of the adhesion is of contacts of one pixel
 };
@@ -29,21 +29,8 @@ enum RegimeFlag : std::uint32_t {
 inline constexpr double kFewestCellsPerContact = 20.0;
 /// Fewer contacts than this say nothing of another place.
 inline constexpr int kFewestContactsForStatement = 3;
-/// Flattening energy over the work of adhesion below which stiff contacts (DMT) may grow together, and soft ones (JKR)
-/// at twice that [-].
-inline constexpr double kNearBonding = 2.0;
-/// Up to this ratio, contacts that join one after another may pull each other together.
-inline constexpr double kJoiningOnes = 6.0;
-/// Rise of the force, of the largest one, that tells of such contacts [-].
-inline constexpr double kJoiningRise = 0.1;
 /// Fewer contacts than this scatter by a third and more from place to place.
 inline constexpr int kFewestContacts = 10;
-
-/// Whether the flattening ratio lies below 2 (1 + mu), mu the median Tabor parameter, at most 1: where contacts are
-/// brittle, they grow together over barriers at which the separation curve rests (doc/trust.md). Or below 6, if the
-/// force on the way in rises again by a tenth of its largest value after it has fallen: contacts join one after another
-/// there, and those that hold draw the next ones near.
-bool mayGrowTogether(const Prediction& prediction);
 
 /// Shares are of the sum of composite radii, which the adhesion is proportional to; without a list of contacts
 /// (output/asperities off, paper's formulations) they are of the number of contacts, and the mean contact stands for

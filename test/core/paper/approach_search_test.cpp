@@ -12,7 +12,7 @@ namespace mems_stiction {
 namespace {
 
 constexpr double kNm = 1e-9;
-constexpr double kCutoffDistance = 0.165 * kNm;
+constexpr double kCutoffDistance = 0.165e-9;
 constexpr double kContactFractionLimit = 0.5;
 
 /// One search with everything that it needs.

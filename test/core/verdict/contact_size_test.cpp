@@ -20,7 +20,8 @@ Prediction predicted() {
   prediction.pull_off_force = kPullOff;
   prediction.apparent_work_of_adhesion = 1e-5;
   prediction.pull_off_exponents = prediction.work_exponents = {1.0, 0.0, 0.0};
-  prediction.flattening_ratio = 10.0;
+  prediction.model.error = {0.05, 0.04};
+  prediction.model.assumes_jkr = false;
   prediction.asperity_count = prediction.pull_off_contact_count = 25;
   Asperity asperity;
   asperity.composite_radius = 1e-6;

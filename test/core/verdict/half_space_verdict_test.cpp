@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "mems_stiction/base/constants.hpp"
+#include "mems_stiction/paper/contact_growth.hpp"
 #include "mems_stiction/verdict/regime_flags.hpp"
 #include "mems_stiction/verdict/verdict.hpp"
 #include "support/paper_options.hpp"
@@ -25,7 +26,8 @@ Prediction predicted() {
   prediction.pull_off_force = prediction.pull_off_force_jkr = prediction.pull_off_force_transition = kPullOff;
   prediction.apparent_work_of_adhesion = 0.01;
   prediction.pull_off_exponents = prediction.work_exponents = {1.0, 0.0, 0.0};
-  prediction.flattening_ratio = 10.0;
+  prediction.model.error = {0.05, 0.04};
+  prediction.model.assumes_jkr = false;
   prediction.asperity_count = prediction.pull_off_contact_count = 25;
   for (int i = 0; i < prediction.asperity_count; ++i) {
     Asperity asperity;
@@ -120,7 +122,8 @@ TEST(HalfSpaceVerdict, OneThatCannotJudgeLeavesThePredictionsVerdictAndSaysWhy) 
 
 TEST(HalfSpaceVerdict, ItsErrorTakesThePlaceOfTheModels) {
   Prediction near_bonding = predicted();
-  near_bonding.flattening_ratio = 1.0;
+  near_bonding.model.error = {0.10, 0.11};
+  near_bonding.model.may_grow_together = true;
   // By the error map the interval of the curve holds 1, by 0.02 that of the half-space does not.
   EXPECT_EQ(verdictWith(Evidence(), near_bonding, 1.2).sticks, Sticks::kMarginal);
   const Verdict verdict = verdictWith(solved(1.0), near_bonding, 1.2);
@@ -165,6 +168,7 @@ TEST(HalfSpaceVerdict, ASearchThatEndedIsNoObstacle) {
 TEST(HalfSpaceVerdict, ThePapersContactsMoveItToo) {
   Prediction prediction = predicted();
   prediction.apparent_work_of_adhesion = Prediction::kUnknown;
+  prediction.model.respond = contactGrowth;
   for (Asperity& asperity : prediction.asperities) asperity.cap_radius = 30e-9;
   const SolvedHalfSpace solution = solved(0.1);
   Evidence evidence;

@@ -7,6 +7,7 @@
 
 #include "mems_stiction/base/constants.hpp"
 #include "mems_stiction/mechanics/jkr.hpp"
+#include "mems_stiction/paper/contact_growth.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
 #include "mems_stiction/surface/gaussian_surface.hpp"
 #include "support/paper_options.hpp"
@@ -27,6 +28,7 @@ UncertaintyOptions exact() {
 /// `count` equal elastic contacts without van der Waals forces, under a load far above adhesion.
 Prediction equalContacts(int count, const Options& options, double load = 1e-3) {
   Prediction prediction;
+  prediction.model.respond = contactGrowth;
   prediction.mechanical_load = load;
   prediction.nominal_area = 1e-10;
   prediction.asperity_count = count;

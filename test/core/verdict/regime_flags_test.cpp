@@ -2,11 +2,6 @@
 
 #include "mems_stiction/verdict/regime_flags.hpp"
 
-#include <cmath>
-#include <limits>
-#include <utility>
-#include <vector>
-
 #include <gtest/gtest.h>
 
 namespace mems_stiction {
@@ -42,48 +37,35 @@ TEST(RegimeFlags, resolutionIsThatOfMoreThanHalfOfTheAdhesion) {
   }
 }
 
-TEST(RegimeFlags, brittleContactsMayGrowTogetherAtTwiceTheFlatteningRatio) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  const double infinite = std::numeric_limits<double>::infinity();
-  for (const auto& [tabor, limit] :
-       {std::pair(0.0, 2.0), {0.4, 2.8}, {1.0, 4.0}, {3.0, 4.0}, {infinite, 4.0}, {nan, 2.0}}) {
-    for (const bool is_near : {false, true}) {
-      Prediction prediction = contactsWith(0.5);
-      prediction.median_tabor_parameter = tabor;
-      prediction.flattening_ratio = limit * (is_near ? 0.999 : 1.001);
-      EXPECT_EQ((regimeFlags(prediction, kCell) & kNearBondingFlag) != 0, is_near) << tabor;
-    }
+TEST(RegimeFlags, nearBondingIsAsTheModelSays) {
+  for (const bool is_near : {false, true}) {
+    Prediction prediction = contactsWith(0.5);
+    prediction.model.may_grow_together = is_near;
+    EXPECT_EQ((regimeFlags(prediction, kCell) & kNearBondingFlag) != 0, is_near);
   }
 }
 
-TEST(RegimeFlags, contactsThatJoinOneAfterAnotherMayGrowTogetherUpToSix) {
-  const auto flagged = [](double flattening_ratio, double rise) {
+TEST(RegimeFlags, taborIsThatOfModelsWithJkr) {
+  for (const bool assumes_jkr : {false, true}) {
     Prediction prediction = contactsWith(0.5);
-    prediction.median_tabor_parameter = 0.0;
-    prediction.flattening_ratio = flattening_ratio;
-    prediction.joining_rise = rise;
-    return (regimeFlags(prediction, kCell) & kNearBondingFlag) != 0;
-  };
-  EXPECT_TRUE(flagged(5.9, 0.11));
-  EXPECT_FALSE(flagged(5.9, 0.09));
-  EXPECT_FALSE(flagged(6.1, 0.4));
+    prediction.contact_theory = ContactTheory::kDmt;
+    prediction.model.assumes_jkr = assumes_jkr;
+    EXPECT_EQ((regimeFlags(prediction, kCell) & kTaborFlag) != 0, assumes_jkr);
+  }
 }
 
 TEST(RegimeFlags, areThoseOfTheContactsThatHoldAtThePullOff) {
   Prediction prediction = contactsWith(0.5);
   prediction.status = Status::kEquilibrium;
-  prediction.apparent_work_of_adhesion = 1e-4;
+  prediction.model.assumes_jkr = false;
   prediction.asperity_count = 200;  // what a load presses together
   prediction.pull_off_contact_count = 1;
   Asperity holding;
   holding.composite_radius = 1e-6;
   holding.area = kCell;
   holding.is_at_border = true;
-  holding.tabor_parameter = 1.0;
   prediction.pull_off_contacts = {holding};
-  prediction.flattening_ratio = 3.9;
-  EXPECT_EQ(regimeFlagNames(regimeFlags(prediction, kCell)),
-            "resolution, few_contacts, near_bonding, border, one_pixel");
+  EXPECT_EQ(regimeFlagNames(regimeFlags(prediction, kCell)), "resolution, few_contacts, border, one_pixel");
 }
 
 TEST(RegimeFlags, surfacesThatALoadPressesTogetherNearlyEverywhereAreNotBonded) {

@@ -1,0 +1,32 @@
+#pragma once
+
+/// @file
+/// What the separation curve says of its own answer (model_statement.hpp): how far it lies from the half-space, by what
+/// flattening costs over what adhesion gives and how brittle contacts are (doc/trust.md).
+
+#include <vector>
+
+#include "mems_stiction/contact/contact_solution.hpp"
+
+namespace mems_stiction {
+
+/// Keeps its memory between calls.
+class CurveStatement {
+ public:
+  static std::vector<UnusedSetting> unusedSettings(const ContactSettings& settings);
+
+  /// - @p solution with its contacts, those at the pull-off too
+  /// - @p work_of_adhesion Gamma [J/m^2]
+  ModelStatement of(const ContactSolution& solution, double work_of_adhesion);
+
+ private:
+  /// Whether the flattening ratio lies below 2 (1 + mu), mu the median Tabor parameter, at most 1: where contacts are
+  /// brittle, they grow together over barriers at which the curve rests. Or below 6, if the force on the way in rises again
+  /// by a tenth of its largest value after it has fallen: contacts join one after another there, and those that hold draw
+  /// the next ones near.
+  bool mayGrowTogether(const ContactSolution& solution, double flattening_ratio);
+
+  std::vector<double> values_;
+};
+
+}  // namespace mems_stiction
