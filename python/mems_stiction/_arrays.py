@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import inspect
 import os
-from typing import Any, NamedTuple, Optional, Sequence, Tuple, Union
+from typing import Any, NamedTuple, Optional, Sequence, Tuple, TypeVar, Union
 
 import numpy as np
 
@@ -16,6 +17,7 @@ METRES = {"m": 1.0, "dm": 1e-1, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "µm": 1e-6,
 AS_IT_IS = ("float32", "float64", "uint8", "uint16", "int16")
 
 Pitch = Union[float, Sequence[float]]
+Kind = TypeVar("Kind", bound=type)
 
 
 class Surface(NamedTuple):
@@ -160,3 +162,9 @@ def records_of(records: _core.Records) -> np.recarray:
     memory = np.asarray(records.bytes)
     memory.flags.writeable = False
     return memory.view(layout).view(np.recarray)
+
+
+def explained(kind: Kind) -> Kind:
+    """The class with the text of its first base behind its own: what the core declares of its figures."""
+    kind.__doc__ = "%s\n\n%s" % (inspect.cleandoc(kind.__doc__ or ""), kind.__bases__[0].__doc__)
+    return kind

@@ -1,24 +1,240 @@
-"""Types of the compiled part. Users import mems_stiction, which checks what it hands over."""
+"""Types of the compiled part, written by scripts/lib/core_stub.py. Users import mems_stiction, which checks what it hands over."""
 
 from typing import Any, Dict, List, Optional, Sequence, Tuple
 
 import numpy as np
 
-class Error(Exception): ...
-class OptionsError(Error, ValueError): ...
-class SurfaceError(Error, ValueError): ...
-class FileError(Error, OSError): ...
+class HalfSpaceFigures:
+    status: str
+    """SOLVED, LOAD_NOT_REACHED, NOT_CONVERGED, TOO_MANY_STATES or CANCELLED"""
+    pull_off_force: float
+    """[N] largest attraction while the bodies are drawn apart, after voltage and load have gone"""
+    contact_area: float
+    """[m^2] cells that repel each other at rest"""
+    contact_fraction: float
+    """contact_area over the area of the valid cells"""
+    mean_gap: float
+    """[m] at rest, over the valid cells"""
+    apparent_work_of_adhesion: float
+    """[J/m^2] from zero force to apart, per area of the frame"""
+    adhesion_hysteresis: float
+    """[J/m^2] what a whole cycle costs, by jumps and by flow, per area of the frame"""
+    is_converged: bool
+    """every state is an equilibrium to half_space/tolerance"""
+    is_resolved: bool
+    """pixels are small enough for the edge of a contact: at least two per cohesive_length"""
+    iterations: int
+    """Newton steps of all states"""
+    processing_time: float
+    """[s] wall time of the solution"""
+    pull_off_force_under_voltage: float
+    """[N] largest attraction if the voltage stays on instead"""
+    message: str
+    """the status in a sentence"""
+    pull_off_uncertainty: float
+    """[N] by which finer steps may exceed pull_off_force"""
+    pull_off_height: float
+    """[m] of the upper body then, over first touch"""
+    rest_height: float
+    """[m] of the upper body at rest, over first touch"""
+    rest_force: float
+    """[N] there: minus the mechanical load"""
+    contact_count: int
+    """connected groups of the cells in contact"""
+    flowed_volume: float
+    """[m^3] that both surfaces have lost for good, after the whole path"""
+    range: float
+    """[m] z0, the gap at which the traction changes its sign"""
+    cohesive_length: float
+    """[m] E z0^2/Gamma, over which the edge of a contact parts"""
+    is_step_converged: bool
+    """finer steps change pull_off_force by less than 2 %"""
+    residual: float
+    """the largest of all states"""
+    state_count: int
+    """heights that were solved"""
+    jumps: int
+    """places where the curve is not continuous, both ways"""
 
-class Memory: ...
+class PredictionFigures:
+    status: str
+    """EQUILIBRIUM, BONDED or NO_EQUILIBRIUM (then do not use the forces)"""
+    steps: int
+    """of the approach that were taken"""
+    voltage: float
+    """[V] across the interface"""
+    mechanical_load: float
+    """[N] pressing, on the scanned area"""
+    van_der_waals_force: float
+    """[N] attraction of the cells out of contact (2)"""
+    electrostatic_force: float
+    """[N] attraction by the voltage (3)"""
+    normal_load: float
+    """[N] mechanical, van der Waals, electrostatic and capillary together"""
+    capillary_force: float
+    """[N] of condensed water, part of normal_load; 0 when off"""
+    pull_off_force: float
+    """[N] largest while the surfaces are drawn apart, after voltage and load have gone; (11) of the paper's formulations"""
+    pull_off_force_jkr: float
+    """[N] (3/2) pi Gamma times the sum of the composite radii"""
+    pull_off_force_transition: float
+    """[N] the same sum with the prefactor of the JKR-DMT transition for each contact"""
+    contact_area: float
+    """[m^2] real area of contact; of the paper's formulations all cells that overlap"""
+    contact_area_jkr: float
+    """[m^2] sum of the JKR contacts"""
+    nominal_area: float
+    """[m^2] valid cells of the scan"""
+    contact_fraction: float
+    """contact_area/nominal_area"""
+    approach: float
+    """[m] of the surfaces from first touch"""
+    mean_gap: float
+    """[m] over the cells out of contact"""
+    mechanical_energy: float
+    """[J] of the load (10.1)"""
+    surface_energy: float
+    """[J] of the surfaces that touch (10.1)"""
+    elastic_energy: float
+    """[J] stored in the bodies (10.2)"""
+    total_energy: float
+    """[J] mechanical + surface - elastic (8)"""
+    plastic_work: float
+    """[J] dissipated in flow along the approach"""
+    bonding_energy: float
+    """[J/m^2] total_energy/nominal_area"""
+    normalized_bonding_energy: float
+    """bonding_energy/work of adhesion; NaN when that is 0"""
+    apparent_work_of_adhesion: float
+    """[J/m^2] of drawing the surfaces apart, per nominal area"""
+    contact_stiffness: float
+    """[N/m] -dF/dD at rest"""
+    flattening_energy: float
+    """[J/m^2] that pressing the surfaces flat would store, per area"""
+    flattening_ratio: float
+    """flattening_energy/work of adhesion"""
+    adhesion_exponent: float
+    """d ln(pull_off_force)/d ln(work of adhesion)"""
+    modulus_exponent: float
+    """d ln(pull_off_force)/d ln(contact modulus)"""
+    is_conforming: bool
+    """flattening costs less than adhesion gives: flat against each other nearly everywhere"""
+    adhesion_parameter: float
+    """mean of (E/Gamma) sqrt(sigma^3/R) (14); infinite when Gamma is 0"""
+    bonding_regime: str
+    """BONDING, ADHERENCE, NON_BONDING or UNKNOWN by the adhesion parameter (Gui et al. 1999)"""
+    asperity_count: int
+    """contacts at rest"""
+    elastic_count: int
+    """of them elastic"""
+    elasto_plastic_count: int
+    """of them elasto-plastic"""
+    plastic_count: int
+    """of them fully plastic"""
+    max_tilt: float
+    """[rad] largest tilt of a contact"""
+    median_tabor_parameter: float
+    """of the contacts; infinite when adhesion has no range, NaN without contact"""
+    contact_theory: str
+    """DMT, TRANSITION, JKR or UNKNOWN by the median Tabor parameter (Johnson and Greenwood 1997)"""
+    composite_rms_height: float
+    """[m] sqrt(sigma1^2 + sigma2^2) (9)"""
+    rms_height: float
+    """[m] of the scanned surface"""
+    invalid_fraction: float
+    """share of pixels that are invalid in either surface"""
+    processing_time: float
+    """[s] wall time of this prediction"""
+    median_contact_pixels: float
+    """pixels of the scan in half of the contacts or fewer; NaN without contact"""
+    median_composite_radius: float
+    """[m] median of the composite radii; NaN without contact"""
+    is_resolution_limited: bool
+    """median_contact_pixels is below resolution/min_contact_pixels"""
+    is_tip_limited: bool
+    """the tip is blunter than the contacts: its radius exceeds median_composite_radius"""
+    pull_off_contact_count: int
+    """contacts that hold at the pull-off, on which flags and verdict rest; -1 not known"""
+    formulation: str
+    """whose answer it is"""
+    regime_flags: int
+    """where the model leaves its range: bits, of which flags has the names (doc/validity.md)"""
 
-class Records:
-    bytes: Memory
-    record_size: int
-    fields: List[Tuple[str, str, int]]
+class RoughnessFigures:
+    sa: float
+    """[m] arithmetical mean height"""
+    sq: float
+    """[m] root mean square height"""
+    ssk: float
+    """skewness"""
+    sku: float
+    """kurtosis; 3 for a Gaussian surface"""
+    sp: float
+    """[m] maximum peak height"""
+    sv: float
+    """[m] maximum pit depth, positive"""
+    sz: float
+    """[m] maximum height, sp + sv"""
+    sdq: float
+    """root mean square gradient"""
+    sdr: float
+    """developed interfacial area ratio"""
+    sal: float
+    """[m] autocorrelation length, to 0.2"""
+    str: float
+    """texture aspect ratio: near 1 isotropic, near 0 a lay"""
+    m0: float
+    """[m^2] mean squared height of a profile, averaged over its directions"""
+    m2: float
+    """mean squared slope of a profile"""
+    m4: float
+    """[1/m^2] mean squared curvature of a profile"""
+    nayak: float
+    """Nayak's parameter, m0 m4/m2^2"""
+    summit_density: float
+    """[1/m^2] summits per area"""
+    mean_summit_radius: float
+    """[m] 1/mean curvature of the summits"""
+    hurst: float
+    """exponent of the self-affine range"""
 
-class HeightMap:
-    pixels: Optional[Memory]
-    pitch: Tuple[float, float]
+class VerdictFigures:
+    sticks: str
+    """no, marginal, yes or unknown"""
+    reason: str
+    """of sticks, one sentence"""
+    restoring_force: float
+    """[N] of the device's spring"""
+    device_pull_off_force: float
+    """[N] pull_off_force scaled to the device's contact area"""
+    margin: float
+    """restoring over pull-off force: above 1 the spring wins; infinite without adhesion"""
+    margin_lower: float
+    """2.5 % quantile of margin"""
+    margin_upper: float
+    """97.5 % quantile of margin"""
+    margin_uncertainty: float
+    """half of the central 68 % interval of margin"""
+    margin_transition: float
+    """margin with the prefactors of the JKR-DMT transition"""
+    apparent_work_of_adhesion: float
+    """[J/m^2] of the rough interface, per nominal area"""
+    peel_number: float
+    """of the beam: above 1 it comes off (de Boer and Michalske 1999)"""
+    peel_number_lower: float
+    """2.5 % quantile of peel_number"""
+    peel_number_upper: float
+    """97.5 % quantile of peel_number"""
+    detachment_length: float
+    """[m] longest beam that comes off by itself (Mastrangelo and Hsu 1993)"""
+    unstuck_length: float
+    """[m] free arm of the beam while it is stuck"""
+    pull_in_voltage: float
+    """[V] at which the electrodes close"""
+    regime_flags: int
+    """where the model leaves its range: bits, 0 when all is well"""
+    verdict_by: str
+    """whose figures it rests on: prediction or half_space"""
 
 class Configuration:
     def __init__(self) -> None: ...
@@ -29,10 +245,32 @@ class Configuration:
     pitch: Tuple[float, float]
     def yaml(self) -> str: ...
 
+class ContactCyclesResult:
+    cycles: Records
+    first_sticking_cycle: int
+    lower: HeightMap
+    upper: HeightMap
+
+class HeightMap:
+    pixels: Optional[Memory]
+    pitch: Tuple[float, float]
+
+class LoadSweepResult:
+    points: Records
+    summaries: Records
+    pull_in_voltage: float
+
+class Memory: ...
+
+class OneScan:
+    def __init__(self, scan: HeightMap, counter_surface: Optional[HeightMap], configuration: Configuration, notes: Sequence[str]) -> None: ...
+    scan_warnings: List[str]
+    def predict(self, configuration: Configuration) -> PredictedScan: ...
+
 class PredictedScan:
     figures: Dict[str, Any]
     verdict: Optional[Dict[str, Any]]
-    roughness: Dict[str, float]
+    roughness: Dict[str, Any]
     flag_names: str
     preprocessing: List[Dict[str, Any]]
     scan_warnings: List[str]
@@ -53,23 +291,15 @@ class PredictedScan:
 
 class Predictor:
     def __init__(self, configuration: Configuration) -> None: ...
-    def predict(
-        self, scan: HeightMap, counter_surface: Optional[HeightMap], notes: Sequence[str]
-    ) -> PredictedScan: ...
-
-class OneScan:
-    scan_warnings: List[str]
-    def __init__(
-        self,
-        scan: HeightMap,
-        counter_surface: Optional[HeightMap],
-        configuration: Configuration,
-        notes: Sequence[str],
-    ) -> None: ...
-    def predict(self, configuration: Configuration) -> PredictedScan: ...
+    def predict(self, scan: HeightMap, counter_surface: Optional[HeightMap], notes: Sequence[str]) -> PredictedScan: ...
 
 class PreparedScan:
     warnings: List[str]
+
+class Records:
+    bytes: Memory
+    record_size: int
+    fields: List[Tuple[str, str, int]]
 
 class SolvedScan:
     figures: Dict[str, Any]
@@ -81,38 +311,24 @@ class SolvedScan:
     deformed_lower: HeightMap
     deformed_upper: HeightMap
 
-class LoadSweepResult:
-    points: Records
-    summaries: Records
-    pull_in_voltage: float
+class Error(Exception): ...
 
-class ContactCyclesResult:
-    cycles: Records
-    first_sticking_cycle: int
-    lower: HeightMap
-    upper: HeightMap
+class FileError(Error, OSError): ...
 
-def height_map(pixels: np.ndarray, pitch_x: float, pitch_y: float, configuration: Configuration) -> HeightMap: ...
-def prepare(
-    scan: HeightMap, counter_surface: Optional[HeightMap], configuration: Configuration
-) -> PreparedScan: ...
-def scan_warnings(scan: HeightMap) -> List[str]: ...
-def read(
-    path: str, configuration: Configuration, pitch_x: float, pitch_y: float, channel: str, ignore_mask: bool
-) -> Tuple[HeightMap, str, List[str]]: ...
+class OptionsError(Error, ValueError): ...
+
+class SurfaceError(Error, ValueError): ...
+
 def channels(path: str, configuration: Configuration) -> List[Dict[str, Any]]: ...
 def clean(scan: HeightMap, configuration: Configuration) -> Tuple[HeightMap, List[Dict[str, Any]]]: ...
-def roughness(scan: HeightMap, configuration: Configuration, is_spatial: bool) -> Dict[str, float]: ...
-def generate(rows: int, cols: int, pitch_x: float, pitch_y: float, configuration: Configuration) -> HeightMap: ...
-def decimate(scan: HeightMap, factor: int) -> HeightMap: ...
-def roughness_units() -> Dict[str, str]: ...
-def prediction_units() -> Dict[str, Dict[str, str]]: ...
-def half_space(prepared: PreparedScan, configuration: Configuration) -> SolvedScan: ...
-def half_space_units() -> Dict[str, str]: ...
-def sweep_loads(
-    prepared: PreparedScan,
-    configuration: Configuration,
-    voltages: Sequence[float],
-    mechanical_loads: Sequence[float],
-) -> LoadSweepResult: ...
 def cycle_contact(prepared: PreparedScan, configuration: Configuration, count: int) -> ContactCyclesResult: ...
+def decimate(scan: HeightMap, factor: int) -> HeightMap: ...
+def generate(rows: int, cols: int, pitch_x: float, pitch_y: float, configuration: Configuration) -> HeightMap: ...
+def half_space(prepared: PreparedScan, configuration: Configuration) -> SolvedScan: ...
+def height_map(pixels: np.ndarray, pitch_x: float, pitch_y: float, configuration: Configuration) -> HeightMap: ...
+def prepare(scan: HeightMap, counter_surface: Optional[HeightMap], configuration: Configuration) -> PreparedScan: ...
+def read(path: str, configuration: Configuration, pitch_x: float, pitch_y: float, channel: str, ignore_mask: bool) -> Tuple[HeightMap, str, List[str]]: ...
+def roughness(scan: HeightMap, configuration: Configuration, is_spatial: bool) -> Dict[str, Any]: ...
+def scan_warnings(scan: HeightMap) -> List[str]: ...
+def sweep_loads(prepared: PreparedScan, configuration: Configuration, voltages: Sequence[float], mechanical_loads: Sequence[float]) -> LoadSweepResult: ...
+figures: Dict[str, Dict[str, Tuple[str, str, str]]]  # {class: {name: (type, unit, meaning)}}

@@ -7,57 +7,21 @@ from typing import Any, Dict, Optional
 import numpy as np
 
 from mems_stiction import _core
-from mems_stiction._arrays import Pitch, Surface, array_of, records_of
+from mems_stiction._arrays import Pitch, Surface, array_of, explained, records_of
 from mems_stiction._inputs import inputs_of
 from mems_stiction._prediction import Verdict
 from mems_stiction._settings import Config
 from mems_stiction.quantities import percent, with_unit
 
 
-class HalfSpace:
+@explained
+class HalfSpace(_core.HalfSpaceFigures):
     """What the half-space answers. Forces and areas are of the frame, attraction is positive; NaN: not reached.
-
-    status: "SOLVED", "LOAD_NOT_REACHED", "NOT_CONVERGED" or "TOO_MANY_STATES". message: the same in a sentence.
-    pull_off_force, pull_off_uncertainty [N]: largest of the retraction, voltage and load having gone, and by which finer steps
-    may exceed it. pull_off_force_under_voltage [N]: the same if the voltage stays on.
-    pull_off_height [m]: of the upper body then, over first touch.
-    apparent_work_of_adhesion, adhesion_hysteresis [J/m^2]: from zero force to apart; what approach and retraction differ by.
-    rest_height [m], rest_force [N]: under the mechanical load. contact_area [m^2], contact_fraction [-], contact_count:
-    cells that repel each other at rest, and their groups. mean_gap [m]: at rest. flowed_volume [m^3]: lost by both.
-    range, cohesive_length [m]: z0 of the traction law, and E z0^2/Gamma over which contacts part.
-    is_converged, is_resolved, is_step_converged: every state is an equilibrium; pixels are small enough; so are steps.
-    residual [-], state_count, iterations, jumps, processing_time [s]: of the solution.
 
     verdict: on the device, by the half-space if it can judge, else by a prediction of the same surfaces (verdict_by says
     which, and the reason why); None without a device.
     Sources: doc/half_space.md.
     """
-
-    status: str
-    message: str
-    pull_off_force: float
-    pull_off_uncertainty: float
-    pull_off_height: float
-    apparent_work_of_adhesion: float
-    adhesion_hysteresis: float
-    rest_height: float
-    rest_force: float
-    contact_area: float
-    contact_fraction: float
-    contact_count: int
-    mean_gap: float
-    flowed_volume: float
-    range: float
-    cohesive_length: float
-    is_converged: bool
-    is_resolved: bool
-    is_step_converged: bool
-    residual: float
-    state_count: int
-    iterations: int
-    jumps: int
-    processing_time: float
-    pull_off_force_under_voltage: float
 
     def __init__(self, core: _core.SolvedScan, surface: Surface) -> None:
         def view(memory: Any) -> Optional[np.ndarray]:

@@ -12,7 +12,7 @@ import matplotlib.pyplot  # noqa: F401  (before plots, which else chooses where 
 import numpy as np
 from matplotlib.figure import Figure
 
-from mems_stiction import plots
+from mems_stiction import _core, plots
 from mems_stiction.curve import DIRECTIONS, Curve
 from mems_stiction.curve_figure import draw_curves
 from mems_stiction.prediction_text import flag_words
@@ -34,7 +34,7 @@ def picture_of(prediction: Prediction) -> Any:
     def map_of(array: Any, otherwise: Any) -> Any:
         return otherwise if array is None else back(array)
 
-    record = SimpleNamespace(**{name: getattr(prediction, name) for name in type(prediction).__annotations__})
+    record = SimpleNamespace(**{name: getattr(prediction, name) for name in _core.figures["PredictionFigures"]})
     record.status = STATUS_CODES[prediction.status]
     return plots.ScanPicture(
         prediction.name or "scan", heights, map_of(prediction.deformed_lower, heights), map_of(prediction.deformed_upper, None),

@@ -14,44 +14,16 @@ from typing import Any, Dict, Iterable, Iterator, List, Optional, Tuple, Union
 import numpy as np
 
 from mems_stiction import _core
-from mems_stiction._arrays import Pitch, Surface, array_of, records_of, surface_of
+from mems_stiction._arrays import Pitch, Surface, array_of, explained, records_of, surface_of
 from mems_stiction._inputs import brings_pitch, counter_of, section_or_surface, warn_about
 from mems_stiction._scans import Roughness
 from mems_stiction._settings import Config, Error, OptionsError, Settings
 from mems_stiction.quantities import area, percent, ratio, with_interval, with_unit
 
 
-class Verdict:
-    """Does the device stick? Of a prediction whose settings state device/...; NaN where they do not allow to say.
-
-    sticks: "no", "marginal", "yes" or "unknown". reason: one sentence for people.
-    restoring_force [N]: of the device. device_pull_off_force [N]: the scan's, on the device's contact area.
-    margin, margin_lower, margin_upper [-]: restoring over pull-off force, and its 95 % interval.
-    margin_uncertainty [-]: half of the central 68 %. margin_transition [-]: with the JKR-DMT transition's prefactors.
-    apparent_work_of_adhesion [J/m^2]: of the rough interface. peel_number, peel_number_lower, peel_number_upper [-],
-    detachment_length, unstuck_length [m]: of a beam (de Boer and Michalske 1999; Mastrangelo and Hsu 1993).
-    pull_in_voltage [V]: at which the electrodes close. regime_flags: bits, those of the prediction.
-    verdict_by: whose figures it rests on, "prediction" or "half_space" (that of half_space(), where it can judge).
-    """
-
-    sticks: str
-    reason: str
-    restoring_force: float
-    device_pull_off_force: float
-    margin: float
-    margin_lower: float
-    margin_upper: float
-    margin_uncertainty: float
-    margin_transition: float
-    apparent_work_of_adhesion: float
-    peel_number: float
-    peel_number_lower: float
-    peel_number_upper: float
-    detachment_length: float
-    unstuck_length: float
-    pull_in_voltage: float
-    regime_flags: int
-    verdict_by: str
+@explained
+class Verdict(_core.VerdictFigures):
+    """Does the device stick? Of a prediction whose settings state device/...; NaN where they do not allow to say."""
 
     def __init__(self, figures: Dict[str, Any]) -> None:
         self.__dict__.update(figures)
@@ -66,93 +38,14 @@ class Verdict:
         return "Verdict: sticks: %s; %s" % (self.summary, self.reason)
 
 
-class Prediction:
+@explained
+class Prediction(_core.PredictionFigures):
     """What comes out for one pair of surfaces. Forces and areas are of the scan; NaN: the formulation does not know it.
     Equation numbers are those of Deladi, Krijnen, Tas and Elwenspoek 2002; doc/theory.md has each as implemented.
-
-    status: "EQUILIBRIUM", "BONDED" or "NO_EQUILIBRIUM" (then do not use the forces). formulation: whose answer it is.
-    steps: of the approach.
-
-    voltage [V], mechanical_load [N]: as applied.
-    van_der_waals_force, electrostatic_force, capillary_force [N]: (2), (3), of condensed water. normal_load [N]: all together.
-    pull_off_force [N]: the largest while the surfaces are drawn apart, after voltage and load have gone; (11) of the
-    paper's formulations. pull_off_force_jkr, pull_off_force_transition [N]: (3/2) pi Gamma sum R, the same with the
-    prefactors of the JKR-DMT transition.
-
-    contact_area [m^2]: real. contact_area_jkr [m^2]: sum of JKR's contacts. nominal_area [m^2]: of the valid cells.
-    contact_fraction [-]: of the nominal area. approach [m]: from first touch. mean_gap [m]: out of contact.
-
-    mechanical_energy, surface_energy, elastic_energy, total_energy [J]: (10.1), (10.2), (8). plastic_work [J]: in flow.
-    bonding_energy [J/m^2], normalized_bonding_energy [-]: total over nominal area; the same over the work of adhesion.
-    apparent_work_of_adhesion [J/m^2]: of drawing the surfaces apart. contact_stiffness [N/m]: -dF/dD at rest.
-    flattening_energy [J/m^2], flattening_ratio [-]: that pressing flat would store; over the work of adhesion.
-    adhesion_exponent, modulus_exponent [-]: d ln(pull-off force)/d ln(work of adhesion), d ln(contact modulus).
-    is_conforming: flat against each other nearly everywhere. adhesion_parameter [-]: (14). bonding_regime: "BONDING",
-    "ADHERENCE", "NON_BONDING" or "UNKNOWN" (limits: Gui et al. 1999).
-
-    asperity_count, elastic_count, elasto_plastic_count, plastic_count: contacts, by regime. pull_off_contact_count: those
-    that hold at the pull-off, on which flags and verdict rest. max_tilt [rad]: of a contact.
-    median_tabor_parameter [-], contact_theory: "DMT", "TRANSITION", "JKR" or "UNKNOWN" (Johnson and Greenwood 1997).
-    composite_rms_height, rms_height [m]: of both surfaces (9), of the scan. invalid_fraction [-]: not measured.
-    processing_time [s]: that the prediction took. median_contact_pixels [-], median_composite_radius [m]: of the
-    contacts. is_resolution_limited, is_tip_limited: contacts of few pixels; sharper than the tip.
-    regime_flags: bits, where it leaves the model's range; flags has their names (doc/validity.md).
 
     verdict: a Verdict, or None without a device. roughness: a Roughness, of the cleaned scan.
     preprocessing: what each step of the cleaning did. warnings: about pitch, heights and settings.
     """
-
-    status: str
-    formulation: str
-    steps: int
-    voltage: float
-    mechanical_load: float
-    van_der_waals_force: float
-    electrostatic_force: float
-    normal_load: float
-    capillary_force: float
-    pull_off_force: float
-    pull_off_force_jkr: float
-    pull_off_force_transition: float
-    contact_area: float
-    contact_area_jkr: float
-    nominal_area: float
-    contact_fraction: float
-    approach: float
-    mean_gap: float
-    mechanical_energy: float
-    surface_energy: float
-    elastic_energy: float
-    total_energy: float
-    plastic_work: float
-    bonding_energy: float
-    normalized_bonding_energy: float
-    apparent_work_of_adhesion: float
-    contact_stiffness: float
-    flattening_energy: float
-    flattening_ratio: float
-    adhesion_exponent: float
-    modulus_exponent: float
-    is_conforming: bool
-    adhesion_parameter: float
-    bonding_regime: str
-    asperity_count: int
-    pull_off_contact_count: int
-    elastic_count: int
-    elasto_plastic_count: int
-    plastic_count: int
-    max_tilt: float
-    median_tabor_parameter: float
-    contact_theory: str
-    composite_rms_height: float
-    rms_height: float
-    invalid_fraction: float
-    processing_time: float
-    median_contact_pixels: float
-    median_composite_radius: float
-    is_resolution_limited: bool
-    is_tip_limited: bool
-    regime_flags: int
 
     _LAZY = ("contact_map", "deformed_lower", "deformed_upper", "pressure", "heights", "upper_heights", "asperities",
              "energy_curve", "curve", "curve_over_height", "preprocessing", "roughness", "flags")

@@ -9,7 +9,7 @@ from typing import Any, Dict, List, Optional, Tuple, Union
 import numpy as np
 
 from mems_stiction import _core
-from mems_stiction._arrays import Pitch, Surface, array_of, pitch_of
+from mems_stiction._arrays import Pitch, Surface, array_of, explained, pitch_of
 from mems_stiction._inputs import odd_in, scan_of, warn_about
 from mems_stiction._settings import Config, Settings, SurfaceError
 from mems_stiction.quantities import with_unit
@@ -95,43 +95,17 @@ class Cleaned(Scan):
     steps: List[Dict[str, Any]]
 
 
-class Roughness:
-    """Roughness of ISO 25178-2 over the valid pixels; the caller levels.
-
-    sa, sq, sp, sv, sz [m]: mean, rms, highest, deepest, total height. ssk, sku [-]: skewness and kurtosis (3: Gaussian).
-    sdq, sdr [-]: rms gradient, and the developed area that it adds.
-    sal [m], str [-]: length of the autocorrelation to 0.2, and its aspect ratio.
-    m0 [m^2], m2 [-], m4 [1/m^2]: moments of a profile's spectrum; nayak [-]: m0 m4/m2^2.
-    summit_density [1/m^2], mean_summit_radius [m], hurst [-]: of summits, and of the self-affine range.
-    Those from sal on are NaN unless they were asked for.
-    """
-
-    sa: float
-    sq: float
-    ssk: float
-    sku: float
-    sp: float
-    sv: float
-    sz: float
-    sdq: float
-    sdr: float
-    sal: float
-    str: float
-    m0: float
-    m2: float
-    m4: float
-    nayak: float
-    summit_density: float
-    mean_summit_radius: float
-    hurst: float
+@explained
+class Roughness(_core.RoughnessFigures):
+    """Roughness of ISO 25178-2 over the valid pixels; the caller levels. Figures from sal on are NaN unless asked for."""
 
     def __init__(self, figures: Dict[Any, float]) -> None:
         self.__dict__.update(figures)
 
     def __repr__(self) -> Any:
-        units = _core.roughness_units()
+        declared = _core.figures["RoughnessFigures"]
         return "Roughness(%s)" % ", ".join(
-            "%s=%.4g%s" % (name, value, " " + units[name] if units[name] else "")
+            "%s=%.4g%s" % (name, value, " " + declared[name][1] if declared[name][1] else "")
             for name, value in self.__dict__.items() if not np.isnan(value))
 
 

@@ -19,6 +19,7 @@ import matplotlib
 import numpy as np
 import yaml
 
+from mems_stiction import _core
 from mems_stiction.cleaning_steps import cleaning_figure, rows_of
 from mems_stiction.csv_text import csv_cell
 from mems_stiction.half_space_figure import half_space_figure, half_space_words, pull_off_ratio
@@ -30,35 +31,29 @@ from mems_stiction.report_template import PAGE
 from mems_stiction.surface_figures import surface_figure, surface_figures_of
 
 STATES = {"EQUILIBRIUM": (0, "equilibrium"), "BONDED": (1, "bonded"), "NO_EQUILIBRIUM": (2, "no equilibrium")}
-FIGURES = (("formulation", "formulation", "word"), ("pull-off force", "pull_off_force", "N"), ("of contacts, by JKR", "pull_off_force_jkr", "N"),
-           ("of contacts, JKR-DMT transition", "pull_off_force_transition", "N"), ("normal load", "normal_load", "N"),
-           ("voltage", "voltage", "V"), ("mechanical load", "mechanical_load", "N"),
-           ("contact fraction", "contact_fraction", "%"), ("contact area", "contact_area", "m^2"),
-           ("scanned area", "nominal_area", "m^2"), ("approach", "approach", "m"), ("mean gap", "mean_gap", "m"),
-           ("bonding energy", "bonding_energy", "J/m^2"), ("adhesion parameter", "adhesion_parameter", ""),
-           ("bonding regime", "bonding_regime", "word"), ("median Tabor parameter", "median_tabor_parameter", ""),
-           ("single-asperity theory", "contact_theory", "word"), ("not measured", "invalid_fraction", "%"),
-           ("restoring force of the device", "restoring_force", "N"),
-           ("pull-off force of the device", "device_pull_off_force", "N"), ("margin", "margin", ""),
-           ("margin, 95 % from", "margin_lower", ""), ("margin, 95 % to", "margin_upper", ""),
-           ("pull-in voltage", "pull_in_voltage", "V"), ("stiffness of the contact", "contact_stiffness", "N/m"),
-           ("flattening energy / work of adhesion", "flattening_ratio", ""), ("apparent work of adhesion", "apparent_work_of_adhesion", "J/m^2"),
-           ("peel number", "peel_number", ""), ("peel number, 95 % from", "peel_number_lower", ""),
-           ("peel number, 95 % to", "peel_number_upper", ""), ("detachment length", "detachment_length", "m"),
-           ("free length while stuck", "unstuck_length", "m"))
-SURFACE_FIGURES = (("arithmetical mean height Sa", "sa", "m"), ("root mean square height Sq", "sq", "m"), ("skewness Ssk", "ssk", ""),
-                   ("kurtosis Sku", "sku", ""), ("maximum peak height Sp", "sp", "m"), ("maximum pit height Sv", "sv", "m"),
-                   ("maximum height Sz", "sz", "m"), ("root mean square gradient Sdq", "sdq", ""),
-                   ("developed interfacial area ratio Sdr", "sdr", "%"), ("autocorrelation length Sal", "sal", "m"),
-                   ("texture aspect ratio Str", "str", ""))
-HALF_SPACE_FIGURES = (("pull-off force, prediction", "pull_off_force", "N"),
-                      ("pull-off force, half-space", "half_space_pull_off_force", "N"),
-                      ("contact area, prediction", "contact_area", "m^2"),
-                      ("contact area, half-space", "half_space_contact_area", "m^2"),
-                      ("mean gap, prediction", "mean_gap", "m"), ("mean gap, half-space", "half_space_mean_gap", "m"),
-                      ("apparent work of adhesion, half-space", "half_space_apparent_work_of_adhesion", "J/m^2"),
-                      ("adhesion hysteresis, half-space", "half_space_adhesion_hysteresis", "J/m^2"),
-                      ("time of the solution", "half_space_processing_time", "s"))
+FIGURES = (("formulation", "formulation"), ("pull-off force", "pull_off_force"), ("of contacts, by JKR", "pull_off_force_jkr"),
+           ("of contacts, JKR-DMT transition", "pull_off_force_transition"), ("normal load", "normal_load"), ("voltage", "voltage"),
+           ("mechanical load", "mechanical_load"), ("contact fraction", "contact_fraction"), ("contact area", "contact_area"),
+           ("scanned area", "nominal_area"), ("approach", "approach"), ("mean gap", "mean_gap"), ("bonding energy", "bonding_energy"),
+           ("adhesion parameter", "adhesion_parameter"), ("bonding regime", "bonding_regime"), ("median Tabor parameter", "median_tabor_parameter"),
+           ("single-asperity theory", "contact_theory"), ("not measured", "invalid_fraction"), ("restoring force of the device", "restoring_force"),
+           ("pull-off force of the device", "device_pull_off_force"), ("margin", "margin"), ("margin, 95 % from", "margin_lower"),
+           ("margin, 95 % to", "margin_upper"), ("pull-in voltage", "pull_in_voltage"), ("stiffness of the contact", "contact_stiffness"),
+           ("flattening energy / work of adhesion", "flattening_ratio"), ("apparent work of adhesion", "apparent_work_of_adhesion"),
+           ("peel number", "peel_number"), ("peel number, 95 % from", "peel_number_lower"), ("peel number, 95 % to", "peel_number_upper"),
+           ("detachment length", "detachment_length"), ("free length while stuck", "unstuck_length"))
+SURFACE_FIGURES = (("arithmetical mean height Sa", "sa"), ("root mean square height Sq", "sq"), ("skewness Ssk", "ssk"), ("kurtosis Sku", "sku"),
+                   ("maximum peak height Sp", "sp"), ("maximum pit height Sv", "sv"), ("maximum height Sz", "sz"),
+                   ("root mean square gradient Sdq", "sdq"), ("developed interfacial area ratio Sdr", "sdr"), ("autocorrelation length Sal", "sal"),
+                   ("texture aspect ratio Str", "str"))
+HALF_SPACE_FIGURES = (("pull-off force, prediction", "pull_off_force"), ("pull-off force, half-space", "half_space_pull_off_force"),
+                      ("contact area, prediction", "contact_area"), ("contact area, half-space", "half_space_contact_area"),
+                      ("mean gap, prediction", "mean_gap"), ("mean gap, half-space", "half_space_mean_gap"),
+                      ("apparent work of adhesion, half-space", "half_space_apparent_work_of_adhesion"),
+                      ("adhesion hysteresis, half-space", "half_space_adhesion_hysteresis"), ("time of the solution", "half_space_processing_time"))
+DECLARED = dict({"half_space_" + name: figure for name, figure in _core.figures["HalfSpaceFigures"].items()},
+                **{name: figure for kind in ("Verdict", "Roughness", "Prediction") for name, figure in _core.figures[kind + "Figures"].items()})
+SHARES = ("contact_fraction", "invalid_fraction", "sdr")  # that are read as percent
 ROUNDING = 1e-6  # of the work of adhesion: less hysteresis is none
 SOURCES = (
     "Adhesion of two rough surfaces, equilibrium, plasticity limits: S. Deladi, G. Krijnen, N. Tas, M. Elwenspoek, "
@@ -185,12 +180,18 @@ def verdict_word(sticks):
     return {"no": "releases", "marginal": "marginal", "yes": "sticks"}.get(sticks, "not known")
 
 
+def unit_of(name):
+    """As the core declares it: "N", "" of a ratio, but "%" of a share and "word" of an enumeration."""
+    kind, unit, _ = DECLARED[name]
+    return "%" if name in SHARES else "word" if kind == "str" else unit
+
+
 def _figures(result, wanted):
     """Pairs of label and text of those that the result has."""
     bound = "≥ " if is_lower_bound(result) else ""
     known = digits_of_row(result)
-    return [(label, (bound if key.startswith("pull_off_force") else "") + text_of(result[key], unit, known if key.startswith(ROUNDED) else 3))
-            for label, key, unit in wanted if key in result and text_of(result[key], unit) != "not stated"]
+    texts = [(label, name, text_of(result[name], unit_of(name), known if name.startswith(ROUNDED) else 3)) for label, name in wanted if name in result]
+    return [(label, (bound if name.startswith("pull_off_force") else "") + text) for label, name, text in texts if text != "not stated"]
 
 
 def _half_space(picture, result, folder):

@@ -20,13 +20,13 @@ from concurrent.futures import ThreadPoolExecutor
 import mems_stiction
 import numpy as np
 import yaml
+from mems_stiction import _core
 
 SCAN_PITCH = 10e-9  # [m], a usual one of an AFM on a frame of 10 um
 SCAN_FACTOR = 2  # generated places are so many times as fine as their scans
 SMALLEST_SIDE = 64
 STEPS_PER_RMS_HEIGHT = 50  # of the automatic step, paper/step: 0
-FIGURES = [name for name in mems_stiction.Prediction.__annotations__
-           if not name.startswith("_") and name not in ("formulation", "regime_flags", "processing_time")]
+FIGURES = [name for name in _core.figures["PredictionFigures"] if name not in ("formulation", "regime_flags", "processing_time")]
 SAMPLES, SEEDS = (50, 200, 1000, 5000), range(1, 41)
 
 

@@ -1,17 +1,16 @@
 #pragma once
 
 /// @file
-/// The figures of the core as a dictionary: names of the records of predict_scan, numbers, and words for enumerations.
+/// The figures of the core for Python: their values as a dictionary, with words for enumerations, and what they are as a
+/// class whose annotations and text are made of their declarations.
 
 #include <pybind11/pybind11.h>
 
 #include <string>
 #include <type_traits>
-#include <utility>
 
 #include "mems_stiction/half_space/half_space_fields.hpp"
 #include "mems_stiction/prediction/prediction_fields.hpp"
-#include "mems_stiction/verdict/verdict.hpp"
 #include "mems_stiction/verdict/verdict_fields.hpp"
 
 namespace mems_stiction {
@@ -21,36 +20,56 @@ namespace python {
 class DictionaryFields {
  public:
   template <typename Value>
-  void operator()(const char* name, const Value& value, const char* /*unit*/) {
-    if constexpr (std::is_same_v<Value, Sticks>) {
-      dictionary[name] = sticksText(value);
-    } else if constexpr (std::is_enum_v<Value>) {
-      dictionary[name] = word(value);
-    } else {
-      dictionary[name] = value;
-    }
+  void operator()(const Figure& figure, const Value& value) {
+    dictionary[figure.name] = shown(value);
   }
 
   pybind11::dict dictionary;
 };
 
-/// Visitor that lists names and units.
-class UnitFields {
+/// Visitor that makes {name: (type, unit, meaning)} and a class without anything but annotations and a text.
+class DeclaredFields {
  public:
   template <typename Value>
-  void operator()(const char* name, const Value& /*value*/, const char* unit) {
-    units[name] = unit;
+  void operator()(const Figure& figure, const Value& /*value*/) {
+    const pybind11::object type = pybind11::type::of(pybind11::cast(shown(Value())));
+    annotations_[figure.name] = type;
+    declared_[figure.name] = pybind11::make_tuple(type.attr("__name__"), figure.unit, figure.meaning);
+    text_ += std::string(text_.empty() ? "" : "\n") + figure.name;
+    if (*figure.unit != '\0') text_ += std::string(" [") + figure.unit + "]";
+    text_ += std::string(": ") + figure.meaning;
   }
 
-  pybind11::dict units;
+  /// Adds the class, and its declarations to `figures` of the module.
+  void addTo(pybind11::module& module, const char* name) const {
+    pybind11::dict body;
+    body["__module__"] = module.attr("__name__");
+    body["__doc__"] = text_;
+    body["__annotations__"] = annotations_;
+    const auto type = pybind11::reinterpret_borrow<pybind11::object>(reinterpret_cast<PyObject*>(&PyType_Type));
+    module.attr(name) = type(name, pybind11::tuple(), body);
+    if (!pybind11::hasattr(module, "figures")) module.attr("figures") = pybind11::dict();
+    module.attr("figures")[name] = declared_;
+  }
+
+ private:
+  pybind11::dict annotations_;
+  pybind11::dict declared_;
+  std::string text_;
 };
 
-/// Its figures, and who judged: verdict_by.
+/// The figures of a verdict, and who judged.
+template <typename Visitor>
+void visitJudgedFields(const Verdict& verdict, Visitor&& visit) {
+  visitVerdictFields(verdict, visit);
+  visit({"verdict_by", "", "whose figures it rests on: prediction or half_space"},
+        std::string(judgeText(verdict.judge)));
+}
+
 inline pybind11::dict verdictFigures(const Verdict& verdict) {
   DictionaryFields fields;
-  visitVerdictFields(verdict, fields);
-  fields("verdict_by", judgeText(verdict.judge), "");
-  return std::move(fields.dictionary);
+  visitJudgedFields(verdict, fields);
+  return fields.dictionary;
 }
 
 }  // namespace python

@@ -1,5 +1,7 @@
 /// The half-space on the surfaces and settings of a prediction.
 
+#include <pybind11/stl.h>
+
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,6 +20,7 @@ namespace python {
 namespace {
 
 namespace py = pybind11;
+using py::literals::operator""_a;
 
 /// A solution with its curve and its contacts, and the verdict on the device if one is stated.
 struct SolvedScan {
@@ -46,60 +49,45 @@ Solved solve(const PreparedScan& prepared, const Configuration& configuration) {
   });
 }
 
-/// Those of the record, and those that only the solution has.
 template <typename Visitor>
-void visitFields(const SolvedHalfSpace& solution, Visitor&& visit) {
+void visitFigures(const SolvedHalfSpace& solution, Visitor&& visit) {
   visitHalfSpaceFields(solution, visit);
-  visit("message", solution.message, "");
-  visit("pull_off_uncertainty", solution.pull_off_uncertainty, "N");
-  visit("pull_off_height", solution.pull_off_height, "m");
-  visit("rest_height", solution.rest_height, "m");
-  visit("rest_force", solution.rest_force, "N");
-  visit("contact_count", solution.contact_count, "");
-  visit("flowed_volume", solution.flowed_volume, "m^3");
-  visit("range", solution.range, "m");
-  visit("cohesive_length", solution.cohesive_length, "m");
-  visit("is_step_converged", solution.is_step_converged, "");
-  visit("residual", solution.residual, "");
-  visit("state_count", solution.state_count, "");
-  visit("jumps", solution.jumps, "");
+  visitHalfSpaceDetails(solution, visit);
 }
 
 py::dict figuresOf(const SolvedScan& solved) {
   DictionaryFields fields;
-  visitFields(solved.solution, fields);
+  visitFigures(solved.solution, fields);
   return fields.dictionary;
 }
 
-py::dict halfSpaceUnits() {
-  UnitFields fields;
-  visitFields(SolvedHalfSpace(), fields);
-  return fields.units;
+std::optional<py::dict> verdictOfScan(const SolvedScan& solved) {
+  if (!solved.verdict) return std::nullopt;
+  return verdictFigures(*solved.verdict);
 }
 
 Records curveOfScan(const Solved& solved) {
-  Fields<CurvePoint> fields;
-  visitCurvePointFields(fields.sample, fields);
-  return recordsOf(solved->curve, fields.fields, solved);
+  return recordsOf(solved->curve, solved,
+                   [](const auto& point, auto& fields) { visitCurvePointFields(point, fields); });
 }
 
 }  // namespace
 
 void bindHalfSpace(py::module& module) {
+  DeclaredFields declared;
+  visitFigures({}, declared);
+  declared.addTo(module, "HalfSpaceFigures");
+
   py::class_<SolvedScan, Solved>(module, "SolvedScan")
       .def_property_readonly("figures", &figuresOf)
-      .def_property_readonly("verdict",
-                             [](const SolvedScan& solved) {
-                               return solved.verdict ? py::object(verdictFigures(*solved.verdict)) : py::none();
-                             })
+      .def_property_readonly("verdict", &verdictOfScan)
       .def_property_readonly("curve", &curveOfScan)
       .def_property_readonly("pressure", [](const SolvedScan& solved) { return memoryOf(solved.solution.pressure); })
       .def_property_readonly("gap", [](const SolvedScan& solved) { return memoryOf(solved.solution.gap); })
       .def_property_readonly("contact_map", [](const SolvedScan& solved) { return memoryOf(solved.contact_map); })
       .def_property_readonly("deformed_lower", [](const SolvedScan& solved) { return solved.solution.deformed_lower; })
       .def_property_readonly("deformed_upper", [](const SolvedScan& solved) { return solved.solution.deformed_upper; });
-  module.def("half_space", &solve);
-  module.def("half_space_units", &halfSpaceUnits);
+  module.def("half_space", &solve, "prepared"_a, "configuration"_a);
 }
 
 }  // namespace python

@@ -67,10 +67,10 @@ py::buffer_info bufferOf(Memory& memory) {
 
 }  // namespace
 
-py::object memoryOf(const cv::Mat& map) {
-  if (map.empty()) return py::none();
+std::optional<Memory> memoryOf(const cv::Mat& map) {
+  if (map.empty()) return std::nullopt;
   const auto owned = std::make_shared<cv::Mat>(map);
-  return py::cast(memoryOfMap(*owned, owned));
+  return memoryOfMap(*owned, owned);
 }
 
 HeightMap heightMapOf(const py::buffer& pixels, ScanOptions options, double pitch_x, double pitch_y) {
@@ -97,20 +97,16 @@ void bindMemory(py::module& module) {
   py::class_<Records>(module, "Records")
       .def_readonly("bytes", &Records::bytes)
       .def_readonly("record_size", &Records::record_size)
-      .def_property_readonly("fields", [](const Records& records) {
-        py::list fields;
-        for (const Field& field : records.fields) fields.append(py::make_tuple(field.name, field.format, field.offset));
-        return fields;
-      });
+      .def_readonly("fields", &Records::fields);
 
   py::class_<HeightMap>(module, "HeightMap")
       .def_property_readonly("pixels",
-                             [](const HeightMap& map) {
-                               if (map.empty()) return py::object(py::none());
+                             [](const HeightMap& map) -> std::optional<Memory> {
+                               if (map.empty()) return std::nullopt;
                                const auto owned = std::make_shared<HeightMap>(map);
-                               return py::cast(memoryOfMap(owned->heights(), owned));
+                               return memoryOfMap(owned->heights(), owned);
                              })
-      .def_property_readonly("pitch", [](const HeightMap& map) { return py::make_tuple(map.pitchX(), map.pitchY()); });
+      .def_property_readonly("pitch", [](const HeightMap& map) { return std::make_pair(map.pitchX(), map.pitchY()); });
 }
 
 }  // namespace python

@@ -11,10 +11,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
+#include <tuple>
 #include <type_traits>
 #include <vector>
 
+#include "mems_stiction/base/figure.hpp"
 #include "mems_stiction/height_map/height_map.hpp"
 #include "mems_stiction/height_map/raw_scan.hpp"
 
@@ -31,12 +34,8 @@ struct Memory {
   std::vector<pybind11::ssize_t> strides;  ///< [bytes]
 };
 
-/// One field of a record: where it lies in the structure, and its format in the buffer protocol.
-struct Field {
-  std::string name;
-  std::string format;
-  std::size_t offset;
-};
+/// One field of a record: its name, its format in the buffer protocol, and where it lies in the structure.
+using Field = std::tuple<std::string, std::string, std::size_t>;
 
 template <typename Value>
 std::string formatOf() {
@@ -47,20 +46,6 @@ std::string formatOf() {
   }
 }
 
-/// Collects the fields of a structure, as the visitors of the core name them or by hand.
-template <typename Record>
-class Fields {
- public:
-  template <typename Value>
-  void operator()(const char* name, const Value& value, const char* /*unit*/ = "") {
-    const auto offset = reinterpret_cast<const char*>(&value) - reinterpret_cast<const char*>(&sample);
-    fields.push_back({name, formatOf<Value>(), static_cast<std::size_t>(offset)});
-  }
-
-  Record sample{};
-  std::vector<Field> fields;
-};
-
 /// A list of structures as Python shows it: an array with named fields.
 struct Records {
   Memory bytes;
@@ -69,11 +54,17 @@ struct Records {
 };
 
 /// - @p owner what the list lies in
-template <typename Record>
-Records recordsOf(const std::vector<Record>& list, std::vector<Field> fields, const PixelOwner& owner) {
+/// - @p visit_fields called with one record and a visitor of its figures
+template <typename Record, typename VisitFields>
+Records recordsOf(const std::vector<Record>& list, const PixelOwner& owner, const VisitFields& visit_fields) {
   Records records;
   records.record_size = sizeof(Record);
-  records.fields = std::move(fields);
+  const Record sample{};
+  const auto add = [&](const Figure& figure, const auto& value) {
+    const auto offset = reinterpret_cast<const char*>(&value) - reinterpret_cast<const char*>(&sample);
+    records.fields.emplace_back(figure.name, formatOf<std::decay_t<decltype(value)>>(), offset);
+  };
+  visit_fields(sample, add);
   records.bytes.owner = owner;
   records.bytes.data = list.data();
   records.bytes.shape = {static_cast<pybind11::ssize_t>(list.size() * sizeof(Record))};
@@ -81,8 +72,8 @@ Records recordsOf(const std::vector<Record>& list, std::vector<Field> fields, co
   return records;
 }
 
-/// The pixels of a map of the core; None for an empty one. The map is held.
-pybind11::object memoryOf(const cv::Mat& map);
+/// The pixels of a map of the core; nothing for an empty one. The map is held.
+std::optional<Memory> memoryOf(const cv::Mat& map);
 
 /// Pixels of a Python object as heights in metres, without a copy; the object is held as long as anybody shows them.
 /// - @p pixels two-dimensional buffer, columns next to each other

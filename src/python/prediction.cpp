@@ -29,6 +29,7 @@ namespace python {
 namespace {
 
 namespace py = pybind11;
+using py::literals::operator""_a;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr ArealParameters kNoRoughness = {kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone};
@@ -73,12 +74,13 @@ class Predictor {
   explicit Predictor(Configuration configuration)
       : configuration_(std::move(configuration)), predictor_(configuration_) {}
 
-  /// - @p counter_surface that was measured beside the scan; null: the configured one
+  /// - @p counter_surface that was measured beside the scan; none: the configured one
   /// - @p notes on how the scan was read
-  Predicted predict(const HeightMap& scan, const HeightMap* counter_surface, const std::vector<std::string>& notes) {
+  Predicted predict(const HeightMap& scan, const std::optional<HeightMap>& counter_surface,
+                    const std::vector<std::string>& notes) {
     const WithoutLock unlocked;
     const std::lock_guard<std::mutex> lock(mutex_);
-    predictor_.preparer().setMeasuredCounterSurface(counter_surface != nullptr ? *counter_surface : HeightMap());
+    predictor_.preparer().setMeasuredCounterSurface(counter_surface.value_or(HeightMap()));
     PreparedScan prepared = predictor_.preparer().prepare(scan);
     prepared.warnings.insert(prepared.warnings.begin(), notes.begin(), notes.end());
     Predicted predicted = predictedScan(scan, prepared, predictor_.predict(prepared), configuration_);
@@ -96,11 +98,11 @@ class Predictor {
 class OneScan {
  public:
   /// - @p notes on how the scan was read
-  OneScan(const HeightMap& scan, const HeightMap* counter_surface, const Configuration& configuration,
+  OneScan(const HeightMap& scan, const std::optional<HeightMap>& counter_surface, const Configuration& configuration,
           const std::vector<std::string>& notes)
       : scan_(scan), configuration_(configuration), predictor_(configuration) {
     const WithoutLock unlocked;
-    if (counter_surface != nullptr) predictor_.preparer().setMeasuredCounterSurface(*counter_surface);
+    if (counter_surface) predictor_.preparer().setMeasuredCounterSurface(*counter_surface);
     prepared_ = predictor_.preparer().prepare(scan_);
     prepared_.warnings.insert(prepared_.warnings.begin(), notes.begin(), notes.end());
   }
@@ -143,16 +145,22 @@ class OneScan {
   std::mutex mutex_;
 };
 
+template <typename Visitor>
+void visitFigures(const PredictedScan& predicted, Visitor&& visit) {
+  visitPredictionFields(predicted.prediction, visit);
+  visit({"formulation", "", "whose answer it is"}, predicted.extras.formulation);
+  visit({"regime_flags", "", "where the model leaves its range: bits, of which flags has the names (doc/validity.md)"},
+        regimeFlags(predicted.prediction, predicted.scan.cellArea()));
+}
+
 py::dict figuresOf(const PredictedScan& predicted) {
   DictionaryFields fields;
-  visitPredictionFields(predicted.prediction, fields);
-  fields("formulation", predicted.extras.formulation, "");
-  fields("regime_flags", regimeFlags(predicted.prediction, predicted.scan.cellArea()), "");
+  visitFigures(predicted, fields);
   return fields.dictionary;
 }
 
-py::object verdictOfScan(const PredictedScan& predicted) {
-  if (!predicted.extras.verdict) return py::none();
+std::optional<py::dict> verdictOfScan(const PredictedScan& predicted) {
+  if (!predicted.extras.verdict) return std::nullopt;
   return verdictFigures(*predicted.extras.verdict);
 }
 
@@ -163,53 +171,24 @@ py::dict roughnessOfScan(const PredictedScan& predicted) {
   return fields.dictionary;
 }
 
-std::vector<Field> asperityFields() {
-  Fields<Asperity> fields;
-  const Asperity& one = fields.sample;
-  fields("x", one.x);
-  fields("y", one.y);
-  fields("z", one.z);
-  fields("cap_radius", one.cap_radius);
-  fields("composite_radius", one.composite_radius);
-  fields("load", one.load);
-  fields("contact_radius", one.contact_radius);
-  fields("tilt", one.tilt);
-  fields("plasticity_index", one.plasticity_index);
-  fields("tabor_parameter", one.tabor_parameter);
-  fields("area", one.area);
-  fields("is_at_border", one.is_at_border);
-  fields("regime", one.regime);
-  return fields.fields;
-}
-
-template <typename Record, typename Visit>
-std::vector<Field> fieldsOf(const Visit& visit) {
-  Fields<Record> fields;
-  visit(fields.sample, fields);
-  return fields.fields;
-}
-
 Records asperitiesOf(const Predicted& predicted) {
-  return recordsOf(predicted->prediction.asperities, asperityFields(), predicted);
+  return recordsOf(predicted->prediction.asperities, predicted,
+                   [](const Asperity& one, auto& fields) { visitAsperityFields(one, fields); });
 }
 
 Records energyCurveOf(const Predicted& predicted) {
-  return recordsOf(
-      predicted->prediction.energy_curve,
-      fieldsOf<EnergyPoint>([](const auto& point, auto& fields) { visitEnergyPointFields(point, fields); }), predicted);
+  return recordsOf(predicted->prediction.energy_curve, predicted,
+                   [](const EnergyPoint& point, auto& fields) { visitEnergyPointFields(point, fields); });
 }
 
 Records displacementCurveOf(const Predicted& predicted) {
-  return recordsOf(predicted->prediction.curve, fieldsOf<SeparationCurvePoint>([](const auto& point, auto& fields) {
-                     visitSeparationPointFields(point, fields);
-                   }),
-                   predicted);
+  return recordsOf(predicted->prediction.curve, predicted,
+                   [](const SeparationCurvePoint& point, auto& fields) { visitSeparationPointFields(point, fields); });
 }
 
 Records heightCurveOf(const Predicted& predicted) {
-  return recordsOf(predicted->curve,
-                   fieldsOf<CurvePoint>([](const auto& point, auto& fields) { visitCurvePointFields(point, fields); }),
-                   predicted);
+  return recordsOf(predicted->curve, predicted,
+                   [](const CurvePoint& point, auto& fields) { visitCurvePointFields(point, fields); });
 }
 
 /// Pull-off force over the prediction's, of samples of the uncertain constants, ascending; empty without a list of contacts.
@@ -218,23 +197,15 @@ std::vector<double> spreadOf(const PredictedScan& predicted, const Configuration
   return adhesionSpread(predicted.prediction, configuration.model, configuration.uncertainty).pull_off;
 }
 
-/// {"prediction": {name: unit}, "verdict": ...}
-py::dict predictionUnits() {
-  UnitFields of_prediction, of_verdict;
-  const Prediction prediction;
-  const Verdict verdict;
-  visitPredictionFields(prediction, of_prediction);
-  visitVerdictFields(verdict, of_verdict);
-  of_verdict("verdict_by", "", "");
-  py::dict units;
-  units["prediction"] = of_prediction.units;
-  units["verdict"] = of_verdict.units;
-  return units;
-}
-
 }  // namespace
 
 void bindPrediction(py::module& module) {
+  DeclaredFields of_prediction, of_verdict;
+  visitFigures({}, of_prediction);
+  visitJudgedFields({}, of_verdict);
+  of_prediction.addTo(module, "PredictionFigures");
+  of_verdict.addTo(module, "VerdictFigures");
+
   py::class_<PredictedScan, Predicted>(module, "PredictedScan")
       .def_property_readonly("figures", &figuresOf)
       .def_property_readonly("verdict", &verdictOfScan)
@@ -260,17 +231,23 @@ void bindPrediction(py::module& module) {
       .def_property_readonly("energy_curve", &energyCurveOf)
       .def_property_readonly("curve", &displacementCurveOf)
       .def_property_readonly("curve_over_height", &heightCurveOf)
-      .def("spread", &spreadOf)
-      .def("json", [](const PredictedScan& one, const std::string& file) {
-        return jsonRecord(file, one.scan, one.prediction, one.extras);
-      });
+      .def("spread", &spreadOf, "configuration"_a)
+      .def(
+          "json",
+          [](const PredictedScan& one, const std::string& file) {
+            return jsonRecord(file, one.scan, one.prediction, one.extras);
+          },
+          "file"_a);
 
-  py::class_<Predictor>(module, "Predictor").def(py::init<Configuration>()).def("predict", &Predictor::predict);
+  py::class_<Predictor>(module, "Predictor")
+      .def(py::init<Configuration>(), "configuration"_a)
+      .def("predict", &Predictor::predict, "scan"_a, "counter_surface"_a, "notes"_a);
   py::class_<OneScan>(module, "OneScan")
-      .def(py::init<const HeightMap&, const HeightMap*, const Configuration&, const std::vector<std::string>&>())
+      .def(py::init<const HeightMap&, const std::optional<HeightMap>&, const Configuration&,
+                    const std::vector<std::string>&>(),
+           "scan"_a, "counter_surface"_a, "configuration"_a, "notes"_a)
       .def_property_readonly("scan_warnings", &OneScan::warnings)
-      .def("predict", &OneScan::predict);
-  module.def("prediction_units", &predictionUnits);
+      .def("predict", &OneScan::predict, "configuration"_a);
 }
 
 }  // namespace python

@@ -2,7 +2,10 @@
 
 #include <pybind11/stl.h>
 
+#include <optional>
 #include <string>
+#include <tuple>
+#include <vector>
 
 #include "bindings.hpp"
 #include "figures.hpp"
@@ -27,6 +30,7 @@ namespace python {
 namespace {
 
 namespace py = pybind11;
+using py::literals::operator""_a;
 
 ScanFileOptions fileOptions(double pitch_x, double pitch_y, const std::string& channel, bool ignore_mask) {
   ScanFileOptions options;
@@ -37,14 +41,16 @@ ScanFileOptions fileOptions(double pitch_x, double pitch_y, const std::string& c
   return options;
 }
 
-py::tuple readScan(const std::string& path, const Configuration& configuration, double pitch_x, double pitch_y,
-                   const std::string& channel, bool ignore_mask) {
+std::tuple<HeightMap, std::string, std::vector<std::string>> readScan(const std::string& path,
+                                                                      const Configuration& configuration,
+                                                                      double pitch_x, double pitch_y,
+                                                                      const std::string& channel, bool ignore_mask) {
   ScanFile file;
   {
     const WithoutLock unlocked;
     file = openScanFile(path, configuration.scan, fileOptions(pitch_x, pitch_y, channel, ignore_mask));
   }
-  return py::make_tuple(file.surface, file.channel, file.notes);
+  return {file.surface, file.channel, file.notes};
 }
 
 py::list channelsOf(const std::string& path, const Configuration& configuration) {
@@ -67,13 +73,13 @@ py::list channelsOf(const std::string& path, const Configuration& configuration)
   return list;
 }
 
-py::tuple cleaned(const HeightMap& scan, const Configuration& configuration) {
+std::tuple<HeightMap, py::list> cleaned(const HeightMap& scan, const Configuration& configuration) {
   CleanedScan result;
   {
     const WithoutLock unlocked;
     result = cleanScan(scan, configuration.preprocessing);
   }
-  return py::make_tuple(result.surface, stepsOf(result.record));
+  return {result.surface, stepsOf(result.record)};
 }
 
 py::dict roughnessOf(const HeightMap& scan, const Configuration& configuration, bool is_spatial) {
@@ -90,15 +96,6 @@ py::dict roughnessOf(const HeightMap& scan, const Configuration& configuration, 
   return fields.dictionary;
 }
 
-py::dict roughnessUnits() {
-  UnitFields fields;
-  const ArealParameters areal;
-  const SpatialRoughness spatial;
-  visitRoughnessFields(areal, fields);
-  visitSpatialRoughnessFields(spatial, fields);
-  return fields.units;
-}
-
 /// A generated surface as a probe would see it, asperities up.
 HeightMap generated(int rows, int cols, double pitch_x, double pitch_y, const Configuration& configuration) {
   const CounterSurfaceOptions& options = configuration.counter_surface;
@@ -110,11 +107,12 @@ HeightMap generated(int rows, int cols, double pitch_x, double pitch_y, const Co
   return turnedOver(generatedCounterSurface(grid, options));
 }
 
-/// - @p counter_surface that was measured beside the scan; null: the configured one
-PreparedScan prepared(const HeightMap& scan, const HeightMap* counter_surface, const Configuration& configuration) {
+/// - @p counter_surface that was measured beside the scan; none: the configured one
+PreparedScan prepared(const HeightMap& scan, const std::optional<HeightMap>& counter_surface,
+                      const Configuration& configuration) {
   return interruptible([&](const std::atomic<bool>& /*cancel*/) {
     ScanPreparer preparer(configuration);
-    if (counter_surface != nullptr) preparer.setMeasuredCounterSurface(*counter_surface);
+    if (counter_surface) preparer.setMeasuredCounterSurface(*counter_surface);
     return preparer.prepare(scan);
   });
 }
@@ -122,20 +120,29 @@ PreparedScan prepared(const HeightMap& scan, const HeightMap* counter_surface, c
 }  // namespace
 
 void bindScans(py::module& module) {
-  module.def("height_map",
-             [](const py::buffer& pixels, double pitch_x, double pitch_y, const Configuration& configuration) {
-               return heightMapOf(pixels, configuration.scan, pitch_x, pitch_y);
-             });
+  DeclaredFields declared;
+  const ArealParameters areal;
+  const SpatialRoughness spatial;
+  visitRoughnessFields(areal, declared);
+  visitSpatialRoughnessFields(spatial, declared);
+  declared.addTo(module, "RoughnessFigures");
+
+  module.def(
+      "height_map",
+      [](const py::buffer& pixels, double pitch_x, double pitch_y, const Configuration& configuration) {
+        return heightMapOf(pixels, configuration.scan, pitch_x, pitch_y);
+      },
+      "pixels"_a, "pitch_x"_a, "pitch_y"_a, "configuration"_a);
   py::class_<PreparedScan>(module, "PreparedScan").def_property_readonly("warnings", &warningsOf);
-  module.def("prepare", &prepared);
-  module.def("scan_warnings", &scanWarnings, py::call_guard<WithoutLock>());
-  module.def("read", &readScan);
-  module.def("channels", &channelsOf);
-  module.def("clean", &cleaned);
-  module.def("roughness", &roughnessOf);
-  module.def("generate", &generated);
-  module.def("decimate", [](const HeightMap& scan, int factor) { return decimated(scan, factor); });
-  module.def("roughness_units", &roughnessUnits);
+  module.def("prepare", &prepared, "scan"_a, "counter_surface"_a, "configuration"_a);
+  module.def("scan_warnings", &scanWarnings, "scan"_a, py::call_guard<WithoutLock>());
+  module.def("read", &readScan, "path"_a, "configuration"_a, "pitch_x"_a, "pitch_y"_a, "channel"_a, "ignore_mask"_a);
+  module.def("channels", &channelsOf, "path"_a, "configuration"_a);
+  module.def("clean", &cleaned, "scan"_a, "configuration"_a);
+  module.def("roughness", &roughnessOf, "scan"_a, "configuration"_a, "is_spatial"_a);
+  module.def("generate", &generated, "rows"_a, "cols"_a, "pitch_x"_a, "pitch_y"_a, "configuration"_a);
+  module.def(
+      "decimate", [](const HeightMap& scan, int factor) { return decimated(scan, factor); }, "scan"_a, "factor"_a);
 }
 
 }  // namespace python

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "bindings.hpp"
 #include "mems_stiction/base/errors.hpp"
@@ -18,6 +19,7 @@ namespace python {
 namespace {
 
 namespace py = pybind11;
+using py::literals::operator""_a;
 
 /// Python's values as the reader of configuration files sees them: numbers and words are scalars, anything that has no
 /// place in a configuration is the text that Python shows for it, so that the reader names it.
@@ -79,17 +81,29 @@ void bindErrors(py::module& module) {
 void bindSettings(py::module& module) {
   py::class_<Configuration>(module, "Configuration")
       .def(py::init<>())
-      .def("changed", [](const Configuration& configuration,
-                         const py::dict& tree) { return configurationFromYaml(nodeOf(tree), configuration); })
-      .def("loaded", [](const Configuration& configuration,
-                        const std::string& path) { return loadConfiguration(path, configuration); })
+      .def(
+          "changed",
+          [](const Configuration& configuration, const py::dict& tree) {
+            return configurationFromYaml(nodeOf(tree), configuration);
+          },
+          "tree"_a)
+      .def(
+          "loaded",
+          [](const Configuration& configuration, const std::string& path) {
+            return loadConfiguration(path, configuration);
+          },
+          "path"_a)
+      .def(
+          "read",
+          [](const Configuration& configuration, const std::string& text) {
+            return configurationFromYaml(YAML::Load(text), configuration);
+          },
+          "text"_a)
       .def_property_readonly("warnings", &settingsWarnings)
       .def_property_readonly("pitch",
                              [](const Configuration& configuration) {
-                               return py::make_tuple(configuration.scan.pitch_x, configuration.scan.pitch_y);
+                               return std::make_pair(configuration.scan.pitch_x, configuration.scan.pitch_y);
                              })
-      .def("read", [](const Configuration& configuration,
-                      const std::string& text) { return configurationFromYaml(YAML::Load(text), configuration); })
       .def("yaml", [](const Configuration& configuration) { return toYaml(configuration); });
 }
 

@@ -9,14 +9,14 @@
 #include "memory.hpp"
 #include "mems_stiction/scan/frame_load.hpp"
 #include "mems_stiction/scan/prepared_scan.hpp"
-#include "mems_stiction/station/contact_cycles.hpp"
-#include "mems_stiction/station/load_sweep.hpp"
+#include "mems_stiction/station/station_fields.hpp"
 
 namespace mems_stiction {
 namespace python {
 namespace {
 
 namespace py = pybind11;
+using py::literals::operator""_a;
 
 using Sweep = std::shared_ptr<LoadSweepResult>;
 using Cycles = std::shared_ptr<ContactCyclesResult>;
@@ -43,65 +43,15 @@ Cycles cycle(const PreparedScan& prepared, const Configuration& configuration, i
 }
 
 Records pointsOf(const Sweep& result) {
-  Fields<LoadSweepRow> fields;
-  const LoadSweepRow& row = fields.sample;
-  fields("direction", row.direction);
-  fields("voltage", row.voltage);
-  fields("mechanical_load", row.mechanical_load);
-  fields("status", row.status);
-  fields("is_open", row.is_open);
-  fields("pull_off_force", row.pull_off_force);
-  fields("van_der_waals_force", row.van_der_waals_force);
-  fields("electrostatic_force", row.electrostatic_force);
-  fields("normal_load", row.normal_load);
-  fields("contact_area", row.contact_area);
-  fields("contact_area_jkr", row.contact_area_jkr);
-  fields("contact_fraction", row.contact_fraction);
-  fields("asperity_count", row.asperity_count);
-  fields("approach", row.approach);
-  fields("sticks", row.sticks);
-  fields("margin", row.margin);
-  fields("margin_lower", row.margin_lower);
-  fields("holding_margin", row.holding_margin);
-  fields("margin_upper", row.margin_upper);
-  fields("pull_off_force_lower", row.pull_off_interval.lower);
-  fields("pull_off_force_upper", row.pull_off_interval.upper);
-  return recordsOf(result->rows, fields.fields, result);
+  return recordsOf(result->rows, result, [](const auto& row, auto& fields) { visitSweepFields(row, fields); });
 }
 
 Records summariesOf(const Sweep& result) {
-  Fields<LoadSweepSummary> fields;
-  const LoadSweepSummary& one = fields.sample;
-  fields("mechanical_load", one.mechanical_load);
-  fields("highest_releasing_voltage", one.highest_releasing_voltage);
-  fields("highest_safe_voltage", one.highest_safe_voltage);
-  fields("lowest_sticking_voltage", one.lowest_sticking_voltage);
-  fields("lowest_safe_voltage", one.lowest_safe_voltage);
-  fields("opening_voltage", one.opening_voltage);
-  return recordsOf(result->summaries, fields.fields, result);
+  return recordsOf(result->summaries, result, [](const auto& one, auto& fields) { visitSummaryFields(one, fields); });
 }
 
 Records cyclesOf(const Cycles& result) {
-  Fields<ContactCycle> fields;
-  const ContactCycle& one = fields.sample;
-  fields("cycle", one.cycle);
-  fields("status", one.status);
-  fields("pull_off_force", one.pull_off_force);
-  fields("van_der_waals_force", one.van_der_waals_force);
-  fields("contact_area", one.contact_area);
-  fields("contact_area_jkr", one.contact_area_jkr);
-  fields("contact_fraction", one.contact_fraction);
-  fields("asperity_count", one.asperity_count);
-  fields("plastic_count", one.plastic_count);
-  fields("rms_height", one.rms_height);
-  fields("largest_change", one.largest_change);
-  fields("sticks", one.sticks);
-  fields("margin", one.margin);
-  fields("margin_lower", one.margin_lower);
-  fields("margin_upper", one.margin_upper);
-  fields("pull_off_force_lower", one.pull_off_interval.lower);
-  fields("pull_off_force_upper", one.pull_off_interval.upper);
-  return recordsOf(result->cycles, fields.fields, result);
+  return recordsOf(result->cycles, result, [](const auto& cycle, auto& fields) { visitCycleFields(cycle, fields); });
 }
 
 }  // namespace
@@ -116,8 +66,8 @@ void bindStation(py::module& module) {
       .def_readonly("first_sticking_cycle", &ContactCyclesResult::first_sticking_cycle)
       .def_property_readonly("lower", [](const ContactCyclesResult& result) { return result.surfaces.lower; })
       .def_property_readonly("upper", [](const ContactCyclesResult& result) { return result.surfaces.upper; });
-  module.def("sweep_loads", &sweep);
-  module.def("cycle_contact", &cycle);
+  module.def("sweep_loads", &sweep, "prepared"_a, "configuration"_a, "voltages"_a, "mechanical_loads"_a);
+  module.def("cycle_contact", &cycle, "prepared"_a, "configuration"_a, "count"_a);
 }
 
 }  // namespace python

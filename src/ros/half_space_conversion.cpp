@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "mems_stiction/base/one_line.hpp"
+#include "mems_stiction/half_space/half_space_fields.hpp"
+#include "mems_stiction/ros/message_fields.hpp"
 #include "mems_stiction/ros/message_text.hpp"
 
 namespace mems_stiction {
@@ -43,34 +45,15 @@ HalfSpaceSolution halfSpaceMessage(const SolvedHalfSpace& solved, const LoadOpti
                                    const std_msgs::Header& header) {
   HalfSpaceSolution message;
   message.header = header;
-  message.status = static_cast<std::uint8_t>(solved.status);
+  MessageFields fields;
+  visitHalfSpaceFields(solved, fields);
+  visitHalfSpaceDetails(solved, fields);
+  fields.fill(message);
   message.message = withoutCommas(oneLine(solved.message));
   message.voltage = load.voltage;
   message.mechanical_load = load.mechanical_load;
-
-  message.pull_off_force = solved.pull_off_force;
-  message.pull_off_uncertainty = solved.pull_off_uncertainty;
-  message.pull_off_force_under_voltage = solved.pull_off_force_under_voltage;
-  message.pull_off_height = solved.pull_off_height;
-  message.apparent_work_of_adhesion = solved.work_of_adhesion;
-  message.adhesion_hysteresis = solved.hysteresis;
-
-  message.rest_height = solved.rest_height;
-  message.contact_area = solved.contact_area;
-  message.contact_fraction = solved.contact_fraction;
-  message.contact_count = std::isnan(solved.contact_area) ? kUnknownCount : solved.contact_count;
-  message.mean_gap = solved.mean_gap;
-  message.flowed_volume = solved.flowed_volume;
-
-  message.is_converged = static_cast<std::uint8_t>(solved.is_converged);
-  message.is_resolved = static_cast<std::uint8_t>(solved.is_resolved);
-  message.is_step_converged = static_cast<std::uint8_t>(solved.is_step_converged);
-  message.cohesive_length = solved.cohesive_length;
-  message.range = solved.range;
-  message.jumps = static_cast<std::uint32_t>(solved.jumps);
+  if (std::isnan(solved.contact_area)) message.contact_count = kUnknownCount;
   message.states = static_cast<std::uint32_t>(solved.state_count);
-  message.iterations = static_cast<std::uint32_t>(solved.newton_steps);
-  message.processing_time = solved.processing_time;
 
   addPoints(solved.approach, HalfSpacePoint::APPROACH, message.curve);
   addPoints(solved.retraction, HalfSpacePoint::RETRACTION, message.curve);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <type_traits>
 
 #include "mems_stiction/base/option_yaml.hpp"
 #include "mems_stiction/base/short_number.hpp"
@@ -22,25 +23,23 @@ class YamlFields {
  public:
   explicit YamlFields(YAML::Emitter& emitter) : emitter_(emitter) {}
 
-  void operator()(const char* name, double value, const char* /*unit*/) { pair(name, yamlNumber(value)); }
-  void operator()(const char* name, int value, const char* /*unit*/) { pair(name, std::to_string(value)); }
-  void operator()(const char* name, long long value, const char* /*unit*/) { pair(name, std::to_string(value)); }
-  void operator()(const char* name, std::uint32_t value, const char* /*unit*/) { pair(name, std::to_string(value)); }
-  void operator()(const char* name, bool value, const char* /*unit*/) { pair(name, value ? "true" : "false"); }
-  void operator()(const char* name, const std::string& value, const char* /*unit*/) {
-    emitter_ << YAML::Key << name << YAML::Value << YAML::DoubleQuoted << value;
-  }
-  void operator()(const char* name, Sticks value, const char* /*unit*/) {
-    (*this)(name, std::string(sticksText(value)), "");
-  }
-  template <typename Enum>
-  void operator()(const char* name, Enum value, const char* /*unit*/) {
-    pair(name, word(value));
+  template <typename Value>
+  void operator()(const Figure& figure, const Value& value) {
+    emitter_ << YAML::Key << figure.name << YAML::Value;
+    if constexpr (std::is_same_v<Value, double>) {
+      emitter_ << yamlNumber(value);
+    } else if constexpr (std::is_same_v<Value, bool>) {
+      emitter_ << (value ? "true" : "false");
+    } else if constexpr (std::is_arithmetic_v<Value>) {
+      emitter_ << std::to_string(value);
+    } else if constexpr (std::is_same_v<Value, std::string> || std::is_same_v<Value, Sticks>) {
+      emitter_ << YAML::DoubleQuoted << std::string(shown(value));
+    } else {
+      emitter_ << word(value);
+    }
   }
 
  private:
-  void pair(const char* name, const std::string& value) { emitter_ << YAML::Key << name << YAML::Value << value; }
-
   YAML::Emitter& emitter_;
 };
 
@@ -49,16 +48,9 @@ class JsonFields {
  public:
   explicit JsonFields(nlohmann::json& object) : object_(object) {}
 
-  void operator()(const char* name, double value, const char* /*unit*/) { object_[name] = value; }
-  void operator()(const char* name, int value, const char* /*unit*/) { object_[name] = value; }
-  void operator()(const char* name, long long value, const char* /*unit*/) { object_[name] = value; }
-  void operator()(const char* name, std::uint32_t value, const char* /*unit*/) { object_[name] = value; }
-  void operator()(const char* name, bool value, const char* /*unit*/) { object_[name] = value; }
-  void operator()(const char* name, const std::string& value, const char* /*unit*/) { object_[name] = value; }
-  void operator()(const char* name, Sticks value, const char* /*unit*/) { object_[name] = sticksText(value); }
-  template <typename Enum>
-  void operator()(const char* name, Enum value, const char* /*unit*/) {
-    object_[name] = word(value);
+  template <typename Value>
+  void operator()(const Figure& figure, const Value& value) {
+    object_[figure.name] = shown(value);
   }
 
  private:
@@ -68,10 +60,10 @@ class JsonFields {
 /// Size and pitch of the scan: what a reader needs to trust the figures below.
 template <typename Visitor>
 void visitScanFields(const HeightMap& scan, Visitor&& visit) {
-  visit("rows", scan.rows(), "");
-  visit("cols", scan.cols(), "");
-  visit("pitch_x", scan.pitchX(), "m");
-  visit("pitch_y", scan.pitchY(), "m");
+  visit({"rows"}, scan.rows());
+  visit({"cols"}, scan.cols());
+  visit({"pitch_x", "m"}, scan.pitchX());
+  visit({"pitch_y", "m"}, scan.pitchY());
 }
 
 /// Figures of the prediction and of the verdict, and what limits both.
@@ -79,32 +71,32 @@ template <typename Visitor>
 void visitResultFields(const HeightMap& scan, const Prediction& prediction, const RecordExtras& extras,
                        Visitor&& visit) {
   if (extras.provenance) {
-    visitProvenanceFields(*extras.provenance, [&](const char* name, const std::string& value, const char* unit) {
-      if (!value.empty()) visit(name, value, unit);
+    visitProvenanceFields(*extras.provenance, [&](const Figure& figure, const std::string& value) {
+      if (!value.empty()) visit(figure, value);
     });
   }
-  if (!extras.formulation.empty()) visit("formulation", extras.formulation, "");
-  visitPredictionFields(prediction, [&](const char* name, const auto& value, const char* unit) {
-    const bool verdict_has_it = extras.verdict && std::strcmp(name, "apparent_work_of_adhesion") == 0;
-    if (!verdict_has_it) visit(name, value, unit);
+  if (!extras.formulation.empty()) visit({"formulation"}, extras.formulation);
+  visitPredictionFields(prediction, [&](const Figure& figure, const auto& value) {
+    const bool verdict_has_it = extras.verdict && std::strcmp(figure.name, "apparent_work_of_adhesion") == 0;
+    if (!verdict_has_it) visit(figure, value);
   });
   const std::uint32_t flags = regimeFlags(prediction, scan.cellArea());
-  visit("regime_flag_names", regimeFlagNames(flags), "");
+  visit({"regime_flag_names"}, regimeFlagNames(flags));
   if (extras.verdict) {
     visitVerdictFields(*extras.verdict, visit);
-    if (extras.half_space) visit("verdict_by", std::string(judgeText(extras.verdict->judge)), "");
+    if (extras.half_space) visit({"verdict_by"}, std::string(judgeText(extras.verdict->judge)));
   } else {
-    visit("regime_flags", flags, "");
+    visit({"regime_flags"}, flags);
   }
 }
 
 template <typename Visitor>
 void visitStepFields(const PreprocessStep& step, Visitor&& visit) {
-  visit("step", step.name, "");
-  visit("parameters", step.parameters, "");
-  visit("rms_change", step.rms_change, "m");
-  visit("changed_pixels", step.changed_pixels, "");
-  visit("invalid_pixels", step.invalid_pixels, "");
+  visit({"step"}, step.name);
+  visit({"parameters"}, step.parameters);
+  visit({"rms_change", "m"}, step.rms_change);
+  visit({"changed_pixels"}, step.changed_pixels);
+  visit({"invalid_pixels"}, step.invalid_pixels);
 }
 
 bool hasTipStep(const PreprocessRecord& record) {
@@ -164,8 +156,8 @@ std::string yamlRecord(const std::string& file, const HeightMap& scan, const Pre
   YAML::Emitter emitter;
   YamlFields fields(emitter);
   emitter << YAML::BeginDoc << YAML::BeginMap;
-  fields("file", file, "");
-  if (!extras.channel.empty()) fields("channel", extras.channel, "");
+  fields({"file"}, file);
+  if (!extras.channel.empty()) fields({"channel"}, extras.channel);
   visitScanFields(scan, fields);
   visitResultFields(scan, prediction, extras, fields);
   emitter << YAML::Key << "roughness" << YAML::Value << YAML::BeginMap;
@@ -179,7 +171,7 @@ std::string yamlRecord(const std::string& file, const HeightMap& scan, const Pre
   }
   addYamlList(emitter, "preprocessing", extras.preprocessing.steps, kVisitStep);
   if (hasTipStep(extras.preprocessing)) {
-    fields("tip_unreached_fraction", extras.preprocessing.tip_unreached_fraction, "");
+    fields({"tip_unreached_fraction"}, extras.preprocessing.tip_unreached_fraction);
   }
   addYamlList(emitter, "convergence", extras.convergence, kVisitRow);
   addYamlList(emitter, "cleanings", extras.cleanings, kVisitCleaning);

@@ -10,8 +10,8 @@ namespace mems_stiction {
 void writeCurve(const std::string& path, const std::vector<CurvePoint>& curve, const Provenance& provenance) {
   std::string text = "height,force,direction";
   std::string origin;
-  visitProvenanceFields(provenance, [&](const char* name, const std::string& value, const char* /*unit*/) {
-    text += std::string(",") + name;
+  visitProvenanceFields(provenance, [&](const Figure& figure, const std::string& value) {
+    text += std::string(",") + figure.name;
     origin += "," + csvText(oneLine(value));
   });
   text += "\n";

@@ -1,7 +1,6 @@
 #include "half_space_row.hpp"
 
 #include <cstring>
-#include <type_traits>
 
 #include "mems_stiction/base/one_line.hpp"
 #include "mems_stiction/half_space/half_space_fields.hpp"
@@ -12,19 +11,10 @@ namespace {
 const std::string kPrefix = "half_space_";
 const char* const kWallTime = "processing_time";
 
-template <typename Value>
-nlohmann::json jsonOf(const Value& value) {
-  if constexpr (std::is_enum_v<Value>) {
-    return word(value);
-  } else {
-    return value;
-  }
-}
-
 template <typename Visitor>
 void visitFigures(const SolvedHalfSpace& solution, Visitor&& visit) {
-  visitHalfSpaceFields(solution, [&](const char* name, const auto& value, const char* unit) {
-    if (std::strcmp(name, kWallTime) != 0) visit(kPrefix + name, value, unit);
+  visitHalfSpaceFields(solution, [&](const Figure& figure, const auto& value) {
+    if (std::strcmp(figure.name, kWallTime) != 0) visit(kPrefix + figure.name, value, figure.unit);
   });
 }
 
@@ -35,7 +25,7 @@ RowFields halfSpaceFields(const HalfSpaceAnswer& answer, const std::optional<Ver
   if (verdict) fields.emplace_back("verdict_by", judgeText(verdict->judge));
   if (answer.solution) {
     visitFigures(*answer.solution, [&](const std::string& name, const auto& value, const char*) {
-      fields.emplace_back(name, jsonOf(value));
+      fields.emplace_back(name, shown(value));
     });
   }
   return fields;

@@ -67,24 +67,18 @@ ScanStatement statementOf(const Row& row) {
   return scan;
 }
 
-template <typename Value>
-nlohmann::json jsonOf(const Value& value) {
-  if constexpr (std::is_same_v<Value, Sticks>) {
-    return sticksText(value);
-  } else if constexpr (std::is_same_v<Value, std::string>) {
-    return oneLine(value);
-  } else {
-    return value;
-  }
-}
-
 RowFields fieldsOf(std::size_t number, const PartKey& key, const PooledVerdict& part) {
   RowFields fields = {{"number", number},
                       {"part_id", oneLine(key.part_id)},
                       {"serial_id", oneLine(key.serial_id)},
                       {"settings_hash", key.settings_hash}};
-  visitPartVerdictFields(
-      part, [&](const std::string& name, const auto& value, const char*) { fields.emplace_back(name, jsonOf(value)); });
+  visitPartVerdictFields(part, [&](const Figure& figure, const auto& value) {
+    if constexpr (std::is_same_v<decltype(value), const std::string&>) {
+      fields.emplace_back(figure.name, oneLine(value));
+    } else {
+      fields.emplace_back(figure.name, shown(value));
+    }
+  });
   fields.emplace_back("regime_flag_names", regimeFlagNames(part.regime_flags));
   std::string said;
   for (const std::string& warning : part.warnings) said += (said.empty() ? "" : "; ") + oneLine(warning);

@@ -39,15 +39,15 @@ void requireSame(std::map<std::string, Seen>& seen, const std::string& key, cons
 RowFields stateFields(const ScanState& state) {
   RowFields fields;
   visitScanStateFields(state,
-                       [&](const char* name, const auto& value, const char*) { fields.emplace_back(name, value); });
+                       [&](const Figure& figure, const auto& value) { fields.emplace_back(figure.name, value); });
   return fields;
 }
 
 std::map<std::string, std::string> stateUnits() {
   std::map<std::string, std::string> units;
   const ScanState none;
-  visitScanStateFields(none, [&](const char* name, const auto&, const char* unit) {
-    if (*unit != '\0') units[name] = unit;
+  visitScanStateFields(none, [&](const Figure& figure, const auto&) {
+    if (*figure.unit != '\0') units[figure.name] = figure.unit;
   });
   return units;
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
-#include <type_traits>
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/one_line.hpp"
@@ -16,17 +15,6 @@
 namespace mems_stiction {
 namespace {
 
-template <typename Value>
-nlohmann::json jsonOf(const Value& value) {
-  if constexpr (std::is_same_v<Value, Sticks>) {
-    return sticksText(value);
-  } else if constexpr (std::is_enum_v<Value>) {
-    return word(value);
-  } else {
-    return value;
-  }
-}
-
 /// Visits every figure of a row with its value and unit.
 template <typename Visitor>
 void visitFigures(const HeightMap& scan, const std::vector<std::string>& warnings, const Prediction& prediction,
@@ -34,61 +22,52 @@ void visitFigures(const HeightMap& scan, const std::vector<std::string>& warning
                   Visitor&& visit) {
   std::string said;
   for (const std::string& warning : warnings) said += (said.empty() ? "" : "; ") + oneLine(warning);
-  visit("warnings", said, "");
-  visit("rows", scan.rows(), "");
-  visit("cols", scan.cols(), "");
-  visit("pitch_x", scan.pitchX(), "m");
-  visit("pitch_y", scan.pitchY(), "m");
-  visit("formulation", formulation, "");
-  visitPredictionFields(prediction, [&](const char* name, const auto& value, const char* unit) {
-    const bool verdict_has_it = verdict && std::strcmp(name, "apparent_work_of_adhesion") == 0;
-    if (std::strcmp(name, "processing_time") != 0 && !verdict_has_it) visit(name, value, unit);
+  visit({"warnings"}, said);
+  visit({"rows"}, scan.rows());
+  visit({"cols"}, scan.cols());
+  visit({"pitch_x", "m"}, scan.pitchX());
+  visit({"pitch_y", "m"}, scan.pitchY());
+  visit({"formulation"}, formulation);
+  visitPredictionFields(prediction, [&](const Figure& figure, const auto& value) {
+    const bool verdict_has_it = verdict && std::strcmp(figure.name, "apparent_work_of_adhesion") == 0;
+    if (std::strcmp(figure.name, "processing_time") != 0 && !verdict_has_it) visit(figure, value);
   });
   visitRoughnessFields(prediction.roughness, visit);
   visitSpatialRoughnessFields(prediction.spatial_roughness, visit);
   const std::uint32_t flags = regimeFlags(prediction, scan.cellArea());
   if (verdict) {
-    visitVerdictFields(*verdict, [&](const char* name, const auto& value, const char* unit) {
+    visitVerdictFields(*verdict, [&](const Figure& figure, const auto& value) {
       // The reason of a row is that of its failure.
-      visit(std::strcmp(name, "reason") == 0 ? "verdict_reason" : name, value, unit);
+      const bool is_reason = std::strcmp(figure.name, "reason") == 0;
+      visit(is_reason ? Figure{"verdict_reason", figure.unit, figure.meaning} : figure, value);
     });
-    visit("place_deviation", verdict->place_deviation, "");
-    visit("size_objection", oneLine(verdict->size_objection), "");
+    visit({"place_deviation"}, verdict->place_deviation);
+    visit({"size_objection"}, oneLine(verdict->size_objection));
   } else {
-    visit("regime_flags", flags, "");
+    visit({"regime_flags"}, flags);
   }
-  visit("regime_flag_names", regimeFlagNames(flags), "");
-  visitProvenanceFields(provenance, [&](const char* name, const std::string& value, const char* unit) {
-    visit(name, oneLine(value), unit);
-  });
+  visit({"regime_flag_names"}, regimeFlagNames(flags));
+  visitProvenanceFields(provenance,
+                        [&](const Figure& figure, const std::string& value) { visit(figure, oneLine(value)); });
 }
 
+/// By columns, which are there without a contact too; regimes by their numbers, as in contact_map.
 nlohmann::json asperityColumns(const std::vector<Asperity>& asperities) {
   nlohmann::json columns = nlohmann::json::object();
-  const auto column = [&](const char* name, const auto& value_of) {
-    nlohmann::json values = nlohmann::json::array();
-    for (const Asperity& asperity : asperities) values.push_back(value_of(asperity));
-    columns[name] = values;
-  };
-  column("x", [](const Asperity& a) { return a.x; });
-  column("y", [](const Asperity& a) { return a.y; });
-  column("z", [](const Asperity& a) { return a.z; });
-  column("cap_radius", [](const Asperity& a) { return a.cap_radius; });
-  column("composite_radius", [](const Asperity& a) { return a.composite_radius; });
-  column("load", [](const Asperity& a) { return a.load; });
-  column("contact_radius", [](const Asperity& a) { return a.contact_radius; });
-  column("tilt", [](const Asperity& a) { return a.tilt; });
-  column("plasticity_index", [](const Asperity& a) { return a.plasticity_index; });
-  column("tabor_parameter", [](const Asperity& a) { return a.tabor_parameter; });
-  column("area", [](const Asperity& a) { return a.area; });
-  column("regime", [](const Asperity& a) { return static_cast<int>(a.regime); });
+  const Asperity none;
+  visitAsperityFields(none, [&](const Figure& figure, const auto&) { columns[figure.name] = nlohmann::json::array(); });
+  for (const Asperity& asperity : asperities) {
+    visitAsperityFields(asperity,
+                        [&](const Figure& figure, const auto& value) { columns[figure.name].push_back(value); });
+  }
+  columns.erase("is_at_border");
   return columns;
 }
 
 nlohmann::json energyColumns(const std::vector<EnergyPoint>& curve) {
   nlohmann::json columns = nlohmann::json::object();
   for (const EnergyPoint& point : curve) {
-    visitEnergyPointFields(point, [&](const char* name, double value, const char*) { columns[name].push_back(value); });
+    visitEnergyPointFields(point, [&](const Figure& figure, double value) { columns[figure.name].push_back(value); });
   }
   return columns;
 }
@@ -99,7 +78,7 @@ nlohmann::json curveColumns(const std::vector<CurvePoint>& curve) {
   nlohmann::json columns = nlohmann::json::object();
   for (const CurvePoint& point : curve) {
     visitCurvePointFields(
-        point, [&](const char* name, const auto& value, const char*) { columns[name].push_back(jsonOf(value)); });
+        point, [&](const Figure& figure, const auto& value) { columns[figure.name].push_back(shown(value)); });
   }
   return columns;
 }
@@ -117,7 +96,7 @@ RowFields figureFields(const HeightMap& scan, const std::vector<std::string>& wa
                        const Provenance& provenance) {
   RowFields fields;
   visitFigures(scan, warnings, prediction, verdict, formulation, provenance,
-               [&](const char* name, const auto& value, const char*) { fields.emplace_back(name, jsonOf(value)); });
+               [&](const Figure& figure, const auto& value) { fields.emplace_back(figure.name, shown(value)); });
   return fields;
 }
 
@@ -134,8 +113,8 @@ std::map<std::string, std::string> columnUnits(bool with_verdict) {
   std::optional<Verdict> verdict;
   if (with_verdict) verdict.emplace();
   std::map<std::string, std::string> units;
-  visitFigures({}, {}, {}, verdict, "", {}, [&](const char* name, const auto&, const char* unit) {
-    if (*unit != '\0') units[name] = unit;
+  visitFigures({}, {}, {}, verdict, "", {}, [&](const Figure& figure, const auto&) {
+    if (*figure.unit != '\0') units[figure.name] = figure.unit;
   });
   return units;
 }

@@ -71,8 +71,8 @@ TEST(HalfSpaceMessage, HoldsEveryFieldOfTheRecord) {
   std::string line;
   for (std::istringstream reader(stream.str()); std::getline(reader, line);) lines.insert(line);
   int visited = 0;
-  visitHalfSpaceFields(solved, [&](const char* name, const auto& value, const char*) {
-    EXPECT_TRUE(lines.count(std::string(name) + ": " + text(value))) << name << " in\n" << stream.str();
+  visitHalfSpaceFields(solved, [&](const Figure& figure, const auto& value) {
+    EXPECT_TRUE(lines.count(std::string(figure.name) + ": " + text(value))) << figure.name << " in\n" << stream.str();
     ++visited;
   });
   EXPECT_EQ(visited, 12);

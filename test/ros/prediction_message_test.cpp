@@ -1,14 +1,23 @@
-/// Every figure of the tables exists in the message, under its name and with its value.
+/// Every figure of the tables exists in its message, under its name, with its unit and with its value.
 
+#include <map>
 #include <set>
 #include <sstream>
 #include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "mems_stiction/half_space/half_space_fields.hpp"
 #include "mems_stiction/prediction/prediction_fields.hpp"
+#include "mems_stiction/ros/half_space_conversion.hpp"
+#include "mems_stiction/ros/message_fields.hpp"
 #include "mems_stiction/ros/part_verdict_conversion.hpp"
 #include "mems_stiction/ros/prediction_conversion.hpp"
+#include "mems_stiction/ros/station_conversion.hpp"
+#include "mems_stiction/station/station_fields.hpp"
 #include "mems_stiction/verdict/part_verdict_fields.hpp"
 #include "mems_stiction/verdict/regime_flags.hpp"
 #include "mems_stiction/verdict/verdict_fields.hpp"
@@ -36,15 +45,16 @@ struct Fill {
   double next = 1.0;
   std::uint32_t next_count = 100;
 
-  void operator()(const char*, double& value, const char*) { value = next += 0.5; }
-  void operator()(const char*, int& value, const char*) { value = static_cast<int>(++next_count); }
-  void operator()(const char*, std::uint32_t& value, const char*) { value = ++next_count; }
-  void operator()(const char*, bool& value, const char*) { value = true; }
-  void operator()(const char* name, std::string& value, const char*) { value = std::string("text of ") + name; }
-  void operator()(const char*, Status& value, const char*) { value = Status::kBonded; }
-  void operator()(const char*, BondingRegime& value, const char*) { value = BondingRegime::kAdherence; }
-  void operator()(const char*, ContactTheory& value, const char*) { value = ContactTheory::kJkr; }
-  void operator()(const char*, Sticks& value, const char*) { value = Sticks::kYes; }
+  void operator()(const Figure&, double& value) { value = next += 0.5; }
+  void operator()(const Figure&, int& value) { value = static_cast<int>(++next_count); }
+  void operator()(const Figure&, std::uint32_t& value) { value = ++next_count; }
+  void operator()(const Figure&, bool& value) { value = true; }
+  void operator()(const Figure& figure, std::string& value) { value = std::string("text of ") + figure.name; }
+  void operator()(const Figure&, Status& value) { value = Status::kBonded; }
+  void operator()(const Figure&, Regime& value) { value = Regime::kPlastic; }
+  void operator()(const Figure&, BondingRegime& value) { value = BondingRegime::kAdherence; }
+  void operator()(const Figure&, ContactTheory& value) { value = ContactTheory::kJkr; }
+  void operator()(const Figure&, Sticks& value) { value = Sticks::kYes; }
 };
 
 TEST(PredictionMessage, HoldsEveryFieldOfTheTables) {
@@ -68,9 +78,10 @@ TEST(PredictionMessage, HoldsEveryFieldOfTheTables) {
 
   int visited = 0;
   const auto expect = [&](const std::string& indent) {
-    return [&, indent](const char* name, const auto& value, const char*) {
-      EXPECT_TRUE(lines.count(indent + name + ": " + text(value))) << name << " " << text(value) << " in\n"
-                                                                   << stream.str();
+    return [&, indent](const Figure& figure, const auto& value) {
+      EXPECT_TRUE(lines.count(indent + figure.name + ": " + text(value)))
+          << figure.name << " " << text(value) << " in\n"
+          << stream.str();
       ++visited;
     };
   };
@@ -84,12 +95,99 @@ TEST(PredictionMessage, HoldsEveryFieldOfTheTables) {
   EXPECT_EQ(message.preprocessing, recordLines(scan.preprocessing));
 }
 
+TEST(AsperityMessage, HoldsEveryFieldOfTheTable) {
+  Prediction prediction;
+  prediction.asperities.resize(3);
+  Fill fill;
+  for (Asperity& asperity : prediction.asperities) visitAsperityFields(asperity, fill);
+  const AsperityArray message = asperitiesMessage(prediction, {});
+  ASSERT_EQ(message.asperities.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::ostringstream stream;
+    stream << message.asperities[i];
+    int missing = 0;
+    visitAsperityFields(prediction.asperities[i], [&](const Figure& figure, const auto& value) {
+      const std::string line = std::string(figure.name) + ": " + text(value) + "\n";
+      missing += ("\n" + stream.str()).find("\n" + line) == std::string::npos ? 1 : 0;
+    });
+    EXPECT_EQ(missing, 1) << stream.str();  // is_at_border is in no message
+  }
+}
+
+/// Field to what the definition of a message says behind it.
+template <typename Message>
+std::map<std::string, std::string> commentsOf() {
+  std::map<std::string, std::string> comments;
+  std::istringstream lines(ros::message_traits::Definition<Message>::value());
+  std::string name;
+  for (std::string line; std::getline(lines, line) && line.compare(0, 2, "==") != 0;) {
+    const std::vector<std::string> names = fieldNames(line);
+    if (!names.empty()) name = names[0];
+    if (!names.empty() || line[0] == ' ') comments[name] += line;
+  }
+  return comments;
+}
+
+/// Visitor: each figure has its field, and the unit behind it, "[-]" for a number without one.
+class InDefinition {
+ public:
+  explicit InDefinition(std::map<std::string, std::string> comments) : comments_(std::move(comments)) {}
+
+  template <typename Value>
+  void operator()(const Figure& figure, const Value& /*value*/) {
+    if (without_.count(figure.name) > 0) {
+      EXPECT_EQ(comments_.count(figure.name), 0u) << figure.name;
+      return;
+    }
+    ASSERT_EQ(comments_.count(figure.name), 1u) << figure.name << " has no field";
+    const std::string unit = *figure.unit == '\0' && std::is_same_v<Value, double> ? "-" : figure.unit;
+    ++seen;
+    if (unit.empty()) return;
+    EXPECT_NE(comments_[figure.name].find("[" + unit + "]"), std::string::npos) << figure.name;
+  }
+
+  int seen = 0;
+
+ private:
+  std::map<std::string, std::string> comments_;
+  const std::set<std::string> without_ = {"is_at_border", "rest_force", "residual", "state_count"};  // Python's alone
+};
+
+TEST(Definitions, haveAFieldForEachFigureWithItsUnit) {
+  const PredictedScan scan;
+  const Asperity contact;
+  const SeparationCurvePoint of_curve;
+  const PooledVerdict pooled;
+  InDefinition prediction(commentsOf<StictionPrediction>());
+  visitPredictionFields(scan.prediction, prediction);
+  visitVerdictFields(scan.verdict, prediction);
+  visitProvenanceFields(scan.provenance, prediction);
+  EXPECT_GT(prediction.seen, 70);
+  InDefinition roughness(commentsOf<RoughnessStatistics>()), spatial(commentsOf<SpatialRoughnessStatistics>());
+  visitRoughnessFields(scan.prediction.roughness, roughness);
+  visitSpatialRoughnessFields(scan.prediction.spatial_roughness, spatial);
+  EXPECT_EQ(roughness.seen + spatial.seen, 18);
+  InDefinition asperity(commentsOf<AsperityContact>()), point(commentsOf<SeparationPoint>());
+  visitAsperityFields(contact, asperity);
+  visitSeparationPointFields(of_curve, point);
+  EXPECT_EQ(asperity.seen + point.seen, 15);
+  InDefinition part(commentsOf<PartVerdict>()), half_space(commentsOf<HalfSpaceSolution>());
+  visitPartVerdictFields(pooled, part);
+  visitHalfSpaceFields({}, half_space);
+  visitHalfSpaceDetails({}, half_space);
+  EXPECT_EQ(part.seen + half_space.seen, 42);
+  InDefinition sweep(commentsOf<SweepPoint>()), summary(commentsOf<SweepSummary>()), cycle(commentsOf<CyclePoint>());
+  visitSweepFields({}, sweep);
+  visitSummaryFields({}, summary);
+  visitCycleFields({}, cycle);
+  EXPECT_EQ(sweep.seen + summary.seen + cycle.seen, 44);
+}
+
 TEST(PartVerdictMessage, HoldsEveryFieldOfTheTables) {
   PredictedScan scan;
   Fill fill;
   scan.part.emplace();
-  visitPartVerdictFields(
-      *scan.part, [&](const std::string& name, auto& value, const char* unit) { fill(name.c_str(), value, unit); });
+  visitPartVerdictFields(*scan.part, fill);
   scan.part->regime_flags = kBondedFlag | kBorderFlag;
   scan.part->warnings = {"first, second"};
   scan.provenance.part_id = "lot 3";
@@ -104,8 +202,10 @@ TEST(PartVerdictMessage, HoldsEveryFieldOfTheTables) {
   for (std::istringstream reader(stream.str()); std::getline(reader, line);) lines.insert(line);
   int visited = 0;
   const PooledVerdict& filled = *scan.part;
-  visitPartVerdictFields(filled, [&](const std::string& name, const auto& value, const char*) {
-    EXPECT_TRUE(lines.count(name + ": " + text(value))) << name << " " << text(value) << " in\n" << stream.str();
+  visitPartVerdictFields(filled, [&](const Figure& figure, const auto& value) {
+    EXPECT_TRUE(lines.count(std::string(figure.name) + ": " + text(value)))
+        << figure.name << " " << text(value) << " in\n"
+        << stream.str();
     ++visited;
   });
   EXPECT_EQ(visited, 20);

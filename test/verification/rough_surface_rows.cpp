@@ -97,8 +97,8 @@ int regimesThatAreNotGuis() {
 bool isSameToTheBit(const Prediction& a, const Prediction& b) {
   std::vector<double> first, second;
   const auto collectInto = [](std::vector<double>& values) {
-    return [&values](const std::string& name, const auto& value, const char*) {
-      if (name != "processing_time") values.push_back(static_cast<double>(value));
+    return [&values](const Figure& figure, const auto& value) {
+      if (std::strcmp(figure.name, "processing_time") != 0) values.push_back(static_cast<double>(value));
     };
   };
   visitPredictionFields(a, collectInto(first));

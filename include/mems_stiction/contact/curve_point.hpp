@@ -3,7 +3,9 @@
 /// @file
 /// Force over height as files and records have it, whichever solver followed it.
 ///
-///     visitCurvePointFields(point, [&](const char* name, const auto& value, const char* unit) { print(...); });
+///     visitCurvePointFields(point, [&](const Figure& figure, const auto& value) { print(figure.name, value); });
+
+#include "mems_stiction/base/figure.hpp"
 
 namespace mems_stiction {
 
@@ -24,12 +26,12 @@ inline const char* word(CurveDirection direction) {
 
 /// The figures of one point.
 /// @param point of a curve
-/// @param visit called with (name, value, unit) for each figure
+/// @param visit called with (Figure, value) for each
 template <typename Visitor>
 void visitCurvePointFields(const CurvePoint& point, Visitor&& visit) {
-  visit("height", point.height, "m");
-  visit("force", point.force, "N");
-  visit("direction", point.direction, "");
+  visit({"height", "m", "of the upper body over first touch; negative: pressed in"}, point.height);
+  visit({"force", "N", "attraction positive"}, point.force);
+  visit({"direction", "", "APPROACH or RETRACTION"}, point.direction);
 }
 
 }  // namespace mems_stiction

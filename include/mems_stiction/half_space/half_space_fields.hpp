@@ -1,15 +1,16 @@
 #pragma once
 
 /// @file
-/// One table of the figures of a SolvedHalfSpace that records hold: name, member, unit. Figures that the asperity
-/// model has too have its names (prediction/prediction_fields.hpp).
+/// The figures of a SolvedHalfSpace: name, unit, what it is, and the member that holds it. Those that the asperity model has too
+/// have its names (prediction/prediction_fields.hpp).
 ///
-///     visitHalfSpaceFields(solution, [&](const char* name, const auto& value, const char* unit) { print(...); });
+///     visitHalfSpaceFields(solution, [&](const Figure& figure, const auto& value) { print(figure.name, value); });
 ///
 /// Values are double, int, bool and the enumerations below; word() makes words of these.
 
 #include <vector>
 
+#include "mems_stiction/base/figure.hpp"
 #include "mems_stiction/contact/curve_point.hpp"
 #include "mems_stiction/half_space/half_space_solution.hpp"
 
@@ -44,23 +45,48 @@ inline std::vector<CurvePoint> curveOf(const SolvedHalfSpace& solution) {
   return curve;
 }
 
-/// The figures; curveOf() is beside them.
+/// The figures of records and rows; curveOf() is beside them.
 /// @param solution as solved, or as far as it came
-/// @param visit called with (name, value, unit) for each figure
+/// @param visit called with (Figure, value) for each
 template <typename Visitor>
 void visitHalfSpaceFields(const SolvedHalfSpace& solution, Visitor&& visit) {
-  visit("status", solution.status, "");
-  visit("pull_off_force", solution.pull_off_force, "N");
-  visit("contact_area", solution.contact_area, "m^2");
-  visit("contact_fraction", solution.contact_fraction, "");
-  visit("mean_gap", solution.mean_gap, "m");
-  visit("apparent_work_of_adhesion", solution.work_of_adhesion, "J/m^2");
-  visit("adhesion_hysteresis", solution.hysteresis, "J/m^2");
-  visit("is_converged", solution.is_converged, "");
-  visit("is_resolved", solution.is_resolved, "");
-  visit("iterations", solution.newton_steps, "");
-  visit("processing_time", solution.processing_time, "s");
-  visit("pull_off_force_under_voltage", solution.pull_off_force_under_voltage, "N");
+  visit({"status", "", "SOLVED, LOAD_NOT_REACHED, NOT_CONVERGED, TOO_MANY_STATES or CANCELLED"}, solution.status);
+  visit(
+      {"pull_off_force", "N", "largest attraction while the bodies are drawn apart, after voltage and load have gone"},
+      solution.pull_off_force);
+  visit({"contact_area", "m^2", "cells that repel each other at rest"}, solution.contact_area);
+  visit({"contact_fraction", "", "contact_area over the area of the valid cells"}, solution.contact_fraction);
+  visit({"mean_gap", "m", "at rest, over the valid cells"}, solution.mean_gap);
+  visit({"apparent_work_of_adhesion", "J/m^2", "from zero force to apart, per area of the frame"},
+        solution.work_of_adhesion);
+  visit({"adhesion_hysteresis", "J/m^2", "what a whole cycle costs, by jumps and by flow, per area of the frame"},
+        solution.hysteresis);
+  visit({"is_converged", "", "every state is an equilibrium to half_space/tolerance"}, solution.is_converged);
+  visit({"is_resolved", "", "pixels are small enough for the edge of a contact: at least two per cohesive_length"},
+        solution.is_resolved);
+  visit({"iterations", "", "Newton steps of all states"}, solution.newton_steps);
+  visit({"processing_time", "s", "wall time of the solution"}, solution.processing_time);
+  visit({"pull_off_force_under_voltage", "N", "largest attraction if the voltage stays on instead"},
+        solution.pull_off_force_under_voltage);
+}
+
+/// The others, of message and Python.
+template <typename Visitor>
+void visitHalfSpaceDetails(const SolvedHalfSpace& solution, Visitor&& visit) {
+  visit({"message", "", "the status in a sentence"}, solution.message);
+  visit({"pull_off_uncertainty", "N", "by which finer steps may exceed pull_off_force"}, solution.pull_off_uncertainty);
+  visit({"pull_off_height", "m", "of the upper body then, over first touch"}, solution.pull_off_height);
+  visit({"rest_height", "m", "of the upper body at rest, over first touch"}, solution.rest_height);
+  visit({"rest_force", "N", "there: minus the mechanical load"}, solution.rest_force);
+  visit({"contact_count", "", "connected groups of the cells in contact"}, solution.contact_count);
+  visit({"flowed_volume", "m^3", "that both surfaces have lost for good, after the whole path"},
+        solution.flowed_volume);
+  visit({"range", "m", "z0, the gap at which the traction changes its sign"}, solution.range);
+  visit({"cohesive_length", "m", "E z0^2/Gamma, over which the edge of a contact parts"}, solution.cohesive_length);
+  visit({"is_step_converged", "", "finer steps change pull_off_force by less than 2 %"}, solution.is_step_converged);
+  visit({"residual", "", "the largest of all states"}, solution.residual);
+  visit({"state_count", "", "heights that were solved"}, solution.state_count);
+  visit({"jumps", "", "places where the curve is not continuous, both ways"}, solution.jumps);
 }
 
 }  // namespace mems_stiction

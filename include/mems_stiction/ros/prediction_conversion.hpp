@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// From the core's prediction to messages; field by field, no figure is computed here.
+/// From the core's prediction to messages; no figure is computed here.
 
 #include <std_msgs/Header.h>
 

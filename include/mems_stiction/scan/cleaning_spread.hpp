@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "mems_stiction/base/figure.hpp"
 #include "mems_stiction/height_map/height_map.hpp"
 #include "mems_stiction/prediction/prediction.hpp"
 #include "mems_stiction/scan/configuration.hpp"
@@ -46,32 +47,32 @@ struct CleaningSpread {
   double margin_upper = CleaningRow::kUnknown;  ///< the largest upper end [-]
 };
 
-/// Calls visit(name, value, unit) for each figure of a row.
+/// Calls visit(Figure, value) for each figure of a row.
 template <typename Row, typename Visitor>
 void visitCleaningFields(Row& row, Visitor&& visit) {
-  visit("cleaning", row.cleaning, "");
-  visit("reason", row.reason, "");
-  visit("is_reasonable", row.is_reasonable, "");
-  visit("status", row.status, "");
-  visit("rms_height", row.rms_height, "m");
-  visit("pull_off_force", row.pull_off_force, "N");
-  visit("contact_area", row.contact_area, "m^2");
-  visit("apparent_work_of_adhesion", row.apparent_work_of_adhesion, "J/m^2");
-  visit("asperity_count", row.asperity_count, "");
-  visit("margin", row.margin, "");
-  visit("margin_lower", row.margin_lower, "");
-  visit("margin_upper", row.margin_upper, "");
-  visit("sticks", row.sticks, "");
+  visit({"cleaning"}, row.cleaning);
+  visit({"reason"}, row.reason);
+  visit({"is_reasonable"}, row.is_reasonable);
+  visit({"status"}, row.status);
+  visit({"rms_height", "m"}, row.rms_height);
+  visit({"pull_off_force", "N"}, row.pull_off_force);
+  visit({"contact_area", "m^2"}, row.contact_area);
+  visit({"apparent_work_of_adhesion", "J/m^2"}, row.apparent_work_of_adhesion);
+  visit({"asperity_count"}, row.asperity_count);
+  visit({"margin"}, row.margin);
+  visit({"margin_lower"}, row.margin_lower);
+  visit({"margin_upper"}, row.margin_upper);
+  visit({"sticks"}, row.sticks);
 }
 
-/// Calls visit(name, value, unit) for each figure of the spread.
+/// Calls visit(Figure, value) for each figure of the spread.
 template <typename Visitor>
 void visitSpreadFields(const CleaningSpread& spread, Visitor&& visit) {
-  visit("count", spread.count, "");
-  visit("pull_off_factor", spread.pull_off_factor, "");
-  visit("margin_factor", spread.margin_factor, "");
-  visit("margin_lower", spread.margin_lower, "");
-  visit("margin_upper", spread.margin_upper, "");
+  visit({"count"}, spread.count);
+  visit({"pull_off_factor"}, spread.pull_off_factor);
+  visit({"margin_factor"}, spread.margin_factor);
+  visit({"margin_lower"}, spread.margin_lower);
+  visit({"margin_upper"}, spread.margin_upper);
 }
 
 /// The scan as configured; then not levelled, less its plane, less its parabola (polynomial of degree 2), and with its

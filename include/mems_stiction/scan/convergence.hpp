@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "mems_stiction/base/figure.hpp"
 #include "mems_stiction/height_map/height_map.hpp"
 #include "mems_stiction/prediction/prediction.hpp"
 
@@ -29,22 +30,22 @@ struct ConvergenceRow {
   double contact_area_ratio = 1.0;     ///< to that of full resolution [-]
 };
 
-/// Calls visit(name, value, unit) for each figure of a row.
+/// Calls visit(Figure, value) for each figure of a row.
 template <typename Row, typename Visitor>
 void visitConvergenceFields(Row& row, Visitor&& visit) {
-  visit("decimation", row.decimation, "");
-  visit("rows", row.rows, "");
-  visit("cols", row.cols, "");
-  visit("pitch_x", row.pitch_x, "m");
-  visit("pitch_y", row.pitch_y, "m");
-  visit("status", row.status, "");
-  visit("pull_off_force", row.pull_off_force, "N");
-  visit("contact_area", row.contact_area, "m^2");
-  visit("contact_area_jkr", row.contact_area_jkr, "m^2");
-  visit("asperity_count", row.asperity_count, "");
-  visit("median_contact_pixels", row.median_contact_pixels, "");
-  visit("pull_off_force_ratio", row.pull_off_force_ratio, "");
-  visit("contact_area_ratio", row.contact_area_ratio, "");
+  visit({"decimation"}, row.decimation);
+  visit({"rows"}, row.rows);
+  visit({"cols"}, row.cols);
+  visit({"pitch_x", "m"}, row.pitch_x);
+  visit({"pitch_y", "m"}, row.pitch_y);
+  visit({"status"}, row.status);
+  visit({"pull_off_force", "N"}, row.pull_off_force);
+  visit({"contact_area", "m^2"}, row.contact_area);
+  visit({"contact_area_jkr", "m^2"}, row.contact_area_jkr);
+  visit({"asperity_count"}, row.asperity_count);
+  visit({"median_contact_pixels"}, row.median_contact_pixels);
+  visit({"pull_off_force_ratio"}, row.pull_off_force_ratio);
+  visit({"contact_area_ratio"}, row.contact_area_ratio);
 }
 
 /// Means over blocks of factor x factor pixels: rows/factor x cols/factor, CV_64FC1, metres, pitches factor times as

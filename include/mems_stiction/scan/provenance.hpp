@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include "mems_stiction/base/figure.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
 
 namespace mems_stiction {
@@ -44,14 +45,15 @@ std::string settingsHash(const Configuration& configuration);
 /// - @p configuration that the prediction was made with
 Provenance provenanceOf(const ScanIdentity& identity, const Configuration& configuration);
 
-/// Calls visit(name, value, unit) for each field, by the names of the messages.
+/// Calls visit(Figure, value) for each field, by the names of the messages.
 template <typename Source, typename Visitor>
 void visitProvenanceFields(Source& provenance, Visitor&& visit) {
-  visit("version", provenance.version, "");
-  visit("settings_hash", provenance.settings_hash, "");
-  visit("scan_name", provenance.scan_name, "");
-  visit("part_id", provenance.part_id, "");
-  visit("serial_id", provenance.serial_id, "");
+  visit({"version", "", "of this package"}, provenance.version);
+  visit({"settings_hash", "", "16 hexadecimal digits, of every setting that bears on the figures"},
+        provenance.settings_hash);
+  visit({"scan_name", "", "scan_info.scan_name, else the frame_id"}, provenance.scan_name);
+  visit({"part_id", "", "scan_info.part_id, else the parameter part/id"}, provenance.part_id);
+  visit({"serial_id", "", "scan_info.serial_id, else the parameter part/serial"}, provenance.serial_id);
 }
 
 }  // namespace mems_stiction

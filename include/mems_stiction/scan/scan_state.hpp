@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "mems_stiction/base/figure.hpp"
 #include "mems_stiction/base/input_file.hpp"
 #include "mems_stiction/scan/configuration.hpp"
 
@@ -25,14 +26,14 @@ std::string settingsFilesChecksum(const Configuration& configuration);
 /// - @p has_sidecar false for bags
 ScanState scanState(const std::string& path, bool has_sidecar, const std::string& settings_file_checksum);
 
-/// Calls visit(name, value, unit) for each field, by the names of the columns.
+/// Calls visit(Figure, value) for each field, by the names of the columns.
 template <typename Source, typename Visitor>
 void visitScanStateFields(Source& state, Visitor&& visit) {
-  visit("file_size", state.file.size, "B");
-  visit("file_time", state.file.time, "");
-  visit("file_checksum", state.file.checksum, "");
-  visit("sidecar_checksum", state.sidecar_checksum, "");
-  visit("settings_file_checksum", state.settings_file_checksum, "");
+  visit({"file_size", "B"}, state.file.size);
+  visit({"file_time"}, state.file.time);
+  visit({"file_checksum"}, state.file.checksum);
+  visit({"sidecar_checksum"}, state.sidecar_checksum);
+  visit({"settings_file_checksum"}, state.settings_file_checksum);
 }
 
 }  // namespace mems_stiction

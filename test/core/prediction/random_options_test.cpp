@@ -75,12 +75,12 @@ TEST(RandomOptions, TotalEnergyIsANumberAndNothingIsInfinite) {
     ++predicted;
     AdhesionModel model(options);
     const Prediction prediction = model.predict(pair);
-    visitPredictionFields(prediction, [&](const char* name, const auto& value, const char*) {
+    visitPredictionFields(prediction, [&](const Figure& declared, const auto& value) {
       if constexpr (std::is_floating_point_v<std::decay_t<decltype(value)>>) {
         // infinite without adhesion, or without a range of it, as documented
-        const std::string figure = name;
+        const std::string figure = declared.name;
         if (figure == "adhesion_parameter" || figure == "median_tabor_parameter") return;
-        EXPECT_FALSE(std::isinf(value)) << name << ", seed " << seed << ": " << draw.text();
+        EXPECT_FALSE(std::isinf(value)) << figure << ", seed " << seed << ": " << draw.text();
       }
     });
     EXPECT_TRUE(std::isfinite(prediction.total_energy))

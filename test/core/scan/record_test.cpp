@@ -32,8 +32,8 @@ Prediction example() {
 std::set<std::string> fieldNames() {
   std::set<std::string> names;
   const Prediction prediction;
-  visitPredictionFields(prediction, [&names](const char* name, const auto&, const char*) {
-    EXPECT_TRUE(names.insert(name).second) << name << " twice";
+  visitPredictionFields(prediction, [&names](const Figure& figure, const auto&) {
+    EXPECT_TRUE(names.insert(figure.name).second) << figure.name << " twice";
   });
   return names;
 }

@@ -91,12 +91,8 @@ struct Bits {
 
   Bits() { text << std::hexfloat; }
   template <typename Value>
-  void operator()(const char* name, const Value& value, const char* /*unit*/) {
-    if constexpr (std::is_enum_v<Value>) {
-      text << name << ' ' << static_cast<int>(value) << '\n';
-    } else {
-      text << name << ' ' << value << '\n';
-    }
+  void operator()(const Figure& figure, const Value& value) {
+    text << figure.name << ' ' << shown(value) << '\n';
   }
   void add(const cv::Mat& map) { text << map.rows << ' ' << (map.empty() ? 0.0 : cv::norm(map, cv::NORM_L2)) << '\n'; }
 };

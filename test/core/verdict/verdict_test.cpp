@@ -245,8 +245,8 @@ TEST(VerdictFields, showEveryFigureOnce) {
   std::set<std::string> names;
   std::set<const void*> places;
   std::size_t size = 0;
-  visitVerdictFields(verdict, [&](const std::string& name, auto& value, const std::string&) {
-    names.insert(name);
+  visitVerdictFields(verdict, [&](const Figure& figure, auto& value) {
+    names.insert(figure.name);
     places.insert(&value);
     if (std::is_same<std::decay_t<decltype(value)>, double>::value) size += sizeof(double);
   });
