@@ -11,6 +11,7 @@
 
 #include "mems_stiction/half_space/half_space_fields.hpp"
 #include "mems_stiction/prediction/prediction_fields.hpp"
+#include "mems_stiction/scan/record.hpp"
 #include "mems_stiction/verdict/verdict_fields.hpp"
 
 namespace mems_stiction {
@@ -26,6 +27,17 @@ class DictionaryFields {
 
   pybind11::dict dictionary;
 };
+
+/// A dictionary for each step of the cleaning that ran.
+inline pybind11::list stepsOf(const PreprocessRecord& record) {
+  pybind11::list steps;
+  for (const PreprocessStep& step : record.steps) {
+    DictionaryFields fields;
+    visitStepFields(step, fields);
+    steps.append(fields.dictionary);
+  }
+  return steps;
+}
 
 /// Visitor that makes {name: (type, unit, meaning)} and a class without anything but annotations and a text.
 class DeclaredFields {

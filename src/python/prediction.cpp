@@ -21,7 +21,6 @@
 #include "mems_stiction/scan/record.hpp"
 #include "mems_stiction/scan/scan_predictor.hpp"
 #include "mems_stiction/verdict/regime_flags.hpp"
-#include "preprocess_steps.hpp"
 #include "without_lock.hpp"
 
 namespace mems_stiction {

@@ -22,7 +22,6 @@
 #include "mems_stiction/scan/plausibility.hpp"
 #include "mems_stiction/scan/prepared_scan.hpp"
 #include "mems_stiction/surface/counter_surface.hpp"
-#include "preprocess_steps.hpp"
 #include "without_lock.hpp"
 
 namespace mems_stiction {

@@ -38,6 +38,28 @@ class YamlFields {
       emitter_ << word(value);
     }
   }
+  template <typename Fill>
+  void map(const char* name, Fill fill) {
+    emitter_ << YAML::Key << name << YAML::Value << YAML::BeginMap;
+    fill(*this);
+    emitter_ << YAML::EndMap;
+  }
+  /// Flow maps.
+  template <typename Items, typename VisitItem>
+  void list(const char* name, const Items& items, VisitItem visit_item) {
+    emitter_ << YAML::Key << name << YAML::Value << YAML::BeginSeq;
+    for (const auto& item : items) {
+      emitter_ << YAML::Flow << YAML::BeginMap;
+      visit_item(item, *this);
+      emitter_ << YAML::EndMap;
+    }
+    emitter_ << YAML::EndSeq;
+  }
+  void texts(const char* name, const std::vector<std::string>& texts) {
+    emitter_ << YAML::Key << name << YAML::Value << YAML::BeginSeq;
+    for (const std::string& text : texts) emitter_ << YAML::DoubleQuoted << text;
+    emitter_ << YAML::EndSeq;
+  }
 
  private:
   YAML::Emitter& emitter_;
@@ -52,6 +74,16 @@ class JsonFields {
   void operator()(const Figure& figure, const Value& value) {
     object_[figure.name] = shown(value);
   }
+  template <typename Fill>
+  void map(const char* name, Fill fill) {
+    JsonFields fields(object_[name]);
+    fill(fields);
+  }
+  template <typename Items, typename VisitItem>
+  void list(const char* name, const Items& items, VisitItem visit_item) {
+    for (const auto& item : items) visit_item(item, JsonFields(object_[name].emplace_back()));
+  }
+  void texts(const char* name, const std::vector<std::string>& texts) { object_[name] = texts; }
 
  private:
   nlohmann::json& object_;
@@ -90,44 +122,12 @@ void visitResultFields(const HeightMap& scan, const Prediction& prediction, cons
   }
 }
 
-template <typename Visitor>
-void visitStepFields(const PreprocessStep& step, Visitor&& visit) {
-  visit({"step"}, step.name);
-  visit({"parameters"}, step.parameters);
-  visit({"rms_change", "m"}, step.rms_change);
-  visit({"changed_pixels"}, step.changed_pixels);
-  visit({"invalid_pixels"}, step.invalid_pixels);
-}
-
 bool hasTipStep(const PreprocessRecord& record) {
   return std::any_of(record.steps.begin(), record.steps.end(),
                      [](const PreprocessStep& step) { return step.name == "tip"; });
 }
 
 bool isComputed(const SpatialRoughness& roughness) { return !std::isnan(roughness.sal); }
-
-/// A list of flow maps under `name`, left out when it is empty.
-template <typename Items, typename VisitItem>
-void addYamlList(YAML::Emitter& emitter, const char* name, const Items& items, VisitItem visit_item) {
-  if (items.empty()) return;
-  YamlFields fields(emitter);
-  emitter << YAML::Key << name << YAML::Value << YAML::BeginSeq;
-  for (const auto& item : items) {
-    emitter << YAML::Flow << YAML::BeginMap;
-    visit_item(item, fields);
-    emitter << YAML::EndMap;
-  }
-  emitter << YAML::EndSeq;
-}
-
-template <typename Items, typename VisitItem>
-void addJsonList(nlohmann::json& record, const char* name, const Items& items, VisitItem visit_item) {
-  for (const auto& item : items) {
-    nlohmann::json entry;
-    visit_item(item, JsonFields(entry));
-    record[name].push_back(entry);
-  }
-}
 
 const auto kVisitStep = [](const auto& item, auto&& fields) { visitStepFields(item, fields); };
 const auto kVisitPoint = [](const auto& item, auto&& fields) { visitEnergyPointFields(item, fields); };
@@ -149,6 +149,41 @@ std::string summaryComment(const Prediction& prediction, const RecordExtras& ext
   return text + ".\n";
 }
 
+/// The record, in the order of its fields. @param fields of YAML or JSON
+template <typename Fields>
+void addRecord(const std::string& file, const HeightMap& scan, const Prediction& prediction, const RecordExtras& extras,
+               Fields& fields) {
+  const auto add_list = [](Fields& to, const char* name, const auto& items, const auto& visit_item) {
+    if (!items.empty()) to.list(name, items, visit_item);
+  };
+  fields({"file"}, file);
+  if (!extras.channel.empty()) fields({"channel"}, extras.channel);
+  visitScanFields(scan, fields);
+  visitResultFields(scan, prediction, extras, fields);
+  fields.map("roughness", [&](Fields& roughness) {
+    visitRoughnessFields(prediction.roughness, roughness);
+    if (isComputed(prediction.spatial_roughness)) visitSpatialRoughnessFields(prediction.spatial_roughness, roughness);
+  });
+  if (!extras.warnings.empty()) fields.texts("warnings", extras.warnings);
+  add_list(fields, "preprocessing", extras.preprocessing.steps, kVisitStep);
+  if (hasTipStep(extras.preprocessing)) {
+    fields({"tip_unreached_fraction"}, extras.preprocessing.tip_unreached_fraction);
+  }
+  add_list(fields, "convergence", extras.convergence, kVisitRow);
+  add_list(fields, "cleanings", extras.cleanings, kVisitCleaning);
+  if (!extras.cleanings.empty()) {
+    fields.map("cleaning_spread", [&](Fields& spread) { visitSpreadFields(spreadOf(extras.cleanings), spread); });
+  }
+  add_list(fields, "energy_curve", prediction.energy_curve, kVisitPoint);
+  if (extras.has_curve) add_list(fields, "curve", prediction.curve, kVisitSeparationPoint);
+  if (extras.half_space) {
+    fields.map("half_space", [&](Fields& half_space) {
+      visitHalfSpaceFields(*extras.half_space, half_space);
+      add_list(half_space, "curve", curveOf(*extras.half_space), kVisitCurvePoint);
+    });
+  }
+}
+
 }  // namespace
 
 std::string yamlRecord(const std::string& file, const HeightMap& scan, const Prediction& prediction,
@@ -156,38 +191,7 @@ std::string yamlRecord(const std::string& file, const HeightMap& scan, const Pre
   YAML::Emitter emitter;
   YamlFields fields(emitter);
   emitter << YAML::BeginDoc << YAML::BeginMap;
-  fields({"file"}, file);
-  if (!extras.channel.empty()) fields({"channel"}, extras.channel);
-  visitScanFields(scan, fields);
-  visitResultFields(scan, prediction, extras, fields);
-  emitter << YAML::Key << "roughness" << YAML::Value << YAML::BeginMap;
-  visitRoughnessFields(prediction.roughness, fields);
-  if (isComputed(prediction.spatial_roughness)) visitSpatialRoughnessFields(prediction.spatial_roughness, fields);
-  emitter << YAML::EndMap;
-  if (!extras.warnings.empty()) {
-    emitter << YAML::Key << "warnings" << YAML::Value << YAML::BeginSeq;
-    for (const std::string& warning : extras.warnings) emitter << YAML::DoubleQuoted << warning;
-    emitter << YAML::EndSeq;
-  }
-  addYamlList(emitter, "preprocessing", extras.preprocessing.steps, kVisitStep);
-  if (hasTipStep(extras.preprocessing)) {
-    fields({"tip_unreached_fraction"}, extras.preprocessing.tip_unreached_fraction);
-  }
-  addYamlList(emitter, "convergence", extras.convergence, kVisitRow);
-  addYamlList(emitter, "cleanings", extras.cleanings, kVisitCleaning);
-  if (!extras.cleanings.empty()) {
-    emitter << YAML::Key << "cleaning_spread" << YAML::Value << YAML::BeginMap;
-    visitSpreadFields(spreadOf(extras.cleanings), fields);
-    emitter << YAML::EndMap;
-  }
-  addYamlList(emitter, "energy_curve", prediction.energy_curve, kVisitPoint);
-  if (extras.has_curve) addYamlList(emitter, "curve", prediction.curve, kVisitSeparationPoint);
-  if (extras.half_space) {
-    emitter << YAML::Key << "half_space" << YAML::Value << YAML::BeginMap;
-    visitHalfSpaceFields(*extras.half_space, fields);
-    addYamlList(emitter, "curve", curveOf(*extras.half_space), kVisitCurvePoint);
-    emitter << YAML::EndMap;
-  }
+  addRecord(file, scan, prediction, extras, fields);
   emitter << YAML::EndMap;
   std::string text = std::string(emitter.c_str()) + "\n";
   text += summaryComment(prediction, extras);
@@ -199,33 +203,8 @@ std::string yamlRecord(const std::string& file, const HeightMap& scan, const Pre
 std::string jsonRecord(const std::string& file, const HeightMap& scan, const Prediction& prediction,
                        const RecordExtras& extras) {
   nlohmann::json record;
-  record["file"] = file;
-  if (!extras.channel.empty()) record["channel"] = extras.channel;
   JsonFields fields(record);
-  visitScanFields(scan, fields);
-  visitResultFields(scan, prediction, extras, fields);
-  nlohmann::json roughness;
-  visitRoughnessFields(prediction.roughness, JsonFields(roughness));
-  if (isComputed(prediction.spatial_roughness)) {
-    visitSpatialRoughnessFields(prediction.spatial_roughness, JsonFields(roughness));
-  }
-  record["roughness"] = roughness;
-  if (!extras.warnings.empty()) record["warnings"] = extras.warnings;
-  addJsonList(record, "preprocessing", extras.preprocessing.steps, kVisitStep);
-  if (hasTipStep(extras.preprocessing)) {
-    record["tip_unreached_fraction"] = extras.preprocessing.tip_unreached_fraction;
-  }
-  addJsonList(record, "convergence", extras.convergence, kVisitRow);
-  addJsonList(record, "cleanings", extras.cleanings, kVisitCleaning);
-  if (!extras.cleanings.empty()) visitSpreadFields(spreadOf(extras.cleanings), JsonFields(record["cleaning_spread"]));
-  addJsonList(record, "energy_curve", prediction.energy_curve, kVisitPoint);
-  if (extras.has_curve) addJsonList(record, "curve", prediction.curve, kVisitSeparationPoint);
-  if (extras.half_space) {
-    nlohmann::json half_space;
-    visitHalfSpaceFields(*extras.half_space, JsonFields(half_space));
-    addJsonList(half_space, "curve", curveOf(*extras.half_space), kVisitCurvePoint);
-    record["half_space"] = half_space;
-  }
+  addRecord(file, scan, prediction, extras, fields);
   // A file name need not be UTF-8; a bad byte becomes U+FFFD instead of an exception.
   return record.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "mems_stiction/base/figure.hpp"
 #include "mems_stiction/half_space/half_space_solution.hpp"
 #include "mems_stiction/height_map/height_map.hpp"
 #include "mems_stiction/prediction/prediction.hpp"
@@ -17,6 +18,16 @@
 #include "mems_stiction/verdict/verdict.hpp"
 
 namespace mems_stiction {
+
+/// The figures of one step of the cleaning.
+template <typename Visitor>
+void visitStepFields(const PreprocessStep& step, Visitor&& visit) {
+  visit({"step"}, step.name);
+  visit({"parameters"}, step.parameters);
+  visit({"rms_change", "m"}, step.rms_change);
+  visit({"changed_pixels"}, step.changed_pixels);
+  visit({"invalid_pixels"}, step.invalid_pixels);
+}
 
 /// What a record may hold beside the prediction; each is left out when empty.
 struct RecordExtras {
