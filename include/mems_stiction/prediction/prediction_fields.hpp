@@ -113,13 +113,11 @@ void visitPredictionFields(PredictionType& prediction, Visitor&& visit) {
   visit({"mechanical_load", "N", "pressing, on the scanned area"}, prediction.mechanical_load);
   visit({"van_der_waals_force", "N", "attraction of the cells out of contact (2)"}, prediction.van_der_waals_force);
   visit({"electrostatic_force", "N", "attraction by the voltage (3)"}, prediction.electrostatic_force);
-  visit({"normal_load", "N", "mechanical, van der Waals, electrostatic and capillary together"},
-        prediction.normal_load);
+  visit({"normal_load", "N", "mechanical, van der Waals, electrostatic, capillary together"}, prediction.normal_load);
   visit({"capillary_force", "N", "of condensed water, part of normal_load; 0 when off"}, prediction.capillary_force);
 
   visit({"pull_off_force", "N",
-         "largest while the surfaces are drawn apart, after voltage and load have gone; (11) of the paper's "
-         "formulations"},
+         "largest while the surfaces are drawn apart, after voltage and load have gone; (11) of the paper"},
         prediction.pull_off_force);
   visit({"pull_off_force_jkr", "N", "(3/2) pi Gamma times the sum of the composite radii"},
         prediction.pull_off_force_jkr);
@@ -212,7 +210,7 @@ template <typename Point, typename Visitor>
 void visitEnergyPointFields(Point& point, Visitor&& visit) {
   visit({"approach", "m", "of the surfaces from first touch"}, point.approach);
   visit({"contact_fraction", "", "contact_area/nominal_area"}, point.contact_fraction);
-  visit({"normal_load", "N", "mechanical, van der Waals, electrostatic and capillary together"}, point.normal_load);
+  visit({"normal_load", "N", "mechanical, van der Waals, electrostatic, capillary together"}, point.normal_load);
   visit({"carried_load", "N", "what the contacts can carry"}, point.carried_load);
   visit({"generalized_force", "N", "dE_t/dD"}, point.generalized_force);
   visit({"mechanical_energy", "J", "of the load (10.1)"}, point.mechanical_energy);
