@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mems_stiction/approach/gap_order.hpp"
 #include "mems_stiction/base/constants.hpp"
 
 namespace mems_stiction {

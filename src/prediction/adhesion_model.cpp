@@ -8,6 +8,7 @@
 #include "mems_stiction/base/option_visitor.hpp"
 #include "mems_stiction/base/time_limit.hpp"
 #include "mems_stiction/contact/contact_solver.hpp"
+#include "mems_stiction/prediction/contact_solvers.hpp"
 #include "mems_stiction/prediction/contact_summary.hpp"
 
 namespace mems_stiction {

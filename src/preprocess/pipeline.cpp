@@ -6,6 +6,16 @@
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/time_limit.hpp"
+#include "mems_stiction/preprocess/fill_holes.hpp"
+#include "mems_stiction/preprocess/levelling.hpp"
+#include "mems_stiction/preprocess/line_alignment.hpp"
+#include "mems_stiction/preprocess/low_pass.hpp"
+#include "mems_stiction/preprocess/refine.hpp"
+#include "mems_stiction/preprocess/region.hpp"
+#include "mems_stiction/preprocess/spike_removal.hpp"
+#include "mems_stiction/preprocess/stage_offset.hpp"
+#include "mems_stiction/preprocess/tip_correction.hpp"
+#include "mems_stiction/preprocess/working_surface.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -101,10 +111,21 @@ void PipelineOptions::describe(OptionVisitor& visitor) {
 
 std::vector<std::string> PipelineOptions::validate() const { return rangeViolations(*this); }
 
-ScanCleaner::ScanCleaner(const PipelineOptions& options) : options_(options) {
+struct ScanCleaner::Work {
+  Region region;
+  WorkingSurface surface;
+};
+
+ScanCleaner::ScanCleaner() : work_(std::make_unique<Work>()) {}
+
+ScanCleaner::~ScanCleaner() = default;
+ScanCleaner::ScanCleaner(ScanCleaner&&) noexcept = default;
+ScanCleaner& ScanCleaner::operator=(ScanCleaner&&) noexcept = default;
+
+ScanCleaner::ScanCleaner(const PipelineOptions& options) : options_(options), work_(std::make_unique<Work>()) {
   std::vector<std::string> violations = options.validate();
   if (!violations.empty()) throw OptionsError(std::move(violations));
-  region_ = Region(options.region);
+  work_->region = Region(options.region);
   std::vector<PreprocessStep>& steps = cleaned_.record.steps;
   addStep("region", options_.region, steps);
   addStep("offset", options_.offset, steps);
@@ -123,29 +144,30 @@ const CleanedScan& ScanCleaner::clean(const HeightMap& scan) {
     cleaned_.surface = scan;
     return cleaned_;
   }
-  work_.take(scan);
+  WorkingSurface& work = work_->surface;
+  work.take(scan);
   auto step = cleaned_.record.steps.begin();
   const auto note = [&](const HeightChange& change) {
     static_cast<HeightChange&>(*step++) = change;
     TimeLimit::check();
   };
   if (isWanted(options_.region)) {
-    cleaned_.outside = region_.outside(work_.heights.size(), work_.pitch_x, work_.pitch_y);
-    note(leaveOut(work_, cleaned_.outside));
+    cleaned_.outside = work_->region.outside(work.heights.size(), work.pitch_x, work.pitch_y);
+    note(leaveOut(work, cleaned_.outside));
   }
-  if (isWanted(options_.offset)) note(subtractStageOffset(work_));
-  if (isWanted(options_.lines)) note(alignLines(work_, options_.lines));
-  if (isWanted(options_.spikes)) note(removeSpikes(work_, options_.spikes));
-  if (isWanted(options_.fill)) note(fillHoles(work_, options_.fill, cleaned_.outside));
+  if (isWanted(options_.offset)) note(subtractStageOffset(work));
+  if (isWanted(options_.lines)) note(alignLines(work, options_.lines));
+  if (isWanted(options_.spikes)) note(removeSpikes(work, options_.spikes));
+  if (isWanted(options_.fill)) note(fillHoles(work, options_.fill, cleaned_.outside));
   if (isWanted(options_.tip)) {
-    const TipCorrection correction = tipCorrected(work_.surface(), options_.tip);
+    const TipCorrection correction = tipCorrected(work.surface(), options_.tip);
     cleaned_.record.tip_unreached_fraction = correction.unreached_fraction;
-    note(replace(work_, correction.surface));
+    note(replace(work, correction.surface));
   }
-  if (isWanted(options_.level)) note(levelBy(work_, options_.level));
-  if (isWanted(options_.low_pass)) note(replace(work_, lowPassed(work_.surface(), options_.low_pass)));
-  if (isWanted(options_.refine)) note(replace(work_, refined(work_.surface(), options_.refine)));
-  cleaned_.surface = work_.surface();
+  if (isWanted(options_.level)) note(levelBy(work, options_.level));
+  if (isWanted(options_.low_pass)) note(replace(work, lowPassed(work.surface(), options_.low_pass)));
+  if (isWanted(options_.refine)) note(replace(work, refined(work.surface(), options_.refine)));
+  cleaned_.surface = work.surface();
   return cleaned_;
 }
 

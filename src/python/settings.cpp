@@ -11,6 +11,7 @@
 
 #include "bindings.hpp"
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/option_yaml.hpp"
 #include "mems_stiction/scan/configuration_yaml.hpp"
 #include "mems_stiction/scan/plausibility.hpp"
 

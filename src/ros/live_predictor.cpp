@@ -6,6 +6,7 @@
 #include "mems_stiction/prediction/deformed_surfaces.hpp"
 #include "mems_stiction/prediction/force_curve.hpp"
 #include "mems_stiction/scan/plausibility.hpp"
+#include "mems_stiction/surface/wear.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -18,6 +18,7 @@
 #include "mems_stiction/ros/master_calls.hpp"
 #include "mems_stiction/ros/topic_names.hpp"
 #include "mems_stiction/scan/provenance.hpp"
+#include "mems_stiction/surface/counter_surface.hpp"
 
 namespace mems_stiction {
 namespace {

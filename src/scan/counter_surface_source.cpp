@@ -9,6 +9,7 @@
 #include "mems_stiction/height_map/scan_sanity.hpp"
 #include "mems_stiction/height_map/validity.hpp"
 #include "mems_stiction/import/scan_file.hpp"
+#include "mems_stiction/surface/alignment.hpp"
 
 namespace mems_stiction {
 namespace {

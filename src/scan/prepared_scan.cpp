@@ -11,6 +11,8 @@
 #include "mems_stiction/base/time_limit.hpp"
 #include "mems_stiction/height_map/scan_sanity.hpp"
 #include "mems_stiction/preprocess/refine.hpp"
+#include "mems_stiction/scan/counter_surface_source.hpp"
+#include "mems_stiction/surface/wear.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -90,9 +92,10 @@ ScanPreparer::ScanPreparer(const Configuration& configuration)
       limits_(configuration.limits),
       with_roughness_(configuration.model.output.roughness),
       spatial_roughness_(configuration.spatial_roughness),
-      counter_surface_(configuration.counter_surface, configuration.scan, withoutRegion(cleaner_.options())) {
+      counter_surface_(std::make_unique<CounterSurfaceSource>(configuration.counter_surface, configuration.scan,
+                                                              withoutRegion(cleaner_.options()))) {
   try {
-    counter_surface_.load();
+    counter_surface_->load();
   } catch (const OptionsError&) {
     throw;
   } catch (const Error& error) {
@@ -117,6 +120,16 @@ PreparedScan ScanPreparer::ready(const SurfacePair& surfaces) const {
   return prepared;
 }
 
+ScanPreparer::~ScanPreparer() = default;
+
+void ScanPreparer::setCounterSurfacePose(const SurfacePose& pose) { counter_surface_->setPose(pose); }
+
+const SurfacePose& ScanPreparer::counterSurfacePose() const { return counter_surface_->pose(); }
+
+void ScanPreparer::setMeasuredCounterSurface(const HeightMap& measured) { counter_surface_->setMeasured(measured); }
+
+std::uint64_t ScanPreparer::cleanings() const { return scans_cleaned_ + counter_surface_->cleanings(); }
+
 PreparedScan ScanPreparer::prepare(const HeightMap& scan) {
   const auto start = std::chrono::steady_clock::now();
   limits_.checkSize(scan, refinement_.refine.factor);
@@ -124,13 +137,13 @@ PreparedScan ScanPreparer::prepare(const HeightMap& scan) {
   ++scans_cleaned_;
   CleanedScan cleaned = cleanedOrWhyNot(cleaner_, scan);
   cleaner_.letGo();
-  PreparedScan prepared = ready({cleaned.surface, counter_surface_.over(cleaned.surface)});
+  PreparedScan prepared = ready({cleaned.surface, counter_surface_->over(cleaned.surface)});
   PreprocessRecord& record = cleaned.record;
   record.steps.insert(record.steps.end(), prepared.record.steps.begin(), prepared.record.steps.end());
   prepared.record = std::move(record);
   prepared.warnings = scanWarnings(scan);
   addSmoothing(scan, cleaner_.options().low_pass.cutoff_wavelength, prepared.warnings);
-  prepared.counter_warnings = counter_surface_.warnings(cleaned.surface);
+  prepared.counter_warnings = counter_surface_->warnings(cleaned.surface);
   prepared.outside = cleaned.outside;
   TimeLimit::check();
   addRoughness(prepared);
@@ -155,10 +168,10 @@ PreparedScan ScanPreparer::worn(const PreparedScan& as_made, const Wear& wear) c
 }
 
 void ScanPreparer::mount(PreparedScan& prepared) {
-  const HeightMap upper = counter_surface_.over(prepared.surfaces.lower);
+  const HeightMap upper = counter_surface_->over(prepared.surfaces.lower);
   prepared.model_surfaces.upper = refinedUpper(upper);
   prepared.surfaces.upper = upper;
-  prepared.counter_warnings = counter_surface_.warnings(prepared.surfaces.lower);
+  prepared.counter_warnings = counter_surface_->warnings(prepared.surfaces.lower);
 }
 
 }  // namespace mems_stiction

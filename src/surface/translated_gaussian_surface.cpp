@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/surface/gaussian_surface.hpp"
 #include "mems_stiction/surface/johnson_translation.hpp"
 
 namespace mems_stiction {

@@ -18,6 +18,7 @@
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/output_file.hpp"
 #include "mems_stiction/import/import_cache.hpp"
+#include "mems_stiction/prediction/contact_solvers.hpp"
 #include "mems_stiction/scan/plausibility.hpp"
 #include "part_rows.hpp"
 #include "progress_bar.hpp"

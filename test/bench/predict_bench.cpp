@@ -13,6 +13,7 @@
 
 #include "bench/frames.hpp"
 #include "bench/settings.hpp"
+#include "mems_stiction/approach/gap_field.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
 #include "mems_stiction/roughness/spatial_roughness.hpp"
 

@@ -7,7 +7,9 @@ import unittest
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 PAGE = REPOSITORY / "doc" / "architecture.md"
 FIRST_ROOM_WITH_ROS = "ros"
-INCLUDE = re.compile(r'^\s*#\s*include\s+["<]mems_stiction/(\w+)/')
+INCLUDE = re.compile(r'^\s*#\s*include\s+"(?:mems_stiction/)?(\w+)/\w+\.hpp"')
+PUBLIC = REPOSITORY / "include"
+ONE_FOR_ALL = "mems_stiction/mems_stiction.hpp"
 ROS = re.compile(r"\bros(?:::|/|cpp|bag|console)|\bROS_[A-Z]|\b\w+_msgs\b|<(?:tf2|cv_bridge|nodelet|image_transport)")
 
 
@@ -25,7 +27,7 @@ def rooms():
 def sources():
     """(room, path inside include/mems_stiction or src, lines) of every file."""
     for top in (REPOSITORY / "include" / "mems_stiction", REPOSITORY / "src"):
-        for path in sorted(top.rglob("*.[hc]pp")):
+        for path in sorted(top.glob("*/**/*.[hc]pp")):
             inside = path.relative_to(top)
             yield inside.parts[0], inside.as_posix(), path.read_text(encoding="utf-8").splitlines()
 
@@ -57,6 +59,15 @@ class ArchitectureTest(unittest.TestCase):
     def test_no_include_goes_backwards(self):
         self.assertEqual(backward_includes(rooms(), sources()), [])
 
+    def test_public_headers_are_those_of_the_one_for_all(self):
+        reached, waiting = set(), [ONE_FOR_ALL]
+        while waiting:
+            header = waiting.pop()
+            if header not in reached:
+                reached.add(header)
+                waiting += re.findall(r'^#include "(mems_stiction/[^"]+\.hpp)"', (PUBLIC / header).read_text(encoding="utf-8"), re.MULTILINE)
+        self.assertEqual({path.relative_to(PUBLIC).as_posix() for path in PUBLIC.rglob("*.hpp")}, reached)
+
     def test_the_picture_shows_the_rooms_in_this_order(self):
         picture = re.search(r"^```text\n(.*?)^```", rooms_of_the_page(), re.MULTILINE | re.DOTALL).group(1)
         self.assertEqual(re.findall(r"^[ \w]{12}\|  (\w+)", picture, re.MULTILINE), list(reversed(list(rooms()))))
@@ -74,7 +85,8 @@ class ArchitectureTest(unittest.TestCase):
         for room, path, used, is_allowed in (("low", "low/a.cpp", "high", False), ("high", "high/a.cpp", "low", True),
                                              ("low", "low/a.cpp", "low", True), ("high", "high/a.cpp", "hidden", True),
                                              ("middle", "middle/a.cpp", "hidden", False), ("middle", "middle/door.cpp", "hidden", True)):
-            self.assertEqual(backward_includes(order, [(room, path, [use % used])]) == [], is_allowed, (path, used))
+            for line in (use % used, '#include "%s/a.hpp"' % used):
+                self.assertEqual(backward_includes(order, [(room, path, [line])]) == [], is_allowed, (path, used))
 
 
 if __name__ == "__main__":

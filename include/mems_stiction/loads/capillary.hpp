@@ -21,10 +21,11 @@
 ///     const CapillaryForce water(options);
 ///     const double pull = capillaryForce(order, approach, contact_count, water, field.cellArea());
 
-#include "mems_stiction/approach/gap_order.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
 
 namespace mems_stiction {
+
+class GapOrder;
 
 /// Defaults other than the humidity: water at 25 degrees Celsius (CRC Handbook: 72.0 mN/m, 997.0 kg/m^3, 18.015 g/mol)
 /// that wets the surfaces.

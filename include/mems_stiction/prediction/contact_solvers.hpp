@@ -10,14 +10,9 @@
 
 #include "mems_stiction/contact/contact_settings.hpp"
 #include "mems_stiction/contact/contact_solver.hpp"
+#include "mems_stiction/prediction/options.hpp"
 
 namespace mems_stiction {
-
-/// The formulation that is used if none is stated.
-extern const char* const kDefaultFormulation;
-
-/// Names of the formulations, in the order of the documentation.
-const std::vector<std::string>& formulationNames();
 
 /// Why a formulation of earlier versions is refused and what serves instead, as a line for messages; empty for any
 /// other name.

@@ -9,9 +9,14 @@
 
 #include "mems_stiction/base/option_visitor.hpp"
 #include "mems_stiction/contact/contact_settings.hpp"
-#include "mems_stiction/prediction/contact_solvers.hpp"
 
 namespace mems_stiction {
+
+/// The formulation that is used if none is stated.
+extern const char* const kDefaultFormulation;
+
+/// Names of the formulations, in the order of the documentation.
+const std::vector<std::string>& formulationNames();
 
 /// What AdhesionModel is constructed with.
 struct Options : ContactSettings {

@@ -10,21 +10,11 @@
 /// Holes are 4-connected sets of missing pixels; those larger than max_hole stay invalid: nobody knows what is there.
 /// When more than max_fraction of the frame is missing, the scan is refused.
 
-#include "mems_stiction/base/option_visitor.hpp"
 #include "mems_stiction/height_map/height_map.hpp"
+#include "mems_stiction/preprocess/pipeline_options.hpp"
 #include "mems_stiction/preprocess/working_surface.hpp"
 
 namespace mems_stiction {
-
-/// Which missing pixels get heights.
-struct FillOptions {
-  bool enabled = false;
-  double max_fraction = 0.05;  ///< share of missing pixels beyond which the scan is refused [-], in [0, 1]
-  int max_hole = 200;          ///< larger holes stay invalid [pixels], in [1, 1000000]
-
-  /// Keys are prefix + "/max_fraction" and so on.
-  void describe(OptionVisitor& visitor, const std::string& prefix = "preprocessing/fill");
-};
 
 /// rows x cols, CV_64FC1, metres; the pixels of larger holes are NaN.
 /// @throw SurfaceError naming the fraction and the limit if too much is missing, or if no pixel is valid.

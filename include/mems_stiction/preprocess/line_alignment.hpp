@@ -12,22 +12,11 @@
 /// wavelength along y that is longer than the frame out of the surface; a sphere that fills the frame loses its shape.
 /// Lines without a valid pixel stay as they are. The mean height of the surface is kept.
 
-#include "mems_stiction/base/option_visitor.hpp"
 #include "mems_stiction/height_map/height_map.hpp"
+#include "mems_stiction/preprocess/pipeline_options.hpp"
 #include "mems_stiction/preprocess/working_surface.hpp"
 
 namespace mems_stiction {
-
-enum class LineAlignment { kNone, kMedian, kMedianDifference, kPolynomial };
-
-/// How scan lines are brought to one level.
-struct LineAlignmentOptions {
-  LineAlignment method = LineAlignment::kNone;
-  int degree = 1;  ///< of the polynomials, in [0, 2]
-
-  /// Keys are prefix + "/method" and so on.
-  void describe(OptionVisitor& visitor, const std::string& prefix = "preprocessing/lines");
-};
 
 /// rows x cols, CV_64FC1, metres; invalid pixels are NaN.
 /// @throw SurfaceError if no pixel is valid.

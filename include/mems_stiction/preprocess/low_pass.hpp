@@ -11,18 +11,10 @@
 /// invalid. Weights are cut off at a distance of lc, where they are 1e-6 of the largest. Outside: a cut-off below the
 /// pitch changes nothing.
 
-#include "mems_stiction/base/option_visitor.hpp"
 #include "mems_stiction/height_map/height_map.hpp"
+#include "mems_stiction/preprocess/pipeline_options.hpp"
 
 namespace mems_stiction {
-
-/// The filter's cut-off.
-struct LowPassOptions {
-  double cutoff_wavelength = 0.0;  ///< lc [m], >= 0; 0 = off
-
-  /// Keys are prefix + "/cutoff_wavelength".
-  void describe(OptionVisitor& visitor, const std::string& prefix = "preprocessing/low_pass");
-};
 
 /// rows x cols, CV_64FC1, metres; invalid pixels are NaN.
 /// @throw SurfaceError if no pixel is valid.

@@ -13,7 +13,7 @@
 /// | spikes    | spike_removal.hpp                 | leaves holes                                                  |
 /// | fill      | fill_holes.hpp                    | closes missing pixels and those holes                         |
 /// | tip       | tip_correction.hpp                | the tip pointed along the instrument's z: before levelling    |
-/// | level     | level_options.hpp                 |                                                               |
+/// | level     | levelling.hpp                 |                                                               |
 /// | low_pass  | low_pass.hpp                      | its border needs a level surface                              |
 /// | refine    | refine.hpp                        | last: every step before it is cheaper on fewer pixels         |
 ///
@@ -24,52 +24,15 @@
 /// For scan after scan, a ScanCleaner takes no memory after the first one of a size, but for `fill` where holes are
 /// filled, and for `tip`, `low_pass` and `refine`.
 
-#include <string>
-#include <utility>
-#include <vector>
+#include <memory>
+
+#include <opencv2/core.hpp>
 
 #include "mems_stiction/height_map/height_map.hpp"
-#include "mems_stiction/preprocess/fill_holes.hpp"
-#include "mems_stiction/preprocess/level_options.hpp"
-#include "mems_stiction/preprocess/line_alignment.hpp"
-#include "mems_stiction/preprocess/low_pass.hpp"
-#include "mems_stiction/preprocess/refine.hpp"
-#include "mems_stiction/preprocess/region.hpp"
-#include "mems_stiction/preprocess/spike_removal.hpp"
-#include "mems_stiction/preprocess/stage_offset.hpp"
-#include "mems_stiction/preprocess/tip_correction.hpp"
-#include "mems_stiction/preprocess/working_surface.hpp"
+#include "mems_stiction/preprocess/pipeline_options.hpp"
+#include "mems_stiction/preprocess/preprocess_record.hpp"
 
 namespace mems_stiction {
-
-/// Settings of every step; each is off by default.
-struct PipelineOptions {
-  RegionOptions region;
-  StageOffsetOptions offset;
-  LineAlignmentOptions lines;
-  SpikeOptions spikes;
-  FillOptions fill;
-  TipOptions tip;
-  LevelOptions level;
-  LowPassOptions low_pass;
-  RefineOptions refine;
-
-  void describe(OptionVisitor& visitor);
-  /// One line per violated constraint; empty when all is well.
-  std::vector<std::string> validate() const;
-};
-
-/// What one step did; changed_pixels of `refine` counts those of the finer grid.
-struct PreprocessStep : HeightChange {
-  std::string name;        ///< of the table above
-  std::string parameters;  ///< "threshold=6 window=5"
-};
-
-/// What the steps that ran did to one scan.
-struct PreprocessRecord {
-  std::vector<PreprocessStep> steps;    ///< those that ran, in order
-  double tip_unreached_fraction = 0.0;  ///< share of pixels that the tip could not reach [-]; 0 without `tip`
-};
 
 /// The surface after the pipeline, and the record of it.
 struct CleanedScan {
@@ -81,10 +44,13 @@ struct CleanedScan {
 /// Cleans scan after scan in the same memory. One object serves one thread at a time.
 class ScanCleaner {
  public:
-  ScanCleaner() = default;
+  ScanCleaner();
   /// Reads the files of the region.
   /// @throw OptionsError with the lines of validate(), if there are any, or naming a file that cannot be used.
   explicit ScanCleaner(const PipelineOptions& options);
+  ~ScanCleaner();
+  ScanCleaner(ScanCleaner&&) noexcept;
+  ScanCleaner& operator=(ScanCleaner&&) noexcept;
 
   const PipelineOptions& options() const { return options_; }
 
@@ -96,17 +62,15 @@ class ScanCleaner {
   void letGo() { cleaned_.surface = HeightMap(); }
 
  private:
+  struct Work;  ///< memory of the steps
+
   PipelineOptions options_;
-  Region region_;
-  WorkingSurface work_;
   CleanedScan cleaned_;
+  std::unique_ptr<Work> work_;
 };
 
 /// One scan by itself, as ScanCleaner does it.
 /// @throw OptionsError, SurfaceError as ScanCleaner does.
 CleanedScan cleanScan(const HeightMap& scan, const PipelineOptions& options);
-
-/// "spikes (threshold=6 window=5): rms change 1.2e-10 m; 14 pixels changed" per step, for people and logs.
-std::vector<std::string> recordLines(const PreprocessRecord& record);
 
 }  // namespace mems_stiction

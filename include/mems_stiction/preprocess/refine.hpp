@@ -13,21 +13,10 @@
 /// plate of fill_holes.hpp there. Interpolation adds no information: wavelengths below two original pitches stay
 /// unknown.
 
-#include "mems_stiction/base/option_visitor.hpp"
 #include "mems_stiction/height_map/height_map.hpp"
+#include "mems_stiction/preprocess/pipeline_options.hpp"
 
 namespace mems_stiction {
-
-enum class Interpolation { kCubic, kLanczos };
-
-/// How many pixels per pixel, and what draws between them.
-struct RefineOptions {
-  int factor = 1;  ///< in [1, 16]; 1 = off
-  Interpolation interpolation = Interpolation::kCubic;
-
-  /// Keys are prefix + "/factor" and so on.
-  void describe(OptionVisitor& visitor, const std::string& prefix = "preprocessing/refine");
-};
 
 /// factor rows x factor cols, CV_64FC1, metres.
 /// @throw SurfaceError if no pixel is valid, or the result would have more than 2^29 pixels.

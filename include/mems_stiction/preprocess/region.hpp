@@ -12,23 +12,10 @@
 
 #include <opencv2/core.hpp>
 
-#include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/preprocess/pipeline_options.hpp"
 #include "mems_stiction/preprocess/working_surface.hpp"
 
 namespace mems_stiction {
-
-/// Settings of the step `region`; off while nothing is stated.
-struct RegionOptions {
-  double left = 0.0;         ///< of the rectangle [m], >= 0
-  double top = 0.0;          ///< [m], >= 0
-  double width = 0.0;        ///< [m], >= 0; 0 = to the right edge
-  double height = 0.0;       ///< [m], >= 0; 0 = to the lower edge
-  std::string polygon_file;  ///< text, a corner "x y" [m] in each line; empty = none
-  std::string mask_file;     ///< image of the scan's size; pixels of 0, and missing ones, lie outside; empty = none
-
-  void describe(OptionVisitor& visitor, const std::string& prefix = "preprocessing/region");
-  bool isStated() const;
-};
 
 /// A region on whatever grid comes.
 class Region {

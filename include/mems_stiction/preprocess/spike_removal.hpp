@@ -14,21 +14,11 @@
 /// heights are counted in steps as coarse as the roughness: distances then come in clusters, and one can meet the
 /// limit.
 
-#include "mems_stiction/base/option_visitor.hpp"
 #include "mems_stiction/height_map/height_map.hpp"
+#include "mems_stiction/preprocess/pipeline_options.hpp"
 #include "mems_stiction/preprocess/working_surface.hpp"
 
 namespace mems_stiction {
-
-/// What counts as a spike.
-struct SpikeOptions {
-  bool enabled = false;
-  double threshold = 6.0;  ///< in robust standard deviations, > 0
-  int window = 5;          ///< side of the window [pixels], odd (an even one counts as the next odd one), in [3, 31]
-
-  /// Keys are prefix + "/threshold" and so on.
-  void describe(OptionVisitor& visitor, const std::string& prefix = "preprocessing/spikes");
-};
 
 /// rows x cols, CV_64FC1, metres; invalid pixels and spikes are NaN.
 /// @throw SurfaceError if no pixel is valid.

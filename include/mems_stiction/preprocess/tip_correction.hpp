@@ -23,19 +23,10 @@
 /// spikes upward come out as tips turned over, pits of one pixel drag their surroundings down: remove spikes before.
 /// Invalid pixels constrain nothing and stay invalid. Beyond the frame nothing is known, so it constrains nothing.
 
-#include "mems_stiction/base/option_visitor.hpp"
 #include "mems_stiction/height_map/height_map.hpp"
+#include "mems_stiction/preprocess/pipeline_options.hpp"
 
 namespace mems_stiction {
-
-/// The shape of the tip: a cone with a spherical end.
-struct TipOptions {
-  double radius = 0.0;      ///< of the sphere [m], >= 0; 0 = off
-  double half_angle = 0.0;  ///< between axis and flank of the cone [rad], in [0, 1.55]; 0 = a sphere with a cylinder
-
-  /// Keys are prefix + "/radius" and so on.
-  void describe(OptionVisitor& visitor, const std::string& prefix = "preprocessing/tip");
-};
 
 /// How far the tip has receded at a distance from its axis [m]; infinite beyond a cylinder.
 double tipDepth(const TipOptions& tip, double distance);

@@ -10,16 +10,10 @@
 #include "mems_stiction/base/median.hpp"
 #include "mems_stiction/height_map/height_map.hpp"
 #include "mems_stiction/preprocess/height_lines.hpp"
+#include "mems_stiction/preprocess/preprocess_record.hpp"
 #include "mems_stiction/preprocess/window_median.hpp"
 
 namespace mems_stiction {
-
-/// What one step did to a surface.
-struct HeightChange {
-  double rms_change = 0.0;       ///< root mean square of the change of height over pixels valid before and after [m]
-  long long changed_pixels = 0;  ///< whose height or validity changed
-  long long invalid_pixels = 0;  ///< after the step
-};
 
 /// Of a step that leaves invalid pixels invalid.
 /// - @p pixels of the frame, valid or not

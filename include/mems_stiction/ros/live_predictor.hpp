@@ -18,6 +18,7 @@
 #include "mems_stiction/scan/part_scans.hpp"
 #include "mems_stiction/scan/running_settings.hpp"
 #include "mems_stiction/scan/scan_predictor.hpp"
+#include "mems_stiction/surface/wear.hpp"
 
 namespace mems_stiction {
 

@@ -5,8 +5,11 @@
 
 #include <string>
 
-#include "mems_stiction/base/option_yaml.hpp"
 #include "mems_stiction/scan/configuration.hpp"
+
+namespace YAML {
+class Node;
+}
 
 namespace mems_stiction {
 

@@ -13,6 +13,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -20,11 +21,12 @@
 #include "mems_stiction/roughness/areal_parameters.hpp"
 #include "mems_stiction/roughness/spatial_roughness.hpp"
 #include "mems_stiction/scan/configuration.hpp"
-#include "mems_stiction/scan/counter_surface_source.hpp"
 #include "mems_stiction/surface/surface_pair.hpp"
-#include "mems_stiction/surface/wear.hpp"
 
 namespace mems_stiction {
+
+class CounterSurfaceSource;
+class Wear;
 
 /// A scan as the model gets it. Copies share their pixels, and hold them.
 struct PreparedScan {
@@ -50,14 +52,15 @@ class ScanPreparer {
   /// Reads and cleans the counter-surface's file, if it has one.
   /// @throw OptionsError if the configuration is out of range, also when that file cannot be used.
   explicit ScanPreparer(const Configuration& configuration);
+  ~ScanPreparer();
 
   /// Where the counter-surface lies over the next scans, of every type; a plane takes the tilts.
   /// @throw OptionsError naming each refused value; then nothing changes.
-  void setCounterSurfacePose(const SurfacePose& pose) { counter_surface_.setPose(pose); }
-  const SurfacePose& counterSurfacePose() const { return counter_surface_.pose(); }
+  void setCounterSurfacePose(const SurfacePose& pose);
+  const SurfacePose& counterSurfacePose() const;
 
   /// The counter-surface of the next scans, as it was measured; empty = the configured one again.
-  void setMeasuredCounterSurface(const HeightMap& measured) { counter_surface_.setMeasured(measured); }
+  void setMeasuredCounterSurface(const HeightMap& measured);
 
   /// @throw SurfaceError if either surface cannot be used, or the counter-surface is one that arrives beside the scan
   /// and none has, or the scan is beyond configuration.limits.
@@ -74,7 +77,7 @@ class ScanPreparer {
   PreparedScan ready(const SurfacePair& surfaces) const;
 
   /// How many scans and counter-surfaces have been cleaned so far. For any thread.
-  std::uint64_t cleanings() const { return scans_cleaned_ + counter_surface_.cleanings(); }
+  std::uint64_t cleanings() const;
 
  private:
   bool isRefining() const { return refinement_.refine.factor > 1; }
@@ -87,7 +90,7 @@ class ScanPreparer {
   ScanLimits limits_;
   bool with_roughness_;
   SpatialRoughnessOptions spatial_roughness_;
-  CounterSurfaceSource counter_surface_;
+  std::unique_ptr<CounterSurfaceSource> counter_surface_;
   std::atomic<std::uint64_t> scans_cleaned_{0};
 };
 

@@ -16,24 +16,10 @@
 /// They are point samples, not means: a counter-surface that is finer than the scan keeps its summits' heights, and
 /// loses those that fall between the scan's pixels.
 
-#include <string>
-
-#include "mems_stiction/base/option_visitor.hpp"
 #include "mems_stiction/height_map/height_map.hpp"
+#include "mems_stiction/surface/counter_surface_options.hpp"
 
 namespace mems_stiction {
-
-/// Defaults: centred, not turned, level.
-struct SurfacePose {
-  double offset_x = 0.0;  ///< [m]
-  double offset_y = 0.0;  ///< [m]
-  double rotation = 0.0;  ///< about z [rad]
-  double tilt_x = 0.0;    ///< of the slope along x [rad], in (-1.5, 1.5)
-  double tilt_y = 0.0;    ///< of the slope along y [rad], in (-1.5, 1.5)
-
-  /// Keys are prefix + "/offset_x" and so on.
-  void describe(OptionVisitor& visitor, const std::string& prefix = "counter_surface/pose");
-};
 
 /// What lies beyond the counter-surface's pixels.
 enum class Beyond {

@@ -15,48 +15,12 @@
 /// same surface. They are described as a probe would see them, asperities up, and turned over for mounting. Where each
 /// lies over the scan is said by the pose (alignment.hpp); a plane takes only its tilts.
 
-#include <limits>
 #include <string>
 
-#include "mems_stiction/base/option_visitor.hpp"
 #include "mems_stiction/height_map/height_map.hpp"
-#include "mems_stiction/surface/alignment.hpp"
-#include "mems_stiction/surface/self_affine_surface.hpp"
-#include "mems_stiction/surface/translated_gaussian_surface.hpp"
+#include "mems_stiction/surface/counter_surface_options.hpp"
 
 namespace mems_stiction {
-
-enum class CounterSurfaceType {
-  kFlat,        ///< a plane
-  kTopic,       ///< a measured height map that arrives beside the scans
-  kFile,        ///< a measured height map from a file
-  kGaussian,    ///< generated: translated_gaussian_surface.hpp
-  kSelfAffine,  ///< generated: self_affine_surface.hpp
-};
-
-/// Which way the heights of a measured counter-surface point.
-enum class CounterSurfaceFacing {
-  kUnstated,  ///< nobody has said it: a measured counter-surface is refused
-  kDown,      ///< as mounted: z and columns are those of the scan's frame
-  kUp,        ///< as measured, asperities up: turned over about its y axis (z negated, columns mirrored)
-};
-
-/// What the counter-surface is and how it lies.
-struct CounterSurfaceOptions {
-  CounterSurfaceType type = CounterSurfaceType::kFlat;
-  CounterSurfaceFacing facing = CounterSurfaceFacing::kUnstated;
-  std::string file;     ///< for type file
-  std::string channel;  ///< title or number, of an instrument maker's file; empty = the likeliest height channel
-  SurfacePose pose;
-  TranslatedGaussianOptions gaussian;    ///< its rows, cols and pitches are the scan's, its seed is `seed`
-  SelfAffineSurfaceOptions self_affine;  ///< the same
-  int seed = 1;                          ///< of generated surfaces, >= 0
-
-  bool isMeasured() const { return type == CounterSurfaceType::kTopic || type == CounterSurfaceType::kFile; }
-  bool isGenerated() const { return type == CounterSurfaceType::kGaussian || type == CounterSurfaceType::kSelfAffine; }
-
-  void describe(OptionVisitor& visitor);
-};
 
 /// A height map that faces the other way: z negated, columns mirrored. Twice gives back the surface.
 HeightMap turnedOver(const HeightMap& surface);

@@ -19,30 +19,10 @@
 ///     options.seed = 7;
 ///     const HeightMap surface = gaussianSurface(options);
 
-#include <string>
-#include <vector>
-
-#include "mems_stiction/base/option_visitor.hpp"
 #include "mems_stiction/height_map/height_map.hpp"
+#include "mems_stiction/surface/counter_surface_options.hpp"
 
 namespace mems_stiction {
-
-/// Defaults: a 5.1 um frame of a smooth polysilicon film.
-struct GaussianSurfaceOptions {
-  int rows = 512;                       ///< in [2, 32768]
-  int cols = 512;                       ///< in [2, 32768]
-  double pitch_x = 10e-9;               ///< distance of neighbouring columns [m], > 0
-  double pitch_y = 10e-9;               ///< distance of neighbouring rows [m], > 0
-  double rms_height = 3e-9;             ///< sigma [m], >= 0
-  double correlation_length_x = 80e-9;  ///< lx [m], > 0, at most half the frame's width
-  double correlation_length_y = 80e-9;  ///< ly [m], > 0, at most half the frame's height
-  int seed = 1;                         ///< >= 0; the same seed gives the same surface
-
-  /// Keys are prefix + "/rows" and so on.
-  void describe(OptionVisitor& visitor, const std::string& prefix);
-  /// One line per violated constraint; empty when all is well.
-  std::vector<std::string> validate(const std::string& prefix = "gaussian") const;
-};
 
 /// @return rows x cols, CV_64FC1, metres, zero mean, all valid.
 /// @throw OptionsError with the lines of validate(), if there are any.

@@ -17,38 +17,10 @@
 ///     options.hurst_exponent = 0.8;
 ///     const HeightMap surface = selfAffineSurface(options);
 
-#include <string>
-#include <vector>
-
-#include "mems_stiction/base/option_visitor.hpp"
 #include "mems_stiction/height_map/height_map.hpp"
+#include "mems_stiction/surface/counter_surface_options.hpp"
 
 namespace mems_stiction {
-
-enum class RoughnessScale {
-  kRmsHeight,  ///< rms_height is exact
-  kRmsSlope,   ///< rms_slope is exact
-};
-
-/// Defaults: a 5.1 um frame of a smooth polysilicon film.
-struct SelfAffineSurfaceOptions {
-  int rows = 512;                    ///< in [2, 32768]
-  int cols = 512;                    ///< in [2, 32768]
-  double pitch_x = 10e-9;            ///< [m], > 0
-  double pitch_y = 10e-9;            ///< [m], > 0
-  double hurst_exponent = 0.8;       ///< H, in [0, 1]
-  double rolloff_wavelength = 1e-6;  ///< [m], > cutoff_wavelength, at most the frame's longer side
-  double cutoff_wavelength = 40e-9;  ///< [m], at least two of the larger pitch
-  RoughnessScale scale = RoughnessScale::kRmsHeight;
-  double rms_height = 3e-9;  ///< [m], >= 0
-  double rms_slope = 0.1;    ///< [-], >= 0
-  int seed = 1;              ///< >= 0; the same seed gives the same surface
-
-  /// Keys are prefix + "/rows" and so on.
-  void describe(OptionVisitor& visitor, const std::string& prefix);
-  /// One line per violated constraint; empty when all is well.
-  std::vector<std::string> validate(const std::string& prefix = "self_affine") const;
-};
 
 /// @return rows x cols, CV_64FC1, metres, zero mean, all valid.
 /// @throw OptionsError with the lines of validate(), if there are any.

@@ -10,24 +10,10 @@
 /// Mean and rms height of the sample are exact. Its skewness and kurtosis scatter about those asked for, as those of
 /// any sample of finite size do; heavy tails scatter most.
 
-#include <string>
-#include <vector>
-
-#include "mems_stiction/surface/gaussian_surface.hpp"
+#include "mems_stiction/height_map/height_map.hpp"
+#include "mems_stiction/surface/counter_surface_options.hpp"
 
 namespace mems_stiction {
-
-/// A Gaussian surface, with skewness and kurtosis of its own.
-struct TranslatedGaussianOptions {
-  GaussianSurfaceOptions gaussian;  ///< size, rms height, correlation lengths and seed of the surface asked for
-  double skewness = 0.0;            ///< in [-4, 4]
-  double kurtosis = 3.0;            ///< in [skewness^2 + 1.2, 100]; Gaussian: 3
-
-  /// Keys are prefix + "/skewness" and so on, after those of the Gaussian surface.
-  void describe(OptionVisitor& visitor, const std::string& prefix);
-  /// One line per violated constraint; empty when all is well.
-  std::vector<std::string> validate(const std::string& prefix = "gaussian") const;
-};
 
 /// @return rows x cols, CV_64FC1, metres, zero mean, all valid. With skewness 0 and kurtosis 3 gaussianSurface(), to
 /// the bit.

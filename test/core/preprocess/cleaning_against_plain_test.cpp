@@ -6,6 +6,8 @@
 
 #include "mems_stiction/preprocess/pipeline.hpp"
 #include "mems_stiction/preprocess/polynomial_level.hpp"
+#include "mems_stiction/preprocess/spike_removal.hpp"
+#include "mems_stiction/preprocess/stage_offset.hpp"
 #include "mems_stiction/surface/gaussian_surface.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/plain_preparation.hpp"

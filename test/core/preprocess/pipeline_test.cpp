@@ -13,6 +13,7 @@
 #include "mems_stiction/height_map/validity.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
 #include "mems_stiction/preprocess/level.hpp"
+#include "mems_stiction/preprocess/levelling.hpp"
 #include "mems_stiction/surface/gaussian_surface.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "yaml-cpp/yaml.h"

@@ -7,7 +7,7 @@
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/preprocess/level.hpp"
-#include "mems_stiction/preprocess/level_options.hpp"
+#include "mems_stiction/preprocess/levelling.hpp"
 #include "mems_stiction/surface/gaussian_surface.hpp"
 #include "support/analytic_surfaces.hpp"
 

@@ -8,6 +8,7 @@
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/roughness/areal_parameters.hpp"
 #include "mems_stiction/roughness/autocorrelation.hpp"
+#include "mems_stiction/surface/gaussian_surface.hpp"
 #include "mems_stiction/surface/johnson_translation.hpp"
 
 namespace mems_stiction {

@@ -1,4 +1,4 @@
-#include "mems_stiction/preprocess/level_options.hpp"
+#include "mems_stiction/preprocess/levelling.hpp"
 
 #include "mems_stiction/preprocess/level.hpp"
 #include "mems_stiction/preprocess/polynomial_level.hpp"
