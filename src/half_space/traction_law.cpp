@@ -14,19 +14,6 @@ constexpr int kSecantIterations = 4;
 /// Width over which the water's pressure sets in, of z0.
 constexpr double kWaterFront = 0.25;
 
-/// Smooth step from 0 to 1 over [-1/2, 1/2] with its derivative and its integral from -infinity.
-struct Step {
-  double value;
-  double slope;
-  double integral;
-};
-Step smoothStep(double x) {
-  if (x <= -0.5) return {0.0, 0.0, 0.0};
-  if (x >= 0.5) return {1.0, 0.0, x};
-  const double s = x + 0.5;
-  return {s * s * (3.0 - 2.0 * s), 6.0 * s * (1.0 - s), s * s * s * (1.0 - 0.5 * s)};
-}
-
 }  // namespace
 
 std::vector<std::string> TractionLawOptions::validate() const {
@@ -63,7 +50,7 @@ TractionLaw::TractionLaw(const TractionLawOptions& options)
       closest_gap_(kClosestGap * range()),
       contact_gap_(range()),
       field_(options.voltage, options.insulator_thickness, options.insulator_relative_permittivity),
-      water_(options.water) {
+      water_(options.water.law()) {
   const Point closest = at(closest_gap_);
   const double narrowest = closest_gap_;
   slope_of_line_ = closest.slope;
@@ -153,7 +140,6 @@ MEMS_STICTION_VECTORIZED double TractionLaw::nineThree(int count, const double* 
 
 void TractionLaw::addField(int count, const double* gaps, double* traction, double* slope, double* energy) const {
   const double front = kWaterFront * range();
-  const double outer = range() + water_.gapLimit();
   for (int i = 0; i < count; ++i) {
     if (!std::isfinite(gaps[i])) continue;
     const double gap = std::max(gaps[i], closest_gap_);
@@ -163,11 +149,10 @@ void TractionLaw::addField(int count, const double* gaps, double* traction, doub
       energy[i] -= field_.energy(gap);
     }
     if (water_.isOn()) {
-      const Step inner = smoothStep((range() - gap) / front);
-      const Step filled = smoothStep((outer - gap) / front);
-      traction[i] += water_.pressure() * (filled.value - inner.value);
-      slope[i] -= water_.pressure() / front * (filled.slope - inner.slope);
-      energy[i] -= water_.pressure() * front * (filled.integral - inner.integral);
+      const WaterLaw::Smeared water = water_.smeared(gap, range(), front);
+      traction[i] += water.pressure;
+      slope[i] += water.slope;
+      energy[i] -= water.energy;
     }
   }
 }

@@ -1,18 +1,11 @@
 #include "mems_stiction/loads/capillary.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "mems_stiction/approach/gap_order.hpp"
 #include "mems_stiction/base/constants.hpp"
 
 namespace mems_stiction {
-namespace {
-
-/// Molar gas constant [J/(mol K)], exact since 2019 (CODATA 2018).
-constexpr double kGasConstant = 8.31446261815324;
-
-}  // namespace
 
 void CapillaryOptions::describe(OptionVisitor& visitor) {
   visitor.number(
@@ -27,19 +20,11 @@ void CapillaryOptions::describe(OptionVisitor& visitor) {
                  "molar volume of the condensed liquid");
 }
 
-CapillaryForce::CapillaryForce(const CapillaryOptions& options) {
-  if (options.relative_humidity <= 0.0) return;
-  const double undersaturation = -std::log(options.relative_humidity);
-  pressure_ = kGasConstant * options.temperature * undersaturation / options.molar_volume;
-  kelvin_radius_ = options.surface_tension / pressure_;
-  gap_limit_ = 2.0 * kelvin_radius_ * std::cos(options.contact_angle);
-}
-
-double capillaryForce(const GapOrder& order, double approach, int contact_count, const CapillaryForce& force,
+double capillaryForce(const GapOrder& order, double approach, int contact_count, const WaterLaw& water,
                       double cell_area) {
-  if (!force.isOn()) return 0.0;
-  const double filled = order.cellsBelow(approach + force.gapLimit()) - contact_count;
-  return std::max(0.0, filled) * force.forcePerCell(cell_area);
+  if (!water.isOn()) return 0.0;
+  const double filled = order.cellsBelow(approach + water.gapLimit()) - contact_count;
+  return std::max(0.0, filled) * (water.pressure() * cell_area);
 }
 
 }  // namespace mems_stiction

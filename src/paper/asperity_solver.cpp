@@ -32,7 +32,7 @@ void AsperitySolver::solve(const ContactProblem& problem, ContactSolution& solut
                               settings.approach.max_steps,
                               cutoff,
                               settings.output.energy_curve,
-                              CapillaryForce(settings.capillary)};
+                              settings.capillary.law()};
   search_.run(problem.gap, order_, settings.approach.connectivity, setting, state_);
 
   solution.resetKeepingMemory();

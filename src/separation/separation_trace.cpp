@@ -37,7 +37,7 @@ void SeparationTrace::start(const GapField& field, const ContactSettings& settin
   settings_ = &settings;
   attraction_.emplace(settings.interface, settings.load.voltage, field.cellArea());
   wider_attraction_.emplace(withMoreHamaker(settings.interface), 0.0, field.cellArea());
-  water_ = CapillaryForce(settings.capillary);
+  water_ = settings.capillary.law();
   patch_forces_.emplace(settings, field.cellArea(), flows);
   dales_.start(field);
   ordered_fraction_ = kFirstFraction;

@@ -67,7 +67,7 @@ double spacingSaid(double offset) {
 }  // namespace
 
 Section capillarySection() {
-  const CapillaryForce dry_air(humid(0.3, 0.0)), slanted(humid(0.8, 1.2));
+  const WaterLaw dry_air = humid(0.3, 0.0).law(), slanted = humid(0.8, 1.2).law();
   Section section{"Condensed water", {}};
   section.rows = {
       near("Kelvin radius times ln(1/RH)", "m", "water at room temperature: 0.52 to 0.54 nm",

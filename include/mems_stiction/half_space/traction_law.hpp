@@ -5,7 +5,7 @@
 ///
 ///     t(g) = 9-3 law at x = z0/g                   attraction and repulsion (mechanics/traction_law.hpp)
 ///          + eps0 U^2/(2 (g + t/eps_r)^2)          field over an insulator (the same)
-///          + p where z0 < g < z0 + d_K             condensed water (loads/capillary.hpp)
+///          + p where z0 < g < z0 + d_K             condensed water (the same)
 ///     t >= -Ha                                                        beyond, the softer body flows
 ///
 /// Attraction is positive; the energy is minus the work that separation to infinity takes. Assumptions: the traction at
@@ -88,7 +88,7 @@ class TractionLaw {
   double contact_gap_;
   double slope_of_line_ = 0.0;  ///< of t for narrower gaps [Pa/m]
   FieldLaw field_;
-  CapillaryForce water_;
+  WaterLaw water_;
 };
 
 }  // namespace mems_stiction

@@ -36,7 +36,7 @@ struct SearchSetting {
   int max_steps = 0;
   double cutoff_distance = 0.0;  ///< D0 [m], > 0
   bool keep_curve = false;
-  CapillaryForce capillary;  ///< of condensed water
+  WaterLaw capillary;  ///< of condensed water
 };
 
 /// Runs one approach at a time; keeps its memory between frames. After run() the sweep and the responses are those of

@@ -112,7 +112,7 @@ class SeparationTrace {
   const ContactSettings* settings_ = nullptr;
   std::optional<AttractionSum> attraction_;
   std::optional<AttractionSum> wider_attraction_;  ///< with a Hamaker constant that is larger by kMoreHamaker
-  CapillaryForce water_;
+  WaterLaw water_;
   std::optional<PatchForces> patch_forces_;
   double approach_before_limit_ = 0.0;
   double most_fraction_ = 1.0;  ///< of the cells that the curve may need

@@ -66,7 +66,7 @@ TEST(TractionLaw, WaterAddsItsEnergyPerArea) {
   TractionLawOptions dry;
   TractionLawOptions wet = dry;
   wet.water.relative_humidity = 0.5;
-  const CapillaryForce water(wet.water);
+  const WaterLaw water = wet.water.law();
   const TractionLaw law(wet);
   // in contact there is no water, but it was there on the way: p d_K
   EXPECT_NEAR(law.at(0.8 * law.range()).energy - TractionLaw(dry).at(0.8 * law.range()).energy,

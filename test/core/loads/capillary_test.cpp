@@ -25,49 +25,49 @@ CapillaryOptions humid(double relative_humidity, double contact_angle = 0.0) {
   return options;
 }
 
-double sumOverCells(const GapField& field, double approach, int touching, const CapillaryForce& water) {
+double sumOverCells(const GapField& field, double approach, int touching, const WaterLaw& water) {
   int filled = 0;
   for (const double gap : frameGaps(field)) filled += gap - approach < water.gapLimit() ? 1 : 0;
-  return (filled - touching) * water.forcePerCell(field.cellArea());
+  return (filled - touching) * (water.pressure() * field.cellArea());
 }
 
-TEST(CapillaryForce, hasTheKelvinRadiusOfWater) {
+TEST(WaterLaw, hasTheKelvinRadiusOfWater) {
   for (const double humidity : {0.1, 0.45, 0.7, 0.95}) {
-    const double length = CapillaryForce(humid(humidity)).kelvinRadius() * std::log(1.0 / humidity);
+    const double length = humid(humidity).law().kelvinRadius() * std::log(1.0 / humidity);
     EXPECT_GT(length, 0.52 * kNm);  // published for water at room temperature: 0.52 to 0.54 nm
     EXPECT_LT(length, 0.54 * kNm);
   }
 }
 
-TEST(CapillaryForce, costsTwiceTheSurfaceTensionAtEveryHumidity) {
+TEST(WaterLaw, costsTwiceTheSurfaceTensionAtEveryHumidity) {
   for (const double humidity : {0.1, 0.45, 0.95}) {
-    const CapillaryForce water(humid(humidity));
+    const WaterLaw water = humid(humidity).law();
     EXPECT_NEAR(water.pressure() * water.gapLimit(), 144e-3, kRoundOff);
-    const CapillaryForce slanted(humid(humidity, 1.2));
+    const WaterLaw slanted = humid(humidity, 1.2).law();
     EXPECT_NEAR(slanted.pressure() * slanted.gapLimit(), 144e-3 * std::cos(1.2), kRoundOff);
   }
 }
 
-TEST(CapillaryForce, pressureIsTheWorkOfBringingVaporToTheLiquid) {
+TEST(WaterLaw, pressureIsTheWorkOfBringingVaporToTheLiquid) {
   // second route: a mole of liquid under tension p has the vapour's chemical potential, p V_m = R T ln(1/RH);
   // 50 % at 25 degrees: 95.1 MPa
-  EXPECT_NEAR(CapillaryForce(humid(0.5)).pressure(), 95.1e6, 0.05e6);
+  EXPECT_NEAR(humid(0.5).law().pressure(), 95.1e6, 0.05e6);
 }
 
-TEST(CapillaryForce, scalesInSI) {
+TEST(WaterLaw, scalesInSI) {
   CapillaryOptions options = humid(0.6);
   options.surface_tension = 0.0227;  // ethanol
   options.molar_volume = 58.4e-6;
   options.temperature = 310.0;
-  const CapillaryForce liquid(options);
+  const WaterLaw liquid = options.law();
   EXPECT_NEAR(liquid.kelvinRadius(), 0.0227 * 58.4e-6 / (8.314462618 * 310.0 * std::log(1.0 / 0.6)), 1e-9 * kNm);
   EXPECT_NEAR(liquid.pressure() * liquid.kelvinRadius(), 0.0227, kRoundOff);
 }
 
-TEST(CapillaryForce, isOffWhenDryAndActsOnlyBelowTheKelvinGap) {
-  EXPECT_FALSE(CapillaryForce(humid(0.0)).isOn());
-  EXPECT_EQ(CapillaryForce(humid(0.0)).forcePerCell(1e-16), 0.0);
-  const CapillaryForce water(humid(0.5));
+TEST(WaterLaw, isOffWhenDryAndActsOnlyBelowTheKelvinGap) {
+  EXPECT_FALSE(humid(0.0).law().isOn());
+  EXPECT_EQ(humid(0.0).law().pressure(), 0.0);
+  const WaterLaw water = humid(0.5).law();
   const auto forceAt = [&](double gap) {  // of one cell beside another that touches
     GapField field;
     field.compute(HeightMap((cv::Mat1d(1, 2) << gap, 0.0), 10 * kNm, 10 * kNm));
@@ -86,10 +86,10 @@ TEST(CapillarySum, fillsAFlatAroundABumpOrNothing) {
   GapOrder order;
   order.build(field, 0.5);
   const double rest_of_area = (40 * 51 - 1) * pitch * pitch;
-  const CapillaryForce wide(humid(0.7));  // Kelvin gap 2.9 nm
+  const WaterLaw wide = humid(0.7).law();  // Kelvin gap 2.9 nm
   EXPECT_NEAR(capillaryForce(order, 0.0, 1, wide, field.cellArea()), wide.pressure() * rest_of_area,
               kRoundOff * wide.pressure() * rest_of_area);
-  const CapillaryForce narrow(humid(0.5));  // Kelvin gap 1.5 nm: nothing but the contact, then, 1 nm lower, all
+  const WaterLaw narrow = humid(0.5).law();  // Kelvin gap 1.5 nm: nothing but the contact, then, 1 nm lower, all
   EXPECT_EQ(capillaryForce(order, 0.0, 1, narrow, field.cellArea()), 0.0);
   EXPECT_NEAR(capillaryForce(order, 1 * kNm, 1, narrow, field.cellArea()), narrow.pressure() * rest_of_area,
               kRoundOff * narrow.pressure() * rest_of_area);
@@ -104,7 +104,7 @@ TEST(CapillarySum, ofASphereIsFourPiGammaRAtEveryHumidityAndApproach) {
   for (const double humidity : {0.4, 0.7, 0.9}) {
     for (const double approach : {0.0, 0.5 * kNm, 1.3 * kNm}) {
       const int touching = order.sortBelow(approach);
-      const double force = capillaryForce(order, approach, touching, CapillaryForce(humid(humidity)), 1 * kNm * kNm);
+      const double force = capillaryForce(order, approach, touching, humid(humidity).law(), 1 * kNm * kNm);
       // rings of equal width in gap have equal area 2 pi R d_K; counting cells in a ring some 60 pixels across: 1 %
       EXPECT_NEAR(force, 4.0 * kPi * 0.072 * radius, 0.01 * force) << humidity << " " << approach;
     }
@@ -118,7 +118,7 @@ TEST(CapillarySum, agreesWithTheSumOverCells) {
       GapOrder order;
       order.build(field, max_fraction);
       for (const double humidity : {0.3, 0.8, 0.99, 0.9999}) {
-        const CapillaryForce water(humid(humidity));
+        const WaterLaw water = humid(humidity).law();
         const double approach = 0.7 * order.cells()[static_cast<std::size_t>(order.contactLimit() - 1)].gap;
         const int touching = order.sortBelow(approach);
         const double expected = sumOverCells(field, approach, touching, water);
@@ -131,7 +131,7 @@ TEST(CapillarySum, agreesWithTheSumOverCells) {
             bucket >= order.orderedBuckets() ? std::count_if(gaps.begin(), gaps.end(), shares_bucket) : 0.0;
         const double slack = partial + 1e-9;
         EXPECT_NEAR(capillaryForce(order, approach, touching, water, field.cellArea()), expected,
-                    slack * water.forcePerCell(field.cellArea()) + kRoundOff * expected)
+                    slack * water.pressure() * field.cellArea() + kRoundOff * expected)
             << frame.name << " " << humidity;
       }
     }

@@ -27,7 +27,7 @@ struct Search {
                 1000,
                 kCutoffDistance,
                 false,
-                CapillaryForce()} {}
+                WaterLaw()} {}
 
   const EquilibriumState& run(Connectivity connectivity = Connectivity::kFour) {
     order.build(field, kContactFractionLimit, setting.step);
