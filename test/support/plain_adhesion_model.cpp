@@ -10,6 +10,7 @@
 #include "mems_stiction/paper/asperity_summary.hpp"
 #include "mems_stiction/paper/cap_couple.hpp"
 #include "mems_stiction/paper/level_search.hpp"
+#include "mems_stiction/preprocess/refine.hpp"
 #include "support/frame_gaps.hpp"
 
 namespace mems_stiction {
