@@ -70,11 +70,11 @@ class PredictionFigures:
     electrostatic_force: float
     """[N] attraction by the voltage (3)"""
     normal_load: float
-    """[N] mechanical, van der Waals, electrostatic and capillary together"""
+    """[N] mechanical, van der Waals, electrostatic, capillary together"""
     capillary_force: float
     """[N] of condensed water, part of normal_load; 0 when off"""
     pull_off_force: float
-    """[N] largest while the surfaces are drawn apart, after voltage and load have gone; (11) of the paper's formulations"""
+    """[N] largest while the surfaces are drawn apart, after voltage and load have gone; (11) of the paper"""
     pull_off_force_jkr: float
     """[N] (3/2) pi Gamma times the sum of the composite radii"""
     pull_off_force_transition: float
