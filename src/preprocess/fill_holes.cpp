@@ -194,12 +194,6 @@ void fillPixels(cv::Mat& heights, const cv::Mat& wanted, double pitch_x, double 
   fillAll(heights, pixels, pitch_x, pitch_y);
 }
 
-HeightMap withFilledHoles(const HeightMap& surface, const FillOptions& options) {
-  WorkingSurface work(surface);
-  fillHoles(work, options);
-  return work.surface();
-}
-
 HeightChange fillHoles(WorkingSurface& surface, const FillOptions& options, const cv::Mat& outside) {
   cv::Mat& heights = surface.heights;
   const std::vector<cv::Point> missing = missingPixels(heights, outside);

@@ -5,9 +5,8 @@
 #include <Eigen/Dense>
 
 namespace mems_stiction {
-namespace {
 
-Plane planeOf(WorkingSurface& surface) {
+Plane leastSquaresPlane(WorkingSurface& surface) {
   const cv::Mat& heights = surface.heights;
   const SurfaceMeans means = meansOf(heights, surface.memory, " to level by");
 
@@ -46,13 +45,6 @@ Plane planeOf(WorkingSurface& surface) {
   return plane;
 }
 
-}  // namespace
-
-Plane leastSquaresPlane(const HeightMap& surface) {
-  WorkingSurface work(surface);
-  return planeOf(work);
-}
-
 HeightMap levelled(const HeightMap& surface) {
   WorkingSurface work(surface);
   level(work);
@@ -60,21 +52,18 @@ HeightMap levelled(const HeightMap& surface) {
 }
 
 HeightChange level(WorkingSurface& surface) {
-  cv::Mat& heights = surface.heights;
-  const Plane plane = planeOf(surface);
+  const Plane plane = leastSquaresPlane(surface);
   std::vector<double>& places = surface.memory.places;
-  for (int col = 0; col < heights.cols; ++col) {
+  for (int col = 0; col < surface.heights.cols; ++col) {
     places[static_cast<std::size_t>(col)] = col * surface.pitch_x - plane.centre_x;
   }
   LineCurve line;
   line.origin = plane.mean_height;
   line.b = plane.slope_x;
-  ChangeSums changes;
-  for (int row = 0; row < heights.rows; ++row) {
+  return subtractCurves(surface, [&](int row) {
     line.a = plane.slope_y * (row * surface.pitch_y - plane.centre_y);
-    subtractCurve(line, places.data(), places.size(), heights.ptr<double>(row), changes);
-  }
-  return heightChange(changes, static_cast<long long>(heights.total()));
+    return line;
+  });
 }
 
 }  // namespace mems_stiction

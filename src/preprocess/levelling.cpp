@@ -13,12 +13,6 @@ void LevelOptions::describe(OptionVisitor& visitor, const std::string& prefix) {
   visitor.flag(prefix + "_robust", robust, "fit that plane or polynomial so that features and spikes have no say");
 }
 
-HeightMap levelledBy(const HeightMap& surface, const LevelOptions& options) {
-  WorkingSurface work(surface);
-  if (options.shape != LevelShape::kNone) levelBy(work, options);
-  return work.surface();
-}
-
 HeightChange levelBy(WorkingSurface& surface, const LevelOptions& options) {
   if (options.shape == LevelShape::kPlane && !options.robust) return level(surface);
   const int degree = options.shape == LevelShape::kPlane ? 1 : 2;

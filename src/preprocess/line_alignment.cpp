@@ -70,12 +70,6 @@ void LineAlignmentOptions::describe(OptionVisitor& visitor, const std::string& p
   visitor.integer(prefix + "/degree", degree, Range::within(0, 2), "degree of the polynomial of each line");
 }
 
-HeightMap withAlignedLines(const HeightMap& surface, const LineAlignmentOptions& options) {
-  WorkingSurface work(surface);
-  alignLines(work, options);
-  return work.surface();
-}
-
 HeightChange alignLines(WorkingSurface& surface, const LineAlignmentOptions& options) {
   cv::Mat& heights = surface.heights;
   std::vector<LineCurve>& curves = surface.memory.curves;
@@ -106,13 +100,11 @@ HeightChange alignLines(WorkingSurface& surface, const LineAlignmentOptions& opt
     count += sums.count;
     left += sums.h - (curve.a * sums.count + curve.b * sums.p + curve.c * sums.pp);
   }
-  ChangeSums changes;
-  for (int row = 0; row < heights.rows; ++row) {
+  return subtractCurves(surface, [&](int row) {
     LineCurve curve = curves[static_cast<std::size_t>(row)];
     curve.a += left / count - mean;
-    subtractCurve(curve, columns.data(), columns.size(), heights.ptr<double>(row), changes);
-  }
-  return heightChange(changes, static_cast<long long>(heights.total()));
+    return curve;
+  });
 }
 
 }  // namespace mems_stiction

@@ -255,11 +255,6 @@ double PolynomialSurface::height(double x, double y) const {
   return curve.origin + (curve.a + u * (curve.b + curve.c * u));
 }
 
-PolynomialSurface fitPolynomial(const HeightMap& surface, int degree, FitWeights weights) {
-  WorkingSurface work(surface);
-  return fitPolynomial(work.heights, work.pitch_x, work.pitch_y, degree, weights, work.memory);
-}
-
 PolynomialSurface fitPolynomial(const cv::Mat& heights, double pitch_x, double pitch_y, int degree, FitWeights weights,
                                 CleaningMemory& memory) {
   PolynomialSurface fit = frameOf(heights, pitch_x, pitch_y, degree, memory);
@@ -307,21 +302,8 @@ void findPlaces(const PolynomialSurface& polynomial, double first_x, double pitc
 }
 
 HeightChange subtract(const PolynomialSurface& polynomial, WorkingSurface& surface) {
-  cv::Mat& heights = surface.heights;
-  std::vector<double>& places = surface.memory.places;
-  findPlaces(polynomial, 0.0, surface.pitch_x, heights.cols, places);
-  ChangeSums changes;
-  for (int row = 0; row < heights.rows; ++row) {
-    subtractCurve(curveAt(polynomial, row * surface.pitch_y), places.data(), places.size(), heights.ptr<double>(row),
-                  changes);
-  }
-  return heightChange(changes, static_cast<long long>(heights.total()));
-}
-
-HeightMap without(const PolynomialSurface& polynomial, const HeightMap& surface) {
-  WorkingSurface work(surface);
-  subtract(polynomial, work);
-  return work.surface();
+  findPlaces(polynomial, 0.0, surface.pitch_x, surface.heights.cols, surface.memory.places);
+  return subtractCurves(surface, [&](int row) { return curveAt(polynomial, row * surface.pitch_y); });
 }
 
 }  // namespace mems_stiction

@@ -56,12 +56,6 @@ void SpikeOptions::describe(OptionVisitor& visitor, const std::string& prefix) {
   visitor.integer(prefix + "/window", window, Range::within(3, 31), "side of the window, in pixels");
 }
 
-HeightMap withoutSpikes(const HeightMap& surface, const SpikeOptions& options) {
-  WorkingSurface work(surface);
-  removeSpikes(work, options);
-  return work.surface();
-}
-
 HeightChange removeSpikes(WorkingSurface& surface, const SpikeOptions& options) {
   cv::Mat& heights = surface.heights;
   MedianFinder& medians = surface.memory.medians;

@@ -6,12 +6,6 @@ void StageOffsetOptions::describe(OptionVisitor& visitor, const std::string& pre
   visitor.flag(prefix + "/enabled", enabled, "subtract the mean height, in double precision");
 }
 
-HeightMap withoutStageOffset(const HeightMap& surface) {
-  WorkingSurface work(surface);
-  subtractStageOffset(work);
-  return work.surface();
-}
-
 HeightChange subtractStageOffset(WorkingSurface& surface) {
   cv::Mat& heights = surface.heights;
   const double mean = meansOf(heights, surface.memory).height;
@@ -26,11 +20,7 @@ HeightChange subtractStageOffset(WorkingSurface& surface) {
   LineCurve offset;
   offset.origin = mean;
   offset.a = left.h / left.count;
-  ChangeSums changes;
-  for (int row = 0; row < heights.rows; ++row) {
-    subtractCurve(offset, columns.data(), columns.size(), heights.ptr<double>(row), changes);
-  }
-  return heightChange(changes, static_cast<long long>(heights.total()));
+  return subtractCurves(surface, [&](int) { return offset; });
 }
 
 }  // namespace mems_stiction

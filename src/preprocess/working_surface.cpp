@@ -25,10 +25,6 @@ double firstValid(const cv::Mat& heights) {
 
 }  // namespace
 
-HeightChange heightChange(const ChangeSums& changes, long long pixels) {
-  return {changes.rms(), changes.changed, pixels - changes.count};
-}
-
 double* roomFor(std::size_t count, std::vector<double>& memory) {
   if (memory.size() < count) memory.resize(count);
   return memory.data();

@@ -66,12 +66,6 @@ Weighted weightedHeights(const HeightMap& surface, SpectrumWindow window) {
   return weighted;
 }
 
-/// Wave number of one coefficient of the transform [rad/m].
-double waveNumber(int index, int count, double pitch) {
-  const int wave = index <= count / 2 ? index : index - count;
-  return 2.0 * kPi * wave / (count * pitch);
-}
-
 }  // namespace
 
 PowerSpectrum powerSpectrum(const HeightMap& surface, SpectrumWindow window) {

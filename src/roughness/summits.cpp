@@ -69,14 +69,4 @@ SummitParameters summitParameters(const HeightMap& surface) {
   return found;
 }
 
-SummitParameters summitsOfGaussianSurface(const SpectralMoments& moments) {
-  SummitParameters expected;
-  if (!(moments.m2 > 0.0)) return expected;
-  expected.density = moments.m4 / moments.m2 / (6.0 * kPi * std::sqrt(3.0));
-  expected.mean_curvature = 8.0 / 3.0 * std::sqrt(moments.m4 / kPi);
-  expected.mean_radius = 1.0 / expected.mean_curvature;
-  expected.rms_height = std::sqrt(moments.m0 * std::max(0.0, 1.0 - 0.8968 / moments.alpha));
-  return expected;
-}
-
 }  // namespace mems_stiction

@@ -61,17 +61,9 @@ HeightMap gaussianSurface(const GaussianSurfaceOptions& options) {
 
   const std::vector<double> filter_x = spectralFilter(options.cols, options.pitch_x, options.correlation_length_x);
   const std::vector<double> filter_y = spectralFilter(options.rows, options.pitch_y, options.correlation_length_y);
-  cv::Mat spectrum;
-  cv::dft(whiteNoise(options.rows, options.cols, options.seed), spectrum, cv::DFT_COMPLEX_OUTPUT);
-  for (int row = 0; row < options.rows; ++row) {
-    cv::Vec2d* line = spectrum.ptr<cv::Vec2d>(row);
-    const double row_factor = filter_y[static_cast<std::size_t>(row)];
-    for (int col = 0; col < options.cols; ++col) line[col] *= row_factor * filter_x[static_cast<std::size_t>(col)];
-  }
-  spectrum.at<cv::Vec2d>(0, 0) = cv::Vec2d(0.0, 0.0);  // zero mean
-  cv::Mat heights;
-  cv::dft(spectrum, heights, cv::DFT_INVERSE | cv::DFT_SCALE | cv::DFT_REAL_OUTPUT);
-
+  cv::Mat heights = filteredNoise(whiteNoise(options.rows, options.cols, options.seed), [&](int row, int col) {
+    return filter_y[static_cast<std::size_t>(row)] * filter_x[static_cast<std::size_t>(col)];
+  });
   const double sample_rms = heightStatistics(HeightMap(heights, options.pitch_x, options.pitch_y)).rms_height;
   heights *= options.rms_height / sample_rms;
   return {heights, options.pitch_x, options.pitch_y};

@@ -3,8 +3,6 @@
 #include <cstdint>
 #include <random>
 
-#include "mems_stiction/base/constants.hpp"
-
 namespace mems_stiction {
 
 cv::Mat whiteNoise(int rows, int cols, int seed) {
@@ -18,18 +16,12 @@ cv::Mat whiteNoise(int rows, int cols, int seed) {
   return noise;
 }
 
-cv::Mat filteredNoise(const cv::Mat& noise, double pitch_x, double pitch_y,
-                      const std::function<double(double, double)>& gain) {
-  const auto waveNumber = [](int index, int count, double pitch) {
-    const int wave = index <= count / 2 ? index : index - count;
-    return 2.0 * kPi * wave / (count * pitch);
-  };
+cv::Mat filteredNoise(const cv::Mat& noise, const std::function<double(int, int)>& gain) {
   cv::Mat spectrum;
   cv::dft(noise, spectrum, cv::DFT_COMPLEX_OUTPUT);
   for (int row = 0; row < spectrum.rows; ++row) {
     cv::Vec2d* line = spectrum.ptr<cv::Vec2d>(row);
-    const double q_y = waveNumber(row, spectrum.rows, pitch_y);
-    for (int col = 0; col < spectrum.cols; ++col) line[col] *= gain(waveNumber(col, spectrum.cols, pitch_x), q_y);
+    for (int col = 0; col < spectrum.cols; ++col) line[col] *= gain(row, col);
   }
   spectrum.at<cv::Vec2d>(0, 0) = cv::Vec2d(0.0, 0.0);
   cv::Mat filtered;

@@ -7,6 +7,7 @@
 
 #include "mems_stiction/base/constants.hpp"
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/roughness/half_spectrum.hpp"
 #include "mems_stiction/roughness/power_spectrum.hpp"
 #include "mems_stiction/surface/random_field.hpp"
 
@@ -46,12 +47,13 @@ HeightMap selfAffineSurface(const SelfAffineSurfaceOptions& options) {
   const double rolloff = 2.0 * kPi / options.rolloff_wavelength;
   const double cutoff = 2.0 * kPi / options.cutoff_wavelength * (1.0 + 1e-12);
   const double exponent = -1.0 - options.hurst_exponent;
-  cv::Mat heights = filteredNoise(whiteNoise(options.rows, options.cols, options.seed), options.pitch_x,
-                                  options.pitch_y, [=](double q_x, double q_y) {
-                                    const double q = std::hypot(q_x, q_y);
-                                    if (q > cutoff) return 0.0;
-                                    return q <= rolloff ? 1.0 : std::pow(q / rolloff, exponent);
-                                  });
+  const auto gain = [&](int row, int col) {
+    const double q =
+        std::hypot(waveNumber(col, options.cols, options.pitch_x), waveNumber(row, options.rows, options.pitch_y));
+    if (q > cutoff) return 0.0;
+    return q <= rolloff ? 1.0 : std::pow(q / rolloff, exponent);
+  };
+  cv::Mat heights = filteredNoise(whiteNoise(options.rows, options.cols, options.seed), gain);
   const HeightMap unscaled(heights, options.pitch_x, options.pitch_y);
   if (options.scale == RoughnessScale::kRmsHeight) {
     heights *= options.rms_height / heightStatistics(unscaled).rms_height;

@@ -10,17 +10,14 @@
 /// Holes are 4-connected sets of missing pixels; those larger than max_hole stay invalid: nobody knows what is there.
 /// When more than max_fraction of the frame is missing, the scan is refused.
 
-#include "mems_stiction/height_map/height_map.hpp"
 #include "mems_stiction/preprocess/pipeline_options.hpp"
 #include "mems_stiction/preprocess/working_surface.hpp"
 
 namespace mems_stiction {
 
-/// rows x cols, CV_64FC1, metres; the pixels of larger holes are NaN.
-/// @throw SurfaceError naming the fraction and the limit if too much is missing, or if no pixel is valid.
-HeightMap withFilledHoles(const HeightMap& surface, const FillOptions& options);
-/// The same where the heights lie.
+/// The pixels of larger holes stay NaN.
 /// - @p outside not 0 at pixels that do not belong to the frame: they are neither filled nor counted; empty = none
+/// @throw SurfaceError naming the fraction and the limit if too much is missing, or if no pixel is valid.
 HeightChange fillHoles(WorkingSurface& surface, const FillOptions& options, const cv::Mat& outside = {});
 
 /// Fills the marked pixels, whatever their number.

@@ -33,7 +33,7 @@ struct Plane {
 };
 
 /// @throw SurfaceError if no pixel is valid.
-Plane leastSquaresPlane(const HeightMap& surface);
+Plane leastSquaresPlane(WorkingSurface& surface);
 
 /// The surface less its least-squares plane: rows x cols, CV_64FC1, metres, mean 0 over the valid pixels. Invalid
 /// pixels are NaN.

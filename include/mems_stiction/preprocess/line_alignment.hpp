@@ -12,16 +12,12 @@
 /// wavelength along y that is longer than the frame out of the surface; a sphere that fills the frame loses its shape.
 /// Lines without a valid pixel stay as they are. The mean height of the surface is kept.
 
-#include "mems_stiction/height_map/height_map.hpp"
 #include "mems_stiction/preprocess/pipeline_options.hpp"
 #include "mems_stiction/preprocess/working_surface.hpp"
 
 namespace mems_stiction {
 
-/// rows x cols, CV_64FC1, metres; invalid pixels are NaN.
 /// @throw SurfaceError if no pixel is valid.
-HeightMap withAlignedLines(const HeightMap& surface, const LineAlignmentOptions& options);
-/// The same where the heights lie.
 HeightChange alignLines(WorkingSurface& surface, const LineAlignmentOptions& options);
 
 }  // namespace mems_stiction

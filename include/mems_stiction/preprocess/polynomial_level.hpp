@@ -14,7 +14,6 @@
 
 #include <Eigen/Core>
 
-#include "mems_stiction/height_map/height_map.hpp"
 #include "mems_stiction/preprocess/working_surface.hpp"
 
 namespace mems_stiction {
@@ -37,11 +36,9 @@ struct PolynomialSurface {
   double height(double x, double y) const;  ///< [m]
 };
 
+/// - @p heights all of a surface or some of its lines
 /// - @p degree 0, 1 or 2
 /// @throw SurfaceError if no pixel is valid.
-PolynomialSurface fitPolynomial(const HeightMap& surface, int degree, FitWeights weights);
-
-/// The same for heights in work (@p heights all of them or some lines), in the memory of their steps.
 PolynomialSurface fitPolynomial(const cv::Mat& heights, double pitch_x, double pitch_y, int degree, FitWeights weights,
                                 CleaningMemory& memory);
 /// The robust polynomial from coarse samples to all pixels: every 16th pixel of every 16th row, then every fourth of every
@@ -57,10 +54,6 @@ LineCurve curveAt(const PolynomialSurface& polynomial, double y);
 void findPlaces(const PolynomialSurface& polynomial, double first_x, double pitch_x, int cols,
                 std::vector<double>& places);
 
-/// Subtracts a polynomial where the heights lie.
 HeightChange subtract(const PolynomialSurface& polynomial, WorkingSurface& surface);
-
-/// The surface less a polynomial: rows x cols, CV_64FC1, metres; invalid pixels are NaN.
-HeightMap without(const PolynomialSurface& polynomial, const HeightMap& surface);
 
 }  // namespace mems_stiction

@@ -14,16 +14,13 @@
 /// heights are counted in steps as coarse as the roughness: distances then come in clusters, and one can meet the
 /// limit.
 
-#include "mems_stiction/height_map/height_map.hpp"
 #include "mems_stiction/preprocess/pipeline_options.hpp"
 #include "mems_stiction/preprocess/working_surface.hpp"
 
 namespace mems_stiction {
 
-/// rows x cols, CV_64FC1, metres; invalid pixels and spikes are NaN.
+/// Spikes become NaN.
 /// @throw SurfaceError if no pixel is valid.
-HeightMap withoutSpikes(const HeightMap& surface, const SpikeOptions& options);
-/// The same where the heights lie.
 HeightChange removeSpikes(WorkingSurface& surface, const SpikeOptions& options);
 
 }  // namespace mems_stiction

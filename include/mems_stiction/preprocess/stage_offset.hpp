@@ -6,16 +6,13 @@
 /// Single precision spaces heights of 10 mm by 0.9 nm: under such an offset the roughness drowns. The difference is
 /// taken in double. Digits that the scan had already lost when it arrived do not come back.
 
-#include "mems_stiction/height_map/height_map.hpp"
 #include "mems_stiction/preprocess/pipeline_options.hpp"
 #include "mems_stiction/preprocess/working_surface.hpp"
 
 namespace mems_stiction {
 
-/// The surface less its mean height: rows x cols, CV_64FC1, metres; invalid pixels are NaN.
+/// The surface less its mean height.
 /// @throw SurfaceError if no pixel is valid.
-HeightMap withoutStageOffset(const HeightMap& surface);
-/// The same where the heights lie.
 HeightChange subtractStageOffset(WorkingSurface& surface);
 
 }  // namespace mems_stiction

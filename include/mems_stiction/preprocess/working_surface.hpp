@@ -15,10 +15,6 @@
 
 namespace mems_stiction {
 
-/// Of a step that leaves invalid pixels invalid.
-/// - @p pixels of the frame, valid or not
-HeightChange heightChange(const ChangeSums& changes, long long pixels);
-
 /// What steps write down beside the heights.
 struct CleaningMemory {
   MedianFinder medians;
@@ -49,6 +45,17 @@ struct WorkingSurface {
   cv::Mat spare;         ///< memory of the surface before
   CleaningMemory memory;
 };
+
+/// Takes the LineCurve curve_of(row) off each row, over the places in the surface's memory.
+template <typename CurveOf>
+HeightChange subtractCurves(WorkingSurface& surface, const CurveOf& curve_of) {
+  const std::vector<double>& places = surface.memory.places;
+  ChangeSums changes;
+  for (int row = 0; row < surface.heights.rows; ++row) {
+    subtractCurve(curve_of(row), places.data(), places.size(), surface.heights.ptr<double>(row), changes);
+  }
+  return {changes.rms(), changes.changed, static_cast<long long>(surface.heights.total()) - changes.count};
+}
 
 /// 0, 1, 2 ... for every column.
 const std::vector<double>& columnNumbers(int cols, CleaningMemory& memory);

@@ -6,7 +6,15 @@
 
 #include <opencv2/core.hpp>
 
+#include "mems_stiction/base/constants.hpp"
+
 namespace mems_stiction {
+
+/// Wave number of one coefficient of a transform of `count` values [rad/m].
+inline double waveNumber(int index, int count, double pitch) {
+  const int wave = index <= count / 2 ? index : index - count;
+  return 2.0 * kPi * wave / (count * pitch);
+}
 
 /// Transform of values in the corner of a frame of zeros, by row and column of the wave vector: F(k_x, k_y) stands at row
 /// k_x <= frame.width/2 and column k_y; the other half is its complex conjugate, F(-k_x, -k_y) = conj F(k_x, k_y).

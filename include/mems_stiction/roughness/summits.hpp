@@ -12,7 +12,6 @@
 ///     density = m4/(6 pi sqrt(3) m2),  mean curvature = (8/3) sqrt(m4/pi)
 
 #include "mems_stiction/height_map/height_map.hpp"
-#include "mems_stiction/roughness/power_spectrum.hpp"
 
 namespace mems_stiction {
 
@@ -27,9 +26,5 @@ struct SummitParameters {
 
 /// @throw SurfaceError if no pixel is valid.
 SummitParameters summitParameters(const HeightMap& surface);
-
-/// What the formulas above say for the given moments; rms_height = sqrt(m0 (1 - 0.8968/alpha)) (Bush, Gibson, Keogh,
-/// Mech. Res. Comm. 3 (1976) 169). `count` is 0. All 0 for a constant surface.
-SummitParameters summitsOfGaussianSurface(const SpectralMoments& moments);
 
 }  // namespace mems_stiction

@@ -15,6 +15,12 @@
 namespace mems_stiction {
 namespace {
 
+HeightMap withFilledHoles(const HeightMap& surface, const FillOptions& options) {
+  WorkingSurface work(surface);
+  fillHoles(work, options);
+  return work.surface();
+}
+
 constexpr double kPitchX = 6e-9;
 constexpr double kPitchY = 10e-9;
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();

@@ -11,6 +11,11 @@
 namespace mems_stiction {
 namespace {
 
+Plane planeOf(const HeightMap& surface) {
+  WorkingSurface work(surface);
+  return leastSquaresPlane(work);
+}
+
 constexpr double kPitchX = 13e-9;
 constexpr double kPitchY = 31e-9;
 constexpr double kStageOffset = 0.076;  // an interferometer's stage [m]
@@ -24,7 +29,7 @@ double largestDifference(const HeightMap& first, const HeightMap& second) {
 double largestHeight(const HeightMap& surface) { return cv::norm(surface.heights(), cv::NORM_INF); }
 
 TEST(LeastSquaresPlane, findsSlopesAndHeightOfAPlane) {
-  const Plane plane = leastSquaresPlane(analytic::tiltedPlane(23, 40, kPitchX, kPitchY, 0.012, -0.3, 5e-6));
+  const Plane plane = planeOf(analytic::tiltedPlane(23, 40, kPitchX, kPitchY, 0.012, -0.3, 5e-6));
   EXPECT_NEAR(plane.slope_x, 0.012, 1e-12);  // round-off of sums over 920 pixels of heights up to 5 um
   EXPECT_NEAR(plane.slope_y, -0.3, 1e-12);
   EXPECT_NEAR(plane.mean_height, 5e-6, 1e-18);
@@ -45,7 +50,7 @@ TEST(Levelled, givesBackARoughnessThatHasNoTiltOfItsOwn) {
   const HeightMap cap = analytic::paraboloid(41, 64, kPitchX, kPitchY, 2e-6);
   const HeightMap tilted = analytic::sum(cap, analytic::tiltedPlane(41, 64, kPitchX, kPitchY, 0.05, -0.02, 3e-7));
   EXPECT_LT(largestDifference(levelled(tilted), levelled(cap)), 1e-20);
-  EXPECT_NEAR(leastSquaresPlane(cap).slope_x, 0.0, 1e-13);
+  EXPECT_NEAR(planeOf(cap).slope_x, 0.0, 1e-13);
 }
 
 TEST(Levelled, keepsNanometresUnderAStageOffset) {
@@ -60,7 +65,7 @@ TEST(Levelled, isTheSameWhenDoneTwice) {
   const HeightMap rough = analytic::sine(30, 50, kPitchX, kPitchY, 2e-9, 1, 2);
   const HeightMap once = levelled(rough);
   EXPECT_LT(largestDifference(levelled(once), once), 1e-22);  // round-off of 2 nm
-  const Plane left = leastSquaresPlane(once);
+  const Plane left = planeOf(once);
   EXPECT_NEAR(left.slope_x, 0.0, 1e-14);
   EXPECT_NEAR(left.slope_y, 0.0, 1e-14);
   EXPECT_NEAR(left.mean_height, 0.0, 1e-22);
@@ -100,10 +105,10 @@ TEST(Levelled, fitsValidPixelsOnlyAndKeepsInvalidOnesInvalid) {
 }
 
 TEST(Levelled, takesTheSlopeAlongASingleRowOrColumn) {
-  const Plane row = leastSquaresPlane(analytic::tiltedPlane(1, 30, kPitchX, kPitchY, 0.01, 0.7, kStageOffset));
+  const Plane row = planeOf(analytic::tiltedPlane(1, 30, kPitchX, kPitchY, 0.01, 0.7, kStageOffset));
   EXPECT_NEAR(row.slope_x, 0.01, 30.0 * kSpacingUnderOffset / kPitchX);
   EXPECT_EQ(row.slope_y, 0.0);
-  const Plane column = leastSquaresPlane(analytic::tiltedPlane(30, 1, kPitchX, kPitchY, 0.7, 0.01));
+  const Plane column = planeOf(analytic::tiltedPlane(30, 1, kPitchX, kPitchY, 0.7, 0.01));
   EXPECT_EQ(column.slope_x, 0.0);
   EXPECT_NEAR(column.slope_y, 0.01, 1e-14);
 }
@@ -112,7 +117,7 @@ TEST(Levelled, takesTheSlopeAlongALineOfValidPixels) {
   const double invalid = std::numeric_limits<double>::quiet_NaN();
   cv::Mat heights(5, 5, CV_64FC1, cv::Scalar(invalid));
   for (int index = 0; index < 5; ++index) heights.at<double>(index, index) = 1e-9 * index;
-  const Plane plane = leastSquaresPlane(HeightMap(heights, kPitchX, kPitchY));
+  const Plane plane = planeOf(HeightMap(heights, kPitchX, kPitchY));
   // along the diagonal (px, py): s = 1 nm/(px^2 + py^2) (px, py), nothing across
   const double per_square = 1e-9 / (kPitchX * kPitchX + kPitchY * kPitchY);
   EXPECT_NEAR(plane.slope_x, per_square * kPitchX, 1e-12);
@@ -128,7 +133,7 @@ TEST(Levelled, handlesOneAndTwoPixels) {
 
 TEST(Levelled, fitsTwoLongRows) {
   // the worst-conditioned frame that still shows both slopes
-  const Plane plane = leastSquaresPlane(analytic::tiltedPlane(2, 40000, kPitchX, kPitchY, 1e-3, 0.05));
+  const Plane plane = planeOf(analytic::tiltedPlane(2, 40000, kPitchX, kPitchY, 1e-3, 0.05));
   EXPECT_NEAR(plane.slope_x, 1e-3, 1e-12);
   EXPECT_NEAR(plane.slope_y, 0.05, 1e-9);  // heights of 0.26 um rounded to 5e-23 m, over 80000 pixels of one pitch
 }

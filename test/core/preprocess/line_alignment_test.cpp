@@ -13,6 +13,18 @@
 namespace mems_stiction {
 namespace {
 
+HeightMap withoutStageOffset(const HeightMap& surface) {
+  WorkingSurface work(surface);
+  subtractStageOffset(work);
+  return work.surface();
+}
+
+HeightMap withAlignedLines(const HeightMap& surface, const LineAlignmentOptions& options) {
+  WorkingSurface work(surface);
+  alignLines(work, options);
+  return work.surface();
+}
+
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 LineAlignmentOptions byMethod(LineAlignment method, int degree = 1) {

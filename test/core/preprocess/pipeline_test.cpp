@@ -21,6 +21,12 @@
 namespace mems_stiction {
 namespace {
 
+HeightMap levelledBy(const HeightMap& surface, const LevelOptions& options) {
+  PipelineOptions pipeline;
+  pipeline.level = options;
+  return cleanScan(surface, pipeline).surface;
+}
+
 GaussianSurfaceOptions smoothFilm() {
   GaussianSurfaceOptions options;
   options.rows = 400;

@@ -7,12 +7,29 @@
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/preprocess/level.hpp"
-#include "mems_stiction/preprocess/levelling.hpp"
+#include "mems_stiction/preprocess/pipeline.hpp"
 #include "mems_stiction/surface/gaussian_surface.hpp"
 #include "support/analytic_surfaces.hpp"
 
 namespace mems_stiction {
 namespace {
+
+PolynomialSurface fitPolynomial(const HeightMap& surface, int degree, FitWeights weights) {
+  WorkingSurface work(surface);
+  return mems_stiction::fitPolynomial(work.heights, work.pitch_x, work.pitch_y, degree, weights, work.memory);
+}
+
+HeightMap without(const PolynomialSurface& polynomial, const HeightMap& surface) {
+  WorkingSurface work(surface);
+  subtract(polynomial, work);
+  return work.surface();
+}
+
+HeightMap levelledBy(const HeightMap& surface, const LevelOptions& options) {
+  PipelineOptions pipeline;
+  pipeline.level = options;
+  return cleanScan(surface, pipeline).surface;
+}
 
 constexpr double kPitchX = 7e-9;
 constexpr double kPitchY = 11e-9;

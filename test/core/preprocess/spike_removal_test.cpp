@@ -13,6 +13,12 @@
 namespace mems_stiction {
 namespace {
 
+HeightMap withoutSpikes(const HeightMap& surface, const SpikeOptions& options) {
+  WorkingSurface work(surface);
+  removeSpikes(work, options);
+  return work.surface();
+}
+
 SpikeOptions enabled() {
   SpikeOptions options;
   options.enabled = true;

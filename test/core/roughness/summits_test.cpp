@@ -1,16 +1,28 @@
-#include "mems_stiction/roughness/summits.hpp"
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
 
-#include <gtest/gtest.h>
-
 #include "mems_stiction/base/constants.hpp"
+#include "mems_stiction/roughness/power_spectrum.hpp"
+#include "mems_stiction/roughness/summits.hpp"
 #include "mems_stiction/surface/gaussian_surface.hpp"
 #include "support/analytic_surfaces.hpp"
 
 namespace mems_stiction {
 namespace {
+
+/// What the formulas of summits.hpp say for the given moments; rms_height = sqrt(m0 (1 - 0.8968/alpha)) (Bush, Gibson, Keogh,
+/// Mech. Res. Comm. 3 (1976) 169). `count` is 0. All 0 for a constant surface.
+SummitParameters summitsOfGaussianSurface(const SpectralMoments& moments) {
+  SummitParameters expected;
+  if (!(moments.m2 > 0.0)) return expected;
+  expected.density = moments.m4 / moments.m2 / (6.0 * kPi * std::sqrt(3.0));
+  expected.mean_curvature = 8.0 / 3.0 * std::sqrt(moments.m4 / kPi);
+  expected.mean_radius = 1.0 / expected.mean_curvature;
+  expected.rms_height = std::sqrt(moments.m0 * std::max(0.0, 1.0 - 0.8968 / moments.alpha));
+  return expected;
+}
 
 TEST(Summits, ofAParaboloidAreOneOfItsRadius) {
   const HeightMap surface = analytic::paraboloid(41, 31, 5e-9, 8e-9, 300e-9);
