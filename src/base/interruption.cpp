@@ -1,12 +1,17 @@
 #include "mems_stiction/base/interruption.hpp"
 
 #include <signal.h>
+#include <stdlib.h>
 #include <unistd.h>
 
 #include <filesystem>
 #include <mutex>
 #include <set>
+#include <string>
+#include <system_error>
 #include <thread>
+
+#include "mems_stiction/base/errors.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -75,6 +80,18 @@ ScratchPath::ScratchPath(const std::function<std::string()>& make) {
 ScratchPath::~ScratchPath() {
   const std::lock_guard<std::mutex> lock(registry().mutex);
   registry().paths.erase(path_);
+}
+
+PrivateFolder::PrivateFolder()
+    : scratch_([] {
+        std::string pattern = (std::filesystem::temp_directory_path() / "mems_stiction.XXXXXX").string();
+        if (mkdtemp(pattern.data()) == nullptr) throw FileError(pattern + ": the temporary folder cannot be made");
+        return pattern;
+      }) {}
+
+PrivateFolder::~PrivateFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(scratch_.path(), ignored);
 }
 
 RunningChild::RunningChild(const std::function<pid_t()>& start) {

@@ -12,15 +12,10 @@
 #include <sstream>
 
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/nearest_word.hpp"
+#include "mems_stiction/base/words.hpp"
 
 namespace mems_stiction {
 namespace {
-
-std::string lowered(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
 
 /// The whole text as a number, independent of the locale; nan and inf with or without YAML's leading dot.
 bool parseNumber(const std::string& text, double& value) {
@@ -59,12 +54,6 @@ struct Leaf {
   int uses = 0;
 };
 
-std::string withoutOuterSlashes(const std::string& key) {
-  const std::size_t first = key.find_first_not_of('/');
-  if (first == std::string::npos) return "";
-  return key.substr(first, key.find_last_not_of('/') - first + 1);
-}
-
 /// Where the text has it: " in line 7"; empty for what came from no text.
 std::string placeOf(const YAML::Node& node) {
   const YAML::Mark mark = node.Mark();
@@ -81,8 +70,7 @@ void flatten(const YAML::Node& node, const std::string& prefix, std::vector<Leaf
   }
   std::map<std::string, YAML::Node> seen;
   for (const auto& entry : node) {
-    const std::string name =
-        entry.first.IsScalar() ? withoutOuterSlashes(entry.first.Scalar()) : "(a key that is not text)";
+    const std::string name = entry.first.IsScalar() ? trimmed(entry.first.Scalar(), "/") : "(a key that is not text)";
     const std::string key = prefix.empty() ? name : prefix + "/" + name;
     const auto [first, is_new] = seen.emplace(name, entry.first);
     if (!is_new) {
@@ -107,8 +95,6 @@ std::string shown(const YAML::Node& node) {
   if (node.IsScalar()) return "'" + node.Scalar() + "'";
   return node.IsSequence() ? "a list" : "no value";
 }
-
-std::string lastPart(const std::string& key) { return key.substr(key.rfind('/') + 1); }
 
 /// Of so many keys that nobody knows each is named: more are another file.
 constexpr std::size_t kMostUnknown = 100;
@@ -300,6 +286,26 @@ class YamlWriter : public OptionVisitor {
   std::string text_;
 };
 
+/// Number of the first line that begins with a tab, behind spaces or not; 0: none.
+std::size_t lineWithTab(const std::string& text) {
+  std::size_t number = 1;
+  for (std::size_t begin = 0; begin < text.size(); ++number) {
+    const std::size_t first = text.find_first_not_of(' ', begin);
+    if (first != std::string::npos && text[first] == '\t') return number;
+    const std::size_t end = text.find('\n', begin);
+    if (end == std::string::npos) break;
+    begin = end + 1;
+  }
+  return 0;
+}
+
+bool isBinary(const std::string& text) {
+  return std::any_of(text.begin(), text.end(), [](char letter) {
+    const auto code = static_cast<unsigned char>(letter);
+    return code < 0x20 && letter != '\t' && letter != '\n' && letter != '\r';
+  });
+}
+
 }  // namespace
 
 std::vector<std::string> readYaml(const YAML::Node& tree, const DescribeFunction& describe) {
@@ -336,6 +342,13 @@ std::string yamlNumber(double value) {
   const std::size_t exponent = text.find('e');
   if (exponent != std::string::npos && text.find('.') == std::string::npos) text.insert(exponent, ".0");
   return text;
+}
+
+std::string yamlTrouble(const std::string& text, const std::string& error) {
+  if (isBinary(text)) return "is not a text, so no file of settings";
+  const std::size_t line = lineWithTab(text);
+  if (line == 0) return "not valid YAML: " + error;
+  return "not valid YAML: line " + std::to_string(line) + " begins with a tab; must be spaces (" + error + ")";
 }
 
 }  // namespace mems_stiction

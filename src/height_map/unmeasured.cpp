@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "mems_stiction/height_map/sentinels.hpp"
 #include "mems_stiction/height_map/validity.hpp"
 
 namespace mems_stiction {
@@ -148,14 +147,33 @@ void markRuns(const cv::Mat& heights, const std::vector<Line>& lines, bool is_ro
   }
 }
 
-}  // namespace
-
+/// rows x cols CV_8UC1: 255 in rows and columns that the instrument did not reach: all their measured pixels, at least
+/// kFewestStoppedPixels, are of one value, which the nearest rough lines hold in less than a quarter of their pixels. The
+/// filled end of a line that the instrument stopped in goes with them. Empty if there are none.
 cv::Mat stoppedLines(const cv::Mat& heights) {
   const Lines lines = linesOf(heights);
   cv::Mat mask;
   markRuns(heights, lines.rows, true, mask);
   markRuns(heights, lines.cols, false, mask);
   return mask;
+}
+
+}  // namespace
+
+cv::Mat sentinelMask(const cv::Mat& heights) {
+  cv::Mat beyond = cv::abs(heights) > kLargestHeight;
+  beyond &= validMask(heights);
+  return beyond;
+}
+
+HeightMap withoutSentinels(const HeightMap& surface) {
+  // Without a mask of its own for the many scans that have no such pixel.
+  if (cv::checkRange(surface.heights(), true, nullptr, -kLargestHeight, kLargestHeight)) return surface;
+  const cv::Mat beyond = sentinelMask(surface.heights());
+  if (cv::countNonZero(beyond) == 0) return surface;
+  cv::Mat heights = ownedHeights(surface);
+  heights.setTo(std::numeric_limits<double>::quiet_NaN(), beyond);
+  return {heights, surface.pitchX(), surface.pitchY()};
 }
 
 MissingLines missingLines(const HeightMap& surface) {

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <limits>
+#include <iterator>
+#include <locale>
+#include <sstream>
 #include <tuple>
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/short_number.hpp"
-#include "mems_stiction/height_map/sentinels.hpp"
+#include "mems_stiction/height_map/unmeasured.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -40,15 +42,9 @@ std::string lettersOf(const std::string& title) {
 }
 
 Words wordsOf(const std::string& letters) {
-  Words words(1);
-  for (const char c : letters) {
-    if (c == ' ') {
-      words.emplace_back();
-    } else {
-      words.back() += c;
-    }
-  }
-  return words;
+  std::istringstream stream(letters);
+  stream.imbue(std::locale::classic());
+  return Words(std::istream_iterator<std::string>(stream), {});
 }
 
 /// Pixels of one number each, or (height, quality).
@@ -73,18 +69,12 @@ bool isImage(const FileChannel& channel) {
   return !(ratio > kMostElongated || ratio < 1.0 / kMostElongated);
 }
 
-/// Largest less smallest; nothing if there is none.
+/// Largest less smallest height; 0 if there is none.
 double rangeOf(const FileChannel& channel) {
-  double least = std::numeric_limits<double>::infinity();
-  double most = -least;
-  for (int row = 0; row < channel.values.rows; ++row) {
-    const double* line = channel.values.ptr<double>(row);
-    for (int col = 0; col < channel.values.cols; ++col) {
-      if (!(std::abs(line[col]) < kLargestHeight)) continue;
-      least = std::min(least, line[col]);
-      most = std::max(most, line[col]);
-    }
-  }
+  double least = 0.0;
+  double most = 0.0;
+  const cv::Mat are_heights = cv::abs(channel.values) < kLargestHeight;  // false for NaN
+  cv::minMaxLoc(channel.values, &least, &most, nullptr, nullptr, are_heights);
   return most - least;
 }
 

@@ -4,21 +4,11 @@
 #include "mems_stiction/base/input_file.hpp"
 
 namespace mems_stiction {
-namespace {
 
-constexpr InputKind kScan = {"a scan", kMaxFileBytes};
-
-std::string notEmpty(const std::string& path, std::string bytes) {
+std::string readFileBytes(const std::string& path) {
+  std::string bytes = readInput(path, {"a scan", kMaxFileBytes});
   if (bytes.empty()) throw FileError(path + ": is empty");
   return bytes;
-}
-
-}  // namespace
-
-std::string readFileBytes(const std::string& path) { return notEmpty(path, readInput(path, kScan)); }
-
-std::string readFileStart(const std::string& path, std::size_t count) {
-  return notEmpty(path, readInputStart(path, kScan, count));
 }
 
 void checkPixelCount(std::uint64_t cols, std::uint64_t rows) {

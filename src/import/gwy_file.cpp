@@ -1,12 +1,12 @@
-#include "mems_stiction/import/gwy_file.hpp"
+#include "mems_stiction/import/format_readers.hpp"
 
-#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
 #include <map>
 
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/height_map/validity.hpp"
 #include "mems_stiction/import/byte_cursor.hpp"
 #include "mems_stiction/import/file_bytes.hpp"
 
@@ -137,16 +137,9 @@ int invalidateMasked(FileChannel& channel, const cv::Mat& mask) {
   if (mask.size() != channel.values.size()) {
     throw FileError("the .gwy container has a mask of another size than its channel");
   }
-  int count = 0;
-  for (int row = 0; row < mask.rows; ++row) {
-    const double* marked = mask.ptr<double>(row);
-    double* line = channel.values.ptr<double>(row);
-    for (int col = 0; col < mask.cols; ++col) {
-      if (!(marked[col] > 0.5)) continue;
-      if (std::isfinite(line[col])) ++count;
-      line[col] = std::numeric_limits<double>::quiet_NaN();
-    }
-  }
+  const cv::Mat marked = mask > 0.5;
+  const int count = cv::countNonZero(marked & validMask(channel.values));
+  channel.values.setTo(std::numeric_limits<double>::quiet_NaN(), marked);
   return count;
 }
 

@@ -1,4 +1,4 @@
-#include "mems_stiction/import/gwyddion_import.hpp"
+#include "mems_stiction/import/format_readers.hpp"
 
 #include <string.h>
 
@@ -7,12 +7,10 @@
 
 #include "mems_stiction/base/child_process.hpp"
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/interruption.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
-#include "mems_stiction/base/private_folder.hpp"
 #include "mems_stiction/import/file_bytes.hpp"
-#include "mems_stiction/import/gwy_file.hpp"
 #include "mems_stiction/import/import_cache.hpp"
-#include "mems_stiction/import/reader_version.hpp"
 #include "mems_stiction/import/waiting_gwyddion.hpp"
 
 namespace mems_stiction {

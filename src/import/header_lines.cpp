@@ -4,6 +4,7 @@
 #include <cctype>
 
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/words.hpp"
 #include "mems_stiction/import/plain_number.hpp"
 
 namespace mems_stiction {
@@ -11,16 +12,7 @@ namespace {
 
 constexpr std::size_t kMostDigits = 12;
 
-std::string trimmed(const std::string& text) {
-  const std::string blanks(" \t\r\0", 4);
-  const std::size_t begin = text.find_first_not_of(blanks);
-  return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
-}
-
-std::string lowered(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
+std::string bare(const std::string& text) { return trimmed(text, std::string(" \t\r\0", 4)); }
 
 }  // namespace
 
@@ -34,11 +26,11 @@ std::optional<std::uint64_t> countIn(const std::string& text) {
 HeaderLines::HeaderLines(const std::string& text, const std::string& separator) {
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t stop = std::min(text.find('\n', at), text.size());
-    const std::string line = trimmed(text.substr(at, stop - at));
+    const std::string line = bare(text.substr(at, stop - at));
     at = stop + 1;
     const std::size_t sign = line.find(separator);
     if (sign == std::string::npos) continue;
-    values_[lowered(trimmed(line.substr(0, sign)))].push_back(trimmed(line.substr(sign + separator.size())));
+    values_[lowered(bare(line.substr(0, sign)))].push_back(bare(line.substr(sign + separator.size())));
   }
 }
 

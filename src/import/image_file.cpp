@@ -1,4 +1,4 @@
-#include "mems_stiction/import/image_file.hpp"
+#include "mems_stiction/import/format_readers.hpp"
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>

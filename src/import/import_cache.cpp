@@ -78,6 +78,8 @@ std::optional<std::string> importCacheFolder() {
   return std::string(home) + "/.cache/mems_stiction";
 }
 
+std::string readerVersion() { return MEMS_STICTION_READERS; }
+
 std::string importCacheKey(const std::string& bytes, const std::string& name_end, const std::string& program,
                            const std::string& readers) {
   return contentHash(contentHash(bytes) + " " + std::to_string(bytes.size()) + " " + name_end + " " +

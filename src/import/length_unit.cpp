@@ -2,17 +2,13 @@
 
 #include <map>
 
+#include "mems_stiction/base/words.hpp"
 #include "mems_stiction/import/plain_number.hpp"
 
 namespace mems_stiction {
 namespace {
 
-std::string trimmed(const std::string& text) {
-  const char* around = " \t\r\n[]()\"'";
-  const std::size_t begin = text.find_first_not_of(around);
-  if (begin == std::string::npos) return "";
-  return text.substr(begin, text.find_last_not_of(around) - begin + 1);
-}
+std::string bare(const std::string& text) { return trimmed(text, " \t\r\n[]()\"'"); }
 
 void replaceAll(std::string& text, const std::string& what, const std::string& with) {
   for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size())) {
@@ -40,7 +36,7 @@ bool isUtf8(const std::string& text) {
 }  // namespace
 
 std::optional<double> lengthUnit(const std::string& text) {
-  std::string unit = trimmed(text);
+  std::string unit = bare(text);
   for (const char* micro : {"\xC2\xB5", "\xCE\xBC", "\\u00B5", "\\u00b5", "&#181;", "&micro;"}) {
     replaceAll(unit, micro, "u");
   }
@@ -59,10 +55,10 @@ std::optional<double> lengthUnit(const std::string& text) {
 }
 
 std::optional<StatedLength> statedLength(const std::string& text) {
-  const std::string plain = trimmed(text);
+  const std::string plain = bare(text);
   const std::size_t end = numberEnd(plain, 0);
   if (end == 0) return std::nullopt;
-  return StatedLength{plainNumber(plain.substr(0, end)), trimmed(plain.substr(end))};
+  return StatedLength{plainNumber(plain.substr(0, end)), bare(plain.substr(end))};
 }
 
 std::string toUtf8(const std::string& text) {

@@ -6,10 +6,10 @@
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/import/file_checks.hpp"
 #include "mems_stiction/import/header_lines.hpp"
 #include "mems_stiction/import/length_unit.hpp"
 #include "mems_stiction/import/plain_number.hpp"
-#include "mems_stiction/import/stated_length.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -103,11 +103,11 @@ double metresPerVolt(const std::string& text) {
   return unit ? stated->number * *unit : 0.0;
 }
 
-}  // namespace
-
 bool isNanoscope(const std::string& bytes) {
   return bytes.compare(0, 11, "\\*File list") == 0 || bytes.compare(0, 17, "\\*Force file list") == 0;
 }
+
+}  // namespace
 
 void checkNanoscope(const std::string& bytes) {
   if (!isNanoscope(bytes)) return;

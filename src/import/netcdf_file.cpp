@@ -1,4 +1,4 @@
-#include "mems_stiction/import/netcdf_file.hpp"
+#include "mems_stiction/import/format_readers.hpp"
 
 #include <algorithm>
 #include <cmath>

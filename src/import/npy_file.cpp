@@ -1,4 +1,4 @@
-#include "mems_stiction/import/npy_file.hpp"
+#include "mems_stiction/import/format_readers.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -6,7 +6,6 @@
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/import/byte_cursor.hpp"
 #include "mems_stiction/import/file_bytes.hpp"
-#include "mems_stiction/import/half_float.hpp"
 #include "mems_stiction/import/plain_number.hpp"
 
 namespace mems_stiction {

@@ -12,8 +12,6 @@
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/input_file.hpp"
 #include "mems_stiction/base/option_yaml.hpp"
-#include "mems_stiction/base/yaml_trouble.hpp"
-#include "mems_stiction/height_map/sentinels.hpp"
 #include "mems_stiction/height_map/unmeasured.hpp"
 #include "mems_stiction/import/channel_choice.hpp"
 #include "mems_stiction/import/file_bytes.hpp"

@@ -5,23 +5,15 @@
 #include <filesystem>
 
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/words.hpp"
 #include "mems_stiction/import/channel_choice.hpp"
 #include "mems_stiction/import/file_bytes.hpp"
-#include "mems_stiction/import/gwy_file.hpp"
-#include "mems_stiction/import/gwyddion_import.hpp"
-#include "mems_stiction/import/image_file.hpp"
+#include "mems_stiction/import/file_checks.hpp"
+#include "mems_stiction/import/format_readers.hpp"
 #include "mems_stiction/import/nanoscope_check.hpp"
-#include "mems_stiction/import/netcdf_file.hpp"
-#include "mems_stiction/import/npy_file.hpp"
 #include "mems_stiction/import/plain_number.hpp"
-#include "mems_stiction/import/stated_length.hpp"
-#include "mems_stiction/import/sur_file.hpp"
 #include "mems_stiction/import/text_grid.hpp"
-#include "mems_stiction/import/tiff_file.hpp"
 #include "mems_stiction/import/tiff_tags.hpp"
-#include "mems_stiction/import/transfer_check.hpp"
-#include "mems_stiction/import/wsxm_file.hpp"
-#include "mems_stiction/import/zip_check.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -31,12 +23,6 @@ using Channels = std::vector<FileChannel>;
 bool beginsWithOneOf(const std::string& bytes, std::initializer_list<std::string> starts) {
   return std::any_of(starts.begin(), starts.end(),
                      [&bytes](const std::string& start) { return bytes.compare(0, start.size(), start) == 0; });
-}
-
-std::string extension(const std::string& path) {
-  std::string text = std::filesystem::path(path).extension().string();
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
 }
 
 /// Some instruments write a picture of the scan, with the heights in tags of their own.
@@ -151,7 +137,7 @@ std::vector<FileChannel> readChannels(const std::string& path, const ImportOptio
   checkTransfer(bytes);
   Channels channels;
   if (readKnown(path, bytes, options, channels)) return channels;
-  const std::string name_end = extension(path);
+  const std::string name_end = lowered(std::filesystem::path(path).extension().string());
   for (const char* text : {".txt", ".asc", ".csv", ".xyz"}) {
     if (name_end == text) return {parseTextGrid(bytes, options.text)};
   }

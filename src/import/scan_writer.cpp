@@ -14,6 +14,7 @@
 #include "mems_stiction/base/one_line.hpp"
 #include "mems_stiction/base/option_yaml.hpp"
 #include "mems_stiction/base/output_file.hpp"
+#include "mems_stiction/height_map/scan_sanity.hpp"
 #include "mems_stiction/height_map/validity.hpp"
 #include "mems_stiction/import/file_bytes.hpp"
 
@@ -66,8 +67,6 @@ std::string tiffOf(const cv::Mat& pixels) {
   return bytes;
 }
 
-void writePixels(const std::string& path, const cv::Mat& pixels) { writeFile(path, tiffOf(pixels)); }
-
 std::string checksum(const std::string& bytes) {
   char text[16];
   std::snprintf(text, sizeof text, "%08lx",
@@ -78,18 +77,6 @@ std::string checksum(const std::string& bytes) {
 /// First line of a sidecar: checksums of the image and of the lines that follow.
 std::string seal(const std::string& tiff, const std::string& lines) {
   return "# Written with the image beside it; checksums " + checksum(tiff) + " and " + checksum(lines) + "\n";
-}
-
-/// True if the float32 pixels hold every height, or its absence.
-bool isSame(const cv::Mat& heights, const cv::Mat& narrow) {
-  for (int row = 0; row < heights.rows; ++row) {
-    const double* wide_line = heights.ptr<double>(row);
-    const float* narrow_line = narrow.ptr<float>(row);
-    for (int col = 0; col < heights.cols; ++col) {
-      if (wide_line[col] != static_cast<double>(narrow_line[col]) && !std::isnan(wide_line[col])) return false;
-    }
-  }
-  return true;
 }
 
 }  // namespace
@@ -106,14 +93,13 @@ void writeHeightTiff(const std::string& path, const cv::Mat& heights) {
     }
     if (narrow) heights.convertTo(pixels, CV_32F);
   }
-  writePixels(path, pixels);
+  writeFile(path, tiffOf(pixels));
 }
 
 void writeScan(const std::string& path, const HeightMap& surface, const std::string& note) {
   const cv::Mat heights = ownedHeights(surface);
-  cv::Mat pixels;
-  heights.convertTo(pixels, CV_32F);
-  if (!isSame(heights, pixels)) pixels = heights;
+  cv::Mat pixels = heights;
+  if (isSinglePrecision(heights)) heights.convertTo(pixels, CV_32F);
   const std::string bytes = tiffOf(pixels);
   const std::string lines = "# " + oneLine(note) +
                             "\n# Heights in metres: height = pixel x height_scale + height_offset.\n" +

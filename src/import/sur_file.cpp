@@ -1,4 +1,4 @@
-#include "mems_stiction/import/sur_file.hpp"
+#include "mems_stiction/import/format_readers.hpp"
 
 #include <zlib.h>
 
@@ -8,9 +8,9 @@
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/import/byte_cursor.hpp"
 #include "mems_stiction/import/file_bytes.hpp"
+#include "mems_stiction/import/file_checks.hpp"
 #include "mems_stiction/import/length_unit.hpp"
 #include "mems_stiction/import/plain_number.hpp"
-#include "mems_stiction/import/stated_length.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -3,30 +3,21 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/base/words.hpp"
 #include "mems_stiction/import/length_unit.hpp"
-#include "mems_stiction/import/number_marks.hpp"
 #include "mems_stiction/import/plain_number.hpp"
-#include "mems_stiction/import/point_heading.hpp"
 
 namespace mems_stiction {
 namespace {
 
 constexpr double kSame = 1e-6;  // relative: what is stated twice may be rounded
 
-std::string lowered(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
-
-std::string trimmed(const std::string& text) {
-  const char* around = " \t\"'";
-  const std::size_t begin = text.find_first_not_of(around);
-  if (begin == std::string::npos) return "";
-  return text.substr(begin, text.find_last_not_of(around) - begin + 1);
-}
+std::string bare(const std::string& text) { return trimmed(text, " \t\"'"); }
 
 /// Without the signs of a comment; blanks that do not break lines become plain ones.
 std::string content(const std::string& line) {
@@ -36,7 +27,7 @@ std::string content(const std::string& line) {
       text.replace(at, std::char_traits<char>::length(blank), " ");
     }
   }
-  return trimmed(text);
+  return bare(text);
 }
 
 bool isOneOf(const std::string& key, std::initializer_list<const char*> names) {
@@ -91,12 +82,12 @@ bool splitKey(const std::string& text, std::string& key, std::string& value) {
     at = text.find_first_of(" \t");
     if (at == std::string::npos) return false;
     key = lowered(text.substr(0, at));
-    value = trimmed(text.substr(at));
+    value = bare(text.substr(at));
     return isOneOf(key,
                    {"ncols", "nrows", "cellsize", "nodata_value", "xllcorner", "yllcorner", "xllcenter", "yllcenter"});
   }
-  key = lowered(trimmed(text.substr(0, at)));
-  value = trimmed(text.substr(at + 1));
+  key = lowered(bare(text.substr(0, at)));
+  value = bare(text.substr(at + 1));
   return true;
 }
 
@@ -120,13 +111,76 @@ void stateText(std::string& field, const std::string& value, const std::string& 
   field = value;
 }
 
+/// "x [nm]", "X/um", "x_nm"
+struct PointColumn {
+  char axis = ' ';   ///< x, y, z; ' ' for any other
+  std::string unit;  ///< as it is spelt; empty if there is none
+};
+
+/// Words between separators; what stands in brackets belongs to the word before.
+std::vector<PointColumn> pointColumns(const std::string& text) {
+  std::vector<std::string> words;
+  bool is_in_word = false;
+  bool is_in_brackets = false;
+  for (const char c : text) {
+    if (!is_in_brackets && std::string(" \t,;|\"'").find(c) != std::string::npos) {
+      is_in_word = false;
+      continue;
+    }
+    if (c == '[' || c == '(') is_in_brackets = true;
+    if (!is_in_word && (words.empty() || !is_in_brackets)) words.emplace_back();
+    is_in_word = true;
+    words.back() += c;
+    if (c == ']' || c == ')') is_in_brackets = false;
+  }
+  std::vector<PointColumn> columns;
+  for (const std::string& word : words) {
+    PointColumn column;
+    const bool is_name = word.size() == 1 || std::isalnum(static_cast<unsigned char>(word[1])) == 0;
+    const std::string axis = lowered(word.substr(0, 1));
+    if (is_name && std::string("xyz").find(axis) != std::string::npos) column.axis = axis[0];
+    const std::size_t open = word.find_first_of("[(");
+    if (open != std::string::npos) {
+      column.unit = word.substr(open + 1, word.find_first_of("])", open) - open - 1);
+    } else if (word.size() > 2 && lengthUnit(word.substr(2))) {
+      column.unit = word.substr(2);
+    }
+    columns.push_back(column);
+  }
+  return columns;
+}
+
+/// What the line above a list of points states that names its columns: "x [nm] y [nm] z [pm]".
+struct PointHeading {
+  double unit_xy = 0.0;  ///< of x and y [m]; 0 = none
+  std::string unit_z;    ///< as it is spelt; empty = none
+};
+
+/// Units stand in brackets, or behind "/" or "_". None if the line does not name the columns x, y and z.
+/// @throw FileError without a file name for columns in another order, and for units that some of them lack
+std::optional<PointHeading> pointHeading(const std::string& text) {
+  std::string axes;
+  const std::vector<PointColumn> columns = pointColumns(text);
+  for (const PointColumn& column : columns) axes += column.axis;
+  const auto is_axis = [&axes](char axis) { return axes.find(axis) < 3; };
+  if (!is_axis('x') || !is_axis('y') || !is_axis('z')) return std::nullopt;
+  if (axes.compare(0, 3, "xyz") != 0) throw FileError("the columns of a list must be x, y and z, in this order");
+  const std::string& unit_z = columns[2].unit;
+  if (columns[0].unit.empty() && columns[1].unit.empty() && unit_z.empty()) return PointHeading();
+  const auto unit = lengthUnit(columns[0].unit);
+  if (!unit || lengthUnit(columns[1].unit) != unit || unit_z.empty()) {
+    throw FileError("x and y must have one unit of length, and z its own: write x [nm], y [nm], z [nm]");
+  }
+  return PointHeading{*unit, unit_z};
+}
+
 /// @return false if the text does not name the columns of a list. A comment does so if it states their units
 bool readPointHeading(const std::string& text, bool is_comment, TextHeader& header) {
   const auto stated = pointHeading(text);
   if (!stated || (is_comment && stated->unit_xy == 0.0)) return false;
   if (stated->unit_xy == 0.0) return true;
   state(header.unit_of_points, stated->unit_xy, "unit of x and y");
-  stateText(header.unit_z, trimmed(stated->unit_z), "unit of the heights");
+  stateText(header.unit_z, bare(stated->unit_z), "unit of the heights");
   return true;
 }
 

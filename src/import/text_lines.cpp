@@ -5,8 +5,8 @@
 #include <cstdint>
 
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/base/words.hpp"
 #include "mems_stiction/import/length_unit.hpp"
-#include "mems_stiction/import/number_marks.hpp"
 #include "mems_stiction/import/plain_number.hpp"
 
 namespace mems_stiction {
@@ -87,8 +87,7 @@ bool isHeading(const std::string& text) {
   if (first >= 0x80 || first == '[' || first == '(') return true;
   if (std::isalpha(first) == 0) return false;
   if (isMissingWord(wordFrom(text, at, " \t,;")) || isMissingWord(wordFrom(text, at, "\t,;"))) return false;
-  std::string start = text.substr(at, 3);
-  for (char& c : start) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string start = lowered(text.substr(at, 3));
   return start != "nan" && start != "inf";
 }
 

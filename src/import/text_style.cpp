@@ -4,7 +4,7 @@
 #include <cctype>
 
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/import/number_marks.hpp"
+#include "mems_stiction/import/plain_number.hpp"
 
 namespace mems_stiction {
 namespace {

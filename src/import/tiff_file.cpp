@@ -1,4 +1,4 @@
-#include "mems_stiction/import/tiff_file.hpp"
+#include "mems_stiction/import/format_readers.hpp"
 
 #include <tiffio.h>
 
@@ -9,9 +9,8 @@
 #include <memory>
 
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/import/byte_cursor.hpp"
 #include "mems_stiction/import/file_bytes.hpp"
-#include "mems_stiction/import/half_float.hpp"
-#include "mems_stiction/import/tiff_notes.hpp"
 #include "mems_stiction/import/tiff_tags.hpp"
 
 namespace mems_stiction {
@@ -233,18 +232,9 @@ cv::Mat upright(const cv::Mat& pixels, int orientation) {
   if (orientation <= ORIENTATION_TOPLEFT) return pixels;
   if (orientation > ORIENTATION_BOTLEFT)
     throw FileError("its orientation tag turns rows into columns: turn it upright");
-  const bool is_mirrored = orientation == ORIENTATION_TOPRIGHT || orientation == ORIENTATION_BOTRIGHT;
-  const bool is_upside_down = orientation == ORIENTATION_BOTRIGHT || orientation == ORIENTATION_BOTLEFT;
-  cv::Mat turned = pixels.clone();
-  const std::size_t pixel = pixels.elemSize();
-  for (int row = 0; row < pixels.rows; ++row) {
-    const unsigned char* from = pixels.ptr(is_upside_down ? pixels.rows - 1 - row : row);
-    for (int col = 0; col < pixels.cols; ++col) {
-      const int source = is_mirrored ? pixels.cols - 1 - col : col;
-      std::memcpy(turned.ptr(row) + static_cast<std::size_t>(col) * pixel,
-                  from + static_cast<std::size_t>(source) * pixel, pixel);
-    }
-  }
+  const int axes = orientation == ORIENTATION_TOPRIGHT ? 1 : orientation == ORIENTATION_BOTLEFT ? 0 : -1;  // -1: both
+  cv::Mat turned;
+  cv::flip(pixels, turned, axes);
   return turned;
 }
 

@@ -15,7 +15,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "mems_stiction/base/private_folder.hpp"
+#include "mems_stiction/base/interruption.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,4 +1,4 @@
-#include "mems_stiction/import/wsxm_file.hpp"
+#include "mems_stiction/import/format_readers.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,21 +7,18 @@
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/base/words.hpp"
 #include "mems_stiction/import/byte_cursor.hpp"
 #include "mems_stiction/import/file_bytes.hpp"
+#include "mems_stiction/import/file_checks.hpp"
 #include "mems_stiction/import/length_unit.hpp"
 #include "mems_stiction/import/plain_number.hpp"
-#include "mems_stiction/import/stated_length.hpp"
 
 namespace mems_stiction {
 namespace {
 
 constexpr const char* kEnd = "[Header end]";
-
-std::string trimmed(const std::string& text) {
-  const std::size_t begin = text.find_first_not_of(" \t\r");
-  return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
-}
+constexpr const char* kBlanks = " \t\r";
 
 /// "Section/Key" to value.
 std::map<std::string, std::string> readHeader(const std::string& bytes, std::size_t end) {
@@ -29,11 +26,12 @@ std::map<std::string, std::string> readHeader(const std::string& bytes, std::siz
   std::string section;
   for (std::size_t at = 0; at < end;) {
     const std::size_t stop = std::min(bytes.find('\n', at), end);
-    const std::string line = trimmed(toUtf8(bytes.substr(at, stop - at)));
+    const std::string line = trimmed(toUtf8(bytes.substr(at, stop - at)), kBlanks);
     at = stop + 1;
     if (!line.empty() && line[0] == '[') section = line.substr(1, line.find(']') - 1);
     const std::size_t colon = line.find(": ");
-    if (colon != std::string::npos) header[section + "/" + line.substr(0, colon)] = trimmed(line.substr(colon + 1));
+    if (colon != std::string::npos)
+      header[section + "/" + line.substr(0, colon)] = trimmed(line.substr(colon + 1), kBlanks);
   }
   return header;
 }

@@ -14,7 +14,6 @@
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/one_line.hpp"
 #include "mems_stiction/base/option_yaml.hpp"
-#include "mems_stiction/base/yaml_trouble.hpp"
 #include "mems_stiction/ros/master_calls.hpp"
 #include "mems_stiction/ros/topic_names.hpp"
 #include "mems_stiction/scan/provenance.hpp"

@@ -9,7 +9,6 @@
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/input_file.hpp"
 #include "mems_stiction/base/option_yaml.hpp"
-#include "mems_stiction/base/yaml_trouble.hpp"
 
 namespace mems_stiction {
 

@@ -9,7 +9,7 @@
 #include "batch_rows.hpp"
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/output_file.hpp"
-#include "mems_stiction/import/reader_version.hpp"
+#include "mems_stiction/import/import_cache.hpp"
 #include "mems_stiction/scan/configuration_yaml.hpp"
 #include "mems_stiction/scan/provenance.hpp"
 

@@ -11,7 +11,7 @@
 #include <rosbag/view.h>
 
 #include "bag_scans.hpp"
-#include "mems_stiction/base/private_folder.hpp"
+#include "mems_stiction/base/interruption.hpp"
 #include "mems_stiction/height_map/raw_scan.hpp"
 #include "mems_stiction/ros/image_conversion.hpp"
 

@@ -5,6 +5,7 @@
 
 #include <sys/types.h>
 
+#include <filesystem>
 #include <functional>
 #include <string>
 
@@ -28,6 +29,22 @@ class ScratchPath {
 
  private:
   std::string path_;
+};
+
+/// A folder for files that nobody else may see, and that must not stay: a new one below the system's temporary one. It goes
+/// with the object, and with an interruption.
+class PrivateFolder {
+ public:
+  /// @throw FileError if it cannot be made
+  PrivateFolder();
+  ~PrivateFolder();
+  PrivateFolder(const PrivateFolder&) = delete;
+  PrivateFolder& operator=(const PrivateFolder&) = delete;
+
+  std::filesystem::path path() const { return scratch_.path(); }
+
+ private:
+  ScratchPath scratch_;
 };
 
 /// A child process that is ended with its group when the process is interrupted, as long as the object lives.

@@ -45,4 +45,11 @@ std::string toYaml(const DescribeFunction& describe);
 /// A number as YAML 1.1 and 1.2 both take for a number: "2.0e-09", ".nan", "-.inf".
 std::string yamlNumber(double value);
 
+/// What is wrong with a text that is no YAML, in words.
+/// - @p text that was read
+/// - @p error what the parser said
+/// @return "not valid YAML: ..." with the line that begins with a tab, which YAML does not allow and nobody sees; or that
+///         it is no text
+std::string yamlTrouble(const std::string& text, const std::string& error);
+
 }  // namespace mems_stiction

@@ -12,14 +12,17 @@
 
 namespace mems_stiction {
 
+/// Largest number that is a height [m]. Programs and drivers write 1e38, FLT_MAX, DBL_MAX and the like for "no height".
+constexpr double kLargestHeight = 1e20;
+
+/// rows x cols CV_8UC1: 255 where a finite number lies beyond kLargestHeight, 0 elsewhere.
+cv::Mat sentinelMask(const cv::Mat& heights);
+
+/// The surface with those pixels invalid; the same, its pixels shared, if there are none.
+HeightMap withoutSentinels(const HeightMap& surface);
+
 /// Pixels of a line that must be of one value before it counts as not measured.
 constexpr int kFewestStoppedPixels = 8;
-
-/// rows x cols CV_8UC1: 255 in rows and columns that the instrument did not reach: all their measured pixels, at
-/// least kFewestStoppedPixels, are of one value, which the nearest rough lines hold in less than a quarter of their pixels. The filled
-/// end of a line that the instrument stopped in goes with them.
-/// Empty if there are none.
-cv::Mat stoppedLines(const cv::Mat& heights);
 
 /// Rows and columns without a measured pixel.
 struct MissingLines {
@@ -29,7 +32,7 @@ struct MissingLines {
 
 MissingLines missingLines(const HeightMap& surface);
 
-/// The surface with pixels invalid that were not measured, those of withoutSentinels() and of stoppedLines(); the same, its
+/// The surface with pixels invalid that were not measured, those of withoutSentinels() and of stopped lines; the same, its
 /// pixels shared, if there are none. Every scan goes through here, from whatever file, message or array.
 HeightMap measuredPart(const HeightMap& surface);
 

@@ -4,13 +4,27 @@
 /// Numbers and texts out of the bytes of a file; every read checks what is left first.
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <iterator>
+#include <limits>
 #include <string>
 
 #include "mems_stiction/base/errors.hpp"
 
 namespace mems_stiction {
+
+/// A number of 16 bits by IEEE 754.
+inline double halfToFloat(std::uint16_t bits) {
+  const int exponent = bits >> 10 & 31;
+  const int fraction = bits & 1023;
+  double value = exponent == 0 ? std::ldexp(fraction, -24) : std::ldexp(fraction + 1024, exponent - 25);
+  if (exponent == 31) {
+    value = fraction == 0 ? std::numeric_limits<double>::infinity() : std::numeric_limits<double>::quiet_NaN();
+  }
+  return bits >> 15 != 0 ? -value : value;
+}
 
 enum class ByteOrder { kLittle, kBig };
 
@@ -62,23 +76,10 @@ class ByteCursor {
   Number number() {
     unsigned char bytes[sizeof(Number)];
     std::memcpy(bytes, take(sizeof(Number)), sizeof(Number));
-    std::uint64_t bits = 0;
-    for (std::size_t i = 0; i < sizeof(Number); ++i) {
-      bits = bits << 8 | bytes[order_ == ByteOrder::kBig ? i : sizeof(Number) - 1 - i];
-    }
+    constexpr ByteOrder kMachine = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__ ? ByteOrder::kBig : ByteOrder::kLittle;
+    if (order_ != kMachine) std::reverse(std::begin(bytes), std::end(bytes));
     Number value;
-    if constexpr (sizeof(Number) == 8) {
-      std::memcpy(&value, &bits, sizeof value);
-    } else if constexpr (sizeof(Number) == 4) {
-      const auto narrow = static_cast<std::uint32_t>(bits);
-      std::memcpy(&value, &narrow, sizeof value);
-    } else if constexpr (sizeof(Number) == 2) {
-      const auto narrow = static_cast<std::uint16_t>(bits);
-      std::memcpy(&value, &narrow, sizeof value);
-    } else {
-      const auto narrow = static_cast<std::uint8_t>(bits);
-      std::memcpy(&value, &narrow, sizeof value);
-    }
+    std::memcpy(&value, bytes, sizeof value);
     return value;
   }
 

@@ -16,9 +16,6 @@ constexpr std::uint64_t kMaxPixels = 100'000'000;
 /// The whole file. @throw FileError naming it: missing, a folder, a pipe or device, empty, too large, unreadable.
 std::string readFileBytes(const std::string& path);
 
-/// At most the first `count` bytes. @throw FileError as readFileBytes()
-std::string readFileStart(const std::string& path, std::size_t count);
-
 /// @throw FileError without a file name if there are no such pixels or too many of them.
 void checkPixelCount(std::uint64_t cols, std::uint64_t rows);
 

@@ -11,6 +11,10 @@ namespace mems_stiction {
 /// Where conversions are cached: $XDG_CACHE_HOME/mems_stiction or ~/.cache/mems_stiction; none without a home.
 std::optional<std::string> importCacheFolder();
 
+/// Digits that change with every change in the code of this room: what older readers made of a file must not pass for what
+/// these make of it.
+std::string readerVersion();
+
 /// Name of what belongs to these bytes, this ending of the file's name, this program as it is installed now, and the
 /// readers of this version.
 std::string importCacheKey(const std::string& bytes, const std::string& name_end, const std::string& program,

@@ -1,16 +1,14 @@
 #pragma once
 
 /// @file
-/// Do the statements of a NanoScope header agree with each other and with the file?
+/// Do the statements of a NanoScope header agree with each other and with the file? NanoScope is the format of Digital
+/// Instruments, Veeco and Bruker.
 
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace mems_stiction {
-
-/// Binary files of Digital Instruments, Veeco and Bruker.
-bool isNanoscope(const std::string& bytes);
 
 /// Nothing for other files.
 /// @throw FileError without a file name if an image is not as long as its samples and lines, two overlap, the last does not

@@ -10,8 +10,8 @@
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/output_file.hpp"
+#include "mems_stiction/import/file_checks.hpp"
 #include "mems_stiction/import/scan_file.hpp"
-#include "mems_stiction/import/zip_check.hpp"
 #include "support/binary_writer.hpp"
 #include "support/scratch_folder.hpp"
 

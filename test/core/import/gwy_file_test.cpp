@@ -1,4 +1,3 @@
-#include "mems_stiction/import/gwy_file.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,6 +8,7 @@
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/import/channel_choice.hpp"
+#include "mems_stiction/import/format_readers.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 #include "support/gwy_bytes.hpp"
 #include "support/scratch_folder.hpp"

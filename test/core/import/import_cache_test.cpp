@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <fstream>
 
-#include "mems_stiction/import/reader_version.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 #include "support/gwy_bytes.hpp"
 #include "support/scratch_folder.hpp"

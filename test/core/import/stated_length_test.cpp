@@ -1,14 +1,12 @@
 /// Files whose bytes are not what their own headers state: each is refused, with the two figures.
 
-#include "mems_stiction/import/stated_length.hpp"
-
 #include <gtest/gtest.h>
 
 #include <map>
 
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/import/file_checks.hpp"
 #include "mems_stiction/import/nanoscope_check.hpp"
-#include "mems_stiction/import/transfer_check.hpp"
 #include "support/maker_bytes.hpp"
 
 namespace mems_stiction {

@@ -1,4 +1,3 @@
-#include "mems_stiction/import/tiff_file.hpp"
 
 #include <gtest/gtest.h>
 #include <tiffio.h>
@@ -8,6 +7,7 @@
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/import/channel_choice.hpp"
+#include "mems_stiction/import/format_readers.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 #include "support/scratch_folder.hpp"
 

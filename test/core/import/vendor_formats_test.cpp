@@ -7,11 +7,8 @@
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/import/channel_choice.hpp"
-#include "mems_stiction/import/netcdf_file.hpp"
-#include "mems_stiction/import/npy_file.hpp"
+#include "mems_stiction/import/format_readers.hpp"
 #include "mems_stiction/import/scan_file.hpp"
-#include "mems_stiction/import/sur_file.hpp"
-#include "mems_stiction/import/wsxm_file.hpp"
 #include "support/scan_bytes.hpp"
 #include "support/scratch_folder.hpp"
 

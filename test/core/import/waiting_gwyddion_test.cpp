@@ -1,6 +1,7 @@
 /// One gwyddion for many files: each is read as if by a process of its own, whatever the others were.
 
 #include "mems_stiction/import/waiting_gwyddion.hpp"
+#include "mems_stiction/import/format_readers.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -11,7 +12,6 @@
 #include <vector>
 
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/import/gwy_file.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 #include "support/gwy_bytes.hpp"
 #include "support/scan_bytes.hpp"

@@ -1,6 +1,7 @@
-#include "mems_stiction/base/nearest_word.hpp"
+#include "mems_stiction/base/words.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cstddef>
 #include <numeric>
 
@@ -27,9 +28,19 @@ std::size_t editDistance(const std::string& left, const std::string& right, std:
   return row.back();
 }
 
-std::string lastPart(const std::string& key) { return key.substr(key.rfind('/') + 1); }
-
 }  // namespace
+
+std::string lowered(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+std::string trimmed(const std::string& text, const std::string& around) {
+  const std::size_t begin = text.find_first_not_of(around);
+  return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(around) - begin + 1);
+}
+
+std::string lastPart(const std::string& key) { return key.substr(key.rfind('/') + 1); }
 
 std::string suggestion(const std::string& unknown, const std::vector<std::string>& known) {
   const std::size_t farthest = std::max<std::size_t>(2, unknown.size() / 4);

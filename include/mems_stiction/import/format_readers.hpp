@@ -1,0 +1,88 @@
+#pragma once
+
+/// @file
+/// The readers of scan files, one for each format. Each takes the bytes of a whole file; scan_formats.hpp says which.
+/// What they throw names the cause, not the file: its name is the caller's.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mems_stiction/import/file_channel.hpp"
+
+namespace mems_stiction {
+
+/// TIFF files of heights, by libtiff: each full-size page is a channel. OpenCV knows neither pages nor tags, and scales
+/// pixels of fewer than 8 or 16 bits. Pages that are thumbnails or overviews by their tag, or masks, are left out.
+/// Integers of 1 to 32 bits are counts as they stand; float16, float32, float64. GDAL's missing value becomes NaN. The
+/// scale of ImageJ, OME, or else the resolution, is the pitch.
+/// @return channels that take settings; a page of several values per pixel (a picture) has a matrix of as many channels.
+/// @throw FileError damaged, of a kind that is no scan, too many pixels.
+std::vector<FileChannel> parseTiff(const std::string& bytes);
+
+/// PNG images, by libpng: OpenCV scales counts of few bits, and loads a hundred libraries before main() begins. Integers
+/// are counts as they stand, also of fewer than 8 bits.
+/// @return a channel that takes settings; several values per pixel (a picture) give a matrix of as many channels.
+/// @throw FileError damaged, too many pixels.
+FileChannel parsePng(const std::string& bytes);
+
+/// OpenEXR images, by OpenEXR: OpenCV reads other channels than those there are. The file's single channel, whatever its
+/// name.
+/// @throw FileError several channels, damaged, too many pixels.
+FileChannel parseExr(const std::string& bytes);
+
+/// NumPy's .npy files (https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html): two dimensions, rows
+/// first; integers, float16, float32 and float64 of either byte order, in C or Fortran order.
+/// @return a channel that takes settings
+/// @throw FileError another shape or type, cut off, too many numbers.
+FileChannel parseNpy(const std::string& bytes);
+
+/// Channels of a Gwyddion .gwy file, by ascending id; none if it has no image. Values are CV_64FC1. Pixels under a mask
+/// (mask > 0.5) are NaN, and a note of the channel counts them.
+///
+/// The container is a tree of named, type-tagged, little-endian components (https://gwyddion.net/documentation/
+/// user-guide-en/gwyfile-format.html). Channel N is "/N/data" (a GwyDataField) with "/N/data/title" and, where data is
+/// missing, "/N/mask". Every length is checked against what is left of the file before it is used.
+/// - @p ignore_mask pixels under masks keep their values
+/// @throw FileError the bytes are not a .gwy container.
+std::vector<FileChannel> parseGwy(const std::string& bytes, bool ignore_mask = false);
+
+/// Digital Surf's .sur surfaces: read here, since Gwyddion makes heights of points that were not measured. Uncompressed
+/// and compressed. A surface with colour or intensity images behind it gives the surface; several layers give as many
+/// channels. Points of the value "smallest - 2" are missing where the header says that there are any.
+/// @throw FileError a profile or another object, cut off, a unit that is no length in x or y.
+std::vector<FileChannel> parseSur(const std::string& bytes);
+
+/// True for a WSxM image of heights or another signal; false for WSxM's curves, movies and text exports.
+bool isWsxmImage(const std::string& start);
+
+/// WSxM images (.stp, .top, .tom): read here, since Gwyddion reads past the end of files that are cut off and takes a
+/// Latin-1 micro sign for nothing. Integers span the stated z amplitude; floating-point numbers are in its unit. The
+/// image stands upside down and mirrored in the file.
+/// @throw FileError cut off, without size or unit.
+FileChannel parseWsxm(const std::string& bytes);
+
+/// SurfaceTopography's classic NetCDF files: the variable "heights(x, y)" with its unit, size and mask; none if the file
+/// has no such variable.
+/// @throw FileError damaged, cut off.
+std::optional<FileChannel> parseNetcdfHeights(const std::string& bytes);
+
+/// What a GXSM file (NetCDF too) states where Gwyddion does not look.
+struct GxsmStatements {
+  std::string other_unit;  ///< of the values where that is no length: "nA", "Hz"; empty if it is one, or not stated
+  double pitch_x = 0.0;    ///< [m]; GXSM's range reaches from the first pixel to the last; 0 = not stated
+  double pitch_y = 0.0;    ///< [m]
+};
+
+/// @throw FileError damaged, a pitch that is not the range over the steps
+GxsmStatements gxsmStatements(const std::string& bytes);
+
+/// Instrument makers' files, read by the program gwyddion as a child process: a damaged file that crashes the reader
+/// ends that process and nothing else. gwyddion is optional; the project neither links nor ships it.
+/// - @p bytes the file's content, by which a conversion is cached and found again if ImportOptions say so
+/// @return every image channel of the file, whatever its unit.
+/// @throw FileError in one line with the file and the cause: not installed, crashed, failed, timed out, unreadable.
+std::vector<FileChannel> channelsByGwyddion(const std::string& path, const std::string& bytes,
+                                            const ImportOptions& options);
+
+}  // namespace mems_stiction
