@@ -15,7 +15,7 @@
 #include "mems_stiction/height_map/unmeasured.hpp"
 #include "mems_stiction/import/channel_choice.hpp"
 #include "mems_stiction/import/file_bytes.hpp"
-#include "mems_stiction/import/scan_formats.hpp"
+#include "mems_stiction/import/format_readers.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,6 +1,6 @@
-#include "mems_stiction/import/scan_formats.hpp"
 
 #include <algorithm>
+
 #include <cctype>
 #include <filesystem>
 
@@ -12,7 +12,6 @@
 #include "mems_stiction/import/format_readers.hpp"
 #include "mems_stiction/import/nanoscope_check.hpp"
 #include "mems_stiction/import/plain_number.hpp"
-#include "mems_stiction/import/text_grid.hpp"
 #include "mems_stiction/import/tiff_tags.hpp"
 
 namespace mems_stiction {

@@ -1,4 +1,4 @@
-#include "mems_stiction/import/text_grid.hpp"
+#include "mems_stiction/import/format_readers.hpp"
 
 #include <algorithm>
 #include <cmath>

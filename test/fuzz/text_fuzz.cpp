@@ -3,7 +3,7 @@
 #include "fuzz/fuzzing.hpp"
 #include "mems_stiction/height_map/raw_scan.hpp"
 #include "mems_stiction/height_map/scan_sanity.hpp"
-#include "mems_stiction/import/text_grid.hpp"
+#include "mems_stiction/import/format_readers.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace mems_stiction;

@@ -1,8 +1,8 @@
 #pragma once
 
 /// @file
-/// The readers of scan files, one for each format. Each takes the bytes of a whole file; scan_formats.hpp says which.
-/// What they throw names the cause, not the file: its name is the caller's.
+/// The readers of scan files, one for each format, and which one a file needs. Each takes the bytes of a whole file. What
+/// they throw names the cause, not the file: its name is the caller's.
 
 #include <optional>
 #include <string>
@@ -11,6 +11,11 @@
 #include "mems_stiction/import/file_channel.hpp"
 
 namespace mems_stiction {
+
+/// All channels of a file, by the reader of its format: told by its first bytes where the format has a signature, else by
+/// its name.
+/// @throw FileError with or without the file's name
+std::vector<FileChannel> readChannels(const std::string& path, const ImportOptions& options);
 
 /// TIFF files of heights, by libtiff: each full-size page is a channel. OpenCV knows neither pages nor tags, and scales
 /// pixels of fewer than 8 or 16 bits. Pages that are thumbnails or overviews by their tag, or masks, are left out.
@@ -76,6 +81,19 @@ struct GxsmStatements {
 
 /// @throw FileError damaged, a pitch that is not the range over the steps
 GxsmStatements gxsmStatements(const std::string& bytes);
+
+/// Heights as text: one row of the scan per line, row 0 first, or a list of x, y and z.
+///
+/// Numbers are separated by commas, semicolons, tabs or spaces, with a decimal point or, where other characters separate,
+/// a decimal comma. "nan", infinities, words for none ("N/A", "BAD") and an empty cell between two commas or semicolons
+/// are missing. '#' and '%' begin a comment. What a heading states (sizes, "Value units", missing value) is read. Three
+/// columns of many lines are a list of x, y and z on a regular grid.
+/// - @p options what the file does not say of itself
+/// @return one channel that takes settings; values in metres where the unit is stated, else in the unit of the file.
+/// @throw FileError with line and column where there are such, for text that is no such grid or can
+/// be read in two ways: a second grid, a row or column of indices, columns beside x, y and z, marks that may be decimal or
+/// group thousands, sizes and units that are stated twice, numbers that were cut off.
+FileChannel parseTextGrid(const std::string& bytes, const TextOptions& options = {});
 
 /// Instrument makers' files, read by the program gwyddion as a child process: a damaged file that crashes the reader
 /// ends that process and nothing else. gwyddion is optional; the project neither links nor ships it.

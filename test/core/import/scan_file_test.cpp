@@ -12,8 +12,8 @@
 
 #include "mems_stiction/base/child_process.hpp"
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/import/format_readers.hpp"
 #include "mems_stiction/import/scan_writer.hpp"
-#include "mems_stiction/import/text_grid.hpp"
 #include "mems_stiction/import/tiff_tags.hpp"
 #include "support/binary_writer.hpp"
 #include "support/scratch_folder.hpp"

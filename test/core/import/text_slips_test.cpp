@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/import/format_readers.hpp"
 #include "mems_stiction/import/scan_file.hpp"
-#include "mems_stiction/import/text_grid.hpp"
 #include "support/scratch_folder.hpp"
 
 namespace mems_stiction {
