@@ -35,15 +35,13 @@ MEMS_STICTION_VECTORIZED void CellForces::addCells(const OrderedCell* cells, std
                                                    NormalLoad& load) const {
   Lanes inverse_cubes = 0.0;
   Lanes inverse_squares = 0.0;
-  const std::size_t in_lanes = count / Lanes::kCount * Lanes::kCount;
-  for (std::size_t i = 0; i < in_lanes; i += Lanes::kCount) {
-    const Lanes gap = Lanes(cells[i].gap, cells[i + 1].gap, cells[i + 2].gap, cells[i + 3].gap) - approach;
+  const std::size_t in_fours = visitFours(cells, count, approach, [&](const Lanes& gap) {
     inverse_cubes += 1.0 / cubedDistance(gap, cutoff_);
     inverse_squares += 1.0 / field_.squaredDistance(gap);
-  }
+  });
   load.van_der_waals += van_der_waals_factor_ * inverse_cubes.sum();
   if (hasElectrostatic()) load.electrostatic += electrostatic_factor_ * inverse_squares.sum();
-  for (std::size_t i = in_lanes; i < count; ++i) {
+  for (std::size_t i = in_fours; i < count; ++i) {
     load.van_der_waals += vanDerWaals(cells[i].gap - approach);
     load.electrostatic += electrostatic(cells[i].gap - approach);
   }

@@ -15,8 +15,6 @@ namespace {
 /// Maugis' parameter over Tabor's, for this law: with Maugis' own 1.157 the pull-off force of a sphere lies up to 5 %
 /// below that of the 9-3 law, with 0.56 it is that of the law, and in between within 3 % of it and 5 % of his.
 constexpr double kMaugisPerTabor = 0.75;
-/// What a summit loses by bending even where its neighbours hold on [-], and what it loses more when it stands alone.
-constexpr double kLossInCompany = 0.6;
 /// What is added to the depth that tells a summit's radius, of z0: a patch that has just come into reach has hardly any.
 constexpr double kLeastDepth = 0.05;
 /// Least depth of a patch that opens the gap around it, of z0.
@@ -119,7 +117,8 @@ MEMS_STICTION_VECTORIZED void PatchForces::loadsOf(const OverlapSweep& contacts,
   }
 }
 
-MEMS_STICTION_VECTORIZED PatchSums PatchForces::sums(const OverlapSweep& contacts, double approach) const {
+MEMS_STICTION_VECTORIZED void PatchForces::addContacts(const OverlapSweep& contacts, double approach,
+                                                       PlaceSums& sums) const {
   Lanes carried = 0.0;
   Lanes opened = 0.0;
   PatchBlock block;
@@ -142,19 +141,21 @@ MEMS_STICTION_VECTORIZED PatchSums PatchForces::sums(const OverlapSweep& contact
       opened += weight * growth * work / delta * 0.5 * (growth - 1.0) * load / (1.0 + load);
     }
   }
-  return {carried.sum(), opened.sum()};
+  sums.carried += carried.sum();
+  sums.opened += opened.sum();
 }
 
 double PatchForces::pullOffPrefactor(double radius) const {
   return maugis::fittedPullOffPrefactorOfPower(power(Lanes(maugis_factor_ * radius), kPowerOfCube)[0]);
 }
 
-MEMS_STICTION_VECTORIZED Bending PatchForces::bending(const OverlapSweep& in_reach, double approach) const {
+MEMS_STICTION_VECTORIZED void PatchForces::addReach(const OverlapSweep& in_reach, double approach,
+                                                    PlaceSums& sums) const {
   const double reach = in_reach.approach();
   Lanes weights = 0.0;
-  Lanes tabor_parameters = 0.0;
-  Lanes losses = 0.0;        // of summits in company
-  Lanes losses_alone = 0.0;  // what the same lose more when they stand alone, times their weight
+  Lanes soft = 0.0;
+  Lanes losses = 0.0;
+  Lanes losses_alone = 0.0;
   PatchBlock block;
   for (std::size_t place = 0; place < in_reach.livePatches().size(); place += PatchBlock::kMost) {
     block.gather(in_reach, place);
@@ -170,15 +171,15 @@ MEMS_STICTION_VECTORIZED Bending PatchForces::bending(const OverlapSweep& in_rea
       const Lanes loss = 1.0 - 0.5 * maugis::fittedPullOffPrefactorOfPower(bend);
       const Lanes lost = weight * loss / squareRoot(summits);
       weights += weight;
-      tabor_parameters += weight * power(cube, 1.0 / 3.0) / kMaugisPerTabor;
+      soft += weight * power(cube, 1.0 / 3.0) / kMaugisPerTabor;
       losses += lost;
       losses_alone += lost * weight;
     }
   }
-  const double weight = weights.sum();
-  if (!(weight > 0.0)) return {};
-  const double loss = kLossInCompany * losses.sum() + (1.0 - kLossInCompany) * losses_alone.sum() / weight;
-  return {1.0 - loss / weight, tabor_parameters.sum() / weight};
+  sums.weight += weights.sum();
+  sums.soft += soft.sum();
+  sums.loss += losses.sum();
+  sums.loss_alone += losses_alone.sum();
 }
 
 }  // namespace mems_stiction

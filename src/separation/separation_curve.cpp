@@ -4,21 +4,42 @@
 #include <cmath>
 #include <iterator>
 
+#include "chosen_constants.hpp"
+
 namespace mems_stiction {
 namespace {
 
-/// Approaches before first touch, of z0, where the curve begins; from the last one on it has steps of kStep z0.
-constexpr double kApart[] = {-12.0, -8.0, -6.0, -4.5, -3.5, -2.8, -2.2, -1.8, -1.5, -1.2, -1.0};
-constexpr double kStep = 0.1;
-/// Steps grow with the approach, so that few of them go deep.
-constexpr double kStepPerApproach = 0.05;
-/// Surfaces that carry this many times what can pull them together push each other apart from there on, though patches
-/// that gain a rim may carry a little less for a while: so many steps are left to rest.
-constexpr double kPushing = 2.0;
-constexpr int kPushingSteps = 8;
-/// Most places that are tried for it, and what the forces there may lack of what is carried.
-constexpr int kRestSearches = 24;
-constexpr double kRestAccuracy = 1e-3;
+/// b of summits with this Tabor parameter, (S8a) [m].
+double holdOf(double tabor_parameter, double range) {
+  if (!(tabor_parameter > chosen::kStiffTabor)) return 0.0;  // nor if it is not known
+  return range * std::min(chosen::kHoldPerTabor * (tabor_parameter - chosen::kStiffTabor), chosen::kLongestHold);
+}
+
+/// s, (S7) [-].
+double bendingFactor(const PlaceSums& sums) {
+  if (!(sums.weight > 0.0)) return 1.0;
+  const double loss =
+      chosen::kLossInCompany * sums.loss + (1.0 - chosen::kLossInCompany) * sums.loss_alone / sums.weight;
+  return 1.0 - loss / sums.weight;
+}
+
+/// (S11), but for the loads.
+SeparationState stateAt(FrameSums& frame, double approach, const Way& way, double expected_end = 0.0) {
+  PlaceSums sums = frame.reach(approach, way.longest_hold, expected_end);
+  SeparationState state;
+  state.approach = approach;
+  state.tabor_parameter = sums.taborParameter();
+  // what has not been nearer than at rest holds nothing
+  const double hold = std::min(holdOf(state.tabor_parameter, frame.law().range()), way.longest_hold);
+  state.hold = std::clamp(way.rest - approach, 0.0, hold);
+  frame.add(approach, state.hold, sums);
+  state.contact_count = sums.contact_count;
+  state.carried = sums.carried;
+  state.electrostatic = sums.electrostatic;
+  state.capillary = sums.capillary;
+  state.adhesion = bendingFactor(sums) * std::max(sums.adhesion - sums.opened, 0.5 * sums.adhesion);
+  return state;
+}
 
 /// The vertex of the parabola through three points of the curve, if it lies between them; else the middle one.
 void takeMaximum(const std::vector<SeparationState>& states, SeparationCurve& curve) {
@@ -73,7 +94,7 @@ Exponents exponentsOf(double figure, double adhesion, double hamaker_exponent, d
 }
 
 double nextApproach(double approach, double range) {
-  return approach + std::max(kStep * range, kStepPerApproach * approach);
+  return approach + std::max(chosen::kStep * range, chosen::kStepPerApproach * approach);
 }
 
 /// Where the force of the last two states comes down to -load if it goes on as it does: it falls ever more steeply. 0 while it
@@ -95,27 +116,23 @@ double crossing(const SeparationState& above, const SeparationState& below, doub
 }
 
 /// Puts the state of rest at the end: the crossing between the last two states.
-void settle(SeparationTrace& trace, double load, SeparationCurve& curve) {
+void settle(FrameSums& frame, double load, SeparationCurve& curve) {
   std::vector<SeparationState>& states = curve.states;
   SeparationState below = states.back();
   states.pop_back();
   SeparationState above = states.back();
-  trace.restart();
-  trace.at(above.approach);
-  trace.keep();
-  for (int search = 0; search < kRestSearches; ++search) {
-    if (search > 0) trace.backToKept();
+  stateAt(frame, above.approach, curve.way);
+  frame.mark();
+  SeparationState found;
+  for (int search = 0; search < chosen::kRestSearches; ++search) {
     // every third time the middle: where one side is a wall, the line hardly moves the other
     const double place = search % 3 == 2 ? 0.5 * (above.approach + below.approach) : crossing(above, below, load);
-    const SeparationState found = trace.at(place);
+    found = stateAt(frame, place, curve.way);
     const double excess = found.force() + load;
-    const bool is_rest = std::abs(excess) <= kRestAccuracy * std::max(found.carried, load);
+    if (std::abs(excess) <= chosen::kRestAccuracy * std::max(found.carried, load)) break;
     (excess >= 0.0 ? above : below) = found;
-    if (is_rest || search + 1 == kRestSearches) {
-      states.push_back(found);
-      break;
-    }
   }
+  states.push_back(found);
 }
 
 /// Largest rise after a fall, going from a state on [N].
@@ -146,56 +163,64 @@ double joiningRise(const SeparationCurve& curve) {
   return std::max(riseAfterFall(largest, end), outwards) / largest->partingForce();
 }
 
-void followCurve(SeparationTrace& trace, const ContactSettings& settings, SeparationCurve& curve) {
-  const double range = trace.law().range();
+void followCurve(FrameSums& frame, const ContactSettings& settings, SeparationCurve& curve) {
+  const double range = frame.law().range();
   const double load = settings.load.mechanical_load;
+  curve.way = {};
   curve.states.clear();
-  for (const double apart : kApart) curve.states.push_back(trace.at(apart * range));
-  const double work_apart = trace.energyAt(curve.states.front());
+  for (const double apart : chosen::kApart) curve.states.push_back(stateAt(frame, apart * range, curve.way));
+  const double work_apart = frame.energy(curve.states.front().approach);
   curve.status = Status::kNoEquilibrium;
   int steps = 0;
   while (steps++ < settings.approach.max_steps) {
     double approach = nextApproach(curve.states.back().approach, range);
-    if (approach >= trace.approachBeforeLimit()) approach = std::min(approach, trace.limitApproach());
-    curve.states.push_back(trace.at(approach, expectedRest(curve.states, load)));
+    if (approach >= frame.approachBeforeLimit()) approach = std::min(approach, frame.limitApproach());
+    curve.states.push_back(stateAt(frame, approach, curve.way, expectedRest(curve.states, load)));
     const SeparationState& state = curve.states.back();
     if (state.force() + load < 0.0) {
       curve.status = Status::kEquilibrium;
       break;
     }
-    if (state.contact_count >= trace.contactLimit()) {
-      curve.status = state.force() + load < 0.0 ? Status::kEquilibrium : Status::kBonded;
+    if (state.contact_count >= frame.contactLimit()) {
+      curve.status = Status::kBonded;
       break;
     }
   }
-  if (curve.status == Status::kEquilibrium) settle(trace, load, curve);
+  if (curve.status == Status::kEquilibrium) settle(frame, load, curve);
   takeMaximum(curve.states, curve);
   takeWork(work_apart, curve);
 }
 
-void followCurveUpTo(SeparationTrace& trace, double first_touch, double rest, SeparationCurve& curve) {
-  const double range = trace.law().range();
+Way wayOutOf(const SeparationCurve& way_in, double range) {
+  double softest = 0.0;
+  for (const SeparationState& state : way_in.states) softest = std::max(softest, state.tabor_parameter);
+  return {way_in.rest().approach, holdOf(softest, range)};
+}
+
+void followWayOut(FrameSums& frame, double first_touch, const Way& way, SeparationCurve& curve) {
+  const double range = frame.law().range();
+  curve.way = way;
   curve.states.clear();
-  for (const double apart : kApart) {
+  for (const double apart : chosen::kApart) {
     const double approach = first_touch + apart * range;
-    if (approach < rest) curve.states.push_back(trace.at(approach));
+    if (approach < way.rest) curve.states.push_back(stateAt(frame, approach, way));
   }
-  if (curve.states.empty()) curve.states.push_back(trace.at(rest));
-  const double work_apart = trace.energyAt(curve.states.front());
+  if (curve.states.empty()) curve.states.push_back(stateAt(frame, way.rest, way));
+  const double work_apart = frame.energy(curve.states.front().approach);
   double pushing_step = 0.0;
-  while (curve.states.back().approach < rest) {
+  while (curve.states.back().approach < way.rest) {
     const SeparationState& last = curve.states.back();
-    if (pushing_step == 0.0 && last.carried > kPushing * trace.strongestPull()) {
-      pushing_step = (rest - last.approach) / kPushingSteps;
+    if (pushing_step == 0.0 && last.carried > chosen::kPushing * frame.strongestPull()) {
+      pushing_step = (way.rest - last.approach) / chosen::kPushingSteps;
     }
     const double step_end = first_touch + nextApproach(last.approach - first_touch, range);
-    curve.states.push_back(trace.at(std::min(std::max(step_end, last.approach + pushing_step), rest)));
+    curve.states.push_back(stateAt(frame, std::min(std::max(step_end, last.approach + pushing_step), way.rest), way));
   }
   takeMaximum(curve.states, curve);
   takeWork(work_apart, curve);
 }
 
-CurveExponents exponentsOf(SeparationTrace& trace, const SeparationCurve& curve) {
+CurveExponents exponentsOf(FrameSums& frame, const SeparationCurve& curve) {
   // force and work are stationary in the displacements where they are taken: their parts there tell how they change
   const SeparationState& strongest = curve.states[curve.strongest];
   double adhesion = curve.work_apart;
@@ -210,9 +235,9 @@ CurveExponents exponentsOf(SeparationTrace& trace, const SeparationCurve& curve)
     carried += 0.5 * (from.carried + to.carried) * length;
     last = &to;
   }
-  return {
-      exponentsOf(curve.pull_off_force, strongest.adhesion, trace.hamakerExponentOfForce(strongest), strongest.carried),
-      exponentsOf(curve.work, adhesion, trace.hamakerExponentOfEnergy(*last), carried)};
+  return {exponentsOf(curve.pull_off_force, strongest.adhesion,
+                      frame.hamakerExponentOfForce(strongest.approach, strongest.hold), strongest.carried),
+          exponentsOf(curve.work, adhesion, frame.hamakerExponentOfEnergy(last->approach), carried)};
 }
 
 }  // namespace mems_stiction

@@ -75,8 +75,8 @@ double stiffnessAtRest(const std::vector<SeparationState>& states, double range)
   return ContactSolution::kUnknown;
 }
 
-void takeExponents(SeparationTrace& trace, const SeparationCurve& curve, ContactSolution& solution) {
-  const CurveExponents exponents = exponentsOf(trace, curve);
+void takeExponents(FrameSums& frame, const SeparationCurve& curve, ContactSolution& solution) {
+  const CurveExponents exponents = exponentsOf(frame, curve);
   solution.pull_off_exponents = exponents.pull_off;
   solution.work_exponents = exponents.work;
 }
@@ -91,8 +91,8 @@ void dropWayOut(std::vector<SeparationCurvePoint>& points) {
 
 void SeparationSolver::solve(const ContactProblem& problem, ContactSolution& solution) {
   solution.resetKeepingMemory();
-  trace_.start(problem.gap, problem.settings, true);
-  followCurve(trace_, problem.settings, curve_);
+  frame_.start(problem.gap, problem.settings);
+  followCurve(frame_, problem.settings, curve_);
   appendCurve(curve_, false, solution.curve);
   if (problem.settings.load.voltage != 0.0) appendCurve(curve_, true, solution.curve);
   solution.status = curve_.status;
@@ -103,7 +103,7 @@ void SeparationSolver::solve(const ContactProblem& problem, ContactSolution& sol
   listContacts(problem, solution);
   fillMaps(problem, solution);
   part(problem, solution);
-  solution.flattening_energy = flattening_.of(problem.gap, trace_.patchForces().contactModulus());
+  solution.flattening_energy = flattening_.of(problem.gap, frame_.patchForces().contactModulus());
   solution.joining_rise = joiningRise(curve_);
   solution.is_bonded_by_load = curve_.status == Status::kBonded && curve_.firstPushing() != curve_.states.end();
   partConforming(problem, solution);
@@ -123,11 +123,11 @@ void SeparationSolver::takeRest(const ContactProblem& problem, ContactSolution& 
   solution.load.mechanical = problem.settings.load.mechanical_load;
   solution.load.capillary = rest.capillary;
   solution.energies.elastic = curve_.elastic_energy;
-  solution.energies.surface = trace_.energyAt(rest);
-  solution.contact_stiffness = stiffnessAtRest(curve_.states, trace_.law().range());
+  solution.energies.surface = frame_.energy(rest.approach);
+  solution.contact_stiffness = stiffnessAtRest(curve_.states, frame_.law().range());
 
-  const OverlapSweep& sweep = trace_.contacts();
-  const PatchForces& forces = trace_.patchForces();
+  const OverlapSweep& sweep = frame_.contactsAt(rest.approach);
+  const PatchForces& forces = frame_.patchForces();
   contacts_.assign(sweep.patches().size(), {});
   forces.loadsOf(sweep, rest.approach, loads_);
   solution.contact_area = 0.0;
@@ -140,7 +140,7 @@ void SeparationSolver::takeRest(const ContactProblem& problem, ContactSolution& 
     contact.load = loads_[i];
     const double radius = patch.radius(rest.approach, field.cellArea());
     contact.area =
-        realArea(contact.load, area, 2.0 * kPi * trace_.law().workOfAdhesion() * radius / std::sqrt(patch.summits),
+        realArea(contact.load, area, 2.0 * kPi * frame_.law().workOfAdhesion() * radius / std::sqrt(patch.summits),
                  forces.pullOffPrefactor(radius / patch.summits), forces.hardness(), field.cellArea());
     contact.regime = regimeOf(contact.load, area, forces.hardness());
     solution.contact_area += contact.area;
@@ -156,9 +156,10 @@ void SeparationSolver::takeRest(const ContactProblem& problem, ContactSolution& 
 }
 
 void SeparationSolver::findBorder(const GapField& field) {
+  OverlapSweep& sweep = frame_.contactsAt(curve_.rest().approach);
   const auto mark = [&](int row, int col) {
-    const std::int32_t id = trace_.contacts().patchOf(field.cellAt(row, col).index);
-    if (id >= 0) contactOf(id).is_at_border = true;
+    const std::int32_t id = sweep.patchOf(field.cellAt(row, col).index);
+    if (id >= 0) contactOf(sweep, id).is_at_border = true;
   };
   for (int col = 0; col < field.cols(); ++col) {
     mark(0, col);
@@ -173,7 +174,7 @@ void SeparationSolver::findBorder(const GapField& field) {
 template <typename Taker>
 void SeparationSolver::visitOverlaps(const GapField& field, const Taker& take) {
   const double approach = curve_.rest().approach;
-  OverlapSweep& sweep = trace_.contacts();
+  OverlapSweep& sweep = frame_.contactsAt(approach);
   row_gaps_.resize(static_cast<std::size_t>(field.cols()));
   columns_.resize(static_cast<std::size_t>(field.cols()));
   for (int row = 0; row < field.rows(); ++row) {
@@ -182,7 +183,7 @@ void SeparationSolver::visitOverlaps(const GapField& field, const Taker& take) {
     for (int i = 0; i < count; ++i) {
       const std::int32_t col = columns_[static_cast<std::size_t>(i)];
       const std::int32_t id = sweep.patchOf(field.cellAt(row, col).index);
-      take(row, col, approach - row_gaps_[static_cast<std::size_t>(col)], sweep.patch(id), contactOf(id));
+      take(row, col, approach - row_gaps_[static_cast<std::size_t>(col)], sweep.patch(id), contactOf(sweep, id));
     }
   }
 }
@@ -195,7 +196,7 @@ void SeparationSolver::listContacts(const ContactProblem& problem, ContactSoluti
   const double sigma = problem.composite_rms_height;
   const double approach = curve_.rest().approach;
   double parameters = 0.0;
-  const OverlapSweep& sweep = trace_.contacts();
+  const OverlapSweep& sweep = frame_.contactsAt(approach);
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const OverlapPatch& patch = sweep.patches()[i];
     const Contact& contact = contacts_[i];
@@ -212,7 +213,7 @@ void SeparationSolver::listContacts(const ContactProblem& problem, ContactSoluti
     asperity.tilt = ContactSolution::kUnknown;
     asperity.plasticity_index = plasticityIndex(pair.contact_modulus, pair.hardness, sigma, asperity.composite_radius);
     asperity.tabor_parameter =
-        taborParameter(asperity.composite_radius, gamma, pair.contact_modulus, trace_.law().range());
+        taborParameter(asperity.composite_radius, gamma, pair.contact_modulus, frame_.law().range());
     asperity.area = contact.area;
     asperity.is_at_border = contact.is_at_border;
     asperity.regime = contact.regime;
@@ -252,41 +253,39 @@ void SeparationSolver::fillMaps(const ContactProblem& problem, ContactSolution& 
 }
 
 void SeparationSolver::part(const ContactProblem& problem, ContactSolution& solution) {
-  const double rest = curve_.rest().approach;
-  has_way_out_ = has_flowed_ || trace_.holdsOn();
+  const Way way = wayOutOf(curve_, frame_.law().range());
+  has_way_out_ = has_flowed_ || way.longest_hold > 0.0;
   regime_of_dale_.clear();
+  if (!has_way_out_) {
+    takeExponents(frame_, curve_, solution);
+    return;
+  }
+  double first_touch = 0.0;
   if (has_flowed_) {
-    double first_touch = rest;
-    changed_gaps_.resize(static_cast<std::size_t>(curve_.rest().contact_count));
-    for (std::size_t i = 0; i < changed_gaps_.size(); ++i) {
-      const OrderedCell& ordered = trace_.orderedCells()[i];
-      const Contact& contact = contactOf(trace_.contacts().patchOf(ordered));
-      changed_gaps_[i] = rest - contact.kept.of(rest - ordered.gap);
+    first_touch = way.rest;
+    const OverlapSweep& sweep = frame_.contactsAt(way.rest);
+    frame_.change(way.rest, [&](const OrderedCell& ordered) {
+      const Contact& contact = contactOf(sweep, sweep.patchOf(ordered));
       const auto dale = static_cast<std::size_t>(ordered.tag.dale());
       if (dale >= regime_of_dale_.size()) regime_of_dale_.resize(dale + 1, Regime::kElastic);
       regime_of_dale_[dale] = contact.regime;
-      first_touch = std::min(first_touch, changed_gaps_[i]);
-    }
-    trace_.changeGaps(rest, changed_gaps_);
-    followCurveUpTo(trace_, first_touch, rest, way_out_);
-  } else if (has_way_out_) {
-    trace_.startParting(rest);
-    followCurveUpTo(trace_, 0.0, rest, way_out_);
-  } else {
-    takeExponents(trace_, curve_, solution);
-    return;
+      const double gap = way.rest - contact.kept.of(way.rest - ordered.gap);
+      first_touch = std::min(first_touch, gap);
+      return gap;
+    });
   }
+  followWayOut(frame_, first_touch, way, way_out_);
   dropWayOut(solution.curve);
   appendCurve(way_out_, true, solution.curve);
   solution.pull_off_force = way_out_.pull_off_force;
-  takeExponents(trace_, way_out_, solution);
+  takeExponents(frame_, way_out_, solution);
   solution.apparent_work_of_adhesion = way_out_.work / (problem.gap.validCount() * problem.gap.cellArea());
 }
 
 void SeparationSolver::partConforming(const ContactProblem& problem, ContactSolution& solution) {
   const double flattening_ratio = solution.flattening_energy / problem.settings.interface.work_of_adhesion;
   if (!(flattening_ratio < kBondingShare)) return;
-  conforming_.start(problem.gap, trace_.law(), {trace_.patchForces().contactModulus(), solution.flattening_energy});
+  conforming_.start(problem.gap, frame_.law(), {frame_.patchForces().contactModulus(), solution.flattening_energy});
   if (!(conforming_.work() > 0.0)) return;
   // by how much more work bonded surfaces hold than their patches
   const double stretch = std::max(1.0, conforming_.work() / solution.apparent_work_of_adhesion);
@@ -315,10 +314,9 @@ void SeparationSolver::listPullOffContacts(const ContactProblem& problem, Contac
   if (!(solution.pull_off_force > 0.0)) return;
   const GapField& field = problem.gap;
   const ContactSettings& settings = problem.settings;
-  const double modulus = trace_.patchForces().contactModulus();
-  trace_.restart();
-  trace_.at((has_way_out_ ? way_out_ : curve_).pull_off_approach);
-  const OverlapSweep& reached = trace_.inReach();
+  const double modulus = frame_.patchForces().contactModulus();
+  const SeparationCurve& way_out = has_way_out_ ? way_out_ : curve_;
+  const OverlapSweep& reached = frame_.inReachAt(way_out.pull_off_approach, way_out.way.longest_hold);
   std::vector<Asperity>& contacts = solution.pull_off_contacts;
   for (const OverlapPatch& patch : reached.patches()) {
     const GridCell cell = field.cellAt(patch.first_cell);
@@ -328,11 +326,11 @@ void SeparationSolver::listPullOffContacts(const ContactProblem& problem, Contac
     contact.area = patch.cells * field.cellArea();
     contact.composite_radius = patch.radius(reached.approach(), field.cellArea());
     contact.tabor_parameter =
-        taborParameter(contact.composite_radius, settings.interface.work_of_adhesion, modulus, trace_.law().range());
+        taborParameter(contact.composite_radius, settings.interface.work_of_adhesion, modulus, frame_.law().range());
     contacts.push_back(contact);
   }
   for (int place = 0; place < reached.cellCount(); ++place) {
-    const OrderedCell& ordered = trace_.orderedCells()[static_cast<std::size_t>(place)];
+    const OrderedCell& ordered = frame_.orderedCells()[static_cast<std::size_t>(place)];
     const GridCell cell = field.cellAt(ordered.cell);
     const bool is_at_border =
         cell.row == 0 || cell.col == 0 || cell.row == field.rows() - 1 || cell.col == field.cols() - 1;
@@ -376,7 +374,7 @@ void SeparationSolver::takeConforming(const ContactProblem& problem, double stre
 void SeparationSolver::stretchWayOut(const ContactProblem& problem, double force_factor, double work_factor,
                                      ContactSolution& solution) {
   if (!(force_factor > 1.0)) return;
-  const double strongest = trace_.law().strength() * problem.gap.validCount() * problem.gap.cellArea();
+  const double strongest = frame_.law().strength() * problem.gap.validCount() * problem.gap.cellArea();
   solution.apparent_work_of_adhesion *= work_factor;
   solution.pull_off_force = std::min(force_factor * solution.pull_off_force, strongest);
   if (std::none_of(solution.curve.begin(), solution.curve.end(), isWayOut)) {

@@ -10,6 +10,7 @@
 #include "mems_stiction/contact/contact_settings.hpp"
 #include "mems_stiction/separation/contact_traction.hpp"
 #include "mems_stiction/separation/overlap_sweep.hpp"
+#include "mems_stiction/separation/place_sums.hpp"
 
 namespace mems_stiction {
 
@@ -19,19 +20,6 @@ struct PatchLoad {
   double carried = 0.0;  ///< with it [N]
   /// What flow has left of the overlap [-]: 1 elastic.
   double elasticShare() const { return elastic > 0.0 ? carried / elastic : 1.0; }
-};
-
-/// What all patches do together.
-struct PatchSums {
-  double carried = 0.0;  ///< their loads [N]
-  /// Attraction that the undeformed gap around them overstates [N]: (S8b).
-  double opened = 0.0;
-};
-
-/// What bending does to the attraction.
-struct Bending {
-  double factor = 1.0;           ///< s(D), what it leaves of it [-]
-  double tabor_parameter = 0.0;  ///< of the summits in reach, their mean by how much attraction hangs on them [-]
 };
 
 /// Of a pair of surfaces.
@@ -47,12 +35,13 @@ class PatchForces {
 
   /// What each patch of a sweep carries, in the order of its patches().
   void loadsOf(const OverlapSweep& contacts, double approach, std::vector<PatchLoad>& loads) const;
-  /// All patches of a sweep together.
-  PatchSums sums(const OverlapSweep& contacts, double approach) const;
+  /// Adds what all patches of a sweep carry and open.
+  void addContacts(const OverlapSweep& contacts, double approach, PlaceSums& sums) const;
   /// c of a summit of radius R [m]: its pull-off force is c pi Gamma R [-], between DMT (2) and JKR (1.5).
   double pullOffPrefactor(double radius) const;
+  /// Adds the sums of (S7).
   /// - @p in_reach the patches of the surfaces brought z0 closer, or more
-  Bending bending(const OverlapSweep& in_reach, double approach) const;
+  void addReach(const OverlapSweep& in_reach, double approach, PlaceSums& sums) const;
 
  private:
   /// PatchLoad of four patches.

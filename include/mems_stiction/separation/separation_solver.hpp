@@ -43,8 +43,10 @@ class SeparationSolver : public ContactSolver {
 
   void takeRest(const ContactProblem& problem, ContactSolution& solution);
   void findBorder(const GapField& field);
-  /// The contact of a patch of the trace.
-  Contact& contactOf(std::int32_t id) { return contacts_[static_cast<std::size_t>(trace_.contacts().livePlace(id))]; }
+  /// The contact of a patch at rest.
+  Contact& contactOf(const OverlapSweep& rest, std::int32_t id) {
+    return contacts_[static_cast<std::size_t>(rest.livePlace(id))];
+  }
   /// Calls take(row, column, overlap [m], patch, contact) for each cell that overlaps at rest, row by row.
   template <typename Taker>
   void visitOverlaps(const GapField& field, const Taker& take);
@@ -54,7 +56,7 @@ class SeparationSolver : public ContactSolver {
   void part(const ContactProblem& problem, ContactSolution& solution);
   /// The way out of surfaces that conform, or are near to it, if they are.
   void partConforming(const ContactProblem& problem, ContactSolution& solution);
-  /// The contacts that hold at the pull-off: patches within reach of the attraction there. The trace leaves rest.
+  /// The contacts that hold at the pull-off: patches within reach of the attraction there.
   void listPullOffContacts(const ContactProblem& problem, ContactSolution& solution);
   /// Contact area of the surfaces when the loads have been taken away [m^2]: theirs at rest, if there were none.
   double unloadedContactArea(const ContactSolution& solution) const;
@@ -62,7 +64,7 @@ class SeparationSolver : public ContactSolver {
   /// Makes the way out stronger, if these factors do, by its forces and by its displacements from rest.
   void stretchWayOut(const ContactProblem& problem, double force_factor, double work_factor, ContactSolution& solution);
 
-  SeparationTrace trace_;
+  FrameSums frame_;
   SeparationCurve curve_;
   std::vector<Contact> contacts_;  ///< in the order of the sweep's patches
   std::vector<PatchLoad> loads_;   ///< the same
@@ -71,8 +73,7 @@ class SeparationSolver : public ContactSolver {
   std::vector<std::int32_t> columns_;
   FlatteningEnergy flattening_;
   ConformingContact conforming_;
-  std::vector<double> changed_gaps_;  ///< of the cells that overlap, when surfaces have flowed [m]
-  SeparationCurve way_out_;           ///< where it is another than the way in
+  SeparationCurve way_out_;  ///< where it is another than the way in
   bool has_way_out_ = false;
   CurveStatement statement_;
   std::vector<Regime> regime_of_dale_;  ///< at rest, when surfaces have flowed

@@ -1,0 +1,45 @@
+#pragma once
+
+/// @file
+/// All that the separation curve takes from a frame: sums over places at one displacement of the upper surface.
+///
+/// Sums of two surfaces, or of two tiles of one at the same height, are added by `+=`; what follows from them is that of both
+/// together. FrameSums (frame_sums.hpp) makes them of one frame; separation_curve.cpp makes forces of them.
+
+namespace mems_stiction {
+
+/// Equations are those of doc/separation_curve.md.
+struct PlaceSums {
+  // over the cells
+  int contact_count = 0;       ///< that overlap
+  double adhesion = 0.0;       ///< t(d) dA of those apart, (S1), or held if that is more [N]
+  double electrostatic = 0.0;  ///< of all [N]
+  double capillary = 0.0;      ///< of those that water fills [N]
+  // over the patches that overlap
+  double carried = 0.0;  ///< what they carry, (S4) to (S6) [N]
+  double opened = 0.0;   ///< attraction that the undeformed gap around them overstates, (S8b) [N]
+  // over the patches in reach of the attraction, (S7)
+  double weight = 0.0;      ///< V = R w(gap at the summit) [N]: how much attraction hangs on one
+  double soft = 0.0;        ///< V mu
+  double loss = 0.0;        ///< V (1 - c(mu)/2)/sqrt(n)
+  double loss_alone = 0.0;  ///< V times that [N^2]
+
+  PlaceSums& operator+=(const PlaceSums& other) {
+    contact_count += other.contact_count;
+    adhesion += other.adhesion;
+    electrostatic += other.electrostatic;
+    capillary += other.capillary;
+    carried += other.carried;
+    opened += other.opened;
+    weight += other.weight;
+    soft += other.soft;
+    loss += other.loss;
+    loss_alone += other.loss_alone;
+    return *this;
+  }
+
+  /// mu of the summits in reach, their mean by weight [-]; 0 where nothing is.
+  double taborParameter() const { return weight > 0.0 ? soft / weight : 0.0; }
+};
+
+}  // namespace mems_stiction

@@ -1,0 +1,208 @@
+#include "mems_stiction/separation/frame_sums.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mems_stiction/base/lanes.hpp"
+#include "mems_stiction/base/time_limit.hpp"
+
+namespace mems_stiction {
+namespace {
+
+/// Share of the cells that is put in order first, and by how much more when that does not suffice.
+constexpr double kFirstFraction = 1.0 / 64.0;
+constexpr double kMoreCells = 8.0;
+/// By how much the Hamaker constant is changed to see what that does.
+constexpr double kMoreHamaker = 1.02;
+
+InterfaceOptions withMoreHamaker(InterfaceOptions interface) {
+  interface.hamaker_constant *= kMoreHamaker;
+  return interface;
+}
+
+double exponentOf(double with_more_hamaker, double value) {
+  return value > 0.0 ? std::log(with_more_hamaker / value) / std::log(kMoreHamaker) : 0.0;
+}
+
+PyramidRule ruleOf(const ContactTraction& law) { return {0.0, law.range()}; }
+
+}  // namespace
+
+void FrameSums::start(const GapField& field, const ContactSettings& settings) {
+  field_ = &field;
+  settings_ = &settings;
+  patch_forces_.emplace(settings, field.cellArea(), true);
+  wider_law_.emplace(withMoreHamaker(settings.interface));
+  voltage_.emplace(settings.load.voltage, settings.interface.insulator_thickness,
+                   settings.interface.insulator_relative_permittivity);
+  water_ = settings.capillary.law();
+  dales_.start(field);
+  ordered_fraction_ = kFirstFraction;
+  order_.build(field, ordered_fraction_, 0.0, &dales_);
+  pyramid_.prepare(order_);
+  approach_before_limit_ = order_.lowerEndAt(contactLimit() - 1);
+  const double farthest = approach_before_limit_ + order_.bucketWidth() + law().range();
+  most_fraction_ = std::min(1.0, order_.cellsBelow(farthest) / field.validCount());
+  startSweeps();
+}
+
+void FrameSums::takeChangedGaps(double approach) {
+  // where dales lie and which cells meet others stays as it was
+  order_.changeGaps(approach, changed_gaps_);
+  pyramid_.prepare(order_);
+  patch_forces_.emplace(*settings_, field_->cellArea(), false);
+  startSweeps();
+}
+
+void FrameSums::startSweeps() {
+  has_mark_ = false;
+  contacts_.start(*field_, dales_, settings_->approach.connectivity);
+  in_reach_.start(*field_, dales_, settings_->approach.connectivity);
+}
+
+void FrameSums::mark() {
+  marked_contacts_ = contacts_;
+  marked_in_reach_ = in_reach_;
+  has_mark_ = true;
+}
+
+void FrameSums::sweepTo(double approach, OverlapSweep& sweep, const OverlapSweep& marked, const OverlapSweep* ahead) {
+  const double wanted = std::max(approach, 0.0);  // no gap is below 0
+  if (sweep.approach() > wanted) {
+    if (has_mark_ && marked.approach() <= wanted) {
+      sweep = marked;
+    } else {
+      sweep.start(*field_, dales_, settings_->approach.connectivity);
+    }
+  }
+  sweep.advanceTo(approach, order_, ahead);
+}
+
+OverlapSweep& FrameSums::contactsAt(double approach) {
+  orderUpTo(approach, approach);
+  sweepTo(approach, contacts_, marked_contacts_, law().attracts() ? &in_reach_ : nullptr);
+  return contacts_;
+}
+
+const OverlapSweep& FrameSums::inReachAt(double approach, double hold) {
+  const double reach = approach + law().range() + hold;
+  orderUpTo(reach, reach);
+  if (law().attracts()) sweepTo(reach, in_reach_, marked_in_reach_, nullptr);
+  return in_reach_;
+}
+
+void FrameSums::extend(double fraction) {
+  ordered_fraction_ = fraction;
+  order_.extend(*field_, fraction);
+  pyramid_.prepare(order_);
+}
+
+void FrameSums::orderUpTo(double approach, double expected) {
+  while (approach >= order_.groupLowerEnd(order_.groupCount()) && ordered_fraction_ < 1.0) {
+    const double more = std::max(kMoreCells * ordered_fraction_, order_.cellsBelow(expected) / field_->validCount());
+    // the curve ends at the limit of contact, but for the step that passes it
+    extend(ordered_fraction_ < most_fraction_ ? std::min(more, most_fraction_) : std::min(more, 1.0));
+  }
+}
+
+int FrameSums::contactLimit() const {
+  const double wanted = std::ceil(settings_->approach.max_contact_fraction * field_->validCount());
+  return std::clamp(static_cast<int>(wanted), 1, field_->validCount());
+}
+
+double FrameSums::limitApproach() {
+  const int count = contactLimit();
+  if (static_cast<int>(order_.cells().size()) < count) extend(most_fraction_);
+  order_.sortBetween(count - 1, count);
+  // the next number: cells with just this gap are in
+  return std::nextafter(order_.cells()[static_cast<std::size_t>(count - 1)].gap, GapField::kInvalidGap);
+}
+
+PlaceSums FrameSums::reach(double approach, double hold, double expected_end) {
+  TimeLimit::check();
+  PlaceSums sums;
+  const double range = law().range() + hold;
+  orderUpTo(approach + range, expected_end + range);
+  if (law().attracts()) patch_forces_->addReach(inReachAt(approach, hold), approach + hold, sums);
+  return sums;
+}
+
+void FrameSums::add(double approach, double hold, PlaceSums& sums) {
+  const OverlapSweep& contacts = contactsAt(approach);
+  sums.contact_count += contacts.cellCount();
+  patch_forces_->addContacts(contacts, approach, sums);
+  const Attraction attraction = attractionAt(law(), approach, hold);
+  sums.adhesion += attraction.adhesion;
+  sums.electrostatic += attraction.electrostatic;
+  sums.capillary += capillaryForce(order_, approach, contacts.cellCount(), water_, field_->cellArea());
+}
+
+MEMS_STICTION_VECTORIZED void FrameSums::addCells(const ContactTraction& law, const OrderedCell* cells,
+                                                  std::size_t count, double approach, Attraction& sum) const {
+  const FieldLaw& voltage = *voltage_;
+  Lanes adhesion = 0.0;
+  Lanes field = 0.0;
+  const std::size_t in_fours = visitFours(cells, count, approach, [&](const Lanes& gap) {
+    adhesion += law.traction(gap);
+    field += 1.0 / voltage.squaredDistance(gap);
+  });
+  sum.adhesion += adhesion.sum();
+  if (voltage.isOn()) sum.electrostatic += field.sum();
+  for (std::size_t i = in_fours; i < count; ++i) {
+    const double gap = cells[i].gap - approach;
+    sum.adhesion += law.traction(gap);
+    if (voltage.isOn()) sum.electrostatic += 1.0 / voltage.squaredDistance(gap);
+  }
+}
+
+MEMS_STICTION_VECTORIZED FrameSums::Attraction FrameSums::attractionOver(const ContactTraction& law, double approach,
+                                                                         int contact_count) const {
+  const FieldLaw& voltage = *voltage_;
+  Attraction sum;
+  pyramid_.visit(
+      approach, contact_count, ruleOf(law),
+      [&](const OrderedCell* cells, std::size_t count) { addCells(law, cells, count, approach, sum); },
+      [&](const GapMoments& gaps) {
+        const double gap = gaps.mean - approach;
+        sum.adhesion += gaps.count * (law.traction(gap) + 0.5 * law.curvature(gap) * gaps.variance);
+        if (!voltage.isOn()) return;
+        const double square = voltage.squaredDistance(gap);
+        sum.electrostatic += gaps.count / square * (1.0 + 3.0 * gaps.variance / square);
+      });
+  const double cell_area = field_->cellArea();
+  sum.adhesion *= cell_area;
+  sum.electrostatic *= cell_area * voltage.factor();
+  if (voltage.isOn()) sum.electrostatic += contact_count * cell_area * voltage.pressure(0.0);
+  return sum;
+}
+
+FrameSums::Attraction FrameSums::attractionAt(const ContactTraction& law, double approach, double hold) {
+  Attraction attraction = attractionOver(law, approach, overlappingAt(approach));
+  if (hold > 0.0) {
+    const double held = approach + hold;
+    attraction.adhesion = std::max(attraction.adhesion, attractionOver(law, held, overlappingAt(held)).adhesion);
+  }
+  return attraction;
+}
+
+double FrameSums::energyAt(const ContactTraction& law, double approach) {
+  const int contact_count = overlappingAt(approach);
+  double sum = 0.0;
+  pyramid_.visit(
+      approach, contact_count, ruleOf(law),
+      [&](const OrderedCell* cells, std::size_t count) {
+        for (std::size_t i = 0; i < count; ++i) sum += law.energy(cells[i].gap - approach);
+      },
+      [&](const GapMoments& bucket) { sum += bucket.count * law.energy(bucket.mean - approach); });
+  return field_->cellArea() * (sum + contact_count * law.workOfAdhesion());
+}
+
+double FrameSums::hamakerExponentOfForce(double approach, double hold) {
+  return exponentOf(attractionAt(*wider_law_, approach, hold).adhesion, attractionAt(law(), approach, hold).adhesion);
+}
+
+double FrameSums::hamakerExponentOfEnergy(double approach) {
+  return exponentOf(energyAt(*wider_law_, approach), energyAt(law(), approach));
+}
+
+}  // namespace mems_stiction
