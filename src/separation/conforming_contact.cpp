@@ -4,11 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "chosen_constants.hpp"
+
 namespace mems_stiction {
 namespace {
-
-/// Radius of the weakest place, whose short waves count, in cohesive lengths (doc/separation_curve.md).
-constexpr double kPlaceRadius = 3.0;
 
 /// k = 2 U/(A sigma^2); bodies without relief have nothing to give way.
 double stiffnessOf(double flattening_energy, double rms_height) {
@@ -18,38 +17,40 @@ double stiffnessOf(double flattening_energy, double rms_height) {
 
 }  // namespace
 
-void ConformingContact::start(const GapField& field, const ContactTraction& law, const ConformingBodies& bodies) {
+void ConformingContact::start(const GapField& field, const ContactTraction& law, double contact_modulus,
+                              double flattening_energy) {
   field_ = &field;
   law_ = &law;
-  bodies_ = bodies;
+  bodies_ = {contact_modulus, law.workOfAdhesion(), law.range(), flattening_energy, field.rmsGap()};
   has_relief_ = false;
-  ReliefClasses depths(0.0, field.largestGap());
-  line_.resize(static_cast<std::size_t>(field.cols()));
-  for (int row = 0; row < field.rows(); ++row) {
-    field.gapsOfRow(row, line_.data());
+  branch_.clear();
+}
+
+const std::vector<SpringState>& ConformingContact::branch() {
+  if (!branch_.empty()) return branch_;
+  ReliefClasses depths(0.0, field_->largestGap());
+  line_.resize(static_cast<std::size_t>(field_->cols()));
+  for (int row = 0; row < field_->rows(); ++row) {
+    field_->gapsOfRow(row, line_.data());
     for (const double gap : line_) {
-      if (gap <= field.largestGap()) depths.add(gap);
+      if (gap <= field_->largestGap()) depths.add(gap);
     }
   }
-  branch_ = springBranch(depths.classes(), law, stiffnessOf(bodies.flattening_energy, field.rmsGap()));
+  branch_ = springBranch(depths.classes(), *law_, stiffnessOf(bodies_.flattening_energy, bodies_.rms_height));
+  return branch_;
 }
 
-double ConformingContact::work() const { return std::max(0.0, -restOf(branch_, 0.0)->energy); }
-
-BondedBodies ConformingContact::bondedBodies() const {
-  return {bodies_.contact_modulus, law_->workOfAdhesion(), law_->range(), bodies_.flattening_energy, field_->rmsGap()};
-}
+double ConformingContact::work() { return std::max(0.0, -restOf(branch(), 0.0)->energy); }
 
 ReliefSpectrum& ConformingContact::relief() {
-  if (!has_relief_) relief_.take(*field_, ReliefWaves::blockLength(bondedBodies().cohesiveLength()));
+  if (!has_relief_) relief_.take(*field_, ReliefWaves::blockLength(bodies_.cohesiveLength()));
   has_relief_ = true;
   return relief_;
 }
 
 bool ConformingContact::hasOpenValleys(double pressure) {
-  const BondedBodies bodies = bondedBodies();
-  if (!(bodies.flattening_energy > 0.0 && bodies.rms_height > 0.0)) return false;
-  return valleysStayOpen(relief(), bodies, pressure);
+  if (!(bodies_.flattening_energy > 0.0 && bodies_.rms_height > 0.0)) return false;
+  return valleysStayOpen(relief(), bodies_, pressure);
 }
 
 double ConformingContact::takeShortWaves(cv::Point2d place, double radius) {
@@ -82,10 +83,11 @@ double ConformingContact::takeShortWaves(cv::Point2d place, double radius) {
 }
 
 double ConformingContact::strengthAtWeakestPlace() {
-  const double cohesive_length = bondedBodies().cohesiveLength();
+  const double cohesive_length = bodies_.cohesiveLength();
   waves_.split(relief(), {field_->cols(), field_->rows()}, bodies_.contact_modulus, cohesive_length);
   const double cell = std::hypot(field_->pitchX(), field_->pitchY());
-  const double short_rms = takeShortWaves(waves_.weakestPlace(), std::max(kPlaceRadius * cohesive_length, cell));
+  const double short_rms =
+      takeShortWaves(waves_.weakestPlace(), std::max(chosen::kPlaceRadius * cohesive_length, cell));
   const double short_energy = flattening_.of(*field_, waves_.longHeights(), bodies_.contact_modulus);
   if (depths_at_place_.empty()) return law_->strength() - waves_.largestTension();  // pixels without a height
   const auto [lowest, highest] = std::minmax_element(depths_at_place_.begin(), depths_at_place_.end());
@@ -95,20 +97,33 @@ double ConformingContact::strengthAtWeakestPlace() {
   return strengthFrom(branch.begin(), branch) - waves_.largestTension();
 }
 
-double ConformingContact::closedStrength(double pressure) {
-  return std::min(strengthFrom(restOf(branch_, pressure), branch_), strengthAtWeakestPlace());
+WayOut ConformingContact::fromOpenValleys(double pressure) {
+  const OpenValleyStrength open = strengthWithOpenValleys(bodies_);
+  WayOut way_out = upTo(open.traction, pressure);
+  way_out.parting = Parting::kFromOpenValleys;
+  way_out.force_exponents = open.exponents;
+  return way_out;
 }
 
-ConformingWayOut ConformingContact::partFrom(double pressure, double least_strength) {
-  ConformingWayOut way_out;
-  const auto rest = restOf(branch_, pressure);
-  way_out.has_open_valleys = hasOpenValleys(pressure);
-  const double strength =
-      way_out.has_open_valleys ? openStrength().traction : std::max(strengthAtWeakestPlace(), least_strength);
+WayOut ConformingContact::asAWhole(double pressure, double least_force) {
+  WayOut way_out = upTo(std::max(strengthAtWeakestPlace(), least_force / area()), pressure);
+  way_out.parting = Parting::kAsAWhole;
+  way_out.force_exponents = {1.5, 0.0, -0.5};  // nearly the strength of the law, Gamma/z0
+  return way_out;
+}
+
+WayOut ConformingContact::upTo(double strength, double pressure) {
+  const auto rest = restOf(branch(), pressure);
+  WayOut way_out;
+  way_out.work = work();
+  way_out.contact_area = rest->contact_fraction * area();
+  // nearly what flattening, which goes with the modulus, leaves of the work of adhesion
+  const double flattening = bodies_.flattening_energy / way_out.work;
+  way_out.work_exponents = {1.0 + flattening, -flattening, 0.0};
   for (auto state = rest; state != branch_.end(); ++state) {
-    const double traction = std::min(state->traction, strength);
-    way_out.states.push_back({law_->range() - state->height, traction, state->contact_fraction});
-    way_out.strength = std::max(way_out.strength, traction);
+    const double force = area() * std::min(state->traction, strength);
+    way_out.curve.push_back({law_->range() - state->height, force, true});
+    way_out.force = std::max(way_out.force, force);
     if (state->traction > strength) break;
   }
   return way_out;

@@ -6,21 +6,14 @@
 
 #include "mems_stiction/base/lanes.hpp"
 
+#include "chosen_constants.hpp"
+
 namespace mems_stiction {
-namespace {
-
-/// Lines of each direction that are read: enough that another choice changes U by a few percent.
-constexpr int kLines = 48;
-constexpr double kLagGrowth = 1.25;
-constexpr int kLagsPerLine = 4;  ///< the longest distance is this part of the line
-
-}  // namespace
-
 void StructureFunction::start(int length) {
   length_ = length;
   lags_.clear();
-  const int longest = std::min(std::max(1, length / kLagsPerLine), length - 1);
-  for (int lag = 1; lag <= longest; lag = std::max(lag + 1, static_cast<int>(lag * kLagGrowth))) {
+  const int longest = std::min(std::max(1, length / chosen::kLagsPerLine), length - 1);
+  for (int lag = 1; lag <= longest; lag = std::max(lag + 1, static_cast<int>(lag * chosen::kLagGrowth))) {
     lags_.push_back({lag, 0.0, 0.0});
   }
 }
@@ -86,8 +79,8 @@ template <typename ReadCell>
 double FlatteningEnergy::measure(const GapField& field, double contact_modulus, const ReadCell& read) {
   const int rows = field.rows();
   const int cols = field.cols();
-  const int row_step = std::max(1, rows / kLines);
-  const int col_step = std::max(1, cols / kLines);
+  const int row_step = std::max(1, rows / chosen::kLines);
+  const int col_step = std::max(1, cols / chosen::kLines);
   along_rows_.start(cols);
   along_columns_.start(rows);
   row_.resize(static_cast<std::size_t>(cols));

@@ -9,18 +9,11 @@
 #include "mems_stiction/mechanics/transition.hpp"
 #include "mems_stiction/separation/lane_functions.hpp"
 
+#include "chosen_constants.hpp"
+
 namespace mems_stiction {
 namespace {
 
-/// Maugis' parameter over Tabor's, for this law: with Maugis' own 1.157 the pull-off force of a sphere lies up to 5 %
-/// below that of the 9-3 law, with 0.56 it is that of the law, and in between within 3 % of it and 5 % of his.
-constexpr double kMaugisPerTabor = 0.75;
-/// What is added to the depth that tells a summit's radius, of z0: a patch that has just come into reach has hardly any.
-constexpr double kLeastDepth = 0.05;
-/// Least depth of a patch that opens the gap around it, of z0.
-constexpr double kLeastOpening = 1e-6;
-/// Largest exponent with which a patch is taken to grow with its depth: that of a cone. A paraboloid has 1.
-constexpr double kMostGrowth = 2.0;
 /// P/(Ha A) at which a paraboloid begins to flow: its largest pressure is three times P over the overlapped area.
 constexpr double kFlowOnset = 1.0 / 3.0;
 /// lambda^1.4 of lambda^3
@@ -79,13 +72,14 @@ PatchForces::PatchForces(const ContactSettings& settings, double cell_area, bool
   hardness_ = can_flow ? pair.hardness : std::numeric_limits<double>::infinity();
   load_factor_ = 0.6 * contact_modulus_ * std::sqrt(kPi * cell_area);
   const double strain = law_.workOfAdhesion() / (contact_modulus_ * law_.range());
-  maugis_factor_ = kMaugisPerTabor * kMaugisPerTabor * kMaugisPerTabor * strain * strain / law_.range();
+  maugis_factor_ =
+      chosen::kMaugisPerTabor * chosen::kMaugisPerTabor * chosen::kMaugisPerTabor * strain * strain / law_.range();
 }
 
 MEMS_STICTION_INLINE PatchForces::Loads PatchForces::loadsOf(const Lanes& cells, const Lanes& gap_sum,
                                                              const Lanes& kept, double approach) const {
   const Lanes area = cells * cell_area_;
-  const Lanes load_term = kept + (cells * approach - gap_sum) / squareRoot(cells);
+  const Lanes load_term = kept + volumeTerm(cells, gap_sum, approach);
   // round-off may leave no depth
   const Lanes depth = greater(approach - gap_sum / cells, Lanes(std::numeric_limits<double>::min()));
   Loads loads;
@@ -132,10 +126,10 @@ MEMS_STICTION_VECTORIZED void PatchForces::addContacts(const OverlapSweep& conta
       carried += weight * loads.carried;
       if (!law_.attracts()) continue;
       // A grows as delta^m, and V/A is delta/(m + 1)
-      const Lanes depth = greater(approach - gap_sum / cells, Lanes(kLeastOpening * law_.range()));
+      const Lanes depth = greater(approach - gap_sum / cells, Lanes(chosen::kLeastOpening * law_.range()));
       const Lanes delta = greater(approach - Lanes::load(block.first_gap + i), depth);
       Lanes growth = greater(delta / depth - 1.0, Lanes(1.0));
-      growth = select(growth < kMostGrowth, growth, Lanes(kMostGrowth));
+      growth = select(growth < chosen::kMostGrowth, growth, Lanes(chosen::kMostGrowth));
       const Lanes work = law_.workOfAdhesion() * cells * cell_area_;
       const Lanes load = loads.elastic * 2.0 * depth / work;  // P/(2 pi Gamma R)
       opened += weight * growth * work / delta * 0.5 * (growth - 1.0) * load / (1.0 + load);
@@ -161,7 +155,7 @@ MEMS_STICTION_VECTORIZED void PatchForces::addReach(const OverlapSweep& in_reach
     block.gather(in_reach, place);
     for (std::size_t i = 0; i < block.count; i += Lanes::kCount) {
       const Lanes cells = Lanes::load(block.cells + i);
-      const Lanes depth = reach - Lanes::load(block.gap_sum + i) / cells + kLeastDepth * law_.range();
+      const Lanes depth = reach - Lanes::load(block.gap_sum + i) / cells + chosen::kLeastDepth * law_.range();
       const Lanes radius = cells * cell_area_ / (4.0 * kPi * depth);
       const Lanes distance = greater(Lanes::load(block.first_gap + i) - approach, Lanes(0.0));
       const Lanes weight = Lanes::load(block.weight + i) * radius * law_.energy(distance);
@@ -169,9 +163,9 @@ MEMS_STICTION_VECTORIZED void PatchForces::addReach(const OverlapSweep& in_reach
       const Lanes cube = maugis_factor_ * radius / summits;
       const Lanes bend = power(cube, kPowerOfCube);
       const Lanes loss = 1.0 - 0.5 * maugis::fittedPullOffPrefactorOfPower(bend);
-      const Lanes lost = weight * loss / squareRoot(summits);
+      const Lanes lost = weight * loss / summits;
       weights += weight;
-      soft += weight * power(cube, 1.0 / 3.0) / kMaugisPerTabor;
+      soft += weight * power(cube, 1.0 / 3.0) / chosen::kMaugisPerTabor;
       losses += lost;
       losses_alone += lost * weight;
     }

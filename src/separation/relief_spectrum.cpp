@@ -6,18 +6,15 @@
 
 #include "mems_stiction/base/constants.hpp"
 
+#include "chosen_constants.hpp"
+
 namespace mems_stiction {
 namespace {
-
-/// Blocks along each side at most: what is cut away beyond is far shorter than a frame.
-constexpr int kMostBlocks = 512;
-/// Opposite edges fit each other if they differ by no more than this times what neighbours do.
-constexpr double kFittingEdges = 3.0;
 
 /// Cells of a block along a side.
 int blockSize(int cells, double pitch, double longest) {
   const double by_length = std::clamp(std::floor(longest / pitch), 1.0, static_cast<double>(cells));
-  return std::max(static_cast<int>(by_length), (cells + kMostBlocks - 1) / kMostBlocks);
+  return std::max(static_cast<int>(by_length), (cells + chosen::kMostBlocks - 1) / chosen::kMostBlocks);
 }
 
 /// q of a row or column of a spectrum [1/m].
@@ -38,10 +35,6 @@ void ReliefSpectrum::take(const GapField& field, double longest_block) {
   if (!repeatsItself()) cv::copyMakeBorder(heights_, frame_, 0, blocks_.height, 0, blocks_.width, cv::BORDER_REFLECT);
   cv::dft(frame_, spectrum_, cv::DFT_COMPLEX_OUTPUT);
   takeWaveNumbers();
-}
-
-double ReliefSpectrum::shorterSide() const {
-  return std::min(blocks_.width * block_width_, blocks_.height * block_height_);
 }
 
 void ReliefSpectrum::takeWaveNumbers() {
@@ -90,8 +83,10 @@ bool ReliefSpectrum::repeatsItself() const {
   if (last_row < 1 || last_col < 1) return true;
   const double over_rows = difference(heights_.row(0), heights_.row(last_row));
   const double over_cols = difference(heights_.col(0), heights_.col(last_col));
-  return over_rows <= kFittingEdges * difference(heights_.rowRange(1, last_row + 1), heights_.rowRange(0, last_row)) &&
-         over_cols <= kFittingEdges * difference(heights_.colRange(1, last_col + 1), heights_.colRange(0, last_col));
+  return over_rows <=
+             chosen::kFittingEdges * difference(heights_.rowRange(1, last_row + 1), heights_.rowRange(0, last_row)) &&
+         over_cols <=
+             chosen::kFittingEdges * difference(heights_.colRange(1, last_col + 1), heights_.colRange(0, last_col));
 }
 
 }  // namespace mems_stiction

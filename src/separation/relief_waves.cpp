@@ -1,14 +1,14 @@
 #include "mems_stiction/separation/relief_waves.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <opencv2/imgproc.hpp>
 
+#include "chosen_constants.hpp"
+
 namespace mems_stiction {
 namespace {
-
-/// f(q) = 1/(1 + (kLengths l q)^4)
-constexpr double kLengths = 1.4;
 
 /// A block, or the one that it is the mirror image of.
 int unmirrored(int block, int count) { return block < count ? block : 2 * count - 1 - block; }
@@ -17,8 +17,8 @@ int unmirrored(int block, int count) { return block < count ? block : 2 * count 
 
 void ReliefWaves::split(ReliefSpectrum& relief, cv::Size cells, double contact_modulus, double cohesive_length) {
   const auto long_part = [=](double q) {
-    const double square = kLengths * cohesive_length * q * kLengths * cohesive_length * q;
-    return 1.0 / (1.0 + square * square);
+    const double square = cohesive_length * q * cohesive_length * q;
+    return 1.0 / (1.0 + std::pow(square, 0.5 * chosen::kLongWavePower));
   };
   const cv::Mat1d& tension = relief.weighed([=](double q) { return -0.5 * contact_modulus * q * long_part(q); });
   cv::Point weakest;

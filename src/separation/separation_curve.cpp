@@ -37,7 +37,7 @@ SeparationState stateAt(FrameSums& frame, double approach, const Way& way, doubl
   state.carried = sums.carried;
   state.electrostatic = sums.electrostatic;
   state.capillary = sums.capillary;
-  state.adhesion = bendingFactor(sums) * std::max(sums.adhesion - sums.opened, 0.5 * sums.adhesion);
+  state.adhesion = bendingFactor(sums) * std::max(sums.adhesion - sums.opened, 0.0);
   return state;
 }
 

@@ -9,25 +9,10 @@
 #include "mems_stiction/mechanics/plasticity.hpp"
 #include "mems_stiction/mechanics/transition.hpp"
 
+#include "chosen_constants.hpp"
+
 namespace mems_stiction {
 namespace {
-
-/// Flattening that costs less than this share of the work of adhesion is what surfaces do: below it the conforming
-/// branch is nearer to the half-space than the patches are, above it the patches (doc/separation_curve.md).
-constexpr double kConformingShare = 0.4;
-/// Up to this share, surfaces at rest hold with at least the work of bonded ones (doc/separation_curve.md).
-constexpr double kBondingShare = 1.05;
-/// if they touch there over this share of the frame: bonded ones do over half of it.
-constexpr double kBondedContact = 0.2;
-/// Power of the work with which their force goes.
-constexpr double kForceOfWork = 0.75;
-/// A contact of which flow has taken less than this share of the overlap counts as elastic, one that carries more than
-/// this share of what it can as plastic.
-constexpr double kElasticShare = 0.97;
-constexpr double kPlasticShare = 0.95;
-
-/// Shortest secant that tells the stiffness at rest, of z0.
-constexpr double kStiffnessLength = 0.05;
 
 /// Real area of a patch that overlaps over `area`: half of it while it is elastic (Hertz), more where adhesion widens
 /// the contact (JKR), all of it when what it carries is all that flow allows. The load that widens it is P (DMT) to
@@ -50,8 +35,8 @@ double realArea(const PatchLoad& load, double area, double rim_force, double pre
 }
 
 Regime regimeOf(const PatchLoad& load, double area, double hardness) {
-  if (load.elasticShare() >= kElasticShare) return Regime::kElastic;
-  return load.carried >= kPlasticShare * hardness * area ? Regime::kPlastic : Regime::kElastoPlastic;
+  if (load.elasticShare() >= chosen::kElasticShare) return Regime::kElastic;
+  return load.carried >= chosen::kPlasticShare * hardness * area ? Regime::kPlastic : Regime::kElastoPlastic;
 }
 
 void appendCurve(const SeparationCurve& curve, bool is_separation, std::vector<SeparationCurvePoint>& points) {
@@ -70,21 +55,9 @@ double stiffnessAtRest(const std::vector<SeparationState>& states, double range)
   const SeparationState& rest = states.back();
   for (auto before = states.rbegin() + 1; before != states.rend(); ++before) {
     const double length = rest.approach - before->approach;
-    if (length >= kStiffnessLength * range) return (before->force() - rest.force()) / length;
+    if (length >= chosen::kStiffnessLength * range) return (before->force() - rest.force()) / length;
   }
   return ContactSolution::kUnknown;
-}
-
-void takeExponents(FrameSums& frame, const SeparationCurve& curve, ContactSolution& solution) {
-  const CurveExponents exponents = exponentsOf(frame, curve);
-  solution.pull_off_exponents = exponents.pull_off;
-  solution.work_exponents = exponents.work;
-}
-
-bool isWayOut(const SeparationCurvePoint& point) { return point.is_separation; }
-
-void dropWayOut(std::vector<SeparationCurvePoint>& points) {
-  points.erase(std::remove_if(points.begin(), points.end(), isWayOut), points.end());
 }
 
 }  // namespace
@@ -94,24 +67,35 @@ void SeparationSolver::solve(const ContactProblem& problem, ContactSolution& sol
   frame_.start(problem.gap, problem.settings);
   followCurve(frame_, problem.settings, curve_);
   appendCurve(curve_, false, solution.curve);
-  if (problem.settings.load.voltage != 0.0) appendCurve(curve_, true, solution.curve);
-  solution.status = curve_.status;
   solution.steps = static_cast<int>(curve_.states.size());
-  solution.pull_off_force = curve_.pull_off_force;
-  solution.apparent_work_of_adhesion = curve_.work / (problem.gap.validCount() * problem.gap.cellArea());
+  solution.flattening_energy = flattening_.of(problem.gap, frame_.patchForces().contactModulus());
+  solution.joining_rise = joiningRise(curve_);
   takeRest(problem, solution);
   listContacts(problem, solution);
   fillMaps(problem, solution);
-  part(problem, solution);
-  solution.flattening_energy = flattening_.of(problem.gap, frame_.patchForces().contactModulus());
-  solution.joining_rise = joiningRise(curve_);
-  solution.is_bonded_by_load = curve_.status == Status::kBonded && curve_.firstPushing() != curve_.states.end();
-  partConforming(problem, solution);
+  partByContacts(problem);
+  conforming_.start(problem.gap, frame_.law(), frame_.patchForces().contactModulus(), solution.flattening_energy);
+  const std::optional<WayOut> conforming =
+      conformingWayOut(by_contacts_, conforming_, solution.flattening_energy / frame_.law().workOfAdhesion(),
+                       problem.settings.load.mechanical_load / frame_.area());
+  takeWayOut(conforming ? *conforming : by_contacts_, solution);
   listPullOffContacts(problem, solution);
   solution.model = statement_.of(solution, problem.settings.interface.work_of_adhesion);
-  const double area = problem.gap.validCount() * problem.gap.cellArea();
-  solution.contact_area = std::min(solution.contact_area, area);  // a sum over all cells may be larger by rounding
-  solution.contact_fraction = solution.contact_area / area;
+}
+
+void SeparationSolver::takeWayOut(const WayOut& way_out, ContactSolution& solution) const {
+  solution.is_conforming = way_out.parting != Parting::kByContacts;
+  solution.status = solution.is_conforming ? Status::kBonded : curve_.status;
+  solution.is_bonded_by_load =
+      !solution.is_conforming && curve_.status == Status::kBonded && curve_.firstPushing() != curve_.states.end();
+  solution.pull_off_force = way_out.force;
+  solution.pull_off_exponents = way_out.force_exponents;
+  solution.apparent_work_of_adhesion = way_out.work;
+  solution.work_exponents = way_out.work_exponents;
+  // a sum over all cells may be larger by rounding
+  solution.contact_area = std::min(way_out.contact_area, frame_.area());
+  solution.contact_fraction = solution.contact_area / frame_.area();
+  solution.curve.insert(solution.curve.end(), way_out.curve.begin(), way_out.curve.end());
 }
 
 void SeparationSolver::takeRest(const ContactProblem& problem, ContactSolution& solution) {
@@ -130,7 +114,7 @@ void SeparationSolver::takeRest(const ContactProblem& problem, ContactSolution& 
   const PatchForces& forces = frame_.patchForces();
   contacts_.assign(sweep.patches().size(), {});
   forces.loadsOf(sweep, rest.approach, loads_);
-  solution.contact_area = 0.0;
+  by_contacts_.contact_area = 0.0;
   has_flowed_ = false;
   double touching = 0.0;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
@@ -143,7 +127,7 @@ void SeparationSolver::takeRest(const ContactProblem& problem, ContactSolution& 
         realArea(contact.load, area, 2.0 * kPi * frame_.law().workOfAdhesion() * radius / std::sqrt(patch.summits),
                  forces.pullOffPrefactor(radius / patch.summits), forces.hardness(), field.cellArea());
     contact.regime = regimeOf(contact.load, area, forces.hardness());
-    solution.contact_area += contact.area;
+    by_contacts_.contact_area += contact.area;
     const double area_share = std::max(0.5, contact.load.carried / (forces.hardness() * area));
     contact.kept = KeptOverlap(contact.load.elastic / (forces.hardness() * area), area_share,
                                patch.depth(rest.approach), rest.approach - patch.first_gap);
@@ -252,14 +236,22 @@ void SeparationSolver::fillMaps(const ContactProblem& problem, ContactSolution& 
   });
 }
 
-void SeparationSolver::part(const ContactProblem& problem, ContactSolution& solution) {
+void SeparationSolver::partByContacts(const ContactProblem& problem) {
   const Way way = wayOutOf(curve_, frame_.law().range());
   has_way_out_ = has_flowed_ || way.longest_hold > 0.0;
   regime_of_dale_.clear();
-  if (!has_way_out_) {
-    takeExponents(frame_, curve_, solution);
-    return;
-  }
+  if (has_way_out_) followChanged(way);
+  const SeparationCurve& curve = wayOut();
+  const CurveExponents exponents = exponentsOf(frame_, curve);
+  by_contacts_.force = curve.pull_off_force;
+  by_contacts_.force_exponents = exponents.pull_off;
+  by_contacts_.work = curve.work / frame_.area();
+  by_contacts_.work_exponents = exponents.work;
+  by_contacts_.curve.clear();
+  if (has_way_out_ || problem.settings.load.voltage != 0.0) appendCurve(curve, true, by_contacts_.curve);
+}
+
+void SeparationSolver::followChanged(const Way& way) {
   double first_touch = 0.0;
   if (has_flowed_) {
     first_touch = way.rest;
@@ -275,39 +267,6 @@ void SeparationSolver::part(const ContactProblem& problem, ContactSolution& solu
     });
   }
   followWayOut(frame_, first_touch, way, way_out_);
-  dropWayOut(solution.curve);
-  appendCurve(way_out_, true, solution.curve);
-  solution.pull_off_force = way_out_.pull_off_force;
-  takeExponents(frame_, way_out_, solution);
-  solution.apparent_work_of_adhesion = way_out_.work / (problem.gap.validCount() * problem.gap.cellArea());
-}
-
-void SeparationSolver::partConforming(const ContactProblem& problem, ContactSolution& solution) {
-  const double flattening_ratio = solution.flattening_energy / problem.settings.interface.work_of_adhesion;
-  if (!(flattening_ratio < kBondingShare)) return;
-  conforming_.start(problem.gap, frame_.law(), {frame_.patchForces().contactModulus(), solution.flattening_energy});
-  if (!(conforming_.work() > 0.0)) return;
-  // by how much more work bonded surfaces hold than their patches
-  const double stretch = std::max(1.0, conforming_.work() / solution.apparent_work_of_adhesion);
-  if (flattening_ratio < kConformingShare) {
-    takeConforming(problem, stretch, solution);
-  } else if (!has_flowed_) {
-    const double area = problem.gap.validCount() * problem.gap.cellArea();
-    const double bonded = kBondedContact * area;
-    const bool holds_together = unloadedContactArea(solution) >= bonded;
-    if (holds_together) stretchWayOut(problem, std::pow(stretch, kForceOfWork), stretch, solution);
-    if (solution.contact_area < bonded) return;
-    const double pressure = problem.settings.load.mechanical_load / area;
-    if (conforming_.hasOpenValleys(pressure)) {
-      const double gain = conforming_.openStrength().traction * area / solution.pull_off_force;
-      if (!(gain > 1.0)) return;
-      stretchWayOut(problem, gain, std::sqrt(gain), solution);
-      solution.pull_off_exponents = conforming_.openStrength().exponents;
-    } else if (holds_together) {
-      const double strength = conforming_.closedStrength(pressure);
-      stretchWayOut(problem, strength * area / solution.pull_off_force, 1.0, solution);
-    }
-  }
 }
 
 void SeparationSolver::listPullOffContacts(const ContactProblem& problem, ContactSolution& solution) {
@@ -315,7 +274,7 @@ void SeparationSolver::listPullOffContacts(const ContactProblem& problem, Contac
   const GapField& field = problem.gap;
   const ContactSettings& settings = problem.settings;
   const double modulus = frame_.patchForces().contactModulus();
-  const SeparationCurve& way_out = has_way_out_ ? way_out_ : curve_;
+  const SeparationCurve& way_out = wayOut();
   const OverlapSweep& reached = frame_.inReachAt(way_out.pull_off_approach, way_out.way.longest_hold);
   std::vector<Asperity>& contacts = solution.pull_off_contacts;
   for (const OverlapPatch& patch : reached.patches()) {
@@ -340,51 +299,6 @@ void SeparationSolver::listPullOffContacts(const ContactProblem& problem, Contac
     contacts[of_patch].is_at_border = contacts[of_patch].is_at_border || is_at_border;
     const bool is_summit = reached.patches()[of_patch].first_cell == ordered.cell;
     if (is_summit && dale < regime_of_dale_.size()) contacts[of_patch].regime = regime_of_dale_[dale];
-  }
-}
-
-double SeparationSolver::unloadedContactArea(const ContactSolution& solution) const {
-  const auto unloaded = curve_.firstPushing();
-  const SeparationState& rest = curve_.rest();
-  if (unloaded == curve_.states.end() || rest.contact_count == 0) return solution.contact_area;
-  return solution.contact_area * unloaded->contact_count / rest.contact_count;
-}
-
-void SeparationSolver::takeConforming(const ContactProblem& problem, double stretch, ContactSolution& solution) {
-  const double area = problem.gap.validCount() * problem.gap.cellArea();
-  const ConformingWayOut way_out =
-      conforming_.partFrom(problem.settings.load.mechanical_load / area, stretch * solution.pull_off_force / area);
-  solution.is_conforming = true;
-  solution.is_bonded_by_load = false;
-  solution.status = Status::kBonded;
-  solution.pull_off_force = way_out.strength * area;
-  solution.pull_off_exponents = {1.5, 0.0, -0.5};  // nearly the strength of the law, Gamma/z0
-  if (way_out.has_open_valleys) solution.pull_off_exponents = conforming_.openStrength().exponents;
-  // nearly what flattening, which goes with the modulus, leaves of the work of adhesion
-  const double flattening = solution.flattening_energy / conforming_.work();
-  solution.work_exponents = {1.0 + flattening, -flattening, 0.0};
-  solution.apparent_work_of_adhesion = conforming_.work();
-  solution.contact_area = way_out.states.front().contact_fraction * area;
-  dropWayOut(solution.curve);
-  for (const ConformingState& state : way_out.states) {
-    solution.curve.push_back({state.approach, state.traction * area, true});
-  }
-}
-
-void SeparationSolver::stretchWayOut(const ContactProblem& problem, double force_factor, double work_factor,
-                                     ContactSolution& solution) {
-  if (!(force_factor > 1.0)) return;
-  const double strongest = frame_.law().strength() * problem.gap.validCount() * problem.gap.cellArea();
-  solution.apparent_work_of_adhesion *= work_factor;
-  solution.pull_off_force = std::min(force_factor * solution.pull_off_force, strongest);
-  if (std::none_of(solution.curve.begin(), solution.curve.end(), isWayOut)) {
-    appendCurve(curve_, true, solution.curve);
-  }
-  const double rest = curve_.rest().approach;
-  for (SeparationCurvePoint& point : solution.curve) {
-    if (!isWayOut(point)) continue;
-    point.displacement = rest + work_factor / force_factor * (point.displacement - rest);
-    point.force = std::min(force_factor * point.force, strongest);
   }
 }
 

@@ -3,21 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "chosen_constants.hpp"
+
 namespace mems_stiction {
 namespace {
 
-/// Gaps that the law is tabulated at, of z0: the closest, the farthest, and how many.
-constexpr double kClosest = 0.45;
-constexpr double kFarthest = 400.0;
-constexpr int kLawPoints = 4000;
-constexpr int kClasses = 1024;
-/// Height at which surfaces without relief are past their strength, of z0.
-constexpr double kFarEnough = 2.5;
 /// Cells with a gap up to this count as in contact, of z0: those without relief lie at z0 but for round-off.
 constexpr double kTouching = 1.0 + 1e-9;
-/// Heights of the branch.
-constexpr int kHeights = 240;
-
 /// What one spring does: traction and energy over the distance x = Z + r that it starts from, on the branch that comes
 /// from contact, and on the one that comes from apart.
 class Spring {
@@ -30,10 +22,10 @@ class Spring {
   };
 
   Spring(const ContactTraction& law, double stiffness) {
-    points_.reserve(kLawPoints);
-    const double ratio = std::pow(kFarthest / kClosest, 1.0 / (kLawPoints - 1));
-    double gap = kClosest * law.range();
-    for (int i = 0; i < kLawPoints; ++i, gap *= ratio) {
+    points_.reserve(chosen::kLawPoints);
+    const double ratio = std::pow(chosen::kFarthest / chosen::kClosest, 1.0 / (chosen::kLawPoints - 1));
+    double gap = chosen::kClosest * law.range();
+    for (int i = 0; i < chosen::kLawPoints; ++i, gap *= ratio) {
       // counted from the atoms' centres: the plane of contact is at z0
       const double traction = law.traction(gap - law.range());
       points_.push_back({gap + traction / stiffness, traction,
@@ -90,13 +82,13 @@ SpringState meanAt(double height, const std::vector<ReliefClass>& relief, const 
 
 ReliefClasses::ReliefClasses(double lowest, double highest)
     : lowest_(lowest),
-      inverse_width_(kClasses / std::max(highest - lowest, 1e-200)),
-      sums_(kClasses, 0.0),
-      counts_(kClasses, 0) {}
+      inverse_width_(chosen::kClasses / std::max(highest - lowest, 1e-200)),
+      sums_(chosen::kClasses, 0.0),
+      counts_(chosen::kClasses, 0) {}
 
 void ReliefClasses::add(double depth) {
   const double above = depth - lowest_;
-  const auto place = static_cast<std::size_t>(std::clamp(above * inverse_width_, 0.0, kClasses - 1.0));
+  const auto place = static_cast<std::size_t>(std::clamp(above * inverse_width_, 0.0, chosen::kClasses - 1.0));
   sums_[place] += above;
   ++counts_[place];
 }
@@ -116,10 +108,10 @@ std::vector<SpringState> springBranch(const std::vector<ReliefClass>& relief, co
   const Spring spring(law, stiffness);
   const double range = law.range();
   const double deepest = range - relief.back().depth;
-  const double highest = std::max(spring.snaps() ? spring.end() : 0.0, kFarEnough * range);
+  const double highest = std::max(spring.snaps() ? spring.end() : 0.0, chosen::kFarEnough * range);
   std::vector<SpringState> branch;
-  for (int i = 0; i <= kHeights; ++i) {
-    branch.push_back(meanAt(deepest + (highest - deepest) * i / kHeights, relief, spring, range));
+  for (int i = 0; i <= chosen::kHeights; ++i) {
+    branch.push_back(meanAt(deepest + (highest - deepest) * i / chosen::kHeights, relief, spring, range));
   }
   return branch;
 }

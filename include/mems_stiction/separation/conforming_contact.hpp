@@ -22,59 +22,42 @@
 #include "mems_stiction/separation/open_valleys.hpp"
 #include "mems_stiction/separation/relief_waves.hpp"
 #include "mems_stiction/separation/spring_contact.hpp"
+#include "mems_stiction/separation/way_out.hpp"
 
 namespace mems_stiction {
-
-/// One height of the conforming branch, per area.
-struct ConformingState {
-  double approach = 0.0;          ///< D, z0 less the height of the upper body over first touch [m]
-  double traction = 0.0;          ///< [Pa], attraction positive
-  double contact_fraction = 0.0;  ///< cells that repel each other [-]
-};
-
-/// The bodies as they conform.
-struct ConformingBodies {
-  double contact_modulus = 0.0;    ///< E [Pa], > 0
-  double flattening_energy = 0.0;  ///< U/A [J/m^2], >= 0
-};
-
-/// The way out.
-struct ConformingWayOut {
-  std::vector<ConformingState> states;  ///< by descending approach, from rest to where the interface breaks
-  double strength = 0.0;                ///< largest traction [Pa]
-  bool has_open_valleys = false;
-};
 
 /// Bonded surfaces of one frame. Keeps its memory between frames.
 class ConformingContact {
  public:
-  /// - @p law that attracts
-  void start(const GapField& field, const ContactTraction& law, const ConformingBodies& bodies);
+  /// What the next calls are about. Everything must outlive them; nothing is computed yet.
+  /// - @p flattening_energy U/A [J/m^2], >= 0
+  /// - @p contact_modulus E [Pa], > 0
+  void start(const GapField& field, const ContactTraction& law, double contact_modulus, double flattening_energy);
 
+  /// What drawing the bonded surfaces apart takes [J/m^2]; 0 if they do not stay together.
+  double work();
   /// Whether valleys stay open under a pressure [Pa], >= 0.
   bool hasOpenValleys(double pressure);
-  /// What they hold if so.
-  OpenValleyStrength openStrength() const { return strengthWithOpenValleys(bondedBodies()); }
-  /// What they hold under a pressure [Pa] if all valleys close [Pa]; negative if the weakest place tears by itself.
-  double closedStrength(double pressure);
-  /// What drawing the bonded surfaces apart takes [J/m^2]; 0 if they do not stay together.
-  double work() const;
-  /// The way out from rest under a pressure [Pa], >= 0.
-  /// - @p least_strength what the contacts of surfaces without open valleys hold in any case [Pa]
-  ConformingWayOut partFrom(double pressure, double least_strength);
+  /// The ways out from rest under a pressure [Pa], >= 0.
+  WayOut fromOpenValleys(double pressure);
+  /// - @p least_force what the surfaces hold in any case [N]
+  WayOut asAWhole(double pressure, double least_force);
 
  private:
+  /// The springs up to a mean traction [Pa].
+  WayOut upTo(double strength, double pressure);
   /// Mean traction at which the weakest place tears [Pa]; negative if flattening alone does it.
   double strengthAtWeakestPlace();
   /// The short waves over the whole frame: rms height [m]; and those near a place, as depths below the mean plane [m].
   double takeShortWaves(cv::Point2d place, double radius);
-  BondedBodies bondedBodies() const;
+  const std::vector<SpringState>& branch();
   ReliefSpectrum& relief();
+  double area() const { return field_->validCount() * field_->cellArea(); }
 
   const GapField* field_ = nullptr;
   const ContactTraction* law_ = nullptr;
-  ConformingBodies bodies_;
-  std::vector<SpringState> branch_;
+  BondedBodies bodies_;
+  std::vector<SpringState> branch_;  ///< empty until it is asked for
   ReliefSpectrum relief_;
   bool has_relief_ = false;
   ReliefWaves waves_;

@@ -56,8 +56,6 @@ class ContactTraction {
   Real pressureInSeries(const Real& elastic_pressure, const Real& depth) const;
 
  private:
-  /// A layer is not pressed thinner than this share of z0 [-]: hundreds of GPa for any solid.
-  static constexpr double kThinnestLayer = 0.4;
   /// The balance of layer and bodies is found to this share of the depth.
   static constexpr double kBalance = 1e-6;
   static constexpr int kMostNewtonSteps = 20;
@@ -80,18 +78,16 @@ MEMS_STICTION_INLINE Real ContactTraction::pressureInSeries(const Real& elastic_
   // from the right come down to its zero without passing it. The layer alone would give way by more: with y = x^9 and
   // y^(1/3) <= 1 + (y - 1)/3 by less than what y = 1 + 1.5 pressure/stress gives.
   const double range = law_.range();
-  const Real thickest = (1.0 - kThinnestLayer) * range;
-  const Real most = select(depth < thickest, depth, thickest);
   const Real tolerance = kBalance * select(depth < range, depth, Real(range));
   const Real stiffness = pressure / depth;
   const Real beyond = range * (1.0 - power(1.0 + 1.5 * pressure / stress(), -1.0 / 9.0));
-  Real s = select(beyond < most, beyond, most);
+  Real s = select(beyond < depth, beyond, depth);
   for (int step = 0; step < kMostNewtonSteps; ++step) {
     const Real x = range / (range - s);
     const Real lacking = law_.traction(x) + (pressure - stiffness * s);
     Real next = s + lacking / (law_.slope(x) + stiffness);
     next = greater(next, Real(0.0));
-    next = select(next < most, next, most);
+    next = select(next < depth, next, depth);
     const Real moved = select(next > s, next - s, s - next);
     s = next;
     if (!isAnywhere(moved > tolerance)) break;

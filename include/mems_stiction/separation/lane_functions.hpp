@@ -42,6 +42,8 @@ MEMS_STICTION_INLINE Lanes squareRoot(const Lanes& x) {
   return Lanes::load(values);
 }
 
+MEMS_STICTION_INLINE double squareRoot(double x) { return std::sqrt(x); }
+
 /// 2^(exponent log2 x) with a relative error below 1e-8 for x in [1e-300, 1e300] and results in [1e-300, 1e300].
 MEMS_STICTION_INLINE Lanes power(const Lanes& x, double exponent) {
   constexpr std::int64_t kMantissa = (std::int64_t{1} << 52) - 1;

@@ -13,10 +13,18 @@
 ///
 /// All attributes add up when patches meet.
 
-#include <cmath>
 #include <cstdint>
 
+#include "mems_stiction/separation/lane_functions.hpp"
+
 namespace mems_stiction {
+
+/// V/(dA sqrt(cells)) [m] by number of cells and the sum of their gaps [m], of one patch or of several: what a patch carries,
+/// without what it has kept, over 0.6 E sqrt(pi dA).
+template <typename Real>
+MEMS_STICTION_INLINE Real volumeTerm(const Real& cells, const Real& gap_sum, double approach) {
+  return (cells * approach - gap_sum) / squareRoot(cells);
+}
 
 /// One patch.
 struct OverlapPatch {
@@ -29,10 +37,8 @@ struct OverlapPatch {
 
   /// Mean overlap at an approach, V/A [m].
   double depth(double approach) const { return approach - gap_sum / cells; }
-  /// V/(dA sqrt(cells)) [m]
-  double volumeTerm(double approach) const { return (cells * approach - gap_sum) / std::sqrt(cells); }
   /// P/(0.6 E sqrt(pi dA)) at an approach [m].
-  double loadTerm(double approach) const { return kept + volumeTerm(approach); }
+  double loadTerm(double approach) const { return kept + volumeTerm<double>(cells, gap_sum, approach); }
   /// R = A^2/(4 pi V) [m]: of the paraboloid with this area and volume.
   double radius(double approach, double cell_area) const;
 
@@ -54,7 +60,7 @@ inline void OverlapPatch::merge(const OverlapPatch& other, double approach) {
   cells += other.cells;
   summits += other.summits;
   gap_sum += other.gap_sum;
-  kept = carried - volumeTerm(approach);
+  kept = carried - volumeTerm<double>(cells, gap_sum, approach);
 }
 
 }  // namespace mems_stiction

@@ -28,8 +28,6 @@ class ReliefSpectrum {
   cv::Size blocks() const { return blocks_; }
   /// Whether the frame repeats itself, or is mirrored.
   bool repeats() const { return frame_.size() == blocks_; }
-  /// The shorter side of the frame [m].
-  double shorterSide() const;
 
  private:
   void takeBlocks(const GapField& field, double longest_block);

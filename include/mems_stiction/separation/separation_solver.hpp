@@ -23,6 +23,7 @@
 #include "mems_stiction/separation/flattening.hpp"
 #include "mems_stiction/separation/kept_overlap.hpp"
 #include "mems_stiction/separation/separation_curve.hpp"
+#include "mems_stiction/separation/way_out.hpp"
 
 namespace mems_stiction {
 
@@ -52,17 +53,14 @@ class SeparationSolver : public ContactSolver {
   void visitOverlaps(const GapField& field, const Taker& take);
   void listContacts(const ContactProblem& problem, ContactSolution& solution);
   void fillMaps(const ContactProblem& problem, ContactSolution& solution);
-  /// The way out, if it is another than the way in: of surfaces that have flowed, or with soft summits, which hold on.
-  void part(const ContactProblem& problem, ContactSolution& solution);
-  /// The way out of surfaces that conform, or are near to it, if they are.
-  void partConforming(const ContactProblem& problem, ContactSolution& solution);
+  /// The way out by contacts.
+  void partByContacts(const ContactProblem& problem);
+  /// Where it is another than the way in: of surfaces that have flowed, or with soft summits, which hold on.
+  void followChanged(const Way& way);
+  const SeparationCurve& wayOut() const { return has_way_out_ ? way_out_ : curve_; }
+  void takeWayOut(const WayOut& way_out, ContactSolution& solution) const;
   /// The contacts that hold at the pull-off: patches within reach of the attraction there.
   void listPullOffContacts(const ContactProblem& problem, ContactSolution& solution);
-  /// Contact area of the surfaces when the loads have been taken away [m^2]: theirs at rest, if there were none.
-  double unloadedContactArea(const ContactSolution& solution) const;
-  void takeConforming(const ContactProblem& problem, double stretch, ContactSolution& solution);
-  /// Makes the way out stronger, if these factors do, by its forces and by its displacements from rest.
-  void stretchWayOut(const ContactProblem& problem, double force_factor, double work_factor, ContactSolution& solution);
 
   FrameSums frame_;
   SeparationCurve curve_;
@@ -75,6 +73,7 @@ class SeparationSolver : public ContactSolver {
   ConformingContact conforming_;
   SeparationCurve way_out_;  ///< where it is another than the way in
   bool has_way_out_ = false;
+  WayOut by_contacts_;
   CurveStatement statement_;
   std::vector<Regime> regime_of_dale_;  ///< at rest, when surfaces have flowed
 };

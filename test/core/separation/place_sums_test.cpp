@@ -61,7 +61,7 @@ TEST(PlaceSums, ofTilesAddUpToThoseOfTheWhole) {
   Tile whole(heights, top, options);
   Tile upper(heights.rowRange(0, 40).clone(), top, options);
   Tile lower(heights.rowRange(40, 80).clone(), top, options);
-  for (const double approach : {-1e-9, -0.2e-9, 0.5e-9, 1.5e-9}) {
+  for (const double approach : {-0.2e-9, 0.5e-9, 1.5e-9}) {
     SCOPED_TRACE(approach);
     PlaceSums sums = upper.at(approach, 0.1e-9);
     sums += lower.at(approach, 0.1e-9);

@@ -30,7 +30,7 @@ double fullPressure(double wave_length) { return kModulus * kPi * kAmplitude / w
 
 TEST(ReliefWaves, aLongWavePullsWithWestergaardsPressure) {
   const double wave_length = kSide * kPitch;
-  // 2 l q = 0.13: all but 3e-4 of the wave is long
+  // l q = 0.065: all but 2e-5 of the wave is long
   const ReliefWaves waves = split(analytic::sine(kSide, kSide, kPitch, kPitch, kAmplitude, 1, 0), kPitch);
   EXPECT_NEAR(waves.largestTension() / fullPressure(wave_length), 1.0, 2e-3);
   double low = 0.0;
