@@ -1,4 +1,4 @@
-#include "mems_stiction/approach/dale_rows.hpp"
+#include "approach/dale_rows.hpp"
 
 namespace mems_stiction {
 

@@ -1,12 +1,12 @@
-#include "mems_stiction/approach/gap_field.hpp"
+#include "approach/gap_field.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <type_traits>
 
+#include "base/lanes.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/lanes.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
 #include "mems_stiction/base/vectorized.hpp"
 

@@ -1,9 +1,9 @@
-#include "mems_stiction/approach/gap_order.hpp"
+#include "approach/gap_order.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "mems_stiction/approach/gap_moment_sums.hpp"
+#include "approach/gap_moment_sums.hpp"
 #include "mems_stiction/base/vectorized.hpp"
 
 namespace mems_stiction {

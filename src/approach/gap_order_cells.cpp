@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "mems_stiction/approach/gap_moment_sums.hpp"
-#include "mems_stiction/approach/gap_order.hpp"
+#include "approach/gap_moment_sums.hpp"
+#include "approach/gap_order.hpp"
 #include "mems_stiction/base/vectorized.hpp"
 
 namespace mems_stiction {

@@ -1,4 +1,4 @@
-#include "mems_stiction/approach/gap_pyramid.hpp"
+#include "approach/gap_pyramid.hpp"
 
 namespace mems_stiction {
 namespace {

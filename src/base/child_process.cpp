@@ -1,4 +1,4 @@
-#include "mems_stiction/base/child_process.hpp"
+#include "base/child_process.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -14,7 +14,7 @@
 #include <chrono>
 #include <cstdint>
 
-#include "mems_stiction/base/interruption.hpp"
+#include "base/interruption.hpp"
 
 extern char** environ;
 

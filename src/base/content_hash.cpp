@@ -1,4 +1,4 @@
-#include "mems_stiction/base/content_hash.hpp"
+#include "base/content_hash.hpp"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,4 +1,4 @@
-#include "mems_stiction/base/input_file.hpp"
+#include "base/input_file.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -11,7 +11,7 @@
 #include <ctime>
 #include <limits>
 
-#include "mems_stiction/base/content_hash.hpp"
+#include "base/content_hash.hpp"
 #include "mems_stiction/base/errors.hpp"
 
 namespace mems_stiction {

@@ -1,4 +1,4 @@
-#include "mems_stiction/base/interruption.hpp"
+#include "base/interruption.hpp"
 
 #include <signal.h>
 #include <stdlib.h>

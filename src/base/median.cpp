@@ -1,8 +1,8 @@
-#include "mems_stiction/base/median.hpp"
+#include "base/median.hpp"
 
 #include <cmath>
 
-#include "mems_stiction/base/value_range.hpp"
+#include "base/value_range.hpp"
 #include "mems_stiction/base/vectorized.hpp"
 
 namespace mems_stiction {

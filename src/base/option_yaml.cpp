@@ -1,4 +1,4 @@
-#include "mems_stiction/base/option_yaml.hpp"
+#include "base/option_yaml.hpp"
 
 #include <yaml-cpp/yaml.h>
 
@@ -11,8 +11,8 @@
 #include <numeric>
 #include <sstream>
 
+#include "base/words.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/words.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,4 +1,4 @@
-#include "mems_stiction/base/output_file.hpp"
+#include "base/output_file.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -9,9 +9,9 @@
 #include <cstring>
 #include <filesystem>
 
+#include "base/input_file.hpp"
+#include "base/interruption.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/input_file.hpp"
-#include "mems_stiction/base/interruption.hpp"
 
 namespace mems_stiction {
 namespace {

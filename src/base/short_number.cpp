@@ -1,4 +1,4 @@
-#include "mems_stiction/base/short_number.hpp"
+#include "base/short_number.hpp"
 
 #include <cmath>
 #include <cstdio>

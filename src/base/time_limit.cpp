@@ -1,4 +1,4 @@
-#include "mems_stiction/base/time_limit.hpp"
+#include "base/time_limit.hpp"
 
 #include <string>
 

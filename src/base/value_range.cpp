@@ -1,6 +1,6 @@
-#include "mems_stiction/base/value_range.hpp"
+#include "base/value_range.hpp"
 
-#include "mems_stiction/base/lanes.hpp"
+#include "base/lanes.hpp"
 #include "mems_stiction/base/vectorized.hpp"
 
 namespace mems_stiction {

@@ -1,4 +1,4 @@
-#include "mems_stiction/base/words.hpp"
+#include "base/words.hpp"
 
 #include <algorithm>
 #include <cctype>

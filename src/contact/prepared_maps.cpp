@@ -1,8 +1,8 @@
-#include "mems_stiction/contact/prepared_maps.hpp"
+#include "contact/prepared_maps.hpp"
 
 #include <algorithm>
 
-#include "mems_stiction/height_map/shared_pixels.hpp"
+#include "height_map/shared_pixels.hpp"
 
 namespace mems_stiction {
 

@@ -1,4 +1,4 @@
-#include "mems_stiction/deformation/modified_topography.hpp"
+#include "deformation/modified_topography.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
-#include "mems_stiction/half_space/conjugate_gradients.hpp"
+#include "half_space/conjugate_gradients.hpp"
 
 #include <algorithm>
 #include <utility>
 #include <vector>
 
 #include "conjugate_rows.hpp"
-#include "mems_stiction/half_space/row_work.hpp"
+#include "half_space/row_work.hpp"
 
 namespace mems_stiction {
 namespace {

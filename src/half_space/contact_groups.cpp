@@ -1,4 +1,4 @@
-#include "mems_stiction/half_space/contact_groups.hpp"
+#include "half_space/contact_groups.hpp"
 
 #include <numeric>
 #include <vector>

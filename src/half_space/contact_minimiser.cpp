@@ -1,4 +1,4 @@
-#include "mems_stiction/half_space/contact_minimiser.hpp"
+#include "half_space/contact_minimiser.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "evaluation_rows.hpp"
+#include "half_space/row_work.hpp"
 #include "mems_stiction/base/vectorized.hpp"
-#include "mems_stiction/half_space/row_work.hpp"
 
 namespace mems_stiction {
 namespace {

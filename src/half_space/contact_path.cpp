@@ -1,4 +1,4 @@
-#include "mems_stiction/half_space/contact_path.hpp"
+#include "half_space/contact_path.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "mems_stiction/half_space/contact_windows.hpp"
+#include "half_space/contact_windows.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,9 @@
 #include <initializer_list>
 #include <utility>
 
+#include "half_space/contact_minimiser.hpp"
+#include "half_space/row_work.hpp"
 #include "mems_stiction/base/vectorized.hpp"
-#include "mems_stiction/half_space/contact_minimiser.hpp"
-#include "mems_stiction/half_space/row_work.hpp"
 
 namespace mems_stiction {
 namespace {

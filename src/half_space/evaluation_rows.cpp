@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "mems_stiction/base/lanes.hpp"
+#include "base/lanes.hpp"
 
 namespace mems_stiction {
 namespace evaluation_rows {

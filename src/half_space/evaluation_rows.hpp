@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "mems_stiction/half_space/traction_law.hpp"
+#include "half_space/traction_law.hpp"
 
 namespace mems_stiction {
 namespace evaluation_rows {

@@ -1,4 +1,4 @@
-#include "mems_stiction/half_space/half_space_grid.hpp"
+#include "half_space/half_space_grid.hpp"
 
 #include <initializer_list>
 

@@ -6,16 +6,16 @@
 #include <optional>
 #include <utility>
 
-#include "mems_stiction/approach/gap_field.hpp"
+#include "approach/gap_field.hpp"
+#include "deformation/modified_topography.hpp"
+#include "half_space/contact_groups.hpp"
+#include "half_space/contact_minimiser.hpp"
+#include "half_space/contact_path.hpp"
+#include "half_space/half_space_grid.hpp"
+#include "half_space/row_work.hpp"
+#include "half_space/traction_law.hpp"
+#include "height_map/validity.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/deformation/modified_topography.hpp"
-#include "mems_stiction/half_space/contact_groups.hpp"
-#include "mems_stiction/half_space/contact_minimiser.hpp"
-#include "mems_stiction/half_space/contact_path.hpp"
-#include "mems_stiction/half_space/half_space_grid.hpp"
-#include "mems_stiction/half_space/row_work.hpp"
-#include "mems_stiction/half_space/traction_law.hpp"
-#include "mems_stiction/height_map/validity.hpp"
 #include "mems_stiction/mechanics/plasticity.hpp"
 
 namespace mems_stiction {

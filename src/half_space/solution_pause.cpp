@@ -1,4 +1,4 @@
-#include "mems_stiction/half_space/solution_pause.hpp"
+#include "half_space/solution_pause.hpp"
 
 #include <algorithm>
 

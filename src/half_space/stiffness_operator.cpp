@@ -1,4 +1,4 @@
-#include "mems_stiction/half_space/stiffness_operator.hpp"
+#include "half_space/stiffness_operator.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,10 +6,10 @@
 #include <limits>
 #include <vector>
 
+#include "half_space/row_work.hpp"
 #include "line_transform.hpp"
 #include "mems_stiction/base/constants.hpp"
 #include "mems_stiction/base/vectorized.hpp"
-#include "mems_stiction/half_space/row_work.hpp"
 #include "row_pairs.hpp"
 
 namespace mems_stiction {

@@ -1,9 +1,9 @@
-#include "mems_stiction/half_space/traction_law.hpp"
+#include "half_space/traction_law.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "mems_stiction/base/lanes.hpp"
+#include "base/lanes.hpp"
 
 namespace mems_stiction {
 namespace {

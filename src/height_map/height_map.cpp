@@ -4,9 +4,9 @@
 #include <string>
 #include <utility>
 
+#include "height_map/pitch.hpp"
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
-#include "mems_stiction/height_map/pitch.hpp"
 
 namespace mems_stiction {
 namespace {

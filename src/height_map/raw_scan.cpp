@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <string>
 
+#include "height_map/pitch.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/height_map/pitch.hpp"
 
 namespace mems_stiction {
 namespace {

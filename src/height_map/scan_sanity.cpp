@@ -1,12 +1,12 @@
-#include "mems_stiction/height_map/scan_sanity.hpp"
+#include "height_map/scan_sanity.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "base/short_number.hpp"
+#include "height_map/unmeasured.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/short_number.hpp"
-#include "mems_stiction/height_map/unmeasured.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,4 +1,4 @@
-#include "mems_stiction/height_map/unmeasured.hpp"
+#include "height_map/unmeasured.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "mems_stiction/height_map/validity.hpp"
+#include "height_map/validity.hpp"
 
 namespace mems_stiction {
 namespace {

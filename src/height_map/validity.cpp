@@ -1,4 +1,4 @@
-#include "mems_stiction/height_map/validity.hpp"
+#include "height_map/validity.hpp"
 
 #include <limits>
 

@@ -1,4 +1,4 @@
-#include "mems_stiction/import/channel_choice.hpp"
+#include "import/channel_choice.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -8,9 +8,9 @@
 #include <sstream>
 #include <tuple>
 
+#include "base/short_number.hpp"
+#include "height_map/unmeasured.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/short_number.hpp"
-#include "mems_stiction/height_map/unmeasured.hpp"
 
 namespace mems_stiction {
 namespace {

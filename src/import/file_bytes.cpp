@@ -1,7 +1,7 @@
-#include "mems_stiction/import/file_bytes.hpp"
+#include "import/file_bytes.hpp"
 
+#include "base/input_file.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/input_file.hpp"
 
 namespace mems_stiction {
 

@@ -1,4 +1,4 @@
-#include "mems_stiction/import/file_checks.hpp"
+#include "import/file_checks.hpp"
 
 #include <zlib.h>
 
@@ -8,12 +8,12 @@
 #include <new>
 #include <vector>
 
+#include "base/words.hpp"
+#include "import/byte_cursor.hpp"
+#include "import/file_bytes.hpp"
+#include "import/header_lines.hpp"
+#include "import/plain_number.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/words.hpp"
-#include "mems_stiction/import/byte_cursor.hpp"
-#include "mems_stiction/import/file_bytes.hpp"
-#include "mems_stiction/import/header_lines.hpp"
-#include "mems_stiction/import/plain_number.hpp"
 
 namespace mems_stiction {
 namespace {

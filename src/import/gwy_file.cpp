@@ -1,14 +1,14 @@
-#include "mems_stiction/import/format_readers.hpp"
+#include "import/format_readers.hpp"
 
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
 #include <map>
 
+#include "height_map/validity.hpp"
+#include "import/byte_cursor.hpp"
+#include "import/file_bytes.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/height_map/validity.hpp"
-#include "mems_stiction/import/byte_cursor.hpp"
-#include "mems_stiction/import/file_bytes.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,17 +1,17 @@
-#include "mems_stiction/import/format_readers.hpp"
+#include "import/format_readers.hpp"
 
 #include <string.h>
 
 #include <filesystem>
 #include <fstream>
 
-#include "mems_stiction/base/child_process.hpp"
+#include "base/child_process.hpp"
+#include "base/interruption.hpp"
+#include "import/file_bytes.hpp"
+#include "import/import_cache.hpp"
+#include "import/waiting_gwyddion.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/interruption.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
-#include "mems_stiction/import/file_bytes.hpp"
-#include "mems_stiction/import/import_cache.hpp"
-#include "mems_stiction/import/waiting_gwyddion.hpp"
 
 namespace mems_stiction {
 namespace {

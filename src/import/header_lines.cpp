@@ -1,11 +1,11 @@
-#include "mems_stiction/import/header_lines.hpp"
+#include "import/header_lines.hpp"
 
 #include <algorithm>
 #include <cctype>
 
+#include "base/words.hpp"
+#include "import/plain_number.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/words.hpp"
-#include "mems_stiction/import/plain_number.hpp"
 
 namespace mems_stiction {
 namespace {

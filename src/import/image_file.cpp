@@ -1,4 +1,4 @@
-#include "mems_stiction/import/format_readers.hpp"
+#include "import/format_readers.hpp"
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
@@ -13,9 +13,9 @@
 #include <memory>
 #include <vector>
 
+#include "import/byte_cursor.hpp"
+#include "import/file_bytes.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/import/byte_cursor.hpp"
-#include "mems_stiction/import/file_bytes.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,4 +1,4 @@
-#include "mems_stiction/import/import_cache.hpp"
+#include "import/import_cache.hpp"
 
 #include <stdlib.h>
 #include <sys/stat.h>
@@ -8,10 +8,10 @@
 #include <filesystem>
 #include <vector>
 
-#include "mems_stiction/base/content_hash.hpp"
+#include "base/content_hash.hpp"
+#include "base/output_file.hpp"
+#include "import/file_bytes.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/output_file.hpp"
-#include "mems_stiction/import/file_bytes.hpp"
 
 namespace mems_stiction {
 namespace {

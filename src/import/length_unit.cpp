@@ -1,9 +1,9 @@
-#include "mems_stiction/import/length_unit.hpp"
+#include "import/length_unit.hpp"
 
 #include <map>
 
-#include "mems_stiction/base/words.hpp"
-#include "mems_stiction/import/plain_number.hpp"
+#include "base/words.hpp"
+#include "import/plain_number.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,15 +1,15 @@
-#include "mems_stiction/import/nanoscope_check.hpp"
+#include "import/nanoscope_check.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
+#include "import/file_checks.hpp"
+#include "import/header_lines.hpp"
+#include "import/length_unit.hpp"
+#include "import/plain_number.hpp"
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
-#include "mems_stiction/import/file_checks.hpp"
-#include "mems_stiction/import/header_lines.hpp"
-#include "mems_stiction/import/length_unit.hpp"
-#include "mems_stiction/import/plain_number.hpp"
 
 namespace mems_stiction {
 namespace {

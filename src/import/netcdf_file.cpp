@@ -1,4 +1,4 @@
-#include "mems_stiction/import/format_readers.hpp"
+#include "import/format_readers.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,11 +7,11 @@
 #include <map>
 #include <vector>
 
+#include "import/byte_cursor.hpp"
+#include "import/file_bytes.hpp"
+#include "import/length_unit.hpp"
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
-#include "mems_stiction/import/byte_cursor.hpp"
-#include "mems_stiction/import/file_bytes.hpp"
-#include "mems_stiction/import/length_unit.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,12 +1,12 @@
-#include "mems_stiction/import/format_readers.hpp"
+#include "import/format_readers.hpp"
 
 #include <cstdint>
 #include <functional>
 
+#include "import/byte_cursor.hpp"
+#include "import/file_bytes.hpp"
+#include "import/plain_number.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/import/byte_cursor.hpp"
-#include "mems_stiction/import/file_bytes.hpp"
-#include "mems_stiction/import/plain_number.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,4 +1,4 @@
-#include "mems_stiction/import/plain_number.hpp"
+#include "import/plain_number.hpp"
 
 #include <locale.h>
 #include <stdlib.h>
@@ -9,8 +9,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/words.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/words.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -9,13 +9,13 @@
 #include <filesystem>
 #include <set>
 
+#include "base/input_file.hpp"
+#include "base/option_yaml.hpp"
+#include "height_map/unmeasured.hpp"
+#include "import/channel_choice.hpp"
+#include "import/file_bytes.hpp"
+#include "import/format_readers.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/input_file.hpp"
-#include "mems_stiction/base/option_yaml.hpp"
-#include "mems_stiction/height_map/unmeasured.hpp"
-#include "mems_stiction/import/channel_choice.hpp"
-#include "mems_stiction/import/file_bytes.hpp"
-#include "mems_stiction/import/format_readers.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -4,15 +4,15 @@
 #include <cctype>
 #include <filesystem>
 
+#include "base/words.hpp"
+#include "import/channel_choice.hpp"
+#include "import/file_bytes.hpp"
+#include "import/file_checks.hpp"
+#include "import/format_readers.hpp"
+#include "import/nanoscope_check.hpp"
+#include "import/plain_number.hpp"
+#include "import/tiff_tags.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/words.hpp"
-#include "mems_stiction/import/channel_choice.hpp"
-#include "mems_stiction/import/file_bytes.hpp"
-#include "mems_stiction/import/file_checks.hpp"
-#include "mems_stiction/import/format_readers.hpp"
-#include "mems_stiction/import/nanoscope_check.hpp"
-#include "mems_stiction/import/plain_number.hpp"
-#include "mems_stiction/import/tiff_tags.hpp"
 
 namespace mems_stiction {
 namespace {

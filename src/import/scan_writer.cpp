@@ -1,4 +1,4 @@
-#include "mems_stiction/import/scan_writer.hpp"
+#include "import/scan_writer.hpp"
 
 #include <zlib.h>
 
@@ -10,13 +10,13 @@
 #include <limits>
 #include <vector>
 
+#include "base/one_line.hpp"
+#include "base/option_yaml.hpp"
+#include "base/output_file.hpp"
+#include "height_map/scan_sanity.hpp"
+#include "height_map/validity.hpp"
+#include "import/file_bytes.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/one_line.hpp"
-#include "mems_stiction/base/option_yaml.hpp"
-#include "mems_stiction/base/output_file.hpp"
-#include "mems_stiction/height_map/scan_sanity.hpp"
-#include "mems_stiction/height_map/validity.hpp"
-#include "mems_stiction/import/file_bytes.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,16 +1,16 @@
-#include "mems_stiction/import/format_readers.hpp"
+#include "import/format_readers.hpp"
 
 #include <zlib.h>
 
 #include <cstdint>
 #include <limits>
 
+#include "import/byte_cursor.hpp"
+#include "import/file_bytes.hpp"
+#include "import/file_checks.hpp"
+#include "import/length_unit.hpp"
+#include "import/plain_number.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/import/byte_cursor.hpp"
-#include "mems_stiction/import/file_bytes.hpp"
-#include "mems_stiction/import/file_checks.hpp"
-#include "mems_stiction/import/length_unit.hpp"
-#include "mems_stiction/import/plain_number.hpp"
 
 namespace mems_stiction {
 namespace {

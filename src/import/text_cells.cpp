@@ -1,12 +1,12 @@
-#include "mems_stiction/import/text_cells.hpp"
+#include "import/text_cells.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <limits>
 
+#include "import/plain_number.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/import/plain_number.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,18 +1,18 @@
-#include "mems_stiction/import/format_readers.hpp"
+#include "import/format_readers.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
+#include "import/file_bytes.hpp"
+#include "import/length_unit.hpp"
+#include "import/plain_number.hpp"
+#include "import/text_cells.hpp"
+#include "import/text_header.hpp"
+#include "import/xyz_grid.hpp"
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
-#include "mems_stiction/import/file_bytes.hpp"
-#include "mems_stiction/import/length_unit.hpp"
-#include "mems_stiction/import/plain_number.hpp"
-#include "mems_stiction/import/text_cells.hpp"
-#include "mems_stiction/import/text_header.hpp"
-#include "mems_stiction/import/xyz_grid.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,4 +1,4 @@
-#include "mems_stiction/import/text_header.hpp"
+#include "import/text_header.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -6,11 +6,11 @@
 #include <optional>
 #include <vector>
 
+#include "base/words.hpp"
+#include "import/length_unit.hpp"
+#include "import/plain_number.hpp"
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
-#include "mems_stiction/base/words.hpp"
-#include "mems_stiction/import/length_unit.hpp"
-#include "mems_stiction/import/plain_number.hpp"
 
 namespace mems_stiction {
 namespace {

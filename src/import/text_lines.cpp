@@ -1,13 +1,13 @@
-#include "mems_stiction/import/text_lines.hpp"
+#include "import/text_lines.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
 
+#include "base/words.hpp"
+#include "import/length_unit.hpp"
+#include "import/plain_number.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/words.hpp"
-#include "mems_stiction/import/length_unit.hpp"
-#include "mems_stiction/import/plain_number.hpp"
 
 namespace mems_stiction {
 namespace {

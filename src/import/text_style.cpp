@@ -1,10 +1,10 @@
-#include "mems_stiction/import/text_style.hpp"
+#include "import/text_style.hpp"
 
 #include <algorithm>
 #include <cctype>
 
+#include "import/plain_number.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/import/plain_number.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,4 +1,4 @@
-#include "mems_stiction/import/format_readers.hpp"
+#include "import/format_readers.hpp"
 
 #include <tiffio.h>
 
@@ -8,10 +8,10 @@
 #include <limits>
 #include <memory>
 
+#include "import/byte_cursor.hpp"
+#include "import/file_bytes.hpp"
+#include "import/tiff_tags.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/import/byte_cursor.hpp"
-#include "mems_stiction/import/file_bytes.hpp"
-#include "mems_stiction/import/tiff_tags.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,4 +1,4 @@
-#include "mems_stiction/import/tiff_tags.hpp"
+#include "import/tiff_tags.hpp"
 
 #include <array>
 #include <cmath>
@@ -6,11 +6,11 @@
 #include <limits>
 #include <optional>
 
+#include "import/byte_cursor.hpp"
+#include "import/length_unit.hpp"
+#include "import/plain_number.hpp"
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
-#include "mems_stiction/import/byte_cursor.hpp"
-#include "mems_stiction/import/length_unit.hpp"
-#include "mems_stiction/import/plain_number.hpp"
 
 namespace mems_stiction {
 namespace {

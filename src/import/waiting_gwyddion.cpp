@@ -1,4 +1,4 @@
-#include "mems_stiction/import/waiting_gwyddion.hpp"
+#include "import/waiting_gwyddion.hpp"
 
 #include <dlfcn.h>
 #include <poll.h>
@@ -15,7 +15,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "mems_stiction/base/interruption.hpp"
+#include "base/interruption.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,4 +1,4 @@
-#include "mems_stiction/import/xyz_grid.hpp"
+#include "import/xyz_grid.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "import/file_bytes.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/import/file_bytes.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "mems_stiction/approach/gap_order.hpp"
+#include "approach/gap_order.hpp"
 #include "mems_stiction/base/constants.hpp"
 
 namespace mems_stiction {

@@ -1,4 +1,4 @@
-#include "mems_stiction/loads/force_range.hpp"
+#include "loads/force_range.hpp"
 
 #include "mems_stiction/mechanics/traction_law.hpp"
 

@@ -1,9 +1,9 @@
-#include "mems_stiction/mechanics/dmt.hpp"
+#include "mechanics/dmt.hpp"
 
 #include <limits>
 
+#include "mechanics/hertz.hpp"
 #include "mems_stiction/base/constants.hpp"
-#include "mems_stiction/mechanics/hertz.hpp"
 
 namespace mems_stiction {
 namespace dmt {

@@ -1,4 +1,4 @@
-#include "mems_stiction/mechanics/hertz.hpp"
+#include "mechanics/hertz.hpp"
 
 #include <cmath>
 

@@ -1,9 +1,9 @@
-#include "mems_stiction/mechanics/jkr.hpp"
+#include "mechanics/jkr.hpp"
 
 #include <cmath>
 
+#include "mechanics/hertz.hpp"
 #include "mems_stiction/base/constants.hpp"
-#include "mems_stiction/mechanics/hertz.hpp"
 
 namespace mems_stiction {
 namespace jkr {

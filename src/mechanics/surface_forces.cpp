@@ -1,4 +1,4 @@
-#include "mems_stiction/mechanics/surface_forces.hpp"
+#include "mechanics/surface_forces.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "mems_stiction/mechanics/transition.hpp"
+#include "mechanics/transition.hpp"
 
 #include <cmath>
 

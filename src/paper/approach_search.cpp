@@ -1,9 +1,9 @@
-#include "mems_stiction/paper/approach_search.hpp"
+#include "paper/approach_search.hpp"
 
 #include <algorithm>
 
-#include "mems_stiction/base/time_limit.hpp"
-#include "mems_stiction/paper/level_search.hpp"
+#include "base/time_limit.hpp"
+#include "paper/level_search.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,4 +1,4 @@
-#include "mems_stiction/paper/asperity_response.hpp"
+#include "paper/asperity_response.hpp"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
-#include "mems_stiction/paper/asperity_solver.hpp"
+#include "paper/asperity_solver.hpp"
 
-#include "mems_stiction/paper/asperity_summary.hpp"
-#include "mems_stiction/paper/contact_growth.hpp"
+#include "paper/asperity_summary.hpp"
+#include "paper/contact_growth.hpp"
 
 namespace mems_stiction {
 namespace {

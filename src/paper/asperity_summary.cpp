@@ -1,10 +1,10 @@
-#include "mems_stiction/paper/asperity_summary.hpp"
+#include "paper/asperity_summary.hpp"
 
 #include <cmath>
 
+#include "mechanics/jkr.hpp"
+#include "mechanics/transition.hpp"
 #include "mems_stiction/base/constants.hpp"
-#include "mems_stiction/mechanics/jkr.hpp"
-#include "mems_stiction/mechanics/transition.hpp"
 
 namespace mems_stiction {
 

@@ -1,7 +1,7 @@
-#include "mems_stiction/paper/cell_forces.hpp"
+#include "paper/cell_forces.hpp"
 
+#include "base/lanes.hpp"
 #include "mems_stiction/base/constants.hpp"
-#include "mems_stiction/base/lanes.hpp"
 #include "mems_stiction/base/vectorized.hpp"
 
 namespace mems_stiction {

@@ -1,13 +1,13 @@
-#include "mems_stiction/paper/contact_growth.hpp"
+#include "paper/contact_growth.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "mechanics/jkr.hpp"
+#include "mechanics/surface_forces.hpp"
 #include "mems_stiction/base/constants.hpp"
 #include "mems_stiction/contact/contact_settings.hpp"
-#include "mems_stiction/mechanics/jkr.hpp"
 #include "mems_stiction/mechanics/plasticity.hpp"
-#include "mems_stiction/mechanics/surface_forces.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,9 +1,9 @@
-#include "mems_stiction/paper/contact_maps.hpp"
+#include "paper/contact_maps.hpp"
 
 #include <cmath>
 
-#include "mems_stiction/contact/prepared_maps.hpp"
-#include "mems_stiction/paper/formulation_share.hpp"
+#include "contact/prepared_maps.hpp"
+#include "paper/formulation_share.hpp"
 
 namespace mems_stiction {
 void ContactMaps::fill(const ContactProblem& problem, const EquilibriumState& state, ApproachSearch& search,

@@ -1,4 +1,4 @@
-#include "mems_stiction/paper/contact_patch.hpp"
+#include "paper/contact_patch.hpp"
 
 #include <algorithm>
 

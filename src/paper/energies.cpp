@@ -1,4 +1,4 @@
-#include "mems_stiction/paper/energies.hpp"
+#include "paper/energies.hpp"
 
 #include <cmath>
 

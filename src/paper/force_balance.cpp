@@ -1,4 +1,4 @@
-#include "mems_stiction/paper/force_balance.hpp"
+#include "paper/force_balance.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <utility>
 
+#include "base/time_limit.hpp"
+#include "contact/contact_solver.hpp"
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
-#include "mems_stiction/base/time_limit.hpp"
-#include "mems_stiction/contact/contact_solver.hpp"
-#include "mems_stiction/prediction/contact_solvers.hpp"
-#include "mems_stiction/prediction/contact_summary.hpp"
+#include "prediction/contact_solvers.hpp"
+#include "prediction/contact_summary.hpp"
 
 namespace mems_stiction {
 namespace {

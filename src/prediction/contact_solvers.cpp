@@ -1,11 +1,11 @@
-#include "mems_stiction/prediction/contact_solvers.hpp"
+#include "prediction/contact_solvers.hpp"
 
 #include <utility>
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
-#include "mems_stiction/paper/asperity_solver.hpp"
-#include "mems_stiction/separation/separation_solver.hpp"
+#include "paper/asperity_solver.hpp"
+#include "separation/separation_solver.hpp"
 
 namespace mems_stiction {
 namespace {

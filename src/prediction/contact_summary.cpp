@@ -1,10 +1,10 @@
-#include "mems_stiction/prediction/contact_summary.hpp"
+#include "prediction/contact_summary.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "mems_stiction/base/median.hpp"
+#include "base/median.hpp"
 
 namespace mems_stiction {
 namespace {

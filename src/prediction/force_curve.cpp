@@ -1,8 +1,8 @@
-#include "mems_stiction/prediction/force_curve.hpp"
+#include "prediction/force_curve.hpp"
 
 #include <algorithm>
 
-#include "mems_stiction/loads/force_range.hpp"
+#include "loads/force_range.hpp"
 
 namespace mems_stiction {
 

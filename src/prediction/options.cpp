@@ -1,7 +1,7 @@
 #include "mems_stiction/prediction/options.hpp"
 
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/prediction/contact_solvers.hpp"
+#include "prediction/contact_solvers.hpp"
 
 namespace mems_stiction {
 

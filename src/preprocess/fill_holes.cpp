@@ -1,4 +1,4 @@
-#include "mems_stiction/preprocess/fill_holes.hpp"
+#include "preprocess/fill_holes.hpp"
 
 #include <algorithm>
 #include <array>

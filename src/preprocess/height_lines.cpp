@@ -1,9 +1,9 @@
-#include "mems_stiction/preprocess/height_lines.hpp"
+#include "preprocess/height_lines.hpp"
 
 #include <cmath>
 #include <limits>
 
-#include "mems_stiction/base/lanes.hpp"
+#include "base/lanes.hpp"
 #include "mems_stiction/base/vectorized.hpp"
 
 namespace mems_stiction {

@@ -1,7 +1,7 @@
-#include "mems_stiction/preprocess/levelling.hpp"
+#include "preprocess/levelling.hpp"
 
-#include "mems_stiction/preprocess/level.hpp"
-#include "mems_stiction/preprocess/polynomial_level.hpp"
+#include "preprocess/level.hpp"
+#include "preprocess/polynomial_level.hpp"
 
 namespace mems_stiction {
 

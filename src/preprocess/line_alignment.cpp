@@ -1,11 +1,11 @@
-#include "mems_stiction/preprocess/line_alignment.hpp"
+#include "preprocess/line_alignment.hpp"
 
 #include <cmath>
 #include <limits>
 #include <vector>
 
-#include "mems_stiction/height_map/validity.hpp"
-#include "mems_stiction/preprocess/polynomial_level.hpp"
+#include "height_map/validity.hpp"
+#include "preprocess/polynomial_level.hpp"
 
 namespace mems_stiction {
 namespace {

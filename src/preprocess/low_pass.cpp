@@ -1,4 +1,4 @@
-#include "mems_stiction/preprocess/low_pass.hpp"
+#include "preprocess/low_pass.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "mems_stiction/height_map/validity.hpp"
+#include "height_map/validity.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -4,18 +4,18 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "base/time_limit.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/time_limit.hpp"
-#include "mems_stiction/preprocess/fill_holes.hpp"
-#include "mems_stiction/preprocess/levelling.hpp"
-#include "mems_stiction/preprocess/line_alignment.hpp"
-#include "mems_stiction/preprocess/low_pass.hpp"
-#include "mems_stiction/preprocess/refine.hpp"
-#include "mems_stiction/preprocess/region.hpp"
-#include "mems_stiction/preprocess/spike_removal.hpp"
-#include "mems_stiction/preprocess/stage_offset.hpp"
-#include "mems_stiction/preprocess/tip_correction.hpp"
-#include "mems_stiction/preprocess/working_surface.hpp"
+#include "preprocess/fill_holes.hpp"
+#include "preprocess/levelling.hpp"
+#include "preprocess/line_alignment.hpp"
+#include "preprocess/low_pass.hpp"
+#include "preprocess/refine.hpp"
+#include "preprocess/region.hpp"
+#include "preprocess/spike_removal.hpp"
+#include "preprocess/stage_offset.hpp"
+#include "preprocess/tip_correction.hpp"
+#include "preprocess/working_surface.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,4 +1,4 @@
-#include "mems_stiction/preprocess/polynomial_level.hpp"
+#include "preprocess/polynomial_level.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include <Eigen/Dense>
 
-#include "mems_stiction/base/lanes.hpp"
+#include "base/lanes.hpp"
 #include "mems_stiction/base/vectorized.hpp"
 
 namespace mems_stiction {

@@ -1,4 +1,4 @@
-#include "mems_stiction/preprocess/refine.hpp"
+#include "preprocess/refine.hpp"
 
 #include <cmath>
 #include <limits>
@@ -8,10 +8,10 @@
 #include <Eigen/Sparse>
 #include <opencv2/imgproc.hpp>
 
+#include "height_map/validity.hpp"
 #include "mems_stiction/base/constants.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/height_map/validity.hpp"
-#include "mems_stiction/preprocess/fill_holes.hpp"
+#include "preprocess/fill_holes.hpp"
 
 namespace mems_stiction {
 namespace {

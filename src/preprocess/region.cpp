@@ -1,4 +1,4 @@
-#include "mems_stiction/preprocess/region.hpp"
+#include "preprocess/region.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -6,9 +6,9 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "base/input_file.hpp"
+#include "height_map/validity.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/input_file.hpp"
-#include "mems_stiction/height_map/validity.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 
 namespace mems_stiction {

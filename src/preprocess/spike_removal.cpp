@@ -1,4 +1,4 @@
-#include "mems_stiction/preprocess/spike_removal.hpp"
+#include "preprocess/spike_removal.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
-#include "mems_stiction/base/value_range.hpp"
-#include "mems_stiction/preprocess/polynomial_level.hpp"
+#include "base/value_range.hpp"
+#include "preprocess/polynomial_level.hpp"
 
 namespace mems_stiction {
 namespace {

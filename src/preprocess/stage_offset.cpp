@@ -1,4 +1,4 @@
-#include "mems_stiction/preprocess/stage_offset.hpp"
+#include "preprocess/stage_offset.hpp"
 
 namespace mems_stiction {
 

@@ -1,11 +1,11 @@
-#include "mems_stiction/preprocess/tip_correction.hpp"
+#include "preprocess/tip_correction.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
-#include "mems_stiction/height_map/validity.hpp"
+#include "height_map/validity.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,11 +1,11 @@
-#include "mems_stiction/preprocess/window_median.hpp"
+#include "preprocess/window_median.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "mems_stiction/base/lanes.hpp"
-#include "mems_stiction/base/median.hpp"
+#include "base/lanes.hpp"
+#include "base/median.hpp"
 #include "mems_stiction/base/vectorized.hpp"
 
 namespace mems_stiction {

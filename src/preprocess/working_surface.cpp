@@ -1,4 +1,4 @@
-#include "mems_stiction/preprocess/working_surface.hpp"
+#include "preprocess/working_surface.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "height_map/shared_pixels.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/height_map/shared_pixels.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -9,10 +9,10 @@
 #include <string>
 #include <type_traits>
 
-#include "mems_stiction/half_space/half_space_fields.hpp"
-#include "mems_stiction/prediction/prediction_fields.hpp"
-#include "mems_stiction/scan/record.hpp"
-#include "mems_stiction/verdict/verdict_fields.hpp"
+#include "half_space/half_space_fields.hpp"
+#include "prediction/prediction_fields.hpp"
+#include "scan/record.hpp"
+#include "verdict/verdict_fields.hpp"
 
 namespace mems_stiction {
 namespace python {

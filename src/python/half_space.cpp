@@ -11,9 +11,9 @@
 #include "interruptible.hpp"
 #include "memory.hpp"
 #include "mems_stiction/half_space/half_space_solver.hpp"
-#include "mems_stiction/scan/frame_load.hpp"
 #include "mems_stiction/scan/half_space_scan.hpp"
 #include "mems_stiction/scan/prepared_scan.hpp"
+#include "scan/frame_load.hpp"
 
 namespace mems_stiction {
 namespace python {

@@ -4,8 +4,8 @@
 
 #include <utility>
 
+#include "height_map/unmeasured.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/height_map/unmeasured.hpp"
 #include "without_lock.hpp"
 
 namespace mems_stiction {

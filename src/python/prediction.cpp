@@ -14,13 +14,13 @@
 #include "figures.hpp"
 #include "memory.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/prediction/force_curve.hpp"
 #include "mems_stiction/scan/configuration_yaml.hpp"
-#include "mems_stiction/scan/frame_load.hpp"
-#include "mems_stiction/scan/plausibility.hpp"
-#include "mems_stiction/scan/record.hpp"
 #include "mems_stiction/scan/scan_predictor.hpp"
-#include "mems_stiction/verdict/regime_flags.hpp"
+#include "prediction/force_curve.hpp"
+#include "scan/frame_load.hpp"
+#include "scan/plausibility.hpp"
+#include "scan/record.hpp"
+#include "verdict/regime_flags.hpp"
 #include "without_lock.hpp"
 
 namespace mems_stiction {

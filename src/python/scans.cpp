@@ -9,19 +9,19 @@
 
 #include "bindings.hpp"
 #include "figures.hpp"
+#include "height_map/scan_sanity.hpp"
 #include "interruptible.hpp"
 #include "memory.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/height_map/scan_sanity.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 #include "mems_stiction/preprocess/pipeline.hpp"
 #include "mems_stiction/roughness/areal_parameters.hpp"
 #include "mems_stiction/roughness/spatial_roughness.hpp"
 #include "mems_stiction/scan/configuration.hpp"
 #include "mems_stiction/scan/convergence.hpp"
-#include "mems_stiction/scan/plausibility.hpp"
 #include "mems_stiction/scan/prepared_scan.hpp"
-#include "mems_stiction/surface/counter_surface.hpp"
+#include "scan/plausibility.hpp"
+#include "surface/counter_surface.hpp"
 #include "without_lock.hpp"
 
 namespace mems_stiction {

@@ -7,9 +7,9 @@
 #include "bindings.hpp"
 #include "interruptible.hpp"
 #include "memory.hpp"
-#include "mems_stiction/scan/frame_load.hpp"
 #include "mems_stiction/scan/prepared_scan.hpp"
-#include "mems_stiction/station/station_fields.hpp"
+#include "scan/frame_load.hpp"
+#include "station/station_fields.hpp"
 
 namespace mems_stiction {
 namespace python {

@@ -1,4 +1,4 @@
-#include "mems_stiction/ros/background_thread.hpp"
+#include "ros/background_thread.hpp"
 
 #include <algorithm>
 

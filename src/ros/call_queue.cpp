@@ -1,4 +1,4 @@
-#include "mems_stiction/ros/call_queue.hpp"
+#include "ros/call_queue.hpp"
 
 #include <chrono>
 #include <system_error>

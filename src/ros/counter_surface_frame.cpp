@@ -1,4 +1,4 @@
-#include "mems_stiction/ros/counter_surface_frame.hpp"
+#include "ros/counter_surface_frame.hpp"
 
 #include <cmath>
 #include <utility>

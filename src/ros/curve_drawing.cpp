@@ -1,4 +1,4 @@
-#include "mems_stiction/ros/curve_drawing.hpp"
+#include "ros/curve_drawing.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "mems_stiction/base/short_number.hpp"
-#include "mems_stiction/ros/picture_drawing.hpp"
+#include "base/short_number.hpp"
+#include "ros/picture_drawing.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,4 +1,4 @@
-#include "mems_stiction/ros/diagnostics.hpp"
+#include "ros/diagnostics.hpp"
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 

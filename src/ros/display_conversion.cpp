@@ -1,4 +1,4 @@
-#include "mems_stiction/ros/display_conversion.hpp"
+#include "ros/display_conversion.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 #include <sensor_msgs/point_cloud2_iterator.h>
 #include <std_msgs/ColorRGBA.h>
 
-#include "mems_stiction/ros/regime_colour.hpp"
+#include "ros/regime_colour.hpp"
 
 namespace mems_stiction {
 namespace {

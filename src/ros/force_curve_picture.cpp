@@ -1,10 +1,10 @@
-#include "mems_stiction/ros/force_curve_picture.hpp"
+#include "ros/force_curve_picture.hpp"
 
 #include <string>
 
-#include "mems_stiction/base/short_number.hpp"
-#include "mems_stiction/ros/picture_drawing.hpp"
-#include "mems_stiction/verdict/regime_flags.hpp"
+#include "base/short_number.hpp"
+#include "ros/picture_drawing.hpp"
+#include "verdict/regime_flags.hpp"
 
 namespace mems_stiction {
 namespace {

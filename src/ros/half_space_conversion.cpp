@@ -1,13 +1,13 @@
-#include "mems_stiction/ros/half_space_conversion.hpp"
+#include "ros/half_space_conversion.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "mems_stiction/base/one_line.hpp"
-#include "mems_stiction/half_space/half_space_fields.hpp"
-#include "mems_stiction/ros/message_fields.hpp"
-#include "mems_stiction/ros/message_text.hpp"
+#include "base/one_line.hpp"
+#include "half_space/half_space_fields.hpp"
+#include "ros/message_fields.hpp"
+#include "ros/message_text.hpp"
 
 namespace mems_stiction {
 namespace {

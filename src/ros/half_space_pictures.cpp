@@ -1,4 +1,4 @@
-#include "mems_stiction/ros/half_space_pictures.hpp"
+#include "ros/half_space_pictures.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,11 +6,11 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "mems_stiction/base/short_number.hpp"
-#include "mems_stiction/ros/picture_drawing.hpp"
-#include "mems_stiction/ros/provenance_conversion.hpp"
-#include "mems_stiction/ros/regime_colour.hpp"
-#include "mems_stiction/scan/block_maxima.hpp"
+#include "base/short_number.hpp"
+#include "ros/picture_drawing.hpp"
+#include "ros/provenance_conversion.hpp"
+#include "ros/regime_colour.hpp"
+#include "scan/block_maxima.hpp"
 
 namespace mems_stiction {
 namespace {

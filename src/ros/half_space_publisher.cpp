@@ -1,10 +1,10 @@
-#include "mems_stiction/ros/half_space_publisher.hpp"
+#include "ros/half_space_publisher.hpp"
 
 #include <sensor_msgs/Image.h>
 
-#include "mems_stiction/ros/half_space_pictures.hpp"
-#include "mems_stiction/ros/image_conversion.hpp"
-#include "mems_stiction/ros/topic_names.hpp"
+#include "ros/half_space_pictures.hpp"
+#include "ros/image_conversion.hpp"
+#include "ros/topic_names.hpp"
 
 namespace mems_stiction {
 

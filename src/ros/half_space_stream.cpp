@@ -1,14 +1,14 @@
-#include "mems_stiction/ros/half_space_stream.hpp"
+#include "ros/half_space_stream.hpp"
 
 #include <utility>
 
 #include <diagnostic_msgs/DiagnosticStatus.h>
 
-#include "mems_stiction/ros/background_thread.hpp"
-#include "mems_stiction/ros/half_space_conversion.hpp"
-#include "mems_stiction/ros/provenance_conversion.hpp"
-#include "mems_stiction/scan/frame_load.hpp"
 #include "mems_stiction/scan/half_space_scan.hpp"
+#include "ros/background_thread.hpp"
+#include "ros/half_space_conversion.hpp"
+#include "ros/provenance_conversion.hpp"
+#include "scan/frame_load.hpp"
 
 namespace mems_stiction {
 

@@ -1,8 +1,8 @@
-#include "mems_stiction/ros/held_parameters.hpp"
+#include "ros/held_parameters.hpp"
 
 #include <algorithm>
 
-#include "mems_stiction/ros/topic_names.hpp"
+#include "ros/topic_names.hpp"
 
 namespace mems_stiction {
 

@@ -1,4 +1,4 @@
-#include "mems_stiction/ros/image_conversion.hpp"
+#include "ros/image_conversion.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +9,9 @@
 #include <sensor_msgs/image_encodings.h>
 #include <boost/make_shared.hpp>
 
+#include "height_map/scan_sanity.hpp"
+#include "height_map/unmeasured.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/height_map/scan_sanity.hpp"
-#include "mems_stiction/height_map/unmeasured.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,12 +1,12 @@
-#include "mems_stiction/ros/live_predictor.hpp"
+#include "ros/live_predictor.hpp"
 
 #include <utility>
 
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/prediction/deformed_surfaces.hpp"
-#include "mems_stiction/prediction/force_curve.hpp"
-#include "mems_stiction/scan/plausibility.hpp"
-#include "mems_stiction/surface/wear.hpp"
+#include "prediction/deformed_surfaces.hpp"
+#include "prediction/force_curve.hpp"
+#include "scan/plausibility.hpp"
+#include "surface/wear.hpp"
 
 namespace mems_stiction {
 namespace {

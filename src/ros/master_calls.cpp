@@ -1,4 +1,4 @@
-#include "mems_stiction/ros/master_calls.hpp"
+#include "ros/master_calls.hpp"
 
 #include <atomic>
 #include <chrono>

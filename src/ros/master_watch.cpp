@@ -1,4 +1,4 @@
-#include "mems_stiction/ros/master_watch.hpp"
+#include "ros/master_watch.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -8,7 +8,7 @@
 #include <ros/console.h>
 #include <ros/master.h>
 
-#include "mems_stiction/ros/own_log.hpp"
+#include "ros/own_log.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,4 +1,4 @@
-#include "mems_stiction/ros/message_fields.hpp"
+#include "ros/message_fields.hpp"
 
 #include <sstream>
 

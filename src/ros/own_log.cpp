@@ -1,4 +1,4 @@
-#include "mems_stiction/ros/own_log.hpp"
+#include "ros/own_log.hpp"
 
 #include <chrono>
 #include <condition_variable>

@@ -1,4 +1,4 @@
-#include "mems_stiction/ros/parameters.hpp"
+#include "ros/parameters.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,13 +11,13 @@
 #include <ros/console.h>
 #include <yaml-cpp/yaml.h>
 
+#include "base/one_line.hpp"
+#include "base/option_yaml.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/one_line.hpp"
-#include "mems_stiction/base/option_yaml.hpp"
-#include "mems_stiction/ros/master_calls.hpp"
-#include "mems_stiction/ros/topic_names.hpp"
 #include "mems_stiction/scan/provenance.hpp"
-#include "mems_stiction/surface/counter_surface.hpp"
+#include "ros/master_calls.hpp"
+#include "ros/topic_names.hpp"
+#include "surface/counter_surface.hpp"
 
 namespace mems_stiction {
 namespace {

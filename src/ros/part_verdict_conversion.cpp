@@ -1,10 +1,10 @@
-#include "mems_stiction/ros/part_verdict_conversion.hpp"
+#include "ros/part_verdict_conversion.hpp"
 
-#include "mems_stiction/ros/message_fields.hpp"
-#include "mems_stiction/ros/message_text.hpp"
-#include "mems_stiction/ros/provenance_conversion.hpp"
-#include "mems_stiction/verdict/part_verdict_fields.hpp"
-#include "mems_stiction/verdict/regime_flags.hpp"
+#include "ros/message_fields.hpp"
+#include "ros/message_text.hpp"
+#include "ros/provenance_conversion.hpp"
+#include "verdict/part_verdict_fields.hpp"
+#include "verdict/regime_flags.hpp"
 
 namespace mems_stiction {
 

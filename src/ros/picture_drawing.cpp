@@ -1,4 +1,4 @@
-#include "mems_stiction/ros/picture_drawing.hpp"
+#include "ros/picture_drawing.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include <sensor_msgs/image_encodings.h>
 #include <opencv2/imgproc.hpp>
 
-#include "mems_stiction/base/short_number.hpp"
+#include "base/short_number.hpp"
 
 namespace mems_stiction {
 namespace {

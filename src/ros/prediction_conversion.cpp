@@ -1,11 +1,11 @@
-#include "mems_stiction/ros/prediction_conversion.hpp"
+#include "ros/prediction_conversion.hpp"
 
-#include "mems_stiction/prediction/prediction_fields.hpp"
-#include "mems_stiction/ros/message_fields.hpp"
-#include "mems_stiction/ros/message_text.hpp"
-#include "mems_stiction/ros/provenance_conversion.hpp"
-#include "mems_stiction/verdict/regime_flags.hpp"
-#include "mems_stiction/verdict/verdict_fields.hpp"
+#include "prediction/prediction_fields.hpp"
+#include "ros/message_fields.hpp"
+#include "ros/message_text.hpp"
+#include "ros/provenance_conversion.hpp"
+#include "verdict/regime_flags.hpp"
+#include "verdict/verdict_fields.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,4 +1,4 @@
-#include "mems_stiction/ros/reconfigure_conversion.hpp"
+#include "ros/reconfigure_conversion.hpp"
 
 #include <algorithm>
 

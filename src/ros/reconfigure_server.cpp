@@ -1,15 +1,15 @@
-#include "mems_stiction/ros/reconfigure_server.hpp"
+#include "ros/reconfigure_server.hpp"
 
 #include <future>
 #include <sstream>
 #include <string>
 #include <utility>
 
+#include "base/one_line.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/one_line.hpp"
-#include "mems_stiction/ros/own_log.hpp"
-#include "mems_stiction/ros/reconfigure_conversion.hpp"
-#include "mems_stiction/ros/topic_names.hpp"
+#include "ros/own_log.hpp"
+#include "ros/reconfigure_conversion.hpp"
+#include "ros/topic_names.hpp"
 
 namespace mems_stiction {
 namespace {

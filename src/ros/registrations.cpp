@@ -1,4 +1,4 @@
-#include "mems_stiction/ros/registrations.hpp"
+#include "ros/registrations.hpp"
 
 #include <algorithm>
 #include <initializer_list>

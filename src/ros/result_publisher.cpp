@@ -1,12 +1,12 @@
-#include "mems_stiction/ros/result_publisher.hpp"
+#include "ros/result_publisher.hpp"
 
 #include <utility>
 
-#include "mems_stiction/ros/display_conversion.hpp"
-#include "mems_stiction/ros/force_curve_picture.hpp"
-#include "mems_stiction/ros/part_verdict_conversion.hpp"
-#include "mems_stiction/ros/prediction_conversion.hpp"
-#include "mems_stiction/ros/topic_names.hpp"
+#include "ros/display_conversion.hpp"
+#include "ros/force_curve_picture.hpp"
+#include "ros/part_verdict_conversion.hpp"
+#include "ros/prediction_conversion.hpp"
+#include "ros/topic_names.hpp"
 
 namespace mems_stiction {
 namespace {

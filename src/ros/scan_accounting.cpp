@@ -1,4 +1,4 @@
-#include "mems_stiction/ros/scan_accounting.hpp"
+#include "ros/scan_accounting.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -7,7 +7,7 @@
 
 #include <diagnostic_msgs/DiagnosticStatus.h>
 
-#include "mems_stiction/ros/own_log.hpp"
+#include "ros/own_log.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,4 +1,4 @@
-#include "mems_stiction/ros/scan_folders.hpp"
+#include "ros/scan_folders.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -6,8 +6,8 @@
 #include <sstream>
 #include <utility>
 
+#include "base/one_line.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/one_line.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
 
 namespace mems_stiction {

@@ -1,4 +1,4 @@
-#include "mems_stiction/ros/scan_pairer.hpp"
+#include "ros/scan_pairer.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,13 +1,13 @@
-#include "mems_stiction/ros/station_actions.hpp"
+#include "ros/station_actions.hpp"
 
 #include <algorithm>
 #include <limits>
 #include <utility>
 
-#include "mems_stiction/ros/provenance_conversion.hpp"
-#include "mems_stiction/ros/station_conversion.hpp"
-#include "mems_stiction/ros/topic_names.hpp"
-#include "mems_stiction/scan/frame_load.hpp"
+#include "ros/provenance_conversion.hpp"
+#include "ros/station_conversion.hpp"
+#include "ros/topic_names.hpp"
+#include "scan/frame_load.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,7 +1,7 @@
-#include "mems_stiction/ros/station_conversion.hpp"
+#include "ros/station_conversion.hpp"
 
-#include "mems_stiction/ros/message_fields.hpp"
-#include "mems_stiction/station/station_fields.hpp"
+#include "ros/message_fields.hpp"
+#include "station/station_fields.hpp"
 
 namespace mems_stiction {
 namespace {

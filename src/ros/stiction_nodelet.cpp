@@ -8,7 +8,7 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/ros/stiction_server.hpp"
+#include "ros/stiction_server.hpp"
 
 namespace mems_stiction {
 

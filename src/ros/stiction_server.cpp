@@ -1,4 +1,4 @@
-#include "mems_stiction/ros/stiction_server.hpp"
+#include "ros/stiction_server.hpp"
 
 #include <thread>
 #include <utility>
@@ -6,13 +6,13 @@
 #include <boost/bind/bind.hpp>
 #include <boost/make_shared.hpp>
 
-#include "mems_stiction/base/error_text.hpp"
-#include "mems_stiction/base/one_line.hpp"
-#include "mems_stiction/ros/force_curve_picture.hpp"
-#include "mems_stiction/ros/own_log.hpp"
-#include "mems_stiction/ros/scan_folders.hpp"
-#include "mems_stiction/ros/topic_names.hpp"
-#include "mems_stiction/scan/plausibility.hpp"
+#include "base/error_text.hpp"
+#include "base/one_line.hpp"
+#include "ros/force_curve_picture.hpp"
+#include "ros/own_log.hpp"
+#include "ros/scan_folders.hpp"
+#include "ros/topic_names.hpp"
+#include "scan/plausibility.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,17 +1,17 @@
-#include "mems_stiction/ros/stiction_server.hpp"
+#include "ros/stiction_server.hpp"
 
 #include <functional>
 #include <optional>
 #include <string>
 #include <utility>
 
-#include "mems_stiction/base/error_text.hpp"
+#include "base/error_text.hpp"
+#include "base/one_line.hpp"
+#include "base/short_number.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/one_line.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
-#include "mems_stiction/base/short_number.hpp"
-#include "mems_stiction/ros/prediction_conversion.hpp"
-#include "mems_stiction/ros/topic_names.hpp"
+#include "ros/prediction_conversion.hpp"
+#include "ros/topic_names.hpp"
 
 namespace mems_stiction {
 

@@ -1,9 +1,9 @@
-#include "mems_stiction/ros/transform_gate.hpp"
+#include "ros/transform_gate.hpp"
 
 #include <utility>
 
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/ros/counter_surface_frame.hpp"
+#include "ros/counter_surface_frame.hpp"
 
 namespace mems_stiction {
 

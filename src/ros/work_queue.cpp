@@ -1,4 +1,4 @@
-#include "mems_stiction/ros/work_queue.hpp"
+#include "ros/work_queue.hpp"
 
 #include <malloc.h>
 

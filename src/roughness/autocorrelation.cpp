@@ -1,17 +1,17 @@
-#include "mems_stiction/roughness/autocorrelation.hpp"
+#include "roughness/autocorrelation.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
 
+#include "base/value_range.hpp"
+#include "height_map/validity.hpp"
 #include "mems_stiction/base/constants.hpp"
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
-#include "mems_stiction/base/value_range.hpp"
-#include "mems_stiction/height_map/validity.hpp"
-#include "mems_stiction/preprocess/working_surface.hpp"
-#include "mems_stiction/roughness/half_spectrum.hpp"
+#include "preprocess/working_surface.hpp"
+#include "roughness/half_spectrum.hpp"
 
 namespace mems_stiction {
 namespace {

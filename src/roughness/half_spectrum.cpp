@@ -1,4 +1,4 @@
-#include "mems_stiction/roughness/half_spectrum.hpp"
+#include "roughness/half_spectrum.hpp"
 
 #include <algorithm>
 #include <complex>

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/roughness/autocorrelation.hpp"
-#include "mems_stiction/roughness/power_spectrum.hpp"
-#include "mems_stiction/roughness/summits.hpp"
+#include "roughness/autocorrelation.hpp"
+#include "roughness/power_spectrum.hpp"
+#include "roughness/summits.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,4 +1,4 @@
-#include "mems_stiction/roughness/summits.hpp"
+#include "roughness/summits.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "mems_stiction/base/constants.hpp"
 #include "mems_stiction/base/vectorized.hpp"
-#include "mems_stiction/preprocess/working_surface.hpp"
+#include "preprocess/working_surface.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,4 +1,4 @@
-#include "mems_stiction/scan/block_maxima.hpp"
+#include "scan/block_maxima.hpp"
 
 #include <algorithm>
 #include <cstdint>

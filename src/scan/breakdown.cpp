@@ -1,9 +1,9 @@
-#include "mems_stiction/scan/breakdown.hpp"
+#include "scan/breakdown.hpp"
 
 #include <cmath>
 
-#include "mems_stiction/base/short_number.hpp"
-#include "mems_stiction/mechanics/surface_forces.hpp"
+#include "base/short_number.hpp"
+#include "mechanics/surface_forces.hpp"
 
 namespace mems_stiction {
 namespace {

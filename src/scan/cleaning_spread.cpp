@@ -1,14 +1,14 @@
-#include "mems_stiction/scan/cleaning_spread.hpp"
+#include "scan/cleaning_spread.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
 
+#include "base/short_number.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/short_number.hpp"
-#include "mems_stiction/prediction/prediction_fields.hpp"
 #include "mems_stiction/scan/scan_predictor.hpp"
+#include "prediction/prediction_fields.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,7 +1,7 @@
 #include "mems_stiction/scan/configuration.hpp"
 
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/surface/counter_surface.hpp"
+#include "surface/counter_surface.hpp"
 
 namespace mems_stiction {
 

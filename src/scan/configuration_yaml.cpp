@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/input_file.hpp"
+#include "base/option_yaml.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/input_file.hpp"
-#include "mems_stiction/base/option_yaml.hpp"
 
 namespace mems_stiction {
 

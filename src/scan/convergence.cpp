@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/prediction/prediction_fields.hpp"
+#include "prediction/prediction_fields.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,15 +1,15 @@
-#include "mems_stiction/scan/counter_surface_source.hpp"
+#include "scan/counter_surface_source.hpp"
 
 #include <utility>
 
 #include <opencv2/core.hpp>
 
+#include "base/short_number.hpp"
+#include "height_map/scan_sanity.hpp"
+#include "height_map/validity.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/short_number.hpp"
-#include "mems_stiction/height_map/scan_sanity.hpp"
-#include "mems_stiction/height_map/validity.hpp"
 #include "mems_stiction/import/scan_file.hpp"
-#include "mems_stiction/surface/alignment.hpp"
+#include "surface/alignment.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,7 +1,7 @@
-#include "mems_stiction/scan/frame_load.hpp"
+#include "scan/frame_load.hpp"
 
+#include "height_map/validity.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/height_map/validity.hpp"
 
 namespace mems_stiction {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "mems_stiction/mechanics/regime.hpp"
-#include "mems_stiction/scan/block_maxima.hpp"
 #include "mems_stiction/scan/scan_predictor.hpp"
+#include "scan/block_maxima.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,8 +1,8 @@
-#include "mems_stiction/scan/idle_settings.hpp"
+#include "scan/idle_settings.hpp"
 
 #include <map>
 
-#include "mems_stiction/prediction/contact_solvers.hpp"
+#include "prediction/contact_solvers.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,4 +1,4 @@
-#include "mems_stiction/scan/plausibility.hpp"
+#include "scan/plausibility.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,9 @@
 #include <map>
 #include <utility>
 
-#include "mems_stiction/scan/breakdown.hpp"
-#include "mems_stiction/scan/idle_settings.hpp"
-#include "mems_stiction/verdict/contact_size.hpp"
+#include "scan/breakdown.hpp"
+#include "scan/idle_settings.hpp"
+#include "verdict/contact_size.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -6,13 +6,13 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "base/short_number.hpp"
+#include "base/time_limit.hpp"
+#include "height_map/scan_sanity.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/short_number.hpp"
-#include "mems_stiction/base/time_limit.hpp"
-#include "mems_stiction/height_map/scan_sanity.hpp"
-#include "mems_stiction/preprocess/refine.hpp"
-#include "mems_stiction/scan/counter_surface_source.hpp"
-#include "mems_stiction/surface/wear.hpp"
+#include "preprocess/refine.hpp"
+#include "scan/counter_surface_source.hpp"
+#include "surface/wear.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,4 +1,4 @@
-#include "mems_stiction/scan/record.hpp"
+#include "scan/record.hpp"
 
 #include <yaml-cpp/yaml.h>
 
@@ -8,12 +8,12 @@
 #include <nlohmann/json.hpp>
 #include <type_traits>
 
-#include "mems_stiction/base/option_yaml.hpp"
-#include "mems_stiction/base/short_number.hpp"
-#include "mems_stiction/half_space/half_space_fields.hpp"
-#include "mems_stiction/prediction/prediction_fields.hpp"
-#include "mems_stiction/verdict/regime_flags.hpp"
-#include "mems_stiction/verdict/verdict_fields.hpp"
+#include "base/option_yaml.hpp"
+#include "base/short_number.hpp"
+#include "half_space/half_space_fields.hpp"
+#include "prediction/prediction_fields.hpp"
+#include "verdict/regime_flags.hpp"
+#include "verdict/verdict_fields.hpp"
 
 namespace mems_stiction {
 namespace {

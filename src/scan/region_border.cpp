@@ -1,4 +1,4 @@
-#include "mems_stiction/scan/region_border.hpp"
+#include "scan/region_border.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/time_limit.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/time_limit.hpp"
-#include "mems_stiction/scan/block_maxima.hpp"
-#include "mems_stiction/scan/frame_load.hpp"
-#include "mems_stiction/scan/region_border.hpp"
 #include "mems_stiction/scan/resolution.hpp"
+#include "scan/block_maxima.hpp"
+#include "scan/frame_load.hpp"
+#include "scan/region_border.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,6 +1,6 @@
-#include "mems_stiction/scan/scan_state.hpp"
+#include "scan/scan_state.hpp"
 
-#include "mems_stiction/base/content_hash.hpp"
+#include "base/content_hash.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 
 namespace mems_stiction {

@@ -1,4 +1,4 @@
-#include "mems_stiction/separation/conforming_contact.hpp"
+#include "separation/conforming_contact.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
-#include "mems_stiction/separation/contact_traction.hpp"
+#include "separation/contact_traction.hpp"
 
-#include "mems_stiction/loads/force_range.hpp"
+#include "loads/force_range.hpp"
 
 namespace mems_stiction {
 ContactTraction::ContactTraction(const InterfaceOptions& interface)

@@ -1,9 +1,9 @@
-#include "mems_stiction/separation/curve_statement.hpp"
+#include "separation/curve_statement.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "mems_stiction/base/median.hpp"
+#include "base/median.hpp"
 #include "mems_stiction/contact/contact_settings.hpp"
 
 namespace mems_stiction {

@@ -1,10 +1,10 @@
-#include "mems_stiction/separation/flattening.hpp"
+#include "separation/flattening.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <limits>
 
-#include "mems_stiction/base/lanes.hpp"
+#include "base/lanes.hpp"
 
 #include "chosen_constants.hpp"
 

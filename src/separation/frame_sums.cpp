@@ -1,10 +1,10 @@
-#include "mems_stiction/separation/frame_sums.hpp"
+#include "separation/frame_sums.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "mems_stiction/base/lanes.hpp"
-#include "mems_stiction/base/time_limit.hpp"
+#include "base/lanes.hpp"
+#include "base/time_limit.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,4 +1,4 @@
-#include "mems_stiction/separation/open_valleys.hpp"
+#include "separation/open_valleys.hpp"
 
 #include <algorithm>
 #include <cmath>

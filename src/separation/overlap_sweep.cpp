@@ -1,4 +1,4 @@
-#include "mems_stiction/separation/overlap_sweep.hpp"
+#include "separation/overlap_sweep.hpp"
 
 #include <algorithm>
 #include <utility>

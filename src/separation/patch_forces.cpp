@@ -1,13 +1,13 @@
-#include "mems_stiction/separation/patch_forces.hpp"
+#include "separation/patch_forces.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "base/lanes.hpp"
+#include "mechanics/transition.hpp"
 #include "mems_stiction/base/constants.hpp"
-#include "mems_stiction/base/lanes.hpp"
-#include "mems_stiction/mechanics/transition.hpp"
-#include "mems_stiction/separation/lane_functions.hpp"
+#include "separation/lane_functions.hpp"
 
 #include "chosen_constants.hpp"
 

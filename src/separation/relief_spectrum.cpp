@@ -1,4 +1,4 @@
-#include "mems_stiction/separation/relief_spectrum.hpp"
+#include "separation/relief_spectrum.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "mems_stiction/separation/relief_waves.hpp"
+#include "separation/relief_waves.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "mems_stiction/separation/separation_curve.hpp"
+#include "separation/separation_curve.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,13 +1,13 @@
-#include "mems_stiction/separation/separation_solver.hpp"
+#include "separation/separation_solver.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "contact/prepared_maps.hpp"
+#include "deformation/modified_topography.hpp"
+#include "mechanics/transition.hpp"
 #include "mems_stiction/base/constants.hpp"
-#include "mems_stiction/contact/prepared_maps.hpp"
-#include "mems_stiction/deformation/modified_topography.hpp"
 #include "mems_stiction/mechanics/plasticity.hpp"
-#include "mems_stiction/mechanics/transition.hpp"
 
 #include "chosen_constants.hpp"
 

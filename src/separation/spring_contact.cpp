@@ -1,4 +1,4 @@
-#include "mems_stiction/separation/spring_contact.hpp"
+#include "separation/spring_contact.hpp"
 
 #include <algorithm>
 #include <cmath>

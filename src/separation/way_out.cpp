@@ -1,8 +1,8 @@
-#include "mems_stiction/separation/way_out.hpp"
+#include "separation/way_out.hpp"
 
 #include <algorithm>
 
-#include "mems_stiction/separation/conforming_contact.hpp"
+#include "separation/conforming_contact.hpp"
 
 #include "chosen_constants.hpp"
 

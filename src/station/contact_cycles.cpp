@@ -1,12 +1,12 @@
-#include "mems_stiction/station/contact_cycles.hpp"
+#include "station/contact_cycles.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
-#include "mems_stiction/prediction/deformed_surfaces.hpp"
-#include "mems_stiction/surface/wear.hpp"
+#include "prediction/deformed_surfaces.hpp"
+#include "surface/wear.hpp"
 
 namespace mems_stiction {
 namespace {

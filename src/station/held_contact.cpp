@@ -1,12 +1,12 @@
-#include "mems_stiction/station/held_contact.hpp"
+#include "station/held_contact.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "mechanics/jkr.hpp"
 #include "mems_stiction/base/constants.hpp"
-#include "mems_stiction/mechanics/jkr.hpp"
 #include "mems_stiction/mechanics/plasticity.hpp"
 
 namespace mems_stiction {

@@ -1,12 +1,12 @@
-#include "mems_stiction/station/load_sweep.hpp"
+#include "station/load_sweep.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "mechanics/surface_forces.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/mechanics/surface_forces.hpp"
-#include "mems_stiction/station/held_contact.hpp"
+#include "station/held_contact.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,12 +1,12 @@
-#include "mems_stiction/surface/alignment.hpp"
+#include "surface/alignment.hpp"
 
 #include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "height_map/validity.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/height_map/validity.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,8 +1,8 @@
-#include "mems_stiction/surface/counter_surface.hpp"
+#include "surface/counter_surface.hpp"
 
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/surface/self_affine_surface.hpp"
-#include "mems_stiction/surface/translated_gaussian_surface.hpp"
+#include "surface/self_affine_surface.hpp"
+#include "surface/translated_gaussian_surface.hpp"
 
 namespace mems_stiction {
 namespace {

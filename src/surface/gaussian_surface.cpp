@@ -1,4 +1,4 @@
-#include "mems_stiction/surface/gaussian_surface.hpp"
+#include "surface/gaussian_surface.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/surface/random_field.hpp"
+#include "surface/random_field.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,4 +1,4 @@
-#include "mems_stiction/surface/johnson_translation.hpp"
+#include "surface/johnson_translation.hpp"
 
 #include <algorithm>
 #include <array>

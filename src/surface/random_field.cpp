@@ -1,4 +1,4 @@
-#include "mems_stiction/surface/random_field.hpp"
+#include "surface/random_field.hpp"
 
 #include <cstdint>
 #include <random>

@@ -1,4 +1,4 @@
-#include "mems_stiction/surface/self_affine_surface.hpp"
+#include "surface/self_affine_surface.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,9 @@
 
 #include "mems_stiction/base/constants.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/roughness/half_spectrum.hpp"
-#include "mems_stiction/roughness/power_spectrum.hpp"
-#include "mems_stiction/surface/random_field.hpp"
+#include "roughness/half_spectrum.hpp"
+#include "roughness/power_spectrum.hpp"
+#include "surface/random_field.hpp"
 
 namespace mems_stiction {
 

@@ -1,12 +1,12 @@
-#include "mems_stiction/surface/translated_gaussian_surface.hpp"
+#include "surface/translated_gaussian_surface.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/surface/gaussian_surface.hpp"
-#include "mems_stiction/surface/johnson_translation.hpp"
+#include "surface/gaussian_surface.hpp"
+#include "surface/johnson_translation.hpp"
 
 namespace mems_stiction {
 

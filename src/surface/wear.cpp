@@ -1,6 +1,6 @@
-#include "mems_stiction/surface/wear.hpp"
+#include "surface/wear.hpp"
 
-#include "mems_stiction/height_map/validity.hpp"
+#include "height_map/validity.hpp"
 
 namespace mems_stiction {
 namespace {

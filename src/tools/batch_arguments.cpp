@@ -3,10 +3,10 @@
 #include <climits>
 #include <sstream>
 
+#include "base/input_file.hpp"
 #include "command_line.hpp"
+#include "import/waiting_gwyddion.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/input_file.hpp"
-#include "mems_stiction/import/waiting_gwyddion.hpp"
 #include "mems_stiction/scan/configuration_yaml.hpp"
 
 namespace mems_stiction {

@@ -3,7 +3,7 @@
 #include <exception>
 #include <utility>
 
-#include "mems_stiction/base/error_text.hpp"
+#include "base/error_text.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -11,7 +11,7 @@
 #include "bag_scans.hpp"
 #include "batch_arguments.hpp"
 #include "mems_stiction/scan/configuration.hpp"
-#include "mems_stiction/scan/scan_state.hpp"
+#include "scan/scan_state.hpp"
 
 namespace mems_stiction {
 

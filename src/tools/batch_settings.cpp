@@ -6,10 +6,10 @@
 #include <yaml-cpp/yaml.h>
 #include <opencv2/core/version.hpp>
 
+#include "base/output_file.hpp"
 #include "batch_rows.hpp"
+#include "import/import_cache.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/output_file.hpp"
-#include "mems_stiction/import/import_cache.hpp"
 #include "mems_stiction/scan/configuration_yaml.hpp"
 #include "mems_stiction/scan/provenance.hpp"
 

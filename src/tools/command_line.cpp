@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "mems_stiction/base/output_file.hpp"
-#include "mems_stiction/base/words.hpp"
+#include "base/output_file.hpp"
+#include "base/words.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
-#include "mems_stiction/base/error_text.hpp"
+#include "base/error_text.hpp"
+#include "base/interruption.hpp"
+#include "base/one_line.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/interruption.hpp"
-#include "mems_stiction/base/one_line.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 #include "mems_stiction/loads/interface.hpp"

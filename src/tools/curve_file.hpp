@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "mems_stiction/contact/curve_point.hpp"
+#include "contact/curve_point.hpp"
 #include "mems_stiction/scan/provenance.hpp"
 
 namespace mems_stiction {

@@ -2,8 +2,8 @@
 
 #include <cstring>
 
-#include "mems_stiction/base/one_line.hpp"
-#include "mems_stiction/half_space/half_space_fields.hpp"
+#include "base/one_line.hpp"
+#include "half_space/half_space_fields.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <string>
 
+#include "import/scan_writer.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/import/scan_writer.hpp"
 #include "status_line.hpp"
 
 namespace mems_stiction {

@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "command_line.hpp"
+#include "height_map/scan_sanity.hpp"
+#include "height_map/validity.hpp"
+#include "import/scan_writer.hpp"
+#include "import/waiting_gwyddion.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/height_map/scan_sanity.hpp"
-#include "mems_stiction/height_map/validity.hpp"
 #include "mems_stiction/import/scan_file.hpp"
-#include "mems_stiction/import/scan_writer.hpp"
-#include "mems_stiction/import/waiting_gwyddion.hpp"
 #include "waiting_line.hpp"
 
 namespace {

@@ -17,14 +17,14 @@
 #include <rosbag/bag.h>
 #include <opencv2/core/utils/logger.hpp>
 
+#include "base/interruption.hpp"
 #include "command_line.hpp"
+#include "height_map/scan_sanity.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/interruption.hpp"
-#include "mems_stiction/height_map/scan_sanity.hpp"
 #include "mems_stiction/import/scan_file.hpp"
-#include "mems_stiction/ros/image_conversion.hpp"
-#include "mems_stiction/ros/topic_names.hpp"
-#include "mems_stiction/surface/gaussian_surface.hpp"
+#include "ros/image_conversion.hpp"
+#include "ros/topic_names.hpp"
+#include "surface/gaussian_surface.hpp"
 #include "waiting_line.hpp"
 
 namespace {

@@ -6,13 +6,13 @@
 #include <type_traits>
 #include <utility>
 
+#include "base/one_line.hpp"
+#include "base/output_file.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/one_line.hpp"
-#include "mems_stiction/base/output_file.hpp"
-#include "mems_stiction/scan/part_scans.hpp"
-#include "mems_stiction/verdict/part_verdict_fields.hpp"
-#include "mems_stiction/verdict/regime_flags.hpp"
 #include "row_texts.hpp"
+#include "scan/part_scans.hpp"
+#include "verdict/part_verdict_fields.hpp"
+#include "verdict/regime_flags.hpp"
 
 namespace mems_stiction {
 namespace {

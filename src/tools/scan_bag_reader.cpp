@@ -13,11 +13,11 @@
 #include <boost/make_shared.hpp>
 
 #include "bag_check.hpp"
-#include "mems_stiction/base/child_process.hpp"
+#include "base/child_process.hpp"
+#include "base/input_file.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/input_file.hpp"
-#include "mems_stiction/ros/scan_pairer.hpp"
-#include "mems_stiction/ros/topic_names.hpp"
+#include "ros/scan_pairer.hpp"
+#include "ros/topic_names.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -11,9 +11,9 @@
 #include <rosbag/view.h>
 
 #include "bag_scans.hpp"
-#include "mems_stiction/base/interruption.hpp"
+#include "base/interruption.hpp"
 #include "mems_stiction/height_map/raw_scan.hpp"
-#include "mems_stiction/ros/image_conversion.hpp"
+#include "ros/image_conversion.hpp"
 
 namespace mems_stiction {
 

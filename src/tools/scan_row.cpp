@@ -4,13 +4,13 @@
 #include <cstring>
 #include <filesystem>
 
+#include "base/one_line.hpp"
+#include "base/output_file.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/one_line.hpp"
-#include "mems_stiction/base/output_file.hpp"
-#include "mems_stiction/prediction/prediction_fields.hpp"
-#include "mems_stiction/verdict/regime_flags.hpp"
-#include "mems_stiction/verdict/verdict_fields.hpp"
 #include "npy_file.hpp"
+#include "prediction/prediction_fields.hpp"
+#include "verdict/regime_flags.hpp"
+#include "verdict/verdict_fields.hpp"
 
 namespace mems_stiction {
 namespace {

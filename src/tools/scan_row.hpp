@@ -11,7 +11,7 @@
 #include <opencv2/core.hpp>
 
 #include "batch_rows.hpp"
-#include "mems_stiction/contact/curve_point.hpp"
+#include "contact/curve_point.hpp"
 #include "mems_stiction/height_map/height_map.hpp"
 #include "mems_stiction/prediction/prediction.hpp"
 #include "mems_stiction/scan/provenance.hpp"

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "mems_stiction/import/scan_file.hpp"
-#include "mems_stiction/scan/scan_state.hpp"
+#include "scan/scan_state.hpp"
 
 namespace mems_stiction {
 

@@ -16,8 +16,8 @@
 
 #include "command_line.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/ros/master_calls.hpp"
-#include "mems_stiction/ros/stiction_server.hpp"
+#include "ros/master_calls.hpp"
+#include "ros/stiction_server.hpp"
 
 namespace {
 

@@ -1,8 +1,8 @@
-#include "mems_stiction/verdict/contact_size.hpp"
+#include "verdict/contact_size.hpp"
 
 #include <algorithm>
 
-#include "mems_stiction/base/short_number.hpp"
+#include "base/short_number.hpp"
 
 namespace mems_stiction {
 namespace {

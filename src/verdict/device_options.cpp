@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "mems_stiction/mechanics/surface_forces.hpp"
+#include "mechanics/surface_forces.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,6 +1,6 @@
-#include "mems_stiction/verdict/finding.hpp"
+#include "verdict/finding.hpp"
 
-#include "mems_stiction/base/short_number.hpp"
+#include "base/short_number.hpp"
 
 namespace mems_stiction {
 

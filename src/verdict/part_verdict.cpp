@@ -1,13 +1,13 @@
-#include "mems_stiction/verdict/part_verdict.hpp"
+#include "verdict/part_verdict.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 
+#include "base/short_number.hpp"
 #include "mems_stiction/base/constants.hpp"
-#include "mems_stiction/base/short_number.hpp"
-#include "mems_stiction/verdict/finding.hpp"
-#include "mems_stiction/verdict/regime_flags.hpp"
+#include "verdict/finding.hpp"
+#include "verdict/regime_flags.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,4 +1,4 @@
-#include "mems_stiction/verdict/regime_flags.hpp"
+#include "verdict/regime_flags.hpp"
 
 #include <utility>
 

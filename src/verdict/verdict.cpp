@@ -4,9 +4,9 @@
 #include <cmath>
 #include <functional>
 
-#include "mems_stiction/verdict/contact_size.hpp"
-#include "mems_stiction/verdict/finding.hpp"
-#include "mems_stiction/verdict/regime_flags.hpp"
+#include "verdict/contact_size.hpp"
+#include "verdict/finding.hpp"
+#include "verdict/regime_flags.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -4,9 +4,9 @@
 
 #include "mems_stiction/prediction/adhesion_model.hpp"
 #include "mems_stiction/preprocess/pipeline.hpp"
-#include "mems_stiction/surface/gaussian_surface.hpp"
 #include "support/allocation_count.hpp"
 #include "support/analytic_surfaces.hpp"
+#include "surface/gaussian_surface.hpp"
 
 namespace mems_stiction {
 namespace {

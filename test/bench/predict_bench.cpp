@@ -11,9 +11,9 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "approach/gap_field.hpp"
 #include "bench/frames.hpp"
 #include "bench/settings.hpp"
-#include "mems_stiction/approach/gap_field.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
 #include "mems_stiction/roughness/spatial_roughness.hpp"
 

@@ -1,6 +1,6 @@
 #include "bench/settings.hpp"
 
-#include "mems_stiction/approach/gap_order.hpp"
+#include "approach/gap_order.hpp"
 
 namespace mems_stiction {
 namespace bench {

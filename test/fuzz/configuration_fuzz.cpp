@@ -4,7 +4,7 @@
 
 #include "fuzz/fuzzing.hpp"
 #include "mems_stiction/scan/configuration_yaml.hpp"
-#include "mems_stiction/scan/plausibility.hpp"
+#include "scan/plausibility.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace mems_stiction;

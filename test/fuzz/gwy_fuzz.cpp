@@ -1,9 +1,9 @@
 /// The bytes of a .gwy file.
 
 #include "fuzz/fuzzing.hpp"
-#include "mems_stiction/height_map/scan_sanity.hpp"
-#include "mems_stiction/import/channel_choice.hpp"
-#include "mems_stiction/import/format_readers.hpp"
+#include "height_map/scan_sanity.hpp"
+#include "import/channel_choice.hpp"
+#include "import/format_readers.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace mems_stiction;

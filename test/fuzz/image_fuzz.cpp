@@ -6,8 +6,8 @@
 
 #include "fuzz/byte_source.hpp"
 #include "fuzz/fuzzing.hpp"
-#include "mems_stiction/height_map/scan_sanity.hpp"
-#include "mems_stiction/ros/image_conversion.hpp"
+#include "height_map/scan_sanity.hpp"
+#include "ros/image_conversion.hpp"
 
 namespace {
 

@@ -1,9 +1,9 @@
 /// The bytes of a text file of heights.
 
 #include "fuzz/fuzzing.hpp"
+#include "height_map/scan_sanity.hpp"
+#include "import/format_readers.hpp"
 #include "mems_stiction/height_map/raw_scan.hpp"
-#include "mems_stiction/height_map/scan_sanity.hpp"
-#include "mems_stiction/import/format_readers.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace mems_stiction;

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "mems_stiction/approach/gap_field.hpp"
+#include "approach/gap_field.hpp"
 #include "mems_stiction/base/constants.hpp"
 #include "mems_stiction/mechanics/plasticity.hpp"
 #include "mems_stiction/scan/scan_predictor.hpp"

@@ -66,14 +66,14 @@ class LinkTest(unittest.TestCase):
 
 class RosApiTest(unittest.TestCase):
     def names(self, suffix):
-        return re.findall(r'k\w+%s\[\] = "([^"]+)"' % suffix, source("include/mems_stiction/ros/topic_names.hpp"))
+        return re.findall(r'k\w+%s\[\] = "([^"]+)"' % suffix, source("src/ros/topic_names.hpp"))
 
     def test_topics(self):
         listed = dict(rows("Subscribed"))
         listed.update(rows("Published"))
         self.assertEqual(set(self.names("Topic")), {name for name in listed if not name.startswith("/")})
         publisher = source("src/ros/result_publisher.cpp") + source("src/ros/half_space_publisher.cpp")
-        constants = dict(re.findall(r'(k\w+Topic)\[\] = "([^"]+)"', source("include/mems_stiction/ros/topic_names.hpp")))
+        constants = dict(re.findall(r'(k\w+Topic)\[\] = "([^"]+)"', source("src/ros/topic_names.hpp")))
         advertised = re.findall(r"(?:advertise<([\w:]+)>|transport_\.(advertise))\(\s*(k\w+)", publisher)
         self.assertGreaterEqual(len(advertised), 12)
         for kind, by_transport, constant in advertised:
@@ -121,7 +121,7 @@ class ValidityTest(unittest.TestCase):
 
     def test_limits_are_those_of_the_code(self):
         page = (REPOSITORY / "doc" / "validity.md").read_text(encoding="utf-8")
-        flags = source("include/mems_stiction/verdict/regime_flags.hpp")
+        flags = source("src/verdict/regime_flags.hpp")
         self.assertIn("fewer than %g pixels" % float(re.search(r"kFewestCellsPerContact = ([\d.]+)", flags).group(1)), page)
         self.assertIn("fewer than %s contacts" % re.search(r"kFewestContacts = (\d+)", flags).group(1), page)
         summary = source("src/prediction/contact_summary.cpp")

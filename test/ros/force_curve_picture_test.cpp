@@ -1,12 +1,12 @@
-#include "mems_stiction/ros/force_curve_picture.hpp"
+#include "ros/force_curve_picture.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "mems_stiction/ros/half_space_conversion.hpp"
-#include "mems_stiction/ros/half_space_pictures.hpp"
+#include "ros/half_space_conversion.hpp"
+#include "ros/half_space_pictures.hpp"
 
 namespace mems_stiction {
 namespace {

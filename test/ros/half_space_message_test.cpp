@@ -8,10 +8,10 @@
 
 #include <gtest/gtest.h>
 
-#include "mems_stiction/half_space/half_space_fields.hpp"
-#include "mems_stiction/ros/half_space_conversion.hpp"
-#include "mems_stiction/ros/half_space_pictures.hpp"
-#include "mems_stiction/ros/provenance_conversion.hpp"
+#include "half_space/half_space_fields.hpp"
+#include "ros/half_space_conversion.hpp"
+#include "ros/half_space_pictures.hpp"
+#include "ros/provenance_conversion.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,4 +1,4 @@
-#include "mems_stiction/ros/image_conversion.hpp"
+#include "ros/image_conversion.hpp"
 
 #include <algorithm>
 #include <cmath>

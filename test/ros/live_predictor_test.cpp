@@ -1,4 +1,4 @@
-#include "mems_stiction/ros/live_predictor.hpp"
+#include "ros/live_predictor.hpp"
 
 #include <cmath>
 
@@ -7,11 +7,11 @@
 #include <boost/make_shared.hpp>
 
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/ros/display_conversion.hpp"
-#include "mems_stiction/ros/prediction_conversion.hpp"
-#include "mems_stiction/scan/frame_load.hpp"
-#include "mems_stiction/station/contact_cycles.hpp"
-#include "mems_stiction/surface/gaussian_surface.hpp"
+#include "ros/display_conversion.hpp"
+#include "ros/prediction_conversion.hpp"
+#include "scan/frame_load.hpp"
+#include "station/contact_cycles.hpp"
+#include "surface/gaussian_surface.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "mems_stiction/ros/parameters.hpp"
+#include "ros/parameters.hpp"
 #include "support/documents.hpp"
 
 namespace mems_stiction {

@@ -1,4 +1,4 @@
-#include "mems_stiction/ros/parameters.hpp"
+#include "ros/parameters.hpp"
 
 #include <string>
 #include <vector>
@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 
+#include "base/option_yaml.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/option_yaml.hpp"
 
 namespace mems_stiction {
 namespace {

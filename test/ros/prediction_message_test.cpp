@@ -10,17 +10,17 @@
 
 #include <gtest/gtest.h>
 
-#include "mems_stiction/half_space/half_space_fields.hpp"
-#include "mems_stiction/prediction/prediction_fields.hpp"
-#include "mems_stiction/ros/half_space_conversion.hpp"
-#include "mems_stiction/ros/message_fields.hpp"
-#include "mems_stiction/ros/part_verdict_conversion.hpp"
-#include "mems_stiction/ros/prediction_conversion.hpp"
-#include "mems_stiction/ros/station_conversion.hpp"
-#include "mems_stiction/station/station_fields.hpp"
-#include "mems_stiction/verdict/part_verdict_fields.hpp"
-#include "mems_stiction/verdict/regime_flags.hpp"
-#include "mems_stiction/verdict/verdict_fields.hpp"
+#include "half_space/half_space_fields.hpp"
+#include "prediction/prediction_fields.hpp"
+#include "ros/half_space_conversion.hpp"
+#include "ros/message_fields.hpp"
+#include "ros/part_verdict_conversion.hpp"
+#include "ros/prediction_conversion.hpp"
+#include "ros/station_conversion.hpp"
+#include "station/station_fields.hpp"
+#include "verdict/part_verdict_fields.hpp"
+#include "verdict/regime_flags.hpp"
+#include "verdict/verdict_fields.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "mems_stiction/ros/display_conversion.hpp"
+#include "ros/display_conversion.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,4 +1,4 @@
-#include "mems_stiction/ros/scan_accounting.hpp"
+#include "ros/scan_accounting.hpp"
 
 #include <map>
 #include <string>
@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <ros/console.h>
 
-#include "mems_stiction/ros/own_log.hpp"
+#include "ros/own_log.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,4 +1,4 @@
-#include "mems_stiction/ros/scan_folders.hpp"
+#include "ros/scan_folders.hpp"
 
 #include <cstdlib>
 

@@ -7,8 +7,8 @@
 #include <tf2/LinearMath/Quaternion.h>
 
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/ros/counter_surface_frame.hpp"
-#include "mems_stiction/ros/transform_gate.hpp"
+#include "ros/counter_surface_frame.hpp"
+#include "ros/transform_gate.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <string>
 
-#include "mems_stiction/base/option_yaml.hpp"
+#include "base/option_yaml.hpp"
 
 namespace mems_stiction {
 namespace documents {

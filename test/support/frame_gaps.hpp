@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "mems_stiction/approach/gap_field.hpp"
+#include "approach/gap_field.hpp"
 
 namespace mems_stiction {
 

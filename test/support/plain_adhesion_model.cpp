@@ -6,11 +6,11 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "mems_stiction/paper/approach_search.hpp"
-#include "mems_stiction/paper/asperity_summary.hpp"
-#include "mems_stiction/paper/cap_couple.hpp"
-#include "mems_stiction/paper/level_search.hpp"
-#include "mems_stiction/preprocess/refine.hpp"
+#include "paper/approach_search.hpp"
+#include "paper/asperity_summary.hpp"
+#include "paper/cap_couple.hpp"
+#include "paper/level_search.hpp"
+#include "preprocess/refine.hpp"
 #include "support/frame_gaps.hpp"
 
 namespace mems_stiction {

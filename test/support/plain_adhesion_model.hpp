@@ -9,11 +9,11 @@
 
 #include <opencv2/core.hpp>
 
-#include "mems_stiction/approach/gap_field.hpp"
-#include "mems_stiction/paper/cell_forces.hpp"
-#include "mems_stiction/paper/contact_patch.hpp"
+#include "approach/gap_field.hpp"
 #include "mems_stiction/prediction/options.hpp"
 #include "mems_stiction/prediction/prediction.hpp"
+#include "paper/cell_forces.hpp"
+#include "paper/contact_patch.hpp"
 
 namespace mems_stiction {
 namespace plain {

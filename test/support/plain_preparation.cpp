@@ -8,9 +8,9 @@
 
 #include <Eigen/Dense>
 
-#include "mems_stiction/base/median.hpp"
-#include "mems_stiction/preprocess/spike_removal.hpp"
-#include "mems_stiction/preprocess/stage_offset.hpp"
+#include "base/median.hpp"
+#include "preprocess/spike_removal.hpp"
+#include "preprocess/stage_offset.hpp"
 
 namespace mems_stiction {
 namespace plain {

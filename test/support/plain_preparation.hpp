@@ -4,8 +4,8 @@
 /// steps are compared with.
 
 #include "mems_stiction/height_map/height_map.hpp"
-#include "mems_stiction/preprocess/spike_removal.hpp"
-#include "mems_stiction/preprocess/stage_offset.hpp"
+#include "preprocess/spike_removal.hpp"
+#include "preprocess/stage_offset.hpp"
 
 namespace mems_stiction {
 namespace plain {

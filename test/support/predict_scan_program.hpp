@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "mems_stiction/import/scan_writer.hpp"
+#include "import/scan_writer.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/program_run.hpp"
 #include "support/scratch_folder.hpp"

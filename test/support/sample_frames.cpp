@@ -4,8 +4,8 @@
 #include <limits>
 #include <random>
 
-#include "mems_stiction/surface/gaussian_surface.hpp"
 #include "support/analytic_surfaces.hpp"
+#include "surface/gaussian_surface.hpp"
 
 namespace mems_stiction {
 namespace samples {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "mems_stiction/approach/gap_field.hpp"
+#include "approach/gap_field.hpp"
 #include "mems_stiction/surface/surface_pair.hpp"
 
 namespace mems_stiction {

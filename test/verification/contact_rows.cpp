@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "mems_stiction/mechanics/plasticity.hpp"
-#include "mems_stiction/paper/force_balance.hpp"
-#include "mems_stiction/paper/formulation_share.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
+#include "paper/force_balance.hpp"
+#include "paper/formulation_share.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/sphere_contact.hpp"
 #include "verification/closed_forms.hpp"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "mems_stiction/height_map/scan_sanity.hpp"
+#include "height_map/scan_sanity.hpp"
 #include "mems_stiction/loads/capillary.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
 #include "mems_stiction/verdict/beam_adhesion.hpp"

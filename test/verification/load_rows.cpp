@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "mems_stiction/paper/cell_forces.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
+#include "paper/cell_forces.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/paper_options.hpp"
 #include "support/pinned_surface.hpp"

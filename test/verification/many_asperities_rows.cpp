@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "mems_stiction/mechanics/hertz.hpp"
-#include "mems_stiction/mechanics/jkr.hpp"
+#include "mechanics/hertz.hpp"
+#include "mechanics/jkr.hpp"
 #include "verification/closed_forms.hpp"
 #include "verification/sections.hpp"
 

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <cstdio>
 
-#include "mems_stiction/mechanics/dmt.hpp"
-#include "mems_stiction/mechanics/hertz.hpp"
-#include "mems_stiction/mechanics/jkr.hpp"
+#include "mechanics/dmt.hpp"
+#include "mechanics/hertz.hpp"
+#include "mechanics/jkr.hpp"
+#include "mechanics/transition.hpp"
 #include "mems_stiction/mechanics/material.hpp"
-#include "mems_stiction/mechanics/transition.hpp"
 #include "verification/closed_forms.hpp"
 #include "verification/sections.hpp"
 

@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "mems_stiction/prediction/adhesion_model.hpp"
-#include "mems_stiction/prediction/prediction_fields.hpp"
+#include "prediction/prediction_fields.hpp"
 #include "support/sample_frames.hpp"
 #include "support/sphere_contact.hpp"
 #include "verification/sections.hpp"

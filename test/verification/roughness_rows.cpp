@@ -3,12 +3,12 @@
 #include <cmath>
 
 #include "mems_stiction/roughness/areal_parameters.hpp"
-#include "mems_stiction/roughness/autocorrelation.hpp"
-#include "mems_stiction/roughness/power_spectrum.hpp"
-#include "mems_stiction/roughness/summits.hpp"
-#include "mems_stiction/surface/gaussian_surface.hpp"
-#include "mems_stiction/surface/self_affine_surface.hpp"
+#include "roughness/autocorrelation.hpp"
+#include "roughness/power_spectrum.hpp"
+#include "roughness/summits.hpp"
 #include "support/analytic_surfaces.hpp"
+#include "surface/gaussian_surface.hpp"
+#include "surface/self_affine_surface.hpp"
 #include "verification/closed_forms.hpp"
 #include "verification/grid_convergence.hpp"
 #include "verification/sections.hpp"

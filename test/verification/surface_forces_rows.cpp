@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "mems_stiction/mechanics/surface_forces.hpp"
-#include "mems_stiction/paper/cell_forces.hpp"
+#include "mechanics/surface_forces.hpp"
+#include "paper/cell_forces.hpp"
 #include "verification/closed_forms.hpp"
 #include "verification/sections.hpp"
 

@@ -1,4 +1,4 @@
-#include "mems_stiction/approach/cell_order.hpp"
+#include "approach/cell_order.hpp"
 
 #include <limits>
 

@@ -1,4 +1,4 @@
-#include "mems_stiction/approach/dale_map.hpp"
+#include "approach/dale_map.hpp"
 
 #include <algorithm>
 #include <map>

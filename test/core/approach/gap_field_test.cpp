@@ -1,4 +1,4 @@
-#include "mems_stiction/approach/gap_field.hpp"
+#include "approach/gap_field.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "mems_stiction/approach/gap_order.hpp"
+#include "approach/gap_order.hpp"
 
 #include <algorithm>
 #include <cmath>

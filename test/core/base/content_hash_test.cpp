@@ -1,4 +1,4 @@
-#include "mems_stiction/base/content_hash.hpp"
+#include "base/content_hash.hpp"
 
 #include <cstdlib>
 #include <filesystem>
@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "mems_stiction/base/input_file.hpp"
+#include "base/input_file.hpp"
 
 namespace mems_stiction {
 namespace {

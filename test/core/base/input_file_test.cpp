@@ -1,4 +1,4 @@
-#include "mems_stiction/base/input_file.hpp"
+#include "base/input_file.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>

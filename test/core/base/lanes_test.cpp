@@ -1,6 +1,6 @@
 /// Every operator of four numbers at once against the same operator of one number, to the bit.
 
-#include "mems_stiction/base/lanes.hpp"
+#include "base/lanes.hpp"
 
 #include <cmath>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "mems_stiction/base/large_pages.hpp"
+#include "base/large_pages.hpp"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "mems_stiction/base/median.hpp"
+#include "base/median.hpp"
 
 #include <cmath>
 #include <limits>

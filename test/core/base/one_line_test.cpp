@@ -1,4 +1,4 @@
-#include "mems_stiction/base/one_line.hpp"
+#include "base/one_line.hpp"
 
 #include <gtest/gtest.h>
 

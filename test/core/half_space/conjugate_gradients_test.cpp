@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "mems_stiction/half_space/conjugate_gradients.hpp"
+#include "half_space/conjugate_gradients.hpp"
 
 namespace mems_stiction {
 namespace {

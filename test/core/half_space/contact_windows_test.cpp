@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "mems_stiction/half_space/contact_minimiser.hpp"
-#include "mems_stiction/half_space/contact_windows.hpp"
-#include "mems_stiction/surface/gaussian_surface.hpp"
+#include "half_space/contact_minimiser.hpp"
+#include "half_space/contact_windows.hpp"
+#include "surface/gaussian_surface.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -6,10 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include "mechanics/hertz.hpp"
 #include "mems_stiction/base/constants.hpp"
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/half_space/half_space_solver.hpp"
-#include "mems_stiction/mechanics/hertz.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/half_space_cases.hpp"
 

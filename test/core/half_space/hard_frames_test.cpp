@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "mems_stiction/half_space/half_space_solver.hpp"
-#include "mems_stiction/surface/gaussian_surface.hpp"
+#include "surface/gaussian_surface.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "mems_stiction/half_space/half_space_solver.hpp"
 #include "mems_stiction/import/scan_file.hpp"
-#include "mems_stiction/preprocess/level.hpp"
+#include "preprocess/level.hpp"
 
 namespace mems_stiction {
 namespace {

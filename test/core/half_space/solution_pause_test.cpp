@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "half_space/solution_pause.hpp"
 #include "mems_stiction/half_space/half_space_solver.hpp"
-#include "mems_stiction/half_space/solution_pause.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/half_space_cases.hpp"
 

@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include "mechanics/jkr.hpp"
+#include "mechanics/transition.hpp"
 #include "mems_stiction/base/constants.hpp"
 #include "mems_stiction/half_space/half_space_solver.hpp"
-#include "mems_stiction/mechanics/jkr.hpp"
-#include "mems_stiction/mechanics/transition.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/half_space_cases.hpp"
 

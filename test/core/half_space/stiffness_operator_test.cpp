@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "half_space/stiffness_operator.hpp"
 #include "mems_stiction/base/constants.hpp"
-#include "mems_stiction/half_space/stiffness_operator.hpp"
 
 namespace mems_stiction {
 namespace {

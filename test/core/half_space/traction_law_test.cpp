@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include "half_space/traction_law.hpp"
+#include "mechanics/surface_forces.hpp"
 #include "mems_stiction/base/constants.hpp"
-#include "mems_stiction/half_space/traction_law.hpp"
-#include "mems_stiction/mechanics/surface_forces.hpp"
 
 namespace mems_stiction {
 namespace {

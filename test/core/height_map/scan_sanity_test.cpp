@@ -1,11 +1,11 @@
-#include "mems_stiction/height_map/scan_sanity.hpp"
+#include "height_map/scan_sanity.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "mems_stiction/surface/gaussian_surface.hpp"
 #include "support/analytic_surfaces.hpp"
+#include "surface/gaussian_surface.hpp"
 
 namespace mems_stiction {
 namespace {

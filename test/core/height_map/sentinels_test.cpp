@@ -1,4 +1,4 @@
-#include "mems_stiction/height_map/unmeasured.hpp"
+#include "height_map/unmeasured.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "mems_stiction/height_map/shared_pixels.hpp"
+#include "height_map/shared_pixels.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,11 +1,11 @@
-#include "mems_stiction/height_map/unmeasured.hpp"
+#include "height_map/unmeasured.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "mems_stiction/height_map/scan_sanity.hpp"
+#include "height_map/scan_sanity.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,4 +1,4 @@
-#include "mems_stiction/import/file_bytes.hpp"
+#include "import/file_bytes.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -8,9 +8,9 @@
 #include <chrono>
 #include <filesystem>
 
+#include "base/output_file.hpp"
+#include "import/file_checks.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/output_file.hpp"
-#include "mems_stiction/import/file_checks.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 #include "support/binary_writer.hpp"
 #include "support/scratch_folder.hpp"

@@ -10,9 +10,9 @@
 #include <map>
 #include <set>
 
-#include "mems_stiction/height_map/validity.hpp"
+#include "height_map/validity.hpp"
+#include "import/scan_writer.hpp"
 #include "mems_stiction/import/scan_file.hpp"
-#include "mems_stiction/import/scan_writer.hpp"
 #include "support/gwy_bytes.hpp"
 #include "support/scan_bytes.hpp"
 #include "support/scratch_folder.hpp"

@@ -1,9 +1,9 @@
 
 #include <gtest/gtest.h>
 
+#include "import/channel_choice.hpp"
+#include "import/format_readers.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/import/channel_choice.hpp"
-#include "mems_stiction/import/format_readers.hpp"
 #include "support/scan_bytes.hpp"
 
 namespace mems_stiction {

@@ -1,4 +1,4 @@
-#include "mems_stiction/import/import_cache.hpp"
+#include "import/import_cache.hpp"
 
 #include <gtest/gtest.h>
 #include <stdlib.h>

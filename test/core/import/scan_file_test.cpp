@@ -10,11 +10,11 @@
 
 #include <opencv2/imgcodecs.hpp>
 
-#include "mems_stiction/base/child_process.hpp"
+#include "base/child_process.hpp"
+#include "import/format_readers.hpp"
+#include "import/scan_writer.hpp"
+#include "import/tiff_tags.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/import/format_readers.hpp"
-#include "mems_stiction/import/scan_writer.hpp"
-#include "mems_stiction/import/tiff_tags.hpp"
 #include "support/binary_writer.hpp"
 #include "support/scratch_folder.hpp"
 

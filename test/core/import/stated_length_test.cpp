@@ -4,9 +4,9 @@
 
 #include <map>
 
+#include "import/file_checks.hpp"
+#include "import/nanoscope_check.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/import/file_checks.hpp"
-#include "mems_stiction/import/nanoscope_check.hpp"
 #include "support/maker_bytes.hpp"
 
 namespace mems_stiction {

@@ -1,4 +1,4 @@
-#include "mems_stiction/import/format_readers.hpp"
+#include "import/format_readers.hpp"
 
 #include <gtest/gtest.h>
 

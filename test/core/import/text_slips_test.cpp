@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "import/format_readers.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/import/format_readers.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 #include "support/scratch_folder.hpp"
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <functional>
 
+#include "import/channel_choice.hpp"
+#include "import/format_readers.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/import/channel_choice.hpp"
-#include "mems_stiction/import/format_readers.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 #include "support/scratch_folder.hpp"
 

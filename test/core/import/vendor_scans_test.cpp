@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "height_map/scan_sanity.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/height_map/scan_sanity.hpp"
 #include "mems_stiction/import/scan_file.hpp"
-#include "mems_stiction/preprocess/level.hpp"
 #include "mems_stiction/roughness/areal_parameters.hpp"
+#include "preprocess/level.hpp"
 #include "support/scratch_folder.hpp"
 
 namespace mems_stiction {

@@ -1,7 +1,7 @@
 /// One gwyddion for many files: each is read as if by a process of its own, whatever the others were.
 
-#include "mems_stiction/import/waiting_gwyddion.hpp"
-#include "mems_stiction/import/format_readers.hpp"
+#include "import/waiting_gwyddion.hpp"
+#include "import/format_readers.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>

@@ -1,7 +1,7 @@
 /// The capillary term against the numbers of water at room temperature and closed forms of flat and sphere.
 
-#include "mems_stiction/approach/gap_order.hpp"
 #include "mems_stiction/loads/capillary.hpp"
+#include "approach/gap_order.hpp"
 
 #include <cmath>
 

@@ -1,12 +1,12 @@
-#include "mems_stiction/mechanics/dmt.hpp"
+#include "mechanics/dmt.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "mechanics/hertz.hpp"
+#include "mechanics/jkr.hpp"
 #include "mems_stiction/base/constants.hpp"
-#include "mems_stiction/mechanics/hertz.hpp"
-#include "mems_stiction/mechanics/jkr.hpp"
 
 namespace mems_stiction {
 namespace {

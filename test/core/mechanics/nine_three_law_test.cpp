@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "base/lanes.hpp"
+#include "mechanics/surface_forces.hpp"
 #include "mems_stiction/base/constants.hpp"
-#include "mems_stiction/base/lanes.hpp"
-#include "mems_stiction/mechanics/surface_forces.hpp"
 #include "mems_stiction/mechanics/traction_law.hpp"
 
 namespace mems_stiction {

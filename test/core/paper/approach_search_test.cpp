@@ -1,4 +1,4 @@
-#include "mems_stiction/paper/approach_search.hpp"
+#include "paper/approach_search.hpp"
 
 #include <cmath>
 #include <limits>

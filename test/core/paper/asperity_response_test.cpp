@@ -1,12 +1,12 @@
-#include "mems_stiction/paper/asperity_response.hpp"
+#include "paper/asperity_response.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "mechanics/jkr.hpp"
 #include "mems_stiction/base/constants.hpp"
-#include "mems_stiction/mechanics/jkr.hpp"
 #include "mems_stiction/mechanics/plasticity.hpp"
 
 namespace mems_stiction {

@@ -1,4 +1,4 @@
-#include "mems_stiction/paper/cap_couple.hpp"
+#include "paper/cap_couple.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "mems_stiction/paper/cell_forces.hpp"
+#include "paper/cell_forces.hpp"
 
 #include <cmath>
 

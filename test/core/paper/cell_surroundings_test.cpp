@@ -1,4 +1,4 @@
-#include "mems_stiction/paper/cell_surroundings.hpp"
+#include "paper/cell_surroundings.hpp"
 
 #include <algorithm>
 #include <vector>

@@ -1,12 +1,12 @@
-#include "mems_stiction/paper/energies.hpp"
+#include "paper/energies.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "mechanics/jkr.hpp"
 #include "mems_stiction/base/constants.hpp"
-#include "mems_stiction/mechanics/jkr.hpp"
-#include "mems_stiction/paper/force_balance.hpp"
+#include "paper/force_balance.hpp"
 
 namespace mems_stiction {
 namespace {

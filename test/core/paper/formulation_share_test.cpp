@@ -1,4 +1,4 @@
-#include "mems_stiction/paper/formulation_share.hpp"
+#include "paper/formulation_share.hpp"
 
 #include <cmath>
 

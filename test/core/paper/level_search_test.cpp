@@ -1,4 +1,4 @@
-#include "mems_stiction/paper/level_search.hpp"
+#include "paper/level_search.hpp"
 
 #include <vector>
 

@@ -1,4 +1,4 @@
-#include "mems_stiction/paper/patch_sweep.hpp"
+#include "paper/patch_sweep.hpp"
 
 #include <cmath>
 #include <map>

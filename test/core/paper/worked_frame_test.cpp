@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "mems_stiction/paper/patch_sweep.hpp"
+#include "paper/patch_sweep.hpp"
 #include "support/documents.hpp"
 
 namespace mems_stiction {

@@ -1,6 +1,6 @@
 /// Limits and medians among the figures of a prediction.
 
-#include "mems_stiction/prediction/contact_summary.hpp"
+#include "prediction/contact_summary.hpp"
 
 #include <cmath>
 #include <vector>
@@ -9,9 +9,9 @@
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
-#include "mems_stiction/prediction/deformed_surfaces.hpp"
-#include "mems_stiction/prediction/prediction_fields.hpp"
 #include "mems_stiction/verdict/verdict.hpp"
+#include "prediction/deformed_surfaces.hpp"
+#include "prediction/prediction_fields.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/sphere_contact.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
-#include "mems_stiction/prediction/contact_solvers.hpp"
+#include "prediction/contact_solvers.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "mems_stiction/prediction/adhesion_model.hpp"
-#include "mems_stiction/prediction/prediction_fields.hpp"
+#include "prediction/prediction_fields.hpp"
 #include "support/sample_frames.hpp"
 
 namespace mems_stiction {

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "mechanics/jkr.hpp"
 #include "mems_stiction/base/constants.hpp"
-#include "mems_stiction/mechanics/jkr.hpp"
 #include "mems_stiction/mechanics/plasticity.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
 #include "support/analytic_surfaces.hpp"

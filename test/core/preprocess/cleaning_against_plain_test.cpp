@@ -5,12 +5,12 @@
 #include <gtest/gtest.h>
 
 #include "mems_stiction/preprocess/pipeline.hpp"
-#include "mems_stiction/preprocess/polynomial_level.hpp"
-#include "mems_stiction/preprocess/spike_removal.hpp"
-#include "mems_stiction/preprocess/stage_offset.hpp"
-#include "mems_stiction/surface/gaussian_surface.hpp"
+#include "preprocess/polynomial_level.hpp"
+#include "preprocess/spike_removal.hpp"
+#include "preprocess/stage_offset.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/plain_preparation.hpp"
+#include "surface/gaussian_surface.hpp"
 
 namespace mems_stiction {
 namespace {

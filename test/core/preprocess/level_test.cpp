@@ -1,4 +1,4 @@
-#include "mems_stiction/preprocess/level.hpp"
+#include "preprocess/level.hpp"
 
 #include <cmath>
 #include <limits>

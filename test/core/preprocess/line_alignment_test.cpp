@@ -1,4 +1,4 @@
-#include "mems_stiction/preprocess/line_alignment.hpp"
+#include "preprocess/line_alignment.hpp"
 
 #include <cmath>
 #include <limits>
@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "mems_stiction/preprocess/stage_offset.hpp"
-#include "mems_stiction/surface/gaussian_surface.hpp"
+#include "preprocess/stage_offset.hpp"
 #include "support/analytic_surfaces.hpp"
+#include "surface/gaussian_surface.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,12 +1,12 @@
-#include "mems_stiction/preprocess/low_pass.hpp"
+#include "preprocess/low_pass.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "mems_stiction/height_map/validity.hpp"
-#include "mems_stiction/surface/gaussian_surface.hpp"
+#include "height_map/validity.hpp"
 #include "support/analytic_surfaces.hpp"
+#include "surface/gaussian_surface.hpp"
 
 namespace mems_stiction {
 namespace {

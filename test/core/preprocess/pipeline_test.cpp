@@ -8,14 +8,14 @@
 
 #include <gtest/gtest.h>
 
+#include "base/option_yaml.hpp"
+#include "height_map/validity.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/option_yaml.hpp"
-#include "mems_stiction/height_map/validity.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
-#include "mems_stiction/preprocess/level.hpp"
-#include "mems_stiction/preprocess/levelling.hpp"
-#include "mems_stiction/surface/gaussian_surface.hpp"
+#include "preprocess/level.hpp"
+#include "preprocess/levelling.hpp"
 #include "support/analytic_surfaces.hpp"
+#include "surface/gaussian_surface.hpp"
 #include "yaml-cpp/yaml.h"
 
 namespace mems_stiction {

@@ -1,4 +1,4 @@
-#include "mems_stiction/preprocess/polynomial_level.hpp"
+#include "preprocess/polynomial_level.hpp"
 
 #include <cmath>
 #include <limits>
@@ -6,10 +6,11 @@
 #include <gtest/gtest.h>
 
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/preprocess/level.hpp"
 #include "mems_stiction/preprocess/pipeline.hpp"
-#include "mems_stiction/surface/gaussian_surface.hpp"
+#include "preprocess/level.hpp"
+#include "preprocess/levelling.hpp"
 #include "support/analytic_surfaces.hpp"
+#include "surface/gaussian_surface.hpp"
 
 namespace mems_stiction {
 namespace {

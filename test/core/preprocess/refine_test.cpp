@@ -1,12 +1,12 @@
-#include "mems_stiction/preprocess/refine.hpp"
+#include "preprocess/refine.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "height_map/validity.hpp"
 #include "mems_stiction/base/constants.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/height_map/validity.hpp"
 #include "support/analytic_surfaces.hpp"
 
 namespace mems_stiction {

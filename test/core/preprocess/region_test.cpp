@@ -1,7 +1,7 @@
 /// A region of interest: what lies outside is as if it had not been measured, in steps and figures, and contacts at its border
 /// are flagged.
 
-#include "mems_stiction/preprocess/region.hpp"
+#include "preprocess/region.hpp"
 
 #include <cmath>
 #include <cstdlib>

@@ -1,4 +1,4 @@
-#include "mems_stiction/preprocess/spike_removal.hpp"
+#include "preprocess/spike_removal.hpp"
 
 #include <cmath>
 #include <limits>
@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/surface/gaussian_surface.hpp"
 #include "support/analytic_surfaces.hpp"
+#include "surface/gaussian_surface.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,4 +1,4 @@
-#include "mems_stiction/preprocess/tip_correction.hpp"
+#include "preprocess/tip_correction.hpp"
 
 #include <chrono>
 #include <cmath>
@@ -7,10 +7,10 @@
 
 #include <gtest/gtest.h>
 
+#include "height_map/validity.hpp"
 #include "mems_stiction/base/constants.hpp"
-#include "mems_stiction/height_map/validity.hpp"
-#include "mems_stiction/surface/gaussian_surface.hpp"
 #include "support/analytic_surfaces.hpp"
+#include "surface/gaussian_surface.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,4 +1,4 @@
-#include "mems_stiction/preprocess/window_median.hpp"
+#include "preprocess/window_median.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "mems_stiction/base/median.hpp"
+#include "base/median.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,4 +1,4 @@
-#include "mems_stiction/roughness/power_spectrum.hpp"
+#include "roughness/power_spectrum.hpp"
 
 #include <cmath>
 
@@ -7,8 +7,8 @@
 #include "mems_stiction/base/constants.hpp"
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/roughness/areal_parameters.hpp"
-#include "mems_stiction/surface/gaussian_surface.hpp"
 #include "support/analytic_surfaces.hpp"
+#include "surface/gaussian_surface.hpp"
 
 namespace mems_stiction {
 namespace {

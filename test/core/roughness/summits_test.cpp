@@ -4,10 +4,10 @@
 #include <string>
 
 #include "mems_stiction/base/constants.hpp"
-#include "mems_stiction/roughness/power_spectrum.hpp"
-#include "mems_stiction/roughness/summits.hpp"
-#include "mems_stiction/surface/gaussian_surface.hpp"
+#include "roughness/power_spectrum.hpp"
+#include "roughness/summits.hpp"
 #include "support/analytic_surfaces.hpp"
+#include "surface/gaussian_surface.hpp"
 
 namespace mems_stiction {
 namespace {

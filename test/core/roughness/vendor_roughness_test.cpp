@@ -8,13 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "mems_stiction/height_map/validity.hpp"
+#include "height_map/validity.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 #include "mems_stiction/preprocess/pipeline.hpp"
 #include "mems_stiction/roughness/areal_parameters.hpp"
-#include "mems_stiction/roughness/autocorrelation.hpp"
-#include "mems_stiction/roughness/power_spectrum.hpp"
-#include "mems_stiction/roughness/summits.hpp"
+#include "roughness/autocorrelation.hpp"
+#include "roughness/power_spectrum.hpp"
+#include "roughness/summits.hpp"
 
 namespace mems_stiction {
 namespace {

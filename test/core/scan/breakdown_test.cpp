@@ -1,6 +1,6 @@
 /// Voltages over less than nothing stands are named; usual operating points are not.
 
-#include "mems_stiction/scan/breakdown.hpp"
+#include "scan/breakdown.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "mems_stiction/scan/cleaning_spread.hpp"
+#include "scan/cleaning_spread.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <string>
 
 #include "mems_stiction/scan/scan_predictor.hpp"
-#include "mems_stiction/surface/gaussian_surface.hpp"
+#include "surface/gaussian_surface.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <set>
 
+#include "base/option_yaml.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/option_yaml.hpp"
 #include "mems_stiction/scan/configuration_yaml.hpp"
 #include "mems_stiction/scan/scan_predictor.hpp"
 #include "support/scratch_folder.hpp"

@@ -10,8 +10,8 @@
 #include <map>
 #include <sstream>
 
-#include "mems_stiction/paper/approach_search.hpp"
 #include "mems_stiction/scan/configuration.hpp"
+#include "paper/approach_search.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,6 +1,6 @@
 /// Loads that are stated per area or for the device: every frame carries its share.
 
-#include "mems_stiction/scan/frame_load.hpp"
+#include "scan/frame_load.hpp"
 
 #include <limits>
 
@@ -8,7 +8,7 @@
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/scan/scan_predictor.hpp"
-#include "mems_stiction/surface/gaussian_surface.hpp"
+#include "surface/gaussian_surface.hpp"
 
 namespace mems_stiction {
 namespace {

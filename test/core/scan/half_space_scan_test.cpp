@@ -6,7 +6,7 @@
 
 #include "mems_stiction/half_space/half_space_solver.hpp"
 #include "mems_stiction/mechanics/regime.hpp"
-#include "mems_stiction/surface/gaussian_surface.hpp"
+#include "surface/gaussian_surface.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,4 +1,4 @@
-#include "mems_stiction/scan/part_scans.hpp"
+#include "scan/part_scans.hpp"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 /// Slips of a unit are named, with the unit that was meant; real materials and devices are not.
 
-#include "mems_stiction/scan/plausibility.hpp"
+#include "scan/plausibility.hpp"
 
 #include <filesystem>
 #include <string>

@@ -7,14 +7,14 @@
 #include <memory>
 #include <string>
 
+#include "height_map/scan_sanity.hpp"
+#include "import/scan_writer.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/height_map/scan_sanity.hpp"
-#include "mems_stiction/import/scan_writer.hpp"
-#include "mems_stiction/preprocess/refine.hpp"
 #include "mems_stiction/scan/scan_predictor.hpp"
-#include "mems_stiction/surface/gaussian_surface.hpp"
+#include "preprocess/refine.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/scratch_folder.hpp"
+#include "surface/gaussian_surface.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,4 +1,4 @@
-#include "mems_stiction/scan/record.hpp"
+#include "scan/record.hpp"
 
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "mems_stiction/prediction/prediction_fields.hpp"
+#include "prediction/prediction_fields.hpp"
 
 namespace mems_stiction {
 namespace {

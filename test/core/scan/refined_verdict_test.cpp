@@ -6,10 +6,10 @@
 #include <gtest/gtest.h>
 
 #include "mems_stiction/scan/scan_predictor.hpp"
-#include "mems_stiction/surface/gaussian_surface.hpp"
-#include "mems_stiction/verdict/regime_flags.hpp"
 #include "mems_stiction/verdict/verdict.hpp"
 #include "support/paper_options.hpp"
+#include "surface/gaussian_surface.hpp"
+#include "verdict/regime_flags.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,4 +1,4 @@
-#include "mems_stiction/scan/running_settings.hpp"
+#include "scan/running_settings.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <chrono>
 #include <string>
 
-#include "mems_stiction/base/time_limit.hpp"
+#include "base/time_limit.hpp"
 #include "mems_stiction/scan/scan_predictor.hpp"
 
 namespace mems_stiction {

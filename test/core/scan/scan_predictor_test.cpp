@@ -7,17 +7,17 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "height_map/validity.hpp"
+#include "import/scan_writer.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/height_map/validity.hpp"
 #include "mems_stiction/import/scan_file.hpp"
-#include "mems_stiction/import/scan_writer.hpp"
-#include "mems_stiction/preprocess/tip_correction.hpp"
-#include "mems_stiction/surface/counter_surface.hpp"
-#include "mems_stiction/surface/gaussian_surface.hpp"
-#include "mems_stiction/surface/self_affine_surface.hpp"
+#include "preprocess/tip_correction.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/paper_options.hpp"
 #include "support/scratch_folder.hpp"
+#include "surface/counter_surface.hpp"
+#include "surface/gaussian_surface.hpp"
+#include "surface/self_affine_surface.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,13 +1,13 @@
 /// The law of adhesion counted from contact, and the layer that it puts between the bodies.
 
-#include "mems_stiction/separation/contact_traction.hpp"
+#include "separation/contact_traction.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "mechanics/surface_forces.hpp"
 #include "mems_stiction/base/constants.hpp"
-#include "mems_stiction/mechanics/surface_forces.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,6 +1,6 @@
 /// How far the curve's figures may be off: where the rule tips.
 
-#include "mems_stiction/separation/curve_statement.hpp"
+#include "separation/curve_statement.hpp"
 
 #include <limits>
 #include <utility>

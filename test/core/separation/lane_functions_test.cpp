@@ -1,4 +1,4 @@
-#include "mems_stiction/separation/lane_functions.hpp"
+#include "separation/lane_functions.hpp"
 
 #include <cmath>
 

@@ -1,16 +1,16 @@
 /// Valleys that stay open, against the stress intensity of one wave, and what surfaces with open valleys hold, against the
 /// half-space.
 
-#include "mems_stiction/separation/open_valleys.hpp"
+#include "separation/open_valleys.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "mems_stiction/base/constants.hpp"
-#include "mems_stiction/surface/gaussian_surface.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/separation_cases.hpp"
+#include "surface/gaussian_surface.hpp"
 
 namespace mems_stiction {
 namespace {

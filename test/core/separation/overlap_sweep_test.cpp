@@ -1,6 +1,6 @@
 /// Patches of the sweep against OpenCV's labelling, and what they carry where they meet.
 
-#include "mems_stiction/separation/overlap_sweep.hpp"
+#include "separation/overlap_sweep.hpp"
 
 #include <cmath>
 #include <limits>

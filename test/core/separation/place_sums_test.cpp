@@ -6,10 +6,10 @@
 
 #include <gtest/gtest.h>
 
-#include "mems_stiction/separation/frame_sums.hpp"
-#include "mems_stiction/surface/gaussian_surface.hpp"
+#include "separation/frame_sums.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/separation_cases.hpp"
+#include "surface/gaussian_surface.hpp"
 
 namespace mems_stiction {
 namespace {

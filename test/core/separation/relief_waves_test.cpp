@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "mems_stiction/base/constants.hpp"
-#include "mems_stiction/separation/relief_waves.hpp"
+#include "separation/relief_waves.hpp"
 #include "support/analytic_surfaces.hpp"
 
 namespace mems_stiction {

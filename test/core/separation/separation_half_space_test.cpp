@@ -10,9 +10,9 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "mems_stiction/surface/gaussian_surface.hpp"
-#include "mems_stiction/surface/self_affine_surface.hpp"
 #include "support/separation_cases.hpp"
+#include "surface/gaussian_surface.hpp"
+#include "surface/self_affine_surface.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -4,12 +4,12 @@
 
 #include <gtest/gtest.h>
 
-#include "mems_stiction/separation/separation_curve.hpp"
-#include "mems_stiction/surface/gaussian_surface.hpp"
-#include "mems_stiction/verdict/regime_flags.hpp"
 #include "mems_stiction/verdict/verdict.hpp"
+#include "separation/separation_curve.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/separation_cases.hpp"
+#include "surface/gaussian_surface.hpp"
+#include "verdict/regime_flags.hpp"
 
 namespace mems_stiction {
 namespace {

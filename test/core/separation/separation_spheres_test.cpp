@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include "mechanics/hertz.hpp"
+#include "mechanics/surface_forces.hpp"
+#include "mechanics/transition.hpp"
 #include "mems_stiction/base/constants.hpp"
-#include "mems_stiction/mechanics/hertz.hpp"
-#include "mems_stiction/mechanics/surface_forces.hpp"
-#include "mems_stiction/mechanics/transition.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/pinned_surface.hpp"
 #include "support/separation_cases.hpp"

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "mems_stiction/separation/spring_contact.hpp"
+#include "separation/spring_contact.hpp"
 
 namespace mems_stiction {
 namespace {

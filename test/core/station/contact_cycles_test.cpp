@@ -1,4 +1,4 @@
-#include "mems_stiction/station/contact_cycles.hpp"
+#include "station/contact_cycles.hpp"
 
 #include <atomic>
 #include <cmath>
@@ -8,9 +8,9 @@
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
-#include "mems_stiction/surface/gaussian_surface.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/paper_options.hpp"
+#include "surface/gaussian_surface.hpp"
 
 namespace mems_stiction {
 namespace {

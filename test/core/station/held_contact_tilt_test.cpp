@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "mechanics/jkr.hpp"
 #include "mems_stiction/base/constants.hpp"
-#include "mems_stiction/mechanics/jkr.hpp"
-#include "mems_stiction/station/held_contact.hpp"
+#include "station/held_contact.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/sphere_contact.hpp"
 

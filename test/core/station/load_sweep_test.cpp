@@ -1,18 +1,18 @@
-#include "mems_stiction/station/load_sweep.hpp"
+#include "station/load_sweep.hpp"
 
 #include <atomic>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "mechanics/jkr.hpp"
+#include "mechanics/surface_forces.hpp"
 #include "mems_stiction/base/constants.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/mechanics/jkr.hpp"
-#include "mems_stiction/mechanics/surface_forces.hpp"
-#include "mems_stiction/station/held_contact.hpp"
-#include "mems_stiction/surface/gaussian_surface.hpp"
+#include "station/held_contact.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/paper_options.hpp"
+#include "surface/gaussian_surface.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,14 +1,14 @@
-#include "mems_stiction/surface/alignment.hpp"
+#include "surface/alignment.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "height_map/validity.hpp"
 #include "mems_stiction/base/constants.hpp"
 #include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/height_map/validity.hpp"
-#include "mems_stiction/surface/gaussian_surface.hpp"
 #include "support/analytic_surfaces.hpp"
+#include "surface/gaussian_surface.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,4 +1,4 @@
-#include "mems_stiction/surface/counter_surface.hpp"
+#include "surface/counter_surface.hpp"
 
 #include <cmath>
 

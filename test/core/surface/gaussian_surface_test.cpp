@@ -1,4 +1,4 @@
-#include "mems_stiction/surface/gaussian_surface.hpp"
+#include "surface/gaussian_surface.hpp"
 
 #include <cmath>
 #include <string>

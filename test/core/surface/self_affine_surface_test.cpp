@@ -1,4 +1,4 @@
-#include "mems_stiction/surface/self_affine_surface.hpp"
+#include "surface/self_affine_surface.hpp"
 
 #include <cmath>
 
@@ -7,7 +7,7 @@
 #include "mems_stiction/base/constants.hpp"
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/roughness/areal_parameters.hpp"
-#include "mems_stiction/roughness/power_spectrum.hpp"
+#include "roughness/power_spectrum.hpp"
 
 namespace mems_stiction {
 namespace {

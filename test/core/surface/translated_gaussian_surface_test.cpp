@@ -1,4 +1,4 @@
-#include "mems_stiction/surface/translated_gaussian_surface.hpp"
+#include "surface/translated_gaussian_surface.hpp"
 
 #include <cmath>
 #include <vector>
@@ -7,9 +7,9 @@
 
 #include "mems_stiction/base/errors.hpp"
 #include "mems_stiction/roughness/areal_parameters.hpp"
-#include "mems_stiction/roughness/autocorrelation.hpp"
-#include "mems_stiction/surface/gaussian_surface.hpp"
-#include "mems_stiction/surface/johnson_translation.hpp"
+#include "roughness/autocorrelation.hpp"
+#include "surface/gaussian_surface.hpp"
+#include "surface/johnson_translation.hpp"
 
 namespace mems_stiction {
 namespace {

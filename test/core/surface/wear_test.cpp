@@ -1,4 +1,4 @@
-#include "mems_stiction/surface/wear.hpp"
+#include "surface/wear.hpp"
 
 #include <cmath>
 #include <limits>

@@ -11,8 +11,8 @@
 #include <sstream>
 #include <vector>
 
+#include "import/scan_writer.hpp"
 #include "mems_stiction/import/scan_file.hpp"
-#include "mems_stiction/import/scan_writer.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/program_run.hpp"
 #include "support/scratch_folder.hpp"

@@ -10,8 +10,8 @@
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "half_space/half_space_fields.hpp"
 #include "mems_stiction/base/option_visitor.hpp"
-#include "mems_stiction/half_space/half_space_fields.hpp"
 #include "mems_stiction/half_space/half_space_solver.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 #include "mems_stiction/scan/half_space_scan.hpp"

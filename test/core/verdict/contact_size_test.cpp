@@ -1,11 +1,11 @@
 /// Forces are not scaled further than they go with area.
 
-#include "mems_stiction/verdict/contact_size.hpp"
+#include "verdict/contact_size.hpp"
 
 #include <gtest/gtest.h>
 
-#include "mems_stiction/verdict/part_verdict.hpp"
 #include "mems_stiction/verdict/verdict.hpp"
+#include "verdict/part_verdict.hpp"
 
 namespace mems_stiction {
 namespace {

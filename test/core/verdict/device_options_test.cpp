@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "mems_stiction/mechanics/surface_forces.hpp"
+#include "mechanics/surface_forces.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -6,10 +6,10 @@
 #include <gtest/gtest.h>
 
 #include "mems_stiction/base/constants.hpp"
-#include "mems_stiction/paper/contact_growth.hpp"
-#include "mems_stiction/verdict/regime_flags.hpp"
 #include "mems_stiction/verdict/verdict.hpp"
+#include "paper/contact_growth.hpp"
 #include "support/paper_options.hpp"
+#include "verdict/regime_flags.hpp"
 
 namespace mems_stiction {
 namespace {

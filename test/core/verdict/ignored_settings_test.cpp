@@ -1,7 +1,7 @@
 /// A setting is ignored when no bit of a prediction, or of the intervals of its figures, goes with it: every setting is
 /// changed, for every formulation.
 
-#include "mems_stiction/prediction/contact_solvers.hpp"
+#include "prediction/contact_solvers.hpp"
 
 #include <algorithm>
 #include <ios>
@@ -11,8 +11,8 @@
 #include <gtest/gtest.h>
 
 #include "mems_stiction/prediction/adhesion_model.hpp"
-#include "mems_stiction/prediction/prediction_fields.hpp"
 #include "mems_stiction/verdict/margin_uncertainty.hpp"
+#include "prediction/prediction_fields.hpp"
 #include "support/sample_frames.hpp"
 
 namespace mems_stiction {

@@ -5,12 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include "mechanics/jkr.hpp"
 #include "mems_stiction/base/constants.hpp"
-#include "mems_stiction/mechanics/jkr.hpp"
-#include "mems_stiction/paper/contact_growth.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
-#include "mems_stiction/surface/gaussian_surface.hpp"
+#include "paper/contact_growth.hpp"
 #include "support/paper_options.hpp"
+#include "surface/gaussian_surface.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,4 +1,4 @@
-#include "mems_stiction/verdict/part_verdict.hpp"
+#include "verdict/part_verdict.hpp"
 
 #include <cmath>
 #include <random>
@@ -7,9 +7,9 @@
 
 #include "mems_stiction/base/constants.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
-#include "mems_stiction/verdict/regime_flags.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/paper_options.hpp"
+#include "verdict/regime_flags.hpp"
 
 namespace mems_stiction {
 namespace {

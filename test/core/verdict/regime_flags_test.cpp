@@ -1,6 +1,6 @@
 /// Flags that go by a share of the adhesion: where the share tips.
 
-#include "mems_stiction/verdict/regime_flags.hpp"
+#include "verdict/regime_flags.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,10 +8,10 @@
 
 #include "mems_stiction/base/constants.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
-#include "mems_stiction/verdict/regime_flags.hpp"
-#include "mems_stiction/verdict/verdict_fields.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/paper_options.hpp"
+#include "verdict/regime_flags.hpp"
+#include "verdict/verdict_fields.hpp"
 
 namespace mems_stiction {
 namespace {

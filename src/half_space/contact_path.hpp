@@ -1,0 +1,141 @@
+#pragma once
+
+/// @file
+/// Which states does a contact go through while the upper body comes down and is lifted again?
+///
+/// The height Z of the upper body is prescribed, so a state is left only where it is no longer a minimum of the energy:
+/// the surfaces then jump into contact or apart, at constant Z. As dE/dZ = F between jumps, each step says by itself how
+/// well it samples the curve: the mean force from the energies against the mean of the forces at both ends. Steps that
+/// miss too much are taken back and halved, so jumps are met in small steps, the finer the more they
+/// matter to the largest force; where
+/// the curve is straight, steps grow. Between two states without a jump the force is the parabola through both with the
+/// mean that the energies give.
+///
+/// What a voltage adds to the traction goes at rest, at constant height, before the bodies are drawn apart: the device opens
+/// when its loads have gone. From there to no force the way out takes the load that the voltage was, and then the
+/// mechanical one.
+
+#include <functional>
+#include <vector>
+
+#include "half_space/contact_minimiser.hpp"
+#include "mems_stiction/half_space/force_point.hpp"
+
+namespace mems_stiction {
+
+/// The curve in one direction.
+struct ForceCurve {
+  void add(const ForcePoint& point);
+
+  std::vector<ForcePoint> points;
+  double work = 0.0;             ///< integral of F dZ over the points, signed as Z went [J]
+  double attracting_work = 0.0;  ///< the part of it over heights with attraction [J]
+  double largest_force = 0.0;    ///< of the points, which have the summits of the parabolas between states [N]
+  double largest_height = 0.0;   ///< where [m]
+  double missed_force = 0.0;     ///< what finer steps may find beyond largest_force [N]
+  int jumps = 0;                 ///< steps over which the force cannot be continuous
+};
+
+/// The force over a step: the parabola through both ends that has the mean that the energies give.
+struct StepParabola {
+  StepParabola() = default;
+  StepParabola(const ForcePoint& from, const ForcePoint& to);
+
+  /// @param x 0 at the begin, 1 at the end of the step
+  double at(double x) const { return begin + x * (slope() + x * bend()); }
+  /// Its integral from 0 to x.
+  double workTo(double x) const { return x * (begin + x * (slope() / 2.0 + x * bend() / 3.0)); }
+  /// x between `from`, where it is above `force`, and `to`, where it is below.
+  double crossing(double force, double from, double to) const;
+  double slope() const { return 6.0 * mean - 4.0 * begin - 2.0 * end; }
+  double bend() const { return 3.0 * (begin + end) - 6.0 * mean; }
+
+  double begin = 0.0;  ///< [N]
+  double end = 0.0;    ///< [N]
+  double mean = 0.0;   ///< [N]
+};
+
+enum class PathStatus { kDone, kCancelled, kNotConverged, kLoadNotReached, kTooManyStates };
+
+/// How the path is followed.
+struct PathSettings {
+  double step = 0.4;                                ///< usual change of Z, of z0
+  int max_states = 2000;                            ///< solved in all
+  std::function<void(const ForcePoint&)> on_state;  ///< after each; may be empty
+};
+
+/// Follows the states of a minimiser.
+class ContactPath {
+ public:
+  ContactPath(ContactMinimiser& minimiser, const PathSettings& settings);
+
+  /// From apart until the bodies press each other with `load` [N], >= 0, without further force.
+  PathStatus approach(double load);
+  /// Another law holds from now on: what is out of equilibrium then relaxes at the present height.
+  PathStatus change(const TractionLaw& law);
+  /// From there until they are apart.
+  PathStatus retract() { return retract(retraction_); }
+
+  /// A state to come back to.
+  struct Place {
+    ContactMinimiser::Place contact;
+    TractionLaw law;
+    ForcePoint present;
+    double strongest;
+  };
+  Place place() const { return {minimiser_.place(), minimiser_.law(), present_, strongest_}; }
+  /// Once more until they are apart, from another state.
+  PathStatus retractFrom(Place&& place, ForceCurve& curve);
+
+  const ForceCurve& approachCurve() const { return approach_; }
+  const ForceCurve& retractionCurve() const { return retraction_; }
+  /// By which changes of the law have moved the energy, at constant height [J].
+  double changedEnergy() const { return changed_energy_; }
+  const ForcePoint& present() const { return present_; }
+  /// The largest load of any state [N], or that of all cells flowing if that is smaller than what was asked for.
+  double largestLoad() const;
+  double largestResidual() const { return largest_residual_; }
+  int stateCount() const { return states_; }
+  int newtonSteps() const { return newton_steps_; }
+  int products() const { return products_; }
+
+ private:
+  PathStatus retract(ForceCurve& curve);
+  double startHeight() const;
+  /// Solves at a height next to the present state, which must be taken back or accepted then.
+  PathStatus attempt(double height, ForcePoint& next, ContactState& state);
+  void accept(const ForcePoint& next, bool is_jump, ForceCurve& curve);
+  /// The largest force of the present branch over a further change of height, if it went on as it came [N].
+  double continued(double move) const;
+  PathStatus begin(double height);
+  /// The step to be tried next, but no farther than where the force seems to fall below `force`.
+  double stepTo(double force) const;
+  /// One step in a direction (-1 down, +1 up), no farther than `farthest` [m] and not beyond where the force falls to
+  /// `least_force` [N].
+  PathStatus advance(double direction, double farthest, double least_force, ForceCurve& curve);
+  double forceScale() const;
+  double sagOf(const ForcePoint& next) const;
+  /// How far the slope at the begin of the step to `next` lies from that at the end of the last one, over the step and
+  /// of the force; 0 where there is none to go on from.
+  double kinkOf(const ForcePoint& next) const;
+
+  ContactMinimiser& minimiser_;
+  PathSettings settings_;
+  ForceCurve approach_;
+  ForceCurve retraction_;
+  ForcePoint present_;
+  StepParabola last_parabola_;
+  double last_move_ = 0.0;       ///< of Z to the present state [m]; 0: there is none to go on from
+  double step_ = 0.0;            ///< to be tried next [m]
+  bool is_before_jump_ = false;  ///< the present branch is known to end before jump_height_
+  double jump_height_ = 0.0;     ///< [m]
+  double finest_ = 0.0;          ///< how close to the jump the branch is to be followed [m]
+  double strongest_ = 0.0;       ///< largest attraction so far under the present law [N]
+  double changed_energy_ = 0.0;  ///< [J]
+  double largest_residual_ = 0.0;
+  int states_ = 0;
+  int newton_steps_ = 0;
+  int products_ = 0;
+};
+
+}  // namespace mems_stiction

@@ -1,0 +1,33 @@
+#pragma once
+
+/// @file
+/// The solvers that there are, by the names that approach/formulation takes. Each is one line of the table in
+/// contact_solvers.cpp.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "contact/contact_solver.hpp"
+#include "mems_stiction/contact/contact_settings.hpp"
+#include "mems_stiction/prediction/options.hpp"
+
+namespace mems_stiction {
+
+/// Why a formulation of earlier versions is refused and what serves instead, as a line for messages; empty for any
+/// other name.
+std::string retirement(const std::string& formulation);
+
+/// A setting without effect, and why.
+struct IgnoredSetting {
+  const char* key;
+  std::string why;
+};
+/// The settings that bear on nothing that a formulation predicts, nor on the intervals of that, while the others are as
+/// given; none if there is no such formulation. A test changes every setting and compares bits.
+std::vector<IgnoredSetting> ignoredSettings(const std::string& formulation, const ContactSettings& settings);
+
+/// @throw OptionsError if there is no formulation of this name; it lists those that there are.
+std::unique_ptr<ContactSolver> makeContactSolver(const std::string& formulation);
+
+}  // namespace mems_stiction

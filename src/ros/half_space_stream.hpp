@@ -1,0 +1,95 @@
+#pragma once
+
+/// @file
+/// half_space/enabled: the half-space beside the predictions. A thread of its own solves the newest scan, publishes the
+/// answer, and takes the scan that is the newest then; scans between are skipped. It takes the prepared scan and the
+/// settings of its prediction, whatever changes meanwhile: the answer belongs to the prediction of its stamp.
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include <diagnostic_updater/DiagnosticStatusWrapper.h>
+#include <ros/node_handle.h>
+#include <opencv2/core.hpp>
+
+#include "half_space/solution_pause.hpp"
+#include "mems_stiction/half_space/half_space_solver.hpp"
+#include "ros/half_space_publisher.hpp"
+#include "ros/live_predictor.hpp"
+
+namespace mems_stiction {
+
+/// Solves the newest of the scans that it is offered.
+class HalfSpaceStream {
+ public:
+  /// Called for each scan without a solution, on the thread of the half-space.
+  using Warn = std::function<void(const std_msgs::Header& header, const std::string& text)>;
+
+  /// Called with the verdict on each scan that was judged, on the thread of the half-space.
+  using Judged = std::function<void(const ScanOfPart& scan, const Verdict& verdict)>;
+
+  /// - @p pause is given way to; it must outlive the stream
+  HalfSpaceStream(const ros::NodeHandle& handle, const HalfSpaceOptions& options, SolutionPause& pause, Warn warn,
+                  Judged judged);
+  ~HalfSpaceStream() { stop(); }
+  HalfSpaceStream(const HalfSpaceStream&) = delete;
+  HalfSpaceStream& operator=(const HalfSpaceStream&) = delete;
+
+  void start();
+  /// Gives up what is being solved, which is not published, and joins the thread.
+  void stop();
+
+  /// Whether offer() wants the model's contact map.
+  bool isModelMapWanted() const { return publisher_.areBothMapsWanted(); }
+
+  /// Takes the place of a scan that waits. Copies no pixels but the map's.
+  /// - @p scan where its prediction comes from
+  /// - @p model_map contact map of the prediction; may be empty
+  /// - @p model_curve that the prediction has followed; may have no point
+  void offer(const StationCase& predicted, const ScanOfPart& scan, const cv::Mat& model_map,
+             const DrawnCurve& model_curve);
+
+  /// One status with every count; WARN if a scan since the last report has no solution.
+  void report(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+ private:
+  struct Task {
+    StationCase predicted;
+    ScanOfPart scan;
+    cv::Mat model_map;
+    DrawnCurve model_curve;
+  };
+  /// Since start.
+  struct Counts {
+    std::uint64_t offered = 0;  ///< solved + skipped + failed + the one at hand and the one that waits
+    std::uint64_t solved = 0;
+    std::uint64_t skipped = 0;  ///< a newer scan came before their turn
+    std::uint64_t failed = 0;   ///< published with another status
+  };
+
+  void loop();
+  void solve(const Task& task);
+
+  const HalfSpaceSolver solver_;
+  SolutionPause& pause_;
+  HalfSpacePublisher publisher_;
+  Warn warn_;
+  Judged judged_;
+  std::atomic<bool> stopping_{false};
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::optional<Task> waiting_;
+  Counts counts_;
+  std::uint64_t reported_failed_ = 0;
+  std::string last_failure_;
+  double last_time_ = 0.0;  ///< of a solution [s]
+  std::thread thread_;
+};
+
+}  // namespace mems_stiction

@@ -1,0 +1,47 @@
+#pragma once
+
+/// @file
+/// All that is said about one scan.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <std_msgs/Header.h>
+
+#include "contact/curve_point.hpp"
+#include "mems_stiction/prediction/prediction.hpp"
+#include "mems_stiction/preprocess/pipeline.hpp"
+#include "mems_stiction/scan/provenance.hpp"
+#include "mems_stiction/verdict/verdict.hpp"
+#include "verdict/part_verdict.hpp"
+
+namespace mems_stiction {
+
+/// Which scan it was, and to which pool of a part's scans it belongs.
+struct ScanOfPart {
+  std_msgs::Header header;
+  Provenance provenance;           ///< what was scanned, and what it was predicted with
+  std::string pool_settings_hash;  ///< of the settings that the scans of the pool share
+};
+
+/// What all scans of a part say, and the last of them.
+struct PartNews {
+  PooledVerdict verdict;
+  ScanOfPart last;
+};
+
+/// A prediction with what belongs to it in the message.
+struct PredictedScan {
+  Prediction prediction;
+  Verdict verdict;                    ///< on the device, from this prediction
+  PreprocessRecord preprocessing;     ///< what was done to the scan before
+  std::string formulation;            ///< approach/formulation
+  std::vector<std::string> warnings;  ///< about scan and settings, in words
+  Provenance provenance;              ///< what was scanned, and what it was predicted with
+  std::optional<PooledVerdict> part;  ///< what all scans of its part say with it; nothing if it states no part
+  std::string pool_settings_hash;     ///< of the settings that those scans share
+  std::vector<CurvePoint> curve;      ///< force over height; empty if the formulation does not follow it
+};
+
+}  // namespace mems_stiction

@@ -1,0 +1,75 @@
+#pragma once
+
+/// @file
+/// dynamic_reconfigure beside the services: shows what is set, passes changes to the one setter, and puts back what it
+/// refuses.
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include <dynamic_reconfigure/server.h>
+#include <ros/node_handle.h>
+#include <boost/thread/recursive_mutex.hpp>
+
+#include "mems_stiction/StictionConfig.h"
+#include "ros/master_calls.hpp"
+#include "scan/running_settings.hpp"
+
+namespace mems_stiction {
+
+/// Whom dynamic_reconfigure's server asks to read and write parameters, within the calls that it serves and under the lock of all
+/// parameters. They do nothing here, where the mirror is written by a thread that may wait for the master.
+struct ShownConfig : StictionConfig {
+  ShownConfig() = default;
+  ShownConfig(const StictionConfig& config)
+      : StictionConfig(config) {}  // NOLINT(google-explicit-constructor): as the server converts
+  void __toServer__(const ros::NodeHandle& /*handle*/) const {
+  }  // NOLINT(readability-identifier-naming,bugprone-reserved-identifier)
+  void __fromServer__(const ros::NodeHandle& /*handle*/) {
+  }  // NOLINT(readability-identifier-naming,bugprone-reserved-identifier)
+};
+
+/// One per node; the thread of its queue calls back.
+class ReconfigureServer {
+ public:
+  /// @throw OptionsError naming refused values; then nothing has changed.
+  using Change = std::function<void(const RunningSettings&)>;
+
+  /// Serves under the names of the private namespace; its parameters, a mirror that nobody reads, stand in
+  /// `reconfigure` there, where they cannot be taken for settings.
+  /// - @p settings outlive the server
+  /// - @p changed the mirror is to be written
+  ReconfigureServer(const ros::NodeHandle& private_handle, const SettingsOwner& settings, Change change,
+                    std::function<void()> changed);
+
+  /// Held from reading the settings to changing them, so that a change by a service and one by reconfigure do not undo
+  /// each other.
+  boost::recursive_mutex& mutex() { return mutex_; }
+
+  /// After a change by somebody else, with the mutex held.
+  void show();
+  /// @return false: no answer from the master
+  bool writeMirror(const MasterCalls& calls) const;
+
+  /// What an earlier run of the node was set to last, and this one is not; empty once something is set. Waits for
+  /// nobody, so that diagnostics may ask.
+  std::string lost() const;
+
+ private:
+  void forgetLost();
+  XmlRpc::XmlRpcValue mirror() const;
+  void take(ShownConfig& config);
+
+  boost::recursive_mutex mutex_;
+  const SettingsOwner& settings_;
+  Change change_;
+  std::function<void()> changed_;
+  const std::string mirror_name_;
+  mutable std::mutex lost_mutex_;  ///< held for a moment only, unlike the other
+  std::string lost_;
+  std::unique_ptr<dynamic_reconfigure::Server<ShownConfig>> server_;
+};
+
+}  // namespace mems_stiction

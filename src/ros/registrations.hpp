@@ -1,0 +1,42 @@
+#pragma once
+
+/// @file
+/// What this process has registered at the ROS master: is it still known there, and if not, all of it once more.
+///
+/// A master keeps what was registered in memory alone, and roscpp registers once. After a restart of the master, connections
+/// that were made before go on, but nobody finds the node any more. Here everything that the process still offers is
+/// registered anew under its old addresses, so that no connection, no scan that waits and no setting is lost on the way.
+
+#include <set>
+#include <string>
+
+#include "ros/master_calls.hpp"
+
+namespace mems_stiction {
+
+/// One per process; for one thread.
+class Registrations {
+ public:
+  enum class State {
+    kKnown,      ///< the master knows this process
+    kForgotten,  ///< the master answers and does not know it: another one at the same address
+    kTaken,      ///< another process has this one's name there
+    kNoMaster,   ///< no answer
+  };
+
+  /// Asks the master. While the process is known, also notes which services it has there, since roscpp has no list of them.
+  State look(const MasterCalls& calls);
+
+  /// Registers every topic of the process, and every service that was noted and is still offered.
+  /// @return false: the master was gone before the end, or ROS is shutting down; to be called again.
+  bool repeat(const MasterCalls& calls) const;
+
+ private:
+  static bool repeatPublications(const MasterCalls& calls);
+  static bool repeatSubscriptions(const MasterCalls& calls);
+  bool repeatServices(const MasterCalls& calls) const;
+
+  std::set<std::string> services_;  ///< names, as noted
+};
+
+}  // namespace mems_stiction

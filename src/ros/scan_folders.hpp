@@ -1,0 +1,33 @@
+#pragma once
+
+/// @file
+/// Which files a node reads, and what it says of those that it cannot.
+///
+/// Parameters come from anybody in the network, and what the node says reaches everybody. So it reads files that
+/// parameters name only below folders that its environment states, and never says what stands in them.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "mems_stiction/scan/configuration.hpp"
+#include "ros/live_predictor.hpp"
+
+namespace mems_stiction {
+
+/// Folders with a colon between them; not set: the user's home and the folder for temporary files. It is no parameter,
+/// which whoever is to be kept out could set.
+inline constexpr char kScanFoldersVariable[] = "MEMS_STICTION_SCAN_FOLDERS";
+
+/// Where links lead, without those that do not exist.
+std::vector<std::filesystem::path> scanFolders();
+
+/// One line per setting that names a file elsewhere; a link counts as what it leads to.
+std::vector<std::string> filesElsewhere(const Configuration& configuration,
+                                        const std::vector<std::filesystem::path>& folders);
+
+/// Reads the files of the configuration.
+/// @throw OptionsError naming settings and files, with nothing that stands in these.
+LivePredictor predictorFromFolders(const Configuration& configuration, bool accumulate_deformation);
+
+}  // namespace mems_stiction

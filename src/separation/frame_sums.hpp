@@ -1,0 +1,120 @@
+#pragma once
+
+/// @file
+/// The sums over the places of one frame (place_sums.hpp), at any displacement and in any order.
+///
+/// Cells come in by sweeps that move forward; a call that goes back starts them anew, or from mark().
+
+#include <optional>
+
+#include "approach/dale_map.hpp"
+#include "approach/gap_field.hpp"
+#include "approach/gap_order.hpp"
+#include "approach/gap_pyramid.hpp"
+#include "mems_stiction/contact/contact_settings.hpp"
+#include "mems_stiction/loads/capillary.hpp"
+#include "separation/overlap_sweep.hpp"
+#include "separation/patch_forces.hpp"
+#include "separation/place_sums.hpp"
+
+namespace mems_stiction {
+
+/// Of one frame. Keeps its memory between frames.
+class FrameSums {
+ public:
+  /// Field and settings must outlive the object's use.
+  void start(const GapField& field, const ContactSettings& settings);
+
+  /// The sums over the patches in reach: those of the surfaces brought closer by z0 and a hold [m].
+  /// - @p expected_end where the displacements will probably end [m]: so many cells are put in order at once when there are
+  ///   not enough
+  PlaceSums reach(double approach, double hold, double expected_end = 0.0);
+  /// Adds the sums over cells and patches that overlap. Attraction counts as if the surfaces were `hold` [m] closer where that
+  /// is more.
+  void add(double approach, double hold, PlaceSums& sums);
+  /// What taking the surfaces apart would cost if they only attracted each other, w summed over the cells [J].
+  double energy(double approach) { return energyAt(law(), approach); }
+  /// d ln/d ln(Hamaker constant) of the attraction [-], with its hold, and of the energy: a larger one widens the law's range, which
+  /// pulls more over wide gaps and less near contacts.
+  double hamakerExponentOfForce(double approach, double hold);
+  double hamakerExponentOfEnergy(double approach);
+
+  /// The patches that overlap, and those in reach.
+  OverlapSweep& contactsAt(double approach);
+  const OverlapSweep& inReachAt(double approach, double hold);
+  /// Cells of the order that overlap come first.
+  const LargePageVector<OrderedCell>& orderedCells() const { return order_.cells(); }
+
+  /// From here on these are the sums of surfaces that have been changed where they overlap, which do not flow any more.
+  /// - @p changed called with (ordered cell): its gap from now on, below the approach [m]; within a patch the order of the
+  ///   gaps has not changed
+  template <typename Changed>
+  void change(double approach, const Changed& changed);
+  /// Calls that go back, but not beyond where the last call was, need not start anew from now on.
+  void mark();
+
+  const GapField& field() const { return *field_; }
+  const PatchForces& patchForces() const { return *patch_forces_; }
+  const ContactTraction& law() const { return patch_forces_->law(); }
+  /// Of the valid cells [m^2].
+  double area() const { return field_->validCount() * field_->cellArea(); }
+  /// What attraction and water together never exceed [N].
+  double strongestPull() const { return (law().strength() + water_.pressure()) * area(); }
+  /// Number of cells in contact at which approach/max_contact_fraction is reached.
+  int contactLimit() const;
+  /// An approach that is no larger than where it is reached, and nearly there [m]: costs nothing.
+  double approachBeforeLimit() const { return approach_before_limit_; }
+  /// Where it is reached [m].
+  double limitApproach();
+
+ private:
+  struct Attraction {
+    double adhesion = 0.0;
+    double electrostatic = 0.0;
+  };
+
+  void startSweeps();
+  /// Forward, or back and forward.
+  void sweepTo(double approach, OverlapSweep& sweep, const OverlapSweep& marked, const OverlapSweep* ahead);
+  /// Brings enough cells into order for this approach, and for the expected one.
+  void orderUpTo(double approach, double expected);
+  void extend(double fraction);
+  void takeChangedGaps(double approach);
+  /// Brings the cells that overlap to the front of the order.
+  int overlappingAt(double approach) { return approach > 0.0 ? order_.sortBelow(approach) : 0; }
+  void addCells(const ContactTraction& law, const OrderedCell* cells, std::size_t count, double approach,
+                Attraction& sum) const;
+  /// Over the cells, the first `contact_count` ordered ones of which overlap.
+  Attraction attractionOver(const ContactTraction& law, double approach, int contact_count) const;
+  Attraction attractionAt(const ContactTraction& law, double approach, double hold);
+  double energyAt(const ContactTraction& law, double approach);
+
+  const GapField* field_ = nullptr;
+  const ContactSettings* settings_ = nullptr;
+  std::optional<PatchForces> patch_forces_;
+  std::optional<ContactTraction> wider_law_;  ///< with a Hamaker constant that is larger by kMoreHamaker
+  std::optional<FieldLaw> voltage_;
+  WaterLaw water_;
+  double approach_before_limit_ = 0.0;
+  double most_fraction_ = 1.0;  ///< of the cells that the curve may need
+  double ordered_fraction_ = 0.0;
+  DaleMap dales_;
+  GapOrder order_;
+  GapPyramid pyramid_;
+  OverlapSweep contacts_;
+  OverlapSweep in_reach_;
+  OverlapSweep marked_contacts_;
+  OverlapSweep marked_in_reach_;
+  bool has_mark_ = false;
+  std::vector<double> changed_gaps_;
+};
+
+template <typename Changed>
+void FrameSums::change(double approach, const Changed& changed) {
+  const int count = contactsAt(approach).cellCount();
+  changed_gaps_.resize(static_cast<std::size_t>(count));
+  for (std::size_t i = 0; i < changed_gaps_.size(); ++i) changed_gaps_[i] = changed(order_.cells()[i]);
+  takeChangedGaps(approach);
+}
+
+}  // namespace mems_stiction

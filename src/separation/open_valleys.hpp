@@ -1,0 +1,52 @@
+#pragma once
+
+/// @file
+/// Do bonded surfaces close in the valleys of their relief, and what do they hold where they do not?
+///
+/// A valley that stays open is a crack in the interface. Pressed flat around it, the relief opens it with the tension
+/// p_q = -(E/2)|q| h_q (relief_waves.hpp), and a round crack of radius a has the stress intensity (Sneddon 1946)
+///
+///     K(a) = 2/sqrt(pi a) integral of p r/sqrt(a^2 - r^2) dr = -E/sqrt(pi a) sum h_q sin(|q| a),
+///
+/// around each place; a pressure p0 takes 2 p0 sqrt(a/pi) from it. The valley closes as long as no crack reaches
+/// K = sqrt(2 E Gamma) (Irwin 1957, between two bodies). Cracks that are not long against the cohesive length
+/// l = E z0^2/Gamma do not count: it is the law that opens them, not their edge.
+///
+/// Surfaces with open valleys part from them, by Griffith's balance. In it E and z0 drop out but for the relief:
+///
+///     F/A = 0.85 exp(-2 u) sqrt(E Gamma q)/(1 + 0.56 l q),   u = U/Gamma,   q = 4 U/(E sigma^2)
+///
+/// U is the flattening energy per area, sigma the rms height, q the mean wave number that both tell of. The three numbers
+/// are chosen on frames of the half-space (doc/separation_curve.md).
+
+#include "mems_stiction/contact/contact_solution.hpp"
+#include "separation/relief_spectrum.hpp"
+
+namespace mems_stiction {
+
+/// Bonded bodies.
+struct BondedBodies {
+  double contact_modulus = 0.0;    ///< E [Pa], > 0
+  double work_of_adhesion = 0.0;   ///< Gamma [J/m^2], > 0
+  double range = 0.0;              ///< z0 [m]
+  double flattening_energy = 0.0;  ///< U [J/m^2], > 0
+  double rms_height = 0.0;         ///< sigma of the gap [m], > 0
+
+  double cohesiveLength() const { return contact_modulus * range * range / work_of_adhesion; }
+  /// Mean wave number of the relief [1/m].
+  double waveNumber() const { return 4.0 * flattening_energy / (contact_modulus * rms_height * rms_height); }
+};
+
+/// Whether a crack of the relief's own stays open; no where the frame has no place for cracks that are long enough.
+/// - @p relief in blocks no longer than half the cohesive length
+/// - @p pressure that holds the bodies together [Pa], >= 0
+bool valleysStayOpen(ReliefSpectrum& relief, const BondedBodies& bodies, double pressure);
+
+/// What surfaces with open valleys hold.
+struct OpenValleyStrength {
+  double traction = 0.0;  ///< mean, at which they part [Pa]
+  Exponents exponents;
+};
+OpenValleyStrength strengthWithOpenValleys(const BondedBodies& bodies);
+
+}  // namespace mems_stiction

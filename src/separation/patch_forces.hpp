@@ -1,0 +1,63 @@
+#pragma once
+
+/// @file
+/// What patches carry, one and all, and what the bending of their summits takes from the attraction: equations (S4) to
+/// (S8b) of doc/separation_curve.md. Sums over the patches of a sweep take four at a time.
+
+#include <vector>
+
+#include "base/lanes.hpp"
+#include "mems_stiction/contact/contact_settings.hpp"
+#include "separation/contact_traction.hpp"
+#include "separation/overlap_sweep.hpp"
+#include "separation/place_sums.hpp"
+
+namespace mems_stiction {
+
+/// What one patch carries at an approach.
+struct PatchLoad {
+  double elastic = 0.0;  ///< without flow [N]
+  double carried = 0.0;  ///< with it [N]
+  /// What flow has left of the overlap [-]: 1 elastic.
+  double elasticShare() const { return elastic > 0.0 ? carried / elastic : 1.0; }
+};
+
+/// Of a pair of surfaces.
+class PatchForces {
+ public:
+  /// - @p cell_area dA [m^2]
+  /// - @p flows whether the hardness limits what patches carry
+  PatchForces(const ContactSettings& settings, double cell_area, bool flows);
+
+  const ContactTraction& law() const { return law_; }
+  double contactModulus() const { return contact_modulus_; }  ///< [Pa]
+  double hardness() const { return hardness_; }               ///< infinite if nothing flows [Pa]
+
+  /// What each patch of a sweep carries, in the order of its patches().
+  void loadsOf(const OverlapSweep& contacts, double approach, std::vector<PatchLoad>& loads) const;
+  /// Adds what all patches of a sweep carry and open.
+  void addContacts(const OverlapSweep& contacts, double approach, PlaceSums& sums) const;
+  /// c of a summit of radius R [m]: its pull-off force is c pi Gamma R [-], between DMT (2) and JKR (1.5).
+  double pullOffPrefactor(double radius) const;
+  /// Adds the sums of (S7).
+  /// - @p in_reach the patches of the surfaces brought z0 closer, or more
+  void addReach(const OverlapSweep& in_reach, double approach, PlaceSums& sums) const;
+
+ private:
+  /// PatchLoad of four patches.
+  struct Loads {
+    Lanes elastic;
+    Lanes carried;
+  };
+  /// By number of cells, sum of their gaps [m] and P0 [m].
+  Loads loadsOf(const Lanes& cells, const Lanes& gap_sum, const Lanes& kept, double approach) const;
+
+  ContactTraction law_;
+  double cell_area_;
+  double contact_modulus_;
+  double hardness_;
+  double load_factor_;    ///< 0.6 E sqrt(pi dA) [N/m]
+  double maugis_factor_;  ///< lambda^3 per R [1/m]
+};
+
+}  // namespace mems_stiction

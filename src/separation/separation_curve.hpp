@@ -1,0 +1,82 @@
+#pragma once
+
+/// @file
+/// The force between two surfaces at each approach, from the gap alone, and the whole curve of it (doc/separation_curve.md):
+///
+///     F(D) = s(D) (sum over cells apart t(d) dA - O(D)) + F_e(D) + F_c(D) - sum over patches P_i(D),   d = g - D - b
+///
+/// D is the displacement of the upper surface past first touch, below zero apart. F > 0 attracts. P_i is what a patch
+/// carries, O what contacts have opened of the gap around them (S8b), s what the bodies' bending leaves of the attraction
+/// (S7). On the way out soft summits hold until they are drawn out by b (S8a); on the way in b is 0.
+
+#include <vector>
+
+#include "mems_stiction/contact/contact_solution.hpp"
+#include "separation/frame_sums.hpp"
+
+namespace mems_stiction {
+
+/// The forces at one approach [N].
+struct SeparationState {
+  double approach = 0.0;         ///< D [m]
+  int contact_count = 0;         ///< cells that overlap
+  double adhesion = 0.0;         ///< of the cells apart
+  double electrostatic = 0.0;    ///< of all cells
+  double capillary = 0.0;        ///< of condensed water
+  double carried = 0.0;          ///< by all patches
+  double tabor_parameter = 0.0;  ///< of the summits in reach [-]
+  double hold = 0.0;             ///< b, how far beyond its place apart a summit still holds [m]
+
+  double force() const { return adhesion + electrostatic + capillary - carried; }
+  /// The same when the loads that brought the surfaces together, voltage too, have been taken away.
+  double partingForce() const { return adhesion + capillary - carried; }
+};
+
+/// On which way the surfaces are.
+struct Way {
+  double rest = 0.0;          ///< from which they part [m]
+  double longest_hold = 0.0;  ///< what no b exceeds [m]: nothing holds on the way in
+};
+
+/// From apart to rest.
+struct SeparationCurve {
+  Way way;
+  std::vector<SeparationState> states;  ///< by ascending approach; the last one is at rest
+  Status status = Status::kNoEquilibrium;
+  double pull_off_force = 0.0;     ///< largest parting force on the way [N]
+  double pull_off_approach = 0.0;  ///< where [m]
+  std::size_t strongest = 0;       ///< the state next to it
+  double elastic_energy = 0.0;     ///< integral of what the patches carry, from first touch to rest [J]
+  double work = 0.0;               ///< integral of the attracting part of the curve, from rest to apart [J]
+  double work_apart = 0.0;         ///< what of it lies before the first state [J]
+
+  const SeparationState& rest() const { return states.back(); }
+  /// The first state that pushes the surfaces apart when no load presses them: on the near side of their rest then. The end
+  /// of the states where none does.
+  std::vector<SeparationState>::const_iterator firstPushing() const;
+};
+
+/// Largest rise of the parting force after it has fallen, to either side of its maximum, as far as the first state that
+/// pushes; of the maximum [-]. It tells of contacts that join one after another.
+double joiningRise(const SeparationCurve& curve);
+
+/// Follows the curve until the surfaces come to rest under settings.load.mechanical_load: the largest approach at which
+/// F + F_m >= 0. Bonded, when they have not until the contact fraction reaches its limit; without equilibrium, when
+/// approach/max_steps end first.
+void followCurve(FrameSums& frame, const ContactSettings& settings, SeparationCurve& curve);
+
+/// The way out from the rest of a way in: summits that were soft there hold on.
+Way wayOutOf(const SeparationCurve& way_in, double range);
+/// Follows the curve outwards: states by ascending approach up to rest.
+/// - @p first_touch approach at which the surfaces touch [m]
+void followWayOut(FrameSums& frame, double first_touch, const Way& way, SeparationCurve& curve);
+
+/// With which powers force and work of a curve go with the constants.
+struct CurveExponents {
+  Exponents pull_off;
+  Exponents work;
+};
+/// - @p frame whose curve it is
+CurveExponents exponentsOf(FrameSums& frame, const SeparationCurve& curve);
+
+}  // namespace mems_stiction

@@ -1,0 +1,81 @@
+#pragma once
+
+/// @file
+/// The solver of the separation curve: the force between the surfaces at each displacement, adhesion counted once.
+///
+/// Rest is where the curve carries the mechanical load. The pull-off force is its largest value on the way out, the
+/// apparent work of adhesion its area, both when the loads that made the contact, voltage too, have been taken away. Soft
+/// summits hold on longer than they would reach on the way in; surfaces that have flowed come apart along the curve of the
+/// changed surfaces, and surfaces whose flattening costs less than adhesion gives along that of conforming ones
+/// (conforming_contact.hpp). Equations, derivation, limits: doc/separation_curve.md.
+///
+/// Forces (1.5 pi Gamma R) and areas of the paper's asperities by JKR are NaN; contacts have what the patches have: real
+/// area, radius, load, regime by flow, Tabor's parameter, but no tilt.
+///
+///     SeparationSolver solver;
+///     solver.solve({surfaces, gap, composite_rms_height, settings}, solution);
+
+#include <vector>
+
+#include "contact/contact_solver.hpp"
+#include "separation/conforming_contact.hpp"
+#include "separation/curve_statement.hpp"
+#include "separation/flattening.hpp"
+#include "separation/kept_overlap.hpp"
+#include "separation/separation_curve.hpp"
+#include "separation/way_out.hpp"
+
+namespace mems_stiction {
+
+/// Knows everything of a ContactSolution but the paper's sums by JKR and the pressure.
+class SeparationSolver : public ContactSolver {
+ public:
+  void solve(const ContactProblem& problem, ContactSolution& solution) override;
+
+ private:
+  /// One contact at rest.
+  struct Contact {
+    PatchLoad load;
+    KeptOverlap kept;
+    double area = 0.0;  ///< real [m^2]
+    Regime regime = Regime::kElastic;
+    bool is_at_border = false;
+  };
+
+  void takeRest(const ContactProblem& problem, ContactSolution& solution);
+  void findBorder(const GapField& field);
+  /// The contact of a patch at rest.
+  Contact& contactOf(const OverlapSweep& rest, std::int32_t id) {
+    return contacts_[static_cast<std::size_t>(rest.livePlace(id))];
+  }
+  /// Calls take(row, column, overlap [m], patch, contact) for each cell that overlaps at rest, row by row.
+  template <typename Taker>
+  void visitOverlaps(const GapField& field, const Taker& take);
+  void listContacts(const ContactProblem& problem, ContactSolution& solution);
+  void fillMaps(const ContactProblem& problem, ContactSolution& solution);
+  /// The way out by contacts.
+  void partByContacts(const ContactProblem& problem);
+  /// Where it is another than the way in: of surfaces that have flowed, or with soft summits, which hold on.
+  void followChanged(const Way& way);
+  const SeparationCurve& wayOut() const { return has_way_out_ ? way_out_ : curve_; }
+  void takeWayOut(const WayOut& way_out, ContactSolution& solution) const;
+  /// The contacts that hold at the pull-off: patches within reach of the attraction there.
+  void listPullOffContacts(const ContactProblem& problem, ContactSolution& solution);
+
+  FrameSums frame_;
+  SeparationCurve curve_;
+  std::vector<Contact> contacts_;  ///< in the order of the sweep's patches
+  std::vector<PatchLoad> loads_;   ///< the same
+  bool has_flowed_ = false;
+  std::vector<double> row_gaps_;
+  std::vector<std::int32_t> columns_;
+  FlatteningEnergy flattening_;
+  ConformingContact conforming_;
+  SeparationCurve way_out_;  ///< where it is another than the way in
+  bool has_way_out_ = false;
+  WayOut by_contacts_;
+  CurveStatement statement_;
+  std::vector<Regime> regime_of_dale_;  ///< at rest, when surfaces have flowed
+};
+
+}  // namespace mems_stiction

@@ -1,0 +1,58 @@
+#pragma once
+
+/// @file
+/// A relief whose cells hang on equal springs and attract a plane: what it takes to draw the plane away.
+///
+///     g = Z + r - u,   k u = t(g)
+///
+/// Z is the height of the plane, r the relief below its highest point, u what the spring gives. A cell stays on its
+/// branch while the plane goes up, and lets go where -t'(g) = k. With k = 2 U/(A sigma^2) all springs together store the
+/// flattening energy U when all is flat.
+
+#include <vector>
+
+#include "separation/contact_traction.hpp"
+
+namespace mems_stiction {
+
+/// Cells of nearly equal height.
+struct ReliefClass {
+  double depth;  ///< below the highest point, mean of its cells [m]
+  double share;  ///< of all valid cells [-]
+};
+
+/// Sorts depths into classes of equal width.
+class ReliefClasses {
+ public:
+  /// - @p range of the depths that are to come [m], >= 0
+  ReliefClasses(double lowest, double highest);
+  void add(double depth);
+  /// By ascending depth from the lowest one, which counts as 0.
+  std::vector<ReliefClass> classes() const;
+
+ private:
+  double lowest_;
+  double inverse_width_;
+  std::vector<double> sums_;
+  std::vector<int> counts_;
+};
+
+/// One height of the plane, per area.
+struct SpringState {
+  double height = 0.0;            ///< Z; z0 where the highest cell lies in the plane of contact [m]
+  double traction = 0.0;          ///< mean [Pa], attraction positive
+  double energy = 0.0;            ///< of springs and law [J/m^2], 0 apart
+  double contact_fraction = 0.0;  ///< cells that repel [-]
+};
+
+/// The branch from the deepest approach, mean of the relief in the plane of contact, to where the last cell has let go.
+/// - @p stiffness k [Pa/m], > 0, may be infinite
+std::vector<SpringState> springBranch(const std::vector<ReliefClass>& relief, const ContactTraction& law,
+                                      double stiffness);
+
+/// The state of least energy + pressure Z, from which surfaces are drawn apart.
+std::vector<SpringState>::const_iterator restOf(const std::vector<SpringState>& branch, double pressure);
+/// Largest traction from a state on [Pa].
+double strengthFrom(std::vector<SpringState>::const_iterator rest, const std::vector<SpringState>& branch);
+
+}  // namespace mems_stiction

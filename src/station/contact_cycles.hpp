@@ -1,0 +1,56 @@
+#pragma once
+
+/// @file
+/// After how many contacts does the device fail?
+///
+/// The surfaces meet N times under the same load, each time as the last contact left them: what has flowed stays flat
+/// (deformation/modified_topography.hpp), what was elastic has come back. Flattened summits conform, so that contact
+/// area and adhesion grow until the surfaces carry the load without flow (shakedown) and nothing changes any more.
+/// Assumptions: both surfaces meet in the same place each time, to the pixel; no wear, no material transfer, no
+/// hardening; contacts open fully in between.
+///
+///     const ContactCyclesResult result = cycleContacts(options, scan, 100, device, uncertainty, RunControl());
+
+#include <vector>
+
+#include "mems_stiction/surface/surface_pair.hpp"
+#include "mems_stiction/verdict/verdict.hpp"
+#include "station/run_control.hpp"
+
+namespace mems_stiction {
+
+/// One contact; forces and areas are of the scan.
+struct ContactCycle {
+  int cycle = 0;  ///< from 1
+  Status status = Status::kNoEquilibrium;
+  double pull_off_force = 0.0;       ///< [N]
+  double van_der_waals_force = 0.0;  ///< [N]
+  double contact_area = 0.0;         ///< cells in contact [m^2]
+  double contact_area_jkr = 0.0;     ///< [m^2]
+  double contact_fraction = 0.0;     ///< [-]
+  int asperity_count = 0;
+  int plastic_count = 0;        ///< contacts that are fully plastic
+  double rms_height = 0.0;      ///< Sq of the lower surface after the contact [m]
+  double largest_change = 0.0;  ///< of either surface's height in this contact, at any pixel [m]
+  Sticks sticks = Sticks::kUnknown;
+  double margin = Verdict::kNotStated;        ///< [-]
+  double margin_lower = Verdict::kNotStated;  ///< 2.5 % quantile [-]
+  double margin_upper = Verdict::kNotStated;  ///< 97.5 % quantile [-]
+  ForceInterval pull_off_interval;            ///< of the pull-off force; NaN without a list of contacts
+};
+
+/// What the contacts said, in order.
+struct ContactCyclesResult {
+  std::vector<ContactCycle> cycles;
+  int first_sticking_cycle = 0;  ///< the first whose verdict is "yes"; 0 = none, or device not stated
+  SurfacePair surfaces;          ///< after the last contact, the upper one in its own z; a plane starts from 0
+  bool is_complete = false;      ///< false: cancelled
+};
+
+/// - @p count of contacts, >= 1
+/// @throw OptionsError for a count or options out of range, before any work; SurfaceError as AdhesionModel.
+ContactCyclesResult cycleContacts(const Options& options, const SurfacePair& surfaces, int count,
+                                  const DeviceOptions& device, const UncertaintyOptions& uncertainty,
+                                  const RunControl& control);
+
+}  // namespace mems_stiction
