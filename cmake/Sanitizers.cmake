@@ -25,5 +25,5 @@ endif()
 if(MEMS_STICTION_FUZZ)
   add_compile_options(-fsanitize=fuzzer-no-link)
   # Looks every unknown name up among all that there are: most of the comparisons, and none that leads anywhere.
-  set_source_files_properties(src/base/words.cpp PROPERTIES COMPILE_OPTIONS -fno-sanitize=fuzzer-no-link)
+  set_source_files_properties(src/numeric/words.cpp PROPERTIES COMPILE_OPTIONS -fno-sanitize=fuzzer-no-link)
 endif()

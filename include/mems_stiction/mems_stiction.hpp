@@ -10,13 +10,13 @@
 ///     const Verdict verdict = verdictOf(prediction, configuration.device, configuration.uncertainty,
 ///                                       predictor.options(), prepared.surfaces.lower.cellArea());
 ///
-/// Lengths are metres, forces newtons: SI throughout. Bad input throws an Error (base/errors.hpp).
+/// Lengths are metres, forces newtons: SI throughout. Bad input throws an Error (errors/errors.hpp).
 
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/configuration/configuration_yaml.hpp"
+#include "mems_stiction/errors/errors.hpp"
+#include "mems_stiction/evaluation/half_space_scan.hpp"
+#include "mems_stiction/evaluation/scan_predictor.hpp"
 #include "mems_stiction/half_space/half_space_solver.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
-#include "mems_stiction/scan/configuration_yaml.hpp"
-#include "mems_stiction/scan/half_space_scan.hpp"
-#include "mems_stiction/scan/scan_predictor.hpp"
 #include "mems_stiction/verdict/verdict.hpp"

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "approach/gap_field.hpp"
-#include "base/large_pages.hpp"
+#include "numeric/large_pages.hpp"
 
 namespace mems_stiction {
 

@@ -5,10 +5,10 @@
 #include <string>
 #include <type_traits>
 
-#include "base/lanes.hpp"
-#include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/option_visitor.hpp"
-#include "mems_stiction/base/vectorized.hpp"
+#include "mems_stiction/errors/errors.hpp"
+#include "mems_stiction/numeric/vectorized.hpp"
+#include "mems_stiction/settings/option_visitor.hpp"
+#include "numeric/lanes.hpp"
 
 namespace mems_stiction {
 namespace {

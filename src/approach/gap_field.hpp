@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "approach/cell_order.hpp"
-#include "base/large_pages.hpp"
 #include "mems_stiction/surface/surface_pair.hpp"
+#include "numeric/large_pages.hpp"
 
 namespace mems_stiction {
 

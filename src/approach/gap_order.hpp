@@ -15,7 +15,7 @@
 #include "approach/dale_map.hpp"
 #include "approach/dale_rows.hpp"
 #include "approach/gap_field.hpp"
-#include "base/large_pages.hpp"
+#include "numeric/large_pages.hpp"
 
 namespace mems_stiction {
 

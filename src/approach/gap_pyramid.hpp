@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "approach/gap_order.hpp"
-#include "base/lanes.hpp"
-#include "mems_stiction/base/vectorized.hpp"
+#include "mems_stiction/numeric/vectorized.hpp"
+#include "numeric/lanes.hpp"
 
 namespace mems_stiction {
 

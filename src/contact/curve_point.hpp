@@ -5,7 +5,7 @@
 ///
 ///     visitCurvePointFields(point, [&](const Figure& figure, const auto& value) { print(figure.name, value); });
 
-#include "mems_stiction/base/figure.hpp"
+#include "mems_stiction/settings/figure.hpp"
 
 namespace mems_stiction {
 

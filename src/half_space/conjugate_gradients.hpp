@@ -24,9 +24,9 @@
 #include <cstddef>
 #include <functional>
 
-#include "base/large_pages.hpp"
 #include "half_space/half_space_grid.hpp"
 #include "half_space/stiffness_operator.hpp"
+#include "numeric/large_pages.hpp"
 
 namespace mems_stiction {
 

@@ -20,13 +20,13 @@
 
 #include <opencv2/core.hpp>
 
-#include "base/large_pages.hpp"
 #include "half_space/conjugate_gradients.hpp"
 #include "half_space/contact_windows.hpp"
 #include "half_space/half_space_grid.hpp"
 #include "half_space/minimiser_settings.hpp"
 #include "half_space/stiffness_operator.hpp"
 #include "half_space/traction_law.hpp"
+#include "numeric/large_pages.hpp"
 
 namespace mems_stiction {
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "base/lanes.hpp"
+#include "numeric/lanes.hpp"
 
 namespace mems_stiction {
 namespace evaluation_rows {

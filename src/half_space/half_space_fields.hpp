@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "contact/curve_point.hpp"
-#include "mems_stiction/base/figure.hpp"
 #include "mems_stiction/half_space/half_space_solution.hpp"
+#include "mems_stiction/settings/figure.hpp"
 
 namespace mems_stiction {
 

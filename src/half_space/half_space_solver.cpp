@@ -15,7 +15,7 @@
 #include "half_space/row_work.hpp"
 #include "half_space/traction_law.hpp"
 #include "height_map/validity.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/mechanics/plasticity.hpp"
 
 namespace mems_stiction {

@@ -23,8 +23,8 @@
 
 #include <opencv2/core.hpp>
 
-#include "base/large_pages.hpp"
 #include "half_space/half_space_grid.hpp"
+#include "numeric/large_pages.hpp"
 
 namespace mems_stiction {
 

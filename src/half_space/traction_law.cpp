@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/lanes.hpp"
+#include "numeric/lanes.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "height_map/pitch.hpp"
-#include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/errors/errors.hpp"
+#include "mems_stiction/settings/option_visitor.hpp"
 
 namespace mems_stiction {
 namespace {

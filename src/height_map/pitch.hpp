@@ -3,7 +3,7 @@
 /// @file
 /// Pixel pitches for which squares, areas and positions stay numbers.
 
-#include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/settings/option_visitor.hpp"
 
 namespace mems_stiction {
 

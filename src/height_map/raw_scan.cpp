@@ -5,7 +5,7 @@
 #include <string>
 
 #include "height_map/pitch.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -11,7 +11,7 @@
 #include <limits>
 #include <string>
 
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 
 namespace mems_stiction {
 

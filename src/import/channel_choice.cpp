@@ -8,9 +8,9 @@
 #include <sstream>
 #include <tuple>
 
-#include "base/short_number.hpp"
+#include "errors/short_number.hpp"
 #include "height_map/unmeasured.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 
 namespace mems_stiction {
 namespace {

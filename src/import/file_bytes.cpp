@@ -1,7 +1,7 @@
 #include "import/file_bytes.hpp"
 
-#include "base/input_file.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "files/input_file.hpp"
+#include "mems_stiction/errors/errors.hpp"
 
 namespace mems_stiction {
 

@@ -8,12 +8,12 @@
 #include <new>
 #include <vector>
 
-#include "base/words.hpp"
 #include "import/byte_cursor.hpp"
 #include "import/file_bytes.hpp"
 #include "import/header_lines.hpp"
 #include "import/plain_number.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
+#include "numeric/words.hpp"
 
 namespace mems_stiction {
 namespace {

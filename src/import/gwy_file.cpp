@@ -8,7 +8,7 @@
 #include "height_map/validity.hpp"
 #include "import/byte_cursor.hpp"
 #include "import/file_bytes.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 
 namespace mems_stiction {
 namespace {

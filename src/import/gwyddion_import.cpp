@@ -5,13 +5,13 @@
 #include <filesystem>
 #include <fstream>
 
-#include "base/child_process.hpp"
-#include "base/interruption.hpp"
+#include "files/child_process.hpp"
+#include "files/interruption.hpp"
 #include "import/file_bytes.hpp"
 #include "import/import_cache.hpp"
 #include "import/waiting_gwyddion.hpp"
-#include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/errors/errors.hpp"
+#include "mems_stiction/settings/option_visitor.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cctype>
 
-#include "base/words.hpp"
 #include "import/plain_number.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
+#include "numeric/words.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -15,7 +15,7 @@
 
 #include "import/byte_cursor.hpp"
 #include "import/file_bytes.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -8,10 +8,10 @@
 #include <filesystem>
 #include <vector>
 
-#include "base/content_hash.hpp"
-#include "base/output_file.hpp"
+#include "files/content_hash.hpp"
+#include "files/output_file.hpp"
 #include "import/file_bytes.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 
 namespace mems_stiction {
 namespace {

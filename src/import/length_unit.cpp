@@ -2,8 +2,8 @@
 
 #include <map>
 
-#include "base/words.hpp"
 #include "import/plain_number.hpp"
+#include "numeric/words.hpp"
 
 namespace mems_stiction {
 namespace {

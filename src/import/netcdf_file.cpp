@@ -10,8 +10,8 @@
 #include "import/byte_cursor.hpp"
 #include "import/file_bytes.hpp"
 #include "import/length_unit.hpp"
-#include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/errors/errors.hpp"
+#include "mems_stiction/settings/option_visitor.hpp"
 
 namespace mems_stiction {
 namespace {

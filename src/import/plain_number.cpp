@@ -9,8 +9,8 @@
 #include <cmath>
 #include <limits>
 
-#include "base/words.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
+#include "numeric/words.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -9,13 +9,13 @@
 #include <filesystem>
 #include <set>
 
-#include "base/input_file.hpp"
-#include "base/option_yaml.hpp"
+#include "files/input_file.hpp"
 #include "height_map/unmeasured.hpp"
 #include "import/channel_choice.hpp"
 #include "import/file_bytes.hpp"
 #include "import/format_readers.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
+#include "settings/option_yaml.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -4,7 +4,6 @@
 #include <cctype>
 #include <filesystem>
 
-#include "base/words.hpp"
 #include "import/channel_choice.hpp"
 #include "import/file_bytes.hpp"
 #include "import/file_checks.hpp"
@@ -12,7 +11,8 @@
 #include "import/nanoscope_check.hpp"
 #include "import/plain_number.hpp"
 #include "import/tiff_tags.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
+#include "numeric/words.hpp"
 
 namespace mems_stiction {
 namespace {

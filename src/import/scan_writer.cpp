@@ -10,13 +10,13 @@
 #include <limits>
 #include <vector>
 
-#include "base/one_line.hpp"
-#include "base/option_yaml.hpp"
-#include "base/output_file.hpp"
+#include "errors/one_line.hpp"
+#include "files/output_file.hpp"
 #include "height_map/scan_sanity.hpp"
 #include "height_map/validity.hpp"
 #include "import/file_bytes.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
+#include "settings/option_yaml.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -10,7 +10,7 @@
 #include "import/file_checks.hpp"
 #include "import/length_unit.hpp"
 #include "import/plain_number.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 
 namespace mems_stiction {
 namespace {

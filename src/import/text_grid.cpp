@@ -11,8 +11,8 @@
 #include "import/text_cells.hpp"
 #include "import/text_header.hpp"
 #include "import/xyz_grid.hpp"
-#include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/errors/errors.hpp"
+#include "mems_stiction/settings/option_visitor.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -6,11 +6,11 @@
 #include <optional>
 #include <vector>
 
-#include "base/words.hpp"
 #include "import/length_unit.hpp"
 #include "import/plain_number.hpp"
-#include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/errors/errors.hpp"
+#include "mems_stiction/settings/option_visitor.hpp"
+#include "numeric/words.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -4,10 +4,10 @@
 #include <cctype>
 #include <cstdint>
 
-#include "base/words.hpp"
 #include "import/length_unit.hpp"
 #include "import/plain_number.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
+#include "numeric/words.hpp"
 
 namespace mems_stiction {
 namespace {

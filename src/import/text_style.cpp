@@ -4,7 +4,7 @@
 #include <cctype>
 
 #include "import/plain_number.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -9,8 +9,8 @@
 #include "import/byte_cursor.hpp"
 #include "import/length_unit.hpp"
 #include "import/plain_number.hpp"
-#include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/errors/errors.hpp"
+#include "mems_stiction/settings/option_visitor.hpp"
 
 namespace mems_stiction {
 namespace {

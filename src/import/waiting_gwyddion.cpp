@@ -15,7 +15,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "base/interruption.hpp"
+#include "files/interruption.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "base/child_process.hpp"
+#include "files/child_process.hpp"
 
 namespace mems_stiction {
 

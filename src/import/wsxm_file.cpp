@@ -5,14 +5,14 @@
 #include <cstdint>
 #include <map>
 
-#include "base/words.hpp"
 #include "import/byte_cursor.hpp"
 #include "import/file_bytes.hpp"
 #include "import/file_checks.hpp"
 #include "import/length_unit.hpp"
 #include "import/plain_number.hpp"
-#include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/errors/errors.hpp"
+#include "mems_stiction/settings/option_visitor.hpp"
+#include "numeric/words.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "import/file_bytes.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "approach/gap_order.hpp"
-#include "mems_stiction/base/constants.hpp"
+#include "mems_stiction/numeric/constants.hpp"
 
 namespace mems_stiction {
 

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "mechanics/hertz.hpp"
-#include "mems_stiction/base/constants.hpp"
+#include "mems_stiction/numeric/constants.hpp"
 
 namespace mems_stiction {
 namespace dmt {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mems_stiction/base/constants.hpp"
 #include "mems_stiction/mechanics/traction_law.hpp"
+#include "mems_stiction/numeric/constants.hpp"
 
 namespace mems_stiction {
 namespace surface_forces {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "base/time_limit.hpp"
 #include "paper/level_search.hpp"
+#include "settings/time_limit.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "mems_stiction/base/constants.hpp"
 #include "mems_stiction/mechanics/plasticity.hpp"
+#include "mems_stiction/numeric/constants.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,8 +1,8 @@
 #include "paper/cell_forces.hpp"
 
-#include "base/lanes.hpp"
-#include "mems_stiction/base/constants.hpp"
-#include "mems_stiction/base/vectorized.hpp"
+#include "mems_stiction/numeric/constants.hpp"
+#include "mems_stiction/numeric/vectorized.hpp"
+#include "numeric/lanes.hpp"
 
 namespace mems_stiction {
 namespace {

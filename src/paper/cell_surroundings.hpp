@@ -14,7 +14,7 @@
 #include "approach/dale_rows.hpp"
 #include "approach/gap_field.hpp"
 #include "approach/gap_order.hpp"
-#include "base/large_pages.hpp"
+#include "numeric/large_pages.hpp"
 #include "paper/contact_patch.hpp"
 
 namespace mems_stiction {

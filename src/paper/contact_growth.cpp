@@ -5,9 +5,9 @@
 
 #include "mechanics/jkr.hpp"
 #include "mechanics/surface_forces.hpp"
-#include "mems_stiction/base/constants.hpp"
 #include "mems_stiction/contact/contact_settings.hpp"
 #include "mems_stiction/mechanics/plasticity.hpp"
+#include "mems_stiction/numeric/constants.hpp"
 
 namespace mems_stiction {
 namespace {

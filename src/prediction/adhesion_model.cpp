@@ -4,12 +4,12 @@
 #include <cmath>
 #include <utility>
 
-#include "base/time_limit.hpp"
 #include "contact/contact_solver.hpp"
-#include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/errors/errors.hpp"
+#include "mems_stiction/settings/option_visitor.hpp"
 #include "prediction/contact_solvers.hpp"
 #include "prediction/contact_summary.hpp"
+#include "settings/time_limit.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -74,7 +74,7 @@ void AdhesionModel::Implementation::setOptions(const Options& new_options) {
   if (new_options.load.isPerArea()) {
     throw OptionsError(
         {"load/pressure, load/device_force: a model takes load/mechanical_load alone; scale them to the "
-         "frame first (scan/frame_load.hpp)"});
+         "frame first (evaluation/frame_load.hpp)"});
   }
   if (!solver_ || new_options.formulation != options_.formulation) solver_ = makeContactSolver(new_options.formulation);
   options_ = new_options;

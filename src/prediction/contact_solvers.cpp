@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/errors/errors.hpp"
+#include "mems_stiction/settings/option_visitor.hpp"
 #include "paper/asperity_solver.hpp"
 #include "separation/separation_solver.hpp"
 

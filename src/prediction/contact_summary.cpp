@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/median.hpp"
+#include "numeric/median.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -3,7 +3,7 @@
 /// @file
 /// For whoever goes on with the surfaces after contact.
 
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/prediction/prediction.hpp"
 
 namespace mems_stiction {

@@ -1,6 +1,6 @@
 #include "mems_stiction/prediction/options.hpp"
 
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "prediction/contact_solvers.hpp"
 
 namespace mems_stiction {

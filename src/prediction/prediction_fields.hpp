@@ -8,8 +8,8 @@
 ///
 /// Values are double, int, bool, Status, Regime, BondingRegime and ContactTheory; word() makes words of the enumerations.
 
-#include "mems_stiction/base/figure.hpp"
 #include "mems_stiction/prediction/prediction.hpp"
+#include "mems_stiction/settings/figure.hpp"
 
 namespace mems_stiction {
 

@@ -12,7 +12,7 @@
 #include <Eigen/Sparse>
 #include <opencv2/imgproc.hpp>
 
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 
 namespace mems_stiction {
 namespace {

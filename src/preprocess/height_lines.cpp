@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "base/lanes.hpp"
-#include "mems_stiction/base/vectorized.hpp"
+#include "mems_stiction/numeric/vectorized.hpp"
+#include "numeric/lanes.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -4,8 +4,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "base/time_limit.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "preprocess/fill_holes.hpp"
 #include "preprocess/levelling.hpp"
 #include "preprocess/line_alignment.hpp"
@@ -16,6 +15,7 @@
 #include "preprocess/stage_offset.hpp"
 #include "preprocess/tip_correction.hpp"
 #include "preprocess/working_surface.hpp"
+#include "settings/time_limit.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -7,8 +7,8 @@
 
 #include <Eigen/Dense>
 
-#include "base/lanes.hpp"
-#include "mems_stiction/base/vectorized.hpp"
+#include "mems_stiction/numeric/vectorized.hpp"
+#include "numeric/lanes.hpp"
 
 namespace mems_stiction {
 namespace {

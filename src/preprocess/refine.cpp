@@ -9,8 +9,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "height_map/validity.hpp"
-#include "mems_stiction/base/constants.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
+#include "mems_stiction/numeric/constants.hpp"
 #include "preprocess/fill_holes.hpp"
 
 namespace mems_stiction {

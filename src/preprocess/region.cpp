@@ -6,9 +6,9 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "base/input_file.hpp"
+#include "files/input_file.hpp"
 #include "height_map/validity.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 
 namespace mems_stiction {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "base/value_range.hpp"
+#include "numeric/value_range.hpp"
 #include "preprocess/polynomial_level.hpp"
 
 namespace mems_stiction {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "base/lanes.hpp"
-#include "base/median.hpp"
-#include "mems_stiction/base/vectorized.hpp"
+#include "mems_stiction/numeric/vectorized.hpp"
+#include "numeric/lanes.hpp"
+#include "numeric/median.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "height_map/shared_pixels.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 
 namespace mems_stiction {
 namespace {

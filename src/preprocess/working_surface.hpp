@@ -7,9 +7,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "base/median.hpp"
 #include "mems_stiction/height_map/height_map.hpp"
 #include "mems_stiction/preprocess/preprocess_record.hpp"
+#include "numeric/median.hpp"
 #include "preprocess/height_lines.hpp"
 #include "preprocess/window_median.hpp"
 

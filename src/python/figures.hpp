@@ -9,9 +9,9 @@
 #include <string>
 #include <type_traits>
 
+#include "evaluation/record.hpp"
 #include "half_space/half_space_fields.hpp"
 #include "prediction/prediction_fields.hpp"
-#include "scan/record.hpp"
 #include "verdict/verdict_fields.hpp"
 
 namespace mems_stiction {

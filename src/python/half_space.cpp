@@ -7,13 +7,13 @@
 #include <string>
 
 #include "bindings.hpp"
+#include "evaluation/frame_load.hpp"
 #include "figures.hpp"
 #include "interruptible.hpp"
 #include "memory.hpp"
+#include "mems_stiction/evaluation/half_space_scan.hpp"
+#include "mems_stiction/evaluation/prepared_scan.hpp"
 #include "mems_stiction/half_space/half_space_solver.hpp"
-#include "mems_stiction/scan/half_space_scan.hpp"
-#include "mems_stiction/scan/prepared_scan.hpp"
-#include "scan/frame_load.hpp"
 
 namespace mems_stiction {
 namespace python {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "height_map/unmeasured.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "without_lock.hpp"
 
 namespace mems_stiction {

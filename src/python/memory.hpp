@@ -17,9 +17,9 @@
 #include <type_traits>
 #include <vector>
 
-#include "mems_stiction/base/figure.hpp"
 #include "mems_stiction/height_map/height_map.hpp"
 #include "mems_stiction/height_map/raw_scan.hpp"
+#include "mems_stiction/settings/figure.hpp"
 
 namespace mems_stiction {
 namespace python {

@@ -11,15 +11,15 @@
 #include <vector>
 
 #include "bindings.hpp"
+#include "evaluation/frame_load.hpp"
+#include "evaluation/plausibility.hpp"
+#include "evaluation/record.hpp"
 #include "figures.hpp"
 #include "memory.hpp"
-#include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/scan/configuration_yaml.hpp"
-#include "mems_stiction/scan/scan_predictor.hpp"
+#include "mems_stiction/configuration/configuration_yaml.hpp"
+#include "mems_stiction/errors/errors.hpp"
+#include "mems_stiction/evaluation/scan_predictor.hpp"
 #include "prediction/force_curve.hpp"
-#include "scan/frame_load.hpp"
-#include "scan/plausibility.hpp"
-#include "scan/record.hpp"
 #include "verdict/regime_flags.hpp"
 #include "without_lock.hpp"
 

@@ -9,11 +9,11 @@
 #include <string>
 #include <utility>
 
-#include "base/option_yaml.hpp"
 #include "bindings.hpp"
-#include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/scan/configuration_yaml.hpp"
-#include "scan/plausibility.hpp"
+#include "evaluation/plausibility.hpp"
+#include "mems_stiction/configuration/configuration_yaml.hpp"
+#include "mems_stiction/errors/errors.hpp"
+#include "settings/option_yaml.hpp"
 
 namespace mems_stiction {
 namespace python {

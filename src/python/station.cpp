@@ -5,10 +5,10 @@
 #include <memory>
 
 #include "bindings.hpp"
+#include "evaluation/frame_load.hpp"
 #include "interruptible.hpp"
 #include "memory.hpp"
-#include "mems_stiction/scan/prepared_scan.hpp"
-#include "scan/frame_load.hpp"
+#include "mems_stiction/evaluation/prepared_scan.hpp"
 #include "station/station_fields.hpp"
 
 namespace mems_stiction {

@@ -7,8 +7,8 @@
 #include <tf2/LinearMath/Quaternion.h>
 #include <tf2/exceptions.h>
 
-#include "mems_stiction/base/constants.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
+#include "mems_stiction/numeric/constants.hpp"
 
 namespace mems_stiction {
 namespace {

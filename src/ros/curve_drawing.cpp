@@ -6,7 +6,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "base/short_number.hpp"
+#include "errors/short_number.hpp"
 #include "ros/picture_drawing.hpp"
 
 namespace mems_stiction {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "base/short_number.hpp"
+#include "errors/short_number.hpp"
 #include "ros/picture_drawing.hpp"
 #include "verdict/regime_flags.hpp"
 

@@ -6,12 +6,12 @@
 #include <future>
 #include <utility>
 
-#include "mems_stiction/scan/half_space_scan.hpp"
+#include "evaluation/frame_load.hpp"
+#include "mems_stiction/evaluation/half_space_scan.hpp"
 #include "ros/background_thread.hpp"
 #include "ros/half_space_conversion.hpp"
 #include "ros/provenance_conversion.hpp"
 #include "ros/topic_names.hpp"
-#include "scan/frame_load.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "base/one_line.hpp"
+#include "errors/one_line.hpp"
 #include "half_space/half_space_fields.hpp"
 #include "ros/message_fields.hpp"
 #include "ros/message_text.hpp"

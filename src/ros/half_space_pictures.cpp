@@ -6,11 +6,11 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "base/short_number.hpp"
+#include "errors/short_number.hpp"
+#include "evaluation/block_maxima.hpp"
 #include "ros/picture_drawing.hpp"
 #include "ros/provenance_conversion.hpp"
 #include "ros/regime_colour.hpp"
-#include "scan/block_maxima.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -4,11 +4,11 @@
 
 #include <diagnostic_msgs/DiagnosticStatus.h>
 
-#include "mems_stiction/scan/half_space_scan.hpp"
+#include "evaluation/frame_load.hpp"
+#include "mems_stiction/evaluation/half_space_scan.hpp"
 #include "ros/background_thread.hpp"
 #include "ros/half_space_conversion.hpp"
 #include "ros/provenance_conversion.hpp"
-#include "scan/frame_load.hpp"
 
 namespace mems_stiction {
 

@@ -11,7 +11,7 @@
 
 #include "height_map/scan_sanity.hpp"
 #include "height_map/unmeasured.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 
 namespace mems_stiction {
 namespace {

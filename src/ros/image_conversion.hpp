@@ -10,9 +10,9 @@
 #include <std_msgs/Header.h>
 
 #include "mems_stiction/ScanInfo.h"
+#include "mems_stiction/configuration/provenance.hpp"
 #include "mems_stiction/height_map/height_map.hpp"
 #include "mems_stiction/height_map/raw_scan.hpp"
-#include "mems_stiction/scan/provenance.hpp"
 #include "surface/alignment.hpp"
 
 namespace mems_stiction {

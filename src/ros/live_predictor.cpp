@@ -2,10 +2,10 @@
 
 #include <utility>
 
-#include "mems_stiction/base/errors.hpp"
+#include "evaluation/plausibility.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "prediction/deformed_surfaces.hpp"
 #include "prediction/force_curve.hpp"
-#include "scan/plausibility.hpp"
 #include "surface/wear.hpp"
 
 namespace mems_stiction {

@@ -13,11 +13,11 @@
 #include <string>
 #include <vector>
 
-#include "mems_stiction/scan/scan_predictor.hpp"
+#include "configuration/running_settings.hpp"
+#include "evaluation/part_scans.hpp"
+#include "mems_stiction/evaluation/scan_predictor.hpp"
 #include "ros/image_conversion.hpp"
 #include "ros/predicted_scan.hpp"
-#include "scan/part_scans.hpp"
-#include "scan/running_settings.hpp"
 #include "surface/wear.hpp"
 
 namespace mems_stiction {

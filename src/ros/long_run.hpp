@@ -20,7 +20,7 @@
 #include <actionlib/server/simple_action_server.h>
 #include <ros/node_handle.h>
 
-#include "base/one_line.hpp"
+#include "errors/one_line.hpp"
 #include "ros/topic_names.hpp"
 
 namespace mems_stiction {

@@ -16,7 +16,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "mems_stiction/base/figure.hpp"
+#include "mems_stiction/settings/figure.hpp"
 
 namespace mems_stiction {
 

@@ -11,12 +11,12 @@
 #include <ros/console.h>
 #include <yaml-cpp/yaml.h>
 
-#include "base/one_line.hpp"
-#include "base/option_yaml.hpp"
-#include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/scan/provenance.hpp"
+#include "errors/one_line.hpp"
+#include "mems_stiction/configuration/provenance.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "ros/master_calls.hpp"
 #include "ros/topic_names.hpp"
+#include "settings/option_yaml.hpp"
 #include "surface/counter_surface.hpp"
 
 namespace mems_stiction {

@@ -10,8 +10,8 @@
 #include <ros/node_handle.h>
 #include <xmlrpcpp/XmlRpcValue.h>
 
-#include "mems_stiction/base/option_visitor.hpp"
-#include "mems_stiction/scan/configuration.hpp"
+#include "mems_stiction/configuration/configuration.hpp"
+#include "mems_stiction/settings/option_visitor.hpp"
 
 namespace YAML {
 class Node;

@@ -9,7 +9,7 @@
 #include <sensor_msgs/image_encodings.h>
 #include <opencv2/imgproc.hpp>
 
-#include "base/short_number.hpp"
+#include "errors/short_number.hpp"
 
 namespace mems_stiction {
 namespace {

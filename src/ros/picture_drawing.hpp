@@ -9,7 +9,7 @@
 #include <std_msgs/Header.h>
 #include <opencv2/core.hpp>
 
-#include "mems_stiction/scan/provenance.hpp"
+#include "mems_stiction/configuration/provenance.hpp"
 
 namespace mems_stiction {
 

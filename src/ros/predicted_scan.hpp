@@ -10,9 +10,9 @@
 #include <std_msgs/Header.h>
 
 #include "contact/curve_point.hpp"
+#include "mems_stiction/configuration/provenance.hpp"
 #include "mems_stiction/prediction/prediction.hpp"
 #include "mems_stiction/preprocess/pipeline.hpp"
-#include "mems_stiction/scan/provenance.hpp"
 #include "mems_stiction/verdict/verdict.hpp"
 #include "verdict/part_verdict.hpp"
 

@@ -3,7 +3,7 @@
 /// @file
 /// Where a result comes from, into the fields that every message with a result has, and back.
 
-#include "mems_stiction/scan/provenance.hpp"
+#include "mems_stiction/configuration/provenance.hpp"
 
 namespace mems_stiction {
 

@@ -6,7 +6,7 @@
 
 #include <dynamic_reconfigure/Config.h>
 
-#include "scan/running_settings.hpp"
+#include "configuration/running_settings.hpp"
 
 namespace mems_stiction {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "base/one_line.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "errors/one_line.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "ros/own_log.hpp"
 #include "ros/reconfigure_conversion.hpp"
 #include "ros/topic_names.hpp"

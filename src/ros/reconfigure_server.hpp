@@ -13,9 +13,9 @@
 #include <ros/node_handle.h>
 #include <boost/thread/recursive_mutex.hpp>
 
+#include "configuration/running_settings.hpp"
 #include "mems_stiction/StictionConfig.h"
 #include "ros/master_calls.hpp"
-#include "scan/running_settings.hpp"
 
 namespace mems_stiction {
 

@@ -6,9 +6,9 @@
 #include <sstream>
 #include <utility>
 
-#include "base/one_line.hpp"
-#include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/option_visitor.hpp"
+#include "errors/one_line.hpp"
+#include "mems_stiction/errors/errors.hpp"
+#include "mems_stiction/settings/option_visitor.hpp"
 
 namespace mems_stiction {
 namespace {

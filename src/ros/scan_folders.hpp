@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "mems_stiction/scan/configuration.hpp"
+#include "mems_stiction/configuration/configuration.hpp"
 #include "ros/live_predictor.hpp"
 
 namespace mems_stiction {

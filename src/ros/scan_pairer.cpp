@@ -12,7 +12,7 @@
 
 #include <ros/serialization.h>
 
-#include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/settings/option_visitor.hpp"
 
 namespace mems_stiction {
 namespace {

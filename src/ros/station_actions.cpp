@@ -4,10 +4,10 @@
 #include <limits>
 #include <utility>
 
+#include "evaluation/frame_load.hpp"
 #include "ros/provenance_conversion.hpp"
 #include "ros/station_conversion.hpp"
 #include "ros/topic_names.hpp"
-#include "scan/frame_load.hpp"
 
 namespace mems_stiction {
 namespace {

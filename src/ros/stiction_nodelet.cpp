@@ -7,7 +7,7 @@
 #include <ros/service.h>
 #include <pluginlib/class_list_macros.hpp>
 
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "ros/stiction_server.hpp"
 
 namespace mems_stiction {

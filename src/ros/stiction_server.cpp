@@ -6,13 +6,13 @@
 #include <boost/bind/bind.hpp>
 #include <boost/make_shared.hpp>
 
-#include "base/error_text.hpp"
-#include "base/one_line.hpp"
+#include "errors/error_text.hpp"
+#include "errors/one_line.hpp"
+#include "evaluation/plausibility.hpp"
 #include "ros/force_curve_picture.hpp"
 #include "ros/own_log.hpp"
 #include "ros/scan_folders.hpp"
 #include "ros/topic_names.hpp"
-#include "scan/plausibility.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -5,11 +5,11 @@
 #include <string>
 #include <utility>
 
-#include "base/error_text.hpp"
-#include "base/one_line.hpp"
-#include "base/short_number.hpp"
-#include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/option_visitor.hpp"
+#include "errors/error_text.hpp"
+#include "errors/one_line.hpp"
+#include "errors/short_number.hpp"
+#include "mems_stiction/errors/errors.hpp"
+#include "mems_stiction/settings/option_visitor.hpp"
 #include "ros/prediction_conversion.hpp"
 #include "ros/topic_names.hpp"
 

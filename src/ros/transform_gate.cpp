@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "ros/counter_surface_frame.hpp"
 
 namespace mems_stiction {

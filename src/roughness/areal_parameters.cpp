@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -5,11 +5,11 @@
 #include <limits>
 #include <string>
 
-#include "base/value_range.hpp"
 #include "height_map/validity.hpp"
-#include "mems_stiction/base/constants.hpp"
-#include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/errors/errors.hpp"
+#include "mems_stiction/numeric/constants.hpp"
+#include "mems_stiction/settings/option_visitor.hpp"
+#include "numeric/value_range.hpp"
 #include "preprocess/working_surface.hpp"
 #include "roughness/half_spectrum.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "roughness/autocorrelation.hpp"
 #include "roughness/power_spectrum.hpp"
 #include "roughness/summits.hpp"

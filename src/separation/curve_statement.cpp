@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/median.hpp"
 #include "mems_stiction/contact/contact_settings.hpp"
+#include "numeric/median.hpp"
 
 namespace mems_stiction {
 namespace {

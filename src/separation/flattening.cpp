@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "base/lanes.hpp"
+#include "numeric/lanes.hpp"
 
 #include "chosen_constants.hpp"
 

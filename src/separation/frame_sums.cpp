@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/lanes.hpp"
-#include "base/time_limit.hpp"
+#include "numeric/lanes.hpp"
+#include "settings/time_limit.hpp"
 
 namespace mems_stiction {
 namespace {

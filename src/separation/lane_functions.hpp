@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "base/lanes.hpp"
+#include "numeric/lanes.hpp"
 
 namespace mems_stiction {
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "base/lanes.hpp"
 #include "mechanics/transition.hpp"
-#include "mems_stiction/base/constants.hpp"
+#include "mems_stiction/numeric/constants.hpp"
+#include "numeric/lanes.hpp"
 #include "separation/lane_functions.hpp"
 
 #include "chosen_constants.hpp"

@@ -6,8 +6,8 @@
 
 #include <vector>
 
-#include "base/lanes.hpp"
 #include "mems_stiction/contact/contact_settings.hpp"
+#include "numeric/lanes.hpp"
 #include "separation/contact_traction.hpp"
 #include "separation/overlap_sweep.hpp"
 #include "separation/place_sums.hpp"

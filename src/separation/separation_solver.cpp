@@ -6,8 +6,8 @@
 #include "contact/prepared_maps.hpp"
 #include "deformation/modified_topography.hpp"
 #include "mechanics/transition.hpp"
-#include "mems_stiction/base/constants.hpp"
 #include "mems_stiction/mechanics/plasticity.hpp"
+#include "mems_stiction/numeric/constants.hpp"
 
 #include "chosen_constants.hpp"
 

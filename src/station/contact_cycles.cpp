@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
 #include "prediction/deformed_surfaces.hpp"
 #include "surface/wear.hpp"

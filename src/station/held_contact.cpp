@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "mechanics/jkr.hpp"
-#include "mems_stiction/base/constants.hpp"
 #include "mems_stiction/mechanics/plasticity.hpp"
+#include "mems_stiction/numeric/constants.hpp"
 
 namespace mems_stiction {
 namespace {

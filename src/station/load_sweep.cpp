@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "mechanics/surface_forces.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "station/held_contact.hpp"
 
 namespace mems_stiction {

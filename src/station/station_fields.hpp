@@ -3,7 +3,7 @@
 /// @file
 /// The figures of load sweeps and contact cycles, as prediction/prediction_fields.hpp has those of the prediction.
 
-#include "mems_stiction/base/figure.hpp"
+#include "mems_stiction/settings/figure.hpp"
 #include "station/contact_cycles.hpp"
 #include "station/load_sweep.hpp"
 

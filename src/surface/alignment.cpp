@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "height_map/validity.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -1,6 +1,6 @@
 #include "surface/counter_surface.hpp"
 
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "surface/self_affine_surface.hpp"
 #include "surface/translated_gaussian_surface.hpp"
 

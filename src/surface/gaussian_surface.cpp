@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "surface/random_field.hpp"
 
 namespace mems_stiction {

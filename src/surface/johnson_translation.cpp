@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
-#include "mems_stiction/base/constants.hpp"
-#include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/errors/errors.hpp"
+#include "mems_stiction/numeric/constants.hpp"
+#include "mems_stiction/settings/option_visitor.hpp"
 
 namespace mems_stiction {
 namespace {

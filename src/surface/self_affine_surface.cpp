@@ -5,8 +5,8 @@
 #include <limits>
 #include <utility>
 
-#include "mems_stiction/base/constants.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
+#include "mems_stiction/numeric/constants.hpp"
 #include "roughness/half_spectrum.hpp"
 #include "roughness/power_spectrum.hpp"
 #include "surface/random_field.hpp"

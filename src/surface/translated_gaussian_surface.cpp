@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "surface/gaussian_surface.hpp"
 #include "surface/johnson_translation.hpp"
 

@@ -6,9 +6,9 @@
 #include <memory>
 #include <string>
 
+#include "mems_stiction/configuration/provenance.hpp"
 #include "mems_stiction/height_map/height_map.hpp"
 #include "mems_stiction/height_map/raw_scan.hpp"
-#include "mems_stiction/scan/provenance.hpp"
 
 namespace mems_stiction {
 

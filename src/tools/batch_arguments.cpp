@@ -3,11 +3,11 @@
 #include <climits>
 #include <sstream>
 
-#include "base/input_file.hpp"
 #include "command_line.hpp"
+#include "files/input_file.hpp"
 #include "import/waiting_gwyddion.hpp"
-#include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/scan/configuration_yaml.hpp"
+#include "mems_stiction/configuration/configuration_yaml.hpp"
+#include "mems_stiction/errors/errors.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "mems_stiction/configuration/configuration.hpp"
 #include "mems_stiction/import/scan_file.hpp"
-#include "mems_stiction/scan/configuration.hpp"
 
 namespace mems_stiction {
 

@@ -13,10 +13,10 @@
 #include <map>
 #include <string_view>
 
-#include "base/input_file.hpp"
-#include "base/output_file.hpp"
 #include "csv_text.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "files/input_file.hpp"
+#include "files/output_file.hpp"
+#include "mems_stiction/errors/errors.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -3,7 +3,7 @@
 #include <exception>
 #include <utility>
 
-#include "base/error_text.hpp"
+#include "errors/error_text.hpp"
 
 namespace mems_stiction {
 namespace {

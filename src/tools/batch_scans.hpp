@@ -10,8 +10,8 @@
 
 #include "bag_scans.hpp"
 #include "batch_arguments.hpp"
-#include "mems_stiction/scan/configuration.hpp"
-#include "scan/scan_state.hpp"
+#include "evaluation/scan_state.hpp"
+#include "mems_stiction/configuration/configuration.hpp"
 
 namespace mems_stiction {
 

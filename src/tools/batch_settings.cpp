@@ -6,12 +6,12 @@
 #include <yaml-cpp/yaml.h>
 #include <opencv2/core/version.hpp>
 
-#include "base/output_file.hpp"
 #include "batch_rows.hpp"
+#include "files/output_file.hpp"
 #include "import/import_cache.hpp"
-#include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/scan/configuration_yaml.hpp"
-#include "mems_stiction/scan/provenance.hpp"
+#include "mems_stiction/configuration/configuration_yaml.hpp"
+#include "mems_stiction/configuration/provenance.hpp"
+#include "mems_stiction/errors/errors.hpp"
 
 namespace mems_stiction {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "batch_arguments.hpp"
-#include "mems_stiction/scan/configuration.hpp"
+#include "mems_stiction/configuration/configuration.hpp"
 
 namespace mems_stiction {
 

@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "base/output_file.hpp"
-#include "base/words.hpp"
+#include "files/output_file.hpp"
+#include "numeric/words.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -12,13 +12,13 @@
 #include <string>
 #include <vector>
 
-#include "base/error_text.hpp"
-#include "base/interruption.hpp"
-#include "base/one_line.hpp"
-#include "mems_stiction/base/errors.hpp"
-#include "mems_stiction/base/option_visitor.hpp"
+#include "errors/error_text.hpp"
+#include "errors/one_line.hpp"
+#include "files/interruption.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 #include "mems_stiction/loads/interface.hpp"
+#include "mems_stiction/settings/option_visitor.hpp"
 
 namespace mems_stiction {
 

@@ -1,9 +1,9 @@
 #include "curve_file.hpp"
 
-#include "base/one_line.hpp"
-#include "base/output_file.hpp"
 #include "csv_text.hpp"
-#include "mems_stiction/base/option_visitor.hpp"
+#include "errors/one_line.hpp"
+#include "files/output_file.hpp"
+#include "mems_stiction/settings/option_visitor.hpp"
 
 namespace mems_stiction {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "contact/curve_point.hpp"
-#include "mems_stiction/scan/provenance.hpp"
+#include "mems_stiction/configuration/provenance.hpp"
 
 namespace mems_stiction {
 

@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-#include "base/one_line.hpp"
+#include "errors/one_line.hpp"
 #include "half_space/half_space_fields.hpp"
 
 namespace mems_stiction {

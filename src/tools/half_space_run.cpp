@@ -7,7 +7,7 @@
 #include <string>
 
 #include "import/scan_writer.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "status_line.hpp"
 
 namespace mems_stiction {

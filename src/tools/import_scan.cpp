@@ -14,7 +14,7 @@
 #include "height_map/validity.hpp"
 #include "import/scan_writer.hpp"
 #include "import/waiting_gwyddion.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 #include "waiting_line.hpp"
 

@@ -17,10 +17,10 @@
 #include <rosbag/bag.h>
 #include <opencv2/core/utils/logger.hpp>
 
-#include "base/interruption.hpp"
 #include "command_line.hpp"
+#include "files/interruption.hpp"
 #include "height_map/scan_sanity.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 #include "ros/image_conversion.hpp"
 #include "ros/topic_names.hpp"

@@ -1,6 +1,6 @@
 #include "npy_file.hpp"
 
-#include "base/output_file.hpp"
+#include "files/output_file.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -6,11 +6,11 @@
 #include <type_traits>
 #include <utility>
 
-#include "base/one_line.hpp"
-#include "base/output_file.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "errors/one_line.hpp"
+#include "evaluation/part_scans.hpp"
+#include "files/output_file.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "row_texts.hpp"
-#include "scan/part_scans.hpp"
 #include "verdict/part_verdict_fields.hpp"
 #include "verdict/regime_flags.hpp"
 

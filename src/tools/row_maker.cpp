@@ -6,12 +6,12 @@
 #include <sstream>
 #include <utility>
 
-#include "base/error_text.hpp"
+#include "errors/error_text.hpp"
+#include "evaluation/frame_load.hpp"
+#include "evaluation/plausibility.hpp"
 #include "half_space_run.hpp"
-#include "mems_stiction/scan/half_space_scan.hpp"
+#include "mems_stiction/evaluation/half_space_scan.hpp"
 #include "prediction/force_curve.hpp"
-#include "scan/frame_load.hpp"
-#include "scan/plausibility.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "batch_rows.hpp"
+#include "evaluation/scan_state.hpp"
 #include "row_texts.hpp"
-#include "scan/scan_state.hpp"
 
 namespace mems_stiction {
 

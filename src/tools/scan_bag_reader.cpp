@@ -13,9 +13,9 @@
 #include <boost/make_shared.hpp>
 
 #include "bag_check.hpp"
-#include "base/child_process.hpp"
-#include "base/input_file.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "files/child_process.hpp"
+#include "files/input_file.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "ros/scan_pairer.hpp"
 #include "ros/topic_names.hpp"
 

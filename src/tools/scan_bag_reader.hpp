@@ -11,7 +11,7 @@
 #include <rosbag/view.h>
 
 #include "bag_scans.hpp"
-#include "base/interruption.hpp"
+#include "files/interruption.hpp"
 #include "mems_stiction/height_map/raw_scan.hpp"
 #include "ros/image_conversion.hpp"
 

@@ -4,9 +4,9 @@
 #include <cstring>
 #include <filesystem>
 
-#include "base/one_line.hpp"
-#include "base/output_file.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "errors/one_line.hpp"
+#include "files/output_file.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "npy_file.hpp"
 #include "prediction/prediction_fields.hpp"
 #include "verdict/regime_flags.hpp"

@@ -12,9 +12,9 @@
 
 #include "batch_rows.hpp"
 #include "contact/curve_point.hpp"
+#include "mems_stiction/configuration/provenance.hpp"
 #include "mems_stiction/height_map/height_map.hpp"
 #include "mems_stiction/prediction/prediction.hpp"
-#include "mems_stiction/scan/provenance.hpp"
 #include "mems_stiction/verdict/verdict.hpp"
 
 namespace mems_stiction {

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "evaluation/scan_state.hpp"
 #include "mems_stiction/import/scan_file.hpp"
-#include "scan/scan_state.hpp"
 
 namespace mems_stiction {
 

@@ -10,20 +10,20 @@
 
 #include <opencv2/core/utils/logger.hpp>
 
-#include "base/output_file.hpp"
 #include "batch_arguments.hpp"
 #include "batch_rows.hpp"
 #include "batch_scans.hpp"
 #include "batch_settings.hpp"
 #include "command_line.hpp"
+#include "evaluation/plausibility.hpp"
+#include "files/output_file.hpp"
 #include "import/import_cache.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "part_rows.hpp"
 #include "prediction/contact_solvers.hpp"
 #include "progress_bar.hpp"
 #include "row_queue.hpp"
 #include "row_states.hpp"
-#include "scan/plausibility.hpp"
 
 namespace {
 

@@ -15,7 +15,7 @@
 #include <ros/ros.h>
 
 #include "command_line.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "ros/master_calls.hpp"
 #include "ros/stiction_server.hpp"
 

@@ -10,7 +10,7 @@
 #include <thread>
 #include <utility>
 
-#include "base/one_line.hpp"
+#include "errors/one_line.hpp"
 #include "status_line.hpp"
 
 namespace mems_stiction {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "base/short_number.hpp"
+#include "errors/short_number.hpp"
 
 namespace mems_stiction {
 namespace {

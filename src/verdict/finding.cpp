@@ -1,6 +1,6 @@
 #include "verdict/finding.hpp"
 
-#include "base/short_number.hpp"
+#include "errors/short_number.hpp"
 
 namespace mems_stiction {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <functional>
 
-#include "base/short_number.hpp"
-#include "mems_stiction/base/constants.hpp"
+#include "errors/short_number.hpp"
+#include "mems_stiction/numeric/constants.hpp"
 #include "verdict/finding.hpp"
 #include "verdict/regime_flags.hpp"
 

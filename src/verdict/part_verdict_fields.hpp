@@ -3,7 +3,7 @@
 /// @file
 /// The figures of the verdict on a part, as prediction/prediction_fields.hpp has those of the prediction.
 
-#include "mems_stiction/base/figure.hpp"
+#include "mems_stiction/settings/figure.hpp"
 #include "verdict/part_verdict.hpp"
 #include "verdict/verdict_fields.hpp"
 

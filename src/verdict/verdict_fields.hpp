@@ -3,7 +3,7 @@
 /// @file
 /// The figures of a verdict, as prediction/prediction_fields.hpp has those of the prediction.
 
-#include "mems_stiction/base/figure.hpp"
+#include "mems_stiction/settings/figure.hpp"
 #include "mems_stiction/verdict/verdict.hpp"
 
 namespace mems_stiction {

@@ -2,9 +2,9 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include "evaluation/plausibility.hpp"
 #include "fuzz/fuzzing.hpp"
-#include "mems_stiction/scan/configuration_yaml.hpp"
-#include "scan/plausibility.hpp"
+#include "mems_stiction/configuration/configuration_yaml.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace mems_stiction;

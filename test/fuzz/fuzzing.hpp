@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 
 /// @return 0. A finding is an exception that leaves it, or what a sanitizer ends the program for.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);

@@ -7,7 +7,7 @@
 
 #include "fuzz/byte_source.hpp"
 #include "fuzz/fuzzing.hpp"
-#include "mems_stiction/scan/scan_predictor.hpp"
+#include "mems_stiction/evaluation/scan_predictor.hpp"
 
 namespace {
 

@@ -6,9 +6,9 @@
 #include <rapidcheck/gtest.h>
 
 #include "approach/gap_field.hpp"
-#include "mems_stiction/base/constants.hpp"
+#include "mems_stiction/evaluation/scan_predictor.hpp"
 #include "mems_stiction/mechanics/plasticity.hpp"
-#include "mems_stiction/scan/scan_predictor.hpp"
+#include "mems_stiction/numeric/constants.hpp"
 #include "property/rough_pairs.hpp"
 #include "support/frame_gaps.hpp"
 #include "support/plain_adhesion_model.hpp"

@@ -126,7 +126,7 @@ class ValidityTest(unittest.TestCase):
         self.assertIn("fewer than %s contacts" % re.search(r"kFewestContacts = (\d+)", flags).group(1), page)
         summary = source("src/prediction/contact_summary.cpp")
         self.assertIn("not above %g" % float(re.search(r"kJkrLimit = ([\d.]+)", summary).group(1)), page)
-        resolution = source("include/mems_stiction/scan/resolution.hpp")
+        resolution = source("include/mems_stiction/verdict/resolution.hpp")
         self.assertIn("fewer than %g pixels) and" % float(re.search(r"min_contact_pixels = ([\d.]+)", resolution).group(1)), page)
 
 

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "mems_stiction/ScanInfo.h"
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "support/scratch_folder.hpp"
 
 namespace mems_stiction {

@@ -6,10 +6,10 @@
 #include <sensor_msgs/point_cloud2_iterator.h>
 #include <boost/make_shared.hpp>
 
-#include "mems_stiction/base/errors.hpp"
+#include "evaluation/frame_load.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "ros/display_conversion.hpp"
 #include "ros/prediction_conversion.hpp"
-#include "scan/frame_load.hpp"
 #include "station/contact_cycles.hpp"
 #include "surface/gaussian_surface.hpp"
 

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 
-#include "base/option_yaml.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
+#include "settings/option_yaml.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "../support/scratch_folder.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 
 namespace mems_stiction {
 namespace {

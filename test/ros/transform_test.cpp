@@ -6,7 +6,7 @@
 #include <tf2/LinearMath/Matrix3x3.h>
 #include <tf2/LinearMath/Quaternion.h>
 
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "ros/counter_surface_frame.hpp"
 #include "ros/transform_gate.hpp"
 

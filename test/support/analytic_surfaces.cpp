@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "mems_stiction/base/constants.hpp"
+#include "mems_stiction/numeric/constants.hpp"
 
 namespace mems_stiction {
 namespace analytic {

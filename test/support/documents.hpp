@@ -8,7 +8,7 @@
 
 #include <string>
 
-#include "base/option_yaml.hpp"
+#include "settings/option_yaml.hpp"
 
 namespace mems_stiction {
 namespace documents {

@@ -2,7 +2,7 @@
 
 /// Settings with the paper's solver, for tests of what it computes: they hold whatever the default formulation is.
 
-#include "mems_stiction/scan/configuration.hpp"
+#include "mems_stiction/configuration/configuration.hpp"
 
 namespace mems_stiction {
 

@@ -8,7 +8,7 @@
 
 #include <Eigen/Dense>
 
-#include "base/median.hpp"
+#include "numeric/median.hpp"
 #include "preprocess/spike_removal.hpp"
 #include "preprocess/stage_offset.hpp"
 

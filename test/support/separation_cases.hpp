@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "mems_stiction/base/constants.hpp"
 #include "mems_stiction/half_space/half_space_solver.hpp"
+#include "mems_stiction/numeric/constants.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
 
 namespace mems_stiction {

@@ -3,7 +3,7 @@
 /// @file
 /// How the surfaces are brought together and when a search ends.
 
-#include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/settings/option_visitor.hpp"
 
 namespace mems_stiction {
 

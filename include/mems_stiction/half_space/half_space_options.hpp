@@ -3,7 +3,7 @@
 /// @file
 /// How the half-space is solved, beside what it consists of.
 
-#include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/settings/option_visitor.hpp"
 
 namespace mems_stiction {
 

@@ -6,8 +6,8 @@
 ///
 ///     const double pull = capillaryForce(order, approach, contact_count, options.law(), field.cellArea());
 
-#include "mems_stiction/base/option_visitor.hpp"
 #include "mems_stiction/mechanics/traction_law.hpp"
+#include "mems_stiction/settings/option_visitor.hpp"
 
 namespace mems_stiction {
 

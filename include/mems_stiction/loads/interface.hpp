@@ -3,7 +3,7 @@
 /// @file
 /// What acts between the two bodies: adhesion, van der Waals attraction, the insulator; and what is applied to them.
 
-#include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/settings/option_visitor.hpp"
 
 namespace mems_stiction {
 

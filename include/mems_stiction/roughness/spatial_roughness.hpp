@@ -10,8 +10,8 @@
 
 #include <limits>
 
-#include "mems_stiction/base/option_visitor.hpp"
 #include "mems_stiction/height_map/height_map.hpp"
+#include "mems_stiction/settings/option_visitor.hpp"
 
 namespace mems_stiction {
 

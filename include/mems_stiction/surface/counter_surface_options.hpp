@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/settings/option_visitor.hpp"
 
 namespace mems_stiction {
 

@@ -30,7 +30,7 @@
 /// Arguments throughout: work = G [J/m^2], >= 0: of the *rough* interface, per nominal area. 0 gives infinite
 /// peel numbers and lengths.
 
-#include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/settings/option_visitor.hpp"
 
 namespace mems_stiction {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "mems_stiction/base/option_visitor.hpp"
 #include "mems_stiction/loads/interface.hpp"
+#include "mems_stiction/settings/option_visitor.hpp"
 #include "mems_stiction/verdict/beam_adhesion.hpp"
 
 namespace mems_stiction {

@@ -3,7 +3,7 @@
 /// @file
 /// How well the constants of a prediction are known: what margin_uncertainty.hpp draws its samples from.
 
-#include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/settings/option_visitor.hpp"
 
 namespace mems_stiction {
 

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/frame_gaps.hpp"
 #include "support/sample_frames.hpp"

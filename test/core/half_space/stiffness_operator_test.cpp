@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "half_space/stiffness_operator.hpp"
-#include "mems_stiction/base/constants.hpp"
+#include "mems_stiction/numeric/constants.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "half_space/traction_law.hpp"
 #include "mechanics/surface_forces.hpp"
-#include "mems_stiction/base/constants.hpp"
+#include "mems_stiction/numeric/constants.hpp"
 
 namespace mems_stiction {
 namespace {

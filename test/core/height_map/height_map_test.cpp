@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -8,9 +8,9 @@
 #include <chrono>
 #include <filesystem>
 
-#include "base/output_file.hpp"
+#include "files/output_file.hpp"
 #include "import/file_checks.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 #include "support/binary_writer.hpp"
 #include "support/scratch_folder.hpp"

@@ -3,7 +3,7 @@
 
 #include "import/channel_choice.hpp"
 #include "import/format_readers.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "support/scan_bytes.hpp"
 
 namespace mems_stiction {

@@ -10,11 +10,11 @@
 
 #include <opencv2/imgcodecs.hpp>
 
-#include "base/child_process.hpp"
+#include "files/child_process.hpp"
 #include "import/format_readers.hpp"
 #include "import/scan_writer.hpp"
 #include "import/tiff_tags.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "support/binary_writer.hpp"
 #include "support/scratch_folder.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "import/file_checks.hpp"
 #include "import/nanoscope_check.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "support/maker_bytes.hpp"
 
 namespace mems_stiction {

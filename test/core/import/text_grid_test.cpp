@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 #include "support/scratch_folder.hpp"
 

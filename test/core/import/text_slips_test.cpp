@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "import/format_readers.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 #include "support/scratch_folder.hpp"
 

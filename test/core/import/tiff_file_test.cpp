@@ -7,7 +7,7 @@
 
 #include "import/channel_choice.hpp"
 #include "import/format_readers.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 #include "support/scratch_folder.hpp"
 

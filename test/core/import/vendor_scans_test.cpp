@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "height_map/scan_sanity.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 #include "mems_stiction/roughness/areal_parameters.hpp"
 #include "preprocess/level.hpp"

@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 #include "support/gwy_bytes.hpp"
 #include "support/scan_bytes.hpp"

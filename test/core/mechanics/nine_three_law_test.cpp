@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include "base/lanes.hpp"
 #include "mechanics/surface_forces.hpp"
-#include "mems_stiction/base/constants.hpp"
 #include "mems_stiction/mechanics/traction_law.hpp"
+#include "mems_stiction/numeric/constants.hpp"
+#include "numeric/lanes.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "mems_stiction/base/constants.hpp"
+#include "mems_stiction/numeric/constants.hpp"
 
 namespace mems_stiction {
 namespace {

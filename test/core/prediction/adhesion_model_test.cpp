@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/paper_options.hpp"
 #include "support/sample_frames.hpp"

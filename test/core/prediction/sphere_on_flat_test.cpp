@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "mechanics/jkr.hpp"
-#include "mems_stiction/base/constants.hpp"
 #include "mems_stiction/mechanics/plasticity.hpp"
+#include "mems_stiction/numeric/constants.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/sphere_contact.hpp"

@@ -8,12 +8,12 @@
 
 #include <gtest/gtest.h>
 
-#include "base/option_yaml.hpp"
 #include "height_map/validity.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
 #include "preprocess/level.hpp"
 #include "preprocess/levelling.hpp"
+#include "settings/option_yaml.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "surface/gaussian_surface.hpp"
 #include "yaml-cpp/yaml.h"

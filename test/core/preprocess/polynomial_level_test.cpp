@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/preprocess/pipeline.hpp"
 #include "preprocess/level.hpp"
 #include "preprocess/levelling.hpp"

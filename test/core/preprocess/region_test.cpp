@@ -12,9 +12,9 @@
 
 #include <gtest/gtest.h>
 
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
+#include "mems_stiction/evaluation/scan_predictor.hpp"
 #include "mems_stiction/preprocess/pipeline.hpp"
-#include "mems_stiction/scan/scan_predictor.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/median.hpp"
+#include "numeric/median.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/paper_options.hpp"

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "height_map/validity.hpp"
-#include "mems_stiction/base/constants.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
+#include "mems_stiction/numeric/constants.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "surface/gaussian_surface.hpp"
 

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "mems_stiction/base/constants.hpp"
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
+#include "mems_stiction/numeric/constants.hpp"
 #include "mems_stiction/roughness/areal_parameters.hpp"
 #include "roughness/power_spectrum.hpp"
 

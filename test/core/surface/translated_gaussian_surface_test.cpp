@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "mems_stiction/base/errors.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/roughness/areal_parameters.hpp"
 #include "roughness/autocorrelation.hpp"
 #include "surface/gaussian_surface.hpp"

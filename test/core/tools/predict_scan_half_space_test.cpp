@@ -11,11 +11,11 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "half_space/half_space_fields.hpp"
-#include "mems_stiction/base/option_visitor.hpp"
+#include "mems_stiction/evaluation/half_space_scan.hpp"
+#include "mems_stiction/evaluation/scan_predictor.hpp"
 #include "mems_stiction/half_space/half_space_solver.hpp"
 #include "mems_stiction/import/scan_file.hpp"
-#include "mems_stiction/scan/half_space_scan.hpp"
-#include "mems_stiction/scan/scan_predictor.hpp"
+#include "mems_stiction/settings/option_visitor.hpp"
 #include "support/predict_scan_program.hpp"
 
 namespace mems_stiction {

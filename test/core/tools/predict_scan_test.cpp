@@ -10,10 +10,10 @@
 
 #include <opencv2/imgcodecs.hpp>
 
-#include "mems_stiction/base/constants.hpp"
+#include "mems_stiction/evaluation/scan_predictor.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 #include "mems_stiction/mechanics/material.hpp"
-#include "mems_stiction/scan/scan_predictor.hpp"
+#include "mems_stiction/numeric/constants.hpp"
 #include "support/predict_scan_program.hpp"
 
 namespace mems_stiction {

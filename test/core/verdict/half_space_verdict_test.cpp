@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "mems_stiction/base/constants.hpp"
+#include "mems_stiction/numeric/constants.hpp"
 #include "mems_stiction/verdict/verdict.hpp"
 #include "paper/contact_growth.hpp"
 #include "support/paper_options.hpp"

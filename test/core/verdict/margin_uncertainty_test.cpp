@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "mechanics/jkr.hpp"
-#include "mems_stiction/base/constants.hpp"
+#include "mems_stiction/numeric/constants.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
 #include "paper/contact_growth.hpp"
 #include "support/paper_options.hpp"

@@ -1,0 +1,45 @@
+#pragma once
+
+/// @file
+/// One configuration file or parameter tree: the model's options and how scans are read and prepared.
+
+#include <string>
+#include <vector>
+
+#include "mems_stiction/configuration/provenance.hpp"
+#include "mems_stiction/configuration/scan_limits.hpp"
+#include "mems_stiction/half_space/half_space_options.hpp"
+#include "mems_stiction/height_map/raw_scan.hpp"
+#include "mems_stiction/prediction/options.hpp"
+#include "mems_stiction/preprocess/pipeline_options.hpp"
+#include "mems_stiction/roughness/spatial_roughness.hpp"
+#include "mems_stiction/settings/option_visitor.hpp"
+#include "mems_stiction/surface/counter_surface_options.hpp"
+#include "mems_stiction/verdict/device_options.hpp"
+#include "mems_stiction/verdict/resolution.hpp"
+#include "mems_stiction/verdict/uncertainty_options.hpp"
+
+namespace mems_stiction {
+
+/// Everything that a configuration file may set.
+struct Configuration {
+  Options model;
+  SpatialRoughnessOptions spatial_roughness;
+  PartOptions part;
+  ScanOptions scan;
+  ScanLimits limits;
+  ResolutionOptions resolution;
+  PipelineOptions preprocessing;
+  CounterSurfaceOptions counter_surface;
+  DeviceOptions device;
+  UncertaintyOptions uncertainty;
+  HalfSpaceOptions half_space;
+
+  void describe(OptionVisitor& visitor);
+  /// One line per violated constraint; empty when all is well.
+  std::vector<std::string> validate() const;
+  /// @throw OptionsError with the lines of validate(), if there are any.
+  void check() const;
+};
+
+}  // namespace mems_stiction

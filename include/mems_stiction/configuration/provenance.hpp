@@ -1,0 +1,59 @@
+#pragma once
+
+/// @file
+/// Where a figure comes from, so that whoever finds it years later can tell: which part, which scan, which settings,
+/// which version.
+
+#include <string>
+
+#include "mems_stiction/settings/figure.hpp"
+#include "mems_stiction/settings/option_visitor.hpp"
+
+namespace mems_stiction {
+
+struct Configuration;
+
+/// The part whose scans are predicted, where the scans themselves do not say.
+struct PartOptions {
+  std::string id;      ///< scans of one id belong together
+  std::string serial;  ///< its serial number
+
+  void describe(OptionVisitor& visitor);
+};
+
+/// What was scanned.
+struct ScanIdentity {
+  std::string scan_name;
+  std::string part_id;
+  std::string serial_id;
+};
+
+/// What was scanned, and what it was predicted with.
+struct Provenance : ScanIdentity {
+  std::string version;        ///< of this package
+  std::string settings_hash;  ///< of settingsHash()
+};
+
+/// "1.2.3", of this package.
+const char* packageVersion();
+
+/// 16 hexadecimal digits, the same for configurations that give the same figures: of every setting but part/... (who it
+/// is), limits/... (what it may take), output/... (what is asked for) and half_space/enabled and threads. Files count
+/// by their names, not by their content.
+std::string settingsHash(const Configuration& configuration);
+
+/// - @p configuration that the prediction was made with
+Provenance provenanceOf(const ScanIdentity& identity, const Configuration& configuration);
+
+/// Calls visit(Figure, value) for each field, by the names of the messages.
+template <typename Source, typename Visitor>
+void visitProvenanceFields(Source& provenance, Visitor&& visit) {
+  visit({"version", "", "of this package"}, provenance.version);
+  visit({"settings_hash", "", "16 hexadecimal digits, of every setting that bears on the figures"},
+        provenance.settings_hash);
+  visit({"scan_name", "", "scan_info.scan_name, else the frame_id"}, provenance.scan_name);
+  visit({"part_id", "", "scan_info.part_id, else the parameter part/id"}, provenance.part_id);
+  visit({"serial_id", "", "scan_info.serial_id, else the parameter part/serial"}, provenance.serial_id);
+}
+
+}  // namespace mems_stiction

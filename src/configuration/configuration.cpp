@@ -1,0 +1,65 @@
+#include "mems_stiction/configuration/configuration.hpp"
+
+#include "mems_stiction/errors/errors.hpp"
+#include "surface/counter_surface.hpp"
+
+namespace mems_stiction {
+
+void Configuration::describe(OptionVisitor& visitor) {
+  model.describe(visitor);
+  spatial_roughness.describe(visitor);
+  part.describe(visitor);
+  scan.describe(visitor);
+  limits.describe(visitor);
+  resolution.describe(visitor);
+  preprocessing.describe(visitor);
+  counter_surface.describe(visitor);
+  device.describe(visitor);
+  uncertainty.describe(visitor);
+  half_space.describe(visitor);
+}
+
+std::vector<std::string> Configuration::validate() const {
+  std::vector<std::string> violations = model.validate();
+  for (const std::vector<std::string>& of_section :
+       {rangeViolations(spatial_roughness), rangeViolations(scan), rangeViolations(limits), rangeViolations(resolution),
+        rangeViolations(preprocessing), rangeViolations(counter_surface), rangeViolations(uncertainty),
+        rangeViolations(half_space)}) {
+    violations.insert(violations.end(), of_section.begin(), of_section.end());
+  }
+  const std::vector<std::string> of_device = device.validate();
+  violations.insert(violations.end(), of_device.begin(), of_device.end());
+  if (model.load.device_force > 0.0 && !(device.contact_area > 0.0)) {
+    violations.push_back("load/device_force: " + numberText(model.load.device_force) +
+                         " N is not allowed without device/contact_area; must be 0 N, or the area be stated");
+  }
+  if (scan.height_scale == 0.0) {
+    violations.emplace_back(
+        "scan/height_scale: 0 m per unit of the pixel is not allowed, it makes every surface flat; must not be 0");
+  }
+  if ((scan.pitch_x > 0.0) != (scan.pitch_y > 0.0)) {
+    violations.push_back("scan/pitch_x: " + numberText(scan.pitch_x) + " m with scan/pitch_y " +
+                         numberText(scan.pitch_y) + " m is not allowed; both must be > 0 m, or both 0");
+  }
+  const SpatialRoughnessOptions& fit = spatial_roughness;
+  if (fit.hurst_shortest_wavelength > 0.0 && fit.hurst_longest_wavelength > 0.0 &&
+      fit.hurst_shortest_wavelength >= fit.hurst_longest_wavelength) {
+    violations.push_back("output/hurst_longest_wavelength: " + numberText(fit.hurst_longest_wavelength) +
+                         " m is not allowed, must be > output/hurst_shortest_wavelength " +
+                         numberText(fit.hurst_shortest_wavelength) + " m");
+  }
+  if (counter_surface.type == CounterSurfaceType::kFile && counter_surface.file.empty()) {
+    violations.emplace_back("counter_surface/file: '' is not allowed with counter_surface/type file; must name a file");
+  }
+  if (counter_surface.isMeasured() && counter_surface.facing == CounterSurfaceFacing::kUnstated) {
+    violations.push_back(facingComplaint());
+  }
+  return violations;
+}
+
+void Configuration::check() const {
+  std::vector<std::string> violations = validate();
+  if (!violations.empty()) throw OptionsError(std::move(violations));
+}
+
+}  // namespace mems_stiction

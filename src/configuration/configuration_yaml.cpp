@@ -1,0 +1,50 @@
+#include "mems_stiction/configuration/configuration_yaml.hpp"
+
+#include <unistd.h>
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "files/input_file.hpp"
+#include "mems_stiction/errors/errors.hpp"
+#include "settings/option_yaml.hpp"
+
+namespace mems_stiction {
+
+Configuration configurationFromYaml(const YAML::Node& tree, const Configuration& defaults) {
+  Configuration configuration = defaults;
+  std::vector<std::string> violations =
+      readYaml(tree, [&configuration](OptionVisitor& visitor) { configuration.describe(visitor); });
+  // Combinations of settings; ranges are found by both and named once.
+  for (const std::string& line : configuration.validate()) {
+    if (std::find(violations.begin(), violations.end(), line) == violations.end()) violations.push_back(line);
+  }
+  if (!violations.empty()) throw OptionsError(std::move(violations));
+  return configuration;
+}
+
+Configuration loadConfiguration(const std::string& path, const Configuration& defaults) {
+  if (access(path.c_str(), R_OK) != 0) throw FileError(path + ": the configuration file cannot be opened");
+  const std::string text = readInput(path, kSettingsInput);
+  YAML::Node tree;
+  try {
+    tree = YAML::Load(text);
+  } catch (const YAML::Exception& error) {
+    throw FileError(path + ": " + yamlTrouble(text, error.what()));
+  }
+  try {
+    return configurationFromYaml(tree, defaults);
+  } catch (const OptionsError& error) {
+    std::vector<std::string> lines;
+    for (const std::string& line : error.violations()) lines.push_back(path + ": " + line);
+    throw OptionsError(std::move(lines));
+  }
+}
+
+std::string toYaml(const Configuration& configuration) {
+  Configuration copy = configuration;
+  return toYaml([&copy](OptionVisitor& visitor) { copy.describe(visitor); });
+}
+
+}  // namespace mems_stiction

@@ -1,0 +1,48 @@
+#include "configuration/running_settings.hpp"
+
+#include <utility>
+
+namespace mems_stiction {
+namespace {
+
+SettingsOwner::Snapshot checked(Configuration configuration) {
+  configuration.check();
+  return std::make_shared<const Configuration>(std::move(configuration));
+}
+
+}  // namespace
+
+RunningSettings::RunningSettings(const Configuration& configuration)
+    : interface(configuration.model.interface),
+      capillary(configuration.model.capillary),
+      load(configuration.model.load),
+      device(configuration.device),
+      paper(configuration.model.paper) {}
+
+void RunningSettings::describe(OptionVisitor& visitor) {
+  interface.describe(visitor);
+  capillary.describe(visitor);
+  load.describe(visitor);
+  device.describe(visitor);
+  paper.describe(visitor);
+}
+
+SettingsOwner::SettingsOwner(const Configuration& configuration) : configuration_(checked(configuration)) {}
+
+SettingsOwner::Snapshot SettingsOwner::snapshot() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return configuration_;
+}
+
+void SettingsOwner::change(const RunningSettings& settings) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  Configuration configuration = *configuration_;
+  configuration.model.interface = settings.interface;
+  configuration.model.capillary = settings.capillary;
+  configuration.model.load = settings.load;
+  configuration.device = settings.device;
+  configuration.model.paper = settings.paper;
+  configuration_ = checked(std::move(configuration));
+}
+
+}  // namespace mems_stiction

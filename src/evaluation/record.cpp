@@ -1,0 +1,212 @@
+#include "evaluation/record.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <type_traits>
+
+#include "errors/short_number.hpp"
+#include "half_space/half_space_fields.hpp"
+#include "prediction/prediction_fields.hpp"
+#include "settings/option_yaml.hpp"
+#include "verdict/regime_flags.hpp"
+#include "verdict/verdict_fields.hpp"
+
+namespace mems_stiction {
+namespace {
+
+/// Visitor that adds fields to the map which the emitter has open.
+class YamlFields {
+ public:
+  explicit YamlFields(YAML::Emitter& emitter) : emitter_(emitter) {}
+
+  template <typename Value>
+  void operator()(const Figure& figure, const Value& value) {
+    emitter_ << YAML::Key << figure.name << YAML::Value;
+    if constexpr (std::is_same_v<Value, double>) {
+      emitter_ << yamlNumber(value);
+    } else if constexpr (std::is_same_v<Value, bool>) {
+      emitter_ << (value ? "true" : "false");
+    } else if constexpr (std::is_arithmetic_v<Value>) {
+      emitter_ << std::to_string(value);
+    } else if constexpr (std::is_same_v<Value, std::string> || std::is_same_v<Value, Sticks>) {
+      emitter_ << YAML::DoubleQuoted << std::string(shown(value));
+    } else {
+      emitter_ << word(value);
+    }
+  }
+  template <typename Fill>
+  void map(const char* name, Fill fill) {
+    emitter_ << YAML::Key << name << YAML::Value << YAML::BeginMap;
+    fill(*this);
+    emitter_ << YAML::EndMap;
+  }
+  /// Flow maps.
+  template <typename Items, typename VisitItem>
+  void list(const char* name, const Items& items, VisitItem visit_item) {
+    emitter_ << YAML::Key << name << YAML::Value << YAML::BeginSeq;
+    for (const auto& item : items) {
+      emitter_ << YAML::Flow << YAML::BeginMap;
+      visit_item(item, *this);
+      emitter_ << YAML::EndMap;
+    }
+    emitter_ << YAML::EndSeq;
+  }
+  void texts(const char* name, const std::vector<std::string>& texts) {
+    emitter_ << YAML::Key << name << YAML::Value << YAML::BeginSeq;
+    for (const std::string& text : texts) emitter_ << YAML::DoubleQuoted << text;
+    emitter_ << YAML::EndSeq;
+  }
+
+ private:
+  YAML::Emitter& emitter_;
+};
+
+/// Visitor that adds fields to a JSON object.
+class JsonFields {
+ public:
+  explicit JsonFields(nlohmann::json& object) : object_(object) {}
+
+  template <typename Value>
+  void operator()(const Figure& figure, const Value& value) {
+    object_[figure.name] = shown(value);
+  }
+  template <typename Fill>
+  void map(const char* name, Fill fill) {
+    JsonFields fields(object_[name]);
+    fill(fields);
+  }
+  template <typename Items, typename VisitItem>
+  void list(const char* name, const Items& items, VisitItem visit_item) {
+    for (const auto& item : items) visit_item(item, JsonFields(object_[name].emplace_back()));
+  }
+  void texts(const char* name, const std::vector<std::string>& texts) { object_[name] = texts; }
+
+ private:
+  nlohmann::json& object_;
+};
+
+/// Size and pitch of the scan: what a reader needs to trust the figures below.
+template <typename Visitor>
+void visitScanFields(const HeightMap& scan, Visitor&& visit) {
+  visit({"rows"}, scan.rows());
+  visit({"cols"}, scan.cols());
+  visit({"pitch_x", "m"}, scan.pitchX());
+  visit({"pitch_y", "m"}, scan.pitchY());
+}
+
+/// Figures of the prediction and of the verdict, and what limits both.
+template <typename Visitor>
+void visitResultFields(const HeightMap& scan, const Prediction& prediction, const RecordExtras& extras,
+                       Visitor&& visit) {
+  if (extras.provenance) {
+    visitProvenanceFields(*extras.provenance, [&](const Figure& figure, const std::string& value) {
+      if (!value.empty()) visit(figure, value);
+    });
+  }
+  if (!extras.formulation.empty()) visit({"formulation"}, extras.formulation);
+  visitPredictionFields(prediction, [&](const Figure& figure, const auto& value) {
+    const bool verdict_has_it = extras.verdict && std::strcmp(figure.name, "apparent_work_of_adhesion") == 0;
+    if (!verdict_has_it) visit(figure, value);
+  });
+  const std::uint32_t flags = regimeFlags(prediction, scan.cellArea());
+  visit({"regime_flag_names"}, regimeFlagNames(flags));
+  if (extras.verdict) {
+    visitVerdictFields(*extras.verdict, visit);
+    if (extras.half_space) visit({"verdict_by"}, std::string(judgeText(extras.verdict->judge)));
+  } else {
+    visit({"regime_flags"}, flags);
+  }
+}
+
+bool hasTipStep(const PreprocessRecord& record) {
+  return std::any_of(record.steps.begin(), record.steps.end(),
+                     [](const PreprocessStep& step) { return step.name == "tip"; });
+}
+
+bool isComputed(const SpatialRoughness& roughness) { return !std::isnan(roughness.sal); }
+
+const auto kVisitStep = [](const auto& item, auto&& fields) { visitStepFields(item, fields); };
+const auto kVisitPoint = [](const auto& item, auto&& fields) { visitEnergyPointFields(item, fields); };
+const auto kVisitCurvePoint = [](const auto& item, auto&& fields) { visitCurvePointFields(item, fields); };
+const auto kVisitSeparationPoint = [](const auto& item, auto&& fields) { visitSeparationPointFields(item, fields); };
+const auto kVisitCleaning = [](const auto& item, auto&& fields) { visitCleaningFields(item, fields); };
+const auto kVisitRow = [](const auto& item, auto&& fields) { visitConvergenceFields(item, fields); };
+
+/// Pull-off force and margin for people.
+std::string summaryComment(const Prediction& prediction, const RecordExtras& extras) {
+  if (!extras.pull_off_interval) return "";
+  const ForceInterval& interval = *extras.pull_off_interval;
+  std::string text = "# Pull-off force " + withInterval(prediction.pull_off_force, interval.lower, interval.upper, "N");
+  if (prediction.isLowerBound()) text += ", a lower bound";
+  if (extras.verdict && !std::isnan(extras.verdict->margin)) {
+    const Verdict& verdict = *extras.verdict;
+    text += "; margin " + withInterval(verdict.margin, verdict.margin_lower, verdict.margin_upper);
+  }
+  return text + ".\n";
+}
+
+/// The record, in the order of its fields. @param fields of YAML or JSON
+template <typename Fields>
+void addRecord(const std::string& file, const HeightMap& scan, const Prediction& prediction, const RecordExtras& extras,
+               Fields& fields) {
+  const auto add_list = [](Fields& to, const char* name, const auto& items, const auto& visit_item) {
+    if (!items.empty()) to.list(name, items, visit_item);
+  };
+  fields({"file"}, file);
+  if (!extras.channel.empty()) fields({"channel"}, extras.channel);
+  visitScanFields(scan, fields);
+  visitResultFields(scan, prediction, extras, fields);
+  fields.map("roughness", [&](Fields& roughness) {
+    visitRoughnessFields(prediction.roughness, roughness);
+    if (isComputed(prediction.spatial_roughness)) visitSpatialRoughnessFields(prediction.spatial_roughness, roughness);
+  });
+  if (!extras.warnings.empty()) fields.texts("warnings", extras.warnings);
+  add_list(fields, "preprocessing", extras.preprocessing.steps, kVisitStep);
+  if (hasTipStep(extras.preprocessing)) {
+    fields({"tip_unreached_fraction"}, extras.preprocessing.tip_unreached_fraction);
+  }
+  add_list(fields, "convergence", extras.convergence, kVisitRow);
+  add_list(fields, "cleanings", extras.cleanings, kVisitCleaning);
+  if (!extras.cleanings.empty()) {
+    fields.map("cleaning_spread", [&](Fields& spread) { visitSpreadFields(spreadOf(extras.cleanings), spread); });
+  }
+  add_list(fields, "energy_curve", prediction.energy_curve, kVisitPoint);
+  if (extras.has_curve) add_list(fields, "curve", prediction.curve, kVisitSeparationPoint);
+  if (extras.half_space) {
+    fields.map("half_space", [&](Fields& half_space) {
+      visitHalfSpaceFields(*extras.half_space, half_space);
+      add_list(half_space, "curve", curveOf(*extras.half_space), kVisitCurvePoint);
+    });
+  }
+}
+
+}  // namespace
+
+std::string yamlRecord(const std::string& file, const HeightMap& scan, const Prediction& prediction,
+                       const RecordExtras& extras) {
+  YAML::Emitter emitter;
+  YamlFields fields(emitter);
+  emitter << YAML::BeginDoc << YAML::BeginMap;
+  addRecord(file, scan, prediction, extras, fields);
+  emitter << YAML::EndMap;
+  std::string text = std::string(emitter.c_str()) + "\n";
+  text += summaryComment(prediction, extras);
+  if (!extras.convergence.empty()) text += convergenceTable(extras.convergence, "# ");
+  if (!extras.cleanings.empty()) text += cleaningTable(extras.cleanings, "# ");
+  return text;
+}
+
+std::string jsonRecord(const std::string& file, const HeightMap& scan, const Prediction& prediction,
+                       const RecordExtras& extras) {
+  nlohmann::json record;
+  JsonFields fields(record);
+  addRecord(file, scan, prediction, extras, fields);
+  // A file name need not be UTF-8; a bad byte becomes U+FFFD instead of an exception.
+  return record.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+}  // namespace mems_stiction

@@ -1,0 +1,92 @@
+#include "mems_stiction/settings/option_visitor.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+namespace mems_stiction {
+
+namespace {
+
+/// Sizes that no length, force, stress or ratio has: beyond them powers and products overflow. Where an end of a range is not
+/// stated, they are its end.
+constexpr double kLargest = 1e30;
+constexpr double kSmallest = 1e-30;
+
+/// What to say beside a range of a value that only its size excludes.
+std::string sizeText(double value) {
+  const double size = std::abs(value);
+  const bool is_sane = value == 0.0 || !std::isfinite(value) || (size >= kSmallest && size <= kLargest);
+  return is_sane ? "" : ", " + numberText(kSmallest) + " to " + numberText(kLargest) + " in size";
+}
+
+}  // namespace
+
+bool Range::contains(double value) const {
+  if (std::isnan(value)) return nan_means_none;
+  if (std::isinf(value)) return false;
+  // a value that only marks what is missing, of whatever kind the file has
+  if (!nan_means_none) {
+    if (!std::isfinite(lower) && value < -kLargest) return false;
+    if (!std::isfinite(upper) && value > kLargest) return false;
+    if (lower == 0.0 && value > 0.0 && value < kSmallest) return false;
+  }
+  const bool above = lower_open ? value > lower : value >= lower;
+  const bool below = upper_open ? value < upper : value <= upper;
+  return above && below;
+}
+
+std::string Range::text() const {
+  const bool has_lower = std::isfinite(lower);
+  const bool has_upper = std::isfinite(upper);
+  if (has_lower && has_upper) {
+    return std::string("in ") + (lower_open ? "(" : "[") + numberText(lower) + ", " + numberText(upper) +
+           (upper_open ? ")" : "]");
+  }
+  if (has_lower) return (lower_open ? "> " : ">= ") + numberText(lower);
+  if (has_upper) return (upper_open ? "< " : "<= ") + numberText(upper);
+  return nan_means_none ? "any finite number, or nan for none" : "any finite number";
+}
+
+void OptionValidator::number(const std::string& key, double& value, const std::string& unit, const Range& range,
+                             const std::string& /*meaning*/) {
+  if (range.contains(value)) return;
+  violations_.push_back(key + ": " + numberText(value) + (unit.empty() ? "" : " " + unit) +
+                        " is not allowed, must be " + range.text() + (unit.empty() ? "" : " " + unit) +
+                        sizeText(value));
+}
+
+void OptionValidator::integer(const std::string& key, int& value, const Range& range, const std::string& /*meaning*/) {
+  if (range.contains(value)) return;
+  violations_.push_back(key + ": " + std::to_string(value) + " is not allowed, must be an integer " + range.text());
+}
+
+void OptionValidator::flag(const std::string& /*key*/, bool& /*value*/, const std::string& /*meaning*/) {}
+
+void OptionValidator::text(const std::string& /*key*/, std::string& /*value*/, const std::string& /*meaning*/) {}
+
+void OptionValidator::choice(const std::string& key, std::string& value, const std::vector<std::string>& names,
+                             const std::string& /*meaning*/) {
+  std::string allowed;
+  for (const std::string& name : names) {
+    if (name == value) return;
+    allowed += (allowed.empty() ? "" : ", ") + name;
+  }
+  violations_.push_back(key + ": '" + value + "' is not allowed, must be one of: " + allowed);
+}
+
+std::string numberText(double value) {
+  if (std::isnan(value)) return "nan";  // printf shows the sign, which means nothing
+  char buffer[40];
+  for (int digits = 1; digits <= 17; ++digits) {
+    std::snprintf(buffer, sizeof buffer, "%.*g", digits, value);
+    if (std::strtod(buffer, nullptr) == value) break;
+  }
+  // "2000" rather than "2e+03": seven digits hold every value that came out with an exponent below 1e7.
+  if (std::abs(value) >= 1.0 && std::abs(value) < 1e7 && std::string(buffer).find('e') != std::string::npos) {
+    std::snprintf(buffer, sizeof buffer, "%.7g", value);
+  }
+  return buffer;
+}
+
+}  // namespace mems_stiction

@@ -1,0 +1,354 @@
+#include "settings/option_yaml.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <locale>
+#include <map>
+#include <numeric>
+#include <sstream>
+
+#include "mems_stiction/errors/errors.hpp"
+#include "numeric/words.hpp"
+
+namespace mems_stiction {
+namespace {
+
+/// The whole text as a number, independent of the locale; nan and inf with or without YAML's leading dot.
+bool parseNumber(const std::string& text, double& value) {
+  const std::string word = lowered(text);
+  if (word == ".nan" || word == "nan") {
+    value = std::numeric_limits<double>::quiet_NaN();
+    return true;
+  }
+  for (const char* infinity : {".inf", "+.inf", "inf", "+inf"}) {
+    if (word == infinity) {
+      value = std::numeric_limits<double>::infinity();
+      return true;
+    }
+  }
+  if (word == "-.inf" || word == "-inf") {
+    value = -std::numeric_limits<double>::infinity();
+    return true;
+  }
+  // 010 is ten to some readers of YAML and eight to others.
+  const std::size_t digit = text.find_first_not_of("+-");
+  if (text.size() > digit + 1 && text[digit] == '0' && std::isdigit(static_cast<unsigned char>(text[digit + 1])) != 0) {
+    return false;
+  }
+  std::istringstream stream(text);
+  stream.imbue(std::locale::classic());
+  double parsed = 0.0;
+  if (!(stream >> parsed) || !(stream >> std::ws).eof()) return false;
+  value = parsed;
+  return true;
+}
+
+/// One key that the tree supplies.
+struct Leaf {
+  std::string key;
+  YAML::Node node;
+  int uses = 0;
+};
+
+/// Where the text has it: " in line 7"; empty for what came from no text.
+std::string placeOf(const YAML::Node& node) {
+  const YAML::Mark mark = node.Mark();
+  return mark.is_null() ? "" : " in line " + std::to_string(mark.line + 1);
+}
+
+/// YAML forbids a key that one map has twice; programs that take the first, or the last, or both, differ in what they then
+/// read.
+void flatten(const YAML::Node& node, const std::string& prefix, std::vector<Leaf>& leaves,
+             std::vector<std::string>& lines) {
+  if (!node.IsMap()) {
+    leaves.push_back({prefix, node});
+    return;
+  }
+  std::map<std::string, YAML::Node> seen;
+  for (const auto& entry : node) {
+    const std::string name = entry.first.IsScalar() ? trimmed(entry.first.Scalar(), "/") : "(a key that is not text)";
+    const std::string key = prefix.empty() ? name : prefix + "/" + name;
+    const auto [first, is_new] = seen.emplace(name, entry.first);
+    if (!is_new) {
+      lines.push_back(key + ": given" + placeOf(entry.first) + " and before" + placeOf(first->second) +
+                      ", must be given once: put what belongs to it together");
+      continue;
+    }
+    flatten(entry.second, key, leaves, lines);
+  }
+}
+
+/// " (write 0.05: ...)" for 0,05; else empty.
+std::string commaHint(const YAML::Node& node) {
+  if (!node.IsScalar() || std::count(node.Scalar().begin(), node.Scalar().end(), ',') != 1) return "";
+  std::string text = node.Scalar();
+  text[text.find(',')] = '.';
+  double number = 0.0;
+  return parseNumber(text, number) ? " (write " + text + ": the decimal sign is a point)" : "";
+}
+
+std::string shown(const YAML::Node& node) {
+  if (node.IsScalar()) return "'" + node.Scalar() + "'";
+  return node.IsSequence() ? "a list" : "no value";
+}
+
+/// Of so many keys that nobody knows each is named: more are another file.
+constexpr std::size_t kMostUnknown = 100;
+
+/// Takes each described field from the tree, if the tree names it, and checks its range by the common validator.
+class YamlReader : public OptionVisitor {
+ public:
+  explicit YamlReader(const YAML::Node& tree) {
+    if (!tree.IsDefined() || tree.IsNull()) return;
+    if (!tree.IsMap()) {
+      lines_.push_back("the configuration must be a map of keys and values, got " + shown(tree));
+      return;
+    }
+    flatten(tree, "", leaves_, lines_);
+    for (std::size_t place = 0; place < leaves_.size(); ++place) places_[leaves_[place].key].push_back(place);
+  }
+
+  void number(const std::string& key, double& value, const std::string& unit, const Range& range,
+              const std::string& meaning) override {
+    if (const YAML::Node* node = take(key)) {
+      if (!node->IsScalar() || !parseNumber(node->Scalar(), value)) {
+        wrongType(key, *node, "a number " + range.text() + (unit.empty() ? "" : " " + unit));
+        return;
+      }
+    }
+    OptionValidator validator;
+    validator.number(key, value, unit, range, meaning);
+    append(validator);
+  }
+
+  void integer(const std::string& key, int& value, const Range& range, const std::string& meaning) override {
+    if (const YAML::Node* node = take(key)) {
+      double parsed = 0.0;
+      // The limits of int keep the cast defined; the range is checked below.
+      if (!node->IsScalar() || !parseNumber(node->Scalar(), parsed) || parsed != std::floor(parsed) ||
+          !(std::abs(parsed) <= static_cast<double>(std::numeric_limits<int>::max()))) {
+        wrongType(key, *node, "an integer " + range.text());
+        return;
+      }
+      value = static_cast<int>(parsed);
+    }
+    OptionValidator validator;
+    validator.integer(key, value, range, meaning);
+    append(validator);
+  }
+
+  void flag(const std::string& key, bool& value, const std::string& /*meaning*/) override {
+    const YAML::Node* node = take(key);
+    if (node == nullptr) return;
+    const std::string word = node->IsScalar() ? lowered(node->Scalar()) : "";
+    if (word == "true" || word == "yes" || word == "on") {
+      value = true;
+    } else if (word == "false" || word == "no" || word == "off") {
+      value = false;
+    } else {
+      wrongType(key, *node, "true or false");
+    }
+  }
+
+  void text(const std::string& key, std::string& value, const std::string& /*meaning*/) override {
+    const YAML::Node* node = take(key);
+    if (node == nullptr) return;
+    if (node->IsScalar()) {
+      value = node->Scalar();
+    } else {
+      wrongType(key, *node, "a text");
+    }
+  }
+
+  void choice(const std::string& key, std::string& value, const std::vector<std::string>& names,
+              const std::string& meaning) override {
+    if (const YAML::Node* node = take(key)) value = node->IsScalar() ? node->Scalar() : shown(*node);
+    OptionValidator validator;
+    validator.choice(key, value, names, meaning);
+    append(validator);
+  }
+
+  void formerName(const std::string& former, const std::string& key) override { former_names_[former] = key; }
+
+  /// Call after every field was shown.
+  std::vector<std::string> violations() const {
+    std::vector<std::string> lines = lines_;
+    std::size_t unknown_count = 0;
+    for (const Leaf& leaf : leaves_) {
+      const std::string section = leaf.key + "/";
+      const bool empty_section =
+          leaf.node.IsNull() && std::any_of(known_.begin(), known_.end(), [&](const std::string& key) {
+            return key.compare(0, section.size(), section) == 0;
+          });
+      if (leaf.uses == 0 && !empty_section) {
+        if (++unknown_count > kMostUnknown) continue;
+        const auto former = former_names_.find(leaf.key);
+        if (former != former_names_.end()) {
+          lines.push_back(leaf.key + ": " + shown(leaf.node) + " is given, but its name is " + former->second + " now");
+          continue;
+        }
+        const std::string name = lastPart(leaf.key);
+        const bool is_fraction = leaf.node.IsNull() && !name.empty() &&
+                                 name.find_first_not_of("0123456789") == std::string::npos;  // {voltage: 0,05}
+        lines.push_back(leaf.key + ": " + shown(leaf.node) + " is given, but there is no such setting" +
+                        (is_fraction ? " (is it behind a decimal comma? the decimal sign is a point)"
+                                     : suggestion(leaf.key, known_)));
+      }
+    }
+    if (unknown_count > kMostUnknown) {
+      lines.push_back(std::to_string(unknown_count - kMostUnknown) + " more keys are given that are no settings");
+    }
+    return lines;
+  }
+
+ private:
+  /// The value that the tree gives for the key, or null. A second one is a violation.
+  const YAML::Node* take(const std::string& key) {
+    known_.push_back(key);
+    const YAML::Node* found = nullptr;
+    const auto places = places_.find(key);
+    if (places == places_.end()) return nullptr;
+    for (const std::size_t place_of_leaf : places->second) {
+      Leaf& leaf = leaves_[place_of_leaf];
+      ++leaf.uses;
+      if (found != nullptr) {
+        const std::string place = placeOf(leaf.node);
+        lines_.push_back(key + ": " + shown(leaf.node) + " is given beside " + shown(*found) + placeOf(*found) +
+                         (place.empty() ? "" : " and" + place) + ", must be given once");
+      } else {
+        found = &leaf.node;
+      }
+    }
+    return found;
+  }
+
+  void wrongType(const std::string& key, const YAML::Node& node, const std::string& allowed) {
+    lines_.push_back(key + ": " + shown(node) + " is not allowed, must be " + allowed + commaHint(node));
+  }
+
+  void append(const OptionValidator& validator) {
+    lines_.insert(lines_.end(), validator.violations().begin(), validator.violations().end());
+  }
+
+  std::vector<Leaf> leaves_;
+  std::map<std::string, std::vector<std::size_t>> places_;  ///< in leaves_, of each key
+  std::vector<std::string> known_;
+  std::map<std::string, std::string> former_names_;  ///< what they are called now
+  std::vector<std::string> lines_;
+};
+
+/// Writes sections as they come; a section's keys are described together.
+class YamlWriter : public OptionVisitor {
+ public:
+  void number(const std::string& key, double& value, const std::string& unit, const Range& range,
+              const std::string& meaning) override {
+    line(key, yamlNumber(value), (unit.empty() ? "" : "[" + unit + "] ") + meaning + "; " + range.text());
+  }
+  void integer(const std::string& key, int& value, const Range& range, const std::string& meaning) override {
+    line(key, std::to_string(value), meaning + "; an integer " + range.text());
+  }
+  void flag(const std::string& key, bool& value, const std::string& meaning) override {
+    line(key, value ? "true" : "false", meaning);
+  }
+  void text(const std::string& key, std::string& value, const std::string& meaning) override {
+    line(key, quoted(value), meaning);
+  }
+  void choice(const std::string& key, std::string& value, const std::vector<std::string>& names,
+              const std::string& meaning) override {
+    std::string allowed;
+    for (const std::string& name : names) allowed += (allowed.empty() ? "" : ", ") + name;
+    line(key, quoted(value), meaning + "; one of: " + allowed);
+  }
+
+  const std::string& text() const { return text_; }
+
+ private:
+  static std::string quoted(const std::string& value) {
+    YAML::Emitter emitter;
+    emitter << YAML::DoubleQuoted << value;
+    return emitter.c_str();
+  }
+
+  void line(const std::string& key, const std::string& value, const std::string& comment) {
+    const std::size_t slash = key.find('/');
+    const std::string section = slash == std::string::npos ? "" : key.substr(0, slash);
+    if (section != section_ && !section.empty()) text_ += section + ":\n";
+    section_ = section;
+    text_ += section.empty() ? key : "  " + key.substr(slash + 1);
+    text_ += ": " + value + "  # " + comment + "\n";
+  }
+
+  std::string section_;
+  std::string text_;
+};
+
+/// Number of the first line that begins with a tab, behind spaces or not; 0: none.
+std::size_t lineWithTab(const std::string& text) {
+  std::size_t number = 1;
+  for (std::size_t begin = 0; begin < text.size(); ++number) {
+    const std::size_t first = text.find_first_not_of(' ', begin);
+    if (first != std::string::npos && text[first] == '\t') return number;
+    const std::size_t end = text.find('\n', begin);
+    if (end == std::string::npos) break;
+    begin = end + 1;
+  }
+  return 0;
+}
+
+bool isBinary(const std::string& text) {
+  return std::any_of(text.begin(), text.end(), [](char letter) {
+    const auto code = static_cast<unsigned char>(letter);
+    return code < 0x20 && letter != '\t' && letter != '\n' && letter != '\r';
+  });
+}
+
+}  // namespace
+
+std::vector<std::string> readYaml(const YAML::Node& tree, const DescribeFunction& describe) {
+  YamlReader reader(tree);
+  describe(reader);
+  return reader.violations();
+}
+
+std::vector<std::string> keysOf(const YAML::Node& tree) {
+  std::vector<Leaf> leaves;
+  std::vector<std::string> ignored;
+  if (tree.IsDefined() && tree.IsMap()) flatten(tree, "", leaves, ignored);
+  std::vector<std::string> keys;
+  keys.reserve(leaves.size());
+  for (const Leaf& leaf : leaves) keys.push_back(leaf.key);
+  return keys;
+}
+
+void applyYaml(const YAML::Node& tree, const DescribeFunction& describe) {
+  std::vector<std::string> violations = readYaml(tree, describe);
+  if (!violations.empty()) throw OptionsError(std::move(violations));
+}
+
+std::string toYaml(const DescribeFunction& describe) {
+  YamlWriter writer;
+  describe(writer);
+  return writer.text();
+}
+
+std::string yamlNumber(double value) {
+  if (std::isnan(value)) return ".nan";
+  if (std::isinf(value)) return value > 0.0 ? ".inf" : "-.inf";
+  std::string text = numberText(value);
+  const std::size_t exponent = text.find('e');
+  if (exponent != std::string::npos && text.find('.') == std::string::npos) text.insert(exponent, ".0");
+  return text;
+}
+
+std::string yamlTrouble(const std::string& text, const std::string& error) {
+  if (isBinary(text)) return "is not a text, so no file of settings";
+  const std::size_t line = lineWithTab(text);
+  if (line == 0) return "not valid YAML: " + error;
+  return "not valid YAML: line " + std::to_string(line) + " begins with a tab; must be spaces (" + error + ")";
+}
+
+}  // namespace mems_stiction

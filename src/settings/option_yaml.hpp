@@ -1,0 +1,55 @@
+#pragma once
+
+/// @file
+/// Settings from YAML and back, for anything that describes itself to an OptionVisitor.
+///
+/// Keys are either nested maps or flat names with slashes: `lower: {hardness: 12e9}` and `lower/hardness: 12e9` are the
+/// same. Every key supplied must belong to exactly one described field, so that a typing error is an error and not a
+/// default. A key that one map has twice is an error that names both lines. Numbers may be quoted: PyYAML and rosparam hand over `1e-9` as a string.
+///
+///     applyYaml(YAML::Load(text), [&](OptionVisitor& visitor) {
+///       configuration.describe(visitor);
+///       visitor.integer("queue_size", queue_size, Range::within(1, 1000), "scans that may wait");
+///     });
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "mems_stiction/settings/option_visitor.hpp"
+
+namespace YAML {
+class Node;
+}
+
+namespace mems_stiction {
+
+/// Shows every field of one or several options structs to the visitor.
+using DescribeFunction = std::function<void(OptionVisitor&)>;
+
+/// Sets the described fields that `tree` names and leaves the others. Supplied and untouched fields are checked against
+/// their ranges.
+/// @return one line for each key that is unknown, given twice, of the wrong type or out of range; empty when all is
+/// well. A number out of range has been stored; after any violation the fields are not fit for use.
+std::vector<std::string> readYaml(const YAML::Node& tree, const DescribeFunction& describe);
+
+/// The keys that the tree states, nested ones with slashes, in its order.
+std::vector<std::string> keysOf(const YAML::Node& tree);
+
+/// The same as readYaml(). @throw OptionsError with the lines of readYaml(), if there are any.
+void applyYaml(const YAML::Node& tree, const DescribeFunction& describe);
+
+/// Every described field as nested YAML, its unit, range and meaning beside it as a comment. Reads back by applyYaml().
+std::string toYaml(const DescribeFunction& describe);
+
+/// A number as YAML 1.1 and 1.2 both take for a number: "2.0e-09", ".nan", "-.inf".
+std::string yamlNumber(double value);
+
+/// What is wrong with a text that is no YAML, in words.
+/// - @p text that was read
+/// - @p error what the parser said
+/// @return "not valid YAML: ..." with the line that begins with a tab, which YAML does not allow and nobody sees; or that
+///         it is no text
+std::string yamlTrouble(const std::string& text, const std::string& error);
+
+}  // namespace mems_stiction

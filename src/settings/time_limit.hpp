@@ -1,0 +1,47 @@
+#pragma once
+
+/// @file
+/// How does a prediction end that takes longer than whoever waits for it can wait?
+///
+/// Whoever waits says how long; what takes long asks between its steps whether the time is over. Both do so on the same
+/// thread, and nothing between them needs to know.
+///
+///     const TimeLimit limit(60.0, "limits/max_time");  // until the end of the block
+///     for (...) TimeLimit::check();                    // anywhere below, once in a millisecond or so
+
+#include <chrono>
+
+#include "mems_stiction/errors/errors.hpp"
+
+namespace mems_stiction {
+
+/// A scan was given up since its time was over.
+class TimeLimitError : public SurfaceError {
+ public:
+  using SurfaceError::SurfaceError;
+};
+
+/// The time that this thread may work, as long as the object lives. An inner limit never lengthens an outer one.
+class TimeLimit {
+ public:
+  /// - @p seconds in all; infinity = no limit
+  /// - @p setting what the user may change, for the message; must outlive the object
+  /// - @p spent of them before now [s]
+  TimeLimit(double seconds, const char* setting, double spent = 0.0);
+  ~TimeLimit();
+  TimeLimit(const TimeLimit&) = delete;
+  TimeLimit& operator=(const TimeLimit&) = delete;
+
+  /// @throw TimeLimitError if the innermost limit of this thread is over. Takes some 30 ns.
+  static void check();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  TimeLimit* outer_;
+  Clock::time_point end_;
+  double seconds_;
+  const char* setting_;
+};
+
+}  // namespace mems_stiction

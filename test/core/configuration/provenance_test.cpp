@@ -1,0 +1,48 @@
+/// The hash of the settings: the same for the same figures, another for others.
+
+#include "mems_stiction/configuration/provenance.hpp"
+
+#include <gtest/gtest.h>
+
+#include "mems_stiction/configuration/configuration.hpp"
+
+namespace mems_stiction {
+namespace {
+
+TEST(Provenance, AnotherSettingIsAnotherHash) {
+  const std::string hash = settingsHash(Configuration());
+  EXPECT_EQ(hash.size(), 16u);
+  EXPECT_EQ(settingsHash(Configuration()), hash);
+  Configuration changed;
+  changed.model.load.voltage = 1e-9;
+  EXPECT_NE(settingsHash(changed), hash);
+  changed = Configuration();
+  changed.preprocessing.level.shape = LevelShape::kPlane;
+  EXPECT_NE(settingsHash(changed), hash);
+  changed = Configuration();
+  changed.preprocessing.region.mask_file = "mask.png";
+  EXPECT_NE(settingsHash(changed), hash);
+}
+
+TEST(Provenance, WhoTheScanIsOfAndWhatIsAskedForDoNotCount) {
+  Configuration changed;
+  changed.part.id = "17";
+  changed.model.output.contact_map = false;
+  changed.half_space.enabled = true;
+  changed.limits.max_time = 1.0;
+  EXPECT_EQ(settingsHash(changed), settingsHash(Configuration()));
+}
+
+TEST(Provenance, WhatTheScanSaysGoesBeforeTheSettings) {
+  Configuration configuration;
+  configuration.part = {"lot 3", "0012"};
+  const Provenance of_settings = provenanceOf({"scan", "", ""}, configuration);
+  EXPECT_EQ(of_settings.scan_name, "scan");
+  EXPECT_EQ(of_settings.part_id, "lot 3");
+  EXPECT_EQ(of_settings.serial_id, "0012");
+  EXPECT_FALSE(of_settings.version.empty());
+  EXPECT_EQ(provenanceOf({"scan", "lot 4", ""}, configuration).part_id, "lot 4");
+}
+
+}  // namespace
+}  // namespace mems_stiction

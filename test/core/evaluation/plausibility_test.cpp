@@ -1,0 +1,181 @@
+/// Slips of a unit are named, with the unit that was meant; real materials and devices are not.
+
+#include "evaluation/plausibility.hpp"
+
+#include <filesystem>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "mems_stiction/configuration/configuration_yaml.hpp"
+
+namespace mems_stiction {
+namespace {
+
+std::string onlyWarning(const Configuration& configuration) {
+  const std::vector<std::string> lines = settingsWarnings(configuration);
+  EXPECT_EQ(lines.size(), 1u);
+  return lines.empty() ? "" : lines.front();
+}
+
+TEST(Plausibility, ASlipOfAUnitIsNamedWithTheUnitThatWasMeant) {
+  Configuration configuration;
+  configuration.model.interface.work_of_adhesion = 50.0;
+  EXPECT_EQ(
+      onlyWarning(configuration),
+      "interface/work_of_adhesion 50 J/m^2 is outside the usual 1e-06 to 10 J/m^2: probably 50 mJ/m^2; write 0.05");
+  configuration = Configuration();
+  configuration.model.lower.youngs_modulus = 169.0;
+  EXPECT_NE(onlyWarning(configuration).find("probably 169 GPa; write 1.69e+11"), std::string::npos);
+  configuration = Configuration();
+  configuration.model.upper.hardness = 12.0;
+  EXPECT_NE(onlyWarning(configuration).find("probably 12 GPa; write 1.2e+10"), std::string::npos);
+  configuration = Configuration();
+  configuration.model.interface.insulator_thickness = 100.0;
+  EXPECT_NE(onlyWarning(configuration).find("probably 100 nm; write 1e-07"), std::string::npos);
+  configuration = Configuration();
+  configuration.model.formulation = "paper";
+  configuration.model.paper.step = 0.1;
+  EXPECT_NE(onlyWarning(configuration).find("paper/step 0.1 m is outside the usual"), std::string::npos);
+  configuration = Configuration();
+  configuration.model.capillary.relative_humidity = 0.4;
+  configuration.model.capillary.temperature = 25.0;
+  EXPECT_NE(onlyWarning(configuration).find("degrees Celsius; write 298.1"), std::string::npos);
+  configuration = Configuration();
+  configuration.counter_surface.type = CounterSurfaceType::kGaussian;
+  configuration.counter_surface.gaussian.gaussian.rms_height = 3.0;
+  EXPECT_NE(onlyWarning(configuration).find("probably 3 nm; write 3e-09"), std::string::npos);
+  configuration = Configuration();
+  configuration.counter_surface.type = CounterSurfaceType::kSelfAffine;
+  configuration.counter_surface.self_affine.rolloff_wavelength = 2.0;
+  EXPECT_NE(onlyWarning(configuration).find("probably 2 nm; write 2e-09"), std::string::npos);
+}
+
+TEST(Plausibility, AreasInSquareMicrometresAreNamed) {
+  for (const double area : {40.0, 40e-6}) {
+    Configuration configuration;
+    configuration.device.contact_area = area;
+    const std::string line = onlyWarning(configuration);
+    EXPECT_NE(line.find("device/contact_area"), std::string::npos) << line;
+    EXPECT_NE(line.find("probably 40 um^2; write 4e-11"), std::string::npos) << line;
+  }
+  Configuration configuration;
+  configuration.device.contact_area = 1e-15;
+  EXPECT_NE(onlyWarning(configuration).find("device/contact_area 1e-15 m^2 is outside the usual"), std::string::npos);
+  configuration.device.contact_area = 40e-12;
+  EXPECT_TRUE(settingsWarnings(configuration).empty());
+  configuration.device.electrode_area = 40e-6;
+  EXPECT_NE(onlyWarning(configuration).find("device/electrode_area"), std::string::npos);
+}
+
+TEST(Plausibility, ASettingThatTheSolverDoesNotUseIsNamed) {
+  Configuration configuration;
+  configuration.model.paper.step = 1e-9;
+  EXPECT_EQ(onlyWarning(configuration), "paper/step 1e-09 has no effect: approach/formulation " +
+                                            std::string(kDefaultFormulation) + " does not use it");
+  configuration.model.formulation = "paper";
+  EXPECT_TRUE(settingsWarnings(configuration).empty());
+  configuration = Configuration();
+  configuration.model.paper.cutoff_distance = 0.2e-9;
+  configuration.model.output.energy_curve = true;
+  configuration.uncertainty.hardness = 0.3;
+  configuration.uncertainty.cutoff_distance = 0.3;
+  configuration.model.capillary.contact_angle = 0.3;
+  EXPECT_EQ(settingsWarnings(configuration).size(), 5u);
+  configuration.model.capillary.relative_humidity = 0.4;
+  EXPECT_EQ(settingsWarnings(configuration).size(), 4u);
+}
+
+TEST(Plausibility, AFrameThatIsNoContactOfTheDeviceIsNamed) {
+  Prediction prediction;
+  prediction.nominal_area = 36e-12;
+  DeviceOptions device;
+  device.contact_area = 36e-12;
+  EXPECT_TRUE(frameWarnings(prediction, Options(), device).empty());
+  device.contact_area = 360e-12;
+  EXPECT_EQ(frameWarnings(prediction, Options(), device).size(), 1u);
+}
+
+TEST(Plausibility, ALoadThatNoAreaCouldCarryIsNamed) {
+  Options options;
+  Prediction prediction;
+  prediction.nominal_area = 36e-12;
+  prediction.mechanical_load = 1e-6;
+  EXPECT_TRUE(frameWarnings(prediction, options, {}).empty());
+  prediction.mechanical_load = 1.0;  // 1 uN given as 1
+  const std::vector<std::string> lines = frameWarnings(prediction, options, {});
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_NE(lines[0].find("the mechanical load of 1 N is 2.778e+10 Pa on this frame"), std::string::npos) << lines[0];
+  EXPECT_EQ(lines[0].find(','), std::string::npos);
+}
+
+TEST(Plausibility, DegreesAndOtherSlipsOfLengthAndStressAreNamed) {
+  Configuration configuration;
+  configuration.counter_surface.pose.tilt_x = -1.0;
+  EXPECT_NE(onlyWarning(configuration).find("probably -1 degrees; write -0.01745"), std::string::npos);
+  configuration = Configuration();
+  configuration.counter_surface.pose.rotation = 45.0;
+  EXPECT_NE(onlyWarning(configuration).find("probably 45 degrees; write 0.7854"), std::string::npos);
+  configuration = Configuration();
+  configuration.preprocessing.region.width = 2.0;
+  EXPECT_NE(onlyWarning(configuration).find("probably 2 um; write 2e-06"), std::string::npos);
+  configuration = Configuration();
+  configuration.device.spring_stiffness = 5e5;
+  EXPECT_NE(onlyWarning(configuration).find("probably 5e+05 mN/m; write 500"), std::string::npos);
+  configuration = Configuration();
+  configuration.model.interface.insulator_thickness = 0.1;  // um
+  EXPECT_NE(onlyWarning(configuration).find("probably 0.1 um; write 1e-07"), std::string::npos);
+}
+
+TEST(Plausibility, WhatSettingsSayOfEachOtherIsNamed) {
+  Configuration configuration;
+  configuration.model.lower.hardness = 12e6;  // kPa for MPa
+  EXPECT_NE(onlyWarning(configuration).find("lower/hardness 1.2e+07 Pa beside lower/youngs_modulus 1.69e+11 Pa"),
+            std::string::npos);
+  configuration = Configuration();
+  DeviceOptions& device = configuration.device;
+  device.beam_type = BeamType::kDoublyClamped;
+  device.beam_length = 200e-6;
+  device.beam_thickness = 2e-6;
+  device.beam_gap = 2e-6;
+  device.beam_modulus = 169e9;
+  device.beam_residual_stress = -30e6;
+  EXPECT_TRUE(settingsWarnings(configuration).empty());
+  device.beam_residual_stress = -30.0;
+  EXPECT_NE(onlyWarning(configuration).find("probably -30 MPa; write -3e+07"), std::string::npos);
+  device.beam_residual_stress = 0.0;
+  std::swap(device.beam_length, device.beam_thickness);
+  EXPECT_NE(onlyWarning(configuration).find("is no beam"), std::string::npos);
+}
+
+TEST(Plausibility, ASettingOfWhatIsOffIsNamed) {
+  Configuration configuration;
+  configuration.preprocessing.spikes.threshold = 4.0;
+  EXPECT_EQ(onlyWarning(configuration),
+            "preprocessing/spikes/threshold 4 has no effect: preprocessing/spikes/enabled is false");
+  configuration.preprocessing.spikes.enabled = true;
+  EXPECT_TRUE(settingsWarnings(configuration).empty());
+  configuration.counter_surface.gaussian.gaussian.rms_height = 9e-9;
+  EXPECT_EQ(onlyWarning(configuration),
+            "counter_surface/gaussian/rms_height 9e-09 has no effect: counter_surface/type is not gaussian");
+  configuration = Configuration();
+  configuration.device.beam_length = 200e-6;
+  EXPECT_EQ(onlyWarning(configuration), "device/beam_length 0.0002 has no effect: device/beam_type is none");
+}
+
+TEST(Plausibility, NoCommaStandsInAWarning) {  // `rostopic echo -p` puts commas between fields
+  Configuration configuration;
+  configuration.model.interface.work_of_adhesion = 1e9;
+  EXPECT_EQ(onlyWarning(configuration).find(','), std::string::npos);
+}
+
+TEST(Plausibility, ShippedMaterialsAndWhatIsNotStatedAreUsual) {
+  EXPECT_TRUE(settingsWarnings(Configuration()).empty());
+  for (const auto& entry : std::filesystem::directory_iterator(MEMS_STICTION_CONFIG_DIR)) {
+    if (entry.path().extension() != ".yaml" || entry.path().filename() == "node.yaml") continue;
+    EXPECT_TRUE(settingsWarnings(loadConfiguration(entry.path().string())).empty()) << entry.path();
+  }
+}
+
+}  // namespace
+}  // namespace mems_stiction
