@@ -7,7 +7,7 @@
     prediction.contact_map           # rows x columns: 0 apart, 1 elastic, 2 elasto-plastic, 3 plastic
 
 The figures come from the C++ core, and are those of the program predict_scan to the last bit; doc/python.md is the guide.
-The modules curve, plots, report, ... hold text and pictures of predictions, of Python's and of ROS's.
+The modules curve, plots, report, ... have text and pictures of predictions, of Python's and of ROS's.
 """
 
 from importlib import import_module

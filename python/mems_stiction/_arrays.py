@@ -1,4 +1,4 @@
-"""Heights from whatever holds them, and the core's memory as NumPy arrays: neither is copied where the type allows."""
+"""Heights from whatever has them, and the core's memory as NumPy arrays: neither is copied where the type allows."""
 
 from __future__ import annotations
 

@@ -278,7 +278,7 @@ def predict_many(frames: Iterable[Any], pitch: Optional[Pitch] = None, config: O
                  workers: Optional[int] = None, errors: str = "raise", **settings: Any) -> Iterator[Any]:
     """Predicts frame after frame on a pool of threads, and yields the predictions in the order of the frames.
 
-    frames: whatever predict() takes, from a list or a generator; only some frames for each thread are held at a time.
+    frames: whatever predict() takes, from a list or a generator; only some frames for each thread are in memory at a time.
     pitch: of all frames that are arrays [m].
     workers: threads; as many as processors if None.
     errors: "raise" ends at the first frame that cannot be predicted; "return" yields its exception in its place.

@@ -148,7 +148,7 @@ class PageState:
             self._changed()
 
     def snapshot(self):
-        """All of it, as JSON can hold it; ages in seconds."""
+        """All of it, as JSON can have it; ages in seconds."""
         with self._lock:
             now = self._clock()
             return {"version": self.version, "link": self._link, "age": None if self._heard is None else now - self._heard,

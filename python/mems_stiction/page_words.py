@@ -1,6 +1,6 @@
 """What the station's page says of one prediction, of a half-space, and of the node's diagnostics. No ROS here.
 
-Each function returns what JSON can hold: numbers are SI, None where there is none; texts have their unit.
+Each function returns what JSON can have: numbers are SI, None where there is none; texts have their unit.
 """
 
 import math

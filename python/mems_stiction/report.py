@@ -60,7 +60,7 @@ SOURCES = (
     "Three dimensional adhesion model for arbitrary rough surfaces (2002); as implemented, and what differs: doc/theory.md.",
     "Contact of one asperity: Johnson, Kendall and Roberts, Proc. R. Soc. A 324 (1971) 301.",
     "Surface forces: Israelachvili, Intermolecular and Surface Forces (3rd ed., 2011), chapter 13.",
-    "Which contact theory holds: Johnson and Greenwood, J. Colloid Interface Sci. 192 (1997) 326; Maugis, J. Colloid "
+    "Which contact theory applies: Johnson and Greenwood, J. Colloid Interface Sci. 192 (1997) 326; Maugis, J. Colloid "
     "Interface Sci. 150 (1992) 243.",
     "Adhesion parameter and its regimes: Gui et al., J. Appl. Phys. 85 (1999) 7448.",
     "Peel numbers of beams: de Boer and Michalske, J. Appl. Phys. 86 (1999) 817; Mastrangelo and Hsu, J. MEMS 2 (1993) 33 and 44.",
@@ -145,7 +145,7 @@ def embedded(png):
 
 
 def scan_section(row, folder, stages=(), why_no_stages=""):
-    """What the page shows of one scan. `folder` holds its dump; stages: the surfaces between its cleaning steps, where they are to be shown, or why they cannot."""
+    """What the page shows of one scan. `folder` has its dump; stages: the surfaces between its cleaning steps, where they are to be shown, or why they cannot."""
     with open(str(folder / "result.json"), encoding="utf-8") as stream:
         result = json.load(stream)
     stream = io.BytesIO()

@@ -60,7 +60,7 @@ class GapOrder {
   /// Number of valid cells with gap < limit, wherever the limit lies: exact where the cells are ordered, from the
   /// counts of the buckets beyond.
   double cellsBelow(double limit) const;
-  /// Lower end of the bucket that holds the gap of this place, ordered or not [m].
+  /// Lower end of the bucket that contains the gap of this place, ordered or not [m].
   double lowerEndAt(int place) const;
   /// Sorts the groups that reach into these places, by gap, then by cell.
   void sortBetween(int begin, int end);
@@ -84,7 +84,7 @@ class GapOrder {
   int groupCount() const { return static_cast<int>(group_end_.size()); }
   /// Index of the first ordered cell of a group; of the group past the last one: the number of ordered cells.
   int groupStart(int group) const { return group == 0 ? 0 : group_end_[static_cast<std::size_t>(group - 1)]; }
-  /// The group that holds this place of the order.
+  /// The group that contains this place of the order.
   int groupOfPlace(int place) const;
   /// Where a group starts, give or take one bucketWidth() [m].
   double groupLowerEnd(int group) const { return group * group_width_; }
@@ -129,7 +129,7 @@ class GapOrder {
   /// The bucket of a gap that is a whole number of steps is a matter of rounding, its group is not.
   int mendedGroup(double gap, int bucket) const;
   void mendGroups();
-  /// The last bucket holds what rounding puts beyond it.
+  /// The last bucket contains what rounding puts beyond it.
   int bucketOf(double gap) const { return static_cast<int>(std::min(gap * inverse_width_, bucket_count_ - 1.0)); }
   void mendBoundary(int group);
   void sortGroup(int group);

@@ -4,7 +4,7 @@
 
 namespace mems_stiction {
 
-void ContactSolution::resetKeepingMemory() {
+void ContactSolution::clear() {
   ContactSolution fresh;
   fresh.asperities.swap(asperities);
   fresh.pull_off_contacts.swap(pull_off_contacts);

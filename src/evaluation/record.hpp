@@ -29,7 +29,7 @@ void visitStepFields(const PreprocessStep& step, Visitor&& visit) {
   visit({"invalid_pixels"}, step.invalid_pixels);
 }
 
-/// What a record may hold beside the prediction; each is left out when empty.
+/// What a record may have beside the prediction; each is left out when empty.
 struct RecordExtras {
   std::string channel;                             ///< which channel of the file
   std::string formulation;                         ///< that the prediction is of

@@ -79,7 +79,7 @@ class ContactMinimiser {
   /// @return the work that the flow took [J]
   double acceptFlow(double height);
 
-  /// Another law holds from now on; displacement and what has flowed stay.
+  /// Another law applies from now on; displacement and what has flowed stay.
   void setLaw(const TractionLaw& law);
 
   /// A state to come back to.

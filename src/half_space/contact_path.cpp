@@ -30,7 +30,7 @@ constexpr double kSummitKinkShare = 0.5;
 constexpr double kJumpSag = 0.06;
 /// Steps are compared with limits but for rounding.
 constexpr double kStepTolerance = 1.001;
-/// Usual step for which they hold, of z0.
+/// Usual step for which they apply, of z0.
 constexpr double kUsualStep = 0.4;
 /// Steps grow and shrink by no more than this at once.
 constexpr double kLargestChange = 2.0;

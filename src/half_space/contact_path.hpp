@@ -71,7 +71,7 @@ class ContactPath {
 
   /// From apart until the bodies press each other with `load` [N], >= 0, without further force.
   PathStatus approach(double load);
-  /// Another law holds from now on: what is out of equilibrium then relaxes at the present height.
+  /// Another law applies from now on: what is out of equilibrium then relaxes at the present height.
   PathStatus change(const TractionLaw& law);
   /// From there until they are apart.
   PathStatus retract() { return retract(retraction_); }

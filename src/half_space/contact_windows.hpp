@@ -55,7 +55,7 @@ class ContactWindows {
   /// - @p stiffness K; used once
   /// @return whether it did: not where windows would fill much of the frame, nor where one has no answer
   bool relax(const Frame& frame, StiffnessOperator<double>& stiffness, float* change);
-  /// Another law holds from now on.
+  /// Another law applies from now on.
   void setLaw(const TractionLaw& law);
 
  private:

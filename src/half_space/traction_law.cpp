@@ -18,8 +18,8 @@ constexpr double kWaterFront = 0.25;
 
 std::vector<std::string> TractionLawOptions::validate() const {
   std::vector<std::string> violations;
-  const auto require = [&](bool holds, const std::string& name, double value, const std::string& allowed) {
-    if (!holds) violations.push_back(name + ": " + numberText(value) + " is not allowed, must be " + allowed);
+  const auto require = [&](bool is_met, const std::string& name, double value, const std::string& allowed) {
+    if (!is_met) violations.push_back(name + ": " + numberText(value) + " is not allowed, must be " + allowed);
   };
   const Range positive = Range::positive();
   require(positive.contains(work_of_adhesion), "interface/work_of_adhesion", work_of_adhesion,

@@ -11,11 +11,11 @@
 namespace mems_stiction {
 namespace {
 
-constexpr double kLargestShare = 0.25;  // of a rough line that may hold the value of the line beside it
+constexpr double kLargestShare = 0.25;  // of a rough line that may have the value of the line beside it
 
 enum class LineKind { kMissing, kOneValue, kRough };
 
-/// What a row or column holds.
+/// What a row or column has.
 struct Line {
   LineKind kind = LineKind::kMissing;
   double value = 0.0;  ///< of the first measured pixel
@@ -148,7 +148,7 @@ void markRuns(const cv::Mat& heights, const std::vector<Line>& lines, bool is_ro
 }
 
 /// rows x cols CV_8UC1: 255 in rows and columns that the instrument did not reach: all their measured pixels, at least
-/// kFewestStoppedPixels, are of one value, which the nearest rough lines hold in less than a quarter of their pixels. The
+/// kFewestStoppedPixels, are of one value, which the nearest rough lines have in less than a quarter of their pixels. The
 /// filled end of a line that the instrument stopped in goes with them. Empty if there are none.
 cv::Mat stoppedLines(const cv::Mat& heights) {
   const Lines lines = linesOf(heights);

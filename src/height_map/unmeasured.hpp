@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// Which pixels of a scan as it came were not measured, though they hold numbers: numbers that stand for none, and lines that
+/// Which pixels of a scan as it came were not measured, though numbers stand there: numbers that stand for none, and lines that
 /// the instrument did not reach.
 ///
 /// A scan that was stopped is filled up with one number. Noise and quantisation make neighbouring pixels differ, so a

@@ -20,7 +20,7 @@ void demandLength(const std::string& maker, std::uint64_t length, std::uint64_t 
 /// @throw FileError without a file name if the file's length is not what its header states, or a last number was cut off
 void checkStatedLength(const std::string& bytes);
 
-/// Programs that take every file for text change bytes all over it. For files that hold binary data, of any format.
+/// Programs that take every file for text change bytes all over it. For files of binary data, of any format.
 /// @throw FileError without a file name if every line end was made CR LF, if bytes were replaced as no UTF-8, or if this is
 /// a web page or a pointer of Git LFS in place of the file.
 void checkTransfer(const std::string& bytes);

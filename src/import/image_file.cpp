@@ -92,7 +92,7 @@ class ExrSource : public Imf::IStream {
   std::uint64_t at_ = 0;
 };
 
-/// The channel as float32, or double where it holds integers of 32 bits.
+/// The channel as float32, or double where it has integers of 32 bits.
 cv::Mat exrPixels(Imf::InputFile& file, const std::string& name, Imf::PixelType type, int cols, int rows) {
   const bool is_integer = type == Imf::UINT;
   cv::Mat raw(rows, cols, is_integer ? CV_32SC1 : CV_32FC1);

@@ -173,14 +173,14 @@ void plainSigns(std::string& text) {
                            Mark{"\xE2\x80\xAF", ".,"}, Mark{"\xE2\x80\x89", ".,"}, Mark{"\xE2\x80\x87", ".,"}}) {
     const std::string sign = mark.sign;
     if (text.find(sign) == std::string::npos) continue;
-    std::string kept;
+    std::string plain;
     std::size_t from = 0;
     for (std::size_t at = text.find(sign); at != std::string::npos; at = text.find(sign, at + sign.size())) {
       if (!groupsAt(text, at, sign, mark.not_before)) continue;
-      kept += text.substr(from, at - from);
+      plain += text.substr(from, at - from);
       from = at + sign.size();
     }
-    text = kept + text.substr(from);
+    text = plain + text.substr(from);
   }
 }
 

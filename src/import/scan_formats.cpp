@@ -93,7 +93,7 @@ Channels readByGwyddion(const std::string& path, const std::string& bytes, const
   return channels;
 }
 
-/// HDF5 holds arrays of any meaning under any names: some instruments' layouts are known to gwyddion, no other is guessed.
+/// HDF5 has arrays of any meaning under any names: some instruments' layouts are known to gwyddion, no other is guessed.
 Channels readHdf5(const std::string& path, const std::string& bytes, const ImportOptions& options) {
   try {
     return channelsByGwyddion(path, bytes, options);

@@ -17,7 +17,7 @@ namespace mems_stiction {
 /// @throw FileError naming the file if it cannot be written whole; a file of that name stays as it was then.
 void writeHeightTiff(const std::string& path, const cv::Mat& heights);
 
-/// Writes a surface as a TIFF that reads back to the last bit (float32 where that holds every height exactly, else
+/// Writes a surface as a TIFF that reads back to the last bit (float32 where that shows every height exactly, else
 /// float64; NaN for missing pixels), and beside it PATH.yaml with its pitch and scale.
 /// - @p note one line on where the surface comes from, kept as a comment; control characters are escaped
 /// @throw FileError naming the file if it cannot be written whole

@@ -10,7 +10,7 @@
 
 namespace mems_stiction {
 
-/// How numbers stand in a text. One style holds for the whole file.
+/// How numbers stand in a text. One style applies to the whole file.
 struct TextStyle {
   char separator = ' ';  ///< ',' or ';'; ' ' is blanks and tabs
   char decimal = '.';    ///< or ','; the other one groups thousands

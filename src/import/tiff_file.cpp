@@ -100,7 +100,7 @@ Layout layoutOf(TIFF* tiff) {
   return layout;
 }
 
-/// The page's type in OpenCV: the smallest that ScanOptions scale and that holds every value, else double.
+/// The page's type in OpenCV: the smallest that ScanOptions scale and that shows every value, else double.
 int typeOf(const Layout& layout) {
   const bool is_signed = layout.format == SAMPLEFORMAT_INT;
   int depth = CV_64F;

@@ -15,7 +15,7 @@ namespace mems_stiction {
 ///         32768 and 32769 (versions of file and program), or LEXT's description; false also for one that is damaged
 bool hasInstrumentTags(const std::string& bytes);
 
-/// Pages by the list of them alone, whatever they hold; `most` if there are as many or more. libtiff takes a list that is
+/// Pages by the list of them alone, whatever is on them; `most` if there are as many or more. libtiff takes a list that is
 /// damaged for one that ends.
 /// @throw FileError without a file name where the list leaves the file
 int pageCount(const std::string& bytes, int most);

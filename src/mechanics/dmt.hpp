@@ -7,7 +7,7 @@
 ///
 /// Assumptions: paraboloid on a half-space, both elastic and smooth, a << R; the attraction of the gap adds 2 pi w R to
 /// the load and leaves Hertz' shape of the contact alone (Maugis' reading of the theory).
-/// Holds for stiff, small, weakly sticking spheres: Tabor's parameter below about 0.1 (transition.hpp), where most
+/// Applies to stiff, small, weakly sticking spheres: Tabor's parameter below about 0.1 (transition.hpp), where most
 /// polysilicon asperities of 10 nm radius lie. Above, the pull-off falls to JKR's 1.5 pi w R (jkr.hpp).
 /// Loads below minus the pull-off force have no equilibrium: the contact radius is then NaN.
 /// Source: Derjaguin, Muller and Toporov, J. Colloid Interface Sci. 53 (1975) 314; Maugis, J. Colloid Interface Sci.

@@ -6,7 +6,7 @@
 ///     P = K a^3/R,  K = 4E/3;   d = a^2/R;   P = K sqrt(R) d^(3/2);   p0 = 3P/(2 pi a^2)
 ///
 /// Assumptions: paraboloid on a half-space, both elastic and smooth, a << R, no friction, no adhesion.
-/// Holds for a/R below about 0.1 and a mean pressure below about a third of the hardness; beyond it the sphere flows
+/// Applies for a/R below about 0.1 and a mean pressure below about a third of the hardness; beyond it the sphere flows
 /// and the contact is larger than said here. Two spheres: R is the composite radius, 1/R = 1/R1 + 1/R2. Negative loads
 /// and approaches have no contact: the functions return 0 contact radius, approach and load. Source: Hertz, J. reine
 /// angew. Math. 92 (1882) 156; Johnson, Contact Mechanics (1985), (4.22) to (4.24).

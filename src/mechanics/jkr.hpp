@@ -11,7 +11,7 @@
 ///     pull-off at fixed grips: (5/6) pi w R at a^3 = pi w R^2/(6K)
 ///
 /// Assumptions: paraboloid on a half-space, both elastic and smooth, a << R, no force outside the contact, no friction.
-/// Holds for compliant, large, sticky spheres: Tabor's parameter above about 5 (transition.hpp). Outside, towards
+/// Applies to compliant, large, sticky spheres: Tabor's parameter above about 5 (transition.hpp). Outside, towards
 /// Tabor's parameter 0.1 and below, the pull-off grows to DMT's 2 pi w R (dmt.hpp).
 /// Two spheres: R is the composite radius, 1/R = 1/R1 + 1/R2. w = 0 is Hertz (hertz.hpp).
 /// Loads below minus the pull-off force have no equilibrium: the functions then return NaN.

@@ -10,7 +10,7 @@
 ///
 /// Assumptions: paraboloid on a half-space, elastic; Maugis lets a constant stress s0 act in a ring around the contact
 /// until the gap reaches w/s0 (Dugdale's crack tip). The prefactor p falls from 2 (DMT, mu < 0.1) to 1.5 (JKR, mu > 5).
-/// The fit holds for all lambda, within 1.7 % of the exact value (the worst is near lambda = 0.25).
+/// The fit applies to all lambda, within 1.7 % of the exact value (the worst is near lambda = 0.25).
 /// maugis::pullOffPrefactor() is that exact value by a numerical search: a few microseconds a call, for judging the fit
 /// and for few asperities. Plastic flow, roughness on the asperity and neighbours are in neither.
 /// Sources: Tabor, J. Colloid Interface Sci. 58 (1977) 2; Maugis, J. Colloid Interface Sci. 150 (1992) 243; Carpick,
@@ -47,7 +47,7 @@ double fittedPullOffPrefactor(double transition_parameter);
 /// The same of lambda^1.4, one or several.
 template <typename Real>
 Real fittedPullOffPrefactorOfPower(const Real& transition_parameter_to_1_4) {
-  // (x - 1)/(x + 1) as 1 - 2/(x + 1), which also holds at x = infinity
+  // (x - 1)/(x + 1) as 1 - 2/(x + 1), which is also true at x = infinity
   return 1.5 + 0.5 / (4.04 * transition_parameter_to_1_4 + 1.0);
 }
 

@@ -16,10 +16,10 @@
 
 namespace mems_stiction {
 
-/// In which of the lanes a comparison holds.
+/// In which of the lanes a comparison is true.
 class LaneMask {
  public:
-  using Vector = std::int64_t __attribute__((vector_size(32)));  ///< all bits set where it holds, none elsewhere
+  using Vector = std::int64_t __attribute__((vector_size(32)));  ///< all bits set where it is true, none elsewhere
 
   MEMS_STICTION_INLINE explicit LaneMask(const Vector& bits) : bits_(bits) {}
   // Written out, here and below: how else the class is handed over depends on the instructions a file is compiled for.
@@ -27,16 +27,16 @@ class LaneMask {
   LaneMask& operator=(const LaneMask& other) = default;
 
   MEMS_STICTION_INLINE const Vector& bits() const { return bits_; }
-  /// Where one of them holds, not both.
+  /// Where one of them is true, not both.
   friend MEMS_STICTION_INLINE LaneMask operator^(const LaneMask& a, const LaneMask& b) {
     return LaneMask(a.bits_ ^ b.bits_);
   }
-  /// Where either holds.
+  /// Where either is true.
   friend MEMS_STICTION_INLINE LaneMask operator|(const LaneMask& a, const LaneMask& b) {
     return LaneMask(a.bits_ | b.bits_);
   }
 
-  /// In how many lanes it holds.
+  /// In how many lanes it is true.
   MEMS_STICTION_INLINE int count() const { return -static_cast<int>(bits_[0] + bits_[1] + bits_[2] + bits_[3]); }
 
  private:
@@ -103,7 +103,7 @@ class Lanes {
     return LaneMask(a.values_ == b.values_);
   }
 
-  /// In each lane what `a` has where the mask holds, else what `b` has.
+  /// In each lane what `a` has where the mask is set, else what `b` has.
   friend MEMS_STICTION_INLINE Lanes select(const LaneMask& mask, const Lanes& a, const Lanes& b) {
     return Lanes(mask.bits() ? a.values_ : b.values_);
   }
@@ -117,7 +117,7 @@ class Lanes {
 
 /// Where a number is one, not NaN.
 MEMS_STICTION_INLINE LaneMask isNumber(const Lanes& lanes) { return lanes == lanes; }
-/// 1 where the mask holds, else 0: for counting.
+/// 1 where the mask is set, else 0: for counting.
 MEMS_STICTION_INLINE Lanes oneWhere(const LaneMask& mask) { return select(mask, Lanes(1.0), Lanes(0.0)); }
 
 /// The same for one number.

@@ -46,7 +46,7 @@ class MedianFinder {
     std::size_t upper = 0;
   };
 
-  /// The buckets that hold the values of these ranks; the ranks become those within the buckets.
+  /// The buckets that contain the values of these ranks; the ranks become those within the buckets.
   BucketSpan bucketsOf(Ranks& ranks, const double* values, std::size_t size, const Buckets& buckets);
   /// Makes the values of these buckets the candidates, and says how many they are. NaN never is one.
   std::size_t collect(const double* values, std::size_t size, const Buckets& buckets, const BucketSpan& span);

@@ -56,7 +56,7 @@ void ApproachSearch::search(EquilibriumState& state) {
     const bool is_equilibrium = state.balance.is_equilibrium;
     if (is_equilibrium) refine(previous_count, state);
     state.plastic_work += state.balance.plastic_force * (state.approach - previous_approach);
-    if (setting.keep_curve) record(state);
+    if (setting.record_curve) record(state);
     if (is_equilibrium) {
       state.status = Status::kEquilibrium;
       return;

@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// The iteration of the paper: bring the upper surface down step by step until the stopping condition holds
+/// The iteration of the paper: bring the upper surface down step by step until the stopping condition is met
 /// (force_balance.hpp), and find the place inside that step.
 ///
 /// Step k has D = k delta (1), cells with g < D in contact. Inside the step that meets the condition the cells are
@@ -35,7 +35,7 @@ struct SearchSetting {
   double step = 0.0;             ///< delta [m], > 0
   int max_steps = 0;
   double cutoff_distance = 0.0;  ///< D0 [m], > 0
-  bool keep_curve = false;
+  bool record_curve = false;
   WaterLaw capillary;  ///< of condensed water
 };
 

@@ -35,7 +35,7 @@ void AsperitySolver::solve(const ContactProblem& problem, ContactSolution& solut
                               settings.capillary.law()};
   search_.run(problem.gap, order_, settings.approach.connectivity, setting, state_);
 
-  solution.resetKeepingMemory();
+  solution.clear();
   solution.model.respond = contactGrowth;
   solution.status = state_.status;
   solution.steps = state_.steps;

@@ -1,10 +1,10 @@
 #pragma once
 
 /// @file
-/// The paper's solver: every contact patch becomes a couple of spherical caps, JKR holds for each, and the approach
+/// The paper's solver: every contact patch becomes a couple of spherical caps, JKR applies to each, and the approach
 /// ends where the free energy has its extremum (approach_search.hpp).
 ///
-/// Assumptions: asperities act independently; each is a couple of spherical caps; JKR holds for each (the Tabor
+/// Assumptions: asperities act independently; each is a couple of spherical caps; JKR applies to each (the Tabor
 /// parameter tells how far it does). Outside: the status says so, forces are then lower bounds.
 /// Source: Deladi, Krijnen, Tas, Elwenspoek 2002; doc/theory.md has every equation as implemented.
 ///

@@ -42,7 +42,7 @@ class PatchSweep {
   /// Place of a live patch in livePatches().
   std::int32_t livePlace(std::int32_t id) const { return live_place_[static_cast<std::size_t>(id)]; }
 
-  /// Patch that holds the cell, or -1 if the cell is not in contact. Cells of equal gap come into contact together.
+  /// Patch that contains the cell, or -1 if the cell is not in contact. Cells of equal gap come into contact together.
   std::int32_t patchOf(int cell) { return patchOf(field_->cellAt(cell)); }
   std::int32_t patchOf(const GridCell& cell);
 

@@ -24,7 +24,7 @@ void giveLarger(List& other, List& user) {
   if (other.capacity() > user.capacity()) other.swap(user);
 }
 
-/// What an earlier prediction holds becomes the solution's memory, and every figure as in a new one.
+/// What an earlier prediction has becomes the solution's memory, and every figure as in a new one.
 void handOver(Prediction& prediction, ContactSolution& solution) {
   giveLarger(prediction.asperities, solution.asperities);
   giveLarger(prediction.pull_off_contacts, solution.pull_off_contacts);

@@ -39,7 +39,7 @@ struct Retired {
   const char* successors;
 };
 
-/// A line per name that settings of earlier versions may hold.
+/// A line per name that settings of earlier versions may have.
 constexpr Retired kRetired[] = {
     {"consistent", "its name is `separation_curve` now"},
     {"corrected", "`separation_curve` is the default, `paper` is nearest to what it was"},

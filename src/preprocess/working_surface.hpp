@@ -33,8 +33,8 @@ struct WorkingSurface {
   WorkingSurface() = default;
   explicit WorkingSurface(const HeightMap& surface) { take(surface); }
 
-  /// Copies the heights of a scan. Memory that somebody else holds, such as a surface that was handed out, is left alone;
-  /// otherwise it is used again. There is room for two, so that a surface may be held until the next one is there.
+  /// Copies the heights of a scan. Memory that somebody else shares, such as a surface that was handed out, is left alone;
+  /// otherwise it is used again. There is room for two, so that a surface may be shared until the next one is there.
   void take(const HeightMap& surface);
   /// Shares the heights.
   HeightMap surface() const { return {heights, pitch_x, pitch_y}; }

@@ -46,7 +46,7 @@ Memory memoryOfMap(const cv::Mat& map, PixelOwner owner) {
   return memory;
 }
 
-/// Holds a Python object; whichever thread lets go of it last takes the interpreter's lock for that.
+/// Shares a Python object; whichever thread lets go of it last takes the interpreter's lock for that.
 PixelOwner ownedBuffer(py::buffer_info&& info) {
   return {new py::buffer_info(std::move(info)), [](const void* owned) {
             takingLock([owned] {

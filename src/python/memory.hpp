@@ -3,8 +3,8 @@
 /// @file
 /// Memory between Python and the core, by the buffer protocol alone, so that the module fits every version of NumPy.
 ///
-/// Heights that Python holds are shown to the core where they lie; arrays that the core has made are shown to Python
-/// where they lie. Neither way copies; whoever shows holds.
+/// Heights that Python owns are shown to the core where they lie; arrays that the core has made are shown to Python
+/// where they lie. Neither way copies; whoever shows shares.
 
 #include <pybind11/pybind11.h>
 
@@ -75,7 +75,7 @@ Records recordsOf(const std::vector<Record>& list, const PixelOwner& owner, cons
 /// The pixels of a map of the core; nothing for an empty one. The map is held.
 std::optional<Memory> memoryOf(const cv::Mat& map);
 
-/// Pixels of a Python object as heights in metres, without a copy; the object is held as long as anybody shows them.
+/// Pixels of a Python object as heights in metres, without a copy; the object is shared as long as anybody shows them.
 /// - @p pixels two-dimensional buffer, columns next to each other
 /// - @p options scale, and pitch where `pitch_x` is 0
 /// - @p pitch_x, pitch_y [m]

@@ -1,4 +1,4 @@
-/// Predictions: one predictor for scan after scan, and what each prediction holds.
+/// Predictions: one predictor for scan after scan, and what each prediction has.
 
 #include <pybind11/stl.h>
 
@@ -33,7 +33,7 @@ using py::literals::operator""_a;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr ArealParameters kNoRoughness = {kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone};
 
-/// A prediction with all that its record holds.
+/// A prediction with all that its record has.
 struct PredictedScan {
   HeightMap scan;        ///< as it came
   SurfacePair surfaces;  ///< cleaned and in place, on the scan's grid

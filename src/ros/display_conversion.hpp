@@ -18,13 +18,13 @@ namespace mems_stiction {
 
 /// The scanned surface after contact about its mean height. Fields: x, y, z [m on the screen], height [m, about the
 /// mean, not enlarged] and rgb by deformation regime. Invalid pixels are left out.
-/// - @p prediction must hold deformed_lower and contact_map.
+/// - @p prediction must have deformed_lower and contact_map.
 sensor_msgs::PointCloud2 surfacePoints(const Prediction& prediction, const HeightMap& scan,
                                        const std_msgs::Header& header, const DisplayOptions& options);
 
 /// One disc per contact with the radius of its cap, coloured by deformation regime, above the same surface. The first
 /// marker removes those of the scan before; the second is a line of text with size and exaggeration.
-/// - @p prediction must hold deformed_lower and asperities.
+/// - @p prediction must have deformed_lower and asperities.
 visualization_msgs::MarkerArray asperityMarkers(const Prediction& prediction, const HeightMap& scan,
                                                 const std_msgs::Header& header, const DisplayOptions& options);
 

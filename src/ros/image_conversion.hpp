@@ -20,7 +20,7 @@ namespace mems_stiction {
 /// A scan as it arrived.
 struct ReceivedScan {
   std_msgs::Header header;
-  HeightMap surface;                                ///< holds the message, where it shows its pixels
+  HeightMap surface;                                ///< shares the message, where it shows its pixels
   std::optional<SurfacePose> counter_surface_pose;  ///< at the scan's stamp; none = as configured
   ScanIdentity identity;                            ///< as the scan states it
 };

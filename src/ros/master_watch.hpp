@@ -28,14 +28,14 @@ namespace mems_stiction {
 /// One per process, since a process is registered as a whole: the nodelets of a manager share it. Every thread may call.
 class MasterWatch {
  public:
-  /// What the master holds for a member. Each is called again if it returns false, since the master was gone before the end.
+  /// What the master has of a member. Each is called again if it returns false, since the master was gone before the end.
   struct Member {
     std::function<bool(const MasterCalls&)> put_back;  ///< all of it, before the process is registered again
     std::function<bool(const MasterCalls&)> write;     ///< what changes while the node runs
     bool is_doubtful = false;  ///< the last write had no answer: a master that goes on may still do it, after the next
   };
 
-  /// Watches for as long as somebody holds it.
+  /// Watches for as long as somebody owns it.
   static std::shared_ptr<MasterWatch> ofThisProcess();
   ~MasterWatch();
   MasterWatch(const MasterWatch&) = delete;

@@ -39,7 +39,7 @@ class Writer : public OptionVisitor {
   dynamic_reconfigure::Config& message_;
 };
 
-/// Reads every field that the message holds.
+/// Reads every field that the message has.
 class Reader : public OptionVisitor {
  public:
   explicit Reader(const dynamic_reconfigure::Config& message) : message_(message) {}

@@ -12,7 +12,7 @@ namespace mems_stiction {
 
 dynamic_reconfigure::Config reconfigureMessage(const RunningSettings& settings);
 
-/// The described settings that the message holds are taken over; nothing is checked but the names of choices.
+/// The described settings that the message has are taken over; nothing is checked but the names of choices.
 /// @throw OptionsError for a choice that is none.
 void applyReconfigure(const dynamic_reconfigure::Config& message, RunningSettings& settings);
 

@@ -28,7 +28,7 @@ XmlRpcValue listOf(std::initializer_list<std::string> texts) {
 
 std::string ownAddress() { return ros::XMLRPCManager::instance()->getServerURI(); }
 
-/// What an array holds.
+/// What an array has.
 std::vector<XmlRpcValue> elementsOf(XmlRpcValue& array) {
   std::vector<XmlRpcValue> elements;
   elements.reserve(static_cast<std::size_t>(array.size()));

@@ -23,7 +23,7 @@ class ResultPublisher {
   /// What the subscribers of this moment need.
   OutputOptions demanded() const;
 
-  /// Publishes the prediction, what its part's scans say, and of the rest what it holds and somebody listens to.
+  /// Publishes the prediction, what its part's scans say, and of the rest what it has and somebody listens to.
   void publish(const PredictedScan& predicted, const ReceivedScan& scan) const;
 
   void publishPart(const PooledVerdict& part, const ScanOfPart& last) const;

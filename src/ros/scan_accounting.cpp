@@ -41,7 +41,7 @@ std::string kindOf(const std::string& warning) {
   return kind;
 }
 
-/// Reasons may hold names; so many of them are remembered.
+/// Reasons may name; so many of them are remembered.
 constexpr std::size_t kMostKinds = 100;
 
 /// Beyond a period, so that a busy machine is not warned of [s].

@@ -46,7 +46,7 @@ class ScanPairer {
   using Reject = std::function<void(const std_msgs::Header&, const std::string& reason)>;
 
   /// - @p timeout how long a message waits for its partner.
-  /// - @p max_bytes that those of one topic which wait may hold, but for the newest: older ones are rejected; 0 = any number.
+  /// - @p max_bytes that those of one topic which wait may take, but for the newest: older ones are rejected; 0 = any number.
   ScanPairer(ros::WallDuration timeout, Accept accept, Reject reject, std::size_t max_bytes = 0);
 
   /// Whether several publishers send on one of the topics: their stamps may cross.

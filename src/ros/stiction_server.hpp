@@ -31,10 +31,10 @@
 #include "ros/guarded_queue.hpp"
 #include "ros/half_space_calls.hpp"
 #include "ros/half_space_stream.hpp"
-#include "ros/held_parameters.hpp"
 #include "ros/live_predictor.hpp"
 #include "ros/master_watch.hpp"
 #include "ros/reconfigure_server.hpp"
+#include "ros/remembered_parameters.hpp"
 #include "ros/result_publisher.hpp"
 #include "ros/scan_accounting.hpp"
 #include "ros/scan_pairer.hpp"
@@ -127,7 +127,7 @@ class StictionServer {
   StationActions actions_;
   HalfSpaceCalls half_space_calls_;
   Diagnostics diagnostics_;
-  HeldParameters parameters_;
+  RememberedParameters parameters_;
   std::shared_ptr<MasterWatch> master_;
   ros::WallTimer diagnostic_timer_;
   ros::WallTimer pairing_timer_;

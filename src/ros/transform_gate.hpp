@@ -25,12 +25,12 @@ class TransformGate {
   using Drop = std::function<void()>;
 
   /// - @p timeout how long a scan waits, from its arrival.
-  /// - @p max_bytes that those who wait may hold together; 0 = any number. Older ones are dropped (WaitingLine), but not the
+  /// - @p max_bytes that those who wait may take together; 0 = any number. Older ones are dropped (WaitingLine), but not the
   ///        first in line: transforms that come late would let nobody through.
   TransformGate(ros::WallDuration timeout, Lookup lookup, std::size_t max_bytes = 0);
 
   /// Exactly one of the three is called, here or by a later call.
-  /// - @p bytes that the scan holds
+  /// - @p bytes that the scan takes
   void add(const std_msgs::Header& header, Accept accept, Reject reject, Drop drop, std::size_t bytes,
            ros::WallTime now);
 

@@ -14,12 +14,12 @@
 
 namespace mems_stiction {
 
-enum class LineMember { kScan, kCounterSurface, kOther };  ///< others hold nothing and never go
+enum class LineMember { kScan, kCounterSurface, kOther };  ///< others take nothing and never go
 
 /// What may wait in one line.
 struct LineLimits {
   std::size_t scans = 0;         ///< 0 = any number
-  std::size_t bytes = 0;         ///< that scans and counter-surfaces may hold together; 0 = any number
+  std::size_t bytes = 0;         ///< that scans and counter-surfaces may take together; 0 = any number
   bool does_first_stay = false;  ///< whoever is first in line never goes
 };
 
@@ -29,7 +29,7 @@ class WaitingLine {
  public:
   explicit WaitingLine(const LineLimits& limits) : limits_(limits) {}
 
-  /// - @p bytes that the job holds
+  /// - @p bytes that the job takes
   /// @return who had to go for it, the oldest first.
   std::vector<Job> push(Job job, LineMember member, std::size_t bytes = 0) {
     line_.push_back({std::move(job), member, bytes});

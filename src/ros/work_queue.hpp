@@ -21,7 +21,7 @@ namespace mems_stiction {
 class WorkQueue {
  public:
   /// @param capacity scans that may wait; 0 = any number.
-  /// @param max_bytes that those scans and counter-surfaces may hold together, but for the newest; 0 = any number.
+  /// @param max_bytes that those scans and counter-surfaces may take together, but for the newest; 0 = any number.
   explicit WorkQueue(std::size_t capacity, std::size_t max_bytes = 0) : jobs_({capacity, max_bytes}) {}
   ~WorkQueue() { stop(); }
   WorkQueue(const WorkQueue&) = delete;
@@ -31,7 +31,7 @@ class WorkQueue {
   /// Finishes the job at hand, forgets the others and joins the thread. Calls that wait get std::future_error.
   void stop();
 
-  /// Appends a scan that holds so many bytes. When more than `capacity` or `max_bytes` wait, the oldest ones go
+  /// Appends a scan that takes so many bytes. When more than `capacity` or `max_bytes` wait, the oldest ones go
   /// (WaitingLine) and their `drop` is called on this thread. Once a large backlog is worked off, its memory goes back
   /// to the system.
   void pushScan(std::function<void()> run, std::function<void()> drop, std::size_t bytes = 0);
@@ -48,7 +48,7 @@ class WorkQueue {
     auto task = std::make_shared<std::packaged_task<decltype(function())()>>(std::move(function));
     auto result = task->get_future();
     pushUrgent([task] { (*task)(); });
-    task.reset();  // the queue holds the only owner: a forgotten task breaks its promise
+    task.reset();  // the queue has the only owner: a forgotten task breaks its promise
     return result.get();
   }
 

@@ -20,7 +20,7 @@
 namespace mems_stiction {
 
 /// V/(dA sqrt(cells)) [m] by number of cells and the sum of their gaps [m], of one patch or of several: what a patch carries,
-/// without what it has kept, over 0.6 E sqrt(pi dA).
+/// without what it has merged_term, over 0.6 E sqrt(pi dA).
 template <typename Real>
 MEMS_STICTION_INLINE Real volumeTerm(const Real& cells, const Real& gap_sum, double approach) {
   return (cells * approach - gap_sum) / squareRoot(cells);
@@ -33,12 +33,12 @@ struct OverlapPatch {
   std::int32_t first_cell = 0;  ///< of its smallest gap
   double first_gap = 0.0;       ///< [m]
   double gap_sum = 0.0;         ///< of its cells [m]
-  double kept = 0.0;            ///< P0/(0.6 E sqrt(pi dA)) [m]
+  double merged_term = 0.0;     ///< P0/(0.6 E sqrt(pi dA)) [m]
 
   /// Mean overlap at an approach, V/A [m].
   double depth(double approach) const { return approach - gap_sum / cells; }
   /// P/(0.6 E sqrt(pi dA)) at an approach [m].
-  double loadTerm(double approach) const { return kept + volumeTerm<double>(cells, gap_sum, approach); }
+  double loadTerm(double approach) const { return merged_term + volumeTerm<double>(cells, gap_sum, approach); }
   /// R = A^2/(4 pi V) [m]: of the paraboloid with this area and volume.
   double radius(double approach, double cell_area) const;
 
@@ -60,7 +60,7 @@ inline void OverlapPatch::merge(const OverlapPatch& other, double approach) {
   cells += other.cells;
   summits += other.summits;
   gap_sum += other.gap_sum;
-  kept = carried - volumeTerm<double>(cells, gap_sum, approach);
+  merged_term = carried - volumeTerm<double>(cells, gap_sum, approach);
 }
 
 }  // namespace mems_stiction

@@ -128,13 +128,13 @@ std::int32_t OverlapSweep::unite(std::int32_t a, std::int32_t b, double gap) {
   if (joined_.unite(a, b) != a) std::swap(a, b);
   const std::int32_t place = livePlace(b);
   if (place == kNone) return a;  // a dale whose first cell touches another's at a corner
-  const std::int32_t kept_place = livePlace(a);
-  if (kept_place == kNone) {
+  const std::int32_t surviving_place = livePlace(a);
+  if (surviving_place == kNone) {
     live_[static_cast<std::size_t>(place)] = a;
     live_place_[static_cast<std::size_t>(a)] = place;
     return a;
   }
-  patches_[static_cast<std::size_t>(kept_place)].merge(patches_[static_cast<std::size_t>(place)], gap);
+  patches_[static_cast<std::size_t>(surviving_place)].merge(patches_[static_cast<std::size_t>(place)], gap);
   live_[static_cast<std::size_t>(place)] = live_.back();
   patches_[static_cast<std::size_t>(place)] = patches_.back();
   live_place_[static_cast<std::size_t>(live_.back())] = place;

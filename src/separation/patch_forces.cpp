@@ -32,21 +32,21 @@ struct PatchBlock {
       const OverlapPatch& patch = patches[place + i];
       cells[i] = patch.cells;
       gap_sum[i] = patch.gap_sum;
-      kept[i] = patch.kept;
+      merged_term[i] = patch.merged_term;
       first_gap[i] = patch.first_gap;
       summits[i] = patch.summits;
       weight[i] = 1.0;
     }
     for (; count % Lanes::kCount != 0; ++count) {
       cells[count] = summits[count] = 1.0;
-      gap_sum[count] = kept[count] = first_gap[count] = weight[count] = 0.0;
+      gap_sum[count] = merged_term[count] = first_gap[count] = weight[count] = 0.0;
     }
   }
 
   std::size_t count = 0;  ///< a multiple of the lanes
   double cells[kMost];
   double gap_sum[kMost];
-  double kept[kMost];
+  double merged_term[kMost];
   double first_gap[kMost];
   double summits[kMost];
   double weight[kMost];
@@ -77,9 +77,9 @@ PatchForces::PatchForces(const ContactSettings& settings, double cell_area, bool
 }
 
 MEMS_STICTION_INLINE PatchForces::Loads PatchForces::loadsOf(const Lanes& cells, const Lanes& gap_sum,
-                                                             const Lanes& kept, double approach) const {
+                                                             const Lanes& merged_term, double approach) const {
   const Lanes area = cells * cell_area_;
-  const Lanes load_term = kept + volumeTerm(cells, gap_sum, approach);
+  const Lanes load_term = merged_term + volumeTerm(cells, gap_sum, approach);
   // round-off may leave no depth
   const Lanes depth = greater(approach - gap_sum / cells, Lanes(std::numeric_limits<double>::min()));
   Loads loads;
@@ -102,8 +102,8 @@ MEMS_STICTION_VECTORIZED void PatchForces::loadsOf(const OverlapSweep& contacts,
   for (std::size_t place = 0; place < count; place += PatchBlock::kMost) {
     block.gather(contacts, place);
     for (std::size_t i = 0; i < block.count; i += Lanes::kCount) {
-      const Loads found =
-          loadsOf(Lanes::load(block.cells + i), Lanes::load(block.gap_sum + i), Lanes::load(block.kept + i), approach);
+      const Loads found = loadsOf(Lanes::load(block.cells + i), Lanes::load(block.gap_sum + i),
+                                  Lanes::load(block.merged_term + i), approach);
       for (std::size_t lane = 0; lane < Lanes::kCount && place + i + lane < count; ++lane) {
         loads[place + i + lane] = {found.elastic[lane], found.carried[lane]};
       }
@@ -122,7 +122,7 @@ MEMS_STICTION_VECTORIZED void PatchForces::addContacts(const OverlapSweep& conta
       const Lanes cells = Lanes::load(block.cells + i);
       const Lanes gap_sum = Lanes::load(block.gap_sum + i);
       const Lanes weight = Lanes::load(block.weight + i);
-      const Loads loads = loadsOf(cells, gap_sum, Lanes::load(block.kept + i), approach);
+      const Loads loads = loadsOf(cells, gap_sum, Lanes::load(block.merged_term + i), approach);
       carried += weight * loads.carried;
       if (!law_.attracts()) continue;
       // A grows as delta^m, and V/A is delta/(m + 1)

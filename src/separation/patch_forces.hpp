@@ -50,7 +50,7 @@ class PatchForces {
     Lanes carried;
   };
   /// By number of cells, sum of their gaps [m] and P0 [m].
-  Loads loadsOf(const Lanes& cells, const Lanes& gap_sum, const Lanes& kept, double approach) const;
+  Loads loadsOf(const Lanes& cells, const Lanes& gap_sum, const Lanes& merged_term, double approach) const;
 
   ContactTraction law_;
   double cell_area_;

@@ -63,7 +63,7 @@ double stiffnessAtRest(const std::vector<SeparationState>& states, double range)
 }  // namespace
 
 void SeparationSolver::solve(const ContactProblem& problem, ContactSolution& solution) {
-  solution.resetKeepingMemory();
+  solution.clear();
   frame_.start(problem.gap, problem.settings);
   followCurve(frame_, problem.settings, curve_);
   appendCurve(curve_, false, solution.curve);
@@ -129,9 +129,9 @@ void SeparationSolver::takeRest(const ContactProblem& problem, ContactSolution& 
     contact.regime = regimeOf(contact.load, area, forces.hardness());
     by_contacts_.contact_area += contact.area;
     const double area_share = std::max(0.5, contact.load.carried / (forces.hardness() * area));
-    contact.kept = KeptOverlap(contact.load.elastic / (forces.hardness() * area), area_share,
-                               patch.depth(rest.approach), rest.approach - patch.first_gap);
-    has_flowed_ = has_flowed_ || contact.kept.isChanged();
+    contact.remaining = RemainingOverlap(contact.load.elastic / (forces.hardness() * area), area_share,
+                                         patch.depth(rest.approach), rest.approach - patch.first_gap);
+    has_flowed_ = has_flowed_ || contact.remaining.isChanged();
     touching += patch.gap_sum;
   }
   findBorder(field);
@@ -229,7 +229,7 @@ void SeparationSolver::fillMaps(const ContactProblem& problem, ContactSolution& 
       }
     }
     if (wants_surfaces) {
-      const double flowed = overlap - contact.kept.of(overlap);
+      const double flowed = overlap - contact.remaining.of(overlap);
       solution.displaced_lower.at<double>(row, col) -= share.lower(kPlasticLimit) * flowed;
       solution.displaced_upper.at<double>(row, col) += share.upper(kPlasticLimit) * flowed;
     }
@@ -261,7 +261,7 @@ void SeparationSolver::followChanged(const Way& way) {
       const auto dale = static_cast<std::size_t>(ordered.tag.dale());
       if (dale >= regime_of_dale_.size()) regime_of_dale_.resize(dale + 1, Regime::kElastic);
       regime_of_dale_[dale] = contact.regime;
-      const double gap = way.rest - contact.kept.of(way.rest - ordered.gap);
+      const double gap = way.rest - contact.remaining.of(way.rest - ordered.gap);
       first_touch = std::min(first_touch, gap);
       return gap;
     });

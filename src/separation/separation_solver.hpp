@@ -21,7 +21,7 @@
 #include "separation/conforming_contact.hpp"
 #include "separation/curve_statement.hpp"
 #include "separation/flattening.hpp"
-#include "separation/kept_overlap.hpp"
+#include "separation/remaining_overlap.hpp"
 #include "separation/separation_curve.hpp"
 #include "separation/way_out.hpp"
 
@@ -36,7 +36,7 @@ class SeparationSolver : public ContactSolver {
   /// One contact at rest.
   struct Contact {
     PatchLoad load;
-    KeptOverlap kept;
+    RemainingOverlap remaining;
     double area = 0.0;  ///< real [m^2]
     Regime regime = Regime::kElastic;
     bool is_at_border = false;

@@ -82,7 +82,7 @@ std::string numberText(double value) {
     std::snprintf(buffer, sizeof buffer, "%.*g", digits, value);
     if (std::strtod(buffer, nullptr) == value) break;
   }
-  // "2000" rather than "2e+03": seven digits hold every value that came out with an exponent below 1e7.
+  // "2000" rather than "2e+03": seven digits show every value that came out with an exponent below 1e7.
   if (std::abs(value) >= 1.0 && std::abs(value) < 1e7 && std::string(buffer).find('e') != std::string::npos) {
     std::snprintf(buffer, sizeof buffer, "%.7g", value);
   }

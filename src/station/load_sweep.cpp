@@ -6,7 +6,7 @@
 
 #include "mechanics/surface_forces.hpp"
 #include "mems_stiction/errors/errors.hpp"
-#include "station/held_contact.hpp"
+#include "station/remaining_contact.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -28,7 +28,7 @@ void addListViolations(const std::string& name, const std::vector<double>& value
 }
 
 /// The force of the field that holds the closed device [N].
-double holdingField(const DeviceOptions& device, const InterfaceOptions& interface, const HeldState& state,
+double holdingField(const DeviceOptions& device, const InterfaceOptions& interface, const RemainingState& state,
                     const Prediction& contact) {
   if (device.electrode_area <= 0.0) return state.electrostatic_force * device.contact_area / contact.nominal_area;
   const double rest_gap = device.electrode_gap > 0.0 ? device.electrode_gap : device.travel;
@@ -68,7 +68,7 @@ class Loop {
   }
 
  private:
-  void fill(const HeldState& state, LoadSweepRow& row) {
+  void fill(const RemainingState& state, LoadSweepRow& row) {
     const Prediction& contact = contact_.contact();
     if (state.is_searched) {
       verdict_ = verdictOf(contact, device_, uncertainty_, options_, cell_area_);
@@ -100,7 +100,7 @@ class Loop {
   const Options& options_;
   const DeviceOptions& device_;
   const UncertaintyOptions& uncertainty_;
-  HeldContact contact_;
+  RemainingContact contact_;
   double cell_area_;
   Verdict verdict_;
   ForceInterval pull_off_interval_;

@@ -5,7 +5,7 @@
 ///
 /// For each mechanical load, the voltage goes up through the grid and down again, on surfaces that start as given:
 ///
-///     up     the contact is made under this load (held_contact.hpp: the equilibrium of the larger load contains those
+///     up     the contact is made under this load (remaining_contact.hpp: the equilibrium of the larger load contains those
 ///            of the smaller ones). Each row's margin is the device's when the load is then taken away (verdict.hpp).
 ///     down   the contact made under the highest voltage stays, its elastic part shrinking with the load, until the
 ///            spring overcomes pull-off force, field and mechanical load together; from there on the device is open.

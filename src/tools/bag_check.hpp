@@ -10,7 +10,7 @@ namespace mems_stiction {
 enum class BagEnd { kWhole, kCutOff };
 
 /// Walks through all records of a bag of version 2.0 (http://wiki.ros.org/Bags/Format/2.0), those inside uncompressed
-/// chunks too; what compressed chunks hold is left to rosbag.
+/// chunks too; what compressed chunks contain is left to rosbag.
 /// @throw FileError naming the bag, the byte and what is wrong there
 BagEnd checkBag(const std::string& path);
 

@@ -33,7 +33,7 @@ class RowFile {
   /// Opens the file or makes it, locks it, takes off a torn last line and checks that what is there are the first of
   /// these rows, perhaps with others in place of some of them at the end. @param numbers of the rows of this shard, in
   /// order
-  /// @throw FileError if it cannot be written, another program writes it, or it holds other rows.
+  /// @throw FileError if it cannot be written, another program writes it, or it has other rows.
   RowFile(const std::string& path, RowFormat format, const std::string& heading,
           const std::vector<std::size_t>& numbers);
   ~RowFile();

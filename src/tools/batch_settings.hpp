@@ -17,7 +17,7 @@ std::string settingsText(std::size_t total, const std::vector<std::string>& inpu
                          const std::map<std::string, std::string>& units, const Configuration& configuration);
 
 /// Writes the settings beside the rows, or compares them with what is there.
-/// @throw FileError if the file of rows holds those of other settings
+/// @throw FileError if the file of rows has those of other settings
 void checkSettings(const std::string& path, const std::string& settings);
 
 /// The total of settingsText(), which was read from the file beside the rows in `path`.

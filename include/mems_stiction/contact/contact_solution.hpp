@@ -127,7 +127,7 @@ struct ContactSolution {
   cv::Mat pressure;         ///< CV_64FC1 [Pa], repulsion positive; empty if the solver does not know it
 
   /// As new, but with the memory of lists and maps, which are there to be written over.
-  void resetKeepingMemory();
+  void clear();
 };
 
 }  // namespace mems_stiction

@@ -15,7 +15,7 @@ class Error : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// One or more settings are out of their range, unknown, or of the wrong type. what() holds one line per violation,
+/// One or more settings are out of their range, unknown, or of the wrong type. what() has one line per violation,
 /// each naming the key, the value and what is allowed.
 class OptionsError : public Error {
  public:

@@ -28,7 +28,7 @@ namespace mems_stiction {
 class CounterSurfaceSource;
 class Wear;
 
-/// A scan as the model gets it. Copies share their pixels, and hold them.
+/// A scan as the model gets it. Copies share their pixels.
 struct PreparedScan {
   SurfacePair surfaces;               ///< the cleaned scan and what it meets, on the scan's own grid
   SurfacePair model_surfaces;         ///< the same for the model: on a finer grid if preprocessing/refine asks for it

@@ -16,14 +16,14 @@
 namespace mems_stiction {
 
 enum class HalfSpaceStatus : std::uint8_t {
-  kSolved,          ///< came to rest and came apart: all figures hold
+  kSolved,          ///< came to rest and came apart: all figures are known
   kLoadNotReached,  ///< the surfaces are flat against each other and still carry less than the mechanical load
   kNotConverged,    ///< one state found no equilibrium within max_newton_steps
   kTooManyStates,   ///< max_states did not suffice
   kCancelled
 };
 
-/// The answer. Figures that were not reached are NaN; the curves hold every state that was solved. Forces and areas are
+/// The answer. Figures that were not reached are NaN; the curves have every state that was solved. Forces and areas are
 /// of the frame; attraction is positive.
 struct SolvedHalfSpace {
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();

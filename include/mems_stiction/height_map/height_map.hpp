@@ -16,13 +16,13 @@ namespace mems_stiction {
 using PixelOwner = std::shared_ptr<const void>;
 
 /// Heights on a regular grid [m] with pitch [m]; pixels that are not finite were not measured. Shares its pixels when
-/// copied, and holds them: they live as long as any map that shows them.
+/// copied, and shares them: they live as long as any map that shows them.
 class HeightMap {
  public:
   HeightMap() = default;
 
   /// @param heights rows x cols, CV_32FC1 or CV_64FC1, metres, non-finite = invalid. The pixels are never written to.
-  ///        They are shared if the matrix holds them itself; pixels that it only points to are copied.
+  ///        They are shared if the matrix owns them itself; pixels that it only points to are copied.
   /// @param pitch_x, pitch_y distance of neighbouring columns and rows [m], > 0.
   /// @throw SurfaceError if the type, size or pitch is not as above.
   HeightMap(const cv::Mat& heights, double pitch_x, double pitch_y);

@@ -40,8 +40,8 @@ struct ScanOptions {
 
 /// - @p pixels rows x cols of CV_32FC1, CV_64FC1, CV_16UC1, CV_16SC1, CV_8UC1, or CV_32FC2 (height, quality: the
 ///        second channel is ignored but for NaN). CV_32FC1 or CV_64FC1 with scale 1, offset 0 and no invalid value are
-///        taken as HeightMap does, without a copy if they are held.
-/// - @p owner what the pixels lie in, if the matrix does not hold them
+///        taken as HeightMap does, without a copy if somebody owns them.
+/// - @p owner what the pixels lie in, if the matrix does not own them
 /// @throw SurfaceError for any other type (the message lists these), an empty image or a pitch that is not > 0.
 HeightMap heightMapFromPixels(const cv::Mat& pixels, const ScanOptions& options, const PixelOwner& owner = nullptr);
 

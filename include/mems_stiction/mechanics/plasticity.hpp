@@ -7,7 +7,7 @@
 ///     chi = 1 for phi < 0.6,  1 - 2 (phi - 0.6) between,  0 for phi > 1.1             (10.2)
 ///
 /// Assumptions: spherical summits of one radius, Gaussian heights; phi compares the rms height with the depth at which
-/// such a summit starts to flow. Holds for nominally flat rough surfaces. Below 0.6 flow needs very high loads,
+/// such a summit starts to flow. Applies to nominally flat rough surfaces. Below 0.6 flow needs very high loads,
 /// above 1.1 it starts at almost none; the straight line between is an interpolation. Outside: radius = infinity gives
 /// phi = 0 (elastic); hardness = infinity does too. A NaN stays NaN in phi. Source: Greenwood and Williamson, Proc. R.
 /// Soc. A 295 (1966) 300 for phi and both limits; Deladi et al. 2002, (9) and (10.2) for chi.

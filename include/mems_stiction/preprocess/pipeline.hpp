@@ -58,7 +58,7 @@ class ScanCleaner {
   /// written to again. Without any step the surface is the scan itself, to the bit, and shares its pixels.
   /// @throw SurfaceError if no pixel is valid, or more are missing than fill/max_fraction allows.
   const CleanedScan& clean(const HeightMap& scan);
-  /// Ends the hold on the last surface, which without any step is the scan that somebody may wait to be free of.
+  /// Lets go of the last surface, which without any step is the scan that somebody may wait to be free of.
   void letGo() { cleaned_.surface = HeightMap(); }
 
  private:

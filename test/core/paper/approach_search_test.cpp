@@ -181,7 +181,7 @@ TEST(ApproachSearch, describesThePatchesThatItEndedIn) {
 TEST(ApproachSearch, recordsOnePointPerStepWhenAsked) {
   Search search(roughField(), 1e-6);
   EXPECT_TRUE(search.run().curve.empty());
-  search.setting.keep_curve = true;
+  search.setting.record_curve = true;
   const EquilibriumState& state = search.run();
   ASSERT_EQ(state.curve.size(), static_cast<std::size_t>(state.steps));
   for (std::size_t i = 0; i + 1 < state.curve.size(); ++i) {
@@ -206,7 +206,7 @@ TEST(ApproachSearch, leavesNoTraceOfThePreviousFrame) {
   Search fresh(roughField(2), 1e-6);
   fresh.run();
   Search used(roughField(1), 1.0);
-  used.setting.keep_curve = true;
+  used.setting.record_curve = true;
   used.run(Connectivity::kEight);
   used.field = fresh.field;
   used.setting = fresh.setting;

@@ -9,7 +9,7 @@
 #include "mechanics/surface_forces.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/numeric/constants.hpp"
-#include "station/held_contact.hpp"
+#include "station/remaining_contact.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/paper_options.hpp"
 #include "surface/gaussian_surface.hpp"
@@ -45,16 +45,16 @@ DeviceOptions deviceFor(const HeightMap& scan, double force) {
   return device;
 }
 
-TEST(HeldContact, elasticContactFollowsJkrDown) {
+TEST(RemainingContact, elasticContactFollowsJkrDown) {
   Options options = paperOptions();
   options.interface.hamaker_constant = 0.0;
   options.deformation = Deformation::kElastic;
-  HeldContact held(options, sphere());
-  held.advance(0.0, 1e-5);
-  const Asperity& asperity = held.contact().asperities[0];
+  RemainingContact remaining(options, sphere());
+  remaining.advance(0.0, 1e-5);
+  const Asperity& asperity = remaining.contact().asperities[0];
   const double modulus = ContactPair(options.lower, options.upper).contact_modulus;
   for (const double load : {4e-6, 1e-7, 0.0}) {
-    const HeldState state = held.advance(0.0, load);
+    const RemainingState state = remaining.advance(0.0, load);
     EXPECT_FALSE(state.is_searched);
     EXPECT_EQ(state.normal_load, load);
     const double a =
@@ -68,48 +68,48 @@ TEST(HeldContact, elasticContactFollowsJkrDown) {
   }
 }
 
-TEST(HeldContact, flattenedContactKeepsItsArea) {
+TEST(RemainingContact, flattenedContactKeepsItsArea) {
   Options options = paperOptions();
   options.lower.hardness = 0.5e9;
   options.interface.hamaker_constant = 0.0;
-  HeldContact held(options, sphere());
-  const HeldState largest = held.advance(0.0, 1e-5);
-  ASSERT_EQ(held.contact().plastic_count, 1);
-  const HeldState back = held.advance(0.0, 1e-7);
+  RemainingContact remaining(options, sphere());
+  const RemainingState largest = remaining.advance(0.0, 1e-5);
+  ASSERT_EQ(remaining.contact().plastic_count, 1);
+  const RemainingState back = remaining.advance(0.0, 1e-7);
   EXPECT_NEAR(back.contact_area_jkr, largest.contact_area_jkr, kRoundOff * largest.contact_area_jkr);
 }
 
-TEST(HeldContact, fieldFollowsTheSquareOfTheVoltage) {
-  HeldContact held(insulated(), sphere());
-  const HeldState at_ten = held.advance(10.0, 0.0);
-  const HeldState at_four = held.advance(4.0, 0.0);
+TEST(RemainingContact, fieldFollowsTheSquareOfTheVoltage) {
+  RemainingContact remaining(insulated(), sphere());
+  const RemainingState at_ten = remaining.advance(10.0, 0.0);
+  const RemainingState at_four = remaining.advance(4.0, 0.0);
   EXPECT_TRUE(at_ten.is_searched);
   EXPECT_FALSE(at_four.is_searched);
   EXPECT_NEAR(at_four.electrostatic_force, 0.16 * at_ten.electrostatic_force, kRoundOff * at_ten.electrostatic_force);
-  EXPECT_EQ(held.advance(0.0, 0.0).electrostatic_force, 0.0);
+  EXPECT_EQ(remaining.advance(0.0, 0.0).electrostatic_force, 0.0);
 }
 
-TEST(HeldContact, goesOnAsOneSearchAtTheLargerLoad) {
-  HeldContact held(insulated(), rough());
-  held.advance(5.0, 0.0);
-  held.advance(0.0, 0.0);
-  const HeldState state = held.advance(20.0, 1e-6);
+TEST(RemainingContact, goesOnAsOneSearchAtTheLargerLoad) {
+  RemainingContact remaining(insulated(), rough());
+  remaining.advance(5.0, 0.0);
+  remaining.advance(0.0, 0.0);
+  const RemainingState state = remaining.advance(20.0, 1e-6);
   Options options = insulated();
   options.load.voltage = 20.0;
   options.load.mechanical_load = 1e-6;
   const Prediction searched = AdhesionModel(options).predict(rough());
   EXPECT_TRUE(state.is_searched);
-  EXPECT_EQ(held.contact().pull_off_force, searched.pull_off_force);
+  EXPECT_EQ(remaining.contact().pull_off_force, searched.pull_off_force);
   EXPECT_EQ(state.contact_area_jkr, searched.contact_area_jkr);
 }
 
-TEST(HeldContact, aSmallerContactDoesNotReplaceALargerOne) {
-  HeldContact held(insulated(), rough());
-  held.advance(0.0, 1e-4);
-  const double pull_off = held.contact().pull_off_force;
-  const HeldState state = held.advance(1.0, 0.0);  // a voltage not seen before, but far weaker
+TEST(RemainingContact, aSmallerContactDoesNotReplaceALargerOne) {
+  RemainingContact remaining(insulated(), rough());
+  remaining.advance(0.0, 1e-4);
+  const double pull_off = remaining.contact().pull_off_force;
+  const RemainingState state = remaining.advance(1.0, 0.0);  // a voltage not seen before, but far weaker
   EXPECT_FALSE(state.is_searched);
-  EXPECT_EQ(held.contact().pull_off_force, pull_off);
+  EXPECT_EQ(remaining.contact().pull_off_force, pull_off);
   EXPECT_GT(state.electrostatic_force, 0.0);
 }
 

@@ -19,14 +19,14 @@
 ///
 /// A load beyond the largest so far searches the equilibrium of the undeformed surfaces again: loading passes the
 /// smaller states on its way, and their plastic flow is contained in that of the larger. Should a search end at a
-/// smaller approach, the held contact stays.
+/// smaller approach, the remaining contact stays.
 
 #include "mems_stiction/prediction/adhesion_model.hpp"
 
 namespace mems_stiction {
 
 /// The contact at one step of a loading path.
-struct HeldState {
+struct RemainingState {
   double voltage = 0.0;              ///< [V]
   double mechanical_load = 0.0;      ///< [N]
   double electrostatic_force = 0.0;  ///< at this voltage [N]
@@ -38,13 +38,13 @@ struct HeldState {
 };
 
 /// A contact that was made, while loads change.
-class HeldContact {
+class RemainingContact {
  public:
   /// The surfaces are shared, not copied.
-  HeldContact(const Options& options, const SurfacePair& surfaces);
+  RemainingContact(const Options& options, const SurfacePair& surfaces);
 
   /// Goes on to the next load. @throw OptionsError if the load is out of range; then nothing changes.
-  HeldState advance(double voltage, double mechanical_load);
+  RemainingState advance(double voltage, double mechanical_load);
 
   /// That of the largest load so far. Only after advance().
   const Prediction& contact() const { return contact_; }

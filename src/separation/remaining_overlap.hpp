@@ -15,13 +15,13 @@ namespace mems_stiction {
 /// must carry the hardness. Hertz's pressure exceeds it over the share `core` = 1 - 1/(3 x)^2 of the contact, x = P/(Ha A)
 /// without flow; the surface that carries an even pressure Ha on a radius a has the curvature Ha/(E a), and what lies
 /// outside the core is as it was.
-class KeptOverlap {
+class RemainingOverlap {
  public:
-  KeptOverlap() = default;  ///< all of it
+  RemainingOverlap() = default;  ///< all of it
   /// - @p elastic_fullness x [-]
   /// - @p area_share real contact area over that of the overlap [-]
   /// - @p depth mean overlap, @p largest overlap of the patch [m]
-  KeptOverlap(double elastic_fullness, double area_share, double depth, double largest) {
+  RemainingOverlap(double elastic_fullness, double area_share, double depth, double largest) {
     const double height = 2.0 * depth;  // of the paraboloid with this area and volume
     const double peak = elastic_fullness * std::sqrt(std::max(1.0, largest / height));
     if (!(3.0 * peak > 1.0)) return;

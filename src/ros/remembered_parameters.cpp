@@ -1,4 +1,4 @@
-#include "ros/held_parameters.hpp"
+#include "ros/remembered_parameters.hpp"
 
 #include <algorithm>
 
@@ -6,7 +6,7 @@
 
 namespace mems_stiction {
 
-HeldParameters::HeldParameters(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle) {
+RememberedParameters::RememberedParameters(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle) {
   std::vector<std::string> names = {private_handle.getNamespace()};
   for (const char* topic : kImageTopics) names.push_back(handle.resolveName(topic) + "/disable_pub_plugins");
   for (const std::string& name : names) {
@@ -15,7 +15,7 @@ HeldParameters::HeldParameters(const ros::NodeHandle& handle, const ros::NodeHan
   }
 }
 
-bool HeldParameters::putBack(const MasterCalls& calls) const {
+bool RememberedParameters::putBack(const MasterCalls& calls) const {
   return std::all_of(parameters_.begin(), parameters_.end(),
                      [&calls](const auto& parameter) { return calls.setParameter(parameter.first, parameter.second); });
 }

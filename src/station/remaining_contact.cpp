@@ -1,4 +1,4 @@
-#include "station/held_contact.hpp"
+#include "station/remaining_contact.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace mems_stiction {
 namespace {
 
-/// What shows of a held contact is not asked for, its contacts and the surfaces that it leaves always.
+/// What shows of a remaining contact is not asked for, its contacts and the surfaces that it leaves always.
 Options withContacts(Options options) {
   options.output.deformed_surfaces = true;
   options.output.contact_map = false;
@@ -23,7 +23,7 @@ Options withContacts(Options options) {
 }
 
 /// NaN if the solver parts the contact into no asperities.
-double heldContactArea(const Prediction& contact, double normal_load, const Options& options) {
+double remainingContactArea(const Prediction& contact, double normal_load, const Options& options) {
   if (!contact.has_asperities) return std::numeric_limits<double>::quiet_NaN();
   const double work = options.interface.work_of_adhesion;
   const double modulus = ContactPair(options.lower, options.upper).contact_modulus;
@@ -40,16 +40,16 @@ double heldContactArea(const Prediction& contact, double normal_load, const Opti
 
 }  // namespace
 
-HeldContact::HeldContact(const Options& options, const SurfacePair& surfaces)
+RemainingContact::RemainingContact(const Options& options, const SurfacePair& surfaces)
     : options_(withContacts(options)), model_(options_), surfaces_(surfaces) {}
 
-HeldState HeldContact::advance(double voltage, double mechanical_load) {
+RemainingState RemainingContact::advance(double voltage, double mechanical_load) {
   Options options = options_;
   options.load.voltage = voltage;
   options.load.mechanical_load = mechanical_load;
   model_.setOptions(options);  // refuses before anything changes
 
-  HeldState state;
+  RemainingState state;
   state.voltage = voltage;
   state.mechanical_load = mechanical_load;
   const bool is_within = std::abs(voltage) <= largest_voltage_ && mechanical_load <= largest_load_;
@@ -90,7 +90,7 @@ HeldState HeldContact::advance(double voltage, double mechanical_load) {
   state.electrostatic_force = field_factor_ * voltage * voltage;
   const double attraction = contact_.normal_load - contact_.electrostatic_force - contact_.mechanical_load;
   state.normal_load = attraction + state.electrostatic_force + mechanical_load;
-  state.contact_area_jkr = heldContactArea(contact_, state.normal_load, options);
+  state.contact_area_jkr = remainingContactArea(contact_, state.normal_load, options);
   return state;
 }
 

@@ -6,26 +6,26 @@
 
 #include "mechanics/jkr.hpp"
 #include "mems_stiction/numeric/constants.hpp"
-#include "station/held_contact.hpp"
+#include "station/remaining_contact.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/sphere_contact.hpp"
 
 namespace mems_stiction {
 namespace {
 
-TEST(HeldContact, onASlopeFollowsJkrOfTheLoadAlongItsAxis) {
+TEST(RemainingContact, onASlopeFollowsJkrOfTheLoadAlongItsAxis) {
   constexpr double kWork = 0.05;
   const double pitch = 1.5e-9;
   const HeightMap plane = analytic::tiltedPlane(101, 110, pitch, pitch, std::tan(0.5), 0.0);
   const HeightMap sphere = analytic::sum(analytic::paraboloid(101, 110, pitch, pitch, 2e-6), plane);
   Options options = contactOnly(0.0, kWork);
   options.deformation = Deformation::kElastic;
-  HeldContact held(options, {sphere, plane});
-  held.advance(0.0, 1e-5);
-  const HeldState released = held.advance(0.0, 1e-6);
+  RemainingContact remaining(options, {sphere, plane});
+  remaining.advance(0.0, 1e-5);
+  const RemainingState released = remaining.advance(0.0, 1e-6);
   ASSERT_FALSE(released.is_searched);
-  ASSERT_EQ(held.contact().asperities.size(), 1u);
-  const Asperity& asperity = held.contact().asperities[0];
+  ASSERT_EQ(remaining.contact().asperities.size(), 1u);
+  const Asperity& asperity = remaining.contact().asperities[0];
   const double modulus = ContactPair(Material(), Material()).contact_modulus;
   // cos(0.5) = 0.878; the tilt is measured within 0.2 degrees
   const double a = jkr::equilibriumContactRadius(1e-6 * std::cos(0.5), kWork, asperity.composite_radius, modulus);

@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// What the master's parameter server says of a node, kept for a master that has lost it.
+/// What the master's parameter server says of a node, remembered for a master that has lost it.
 
 #include <string>
 #include <utility>
@@ -16,9 +16,9 @@ namespace mems_stiction {
 
 /// The private namespace, and which plugins may publish the topics with heights, as they are when it is made. The node reads them at
 /// its start alone, so they are what it goes by.
-class HeldParameters {
+class RememberedParameters {
  public:
-  HeldParameters(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
+  RememberedParameters(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
 
   /// Whatever stands there goes. @return false: no answer from the master.
   bool putBack(const MasterCalls& calls) const;
