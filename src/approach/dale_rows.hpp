@@ -14,7 +14,7 @@
 
 #include "approach/dale_map.hpp"
 #include "approach/gap_field.hpp"
-#include "mems_stiction/numeric/vectorized.hpp"
+#include "numeric/vectorized.hpp"
 
 namespace mems_stiction {
 

@@ -6,9 +6,9 @@
 #include <type_traits>
 
 #include "mems_stiction/errors/errors.hpp"
-#include "mems_stiction/numeric/vectorized.hpp"
 #include "mems_stiction/settings/option_visitor.hpp"
 #include "numeric/lanes.hpp"
+#include "numeric/vectorized.hpp"
 
 namespace mems_stiction {
 namespace {

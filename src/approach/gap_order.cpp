@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "approach/gap_moment_sums.hpp"
-#include "mems_stiction/numeric/vectorized.hpp"
+#include "numeric/vectorized.hpp"
 
 namespace mems_stiction {
 namespace {

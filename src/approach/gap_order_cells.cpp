@@ -4,7 +4,7 @@
 
 #include "approach/gap_moment_sums.hpp"
 #include "approach/gap_order.hpp"
-#include "mems_stiction/numeric/vectorized.hpp"
+#include "numeric/vectorized.hpp"
 
 namespace mems_stiction {
 namespace {

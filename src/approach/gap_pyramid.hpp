@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "approach/gap_order.hpp"
-#include "mems_stiction/numeric/vectorized.hpp"
 #include "numeric/lanes.hpp"
+#include "numeric/vectorized.hpp"
 
 namespace mems_stiction {
 

@@ -5,7 +5,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "mems_stiction/numeric/constants.hpp"
+#include "numeric/constants.hpp"
 
 namespace mems_stiction {
 

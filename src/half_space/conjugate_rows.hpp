@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstring>
 
-#include "mems_stiction/numeric/vectorized.hpp"
+#include "numeric/vectorized.hpp"
 
 namespace mems_stiction {
 namespace conjugate_rows {

@@ -9,7 +9,7 @@
 
 #include "evaluation_rows.hpp"
 #include "half_space/row_work.hpp"
-#include "mems_stiction/numeric/vectorized.hpp"
+#include "numeric/vectorized.hpp"
 
 namespace mems_stiction {
 namespace {

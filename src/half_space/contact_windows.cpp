@@ -8,7 +8,7 @@
 
 #include "half_space/contact_minimiser.hpp"
 #include "half_space/row_work.hpp"
-#include "mems_stiction/numeric/vectorized.hpp"
+#include "numeric/vectorized.hpp"
 
 namespace mems_stiction {
 namespace {

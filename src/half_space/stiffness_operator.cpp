@@ -8,8 +8,8 @@
 
 #include "half_space/row_work.hpp"
 #include "line_transform.hpp"
-#include "mems_stiction/numeric/constants.hpp"
-#include "mems_stiction/numeric/vectorized.hpp"
+#include "numeric/constants.hpp"
+#include "numeric/vectorized.hpp"
 #include "row_pairs.hpp"
 
 namespace mems_stiction {

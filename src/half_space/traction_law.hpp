@@ -24,8 +24,8 @@
 #include <string>
 #include <vector>
 
+#include "mechanics/traction_law.hpp"
 #include "mems_stiction/loads/capillary.hpp"
-#include "mems_stiction/mechanics/traction_law.hpp"
 
 namespace mems_stiction {
 

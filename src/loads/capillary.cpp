@@ -3,7 +3,8 @@
 #include <algorithm>
 
 #include "approach/gap_order.hpp"
-#include "mems_stiction/numeric/constants.hpp"
+#include "mechanics/traction_law.hpp"
+#include "numeric/constants.hpp"
 
 namespace mems_stiction {
 
@@ -18,6 +19,10 @@ void CapillaryOptions::describe(OptionVisitor& visitor) {
   visitor.number("interface/temperature", temperature, "K", Range::positive(), "temperature of vapour and surfaces");
   visitor.number("interface/molar_volume", molar_volume, "m^3/mol", Range::positive(),
                  "molar volume of the condensed liquid");
+}
+
+WaterLaw CapillaryOptions::law() const {
+  return {relative_humidity, surface_tension, contact_angle, temperature, molar_volume};
 }
 
 double capillaryForce(const GapOrder& order, double approach, int contact_count, const WaterLaw& water,

@@ -1,6 +1,6 @@
 #include "loads/force_range.hpp"
 
-#include "mems_stiction/mechanics/traction_law.hpp"
+#include "mechanics/traction_law.hpp"
 
 namespace mems_stiction {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "mechanics/hertz.hpp"
-#include "mems_stiction/numeric/constants.hpp"
+#include "numeric/constants.hpp"
 
 namespace mems_stiction {
 namespace jkr {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mems_stiction/mechanics/traction_law.hpp"
-#include "mems_stiction/numeric/constants.hpp"
+#include "mechanics/traction_law.hpp"
+#include "numeric/constants.hpp"
 
 namespace mems_stiction {
 namespace surface_forces {

@@ -1,8 +1,8 @@
-#include "mems_stiction/mechanics/traction_law.hpp"
+#include "mechanics/traction_law.hpp"
 
 #include <cmath>
 
-#include "mems_stiction/numeric/constants.hpp"
+#include "numeric/constants.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -12,7 +12,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "mems_stiction/numeric/vectorized.hpp"
+#include "numeric/vectorized.hpp"
 
 namespace mems_stiction {
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "mems_stiction/numeric/vectorized.hpp"
 #include "numeric/value_range.hpp"
+#include "numeric/vectorized.hpp"
 
 namespace mems_stiction {
 namespace {

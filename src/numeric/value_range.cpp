@@ -1,7 +1,7 @@
 #include "numeric/value_range.hpp"
 
-#include "mems_stiction/numeric/vectorized.hpp"
 #include "numeric/lanes.hpp"
+#include "numeric/vectorized.hpp"
 
 namespace mems_stiction {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "mems_stiction/mechanics/plasticity.hpp"
-#include "mems_stiction/numeric/constants.hpp"
+#include "numeric/constants.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "mechanics/jkr.hpp"
 #include "mechanics/transition.hpp"
-#include "mems_stiction/numeric/constants.hpp"
+#include "numeric/constants.hpp"
 
 namespace mems_stiction {
 

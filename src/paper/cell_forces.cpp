@@ -1,8 +1,8 @@
 #include "paper/cell_forces.hpp"
 
-#include "mems_stiction/numeric/constants.hpp"
-#include "mems_stiction/numeric/vectorized.hpp"
+#include "numeric/constants.hpp"
 #include "numeric/lanes.hpp"
+#include "numeric/vectorized.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -10,9 +10,9 @@
 /// with t for t/eps_r: eps_r = 1 is that case.
 
 #include "approach/gap_pyramid.hpp"
+#include "mechanics/traction_law.hpp"
 #include "mems_stiction/loads/interface.hpp"
 #include "mems_stiction/loads/normal_load.hpp"
-#include "mems_stiction/mechanics/traction_law.hpp"
 
 namespace mems_stiction {
 

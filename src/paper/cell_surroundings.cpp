@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "mems_stiction/numeric/vectorized.hpp"
+#include "numeric/vectorized.hpp"
 
 namespace mems_stiction {
 namespace {

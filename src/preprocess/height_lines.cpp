@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "mems_stiction/numeric/vectorized.hpp"
 #include "numeric/lanes.hpp"
+#include "numeric/vectorized.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -7,8 +7,8 @@
 
 #include <Eigen/Dense>
 
-#include "mems_stiction/numeric/vectorized.hpp"
 #include "numeric/lanes.hpp"
+#include "numeric/vectorized.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "height_map/validity.hpp"
 #include "mems_stiction/errors/errors.hpp"
-#include "mems_stiction/numeric/constants.hpp"
+#include "numeric/constants.hpp"
 #include "preprocess/fill_holes.hpp"
 
 namespace mems_stiction {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "mems_stiction/numeric/vectorized.hpp"
 #include "numeric/lanes.hpp"
 #include "numeric/median.hpp"
+#include "numeric/vectorized.hpp"
 
 namespace mems_stiction {
 namespace {

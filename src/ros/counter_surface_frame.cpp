@@ -8,7 +8,7 @@
 #include <tf2/exceptions.h>
 
 #include "mems_stiction/errors/errors.hpp"
-#include "mems_stiction/numeric/constants.hpp"
+#include "numeric/constants.hpp"
 
 namespace mems_stiction {
 namespace {

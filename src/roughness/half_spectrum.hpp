@@ -6,7 +6,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "mems_stiction/numeric/constants.hpp"
+#include "numeric/constants.hpp"
 
 namespace mems_stiction {
 

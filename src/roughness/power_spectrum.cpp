@@ -5,8 +5,8 @@
 #include <string>
 
 #include "mems_stiction/errors/errors.hpp"
-#include "mems_stiction/numeric/constants.hpp"
 #include "mems_stiction/settings/option_visitor.hpp"
+#include "numeric/constants.hpp"
 #include "numeric/value_range.hpp"
 #include "preprocess/working_surface.hpp"
 #include "roughness/half_spectrum.hpp"

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "mems_stiction/numeric/constants.hpp"
-#include "mems_stiction/numeric/vectorized.hpp"
+#include "numeric/constants.hpp"
+#include "numeric/vectorized.hpp"
 #include "preprocess/working_surface.hpp"
 
 namespace mems_stiction {

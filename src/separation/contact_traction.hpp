@@ -15,8 +15,8 @@
 ///     const ContactTraction law(interface);
 ///     const double pull = law.traction(gap - approach);
 
+#include "mechanics/traction_law.hpp"
 #include "mems_stiction/loads/interface.hpp"
-#include "mems_stiction/mechanics/traction_law.hpp"
 #include "numeric/lanes.hpp"
 #include "separation/lane_functions.hpp"
 

@@ -179,8 +179,8 @@ MEMS_STICTION_VECTORIZED FrameSums::Attraction FrameSums::attractionOver(const C
 FrameSums::Attraction FrameSums::attractionAt(const ContactTraction& law, double approach, double hold) {
   Attraction attraction = attractionOver(law, approach, overlappingAt(approach));
   if (hold > 0.0) {
-    const double held = approach + hold;
-    attraction.adhesion = std::max(attraction.adhesion, attractionOver(law, held, overlappingAt(held)).adhesion);
+    const double longest = approach + hold;
+    attraction.adhesion = std::max(attraction.adhesion, attractionOver(law, longest, overlappingAt(longest)).adhesion);
   }
   return attraction;
 }

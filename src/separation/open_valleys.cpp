@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mems_stiction/numeric/constants.hpp"
+#include "numeric/constants.hpp"
 
 #include "chosen_constants.hpp"
 

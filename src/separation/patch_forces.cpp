@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "mechanics/transition.hpp"
-#include "mems_stiction/numeric/constants.hpp"
+#include "numeric/constants.hpp"
 #include "numeric/lanes.hpp"
 #include "separation/lane_functions.hpp"
 

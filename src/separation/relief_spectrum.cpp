@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "mems_stiction/numeric/constants.hpp"
+#include "numeric/constants.hpp"
 
 #include "chosen_constants.hpp"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "mems_stiction/numeric/constants.hpp"
+#include "numeric/constants.hpp"
 
 namespace mems_stiction {
 

@@ -7,7 +7,7 @@
 #include "deformation/modified_topography.hpp"
 #include "mechanics/transition.hpp"
 #include "mems_stiction/mechanics/plasticity.hpp"
-#include "mems_stiction/numeric/constants.hpp"
+#include "numeric/constants.hpp"
 
 #include "chosen_constants.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "mechanics/jkr.hpp"
 #include "mems_stiction/mechanics/plasticity.hpp"
-#include "mems_stiction/numeric/constants.hpp"
+#include "numeric/constants.hpp"
 
 namespace mems_stiction {
 namespace {

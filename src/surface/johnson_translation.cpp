@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "mems_stiction/errors/errors.hpp"
-#include "mems_stiction/numeric/constants.hpp"
 #include "mems_stiction/settings/option_visitor.hpp"
+#include "numeric/constants.hpp"
 
 namespace mems_stiction {
 namespace {

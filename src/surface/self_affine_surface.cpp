@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "mems_stiction/errors/errors.hpp"
-#include "mems_stiction/numeric/constants.hpp"
+#include "numeric/constants.hpp"
 #include "roughness/half_spectrum.hpp"
 #include "roughness/power_spectrum.hpp"
 #include "surface/random_field.hpp"

@@ -7,7 +7,7 @@
 #include <memory>
 #include <random>
 
-#include "mems_stiction/numeric/constants.hpp"
+#include "numeric/constants.hpp"
 
 namespace mems_stiction {
 namespace {

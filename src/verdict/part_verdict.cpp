@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "errors/short_number.hpp"
-#include "mems_stiction/numeric/constants.hpp"
+#include "numeric/constants.hpp"
 #include "verdict/finding.hpp"
 #include "verdict/regime_flags.hpp"
 

@@ -8,7 +8,7 @@
 #include "approach/gap_field.hpp"
 #include "mems_stiction/evaluation/scan_predictor.hpp"
 #include "mems_stiction/mechanics/plasticity.hpp"
-#include "mems_stiction/numeric/constants.hpp"
+#include "numeric/constants.hpp"
 #include "property/rough_pairs.hpp"
 #include "support/frame_gaps.hpp"
 #include "support/plain_adhesion_model.hpp"

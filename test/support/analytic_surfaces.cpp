@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "mems_stiction/numeric/constants.hpp"
+#include "numeric/constants.hpp"
 
 namespace mems_stiction {
 namespace analytic {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "mems_stiction/half_space/half_space_solver.hpp"
-#include "mems_stiction/numeric/constants.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
+#include "numeric/constants.hpp"
 
 namespace mems_stiction {
 namespace separation_cases {

@@ -4,6 +4,7 @@
 
 #include "mems_stiction/mechanics/plasticity.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
+#include "numeric/constants.hpp"
 #include "paper/force_balance.hpp"
 #include "paper/formulation_share.hpp"
 #include "support/analytic_surfaces.hpp"

@@ -4,10 +4,12 @@
 #include <cstdio>
 
 #include "height_map/scan_sanity.hpp"
+#include "mechanics/traction_law.hpp"
 #include "mems_stiction/loads/capillary.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
 #include "mems_stiction/verdict/beam_adhesion.hpp"
 #include "mems_stiction/verdict/device_options.hpp"
+#include "numeric/constants.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/paper_options.hpp"
 #include "verification/closed_forms.hpp"

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "mems_stiction/half_space/half_space_solver.hpp"
+#include "numeric/constants.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/axisymmetric_contact.hpp"
 #include "support/half_space_cases.hpp"

@@ -7,6 +7,7 @@
 
 #include "mechanics/hertz.hpp"
 #include "mechanics/jkr.hpp"
+#include "numeric/constants.hpp"
 #include "verification/closed_forms.hpp"
 #include "verification/sections.hpp"
 

@@ -9,6 +9,7 @@
 #include "mechanics/jkr.hpp"
 #include "mechanics/transition.hpp"
 #include "mems_stiction/mechanics/material.hpp"
+#include "numeric/constants.hpp"
 #include "verification/closed_forms.hpp"
 #include "verification/sections.hpp"
 

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "mems_stiction/prediction/adhesion_model.hpp"
+#include "numeric/constants.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/sphere_contact.hpp"
 #include "verification/closed_forms.hpp"

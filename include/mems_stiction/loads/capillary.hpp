@@ -6,12 +6,12 @@
 ///
 ///     const double pull = capillaryForce(order, approach, contact_count, options.law(), field.cellArea());
 
-#include "mems_stiction/mechanics/traction_law.hpp"
 #include "mems_stiction/settings/option_visitor.hpp"
 
 namespace mems_stiction {
 
 class GapOrder;
+class WaterLaw;
 
 /// Defaults other than the humidity: water at 25 degrees Celsius (CRC Handbook: 72.0 mN/m, 997.0 kg/m^3, 18.015 g/mol)
 /// that wets the surfaces.
@@ -22,7 +22,7 @@ struct CapillaryOptions {
   double temperature = 298.15;      ///< T [K], > 0
   double molar_volume = 18.07e-6;   ///< V_m of the liquid [m^3/mol], > 0
 
-  WaterLaw law() const { return {relative_humidity, surface_tension, contact_angle, temperature, molar_volume}; }
+  WaterLaw law() const;
 
   /// Keys interface/...
   void describe(OptionVisitor& visitor);

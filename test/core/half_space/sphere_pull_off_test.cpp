@@ -7,7 +7,7 @@
 #include "mechanics/jkr.hpp"
 #include "mechanics/transition.hpp"
 #include "mems_stiction/half_space/half_space_solver.hpp"
-#include "mems_stiction/numeric/constants.hpp"
+#include "numeric/constants.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/half_space_cases.hpp"
 

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "half_space/stiffness_operator.hpp"
-#include "mems_stiction/numeric/constants.hpp"
+#include "numeric/constants.hpp"
 
 namespace mems_stiction {
 namespace {

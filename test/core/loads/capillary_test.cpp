@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "mems_stiction/numeric/constants.hpp"
+#include "numeric/constants.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/frame_gaps.hpp"
 #include "support/sample_frames.hpp"

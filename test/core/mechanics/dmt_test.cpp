@@ -6,7 +6,7 @@
 
 #include "mechanics/hertz.hpp"
 #include "mechanics/jkr.hpp"
-#include "mems_stiction/numeric/constants.hpp"
+#include "numeric/constants.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "mems_stiction/numeric/constants.hpp"
+#include "numeric/constants.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "mechanics/surface_forces.hpp"
-#include "mems_stiction/mechanics/traction_law.hpp"
-#include "mems_stiction/numeric/constants.hpp"
+#include "mechanics/traction_law.hpp"
+#include "numeric/constants.hpp"
 #include "numeric/lanes.hpp"
 
 namespace mems_stiction {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "mems_stiction/numeric/constants.hpp"
+#include "numeric/constants.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/plain_adhesion_model.hpp"
 #include "support/sample_frames.hpp"

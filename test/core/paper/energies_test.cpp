@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "mechanics/jkr.hpp"
-#include "mems_stiction/numeric/constants.hpp"
+#include "numeric/constants.hpp"
 #include "paper/force_balance.hpp"
 
 namespace mems_stiction {

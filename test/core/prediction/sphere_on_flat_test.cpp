@@ -6,8 +6,8 @@
 
 #include "mechanics/jkr.hpp"
 #include "mems_stiction/mechanics/plasticity.hpp"
-#include "mems_stiction/numeric/constants.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
+#include "numeric/constants.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/sphere_contact.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "height_map/validity.hpp"
 #include "mems_stiction/errors/errors.hpp"
-#include "mems_stiction/numeric/constants.hpp"
+#include "numeric/constants.hpp"
 #include "support/analytic_surfaces.hpp"
 
 namespace mems_stiction {

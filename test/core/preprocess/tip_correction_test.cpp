@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "height_map/validity.hpp"
-#include "mems_stiction/numeric/constants.hpp"
+#include "numeric/constants.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "surface/gaussian_surface.hpp"
 

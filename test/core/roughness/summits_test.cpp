@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "mems_stiction/numeric/constants.hpp"
+#include "numeric/constants.hpp"
 #include "roughness/power_spectrum.hpp"
 #include "roughness/summits.hpp"
 #include "support/analytic_surfaces.hpp"

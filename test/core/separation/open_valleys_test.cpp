@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "mems_stiction/numeric/constants.hpp"
+#include "numeric/constants.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/separation_cases.hpp"
 #include "surface/gaussian_surface.hpp"

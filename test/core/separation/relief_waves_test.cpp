@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "mems_stiction/numeric/constants.hpp"
+#include "numeric/constants.hpp"
 #include "separation/relief_waves.hpp"
 #include "support/analytic_surfaces.hpp"
 

@@ -7,7 +7,7 @@
 #include "mechanics/hertz.hpp"
 #include "mechanics/surface_forces.hpp"
 #include "mechanics/transition.hpp"
-#include "mems_stiction/numeric/constants.hpp"
+#include "numeric/constants.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/pinned_surface.hpp"
 #include "support/separation_cases.hpp"

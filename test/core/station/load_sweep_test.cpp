@@ -8,7 +8,7 @@
 #include "mechanics/jkr.hpp"
 #include "mechanics/surface_forces.hpp"
 #include "mems_stiction/errors/errors.hpp"
-#include "mems_stiction/numeric/constants.hpp"
+#include "numeric/constants.hpp"
 #include "station/remaining_contact.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/paper_options.hpp"

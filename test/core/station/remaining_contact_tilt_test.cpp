@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "mechanics/jkr.hpp"
-#include "mems_stiction/numeric/constants.hpp"
+#include "numeric/constants.hpp"
 #include "station/remaining_contact.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/sphere_contact.hpp"

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "mems_stiction/errors/errors.hpp"
-#include "mems_stiction/numeric/constants.hpp"
 #include "mems_stiction/roughness/areal_parameters.hpp"
+#include "numeric/constants.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "mems_stiction/errors/errors.hpp"
-#include "mems_stiction/numeric/constants.hpp"
 #include "mems_stiction/roughness/areal_parameters.hpp"
+#include "numeric/constants.hpp"
 #include "roughness/power_spectrum.hpp"
 
 namespace mems_stiction {

@@ -13,7 +13,7 @@
 #include "mems_stiction/evaluation/scan_predictor.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 #include "mems_stiction/mechanics/material.hpp"
-#include "mems_stiction/numeric/constants.hpp"
+#include "numeric/constants.hpp"
 #include "support/predict_scan_program.hpp"
 
 namespace mems_stiction {

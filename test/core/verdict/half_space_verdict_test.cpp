@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "mems_stiction/numeric/constants.hpp"
 #include "mems_stiction/verdict/verdict.hpp"
+#include "numeric/constants.hpp"
 #include "paper/contact_growth.hpp"
 #include "support/paper_options.hpp"
 #include "verdict/regime_flags.hpp"

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "mechanics/jkr.hpp"
-#include "mems_stiction/numeric/constants.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
+#include "numeric/constants.hpp"
 #include "paper/contact_growth.hpp"
 #include "support/paper_options.hpp"
 #include "surface/gaussian_surface.hpp"

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "mems_stiction/numeric/constants.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
+#include "numeric/constants.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/paper_options.hpp"
 #include "verdict/regime_flags.hpp"

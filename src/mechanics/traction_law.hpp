@@ -28,8 +28,8 @@
 ///     const AdhesionLaw law(work_of_adhesion, AdhesionLaw::rangeOf(work_of_adhesion, hamaker_constant));
 ///     const double pull = law.traction(law.range() / gap);
 
-#include "mems_stiction/numeric/constants.hpp"
-#include "mems_stiction/numeric/vectorized.hpp"
+#include "numeric/constants.hpp"
+#include "numeric/vectorized.hpp"
 
 namespace mems_stiction {
 
