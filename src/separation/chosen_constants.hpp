@@ -5,8 +5,7 @@
 /// and what it costs to leave it out. Numbers of equations are those of doc/separation_curve.md.
 ///
 /// *Costs* are percent of frames whose pull-off force lies within 1.15 and within 1.3 of the half-space's, on the
-/// error map (289 frames) and on 378 others drawn alike with other seeds: "map -0.7, -1.1; others -0.3, 0". The
-/// cost of fitting edges was measured before the last rules went. The sets of frames: *map* is that of
+/// error map (289 frames) and on 378 others drawn alike with other seeds: "map -0.7, -1.1; others -0.3, 0". The sets of frames: *map* is that of
 /// doc/trust.md, *second* and *third* are drawn like it; *spheres* are single ones against the 9-3 half-space and
 /// Maugis; *bonded* are frames of flattening ratios below 1, *brittle* ones of them have cohesive lengths below a
 /// tenth of the correlation length.
@@ -79,7 +78,7 @@ constexpr double kCohesion = 0.56;
 
 /// Opposite edges fit each other, so that the frame repeats itself, if they differ by no more than this times what
 /// neighbours do. The map's frames repeat themselves, but for parts of scans. All mirrored (0): map -0.7, -0.7;
-/// others 0, -0.2
+/// others -0.8, -0.5
 constexpr double kFittingEdges = 3.0;
 
 // ---------------------------------------------------------------- steps and limits: they cost accuracy or time, not physics
