@@ -12,6 +12,7 @@
 
 #include <cmath>
 
+#include "mems_stiction/contact/model_statement.hpp"
 #include "numeric/constants.hpp"
 
 namespace mems_stiction {
@@ -80,6 +81,23 @@ constexpr double kCohesion = 0.56;
 /// neighbours do. The map's frames repeat themselves, but for parts of scans. All mirrored (0): map -0.7, -0.7;
 /// others -0.8, -0.5
 constexpr double kFittingEdges = 3.0;
+
+// ---------------------------------------------------------------- what the curve says of its own error
+
+/// Flattening ratio below which stiff contacts (DMT) may grow together, and soft ones (JKR) at twice that [-]. Set on the
+/// map, whose rows for near bonding (doc/trust.md) say what it parts. No force hangs on it or on the next two: the flag and
+/// the interval do.
+constexpr double kNearBonding = 2.0;
+/// Up to this ratio, contacts that join one after another may pull each other together.
+constexpr double kJoiningOnes = 6.0;
+/// Rise of the force, of the largest one, that tells of such contacts [-].
+constexpr double kJoiningRise = 0.1;
+
+/// Standard deviations of the logarithm of force and work, by the map's rows (doc/trust.md). That of conforming surfaces is
+/// made by one brittle frame at the criterion for open valleys, which is out by 2.6; without it, it is 0.07.
+constexpr ModelError kConformingError{0.14, 0.05};
+constexpr ModelError kNearBondingError{0.12, 0.11};
+constexpr ModelError kSparseError{0.05, 0.04};
 
 // ---------------------------------------------------------------- steps and limits: they cost accuracy or time, not physics
 

@@ -5,23 +5,9 @@
 
 #include "mems_stiction/contact/contact_settings.hpp"
 #include "numeric/median.hpp"
+#include "separation/chosen_constants.hpp"
 
 namespace mems_stiction {
-namespace {
-
-/// Flattening energy over the work of adhesion below which stiff contacts (DMT) may grow together, and soft ones (JKR)
-/// at twice that [-].
-constexpr double kNearBonding = 2.0;
-/// Up to this ratio, contacts that join one after another may pull each other together.
-constexpr double kJoiningOnes = 6.0;
-/// Rise of the force, of the largest one, that tells of such contacts [-].
-constexpr double kJoiningRise = 0.1;
-
-constexpr ModelError kConformingError{0.07, 0.06};
-constexpr ModelError kNearBondingError{0.10, 0.11};
-constexpr ModelError kSparseError{0.05, 0.04};
-
-}  // namespace
 
 std::vector<UnusedSetting> CurveStatement::unusedSettings(const ContactSettings& settings) {
   std::vector<UnusedSetting> unused = {{"paper/step"},
@@ -43,8 +29,8 @@ bool CurveStatement::mayGrowTogether(const ContactSolution& solution, double fla
   for (const Asperity& contact : contacts) values_.push_back(contact.tabor_parameter);
   const double tabor = values_.empty() ? 0.0 : medianOf(values_);
   const double softness = std::isnan(tabor) ? 0.0 : std::min(tabor, 1.0);
-  if (flattening_ratio < kNearBonding * (1.0 + softness)) return true;
-  return flattening_ratio < kJoiningOnes && solution.joining_rise > kJoiningRise;
+  if (flattening_ratio < chosen::kNearBonding * (1.0 + softness)) return true;
+  return flattening_ratio < chosen::kJoiningOnes && solution.joining_rise > chosen::kJoiningRise;
 }
 
 ModelStatement CurveStatement::of(const ContactSolution& solution, double work_of_adhesion) {
@@ -54,9 +40,9 @@ ModelStatement CurveStatement::of(const ContactSolution& solution, double work_o
   statement.assumes_jkr = false;
   statement.may_grow_together =
       work_of_adhesion > 0.0 && mayGrowTogether(solution, solution.flattening_energy / work_of_adhesion);
-  statement.error = kSparseError;
-  if (statement.may_grow_together) statement.error = kNearBondingError;
-  if (solution.is_conforming) statement.error = kConformingError;
+  statement.error = chosen::kSparseError;
+  if (statement.may_grow_together) statement.error = chosen::kNearBondingError;
+  if (solution.is_conforming) statement.error = chosen::kConformingError;
   return statement;
 }
 

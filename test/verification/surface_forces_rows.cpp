@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "mechanics/surface_forces.hpp"
+#include "mems_stiction/contact/contact_settings.hpp"
 #include "paper/cell_forces.hpp"
 #include "verification/closed_forms.hpp"
 #include "verification/sections.hpp"
