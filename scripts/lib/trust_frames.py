@@ -84,9 +84,12 @@ def cohesive_length(modulus, work, hamaker):
     return modulus * hamaker / (16 * math.pi * work ** 2)
 
 
-def draw(number, pixels, scans):
+SEED = 20  # of the map
+
+
+def draw(number, pixels, scans, seed=SEED):
     """(what the frame is, heights [m])"""
-    random = np.random.default_rng([20, number])
+    random = np.random.default_rng([seed, number])
     is_coarse = number % COARSE_EVERY == COARSE_EVERY - 1
     frame = {"number": number, "pixels": pixels}
     if scans.scans and number % SCAN_EVERY == 1:
@@ -135,8 +138,8 @@ def configuration(frame, formulation):
         2 * frame["modulus"] * (1 - POISSON_RATIO ** 2), POISSON_RATIO, frame.get("hardness", NO_HARDNESS))
     cut_off = math.sqrt(frame["hamaker"] / (12 * math.pi * frame["work"]))
     return ("lower: %s\nupper: %s\napproach: {formulation: %s}\n" % (body, body, formulation) +
-            "interface: {work_of_adhesion: %r, hamaker_constant: %r}\npaper: {cutoff_distance: %r}\n"
-            % (frame["work"], frame["hamaker"], cut_off) +
+            "interface: {work_of_adhesion: %r, hamaker_constant: %r}\n" % (frame["work"], frame["hamaker"]) +
+            ("" if formulation == "separation_curve" else "paper: {cutoff_distance: %r}\n" % cut_off) +
             "output: {roughness: false}\nload: {max_mechanical_load: 1.0e+3}\nhalf_space: {flow: false, step: 0.3}\n")
 
 

@@ -1,12 +1,13 @@
 /// The capillary term against the numbers of water at room temperature and closed forms of flat and sphere.
 
 #include "mems_stiction/loads/capillary.hpp"
-#include "approach/gap_order.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "approach/gap_order.hpp"
+#include "mechanics/traction_law.hpp"
 #include "numeric/constants.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/frame_gaps.hpp"
