@@ -112,7 +112,7 @@ TEST(OverlapSweep, loadsAreKeptWherePatchesMeet) {
   EXPECT_EQ(both.summits, 2);
   EXPECT_EQ(both.cells, 5);
   EXPECT_EQ(both.first_cell, 1);
-  EXPECT_GT(both.kept, 0.0);  // the larger patch alone would carry less
+  EXPECT_GT(both.merged_term, 0.0);  // the larger patch alone would carry less
   // the ridge itself joins with the larger of the two, where it adds no volume: sqrt(n) of its cells alone
   EXPECT_NEAR(load() / before, 1.0, 0.1);
   EXPECT_NEAR(both.gap_sum, 7.5 * kNm, 1e-20);
@@ -195,7 +195,7 @@ TEST_P(SampleFrames, patchesDoNotDependOnTheStepsNorOnASweepAhead) {
     ASSERT_EQ(patch.first_cell, expected.first_cell);
     // sums in another order, and kept is what is left of two of them
     EXPECT_NEAR(patch.gap_sum, expected.gap_sum, 1e-12 * expected.gap_sum);
-    EXPECT_NEAR(patch.kept, expected.kept, 1e-11 * range * std::sqrt(expected.cells));
+    EXPECT_NEAR(patch.merged_term, expected.merged_term, 1e-11 * range * std::sqrt(expected.cells));
   }
 }
 
@@ -215,7 +215,7 @@ TEST(OverlapSweep, startsAnewOnAnotherFrameAndBack) {
     ASSERT_EQ(used.advanceTo(approach, order), fresh.advanceTo(approach, order));
     EXPECT_EQ(used.livePatches(), fresh.livePatches());
     for (int cell = 0; cell < field.cellCount(); ++cell) ASSERT_EQ(used.patchOf(cell), fresh.patchOf(cell));
-    for (const std::int32_t id : used.livePatches()) EXPECT_EQ(used.patch(id).kept, fresh.patch(id).kept);
+    for (const std::int32_t id : used.livePatches()) EXPECT_EQ(used.patch(id).merged_term, fresh.patch(id).merged_term);
   }
 }
 
