@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "separation/chosen_constants.hpp"
+
 namespace mems_stiction {
 namespace {
 
@@ -29,8 +31,8 @@ TEST(CurveStatement, brittleContactsMayGrowTogetherAtTwiceTheFlatteningRatio) {
     for (const bool is_near : {false, true}) {
       const ModelStatement stated = statement.of(solutionWith(tabor, limit * (is_near ? 0.999 : 1.001)), kWork);
       EXPECT_EQ(stated.may_grow_together, is_near) << tabor;
-      EXPECT_EQ(stated.error.pull_off, is_near ? 0.10 : 0.05);
-      EXPECT_EQ(stated.error.work, is_near ? 0.11 : 0.04);
+      EXPECT_EQ(stated.error.pull_off, (is_near ? chosen::kNearBondingError : chosen::kSparseError).pull_off);
+      EXPECT_EQ(stated.error.work, (is_near ? chosen::kNearBondingError : chosen::kSparseError).work);
     }
   }
 }
@@ -59,8 +61,8 @@ TEST(CurveStatement, conformingSurfacesHaveAnErrorOfTheirOwn) {
   solution.is_conforming = true;
   const ModelStatement stated = CurveStatement().of(solution, kWork);
   EXPECT_TRUE(stated.may_grow_together);
-  EXPECT_EQ(stated.error.pull_off, 0.07);
-  EXPECT_EQ(stated.error.work, 0.06);
+  EXPECT_EQ(stated.error.pull_off, chosen::kConformingError.pull_off);
+  EXPECT_EQ(stated.error.work, chosen::kConformingError.work);
   EXPECT_FALSE(stated.is_bound_where_bonded);
 }
 
