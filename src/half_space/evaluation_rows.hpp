@@ -38,7 +38,8 @@ struct RowArrays {
   const float* fixed;  ///< a further elastic traction that does not change with u; null for none
 };
 
-/// Cells of the frame, with relief and a traction. @param level height of the upper body over first touch [m]
+/// Cells of the frame, with relief and a traction.
+/// - @p level height of the upper body over first touch [m]
 Sums evaluate(const TractionLaw& law, int count, double level, const double* relief, double length,
               const RowArrays& arrays);
 /// Cells beyond the frame: nothing acts on them.
