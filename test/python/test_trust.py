@@ -74,8 +74,8 @@ class TrustTest(unittest.TestCase):
         self.assertEqual(kinds, {"gaussian", "skewed", "self-affine", "spheres"})
 
     def test_interval_of_the_code_is_that_of_the_page(self):
-        source = (REPOSITORY / "src" / "verdict" / "margin_uncertainty.cpp").read_text(encoding="utf-8")
-        of_code = re.findall(r"return \{(0\.\d+), (0\.\d+)\};", source.split("ModelError modelError")[1].split("\n}\n")[0])
+        source = (REPOSITORY / "src" / "separation" / "chosen_constants.hpp").read_text(encoding="utf-8")
+        of_code = [re.search(r"ModelError k%sError\{(0\.\d+), (0\.\d+)\};" % name, source).groups() for name in ("Conforming", "NearBonding", "Sparse")]
         page = (REPOSITORY / "doc" / "trust.md").read_text(encoding="utf-8")
         table = page.split("## The interval of the margin")[1]
         of_page = [re.search(r"^\| %s \| \d+ \| (\S+) \| (\S+) \|" % name, table, re.MULTILINE).groups()

@@ -25,7 +25,7 @@ SETTINGS = settings_of(DEVICE_STATION)
 # Of each setting that changes while the node runs another value than that of device_station.yaml.
 CHANGED = {
     "load/voltage": 7.0, "load/mechanical_load": 3e-6, "load/max_voltage": 40.0, "load/max_mechanical_load": 2e-3,
-    "interface/work_of_adhesion": 0.02, "interface/hamaker_constant": 3e-20, "paper/cutoff_distance": 0.3e-9,
+    "interface/work_of_adhesion": 0.02, "interface/hamaker_constant": 3e-20, "paper/cutoff_distance": 0.3e-9, "paper/step": 1e-10,
     "interface/equilibrium_distance": 0.25e-9,
     "interface/insulator_thickness": 50e-9, "interface/insulator_relative_permittivity": 7.0, "interface/hardness_ratio_limit": 0.6,
     "interface/relative_humidity": 0.4, "interface/surface_tension": 0.03, "interface/contact_angle": 0.5, "interface/temperature": 350.0,
