@@ -7,7 +7,7 @@
 
 namespace ms = mems_stiction;
 
-/// Summits of 1 um radius and 2 nm height, every 32 pixels of 2 nm.
+/// Summits of 50 nm radius every 64 nm, whose heights differ by 0.2 nm at most.
 ms::HeightMap summits() {
   constexpr double kPitch = 2e-9;  // [m]
   cv::Mat heights(64, 64, CV_64FC1);
