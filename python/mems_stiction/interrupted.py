@@ -9,11 +9,16 @@ more a moment later. A library that turns it into an error of its own (an import
 """
 
 import atexit
+import contextlib
 import os
+import pathlib
+import shutil
 import signal
 import sys
+import tempfile
 
 AGAIN_AFTER = 0.02  # [s]
+ENDINGS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGALRM)
 
 _show = sys.excepthook
 _show_dropped = sys.unraisablehook
@@ -57,6 +62,46 @@ def ignore_from_here_on():
     """For the end of a program: a second Ctrl-C does not tear what others still put away, as rospy does."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, signal.SIG_IGN)
+
+
+class _Waiting:
+    """Interruptions wait from here on, to end(). A mask of the process would not do: Python notes signals that other threads get."""
+
+    def __init__(self):
+        self._has_come = False
+        self._before = {}
+        for number in ENDINGS:
+            if signal.getsignal(number) == signal.default_int_handler:
+                self._before[number] = signal.signal(number, self._note)
+
+    def _note(self, *_):
+        self._has_come = True
+
+    def end(self):
+        for number, handler in self._before.items():
+            signal.signal(number, handler)
+        if self._has_come:
+            raise KeyboardInterrupt
+
+
+@contextlib.contextmanager
+def temporary_folder(prefix):
+    """A folder that goes afterwards, wherever an interruption falls: one that comes while it is made or removed waits."""
+    waiting = _Waiting()
+    try:
+        folder = pathlib.Path(tempfile.mkdtemp(prefix=prefix))
+    except OSError:
+        waiting.end()
+        raise
+    try:
+        waiting.end()
+        yield folder
+    finally:
+        try:
+            waiting = _Waiting()
+        finally:
+            shutil.rmtree(str(folder), ignore_errors=True)
+        waiting.end()
 
 
 sys.excepthook = _say

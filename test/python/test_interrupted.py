@@ -39,6 +39,18 @@ try:
 except KeyboardInterrupt:
     raise ImportError("not loaded")
 """
+# An interruption of each moment in which a folder is made or removed
+LEAVES_NO_FOLDER = """
+from mems_stiction import interrupted
+import os, signal, sys, tempfile, threading, time
+interrupted.raise_from_here_on()
+tempfile.tempdir = sys.argv[1]
+threading.Timer(float(sys.argv[2]), os.kill, (os.getpid(), signal.SIGINT)).start()
+while True:
+    with interrupted.temporary_folder("passing_") as folder:
+        for number in range(20):
+            (folder / str(number)).touch()
+"""
 
 
 def program(name):
@@ -166,6 +178,14 @@ class InterruptedTest(unittest.TestCase):
             process.send_signal(signal.SIGINT)
             _, errors = process.communicate(timeout=30)
             self.assertEqual((process.returncode, errors), (-signal.SIGINT, "-c: interrupted\n"))
+
+    def test_a_folder_goes_whenever_the_interruption_comes(self):
+        for delay in np.linspace(0.05, 0.06, 25):
+            done = subprocess.run([sys.executable, "-c", LEAVES_NO_FOLDER, str(self.folder), "%g" % delay], stderr=subprocess.PIPE,
+                                  universal_newlines=True, timeout=30,
+                                  preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))
+            self.assertEqual((done.returncode, done.stderr), (-signal.SIGINT, "-c: interrupted\n"))
+            self.assertEqual(os.listdir(str(self.folder)), [])
 
     def test_a_page_that_runs_until_it_is_stopped(self):
         process = subprocess.Popen([str(SCRIPTS / "station_page"), "--port", "0"], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
