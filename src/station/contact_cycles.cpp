@@ -11,16 +11,6 @@
 namespace mems_stiction {
 namespace {
 
-/// Surfaces are passed on from contact to contact; the list of contacts is for the verdict.
-Options withSurfaces(Options options) {
-  options.output.deformed_surfaces = true;
-  options.output.asperities = true;
-  options.output.contact_map = false;
-  options.output.roughness = false;
-  options.output.energy_curve = false;
-  return options;
-}
-
 /// Over the pixels that are valid in both [m].
 double largestDifference(const cv::Mat& before, const cv::Mat& after) {
   double largest = 0.0;
@@ -48,7 +38,7 @@ ContactCyclesResult cycleContacts(const Options& options, const SurfacePair& sur
   if (count < 1) {
     throw OptionsError({"count: " + std::to_string(count) + " is not allowed, must be an integer >= 1"});
   }
-  AdhesionModel model(withSurfaces(options));
+  AdhesionModel model(withDeformedSurfaces(options));
   ContactCyclesResult result;
   const HeightMap& grid = surfaces.lower;
   result.surfaces = {surfaces.lower.asDouble(), surfaces.upperIsPlane() ? HeightMap() : surfaces.upper.asDouble()};

@@ -8,19 +8,10 @@
 #include "mechanics/jkr.hpp"
 #include "mems_stiction/mechanics/plasticity.hpp"
 #include "numeric/constants.hpp"
+#include "prediction/deformed_surfaces.hpp"
 
 namespace mems_stiction {
 namespace {
-
-/// What shows of a remaining contact is not asked for, its contacts and the surfaces that it leaves always.
-Options withContacts(Options options) {
-  options.output.deformed_surfaces = true;
-  options.output.contact_map = false;
-  options.output.roughness = false;
-  options.output.energy_curve = false;
-  options.output.asperities = true;
-  return options;
-}
 
 /// NaN if the solver parts the contact into no asperities.
 double remainingContactArea(const Prediction& contact, double normal_load, const Options& options) {
@@ -41,7 +32,7 @@ double remainingContactArea(const Prediction& contact, double normal_load, const
 }  // namespace
 
 RemainingContact::RemainingContact(const Options& options, const SurfacePair& surfaces)
-    : options_(withContacts(options)), model_(options_), surfaces_(surfaces) {}
+    : options_(withDeformedSurfaces(options)), model_(options_), surfaces_(surfaces) {}
 
 RemainingState RemainingContact::advance(double voltage, double mechanical_load) {
   Options options = options_;
