@@ -70,12 +70,13 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--check", action="store_true")
     arguments = parser.parse_args()
-    if STUB.read_text() == stub():
+    text = stub()
+    if STUB.read_text() == text:
         return 0
     if arguments.check:
         print("%s is out of date; scripts/lib/core_stub.py writes it anew" % STUB.name, file=sys.stderr)
         return 1
-    STUB.write_text(stub())
+    STUB.write_text(text)
     return 0
 
 
