@@ -21,6 +21,7 @@ struct Registry {
   std::mutex mutex;
   std::set<pid_t> children;
   std::set<std::string> paths;
+  bool has_line = false;  ///< on the terminal of the standard error
 };
 
 /// Never destroyed: an interruption may come while the process ends.
@@ -29,7 +30,14 @@ Registry& registry() {
   return *one;
 }
 
+void writeLine(const std::string& text) {
+  const std::string whole = "\r\033[K" + text;
+  // a terminal that has gone shows nothing
+  [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, whole.data(), whole.size());
+}
+
 void cleanUp() {
+  if (registry().has_line) writeLine("");
   for (const pid_t child : registry().children) kill(-child, SIGKILL);
   for (const std::string& path : registry().paths) {
     // A child that has just been ended may still have made a file: once more, then.
@@ -69,6 +77,12 @@ void cleanUpWhenInterrupted() {
     kill(getpid(), number);
     pause();
   }).detach();
+}
+
+void writeInPlace(const std::string& text) {
+  const std::lock_guard<std::mutex> lock(registry().mutex);
+  registry().has_line = !text.empty();
+  writeLine(text);
 }
 
 ScratchPath::ScratchPath(const std::function<std::string()>& make) {

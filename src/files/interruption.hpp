@@ -1,7 +1,8 @@
 #pragma once
 
 /// @file
-/// What must not outlive this process when it is interrupted: programs that it has started, files that are not whole.
+/// What must not outlive this process when it is interrupted: programs that it has started, files that are not whole, a
+/// line on the terminal.
 
 #include <sys/types.h>
 
@@ -15,6 +16,10 @@ namespace mems_stiction {
 /// their process groups, remove the scratch paths, and then end the process as they would have. A signal that is ignored
 /// (nohup) stays ignored.
 void cleanUpWhenInterrupted();
+
+/// Writes the text in place of the line that stands on the terminal of the standard error; an empty one wipes it, and so
+/// does an interruption.
+void writeInPlace(const std::string& text);
 
 /// A file or folder that goes when the process is interrupted, as long as the object lives.
 class ScratchPath {

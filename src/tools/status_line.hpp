@@ -1,11 +1,13 @@
 #pragma once
 
-/// One line in place on the terminal of the standard error, gone at the end. Elsewhere there is none.
+/// One line in place on the terminal of the standard error, gone at the end, or when the program is interrupted. Elsewhere
+/// there is none.
 
 #include <unistd.h>
 
-#include <cstdio>
 #include <string>
+
+#include "files/interruption.hpp"
 
 namespace mems_stiction {
 
@@ -13,7 +15,7 @@ class StatusLine {
  public:
   StatusLine() = default;
   ~StatusLine() {
-    if (is_shown_) std::fputs("\r\033[K", stderr);
+    if (is_shown_) writeInPlace("");
   }
   StatusLine(const StatusLine&) = delete;
   StatusLine& operator=(const StatusLine&) = delete;
@@ -23,8 +25,7 @@ class StatusLine {
   void show(const std::string& text) {
     if (!on_terminal_) return;
     is_shown_ = true;
-    std::fprintf(stderr, "\r\033[K%s", text.c_str());
-    std::fflush(stderr);
+    writeInPlace(text);
   }
 
  private:

@@ -3,10 +3,13 @@
 import base64
 import csv
 import io
+import json
 import os
 import pathlib
 import pty
 import re
+import select
+import signal
 import subprocess
 import tempfile
 import unittest
@@ -18,11 +21,63 @@ from mems_stiction.msg import StictionPrediction
 from roslib.packages import find_node
 
 BAD_INPUT = 2
+WIPED = b"\r\x1b[K"
+LONGEST_SILENCE = 300.0  # of a program [s]; a work that lasts says so each second
 
 
 def rough(size=24):
     waves = np.sin(np.arange(size) / 2.0)
     return 1e-9 * np.outer(waves, np.cos(np.arange(size) / 3.0))
+
+
+class Terminal:
+    """A program whose standard error is a terminal of the test's own, for as long as the block runs."""
+
+    def __init__(self, folder, name, *arguments):
+        try:
+            self._ours, theirs = pty.openpty()
+        except OSError as error:
+            raise unittest.SkipTest("there is no pseudo-terminal here: %s" % error)
+        self._shown = b""
+        try:
+            # what it ignores in the background, a terminal's program does not
+            self.process = subprocess.Popen([find_node("mems_stiction", name)[0]] + list(arguments), cwd=str(folder), stdout=subprocess.DEVNULL,
+                                            stderr=theirs, stdin=subprocess.DEVNULL,
+                                            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
+        finally:
+            os.close(theirs)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.process.kill()
+        self.process.wait()
+        os.close(self._ours)
+
+    def _read(self):
+        """Whether there was more."""
+        if not select.select([self._ours], [], [], LONGEST_SILENCE)[0]:
+            raise AssertionError("nothing more after %r" % self._shown)
+        try:
+            part = os.read(self._ours, 4096)
+        except OSError:  # the other end is closed
+            part = b""
+        self._shown += part
+        return bool(part)
+
+    def until(self, words):
+        while words not in self._shown:
+            if not self._read():
+                raise AssertionError("it ended with %r" % self._shown)
+
+    def until_it_ends(self, status):
+        """All that it has written."""
+        while self._read():
+            pass
+        ended = self.process.wait(timeout=LONGEST_SILENCE)
+        assert ended == status, (ended, self._shown)
+        return self._shown
 
 
 class SlipTest(unittest.TestCase):
@@ -287,14 +342,37 @@ class SlipTest(unittest.TestCase):
         (self.folder / "scan.tiff").write_bytes(b"II*\0\x90\x90\x90\x90\x90\n")
         self.assert_refused("scan.tiff cannot be read: is not a bag", "export_predictions", "-o", "a.csv", "scan.tiff")
 
-    def test_on_a_terminal_a_long_work_says_what_it_is_at(self):
-        np.save(str(self.folder / "large.npy"), np.random.RandomState(1).normal(0.0, 2e-9, (2500, 2500)).astype(np.float32))
-        shown = self.shown_on_a_terminal("predict_scan", "--cleanings", "--pitch", "20e-9", "large.npy")
-        self.assertIn(b"large.npy: predicting under each cleaning, ", shown)
-        self.assertTrue(shown.endswith(b"\r\x1b[K"), shown[-60:])  # nothing is left on the line
+    def long_work(self, size, **more):
+        """Arguments of a prediction that takes seconds on a fast machine, too: as many steps as there may be, so small that none is the last."""
+        np.save(str(self.folder / "large.npy"), np.random.RandomState(1).normal(0.0, 2e-9, (size, size)).astype(np.float32))
+        settings = dict(approach={"formulation": "paper", "max_steps": 10000000}, paper={"step": 1e-21}, load={"mechanical_load": 1e-3}, **more)
+        (self.folder / "long.yaml").write_text(json.dumps(settings))
+        return "--config", "long.yaml", "--pitch", "20e-9", "large.npy"
+
+    def test_on_a_terminal_a_long_work_says_what_it_is_at_until_it_ends(self):
+        with Terminal(self.folder, "predict_scan", *self.long_work(256, limits={"max_time": 3.0})) as terminal:
+            shown = terminal.until_it_ends(BAD_INPUT)
+        line, sentence = shown.split(WIPED)[-2:]
+        self.assertIn(b"large.npy: predicting, ", line)
+        self.assertTrue(sentence.startswith(b"predict_scan: large.npy: the scan was given up after 3 s (limits/max_time)"), sentence)
+        self.assertEqual(sentence.count(b"\n"), 1)
+
+    def test_on_a_terminal_ctrl_c_wipes_what_a_long_work_says(self):
+        with Terminal(self.folder, "predict_scan", "--cleanings", *self.long_work(64)) as terminal:
+            terminal.until(b"large.npy: predicting under each cleaning, ")
+            terminal.process.send_signal(signal.SIGINT)
+            shown = terminal.until_it_ends(-signal.SIGINT)
+        self.assertTrue(shown.endswith(WIPED), shown[-60:])  # nothing is left on the line
+
+    def test_on_a_terminal_a_short_work_leaves_nothing(self):
+        with Terminal(self.folder, "predict_scan", "scan.npy") as terminal:
+            shown = terminal.until_it_ends(0)
+        left = shown.split(WIPED)[-1]  # a machine that stood still may have shown what it was at
+        self.assertTrue(left == b"" or left.endswith(b"\n"), shown)
 
     def test_on_a_terminal_a_pdf_says_that_it_is_being_written(self):
-        self.assertIn(b"writing r.pdf: ", self.shown_on_a_terminal("stiction_report", "--pdf", "--steps", "0", "-o", "r.html", "scan.npy"))
+        with Terminal(self.folder, "stiction_report", "--pdf", "--steps", "0", "-o", "r.html", "scan.npy") as terminal:
+            self.assertIn(b"writing r.pdf: ", terminal.until_it_ends(0))
 
     def test_a_picture_of_one_cleaning_step_is_not_blown_up(self):
         (self.folder / "clean.yaml").write_text("preprocessing: {level: plane}\n")
@@ -302,25 +380,6 @@ class SlipTest(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         width, png = re.search(r'what the step changed" style="max-width: (\d+)px" src="data:image/png;base64,([^"]+)"', (self.folder / "r.html").read_text()).groups()
         self.assertEqual(int(width), matplotlib.image.imread(io.BytesIO(base64.b64decode(png))).shape[1])
-
-    def shown_on_a_terminal(self, name, *arguments):
-        """What a program that succeeds writes there on its standard error."""
-        ours, theirs = pty.openpty()
-        process = subprocess.Popen([find_node("mems_stiction", name)[0]] + list(arguments), cwd=str(self.folder), stdout=subprocess.DEVNULL,
-                                   stderr=theirs, stdin=subprocess.DEVNULL)
-        os.close(theirs)
-        shown = b""
-        try:
-            while True:
-                part = os.read(ours, 4096)
-                if not part:
-                    break
-                shown += part
-        except OSError:  # the other end is closed
-            pass
-        os.close(ours)
-        self.assertEqual(process.wait(timeout=120), 0, shown)
-        return shown
 
 
 if __name__ == "__main__":
