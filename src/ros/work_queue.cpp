@@ -68,6 +68,11 @@ std::size_t WorkQueue::waitingScans() const {
   return jobs_.scans();
 }
 
+std::size_t WorkQueue::waitingCalls() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return urgent_.size();
+}
+
 std::size_t WorkQueue::waitingBytes() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return jobs_.bytes();

@@ -53,6 +53,7 @@ class WorkQueue {
   }
 
   std::size_t waitingScans() const;
+  std::size_t waitingCalls() const;
   std::size_t waitingBytes() const;
 
  private:

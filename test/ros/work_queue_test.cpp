@@ -28,7 +28,7 @@ TEST(WorkQueue, RunsScansInOrderAndCallsBeforeThem) {
   }
   std::thread caller([&] { EXPECT_EQ(queue.call([&ran] { return ran.push_back(100), 7; }), 7); });
   while (queue.waitingScans() != 3) std::this_thread::yield();
-  std::this_thread::sleep_for(std::chrono::milliseconds(50));  // lets the call get into the queue
+  while (queue.waitingCalls() != 1) std::this_thread::yield();
   gate.set_value();
   caller.join();
   queue.call([] {});
@@ -133,7 +133,7 @@ TEST(WorkQueue, GivesTheMemoryOfABacklogBack) {
   }
   ASSERT_GT(residentBytes(), before + 150 * kScan);
   queue.start();
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   while (residentBytes() > before + 50 * kScan && std::chrono::steady_clock::now() < end) std::this_thread::yield();
   EXPECT_LT(residentBytes(), before + 50 * kScan);
 }
@@ -155,7 +155,7 @@ TEST(WorkQueue, ACallThatIsNotRunAnyMoreEndsWithAnError) {
   queue.start();
   entered.get_future().wait();
   std::thread caller([&] { EXPECT_THROW(queue.call([] { return 1; }), std::future_error); });
-  std::this_thread::sleep_for(std::chrono::milliseconds(50));  // lets the call get into the queue
+  while (queue.waitingCalls() != 1) std::this_thread::yield();
   std::thread stopper([&] { queue.stop(); });
   caller.join();
   gate.set_value();
@@ -179,10 +179,9 @@ TEST(WorkQueue, CallsThatNeverEndLeaveHalfOfTheTimeToScans) {
       while (!is_over) queue.call([&] { work(), ++calls; });
     });
   }
-  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  while (calls < 50) std::this_thread::yield();
   is_over = true;
   for (std::thread& caller : callers) caller.join();
-  EXPECT_GT(calls, 10);
   EXPECT_GE(scans, calls - 5);  // the callers' first and last calls are free
 }
 

@@ -58,7 +58,7 @@ TEST(ScanLimits, AScanThatTakesLongerIsGivenUpAndTheNextOneIsPredicted) {
   const auto start = std::chrono::steady_clock::now();
   EXPECT_NE(refusal(predictor, noise(256)).find("given up after 0.1 s (limits/max_time)"), std::string::npos);
   // a step takes milliseconds at most; a hundred times the limit leaves room for a busy machine
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
 
   configuration.model.paper.step = 0.0;
   predictor.setOptions(configuration.model);

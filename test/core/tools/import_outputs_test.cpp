@@ -57,8 +57,8 @@ TEST_F(ImportOutputs, AnInterruptionEndsTheChildAndRemovesItsFolder) {
     const std::string told = folder_.file("group");
     fs::remove(told);
     folder_.write("bin/gwyddion",
-                  "#!/bin/sh\nsleep 60 &\nhead -c 100000 /dev/zero > \"${2#--convert-to-gwy=}\"\necho $$ > " + told +
-                      ".part\nmv " + told + ".part " + told + "\nsleep 60\n");
+                  "#!/bin/sh\nsleep 600 &\nhead -c 100000 /dev/zero > \"${2#--convert-to-gwy=}\"\necho $$ > " + told +
+                      ".part\nmv " + told + ".part " + told + "\nsleep 600\n");
     fs::permissions(folder_.file("bin/gwyddion"), fs::perms::owner_all);
     const std::string scan = folder_.write("scan.di", "not really");
     const pid_t tool = fork();
@@ -70,16 +70,16 @@ TEST_F(ImportOutputs, AnInterruptionEndsTheChildAndRemovesItsFolder) {
       execl(MEMS_STICTION_IMPORT_SCAN, "import_scan", "-o", folder_.file("o").c_str(), scan.c_str(), nullptr);
       _exit(127);
     }
-    for (int tenth = 0; tenth < 200 && !fs::exists(told); ++tenth)
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    ASSERT_TRUE(fs::exists(told)) << "the child has not started within 10 s";
+    for (int tenth = 0; tenth < 600 && !fs::exists(told); ++tenth)
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    ASSERT_TRUE(fs::exists(told)) << "the child has not started within a minute";
     const pid_t group = std::stoi(ScratchFolder::read(told));
     EXPECT_TRUE(isAlive(group));
     kill(tool, number);
     int status = 0;
     waitpid(tool, &status, 0);
     EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == number) << "the caller must see the signal";
-    for (int tenth = 0; tenth < 50 && isAlive(group); ++tenth)
+    for (int tenth = 0; tenth < 600 && isAlive(group); ++tenth)
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
     EXPECT_FALSE(isAlive(group));
     EXPECT_TRUE(fs::is_empty(folder_.file("tmp"))) << "signal " << number;

@@ -242,7 +242,7 @@ TEST_F(PredictScanHalfSpace, InterruptEndsIt) {
   std::signal(SIGINT, before);
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 128 + SIGINT);
-  EXPECT_LT(seconds, 20.0) << "a transform of this frame takes a hundredth of a second; the rest is for busy machines";
+  EXPECT_LT(seconds, 30.0) << "a transform of this frame takes a hundredth of a second; the rest is for busy machines";
   EXPECT_TRUE(ScratchFolder::read(folder_.file("out")).empty());
 }
 
