@@ -4,14 +4,14 @@
 import pathlib
 import subprocess
 import tempfile
-import time
+import threading
 import unittest
 
 import rospy
 import rosservice
 import rostest
 from roslib.packages import find_node
-from stiction_client import SANITIZER
+from stiction_client import SANITIZER, TIMEOUT, wait_until
 
 BAD = {"queue_sise": 5, "lower": {"hardness": -1.0}, "drop_policy": "newest"}
 KEYS = ("queue_sise", "lower/hardness", "drop_policy", "newest")
@@ -24,7 +24,7 @@ class BadParametersTest(unittest.TestCase):
 
     def test_the_node_exits_and_names_every_key(self):
         rospy.set_param("/bad_node", BAD)
-        ended = subprocess.run([find_node("mems_stiction", "stiction_node")[0], "__name:=bad_node"], timeout=60,
+        ended = subprocess.run([find_node("mems_stiction", "stiction_node")[0], "__name:=bad_node"], timeout=TIMEOUT,
                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
         self.assertEqual(ended.returncode, 1, ended.stdout)
         for key in KEYS:
@@ -36,7 +36,7 @@ class BadParametersTest(unittest.TestCase):
             secret.write_text("hunter2 hunter2\n")
             for path, reason in ((str(secret), "cannot be used"), ("/etc/passwd", "must lie below")):
                 rospy.set_param("/curious_node", {"counter_surface": {"type": "file", "facing": "up", "file": path}})
-                ended = subprocess.run([find_node("mems_stiction", "stiction_node")[0], "__name:=curious_node"], timeout=60,
+                ended = subprocess.run([find_node("mems_stiction", "stiction_node")[0], "__name:=curious_node"], timeout=TIMEOUT,
                                        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
                 self.assertEqual(ended.returncode, 1, ended.stdout)
                 self.assertIn("counter_surface/file: %s" % path, ended.stdout)
@@ -50,19 +50,20 @@ class BadParametersTest(unittest.TestCase):
         manager = subprocess.Popen(["rosrun", "nodelet", "nodelet", "manager", "__name:=bad_manager"],
                                    stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
         try:
-            rospy.wait_for_service("/bad_manager/load_nodelet", timeout=30.0)
+            rospy.wait_for_service("/bad_manager/load_nodelet", timeout=TIMEOUT)
             loader = subprocess.Popen(["rosrun", "nodelet", "nodelet", "load", "mems_stiction/StictionNodelet", "bad_manager",
                                        "__name:=bad_nodelet"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-            time.sleep(3.0)
+            said = []
+            reader = threading.Thread(target=lambda: said.extend(iter(manager.stdout.readline, "")), daemon=True)
+            reader.start()
+            wait_until(lambda: all(key in "".join(said) for key in KEYS), "the name of every key in %s" % said)
             self.assertIsNone(manager.poll())
             self.assertNotIn("/bad_nodelet/set_load", rosservice.get_service_list())
             loader.terminate()
-            loader.wait(timeout=30)
+            loader.wait(timeout=TIMEOUT)
         finally:
             manager.terminate()
-        output, _ = manager.communicate(timeout=30)
-        for key in KEYS:
-            self.assertIn(key, output)
+            manager.wait(timeout=TIMEOUT)
 
 
 if __name__ == "__main__":

@@ -76,7 +76,7 @@ class BadScansTest(unittest.TestCase):
         # Without a newer pair, the timeout tells.
         lone_image()
         counts.wait(rejected=len(cases) + 1, waiting=0)
-        self.assertIn("within 1 s", counts["last_reason"])
+        self.assertIn("within 3 s", counts["last_reason"])
 
         self.assertEqual([p.header.stamp for p in predictions.messages], expected)
         for prediction in predictions.messages:
@@ -100,14 +100,13 @@ class BadScansTest(unittest.TestCase):
     def test_3_a_sequence_number_that_was_skipped_is_counted(self):
         counts = Counts()
         station = Station()
-        wait_until(lambda: counts["received"] != "", "diagnostics")
-        missing = int(counts["missing_by_sequence"])
+        missing = int(counts.fresh()["missing_by_sequence"])
         for second, lost in ((6000, 0), (6001, 0), (6002, 3)):
             # rospy numbers what it publishes: numbers that are never sent are scans that a network has lost.
             station.height.impl.seq += lost
+            predicted = int(counts.fresh()["predicted"])
             station.height.publish(image_message(rough_surface(1), rospy.Time(second)))
             station.info.publish(info_message(rospy.Time(second)))
-            predicted = int(counts["predicted"])
             wait_until(lambda: int(counts["predicted"]) > predicted, "the prediction")
             if second == 6000:
                 missing = int(counts["missing_by_sequence"])  # a new publisher counts anew
@@ -117,8 +116,7 @@ class BadScansTest(unittest.TestCase):
         log = Collector("/rosout", Log)
         counts = Counts()
         station = Station()
-        wait_until(lambda: counts["received"] != "", "diagnostics")
-        rejected = int(counts["rejected"])
+        rejected = int(counts.fresh()["rejected"])
         for number in range(1, 4):
             image = image_message(rough_surface(1), rospy.Time(7000 + number))
             image.data = image.data[:-4 * number]

@@ -14,7 +14,7 @@ import time
 import tornado.websocket
 
 PROGRAMS = ("chromium-headless-shell", "chromium", "google-chrome", "chromium-browser")
-TIMEOUT = 30.0  # [s]
+TIMEOUT = 120.0  # for what is certain to come, on a busy machine, too [s]
 
 
 def program():
@@ -51,7 +51,7 @@ class Browser:
             await asyncio.sleep(0.05)
         port = int(told.read_text().split()[0])
         while True:
-            answer = await AsyncHTTPClient().fetch("http://127.0.0.1:%d/json" % port)
+            answer = await AsyncHTTPClient().fetch("http://127.0.0.1:%d/json" % port, connect_timeout=TIMEOUT, request_timeout=TIMEOUT)
             pages = [target for target in json.loads(answer.body) if target["type"] == "page"]
             if pages:
                 return await tornado.websocket.websocket_connect(pages[0]["webSocketDebuggerUrl"], max_message_size=2**28)

@@ -11,7 +11,7 @@ import rospy
 import rostest
 from mems_stiction.msg import StictionPrediction
 from roslib.packages import find_node
-from stiction_client import Collector, Counts, OwnNode, Station, image_message, info_message, rough_surface, wait_until
+from stiction_client import TIMEOUT, Collector, Counts, OwnNode, Station, image_message, info_message, rough_surface, wait_until
 
 # A process of its own that publishes images, and none at all.
 PUBLISHER = """
@@ -39,10 +39,10 @@ class FaultsTest(unittest.TestCase):
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             node = subprocess.Popen([find_node("mems_stiction", "stiction_node")[0], "__name:=ended_node"])
             try:
-                rospy.wait_for_service("/ended_node/predict", timeout=30.0)
+                rospy.wait_for_service("/ended_node/predict", timeout=TIMEOUT)
                 self.assertIn("/ended_node/predict", registered())
                 node.send_signal(number)
-                self.assertEqual(node.wait(timeout=30), 0, number)
+                self.assertEqual(node.wait(timeout=TIMEOUT), 0, number)
             finally:
                 if node.poll() is None:
                     node.kill()
@@ -69,7 +69,8 @@ class FaultsTest(unittest.TestCase):
         sent = len(halves) // 2
         wait_until(lambda: counts["waiting"] == "0" and counts["waiting_for_partner"] == "0"
                    and int(counts["received"]) >= sent, "the end of the scans")
-        rospy.sleep(2.0)  # pairing_timeout is 1 s: whatever were counted twice would be by now
+        rospy.sleep(4.0)  # pairing_timeout is 3 s: whatever were counted twice would be by now
+        counts.fresh()
         figures = {key: int(counts[key]) for key in ("received", "predicted", "rejected", "dropped", "missing_by_sequence")}
         self.assertEqual(figures["predicted"] + figures["rejected"] + figures["dropped"], sent, figures)
         self.assertEqual(figures["missing_by_sequence"], 0, figures)
@@ -78,7 +79,7 @@ class FaultsTest(unittest.TestCase):
         self.assertEqual(len(predictions.messages), figures["predicted"])
 
     def test_images_cross_before_any_stamp_goes_back_where_others_publish_too(self):
-        with OwnNode("crossing"):
+        with OwnNode("crossing", pairing_timeout=TIMEOUT):
             counts = Counts("crossing/node")
             predictions = Collector("/crossing/prediction", StictionPrediction).connect()
             station = Station("/crossing/")

@@ -16,7 +16,7 @@ from mems_stiction.msg import (AsperityArray, CycleContactAction, CycleContactGo
                                SweepLoadGoal)
 from mems_stiction.srv import Predict, SetLoad, SetMechanicalLoad, SetVoltage
 from sensor_msgs.msg import Image
-from stiction_client import (PITCH, Collector, Counts, OwnNode, Station, Traffic, image_message, info_message, needs_module, predict_scan,
+from stiction_client import (PITCH, TIMEOUT, Collector, Counts, OwnNode, Station, Traffic, image_message, info_message, needs_module, predict_scan,
                              rough_surface, settings_of, unlike, wait_until)
 
 LOAD = 1e-6
@@ -58,11 +58,11 @@ class FiguresTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         rospy.init_node("figures_test")
-        rospy.wait_for_service("stiction_node/predict", timeout=30.0)
+        rospy.wait_for_service("stiction_node/predict", timeout=TIMEOUT)
         cls.counts = Counts()
         cls.predictions = Collector("prediction", StictionPrediction).connect()
         cls.station = Station()
-        cls.settings = dynamic_reconfigure.client.Client("stiction_node", timeout=30.0)
+        cls.settings = dynamic_reconfigure.client.Client("stiction_node", timeout=TIMEOUT)
         cls.predict = rospy.ServiceProxy("stiction_node/predict", Predict)
         cls.set_load = rospy.ServiceProxy("stiction_node/set_load", SetLoad)
         cls.surfaces = [rough_surface(seed, rms_height=rms) for seed, rms in ((1, 2e-9), (2, 4e-9), (3, 8e-9))]
@@ -144,7 +144,7 @@ class FiguresTest(unittest.TestCase):
         info = info_message(rospy.Time(7))
         first = len(self.predictions.messages)
         answers = []
-        with Traffic(self.station, self.surfaces, period=0.01) as traffic:
+        with Traffic(self.station, self.surfaces, period=0.01, predictions=self.predictions) as traffic:
             for voltage, load in loads * 3:
                 answers.append(set_voltage(voltage))
                 answers.append(set_mechanical_load(load))
@@ -177,10 +177,10 @@ class FiguresTest(unittest.TestCase):
         default = self.settings.get_configuration()
         expected = {}
         first = len(self.predictions.messages)
-        with Traffic(self.station, self.surfaces[:1], period=0.01) as traffic:
+        with Traffic(self.station, self.surfaces[:1], period=0.01, predictions=self.predictions) as traffic:
             for changes in CASES:
                 self.settings.update_configuration({key.split("/")[1]: value for key, value in changes.items()})
-                before = max(traffic.sent)
+                before = traffic.newest
                 one = record(self.surfaces[0], None, None, changes)
                 expected[one["settings_hash"]] = one
                 wait_until(lambda: self.predictions.messages[-1].header.stamp > before, "a scan that was sent afterwards")
@@ -200,7 +200,7 @@ class FiguresTest(unittest.TestCase):
     def test_5_every_figure_of_both_actions_under_traffic(self):
         sweep = actionlib.SimpleActionClient("stiction_node/sweep_load", SweepLoadAction)
         cycle = actionlib.SimpleActionClient("stiction_node/cycle_contact", CycleContactAction)
-        self.assertTrue(sweep.wait_for_server(rospy.Duration(30)) and cycle.wait_for_server(rospy.Duration(30)))
+        self.assertTrue(sweep.wait_for_server(rospy.Duration(TIMEOUT)) and cycle.wait_for_server(rospy.Duration(TIMEOUT)))
         voltages, loads = [0.0, 4.0, 9.0], [LOAD, 4e-6]
         config = settings_of(DEVICE_STATION)
         swept, cycled = [], []
@@ -210,11 +210,11 @@ class FiguresTest(unittest.TestCase):
 
         def run(client, goal):
             client.send_goal(goal)
-            self.assertTrue(client.wait_for_result(rospy.Duration(60)), "no answer in a minute")
+            self.assertTrue(client.wait_for_result(rospy.Duration(TIMEOUT)), "no answer")
             self.assertEqual(client.get_state(), GoalStatus.SUCCEEDED, client.get_result().message)
             return client.get_result()
 
-        with Traffic(self.station, self.surfaces, period=0.01) as traffic:
+        with Traffic(self.station, self.surfaces, period=0.01, predictions=self.predictions) as traffic:
             for given in [0, 1, 2, None, None, None]:
                 goal = {} if given is None else dict(height=image_message(self.surfaces[given], rospy.Time(9)),
                                                      scan_info=info_message(rospy.Time(9)))

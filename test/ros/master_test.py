@@ -6,7 +6,6 @@ import signal
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
 
 from own_roscore import Roscore  # isort: skip: before rospy reads ROS_MASTER_URI
@@ -18,7 +17,7 @@ from diagnostic_msgs.msg import DiagnosticArray
 from mems_stiction.msg import StictionPrediction
 from mems_stiction.srv import GetLoad, SetLoad
 from rosgraph_msgs.msg import Log
-from stiction_client import Collector, Counts, Station, make_bag, predict_scan, rough_surface, wait_until
+from stiction_client import TIMEOUT, Collector, Counts, Station, make_bag, predict_scan, rough_surface, wait_for_listener, wait_until
 
 CONFIG = pathlib.Path(__file__).parent / "station.yaml"
 NODELET = "true" in sys.argv
@@ -43,7 +42,7 @@ class MasterTest(unittest.TestCase):
     @classmethod
     def tearDownClass(cls):
         cls.launch.send_signal(signal.SIGINT)
-        cls.launch.wait(timeout=30)
+        cls.launch.wait(timeout=TIMEOUT)
         cls.roscore.kill()
 
     def master_reports(self, word):
@@ -51,7 +50,7 @@ class MasterTest(unittest.TestCase):
                 if status.name == "stiction_node: master" and word in status.message]
 
     def test_a_node_outlives_its_master_and_is_found_at_the_next(self):
-        rospy.wait_for_service("/stiction_node/set_load", timeout=30.0)
+        rospy.wait_for_service("/stiction_node/set_load", timeout=TIMEOUT)
         counts = Counts()
         predictions = Collector("prediction", StictionPrediction).connect()
         self.diagnostics = Collector("/diagnostics", DiagnosticArray).connect()
@@ -71,12 +70,13 @@ class MasterTest(unittest.TestCase):
             try:
                 predictions.wait(5)
                 self.roscore.kill()
-                wait_until(lambda: self.master_reports("does not answer"), "a report that the master is gone", timeout=10.0)
+                wait_until(lambda: self.master_reports("does not answer"), "a report that the master is gone")
                 self.assertTrue(set_load(3.0, 2 * LOAD).success)
+                # Scans go on without a master. How many are left for the next one depends on the machine.
+                predictions.wait(min(len(predictions.messages) + 5, SCANS))
                 self.roscore.start()
-                rospy.wait_for_service("/stiction_node/get_load", timeout=10.0)
-                self.assertIsNone(play.poll(), "the bag is to outlast the restart")
-                play.wait(timeout=60)
+                rospy.wait_for_service("/stiction_node/get_load", timeout=TIMEOUT)
+                play.wait(timeout=TIMEOUT)
             finally:
                 if play.poll() is None:
                     play.kill()
@@ -99,12 +99,9 @@ class MasterTest(unittest.TestCase):
         newcomer = subprocess.Popen(["rostopic", "echo", "-n", "1", "/prediction/pull_off_force"], stdout=subprocess.PIPE,
                                     universal_newlines=True)
         surface = rough_surface(7)
-        wait_until(lambda: len(rosgraph.Master("/master_test").getSystemState()[1]) > 0 and any(
-            name == "/prediction" and any("rostopic" in node for node in nodes)
-            for name, nodes in rosgraph.Master("/master_test").getSystemState()[1]), "a newcomer")
-        time.sleep(1.0)
+        wait_for_listener("/prediction", "/rostopic")
         stamp = station.send(surface)
-        echoed = newcomer.communicate(timeout=30)[0].split()[0]
+        echoed = newcomer.communicate(timeout=TIMEOUT)[0].split()[0]
         record = predict_scan(surface, 2 * LOAD, voltage=3.0)
         last = predictions.wait(SCANS + 1)[-1]
         self.assertEqual(last.header.stamp, stamp)

@@ -52,7 +52,7 @@ class PairingTest(unittest.TestCase):
                 time.sleep(period)
             wait_until(lambda: counts["waiting_for_partner"] == "0" and counts["waiting"] == "0"
                        and int(counts["predicted"] or 0) + int(counts["rejected"] or 0) >= SCANS, "the end of the scans")
-            time.sleep(1.5)  # whatever were counted twice would be by now
+            time.sleep(4.0)  # whatever were counted twice would be by now
             crossed = [m for m in predictions.messages if m.header.frame_id != m.scan_name]
             self.assertEqual(crossed, [])
             figures = {key: int(counts[key]) for key in ("received", "predicted", "rejected", "dropped")}

@@ -14,7 +14,7 @@ import rostest
 from mems_stiction.msg import PartVerdict, StictionPrediction
 from mems_stiction.srv import SetMechanicalLoad
 from roslib.packages import find_node
-from stiction_client import NODE_KEYS, Collector, Counts, make_bag, play_bag
+from stiction_client import NODE_KEYS, TIMEOUT, Collector, Counts, make_bag, play_bag
 
 # of each scan; the first part comes back after the second, and the last scan states none
 IDS = [("lot 3", "0012"), ("lot 3", "0012"), ("lot 3", "0013"), ("lot 3", "0012"), ("lot 3", "0013"), ("lot 3", "0012"), ("", "")]
@@ -53,7 +53,7 @@ class PartsTest(unittest.TestCase):
         (self.folder / "config.yaml").write_text(config)
         rows, parts = (str(self.folder / ("%s%g.jsonl" % (name, load))) for name in ("rows", "parts"))
         subprocess.run([find_node("mems_stiction", "stiction_batch")[0], "-c", str(self.folder / "config.yaml"), "--load", repr(load), "-o", rows,
-                        "--parts", parts, self.bag], check=True, timeout=60, stdout=subprocess.DEVNULL)
+                        "--parts", parts, self.bag], check=True, timeout=TIMEOUT, stdout=subprocess.DEVNULL)
         with open(parts) as stream:
             return {row["serial_id"]: row for row in map(json.loads, stream)}
 

@@ -13,7 +13,7 @@ from mems_stiction.msg import ScanInfo, StictionPrediction
 from mems_stiction.srv import GetLoad, Predict, SetLoad, SetMechanicalLoad, SetVoltage
 from rosgraph_msgs.msg import Log
 from std_srvs.srv import Trigger
-from stiction_client import Collector, Counts, Station, figures, image_message, info_message, rough_surface, wait_until
+from stiction_client import TIMEOUT, Collector, Counts, Station, figures, image_message, info_message, rough_surface, wait_until
 
 LOAD = 1e-6
 
@@ -25,7 +25,7 @@ class ServicesTest(unittest.TestCase):
         cls.counts = Counts()
         cls.log = Collector("/rosout", Log)
         for name in ("set_load", "get_load", "predict", "reset_surface"):
-            rospy.wait_for_service("stiction_node/" + name, timeout=30.0)
+            rospy.wait_for_service("stiction_node/" + name, timeout=TIMEOUT)
         cls.set_load = rospy.ServiceProxy("stiction_node/set_load", SetLoad)
         cls.set_voltage = rospy.ServiceProxy("stiction_node/set_voltage", SetVoltage)
         cls.set_mechanical_load = rospy.ServiceProxy("stiction_node/set_mechanical_load", SetMechanicalLoad)
@@ -120,7 +120,7 @@ class ServicesTest(unittest.TestCase):
     def test_3b_what_rosservice_leaves_out_is_said_and_set_alone_elsewhere(self):
         def call(service, request):
             answer = subprocess.run(["rosservice", "call", "/stiction_node/" + service, request], stdout=subprocess.PIPE,
-                                    universal_newlines=True, timeout=60, check=True).stdout
+                                    universal_newlines=True, timeout=TIMEOUT, check=True).stdout
             return yaml.safe_load(answer.split("\nprediction:")[0])["message"]
 
         self.send(rough_surface(3))

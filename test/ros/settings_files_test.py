@@ -8,10 +8,11 @@ import tempfile
 import unittest
 
 import rospy
+import rosservice
 import rostest
 from mems_stiction.srv import Predict
 from roslib.packages import find_node
-from stiction_client import image_message, info_message, predict_scan, rough_surface, settings_of, unlike, wait_until
+from stiction_client import TIMEOUT, image_message, info_message, predict_scan, rough_surface, settings_of, unlike, wait_until
 
 NODE = "settings_node"
 STATION = pathlib.Path(__file__).with_name("station.yaml")
@@ -45,13 +46,13 @@ class SettingsFilesTest(unittest.TestCase):
     def stop(self):
         if self.launched is not None and self.launched.poll() is None:
             self.launched.send_signal(signal.SIGINT)
-            self.launched.wait(timeout=30)
+            self.launched.wait(timeout=TIMEOUT)
         if self.launched is not None:
             self.log.close()
         self.launched = None
 
     def prediction(self):
-        rospy.wait_for_service(NODE + "/predict", timeout=30.0)
+        rospy.wait_for_service(NODE + "/predict", timeout=TIMEOUT)
         stamp = rospy.Time(1)
         answer = rospy.ServiceProxy(NODE + "/predict", Predict)(image_message(rough_surface(1), stamp), info_message(stamp), 0.0, LOAD)
         self.assertTrue(answer.success, answer.message)
@@ -80,24 +81,25 @@ class SettingsFilesTest(unittest.TestCase):
         wait_until(lambda: "preprocessing: given in line 3 and before in line 1" in self.said(), "the refusal")
 
     def test_keys_that_rosparam_loaded_for_an_earlier_run_are_named(self):
-        def started(text, seconds):
+        def started(text):
+            """What it says and its status once it has ended by itself, or None for the status once it serves."""
             (self.folder / "part.yaml").write_text(text)
-            subprocess.run(["rosparam", "load", str(self.folder / "part.yaml"), "/loaded_node"], check=True, timeout=60)
+            subprocess.run(["rosparam", "load", str(self.folder / "part.yaml"), "/loaded_node"], check=True, timeout=TIMEOUT)
             node = subprocess.Popen([find_node("mems_stiction", "stiction_node")[0], "__name:=loaded_node"],
                                     stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
-            try:
-                return node.communicate(timeout=seconds)[0], node.returncode
-            except subprocess.TimeoutExpired:
-                node.send_signal(signal.SIGINT)
-                return node.communicate(timeout=30)[0], None
+            wait_until(lambda: node.poll() is not None or "/loaded_node/get_load" in rosservice.get_service_list(), "the node")
+            if node.poll() is not None:
+                return node.communicate()[0], node.returncode
+            node.send_signal(signal.SIGINT)
+            return node.communicate(timeout=TIMEOUT)[0], None
 
-        self.assertIsNone(started("load: {mechanical_load: 1.0e-6, max_voltage: 5.0}", 4)[1])
-        said, status = started("load: {max_voltage: 6.0}", 60)
+        self.assertIsNone(started("load: {mechanical_load: 1.0e-6, max_voltage: 5.0}")[1])
+        said, status = started("load: {max_voltage: 6.0}")
         self.assertEqual(status, 1, said)
         self.assertIn("load/mechanical_load", said)
         self.assertIn("rosparam delete", said)
         rospy.delete_param("/loaded_node")
-        self.assertIsNone(started("load: {max_voltage: 6.0}", 4)[1])
+        self.assertIsNone(started("load: {max_voltage: 6.0}")[1])
 
 
 if __name__ == "__main__":

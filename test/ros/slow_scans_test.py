@@ -14,27 +14,28 @@ from actionlib_msgs.msg import GoalStatus
 from diagnostic_msgs.msg import DiagnosticStatus
 from mems_stiction.msg import HalfSpaceAction, HalfSpaceGoal, StictionPrediction, SweepLoadAction, SweepLoadGoal
 from mems_stiction.srv import Predict, SetLoad
-from stiction_client import (Collector, Counts, Station, image_message, info_message, predict_scan, rough_surface, settings_of, unlike,
+from stiction_client import (TIMEOUT, Collector, Counts, Station, image_message, info_message, predict_scan, rough_surface, settings_of, unlike,
                              wait_until)
 
 LOAD = 1e-6
-LIMIT = 2.0  # of the launch file [s]
+LIMIT = 5.0  # of the launch file [s]
 SETTINGS = settings_of(pathlib.Path(__file__).with_name("device_station.yaml"), approach={"formulation": "paper", "max_steps": 10000000}, paper={"step": 1e-21},
-                       limits={"max_time": LIMIT})
-REASON = "the scan was given up after 2 s (limits/max_time)"
+                       half_space={"step": 0.01, "max_states": 1000000}, limits={"max_time": LIMIT})
+REASON = "the scan was given up after 5 s (limits/max_time)"
 
 
 class SlowScansTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         rospy.init_node("slow_scans_test")
-        rospy.wait_for_service("stiction_node/set_load", timeout=30.0)
+        rospy.wait_for_service("stiction_node/set_load", timeout=TIMEOUT)
         cls.counts = Counts()
         cls.set_load = rospy.ServiceProxy("stiction_node/set_load", SetLoad)
-        cls.settings = dynamic_reconfigure.client.Client("stiction_node", timeout=30.0)
+        cls.settings = dynamic_reconfigure.client.Client("stiction_node", timeout=TIMEOUT)
         cls.predictions = Collector("prediction", StictionPrediction).connect()
         cls.station = Station()
-        cls.flat, cls.rough = np.zeros((48, 64), np.float32), rough_surface(1)
+        # The rough one takes many times LIMIT: as many steps as there may be, on many pixels.
+        cls.flat, cls.rough = np.zeros((48, 64), np.float32), np.random.RandomState(1).normal(0.0, 2e-9, (1024, 1024)).astype(np.float32)
         cls.counts.wait(received=0)
 
     def assert_next_is_predicted(self, load=LOAD):
@@ -68,8 +69,8 @@ class SlowScansTest(unittest.TestCase):
         answer = rospy.ServiceProxy("stiction_node/predict", Predict)(image_message(self.rough, rospy.Time(7)), info_message(rospy.Time(7)), 0.0, LOAD)
         self.assertFalse(answer.success)
         self.assertIn(REASON, answer.message)
+        rejected = int(self.counts.fresh()["rejected"])
         self.station.send(self.rough)
-        rejected = int(self.counts["rejected"])
         wait_until(lambda: int(self.counts["rejected"]) > rejected, "the end of the scan")
         answer = self.set_load(0.0, 2 * LOAD)
         self.assertEqual(answer.prediction.header.stamp, last)
@@ -100,20 +101,20 @@ class SlowScansTest(unittest.TestCase):
     def test_4_a_long_run_takes_its_scan_between_two_others(self):
         """The cleaning of a given scan, and the last one, belong to the thread that predicts."""
         sweep = actionlib.SimpleActionClient("stiction_node/sweep_load", SweepLoadAction)
-        self.assertTrue(sweep.wait_for_server(rospy.Duration(30)))
+        self.assertTrue(sweep.wait_for_server(rospy.Duration(TIMEOUT)))
         self.assert_next_is_predicted()
         given = dict(height=image_message(self.flat, rospy.Time(9)), scan_info=info_message(rospy.Time(9)))
         for scan in (given, {}):
             begun = self.while_a_scan_is_at_hand()
             sweep.send_goal(SweepLoadGoal(voltages=[0.0], **scan))
-            self.assertTrue(sweep.wait_for_result(rospy.Duration(30)))
+            self.assertTrue(sweep.wait_for_result(rospy.Duration(TIMEOUT)))
             self.assertEqual(sweep.get_state(), GoalStatus.SUCCEEDED, sweep.get_result().message)
             self.assertGreater(time.monotonic() - begun, 0.9 * LIMIT)
 
     def test_5_a_half_space_rests_while_a_scan_is_predicted(self):
         action = actionlib.SimpleActionClient("stiction_node/half_space", HalfSpaceAction)
-        self.assertTrue(action.wait_for_server(rospy.Duration(30)))
-        surface = rough_surface(1, rows=256, cols=256, rms_height=5e-10)  # near bonding: seconds, with a word every 50 ms or so
+        self.assertTrue(action.wait_for_server(rospy.Duration(TIMEOUT)))
+        surface = rough_surface(1, rows=256, cols=256, rms_height=5e-10)  # near bonding, in small steps: a minute, with a word every 50 ms or so
         feedback = []
         action.send_goal(HalfSpaceGoal(height=image_message(surface, rospy.Time(9)), scan_info=info_message(rospy.Time(9)), voltage=0.0,
                                        mechanical_load=LOAD), feedback_cb=feedback.append)
@@ -126,10 +127,10 @@ class SlowScansTest(unittest.TestCase):
         before = len(feedback)
         rospy.sleep(begun + 0.95 * LIMIT - time.monotonic())
         held = len(feedback) - before
-        # A tenth of the time stays with it.
-        self.assertLessEqual(held, 0.2 * free)
+        # A tenth of the time stays with it; half of it if it did not give way on a machine with one processor.
+        self.assertLessEqual(held, 0.3 * free)
         action.cancel_goal()
-        self.assertTrue(action.wait_for_result(rospy.Duration(30)))
+        self.assertTrue(action.wait_for_result(rospy.Duration(TIMEOUT)))
 
 
 if __name__ == "__main__":

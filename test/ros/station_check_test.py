@@ -13,7 +13,7 @@ import rospy
 import rostest
 from mems_stiction.srv import GetLoad
 from roslib.packages import find_node
-from stiction_client import make_bag
+from stiction_client import TIMEOUT, make_bag
 
 PASS, FAIL, NOT_MADE = 0, 1, 2
 
@@ -22,7 +22,7 @@ class StationCheckTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         rospy.init_node("station_check_test")
-        rospy.wait_for_service("stiction_node/get_load", timeout=30.0)
+        rospy.wait_for_service("stiction_node/get_load", timeout=TIMEOUT)
         cls.folder = tempfile.TemporaryDirectory()
         cls.bag = os.path.join(cls.folder.name, "scans.bag")
         make_bag(cls.bag, "--count", "2", "--rows", "128", "--cols", "128", "--rms-height", "5e-9")
@@ -34,7 +34,7 @@ class StationCheckTest(unittest.TestCase):
     def run_check(self, *arguments, **changes):
         command = [find_node("mems_stiction", "station_check")[0], "--bag", changes.get("bag", self.bag)]
         return subprocess.run(command + list(arguments), stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                              stdin=subprocess.DEVNULL, universal_newlines=True, timeout=60)
+                              stdin=subprocess.DEVNULL, universal_newlines=True, timeout=TIMEOUT)
 
     def assert_load_is_put_back(self):
         load = rospy.ServiceProxy("stiction_node/get_load", GetLoad)()
@@ -60,7 +60,7 @@ class StationCheckTest(unittest.TestCase):
         done = self.run_check("--verdict")
         self.assertEqual(done.returncode, FAIL, done.stderr)
         self.assertIn("FAIL: sticks: unknown, ", done.stdout)  # no device is stated
-        settings = dynamic_reconfigure.client.Client("stiction_node", timeout=30.0)
+        settings = dynamic_reconfigure.client.Client("stiction_node", timeout=TIMEOUT)
         device = dict(spring_stiffness=160.0, travel=1e-6, contact_area=1.6e-12)
         smooth = os.path.join(self.folder.name, "smooth.bag")  # so smooth that more than ten contacts hold at the pull-off
         make_bag(smooth, "--count", "2", "--rows", "128", "--cols", "128", "--rms-height", "5e-10")
@@ -90,7 +90,7 @@ class StationCheckTest(unittest.TestCase):
                                       "--max-contact-fraction", "1"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
             check.stdout.readline()
             check.send_signal(number)
-            error = check.communicate(timeout=30)[1]
+            error = check.communicate(timeout=TIMEOUT)[1]
             self.assertIn("station_check: interrupted", error)
             self.assertEqual(ours(), [], number)
             self.assert_load_is_put_back()
@@ -111,7 +111,7 @@ class StationCheckTest(unittest.TestCase):
         call = [find_node("mems_stiction", "station_check")[0], "--bag", self.bag, "--max-contact-fraction", "0.9"]
         for output, statuses in ((">&-", (NOT_MADE,)), (">/dev/full", (NOT_MADE, 120))):  # 120: Python could not write what was left either
             done = subprocess.run(["sh", "-c", 'exec "$@" ' + output, "sh"] + call, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                  stdin=subprocess.DEVNULL, universal_newlines=True, timeout=60)
+                                  stdin=subprocess.DEVNULL, universal_newlines=True, timeout=TIMEOUT)
             self.assertIn(done.returncode, statuses, done.stderr)
             self.assertTrue(done.stderr.startswith("station_check: not decided: [Errno "), done.stderr)
             self.assertNotIn("Traceback", done.stderr)
@@ -129,7 +129,7 @@ class StationCheckTest(unittest.TestCase):
         self.assertGreater(load.voltage, 0.0)
         self.assertEqual(load.mechanical_load, 2e-6)
         process.send_signal(signal.SIGINT)
-        output, errors = process.communicate(timeout=30)
+        output, errors = process.communicate(timeout=TIMEOUT)
         self.assertEqual((process.returncode, errors), (-signal.SIGINT, "station_check: interrupted\n"))
         self.assertNotIn("PASS", output)
         self.assert_load_is_put_back()

@@ -15,7 +15,7 @@ from mems_stiction.msg import (CycleContactAction, CycleContactGoal, StictionPre
                                SweepPoint)
 from mems_stiction.srv import GetLoad, SetLoad
 from rosgraph_msgs.msg import Log
-from stiction_client import (Collector, Counts, Station, Traffic, image_message, info_message, predict_scan, rough_surface,
+from stiction_client import (TIMEOUT, Collector, Counts, Station, Traffic, image_message, info_message, predict_scan, rough_surface,
                              wait_until)
 
 LOAD = 1e-6
@@ -29,13 +29,13 @@ class StationTest(unittest.TestCase):
         cls.counts = Counts()
         cls.set_load = rospy.ServiceProxy("stiction_node/set_load", SetLoad)
         cls.get_load = rospy.ServiceProxy("stiction_node/get_load", GetLoad)
-        rospy.wait_for_service("stiction_node/set_load", timeout=30.0)
+        rospy.wait_for_service("stiction_node/set_load", timeout=TIMEOUT)
         cls.predictions = Collector("prediction", StictionPrediction).connect()
         cls.station = Station()
         cls.sweep = actionlib.SimpleActionClient("stiction_node/sweep_load", SweepLoadAction)
         cls.cycle = actionlib.SimpleActionClient("stiction_node/cycle_contact", CycleContactAction)
-        assert cls.sweep.wait_for_server(rospy.Duration(30)) and cls.cycle.wait_for_server(rospy.Duration(30))
-        cls.settings = dynamic_reconfigure.client.Client("stiction_node", timeout=30.0)
+        assert cls.sweep.wait_for_server(rospy.Duration(TIMEOUT)) and cls.cycle.wait_for_server(rospy.Duration(TIMEOUT))
+        cls.settings = dynamic_reconfigure.client.Client("stiction_node", timeout=TIMEOUT)
 
     def live(self, surface):
         count = len(self.predictions.messages)
@@ -51,7 +51,7 @@ class StationTest(unittest.TestCase):
         """The state in the end, the result and all feedback."""
         feedback = []
         client.send_goal(goal, feedback_cb=feedback.append)
-        self.assertTrue(client.wait_for_result(rospy.Duration(60)), "no answer in a minute")
+        self.assertTrue(client.wait_for_result(rospy.Duration(TIMEOUT)), "no answer")
         return client.get_state(), client.get_result(), feedback
 
     def assert_progress(self, feedback, total):
@@ -117,7 +117,7 @@ class StationTest(unittest.TestCase):
             answer = self.settings.update_configuration(asked)
             wait_until(lambda: any(message.level == Log.WARN and message.msg.startswith("reconfigure refused, nothing changed: ")
                                    and reason in message.msg for message in log.messages),
-                       "a warning with '%s'; there are %s" % (reason, [message.msg for message in log.messages]), timeout=5.0)
+                       "a warning with '%s'; there are %s" % (reason, [message.msg for message in log.messages]))
             self.assertEqual(answer, before, refused)
             self.assertEqual(answer["hamaker_constant"], 65e-21, refused)
         load = self.get_load()
@@ -224,8 +224,8 @@ class StationTest(unittest.TestCase):
             self.assertEqual(client.get_state(), GoalStatus.ACTIVE)
             begin = time.monotonic()
             client.cancel_goal()
-            self.assertTrue(client.wait_for_result(rospy.Duration(10)))
-            self.assertLess(time.monotonic() - begin, 5.0)
+            self.assertTrue(client.wait_for_result(rospy.Duration(TIMEOUT)))
+            self.assertLess(time.monotonic() - begin, 30.0)  # hours of work otherwise
             self.assertEqual(client.get_state(), GoalStatus.PREEMPTED)
             result = client.get_result()
             self.assertEqual(result.message, "cancelled")
@@ -245,7 +245,7 @@ class StationTest(unittest.TestCase):
             given = dict(height=image_message(surface, stamp, encodings[str(surface.dtype)]), scan_info=info_message(stamp))
             goals.append((SweepLoadGoal(voltages=[0.0, 5.0], **given), CycleContactGoal(count=3, **given)))
         quiet = [self.run_goal(self.cycle, cycle)[1].cycles for _, cycle in goals]
-        with Traffic(self.station, surfaces[:2]) as traffic:
+        with Traffic(self.station, surfaces[:2], predictions=self.predictions) as traffic:
             for (sweep, cycle), record, alone in list(zip(goals, expected, quiet)) * 3:
                 state, swept, _ = self.run_goal(self.sweep, sweep)
                 self.assertEqual(state, GoalStatus.SUCCEEDED, swept.message)
@@ -268,7 +268,7 @@ class StationTest(unittest.TestCase):
     def test_8_a_new_goal_takes_the_place_of_the_one_that_runs(self):
         self.cycle.send_goal(CycleContactGoal(count=1000000))
         other = actionlib.SimpleActionClient("stiction_node/cycle_contact", CycleContactAction)
-        self.assertTrue(other.wait_for_server(rospy.Duration(10)))
+        self.assertTrue(other.wait_for_server(rospy.Duration(TIMEOUT)))
         state, result, _ = self.run_goal(other, CycleContactGoal(count=2))
         self.assertEqual(state, GoalStatus.SUCCEEDED, result.message)
         self.assertEqual(len(result.cycles), 2)
@@ -282,7 +282,7 @@ class StationTest(unittest.TestCase):
         manager = "/stiction_node_manager"
         name = manager if manager in rosnode.get_node_names() else "/stiction_node"
         rosnode.kill_nodes([name])
-        wait_until(lambda: name not in rosnode.get_node_names(), "%s to end" % name, timeout=10.0)
+        wait_until(lambda: name not in rosnode.get_node_names(), "%s to end" % name)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 """What the rostests share: scans to send, predictions to wait for, diagnostics to read."""
 
+import collections
 import json
 import math
 import os
@@ -9,8 +10,10 @@ import tempfile
 import threading
 import time
 import unittest
+import xmlrpc.client
 
 import numpy as np
+import rosgraph
 import rospy
 import yaml
 from diagnostic_msgs.msg import DiagnosticArray
@@ -21,7 +24,7 @@ from sensor_msgs.msg import Image
 PITCH = 10e-9
 NODE_KEYS = ("diagnostic_period", "pairing_timeout")  # of station.yaml, which the command line does not have
 SANITIZER = os.environ.get("MEMS_STICTION_SANITIZER")  # of scripts/sanitize: memory that is freed stays, and all takes longer
-TIMEOUT = 30.0 if SANITIZER is None else 150.0
+TIMEOUT = 120.0 if SANITIZER is None else 300.0  # for what is certain to come, on a busy machine, too [s]
 STATION = pathlib.Path(__file__).with_name("station.yaml")
 # The words of a record's enumerations as the message has them: NON_BONDING is REGIME_NON_BONDING.
 WORDS = {"status": "", "bonding_regime": "REGIME_", "contact_theory": "THEORY_", "sticks": "STICKS_"}
@@ -87,23 +90,49 @@ def figures(prediction):
     return buffer.getvalue()
 
 
+def listeners(topic):
+    """Names of the nodes that the publishers of a topic send its messages to, as these say themselves."""
+    topic = rospy.resolve_name(topic)
+    master = rosgraph.Master(rospy.get_name())
+    found = set()
+    for name in next((nodes for published, nodes in master.getSystemState()[0] if published == topic), []):
+        if name == rospy.get_name():
+            continue
+        try:
+            _, _, connections = xmlrpc.client.ServerProxy(master.lookupNode(name)).getBusInfo(rospy.get_name())
+        except (OSError, rosgraph.MasterError):  # a node that has gone
+            continue
+        found.update(one[1] for one in connections if one[2] == "o" and one[4] == topic)
+    return found
+
+
+def wait_for_listener(topic, node):
+    """Until a publisher of the topic has counted the node, whose name may begin so, as a listener."""
+    wait_until(lambda: any(name.startswith(node) for name in listeners(topic)), "%s to listen to %s" % (node, topic))
+
+
 class Collector:
     """Keeps every message of a topic in the order of arrival."""
+
+    open = collections.Counter()  # of this process, by topic: they share one connection
 
     def __init__(self, topic, kind):
         self.messages = []
         self._subscriber = rospy.Subscriber(topic, kind, self.messages.append, queue_size=1000)
-        self._topic = topic
+        self._topic = rospy.resolve_name(topic)
+        self.open[self._topic] += 1
 
     def connect(self):
         wait_until(lambda: self._subscriber.get_num_connections() > 0, "a publisher of " + self._topic)
-        time.sleep(0.1)  # roscpp answers a listener before it counts it
+        wait_for_listener(self._topic, rospy.get_name())  # roscpp answers a listener before it counts it
         return self
 
     def close(self):
-        """Leaves the publisher a moment to hear of it, before the next scan takes another way to the node."""
+        """Once the publisher has heard of it: the next scan takes another way to the node."""
         self._subscriber.unregister()
-        time.sleep(0.3)
+        self.open[self._topic] -= 1
+        if not self.open[self._topic]:
+            wait_until(lambda: rospy.get_name() not in listeners(self._topic), "the publisher of %s to hear of the end" % self._topic)
 
     def wait(self, count):
         wait_until(lambda: len(self.messages) >= count, "message %d of %s, got %d" % (count, self._topic, len(self.messages)))
@@ -139,6 +168,12 @@ class Counts:
         with self._lock:
             return self._reports[-1][0]
 
+    def fresh(self):
+        """The figures of a report that was made after this call."""
+        before = len(self._reports)
+        wait_until(lambda: len(self._reports) > before + 1, "two more reports")
+        return self
+
     def wait(self, **expected):
         def reached():
             return all(self[key] == str(value) for key, value in expected.items())
@@ -166,8 +201,8 @@ class Station:
         """How many stamps were given."""
         return self._second - 1000
 
-    def send(self, heights, **info):
-        stamp = self.stamp()
+    def send(self, heights, stamp=None, **info):
+        stamp = stamp or self.stamp()
         self.height.publish(image_message(heights, stamp))
         self.info.publish(info_message(stamp, **info))
         return stamp
@@ -208,7 +243,7 @@ def predict_scan(heights, load, voltage=0.0, counter=None, arguments=(), setting
         given = [] if load is None else ["--load", repr(load)]
         given += [] if voltage is None else ["--voltage", repr(voltage)]
         done = subprocess.run([program, "--json", "--config", folder / "config.yaml", "--pitch", repr(PITCH), *given, *arguments,
-                               folder / "scan.txt"], check=True, timeout=60, stdout=subprocess.PIPE)
+                               folder / "scan.txt"], check=True, timeout=TIMEOUT, stdout=subprocess.PIPE)
     return json.loads(done.stdout)
 
 
@@ -235,6 +270,25 @@ def unlike(message, record, leaving_out=()):
         if name not in NOT_COMPARED and name not in leaving_out:
             compare(name, getattr(message, name), expected)
     return found
+
+
+def resident_bytes(process):
+    """Memory of a process."""
+    return 1024 * _status_of(process, "VmRSS")
+
+
+def thread_count(process):
+    return _status_of(process, "Threads")
+
+
+def _status_of(process, name):
+    return int(pathlib.Path("/proc/%d/status" % process.pid).read_text().split(name + ":")[1].split()[0])
+
+
+def processor_seconds(process):
+    """What the process has computed so far."""
+    fields = pathlib.Path("/proc/%d/stat" % process.pid).read_text().rsplit(")", 1)[1].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
 class OwnNode:
@@ -265,17 +319,23 @@ class OwnNode:
         self.process.wait()
 
     def resident(self):
-        """Memory [bytes]."""
-        status = pathlib.Path("/proc/%d/status" % self.process.pid).read_text()
-        return 1024 * int(status.split("VmRSS:")[1].split()[0])
+        return resident_bytes(self.process)
 
 
 class Traffic:
-    """Sends scans one after the other, on a thread of its own, for as long as the block runs."""
+    """Sends scans one after the other, on a thread of its own, for as long as the block runs.
 
-    def __init__(self, station, surfaces, period=0.02):
+    predictions: a Collector; the scans then run no further ahead of what it gets than LEAD, however slow the node is.
+    """
+
+    LEAD = 50
+
+    def __init__(self, station, surfaces, period=0.02, predictions=None):
         self.surfaces = surfaces
-        self.sent = {}  # stamp: heights
+        self.sent = {}  # stamp: heights; from before a scan is sent
+        self.newest = None  # of the stamps
+        self._predictions = predictions
+        self._before = len(predictions.messages) if predictions else 0
         # The thread sanitizer has one processor, on which scans that come as fast as ever would leave nothing for others.
         self._station, self._period = station, period * (50 if SANITIZER == "thread" else 1)
         self._stop = threading.Event()
@@ -284,9 +344,11 @@ class Traffic:
     def _run(self):
         number = 0
         while not self._stop.is_set():
-            surface = self.surfaces[number % len(self.surfaces)]
-            self.sent[self._station.send(surface)] = surface
-            number += 1
+            if self._predictions is None or number - (len(self._predictions.messages) - self._before) < self.LEAD:
+                surface, stamp = self.surfaces[number % len(self.surfaces)], self._station.stamp()
+                self.sent[stamp], self.newest = surface, stamp
+                self._station.send(surface, stamp)
+                number += 1
             time.sleep(self._period)
 
     def __enter__(self):
@@ -302,10 +364,10 @@ class Traffic:
 def make_bag(path, *arguments):
     # rosrun looks into no folder called build below the package.
     program = find_node("mems_stiction", "make_scan_bag")[0]
-    subprocess.run([program, "-o", path] + list(arguments), check=True, timeout=120)
+    subprocess.run([program, "-o", path] + list(arguments), check=True, timeout=300)
 
 
 def play_bag(path):
     """As the documentation tells users to replay without loss."""
-    subprocess.run(["rosbag", "play", "--quiet", "--wait-for-subscribers", path], check=True, timeout=120,
+    subprocess.run(["rosbag", "play", "--quiet", "--wait-for-subscribers", path], check=True, timeout=300,
                    stdin=subprocess.DEVNULL)

@@ -12,8 +12,8 @@ import rostest
 from geometry_msgs.msg import TransformStamped
 from mems_stiction.msg import StictionPrediction
 from mems_stiction.srv import Predict, SetLoad
-from stiction_client import (Collector, Counts, OwnNode, Station, image_message, info_message, predict_scan, rough_surface,
-                             settings_of, unlike)
+from stiction_client import (TIMEOUT, Collector, Counts, OwnNode, Station, image_message, info_message, predict_scan, rough_surface,
+                             settings_of, unlike, wait_until)
 from tf2_msgs.msg import TFMessage
 
 FIRST = dict(offset_x=4.0e-8, offset_y=-2.5e-8, rotation=0.4, tilt_x=0.002, tilt_y=-0.001)
@@ -67,8 +67,11 @@ class TransformTest(unittest.TestCase):
         turn = tilt_and_rotation(FIRST["tilt_x"], FIRST["tilt_y"], FIRST["rotation"])
         cls.static.publish(TFMessage([transform("stage", "counter", rospy.Time(0), 0.0, FIRST["offset_y"], turn),
                                       transform("stage", "fixed", rospy.Time(0), 0.0, 0.0, (0.0, 0.0, 0.0, 1.0))]))
-        while cls.moving.get_num_connections() == 0:
-            time.sleep(0.01)
+        wait_until(cls.moving.get_num_connections, "the node to listen to /tf")
+
+    def wait_until_moved(self, node):
+        """It hears of places only that are said once it listens."""
+        wait_until(lambda: node in [connection.endpoint_id for connection in list(self.moving.impl.connections)], node + " to listen to /tf")
 
     def move(self, stamp, x):
         self.moving.publish(TFMessage([transform("scan", "stage", stamp, x, 0.0, (0.0, 0.0, 0.0, 1.0))]))
@@ -88,7 +91,7 @@ class TransformTest(unittest.TestCase):
         begin = time.monotonic()
         self.station.send(rough_surface(1))
         self.counts.wait(received=1, rejected=1, predicted=0)
-        self.assertGreater(time.monotonic() - begin, 0.9)
+        self.assertGreater(time.monotonic() - begin, 4.9)
         self.assertIn("no transform from the scan's frame 'scan' to counter_surface/frame counter", self.counts["last_reason"])
         self.assertEqual(self.predictions.messages, [])
 
@@ -133,9 +136,8 @@ class TransformTest(unittest.TestCase):
         time.sleep(0.3)
         self.assertEqual(len(self.predictions.messages), count)
         # Services do not wait with it.
-        begin = time.monotonic()
         self.assertTrue(rospy.ServiceProxy("stiction_node/set_load", SetLoad)(0.0, 1e-6).success)
-        self.assertLess(time.monotonic() - begin, 0.5)
+        self.assertEqual(len(self.predictions.messages), count)
         self.move(rospy.Time(1022), 0.0)
         stamps = [message.header.stamp.secs for message in self.predictions.wait(count + 2)[count:]]
         self.assertEqual(stamps, [1022, 1023])
@@ -169,6 +171,7 @@ class TransformTest(unittest.TestCase):
         with OwnNode("placed", **{"counter_surface/type": "gaussian", "counter_surface/frame": "placed"}):
             predictions = Collector("/placed/prediction", StictionPrediction).connect()
             station = Station("/placed/")
+            self.wait_until_moved("/placed/node")
             for second, x, y in ((3001, 37e-9, -12e-9), (3002, -5e-9, 0.0)):
                 self.moving.publish(TFMessage([transform("scan", "placed", rospy.Time(second), x, y, (0.0, 0.0, 0.0, 1.0))]))
                 station._second = second - 1
@@ -180,8 +183,9 @@ class TransformTest(unittest.TestCase):
     def test_7_a_counter_surface_comes_behind_the_scan_that_waits(self):
         surface, counters = rough_surface(7), [rough_surface(8), rough_surface(9)]
         with OwnNode("behind", **{"counter_surface/type": "topic", "counter_surface/facing": "down", "counter_surface/frame": "behind",
-                                  "counter_surface/transform_timeout": 10.0}):
+                                  "counter_surface/transform_timeout": TIMEOUT}):
             counts = Counts("behind/node")
+            self.wait_until_moved("/behind/node")
             predictions = Collector("/behind/prediction", StictionPrediction).connect()
             station, counter_station = Station("/behind/"), Station("/behind/counter_")
             counter_station.send(counters[0])

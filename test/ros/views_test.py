@@ -14,8 +14,9 @@ import rostest
 from mems_stiction.msg import StictionPrediction
 from roslib.packages import find_node
 from sensor_msgs.msg import Image, PointCloud2
-from stiction_client import Collector, Counts, Station, rough_surface, wait_until
+from stiction_client import TIMEOUT, Collector, Counts, Station, rough_surface, wait_for_listener, wait_until
 
+NODES = ("/plot_trend", "/stiction_trend")  # that of the test, and that of view.launch
 GREEN, RED = (53, 196, 106), (255, 90, 79)  # of trend_figure.VERDICTS
 
 
@@ -35,7 +36,7 @@ class ViewsTest(unittest.TestCase):
         cls.counts = Counts()
         cls.predictions = Collector("prediction", StictionPrediction).connect()
         cls.station = Station()
-        cls.settings = dynamic_reconfigure.client.Client("stiction_node", timeout=30.0)
+        cls.settings = dynamic_reconfigure.client.Client("stiction_node", timeout=TIMEOUT)
 
     def live(self, surface):
         """The scan's stamp, once it is predicted and whatever belongs to it is sent: the node counts it last."""
@@ -100,6 +101,9 @@ class ViewsTest(unittest.TestCase):
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         self.addCleanup(plot.kill)
         wait_until(lambda: os.path.exists(path), "the empty picture")
+        for node in NODES:
+            wait_for_listener("prediction", node)
+            wait_for_listener("/diagnostics", node)
 
         trend = Collector("trend", Image).connect()  # of view.launch
         surface = rough_surface(2, rms_height=5e-10)  # so smooth that three contacts hold it: one carries no statement
@@ -123,7 +127,7 @@ class ViewsTest(unittest.TestCase):
         wait_until(lambda: has_colour(rgb(trend.messages[-1])[headline], RED), "a red headline")
 
         # The other plot ends after two predictions and one loss, with the same story on a picture of the size asked for.
-        _, errors = plot.communicate(timeout=30)
+        _, errors = plot.communicate(timeout=TIMEOUT)
         self.assertEqual(plot.returncode, 0, errors)
         picture = (255 * matplotlib.image.imread(path)[:, :, :3]).round()
         self.assertEqual(picture.shape, (500, 900, 3))
@@ -134,7 +138,7 @@ class ViewsTest(unittest.TestCase):
         for arguments, reason in ((["--output", "trend.jpg"], "must end in .png"), (["--size", "1280"], "WIDTHxHEIGHT"),
                                   (["--output", "/no/such/folder/t.png"], "there is no folder"), (["--last", "-1"], "--last: '-1' is not allowed, must be a whole number >= 0")):
             done = subprocess.run([find_node("mems_stiction", "plot_trend")[0]] + arguments, stdout=subprocess.PIPE,
-                                  stderr=subprocess.PIPE, universal_newlines=True, timeout=30)
+                                  stderr=subprocess.PIPE, universal_newlines=True, timeout=TIMEOUT)
             self.assertEqual(done.returncode, 2)
             self.assertIn(reason, done.stderr)
 
