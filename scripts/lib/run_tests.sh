@@ -56,7 +56,7 @@ runRosTest() {
   local name=$1 status=0 counted
   local log=$results/logs/$name.txt folder=$results/ros/$name
   rm -rf "$build_folder/test_results"
-  ctest --output-on-failure --timeout "${ros_test_timeout:-600}" -R "^$name\$" >"$log" 2>&1 || status=$?
+  ctest --output-on-failure --timeout "${ros_test_timeout:-1800}" -R "^$name\$" >"$log" 2>&1 || status=$?
   mkdir -p "$folder"
   if [ -d "$build_folder/test_results" ]; then mv "$build_folder/test_results" "$folder"; fi
   counted=$(python3 "$count_results" "$folder")

@@ -20,7 +20,7 @@ import sys
 import tempfile
 
 TOLERANCE = 0.01
-TIMEOUT = 240  # of the whole page [s]
+TIMEOUT = 900  # of the whole page [s]
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 END = "-----end of command"
 

@@ -234,13 +234,15 @@ class BatchTest(unittest.TestCase):
     def test_killed_in_the_middle_it_goes_on_without_loss_or_repetition(self):
         self.make_bag(self.folder / "long.bag", "--count", 150, "--rms-height", "1e-9", "8e-9")
         inputs = [self.folder / "long.bag"]
-        self.predict("one.csv", inputs=inputs)
+        slow = self.folder / "slow.yaml"  # seconds, so that a busy test is in time
+        slow.write_text(CONFIG + "approach: {formulation: paper, max_steps: 10000000}\npaper: {step: 1.0e-12}\n")
+        self.predict("one.csv", "--config", slow, inputs=inputs)
         expected = (self.folder / "one.csv").read_bytes()
         path = self.folder / "killed.csv"
         kills = 0
         for _ in range(4):
             before = path.stat().st_size if path.exists() else 0
-            process = subprocess.Popen([self.batch, "--config", str(self.inputs / "device.yaml"), "-o", str(path)]
+            process = subprocess.Popen([self.batch, "--config", str(slow), "-o", str(path)]
                                        + [str(name) for name in inputs], stdout=subprocess.DEVNULL)
             while process.poll() is None and (not path.exists() or path.stat().st_size < before + 10000):
                 time.sleep(0.001)
@@ -248,7 +250,7 @@ class BatchTest(unittest.TestCase):
             kills += process.wait() == -signal.SIGKILL
             self.assertTrue(expected.startswith(path.read_bytes()))
         self.assertGreater(kills, 0)
-        self.predict("killed.csv", inputs=inputs)
+        self.predict("killed.csv", "--config", slow, inputs=inputs)
         self.assertEqual(path.read_bytes(), expected)
 
     def test_a_line_torn_anywhere_is_mended(self):

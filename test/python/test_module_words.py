@@ -91,7 +91,7 @@ class NotebookTest(unittest.TestCase):
             notebook = nbformat.read(str(path), as_version=4)
             self.assertTrue(all(not cell.get("outputs") for cell in notebook.cells), "%s holds outputs" % path.name)
             with tempfile.TemporaryDirectory() as folder:
-                nbclient.NotebookClient(notebook, timeout=200, kernel_name="python3", resources={"metadata": {"path": folder}}).execute()
+                nbclient.NotebookClient(notebook, timeout=600, kernel_name="python3", resources={"metadata": {"path": folder}}).execute()
             shown = [output for cell in notebook.cells for output in cell.get("outputs", []) if "text/html" in output.get("data", {})]
             self.assertGreater(len(shown), 0)
 

@@ -52,7 +52,7 @@ class TrialRun(unittest.TestCase):
         cls.done = subprocess.run(
             [str(REPOSITORY / "scripts" / "reproduce_paper"), "--quick", "--built", "--work", str(cls.folder / "work"),
              "--doc", str(cls.folder / "doc")], stdout=subprocess.PIPE, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL,
-            universal_newlines=True, timeout=200)
+            universal_newlines=True, timeout=600)
         assert cls.done.returncode == 0, cls.done.stderr
         cls.record = json.loads((cls.folder / "work" / "results.json").read_text())
         cls.study = cases.Study(cls.record["seeds"], cls.record["size"], True)

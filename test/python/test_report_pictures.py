@@ -248,7 +248,7 @@ class ReportTest(unittest.TestCase):
         cls._folder = tempfile.TemporaryDirectory()
         cls.folder = pathlib.Path(cls._folder.name)
         cls.scan = cls.folder / "afm.txt"
-        subprocess.run([AFM_SCAN, str(cls.scan)], check=True, timeout=60)
+        subprocess.run([AFM_SCAN, str(cls.scan)], check=True, timeout=300)
         (cls.folder / "afm.txt.yaml").write_text("pitch_x: 10.0e-9\npitch_y: 10.0e-9\nheight_scale: 1.0e-9\n")
         (cls.folder / "clean.yaml").write_text("load: {mechanical_load: 1.0e-6}\npreprocessing: {spikes: {enabled: true}, level: plane}\n")
         (cls.folder / "plain.yaml").write_text("load: {mechanical_load: 1.0e-6}\n")

@@ -18,7 +18,7 @@ WRITER = REPOSITORY / "scripts" / "lib" / "sensitivity_page.py"
 
 def run(command):
     return subprocess.run([str(part) for part in command], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                          universal_newlines=True, timeout=250)
+                          universal_newlines=True, timeout=600)
 
 
 def study(*arguments):

@@ -95,7 +95,7 @@ class SlipTest(unittest.TestCase):
         program = find_node("mems_stiction", name)[0]
         environment = dict(os.environ, ROS_MASTER_URI=master)
         return subprocess.run([program] + [str(part) for part in arguments], cwd=str(self.folder), env=environment, stdout=subprocess.PIPE,
-                              stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, universal_newlines=True, timeout=120)
+                              stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, universal_newlines=True, timeout=300)
 
     def assert_refused(self, expected, name, *arguments, status=BAD_INPUT):
         done = self.run_it(name, *arguments)
@@ -191,7 +191,7 @@ class SlipTest(unittest.TestCase):
 
     def test_a_list_may_come_from_a_pipe_of_the_shell(self):
         done = subprocess.run([find_node("mems_stiction", "stiction_batch")[0], "-o", "q.csv", "--inputs-from", "/dev/stdin"], cwd=str(self.folder),
-                              input=b"scan.npy\n", stdout=subprocess.PIPE, timeout=60)
+                              input=b"scan.npy\n", stdout=subprocess.PIPE, timeout=300)
         self.assertEqual(done.returncode, 0)
 
     def test_scripts_name_numbers_and_places_before_they_run(self):
@@ -226,7 +226,7 @@ class SlipTest(unittest.TestCase):
                 "run_program('a_node', main, 2)\n")
         for output in (">&-", ">/dev/full"):
             done = subprocess.run(["sh", "-c", 'exec python3 -c "$0" ' + output, node], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                  universal_newlines=True, timeout=60)
+                                  universal_newlines=True, timeout=300)
             with self.subTest(output=output):
                 self.assertIn(done.returncode, (2, 120))  # 120: Python could not write what was left either
                 self.assertNotIn("Traceback", done.stderr)
@@ -262,7 +262,7 @@ class SlipTest(unittest.TestCase):
 
     def test_a_curve_may_come_from_a_pipe_of_the_shell(self):
         done = subprocess.run([find_node("mems_stiction", "plot_curve")[0], "-o", "a.png", "/dev/stdin"], cwd=str(self.folder),
-                              input=b"height,force,direction\n1e-9,2e-9,APPROACH\n0,3e-9,APPROACH\n", timeout=60)
+                              input=b"height,force,direction\n1e-9,2e-9,APPROACH\n0,3e-9,APPROACH\n", timeout=300)
         self.assertEqual(done.returncode, 0)
 
     def test_an_export_names_the_topics_that_there_are(self):

@@ -22,7 +22,7 @@ COUNT = 6
 
 def run(*command):
     return subprocess.run([str(part) for part in command], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                          universal_newlines=True, timeout=250)
+                          universal_newlines=True, timeout=600)
 
 
 def headings(page):

@@ -17,7 +17,7 @@ def run(page):
     programs = pathlib.Path(find_node("mems_stiction", "predict_scan")[0]).parent
     path = os.pathsep.join([str(programs), str(REPOSITORY / "scripts" / "examples"), os.environ["PATH"]])
     return subprocess.run([sys.executable, str(RUNNER), str(page)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                          universal_newlines=True, env=dict(os.environ, PATH=path), timeout=280)
+                          universal_newlines=True, env=dict(os.environ, PATH=path), timeout=1000)
 
 
 class TutorialTest(unittest.TestCase):
