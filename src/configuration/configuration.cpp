@@ -15,6 +15,7 @@ void Configuration::describe(OptionVisitor& visitor) {
   preprocessing.describe(visitor);
   counter_surface.describe(visitor);
   device.describe(visitor);
+  device_force.describe(visitor);
   uncertainty.describe(visitor);
   half_space.describe(visitor);
 }
@@ -24,7 +25,7 @@ std::vector<std::string> Configuration::validate() const {
   for (const std::vector<std::string>& of_section :
        {rangeViolations(spatial_roughness), rangeViolations(scan), rangeViolations(limits), rangeViolations(resolution),
         rangeViolations(preprocessing), rangeViolations(counter_surface), rangeViolations(uncertainty),
-        rangeViolations(half_space)}) {
+        rangeViolations(half_space), rangeViolations(device_force)}) {
     violations.insert(violations.end(), of_section.begin(), of_section.end());
   }
   const std::vector<std::string> of_device = device.validate();

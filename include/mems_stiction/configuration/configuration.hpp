@@ -8,6 +8,7 @@
 
 #include "mems_stiction/configuration/provenance.hpp"
 #include "mems_stiction/configuration/scan_limits.hpp"
+#include "mems_stiction/device/device_force_options.hpp"
 #include "mems_stiction/half_space/half_space_options.hpp"
 #include "mems_stiction/height_map/raw_scan.hpp"
 #include "mems_stiction/prediction/options.hpp"
@@ -32,6 +33,7 @@ struct Configuration {
   PipelineOptions preprocessing;
   CounterSurfaceOptions counter_surface;
   DeviceOptions device;
+  DeviceForceOptions device_force;
   UncertaintyOptions uncertainty;
   HalfSpaceOptions half_space;
 
