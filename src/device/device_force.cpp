@@ -51,11 +51,11 @@ DeviceForce deviceForce(const DeviceSurfaces& surfaces, const DeviceArea& area, 
   AdhesionModel adhesion(model);
   DeviceForce force;
   force.area = area.area;
-  std::vector<SpectrumSource> sources;
+  std::vector<ScanWaves> waves;
   double finest = 0.0;
   double force_per_area = 0.0;
   for (const NamedScan& scan : surfaces.scans) {
-    sources.push_back({scan.name, &scan.surface});
+    waves.emplace_back(scan.surface);
     const double pitch = std::max(scan.surface.pitchX(), scan.surface.pitchY());
     if (finest == 0.0 || pitch < finest) finest = pitch;
   }
@@ -69,8 +69,8 @@ DeviceForce deviceForce(const DeviceSurfaces& surfaces, const DeviceArea& area, 
     force.parts_of_scans.push_back({last.nominal_area, last.pull_off_force});
   }
   force.linear_pull_off_force = force_per_area / finest_scans * area.area;
-  const MergedSpectrum spectrum = mergedSpectrum(sources);
-  force.warnings = spectrum.warnings;
+  const std::vector<ScanTrust> trust = trustOf(waves);
+  const MergedSpectrum spectrum = mergedSpectrum(waves, trust, stretchOf(waves, trust));
   force.pitch = options.pitch > 0.0 ? options.pitch : finest;
   const int side = std::max(
       16,

@@ -4,71 +4,271 @@
 #include <cmath>
 #include <map>
 
-#include "errors/short_number.hpp"
 #include "mems_stiction/errors/errors.hpp"
-#include "numeric/constants.hpp"
-#include "roughness/power_spectrum.hpp"
 
 namespace mems_stiction {
 namespace {
 
-constexpr double kBandsPerDecade = 10.0;
-/// Rings below this belong to the window and the levelling.
-constexpr double kFirstRing = 2.5;
-/// Of Nyquist's wave number: beyond it pixels blur and alias.
-constexpr double kTrustOfNyquist = 0.5;
-/// Independent powers per wave vector of half a plane under Hann's window: (sum w^2)^2/(N sum w^4), both axes.
+constexpr double kBandsPerOctave = 8.0;
+constexpr double kFirstWave = 2.0;           ///< along a side: fewer are what levelling has left
+constexpr double kFirstWaveOfLargest = 1.0;  ///< of the largest scan nobody else sees them
+constexpr double kPixelsOfShortest = 10.0;   ///< a coarse scan blurs and aliases shorter waves
+constexpr int kCorrections = 4;
+/// Degrees of freedom for each wave (of both halves) under Hann's window: (sum w^2)^2/(N sum w^4), of both axes.
 constexpr double kHannFreedom = 0.264;
+/// Below so many waves along a side nothing of the surface is thought to arrive.
+constexpr double kLeastSource = 0.4;
 
-struct Sum {
+// the search for a stretch
+constexpr double kFirstWaveOfStretch = 3.0;
+constexpr double kLastWaveOfStretch = 128.0;
+constexpr double kBandsOfStretch = 6.0;
+constexpr double kLeastGain = 10.0;  ///< of the logarithm of the likelihood
+
+int bandOf(double wave_number, double bands_per_octave) {
+  return static_cast<int>(std::floor(bands_per_octave * std::log2(wave_number)));
+}
+
+/// Of one band of the scans of one kind.
+struct BandSum {
   double power = 0.0;
   double count = 0.0;
-  double freedom = 0.0;
+  double log_wave_number = 0.0;
+  double correction = 1.0;  ///< what of the density is found there
 };
 
-int bandOf(double wave_number) { return static_cast<int>(std::floor(kBandsPerDecade * std::log10(wave_number))); }
+/// Scans of one size and pitch, which share corrections.
+struct ScanGroup {
+  const ScanWaves* first = nullptr;
+  ScanTrust trust;
+  double count = 0.0;
+  std::map<int, BandSum> bands;
+};
 
-using Bands = std::map<int, Sum>;
-
-/// - @p most_trusted wave numbers above it are another scan's [rad/m]
-void addRings(const PowerSpectrum& spectrum, double width, double least, double most, Bands& bands) {
-  for (const SpectrumRing& ring : spectrum.rings) {
-    if (ring.wave_number < least || ring.wave_number > most) continue;
-    Sum& sum = bands[bandOf(ring.wave_number)];
-    sum.power += ring.count * ring.density;
-    sum.count += ring.count;
-    sum.freedom += 0.5 * ring.count * kHannFreedom;
+std::vector<ScanGroup> groupsOf(const std::vector<ScanWaves>& scans, const std::vector<ScanTrust>& trust,
+                                const SpectrumStretch& stretch) {
+  std::vector<ScanGroup> groups;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    const ScanWaves& scan = scans[i];
+    const auto alike = std::find_if(groups.begin(), groups.end(), [&](const ScanGroup& group) {
+      return group.first->isAlike(scan) && group.trust.least_waves == trust[i].least_waves;
+    });
+    ScanGroup& group = alike != groups.end() ? *alike : groups.emplace_back();
+    if (group.first == nullptr) {
+      group.first = &scan;
+      group.trust = trust[i];
+    }
+    group.count += 1.0;
+    scan.visit([&](const FrameWave& wave, double power, double weight) {
+      const double q_x = scan.waveNumberX(wave.x);
+      const double q_y = scan.waveNumberY(wave.y);
+      if (wave.count() < trust[i].least_waves || std::hypot(q_x, q_y) > trust[i].most_wave_number) return;
+      const double wave_number = stretch.roundWave(q_x, q_y);
+      BandSum& sum = group.bands[bandOf(wave_number, kBandsPerOctave)];
+      sum.power += weight * power;
+      sum.count += weight;
+      sum.log_wave_number += weight * std::log(wave_number);
+    });
   }
-  (void)width;
+  return groups;
+}
+
+MergedSpectrum pooled(const std::vector<ScanGroup>& groups, const SpectrumStretch& stretch, double largest) {
+  std::map<int, BandSum> together;
+  for (const ScanGroup& group : groups) {
+    for (const auto& [band, sum] : group.bands) {
+      BandSum& all = together[band];
+      all.power += sum.power / sum.correction;
+      all.count += sum.count;
+      all.log_wave_number += sum.log_wave_number;
+    }
+  }
+  MergedSpectrum spectrum;
+  spectrum.stretch = stretch;
+  spectrum.largest_wave_number = largest;
+  for (const auto& [band, sum] : together) {
+    if (!(sum.power > 0.0)) continue;
+    spectrum.bands.push_back(
+        {std::exp(sum.log_wave_number / sum.count), sum.power / sum.count, kHannFreedom * sum.count});
+  }
+  return spectrum;
+}
+
+/// What of the density is found in the bands of a group's long waves.
+void correct(const MergedSpectrum& spectrum, ScanGroup& group) {
+  const WaveTransfer& transfer = waveTransfer();
+  const ScanWaves& scan = *group.first;
+  const auto densityOf = [&](const FrameWave& wave) {
+    return spectrum.densityAt(spectrum.stretch.roundWave(scan.waveNumberX(wave.x), scan.waveNumberY(wave.y)));
+  };
+  std::vector<double> sources;
+  for (const double y : transfer.sources) {
+    for (const double x : transfer.sources) {
+      const FrameWave wave{x, y};
+      sources.push_back(wave.count() < kLeastSource ? 0.0 : densityOf(wave));
+    }
+  }
+  const cv::Mat arrived = transfer.shares * cv::Mat(sources);
+  struct Found {
+    double count = 0.0;
+    double expected = 0.0;
+    double density = 0.0;
+  };
+  std::map<int, Found> found;
+  for (std::size_t i = 0; i < transfer.waves.size(); ++i) {
+    const FrameWave& wave = transfer.waves[i];
+    if (wave.count() < group.trust.least_waves) continue;
+    const double weight = transfer.weights[i];
+    Found& of_band =
+        found[bandOf(spectrum.stretch.roundWave(scan.waveNumberX(wave.x), scan.waveNumberY(wave.y)), kBandsPerOctave)];
+    of_band.count += weight;
+    of_band.expected += weight * arrived.at<double>(static_cast<int>(i));
+    of_band.density += weight * densityOf(wave);
+  }
+  for (const auto& [band, of_band] : found) {
+    const auto place = group.bands.find(band);
+    if (place == group.bands.end() || !(of_band.expected > 0.0) || !(of_band.density > 0.0)) continue;
+    // bands that lie wholly among the long waves
+    if (std::abs(of_band.count * group.count - place->second.count) > 0.5) continue;
+    place->second.correction = of_band.expected / of_band.density;
+  }
+}
+
+/// Waves by wave number vector, for the search for a stretch.
+struct VectorWave {
+  double q_x, q_y, power, weight;
+};
+
+double unlikeliness(const std::vector<VectorWave>& waves, const SpectrumStretch& stretch) {
+  struct Sum {
+    double count = 0.0;
+    double power = 0.0;
+  };
+  constexpr int kMost = 512;  // bands of 2^85
+  std::vector<Sum> bands(kMost);
+  const int first =
+      static_cast<int>(std::floor(kBandsOfStretch * std::log2(std::hypot(waves.front().q_x, waves.front().q_y)))) -
+      kMost / 2;
+  const double cosine = std::cos(stretch.direction);
+  const double sine = std::sin(stretch.direction);
+  for (const VectorWave& wave : waves) {
+    const double along = cosine * wave.q_x + sine * wave.q_y;
+    const double across = cosine * wave.q_y - sine * wave.q_x;
+    const double square = along * along * stretch.ratio + across * across / stretch.ratio;
+    const int band = static_cast<int>(std::floor(0.5 * kBandsOfStretch * std::log2(square))) - first;
+    Sum& sum = bands[static_cast<std::size_t>(std::clamp(band, 0, kMost - 1))];
+    sum.count += wave.weight;
+    sum.power += wave.weight * wave.power;
+  }
+  double total = 0.0;
+  for (const Sum& sum : bands) {
+    if (sum.power > 0.0) total += sum.count * std::log(sum.power / sum.count);
+  }
+  return 0.5 * kHannFreedom * total;
 }
 
 }  // namespace
 
-MergedSpectrum mergedSpectrum(const std::vector<SpectrumSource>& scans) {
-  double finest = 0.0;
-  for (const SpectrumSource& scan : scans) {
-    finest = std::max(finest, kPi / std::max(scan.surface->pitchX(), scan.surface->pitchY()));
+double MergedSpectrum::densityAt(double wave_number) const {
+  if (bands.empty() || !(wave_number <= largest_wave_number)) return 0.0;
+  if (wave_number <= bands.front().wave_number) return bands.front().density;
+  const auto above =
+      std::upper_bound(bands.begin(), bands.end(), wave_number,
+                       [](double wanted, const SpectrumBand& band) { return wanted < band.wave_number; });
+  if (above == bands.end()) return bands.back().density;
+  const SpectrumBand& below = *(above - 1);
+  const double share = std::log(wave_number / below.wave_number) / std::log(above->wave_number / below.wave_number);
+  return below.density * std::pow(above->density / below.density, share);
+}
+
+double MergedSpectrum::rootMean(int order, double from, double to) const {
+  constexpr int kSteps = 400;
+  const double end = std::min(to, largest_wave_number);
+  if (!(from < end)) return 0.0;
+  const double step = std::log(end / from) / kSteps;
+  double sum = 0.0;
+  for (int i = 0; i < kSteps; ++i) {
+    const double q = from * std::exp((i + 0.5) * step);
+    sum += densityAt(q) * std::pow(q, 2 * order + 2);
   }
-  Bands together;
-  for (const SpectrumSource& scan : scans) {
-    const HeightMap& surface = *scan.surface;
-    const double width = 2.0 * kPi / std::max(surface.cols() * surface.pitchX(), surface.rows() * surface.pitchY());
-    const double shorter = 2.0 * kPi / std::min(surface.cols() * surface.pitchX(), surface.rows() * surface.pitchY());
-    const double nyquist = kPi / std::max(surface.pitchX(), surface.pitchY());
-    // the finest scan is all that is known of the shortest waves
-    const double most = nyquist > 0.75 * finest ? nyquist : kTrustOfNyquist * nyquist;
-    const PowerSpectrum spectrum = powerSpectrum(surface, SpectrumWindow::kHann);
-    addRings(spectrum, width, kFirstRing * std::max(width, shorter), most, together);
+  return std::sqrt(sum * step / (2.0 * kPi));
+}
+
+std::vector<ScanTrust> trustOf(const std::vector<ScanWaves>& scans) {
+  double longest = 0.0;
+  double shortest = std::numeric_limits<double>::infinity();
+  double finest = std::numeric_limits<double>::infinity();
+  for (const ScanWaves& scan : scans) {
+    longest = std::max(longest, scan.longerSide());
+    shortest = std::min(shortest, scan.longerSide());
+    finest = std::min(finest, scan.longerPitch());
   }
-  MergedSpectrum merged;
-  for (const auto& [band, sum] : together) {
-    if (!(sum.power > 0.0)) continue;
-    merged.bands.push_back(
-        {std::pow(10.0, (band + 0.5) / kBandsPerDecade), sum.power / sum.count, std::max(sum.freedom, 0.5)});
+  std::vector<ScanTrust> trust;
+  for (const ScanWaves& scan : scans) {
+    const bool is_wide = scan.longerSide() == longest && longest > shortest;
+    const bool is_finest = scan.longerPitch() < 1.5 * finest;
+    trust.push_back(
+        {is_wide ? kFirstWaveOfLargest : kFirstWave,
+         is_finest ? std::numeric_limits<double>::infinity() : 2.0 * kPi / (kPixelsOfShortest * scan.longerPitch())});
   }
-  if (merged.bands.empty())
-    throw SurfaceError("no scan is large enough for a spectrum: 16 pixels a side are the least");
-  return merged;
+  return trust;
+}
+
+SpectrumStretch stretchOf(const std::vector<ScanWaves>& scans, const std::vector<ScanTrust>& trust) {
+  std::vector<VectorWave> waves;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    const ScanWaves& scan = scans[i];
+    scan.visit([&](const FrameWave& wave, double power, double weight) {
+      const double q_x = scan.waveNumberX(wave.x);
+      const double q_y = scan.waveNumberY(wave.y);
+      if (wave.count() < kFirstWaveOfStretch || wave.count() > kLastWaveOfStretch ||
+          std::hypot(q_x, q_y) > trust[i].most_wave_number) {
+        return;
+      }
+      waves.push_back({q_x, q_y, power, weight});
+    });
+  }
+  if (waves.empty()) return {};
+  const double round = unlikeliness(waves, {});
+  double least = round;
+  SpectrumStretch best;
+  const auto attempt = [&](double ratio, double direction) {
+    const SpectrumStretch stretch{std::max(ratio, 1.001), direction};
+    const double value = unlikeliness(waves, stretch);
+    if (value >= least) return;
+    least = value;
+    best = stretch;
+  };
+  for (const double ratio : {1.5, 2.5, 5.0}) {
+    for (int turn = 0; turn < 12; ++turn) attempt(ratio, turn * kPi / 12.0);
+  }
+  if (best.ratio == 1.0) return best;
+  double by_ratio = 1.3;
+  double by_turn = kPi / 24.0;
+  for (int refinement = 0; refinement < 4; ++refinement) {
+    const SpectrumStretch middle = best;
+    for (const double ratio : {middle.ratio / by_ratio, middle.ratio, middle.ratio * by_ratio}) {
+      for (const double turn : {-by_turn, 0.0, by_turn}) attempt(ratio, middle.direction + turn);
+    }
+    by_ratio = std::sqrt(by_ratio);
+    by_turn *= 0.5;
+  }
+  return round - least < kLeastGain ? SpectrumStretch() : best;
+}
+
+MergedSpectrum mergedSpectrum(const std::vector<ScanWaves>& scans, const std::vector<ScanTrust>& trust,
+                              const SpectrumStretch& stretch) {
+  double finest = std::numeric_limits<double>::infinity();
+  for (const ScanWaves& scan : scans) finest = std::min(finest, scan.longerPitch());
+  const double largest = kPi * std::sqrt(2.0) / finest * std::sqrt(stretch.ratio);
+  std::vector<ScanGroup> groups = groupsOf(scans, trust, stretch);
+  MergedSpectrum spectrum = pooled(groups, stretch, largest);
+  if (spectrum.bands.empty()) throw SurfaceError("the scans show no roughness: a spectrum needs waves of some height");
+  for (int round = 0; round < kCorrections; ++round) {
+    for (ScanGroup& group : groups) correct(spectrum, group);
+    spectrum = pooled(groups, stretch, largest);
+  }
+  return spectrum;
 }
 
 }  // namespace mems_stiction
