@@ -1,0 +1,429 @@
+#include "device/surface_law.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+#include "mems_stiction/errors/errors.hpp"
+#include "preprocess/level.hpp"
+
+namespace mems_stiction {
+namespace {
+
+/// chi^2 of skewness and kurtosis from which heights are not Gaussian beyond doubt.
+constexpr double kDecisive = 25.0;
+/// Two degrees of freedom are as large as this by chance in one of seven.
+constexpr double kByChance = 4.0;
+/// Waves longer than so many pixels of the widest scan are its own.
+constexpr double kJoinPixels = 16.0;
+/// Share of the variance that the widest scan must have to speak for all heights.
+constexpr double kMostVariance = 0.9;
+/// Waves along the side of the fine scans above which the short ones are looked at by themselves.
+constexpr double kSplits[] = {2.0, 4.0, 8.0};
+/// The longest waves that a levelled scan has, along its side.
+constexpr double kFirstOfLevelled = 0.75;
+/// Octaves of the longest waves that tell whether the spectrum still rises.
+constexpr double kEndOctaves = 1.5;
+constexpr int kLevelSteps = 3;
+constexpr int kLevelStride = 7;
+constexpr double kMostNumber = 3.5;
+
+/// One scan in work, without slope, what is missing at the mean.
+struct Scan {
+  cv::Mat heights;  ///< CV_64FC1
+  double pitch_x = 0.0;
+  double pitch_y = 0.0;
+  bool is_fine = false;
+
+  double sideX() const { return heights.cols * pitch_x; }
+  double sideY() const { return heights.rows * pitch_y; }
+  double area() const { return sideX() * sideY(); }
+  double longerSide() const { return std::max(sideX(), sideY()); }
+  HeightMap map(const cv::Mat& values) const { return {values, pitch_x, pitch_y}; }
+};
+
+struct Moments {
+  double mean = 0.0;
+  double deviation = 0.0;
+  double skewness = 0.0;
+  double excess = 0.0;  ///< kurtosis - 3
+};
+
+Moments momentsOf(const std::vector<double>& values) {
+  Moments moments;
+  const auto count = static_cast<double>(values.size());
+  for (const double value : values) moments.mean += value / count;
+  double second = 0.0;
+  double third = 0.0;
+  double fourth = 0.0;
+  for (const double value : values) {
+    const double distance = value - moments.mean;
+    const double square = distance * distance;
+    second += square / count;
+    third += square * distance / count;
+    fourth += square * square / count;
+  }
+  moments.deviation = std::sqrt(second);
+  if (second > 0.0) {
+    moments.skewness = third / (second * moments.deviation);
+    moments.excess = fourth / (second * second) - 3.0;
+  }
+  return moments;
+}
+
+/// Of the moments over an area of a Gaussian surface.
+struct SamplingVariance {
+  double skewness = 0.0;
+  double excess = 0.0;
+  double independent = 0.0;  ///< places: the area over the integral of rho^2 [-]
+};
+
+SamplingVariance samplingVariance(const MergedSpectrum& spectrum, double split, double longest, double area) {
+  constexpr int kSide = 512;
+  constexpr int kSteps = 2000;
+  constexpr double kResolved = 0.97;  // of the variance, on the grid of the integral
+  const auto densityAt = [&](double q) {
+    const double pass = highPass(q, split);
+    return q < longest ? 0.0 : spectrum.densityAt(q) * pass * pass;
+  };
+  const double from = std::max(longest, 0.5 * spectrum.bands.front().wave_number);
+  const double to = spectrum.bands.back().wave_number;
+  const double step = std::log(to / from) / kSteps;
+  std::vector<double> sums;
+  double sum = 0.0;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double q = from * std::exp(i * step);
+    sum += densityAt(q) * q * q;
+    sums.push_back(sum);
+  }
+  const auto reached = std::lower_bound(sums.begin(), sums.end(), kResolved * sum) - sums.begin();
+  const double resolved = from * std::exp(static_cast<double>(reached) * step);
+  const double pitch = std::max(kPi / resolved, 3.0 * 2.0 * kPi / longest / kSide);
+  cv::Mat powers(kSide, kSide, CV_64FC1);
+  for (int row = 0; row < kSide; ++row) {
+    const double q_y = 2.0 * kPi * (row <= kSide / 2 ? row : row - kSide) / (kSide * pitch);
+    for (int col = 0; col < kSide; ++col) {
+      const double q_x = 2.0 * kPi * (col <= kSide / 2 ? col : col - kSide) / (kSide * pitch);
+      powers.at<double>(row, col) = densityAt(std::hypot(q_x, q_y));
+    }
+  }
+  cv::Mat correlation;
+  cv::dft(powers, correlation, cv::DFT_COMPLEX_OUTPUT);
+  const double variance = correlation.at<cv::Vec2d>(0, 0)[0];
+  double squares = 0.0;
+  double cubes = 0.0;
+  double fourths = 0.0;
+  for (int row = 0; row < kSide; ++row) {
+    for (int col = 0; col < kSide; ++col) {
+      const double rho = correlation.at<cv::Vec2d>(row, col)[0] / variance;
+      squares += rho * rho;
+      cubes += rho * rho * rho;
+      fourths += rho * rho * rho * rho;
+    }
+  }
+  const double cell = pitch * pitch / area;
+  return {6.0 * cell * std::abs(cubes), 24.0 * cell * fourths, 1.0 / (cell * squares)};
+}
+
+/// The waves above a split, of a frame that goes on by its reflections.
+cv::Mat highPassed(const Scan& scan, double split) {
+  if (split == 0.0) return scan.heights;
+  const cv::Rect even(0, 0, scan.heights.cols & ~1, scan.heights.rows & ~1);
+  cv::Mat waves;
+  cv::dct(scan.heights(even), waves);
+  for (int row = 0; row < waves.rows; ++row) {
+    const double q_y = kPi * row / (waves.rows * scan.pitch_y);
+    double* line = waves.ptr<double>(row);
+    for (int col = 0; col < waves.cols; ++col) {
+      line[col] *= highPass(std::hypot(kPi * col / (waves.cols * scan.pitch_x), q_y), split);
+    }
+  }
+  cv::Mat passed;
+  cv::idct(waves, passed);
+  return passed;
+}
+
+/// Every second value, without a margin.
+void addSample(const cv::Mat& values, double margin, int stride, std::vector<double>& sample) {
+  const int rows = static_cast<int>(margin * values.rows);
+  const int cols = static_cast<int>(margin * values.cols);
+  for (int row = rows; row < values.rows - rows; row += stride) {
+    const double* line = values.ptr<double>(row);
+    for (int col = cols; col < values.cols - cols; col += stride) sample.push_back(line[col]);
+  }
+}
+
+/// Mean and slope off so that the numbers of the heights have none: steps of Newton's method.
+cv::Mat levelledUnder(const HeightMarginal& marginal, const cv::Mat& heights) {
+  cv::Mat found = heights.clone();
+  cv::Scalar mean;
+  cv::Scalar deviation;
+  cv::meanStdDev(found, mean, deviation);
+  if (!(deviation[0] > 0.0)) return found;
+  const double step = 1e-3 * deviation[0];
+  const auto placeOf = [](int index, int count) { return (index - 0.5 * (count - 1)) / count; };
+  for (int round = 0; round < kLevelSteps; ++round) {
+    cv::Matx33d matrix = cv::Matx33d::zeros();
+    cv::Vec3d vector(0.0, 0.0, 0.0);
+    for (int place = 0; place < static_cast<int>(found.total()); place += kLevelStride) {
+      const int row = place / found.cols;
+      const int col = place % found.cols;
+      const double height = found.at<double>(row, col);
+      const double number = marginal.numberOf(height);
+      double slope = (marginal.numberOf(height + step) - marginal.numberOf(height - step)) / (2.0 * step);
+      slope = std::abs(number) > kMostNumber ? 0.0 : std::clamp(slope, 0.0, 10.0 / deviation[0]);
+      const cv::Vec3d base(1.0, placeOf(col, found.cols), placeOf(row, found.rows));
+      matrix += slope * (base * base.t());
+      vector += std::clamp(number, -kMostNumber, kMostNumber) * base;
+    }
+    cv::Vec3d plane;
+    if (!cv::solve(matrix, vector, plane, cv::DECOMP_SVD)) return found;
+    for (int row = 0; row < found.rows; ++row) {
+      double* line = found.ptr<double>(row);
+      for (int col = 0; col < found.cols; ++col) {
+        line[col] -= plane[0] + plane[1] * placeOf(col, found.cols) + plane[2] * placeOf(row, found.rows);
+      }
+    }
+  }
+  return found;
+}
+
+cv::Mat numbersOf(const HeightMarginal& marginal, const cv::Mat& heights) {
+  cv::Mat numbers(heights.size(), CV_64FC1);
+  for (int row = 0; row < heights.rows; ++row) {
+    const double* from = heights.ptr<double>(row);
+    double* to = numbers.ptr<double>(row);
+    for (int col = 0; col < heights.cols; ++col) to[col] = marginal.numberOf(from[col]);
+  }
+  return numbers;
+}
+
+std::vector<Scan> scansOf(const std::vector<HeightMap>& surfaces) {
+  double finest = std::numeric_limits<double>::infinity();
+  for (const HeightMap& surface : surfaces) finest = std::min(finest, std::max(surface.pitchX(), surface.pitchY()));
+  std::vector<Scan> scans;
+  for (const HeightMap& surface : surfaces) {
+    Scan scan;
+    levelled(surface).heights().convertTo(scan.heights, CV_64F);
+    cv::patchNaNs(scan.heights, 0.0);
+    scan.pitch_x = surface.pitchX();
+    scan.pitch_y = surface.pitchY();
+    scan.is_fine = std::max(scan.pitch_x, scan.pitch_y) < 1.5 * finest;
+    scans.push_back(scan);
+  }
+  return scans;
+}
+
+/// The one with the longest side, if it is larger than the fine ones.
+const Scan* widestOf(const std::vector<Scan>& scans) {
+  const Scan* widest = nullptr;
+  double fine_side = std::numeric_limits<double>::infinity();
+  for (const Scan& scan : scans) {
+    if (widest == nullptr || scan.longerSide() > widest->longerSide()) widest = &scan;
+    if (scan.is_fine) fine_side = std::min(fine_side, scan.longerSide());
+  }
+  return widest->longerSide() > fine_side * (1.0 + 1e-9) ? widest : nullptr;
+}
+
+MergedSpectrum spectrumOf(const std::vector<Scan>& scans, const std::vector<cv::Mat>& values,
+                          const SpectrumStretch* stretch) {
+  std::vector<ScanWaves> waves;
+  for (std::size_t i = 0; i < scans.size(); ++i) waves.emplace_back(scans[i].map(values[i]));
+  const std::vector<ScanTrust> trust = trustOf(waves);
+  return mergedSpectrum(waves, trust, stretch != nullptr ? *stretch : stretchOf(waves, trust));
+}
+
+/// Heights that may tell whether the surface is Gaussian.
+struct Candidate {
+  double split = 0.0;
+  bool is_widest = false;
+  std::vector<double> sample;
+  SamplingVariance variance;
+
+  double chiSquare() const {
+    const Moments moments = momentsOf(sample);
+    return moments.skewness * moments.skewness / variance.skewness + moments.excess * moments.excess / variance.excess;
+  }
+};
+
+std::vector<double> allOf(const cv::Mat& values) {
+  std::vector<double> sample;
+  addSample(values, 0.0, 1, sample);
+  return sample;
+}
+
+Candidate fineCandidate(const std::vector<Scan>& scans, const MergedSpectrum& spectrum, double waves, double side) {
+  Candidate candidate;
+  candidate.split = waves * 2.0 * kPi / side;
+  const double margin = waves > 0.0 ? 0.25 / waves : 0.0;  // the filter's edges
+  double area = 0.0;
+  for (const Scan& scan : scans) {
+    if (!scan.is_fine) continue;
+    addSample(highPassed(scan, candidate.split), margin, 2, candidate.sample);
+    area += scan.area() * (1.0 - 2.0 * margin) * (1.0 - 2.0 * margin);
+  }
+  candidate.variance = samplingVariance(spectrum, candidate.split, kFirstOfLevelled * 2.0 * kPi / side, area);
+  return candidate;
+}
+
+Candidate decisiveCandidate(const std::vector<Scan>& scans, const Scan* widest, const MergedSpectrum& spectrum) {
+  double side = std::numeric_limits<double>::infinity();
+  for (const Scan& scan : scans) {
+    if (scan.is_fine) side = std::min(side, scan.longerSide());
+  }
+  std::optional<Candidate> first;
+  const auto isDecisive = [&](const Candidate& candidate) {
+    if (!first) first = candidate;
+    return candidate.chiSquare() >= kDecisive;
+  };
+  if (widest != nullptr) {
+    Candidate candidate;
+    candidate.is_widest = true;
+    candidate.sample = allOf(widest->heights);
+    const double total = spectrum.rootMean(0, 2.0 * kPi / widest->longerSide(), spectrum.largest_wave_number);
+    const double deviation = momentsOf(candidate.sample).deviation;
+    if (deviation * deviation > kMostVariance * total * total) {
+      candidate.variance =
+          samplingVariance(spectrum, 0.0, kFirstOfLevelled * 2.0 * kPi / widest->longerSide(), widest->area());
+      if (isDecisive(candidate)) return candidate;
+    }
+  }
+  Candidate fine = fineCandidate(scans, spectrum, 0.0, side);
+  if (isDecisive(fine)) return fine;
+  for (const double waves : kSplits) {
+    fine = fineCandidate(scans, spectrum, waves, side);
+    if (isDecisive(fine)) return fine;
+  }
+  return *first;
+}
+
+/// Finds T and the spectrum of its numbers.
+void takeMarginal(const std::vector<Scan>& scans, const Candidate& candidate, SurfaceLaw& law) {
+  law.non_gaussian_share = std::max(0.0, 1.0 - kByChance / candidate.chiSquare());
+  if (!(law.non_gaussian_share > 0.0)) return;
+  law.split_wave_number = candidate.split;
+  HeightMarginal marginal(candidate.sample, candidate.variance.independent);
+  std::vector<cv::Mat> values;
+  for (const Scan& scan : scans) {
+    const cv::Mat passed = highPassed(scan, candidate.split);
+    values.push_back(candidate.split == 0.0 ? levelledUnder(marginal, passed) : passed);
+  }
+  if (candidate.split == 0.0 && !candidate.is_widest) {
+    std::vector<double> sample;
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+      if (scans[i].is_fine) addSample(values[i], 0.0, 2, sample);
+    }
+    marginal = HeightMarginal(sample, candidate.variance.independent);
+    for (cv::Mat& value : values) value = levelledUnder(marginal, value);
+  }
+  const Moments moments = momentsOf(candidate.sample);
+  law.marginal = marginal.mixed(law.non_gaussian_share, moments.mean, moments.deviation);
+  for (cv::Mat& value : values) value = numbersOf(law.marginal, value);
+  law.numbers = spectrumOf(scans, values, &law.heights.stretch);
+}
+
+void takeSlope(SurfaceLaw& law) {
+  const std::vector<SpectrumBand>& bands = law.heights.bands;
+  const double last = bands.front().wave_number * std::exp2(kEndOctaves);
+  double weights = 0.0;
+  double mean_x = 0.0;
+  double mean_y = 0.0;
+  for (const SpectrumBand& band : bands) {
+    if (band.wave_number > last) break;
+    const double weight = 0.5 * band.freedom;
+    weights += weight;
+    mean_x += weight * std::log(band.wave_number);
+    mean_y += weight * std::log(band.density);
+  }
+  mean_x /= weights;
+  mean_y /= weights;
+  double squares = 0.0;
+  double products = 0.0;
+  for (const SpectrumBand& band : bands) {
+    if (band.wave_number > last) break;
+    const double weight = 0.5 * band.freedom;
+    const double x = std::log(band.wave_number) - mean_x;
+    squares += weight * x * x;
+    products += weight * x * (std::log(band.density) - mean_y);
+  }
+  if (!(squares > 0.0)) return;
+  law.slope = -products / squares;
+  law.slope_deviation = std::sqrt(1.0 / squares);
+}
+
+/// Rms heights of the planes (along x, along y) that levelling takes off a scan of these sides.
+std::pair<double, double> tiltDeviations(const MergedSpectrum& spectrum, double side_x, double side_y) {
+  constexpr int kReach = 6;
+  constexpr double kStep = 0.25;
+  constexpr double kLeast = 0.9;  // waves along the side: longer ones are the device's tilt
+  // |sum of the wave u with the constant and with the slope|^2 over a side of length 1
+  const auto constantOf = [](double u) { return u == 0.0 ? 1.0 : std::pow(std::sin(kPi * u) / (kPi * u), 2); };
+  const auto slopeOf = [](double u) {
+    if (u == 0.0) return 0.0;
+    const double part = (std::sin(kPi * u) / (kPi * u) - std::cos(kPi * u)) / (2.0 * kPi * u);
+    return 12.0 * part * part;
+  };
+  double along_x = 0.0;
+  double along_y = 0.0;
+  for (double uy = -kReach; uy <= kReach; uy += kStep) {
+    for (double ux = -kReach; ux <= kReach; ux += kStep) {
+      if (std::hypot(ux, uy) < kLeast) continue;
+      const double density =
+          spectrum.densityAt(spectrum.stretch.roundWave(2.0 * kPi * ux / side_x, 2.0 * kPi * uy / side_y));
+      along_x += density * constantOf(uy) * slopeOf(ux);
+      along_y += density * constantOf(ux) * slopeOf(uy);
+    }
+  }
+  const double scale = kStep * kStep / (side_x * side_y);
+  return {std::sqrt(scale * along_x), std::sqrt(scale * along_y)};
+}
+
+void takeOwn(const Scan& widest, SurfaceLaw& law) {
+  const bool are_numbers = law.non_gaussian_share > 0.0 && law.split_wave_number == 0.0;
+  const double pitch = std::max(widest.pitch_x, widest.pitch_y);
+  law.join_wave_number = 2.0 * kPi / (kJoinPixels * pitch);
+  if (law.split_wave_number > 0.0) law.join_wave_number = std::min(law.join_wave_number, law.split_wave_number);
+  cv::Mat values = are_numbers ? numbersOf(law.marginal, levelledUnder(law.marginal, widest.heights)) : widest.heights;
+  values = values(cv::Rect(0, 0, values.cols & ~1, values.rows & ~1));
+  cv::Mat waves;
+  cv::dct(values, waves);
+  for (int row = 0; row < waves.rows; ++row) {
+    const double q_y = kPi * row / (waves.rows * widest.pitch_y);
+    double* line = waves.ptr<double>(row);
+    for (int col = 0; col < waves.cols; ++col) {
+      const double q = std::hypot(kPi * col / (waves.cols * widest.pitch_x), q_y);
+      line[col] *= std::exp(-std::pow(q / law.join_wave_number, 4));
+    }
+  }
+  OwnLongWaves own;
+  cv::idct(waves, own.heights);
+  own.pitch_x = widest.pitch_x;
+  own.pitch_y = widest.pitch_y;
+  const MergedSpectrum& spectrum = are_numbers ? law.numbers : law.heights;
+  std::tie(own.tilt_x, own.tilt_y) = tiltDeviations(spectrum, widest.sideX(), widest.sideY());
+  law.own = own;
+}
+
+}  // namespace
+
+double highPass(double wave_number, double split) {
+  return split == 0.0 ? 1.0 : -std::expm1(-std::pow(wave_number / split, 4));
+}
+
+SurfaceLaw surfaceLawOf(const std::vector<HeightMap>& surfaces) {
+  const std::vector<Scan> scans = scansOf(surfaces);
+  const Scan* widest = widestOf(scans);
+  std::vector<cv::Mat> values;
+  for (const Scan& scan : scans) values.push_back(scan.heights);
+  SurfaceLaw law;
+  law.heights = law.numbers = spectrumOf(scans, values, nullptr);
+  takeMarginal(scans, decisiveCandidate(scans, widest, law.heights), law);
+  takeSlope(law);
+  if (widest != nullptr) takeOwn(*widest, law);
+  return law;
+}
+
+}  // namespace mems_stiction
