@@ -1,0 +1,313 @@
+#include "surface/tiled_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mems_stiction/errors/errors.hpp"
+#include "mems_stiction/settings/option_visitor.hpp"
+#include "numeric/constants.hpp"
+#include "surface/block_convolution.hpp"
+#include "surface/numbered_noise.hpp"
+#include "surface/spline_refinement.hpp"
+
+namespace mems_stiction {
+namespace {
+
+constexpr double kWholeCells =
+    12.0;  ///< a level holds waves of up to so many cells whole, and four times longer ones in part
+constexpr int kMostLevels = 24;
+constexpr double kLargestCount = 1e9;
+/// Cells of the usual transform: at the pixels nearly all of it is to be used, above them few cells are needed.
+constexpr double kPixelTransform = 1048576.0;
+constexpr double kCoarseTransform = 16384.0;
+constexpr std::size_t kRememberedBytes = std::size_t{12} << 20U;  ///< of blocks, on each level
+
+/// From 0 to 1 while t goes from 0 to 1, without a jump up to the second derivative: the kernel then falls fast.
+double smoothStep(double t) {
+  const double within = std::clamp(t, 0.0, 1.0);
+  return within * within * within * (10.0 - 15.0 * within + 6.0 * within * within);
+}
+
+/// Waves by their length in pixels, stretched so that the spectrum is round and no wave is longer than it was.
+struct RoundWaves {
+  double reach_rows;
+  double reach_cols;
+  double unit;  ///< |q'| of a wave of 1 rad/pixel [rad/m]
+
+  /// q'^2 = k G k for k in rad/pixel
+  RoundWaves(const SurfaceSpectrum& spectrum, double pitch_x, double pitch_y) {
+    const double along_x = std::cos(spectrum.direction) / pitch_x;
+    const double along_y = std::sin(spectrum.direction) / pitch_y;
+    const double across_x = -std::sin(spectrum.direction) / pitch_x;
+    const double across_y = std::cos(spectrum.direction) / pitch_y;
+    const double s = spectrum.stretch;
+    const double g_xx = s * along_x * along_x + across_x * across_x / s;
+    const double g_yy = s * along_y * along_y + across_y * across_y / s;
+    const double determinant = 1.0 / (pitch_x * pitch_x * pitch_y * pitch_y);
+    const double g_xy = s * along_x * along_y + across_x * across_y / s;
+    const double largest = 0.5 * (g_xx + g_yy) + std::hypot(0.5 * (g_xx - g_yy), g_xy);
+    const double smallest = determinant / largest;
+    unit = std::sqrt(smallest);
+    // the kernel's ellipse is the inverse of the spectrum's; without round-off a round one has the reach 1
+    const auto reach = [smallest](double g) { return std::max(1.0, std::sqrt(g / smallest) * (1.0 - 1e-12)); };
+    reach_cols = reach(g_xx);
+    reach_rows = reach(g_yy);
+  }
+
+  /// The level that begins to leave out a wave: from 0 where level 0 begins, 1 where it ends.
+  double level(double q) const { return std::log2(2.0 * kPi * unit / (q * kWholeCells)) / 2.0; }
+};
+
+std::int64_t floorDivide(std::int64_t value, std::int64_t divisor) {
+  const std::int64_t quotient = value / divisor;
+  return quotient * divisor > value ? quotient - 1 : quotient;
+}
+
+/// A part of one level, by its cells.
+struct CellRange {
+  std::int64_t row;
+  std::int64_t col;
+  std::int64_t rows;
+  std::int64_t cols;
+};
+
+/// One level: its own waves and those of all coarser levels.
+class Level {
+ public:
+  /// - @p coarser nullptr on the last level; outlives this one
+  Level(const WaveGain& gain, const BlockLayout& layout, NumberedNoise noise, SplineRefinement refinement,
+        Level* coarser)
+      : convolution_(gain, layout), noise_(std::move(noise)), refinement_(refinement), coarser_(coarser) {
+    const auto bytes = static_cast<std::size_t>(block().rows) * static_cast<std::size_t>(block().cols) * sizeof(float);
+    most_blocks_ = std::max<std::size_t>(2, kRememberedBytes / bytes);
+  }
+
+  BlockSize block() const { return convolution_.block(); }
+  double variance() const { return convolution_.variance(); }
+
+  /// visit(line, place, count) for each run of cells of a row that lie side by side; `place` counts from the range's first.
+  template <typename Visit>
+  void visit(const CellRange& range, ConvolutionMemory& memory, Visit visitor) {
+    const std::int64_t rows = block().rows;
+    const std::int64_t cols = block().cols;
+    for (std::int64_t i = floorDivide(range.row, rows); i * rows < range.row + range.rows; ++i) {
+      for (std::int64_t j = floorDivide(range.col, cols); j * cols < range.col + range.cols; ++j) {
+        const std::vector<float>& values = blockAt(i, j, memory);
+        const std::int64_t first_row = std::max(range.row, i * rows);
+        const std::int64_t end_row = std::min(range.row + range.rows, (i + 1) * rows);
+        const std::int64_t first_col = std::max(range.col, j * cols);
+        const std::int64_t end_col = std::min(range.col + range.cols, (j + 1) * cols);
+        for (std::int64_t row = first_row; row < end_row; ++row) {
+          visitor(&values[static_cast<std::size_t>((row - i * rows) * cols + first_col - j * cols)], row - range.row,
+                  first_col - range.col, static_cast<std::size_t>(end_col - first_col));
+        }
+      }
+    }
+  }
+
+ private:
+  struct Block {
+    std::int64_t row;
+    std::int64_t col;
+    std::vector<float> values;
+  };
+
+  /// Blocks stand in the order in which they were used.
+  const std::vector<float>& blockAt(std::int64_t row, std::int64_t col, ConvolutionMemory& memory) {
+    const auto known = std::find_if(blocks_.begin(), blocks_.end(),
+                                    [&](const Block& block) { return block.row == row && block.col == col; });
+    if (known != blocks_.end()) {
+      std::rotate(known, known + 1, blocks_.end());
+      return blocks_.back().values;
+    }
+    if (blocks_.size() < most_blocks_) {
+      const auto cells = static_cast<std::size_t>(block().rows) * static_cast<std::size_t>(block().cols);
+      blocks_.push_back({row, col, std::vector<float>(cells)});
+    } else {
+      std::rotate(blocks_.begin(), blocks_.begin() + 1, blocks_.end());
+      blocks_.back().row = row;
+      blocks_.back().col = col;
+    }
+    make(blocks_.back(), memory);
+    return blocks_.back().values;
+  }
+
+  void make(Block& made, ConvolutionMemory& memory) {
+    convolution_.make(noise_, made.row, made.col, memory, made.values.data());
+    if (coarser_ == nullptr) return;
+    const CellRange around{made.row * block().rows / kRefinedCells - kSplineBefore,
+                           made.col * block().cols / kRefinedCells - kSplineBefore,
+                           block().rows / kRefinedCells + kSplineAround, block().cols / kRefinedCells + kSplineAround};
+    coarse_.resize(static_cast<std::size_t>(around.rows * around.cols));
+    line_.resize(static_cast<std::size_t>(around.cols));
+    coarser_->visit(around, memory, [&](const float* cells, std::int64_t row, std::int64_t col, std::size_t count) {
+      std::copy_n(cells, count, &coarse_[static_cast<std::size_t>(row * around.cols + col)]);
+    });
+    addRefined(refinement_, coarse_.data(), static_cast<std::size_t>(block().rows),
+               static_cast<std::size_t>(block().cols), line_.data(), made.values.data());
+  }
+
+  BlockConvolution convolution_;
+  NumberedNoise noise_;
+  SplineRefinement refinement_;
+  Level* coarser_;
+  std::size_t most_blocks_;
+  std::vector<Block> blocks_;
+  std::vector<float> coarse_;
+  std::vector<float> line_;
+};
+
+void checkCount(const char* name, std::int64_t count, std::vector<std::string>& violations) {
+  const Range counts = Range::within(1.0, kLargestCount);
+  if (counts.contains(static_cast<double>(count))) return;
+  violations.push_back(std::string(name) + ": " + std::to_string(count) + " is not allowed; must be " + counts.text());
+}
+
+void checkPitch(const char* name, double pitch, std::vector<std::string>& violations) {
+  if (Range::positive().contains(pitch)) return;
+  violations.push_back(std::string(name) + ": " + numberText(pitch) + " is not allowed; must be " +
+                       Range::positive().text());
+}
+
+}  // namespace
+
+class TiledSurface::Levels {
+ public:
+  Levels(const SurfaceSpectrum& spectrum, std::int64_t rows, std::int64_t cols, double pitch_x, double pitch_y,
+         std::uint64_t seed, std::optional<HeightTranslation> translation)
+      : rows_(rows), cols_(cols), translation_(std::move(translation)) {
+    check(spectrum, pitch_x, pitch_y);
+    const RoundWaves waves(spectrum, pitch_x, pitch_y);
+    const int last = std::max(0, static_cast<int>(std::ceil(waves.level(spectrum.wave_number.front()))));
+    levels_.resize(static_cast<std::size_t>(last) + 1);
+    for (int level = last; level >= 0; --level) {
+      const double cell = std::ldexp(1.0, 2 * level);  // pixels
+      const double cell_x = cell * pitch_x;
+      const double cell_y = cell * pitch_y;
+      // white noise of variance 1 has the density of the cell's area
+      const WaveGain gain = [&](double wave_x, double wave_y) {
+        const double q = spectrum.roundWave(wave_x / cell_x, wave_y / cell_y);
+        if (q == 0.0) return 0.0;
+        const double place = waves.level(q) - level;
+        const double quarter = 0.5 * kPi;
+        const double from = level == 0 ? 1.0 : std::sin(quarter * smoothStep(place + 1.0));
+        const double to = level == last ? 1.0 : std::cos(quarter * smoothStep(place));
+        const double window = from * to;
+        return window == 0.0 ? 0.0 : window * std::sqrt(spectrum.densityAt(q) / (cell_x * cell_y));
+      };
+      BlockLayout layout;
+      layout.usual_cells = level == 0 ? kPixelTransform : kCoarseTransform;
+      layout.reach_rows = waves.reach_rows;
+      layout.reach_cols = waves.reach_cols;
+      layout.for_spline = level > 0;
+      const auto index = static_cast<std::size_t>(level);
+      levels_[index] = std::make_unique<Level>(gain, layout, NumberedNoise(seed, static_cast<std::uint32_t>(level)),
+                                               level == 0 ? SplineRefinement::kValues : SplineRefinement::kCoefficients,
+                                               level == last ? nullptr : levels_[index + 1].get());
+      variance_ += levels_[index]->variance();
+    }
+    if (!(variance_ > 0.0)) {
+      throw OptionsError({"spectrum/wave_number: no wave of the spectrum is so long that pixels of " +
+                          numberText(pitch_x) + " m by " + numberText(pitch_y) +
+                          " m can hold it; must have one of two pixels or more"});
+    }
+  }
+
+  std::int64_t rows() const { return rows_; }
+  std::int64_t cols() const { return cols_; }
+  double variance() const { return variance_; }
+  cv::Size tile() const { return {levels_.front()->block().cols, levels_.front()->block().rows}; }
+
+  void heights(std::int64_t row, std::int64_t col, cv::Mat& tile) {
+    checkTile(row, col, tile);
+    if (tile.type() == CV_32FC1) {
+      fill<float>(row, col, tile);
+    } else {
+      fill<double>(row, col, tile);
+    }
+  }
+
+ private:
+  void check(const SurfaceSpectrum& spectrum, double pitch_x, double pitch_y) const {
+    std::vector<std::string> violations = spectrum.validate();
+    checkCount("rows", rows_, violations);
+    checkCount("cols", cols_, violations);
+    checkPitch("pitch_x", pitch_x, violations);
+    checkPitch("pitch_y", pitch_y, violations);
+    if (!violations.empty()) throw OptionsError(std::move(violations));
+    const RoundWaves waves(spectrum, pitch_x, pitch_y);
+    if (!BlockConvolution::fits(waves.reach_rows, waves.reach_cols)) {
+      violations.push_back(
+          "spectrum/stretch: " + numberText(spectrum.stretch) + " with pixels of " + numberText(pitch_x) + " m by " +
+          numberText(pitch_y) +
+          " m is not allowed; must be smaller, or its direction nearer to that of the rows or columns, or the "
+          "pixels longer along it");
+    }
+    const double first = spectrum.wave_number.front();
+    const double least = 2.0 * kPi * waves.unit / (kWholeCells * std::ldexp(1.0, 2 * (kMostLevels - 1)));
+    if (first < least) {
+      violations.push_back("spectrum/wave_number[0]: " + numberText(first) + " is not allowed; must be at least " +
+                           numberText(least) + " for these pixels");
+    }
+    if (!violations.empty()) throw OptionsError(std::move(violations));
+  }
+
+  void checkTile(std::int64_t row, std::int64_t col, const cv::Mat& tile) const {
+    std::vector<std::string> violations;
+    if (tile.type() != CV_32FC1 && tile.type() != CV_64FC1) {
+      violations.push_back("tile: its type is " + cv::typeToString(tile.type()) + "; must be CV_32FC1 or CV_64FC1");
+    }
+    const auto checkRange = [&](const char* name, std::int64_t first, std::int64_t count, std::int64_t all) {
+      if (first >= 0 && count >= 1 && count <= all - first) return;
+      violations.push_back("tile: " + std::string(name) + " " + std::to_string(first) + " to " +
+                           std::to_string(first + count - 1) + " are not all of the surface; must be in [0, " +
+                           std::to_string(all - 1) + "]");
+    };
+    checkRange("rows", row, tile.rows, rows_);
+    checkRange("columns", col, tile.cols, cols_);
+    if (!violations.empty()) throw OptionsError(std::move(violations));
+  }
+
+  template <typename Scalar>
+  void fill(std::int64_t row, std::int64_t col, cv::Mat& tile) {
+    const double per_deviation = 1.0 / std::sqrt(variance_);
+    levels_.front()->visit({row, col, tile.rows, tile.cols}, memory_,
+                           [&](const float* cells, std::int64_t tile_row, std::int64_t tile_col, std::size_t count) {
+                             Scalar* const line = tile.ptr<Scalar>(static_cast<int>(tile_row)) + tile_col;
+                             if (!translation_) {
+                               std::copy_n(cells, count, line);
+                               return;
+                             }
+                             for (std::size_t i = 0; i < count; ++i)
+                               line[i] = static_cast<Scalar>((*translation_)(cells[i] * per_deviation));
+                           });
+  }
+
+  std::int64_t rows_;
+  std::int64_t cols_;
+  std::optional<HeightTranslation> translation_;
+  double variance_ = 0.0;
+  std::vector<std::unique_ptr<Level>> levels_;  ///< from the pixels to the longest waves
+  ConvolutionMemory memory_;
+};
+
+TiledSurface::TiledSurface(const SurfaceSpectrum& spectrum, std::int64_t rows, std::int64_t cols, double pitch_x,
+                           double pitch_y, std::uint64_t seed, std::optional<HeightTranslation> translation)
+    : levels_(std::make_unique<Levels>(spectrum, rows, cols, pitch_x, pitch_y, seed, std::move(translation))) {}
+
+TiledSurface::~TiledSurface() = default;
+TiledSurface::TiledSurface(TiledSurface&&) noexcept = default;
+TiledSurface& TiledSurface::operator=(TiledSurface&&) noexcept = default;
+
+std::int64_t TiledSurface::rows() const { return levels_->rows(); }
+std::int64_t TiledSurface::cols() const { return levels_->cols(); }
+double TiledSurface::variance() const { return levels_->variance(); }
+cv::Size TiledSurface::tile() const { return levels_->tile(); }
+
+void TiledSurface::heights(std::int64_t row, std::int64_t col, cv::Mat& tile) { levels_->heights(row, col, tile); }
+
+}  // namespace mems_stiction
