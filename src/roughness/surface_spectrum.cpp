@@ -35,14 +35,10 @@ double SurfaceSpectrum::densityAt(double q) const {
   return density[i - 1] * std::pow(q / wave_number[i - 1], exponent);
 }
 
-double SurfaceSpectrum::roundWave(double q_x, double q_y) const {
+double SurfaceSpectrum::densityAt(double q_x, double q_y) const {
   const double along = q_x * std::cos(direction) + q_y * std::sin(direction);
   const double across = q_y * std::cos(direction) - q_x * std::sin(direction);
-  return std::sqrt(stretch * along * along + across * across / stretch);
-}
-
-double SurfaceSpectrum::densityAt(double q_x, double q_y) const {
-  const double q = roundWave(q_x, q_y);
+  const double q = std::sqrt(stretch * along * along + across * across / stretch);
   return q > 0.0 ? densityAt(q) : 0.0;
 }
 

@@ -26,8 +26,6 @@ struct SurfaceSpectrum {
 
   /// C at a wave vector [m^4]; 0 for the wave 0, which is no roughness.
   double densityAt(double q_x, double q_y) const;
-  /// |q'| of a wave vector [rad/m].
-  double roundWave(double q_x, double q_y) const;
   /// C_iso at |q'| > 0 [m^4].
   double densityAt(double q) const;
   /// <z^2> over all its waves [m^2].

@@ -32,35 +32,51 @@ double smoothStep(double t) {
   return within * within * within * (10.0 - 15.0 * within + 6.0 * within * within);
 }
 
-/// Waves by their length in pixels, stretched so that the spectrum is round and no wave is longer than it was.
-struct RoundWaves {
-  double reach_rows;
-  double reach_cols;
-  double unit;  ///< |q'| of a wave of 1 rad/pixel [rad/m]
-
-  /// q'^2 = k G k for k in rad/pixel
+/// Waves in units of the pixels, where a spectrum that is stretched, or drawn on pixels that are no squares, is not round.
+class RoundWaves {
+ public:
   RoundWaves(const SurfaceSpectrum& spectrum, double pitch_x, double pitch_y) {
+    // |q'|^2 = s along^2 + across^2/s is a quadratic form of a wave in rad/pixel
     const double along_x = std::cos(spectrum.direction) / pitch_x;
     const double along_y = std::sin(spectrum.direction) / pitch_y;
     const double across_x = -std::sin(spectrum.direction) / pitch_x;
     const double across_y = std::cos(spectrum.direction) / pitch_y;
     const double s = spectrum.stretch;
-    const double g_xx = s * along_x * along_x + across_x * across_x / s;
-    const double g_yy = s * along_y * along_y + across_y * across_y / s;
-    const double determinant = 1.0 / (pitch_x * pitch_x * pitch_y * pitch_y);
-    const double g_xy = s * along_x * along_y + across_x * across_y / s;
-    const double largest = 0.5 * (g_xx + g_yy) + std::hypot(0.5 * (g_xx - g_yy), g_xy);
-    const double smallest = determinant / largest;
-    unit = std::sqrt(smallest);
-    // the kernel's ellipse is the inverse of the spectrum's; without round-off a round one has the reach 1
-    const auto reach = [smallest](double g) { return std::max(1.0, std::sqrt(g / smallest) * (1.0 - 1e-12)); };
-    reach_cols = reach(g_xx);
-    reach_rows = reach(g_yy);
+    xx_ = s * along_x * along_x + across_x * across_x / s;
+    xy_ = s * along_x * along_y + across_x * across_y / s;
+    yy_ = s * along_y * along_y + across_y * across_y / s;
+    const double largest = 0.5 * (xx_ + yy_) + std::hypot(0.5 * (xx_ - yy_), xy_);
+    unit_ = 1.0 / (pitch_x * pitch_y * std::sqrt(largest));
   }
 
-  /// The level that begins to leave out a wave: from 0 where level 0 begins, 1 where it ends.
-  double level(double q) const { return std::log2(2.0 * kPi * unit / (q * kWholeCells)) / 2.0; }
+  /// |q'| [rad/m] of a wave [rad/pixel].
+  double roundWave(double wave_x, double wave_y) const {
+    return std::sqrt(xx_ * wave_x * wave_x + 2.0 * xy_ * wave_x * wave_y + yy_ * wave_y * wave_y);
+  }
+  /// |q'| of a wave of 1 rad/pixel in the direction in which it is least: no wave of this |q'| is shorter in pixels [rad/m].
+  double unit() const { return unit_; }
+  /// How many times further a kernel reaches over rows and columns than that of such waves in all directions. Without
+  /// round-off a round one has the reach 1.
+  double reachOverRows() const { return std::max(1.0, std::sqrt(yy_) / unit_ * (1.0 - 1e-12)); }
+  double reachOverCols() const { return std::max(1.0, std::sqrt(xx_) / unit_ * (1.0 - 1e-12)); }
+  /// 0 where level 0 begins to leave out waves, 1 where it ends and level 1 begins to.
+  double level(double round_wave) const { return 0.5 * std::log2(2.0 * kPi * unit_ / (round_wave * kWholeCells)); }
+
+ private:
+  double xx_;
+  double xy_;
+  double yy_;
+  double unit_;
 };
+
+/// Share of the amplitude of a wave that the level `index` of 0 to `last` takes; their squares add up to 1.
+double levelWindow(double wave_level, int index, int last) {
+  const double place = wave_level - index;
+  if ((place <= -1.0 && index > 0) || (place >= 1.0 && index < last)) return 0.0;
+  if (place < 0.0 && index > 0) return std::sin(0.5 * kPi * smoothStep(place + 1.0));
+  if (place > 0.0 && index < last) return std::cos(0.5 * kPi * smoothStep(place));
+  return 1.0;
+}
 
 std::int64_t floorDivide(std::int64_t value, std::int64_t divisor) {
   const std::int64_t quotient = value / divisor;
@@ -84,6 +100,12 @@ class Level {
       : convolution_(gain, layout), noise_(std::move(noise)), refinement_(refinement), coarser_(coarser) {
     const auto bytes = static_cast<std::size_t>(block().rows) * static_cast<std::size_t>(block().cols) * sizeof(float);
     most_blocks_ = std::max<std::size_t>(2, kRememberedBytes / bytes);
+  }
+
+  /// Forgets what was made, and goes on with other noise.
+  void setNoise(NumberedNoise noise) {
+    noise_ = std::move(noise);
+    blocks_.clear();
   }
 
   BlockSize block() const { return convolution_.block(); }
@@ -186,26 +208,21 @@ class TiledSurface::Levels {
     levels_.resize(static_cast<std::size_t>(last) + 1);
     for (int level = last; level >= 0; --level) {
       const double cell = std::ldexp(1.0, 2 * level);  // pixels
-      const double cell_x = cell * pitch_x;
-      const double cell_y = cell * pitch_y;
+      const double cell_area = cell * pitch_x * cell * pitch_y;
       // white noise of variance 1 has the density of the cell's area
       const WaveGain gain = [&](double wave_x, double wave_y) {
-        const double q = spectrum.roundWave(wave_x / cell_x, wave_y / cell_y);
+        const double q = waves.roundWave(wave_x, wave_y) / cell;
         if (q == 0.0) return 0.0;
-        const double place = waves.level(q) - level;
-        const double quarter = 0.5 * kPi;
-        const double from = level == 0 ? 1.0 : std::sin(quarter * smoothStep(place + 1.0));
-        const double to = level == last ? 1.0 : std::cos(quarter * smoothStep(place));
-        const double window = from * to;
-        return window == 0.0 ? 0.0 : window * std::sqrt(spectrum.densityAt(q) / (cell_x * cell_y));
+        const double window = levelWindow(waves.level(q), level, last);
+        return window == 0.0 ? 0.0 : window * std::sqrt(spectrum.densityAt(q) / cell_area);
       };
       BlockLayout layout;
       layout.usual_cells = level == 0 ? kPixelTransform : kCoarseTransform;
-      layout.reach_rows = waves.reach_rows;
-      layout.reach_cols = waves.reach_cols;
+      layout.reach_rows = waves.reachOverRows();
+      layout.reach_cols = waves.reachOverCols();
       layout.for_spline = level > 0;
       const auto index = static_cast<std::size_t>(level);
-      levels_[index] = std::make_unique<Level>(gain, layout, NumberedNoise(seed, static_cast<std::uint32_t>(level)),
+      levels_[index] = std::make_unique<Level>(gain, layout, noiseOf(seed, index),
                                                level == 0 ? SplineRefinement::kValues : SplineRefinement::kCoefficients,
                                                level == last ? nullptr : levels_[index + 1].get());
       variance_ += levels_[index]->variance();
@@ -222,6 +239,10 @@ class TiledSurface::Levels {
   double variance() const { return variance_; }
   cv::Size tile() const { return {levels_.front()->block().cols, levels_.front()->block().rows}; }
 
+  void reseed(std::uint64_t seed) {
+    for (std::size_t level = 0; level < levels_.size(); ++level) levels_[level]->setNoise(noiseOf(seed, level));
+  }
+
   void heights(std::int64_t row, std::int64_t col, cv::Mat& tile) {
     checkTile(row, col, tile);
     if (tile.type() == CV_32FC1) {
@@ -232,6 +253,10 @@ class TiledSurface::Levels {
   }
 
  private:
+  static NumberedNoise noiseOf(std::uint64_t seed, std::size_t level) {
+    return {seed, static_cast<std::uint32_t>(level)};
+  }
+
   void check(const SurfaceSpectrum& spectrum, double pitch_x, double pitch_y) const {
     std::vector<std::string> violations = spectrum.validate();
     checkCount("rows", rows_, violations);
@@ -240,7 +265,7 @@ class TiledSurface::Levels {
     checkPitch("pitch_y", pitch_y, violations);
     if (!violations.empty()) throw OptionsError(std::move(violations));
     const RoundWaves waves(spectrum, pitch_x, pitch_y);
-    if (!BlockConvolution::fits(waves.reach_rows, waves.reach_cols)) {
+    if (!BlockConvolution::fits(waves.reachOverRows(), waves.reachOverCols())) {
       violations.push_back(
           "spectrum/stretch: " + numberText(spectrum.stretch) + " with pixels of " + numberText(pitch_x) + " m by " +
           numberText(pitch_y) +
@@ -248,7 +273,7 @@ class TiledSurface::Levels {
           "pixels longer along it");
     }
     const double first = spectrum.wave_number.front();
-    const double least = 2.0 * kPi * waves.unit / (kWholeCells * std::ldexp(1.0, 2 * (kMostLevels - 1)));
+    const double least = 2.0 * kPi * waves.unit() / (kWholeCells * std::ldexp(1.0, 2 * (kMostLevels - 1)));
     if (first < least) {
       violations.push_back("spectrum/wave_number[0]: " + numberText(first) + " is not allowed; must be at least " +
                            numberText(least) + " for these pixels");
@@ -308,6 +333,7 @@ std::int64_t TiledSurface::cols() const { return levels_->cols(); }
 double TiledSurface::variance() const { return levels_->variance(); }
 cv::Size TiledSurface::tile() const { return levels_->tile(); }
 
+void TiledSurface::reseed(std::uint64_t seed) { levels_->reseed(seed); }
 void TiledSurface::heights(std::int64_t row, std::int64_t col, cv::Mat& tile) { levels_->heights(row, col, tile); }
 
 }  // namespace mems_stiction

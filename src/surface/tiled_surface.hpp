@@ -58,6 +58,9 @@ class TiledSurface {
   /// Tiles of this size that begin at its multiples take least time, row of tiles after row of tiles.
   cv::Size tile() const;
 
+  /// Goes on as the surface of another seed: the same as a new one, but sooner.
+  void reseed(std::uint64_t seed);
+
   /// Heights [m] of the tile whose first pixel is (row, col). The mean over all surfaces is 0 before translation; that of one
   /// surface is what its long waves make it.
   /// - @p tile CV_32FC1 or CV_64FC1, inside the surface; is filled
