@@ -2,28 +2,197 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
+#include <limits>
 #include <vector>
 
-#include "roughness/half_spectrum.hpp"
-#include "surface/random_field.hpp"
-
 namespace mems_stiction {
+namespace {
 
-HeightMap madeSurface(const MergedSpectrum& spectrum, int rows, int cols, double pitch, std::uint64_t seed) {
-  std::mt19937_64 engine(seed);
-  MergedSpectrum drawn = spectrum;
-  for (SpectrumBand& band : drawn.bands) {
-    std::gamma_distribution<double> gamma(0.5 * band.freedom, 2.0 / band.freedom);
-    band.density *= std::max(gamma(engine), 1e-3);
+constexpr double kStepsPerOctave = 12.0;
+/// Of the density: what stands for none where the table goes on flat.
+constexpr double kNone = 1e-12;
+constexpr double kSteepest = 4.0;
+
+/// The spectrum of what is left to chance, as a table.
+/// - @p pass of a wave number: share of the density
+template <typename Pass>
+SurfaceSpectrum tableOf(const MergedSpectrum& merged, const SpectrumContinuation& continuation, double longest_wave,
+                        const Pass& pass) {
+  const double first = merged.bands.front().wave_number;
+  const auto densityAt = [&](double q) {
+    double density = merged.densityAt(q);
+    if (q < first) density *= std::pow(first / std::max(q, continuation.rolloff), continuation.slope);
+    return density;
+  };
+  SurfaceSpectrum spectrum;
+  spectrum.stretch = merged.stretch.ratio;
+  spectrum.direction = merged.stretch.direction;
+  // waves longer than the device are its tilt
+  const double from = 2.0 * kPi / longest_wave * 0.999;
+  const double to = merged.largest_wave_number;
+  double largest = 0.0;
+  const int steps = static_cast<int>(std::ceil(kStepsPerOctave * std::log2(to / from)));
+  for (int i = 0; i <= steps; ++i) {
+    const double q = i == steps ? to : from * std::exp2(i / kStepsPerOctave);
+    const double density = densityAt(q) * pass(q);
+    spectrum.wave_number.push_back(q);
+    spectrum.density.push_back(density);
+    largest = std::max(largest, density);
   }
-  const double cell_area = pitch * pitch;
-  cv::Mat heights = filteredNoise(whiteNoise(rows, cols, static_cast<int>(seed & 0x7fffffff)), [&](int row, int col) {
-    if (row == 0 && col == 0) return 0.0;
-    const double q = drawn.stretch.roundWave(waveNumber(col, cols, pitch), waveNumber(row, rows, pitch));
-    return std::sqrt(drawn.densityAt(q) / cell_area);
-  });
-  return HeightMap(heights, pitch, pitch);
+  for (double& density : spectrum.density) density = std::max(density, kNone * kNone * largest);
+  spectrum.wave_number.insert(spectrum.wave_number.begin(), from * 0.999);
+  spectrum.density.insert(spectrum.density.begin(), kNone * largest);
+  return spectrum;
+}
+
+/// Catmull and Rom's cubic between four neighbours.
+struct CubicPlace {
+  int first = 0;
+  double weights[4] = {};
+};
+
+CubicPlace cubicPlace(double place, int count) {
+  CubicPlace cubic;
+  const double floor = std::floor(place);
+  const double t = place - floor;
+  cubic.first = static_cast<int>(floor) - 1;
+  cubic.weights[0] = 0.5 * t * (-1.0 + t * (2.0 - t));
+  cubic.weights[1] = 0.5 * (2.0 + t * t * (-5.0 + 3.0 * t));
+  cubic.weights[2] = 0.5 * t * (1.0 + t * (4.0 - 3.0 * t));
+  cubic.weights[3] = 0.5 * t * t * (t - 1.0);
+  (void)count;
+  return cubic;
+}
+
+int reflected(int index, int count) {
+  const int at = index < 0 ? -1 - index : index >= count ? 2 * count - 1 - index : index;
+  return std::clamp(at, 0, count - 1);
+}
+
+bool fitsIn(const MadeSize& size, const OwnLongWaves& own) {
+  constexpr double kRounding = 0.999;
+  return own.heights.cols * own.pitch_x >= kRounding * size.sideX() &&
+         own.heights.rows * own.pitch_y >= kRounding * size.sideY();
+}
+
+TiledSurface fieldOf(const SurfaceLaw& law, const SpectrumContinuation& continuation, const MadeSize& size,
+                     double longest_wave, bool has_own, std::uint64_t seed) {
+  const bool is_short = law.non_gaussian_share > 0.0 && law.split_wave_number > 0.0;
+  const MergedSpectrum& merged = law.non_gaussian_share > 0.0 ? law.numbers : law.heights;
+  const auto pass = [&](double q) {
+    if (is_short) return std::pow(highPass(q, law.split_wave_number), 2);
+    return has_own ? -std::expm1(-2.0 * std::pow(q / law.join_wave_number, 4)) : 1.0;
+  };
+  return TiledSurface(tableOf(merged, continuation, longest_wave, pass), size.rows, size.cols, size.pitch_x,
+                      size.pitch_y, seed);
+}
+
+}  // namespace
+
+SpectrumContinuation drawnContinuation(const SurfaceLaw& law, double side, std::mt19937_64& engine) {
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> uniform;
+  const double first = law.heights.bands.front().wave_number;
+  SpectrumContinuation continuation;
+  continuation.slope = std::clamp(law.slope + law.slope_deviation * normal(engine), 0.0, kSteepest);
+  continuation.rolloff = first * std::pow(std::min(2.0 * kPi / side / first, 1.0), uniform(engine));
+  return continuation;
+}
+
+MadeSurface::MadeSurface(const SurfaceLaw& law, const SpectrumContinuation& continuation, const MadeSize& size,
+                         double longest_wave, std::uint64_t seed)
+    : law_(&law),
+      size_(size),
+      field_(fieldOf(law, continuation, size, longest_wave, law.own && fitsIn(size, *law.own), 2 * seed)),
+      has_own_(law.own && fitsIn(size, *law.own)) {
+  std::mt19937_64 engine(seed);
+  if (law.non_gaussian_share > 0.0) {
+    translation_.emplace([&](double g) { return law.marginal.heightOf(g); });
+    if (law.split_wave_number > 0.0) {
+      const auto pass = [&](double q) {
+        const double high = highPass(q, law.split_wave_number);
+        return (1.0 - high * high) * (has_own_ ? -std::expm1(-2.0 * std::pow(q / law.join_wave_number, 4)) : 1.0);
+      };
+      long_waves_.emplace(tableOf(law.heights, continuation, longest_wave, pass), size.rows, size.cols,
+                          size.pitch_x, size.pitch_y, 2 * seed + 1);
+    }
+  }
+  if (!has_own_) return;
+  std::uniform_real_distribution<double> uniform;
+  std::normal_distribution<double> normal;
+  const OwnLongWaves& own = *law.own;
+  place_x_ = uniform(engine) * std::max(0.0, own.heights.cols * own.pitch_x - size.sideX());
+  place_y_ = uniform(engine) * std::max(0.0, own.heights.rows * own.pitch_y - size.sideY());
+  tilt_x_ = normal(engine) * own.tilt_x;
+  tilt_y_ = normal(engine) * own.tilt_y;
+}
+
+void MadeSurface::heights(std::int64_t row, std::int64_t col, cv::Mat& tile) {
+  field_.heights(row, col, tile);
+  const bool are_numbers = law_->non_gaussian_share > 0.0 && law_->split_wave_number == 0.0;
+  if (has_own_ && are_numbers) addOwnWaves(row, col, tile);
+  if (translation_) {
+    for (int i = 0; i < tile.rows; ++i) {
+      float* line = tile.ptr<float>(i);
+      for (int j = 0; j < tile.cols; ++j) line[j] = static_cast<float>((*translation_)(static_cast<double>(line[j])));
+    }
+  }
+  if (long_waves_) {
+    spare_.create(tile.size(), tile.type());
+    long_waves_->heights(row, col, spare_);
+    tile += spare_;
+  }
+  if (has_own_ && !are_numbers) addOwnWaves(row, col, tile);
+}
+
+void MadeSurface::addOwnWaves(std::int64_t row, std::int64_t col, cv::Mat& tile) {
+  const OwnLongWaves& own = *law_->own;
+  const double root = std::sqrt(12.0);
+  std::vector<CubicPlace> places(static_cast<std::size_t>(tile.cols));
+  std::vector<double> planes(places.size());
+  int first = std::numeric_limits<int>::max();
+  int last = 0;
+  for (int j = 0; j < tile.cols; ++j) {
+    const double x = (static_cast<double>(col + j) + 0.5) * size_.pitch_x;
+    const auto at = static_cast<std::size_t>(j);
+    places[at] = cubicPlace((place_x_ + x) / own.pitch_x - 0.5, own.heights.cols);
+    planes[at] = tilt_x_ * root * (x / size_.sideX() - 0.5);
+    first = std::min(first, places[at].first);
+    last = std::max(last, places[at].first + 3);
+  }
+  std::vector<double> across(static_cast<std::size_t>(last - first + 1));
+  for (int i = 0; i < tile.rows; ++i) {
+    const double y = (static_cast<double>(row + i) + 0.5) * size_.pitch_y;
+    const CubicPlace place = cubicPlace((place_y_ + y) / own.pitch_y - 0.5, own.heights.rows);
+    const double plane = tilt_y_ * root * (y / size_.sideY() - 0.5);
+    for (int at = first; at <= last; ++at) {
+      double sum = 0.0;
+      for (int k = 0; k < 4; ++k) {
+        sum += place.weights[k] * own.heights.at<double>(reflected(place.first + k, own.heights.rows),
+                                                         reflected(at, own.heights.cols));
+      }
+      across[static_cast<std::size_t>(at - first)] = sum;
+    }
+    float* line = tile.ptr<float>(i);
+    for (int j = 0; j < tile.cols; ++j) {
+      const CubicPlace& along = places[static_cast<std::size_t>(j)];
+      const double* values = &across[static_cast<std::size_t>(along.first - first)];
+      double sum = plane + planes[static_cast<std::size_t>(j)];
+      for (int k = 0; k < 4; ++k) sum += along.weights[k] * values[k];
+      line[j] += static_cast<float>(sum);
+    }
+  }
+}
+
+HeightMap madeScan(const SurfaceLaw& law, const SpectrumContinuation& continuation, const HeightMap& like,
+                   double longest_wave, std::uint64_t seed) {
+  const MadeSize size{like.rows(), like.cols(), like.pitchX(), like.pitchY()};
+  SurfaceLaw without_own = law;
+  without_own.own.reset();
+  MadeSurface surface(without_own, continuation, size, std::max({longest_wave, size.sideX(), size.sideY()}), seed);
+  cv::Mat heights(like.rows(), like.cols(), CV_32FC1);
+  surface.heights(0, 0, heights);
+  return {heights, like.pitchX(), like.pitchY()};
 }
 
 }  // namespace mems_stiction

@@ -1,16 +1,73 @@
 #pragma once
 
 /// @file
-/// One surface of the device's size, as the scans may have been parts of it.
+/// One surface of the device's size, as the scans may have been cut from it: made tile by tile, by the law of the scans
+/// (surface_law.hpp) and what is drawn of what that leaves open.
 
 #include <cstdint>
+#include <optional>
+#include <random>
 
+#include <opencv2/core.hpp>
+
+#include "device/surface_law.hpp"
 #include "mems_stiction/height_map/height_map.hpp"
-#include "roughness/merged_spectrum.hpp"
+#include "surface/tiled_surface.hpp"
 
 namespace mems_stiction {
 
-/// - @p spectrum with its uncertainty: a realisation of that is drawn as well
-HeightMap madeSurface(const MergedSpectrum& spectrum, int rows, int cols, double pitch, std::uint64_t seed);
+/// How the spectrum goes on to waves longer than those that are believed: as steeply as at its end, up to a roll-off.
+struct SpectrumContinuation {
+  double slope = 0.0;    ///< -d ln C/d ln q [-]
+  double rolloff = 0.0;  ///< wave number from which on downwards it is flat [rad/m]
+};
+/// One that the scans leave open: the slope by its standard error, the roll-off anywhere up to waves as long as the device.
+/// - @p side of the device [m]
+SpectrumContinuation drawnContinuation(const SurfaceLaw& law, double side, std::mt19937_64& engine);
+
+/// The size of a surface that is made.
+struct MadeSize {
+  std::int64_t rows = 0;
+  std::int64_t cols = 0;
+  double pitch_x = 0.0;  ///< [m]
+  double pitch_y = 0.0;  ///< [m]
+
+  double sideX() const { return static_cast<double>(cols) * pitch_x; }
+  double sideY() const { return static_cast<double>(rows) * pitch_y; }
+};
+
+/// Heights by tile; one object serves one thread at a time.
+class MadeSurface {
+ public:
+  /// - @p law must outlive the object
+  /// - @p longest_wave longer ones are left out: they tilt it [m]
+  MadeSurface(const SurfaceLaw& law, const SpectrumContinuation& continuation, const MadeSize& size, double longest_wave,
+              std::uint64_t seed);
+
+  /// Tiles of this size are made fastest.
+  cv::Size tile() const { return field_.tile(); }
+  /// Heights [m] of the tile whose first pixel is (row, col), CV_32FC1; all of it lies in the surface.
+  void heights(std::int64_t row, std::int64_t col, cv::Mat& tile);
+
+ private:
+  void addOwnWaves(std::int64_t row, std::int64_t col, cv::Mat& tile);
+
+  const SurfaceLaw* law_;
+  MadeSize size_;
+  TiledSurface field_;                   ///< of g, or of z where all is Gaussian
+  std::optional<TiledSurface> long_waves_;  ///< Gaussian, beyond the split
+  std::optional<HeightTranslation> translation_;
+  bool has_own_ = false;
+  double place_x_ = 0.0;  ///< of the surface in the widest scan [m]
+  double place_y_ = 0.0;
+  double tilt_x_ = 0.0;
+  double tilt_y_ = 0.0;
+  cv::Mat spare_;
+};
+
+/// A scan of a surface of this law, with other pixels and size: not of one made surface, but as random.
+/// - @p longest_wave that the surface has, if it is longer than the scan [m]
+HeightMap madeScan(const SurfaceLaw& law, const SpectrumContinuation& continuation, const HeightMap& like,
+                   double longest_wave, std::uint64_t seed);
 
 }  // namespace mems_stiction
