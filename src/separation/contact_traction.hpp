@@ -41,6 +41,8 @@ class ContactTraction {
   Real traction(const Real& gap) const {
     return law_.traction(ratio(gap));
   }
+  /// dt/dd [Pa/m]
+  double slope(double gap) const { return law_.slope(ratio(gap)); }
   /// d^2t/dd^2 [Pa/m^2]
   double curvature(double gap) const { return law_.curvature(ratio(gap)); }
   /// w [J/m^2] of one gap [m] or of several

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "mems_stiction/settings/option_visitor.hpp"
 #include "numeric/lanes.hpp"
 #include "settings/time_limit.hpp"
 
@@ -28,8 +30,12 @@ PyramidRule ruleOf(const ContactTraction& law) { return {0.0, law.range()}; }
 
 }  // namespace
 
-void FrameSums::start(const GapField& field, const ContactSettings& settings) {
+CellsMissing::CellsMissing(double gap)
+    : Error("cells with gaps up to " + numberText(gap) + " m come in reach and are not in the frame"), gap_(gap) {}
+
+void FrameSums::start(const GapField& field, const ContactSettings& settings, const FarGaps* far) {
   field_ = &field;
+  far_ = far;
   settings_ = &settings;
   patch_forces_.emplace(settings, field.cellArea(), true);
   wider_law_.emplace(withMoreHamaker(settings.interface));
@@ -40,7 +46,10 @@ void FrameSums::start(const GapField& field, const ContactSettings& settings) {
   ordered_fraction_ = kFirstFraction;
   order_.build(field, ordered_fraction_, 0.0, &dales_);
   pyramid_.prepare(order_);
-  approach_before_limit_ = order_.lowerEndAt(contactLimit() - 1);
+  // if the limit lies beyond the frame, cells will be missing before it is reached
+  const std::int64_t limit = contactLimit();
+  approach_before_limit_ = limit <= field.validCount() ? order_.lowerEndAt(static_cast<int>(limit - 1))
+                                                       : std::numeric_limits<double>::infinity();
   const double farthest = approach_before_limit_ + order_.bucketWidth() + law().range();
   most_fraction_ = std::min(1.0, order_.cellsBelow(farthest) / field.validCount());
   startSweeps();
@@ -98,6 +107,7 @@ void FrameSums::extend(double fraction) {
 }
 
 void FrameSums::orderUpTo(double approach, double expected) {
+  if (far_ != nullptr && approach > far_->first()) throw CellsMissing(approach);
   while (approach >= order_.groupLowerEnd(order_.groupCount()) && ordered_fraction_ < 1.0) {
     const double more = std::max(kMoreCells * ordered_fraction_, order_.cellsBelow(expected) / field_->validCount());
     // the curve ends at the limit of contact, but for the step that passes it
@@ -105,13 +115,15 @@ void FrameSums::orderUpTo(double approach, double expected) {
   }
 }
 
-int FrameSums::contactLimit() const {
-  const double wanted = std::ceil(settings_->approach.max_contact_fraction * field_->validCount());
-  return std::clamp(static_cast<int>(wanted), 1, field_->validCount());
+std::int64_t FrameSums::contactLimit() const {
+  const std::int64_t valid_count = validCount();
+  const double wanted = std::ceil(settings_->approach.max_contact_fraction * static_cast<double>(valid_count));
+  return std::clamp(static_cast<std::int64_t>(wanted), std::int64_t{1}, valid_count);
 }
 
 double FrameSums::limitApproach() {
-  const int count = contactLimit();
+  if (contactLimit() > field_->validCount()) throw CellsMissing(far_->first());
+  const int count = static_cast<int>(contactLimit());
   if (static_cast<int>(order_.cells().size()) < count) extend(most_fraction_);
   order_.sortBetween(count - 1, count);
   // the next number: cells with just this gap are in
@@ -135,6 +147,9 @@ void FrameSums::add(double approach, double hold, PlaceSums& sums) {
   sums.adhesion += attraction.adhesion;
   sums.electrostatic += attraction.electrostatic;
   sums.capillary += capillaryForce(order_, approach, contacts.cellCount(), water_, field_->cellArea());
+  if (far_ != nullptr && water_.isOn()) {
+    sums.capillary += far_->cellsBelow(approach + water_.gapLimit()) * (water_.pressure() * field_->cellArea());
+  }
 }
 
 MEMS_STICTION_VECTORIZED void FrameSums::addCells(const ContactTraction& law, const OrderedCell* cells,
@@ -159,16 +174,17 @@ MEMS_STICTION_VECTORIZED FrameSums::Attraction FrameSums::attractionOver(const C
                                                                          int contact_count) const {
   const FieldLaw& voltage = *voltage_;
   Attraction sum;
+  const auto add_moments = [&](const GapMoments& gaps) {
+    const double gap = gaps.mean - approach;
+    sum.adhesion += gaps.count * (law.traction(gap) + 0.5 * law.curvature(gap) * gaps.variance);
+    if (!voltage.isOn()) return;
+    const double square = voltage.squaredDistance(gap);
+    sum.electrostatic += gaps.count / square * (1.0 + 3.0 * gaps.variance / square);
+  };
   pyramid_.visit(
       approach, contact_count, ruleOf(law),
-      [&](const OrderedCell* cells, std::size_t count) { addCells(law, cells, count, approach, sum); },
-      [&](const GapMoments& gaps) {
-        const double gap = gaps.mean - approach;
-        sum.adhesion += gaps.count * (law.traction(gap) + 0.5 * law.curvature(gap) * gaps.variance);
-        if (!voltage.isOn()) return;
-        const double square = voltage.squaredDistance(gap);
-        sum.electrostatic += gaps.count / square * (1.0 + 3.0 * gaps.variance / square);
-      });
+      [&](const OrderedCell* cells, std::size_t count) { addCells(law, cells, count, approach, sum); }, add_moments);
+  if (far_ != nullptr) std::for_each(far_->moments().begin(), far_->moments().end(), add_moments);
   const double cell_area = field_->cellArea();
   sum.adhesion *= cell_area;
   sum.electrostatic *= cell_area * voltage.factor();
@@ -188,12 +204,17 @@ FrameSums::Attraction FrameSums::attractionAt(const ContactTraction& law, double
 double FrameSums::energyAt(const ContactTraction& law, double approach) {
   const int contact_count = overlappingAt(approach);
   double sum = 0.0;
+  const auto add_moments = [&](const GapMoments& gaps) {
+    const double gap = gaps.mean - approach;
+    sum += gaps.count * (law.energy(gap) - 0.5 * law.slope(gap) * gaps.variance);
+  };
   pyramid_.visit(
       approach, contact_count, ruleOf(law),
       [&](const OrderedCell* cells, std::size_t count) {
         for (std::size_t i = 0; i < count; ++i) sum += law.energy(cells[i].gap - approach);
       },
-      [&](const GapMoments& bucket) { sum += bucket.count * law.energy(bucket.mean - approach); });
+      add_moments);
+  if (far_ != nullptr) std::for_each(far_->moments().begin(), far_->moments().end(), add_moments);
   return field_->cellArea() * (sum + contact_count * law.workOfAdhesion());
 }
 

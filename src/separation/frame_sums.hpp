@@ -1,17 +1,21 @@
 #pragma once
 
 /// @file
-/// The sums over the places of one frame (place_sums.hpp), at any displacement and in any order.
+/// The sums over the places of one frame (place_sums.hpp), at any displacement and in any order; or of an area, whose frame holds
+/// the highest cells alone (approach/cell_islands.hpp), and what lies below them is known by its gaps (approach/far_gaps.hpp).
 ///
 /// Cells come in by sweeps that move forward; a call that goes back starts them anew, or from mark().
 
+#include <cstdint>
 #include <optional>
 
 #include "approach/dale_map.hpp"
+#include "approach/far_gaps.hpp"
 #include "approach/gap_field.hpp"
 #include "approach/gap_order.hpp"
 #include "approach/gap_pyramid.hpp"
 #include "mems_stiction/contact/contact_settings.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/loads/capillary.hpp"
 #include "separation/overlap_sweep.hpp"
 #include "separation/patch_forces.hpp"
@@ -19,11 +23,24 @@
 
 namespace mems_stiction {
 
+/// Cells come in reach that are not in the frame. Whoever follows an area's curve goes on with more of its cells.
+class CellsMissing : public Error {
+ public:
+  explicit CellsMissing(double gap);
+  /// Cells with a gap below this are needed [m].
+  double gap() const { return gap_; }
+
+ private:
+  double gap_;
+};
+
 /// Of one frame. Keeps its memory between frames.
 class FrameSums {
  public:
-  /// Field and settings must outlive the object's use.
-  void start(const GapField& field, const ContactSettings& settings);
+  /// Field, settings and gaps must outlive the object's use.
+  /// - @p far gaps of the cells that are not in the frame, if there are any. Every call then throws CellsMissing where they would
+  ///   come in reach.
+  void start(const GapField& field, const ContactSettings& settings, const FarGaps* far = nullptr);
 
   /// The sums over the patches in reach: those of the surfaces brought closer by z0 and a hold [m].
   /// - @p expected_end where the displacements will probably end [m]: so many cells are put in order at once when there are
@@ -56,12 +73,16 @@ class FrameSums {
   const GapField& field() const { return *field_; }
   const PatchForces& patchForces() const { return *patch_forces_; }
   const ContactTraction& law() const { return patch_forces_->law(); }
+  /// Number of valid cells.
+  std::int64_t validCount() const { return field_->validCount() + (far_ != nullptr ? far_->count() : 0); }
   /// Of the valid cells [m^2].
-  double area() const { return field_->validCount() * field_->cellArea(); }
+  double area() const { return static_cast<double>(validCount()) * field_->cellArea(); }
+  /// Sum of the gaps of the valid cells at first touch [m].
+  double gapSum() const { return field_->meanGap() * field_->validCount() + (far_ != nullptr ? far_->gapSum() : 0.0); }
   /// What attraction and water together never exceed [N].
   double strongestPull() const { return (law().strength() + water_.pressure()) * area(); }
   /// Number of cells in contact at which approach/max_contact_fraction is reached.
-  int contactLimit() const;
+  std::int64_t contactLimit() const;
   /// An approach that is no larger than where it is reached, and nearly there [m]: costs nothing.
   double approachBeforeLimit() const { return approach_before_limit_; }
   /// Where it is reached [m].
@@ -90,6 +111,7 @@ class FrameSums {
   double energyAt(const ContactTraction& law, double approach);
 
   const GapField* field_ = nullptr;
+  const FarGaps* far_ = nullptr;
   const ContactSettings* settings_ = nullptr;
   std::optional<PatchForces> patch_forces_;
   std::optional<ContactTraction> wider_law_;  ///< with a Hamaker constant that is larger by kMoreHamaker

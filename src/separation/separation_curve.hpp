@@ -54,6 +54,8 @@ struct SeparationCurve {
   /// The first state that pushes the surfaces apart when no load presses them: on the near side of their rest then. The end
   /// of the states where none does.
   std::vector<SeparationState>::const_iterator firstPushing() const;
+  /// Bonded, but without the loads the surfaces would have come to rest before.
+  bool isBondedByLoad() const { return status == Status::kBonded && firstPushing() != states.end(); }
 };
 
 /// Largest rise of the parting force after it has fallen, to either side of its maximum, as far as the first state that

@@ -15,14 +15,14 @@
 ///     SeparationSolver solver;
 ///     solver.solve({surfaces, gap, composite_rms_height, settings}, solution);
 
+#include <cstdint>
 #include <vector>
 
 #include "contact/contact_solver.hpp"
 #include "separation/conforming_contact.hpp"
+#include "separation/contact_curve.hpp"
 #include "separation/curve_statement.hpp"
 #include "separation/flattening.hpp"
-#include "separation/remaining_overlap.hpp"
-#include "separation/separation_curve.hpp"
 #include "separation/way_out.hpp"
 
 namespace mems_stiction {
@@ -33,49 +33,24 @@ class SeparationSolver : public ContactSolver {
   void solve(const ContactProblem& problem, ContactSolution& solution) override;
 
  private:
-  /// One contact at rest.
-  struct Contact {
-    PatchLoad load;
-    RemainingOverlap remaining;
-    double area = 0.0;  ///< real [m^2]
-    Regime regime = Regime::kElastic;
-    bool is_at_border = false;
-  };
-
   void takeRest(const ContactProblem& problem, ContactSolution& solution);
   void findBorder(const GapField& field);
-  /// The contact of a patch at rest.
-  Contact& contactOf(const OverlapSweep& rest, std::int32_t id) {
-    return contacts_[static_cast<std::size_t>(rest.livePlace(id))];
-  }
   /// Calls take(row, column, overlap [m], patch, contact) for each cell that overlaps at rest, row by row.
   template <typename Taker>
   void visitOverlaps(const GapField& field, const Taker& take);
   void listContacts(const ContactProblem& problem, ContactSolution& solution);
   void fillMaps(const ContactProblem& problem, ContactSolution& solution);
-  /// The way out by contacts.
-  void partByContacts(const ContactProblem& problem);
-  /// Where it is another than the way in: of surfaces that have flowed, or with soft summits, which hold on.
-  void followChanged(const Way& way);
-  const SeparationCurve& wayOut() const { return has_way_out_ ? way_out_ : curve_; }
   void takeWayOut(const WayOut& way_out, ContactSolution& solution) const;
   /// The contacts that hold at the pull-off: patches within reach of the attraction there.
   void listPullOffContacts(const ContactProblem& problem, ContactSolution& solution);
 
-  FrameSums frame_;
-  SeparationCurve curve_;
-  std::vector<Contact> contacts_;  ///< in the order of the sweep's patches
-  std::vector<PatchLoad> loads_;   ///< the same
-  bool has_flowed_ = false;
+  ContactCurve curve_;
+  std::vector<std::uint8_t> is_at_border_;  ///< of the contacts at rest
   std::vector<double> row_gaps_;
   std::vector<std::int32_t> columns_;
   FlatteningEnergy flattening_;
   ConformingContact conforming_;
-  SeparationCurve way_out_;  ///< where it is another than the way in
-  bool has_way_out_ = false;
-  WayOut by_contacts_;
   CurveStatement statement_;
-  std::vector<Regime> regime_of_dale_;  ///< at rest, when surfaces have flowed
 };
 
 }  // namespace mems_stiction

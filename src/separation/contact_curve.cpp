@@ -1,0 +1,131 @@
+#include "separation/contact_curve.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "numeric/constants.hpp"
+
+#include "chosen_constants.hpp"
+
+namespace mems_stiction {
+namespace {
+
+/// Real area of a patch that overlaps over `area`: half of it while it is elastic (Hertz), more where adhesion widens
+/// the contact (JKR), all of it when what it carries is all that flow allows. The load that widens it is P (DMT) to
+/// JKR's P1 of what presses beside the contact's own rim, as far as Tabor's parameter has come from one to the other.
+/// The half-space knows no smaller contact than a cell.
+double realArea(const PatchLoad& load, double area, double rim_force, double prefactor, double hardness,
+                double cell_area) {
+  const double fullness = std::isfinite(hardness) ? std::min(1.0, load.carried / (hardness * area)) : 0.0;
+  double widening = 1.0;
+  if (!std::isfinite(rim_force)) {  // a plateau without depth: no paraboloid, and it touches everywhere
+    widening = 2.0;
+  } else if (load.carried > 0.0) {
+    const double outer = std::max(load.carried - rim_force, 0.0);  // rim_force is DMT's 2 pi Gamma R
+    const double jkr_load = outer + 1.5 * rim_force + std::sqrt(3.0 * rim_force * outer + 2.25 * rim_force * rim_force);
+    const double jkr_share = 2.0 * (2.0 - prefactor);
+    const double root = std::cbrt(1.0 + jkr_share * std::max(jkr_load / load.carried - 1.0, 0.0));
+    widening = root * root;
+  }
+  return std::max(cell_area, area * std::max(0.5 * std::min(widening, 2.0), fullness));
+}
+
+Regime regimeOf(const PatchLoad& load, double area, double hardness) {
+  if (load.elasticShare() >= chosen::kElasticShare) return Regime::kElastic;
+  return load.carried >= chosen::kPlasticShare * hardness * area ? Regime::kPlastic : Regime::kElastoPlastic;
+}
+
+}  // namespace
+
+void ContactCurve::comeToRest(const GapField& field, const ContactSettings& settings, const FarGaps* far) {
+  cell_area_ = field.cellArea();
+  has_voltage_ = settings.load.voltage != 0.0;
+  has_way_out_ = false;
+  frame_.start(field, settings, far);
+  followCurve(frame_, settings, way_in_);
+  takeContacts();
+}
+
+void ContactCurve::takeContacts() {
+  const SeparationState& rest = way_in_.rest();
+  const OverlapSweep& sweep = frame_.contactsAt(rest.approach);
+  const PatchForces& forces = frame_.patchForces();
+  contacts_.assign(sweep.patches().size(), {});
+  forces.loadsOf(sweep, rest.approach, loads_);
+  by_contacts_.contact_area = 0.0;
+  has_flowed_ = false;
+  double touching = 0.0;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const OverlapPatch& patch = sweep.patches()[i];
+    Contact& contact = contacts_[i];
+    const double area = patch.cells * cell_area_;
+    contact.load = loads_[i];
+    const double radius = patch.radius(rest.approach, cell_area_);
+    contact.composite_radius = radius;
+    contact.area =
+        realArea(contact.load, area, 2.0 * kPi * frame_.law().workOfAdhesion() * radius / std::sqrt(patch.summits),
+                 forces.pullOffPrefactor(radius / patch.summits), forces.hardness(), cell_area_);
+    contact.regime = regimeOf(contact.load, area, forces.hardness());
+    by_contacts_.contact_area += contact.area;
+    const double area_share = std::max(0.5, contact.load.carried / (forces.hardness() * area));
+    contact.remaining = RemainingOverlap(contact.load.elastic / (forces.hardness() * area), area_share,
+                                         patch.depth(rest.approach), rest.approach - patch.first_gap);
+    has_flowed_ = has_flowed_ || contact.remaining.isChanged();
+    touching += patch.gap_sum;
+  }
+  const std::int64_t apart = frame_.validCount() - rest.contact_count;
+  mean_gap_ = apart > 0 ? (frame_.gapSum() - touching) / static_cast<double>(apart) - rest.approach : 0.0;
+}
+
+double ContactCurve::stiffness() const {
+  // a secant to the nearest state that is far enough before rest: forces are known to a thousandth of what is carried
+  const std::vector<SeparationState>& states = way_in_.states;
+  const SeparationState& rest = states.back();
+  for (auto before = states.rbegin() + 1; before != states.rend(); ++before) {
+    const double length = rest.approach - before->approach;
+    if (length >= chosen::kStiffnessLength * frame_.law().range()) return (before->force() - rest.force()) / length;
+  }
+  return ContactSolution::kUnknown;
+}
+
+void ContactCurve::appendWayIn(std::vector<SeparationCurvePoint>& points) const {
+  for (const SeparationState& state : way_in_.states) points.push_back({state.approach, state.force(), false});
+}
+
+void ContactCurve::part() {
+  const Way way = wayOutOf(way_in_, frame_.law().range());
+  has_way_out_ = has_flowed_ || way.longest_hold > 0.0;
+  regime_of_dale_.clear();
+  if (has_way_out_) followChanged(way);
+  const SeparationCurve& curve = wayOut();
+  const CurveExponents exponents = exponentsOf(frame_, curve);
+  by_contacts_.force = curve.pull_off_force;
+  by_contacts_.force_exponents = exponents.pull_off;
+  by_contacts_.work = curve.work / frame_.area();
+  by_contacts_.work_exponents = exponents.work;
+  by_contacts_.curve.clear();
+  if (!has_way_out_ && !has_voltage_) return;
+  for (auto state = curve.states.rbegin(); state != curve.states.rend(); ++state) {
+    by_contacts_.curve.push_back({state->approach, state->partingForce(), true});
+  }
+}
+
+void ContactCurve::followChanged(const Way& way) {
+  double first_touch = 0.0;
+  if (has_flowed_) {
+    first_touch = way.rest;
+    const OverlapSweep& sweep = frame_.contactsAt(way.rest);
+    frame_.change(way.rest, [&](const OrderedCell& ordered) {
+      const Contact& contact = contacts_[static_cast<std::size_t>(sweep.livePlace(sweep.patchOf(ordered)))];
+      const auto dale = static_cast<std::size_t>(ordered.tag.dale());
+      if (dale >= regime_of_dale_.size()) regime_of_dale_.resize(dale + 1, Regime::kElastic);
+      regime_of_dale_[dale] = contact.regime;
+      const double gap = way.rest - contact.remaining.of(way.rest - ordered.gap);
+      first_touch = std::min(first_touch, gap);
+      return gap;
+    });
+  }
+  followWayOut(frame_, first_touch, way, way_out_);
+}
+
+}  // namespace mems_stiction

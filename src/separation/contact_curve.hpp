@@ -1,0 +1,82 @@
+#pragma once
+
+/// @file
+/// Two surfaces that come to rest on each other along the separation curve, their contacts there, and how they part when these
+/// contacts let go one by one: of a frame, or of an area by its highest cells (frame_sums.hpp).
+///
+///     ContactCurve curve;
+///     curve.comeToRest(field, settings);
+///     for (const auto& contact : curve.contacts()) ...
+///     curve.part();
+///     use(curve.byContacts().force);
+
+#include <vector>
+
+#include "separation/remaining_overlap.hpp"
+#include "separation/separation_curve.hpp"
+#include "separation/way_out.hpp"
+
+namespace mems_stiction {
+
+/// Keeps its memory between calls.
+class ContactCurve {
+ public:
+  /// One contact at rest.
+  struct Contact {
+    PatchLoad load;
+    RemainingOverlap remaining;
+    double area = 0.0;              ///< real [m^2]
+    double composite_radius = 0.0;  ///< [m]
+    Regime regime = Regime::kElastic;
+  };
+
+  /// Field, settings and gaps must outlive the object's use.
+  /// - @p far as in FrameSums
+  void comeToRest(const GapField& field, const ContactSettings& settings, const FarGaps* far = nullptr);
+  /// From then on frame() is that of the surfaces as flow has changed them.
+  void part();
+
+  FrameSums& frame() { return frame_; }
+  const FrameSums& frame() const { return frame_; }
+  const SeparationCurve& wayIn() const { return way_in_; }
+  const SeparationState& rest() const { return way_in_.rest(); }
+  /// At rest, in the order of the sweep's patches there.
+  const std::vector<Contact>& contacts() const { return contacts_; }
+  /// Mean gap of the cells apart at rest [m]; 0 when every cell touches.
+  double meanGap() const { return mean_gap_; }
+  /// -dF/dD at rest [N/m]; NaN if it is not known.
+  double stiffness() const;
+  /// The way in as a list.
+  void appendWayIn(std::vector<SeparationCurvePoint>& points) const;
+
+  /// What parting by contacts takes; contact area from comeToRest(), the rest from part().
+  const WayOut& byContacts() const { return by_contacts_; }
+  /// Of part(): the way in where it is no other.
+  const SeparationCurve& wayOut() const { return has_way_out_ ? way_out_ : way_in_; }
+  /// The contacts that hold at the pull-off: patches within reach of the attraction there.
+  const OverlapSweep& inReachAtPullOff() {
+    return frame_.inReachAt(wayOut().pull_off_approach, wayOut().way.longest_hold);
+  }
+  /// By dale, at rest; of the dales that were in contact where surfaces have flowed.
+  const std::vector<Regime>& regimeOfDale() const { return regime_of_dale_; }
+
+ private:
+  void takeContacts();
+  /// Where the way out is another than the way in: of surfaces that have flowed, or with soft summits, which hold on.
+  void followChanged(const Way& way);
+
+  FrameSums frame_;
+  double cell_area_ = 0.0;  ///< [m^2]
+  bool has_voltage_ = false;
+  SeparationCurve way_in_;
+  std::vector<Contact> contacts_;
+  std::vector<PatchLoad> loads_;  ///< in the same order
+  double mean_gap_ = 0.0;
+  bool has_flowed_ = false;
+  SeparationCurve way_out_;  ///< where it is another than the way in
+  bool has_way_out_ = false;
+  WayOut by_contacts_;
+  std::vector<Regime> regime_of_dale_;
+};
+
+}  // namespace mems_stiction
