@@ -1,0 +1,133 @@
+#include "prediction/area_adhesion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "approach/cell_islands.hpp"
+#include "approach/far_gaps.hpp"
+#include "mechanics/transition.hpp"
+#include "mems_stiction/errors/errors.hpp"
+#include "numeric/median.hpp"
+#include "separation/contact_curve.hpp"
+
+namespace mems_stiction {
+namespace {
+
+/// Cells with which the curve is followed first, and by how much more when they do not suffice.
+constexpr std::int64_t kFirstCells = 1 << 12;
+constexpr std::int64_t kMoreCells = 8;
+/// Places of a frame of islands, for each cell that may be kept, and those that are always allowed.
+constexpr std::int64_t kPlacesPerCell = 8;
+constexpr std::int64_t kFewPlaces = 1 << 20;
+/// How much deeper the next attempt goes at least.
+constexpr double kDeeper = 1.5;
+
+/// The bucket down to which cells with gaps up to this are found [m].
+std::int64_t bucketOfGap(const AreaCells& cells, double gap) {
+  return cells.counts().bucketOf(cells.highest() - gap) - 1;
+}
+
+AreaAdhesion withoutCells(const AreaCells& cells, double gap) {
+  const HeightCounts& counts = cells.counts();
+  AreaAdhesion answer;
+  answer.area = cells.area();
+  std::int64_t bucket = bucketOfGap(cells, gap);
+  const bool is_too_much = counts.countFrom(bucket) > cells.limits().most_cells;
+  answer.reach = is_too_much ? AreaReach::kTooMuch : AreaReach::kLevelTooHigh;
+  if (!is_too_much) {
+    const double deeper = kDeeper * (cells.highest() - cells.level());
+    bucket = std::min(bucket, std::max(bucketOfGap(cells, deeper), counts.lowestWithin(cells.limits().most_cells)));
+  }
+  answer.needed_level = counts.lowerEnd(bucket);
+  answer.needed_cells = counts.countFrom(bucket);
+  return answer;
+}
+
+void takeMedians(const ContactCurve& curve, const Options& options, AreaAdhesion& answer) {
+  if (curve.contacts().empty()) return;
+  std::vector<double> radii;
+  for (const ContactCurve::Contact& contact : curve.contacts()) radii.push_back(contact.composite_radius);
+  answer.median_composite_radius = medianOf(radii);
+  // it rises with the radius
+  answer.median_tabor_parameter =
+      taborParameter(answer.median_composite_radius, options.interface.work_of_adhesion,
+                     curve.frame().patchForces().contactModulus(), curve.frame().law().range());
+}
+
+/// Of the cells from a bucket on, and the gaps of all others.
+/// @return nothing if their islands have no room
+/// @throw CellsMissing if they do not suffice.
+std::optional<AreaAdhesion> followCells(const AreaCells& cells, std::int64_t bucket, const Options& options) {
+  const std::int64_t most_places = std::max(kPlacesPerCell * cells.limits().most_cells, kFewPlaces);
+  GapField field;
+  {
+    const std::optional<HeightMap> frame =
+        frameOfIslands(cells.cellsFrom(bucket), cells.pitchX(), cells.pitchY(),
+                       std::min<std::int64_t>(most_places, std::numeric_limits<std::int32_t>::max() / kPlacesPerCell));
+    if (!frame) return std::nullopt;
+    field.compute(*frame);
+  }
+  const FarGaps far(cells.counts(), bucket, cells.highest(), ContactTraction(options.interface).range());
+  ContactCurve curve;
+  curve.comeToRest(field, options, &far);
+  AreaAdhesion answer;
+  answer.area = curve.frame().area();
+  answer.status = curve.wayIn().status;
+  answer.is_bonded_by_load = curve.wayIn().isBondedByLoad();
+  answer.approach = curve.rest().approach;
+  answer.separation_at_rest = curve.meanGap();
+  answer.contact_stiffness = curve.stiffness();
+  answer.joining_rise = joiningRise(curve.wayIn());
+  answer.contact_count = static_cast<int>(curve.contacts().size());
+  takeMedians(curve, options, answer);
+  curve.part();
+  const WayOut& way_out = curve.byContacts();
+  answer.contact_area = std::min(way_out.contact_area, answer.area);
+  answer.pull_off_force = way_out.force;
+  answer.pull_off_exponents = way_out.force_exponents;
+  answer.apparent_work_of_adhesion = way_out.work;
+  answer.work_exponents = way_out.work_exponents;
+  const int in_reach = way_out.force > 0.0 ? static_cast<int>(curve.inReachAtPullOff().patches().size()) : 0;
+  answer.pull_off_contact_count = in_reach > 0 ? in_reach : answer.contact_count;
+  curve.appendWayIn(answer.curve);
+  answer.curve.insert(answer.curve.end(), way_out.curve.begin(), way_out.curve.end());
+  return answer;
+}
+
+}  // namespace
+
+AreaAdhesion areaAdhesion(const AreaCells& cells, const Options& options) {
+  options.check();
+  if (options.formulation != kDefaultFormulation) {
+    throw OptionsError({"approach/formulation: an area is followed by " + std::string(kDefaultFormulation) +
+                        " alone, not by '" + options.formulation + "'"});
+  }
+  if (options.load.isPerArea()) {
+    throw OptionsError(
+        {"load/pressure, load/device_force: an area takes load/mechanical_load alone; scale them to it first"});
+  }
+  if (cells.counts().empty()) throw SurfaceError("the area has no valid cell");
+  const HeightCounts& counts = cells.counts();
+  const std::int64_t level = cells.levelBucket();
+  if (level > counts.highest()) return withoutCells(cells, 0.0);
+  std::int64_t wanted = kFirstCells;
+  std::int64_t bucket = std::clamp(counts.lowestWithin(wanted), level, counts.highest());
+  for (;;) {
+    double needed_gap = cells.highest() - counts.lowerEnd(bucket);
+    try {
+      const std::optional<AreaAdhesion> answer = followCells(cells, bucket, options);
+      if (answer) return *answer;
+      AreaAdhesion scattered = withoutCells(cells, needed_gap);
+      scattered.reach = AreaReach::kTooMuch;
+      return scattered;
+    } catch (const CellsMissing& missing) {
+      needed_gap = missing.gap();
+    }
+    if (bucket == level) return withoutCells(cells, needed_gap);
+    wanted *= kMoreCells;
+    bucket = std::max(std::min(counts.lowestWithin(wanted), bucketOfGap(cells, needed_gap)), level);
+  }
+}
+
+}  // namespace mems_stiction

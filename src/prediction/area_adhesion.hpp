@@ -1,0 +1,65 @@
+#pragma once
+
+/// @file
+/// The adhesion of an area that is too large to be held as a frame, by its cells (approach/area_cells.hpp): the separation curve of
+/// the whole area (doc/separation_curve.md), from the cells that can touch or come in reach, one by one, and from all others by
+/// their gaps. On areas that are small enough for both, AdhesionModel says the same.
+///
+/// The surfaces part by contacts. Whether they would conform is not a matter of the highest cells: flattening ratios of scans tell.
+///
+///     AreaCells cells(pitch, pitch);
+///     for (...) cells.add(row, col, relief_of_tile);
+///     const AreaAdhesion found = areaAdhesion(cells, options);
+///     if (found.reach == AreaReach::kEnough) use(found.pull_off_force);
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "approach/area_cells.hpp"
+#include "mems_stiction/contact/contact_solution.hpp"
+#include "mems_stiction/prediction/options.hpp"
+
+namespace mems_stiction {
+
+/// Whether the cells that were kept are those that come in reach.
+enum class AreaReach : std::uint8_t {
+  kEnough,        ///< they are
+  kLevelTooHigh,  ///< others do: collect again with a level of needed_level
+  kTooMuch,       ///< so many others do that they cannot be kept: this is no area that rests on few summits
+};
+
+/// Figures are those of the whole area, and NaN unless its cells were enough.
+struct AreaAdhesion {
+  static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+  AreaReach reach = AreaReach::kEnough;
+  double needed_level = kUnknown;  ///< relief down to which cells must be kept, for the next attempt at least [m]
+  std::int64_t needed_cells = 0;   ///< so many they are
+
+  Status status = Status::kNoEquilibrium;
+  bool is_bonded_by_load = false;               ///< bonded, but without the loads they would have come to rest before
+  double area = kUnknown;                       ///< of the valid cells [m^2]
+  double pull_off_force = kUnknown;             ///< [N]
+  double apparent_work_of_adhesion = kUnknown;  ///< [J/m^2]
+  Exponents pull_off_exponents;
+  Exponents work_exponents;
+  double approach = kUnknown;                 ///< at rest, from first touch [m]
+  double separation_at_rest = kUnknown;       ///< mean gap of the cells apart at rest [m]
+  double contact_area = kUnknown;             ///< real, at rest [m^2]
+  double contact_stiffness = kUnknown;        ///< -dF/dD at rest [N/m]
+  double joining_rise = kUnknown;             ///< as in ContactSolution [-]
+  int contact_count = 0;                      ///< patches at rest
+  int pull_off_contact_count = 0;             ///< patches in reach at the pull-off
+  double median_composite_radius = kUnknown;  ///< of the contacts at rest [m]
+  double median_tabor_parameter = kUnknown;   ///< of one with that radius [-]
+  /// The way in, then the way out where it is another, as in ContactSolution.
+  std::vector<SeparationCurvePoint> curve;
+};
+
+/// - @p options of the default formulation; load/mechanical_load presses the whole area [N]
+/// @throw OptionsError if the options are out of range, or of another formulation.
+/// @throw SurfaceError if the area has no valid cell.
+AreaAdhesion areaAdhesion(const AreaCells& cells, const Options& options);
+
+}  // namespace mems_stiction
