@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include "approach/area_cells.hpp"
-#include "mems_stiction/errors/errors.hpp"
+#include "errors/short_number.hpp"
+#include "mems_stiction/prediction/adhesion_model.hpp"
 #include "prediction/area_adhesion.hpp"
 #include "settings/time_limit.hpp"
 
@@ -13,8 +14,13 @@ namespace {
 
 /// Rows between pieces, so that no contact reaches from one to the next.
 constexpr std::int64_t kRowsBetween = 2;
-/// Of the area: parts whose forces tell how the force of a larger area goes on.
-constexpr int kPartsAlongSide = 2;
+/// Parts whose forces tell how the force of a larger area goes on.
+constexpr int kQuarters = 4;
+/// A larger ratio of areas is no rounding to whole pixels.
+constexpr double kGoesOn = 1.05;
+constexpr double kRounding = 0.05;
+/// Pixels along the side of a frame where cells in reach are too many to be kept one by one.
+constexpr std::int64_t kFrameSide = 2048;
 
 /// visit(row, col, tile of the relief) for all tiles.
 template <typename Visit>
@@ -49,17 +55,66 @@ DevicePieces piecesOf(const DeviceArea& area, double pitch, double most_cells) {
   const double piece_area = area.area / area.contacts;
   if (area.area > most_area) {
     // fewer pieces of their own size, or a part of one
-    pieces.count = std::max(1, static_cast<int>(most_area / piece_area));
+    pieces.count = std::clamp(static_cast<int>(most_area / piece_area), 1, area.contacts);
   }
   const double side = std::sqrt(std::min(piece_area, most_area));
   pieces.size.pitch_x = pieces.size.pitch_y = pitch;
   pieces.size.rows = pieces.size.cols = std::max(kLeastSide, static_cast<std::int64_t>(std::lround(side / pitch)));
-  pieces.area_ratio = std::max(1.0, area.area / pieces.area());
+  pieces.area_ratio = area.area / pieces.area();
   return pieces;
 }
 
+bool haveRoom(const std::vector<HeightMap>& scans, const DevicePieces& pieces) {
+  double area = 0.0;
+  for (const HeightMap& scan : scans) {
+    if (scan.cols() < pieces.size.cols || scan.rows() < pieces.size.rows) return false;
+    area += scan.rows() * scan.cols() * scan.cellArea();
+  }
+  return pieces.area_ratio <= 1.0 + kRounding && pieces.area() <= area;
+}
+
+/// The cells of the device, and those of its quarters where it goes on beyond them.
+class DeviceAreaSolver::Gatherer {
+ public:
+  explicit Gatherer(const DevicePieces& pieces)
+      : pieces_(pieces), cells_(pieces.size.pitch_x, pieces.size.pitch_y), goes_on_(pieces.area_ratio > kGoesOn) {
+    if (goes_on_) quarters_.assign(kQuarters, AreaCells(pieces.size.pitch_x, pieces.size.pitch_y));
+  }
+
+  void add(int piece, std::int64_t row, std::int64_t col, const cv::Mat& relief) {
+    const std::int64_t at = piece * (pieces_.size.rows + kRowsBetween) + row;
+    cells_.add(at, col, relief);
+    if (!goes_on_) return;
+    // tiles are small against the surface: their first pixel says in which quarter they lie
+    const int quarter = pieces_.count >= kQuarters
+                            ? piece % kQuarters
+                            : (2 * row >= pieces_.size.rows ? 2 : 0) + (2 * col >= pieces_.size.cols ? 1 : 0);
+    quarters_[static_cast<std::size_t>(quarter)].add(at, col, relief);
+  }
+
+  const AreaCells& cells() const { return cells_; }
+  const std::vector<AreaCells>& quarters() const { return quarters_; }
+
+ private:
+  const DevicePieces& pieces_;
+  AreaCells cells_;
+  bool goes_on_;
+  std::vector<AreaCells> quarters_;
+};
+
 DeviceAreaSolver::DeviceAreaSolver(const Options& model, double loaded_area, const DevicePieces& pieces)
     : model_(model), loaded_area_(loaded_area), pieces_(pieces) {}
+
+Options DeviceAreaSolver::loadedOn(double area) const {
+  Options options = model_;
+  options.load.setMechanicalLoad(model_.load.mechanical_load * area / loaded_area_);
+  options.load.max_mechanical_load = std::max(options.load.max_mechanical_load, options.load.mechanical_load);
+  return options;
+}
+
+void DeviceAreaSolver::warnOnce(const std::string& warning) {
+  if (std::find(warnings_.begin(), warnings_.end(), warning) == warnings_.end()) warnings_.push_back(warning);
+}
 
 Realisation DeviceAreaSolver::realise(const SurfaceLaw& lower, const std::optional<SurfaceLaw>& upper,
                                       std::uint64_t seed) {
@@ -67,31 +122,100 @@ Realisation DeviceAreaSolver::realise(const SurfaceLaw& lower, const std::option
   const SpectrumContinuation lower_end = drawnContinuation(lower, pieces_.side(), engine);
   std::optional<SpectrumContinuation> upper_end;
   if (upper) upper_end = drawnContinuation(*upper, pieces_.side(), engine);
-  AreaCells cells(pieces_.size.pitch_x, pieces_.size.pitch_y);
+  Gatherer gatherer(pieces_);
   std::optional<MadeSurface> below;
   std::optional<MadeSurface> above;
   for (int piece = 0; piece < pieces_.count; ++piece) {
     below.emplace(lower, lower_end, pieces_.size, pieces_.side(), engine());
     if (upper) above.emplace(*upper, *upper_end, pieces_.size, pieces_.side(), engine());
-    const std::int64_t first_row = piece * (pieces_.size.rows + kRowsBetween);
     visitTiles(pieces_.size, *below, above ? &*above : nullptr,
-               [&](std::int64_t row, std::int64_t col, const cv::Mat& tile) { cells.add(first_row + row, col, tile); });
+               [&](std::int64_t row, std::int64_t col, const cv::Mat& tile) { gatherer.add(piece, row, col, tile); });
   }
-  Options options = model_;
-  options.load.setMechanicalLoad(model_.load.mechanical_load * cells.area() / loaded_area_);
-  options.load.max_mechanical_load = std::max(options.load.max_mechanical_load, options.load.mechanical_load);
-  const AreaAdhesion found = areaAdhesion(cells, options);
-  if (found.reach != AreaReach::kHeld) {
-    throw SurfaceError("so much of the device's area comes in reach of the attraction that its contacts cannot be told apart: " +
-                       std::to_string(found.needed_cells) + " pixels of " + std::to_string(cells.validCount()));
+  return follow(gatherer, [&] {
+    const int side = static_cast<int>(std::min<std::int64_t>(pieces_.size.rows, kFrameSide));
+    cv::Mat frame(side, side, CV_32FC1);
+    below->heights(0, 0, frame);
+    if (above) {
+      cv::Mat other(side, side, CV_32FC1);
+      above->heights(0, 0, other);
+      frame -= other;
+    }
+    return frame;
+  });
+}
+
+Realisation DeviceAreaSolver::realise(const std::vector<HeightMap>& lower, const std::vector<HeightMap>& upper,
+                                      std::uint64_t seed) {
+  std::mt19937_64 engine(seed);
+  const auto partOf = [&](const std::vector<HeightMap>& scans) {
+    const HeightMap& scan = scans[std::uniform_int_distribution<std::size_t>(0, scans.size() - 1)(engine)];
+    const int rows = static_cast<int>(pieces_.size.rows);
+    const int cols = static_cast<int>(pieces_.size.cols);
+    const cv::Rect part(std::uniform_int_distribution<int>(0, scan.cols() - cols)(engine),
+                        std::uniform_int_distribution<int>(0, scan.rows() - rows)(engine), cols, rows);
+    cv::Mat heights;
+    scan.heights()(part).convertTo(heights, CV_64F);
+    return heights;
+  };
+  Gatherer gatherer(pieces_);
+  cv::Mat relief;
+  for (int piece = 0; piece < pieces_.count; ++piece) {
+    relief = partOf(lower);
+    if (!upper.empty()) relief -= partOf(upper);
+    gatherer.add(piece, 0, 0, relief);
   }
+  return follow(gatherer, [&] { return relief; });
+}
+
+Realisation DeviceAreaSolver::follow(const Gatherer& gathered, const std::function<cv::Mat()>& frame) {
+  const AreaCells& cells = gathered.cells();
+  const AreaAdhesion found = areaAdhesion(cells, loadedOn(cells.area()));
+  if (found.reach != AreaReach::kEnough) return followFrame(frame());
   force_exponents_ = found.pull_off_exponents;
   work_exponents_ = found.work_exponents;
   Realisation realisation;
-  realisation.pull_off_force = found.pull_off_force * pieces_.area_ratio;
+  realisation.pull_off_force = found.pull_off_force;
   realisation.apparent_work_of_adhesion = found.apparent_work_of_adhesion;
   realisation.contacts = found.pull_off_contact_count;
   realisation.separation_at_rest = found.separation_at_rest;
+  if (gathered.quarters().empty()) return realisation;
+  double force = 0.0;
+  double work = 0.0;
+  for (const AreaCells& quarter : gathered.quarters()) {
+    if (quarter.validCount() == 0) continue;
+    const AreaAdhesion part = areaAdhesion(quarter, loadedOn(quarter.area()));
+    if (part.reach != AreaReach::kEnough) return followFrame(frame());
+    force += part.pull_off_force / kQuarters;
+    work += part.apparent_work_of_adhesion / kQuarters;
+  }
+  // the force of four times the area, by how it came about; it neither falls nor grows faster than area
+  const double power = std::clamp(std::log(realisation.pull_off_force / force) / std::log(1.0 * kQuarters), 0.0, 1.0);
+  const double fall =
+      std::clamp(std::log(realisation.apparent_work_of_adhesion / work) / std::log(1.0 * kQuarters), -1.0, 0.0);
+  realisation.pull_off_force *= std::pow(pieces_.area_ratio, power);
+  realisation.apparent_work_of_adhesion *= std::pow(pieces_.area_ratio, fall);
+  warnOnce("the device has " + shortNumber(pieces_.area_ratio, 2) +
+           " times the area that device_force/max_cells makes: its force is continued from how it grows up to there");
+  return realisation;
+}
+
+Realisation DeviceAreaSolver::followFrame(const cv::Mat& relief) {
+  const HeightMap frame(relief, pieces_.size.pitch_x, pieces_.size.pitch_y);
+  const double area = frame.rows() * frame.cols() * frame.cellArea();
+  AdhesionModel model(loadedOn(area));
+  const Prediction found = model.predict(frame);
+  force_exponents_ = found.pull_off_exponents;
+  work_exponents_ = found.work_exponents;
+  Realisation realisation;
+  const double scale = pieces_.area() * pieces_.area_ratio / area;
+  realisation.pull_off_force = found.pull_off_force * scale;
+  realisation.apparent_work_of_adhesion = found.apparent_work_of_adhesion;
+  realisation.contacts = static_cast<int>(std::min(found.pull_off_contact_count * scale, 2e9));
+  realisation.separation_at_rest = found.mean_gap;
+  if (scale > kGoesOn) {
+    warnOnce("contacts are so many that their force was found on " + std::to_string(frame.cols()) + " x " +
+             std::to_string(frame.rows()) + " pixels, and goes with area from there");
+  }
   return realisation;
 }
 

@@ -4,6 +4,7 @@
 /// The force of one made surface of a device: all its contacts at one height of the counter-surface.
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,11 +20,14 @@ namespace mems_stiction {
 struct DevicePieces {
   int count = 1;
   MadeSize size;            ///< of each
-  double area_ratio = 1.0;  ///< of the device over what is made: above 1 where that has no room
+  double area_ratio = 1.0;  ///< of the device over what is made: not 1 where that has no room, or has whole pixels
 
   double side() const { return size.sideX(); }
   double area() const { return count * size.sideX() * size.sideY(); }  ///< that is made [m^2]
 };
+
+/// Whether scans have room for all pieces: then they need not be made.
+bool haveRoom(const std::vector<HeightMap>& scans, const DevicePieces& pieces);
 
 /// - @p most_cells of all pieces together
 DevicePieces piecesOf(const DeviceArea& area, double pitch, double most_cells);
@@ -34,8 +38,10 @@ class DeviceAreaSolver {
   /// - @p model its mechanical load presses an area of `loaded_area` [m^2]
   DeviceAreaSolver(const Options& model, double loaded_area, const DevicePieces& pieces);
 
-  /// @throw SurfaceError if so much of the area comes in reach that it cannot be held
+  /// On surfaces that are made by laws.
   Realisation realise(const SurfaceLaw& lower, const std::optional<SurfaceLaw>& upper, std::uint64_t seed);
+  /// On parts of scans that are chosen at random.
+  Realisation realise(const std::vector<HeightMap>& lower, const std::vector<HeightMap>& upper, std::uint64_t seed);
 
   Exponents lastForceExponents() const { return force_exponents_; }
   Exponents lastWorkExponents() const { return work_exponents_; }
@@ -43,6 +49,13 @@ class DeviceAreaSolver {
   const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
+  class Gatherer;
+
+  Realisation follow(const Gatherer& gathered, const std::function<cv::Mat()>& frame);
+  Realisation followFrame(const cv::Mat& relief);
+  Options loadedOn(double area) const;
+  void warnOnce(const std::string& warning);
+
   Options model_;
   double loaded_area_;
   DevicePieces pieces_;

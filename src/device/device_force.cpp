@@ -12,6 +12,7 @@
 #include "errors/short_number.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
+#include "mems_stiction/surface/surface_pair.hpp"
 #include "mems_stiction/verdict/margin_uncertainty.hpp"
 #include "numeric/constants.hpp"
 #include "verdict/part_verdict.hpp"
@@ -21,6 +22,9 @@ namespace {
 
 /// The spectrum still rises towards its longest waves from this slope on, by more than its standard error [-].
 constexpr double kRising = 1.0;
+/// Scans contradict each other from this ratio of powers on, if it is so many standard errors from 1.
+constexpr double kContradiction = 1.5;
+constexpr double kBeyondScatter = 4.0;
 
 void check(const DeviceSurfaces& surfaces, const DeviceArea& area, const DeviceForceOptions& options) {
   std::vector<std::string> violations = rangeViolations(options);
@@ -47,12 +51,47 @@ double deviation(const std::vector<double>& values) {
   return std::sqrt(sum / static_cast<double>(values.size() - 1));
 }
 
+double areaOf(const HeightMap& surface) { return surface.rows() * surface.cols() * surface.cellArea(); }
+
 double longerPitch(const HeightMap& surface) { return std::max(surface.pitchX(), surface.pitchY()); }
 
 std::vector<HeightMap> mapsOf(const std::vector<NamedScan>& scans) {
   std::vector<HeightMap> maps;
   for (const NamedScan& scan : scans) maps.push_back(scan.surface);
   return maps;
+}
+
+/// The finest, which alone may stand for contacts.
+std::vector<HeightMap> fineMapsOf(const std::vector<NamedScan>& scans) {
+  double finest = std::numeric_limits<double>::infinity();
+  for (const NamedScan& scan : scans) finest = std::min(finest, longerPitch(scan.surface));
+  std::vector<HeightMap> maps;
+  for (const NamedScan& scan : scans) {
+    if (longerPitch(scan.surface) < 1.01 * finest) maps.push_back(scan.surface);
+  }
+  return maps;
+}
+
+/// As many of them, by lot.
+std::vector<HeightMap> drawnAgain(const std::vector<HeightMap>& scans, std::uint64_t seed) {
+  std::mt19937_64 engine(seed);
+  std::vector<HeightMap> drawn;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    drawn.push_back(scans[std::uniform_int_distribution<std::size_t>(0, scans.size() - 1)(engine)]);
+  }
+  return drawn;
+}
+
+/// The scan under the first part of the counter-surface that has its grid; under a plane if none has.
+SurfacePair underCounterSurface(const HeightMap& scan, const std::vector<NamedScan>& counter_surface) {
+  for (const NamedScan& other : counter_surface) {
+    const HeightMap& upper = other.surface;
+    if (upper.rows() >= scan.rows() && upper.cols() >= scan.cols() && upper.pitchX() == scan.pitchX() &&
+        upper.pitchY() == scan.pitchY()) {
+      return {scan, HeightMap(upper.heights()(cv::Rect(0, 0, scan.cols(), scan.rows())), scan.pitchX(), scan.pitchY())};
+    }
+  }
+  return scan;
 }
 
 /// The laws of both surfaces; the upper one may be a plane.
@@ -112,6 +151,22 @@ double endOf(const std::vector<double>& samples, double share, double of_surface
   return std::exp((share < 0.5 ? -1.0 : 1.0) * std::hypot(of_constants, of_surfaces));
 }
 
+/// - @p like a prediction whose figures move with the constants as the device's do
+/// - @p student standard deviations of the surfaces to either side
+void takeIntervals(const Prediction& like, const Options& model, const UncertaintyOptions& constants, double student,
+                   DeviceForce& force) {
+  const AdhesionSpread spread = adhesionSpread(like, model, constants);
+  const auto take = [&](const std::vector<double>& samples, double of_surfaces, double value, double& lower,
+                        double& upper) {
+    lower = value * endOf(samples, kLowerShare, student * of_surfaces);
+    upper = value * endOf(samples, kUpperShare, student * of_surfaces);
+  };
+  take(spread.pull_off, force.force_deviation, force.pull_off_force, force.pull_off_force_lower,
+       force.pull_off_force_upper);
+  take(spread.apparent_work, force.work_deviation, force.apparent_work_of_adhesion,
+       force.apparent_work_of_adhesion_lower, force.apparent_work_of_adhesion_upper);
+}
+
 /// What chi^2/freedom is not below, or above, in 2.5 % of cases (Wilson and Hilferty).
 double chiSquareFactor(double freedom, double normal) {
   const double term = 2.0 / (9.0 * freedom);
@@ -134,20 +189,68 @@ void showSpectrum(const SurfaceLaw& law, double side, DeviceForce& force) {
   }
 }
 
-void warnOfLongWaves(const SurfaceLaw& law, const DeviceSurfaces& surfaces, double side, DeviceForce& force) {
+void warnOfLongWaves(const SurfaceLaw& law, const std::vector<NamedScan>& scans, double side, DeviceForce& force) {
   const double longest = law.longestWave();
   if (longest >= side || law.slope - law.slope_deviation < kRising) return;
-  const NamedScan* widest = &surfaces.scans.front();
-  for (const NamedScan& scan : surfaces.scans) {
+  const NamedScan* widest = &scans.front();
+  for (const NamedScan& scan : scans) {
     if (scan.surface.cols() * scan.surface.pitchX() > widest->surface.cols() * widest->surface.pitchX()) {
       widest = &scan;
     }
   }
-  force.warnings.push_back("roughness still rises towards the longest waves that the scans show (" +
-                           shortNumber(longest * 1e6, 2) + " um, by " + widest->name +
-                           "): measure a field of at least " + shortNumber(side * 1e6, 2) + " um, pixels of " +
-                           shortNumber(longest / 16.0 * 1e9, 2) +
-                           " nm will do. Until then the interval holds what longer waves may do");
+  force.warnings.push_back(
+      "roughness still rises towards the longest waves that the scans show (" + shortNumber(longest * 1e6, 2) +
+      " um, by " + widest->name + "): measure a field of at least " + shortNumber(side * 1e6, 2) + " um, pixels of " +
+      shortNumber(longest / 16.0 * 1e9, 2) + " nm will do. Until then the interval holds what longer waves may do");
+}
+
+/// Scans whose roughness differs from that of all others, at the same waves, by more than scatter.
+void warnOfContradictions(const std::vector<NamedScan>& scans, DeviceForce& force) {
+  if (scans.size() < 2) return;
+  std::vector<ScanWaves> waves;
+  for (const NamedScan& scan : scans) waves.emplace_back(scan.surface);
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    std::vector<ScanWaves> others = waves;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    const SpectrumDifference difference = spectrumDifference(waves[i], others);
+    if (!(std::abs(difference.logarithm) > std::log(kContradiction)) ||
+        !(std::abs(difference.logarithm) > kBeyondScatter * difference.deviation)) {
+      continue;
+    }
+    force.warnings.push_back(scans[i].name + " contradicts the other scans: between waves of " +
+                             shortNumber(difference.shortest_wave * 1e6, 2) + " and " +
+                             shortNumber(difference.longest_wave * 1e6, 2) + " um its rms heights are " +
+                             shortNumber(std::exp(0.5 * difference.logarithm), 2) + " times theirs");
+  }
+}
+
+/// The surfaces bond all over: force and work go with area.
+void takeConforming(const std::vector<Prediction>& predictions, const Options& model,
+                    const UncertaintyOptions& uncertainty, DeviceForce& force) {
+  force.is_conforming = true;
+  std::vector<double> forces;
+  std::vector<double> works;
+  for (const Prediction& prediction : predictions) {
+    const double of_area = prediction.pull_off_force * force.area / prediction.nominal_area;
+    force.realisations.push_back(
+        {of_area, prediction.apparent_work_of_adhesion, prediction.pull_off_contact_count, prediction.mean_gap});
+    forces.push_back(std::log(of_area));
+    works.push_back(std::log(prediction.apparent_work_of_adhesion));
+  }
+  force.pull_off_force = std::exp(median(forces));
+  force.apparent_work_of_adhesion = std::exp(median(works));
+  force.contacts = 1.0;
+  force.separation_at_rest = predictions.back().mean_gap;
+  double student = 0.0;
+  force.force_deviation = force.work_deviation = 0.0;
+  if (forces.size() > 1) {
+    const double once_more = std::sqrt(1.0 + 1.0 / static_cast<double>(forces.size()));
+    force.force_deviation = deviation(forces) * once_more;
+    force.work_deviation = deviation(works) * once_more;
+    student = studentQuantile(static_cast<double>(forces.size()) - 1.0);
+  }
+  takeIntervals(predictions.back(), model, uncertainty, student, force);
+  force.warnings.emplace_back("the scans' surfaces conform and bond all over: force and work go with area");
 }
 
 }  // namespace
@@ -166,45 +269,63 @@ DeviceForce deviceForce(const DeviceSurfaces& surfaces, const DeviceArea& area, 
   AdhesionModel adhesion(model);
   double finest = std::numeric_limits<double>::infinity();
   for (const NamedScan& scan : surfaces.scans) finest = std::min(finest, longerPitch(scan.surface));
+  std::vector<Prediction> predictions;
   double force_per_area = 0.0;
-  double work = 0.0;
-  int conforming = 0;
-  Prediction scan_prediction;
   for (const NamedScan& scan : surfaces.scans) {
     if (longerPitch(scan.surface) > 1.5 * finest) continue;
     Options of_scan = model;
-    of_scan.load.mechanical_load *= scan.surface.area() / surfaces.scans.front().surface.area();
+    of_scan.load.mechanical_load *= areaOf(scan.surface) / areaOf(surfaces.scans.front().surface);
     adhesion.setOptions(of_scan);
-    scan_prediction = adhesion.predict(scan.surface);
-    force_per_area += scan_prediction.pull_off_force / scan_prediction.nominal_area;
-    work += scan_prediction.apparent_work_of_adhesion;
-    if (scan_prediction.is_conforming) ++conforming;
-    force.parts_of_scans.push_back({scan_prediction.nominal_area, scan_prediction.pull_off_force});
+    predictions.push_back(adhesion.predict(underCounterSurface(scan.surface, surfaces.counter_surface)));
+    const Prediction& prediction = predictions.back();
+    force_per_area += prediction.pull_off_force / prediction.nominal_area;
+    force.parts_of_scans.push_back({prediction.nominal_area, prediction.pull_off_force});
   }
-  const auto fine_count = static_cast<double>(force.parts_of_scans.size());
-  force.linear_pull_off_force = force_per_area / fine_count * area.area;
+  force.linear_pull_off_force = force_per_area / static_cast<double>(predictions.size()) * area.area;
+  const auto conforming = std::count_if(predictions.begin(), predictions.end(),
+                                        [](const Prediction& prediction) { return prediction.is_conforming; });
   force.pitch = options.pitch > 0.0 ? options.pitch : finest;
 
+  if (2 * conforming > static_cast<std::ptrdiff_t>(predictions.size())) {
+    takeConforming(predictions, model, uncertainty, force);
+    return force;
+  }
+
   const DevicePieces pieces = piecesOf(area, force.pitch, options.max_cells);
+  const std::vector<HeightMap> parts_lower = fineMapsOf(surfaces.scans);
+  const std::vector<HeightMap> parts_upper = fineMapsOf(surfaces.counter_surface);
+  const bool has_parts =
+      options.pitch == 0.0 && haveRoom(parts_lower, pieces) && (parts_upper.empty() || haveRoom(parts_upper, pieces));
   const Surfaces known(surfaces, pieces.side());
   showSpectrum(known.laws().lower, pieces.side(), force);
-  warnOfLongWaves(known.laws().lower, surfaces, pieces.side(), force);
+  if (!has_parts) {
+    warnOfLongWaves(known.laws().lower, surfaces.scans, pieces.side(), force);
+    if (known.laws().upper) warnOfLongWaves(*known.laws().upper, surfaces.counter_surface, pieces.side(), force);
+  }
+  warnOfContradictions(surfaces.scans, force);
+  warnOfContradictions(surfaces.counter_surface, force);
 
-  Logs stated;  // by the law of the scans
-  Logs others;  // by the laws that other scans of the same surface would give
+  Logs stated;  // by the law of the scans, or by parts of them
+  Logs others;  // by what other scans of the same surfaces would give
   std::vector<double> counts;
   std::vector<double> gaps;
-  DeviceAreaSolver solver(model, surfaces.scans.front().surface.area(), pieces);
+  DeviceAreaSolver solver(model, areaOf(surfaces.scans.front().surface), pieces);
   for (int i = 0; i < options.realisations; ++i) {
-    const std::uint64_t seed = static_cast<std::uint64_t>(options.seed) * 1000003 + static_cast<std::uint64_t>(i) * 1009;
-    const Realisation realisation = solver.realise(known.laws().lower, known.laws().upper, seed);
+    const std::uint64_t seed =
+        static_cast<std::uint64_t>(options.seed) * 1000003 + static_cast<std::uint64_t>(i) * 1009;
+    const Realisation realisation = has_parts ? solver.realise(parts_lower, parts_upper, seed)
+                                              : solver.realise(known.laws().lower, known.laws().upper, seed);
     progress((i + 0.5) / options.realisations);
     force.realisations.push_back(realisation);
     stated.add(realisation);
     counts.push_back(realisation.contacts);
     gaps.push_back(realisation.separation_at_rest);
-    const Laws again = known.again(seed + 1);
-    others.add(solver.realise(again.lower, again.upper, seed + 2));
+    if (has_parts) {
+      others.add(solver.realise(drawnAgain(parts_lower, seed + 1), drawnAgain(parts_upper, seed + 2), seed + 3));
+    } else {
+      const Laws again = known.again(seed + 1);
+      others.add(solver.realise(again.lower, again.upper, seed + 2));
+    }
     progress((i + 1.0) / options.realisations);
   }
   force.pull_off_force = std::exp(median(stated.force));
@@ -216,21 +337,11 @@ DeviceForce deviceForce(const DeviceSurfaces& surfaces, const DeviceArea& area, 
   force.work_deviation = deviation(others.work) * once_more;
 
   UncertaintyOptions constants = uncertainty;
-  constants.scan_sampling = false;
-  Prediction like = scan_prediction;
+  constants.scan_sampling = uncertainty.scan_sampling && has_parts;  // few scans have few contacts
+  Prediction like = predictions.back();
   like.pull_off_exponents = solver.lastForceExponents();
   like.work_exponents = solver.lastWorkExponents();
-  const AdhesionSpread spread = adhesionSpread(like, model, constants);
-  const double student = studentQuantile(options.realisations - 1);
-  const auto take = [&](const std::vector<double>& samples, double of_surfaces, double value, double& lower,
-                        double& upper) {
-    lower = value * endOf(samples, kLowerShare, student * of_surfaces);
-    upper = value * endOf(samples, kUpperShare, student * of_surfaces);
-  };
-  take(spread.pull_off, force.force_deviation, force.pull_off_force, force.pull_off_force_lower,
-       force.pull_off_force_upper);
-  take(spread.apparent_work, force.work_deviation, force.apparent_work_of_adhesion,
-       force.apparent_work_of_adhesion_lower, force.apparent_work_of_adhesion_upper);
+  takeIntervals(like, model, constants, studentQuantile(options.realisations - 1), force);
   for (const std::string& warning : solver.warnings()) force.warnings.push_back(warning);
   return force;
 }

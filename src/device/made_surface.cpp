@@ -113,8 +113,8 @@ MadeSurface::MadeSurface(const SurfaceLaw& law, const SpectrumContinuation& cont
         const double high = highPass(q, law.split_wave_number);
         return (1.0 - high * high) * (has_own_ ? -std::expm1(-2.0 * std::pow(q / law.join_wave_number, 4)) : 1.0);
       };
-      long_waves_.emplace(tableOf(law.heights, continuation, longest_wave, pass), size.rows, size.cols,
-                          size.pitch_x, size.pitch_y, 2 * seed + 1);
+      long_waves_.emplace(tableOf(law.heights, continuation, longest_wave, pass), size.rows, size.cols, size.pitch_x,
+                          size.pitch_y, 2 * seed + 1);
     }
   }
   if (!has_own_) return;
@@ -168,8 +168,8 @@ void MadeSurface::addOwnWaves(std::int64_t row, std::int64_t col, cv::Mat& tile)
     for (int at = first; at <= last; ++at) {
       double sum = 0.0;
       for (int k = 0; k < 4; ++k) {
-        sum += place.weights[k] * own.heights.at<double>(reflected(place.first + k, own.heights.rows),
-                                                         reflected(at, own.heights.cols));
+        sum += place.weights[k] *
+               own.heights.at<double>(reflected(place.first + k, own.heights.rows), reflected(at, own.heights.cols));
       }
       across[static_cast<std::size_t>(at - first)] = sum;
     }

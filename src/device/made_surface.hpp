@@ -41,8 +41,8 @@ class MadeSurface {
  public:
   /// - @p law must outlive the object
   /// - @p longest_wave longer ones are left out: they tilt it [m]
-  MadeSurface(const SurfaceLaw& law, const SpectrumContinuation& continuation, const MadeSize& size, double longest_wave,
-              std::uint64_t seed);
+  MadeSurface(const SurfaceLaw& law, const SpectrumContinuation& continuation, const MadeSize& size,
+              double longest_wave, std::uint64_t seed);
 
   /// Tiles of this size are made fastest.
   cv::Size tile() const { return field_.tile(); }
@@ -54,7 +54,7 @@ class MadeSurface {
 
   const SurfaceLaw* law_;
   MadeSize size_;
-  TiledSurface field_;                   ///< of g, or of z where all is Gaussian
+  TiledSurface field_;                      ///< of g, or of z where all is Gaussian
   std::optional<TiledSurface> long_waves_;  ///< Gaussian, beyond the split
   std::optional<HeightTranslation> translation_;
   bool has_own_ = false;

@@ -208,7 +208,7 @@ std::vector<Scan> scansOf(const std::vector<HeightMap>& surfaces) {
   for (const HeightMap& surface : surfaces) {
     Scan scan;
     levelled(surface).heights().convertTo(scan.heights, CV_64F);
-    cv::patchNaNs(scan.heights, 0.0);
+    scan.heights.setTo(0.0, scan.heights != scan.heights);
     scan.pitch_x = surface.pitchX();
     scan.pitch_y = surface.pitchY();
     scan.is_fine = std::max(scan.pitch_x, scan.pitch_y) < 1.5 * finest;

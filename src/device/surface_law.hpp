@@ -26,7 +26,7 @@ namespace mems_stiction {
 
 /// The waves of the widest scan that are long against its pixels.
 struct OwnLongWaves {
-  cv::Mat heights;      ///< or numbers, CV_64FC1
+  cv::Mat heights;       ///< or numbers, CV_64FC1
   double pitch_x = 0.0;  ///< [m]
   double pitch_y = 0.0;  ///< [m]
   double tilt_x = 0.0;   ///< rms height of the plane that levelling takes off such a scan, along the rows
@@ -34,15 +34,15 @@ struct OwnLongWaves {
 };
 
 struct SurfaceLaw {
-  MergedSpectrum heights;                ///< of z
-  MergedSpectrum numbers;                ///< of g; that of z where all is Gaussian
-  HeightMarginal marginal{0.0, 1.0};     ///< T
-  double non_gaussian_share = 0.0;       ///< 0: all is Gaussian
-  double split_wave_number = 0.0;        ///< longer waves are Gaussian in any case [rad/m]
-  double join_wave_number = 0.0;         ///< longer ones are the widest scan's own [rad/m]
+  MergedSpectrum heights;             ///< of z
+  MergedSpectrum numbers;             ///< of g; that of z where all is Gaussian
+  HeightMarginal marginal{0.0, 1.0};  ///< T
+  double non_gaussian_share = 0.0;    ///< 0: all is Gaussian
+  double split_wave_number = 0.0;     ///< longer waves are Gaussian in any case [rad/m]
+  double join_wave_number = 0.0;      ///< longer ones are the widest scan's own [rad/m]
   std::optional<OwnLongWaves> own;
-  double slope = 0.0;                    ///< -d ln C/d ln q at the longest waves that are believed [-]
-  double slope_deviation = 0.0;          ///< standard error of it [-]
+  double slope = 0.0;            ///< -d ln C/d ln q at the longest waves that are believed [-]
+  double slope_deviation = 0.0;  ///< standard error of it [-]
 
   double longestWave() const { return 2.0 * kPi / heights.bands.front().wave_number; }  ///< that is believed [m]
 };

@@ -9,12 +9,12 @@
 namespace mems_stiction {
 namespace {
 
-constexpr double kTailFrom = 0.5;     ///< normal number from which the distribution is fitted
-constexpr double kBodyFrom = -3.5;    ///< and down to which it is that of the heights
+constexpr double kTailFrom = 0.5;   ///< normal number from which the distribution is fitted
+constexpr double kBodyFrom = -3.5;  ///< and down to which it is that of the heights
 constexpr double kBodyStep = 0.1;
-constexpr double kLevelStep = 0.15;   ///< of the levels of the fit, in normal numbers
-constexpr double kShapePrior = 0.3;   ///< standard deviation of c
-constexpr double kEnds = 9.0;         ///< of the table
+constexpr double kLevelStep = 0.15;  ///< of the levels of the fit, in normal numbers
+constexpr double kShapePrior = 0.3;  ///< standard deviation of c
+constexpr double kEnds = 9.0;        ///< of the table
 constexpr double kFewestPlaces = 20.0;
 constexpr double kAlmostStraight = 1e-6;
 
@@ -101,7 +101,8 @@ HeightMarginal::HeightMarginal(std::vector<double> sample, double independent) {
   std::vector<double> shares;
   double before = 0.0;
   for (const double level : levels) {
-    const double below = static_cast<double>(std::lower_bound(sample.begin(), sample.end(), level) - sample.begin()) / count;
+    const double below =
+        static_cast<double>(std::lower_bound(sample.begin(), sample.end(), level) - sample.begin()) / count;
     shares.push_back(below - before);
     before = below;
   }
@@ -111,9 +112,10 @@ HeightMarginal::HeightMarginal(std::vector<double> sample, double independent) {
   for (double& level : levels) level = (level - origin) / unit;
 
   cv::Mat found = (cv::Mat_<double>(1, 3) << -0.5, 0.0, 0.0);
-  const cv::Ptr<cv::DownhillSolver> solver = cv::DownhillSolver::create(
-      cv::makePtr<TailCost>(levels, shares, independent), (cv::Mat_<double>(1, 3) << 0.2, 0.2, 0.1),
-      cv::TermCriteria(cv::TermCriteria::MAX_ITER + cv::TermCriteria::EPS, 2000, 1e-6));
+  const cv::Mat steps = (cv::Mat_<double>(1, 3) << 0.2, 0.2, 0.1);
+  const cv::Ptr<cv::DownhillSolver> solver =
+      cv::DownhillSolver::create(cv::makePtr<TailCost>(levels, shares, independent), steps,
+                                 cv::TermCriteria(cv::TermCriteria::MAX_ITER + cv::TermCriteria::EPS, 2000, 1e-6));
   solver->minimize(found);
   const double a = found.at<double>(0);
   const double b = std::exp(found.at<double>(1));

@@ -271,4 +271,40 @@ MergedSpectrum mergedSpectrum(const std::vector<ScanWaves>& scans, const std::ve
   return spectrum;
 }
 
+SpectrumDifference spectrumDifference(const ScanWaves& scan, const std::vector<ScanWaves>& others) {
+  const auto trustedOf = [](const std::vector<ScanWaves>& scans) {
+    std::vector<ScanTrust> trust = trustOf(scans);
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+      trust[i].least_waves = kFirstWaveOfStretch;
+      trust[i].most_wave_number = 2.0 * kPi / (kPixelsOfShortest * scans[i].longerPitch());
+    }
+    return mergedSpectrum(scans, trust, {});
+  };
+  SpectrumDifference difference;
+  double weights = 0.0;
+  double sum = 0.0;
+  try {
+    const MergedSpectrum one = trustedOf({scan});
+    const MergedSpectrum all = trustedOf(others);
+    for (const SpectrumBand& band : one.bands) {
+      const auto same = std::find_if(all.bands.begin(), all.bands.end(), [&](const SpectrumBand& other) {
+        return bandOf(other.wave_number, kBandsPerOctave) == bandOf(band.wave_number, kBandsPerOctave);
+      });
+      if (same == all.bands.end()) continue;
+      const double weight = 0.5 / (1.0 / band.freedom + 1.0 / same->freedom);
+      weights += weight;
+      sum += weight * std::log(band.density / same->density);
+      const double wave = 2.0 * kPi / band.wave_number;
+      difference.longest_wave = std::max(difference.longest_wave, wave);
+      difference.shortest_wave = wave;
+    }
+  } catch (const SurfaceError&) {  // one of them has no such waves
+    return {};
+  }
+  if (!(weights > 0.0)) return {};
+  difference.logarithm = sum / weights;
+  difference.deviation = std::sqrt(1.0 / weights);
+  return difference;
+}
+
 }  // namespace mems_stiction
