@@ -8,7 +8,6 @@
 
 #include "configuration/idle_settings.hpp"
 #include "evaluation/breakdown.hpp"
-#include "verdict/contact_size.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -184,8 +183,6 @@ std::vector<std::string> frameWarnings(const Prediction& prediction, const Optio
                     " Pa: it is the load on the scanned area; load/device_force is that on the device");
   }
   for (std::string& line : breakdownWarnings(options, device, prediction.mean_gap)) lines.push_back(std::move(line));
-  std::string objection = contactSizeObjection(prediction, device);
-  if (!objection.empty()) lines.push_back(std::move(objection));
   return lines;
 }
 

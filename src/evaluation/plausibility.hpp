@@ -19,7 +19,7 @@ namespace mems_stiction {
 std::vector<std::string> settingsWarnings(const Configuration& configuration);
 
 /// What only a frame tells: a sentence for a load that is more than the softer surface could carry with all of its
-/// area, one for a device whose contacts have not the scan's size, and those about fields.
+/// area, and those about fields.
 /// - @p options that the prediction was made with
 std::vector<std::string> frameWarnings(const Prediction& prediction, const Options& options,
                                        const DeviceOptions& device);

@@ -63,7 +63,7 @@ class Loop {
     open.direction = direction;
     open.status = contact_.contact().status;
     open.is_open = true;
-    open.sticks = verdict_.size_objection.empty() ? Sticks::kNo : Sticks::kUnknown;
+    open.sticks = Sticks::kNo;
     return open;
   }
 

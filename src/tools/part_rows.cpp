@@ -61,7 +61,6 @@ ScanStatement statementOf(const Row& row) {
   scan.peel_number = row.ratio("peel_number");
   scan.margin_transition = row.number("margin_transition");
   scan.place_deviation = row.number("place_deviation");
-  scan.size_objection = row.text("size_objection");
   scan.contacts = static_cast<int>(row.count("pull_off_contact_count"));
   scan.regime_flags = row.count("regime_flags");
   return scan;

@@ -42,7 +42,6 @@ void visitFigures(const HeightMap& scan, const std::vector<std::string>& warning
       visit(is_reason ? Figure{"verdict_reason", figure.unit, figure.meaning} : figure, value);
     });
     visit({"place_deviation"}, verdict->place_deviation);
-    visit({"size_objection"}, oneLine(verdict->size_objection));
   } else {
     visit({"regime_flags"}, flags);
   }

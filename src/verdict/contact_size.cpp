@@ -11,17 +11,20 @@ constexpr double kRounding = 1e-9;  // of areas that were typed
 
 }  // namespace
 
-std::string contactSizeObjection(const Prediction& prediction, const DeviceOptions& device) {
-  if (!(device.contact_area > 0.0) || !(prediction.nominal_area > 0.0)) return "";
-  const double contact = device.contact_area / device.contacts;
-  const double ratio = contact / prediction.nominal_area;
-  if (std::max(ratio, 1.0 / ratio) <= kTrustedAreaRatio * (1.0 + kRounding)) return "";
+bool hasSizeOfScan(const Prediction& prediction, const DeviceOptions& device) {
+  if (!(device.contact_area > 0.0) || !(prediction.nominal_area > 0.0)) return true;
+  const double ratio = device.contact_area / device.contacts / prediction.nominal_area;
+  return std::max(ratio, 1.0 / ratio) <= kTrustedAreaRatio * (1.0 + kRounding);
+}
+
+std::string whatSizeLacks(const Prediction& prediction, const DeviceOptions& device, const std::string& why) {
   const std::string whose = device.contacts == 1
                                 ? "the contact (device/contacts: 1)"
                                 : "each of the " + std::to_string(device.contacts) + " contacts (device/contacts)";
-  return whose + " has " + shortNumber(contact) + " m^2 and the scan " + shortNumber(prediction.nominal_area) +
-         " m^2: forces do not go with area beyond a factor of 2; scan as much as one contact has or state in "
-         "device/contacts how many separate contacts share device/contact_area";
+  return "the device's own force has not been found" + (why.empty() ? "" : " (" + why + ")") + ": " + whose + " has " +
+         shortNumber(device.contact_area / device.contacts) + " m^2 and the scan " +
+         shortNumber(prediction.nominal_area) + " m^2, and forces do not go with area beyond a factor of 2" +
+         (why.empty() ? "; set device_force/enabled, or ask predict_device" : "");
 }
 
 }  // namespace mems_stiction

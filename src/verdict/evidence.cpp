@@ -35,6 +35,20 @@ Prediction withHalfSpace(const Prediction& prediction, const SolvedHalfSpace& so
   return judged;
 }
 
+DeviceEvidence scaled(DeviceEvidence device, double force_factor, double work_factor) {
+  const auto isFactor = [](double factor) { return std::isfinite(factor) && factor > 0.0; };
+  if (isFactor(force_factor)) {
+    device.pull_off_force *= force_factor;
+    device.linear_pull_off_force *= force_factor;
+  }
+  if (isFactor(work_factor)) device.apparent_work_of_adhesion *= work_factor;
+  return device;
+}
+
+DeviceEvidence DeviceScale::under(const Prediction& contact) const {
+  return scaled(device, contact.pull_off_force / frame_pull_off_force, contact.apparent_work_of_adhesion / frame_work);
+}
+
 double halfSpaceError(const SolvedHalfSpace& solution) {
   return std::hypot(kLatticeError, solution.pull_off_uncertainty / solution.pull_off_force);
 }

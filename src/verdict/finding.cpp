@@ -4,11 +4,6 @@
 
 namespace mems_stiction {
 
-Finding withObjection(Finding finding, const std::string& objection) {
-  if (objection.empty() || (finding.sticks != Sticks::kNo && finding.sticks != Sticks::kYes)) return finding;
-  return {Sticks::kUnknown, finding.reason + "; but " + objection};
-}
-
 int gravity(Sticks sticks) {
   switch (sticks) {
     case Sticks::kNo:

@@ -16,9 +16,6 @@ struct Finding {
   std::string reason;
 };
 
-/// The same without a plain word, if there is an objection to one: unknown instead of no or yes.
-Finding withObjection(Finding finding, const std::string& objection);
-
 /// Which of two findings on one device counts: the larger. No, marginal, unknown, yes.
 int gravity(Sticks sticks);
 

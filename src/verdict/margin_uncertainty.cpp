@@ -8,6 +8,7 @@
 #include <random>
 
 #include "numeric/constants.hpp"
+#include "verdict/part_verdict.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -135,13 +136,20 @@ void widen(std::vector<double>& samples, const FactorRange& range, NormalNumbers
   }
 }
 
+/// Quantiles of a normal number in the logarithm. @param reach of one side, 95 % [-]
+FactorRange factorsWithin(double reach) { return {std::exp(-reach), std::exp(reach)}; }
+
 /// What the formulation's samples leave out.
 void takeEvidence(const Evidence& evidence, NormalNumbers& numbers, AdhesionSpread& spread) {
   if (evidence.half_space != nullptr) {
-    const double reach = kToQuantile * halfSpaceError(*evidence.half_space);
-    const FactorRange range{std::exp(-reach), std::exp(reach)};
+    const FactorRange range = factorsWithin(kToQuantile * halfSpaceError(*evidence.half_space));
     widen(spread.pull_off, range, numbers);
     widen(spread.apparent_work, range, numbers);
+  }
+  if (evidence.device) {
+    const double student = studentQuantile(evidence.device->freedom);
+    widen(spread.pull_off, factorsWithin(student * evidence.device->force_deviation), numbers);
+    widen(spread.apparent_work, factorsWithin(student * evidence.device->work_deviation), numbers);
   }
   if (evidence.cleaning) {
     widen(spread.pull_off, evidence.cleaning->pull_off, numbers);
@@ -159,7 +167,9 @@ double apparentWorkOfAdhesion(const Prediction& prediction, const Options& optio
 AdhesionSpread adhesionSpread(const Prediction& prediction, const Options& options,
                               const UncertaintyOptions& uncertainty, const Evidence& evidence) {
   const ModelError error = evidence.half_space != nullptr ? ModelError() : prediction.model.error;
-  AdhesionSpread spread = samplesOf(prediction, options, uncertainty, error);
+  UncertaintyOptions counted = uncertainty;
+  if (evidence.device) counted.scan_sampling = false;  // what the scan leaves open of the device is in its deviations
+  AdhesionSpread spread = samplesOf(prediction, options, counted, error);
   NormalNumbers numbers(uncertainty.seed);
   std::sort(spread.pull_off.begin(), spread.pull_off.end());
   std::sort(spread.apparent_work.begin(), spread.apparent_work.end());

@@ -26,14 +26,13 @@ bool isKnown(const JudgedRatio& ratio) {
   return std::isfinite(ratio.value) && std::isfinite(ratio.lower) && std::isfinite(ratio.upper) && ratio.value != 0.0;
 }
 
-/// Whether nothing but the number of its contacts, or its size, keeps the scan from a statement.
-bool lacksOnlyContactsOrSize(const ScanStatement& scan) {
+/// Whether nothing but the number of its contacts keeps the scan from a statement.
+bool lacksOnlyContacts(const ScanStatement& scan) {
   return scan.sticks == Sticks::kUnknown && (isKnown(scan.margin) || isKnown(scan.peel_number)) &&
-         (scan.regime_flags & kNoStatementFlags) == 0 &&
-         (scan.contacts < kFewestContactsForStatement || !scan.size_objection.empty());
+         (scan.regime_flags & kNoStatementFlags) == 0 && scan.contacts < kFewestContactsForStatement;
 }
 
-bool counts(const ScanStatement& scan) { return scan.sticks != Sticks::kUnknown || lacksOnlyContactsOrSize(scan); }
+bool counts(const ScanStatement& scan) { return scan.sticks != Sticks::kUnknown || lacksOnlyContacts(scan); }
 
 double squared(double value) { return value * value; }
 
@@ -166,10 +165,7 @@ Finding findingOf(const std::vector<const ScanStatement*>& scans, const PooledVe
   };
   if (has_margin) {
     const double lowest = std::min(part.margin.lower, pooledTransition(scans));
-    const auto objecting =
-        std::find_if(scans.begin(), scans.end(), [](const auto* scan) { return !scan->size_objection.empty(); });
-    finding = withObjection(judgedRatio("margin", part.margin.value, lowest, part.margin.upper, false, false),
-                            objecting == scans.end() ? "" : (*objecting)->size_objection);
+    finding = judgedRatio("margin", part.margin.value, lowest, part.margin.upper, false, false);
     finding.reason += worst("margin", part.margin);
   }
   if (isKnown(part.peel_number)) {
@@ -179,6 +175,15 @@ Finding findingOf(const std::vector<const ScanStatement*>& scans, const PooledVe
     if (!has_margin || gravity(of_beam.sticks) > gravity(finding.sticks)) finding = of_beam;
   }
   return finding;
+}
+
+/// A scan whose adhesion may be higher than any other's; empty if there is none.
+std::string whatIsUnbounded(const std::vector<ScanStatement>& scans) {
+  for (const ScanStatement& scan : scans) {
+    if (counts(scan) || (scan.regime_flags & kUnboundedFlags) == 0) continue;
+    return scan.scan_name + " makes no statement, and may hold more than the others: " + scan.reason;
+  }
+  return "";
 }
 
 /// Why the scans allow no plain "no", and the word that they allow.
@@ -191,11 +196,8 @@ Finding objectionTo(const std::vector<ScanStatement>& scans, const PooledVerdict
     contacts += scan.contacts;
     if (isKnown(scan.margin) || isKnown(scan.peel_number)) is_without_adhesion = false;
   }
-  for (const ScanStatement& scan : scans) {
-    if (counts(scan) || (scan.regime_flags & kUnboundedFlags) == 0) continue;
-    return {Sticks::kUnknown,
-            scan.scan_name + " makes no statement, and may hold more than the others: " + scan.reason};
-  }
+  const std::string unbounded = whatIsUnbounded(scans);
+  if (!unbounded.empty()) return {Sticks::kUnknown, unbounded};
   if (2 * part.counted_scans < part.scan_count) {
     return {Sticks::kUnknown, "only " + std::to_string(part.counted_scans) + " of " +
                                   countText(part.scan_count, "scan") + " make a statement"};
@@ -247,7 +249,6 @@ void judgeAgain(ScanStatement& statement, const Verdict& verdict) {
   statement.margin = {verdict.margin, verdict.margin_lower, verdict.margin_upper};
   statement.peel_number = {verdict.peel_number, verdict.peel_number_lower, verdict.peel_number_upper};
   statement.margin_transition = verdict.margin_transition;
-  statement.size_objection = verdict.size_objection;
   statement.place_deviation = verdict.place_deviation;
   statement.regime_flags = verdict.regime_flags;
 }
@@ -281,6 +282,25 @@ PooledVerdict pooledVerdictOf(const std::vector<ScanStatement>& scans) {
   }
   part.sticks = finding.sticks;
   part.reason = finding.reason;
+  return part;
+}
+
+PooledVerdict pooledVerdictOf(const std::vector<ScanStatement>& scans, const Verdict& of_device) {
+  PooledVerdict part = pooledVerdictOf(scans);
+  static_cast<JudgedRatio&>(part.margin) = {of_device.margin, of_device.margin_lower, of_device.margin_upper};
+  static_cast<JudgedRatio&>(part.peel_number) = {of_device.peel_number, of_device.peel_number_lower,
+                                                 of_device.peel_number_upper};
+  part.sticks = of_device.sticks;
+  part.reason = of_device.reason + "; " + countText(part.scan_count, "scan") + " together";
+  part.verdict_by = judgeText(of_device.judge);
+  part.counted_scans = part.scan_count;
+  part.regime_flags |= of_device.regime_flags;
+  part.warnings.clear();
+  const std::string unbounded = whatIsUnbounded(scans);
+  if (part.sticks == Sticks::kNo && !unbounded.empty()) {
+    part.sticks = Sticks::kUnknown;
+    part.reason += "; but " + unbounded;
+  }
   return part;
 }
 

@@ -28,9 +28,12 @@
 /// - Scans that cannot count make a "no" unknown: one that bonds or has no equilibrium, or more than half of all.
 /// - A scan that may not say "no" for its few contacts alone counts, since contacts of several scans add up; together
 ///   they must be three.
-/// - A scan whose area is not that of one of the device's contacts (contact_size.hpp) counts for the figures, but then
-///   neither "no" nor "yes" is said.
 /// - A scan without adhesion (an infinite margin) counts, and is left out of the mean.
+///
+/// A device whose own force has been found from all scans of the part together (device_force.hpp) is judged by that: the
+/// ratios, the word and the reason are those of its verdict, in which the scans' scatter is already. What the scans say
+/// one by one is left where it stands beside: spread and worst. A scan that bonds or has no equilibrium still makes a "no"
+/// unknown.
 ///
 /// Assumptions: every scan is another place of one part, predicted with the same settings and judged for the same
 /// device. A place that is scanned again is counted again, and then the interval is too narrow in its part of the
@@ -77,7 +80,6 @@ struct ScanStatement {
   JudgedRatio peel_number;
   double margin_transition = Verdict::kNotStated;  ///< with the prefactors of the JKR-DMT transition [-]
   double place_deviation = Verdict::kNotStated;    ///< p_i before it is bounded [-]; NaN: nothing is known, as 0
-  std::string size_objection;                      ///< of the scan's verdict
   int contacts = 0;
   std::uint32_t regime_flags = 0;  ///< bits of RegimeFlag
 };
@@ -109,6 +111,8 @@ struct PooledVerdict {
 };
 
 PooledVerdict pooledVerdictOf(const std::vector<ScanStatement>& scans);
+/// - @p of_device the verdict by the device's own force, found from all these scans together
+PooledVerdict pooledVerdictOf(const std::vector<ScanStatement>& scans, const Verdict& of_device);
 
 /// 97.5 % quantile of Student's distribution: 12.706 for one degree of freedom, 1.95996 for infinitely many.
 /// - @p freedom degrees of freedom, >= 1, of any size

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "errors/short_number.hpp"
 #include "verdict/contact_size.hpp"
 #include "verdict/finding.hpp"
 #include "verdict/regime_flags.hpp"
@@ -13,6 +14,8 @@ namespace {
 
 constexpr double kStandardLower = 0.158655;  // one standard deviation of a normal distribution to either side
 constexpr double kStandardUpper = 1.0 - kStandardLower;
+/// By less the linear rule's margin may differ unsaid [-].
+constexpr double kWorthSaying = 1.5;
 
 bool hasContact(const DeviceOptions& device) { return device.hasSpring() && device.contact_area > 0.0; }
 
@@ -24,11 +27,13 @@ Finding withoutContacts(const std::string& what, const Prediction& prediction) {
 }
 
 /// Why a scan can carry no plain "no", and what to do; empty if it can.
-std::string whatLacks(const Prediction& prediction, std::uint32_t flags) {
+/// - @p is_of_device surfaces of the device's size judge, whose contacts are not those of the scan
+std::string whatLacks(const Prediction& prediction, std::uint32_t flags, bool is_of_device) {
   if ((flags & kOnePixelFlag) != 0) {
     return "the answer rests on contacts of one pixel: scan a smaller area with finer pixels, or set "
            "preprocessing/refine";
   }
+  if (is_of_device) return "";
   if ((flags & kBorderFlag) != 0) {
     return "the answer rests on a contact at the border of the frame, whose summit may lie outside: scan another "
            "place, "
@@ -42,58 +47,87 @@ std::string whatLacks(const Prediction& prediction, std::uint32_t flags) {
   return "";
 }
 
-Finding springFinding(const Prediction& prediction, const DeviceOptions& device, const AdhesionSpread& spread,
-                      bool has_cleanings, Verdict& verdict) {
-  const double scale = device.contact_area / prediction.nominal_area;
-  const double across_the_gap = prediction.pull_off_force - prediction.pull_off_force_jkr;
-  const double transition = prediction.pull_off_force_transition + across_the_gap;
-  verdict.device_pull_off_force = prediction.pull_off_force * scale;
-  verdict.margin = verdict.restoring_force / verdict.device_pull_off_force;
-  verdict.margin_transition = verdict.restoring_force / (transition * scale);
-  if (std::isinf(verdict.margin)) {
-    verdict.margin_lower = verdict.margin_upper = verdict.margin;
-    return {Sticks::kNo, "nothing holds the contact: no adhesion"};
-  }
-  if (!spread.isKnown()) return withoutContacts("the margin's interval", prediction);
-  // the margin falls as the pull-off force grows
-  verdict.margin_lower = verdict.margin / quantile(spread.pull_off, kUpperShare);
-  verdict.margin_upper = verdict.margin / quantile(spread.pull_off, kLowerShare);
-  verdict.margin_uncertainty =
-      0.5 * verdict.margin *
-      (1.0 / quantile(spread.pull_off, kStandardLower) - 1.0 / quantile(spread.pull_off, kStandardUpper));
-  const double lowest = std::min(verdict.margin_lower, verdict.margin_transition);
-  verdict.size_objection = contactSizeObjection(prediction, device);
-  return withObjection(
-      judgedRatio("margin", verdict.margin, lowest, verdict.margin_upper, prediction.isLowerBound(), has_cleanings),
-      verdict.size_objection);
+/// Whose figures hold a device, and how they are known.
+struct Holding {
+  const Prediction& prediction;     ///< of whoever judges the scan
+  const DeviceOptions& device;      ///< that is held
+  const AdhesionSpread& spread;     ///< of the figures that judge
+  const DeviceEvidence* of_device;  ///< its own figures; nullptr: the scan's stand for it
+  bool has_cleanings;               ///< the spread knows of other cleanings
+  std::string why_not;              ///< the scan cannot stand for it; empty if it can, or need not
+};
+
+/// "; the scan's force by area would say margin 0.2", where that is worth saying.
+std::string linearMargin(const DeviceEvidence& of_device, const Verdict& verdict) {
+  const double linear = verdict.restoring_force / of_device.linear_pull_off_force;
+  const double ratio = linear / verdict.margin;
+  if (!(std::max(ratio, 1.0 / ratio) > kWorthSaying)) return "";
+  return "; the scan's force by area would say margin " + shortNumber(linear, 2);
 }
 
-Finding beamFinding(const Prediction& prediction, const DeviceOptions& device, const AdhesionSpread& spread,
-                    bool has_cleanings, Verdict& verdict) {
+Finding springFinding(const Holding& holding, Verdict& verdict) {
+  const Prediction& prediction = holding.prediction;
+  if (!holding.why_not.empty()) return {Sticks::kUnknown, holding.why_not};
+  const double across_the_gap = prediction.pull_off_force - prediction.pull_off_force_jkr;
+  const double transition = prediction.pull_off_force_transition + across_the_gap;
+  verdict.device_pull_off_force =
+      holding.of_device != nullptr
+          ? holding.of_device->pull_off_force
+          : prediction.pull_off_force * (holding.device.contact_area / prediction.nominal_area);
+  verdict.margin = verdict.restoring_force / verdict.device_pull_off_force;
+  if (std::isinf(verdict.margin)) {
+    verdict.margin_lower = verdict.margin_upper = verdict.margin_transition = verdict.margin;
+    return {Sticks::kNo, "nothing holds the contact: no adhesion"};
+  }
+  verdict.margin_transition = verdict.margin;
+  if (transition > 0.0) verdict.margin_transition *= prediction.pull_off_force / transition;
+  if (!holding.spread.isKnown()) return withoutContacts("the margin's interval", prediction);
+  // the margin falls as the pull-off force grows
+  const std::vector<double>& forces = holding.spread.pull_off;
+  verdict.margin_lower = verdict.margin / quantile(forces, kUpperShare);
+  verdict.margin_upper = verdict.margin / quantile(forces, kLowerShare);
+  verdict.margin_uncertainty =
+      0.5 * verdict.margin * (1.0 / quantile(forces, kStandardLower) - 1.0 / quantile(forces, kStandardUpper));
+  const double lowest = std::min(verdict.margin_lower, verdict.margin_transition);
+  Finding finding = judgedRatio("margin", verdict.margin, lowest, verdict.margin_upper, prediction.isLowerBound(),
+                                holding.has_cleanings);
+  if (holding.of_device != nullptr) finding.reason += linearMargin(*holding.of_device, verdict);
+  return finding;
+}
+
+Finding beamFinding(const Holding& holding, Verdict& verdict) {
+  const DeviceOptions& device = holding.device;
+  const bool is_measured = device.apparent_work_of_adhesion > 0.0;
+  if (!is_measured && !holding.why_not.empty()) return {Sticks::kUnknown, holding.why_not};
   const Beam beam = device.beam();
   const double work = verdict.apparent_work_of_adhesion;
-  if (std::isnan(work)) return withoutContacts("the beam's adhesion", prediction);
+  if (std::isnan(work)) return withoutContacts("the beam's adhesion", holding.prediction);
   verdict.peel_number = peelNumber(beam, work);
   verdict.detachment_length = detachmentLength(beam, work);
   verdict.unstuck_length = unstuckLength(beam, work);
   verdict.peel_number_lower = verdict.peel_number_upper = verdict.peel_number;
   if (std::isinf(verdict.peel_number)) return {Sticks::kNo, "nothing holds the beam: no adhesion"};
-  const bool is_measured = device.apparent_work_of_adhesion > 0.0;
   if (!is_measured) {  // known, as the contacts that the work of adhesion was summed over
-    const double at_most = verdict.peel_number / quantile(spread.apparent_work, kLowerShare);
-    const double at_least = verdict.peel_number / quantile(spread.apparent_work, kUpperShare);
+    const double at_most = verdict.peel_number / quantile(holding.spread.apparent_work, kLowerShare);
+    const double at_least = verdict.peel_number / quantile(holding.spread.apparent_work, kUpperShare);
     verdict.peel_number_lower = std::min(at_least, at_most);  // compressed beams have peel numbers below 0
     verdict.peel_number_upper = std::max(at_least, at_most);
   }
-  return judgedRatio("peel number", verdict.peel_number, verdict.peel_number_lower, verdict.peel_number_upper,
-                     prediction.isLowerBound() && !is_measured, has_cleanings && !is_measured);
+  Finding finding =
+      judgedRatio("peel number", verdict.peel_number, verdict.peel_number_lower, verdict.peel_number_upper,
+                  holding.prediction.isLowerBound() && !is_measured, holding.has_cleanings && !is_measured);
+  if (!is_measured && device.contact_area == 0.0) {
+    finding.reason += "; by the scan's work of adhesion: with device/contact_area it would be that of the device";
+  }
+  return finding;
 }
 
-/// - @p prediction of whoever judges
+/// - @p prediction of whoever judges the scan
 /// - @p flags of the formulation's prediction
+/// - @p evidence on the device, with the cleanings; its half-space is in the prediction
 /// - @p spread_of gives the spread of the figures, if it is needed
 Verdict verdictBy(const Prediction& prediction, const DeviceOptions& device, const Options& options,
-                  std::uint32_t flags, bool has_cleanings, const std::function<AdhesionSpread()>& spread_of) {
+                  std::uint32_t flags, const Evidence& evidence, const std::function<AdhesionSpread()>& spread_of) {
   Verdict verdict;
   verdict.regime_flags = flags;
   verdict.pull_in_voltage = closingVoltage(device, options.interface);
@@ -108,9 +142,13 @@ Verdict verdictBy(const Prediction& prediction, const DeviceOptions& device, con
                          : " in full: " + missing + " must be > 0");
     return verdict;
   }
-  verdict.apparent_work_of_adhesion = device.apparent_work_of_adhesion > 0.0
-                                          ? device.apparent_work_of_adhesion
-                                          : apparentWorkOfAdhesion(prediction, options);
+  const DeviceEvidence* of_device = evidence.device ? &*evidence.device : nullptr;
+  if (device.apparent_work_of_adhesion > 0.0) {
+    verdict.apparent_work_of_adhesion = device.apparent_work_of_adhesion;
+  } else {
+    verdict.apparent_work_of_adhesion =
+        of_device != nullptr ? of_device->apparent_work_of_adhesion : apparentWorkOfAdhesion(prediction, options);
+  }
   if (prediction.status == Status::kNoEquilibrium) {
     verdict.reason = "the search for equilibrium ended before it was found: raise approach/max_steps";
     return verdict;
@@ -118,19 +156,31 @@ Verdict verdictBy(const Prediction& prediction, const DeviceOptions& device, con
 
   const AdhesionSpread spread = spread_of();
   verdict.place_deviation = spread.place_deviation;
+  const bool is_missing = of_device == nullptr && !hasSizeOfScan(prediction, device);
+  const Holding holding{prediction,
+                        device,
+                        spread,
+                        of_device,
+                        evidence.cleaning.has_value(),
+                        is_missing ? whatSizeLacks(prediction, device, evidence.why_no_device) : ""};
   Finding finding{Sticks::kNo, ""};
-  if (has_contact) finding = springFinding(prediction, device, spread, has_cleanings, verdict);
+  if (has_contact) finding = springFinding(holding, verdict);
   if (device.hasBeam()) {
-    const Finding of_beam = beamFinding(prediction, device, spread, has_cleanings, verdict);
+    const Finding of_beam = beamFinding(holding, verdict);
     if (!has_contact || gravity(of_beam.sticks) > gravity(finding.sticks)) finding = of_beam;
   }
   verdict.sticks = finding.sticks;
   verdict.reason = finding.reason;
-  const std::string lack =
-      finding.sticks == Sticks::kNo && prediction.pull_off_force > 0.0 ? whatLacks(prediction, flags) : "";
+  const std::string lack = finding.sticks == Sticks::kNo && prediction.pull_off_force > 0.0
+                               ? whatLacks(prediction, flags, of_device != nullptr)
+                               : "";
   if (!lack.empty()) {
     verdict.sticks = Sticks::kUnknown;
     verdict.reason = finding.reason + "; but " + lack;
+  }
+  const bool is_plain = verdict.sticks == Sticks::kNo || verdict.sticks == Sticks::kYes;
+  if (of_device != nullptr && !is_plain && !of_device->warnings.empty()) {
+    verdict.reason += "; " + of_device->warnings.front();
   }
   return verdict;
 }
@@ -159,9 +209,17 @@ Verdict verdictOf(const Prediction& prediction, const DeviceOptions& device, con
   const bool is_asked = evidence.half_space != nullptr && (hasContact(device) || device.hasBeam());
   const std::string objection = is_asked ? whyNotJudging(*evidence.half_space) : "";
   Evidence counted = evidence;
+  if (evidence.device &&
+      !(std::isfinite(evidence.device->pull_off_force) && std::isfinite(evidence.device->force_deviation))) {
+    counted.device.reset();
+  }
   if (!is_asked || !objection.empty()) counted.half_space = nullptr;
   const auto judged_by = [&](const Prediction& figures) {
-    return verdictBy(figures, device, options, flags, evidence.cleaning.has_value(),
+    if (counted.device && counted.half_space != nullptr) {
+      counted.device = scaled(*counted.device, figures.pull_off_force / prediction.pull_off_force,
+                              figures.apparent_work_of_adhesion / prediction.apparent_work_of_adhesion);
+    }
+    return verdictBy(figures, device, options, flags, counted,
                      [&] { return adhesionSpread(prediction, options, uncertainty, counted); });
   };
   if (counted.half_space == nullptr) {

@@ -1,15 +1,18 @@
 #pragma once
 
 /// @file
-/// What else is known of the adhesion of a scan than its prediction: the half-space's answer, and how far the choice of
-/// cleaning moves it. A verdict takes both into account (verdict.hpp).
+/// What else is known of a device's adhesion than the prediction of a scan: what surfaces of the device's size say, the
+/// half-space's answer, and how far the choice of cleaning moves it. A verdict takes all into account (verdict.hpp).
 ///
 ///     Evidence evidence;
+///     evidence.device = deviceEvidence(force);  // device/device_evidence.hpp
 ///     evidence.half_space = &solution;
 ///     const Verdict verdict = verdictOf(prediction, device, uncertainty, options, cell_area, evidence);
 
+#include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "mems_stiction/half_space/half_space_solution.hpp"
 #include "mems_stiction/prediction/prediction.hpp"
@@ -28,11 +31,41 @@ struct CleaningReach {
   FactorRange apparent_work;
 };
 
-/// Both may be missing.
+/// What surfaces of the device's size say of its adhesion, in plain numbers.
+struct DeviceEvidence {
+  static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+  double pull_off_force = kUnknown;             ///< of the whole device [N]
+  double force_deviation = kUnknown;            ///< standard deviation of ln force but for constants and model [-]
+  double apparent_work_of_adhesion = kUnknown;  ///< per nominal area of the device [J/m^2]
+  double work_deviation = kUnknown;             ///< the same of ln work [-]
+  double freedom = std::numeric_limits<double>::infinity();  ///< degrees of freedom of both deviations, >= 1
+  double linear_pull_off_force = kUnknown;                   ///< the scans' force by area, for comparison [N]
+  std::vector<std::string> warnings;                         ///< about the scans, in words
+};
+
+/// Each may be missing.
 struct Evidence {
   const SolvedHalfSpace* half_space = nullptr;  ///< of the same scan, settings and load, if it was asked
   std::optional<CleaningReach> cleaning;        ///< if other cleanings were tried
+  std::optional<DeviceEvidence> device;         ///< of the same surface, settings and load, if it was found
+  std::string why_no_device;                    ///< where it is missing, why and what to do; empty: nobody asked
 };
+
+/// The figures of the device over those of one frame, both made under the same load. Under other loads, and on surfaces
+/// that contacts have changed, the device is taken to follow the frame.
+struct DeviceScale {
+  DeviceEvidence device;
+  double frame_pull_off_force = DeviceEvidence::kUnknown;  ///< [N]
+  double frame_work = DeviceEvidence::kUnknown;            ///< apparent work of adhesion of the frame [J/m^2]
+
+  /// - @p contact of the same frame
+  DeviceEvidence under(const Prediction& contact) const;
+};
+
+/// Force, work and linear rule times the given factors; deviations and warnings stay. A factor that is not a number > 0
+/// leaves its figure as it is.
+DeviceEvidence scaled(DeviceEvidence device, double force_factor, double work_factor);
 
 /// A half-space that could not be asked.
 /// - @p reason why, in a sentence

@@ -7,11 +7,12 @@
 /// says (contact_response.hpp), or with the prediction's exponents, force and work each with their own; the model's own
 /// error (ModelStatement) is a further factor then.
 /// Where a half-space judges, its error takes the place of that (evidence.hpp). The choice of cleaning is a further
-/// factor: normal in the logarithm, whose 2.5 % and 97.5 % quantiles are the lowest and the highest of the cleanings. Both
-/// add in quadrature there, quantile by quantile.
+/// factor: normal in the logarithm, whose 2.5 % and 97.5 % quantiles are the lowest and the highest of the cleanings. What
+/// the scans leave open of a device's force is one more, Student's in the logarithm. All add in quadrature there, quantile
+/// by quantile.
 ///
 /// With scan_sampling, a further factor has the variance sum R_i^2/(sum R_i)^2: a scan is one sample of the surface,
-/// and another place would have other contacts (Poisson).
+/// and another place would have other contacts (Poisson). A device's force has this in its own deviation.
 ///
 /// Cost: one pass over the contacts per sample, some 0.2 ms for 1000 contacts and 200 samples. Same seed, same samples.
 

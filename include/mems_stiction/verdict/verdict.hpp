@@ -1,34 +1,42 @@
 #pragma once
 
 /// @file
-/// Does this device stick? From the prediction of one scan to a word and its reason.
+/// Does this device stick? From what is known of its adhesion to a word and its reason.
 ///
 ///     restoring force = k travel
-///     pull-off force  = pull-off force of the scan, contact area of the device/nominal area of the scan
+///     pull-off force  = that of surfaces of the device's size (device_force.hpp), which come as evidence
 ///     margin          = restoring force/pull-off force: above 1 the spring pulls the contact open
 ///     peel number     = what bending gives per what adhesion takes, of a beam (beam_adhesion.hpp): above 1 it comes off
 ///
 /// The margin is a ratio, so that 2 reads "twice the force needed" for every device, and beams and springs compare.
-/// Its 95 % interval is that of the uncertain constants (margin_uncertainty.hpp). The word:
+/// Its 95 % interval is that of the uncertain constants and the model (margin_uncertainty.hpp), and in quadrature with it
+/// what the scans leave open of the device's surfaces. The word:
 ///
 ///     no        the whole interval is above 1, also with the pull-off prefactors of the JKR-DMT transition
 ///     yes       the whole interval is below 1
 ///     marginal  1 lies within
-///     unknown   the device is not stated, or the search found no equilibrium; a contact of the device is not within a
-///               factor of 2 of the scanned area (contact_size.hpp); the answer would be no, but rests on contacts of one
-///               pixel, at the frame's border, or on fewer than three; or the surfaces bond under paper or printed (the
-///               forces are then lower bounds: they can say "yes", not "no")
+///     unknown   the device is not stated, or the search found no equilibrium; the device's own force has not been found
+///               and its contacts have not the scan's size (contact_size.hpp); the answer would be no, but rests on
+///               contacts of one pixel; or the surfaces bond under paper or printed (the forces are then lower bounds:
+///               they can say "yes", not "no")
+///
+/// Where the device's own force has not been found, a scan stands for contacts of half to twice its area, each with the
+/// force per area of the scan. Then a "no" that rests on a contact at the frame's border, or on fewer than three, is
+/// unknown, too; surfaces of the device's size have their own contacts, whose scatter is in the interval.
+/// The reason says what margin the scan's force by area would give, where it differs by more than a factor of 1.5.
 ///
 /// A half-space of the same scan judges in the prediction's place if it is solved, converged, resolved and converged
-/// with its steps (whyNotJudging()): its pull-off force and work, with its error for that of the model. What speaks of
-/// the scan still counts. Other cleanings of the scan, if they were tried, widen the interval. The reason says both.
+/// with its steps (whyNotJudging()): its pull-off force and work, with its error for that of the model. The device's
+/// own figures move by as much as it moves those of the scan. What speaks of the scan still counts. Other cleanings of
+/// the scan, if they were tried, widen the interval. The reason says both.
 ///
-/// With a spring and a beam stated, the worse of both counts: yes, unknown, marginal, no.
-/// Assumptions: the scan stands for the whole contact area; the load has been taken away before the device is to open
+/// With a spring and a beam stated, the worse of both counts: yes, unknown, marginal, no. A beam that states no
+/// device/contact_area is judged by the scan's work of adhesion, and the reason says so.
+/// Assumptions: the scans stand for the whole contact area; the load has been taken away before the device is to open
 /// (voltage and mechanical load made the contact, they do not hold it); the spring pulls along the normal and evenly on
 /// all contacts, so that none peels before the others (a tilting part comes off more easily than said here).
 ///
-///     const Verdict verdict = verdictOf(prediction, device, uncertainty, options, scan.cellArea());
+///     const Verdict verdict = verdictOf(prediction, device, uncertainty, options, scan.cellArea(), evidence);
 ///     if (verdict.sticks == Sticks::kYes) reject(verdict.reason);
 
 #include <cstdint>
@@ -64,7 +72,7 @@ struct Verdict {
   Judge judge = Judge::kPrediction;
 
   double restoring_force = kNotStated;            ///< of the device [N]
-  double device_pull_off_force = kNotStated;      ///< scaled to the device's contact area [N]
+  double device_pull_off_force = kNotStated;      ///< of the whole device [N]
   double margin = kNotStated;                     ///< restoring over pull-off force [-]; infinite without adhesion
   double margin_lower = kNotStated;               ///< 2.5 % quantile [-]
   double margin_upper = kNotStated;               ///< 97.5 % quantile [-]
@@ -79,11 +87,8 @@ struct Verdict {
   double pull_in_voltage = kNotStated;            ///< at which the electrodes close [V]
   std::uint32_t regime_flags = 0;                 ///< bits of RegimeFlag
 
-  /// Why the margin allows no plain word though its figures stand, contactSizeObjection(); empty if it does. In no
-  /// message.
-  std::string size_objection;
-  /// What of the interval is of the place alone, for pooledVerdictOf(): standard deviation of ln margin [-]. In no
-  /// message.
+  /// What of the interval is of the place alone, for pooledVerdictOf(): standard deviation of ln margin [-]; 0
+  /// where the device's own force judges. In no message.
   double place_deviation = kNotStated;
 };
 

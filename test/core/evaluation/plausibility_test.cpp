@@ -86,16 +86,6 @@ TEST(Plausibility, ASettingThatTheSolverDoesNotUseIsNamed) {
   EXPECT_EQ(settingsWarnings(configuration).size(), 4u);
 }
 
-TEST(Plausibility, AFrameThatIsNoContactOfTheDeviceIsNamed) {
-  Prediction prediction;
-  prediction.nominal_area = 36e-12;
-  DeviceOptions device;
-  device.contact_area = 36e-12;
-  EXPECT_TRUE(frameWarnings(prediction, Options(), device).empty());
-  device.contact_area = 360e-12;
-  EXPECT_EQ(frameWarnings(prediction, Options(), device).size(), 1u);
-}
-
 TEST(Plausibility, ALoadThatNoAreaCouldCarryIsNamed) {
   Options options;
   Prediction prediction;

@@ -1,4 +1,4 @@
-/// A verdict on a refined scan: the area that is scaled to the device, and what counts as a pixel.
+/// A verdict on a refined scan: the area that each contact of the device has, and what counts as a pixel.
 
 #include <cmath>
 #include <limits>
@@ -46,6 +46,7 @@ Answer answerWith(int refinement) {
   configuration.device.spring_stiffness = 2.0;
   configuration.device.travel = 1e-6;
   configuration.device.contact_area = 50.0 * kScannedArea;
+  configuration.device.contacts = 50;
   const HeightMap scan = roughScan();
   Answer answer;
   answer.prediction = ScanPredictor(configuration).predict(scan);

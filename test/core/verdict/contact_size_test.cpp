@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "mems_stiction/verdict/verdict.hpp"
 #include "verdict/part_verdict.hpp"
 
@@ -46,40 +48,42 @@ Verdict verdictFor(const DeviceOptions& device) {
 
 TEST(ContactSize, agreesWithinAFactorOfTwo) {
   for (const double ratio : {0.5, 1.0, 2.0}) {
-    EXPECT_EQ(contactSizeObjection(predicted(), device(1.0, ratio * kArea)), "") << ratio;
+    EXPECT_TRUE(hasSizeOfScan(predicted(), device(1.0, ratio * kArea))) << ratio;
   }
   for (const double ratio : {0.49, 2.01, 64.0}) {
-    EXPECT_NE(contactSizeObjection(predicted(), device(1.0, ratio * kArea)), "") << ratio;
+    EXPECT_FALSE(hasSizeOfScan(predicted(), device(1.0, ratio * kArea))) << ratio;
   }
-  EXPECT_EQ(contactSizeObjection(predicted(), DeviceOptions()), "");
+  EXPECT_TRUE(hasSizeOfScan(predicted(), DeviceOptions()));
 }
 
 TEST(ContactSize, isThatOfOneContact) {
-  EXPECT_EQ(contactSizeObjection(predicted(), device(1.0, 40.0 * kArea, 40)), "");
-  EXPECT_NE(contactSizeObjection(predicted(), device(1.0, kArea, 40)), "");
+  EXPECT_TRUE(hasSizeOfScan(predicted(), device(1.0, 40.0 * kArea, 40)));
+  EXPECT_FALSE(hasSizeOfScan(predicted(), device(1.0, kArea, 40)));
 }
 
-TEST(ContactSize, objectionNamesBothAreasAndSettingsWithoutCommas) {
-  const std::string objection = contactSizeObjection(predicted(), device(1.0, 104e-12, 1));
-  for (const char* word : {"device/contact_area", "device/contacts", "1.04e-10", "2.6e-11"}) {
+TEST(ContactSize, whatItLacksNamesBothAreasAndWhatToDo) {
+  const std::string objection = whatSizeLacks(predicted(), device(1.0, 104e-12, 1), "");
+  for (const char* word : {"1.04e-10", "2.6e-11", "device_force/enabled", "predict_device"}) {
     EXPECT_NE(objection.find(word), std::string::npos) << objection;
   }
-  EXPECT_EQ(objection.find(','), std::string::npos) << objection;
+  const std::string later = whatSizeLacks(predicted(), device(1.0, 104e-12, 1), "it is being found");
+  EXPECT_NE(later.find("has not been found (it is being found)"), std::string::npos) << later;
+  EXPECT_EQ(later.find("device_force/enabled"), std::string::npos) << later;
 }
 
-TEST(ContactSize, beyondItNoAndYesBecomeUnknownAndFiguresStay) {
+TEST(ContactSize, beyondItNothingIsScaledByArea) {
   for (const double margin : {50.0, 0.02}) {
     const Verdict fitting = verdictFor(device(margin, kArea));
     EXPECT_EQ(fitting.sticks, margin > 1.0 ? Sticks::kNo : Sticks::kYes);
+    EXPECT_NEAR(fitting.margin, margin, 1e-9 * margin);
     const Verdict larger = verdictFor(device(margin, 10.0 * kArea));
     EXPECT_EQ(larger.sticks, Sticks::kUnknown);
-    EXPECT_NE(larger.reason.find("forces do not go with area"), std::string::npos) << larger.reason;
-    EXPECT_NEAR(larger.margin / fitting.margin, 1.0, 1e-12);
-    EXPECT_NEAR(larger.margin_lower / fitting.margin_lower, 1.0, 1e-12);
-    EXPECT_NEAR(larger.margin_upper / fitting.margin_upper, 1.0, 1e-12);
+    EXPECT_EQ(larger.reason.find("the device's own force has not been found"), 0U) << larger.reason;
+    EXPECT_TRUE(std::isnan(larger.margin) && std::isnan(larger.margin_lower) && std::isnan(larger.margin_upper));
+    EXPECT_TRUE(std::isnan(larger.device_pull_off_force));
+    EXPECT_GT(larger.restoring_force, 0.0);
     EXPECT_EQ(verdictFor(device(margin, 10.0 * kArea, 10)).sticks, fitting.sticks);
   }
-  EXPECT_EQ(verdictFor(device(1.05, 10.0 * kArea)).sticks, Sticks::kMarginal);
 }
 
 TEST(ContactSize, holdsForTheHalfSpaceToo) {
@@ -98,29 +102,33 @@ TEST(ContactSize, holdsForTheHalfSpaceToo) {
   EXPECT_EQ(judged(10.0 * kArea), Sticks::kUnknown);
 }
 
-TEST(ContactSize, aBeamsPeelNumberDoesNotAskForIt) {
-  DeviceOptions beam = device(50.0, 10.0 * kArea);
+TEST(ContactSize, holdsForBeamsUnlessTheirWorkIsMeasured) {
+  DeviceOptions beam = device(0.0, 10.0 * kArea);
   beam.beam_type = BeamType::kCantilever;
   beam.beam_length = 1e-2;
   beam.beam_thickness = 1e-6;
   beam.beam_gap = 1e-6;
   beam.beam_modulus = 169e9;
-  EXPECT_EQ(verdictFor(beam).sticks, Sticks::kYes) << "the beam's statement, which is worse than unknown";
-  beam.spring_stiffness = 0.0;
-  beam.beam_length = 1e-5;
-  EXPECT_EQ(verdictFor(beam).sticks, Sticks::kNo);
+  EXPECT_EQ(verdictFor(beam).sticks, Sticks::kUnknown);
+  EXPECT_TRUE(std::isnan(verdictFor(beam).peel_number));
+  beam.apparent_work_of_adhesion = 1e-5;
+  EXPECT_EQ(verdictFor(beam).sticks, Sticks::kYes);
+  beam.apparent_work_of_adhesion = 0.0;
+  beam.contact_area = 0.0;
+  const Verdict without_area = verdictFor(beam);
+  EXPECT_EQ(without_area.sticks, Sticks::kYes);
+  EXPECT_NE(without_area.reason.find("by the scan's work of adhesion"), std::string::npos) << without_area.reason;
 }
 
-TEST(ContactSize, ofOneScanTakesTheWordFromThePart) {
+TEST(ContactSize, aScanBeyondItDoesNotCountForThePart) {
   const auto statement = [](const std::string& name, double area) {
     return statementOf(name, predicted(), verdictFor(device(50.0, area)));
   };
   EXPECT_EQ(pooledVerdictOf({statement("a", kArea), statement("b", kArea)}).sticks, Sticks::kNo);
   const PooledVerdict part = pooledVerdictOf({statement("a", 10.0 * kArea), statement("b", 10.0 * kArea)});
   EXPECT_EQ(part.sticks, Sticks::kUnknown);
-  EXPECT_EQ(part.counted_scans, 2);
-  EXPECT_NEAR(part.margin.value, 50.0, 1e-9);
-  EXPECT_NE(part.reason.find("forces do not go with area"), std::string::npos) << part.reason;
+  EXPECT_EQ(part.counted_scans, 0);
+  EXPECT_NE(part.reason.find("the device's own force has not been found"), std::string::npos) << part.reason;
 }
 
 }  // namespace

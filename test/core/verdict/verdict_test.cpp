@@ -46,10 +46,11 @@ Verdict verdictFor(const Spheres& spheres, const DeviceOptions& device,
   return verdictOf(spheres.prediction, device, uncertainty, spheres.options, kCell);
 }
 
-TEST(Verdict, scalesThePullOffForceToTheDevice) {
+TEST(Verdict, takesTheScansForceForEachContactOfItsSize) {
   const Spheres spheres;
-  const double area = 3.0 * spheres.prediction.nominal_area;
-  const Verdict verdict = verdictFor(spheres, springOf(2.0 * 3.0 * spheres.pullOff(), area));
+  DeviceOptions device = springOf(2.0 * 3.0 * spheres.pullOff(), 3.0 * spheres.prediction.nominal_area);
+  device.contacts = 3;  // each of the scan's size
+  const Verdict verdict = verdictFor(spheres, device);
   EXPECT_NEAR(verdict.restoring_force, 6.0 * spheres.pullOff(), 1e-12 * verdict.restoring_force);
   // composite radius of a cap cut at pixels: 3 %
   EXPECT_NEAR(verdict.device_pull_off_force, 3.0 * spheres.pullOff(), 0.03 * verdict.device_pull_off_force);

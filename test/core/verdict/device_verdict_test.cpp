@@ -1,0 +1,234 @@
+/// A device whose own force has been found is judged by that, whatever its area over that of the scan.
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "device/device_evidence.hpp"
+#include "mems_stiction/verdict/verdict.hpp"
+#include "verdict/part_verdict.hpp"
+#include "verdict/regime_flags.hpp"
+
+namespace mems_stiction {
+namespace {
+
+constexpr double kCell = 25e-18;
+constexpr double kArea = 1e-12;     ///< of the scan [m^2]
+constexpr double kPullOff = 1e-7;   ///< of the scan [N]
+constexpr double kOfDevice = 4e-7;  ///< pull-off force of the device, whose area is 100 times that of the scan [N]
+constexpr double kDeviation = 0.25;
+
+/// @param contacts of 100 pixels each
+Prediction predicted(int contacts = 25) {
+  Prediction prediction;
+  prediction.status = Status::kEquilibrium;
+  prediction.nominal_area = kArea;
+  prediction.pull_off_force = prediction.pull_off_force_jkr = prediction.pull_off_force_transition = kPullOff;
+  prediction.apparent_work_of_adhesion = 0.01;
+  prediction.pull_off_exponents = prediction.work_exponents = {1.0, 0.0, 0.0};
+  prediction.model.assumes_jkr = false;
+  prediction.asperity_count = prediction.pull_off_contact_count = contacts;
+  Asperity asperity;
+  asperity.composite_radius = 1e-6;
+  asperity.area = 100 * kCell;
+  prediction.asperities.assign(static_cast<std::size_t>(contacts), asperity);
+  return prediction;
+}
+
+/// Whose spring has `margin` by its own force.
+DeviceOptions springOf(double margin) {
+  DeviceOptions device;
+  device.travel = 1e-6;
+  device.spring_stiffness = margin * kOfDevice / device.travel;
+  device.contact_area = 100.0 * kArea;
+  return device;
+}
+
+Evidence found(double freedom = 7.0) {
+  DeviceForce force;
+  force.pull_off_force = kOfDevice;
+  force.force_deviation = kDeviation;
+  force.apparent_work_of_adhesion = 1e-4;
+  force.work_deviation = 0.5 * kDeviation;
+  force.linear_pull_off_force = 100.0 * kPullOff;
+  force.realisations.resize(static_cast<std::size_t>(freedom) + 1);
+  force.warnings = {"measure a field of at least 40 um", "another one"};
+  Evidence evidence;
+  evidence.device = deviceEvidence(force);
+  return evidence;
+}
+
+UncertaintyOptions exact() {
+  UncertaintyOptions uncertainty;
+  uncertainty.work_of_adhesion = uncertainty.hardness = uncertainty.youngs_modulus = 0.0;
+  uncertainty.pitch = uncertainty.cutoff_distance = uncertainty.hamaker_constant = 0.0;
+  uncertainty.samples = 20000;
+  return uncertainty;
+}
+
+Verdict verdictWith(const Evidence& evidence, double margin, const UncertaintyOptions& uncertainty = exact(),
+                    const Prediction& prediction = predicted()) {
+  return verdictOf(prediction, springOf(margin), uncertainty, Options(), kCell, evidence);
+}
+
+bool says(const Verdict& verdict, const std::string& words) { return verdict.reason.find(words) != std::string::npos; }
+
+TEST(DeviceVerdict, marginIsByTheDevicesOwnForce) {
+  const Verdict verdict = verdictWith(found(), 5.0);
+  EXPECT_EQ(verdict.sticks, Sticks::kNo);
+  EXPECT_DOUBLE_EQ(verdict.device_pull_off_force, kOfDevice);
+  EXPECT_NEAR(verdict.margin, 5.0, 1e-12);
+  EXPECT_NEAR(verdict.margin_transition, 5.0, 1e-12);
+  EXPECT_TRUE(says(verdict, "the scan's force by area would say margin 0.2")) << verdict.reason;
+  EXPECT_EQ(verdict.place_deviation, 0.0);
+}
+
+TEST(DeviceVerdict, exactConstantsLeaveStudentsInterval) {
+  const double student = 2.364624;  // 97.5 % of 7 degrees of freedom
+  const Verdict verdict = verdictWith(found(), 5.0);
+  EXPECT_NEAR(std::log(verdict.margin_upper / 5.0), student * kDeviation, 0.03 * student * kDeviation);
+  EXPECT_NEAR(std::log(5.0 / verdict.margin_lower), student * kDeviation, 0.03 * student * kDeviation);
+  const Verdict of_three = verdictWith(found(2.0), 5.0);
+  EXPECT_NEAR(std::log(of_three.margin_upper / 5.0), 4.302653 * kDeviation, 0.03 * 4.3 * kDeviation);
+  EXPECT_EQ(of_three.sticks, Sticks::kNo);
+  EXPECT_EQ(verdictWith(found(2.0), 2.5).sticks, Sticks::kMarginal);
+}
+
+TEST(DeviceVerdict, constantsAddInQuadratureAndTheScansContactsDoNot) {
+  UncertaintyOptions uncertainty = exact();
+  uncertainty.work_of_adhesion = 0.3;
+  uncertainty.scan_sampling = false;
+  const Verdict by_scan = verdictOf(
+      predicted(),
+      [] {
+        DeviceOptions device = springOf(5.0);
+        device.contact_area = kArea;
+        return device;
+      }(),
+      uncertainty, Options(), kCell);
+  const double constants = std::log(by_scan.margin / by_scan.margin_lower);
+  uncertainty.scan_sampling = true;
+  const Verdict verdict = verdictWith(found(), 5.0, uncertainty);
+  const double expected = std::hypot(constants, 2.364624 * kDeviation);
+  EXPECT_GT(constants, 0.4);
+  EXPECT_NEAR(std::log(verdict.margin / verdict.margin_lower), expected, 0.03 * expected);
+}
+
+TEST(DeviceVerdict, fewContactsOfTheScanOrItsBorderDoNotObject) {
+  Prediction few = predicted(2);
+  for (Asperity& asperity : few.asperities) asperity.is_at_border = true;
+  EXPECT_EQ(verdictWith(found(), 5.0, exact(), few).sticks, Sticks::kNo);
+  Evidence none;
+  DeviceOptions of_scans_size = springOf(5.0);
+  of_scans_size.contact_area = kArea;
+  EXPECT_EQ(verdictOf(few, of_scans_size, exact(), Options(), kCell, none).sticks, Sticks::kUnknown);
+  Prediction coarse = predicted();
+  for (Asperity& asperity : coarse.asperities) asperity.area = kCell;
+  EXPECT_EQ(verdictWith(found(), 5.0, exact(), coarse).sticks, Sticks::kUnknown) << "its pixels are those of the scan";
+}
+
+TEST(DeviceVerdict, saysWhatToMeasureWhereItIsNotPlain) {
+  EXPECT_FALSE(says(verdictWith(found(), 5.0), "measure a field"));
+  const Verdict verdict = verdictWith(found(), 1.1);
+  EXPECT_EQ(verdict.sticks, Sticks::kMarginal);
+  EXPECT_TRUE(says(verdict, "; measure a field of at least 40 um")) << verdict.reason;
+}
+
+TEST(DeviceVerdict, doesNotNameALinearRuleThatAgrees) {
+  Evidence evidence = found();
+  evidence.device->linear_pull_off_force = 1.4 * kOfDevice;
+  EXPECT_FALSE(says(verdictWith(evidence, 5.0), "by area"));
+  evidence.device->linear_pull_off_force = kOfDevice / 1.6;
+  EXPECT_TRUE(says(verdictWith(evidence, 5.0), "the scan's force by area would say margin 8")) << "too weak, too";
+}
+
+TEST(DeviceVerdict, withoutItsForceItIsUnknown) {
+  Evidence evidence;
+  evidence.why_no_device = "it is being found";
+  const Verdict verdict = verdictWith(evidence, 5.0);
+  EXPECT_EQ(verdict.sticks, Sticks::kUnknown);
+  EXPECT_TRUE(says(verdict, "has not been found (it is being found)")) << verdict.reason;
+  Evidence failed = found();
+  failed.device->pull_off_force = std::nan("");
+  EXPECT_EQ(verdictWith(failed, 5.0).sticks, Sticks::kUnknown);
+}
+
+TEST(DeviceVerdict, beamsTakeTheDevicesWork) {
+  DeviceOptions beam;
+  beam.contact_area = 100.0 * kArea;
+  beam.beam_type = BeamType::kCantilever;
+  beam.beam_thickness = 2e-6;
+  beam.beam_gap = 1e-6;
+  beam.beam_modulus = 169e9;
+  beam.beam_length = std::pow(0.375 * 169e9 * 8e-18 * 1e-12 / 1e-4, 0.25) * 0.5;
+  const Verdict verdict = verdictOf(predicted(), beam, exact(), Options(), kCell, found());
+  EXPECT_DOUBLE_EQ(verdict.apparent_work_of_adhesion, 1e-4);
+  EXPECT_NEAR(verdict.peel_number, 16.0, 1e-9);
+  EXPECT_NEAR(verdict.detachment_length, 2.0 * beam.beam_length, 1e-9 * beam.beam_length);
+  EXPECT_NEAR(std::log(verdict.peel_number_upper / 16.0), 2.364624 * 0.5 * kDeviation, 0.03 * 1.2 * kDeviation);
+  EXPECT_EQ(verdict.sticks, Sticks::kNo);
+}
+
+TEST(DeviceVerdict, theHalfSpaceMovesItAsItMovesTheScan) {
+  SolvedHalfSpace solution;
+  solution.status = HalfSpaceStatus::kSolved;
+  solution.is_converged = solution.is_resolved = solution.is_step_converged = true;
+  solution.pull_off_force = 1.2 * kPullOff;
+  solution.pull_off_uncertainty = 0.0;
+  solution.work_of_adhesion = 0.02;
+  Evidence evidence = found();
+  evidence.half_space = &solution;
+  const Verdict verdict = verdictWith(evidence, 6.0);
+  EXPECT_EQ(verdict.judge, Judge::kHalfSpace);
+  EXPECT_NEAR(verdict.margin, 5.0, 1e-12);
+  EXPECT_DOUBLE_EQ(verdict.apparent_work_of_adhesion, 2e-4);
+}
+
+TEST(DeviceVerdict, ofAllScansTogetherIsThatOfThePart) {
+  const Verdict alone = verdictWith(Evidence(), 5.0);
+  const std::vector<ScanStatement> scans = {statementOf("a", predicted(), alone), statementOf("b", predicted(), alone)};
+  const Verdict together = verdictWith(found(), 5.0);
+  const PooledVerdict part = pooledVerdictOf(scans, together);
+  EXPECT_EQ(part.sticks, Sticks::kNo);
+  EXPECT_DOUBLE_EQ(part.margin.value, together.margin);
+  EXPECT_DOUBLE_EQ(part.margin.lower, together.margin_lower);
+  EXPECT_DOUBLE_EQ(part.margin.upper, together.margin_upper);
+  EXPECT_EQ(part.counted_scans, 2);
+  EXPECT_EQ(part.verdict_by, "prediction");
+  EXPECT_TRUE(part.warnings.empty());
+  std::vector<ScanStatement> bonded = scans;
+  bonded.back().regime_flags = kBondedFlag;
+  EXPECT_EQ(pooledVerdictOf(bonded, together).sticks, Sticks::kUnknown);
+}
+
+TEST(DeviceScale, followsTheFrame) {
+  DeviceScale scale;
+  scale.device = *found().device;
+  scale.frame_pull_off_force = kPullOff;
+  scale.frame_work = 0.01;
+  Prediction pressed = predicted();
+  pressed.pull_off_force = 3.0 * kPullOff;
+  pressed.apparent_work_of_adhesion = 0.02;
+  const DeviceEvidence under = scale.under(pressed);
+  EXPECT_DOUBLE_EQ(under.pull_off_force, 3.0 * kOfDevice);
+  EXPECT_DOUBLE_EQ(under.linear_pull_off_force, 300.0 * kPullOff);
+  EXPECT_DOUBLE_EQ(under.apparent_work_of_adhesion, 2e-4);
+  EXPECT_DOUBLE_EQ(under.force_deviation, kDeviation);
+  scale.frame_pull_off_force = 0.0;
+  EXPECT_DOUBLE_EQ(scale.under(pressed).pull_off_force, kOfDevice) << "nothing to follow";
+}
+
+TEST(DeviceEvidenceOf, isAskedForWhereItDecides) {
+  DeviceForceOptions options;
+  EXPECT_TRUE(wantsDeviceForce(springOf(3.0), options));
+  DeviceOptions device = springOf(3.0);
+  device.contact_area = 0.0;
+  EXPECT_FALSE(wantsDeviceForce(device, options));
+  device = springOf(0.0);
+  EXPECT_FALSE(wantsDeviceForce(device, options)) << "nothing opens it";
+  options.enabled = false;
+  EXPECT_FALSE(wantsDeviceForce(springOf(3.0), options));
+}
+
+}  // namespace
+}  // namespace mems_stiction
