@@ -43,7 +43,9 @@ class Prediction(_core.PredictionFigures):
     """What comes out for one pair of surfaces. Forces and areas are of the scan; NaN: the formulation does not know it.
     Equation numbers are those of Deladi, Krijnen, Tas and Elwenspoek 2002; doc/theory.md has each as implemented.
 
-    verdict: a Verdict, or None without a device. roughness: a Roughness, of the cleaned scan.
+    verdict: a Verdict, or None without a device. device_force: what its own force was found to be, by this scan alone, as a
+    dictionary with the names of DeviceForce; None without a contact area, or with device_force/enabled false.
+    roughness: a Roughness, of the cleaned scan.
     preprocessing: what each step of the cleaning did. warnings: about pitch, heights and settings.
     """
 
@@ -54,6 +56,7 @@ class Prediction(_core.PredictionFigures):
         self.__dict__.update(core.figures)
         verdict = core.verdict
         self.verdict = None if verdict is None else Verdict(verdict)
+        self.device_force = core.device_force
         self.warnings = tuple(core.warnings)
         self.name = surface.name
         self.pitch = core.scan.pitch

@@ -1,93 +1,19 @@
 #include "evaluation/record.hpp"
 
-#include <yaml-cpp/yaml.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <nlohmann/json.hpp>
-#include <type_traits>
 
+#include "device/device_force_fields.hpp"
 #include "errors/short_number.hpp"
+#include "evaluation/record_fields.hpp"
 #include "half_space/half_space_fields.hpp"
 #include "prediction/prediction_fields.hpp"
-#include "settings/option_yaml.hpp"
 #include "verdict/regime_flags.hpp"
 #include "verdict/verdict_fields.hpp"
 
 namespace mems_stiction {
 namespace {
-
-/// Visitor that adds fields to the map which the emitter has open.
-class YamlFields {
- public:
-  explicit YamlFields(YAML::Emitter& emitter) : emitter_(emitter) {}
-
-  template <typename Value>
-  void operator()(const Figure& figure, const Value& value) {
-    emitter_ << YAML::Key << figure.name << YAML::Value;
-    if constexpr (std::is_same_v<Value, double>) {
-      emitter_ << yamlNumber(value);
-    } else if constexpr (std::is_same_v<Value, bool>) {
-      emitter_ << (value ? "true" : "false");
-    } else if constexpr (std::is_arithmetic_v<Value>) {
-      emitter_ << std::to_string(value);
-    } else if constexpr (std::is_same_v<Value, std::string> || std::is_same_v<Value, Sticks>) {
-      emitter_ << YAML::DoubleQuoted << std::string(shown(value));
-    } else {
-      emitter_ << word(value);
-    }
-  }
-  template <typename Fill>
-  void map(const char* name, Fill fill) {
-    emitter_ << YAML::Key << name << YAML::Value << YAML::BeginMap;
-    fill(*this);
-    emitter_ << YAML::EndMap;
-  }
-  /// Flow maps.
-  template <typename Items, typename VisitItem>
-  void list(const char* name, const Items& items, VisitItem visit_item) {
-    emitter_ << YAML::Key << name << YAML::Value << YAML::BeginSeq;
-    for (const auto& item : items) {
-      emitter_ << YAML::Flow << YAML::BeginMap;
-      visit_item(item, *this);
-      emitter_ << YAML::EndMap;
-    }
-    emitter_ << YAML::EndSeq;
-  }
-  void texts(const char* name, const std::vector<std::string>& texts) {
-    emitter_ << YAML::Key << name << YAML::Value << YAML::BeginSeq;
-    for (const std::string& text : texts) emitter_ << YAML::DoubleQuoted << text;
-    emitter_ << YAML::EndSeq;
-  }
-
- private:
-  YAML::Emitter& emitter_;
-};
-
-/// Visitor that adds fields to a JSON object.
-class JsonFields {
- public:
-  explicit JsonFields(nlohmann::json& object) : object_(object) {}
-
-  template <typename Value>
-  void operator()(const Figure& figure, const Value& value) {
-    object_[figure.name] = shown(value);
-  }
-  template <typename Fill>
-  void map(const char* name, Fill fill) {
-    JsonFields fields(object_[name]);
-    fill(fields);
-  }
-  template <typename Items, typename VisitItem>
-  void list(const char* name, const Items& items, VisitItem visit_item) {
-    for (const auto& item : items) visit_item(item, JsonFields(object_[name].emplace_back()));
-  }
-  void texts(const char* name, const std::vector<std::string>& texts) { object_[name] = texts; }
-
- private:
-  nlohmann::json& object_;
-};
 
 /// Size and pitch of the scan: what a reader needs to trust the figures below.
 template <typename Visitor>
@@ -164,6 +90,9 @@ void addRecord(const std::string& file, const HeightMap& scan, const Prediction&
     visitRoughnessFields(prediction.roughness, roughness);
     if (isComputed(prediction.spatial_roughness)) visitSpatialRoughnessFields(prediction.spatial_roughness, roughness);
   });
+  if (extras.device_force) {
+    fields.map("device_force", [&](Fields& force) { visitDeviceForceFields(*extras.device_force, force); });
+  }
   if (!extras.warnings.empty()) fields.texts("warnings", extras.warnings);
   add_list(fields, "preprocessing", extras.preprocessing.steps, kVisitStep);
   if (hasTipStep(extras.preprocessing)) {

@@ -9,6 +9,7 @@
 
 #include "evaluation/cleaning_spread.hpp"
 #include "mems_stiction/configuration/provenance.hpp"
+#include "mems_stiction/device/device_force.hpp"
 #include "mems_stiction/evaluation/convergence.hpp"
 #include "mems_stiction/half_space/half_space_solution.hpp"
 #include "mems_stiction/height_map/height_map.hpp"
@@ -35,6 +36,7 @@ struct RecordExtras {
   std::string formulation;                         ///< that the prediction is of
   std::optional<Verdict> verdict;                  ///< on the device
   std::optional<Provenance> provenance;            ///< version, hash of the settings, what was scanned
+  std::optional<DeviceForce> device_force;         ///< a map of its figures; the verdict rests on it
   std::vector<std::string> warnings;               ///< about scan and settings: a list of texts
   std::optional<ForceInterval> pull_off_interval;  ///< a sentence in YAML's comments, for people
   bool has_curve = false;                          ///< the prediction's curve, as a list of maps

@@ -12,6 +12,7 @@ void bindErrors(pybind11::module& module);
 void bindSettings(pybind11::module& module);
 void bindScans(pybind11::module& module);
 void bindPrediction(pybind11::module& module);
+void bindDevice(pybind11::module& module);
 void bindHalfSpace(pybind11::module& module);
 void bindStation(pybind11::module& module);
 

@@ -14,6 +14,22 @@
 namespace mems_stiction {
 namespace python {
 
+/// Ends work that reports its progress, when it is asked to.
+class Cancellation {
+ public:
+  /// What it ends with; nobody sees it, since the interruption goes on in its place.
+  struct Cancelled {};
+
+  explicit Cancellation(const std::atomic<bool>& cancel) : cancel_(cancel) {}
+
+  void operator()(double /*share*/) const {
+    if (cancel_) throw Cancelled();  // NOLINT(hicpp-exception-baseclass): no error
+  }
+
+ private:
+  const std::atomic<bool>& cancel_;
+};
+
 /// Runs work(cancel) on a thread of its own, without the interpreter's lock. The calling thread asks now and then
 /// whether a signal has come; a handler that raises (KeyboardInterrupt) sets `cancel`, and its exception goes on when
 /// the work has ended.

@@ -12,6 +12,7 @@ PYBIND11_MODULE(_core, module) {
   bindSettings(module);
   bindScans(module);
   bindPrediction(module);
+  bindDevice(module);
   bindHalfSpace(module);
   bindStation(module);
 }

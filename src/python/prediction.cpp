@@ -2,6 +2,7 @@
 
 #include <pybind11/stl.h>
 
+#include <functional>
 #include <limits>
 #include <memory>
 #include <mutex>
@@ -11,10 +12,14 @@
 #include <vector>
 
 #include "bindings.hpp"
+#include "device/device_evidence.hpp"
+#include "device/device_force_fields.hpp"
+#include "evaluation/device_scans.hpp"
 #include "evaluation/frame_load.hpp"
 #include "evaluation/plausibility.hpp"
 #include "evaluation/record.hpp"
 #include "figures.hpp"
+#include "interruptible.hpp"
 #include "memory.hpp"
 #include "mems_stiction/configuration/configuration_yaml.hpp"
 #include "mems_stiction/errors/errors.hpp"
@@ -45,9 +50,20 @@ struct PredictedScan {
 
 using Predicted = std::shared_ptr<PredictedScan>;
 
+/// Runs work(check), where check(share) ends it when the user presses Ctrl-C. Predictions alone are too short for that.
+template <typename Work>
+Predicted predicting(const Configuration& configuration, const Work& work) {
+  if (wantsDeviceForce(configuration.device, configuration.device_force)) {
+    return interruptible([&](const std::atomic<bool>& cancel) { return work(Cancellation(cancel)); });
+  }
+  const WithoutLock unlocked;
+  return work([](double) {});
+}
+
 /// The record of a prediction.
+/// - @p on_progress of the device's own force
 Predicted predictedScan(const HeightMap& scan, const PreparedScan& prepared, Prediction&& prediction,
-                        const Configuration& configuration) {
+                        const Configuration& configuration, const std::function<void(double)>& on_progress) {
   auto predicted = std::make_shared<PredictedScan>();
   predicted->scan = scan;
   predicted->surfaces = prepared.surfaces;
@@ -60,8 +76,16 @@ Predicted predictedScan(const HeightMap& scan, const PreparedScan& prepared, Pre
   predicted->extras.warnings = predictionWarnings(prepared, configuration, predicted->prediction, configuration.model);
   if (configuration.device.isStated()) {
     const Options on_frame = onFrame(configuration.model, configuration.device, prepared.surfaces);
-    predicted->extras.verdict =
-        verdictOf(predicted->prediction, configuration.device, configuration.uncertainty, on_frame, scan.cellArea());
+    Evidence evidence;
+    if (wantsDeviceForce(configuration.device, configuration.device_force)) {
+      DeviceScans scans(configuration);
+      scans.add("the scan", prepared);
+      predicted->extras.device_force = addDevice([&] { return scans.force(on_progress); }, evidence);
+      const std::vector<std::string>& lines = predicted->extras.device_force->warnings;
+      predicted->extras.warnings.insert(predicted->extras.warnings.end(), lines.begin(), lines.end());
+    }
+    predicted->extras.verdict = verdictOf(predicted->prediction, configuration.device, configuration.uncertainty,
+                                          on_frame, scan.cellArea(), evidence);
   }
   predicted->curve = curveOf(predicted->prediction, configuration.model.interface);
   return predicted;
@@ -77,14 +101,15 @@ class Predictor {
   /// - @p notes on how the scan was read
   Predicted predict(const HeightMap& scan, const std::optional<HeightMap>& counter_surface,
                     const std::vector<std::string>& notes) {
-    const WithoutLock unlocked;
-    const std::lock_guard<std::mutex> lock(mutex_);
-    predictor_.preparer().setMeasuredCounterSurface(counter_surface.value_or(HeightMap()));
-    PreparedScan prepared = predictor_.preparer().prepare(scan);
-    prepared.warnings.insert(prepared.warnings.begin(), notes.begin(), notes.end());
-    Predicted predicted = predictedScan(scan, prepared, predictor_.predict(prepared), configuration_);
-    predictor_.preparer().setMeasuredCounterSurface({});
-    return predicted;
+    return predicting(configuration_, [&](const auto& check) {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      predictor_.preparer().setMeasuredCounterSurface(counter_surface.value_or(HeightMap()));
+      PreparedScan prepared = predictor_.preparer().prepare(scan);
+      prepared.warnings.insert(prepared.warnings.begin(), notes.begin(), notes.end());
+      Predicted predicted = predictedScan(scan, prepared, predictor_.predict(prepared), configuration_, check);
+      predictor_.preparer().setMeasuredCounterSurface({});
+      return predicted;
+    });
   }
 
  private:
@@ -108,18 +133,20 @@ class OneScan {
 
   /// @throw OptionsError for settings with another preparation than the first.
   Predicted predict(const Configuration& configuration) {
-    const WithoutLock unlocked;
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (preparation(configuration) != preparation(configuration_)) {
-      throw OptionsError(
-          {"the settings of one scan may differ in materials, interface, loads, approach, output, device, uncertainty "
-           "alone; output/roughness and all that bears on the scan and its counter-surface must be the same"});
-    }
-    predictor_.setOptions(configuration.model);
-    predictor_.setDevice(configuration.device);
-    Prediction prediction = is_seen_ ? predictor_.predictAgain(prepared_) : predictor_.predict(prepared_);
-    is_seen_ = true;
-    return predictedScan(scan_, prepared_, std::move(prediction), configuration);
+    return predicting(configuration, [&](const auto& check) {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      if (preparation(configuration) != preparation(configuration_)) {
+        throw OptionsError(
+            {"the settings of one scan may differ in materials, interface, loads, approach, output, device, "
+             "device_force, uncertainty alone; output/roughness and all that bears on the scan and its counter-surface "
+             "must be the same"});
+      }
+      predictor_.setOptions(configuration.model);
+      predictor_.setDevice(configuration.device);
+      Prediction prediction = is_seen_ ? predictor_.predictAgain(prepared_) : predictor_.predict(prepared_);
+      is_seen_ = true;
+      return predictedScan(scan_, prepared_, std::move(prediction), configuration, check);
+    });
   }
 
   std::vector<std::string> warnings() const { return warningsOf(prepared_); }
@@ -131,6 +158,7 @@ class OneScan {
     alone.model = Options();
     alone.model.output.roughness = configuration.model.output.roughness;
     alone.device = DeviceOptions();
+    alone.device_force = DeviceForceOptions();
     alone.uncertainty = UncertaintyOptions();
     alone.half_space = HalfSpaceOptions();
     return toYaml(alone);
@@ -161,6 +189,13 @@ py::dict figuresOf(const PredictedScan& predicted) {
 std::optional<py::dict> verdictOfScan(const PredictedScan& predicted) {
   if (!predicted.extras.verdict) return std::nullopt;
   return verdictFigures(*predicted.extras.verdict);
+}
+
+std::optional<py::dict> deviceForceOfScan(const PredictedScan& predicted) {
+  if (!predicted.extras.device_force) return std::nullopt;
+  DictionaryFields fields;
+  visitDeviceForceFields(*predicted.extras.device_force, fields);
+  return fields.dictionary;
 }
 
 py::dict roughnessOfScan(const PredictedScan& predicted) {
@@ -208,6 +243,7 @@ void bindPrediction(py::module& module) {
   py::class_<PredictedScan, Predicted>(module, "PredictedScan")
       .def_property_readonly("figures", &figuresOf)
       .def_property_readonly("verdict", &verdictOfScan)
+      .def_property_readonly("device_force", &deviceForceOfScan)
       .def_property_readonly("roughness", &roughnessOfScan)
       .def_property_readonly(
           "flag_names",

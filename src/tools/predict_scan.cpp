@@ -11,6 +11,9 @@
 
 #include "command_line.hpp"
 #include "curve_file.hpp"
+#include "device/device_evidence.hpp"
+#include "device_run.hpp"
+#include "evaluation/device_scans.hpp"
 #include "evaluation/frame_load.hpp"
 #include "evaluation/plausibility.hpp"
 #include "evaluation/record.hpp"
@@ -210,6 +213,7 @@ void predictScan(const std::string& path, const Arguments& arguments, const Scan
   extras.has_curve = arguments.record_curve;
   extras.warnings = scan.notes;
   Options options = configuration.model;
+  Evidence evidence;
   try {
     const PreparedScan prepared =
         whileSaying(path + ": cleaning", [&] { return predictor.preparer().prepare(scan.surface); });
@@ -235,11 +239,19 @@ void predictScan(const std::string& path, const Arguments& arguments, const Scan
     if (arguments.half_space) {
       extras.half_space = solveWithProgress(half_space, halfSpaceProblem(prepared, options));
     }
+    if (wantsDeviceForce(configuration.device, configuration.device_force)) {
+      DeviceScans scans(configuration);
+      scans.add(path, prepared);
+      extras.device_force =
+          addDevice([&] { return withProgress(path, [&](const auto& tell) { return scans.force(tell); }); }, evidence);
+      warnAll(extras.device_force->warnings);
+      const std::vector<std::string>& lines = extras.device_force->warnings;
+      extras.warnings.insert(extras.warnings.end(), lines.begin(), lines.end());
+    }
   } catch (const SurfaceError& error) {
     throw SurfaceError(path + ": " + error.what());
   }
   if (configuration.device.isStated()) {
-    Evidence evidence;
     if (extras.half_space) evidence.half_space = &*extras.half_space;
     if (arguments.cleanings) evidence.cleaning = reachOf(extras.cleanings);
     extras.verdict = verdictOf(prediction, configuration.device, configuration.uncertainty, options,

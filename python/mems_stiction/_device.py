@@ -1,0 +1,163 @@
+"""The force of a whole device, from all scans of its surfaces."""
+
+from __future__ import annotations
+
+import json
+import os
+from typing import Any, Dict, List, Optional, Sequence, Union
+
+import numpy as np
+
+from mems_stiction import _core
+from mems_stiction._arrays import Pitch, Surface, explained, records_of, surface_of
+from mems_stiction._inputs import brings_pitch, section_or_surface
+from mems_stiction._prediction import Verdict
+from mems_stiction._settings import Config, Settings, SurfaceError
+from mems_stiction._warnings import ScanWarning, warn
+from mems_stiction.quantities import area as area_text
+from mems_stiction.quantities import with_interval, with_unit
+
+Pitches = Union[Pitch, Sequence[Optional[Pitch]]]
+
+
+@explained
+class DeviceForce(_core.DeviceForceFigures):
+    """What holds a device, by all scans of its surfaces; NaN: not known.
+
+    realisations: a record for each made surface: pull_off_force [N], apparent_work_of_adhesion [J/m^2], contacts,
+    separation_at_rest [m]. parts_of_scans: area [m^2] and pull_off_force [N] of what was measured. spectrum: a record for
+    each band of waves: wavelength [m], density, density_lower, density_upper [m^4], rms_height [m], rms_slope,
+    rms_curvature [1/m], is_measured.
+    verdict: a Verdict, or None where the settings state no spring and no beam. scans: their names. warnings: about scans,
+    settings, and what the scans do not show.
+    """
+
+    def __init__(self, core: _core.DevicePrediction) -> None:
+        self.__dict__.update(core.figures)
+        verdict = core.verdict
+        self.verdict = None if verdict is None else Verdict(verdict)
+        self.scans = tuple(core.scans)
+        self.warnings = tuple(core.warnings)
+        self.realisations: np.recarray = records_of(core.realisations)
+        self.parts_of_scans: np.recarray = records_of(core.parts_of_scans)
+        self.spectrum: np.recarray = records_of(core.spectrum)
+        self._json = core.json()
+
+    def json(self) -> str:
+        """The record that predict_device --json prints, one line."""
+        return self._json
+
+    def to_dict(self) -> Dict[str, Any]:
+        """The same as a dictionary. None stands for what is not finite."""
+        return json.loads(self._json)
+
+    def save_picture(self, path: Union[str, "os.PathLike[str]"]) -> None:
+        """PNG, PDF or SVG: the spectrum with its 95 % range, roughness against scale, force against area."""
+        from mems_stiction import device_figure
+
+        device_figure.save_device(self.to_dict(), path)
+
+    picture = save_picture
+
+    def __getstate__(self) -> Dict[str, Any]:
+        return {name: np.array(value).view(type(value)) if isinstance(value, np.ndarray) else value
+                for name, value in self.__dict__.items()}
+
+    def __repr__(self) -> str:
+        lines = ["Device of %s, by %s" % (area_text(self.area), _count(len(self.scans), "scan"))]
+        lines.append("  pull-off force %s; the scans' force by area would say %s" % (
+            with_interval(self.pull_off_force, self.pull_off_force_lower, self.pull_off_force_upper, "N"),
+            with_unit(self.linear_pull_off_force, "N", 2)))
+        lines.append("  apparent work of adhesion %s; %s hold it" % (
+            with_interval(self.apparent_work_of_adhesion, self.apparent_work_of_adhesion_lower,
+                          self.apparent_work_of_adhesion_upper, "J/m^2"), _count(round(self.contacts), "place")))
+        if self.verdict is not None:
+            lines.append("  sticks: %s" % self.verdict.summary)
+        lines += ["  warning: " + text for text in self.warnings]
+        return "\n".join(lines)
+
+
+def _count(number: int, word: str) -> str:
+    return "%d %s%s" % (number, word, "" if number == 1 else "s")
+
+
+def _is_one(scans: Any) -> bool:
+    """Whether it is one scan, not several: rows of numbers are one."""
+    if isinstance(scans, Surface) or brings_pitch(scans):
+        return True
+    if isinstance(scans, np.ndarray):
+        return scans.ndim != 3 and scans.dtype.kind != "O"
+    if not isinstance(scans, (list, tuple)):
+        return not hasattr(scans, "__iter__")
+    first = scans[0] if len(scans) else None
+    return not brings_pitch(first) and np.ndim(first) < 2 and len(scans) > 0
+
+
+def _listed(scans: Any, what: str) -> List[Any]:
+    listed = [scans] if _is_one(scans) else list(scans)
+    if not listed:
+        raise SurfaceError("%s: an empty list is not allowed, must hold one scan at least" % what)
+    return listed
+
+
+def _is_number(pitch: Any) -> bool:
+    return pitch is None or np.ndim(pitch) == 0
+
+
+def _is_pair(pitch: Any, count: int) -> bool:
+    """Whether two numbers are one pitch (x, y), and not that of each of two scans, which is a list."""
+    return len(pitch) == 2 and all(_is_number(value) for value in pitch) and (not isinstance(pitch, list) or count == 1)
+
+
+def _pitches_of(pitch: Any, scans: List[Any]) -> List[Optional[Pitch]]:
+    """One for each scan; None where it brings its own."""
+    if _is_number(pitch) or _is_pair(pitch, len(scans)):
+        all_bring = all(isinstance(scan, (str, os.PathLike)) for scan in scans)
+        return [pitch if all_bring or not brings_pitch(scan) else None for scan in scans]
+    if len(pitch) != len(scans):
+        raise SurfaceError("pitch: %d are given for %s; must be one, or one for each; a pair (x, y) of all is a tuple" % (
+            len(pitch), _count(len(scans), "scan")))
+    return [value if _is_number(value) else tuple(value) for value in pitch]
+
+
+def _core_scans(scans: List[Any], pitches: List[Optional[Pitch]], settings: Settings, what: str) -> List[_core.DeviceScan]:
+    found = []
+    for place, (scan, pitch) in enumerate(zip(scans, pitches)):
+        name = what if len(scans) == 1 else "%s[%d]" % (what, place)
+        surface = surface_of(scan, pitch, settings, name)
+        found.append(_core.DeviceScan(surface.name, surface.core, list(surface.notes)))
+    return found
+
+
+def predict_device(scans: Any, area: Optional[float] = None, pitch: Optional[Pitches] = None, contacts: Optional[int] = None,
+                   config: Optional[Config] = None, *, upper: Any = None, **settings: Any) -> DeviceForce:
+    """Which force holds a device of this area, larger or smaller than the scans of its surface?
+
+        predict_device(["afm_1.gwy", "afm_2.gwy", "wide.gwy"], area=1e-8, config="part.yaml").pull_off_force
+
+    scans: whatever predict() takes (arrays, topographies, Scans, paths), one or a list, of any pitch, size and instrument.
+    area: nominal, of all contacts together [m^2]; None: device/contact_area. contacts: that share it; None: device/contacts,
+    which is 1 unless stated.
+    pitch: of the scans that bring none [m]: a number, a pair (x, y), or a list of them with one for each scan; in a list None
+    stands for the scan's own.
+    upper: scans of the surface that meets it, in the same forms, in place of the configured counter-surface;
+    counter_surface/facing must say which way they face.
+    config, settings: as of predict(); device_force/... say how many surfaces are made and how large.
+
+    The interpreter's lock is released; Ctrl-C stops it. Raises OptionsError, SurfaceError and FileError, which name the scan.
+    """
+    upper = section_or_surface(upper, settings)
+    checked = Settings(config, **settings)
+    stated = {name: value for name, value in (("device/contact_area", area), ("device/contacts", contacts)) if value is not None}
+    if stated:
+        checked = Settings(checked, **stated)
+    lower = _listed(scans, "scans")
+    core = _core_scans(lower, _pitches_of(pitch, lower), checked, "scans")
+    counter = []
+    if upper is not None:
+        above = _listed(upper, "upper")
+        common = pitch if _is_number(pitch) or _is_pair(pitch, len(lower)) else None
+        counter = _core_scans(above, _pitches_of(common, above), checked, "upper")
+    predicted = _core.predict_device(core, counter, checked._configuration)
+    warn(list(predicted.scan_warnings) + list(predicted.force_warnings), ScanWarning)
+    return DeviceForce(predicted)

@@ -1,0 +1,96 @@
+#include "evaluation/device_prediction.hpp"
+
+#include <utility>
+
+#include "device/device_evidence.hpp"
+#include "evaluation/frame_load.hpp"
+#include "evaluation/plausibility.hpp"
+#include "mems_stiction/errors/errors.hpp"
+
+namespace mems_stiction {
+namespace {
+
+/// What the verdict needs of the prediction of a scan.
+Configuration forVerdict(Configuration configuration) {
+  OutputOptions& output = configuration.model.output;
+  output.deformed_surfaces = output.contact_map = output.energy_curve = output.roughness = false;
+  output.asperities = true;
+  configuration.spatial_roughness.enabled = false;
+  configuration.check();
+  if (configuration.device.contact_area == 0.0) {
+    throw OptionsError(
+        {"device/contact_area: is not stated; must be the nominal area of all contacts of the device "
+         "together, > 0 m^2"});
+  }
+  return configuration;
+}
+
+/// What goes wrong in the work is named by the scan.
+template <typename Work>
+auto named(const std::string& name, Work&& work) {
+  try {
+    return work();
+  } catch (const SurfaceError& error) {
+    throw SurfaceError(name + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> DevicePrediction::warnings() const {
+  std::vector<std::string> all = scan_warnings;
+  all.insert(all.end(), settings_warnings.begin(), settings_warnings.end());
+  all.insert(all.end(), force.warnings.begin(), force.warnings.end());
+  return all;
+}
+
+DevicePredictor::DevicePredictor(const Configuration& configuration)
+    : configuration_(forVerdict(configuration)), predictor_(configuration_), scans_(configuration_) {
+  prediction_.formulation = configuration_.model.formulation;
+  prediction_.provenance = provenanceOf({}, configuration);
+}
+
+std::vector<std::string> DevicePredictor::noted(const std::string& name, std::vector<std::string> lines) {
+  for (std::string& line : lines) line.insert(0, name + ": ");
+  prediction_.scan_warnings.insert(prediction_.scan_warnings.end(), lines.begin(), lines.end());
+  return lines;
+}
+
+std::vector<std::string> DevicePredictor::add(const std::string& name, const HeightMap& scan,
+                                              const std::vector<std::string>& notes) {
+  prepared_.push_back(named(name, [&] { return predictor_.preparer().prepare(scan); }));
+  scans_.add(name, prepared_.back());
+  prediction_.scans.push_back(name);
+  std::vector<std::string> lines = notes;
+  for (std::string& line : warningsOf(prepared_.back())) lines.push_back(std::move(line));
+  return noted(name, std::move(lines));
+}
+
+std::vector<std::string> DevicePredictor::addCounterSurface(const std::string& name, const HeightMap& measured,
+                                                            const std::vector<std::string>& notes) {
+  std::vector<std::string> lines = notes;
+  for (std::string& line : named(name, [&] { return scans_.addCounterSurface(name, measured); })) {
+    lines.push_back(std::move(line));
+  }
+  prediction_.counter_surface.push_back(name);
+  return noted(name, std::move(lines));
+}
+
+DevicePrediction DevicePredictor::predict(const std::function<void(double)>& on_progress) {
+  DevicePrediction prediction = prediction_;
+  prediction.settings_warnings = settingsWarnings(configuration_);
+  prediction.force = scans_.force(on_progress);
+  const DeviceOptions& device = configuration_.device;
+  if (!device.hasSpring() && !device.hasBeam()) return prediction;
+  const std::size_t place = scans_.finest();
+  const PreparedScan& finest = prepared_[place];
+  const Prediction of_scan = named(prediction.scans[place], [&] { return predictor_.predict(finest); });
+  Evidence evidence;
+  evidence.device = deviceEvidence(prediction.force);
+  const Options options = onFrame(configuration_.model, device, finest.surfaces);
+  prediction.verdict =
+      verdictOf(of_scan, device, configuration_.uncertainty, options, finest.surfaces.lower.cellArea(), evidence);
+  return prediction;
+}
+
+}  // namespace mems_stiction

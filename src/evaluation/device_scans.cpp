@@ -1,0 +1,84 @@
+#include "evaluation/device_scans.hpp"
+
+#include <algorithm>
+
+#include "device/device_evidence.hpp"
+#include "evaluation/frame_load.hpp"
+#include "mems_stiction/errors/errors.hpp"
+
+namespace mems_stiction {
+namespace {
+
+bool haveSameGrid(const HeightMap& a, const HeightMap& b) {
+  return a.rows() == b.rows() && a.cols() == b.cols() && a.pitchX() == b.pitchX() && a.pitchY() == b.pitchY();
+}
+
+double pixelOf(const NamedScan& scan) { return std::max(scan.surface.pitchX(), scan.surface.pitchY()); }
+
+/// For a counter-surface by itself, on its own grid.
+Configuration ofCounterSurface(Configuration configuration) {
+  configuration.counter_surface.type = CounterSurfaceType::kTopic;
+  configuration.counter_surface.pose = SurfacePose();
+  configuration.preprocessing.region = RegionOptions();
+  configuration.spatial_roughness.enabled = false;
+  return configuration;
+}
+
+}  // namespace
+
+void DeviceScans::add(const std::string& name, const PreparedScan& prepared) {
+  if (surfaces_.scans.empty()) first_ = prepared.surfaces;
+  surfaces_.scans.push_back({name, prepared.model_surfaces.lower});
+  const HeightMap& upper = prepared.model_surfaces.upper;
+  if (upper.empty() || has_own_counter_surface_) return;
+  const bool is_of_scan = configuration_.counter_surface.type == CounterSurfaceType::kTopic;
+  const std::vector<NamedScan>& before = surfaces_.counter_surface;
+  const bool is_there = std::any_of(before.begin(), before.end(),
+                                    [&](const NamedScan& other) { return haveSameGrid(other.surface, upper); });
+  if (is_there && !is_of_scan) return;
+  surfaces_.counter_surface.push_back({"the counter-surface of " + name, upper});
+}
+
+std::vector<std::string> DeviceScans::addCounterSurface(const std::string& name, const HeightMap& measured) {
+  ScanPreparer preparer(ofCounterSurface(configuration_));
+  preparer.setMeasuredCounterSurface(measured);
+  const PreparedScan prepared = preparer.prepare(measured);
+  if (!has_own_counter_surface_) surfaces_.counter_surface.clear();
+  has_own_counter_surface_ = true;
+  surfaces_.counter_surface.push_back({name, prepared.model_surfaces.upper});
+  return prepared.warnings;
+}
+
+std::size_t DeviceScans::finest() const {
+  const auto found = std::min_element(surfaces_.scans.begin(), surfaces_.scans.end(),
+                                      [](const auto& one, const auto& other) { return pixelOf(one) < pixelOf(other); });
+  return static_cast<std::size_t>(found - surfaces_.scans.begin());
+}
+
+DeviceForce DeviceScans::force(const std::function<void(double)>& on_progress) const {
+  const DeviceOptions& device = configuration_.device;
+  const Options options =
+      surfaces_.scans.empty() ? configuration_.model : onFrame(configuration_.model, device, first_);
+  return deviceForce(surfaces_, {device.contact_area, device.contacts}, options, configuration_.uncertainty,
+                     configuration_.device_force, on_progress);
+}
+
+DeviceForce addDevice(const std::function<DeviceForce()>& find, Evidence& evidence) {
+  try {
+    DeviceForce force = find();
+    evidence.device = deviceEvidence(force);
+    return force;
+  } catch (const Error& error) {
+    evidence.device.reset();
+    evidence.why_no_device = error.what();
+    DeviceForce none;
+    none.warnings = {"the device's own force was not found: " + evidence.why_no_device};
+    return none;
+  }
+}
+
+DeviceScale deviceScale(const DeviceEvidence& device, const Prediction& prediction) {
+  return {device, prediction.pull_off_force, prediction.apparent_work_of_adhesion};
+}
+
+}  // namespace mems_stiction

@@ -1,0 +1,59 @@
+#pragma once
+
+/// @file
+/// The force of a device from scans as its settings have them: cleaned, under their counter-surface, with their load.
+/// What programs, Python and the node share.
+///
+///     DeviceScans scans(configuration);
+///     for (const auto& [name, scan] : files) scans.add(name, preparer.prepare(scan));
+///     const DeviceForce force = scans.force();
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "mems_stiction/configuration/configuration.hpp"
+#include "mems_stiction/device/device_force.hpp"
+#include "mems_stiction/evaluation/prepared_scan.hpp"
+#include "mems_stiction/verdict/evidence.hpp"
+
+namespace mems_stiction {
+
+/// All scans of the two surfaces of one device. Copies share the pixels.
+class DeviceScans {
+ public:
+  explicit DeviceScans(const Configuration& configuration) : configuration_(configuration) {}
+
+  /// Of the lower surface, with what lies over it: a counter-surface from a file or a generator counts once on each grid.
+  void add(const std::string& name, const PreparedScan& prepared);
+  /// Of the upper surface, as it was measured: cleaned as the scans are, turned over if counter_surface/facing is up. The
+  /// first one takes the place of all that lay over the scans.
+  /// @throw OptionsError if counter_surface/facing does not say how it lies; SurfaceError if it cannot be used.
+  /// @return what looks wrong in it
+  std::vector<std::string> addCounterSurface(const std::string& name, const HeightMap& measured);
+
+  int count() const { return static_cast<int>(surfaces_.scans.size()); }
+  /// Place of the scan with the smallest pixels, the first of several.
+  std::size_t finest() const;
+
+  /// Of device/contact_area and device/contacts. A load on the scanned area counts as one on the first scan.
+  /// @throw as deviceForce()
+  DeviceForce force(const std::function<void(double)>& on_progress = {}) const;
+
+ private:
+  Configuration configuration_;
+  DeviceSurfaces surfaces_;
+  SurfacePair first_;
+  bool has_own_counter_surface_ = false;
+};
+
+/// The force as evidence; where it cannot be found, why.
+/// - @p find gives it
+/// @return the force, with nothing in it but a warning if it failed
+DeviceForce addDevice(const std::function<DeviceForce()>& find, Evidence& evidence);
+
+/// The device's figures beside those of a frame under the same load, for sweeps and cycles of that frame.
+/// - @p prediction of the frame
+DeviceScale deviceScale(const DeviceEvidence& device, const Prediction& prediction);
+
+}  // namespace mems_stiction

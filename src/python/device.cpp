@@ -1,0 +1,111 @@
+/// The force of a whole device, from all scans of its surfaces.
+
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bindings.hpp"
+#include "device/device_force_fields.hpp"
+#include "device/device_force_lists.hpp"
+#include "evaluation/device_prediction.hpp"
+#include "figures.hpp"
+#include "interruptible.hpp"
+#include "memory.hpp"
+
+namespace mems_stiction {
+namespace python {
+namespace {
+
+namespace py = pybind11;
+using py::literals::operator""_a;
+
+/// A scan as it came.
+struct DeviceScan {
+  std::string name;                ///< of its file; empty: its place stands for it
+  HeightMap scan;                  ///< as it came
+  std::vector<std::string> notes;  ///< on how it was read
+};
+
+using Predicted = std::shared_ptr<DevicePrediction>;
+
+/// Its file, or "scan 2".
+std::string nameOf(const std::vector<DeviceScan>& scans, std::size_t place, const std::string& kind) {
+  return scans[place].name.empty() ? kind + " " + std::to_string(place + 1) : scans[place].name;
+}
+
+Predicted predictDevice(const std::vector<DeviceScan>& scans, const std::vector<DeviceScan>& counter_surface,
+                        const Configuration& configuration) {
+  return interruptible([&](const std::atomic<bool>& cancel) {
+    const Cancellation check(cancel);
+    DevicePredictor predictor(configuration);
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+      check(0.0);
+      predictor.add(nameOf(scans, i, "scan"), scans[i].scan, scans[i].notes);
+    }
+    for (std::size_t i = 0; i < counter_surface.size(); ++i) {
+      check(0.0);
+      predictor.addCounterSurface(nameOf(counter_surface, i, "counter-surface"), counter_surface[i].scan,
+                                  counter_surface[i].notes);
+    }
+    return std::make_shared<DevicePrediction>(predictor.predict(check));
+  });
+}
+
+py::dict figuresOf(const DevicePrediction& predicted) {
+  DictionaryFields fields;
+  visitDeviceForceFields(predicted.force, fields);
+  return fields.dictionary;
+}
+
+std::optional<py::dict> verdictOfDevice(const DevicePrediction& predicted) {
+  if (!predicted.verdict) return std::nullopt;
+  return verdictFigures(*predicted.verdict);
+}
+
+Records realisationsOf(const Predicted& predicted) {
+  return recordsOf(predicted->force.realisations, predicted,
+                   [](const auto& item, auto& fields) { visitRealisationFields(item, fields); });
+}
+
+Records partsOf(const Predicted& predicted) {
+  return recordsOf(predicted->force.parts_of_scans, predicted,
+                   [](const auto& item, auto& fields) { visitPartOfScanFields(item, fields); });
+}
+
+Records spectrumOf(const Predicted& predicted) {
+  return recordsOf(predicted->force.spectrum, predicted,
+                   [](const auto& item, auto& fields) { visitBandFields(item, fields); });
+}
+
+}  // namespace
+
+void bindDevice(py::module& module) {
+  DeclaredFields declared;
+  const DeviceForce none;
+  visitDeviceForceFields(none, declared);
+  declared.addTo(module, "DeviceForceFigures");
+
+  py::class_<DeviceScan>(module, "DeviceScan")
+      .def(py::init([](const std::string& name, const HeightMap& scan, const std::vector<std::string>& notes) {
+             return DeviceScan{name, scan, notes};
+           }),
+           "name"_a, "scan"_a, "notes"_a);
+  py::class_<DevicePrediction, Predicted>(module, "DevicePrediction")
+      .def_property_readonly("figures", &figuresOf)
+      .def_property_readonly("verdict", &verdictOfDevice)
+      .def_property_readonly("scans", [](const DevicePrediction& one) { return one.scans; })
+      .def_property_readonly("scan_warnings", [](const DevicePrediction& one) { return one.scan_warnings; })
+      .def_property_readonly("force_warnings", [](const DevicePrediction& one) { return one.force.warnings; })
+      .def_property_readonly("warnings", &DevicePrediction::warnings)
+      .def_property_readonly("realisations", &realisationsOf)
+      .def_property_readonly("parts_of_scans", &partsOf)
+      .def_property_readonly("spectrum", &spectrumOf)
+      .def("json", &deviceJsonRecord);
+  module.def("predict_device", &predictDevice, "scans"_a, "counter_surface"_a, "configuration"_a);
+}
+
+}  // namespace python
+}  // namespace mems_stiction
