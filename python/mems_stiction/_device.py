@@ -12,7 +12,7 @@ from mems_stiction import _core
 from mems_stiction._arrays import Pitch, Surface, explained, records_of, surface_of
 from mems_stiction._inputs import brings_pitch, section_or_surface
 from mems_stiction._prediction import Verdict
-from mems_stiction._settings import Config, Settings, SurfaceError
+from mems_stiction._settings import Config, Settings, SurfaceError, settings_with
 from mems_stiction._warnings import ScanWarning, warn
 from mems_stiction.quantities import area as area_text
 from mems_stiction.quantities import with_interval, with_unit
@@ -147,10 +147,8 @@ def predict_device(scans: Any, area: Optional[float] = None, pitch: Optional[Pit
     The interpreter's lock is released; Ctrl-C stops it. Raises OptionsError, SurfaceError and FileError, which name the scan.
     """
     upper = section_or_surface(upper, settings)
-    checked = Settings(config, **settings)
-    stated = {name: value for name, value in (("device/contact_area", area), ("device/contacts", contacts)) if value is not None}
-    if stated:
-        checked = Settings(checked, **stated)
+    stated = {"device/contact_area": area, "device/contacts": contacts, "device_force/enabled": True}
+    checked = settings_with(config, settings, {name: value for name, value in stated.items() if value is not None})
     lower = _listed(scans, "scans")
     core = _core_scans(lower, _pitches_of(pitch, lower), checked, "scans")
     counter = []

@@ -34,18 +34,7 @@ class Settings:
     _configuration: _core.Configuration
 
     def __init__(self, config: Optional[Config] = None, **settings: Any) -> None:
-        if isinstance(config, Settings):
-            self._configuration = config._configuration
-        elif config is None:
-            self._configuration = _core.Configuration()
-        elif isinstance(config, Mapping):
-            self._configuration = _core.Configuration().changed(_plain(config))
-        elif isinstance(config, (str, os.PathLike)):
-            self._configuration = _core.Configuration().loaded(os.fspath(config))
-        else:
-            raise OptionsError("config: %r is not allowed, must be a dictionary, the path of a YAML file or Settings" % (config,))
-        if settings:
-            self._configuration = self._configuration.changed(_plain(settings))
+        self._configuration = _configuration_of(config, settings)
         if settings or not isinstance(config, Settings):
             warn(self._configuration.warnings, SettingsWarning)
 
@@ -59,6 +48,29 @@ class Settings:
 
     def __reduce__(self) -> Any:
         return _settings_of_text, (self.yaml(),)
+
+
+def _configuration_of(config: Optional[Config], settings: Dict[str, Any]) -> _core.Configuration:
+    if isinstance(config, Settings):
+        configuration = config._configuration
+    elif config is None:
+        configuration = _core.Configuration()
+    elif isinstance(config, Mapping):
+        configuration = _core.Configuration().changed(_plain(config))
+    elif isinstance(config, (str, os.PathLike)):
+        configuration = _core.Configuration().loaded(os.fspath(config))
+    else:
+        raise OptionsError("config: %r is not allowed, must be a dictionary, the path of a YAML file or Settings" % (config,))
+    return configuration.changed(_plain(settings)) if settings else configuration
+
+
+def settings_with(config: Optional[Config], settings: Dict[str, Any], stated: Dict[str, Any]) -> Settings:
+    """Settings with values that go before both, and warnings about what holds in the end alone."""
+    if not stated:
+        return Settings(config, **settings)
+    quiet = Settings.__new__(Settings)
+    quiet._configuration = _configuration_of(config, settings)
+    return Settings(quiet, **stated)
 
 
 Config = Union[Mapping, str, "os.PathLike[str]", Settings]

@@ -10,10 +10,10 @@ import textwrap
 from mems_stiction.input_file import UnfitFile, is_open_pipe, require_file
 from mems_stiction.plots import plt, save, with_unit
 from mems_stiction.provenance import sign
-from mems_stiction.quantities import length_scale, typeset
+from mems_stiction.quantities import length_scale, ratio, typeset
 
 import numpy as np
-from matplotlib.ticker import FuncFormatter
+from matplotlib.ticker import FuncFormatter, LogLocator
 
 MOST_BYTES = 100000000  # of a record
 SCANS = "#0b4f9e"
@@ -21,6 +21,7 @@ CONTINUED = "#d17a00"
 DEVICE = "#b3261e"
 LINEAR = "#5a5f66"
 ROUGHNESS = (("rms_height", "rms height", "m"), ("rms_slope", "rms slope", ""), ("rms_curvature", "rms curvature", "1/m"))
+MOST_DECADES = 1e-12  # of the largest density: less is what an interpolation left
 LINE = 0.19  # height of a line of text below the panels [inches]
 LETTERS = 185  # of such a line
 
@@ -84,9 +85,9 @@ def _title(record):
 def _area_text(value):
     """"100 µm²"."""
     for unit, factor in (("mm²", 1e-6), ("µm²", 1e-12)):
-        if value >= 0.1 * factor:
-            return "%.3g %s" % (value / factor, unit)
-    return "%.3g nm²" % (value / 1e-18)
+        if value >= 0.01 * factor:
+            return "%s %s" % (ratio(value / factor), unit)
+    return "%s nm²" % ratio(value / 1e-18)
 
 
 def _wrapped(text):
@@ -125,8 +126,14 @@ def _length_axis(axes, lengths):
     axes.set_axisbelow(True)
     if len(lengths):
         axes.set_xlim(lengths.min() / 1.15, lengths.max() * 1.15)
-    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: with_unit(value, "m")))
-    axes.xaxis.set_minor_formatter(FuncFormatter(lambda value, _: ""))
+    _label(axes.xaxis, lambda value: with_unit(value, "m", 1))
+
+
+def _label(axis, text_of, steps=(1.0,)):
+    """Labels for a logarithmic axis, at these multiples of the powers of ten."""
+    axis.set_major_locator(LogLocator(subs=steps))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: text_of(value)))
+    axis.set_minor_formatter(FuncFormatter(lambda value, _: ""))
 
 
 def _draw_spectrum(axes, bands):
@@ -144,6 +151,8 @@ def _draw_spectrum(axes, bands):
                   label=label, marker="." if measured else None, markersize=4)
     axes.set_yscale("log")
     _length_axis(axes, waves)
+    highest = np.nanmax(bands["density"]) if np.isfinite(bands["density"]).any() else 1.0
+    axes.set_ylim(bottom=max(axes.get_ylim()[0], MOST_DECADES * highest))
     axes.set_xlabel("wavelength")
     axes.set_ylabel("power spectral density [m⁴]")
     if labelled:
@@ -163,8 +172,8 @@ def _draw_roughness(panels, bands):
         _length_axis(axes, waves)
         if np.isfinite(values).any():
             axes.set_yscale("log")
-            axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _, unit=unit: _tick(value, unit)))
-            axes.yaxis.set_minor_formatter(FuncFormatter(lambda value, _: ""))
+            few = np.nanmax(values) < 30 * np.nanmin(values)
+            _label(axes.yaxis, lambda value, unit=unit: _tick(value, unit), (1.0, 2.0, 5.0) if few else (1.0,))
         else:
             axes.set_yticks([])
             axes.text(0.5, 0.5, "not known", transform=axes.transAxes, ha="center", va="center", color="#777777", fontsize=9)
@@ -172,13 +181,13 @@ def _draw_roughness(panels, bands):
         axes.tick_params(labelsize=8.5)
         if axes is not panels[-1]:
             axes.tick_params(labelbottom=False)
-    panels[-1].set_xlabel("waves shorter than this (height), longer than this", fontsize=9)
+    panels[-1].set_xlabel("wavelength; height of all shorter waves,\nslope and curvature of all longer ones", fontsize=9)
 
 
 def _tick(value, unit):
     if unit == "1/m":
         return "%.3g/µm" % (value * 1e-6)
-    return with_unit(value, unit) if unit else "%.3g" % value
+    return with_unit(value, unit, 1) if unit else "%.3g" % value
 
 
 def _draw_surface(axes, heights, pitch):
@@ -220,10 +229,8 @@ def _draw_force(axes, record):
     axes.set_xlim(reach[0] / 2.5, reach[1] * 2.5)
     axes.grid(color="#e3e3e3", linewidth=0.6)
     axes.set_axisbelow(True)
-    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: _area_text(value)))
-    axes.xaxis.set_minor_formatter(FuncFormatter(lambda value, _: ""))
-    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: with_unit(value, "N")))
-    axes.yaxis.set_minor_formatter(FuncFormatter(lambda value, _: ""))
+    _label(axes.xaxis, _area_text)
+    _label(axes.yaxis, lambda value: with_unit(value, "N", 1))
     axes.set_xlabel("nominal area")
     axes.set_ylabel("pull-off force")
     axes.legend(fontsize=9, framealpha=0.85, edgecolor="none", loc="upper left")

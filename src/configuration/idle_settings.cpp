@@ -19,6 +19,11 @@ bool isNotOfType(const Configuration& configuration) {
   return configuration.counter_surface.type != Type;
 }
 
+bool isWithoutDeviceForce(const Configuration& all) {
+  return !all.device_force.enabled || all.device.contact_area == 0.0;
+}
+
+constexpr const char* kNoDeviceForce = "device_force/enabled is false or device/contact_area is 0";
 constexpr const char* kNotGaussian = "counter_surface/type is not gaussian";
 constexpr const char* kNotSelfAffine = "counter_surface/type is not self_affine";
 constexpr const char* kNoFile = "counter_surface/type is not file";
@@ -48,6 +53,10 @@ constexpr Idle kIdle[] = {
      "output/spatial_roughness is false"},
     {"device/contacts", [](const Configuration& all) { return all.device.contact_area == 0.0; },
      "device/contact_area is 0"},
+    {"device_force/realisations", isWithoutDeviceForce, kNoDeviceForce},
+    {"device_force/pitch", isWithoutDeviceForce, kNoDeviceForce},
+    {"device_force/max_cells", isWithoutDeviceForce, kNoDeviceForce},
+    {"device_force/seed", isWithoutDeviceForce, kNoDeviceForce},
     {"device/beam_", [](const Configuration& all) { return !all.device.hasBeam(); }, "device/beam_type is none"},
     {"device/apparent_work_of_adhesion", [](const Configuration& all) { return !all.device.hasBeam(); },
      "device/beam_type is none"},

@@ -37,7 +37,8 @@ PipelineOptions cleaned(PipelineOptions options, const Levelling& levelling, boo
   return options;
 }
 
-CleaningRow rowOf(const std::string& cleaning, const HeightMap& scan, const Configuration& configuration) {
+CleaningRow rowOf(const std::string& cleaning, const HeightMap& scan, const Configuration& configuration,
+                  const std::optional<DeviceScale>& scale) {
   CleaningRow row;
   row.cleaning = cleaning;
   try {
@@ -50,8 +51,10 @@ CleaningRow rowOf(const std::string& cleaning, const HeightMap& scan, const Conf
     row.contact_area = prediction.contact_area;
     row.apparent_work_of_adhesion = apparentWorkOfAdhesion(prediction, predictor.options());
     row.asperity_count = prediction.asperity_count;
-    const Verdict verdict =
-        verdictOf(prediction, configuration.device, configuration.uncertainty, predictor.options(), scan.cellArea());
+    Evidence evidence;
+    if (scale) evidence.device = scale->under(prediction);
+    const Verdict verdict = verdictOf(prediction, configuration.device, configuration.uncertainty, predictor.options(),
+                                      scan.cellArea(), evidence);
     row.margin = verdict.margin;
     row.margin_lower = verdict.margin_lower;
     row.margin_upper = verdict.margin_upper;
@@ -79,18 +82,20 @@ void include(double value, double configured, FactorRange& range) {
 
 }  // namespace
 
-std::vector<CleaningRow> cleaningSpread(const HeightMap& scan, const Configuration& configuration) {
+std::vector<CleaningRow> cleaningSpread(const HeightMap& scan, const Configuration& configuration,
+                                        const std::optional<DeviceScale>& scale) {
   Configuration changed = configuration;
   OutputOptions& output = changed.model.output;
   output.deformed_surfaces = output.contact_map = output.energy_curve = false;
   output.roughness = output.asperities = true;
   changed.check();
-  std::vector<CleaningRow> rows = {rowOf("as configured", scan, changed)};
+  std::vector<CleaningRow> rows = {rowOf("as configured", scan, changed, scale)};
   for (const bool without_spikes : {false, true}) {
     const std::size_t first = rows.size();
     for (const Levelling& levelling : kLevellings) {
       changed.preprocessing = cleaned(configuration.preprocessing, levelling, without_spikes);
-      rows.push_back(rowOf(std::string(levelling.name) + (without_spikes ? ", spikes filled" : ""), scan, changed));
+      rows.push_back(
+          rowOf(std::string(levelling.name) + (without_spikes ? ", spikes filled" : ""), scan, changed, scale));
     }
     CleaningRow& not_levelled = rows[first + kNotLevelled];
     if (rows[first + kPlane].rms_height < kTilted * not_levelled.rms_height) not_levelled.is_reasonable = false;

@@ -8,6 +8,7 @@
 ///     std::cout << cleaningTable(rows);
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -79,7 +80,8 @@ void visitSpreadFields(const CleaningSpread& spread, Visitor&& visit) {
 /// rows at one median and less its plane; each of these as it is and with its spikes filled. The other steps are the
 /// configured ones. Not levelled counts where levelling by the plane takes less than half of the rms height away.
 /// @throw OptionsError if the configuration is out of range
-std::vector<CleaningRow> cleaningSpread(const HeightMap& scan, const Configuration& configuration);
+std::vector<CleaningRow> cleaningSpread(const HeightMap& scan, const Configuration& configuration,
+                                        const std::optional<DeviceScale>& scale = std::nullopt);
 
 CleaningSpread spreadOf(const std::vector<CleaningRow>& rows);
 

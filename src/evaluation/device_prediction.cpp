@@ -16,6 +16,7 @@ Configuration forVerdict(Configuration configuration) {
   output.deformed_surfaces = output.contact_map = output.energy_curve = output.roughness = false;
   output.asperities = true;
   configuration.spatial_roughness.enabled = false;
+  configuration.device_force.enabled = true;  // who asks for it wants it
   configuration.check();
   if (configuration.device.contact_area == 0.0) {
     throw OptionsError(

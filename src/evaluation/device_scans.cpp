@@ -1,10 +1,12 @@
 #include "evaluation/device_scans.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "device/device_evidence.hpp"
 #include "evaluation/frame_load.hpp"
 #include "mems_stiction/errors/errors.hpp"
+#include "mems_stiction/prediction/adhesion_model.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -77,8 +79,24 @@ DeviceForce addDevice(const std::function<DeviceForce()>& find, Evidence& eviden
   }
 }
 
-DeviceScale deviceScale(const DeviceEvidence& device, const Prediction& prediction) {
-  return {device, prediction.pull_off_force, prediction.apparent_work_of_adhesion};
+Evidence evidenceOfScan(const PreparedScan& prepared, const Configuration& configuration,
+                        const std::function<void(double)>& on_progress, DeviceForce* extra) {
+  Evidence evidence;
+  if (!wantsDeviceForce(configuration.device, configuration.device_force)) return evidence;
+  DeviceScans scans(configuration);
+  scans.add("the scan", prepared);
+  DeviceForce force = addDevice([&] { return scans.force(on_progress); }, evidence);
+  if (extra != nullptr) *extra = std::move(force);
+  return evidence;
+}
+
+std::optional<DeviceScale> scaleOfScan(const PreparedScan& prepared, const Configuration& configuration,
+                                       const std::function<void(double)>& on_progress) {
+  const Evidence evidence = evidenceOfScan(prepared, configuration, on_progress);
+  if (!evidence.device) return std::nullopt;
+  const Options options = onFrame(configuration.model, configuration.device, prepared.surfaces);
+  const Prediction frame = AdhesionModel(options).predict(prepared.model_surfaces);
+  return DeviceScale{*evidence.device, frame.pull_off_force, frame.apparent_work_of_adhesion};
 }
 
 }  // namespace mems_stiction

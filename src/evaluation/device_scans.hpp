@@ -9,6 +9,7 @@
 ///     const DeviceForce force = scans.force();
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -52,8 +53,13 @@ class DeviceScans {
 /// @return the force, with nothing in it but a warning if it failed
 DeviceForce addDevice(const std::function<DeviceForce()>& find, Evidence& evidence);
 
-/// The device's figures beside those of a frame under the same load, for sweeps and cycles of that frame.
-/// - @p prediction of the frame
-DeviceScale deviceScale(const DeviceEvidence& device, const Prediction& prediction);
+/// What one scan by itself says of its device, if the verdict asks for it; where nothing was found, the reason.
+/// - @p extra gets the force too, unless null
+Evidence evidenceOfScan(const PreparedScan& prepared, const Configuration& configuration,
+                        const std::function<void(double)>& on_progress = {}, DeviceForce* extra = nullptr);
+
+/// The same beside the figures of the scan, for sweeps and cycles of it; nothing if it was not asked for or not found.
+std::optional<DeviceScale> scaleOfScan(const PreparedScan& prepared, const Configuration& configuration,
+                                       const std::function<void(double)>& on_progress = {});
 
 }  // namespace mems_stiction

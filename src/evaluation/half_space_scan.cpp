@@ -26,7 +26,7 @@ HalfSpaceProblem halfSpaceProblem(const PreparedScan& prepared, const Options& o
 }
 
 Verdict halfSpaceVerdict(const SolvedHalfSpace& solved, const PreparedScan& prepared, const Options& options,
-                         const Configuration& configuration) {
+                         const Configuration& configuration, const Evidence& beside) {
   Configuration asked = configuration;
   asked.model = options;
   asked.counter_surface = {};  // the prepared scan has it
@@ -35,7 +35,7 @@ Verdict halfSpaceVerdict(const SolvedHalfSpace& solved, const PreparedScan& prep
   output.asperities = true;
   ScanPredictor predictor(asked);
   const Prediction prediction = predictor.predict(prepared);
-  Evidence evidence;
+  Evidence evidence = beside;
   evidence.half_space = &solved;
   return verdictOf(prediction, asked.device, asked.uncertainty, asked.model, prepared.surfaces.lower.cellArea(),
                    evidence);

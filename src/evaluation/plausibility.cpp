@@ -81,6 +81,7 @@ const std::map<std::string, Usual>& usualValues() {
       {"counter_surface/pose/rotation", {0.0, 2.0 * kPi, degrees}},
       {"counter_surface/pose/tilt_x", {0.0, 0.3, degrees}},
       {"counter_surface/pose/tilt_y", {0.0, 0.3, degrees}},
+      {"device_force/pitch", wavelength},
       {"half_space/range", atomic},
       {"output/hurst_shortest_wavelength", wavelength},
       {"output/hurst_longest_wavelength", wavelength},

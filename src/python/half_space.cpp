@@ -7,6 +7,7 @@
 #include <string>
 
 #include "bindings.hpp"
+#include "evaluation/device_scans.hpp"
 #include "evaluation/frame_load.hpp"
 #include "figures.hpp"
 #include "interruptible.hpp"
@@ -43,7 +44,8 @@ Solved solve(const PreparedScan& prepared, const Configuration& configuration) {
     solved->curve = curveOf(solved->solution);
     solved->contact_map = halfSpaceContactMap(solved->solution, problem, configuration.half_space, prepared.refinement);
     if (configuration.device.isStated()) {
-      solved->verdict = halfSpaceVerdict(solved->solution, prepared, options, configuration);
+      const Evidence beside = evidenceOfScan(prepared, configuration, Cancellation(cancel));
+      solved->verdict = halfSpaceVerdict(solved->solution, prepared, options, configuration, beside);
     }
     return solved;
   });

@@ -78,11 +78,9 @@ Predicted predictedScan(const HeightMap& scan, const PreparedScan& prepared, Pre
     const Options on_frame = onFrame(configuration.model, configuration.device, prepared.surfaces);
     Evidence evidence;
     if (wantsDeviceForce(configuration.device, configuration.device_force)) {
-      DeviceScans scans(configuration);
-      scans.add("the scan", prepared);
-      predicted->extras.device_force = addDevice([&] { return scans.force(on_progress); }, evidence);
-      const std::vector<std::string>& lines = predicted->extras.device_force->warnings;
-      predicted->extras.warnings.insert(predicted->extras.warnings.end(), lines.begin(), lines.end());
+      DeviceForce& force = predicted->extras.device_force.emplace();
+      evidence = evidenceOfScan(prepared, configuration, on_progress, &force);
+      predicted->extras.warnings.insert(predicted->extras.warnings.end(), force.warnings.begin(), force.warnings.end());
     }
     predicted->extras.verdict = verdictOf(predicted->prediction, configuration.device, configuration.uncertainty,
                                           on_frame, scan.cellArea(), evidence);

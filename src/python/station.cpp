@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "bindings.hpp"
+#include "evaluation/device_scans.hpp"
 #include "evaluation/frame_load.hpp"
 #include "interruptible.hpp"
 #include "memory.hpp"
@@ -26,9 +27,10 @@ Sweep sweep(const PreparedScan& prepared, const Configuration& configuration, co
   return interruptible([&](const std::atomic<bool>& cancel) {
     RunControl control;
     control.cancel = &cancel;
+    const auto scale = scaleOfScan(prepared, configuration, Cancellation(cancel));
     return std::make_shared<LoadSweepResult>(
         sweepLoads(onFrame(configuration.model, configuration.device, prepared.surfaces), prepared.model_surfaces,
-                   {voltages, mechanical_loads}, configuration.device, configuration.uncertainty, control));
+                   {voltages, mechanical_loads}, configuration.device, configuration.uncertainty, control, scale));
   });
 }
 
@@ -36,9 +38,10 @@ Cycles cycle(const PreparedScan& prepared, const Configuration& configuration, i
   return interruptible([&](const std::atomic<bool>& cancel) {
     RunControl control;
     control.cancel = &cancel;
+    const auto scale = scaleOfScan(prepared, configuration, Cancellation(cancel));
     return std::make_shared<ContactCyclesResult>(
         cycleContacts(onFrame(configuration.model, configuration.device, prepared.surfaces), prepared.model_surfaces,
-                      count, configuration.device, configuration.uncertainty, control));
+                      count, configuration.device, configuration.uncertainty, control, scale));
   });
 }
 

@@ -34,7 +34,7 @@ cv::Mat heightsOn(const HeightMap& grid, const HeightMap& surface) {
 
 ContactCyclesResult cycleContacts(const Options& options, const SurfacePair& surfaces, int count,
                                   const DeviceOptions& device, const UncertaintyOptions& uncertainty,
-                                  const RunControl& control) {
+                                  const RunControl& control, const std::optional<DeviceScale>& scale) {
   if (count < 1) {
     throw OptionsError({"count: " + std::to_string(count) + " is not allowed, must be an integer >= 1"});
   }
@@ -49,7 +49,9 @@ ContactCyclesResult cycleContacts(const Options& options, const SurfacePair& sur
     const SurfacePair worn = wear.on(surfaces);
     const Prediction prediction = model.predict(worn);
     requireDeformedSurfaces(prediction);
-    const Verdict verdict = verdictOf(prediction, device, uncertainty, options, grid.cellArea());
+    Evidence evidence;
+    if (scale) evidence.device = scale->under(prediction);
+    const Verdict verdict = verdictOf(prediction, device, uncertainty, options, grid.cellArea(), evidence);
 
     ContactCycle row;
     row.cycle = cycle;

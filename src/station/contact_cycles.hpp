@@ -11,6 +11,7 @@
 ///
 ///     const ContactCyclesResult result = cycleContacts(options, scan, 100, device, uncertainty, RunControl());
 
+#include <optional>
 #include <vector>
 
 #include "mems_stiction/surface/surface_pair.hpp"
@@ -51,6 +52,6 @@ struct ContactCyclesResult {
 /// @throw OptionsError for a count or options out of range, before any work; SurfaceError as AdhesionModel.
 ContactCyclesResult cycleContacts(const Options& options, const SurfacePair& surfaces, int count,
                                   const DeviceOptions& device, const UncertaintyOptions& uncertainty,
-                                  const RunControl& control);
+                                  const RunControl& control, const std::optional<DeviceScale>& scale = std::nullopt);
 
 }  // namespace mems_stiction

@@ -41,10 +41,11 @@ double holdingField(const DeviceOptions& device, const InterfaceOptions& interfa
 class Loop {
  public:
   Loop(const Options& options, const SurfacePair& surfaces, const DeviceOptions& device,
-       const UncertaintyOptions& uncertainty)
+       const UncertaintyOptions& uncertainty, const std::optional<DeviceScale>& scale)
       : options_(options),
         device_(device),
         uncertainty_(uncertainty),
+        scale_(scale),
         contact_(options, surfaces),
         cell_area_(surfaces.lower.cellArea()) {}
 
@@ -71,7 +72,9 @@ class Loop {
   void fill(const RemainingState& state, LoadSweepRow& row) {
     const Prediction& contact = contact_.contact();
     if (state.is_searched) {
-      verdict_ = verdictOf(contact, device_, uncertainty_, options_, cell_area_);
+      Evidence evidence;
+      if (scale_) evidence.device = scale_->under(contact);
+      verdict_ = verdictOf(contact, device_, uncertainty_, options_, cell_area_, evidence);
       pull_off_interval_ = pullOffInterval(contact, options_, uncertainty_);
     }
     row.status = contact.status;
@@ -100,6 +103,7 @@ class Loop {
   const Options& options_;
   const DeviceOptions& device_;
   const UncertaintyOptions& uncertainty_;
+  const std::optional<DeviceScale>& scale_;
   RemainingContact contact_;
   double cell_area_;
   Verdict verdict_;
@@ -149,7 +153,7 @@ std::vector<std::string> LoadSweepRequest::validate(const Options& options) cons
 
 LoadSweepResult sweepLoads(const Options& options, const SurfacePair& surfaces, const LoadSweepRequest& request,
                            const DeviceOptions& device, const UncertaintyOptions& uncertainty,
-                           const RunControl& control) {
+                           const RunControl& control, const std::optional<DeviceScale>& scale) {
   std::vector<std::string> violations = request.validate(options);
   if (!violations.empty()) throw OptionsError(std::move(violations));
 
@@ -159,7 +163,7 @@ LoadSweepResult sweepLoads(const Options& options, const SurfacePair& surfaces, 
   LoadSweepResult result;
   result.pull_in_voltage = closingVoltage(device, options.interface);
   for (const double mechanical_load : request.mechanical_loads) {
-    Loop loop(options, surfaces, device, uncertainty);
+    Loop loop(options, surfaces, device, uncertainty, scale);
     for (int step = 0; step < step_count; ++step) {
       if (control.isCancelled()) return result;
       const auto up_count = static_cast<int>(voltages.size());

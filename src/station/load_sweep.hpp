@@ -14,7 +14,7 @@
 /// row upward; the pull-off force grows too, but for F_w, which moves with the gaps just beyond the contacts' edges.
 /// What holds a closed device against its spring:
 ///
-///     pull-off force + F_m, scaled to the contact area, + field: on device/electrode_area across the closed electrodes
+///     pull-off force of the device + F_m per area of the frame on the contact area + field: on device/electrode_area across the closed electrodes
 ///     (electrode gap - travel + mean gap), or, when no electrode is stated, the scan's F_e scaled to the contact area
 ///
 /// A row upward does not ask whether the voltage alone would close the device: a shock or a test load may. The pull-in
@@ -27,6 +27,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -93,9 +94,10 @@ struct LoadSweepResult {
   bool is_complete = false;                      ///< false: cancelled
 };
 
+/// - @p scale the device's own figures beside those of this frame; without it the verdicts have the frame's
 /// @throw OptionsError for a request or options out of range, before any work; SurfaceError as AdhesionModel.
 LoadSweepResult sweepLoads(const Options& options, const SurfacePair& surfaces, const LoadSweepRequest& request,
                            const DeviceOptions& device, const UncertaintyOptions& uncertainty,
-                           const RunControl& control);
+                           const RunControl& control, const std::optional<DeviceScale>& scale = std::nullopt);
 
 }  // namespace mems_stiction

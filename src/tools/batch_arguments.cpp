@@ -35,6 +35,10 @@ void describe(CLI::App& app, BatchArguments& arguments) {
   app.add_flag("--half-space", arguments.half_space,
                "columns half_space_... too: each scan as one elastic half-space, seconds to minutes each, "
                "doc/half_space.md; half_space_reason says what has no solution, and why");
+  app.add_flag(
+      "--device-force", arguments.device_force,
+      "each row's verdict rests on the device's own force by that scan alone, seconds to minutes each; without it "
+      "a scan stands for contacts of its size alone. --parts finds the force by all scans of a part in any case");
   app.add_option("-s,--shard", arguments.shard, "part I of N parts of about the same number of scans")
       ->type_name("I/N")
       ->capture_default_str();

@@ -25,6 +25,7 @@ struct BatchArguments {
   std::string input_list;
   unsigned workers = 1;
   bool half_space = false;
+  bool device_force = false;
   bool merge = false;
   bool no_cache = false;
   bool clear_cache = false;

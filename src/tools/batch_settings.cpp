@@ -24,6 +24,7 @@ std::string settingsText(std::size_t total, const std::vector<std::string>& inpu
   emitter << YAML::Key << "opencv_version" << YAML::Value << YAML::DoubleQuoted << CV_VERSION;
   emitter << YAML::Key << "total" << YAML::Value << total;
   emitter << YAML::Key << "topic" << YAML::Value << YAML::DoubleQuoted << arguments.topic;
+  if (arguments.device_force) emitter << YAML::Key << "device_force" << YAML::Value << true;
   if (arguments.ignore_mask) emitter << YAML::Key << "ignore_mask" << YAML::Value << true;
   emitter << YAML::Key << "inputs" << YAML::Value << YAML::BeginSeq;
   for (const std::string& input : inputs) emitter << YAML::DoubleQuoted << input;
@@ -53,6 +54,18 @@ void checkSettings(const std::string& path, const std::string& settings) {
     throw FileError(path + ": exists, and " + settings_path + ", which says what it was made with, is missing");
   }
   writeFile(settings_path, settings);
+}
+
+Configuration madeOf(const std::string& path, const std::string& settings, BatchArguments& arguments) {
+  try {
+    const YAML::Node tree = YAML::Load(settings);
+    arguments.inputs = tree["inputs"].as<std::vector<std::string>>();
+    arguments.topic = tree["topic"].as<std::string>();
+    arguments.ignore_mask = tree["ignore_mask"].as<bool>(false);
+    return configurationFromYaml(tree["configuration"]);
+  } catch (const YAML::Exception& error) {
+    throw FileError(settingsPathOf(path) + ": damaged, it does not say what the rows were made of: " + error.what());
+  }
 }
 
 std::size_t totalOf(const std::string& path, const std::string& settings) {

@@ -20,6 +20,12 @@ std::string settingsText(std::size_t total, const std::vector<std::string>& inpu
 /// @throw FileError if the file of rows has those of other settings
 void checkSettings(const std::string& path, const std::string& settings);
 
+/// The configuration that the rows were made with, by settingsText(), which was read from the file beside the rows in
+/// `path`.
+/// - @p arguments get inputs, topic and ignore_mask
+/// @throw FileError naming that file if it does not say, OptionsError
+Configuration madeOf(const std::string& path, const std::string& settings, BatchArguments& arguments);
+
 /// The total of settingsText(), which was read from the file beside the rows in `path`.
 /// @throw FileError naming that file if it does not say
 std::size_t totalOf(const std::string& path, const std::string& settings);

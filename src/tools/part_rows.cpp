@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <limits>
+#include <map>
 #include <type_traits>
 #include <utility>
 
@@ -39,6 +40,12 @@ class Row {
 
  private:
   RowTexts texts_;
+};
+
+/// In the order of the rows.
+struct ScansOfPart {
+  std::vector<std::size_t> numbers;
+  std::vector<ScanStatement> statements;
 };
 
 Sticks sticksOf(const std::string& text) {
@@ -87,20 +94,28 @@ RowFields fieldsOf(std::size_t number, const PartKey& key, const PooledVerdict& 
 
 }  // namespace
 
-std::size_t writeParts(const std::string& rows_path, const std::string& path) {
+std::size_t writeParts(const std::string& rows_path, const std::string& path,
+                       const std::function<PartDevice(const std::vector<std::size_t>&)>& device) {
   const RowFormat format = rowFormatOf(path, "--parts");
   PartScans parts(kNoLimit, kNoLimit);
+  std::map<PartKey, ScansOfPart> scans_of;
   for (RowTexts& texts : rowTextsOf(rows_path)) {
     const Row row(std::move(texts));
     if (!row.text("reason").empty()) continue;
-    parts.add({row.text("part_id"), row.text("serial_id"), row.text("settings_hash")}, row.count("number"),
-              statementOf(row));
+    const PartKey key{row.text("part_id"), row.text("serial_id"), row.text("settings_hash")};
+    if (!parts.add(key, row.count("number"), statementOf(row))) continue;
+    scans_of[key].numbers.push_back(row.count("number"));
+    scans_of[key].statements.push_back(statementOf(row));
   }
   std::vector<std::string> columns;
   for (const auto& field : fieldsOf(0, {}, {})) columns.push_back(field.first);
   std::string text = headingText(format, columns);
   std::size_t count = 0;
-  for (const auto& [key, verdict] : parts.verdicts()) {
+  for (auto& [key, by_scans] : parts.verdicts()) {
+    const ScansOfPart& scans = scans_of.at(key);
+    const PartDevice found = device(scans.numbers);
+    PooledVerdict verdict = found.verdict ? pooledVerdictOf(scans.statements, *found.verdict) : by_scans;
+    verdict.warnings.insert(verdict.warnings.end(), found.warnings.begin(), found.warnings.end());
     text += rowText(fieldsOf(++count, key, verdict), format, columns);
   }
   writeFile(path, text);

@@ -133,6 +133,7 @@ Configuration configurationOf(const Arguments& arguments) {
   if (arguments.realisations) configuration.device_force.realisations = *arguments.realisations;
   if (arguments.max_cells) configuration.device_force.max_cells = *arguments.max_cells;
   if (!arguments.counter_surface.empty()) configuration.counter_surface.type = CounterSurfaceType::kFlat;
+  configuration.device_force.enabled = true;
   configuration.check();
   if (configuration.device.contact_area == 0.0) {
     throw OptionsError(

@@ -232,21 +232,23 @@ void predictScan(const std::string& path, const Arguments& arguments, const Scan
       extras.convergence =
           whileSaying(path + ": predicting at coarser pixels", [&] { return predictor.convergence(prepared); });
     }
+    std::optional<DeviceScale> scale;
+    if (wantsDeviceForce(configuration.device, configuration.device_force)) {
+      DeviceForce& force = extras.device_force.emplace();
+      evidence =
+          withProgress(path, [&](const auto& tell) { return evidenceOfScan(prepared, configuration, tell, &force); });
+      warnAll(force.warnings);
+      extras.warnings.insert(extras.warnings.end(), force.warnings.begin(), force.warnings.end());
+      if (evidence.device) {
+        scale = DeviceScale{*evidence.device, prediction.pull_off_force, prediction.apparent_work_of_adhesion};
+      }
+    }
     if (arguments.cleanings) {
       extras.cleanings = whileSaying(path + ": predicting under each cleaning",
-                                     [&] { return cleaningSpread(scan.surface, configuration); });
+                                     [&] { return cleaningSpread(scan.surface, configuration, scale); });
     }
     if (arguments.half_space) {
       extras.half_space = solveWithProgress(half_space, halfSpaceProblem(prepared, options));
-    }
-    if (wantsDeviceForce(configuration.device, configuration.device_force)) {
-      DeviceScans scans(configuration);
-      scans.add(path, prepared);
-      extras.device_force =
-          addDevice([&] { return withProgress(path, [&](const auto& tell) { return scans.force(tell); }); }, evidence);
-      warnAll(extras.device_force->warnings);
-      const std::vector<std::string>& lines = extras.device_force->warnings;
-      extras.warnings.insert(extras.warnings.end(), lines.begin(), lines.end());
     }
   } catch (const SurfaceError& error) {
     throw SurfaceError(path + ": " + error.what());

@@ -1,5 +1,6 @@
 #include "row_maker.hpp"
 
+#include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <iomanip>
@@ -7,6 +8,7 @@
 #include <utility>
 
 #include "errors/error_text.hpp"
+#include "evaluation/device_scans.hpp"
 #include "evaluation/frame_load.hpp"
 #include "evaluation/plausibility.hpp"
 #include "half_space_run.hpp"
@@ -15,6 +17,15 @@
 
 namespace mems_stiction {
 namespace {
+
+constexpr const char* kRowsOfScans =
+    "rows are of scans; --parts finds it for each part and --device-force for each scan";
+
+std::string deviceText(double share) {
+  char text[64];
+  std::snprintf(text, sizeof text, "the force of the device, %.0f %%", 100.0 * share);
+  return text;
+}
 
 void append(const RowFields& more, RowFields& fields) { fields.insert(fields.end(), more.begin(), more.end()); }
 
@@ -71,6 +82,12 @@ BatchRow RowMaker::row(const BatchScan& scan, const std::function<void(const std
     half_space = solve(tell);
     row.is_solved = half_space.reason.empty();
   }
+  beside_ = Evidence();
+  if (arguments_.device_force) {
+    beside_ = evidenceOfScan(prepared_, configuration_, [&](double share) { tell(deviceText(share)); });
+  } else {
+    beside_.why_no_device = kRowsOfScans;
+  }
   const std::optional<Verdict> verdict = judge(half_space);
   append(figureFields(surface_, subject.warnings, prediction_, verdict, configuration_.model.formulation,
                       provenanceOf(subject.identity, configuration_)),
@@ -109,7 +126,7 @@ RowMaker::Subject RowMaker::predict(const BatchScan& scan, ScanOrigin& origin, S
 std::optional<Verdict> RowMaker::judge(const HalfSpaceAnswer& half_space) const {
   if (!hasDevice()) return std::nullopt;
   const SolvedHalfSpace unsolved = unsolvedHalfSpace(half_space.reason);
-  Evidence evidence;
+  Evidence evidence = beside_;
   if (arguments_.half_space) evidence.half_space = half_space.solution ? &*half_space.solution : &unsolved;
   return verdictOf(prediction_, configuration_.device, configuration_.uncertainty, configuration_.model,
                    surface_.cellArea(), evidence);

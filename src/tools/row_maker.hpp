@@ -14,6 +14,7 @@
 #include "half_space_row.hpp"
 #include "mems_stiction/evaluation/scan_predictor.hpp"
 #include "mems_stiction/half_space/half_space_solver.hpp"
+#include "mems_stiction/verdict/evidence.hpp"
 #include "row_states.hpp"
 #include "scan_row.hpp"
 #include "scans_ahead.hpp"
@@ -67,6 +68,7 @@ class RowMaker {
   HeightMap surface_;      ///< as it was read
   PreparedScan prepared_;  ///< and what belongs to it, for the full result
   Prediction prediction_;
+  Evidence beside_;  ///< on the device, but for the half-space's
 };
 
 }  // namespace mems_stiction

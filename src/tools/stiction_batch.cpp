@@ -15,10 +15,12 @@
 #include "batch_scans.hpp"
 #include "batch_settings.hpp"
 #include "command_line.hpp"
+#include "device_run.hpp"
 #include "evaluation/plausibility.hpp"
 #include "files/output_file.hpp"
 #include "import/import_cache.hpp"
 #include "mems_stiction/errors/errors.hpp"
+#include "part_devices.hpp"
 #include "part_rows.hpp"
 #include "prediction/contact_solvers.hpp"
 #include "progress_bar.hpp"
@@ -51,9 +53,15 @@ bool isIgnored(const std::string& key, const Options& options) {
 }
 
 /// If they are asked for, by the rows that are there.
-void pool(const BatchArguments& arguments) {
+/// - @p inputs, configuration that the rows were made of and with
+void pool(const BatchArguments& arguments, const std::vector<std::string>& inputs, const Configuration& configuration) {
   if (arguments.parts.empty()) return;
-  const std::size_t count = writeParts(arguments.output, arguments.parts);
+  PartDevices devices(arguments, inputs, configuration);
+  const auto device = [&](const std::vector<std::size_t>& numbers) {
+    return withProgress("a part of " + std::to_string(numbers.size()) + " scans",
+                        [&](const auto& on_progress) { return devices.device(numbers, on_progress); });
+  };
+  const std::size_t count = writeParts(arguments.output, arguments.parts, device);
   std::cout << oneLine(arguments.parts) << ": " << count << " parts\n";
 }
 
@@ -165,7 +173,7 @@ int run(const BatchArguments& arguments) {
     complain("stiction_batch",
              (failed_count > 1 ? "the first of " + std::to_string(failed_count) + ": " : "") + first_reason);
   }
-  pool(arguments);
+  pool(arguments, scans.inputs(), stated);
   return failed_count > 0 && failed_count == wanted_numbers.size() ? kNonePredicted : 0;
 }
 
@@ -192,7 +200,11 @@ int merge(const BatchArguments& arguments) {
   mergeRows(shards, arguments.output, total);
   writeFile(settingsPathOf(arguments.output), settings);
   std::cout << oneLine(arguments.output) << ": " << total << " rows of " << shards.size() << " shards\n";
-  pool(arguments);
+  if (!arguments.parts.empty()) {
+    BatchArguments of_rows = arguments;
+    const Configuration configuration = madeOf(shards.front(), settings, of_rows);
+    pool(of_rows, of_rows.inputs, configuration);
+  }
   return 0;
 }
 

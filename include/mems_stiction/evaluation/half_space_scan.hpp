@@ -26,8 +26,9 @@ HalfSpaceProblem halfSpaceProblem(const PreparedScan& prepared, const Options& o
 /// On the device of the configuration, by the half-space if it can judge. Contacts and exponents, which its interval and
 /// the doubts about the scan need, are those of a prediction that is made here.
 /// - @p options the model's, with the loads that were solved with
+/// - @p beside what else is known of the device
 Verdict halfSpaceVerdict(const SolvedHalfSpace& solved, const PreparedScan& prepared, const Options& options,
-                         const Configuration& configuration);
+                         const Configuration& configuration, const Evidence& beside = {});
 
 /// Where the surfaces repel each other at rest, with the values of the model's contact map (mechanics/regime.hpp): apart,
 /// elastic, or plastic where the pressure is the hardness of the softer body. CV_8UC1 of the scan's own size: of a

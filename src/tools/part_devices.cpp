@@ -1,0 +1,75 @@
+#include "part_devices.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <utility>
+
+#include "device/device_evidence.hpp"
+#include "errors/error_text.hpp"
+#include "evaluation/device_scans.hpp"
+#include "evaluation/frame_load.hpp"
+#include "mems_stiction/errors/errors.hpp"
+#include "mems_stiction/import/scan_file.hpp"
+
+namespace mems_stiction {
+namespace {
+
+/// What the verdict needs of the prediction of a scan.
+Configuration forVerdict(Configuration configuration) {
+  OutputOptions& output = configuration.model.output;
+  output = OutputOptions();
+  output.deformed_surfaces = output.contact_map = output.energy_curve = output.roughness = false;
+  configuration.spatial_roughness.enabled = false;
+  return configuration;
+}
+
+}  // namespace
+
+PartDevices::PartDevices(const BatchArguments& arguments, std::vector<std::string> inputs,
+                         const Configuration& configuration)
+    : arguments_(arguments), inputs_(std::move(inputs)), configuration_(forVerdict(configuration)) {}
+
+HeightMap PartDevices::surface(std::size_t number) {
+  const BatchScan scan = scans_->read(number);
+  if (!scan.reason.empty()) throw SurfaceError(scan.input + ": " + scan.reason);
+  predictor_->preparer().setMeasuredCounterSurface(scan.of_bag.counter_surface);
+  if (scan.place > 0) return scan.of_bag.surface;
+  return openScanFile(scan.input, configuration_.scan, fileOptions(arguments_)).surface;
+}
+
+PartDevice PartDevices::device(const std::vector<std::size_t>& numbers,
+                               const std::function<void(double)>& on_progress) {
+  PartDevice part;
+  const DeviceOptions& device = configuration_.device;
+  if (numbers.empty() || !wantsDeviceForce(device, configuration_.device_force)) return part;
+  try {
+    if (!scans_) {
+      scans_.emplace(arguments_, inputs_, configuration_);
+      predictor_.emplace(configuration_);
+    }
+    DeviceScans scans(configuration_);
+    std::vector<PreparedScan> prepared;
+    for (std::size_t i = 0; i < std::min(numbers.size(), kMostScansOfDevice); ++i) {
+      const HeightMap scan = surface(numbers[i]);
+      prepared.push_back(predictor_->preparer().prepare(scan));
+      scans.add("the scan of row " + std::to_string(numbers[i]), prepared.back());
+    }
+    if (numbers.size() > kMostScansOfDevice) {
+      part.warnings.push_back("the device's force is by the first " + std::to_string(kMostScansOfDevice) + " of " +
+                              std::to_string(numbers.size()) + " scans");
+    }
+    Evidence evidence;
+    evidence.device = deviceEvidence(scans.force(on_progress));
+    const PreparedScan& finest = prepared[scans.finest()];
+    const Prediction prediction = predictor_->predict(finest);
+    part.verdict =
+        verdictOf(prediction, device, configuration_.uncertainty,
+                  onFrame(configuration_.model, device, finest.surfaces), finest.surfaces.lower.cellArea(), evidence);
+    part.warnings.insert(part.warnings.end(), evidence.device->warnings.begin(), evidence.device->warnings.end());
+  } catch (const std::exception& error) {
+    part.warnings.push_back("the device's own force has not been found: " + reasonOf(error));
+  }
+  return part;
+}
+
+}  // namespace mems_stiction
