@@ -12,6 +12,8 @@ constexpr double kStepsPerOctave = 12.0;
 /// Of the density: what stands for none where the table goes on flat.
 constexpr double kNone = 1e-12;
 constexpr double kSteepest = 4.0;
+/// Sides that are so near to each other are the same.
+constexpr double kAsWide = 0.99;
 
 /// The spectrum of what is left to chance, as a table.
 /// - @p pass of a wave number: share of the density
@@ -187,9 +189,11 @@ void MadeSurface::addOwnWaves(std::int64_t row, std::int64_t col, cv::Mat& tile)
 HeightMap madeScan(const SurfaceLaw& law, const SpectrumContinuation& continuation, const HeightMap& like,
                    double longest_wave, std::uint64_t seed) {
   const MadeSize size{like.rows(), like.cols(), like.pitchX(), like.pitchY()};
-  SurfaceLaw without_own = law;
-  without_own.own.reset();
-  MadeSurface surface(without_own, continuation, size, std::max({longest_wave, size.sideX(), size.sideY()}), seed);
+  const bool is_widest = law.own && size.sideX() >= kAsWide * law.own->heights.cols * law.own->pitch_x &&
+                         size.sideY() >= kAsWide * law.own->heights.rows * law.own->pitch_y;
+  SurfaceLaw its_law = law;
+  if (!is_widest) its_law.own.reset();
+  MadeSurface surface(its_law, continuation, size, std::max({longest_wave, size.sideX(), size.sideY()}), seed);
   cv::Mat heights(like.rows(), like.cols(), CV_32FC1);
   surface.heights(0, 0, heights);
   return {heights, like.pitchX(), like.pitchY()};

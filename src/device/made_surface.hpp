@@ -65,7 +65,7 @@ class MadeSurface {
   cv::Mat spare_;
 };
 
-/// A scan of a surface of this law, with other pixels and size: not of one made surface, but as random.
+/// A scan of a surface of this law, with the pixels and size of another scan. One as large as the widest has its long waves.
 /// - @p longest_wave that the surface has, if it is longer than the scan [m]
 HeightMap madeScan(const SurfaceLaw& law, const SpectrumContinuation& continuation, const HeightMap& like,
                    double longest_wave, std::uint64_t seed);

@@ -1,0 +1,201 @@
+#include "mems_stiction/device/device_force.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include <opencv2/imgproc.hpp>
+
+#include "mems_stiction/errors/errors.hpp"
+#include "mems_stiction/prediction/adhesion_model.hpp"
+#include "roughness/half_spectrum.hpp"
+#include "surface/random_field.hpp"
+
+namespace mems_stiction {
+namespace {
+
+constexpr double kPitch = 10e-9;
+constexpr int kSide = 1024;
+
+cv::Mat surfaceOf(int side, double length, double rms, int seed) {
+  cv::Mat field = filteredNoise(whiteNoise(side, side, seed), [&](int row, int col) {
+    const double q = std::hypot(waveNumber(col, side, kPitch), waveNumber(row, side, kPitch));
+    return std::exp(-q * q * length * length / 8.0);
+  });
+  cv::Scalar mean;
+  cv::Scalar deviation;
+  cv::meanStdDev(field, mean, deviation);
+  return field * (rms / deviation[0]);
+}
+
+NamedScan part(const std::string& name, const cv::Mat& heights, int row, int col, int side) {
+  return {name, HeightMap(heights(cv::Rect(col, row, side, side)).clone(), kPitch, kPitch)};
+}
+
+DeviceForceOptions fewRealisations() {
+  DeviceForceOptions options;
+  options.realisations = 3;
+  return options;
+}
+
+double areaOfPixels(double side) { return side * side * kPitch * kPitch; }
+
+class DeviceForceTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    large_ = surfaceOf(kSide, 60e-9, 5e-9, 1);
+    surfaces_.scans = {part("first", large_, 0, 0, 256), part("second", large_, 600, 500, 256)};
+  }
+
+  DeviceForce force(double area, int contacts = 1) const {
+    return deviceForce(surfaces_, {area, contacts}, model_, uncertainty_, options_);
+  }
+
+  cv::Mat large_;
+  DeviceSurfaces surfaces_;
+  Options model_;
+  UncertaintyOptions uncertainty_;
+  DeviceForceOptions options_ = fewRealisations();
+};
+
+TEST_F(DeviceForceTest, TheForceOfALargeSurfaceFromPartsOfIt) {
+  const double truth = AdhesionModel(model_).predict(HeightMap(large_, kPitch, kPitch)).pull_off_force;
+  const DeviceForce found = force(areaOfPixels(kSide));
+  EXPECT_GT(found.pull_off_force, truth / 2.0);
+  EXPECT_LT(found.pull_off_force, truth * 2.0);
+  EXPECT_LT(found.pull_off_force_lower, truth);
+  EXPECT_GT(found.pull_off_force_upper, truth);
+  EXPECT_GT(found.linear_pull_off_force, 3.0 * truth);
+  EXPECT_EQ(found.realisations.size(), 3U);
+  EXPECT_TRUE(found.warnings.empty()) << found.warnings.front();
+}
+
+TEST_F(DeviceForceTest, TheSameSeedGivesTheSameFigures) {
+  const DeviceForce one = force(areaOfPixels(400));
+  const DeviceForce again = force(areaOfPixels(400));
+  EXPECT_EQ(one.pull_off_force, again.pull_off_force);
+  EXPECT_EQ(one.pull_off_force_upper, again.pull_off_force_upper);
+  options_.seed = 2;
+  EXPECT_NE(force(areaOfPixels(400)).pull_off_force, one.pull_off_force);
+}
+
+TEST_F(DeviceForceTest, LongWavesThatAreMissingAreNamedAndWidenTheInterval) {
+  const cv::Mat steep = filteredNoise(whiteNoise(kSide, kSide, 2), [](int row, int col) {
+    const double q = std::hypot(waveNumber(col, kSide, kPitch), waveNumber(row, kSide, kPitch));
+    return row == 0 && col == 0 ? 0.0 : std::pow(q, -1.8);
+  });
+  cv::Scalar mean;
+  cv::Scalar deviation;
+  cv::meanStdDev(steep, mean, deviation);
+  const cv::Mat heights = steep * (5e-9 / deviation[0]);
+  surfaces_.scans = {part("first", heights, 0, 0, 256), part("second", heights, 600, 500, 256)};
+  const DeviceForce without = force(areaOfPixels(kSide));
+  ASSERT_EQ(without.warnings.size(), 1U);
+  EXPECT_NE(without.warnings[0].find("measure a field of at least 10 um"), std::string::npos) << without.warnings[0];
+  cv::Mat coarse;
+  cv::resize(heights, coarse, cv::Size(kSide / 8, kSide / 8), 0.0, 0.0, cv::INTER_AREA);
+  surfaces_.scans.push_back({"wide", HeightMap(coarse, 8 * kPitch, 8 * kPitch)});
+  const DeviceForce with = force(areaOfPixels(kSide));
+  EXPECT_TRUE(with.warnings.empty()) << with.warnings.front();
+  EXPECT_LT(with.force_deviation, without.force_deviation);
+}
+
+TEST_F(DeviceForceTest, ScansThatContradictEachOtherAreNamed) {
+  surfaces_.scans.push_back(
+      {"other", HeightMap(3.0 * part("", large_, 300, 300, 256).surface.heights(), kPitch, kPitch)});
+  const DeviceForce found = force(areaOfPixels(300));
+  ASSERT_FALSE(found.warnings.empty());
+  EXPECT_NE(found.warnings.back().find("other contradicts the other scans"), std::string::npos)
+      << found.warnings.back();
+}
+
+/// Contacts smaller than the scans are parts of them: no surface is made, and their force is that of such parts.
+TEST_F(DeviceForceTest, SmallContactsArePartsOfTheScans) {
+  surfaces_.scans = {{"flat but for one summit", HeightMap(cv::Mat::zeros(128, 128, CV_64FC1), kPitch, kPitch)}};
+  cv::Mat heights = cv::Mat::zeros(128, 128, CV_64FC1);
+  for (int row = 0; row < 128; ++row) {
+    for (int col = 0; col < 128; ++col) {
+      const double square = (std::pow((row % 32) - 15.5, 2) + std::pow((col % 32) - 15.5, 2)) * kPitch * kPitch;
+      heights.at<double>(row, col) = -square / (2.0 * 200e-9);
+    }
+  }
+  surfaces_.scans = {{"spheres", HeightMap(heights, kPitch, kPitch)}};
+  // each part of 32 pixels holds one sphere's summit or its parts; four of them share a height
+  const DeviceForce found = force(4.0 * areaOfPixels(32), 4);
+  const double sphere =
+      AdhesionModel(model_).predict(HeightMap(heights(cv::Rect(0, 0, 32, 32)).clone(), kPitch, kPitch)).pull_off_force;
+  EXPECT_GT(found.pull_off_force, 1.5 * sphere);
+  EXPECT_LT(found.pull_off_force, 4.5 * sphere);
+}
+
+TEST_F(DeviceForceTest, ContactsShareOneHeight) {
+  const double area = areaOfPixels(kSide);
+  const DeviceForce one = force(area);
+  const DeviceForce many = force(area, 16);
+  // the area decides, not into how many pieces of many correlation lengths it is cut
+  EXPECT_NEAR(std::log(many.pull_off_force / one.pull_off_force), 0.0, 0.8);
+}
+
+TEST_F(DeviceForceTest, LargerAreasThanAreMadeGoOnAsTheForceHasGrown) {
+  options_.max_cells = 256.0 * 256.0;
+  const DeviceForce found = force(areaOfPixels(kSide));
+  const double truth = AdhesionModel(model_).predict(HeightMap(large_, kPitch, kPitch)).pull_off_force;
+  EXPECT_GT(found.pull_off_force, truth / 3.0);
+  EXPECT_LT(found.pull_off_force, truth * 3.0);
+  ASSERT_FALSE(found.warnings.empty());
+  EXPECT_NE(found.warnings.back().find("16 times the area that device_force/max_cells makes"), std::string::npos)
+      << found.warnings.back();
+}
+
+TEST_F(DeviceForceTest, SurfacesThatConformGoWithArea) {
+  for (NamedScan& scan : surfaces_.scans) scan.surface = HeightMap(0.02 * scan.surface.heights(), kPitch, kPitch);
+  const DeviceForce found = force(areaOfPixels(kSide));
+  EXPECT_TRUE(found.is_conforming);
+  EXPECT_NEAR(found.pull_off_force / found.linear_pull_off_force, 1.0, 0.05);
+  EXPECT_NE(found.warnings.back().find("bond all over"), std::string::npos);
+}
+
+/// A load presses the device as it presses the scan, by area.
+TEST_F(DeviceForceTest, ALoadOnTheScanIsAPressureOnTheDevice) {
+  const DeviceForce unloaded = force(areaOfPixels(600));
+  model_.load.mechanical_load = 1e8 * areaOfPixels(256);
+  const DeviceForce loaded = force(areaOfPixels(600));
+  EXPECT_GT(loaded.pull_off_force, unloaded.pull_off_force);
+  EXPECT_LT(loaded.separation_at_rest, unloaded.separation_at_rest);
+}
+
+TEST_F(DeviceForceTest, TwoRoughBodiesHoldLessThanOne) {
+  const DeviceForce one = force(areaOfPixels(600));
+  surfaces_.counter_surface = {part("counter", surfaceOf(512, 60e-9, 5e-9, 8), 0, 0, 256)};
+  const DeviceForce two = force(areaOfPixels(600));
+  EXPECT_GT(two.separation_at_rest, 1.2 * one.separation_at_rest);
+}
+
+TEST_F(DeviceForceTest, ProgressEndsItWhereItThrows) {
+  double last = -1.0;
+  EXPECT_THROW(deviceForce(surfaces_, {areaOfPixels(400), 1}, model_, uncertainty_, options_,
+                           [&](double share) {
+                             EXPECT_GE(share, last);
+                             last = share;
+                             if (share > 0.3) throw SurfaceError("enough");
+                           }),
+               SurfaceError);
+  EXPECT_LT(last, 0.6);
+}
+
+TEST_F(DeviceForceTest, RefusesWhatMakesNoSense) {
+  EXPECT_THROW(force(0.0), OptionsError);
+  EXPECT_THROW(force(-1e-9), OptionsError);
+  EXPECT_THROW(force(std::numeric_limits<double>::quiet_NaN()), OptionsError);
+  EXPECT_THROW(force(1e-9, 0), OptionsError);
+  options_.realisations = 2;
+  EXPECT_THROW(force(1e-9), OptionsError);
+  options_.realisations = 3;
+  surfaces_.scans.clear();
+  EXPECT_THROW(force(1e-9), OptionsError);
+  surfaces_.scans = {{"flat", HeightMap(cv::Mat::zeros(64, 64, CV_64FC1), kPitch, kPitch)}};
+  EXPECT_NO_THROW(force(areaOfPixels(512)));  // it conforms
+}
+
+}  // namespace
+}  // namespace mems_stiction
