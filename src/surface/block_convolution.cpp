@@ -16,7 +16,11 @@ constexpr std::size_t kLanes = FloatLanes::kCount;
 constexpr int kMargins[] = {32, 48, 64, 96, 128, 160};
 /// Share of the power that may be cut off where a larger margin would keep it: 3e-4 of the rms height.
 constexpr double kNeglected = 1e-7;
+constexpr int kSmallestLength = 64;
 constexpr int kLargestLength = 8192;
+constexpr double kUsualTransform = 1048576.0;
+/// Of a transform that must be block.
+constexpr double kLeastShare = 0.125;
 constexpr double kLargestTransform = 4194304.0;  // cells: 32 MB, and 64 MB while the kernel is made
 
 int marginOf(int round_margin, double reach) {
@@ -24,16 +28,23 @@ int marginOf(int round_margin, double reach) {
   return step * static_cast<int>(std::ceil(round_margin * reach / step));
 }
 
-/// The transform in which a cell that is kept costs least; {0, 0} where none is large enough.
-BlockSize cheapestTransform(const BlockSize& margin, double usual_cells) {
+/// Least for the transform that is wanted; infinite for one that is too small.
+double costOf(const BlockSize& size, const BlockSize& margin, BlockChoice choice) {
+  const double cells = static_cast<double>(size.rows) * size.cols;
+  const double block = static_cast<double>(size.rows - 2 * margin.rows) * (size.cols - 2 * margin.cols);
+  const bool is_small = size.rows <= 2 * margin.rows || size.cols <= 2 * margin.cols || block < kLeastShare * cells;
+  if (is_small || cells > kLargestTransform) return std::numeric_limits<double>::infinity();
+  // large transforms leave the processor's memory
+  return choice == BlockChoice::kSmall ? cells : cells / block * (1.0 + 0.5 * cells / kUsualTransform);
+}
+
+/// {0, 0} where none is large enough.
+BlockSize cheapestTransform(const BlockSize& margin, BlockChoice choice) {
   BlockSize cheapest;
   double least = std::numeric_limits<double>::infinity();
-  for (int rows = 64; rows <= kLargestLength; rows *= 2) {
-    for (int cols = 64; cols <= kLargestLength; cols *= 2) {
-      const double cells = static_cast<double>(rows) * cols;
-      if (rows < 2 * margin.rows + rows / 8 || cols < 2 * margin.cols + cols / 8 || cells > kLargestTransform) continue;
-      const double kept = static_cast<double>(rows - 2 * margin.rows) * (cols - 2 * margin.cols);
-      const double cost = cells / kept * (1.0 + 0.5 * cells / usual_cells);
+  for (int rows = kSmallestLength; rows <= kLargestLength; rows *= 2) {
+    for (int cols = kSmallestLength; cols <= kLargestLength; cols *= 2) {
+      const double cost = costOf({rows, cols}, margin, choice);
       if (cost < least) {
         least = cost;
         cheapest = {rows, cols};
@@ -159,7 +170,7 @@ struct BlockConvolution::Kernel {
   Kernel(const WaveGain& gain, const BlockLayout& layout) {
     for (const int round_margin : kMargins) {
       margin = {marginOf(round_margin, layout.reach_rows), marginOf(round_margin, layout.reach_cols)};
-      const BlockSize wanted = cheapestTransform(margin, layout.usual_cells);
+      const BlockSize wanted = cheapestTransform(margin, layout.choice);
       if (wanted.rows == 0) break;  // the one before it must do
       if (wanted.rows != size.rows || wanted.cols != size.cols) {
         size = wanted;
@@ -232,15 +243,15 @@ struct BlockConvolution::Kernel {
   }
 
   void cutOff() {
-    double kept = 0.0;
+    double within = 0.0;
     for (std::size_t row = 0; row < row_taper.size(); ++row) {
       for (std::size_t col = 0; col < col_taper.size(); ++col) {
         Complex<double>& value = values[row * col_taper.size() + col];
         value = {value.re * row_taper[row] * col_taper[col], 0.0};
-        kept += value.re * value.re;
+        within += value.re * value.re;
       }
     }
-    const double scale = kept > 0.0 ? std::sqrt(power / kept) : 0.0;
+    const double scale = within > 0.0 ? std::sqrt(power / within) : 0.0;
     for (Complex<double>& value : values) value.re *= scale;
     for (std::size_t row = 0; row < row_taper.size(); ++row) cols.backward(&values[row * col_taper.size()]);
     overColumns(values, row_taper.size(), col_taper.size(), [this](Complex<double>* line) { rows.backward(line); });
@@ -249,7 +260,7 @@ struct BlockConvolution::Kernel {
 
 bool BlockConvolution::fits(double reach_rows, double reach_cols) {
   const int margin = kMargins[std::size(kMargins) - 1];
-  return cheapestTransform({marginOf(margin, reach_rows), marginOf(margin, reach_cols)}, 1.0).rows > 0;
+  return cheapestTransform({marginOf(margin, reach_rows), marginOf(margin, reach_cols)}, BlockChoice::kSmall).rows > 0;
 }
 
 BlockConvolution::BlockConvolution(const WaveGain& gain, const BlockLayout& layout)

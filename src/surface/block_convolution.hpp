@@ -25,11 +25,16 @@ struct BlockSize {
   int cols = 0;
 };
 
+enum class BlockChoice {
+  kFast,  ///< least time for each of many cells
+  kSmall  ///< least time where few cells are wanted
+};
+
 /// How a convolution may be laid out.
 struct BlockLayout {
-  double usual_cells = 1048576.0;  ///< of a transform: larger ones only where the margins would take most of it
-  double reach_rows = 1.0;         ///< how many times further the kernel reaches over rows, >= 1 ...
-  double reach_cols = 1.0;         ///< ... and over columns, than that of a round spectrum
+  BlockChoice choice = BlockChoice::kFast;
+  double reach_rows = 1.0;  ///< how many times further the kernel reaches over rows, >= 1 ...
+  double reach_cols = 1.0;  ///< ... and over columns, than that of a round spectrum
   bool for_spline = false;  ///< whether the gain is that of a cubic spline over the cells: its coefficients are made
 };
 

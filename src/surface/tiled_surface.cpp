@@ -21,9 +21,6 @@ constexpr double kWholeCells =
     12.0;  ///< a level holds waves of up to so many cells whole, and four times longer ones in part
 constexpr int kMostLevels = 24;
 constexpr double kLargestCount = 1e9;
-/// Cells of the usual transform: at the pixels nearly all of it is to be used, above them few cells are needed.
-constexpr double kPixelTransform = 1048576.0;
-constexpr double kCoarseTransform = 16384.0;
 constexpr std::size_t kRememberedBytes = std::size_t{12} << 20U;  ///< of blocks, on each level
 
 /// From 0 to 1 while t goes from 0 to 1, without a jump up to the second derivative: the kernel then falls fast.
@@ -217,7 +214,7 @@ class TiledSurface::Levels {
         return window == 0.0 ? 0.0 : window * std::sqrt(spectrum.densityAt(q) / cell_area);
       };
       BlockLayout layout;
-      layout.usual_cells = level == 0 ? kPixelTransform : kCoarseTransform;
+      layout.choice = level == 0 ? BlockChoice::kFast : BlockChoice::kSmall;
       layout.reach_rows = waves.reachOverRows();
       layout.reach_cols = waves.reachOverCols();
       layout.for_spline = level > 0;

@@ -45,7 +45,7 @@ TEST(BlockConvolution, makesTheSameInBlocksOfAnySize) {
   const WaveGain gain = [](double x, double y) { return bandGain(x, y, 1.8); };
   BlockLayout large;
   BlockLayout small;
-  small.usual_cells = 16384.0;
+  small.choice = BlockChoice::kSmall;
   const BlockConvolution one(gain, large);
   const BlockConvolution other(gain, small);
   ASSERT_NE(one.block().rows, other.block().rows);
