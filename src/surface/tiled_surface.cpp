@@ -22,6 +22,8 @@ constexpr double kWholeCells =
 constexpr int kMostLevels = 24;
 constexpr double kLargestCount = 1e9;
 constexpr std::size_t kRememberedBytes = std::size_t{12} << 20U;  ///< of blocks, on each level
+/// Blocks that meet at a corner: with fewer, each of them would make those of the coarser level anew.
+constexpr std::size_t kLeastRemembered = 4;
 
 /// From 0 to 1 while t goes from 0 to 1, without a jump up to the second derivative: the kernel then falls fast.
 double smoothStep(double t) {
@@ -96,7 +98,7 @@ class Level {
         Level* coarser)
       : convolution_(gain, layout), noise_(std::move(noise)), refinement_(refinement), coarser_(coarser) {
     const auto bytes = static_cast<std::size_t>(block().rows) * static_cast<std::size_t>(block().cols) * sizeof(float);
-    most_blocks_ = std::max<std::size_t>(2, kRememberedBytes / bytes);
+    most_blocks_ = std::max(kLeastRemembered, kRememberedBytes / bytes);
   }
 
   /// Forgets what was made, and goes on with other noise.

@@ -39,7 +39,8 @@
 
 namespace mems_stiction {
 
-/// The surface of a seed. An object serves one thread at a time; it keeps at most 200 MB, whatever the size.
+/// The surface of a seed. An object serves one thread at a time. It takes some 60 MB whatever the size, up to 250 MB where the
+/// spectrum is stretched.
 class TiledSurface {
  public:
   /// - @p spectrum of the heights, or of the normal numbers that `translation` turns into heights: then its scale has no effect
