@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Prints what scripts/bench measured as tables.
 
-usage: bench_table.py FOLDER   with predict.json, in_flight.json, half_space.json and, where they were made, callgrind.txt
+usage: bench_table.py FOLDER   with predict.json, in_flight.json, half_space.json, device.json and, where they were made, callgrind.txt
                                and latency.json
 """
 
@@ -27,18 +27,21 @@ REQUIRED_GROWTH = 5.0
 REQUIRED_CLEANING = {"offset": 1.5, "lines": 1.5, "fill": 1.5, "level": 1.5, "afm_recipe": 3.0}
 REQUIRED_ROUGHNESS = 3.0
 REQUIRED_SPEED_UP = 1.6
+# A pixel of a made surface against one of a real Fourier transform of 1024 x 1024 pixels.
+REQUIRED_TILES = {"self_affine": 4.0, "translated": 4.0}
 
 
-def times_of(path):
+def times_of(path, counter=None):
     """CPU time in ms by case, without the decorations of Google Benchmark's names; wall time for threaded cases. The
     least of the repetitions: what other programs on the machine add is never negative. In the order in which the cases
-    are defined, also where their repetitions ran mixed."""
+    are defined, also where their repetitions ran mixed. With a counter: divided by it, for the cases that have it."""
     times = {}
     for run in sorted(json.loads(path.read_text())["benchmarks"], key=lambda run: run.get("family_index", 0)):
-        if run.get("run_type") == "aggregate":
+        if run.get("run_type") == "aggregate" or (counter and counter not in run):
             continue
         name = re.sub(r"/(min_time|iterations|repeats|real_time).*", "", run["name"])
         time = run["real_time"] if "real_time" in run["name"] else run["cpu_time"]
+        time /= run[counter] if counter else 1.0
         times[name] = min(time, times.get(name, time))
     return times
 
@@ -125,6 +128,22 @@ def print_half_space(rows):
         print("%-62s %10.2f %-6s %s" % (row["work"], row["figure"], row["unit"], held))
 
 
+def print_device(path):
+    pixels = times_of(path, "pixels")
+    transform = pixels["transform"]
+    print()
+    print("Surfaces of a device, made tile by tile; a transform is a real one of 1024 x 1024 pixels by OpenCV, %.1f ns a pixel" % (1e6 * transform))
+    print("%-24s %10s %8s  %s" % ("surface", "ns/pixel", "ratio", "required"))
+    for name, time in pixels.items():
+        if name.startswith("tiles/"):
+            surface = name[len("tiles/"):]
+            required = REQUIRED_TILES.get(surface)
+            print("%-24s %10.1f %8.2f  %s" % (surface, 1e6 * time, time / transform, verdict(time / transform, required, False) if required else ""))
+    for name, time in times_of(path).items():
+        if name.startswith("kernels/"):
+            print("%-24s %10.0f ms, once for a spectrum and a pitch" % (name, time))
+
+
 def print_latency(rows):
     print()
     print("Replay of 1024 x 1024 scans, from the arrival of a scan to that of its prediction at one listener [ms]")
@@ -152,6 +171,7 @@ def main():
             print("instructions, gaussian/512/200: %.1f million" % (count / 1e6))
     print_cleaning(core)
     print_half_space(json.loads((folder / "half_space.json").read_text()))
+    print_device(folder / "device.json")
     latency = folder / "latency.json"
     if latency.exists():
         print_latency(json.loads(latency.read_text()))

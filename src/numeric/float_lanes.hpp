@@ -18,8 +18,8 @@ class alignas(32) FloatLanes {
 
   /// 0 in all lanes.
   MEMS_STICTION_INLINE FloatLanes() : values_{} {}
-  MEMS_STICTION_INLINE FloatLanes(const FloatLanes& other)
-      : values_(other.values_) {}  // NOLINT(modernize-use-equals-default)
+  // NOLINTNEXTLINE(modernize-use-equals-default): as that of Lanes
+  MEMS_STICTION_INLINE FloatLanes(const FloatLanes& other) : values_(other.values_) {}
   FloatLanes& operator=(const FloatLanes& other) = default;
 
   /// From memory.

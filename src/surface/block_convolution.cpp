@@ -109,37 +109,32 @@ MEMS_STICTION_VECTORIZED void transformRows(const float* noise, std::size_t nois
   waves.forward(line);
 }
 
+/// Eight times eight complex numbers, eight columns of eight rows or the reverse.
+MEMS_STICTION_INLINE void transpose(const Complex<FloatLanes>* from, Complex<FloatLanes>* to) {
+  FloatLanes re[kLanes];
+  FloatLanes im[kLanes];
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    re[i] = from[i].re;
+    im[i] = from[i].im;
+  }
+  transpose(re);
+  transpose(im);
+  for (std::size_t i = 0; i < kLanes; ++i) to[i] = {re[i], im[i]};
+}
+
 /// Eight columns, of which `block` holds eight rows and the next ones follow `stride` later: transformed, multiplied with the
 /// gains and transformed back.
 MEMS_STICTION_VECTORIZED void filterColumns(const LineWaves<float>& waves, std::size_t stride, const float* gains,
                                             Complex<FloatLanes>* column, Complex<FloatLanes>* block) {
-  FloatLanes re[kLanes];
-  FloatLanes im[kLanes];
   const std::size_t groups = waves.length() / kLanes;
-  for (std::size_t group = 0; group < groups; ++group) {
-    for (std::size_t i = 0; i < kLanes; ++i) {
-      re[i] = block[group * stride + i].re;
-      im[i] = block[group * stride + i].im;
-    }
-    transpose(re);
-    transpose(im);
-    for (std::size_t i = 0; i < kLanes; ++i) column[group * kLanes + i] = {re[i], im[i]};
-  }
+  for (std::size_t group = 0; group < groups; ++group) transpose(block + group * stride, column + group * kLanes);
   waves.forward(column);
   for (std::size_t row = 0; row < waves.length(); ++row) {
     const FloatLanes gain = FloatLanes::load(gains + row * kLanes);
     column[row] = {column[row].re * gain, column[row].im * gain};
   }
   waves.backward(column);
-  for (std::size_t group = 0; group < groups; ++group) {
-    for (std::size_t i = 0; i < kLanes; ++i) {
-      re[i] = column[group * kLanes + i].re;
-      im[i] = column[group * kLanes + i].im;
-    }
-    transpose(re);
-    transpose(im);
-    for (std::size_t i = 0; i < kLanes; ++i) block[group * stride + i] = {re[i], im[i]};
-  }
+  for (std::size_t group = 0; group < groups; ++group) transpose(column + group * kLanes, block + group * stride);
 }
 
 /// Eight rows back from their waves; what lies between the margins into the two halves of the block's rows.

@@ -62,7 +62,7 @@ class TiledSurface {
   /// Goes on as the surface of another seed: the same as a new one, but sooner.
   void reseed(std::uint64_t seed);
 
-  /// Heights [m] of the tile whose first pixel is (row, col). The mean over all surfaces is 0 before translation; that of one
+  /// Heights [m] of the tile whose first pixel is (row, col), of single precision whatever its type. The mean over all surfaces is 0 before translation; that of one
   /// surface is what its long waves make it.
   /// - @p tile CV_32FC1 or CV_64FC1, inside the surface; is filled
   /// @throw OptionsError if it is not.
