@@ -16,7 +16,7 @@ namespace {
 constexpr std::int64_t kFarthestPlace = std::int64_t{1} << 30U;
 /// Cells that are held before those that will not be kept are dropped: a part more than are kept, and these.
 constexpr std::int64_t kFewCells = 1 << 14;
-constexpr std::int64_t kPartMore = 4;
+constexpr std::int64_t kPartMore = 2;
 constexpr std::size_t kBlock = 16;
 
 constexpr char kName[] = "mems_stiction area cells 1\n";
@@ -106,13 +106,20 @@ std::vector<AreaCell> AreaCells::cellsFrom(std::int64_t bucket) const {
   return found;
 }
 
+std::int64_t AreaCells::mostInMemory() const { return limits_.most_cells + limits_.most_cells / kPartMore + kFewCells; }
+
+void AreaCells::makeRoom(std::size_t more) {
+  const std::size_t wanted = cells_.size() + more;
+  if (wanted <= cells_.capacity()) return;
+  cells_.reserve(std::max(wanted, std::min(2 * cells_.capacity(), static_cast<std::size_t>(mostInMemory()) + more)));
+}
+
 void AreaCells::dropCells() {
-  if (static_cast<std::int64_t>(cells_.size()) <= limits_.most_cells + limits_.most_cells / kPartMore + kFewCells) {
-    return;
-  }
+  if (static_cast<std::int64_t>(cells_.size()) <= mostInMemory()) return;
   dropped_below_ = std::max(dropped_below_, finestLevel());
-  const std::int64_t level = counts_.bucketAbove(dropped_below_);
-  const auto isLow = [&](const AreaCell& cell) { return counts_.bucketOf(cell.relief) < level; };
+  // all that is surely below; whoever reads leaves out the others
+  const double level = counts_.lowerEnd(counts_.bucketAbove(dropped_below_)) - counts_.width();
+  const auto isLow = [=](const AreaCell& cell) { return cell.relief < level; };
   cells_.erase(std::remove_if(cells_.begin(), cells_.end(), isLow), cells_.end());
 }
 
@@ -124,15 +131,18 @@ void AreaCells::addRow(std::int64_t row, std::int64_t col, const Scalar* line, s
   dropped_below_ = std::max(dropped_below_, levelByHeight());
   std::int64_t wanted = 1;  // slot 0 is that of what is invalid
   if (dropped_below_ != kNoLevel) wanted = std::max(counts_.slotOf(counts_.bucketAbove(dropped_below_)), wanted);
+  AreaCell* next = row_cells_.data();
   for (std::size_t first = 0; first < size; first += kBlock) {
     const std::size_t end = std::min(first + kBlock, size);
     if (end - first == kBlock && largestOfBlock(slots_.data() + first) < wanted) continue;
-    for (std::size_t i = first; i < end; ++i) {
-      if (slots_[i] < wanted) continue;
-      cells_.push_back({static_cast<std::int32_t>(row), static_cast<std::int32_t>(col + static_cast<std::int64_t>(i)),
-                        static_cast<double>(line[i])});
+    for (std::size_t i = first; i < end; ++i) {  // which ones is random: written without a branch
+      *next = {static_cast<std::int32_t>(row), static_cast<std::int32_t>(col) + static_cast<std::int32_t>(i),
+               static_cast<double>(line[i])};
+      next += slots_[i] >= wanted ? 1 : 0;
     }
   }
+  makeRoom(static_cast<std::size_t>(next - row_cells_.data()));
+  cells_.insert(cells_.end(), row_cells_.data(), next);
   dropCells();
 }
 
@@ -147,6 +157,7 @@ void AreaCells::add(std::int64_t row, std::int64_t col, const cv::Mat& relief) {
   }
   const auto cols = static_cast<std::size_t>(relief.cols);
   slots_.resize(cols);
+  row_cells_.resize(cols + 1);  // one past the last is written, too
   for (int i = 0; i < relief.rows; ++i) {
     if (relief.depth() == CV_32F) {
       addRow(row + i, col, relief.ptr<float>(i), cols);
@@ -163,6 +174,7 @@ void AreaCells::add(const AreaCells& other) {
   counts_.add(other.counts_);
   if (!std::isnan(other.highest_) && !(other.highest_ <= highest_)) highest_ = other.highest_;
   dropped_below_ = std::max(dropped_below_, other.dropped_below_);
+  makeRoom(other.cells_.size());
   cells_.insert(cells_.end(), other.cells_.begin(), other.cells_.end());
   dropCells();
 }

@@ -91,7 +91,10 @@ class AreaCells {
   /// come in.
   std::int64_t finestLevel() const;
   std::int64_t levelByHeight() const;
-  /// Drops cells, if they have become many, that will not be kept.
+  /// So many cells are held at most after each row, those included that will not be kept.
+  std::int64_t mostInMemory() const;
+  void makeRoom(std::size_t more);
+  /// Drops cells that will not be kept, if they have become many.
   void dropCells();
 
   double pitch_x_;
@@ -101,7 +104,8 @@ class AreaCells {
   double highest_ = std::numeric_limits<double>::quiet_NaN();
   std::int64_t dropped_below_ = kNoLevel;  ///< finest bucket: cells below it are not held
   std::vector<AreaCell> cells_;            ///< those that are kept, and maybe others
-  std::vector<std::int32_t> slots_;
+  std::vector<std::int32_t> slots_;        ///< of a row
+  std::vector<AreaCell> row_cells_;        ///< of a row, those that are held
 };
 
 }  // namespace mems_stiction

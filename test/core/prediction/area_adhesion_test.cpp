@@ -220,8 +220,8 @@ TEST_F(AreaOfTiles, needsAFewCellsAlone) {
   const AreaCells cells = cellsOf(surface_, {64, 64}, few);
   EXPECT_LE(cells.cellCount(), 10000);
   EXPECT_GT(cells.cellCount(), 9000);
-  // 16 bytes a cell, as many again while they come in, and the histogram
-  EXPECT_LT(cells.memory(), 2 * 16 * (10000 * 5 / 4 + (1 << 14) + kSide) + 8 * (1 << 17));
+  // 16 bytes a cell, half as many more and a row while they come in, and the histogram
+  EXPECT_LT(cells.memory(), 16 * (10000 * 3 / 2 + (1 << 14) + kSide) + 8 * (1 << 17));
   EXPECT_EQ(figuresOf(areaAdhesion(cells, stiff())), figuresOf(whole_));
 }
 
