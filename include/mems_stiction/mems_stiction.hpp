@@ -13,6 +13,7 @@
 /// Lengths are metres, forces newtons: SI throughout. Bad input throws an Error (errors/errors.hpp).
 
 #include "mems_stiction/configuration/configuration_yaml.hpp"
+#include "mems_stiction/device/device_force.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/evaluation/half_space_scan.hpp"
 #include "mems_stiction/evaluation/scan_predictor.hpp"

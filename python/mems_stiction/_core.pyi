@@ -4,6 +4,34 @@ from typing import Any, Dict, List, Optional, Sequence, Tuple
 
 import numpy as np
 
+class DeviceForceFigures:
+    pull_off_force: float
+    """[N] of the device, median"""
+    pull_off_force_lower: float
+    """[N] 2.5 % quantile"""
+    pull_off_force_upper: float
+    """[N] 97.5 % quantile"""
+    apparent_work_of_adhesion: float
+    """[J/m^2] per nominal area, median"""
+    apparent_work_of_adhesion_lower: float
+    """[J/m^2] 2.5 % quantile"""
+    apparent_work_of_adhesion_upper: float
+    """[J/m^2] 97.5 % quantile"""
+    linear_pull_off_force: float
+    """[N] the scans' force by area, for comparison"""
+    contacts: float
+    """places that hold at the pull-off, median"""
+    separation_at_rest: float
+    """[m] mean gap, median"""
+    is_conforming: bool
+    """the surfaces bond all over: force and work go with area"""
+    area: float
+    """[m^2] nominal, of all contacts"""
+    pitch: float
+    """[m] of the made surfaces"""
+    force_deviation: float
+    """standard deviation of ln force but for constants and model"""
+
 class HalfSpaceFigures:
     status: str
     """SOLVED, LOAD_NOT_REACHED, NOT_CONVERGED, TOO_MANY_STATES or CANCELLED"""
@@ -206,7 +234,7 @@ class VerdictFigures:
     restoring_force: float
     """[N] of the device's spring"""
     device_pull_off_force: float
-    """[N] pull_off_force scaled to the device's contact area"""
+    """[N] of the whole device"""
     margin: float
     """restoring over pull-off force: above 1 the spring wins; infinite without adhesion"""
     margin_lower: float
@@ -251,6 +279,21 @@ class ContactCyclesResult:
     lower: HeightMap
     upper: HeightMap
 
+class DevicePrediction:
+    figures: Dict[str, Any]
+    verdict: Optional[Dict[str, Any]]
+    scans: List[str]
+    scan_warnings: List[str]
+    force_warnings: List[str]
+    warnings: List[str]
+    realisations: Records
+    parts_of_scans: Records
+    spectrum: Records
+    def json(self) -> str: ...
+
+class DeviceScan:
+    def __init__(self, name: str, scan: HeightMap, notes: Sequence[str]) -> None: ...
+
 class HeightMap:
     pixels: Optional[Memory]
     pitch: Tuple[float, float]
@@ -270,6 +313,7 @@ class OneScan:
 class PredictedScan:
     figures: Dict[str, Any]
     verdict: Optional[Dict[str, Any]]
+    device_force: Optional[Dict[str, Any]]
     roughness: Dict[str, Any]
     flag_names: str
     preprocessing: List[Dict[str, Any]]
@@ -326,6 +370,7 @@ def decimate(scan: HeightMap, factor: int) -> HeightMap: ...
 def generate(rows: int, cols: int, pitch_x: float, pitch_y: float, configuration: Configuration) -> HeightMap: ...
 def half_space(prepared: PreparedScan, configuration: Configuration) -> SolvedScan: ...
 def height_map(pixels: np.ndarray, pitch_x: float, pitch_y: float, configuration: Configuration) -> HeightMap: ...
+def predict_device(scans: Sequence[DeviceScan], counter_surface: Sequence[DeviceScan], configuration: Configuration) -> DevicePrediction: ...
 def prepare(scan: HeightMap, counter_surface: Optional[HeightMap], configuration: Configuration) -> PreparedScan: ...
 def read(path: str, configuration: Configuration, pitch_x: float, pitch_y: float, channel: str, ignore_mask: bool) -> Tuple[HeightMap, str, List[str]]: ...
 def roughness(scan: HeightMap, configuration: Configuration, is_spatial: bool) -> Dict[str, Any]: ...

@@ -101,7 +101,10 @@ def _listed(scans: Any, what: str) -> List[Any]:
 
 
 def _is_number(pitch: Any) -> bool:
-    return pitch is None or np.ndim(pitch) == 0
+    """Or nothing; what is neither a number nor a list is refused as one of these."""
+    if isinstance(pitch, np.ndarray):
+        return pitch.ndim == 0
+    return isinstance(pitch, (str, bytes)) or not hasattr(pitch, "__len__")
 
 
 def _is_pair(pitch: Any, count: int) -> bool:

@@ -25,7 +25,9 @@ SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "scripts"
 CONFIG = """
 load: {mechanical_load: 1.0e-6}
 device: {spring_stiffness: 2.0, travel: 1.0e-6, contact_area: 1.0e-11, contacts: 8}
+device_force: {enabled: false}
 """
+OWN_FORCE = CONFIG.replace("{enabled: false}", "{realisations: 3, max_cells: 1.0e+4}").replace("contacts: 8", "contacts: 1")
 
 
 def program(name):
@@ -259,7 +261,8 @@ class BatchTest(unittest.TestCase):
         generator = random.Random(1)
         for length in [0, 1, 10] + [generator.randrange(len(expected)) for _ in range(6)]:
             (self.folder / "one.csv").write_bytes(expected[:length])
-            self.predict("one.csv")
+            lacks_the_last = expected[:length].count(b"\n") == expected.count(b"\n") - 1  # that of missing.bag: nothing to predict
+            self.predict("one.csv", status=int(lacks_the_last))
             self.assertEqual((self.folder / "one.csv").read_bytes(), expected)
 
     def test_rows_of_other_settings_or_shards_do_not_mix(self):
@@ -509,6 +512,60 @@ class BatchTest(unittest.TestCase):
             self.assertEqual(part["worst_margin"], worst["margin"])
             self.assertEqual(part["worst_margin_scan"], "scan (%s)" % worst["number"])
             self.assertEqual(part["settings_hash"], of_part[0]["settings_hash"])
+
+    def test_a_row_finds_the_devices_own_force_if_it_is_asked_to(self):
+        config = self.folder / "own.yaml"
+        config.write_text(OWN_FORCE)
+        self.predict("plain.jsonl", "--config", config, inputs=[self.inputs / "b.bag"])
+        plain = json.loads((self.folder / "plain.jsonl").read_text().splitlines()[0])
+        self.assertEqual((plain["sticks"], plain["margin"]), ("unknown", None))
+        self.assertIn("--device-force", plain["verdict_reason"])
+        self.predict("rows.jsonl", "--config", config, "--device-force", "--dump", self.folder / "dump", inputs=[self.inputs / "b.bag"])
+        row = json.loads((self.folder / "rows.jsonl").read_text().splitlines()[0])
+        np.savetxt(str(self.folder / "scan.txt"), np.load(str(self.folder / "dump/000001/heights.npy")), fmt="%.17g")
+        done = run([program("predict_scan"), "--json", "--config", config, "--pitch", "10e-9", self.folder / "scan.txt"])
+        record = json.loads(done.stdout)
+        self.assertEqual(record["device_force"]["pull_off_force"], row["device_pull_off_force"])
+        self.assertEqual([row[name] for name in ("margin", "margin_lower", "margin_upper", "sticks")],
+                         [record[name] for name in ("margin", "margin_lower", "margin_upper", "sticks")])
+        again = run([self.batch, "-o", self.folder / "rows.jsonl", "--config", config, self.inputs / "b.bag"])
+        self.assertEqual(again.returncode, 2, "rows with and without it do not mix")
+
+    def test_a_part_is_judged_by_the_devices_own_force_of_all_its_scans(self):
+        config = self.folder / "own.yaml"
+        config.write_text(OWN_FORCE)
+        inputs = [self.bag_of_parts(), self.inputs / "b.bag"]
+        self.predict("rows.csv", "--config", config, "--parts", self.folder / "parts.csv", inputs=inputs)
+        rows, parts = self.rows("rows.csv"), self.rows("parts.csv")
+        self.assertEqual({row["sticks"] for row in rows if not row["reason"]}, {"unknown"}, "a scan has not the size of the contact")
+        for part, count in zip(parts, ("3", "2")):
+            self.assertEqual((part["scan_count"], part["counted_scans"], part["verdict_by"]), (count, count, "prediction"))
+            self.assertIn(part["sticks"], ("no", "marginal", "yes"))
+            self.assertLess(float(part["margin_lower"]), float(part["margin"]))
+            self.assertGreater(float(part["margin_upper"]), float(part["margin"]))
+            self.assertIn(count + " scans together", part["reason"])
+        self.assertNotEqual(parts[0]["margin"], parts[1]["margin"])
+        for index in (1, 2):
+            self.predict("shard%d.csv" % index, "--config", config, "--shard", "%d/2" % index, inputs=inputs)
+        done = run([self.batch, "--merge", "--parts", self.folder / "merged_parts.csv", "-o", self.folder / "merged.csv"]
+                   + [self.folder / ("shard%d.csv" % index) for index in (1, 2)])
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual((self.folder / "merged_parts.csv").read_text(), (self.folder / "parts.csv").read_text())
+
+    def test_a_part_whose_scans_are_gone_says_so(self):
+        config = self.folder / "own.yaml"
+        config.write_text("part: {id: lot 5}\n" + OWN_FORCE)
+        scan = self.folder / "scan.npy"
+        np.save(str(scan), np.random.RandomState(1).standard_normal((40, 40)) * 1e-9)
+        (self.folder / "scan.npy.yaml").write_text("pitch_x: 10e-9\npitch_y: 10e-9\n")
+        self.predict("rows.csv", "--config", config, "--parts", self.folder / "parts.csv", inputs=[scan])
+        self.assertNotEqual(self.rows("parts.csv")[0]["margin"], "")
+        scan.unlink()
+        self.predict("rows.csv", "--config", config, "--parts", self.folder / "parts.csv", inputs=[scan])
+        part = self.rows("parts.csv")[0]
+        self.assertEqual((part["sticks"], part["margin"]), ("unknown", "nan"))
+        self.assertIn("the device's own force has not been found: ", part["warnings"])
+        self.assertIn("scan.npy", part["warnings"])
 
     def test_parts_do_not_depend_on_how_their_rows_were_written(self):
         inputs = [self.bag_of_parts(), self.inputs / "b.bag"]

@@ -145,7 +145,7 @@ class HalfSpaceBatchTest(unittest.TestCase):
 
     def test_with_a_device_the_row_says_who_judged(self):
         self.config.write_text(CONFIG + "half_space: {max_pixels: 1500}\n"
-                               "device: {spring_stiffness: 1.0e-3, travel: 1.0e-6, contact_area: 4.096e-15}\n")
+                               "device: {spring_stiffness: 1.0e-3, travel: 1.0e-6, contact_area: 4.096e-15}\ndevice_force: {enabled: false}\n")
         self.batch("rows.csv", "--half-space")
         self.batch("plain.csv")
         solved, refused = self.rows("rows.csv")

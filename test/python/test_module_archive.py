@@ -18,7 +18,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 from module_cases import REPOSITORY, program, rough  # noqa: E402  (the path comes first)
 
 EXAMPLES = REPOSITORY / "scripts" / "examples"
-CONFIG = "load: {mechanical_load: 1.0e-6}\ndevice: {spring_stiffness: 2.0, travel: 1.0e-6, contact_area: 1.0e-11, contacts: 8}\n"
+CONFIG = "load: {mechanical_load: 1.0e-6}\ndevice: {spring_stiffness: 2.0, travel: 1.0e-6, contact_area: 1.0e-11, contacts: 8}\ndevice_force: {enabled: false}\n"
 COUNT = 24
 
 

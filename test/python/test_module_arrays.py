@@ -113,7 +113,7 @@ class GeneratedTest(unittest.TestCase):
                 mems_stiction.decimate(heights, PITCH, factor=factor)
 
     def test_the_spread_is_that_of_the_margin(self):
-        settings = {"device": DEVICE, "load": {"mechanical_load": 1e-6}}
+        settings = {"device": dict(DEVICE, contact_area=(64 * PITCH) ** 2), "device_force": {"enabled": False}, "load": {"mechanical_load": 1e-6}}
         prediction = mems_stiction.predict(rough(64, 64, 12e-9, 2), PITCH, settings)
         spread = prediction.spread(settings)
         self.assertTrue(np.all(np.diff(spread) >= 0))

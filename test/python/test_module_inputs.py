@@ -154,17 +154,27 @@ class VerdictTest(unittest.TestCase):
     """A frame whose pixels are far smaller than the cohesive length (2.7 nm), as the half-space wants them, and one whose are not."""
 
     def test_a_half_space_that_can_judge_does(self):
-        settings = {"lower": {"youngs_modulus": 1e10}, "upper": {"youngs_modulus": 1e10}, "device": DEVICE}
         heights, pitch = rough(32, 32, 3e-10, length=8), 1e-10
+        settings = {"lower": {"youngs_modulus": 1e10}, "upper": {"youngs_modulus": 1e10}, "device_force": {"enabled": False},
+                    "device": dict(DEVICE, contact_area=(32 * pitch) ** 2)}
         solved = mems_stiction.half_space(heights, pitch, settings)
         self.assertTrue(solved.is_resolved)
         self.assertEqual(solved.verdict.verdict_by, "half_space")
         self.assertRegex(solved.verdict.reason, "^by the half-space:")
         self.assertRegex(repr(solved), "sticks: %s, margin .* by the half-space" % solved.verdict.sticks)
         self.assertIn("by the half-space", solved._repr_html_())
-        area = solved.verdict.device_pull_off_force / solved.pull_off_force  # of the device over that of the frame
-        self.assertAlmostEqual(area / (DEVICE["contact_area"] / (32 * pitch) ** 2), 1.0, delta=1e-9)  # round-off
+        self.assertAlmostEqual(solved.verdict.device_pull_off_force / solved.pull_off_force, 1.0, delta=1e-9)  # round-off
         self.assertEqual(mems_stiction.predict(heights, pitch, settings).verdict.verdict_by, "prediction")
+
+    def test_it_moves_the_devices_own_force_as_it_moves_that_of_the_frame(self):
+        heights, pitch = rough(32, 32, 3e-10, length=8), 1e-10
+        settings = {"lower": {"youngs_modulus": 1e10}, "upper": {"youngs_modulus": 1e10}, "device": dict(DEVICE, contact_area=1e-16),
+                    "device_force": {"realisations": 3, "max_cells": 1e4}}
+        solved = mems_stiction.half_space(heights, pitch, settings)
+        predicted = mems_stiction.predict(heights, pitch, settings)
+        self.assertEqual(solved.verdict.verdict_by, "half_space")
+        moved = predicted.device_force["pull_off_force"] * solved.pull_off_force / predicted.pull_off_force
+        self.assertAlmostEqual(solved.verdict.device_pull_off_force / moved, 1.0, delta=1e-9)
 
     def test_one_that_cannot_leaves_it_to_the_prediction(self):
         solved = mems_stiction.half_space(rough(16, 16), PITCH, SOFT, device=DEVICE)

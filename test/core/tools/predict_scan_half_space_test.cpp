@@ -105,7 +105,8 @@ TEST_F(PredictScanHalfSpace, JudgesTheDeviceAndSaysSo) {
                              half_space +
                              "}\n"
                              // as large as the frame
-                             "device: {spring_stiffness: 1e-3, travel: 1e-6, contact_area: 4.096e-15}\n") +
+                             "device: {spring_stiffness: 1e-3, travel: 1e-6, contact_area: 4.096e-15}\n"
+                             "device_force: {enabled: false}\n") +
            " " + scan();
   };
   const SolvedHalfSpace expected = this->expected();

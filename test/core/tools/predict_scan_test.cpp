@@ -121,8 +121,9 @@ TEST_F(PredictScan, TheFormulationsCurveGoesToRestAndBackOverTheHalfSpacesHeight
 }
 
 TEST_F(PredictScan, ForceAndMarginAreRoundedForPeopleInACommentAndKeptInTheFields) {
-  const std::string device =
-      folder_.write("d.yaml", "device: {spring_stiffness: 1.0, travel: 1.0e-6, contact_area: 1.0e-12}\n");
+  const std::string device = folder_.write(
+      "d.yaml",
+      "device: {spring_stiffness: 1.0, travel: 1.0e-6, contact_area: 4.0804e-12}\ndevice_force: {enabled: false}\n");
   const std::string call = "-c " + device + " --pitch 20e-9 " + sphere();
   const std::string text = run(call).output;
   const std::size_t place = text.find("\n# Pull-off force ");
@@ -149,21 +150,36 @@ TEST_F(PredictScan, ACurveSaysWhereItComesFrom) {
   }
 }
 
+/// As large as the frame of sphere(), which then stands for it; small surfaces.
+constexpr const char* kDevice = "device: {spring_stiffness: 1.0, travel: 1.0e-6, contact_area: 4.0804e-12}\n";
+
 TEST_F(PredictScan, AStatedDeviceIsJudged) {
-  const std::string device =
-      folder_.write("d.yaml", "device: {spring_stiffness: 1.0, travel: 1.0e-6, contact_area: 1.0e-12}\n");
+  const std::string device = folder_.write("d.yaml", kDevice + std::string("device_force: {enabled: false}\n"));
   const std::string call = " --pitch 20e-9 " + sphere();
   const YAML::Node record = YAML::Load(run("-c " + device + call).output);
-  const double scale = 1e-12 / record["nominal_area"].as<double>();
+  const double scale = 4.0804e-12 / record["nominal_area"].as<double>();
   EXPECT_DOUBLE_EQ(record["margin"].as<double>(), 1e-6 / (record["pull_off_force"].as<double>() * scale));
   EXPECT_LT(record["margin_lower"].as<double>(), record["margin"].as<double>());
   EXPECT_GT(record["margin_upper"].as<double>(), record["margin"].as<double>());
   EXPECT_FALSE(record["sticks"].as<std::string>().empty());
   EXPECT_FALSE(record["reason"].as<std::string>().empty());
+  EXPECT_FALSE(record["device_force"].IsDefined());
   EXPECT_NE(record["regime_flag_names"].as<std::string>().find("few_contacts"), std::string::npos);
   const YAML::Node without = YAML::Load(run(call).output);
   EXPECT_FALSE(without["margin"].IsDefined());
   EXPECT_EQ(without["regime_flags"].as<unsigned>(), record["regime_flags"].as<unsigned>());
+}
+
+TEST_F(PredictScan, ADeviceIsJudgedByItsOwnForce) {
+  const std::string device =
+      folder_.write("d.yaml", kDevice + std::string("device_force: {realisations: 3, max_cells: 1e4}\n"));
+  const YAML::Node record = YAML::Load(run("-c " + device + " --pitch 20e-9 " + sphere()).output);
+  const YAML::Node force = record["device_force"];
+  ASSERT_TRUE(force.IsMap());
+  EXPECT_EQ(record["device_pull_off_force"].as<double>(), force["pull_off_force"].as<double>());
+  EXPECT_DOUBLE_EQ(record["margin"].as<double>(), 1e-6 / force["pull_off_force"].as<double>());
+  EXPECT_EQ(record["apparent_work_of_adhesion"].as<double>(), force["apparent_work_of_adhesion"].as<double>());
+  EXPECT_DOUBLE_EQ(force["area"].as<double>(), 4.0804e-12);
 }
 
 TEST_F(PredictScan, CleaningsAreAListWithTheirSpread) {
@@ -179,7 +195,7 @@ TEST_F(PredictScan, CleaningsAreAListWithTheirSpread) {
 
 TEST_F(PredictScan, CleaningsWidenTheMargin) {
   const std::string call =
-      "-c " + folder_.write("d.yaml", "device: {spring_stiffness: 1.0, travel: 1e-6, contact_area: 4.0804e-12}\n") +
+      "-c " + folder_.write("d.yaml", kDevice + std::string("device_force: {realisations: 3, max_cells: 1e4}\n")) +
       " --pitch 20e-9 " + sphere();
   const YAML::Node plain = YAML::Load(run(call).output);
   const YAML::Node record = YAML::Load(run("--cleanings " + call).output);
