@@ -233,6 +233,7 @@ def _draw_force(axes, record):
     _label(axes.yaxis, lambda value: with_unit(value, "N", 1))
     axes.set_xlabel("nominal area")
     axes.set_ylabel("pull-off force")
-    axes.legend(fontsize=9, framealpha=0.85, edgecolor="none", loc="upper left")
+    if axes.get_legend_handles_labels()[0]:
+        axes.legend(fontsize=9, framealpha=0.85, edgecolor="none", loc="upper left")
     bottom, top = axes.get_ylim()
     axes.set_ylim(bottom, top * (top / bottom)**0.3)  # room for the legend

@@ -105,6 +105,25 @@ TEST(ContactCycles, namesTheFirstThatSticks) {
   EXPECT_EQ(cycled(options, scan, 2, device).first_sticking_cycle, 1);
 }
 
+TEST(ContactCycles, aLargerDeviceFollowsItsFrame) {
+  const HeightMap scan = rough();
+  const Options options = pressed(3e9);
+  DeviceOptions device;
+  device.travel = 1e-6;
+  device.spring_stiffness = 10.0;
+  device.contact_area = 100.0 * scan.cellArea() * scan.rows() * scan.cols();
+  EXPECT_TRUE(std::isnan(cycled(options, scan, 1, device).cycles[0].margin));
+  DeviceScale scale;
+  scale.frame_pull_off_force = cycled(options, scan, 1).cycles[0].pull_off_force;
+  scale.device.pull_off_force = 5.0 * scale.frame_pull_off_force;
+  scale.device.force_deviation = 0.2;
+  const ContactCyclesResult result = cycleContacts(options, scan, 2, device, {}, {}, scale);
+  ASSERT_NE(result.cycles[1].pull_off_force, result.cycles[0].pull_off_force);
+  for (const ContactCycle& cycle : result.cycles) {
+    EXPECT_NEAR(cycle.margin * 5.0 * cycle.pull_off_force / 1e-5, 1.0, 1e-12);
+  }
+}
+
 TEST(ContactCycles, leavesInvalidPixelsAndTheGivenScanAlone) {
   const HeightMap scan = analytic::withInvalidPixel(rough(), 7, 9);
   const cv::Mat before = scan.heights().clone();

@@ -256,6 +256,28 @@ TEST(LoadSweep, mechanicalLoadHoldsTheDeviceToo) {
   EXPECT_NEAR(result.rows[0].margin, (pull_off + 1e-6) / pull_off, 1e-9);
 }
 
+TEST(LoadSweep, aLargerDeviceFollowsItsFrame) {
+  const HeightMap scan = rough();
+  const LoadSweepRequest request = upTo(0.0, 1, {0.0, 1e-6, 1e-5});
+  DeviceOptions device = deviceFor(scan, 1e-5);
+  device.contact_area *= 100.0;
+  const LoadSweepResult unknown = sweepLoads(paperOptions(), scan, request, device, {}, {});
+  DeviceScale scale;
+  scale.frame_pull_off_force = unknown.rows[0].pull_off_force;
+  scale.device.pull_off_force = 5.0 * scale.frame_pull_off_force;
+  scale.device.force_deviation = 0.2;
+  const LoadSweepResult result = sweepLoads(paperOptions(), scan, request, device, {}, {}, scale);
+  ASSERT_GT(result.rows.back().pull_off_force, 1.5 * result.rows[0].pull_off_force);
+  for (std::size_t i = 0; i < result.rows.size(); ++i) {
+    const LoadSweepRow& row = result.rows[i];
+    EXPECT_EQ(unknown.rows[i].sticks, Sticks::kUnknown);
+    EXPECT_TRUE(std::isnan(unknown.rows[i].margin) && std::isnan(unknown.rows[i].holding_margin));
+    EXPECT_NEAR(row.margin * 5.0 * row.pull_off_force / 1e-5, 1.0, kRoundOff);
+    const double pressing = 100.0 * row.mechanical_load;  // its pressure on the whole device
+    EXPECT_NEAR(row.holding_margin * (5.0 * row.pull_off_force + pressing) / 1e-5, 1.0, kRoundOff);
+  }
+}
+
 TEST(LoadSweep, fieldOfAStatedElectrodeHoldsTheDevice) {
   const HeightMap scan = sphere();
   DeviceOptions device = deviceFor(scan, 1e-6);
