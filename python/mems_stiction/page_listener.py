@@ -6,7 +6,7 @@ import time
 import rosgraph
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray
-from mems_stiction.msg import (CycleContactActionFeedback, CycleContactActionResult, HalfSpaceSolution, PartVerdict, ScanInfo,
+from mems_stiction.msg import (CycleContactActionFeedback, CycleContactActionResult, DeviceAdhesion, HalfSpaceSolution, PartVerdict, ScanInfo,
                                StictionPrediction, SweepLoadActionFeedback, SweepLoadActionResult)
 from sensor_msgs.msg import Image
 
@@ -56,6 +56,7 @@ class PageListener:
                   ("scan_info", ScanInfo, self._on_info, None, dict(queue_size=100)),
                   ("preview", Image, self._on_map, "height", dict(queue_size=1, buff_size=MAP_BUFFER)),
                   ("contact_map", Image, self._on_map, "contacts", dict(queue_size=1, buff_size=MAP_BUFFER)),
+                  ("device_force", DeviceAdhesion, self._on_device, None, dict(queue_size=10)),
                   ("half_space", HalfSpaceSolution, self._on_half_space, None, dict(queue_size=10)),
                   ("/diagnostics", DiagnosticArray, self._on_diagnostics, None, dict(queue_size=100))]
         for action, kind, feedback, result, take in (
@@ -86,6 +87,9 @@ class PageListener:
         if min(pitch) <= 0:
             pitch = [rospy.get_param_cached(self._node + "/scan/pitch_" + axis, 0.0) for axis in "xy"]
         return (image.width * pitch[0], image.height * pitch[1]) if min(pitch) > 0 else None
+
+    def _on_device(self, device):
+        self._state.add_device(device.header.stamp.to_nsec(), device)
 
     def _on_half_space(self, solution):
         self._state.add_half_space(solution.header.stamp.to_nsec(), solution)

@@ -9,7 +9,7 @@ import threading
 import time
 
 from mems_stiction.control_chart import control_limits, of_newest_settings
-from mems_stiction.page_words import (NO_EQUILIBRIUM, curve_of, diagnostics_of, figures_of, finite, flags_of, half_space_of, judged_by, part_of,
+from mems_stiction.page_words import (NO_EQUILIBRIUM, curve_of, device_of, diagnostics_of, figures_of, finite, flags_of, half_space_of, judged_by, part_of,
                                       ratio_of, sentence, trace_of, verdict_of, with_unit)
 from mems_stiction.provenance import provenance_words
 from mems_stiction.quantities import typeset
@@ -43,6 +43,7 @@ class PageState:
         self._loss_is_newest = False
         self._heard = None  # when the last scan was predicted
         self._half_space = None
+        self._device = None
         self._part = None
         self._maps = {}
         self._diagnostics = {}
@@ -103,6 +104,18 @@ class PageState:
             self._half_space = dict(half_space_of(solution), stamp=stamp)
             self._changed()
 
+    def add_device(self, stamp, device):
+        """The force of the whole device, by the scan of this stamp [ns] and those of its part before."""
+        with self._lock:
+            self._device = shown = dict(device_of(device), stamp=stamp)
+            if shown["is_found"]:
+                ratio = shown["ratio"] or dict.fromkeys(("value", "lower", "upper"))
+                for row in self._trend:
+                    if row.get("stamp") == stamp:
+                        row.update(device_force=shown["force"], restoring_force=shown["restoring_force"], ratio=ratio["value"], lower=ratio["lower"],
+                                   upper=ratio["upper"], level=shown["verdict"]["level"])
+            self._changed()
+
     def add_part(self, stamp, part):
         """What all scans of a part say together. stamp: of its last scan [ns]."""
         with self._lock:
@@ -154,7 +167,8 @@ class PageState:
             return {"version": self.version, "link": self._link, "age": None if self._heard is None else now - self._heard,
                     "count": self._count, "lost": self._lost, "loss_is_newest": self._loss_is_newest,
                     "losses": list(self._losses), "scan": self._scan(), "trend": list(self._trend), "control": self._control(),
-                    "part": self._shown_part(), "half_space": self._with_number(self._half_space), "maps": self._shown_maps(),
+                    "part": self._shown_part(), "half_space": self._with_number(self._half_space),
+                    "device": self._with_number(self._device), "maps": self._shown_maps(),
                     "diagnostics": [dict(entry, age=now - heard) for _, (entry, heard) in sorted(self._diagnostics.items())],
                     "runs": {kind: self._run(run, now) for kind, run in self._runs.items()}}
 
@@ -162,9 +176,16 @@ class PageState:
         if self._latest is None:
             return None
         number, stamp, prediction = self._latest
+        verdict, ratio, warnings, figures = verdict_of(prediction), ratio_of(prediction), list(prediction.warnings), figures_of(prediction)
+        device = self._device
+        if device is not None and device["stamp"] == stamp and device["is_found"]:
+            verdict, ratio = dict(device["verdict"]), device["ratio"]
+            if device["settings_hash"] != prediction.settings_hash:
+                verdict["reason"] += " Judged again, under the settings of now."
+            warnings += device["warnings"]
+            figures = [figure for figure in figures if figure["name"] != "device_pull_off_force"]
         return {"number": number, "name": prediction.scan_name or prediction.header.frame_id, "stamp": "%.3f" % (stamp * 1e-9),
-                "verdict": verdict_of(prediction), "ratio": ratio_of(prediction), "flags": flags_of(prediction),
-                "warnings": list(prediction.warnings), "figures": figures_of(prediction), "trace": trace_of(prediction),
+                "verdict": verdict, "ratio": ratio, "flags": flags_of(prediction), "warnings": warnings, "figures": figures, "trace": trace_of(prediction),
                 "origin": provenance_words(prediction), "curve": curve_of(prediction),
                 "preprocessing": list(prediction.preprocessing)}
 

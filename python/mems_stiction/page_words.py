@@ -13,6 +13,7 @@ NO_EQUILIBRIUM = 2  # StictionPrediction.status
 # StictionPrediction.sticks: the level that gives the colour, and the word that is read from afar.
 VERDICTS = {0: ("releases", "RELEASES"), 1: ("marginal", "MARGINAL"), 2: ("sticks", "STICKS"), 3: ("unknown", "NOT KNOWN")}
 LEVELS = ("ok", "warn", "error", "stale")  # diagnostic_msgs/DiagnosticStatus.level
+DEVICE_REFUSED = 2  # DeviceAdhesion.status
 HALF_SPACE_STATES = ("solved", "load not reached", "not converged", "too many states", "cancelled", "refused")
 
 
@@ -32,8 +33,8 @@ def ratio_text(value):
 
 
 def has_device(prediction):
-    """Whether a spring or a beam is stated at all."""
-    return not (math.isnan(prediction.restoring_force) and math.isnan(prediction.peel_number))
+    """Whether a spring or a beam is stated at all; where the whole device's force is on its way, the frame has no figure of them."""
+    return "device_force" in prediction.reason or not (math.isnan(prediction.restoring_force) and math.isnan(prediction.peel_number))
 
 
 def verdict_of(prediction):
@@ -121,6 +122,26 @@ def figures_of(prediction):
         figures.append({"name": name, "label": label, "value": finite(value),
                         "text": (bound if name.endswith("pull_off_force") else "") + text})
     return figures
+
+
+def device_of(device):
+    """What a DeviceAdhesion says: verdict and ratio (None where nothing was found), figures, by how many scans, what they lack."""
+    is_found = device.status != DEVICE_REFUSED
+    level, word = VERDICTS.get(device.sticks, VERDICTS[3])
+    rows = [("device_pull_off_force", "pull-off force of the device", device.pull_off_force,
+             quantities.with_interval(device.pull_off_force, device.pull_off_force_lower, device.pull_off_force_upper, "N")),
+            ("linear_pull_off_force", "the scans' force by area would be", device.linear_pull_off_force, with_unit(device.linear_pull_off_force, "N")),
+            ("device_work_of_adhesion", "its work of adhesion", device.apparent_work_of_adhesion,
+             quantities.with_interval(device.apparent_work_of_adhesion, device.apparent_work_of_adhesion_lower, device.apparent_work_of_adhesion_upper,
+                                      "J/m^2")),
+            ("device_contacts", "places that hold it", device.contacts, "%.3g" % device.contacts)]
+    return {"is_found": is_found, "message": sentence(device.message),
+            "verdict": {"level": level, "word": word, "reason": sentence(device.verdict_reason)} if is_found else None,
+            "ratio": ratio_of(device) if is_found else None,
+            "scans": "%d scan%s" % (device.scan_count, "" if device.scan_count == 1 else "s"), "part": part_name(device),
+            "settings_hash": device.settings_hash, "force": finite(device.pull_off_force), "restoring_force": finite(device.restoring_force),
+            "figures": [{"name": name, "label": label, "text": typeset(text), "value": finite(value)} for name, label, value, text in rows if not math.isnan(value)],
+            "warnings": list(device.warnings)}
 
 
 def curve_of(prediction):

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "device/device_evidence.hpp"
 #include "evaluation/plausibility.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "prediction/deformed_surfaces.hpp"
@@ -10,6 +11,9 @@
 
 namespace mems_stiction {
 namespace {
+
+/// Why a verdict has no force of the device.
+constexpr char kOnTopic[] = "the node finds it by the scans on its topic height and publishes it on device_force";
 
 /// The node's messages always carry the roughness.
 Configuration withRoughness(Configuration configuration) {
@@ -69,10 +73,12 @@ const PreparedScan& LivePredictor::lastPrepared() {
 PredictedScan LivePredictor::judged(const PreparedScan& prepared, const Configuration& settings,
                                     const ScanIdentity& identity, const ScanPredictor::OnModel& on_model) {
   PredictedScan predicted;
+  Evidence evidence;
+  if (wantsDeviceForce(settings.device, settings.device_force)) evidence.why_no_device = kOnTopic;
   predictor_.setDevice(settings.device);
   predicted.prediction = predictor_.predict(prepared, on_model);
   predicted.verdict = verdictOf(predicted.prediction, settings.device, settings.uncertainty, predictor_.options(),
-                                prepared.surfaces.lower.cellArea());
+                                prepared.surfaces.lower.cellArea(), evidence);
   predicted.preprocessing = prepared.record;
   predicted.formulation = predictor_.options().formulation;
   predicted.warnings = predictionWarnings(prepared, settings, predicted.prediction, predictor_.options());
@@ -80,12 +86,12 @@ PredictedScan LivePredictor::judged(const PreparedScan& prepared, const Configur
   used.model = predictor_.options();
   used.counter_surface.pose = predictor_.preparer().counterSurfacePose();  // that of the scan, if it came with one
   predicted.provenance = provenanceOf(identity, used);
+  predicted.pool_settings_hash = settingsHash(settings);  // without the pose that came with this scan
   predicted.curve = curveOf(predicted.prediction, predictor_.options().interface);
   return predicted;
 }
 
-void LivePredictor::addToPart(const ReceivedScan& scan, const Configuration& settings, PredictedScan& predicted) {
-  predicted.pool_settings_hash = settingsHash(settings);  // without the pose that came with this scan
+void LivePredictor::addToPart(const ReceivedScan& scan, PredictedScan& predicted) {
   predicted.part =
       parts_.add(keyOf({scan.header, predicted.provenance, predicted.pool_settings_hash}), scan.header.stamp.toNSec(),
                  statementOf(predicted.provenance.scan_name, predicted.prediction, predicted.verdict));
@@ -116,7 +122,7 @@ PredictedScan LivePredictor::predictScan(const ReceivedScan& scan, const OutputO
   };
   PredictedScan predicted =
       judged(prepared, *settings, scan.identity, accumulate_deformation_ ? ScanPredictor::OnModel(addWear) : nullptr);
-  addToPart(scan, *settings, predicted);
+  addToPart(scan, predicted);
   as_made.preparation_time = 0.0;  // later predictions of this scan do not prepare it
   last_ = LastScan{scan, as_made, prepared, {scan.header, predicted.provenance, predicted.pool_settings_hash}, wear_};
   last_->prepared.preparation_time = 0.0;

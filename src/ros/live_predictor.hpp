@@ -98,7 +98,7 @@ class LivePredictor {
   void setPoseOf(const ReceivedScan& scan);
   void requireCounterSurface() const;
   /// The prediction among those of its part.
-  void addToPart(const ReceivedScan& scan, const Configuration& settings, PredictedScan& predicted);
+  void addToPart(const ReceivedScan& scan, PredictedScan& predicted);
   /// The prediction with `options` set before, and its verdict.
   PredictedScan judged(const PreparedScan& prepared, const Configuration& settings, const ScanIdentity& identity,
                        const ScanPredictor::OnModel& on_model = {});

@@ -197,6 +197,10 @@ void NodeOptions::describe(OptionVisitor& visitor) {
                  "how long a scan and its scan_info wait for each other");
   visitor.flag("accumulate_deformation", accumulate_deformation,
                "each contact leaves its mark on the scans of the same size that follow");
+  visitor.integer("max_part_scans", max_part_scans, Range::within(1, 1000),
+                  "of one part, kept for the force of its device; of more, the oldest of the commonest grid goes");
+  visitor.number("max_part_memory", max_part_memory, "bytes", Range::within(1e6, 1e12),
+                 "that the scans of all parts may hold that are kept for it; the part that has waited longest goes");
   visitor.number("diagnostic_period", diagnostic_period, "s", kDuration, "between messages on /diagnostics");
   visitor.number("warning_period", warning_period, "s", Range::within(0.0, kLongestDuration),
                  "at most one warning of a kind about scans in so long a time");

@@ -57,6 +57,8 @@ struct NodeOptions {
   bool use_scan_info = true;            ///< false: the parameters scan/... serve for every scan
   double pairing_timeout = 5.0;         ///< how long a scan and its scan_info wait for each other [s], wall time
   bool accumulate_deformation = false;  ///< each contact leaves its mark on the scans that follow
+  int max_part_scans = 16;              ///< of one part, kept for the force of its device, > 0
+  double max_part_memory = 1e9;         ///< of all scans that are kept for it [bytes]
   double diagnostic_period = 1.0;       ///< between messages on /diagnostics [s], wall time
   double warning_period = 5.0;          ///< at most one warning of a kind in so long a time [s], wall time
   TransformOptions transform;

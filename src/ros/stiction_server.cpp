@@ -6,6 +6,7 @@
 #include <boost/bind/bind.hpp>
 #include <boost/make_shared.hpp>
 
+#include "device/device_evidence.hpp"
 #include "errors/error_text.hpp"
 #include "errors/one_line.hpp"
 #include "evaluation/plausibility.hpp"
@@ -55,6 +56,17 @@ StictionServer::StictionServer(const ros::NodeHandle& handle, const ros::NodeHan
                             [this](const auto& scan, const auto& verdict) {
                               worker_.push([=] { judgePartAgain(scan, verdict); });
                             })),
+      device_force_(!configuration.core.device_force.enabled
+                        ? nullptr
+                        : std::make_unique<DeviceForceStream>(
+                              withQueue(handle, service_queue_),
+                              KeptSurfaces{static_cast<std::size_t>(options_.max_part_scans),
+                                           static_cast<std::size_t>(options_.max_part_memory)},
+                              half_space_pause_,
+                              [this](const auto& header, const auto& text) { accounting_.warn(header, text); },
+                              [this](const auto& part, const auto& last) {
+                                worker_.push([=] { publishPartOfDevice(part, last); });
+                              })),
       worker_(capacityOf(options_), static_cast<std::size_t>(options_.max_waiting_memory)),
       counter_surface_frame_(options_.transform.frame.empty()
                                  ? nullptr
@@ -89,6 +101,7 @@ StictionServer::StictionServer(const ros::NodeHandle& handle, const ros::NodeHan
   subscribe();
   startTimers();
   if (half_space_) half_space_->start();
+  if (device_force_) device_force_->start();
   worker_.start();
   actions_.start();
   half_space_calls_.start();
@@ -106,6 +119,7 @@ StictionServer::~StictionServer() {
   half_space_calls_.stop();
   worker_.stop();
   if (half_space_) half_space_->stop();
+  if (device_force_) device_force_->stop();
   service_queue_.stop();
   topic_spinner_.stop();
   const ScanCounts counts = accounting_.counts();
@@ -152,6 +166,7 @@ void StictionServer::startTimers() {
   diagnostics_.add("scans", [this](auto& status) { report(status); });
   diagnostics_.add("master", [this](auto& status) { master_->report(status); });
   if (half_space_) diagnostics_.add("half_space", [this](auto& status) { half_space_->report(status); });
+  if (device_force_) diagnostics_.add("device_force", [this](auto& status) { device_force_->report(status); });
   diagnostic_timer_ = handle_.createWallTimer(ros::WallDuration(options_.diagnostic_period),
                                               [this](const ros::WallTimerEvent&) { diagnostics_.publish(); });
   pairing_timer_ = handle_.createWallTimer(ros::WallDuration(0.2 * options_.pairing_timeout), [this](const auto&) {
@@ -260,7 +275,12 @@ StationCase StictionServer::findCase(const sensor_msgs::Image& height, const Sca
 
 void StictionServer::change(const RunningSettings& settings) {
   // Between two scans: what is published after the answer was predicted with the new settings.
-  worker_.call([&] { predictor_.settings().change(settings); });
+  worker_.call([&] {
+    predictor_.settings().change(settings);
+    const SettingsOwner::Snapshot changed = predictor_.settings().snapshot();
+    if (!device_force_ || !wantsDeviceForce(changed->device, changed->device_force)) return;
+    if (const std::optional<PredictedScan> predicted = lastScanOrNothing()) offerToDevice(*predicted);
+  });
 }
 
 void StictionServer::predictAndPublish(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info,
@@ -278,6 +298,7 @@ void StictionServer::predictAndPublish(const sensor_msgs::ImageConstPtr& image, 
                          {scan.header, predicted.provenance, predicted.pool_settings_hash},
                          predicted.prediction.contact_map, drawnCurve(predicted));
     }
+    offerToDevice(predicted);
     if (publisher_.isPreviewWanted()) publisher_.publishPreview(predictor_.lastSurface(), scan.header);
     accounting_.predicted((ros::WallTime::now() - arrival).toSec(), predicted.prediction.processing_time);
     for (const std::string& line : predicted.warnings) accounting_.warn(scan.header, line);
@@ -288,7 +309,17 @@ void StictionServer::predictAndPublish(const sensor_msgs::ImageConstPtr& image, 
 
 void StictionServer::judgePartAgain(const ScanOfPart& scan, const Verdict& verdict) {
   const std::optional<PartNews> news = predictor_.judgeAgain(scan, verdict);
-  if (news) publisher_.publishPart(news->verdict, news->last);
+  // A device that has been judged by its own force is not judged by one frame after that.
+  if (news && scan.header.stamp != judged_by_device_) publisher_.publishPart(news->verdict, news->last);
+}
+
+void StictionServer::offerToDevice(const PredictedScan& predicted) {
+  if (device_force_) device_force_->offer(predictor_.stationCase(nullptr), predicted);
+}
+
+void StictionServer::publishPartOfDevice(const PooledVerdict& part, const ScanOfPart& last) {
+  judged_by_device_ = last.header.stamp;
+  publisher_.publishPart(part, last);
 }
 
 void StictionServer::showLastScan() {

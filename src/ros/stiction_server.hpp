@@ -5,7 +5,7 @@
 ///
 /// Threads of the node: one for topics, transforms and timers; one for the core (WorkQueue); one for each call of a
 /// service that waits, and one for the next; one for each action; one for ~solve_half_space; one that solves the newest
-/// scan as a half-space. Threads of the process: one that writes the log, and one that watches the master and alone
+/// scan as a half-space, one that finds the force of the newest device. Threads of the process: one that writes the log, and one that watches the master and alone
 /// talks to it. The worker serves services that need the core before the scans that wait. Actions and half-spaces take
 /// from it what they need, and then work by themselves.
 
@@ -27,6 +27,7 @@
 #include "mems_stiction/SetVoltage.h"
 #include "ros/call_queue.hpp"
 #include "ros/counter_surface_frame.hpp"
+#include "ros/device_force_stream.hpp"
 #include "ros/diagnostics.hpp"
 #include "ros/guarded_queue.hpp"
 #include "ros/half_space_calls.hpp"
@@ -71,6 +72,9 @@ class StictionServer {
                          const std::optional<SurfacePose>& pose);
   /// What the part's scans say once the half-space has judged one of them.
   void judgePartAgain(const ScanOfPart& scan, const Verdict& verdict);
+  /// The last scan to the stream that finds its device's force.
+  void offerToDevice(const PredictedScan& predicted);
+  void publishPartOfDevice(const PooledVerdict& part, const ScanOfPart& last);
   void showLastScan();
   void takeCounterSurface(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info);
   void rejectLone(const std_msgs::Header& header, const std::string& reason);
@@ -108,8 +112,10 @@ class StictionServer {
   ScanAccounting accounting_;
   LivePredictor predictor_;  ///< touched by the worker only, but for what is for every thread
   ResultPublisher publisher_;
-  SolutionPause half_space_pause_;               ///< held while a scan is predicted
-  std::unique_ptr<HalfSpaceStream> half_space_;  ///< null: half_space/enabled is not set
+  SolutionPause half_space_pause_;                   ///< held while a scan is predicted
+  std::unique_ptr<HalfSpaceStream> half_space_;      ///< null: half_space/enabled is not set
+  std::unique_ptr<DeviceForceStream> device_force_;  ///< null: device_force/enabled is not set
+  ros::Time judged_by_device_;                       ///< stamp of the last scan of a part; touched by the worker only
   WorkQueue worker_;
   std::atomic<bool> stopping_{false};
 

@@ -101,6 +101,7 @@ void StictionServer::changeLoad(const std::function<void(LoadOptions&)>& set, Re
       try {
         if (const std::optional<PredictedScan> predicted = predictor_.predictLastScan()) {
           response.prediction = predictionMessage(*predicted, predictor_.lastScan()->header);
+          offerToDevice(*predicted);
           if (old) response.message += "; " + effect(old->prediction, predicted->prediction);
         } else {
           response.message += "; no scan yet, so there is no prediction";

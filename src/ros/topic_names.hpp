@@ -25,6 +25,7 @@ inline constexpr char kSurfacePointsTopic[] = "surface_points";
 inline constexpr char kAsperityMarkersTopic[] = "asperity_markers";
 inline constexpr char kPreviewTopic[] = "preview";
 inline constexpr char kForceCurveTopic[] = "force_curve";
+inline constexpr char kDeviceForceTopic[] = "device_force";
 inline constexpr char kHalfSpaceTopic[] = "half_space";
 inline constexpr char kHalfSpaceContactMapTopic[] = "half_space_contact_map";
 inline constexpr char kHalfSpaceCurveTopic[] = "half_space_curve";

@@ -1,6 +1,7 @@
 #include "settings/time_limit.hpp"
 
 #include <string>
+#include <utility>
 
 #include "mems_stiction/settings/option_visitor.hpp"
 
@@ -8,6 +9,7 @@ namespace mems_stiction {
 namespace {
 
 thread_local TimeLimit* innermost = nullptr;
+thread_local BesideWork* beside = nullptr;
 
 /// Longer ones would leave the clock's range [s].
 constexpr double kLongest = 1e9;
@@ -30,9 +32,14 @@ TimeLimit::TimeLimit(double seconds, const char* setting, double spent)
 TimeLimit::~TimeLimit() { innermost = outer_; }
 
 void TimeLimit::check() {
+  if (beside != nullptr) beside->work_();
   if (innermost == nullptr || Clock::now() < innermost->end_) return;
   throw TimeLimitError("the scan was given up after " + numberText(innermost->seconds_) + " s (" + innermost->setting_ +
                        "): a smaller region, a coarser grid or less noise take less time");
 }
+
+BesideWork::BesideWork(std::function<void()> work) : outer_(beside), work_(std::move(work)) { beside = this; }
+
+BesideWork::~BesideWork() { beside = outer_; }
 
 }  // namespace mems_stiction

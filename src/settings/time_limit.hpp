@@ -10,6 +10,7 @@
 ///     for (...) TimeLimit::check();                    // anywhere below, once in a millisecond or so
 
 #include <chrono>
+#include <functional>
 
 #include "mems_stiction/errors/errors.hpp"
 
@@ -32,6 +33,7 @@ class TimeLimit {
   TimeLimit(const TimeLimit&) = delete;
   TimeLimit& operator=(const TimeLimit&) = delete;
 
+  /// Does what this thread does beside (BesideWork), too.
   /// @throw TimeLimitError if the innermost limit of this thread is over. Takes some 30 ns.
   static void check();
 
@@ -42,6 +44,24 @@ class TimeLimit {
   Clock::time_point end_;
   double seconds_;
   const char* setting_;
+};
+
+/// What this thread does beside, wherever something long asks for its time: it gives way to others, or throws since it
+/// is to end.
+///
+///     const BesideWork beside([&] { if (stopping) throw Stopped(); });  // until the end of the block
+class BesideWork {
+ public:
+  explicit BesideWork(std::function<void()> work);
+  ~BesideWork();
+  BesideWork(const BesideWork&) = delete;
+  BesideWork& operator=(const BesideWork&) = delete;
+
+ private:
+  friend class TimeLimit;
+
+  BesideWork* outer_;
+  std::function<void()> work_;
 };
 
 }  // namespace mems_stiction

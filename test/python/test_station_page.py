@@ -19,7 +19,7 @@ from types import SimpleNamespace
 import numpy as np
 import tornado.websocket
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
-from mems_stiction.msg import HalfSpaceSolution, PartVerdict, SeparationPoint, StictionPrediction, SweepLoadResult, SweepPoint, SweepSummary
+from mems_stiction.msg import DeviceAdhesion, HalfSpaceSolution, PartVerdict, SeparationPoint, StictionPrediction, SweepLoadResult, SweepPoint, SweepSummary
 from mems_stiction.control_chart import control_limits
 from mems_stiction.page_maps import contact_png, height_png, rings, severest
 from mems_stiction.page_server import FOLDER, CannotServe, PageServer
@@ -47,6 +47,17 @@ def part_message(**changes):
     message = PartVerdict(part_id="lot 3", serial_id="0012", scan_count=4, counted_scans=3, sticks=0, reason="above 1", verdict_by="prediction",
                           margin=3.0, margin_lower=1.5, margin_upper=6.0, worst_margin=2.0, worst_margin_scan="place 2", peel_number=NAN,
                           peel_number_lower=NAN, peel_number_upper=NAN, worst_peel_number=NAN, regime_flags=32, warnings=["one is odd"])
+    for name, value in changes.items():
+        setattr(message, name, value)
+    return message
+
+
+def device_message(**changes):
+    message = DeviceAdhesion(scan_count=3, part_id="lot 3", sticks=StictionPrediction.STICKS_NO, verdict_reason="above 1", verdict_by="prediction",
+                             pull_off_force=2e-7, pull_off_force_lower=1e-7, pull_off_force_upper=4e-7, linear_pull_off_force=3e-6, contacts=4.0,
+                             apparent_work_of_adhesion=1e-6, apparent_work_of_adhesion_lower=5e-7, apparent_work_of_adhesion_upper=2e-6,
+                             restoring_force=1e-6, margin=5.0, margin_lower=2.5, margin_upper=10.0, peel_number=NAN, peel_number_lower=NAN,
+                             peel_number_upper=NAN, settings_hash="00ff", warnings=["measure a field of 40 um"])
     for name, value in changes.items():
         setattr(message, name, value)
     return message
@@ -131,6 +142,41 @@ class StateTest(unittest.TestCase):
         sentences = state.snapshot()["runs"]["sweep"]["sentences"]
         self.assertFalse([text for text in sentences if text.startswith("    ")])
         self.assertTrue(any(text.startswith("  jump") and len(text) > 130 for text in sentences))
+
+    def test_the_whole_device_judges_once_its_force_is_there(self):
+        state = PageState()
+        awaiting = prediction(reason="the device's own force has not been found (it follows on device_force)", settings_hash="00ff", restoring_force=1e-6)
+        state.add_prediction(SECOND, awaiting)
+        shown = state.snapshot()
+        self.assertEqual((shown["scan"]["verdict"]["word"], shown["scan"]["ratio"], shown["device"]), ("NOT KNOWN", None, None))
+        state.add_device(SECOND, device_message())
+        shown = json.loads(json.dumps(state.snapshot(), allow_nan=False))
+        self.assertEqual(shown["scan"]["verdict"], {"level": "releases", "word": "RELEASES", "reason": "Above 1."})
+        self.assertEqual(shown["scan"]["ratio"], ratio_of(device_message()))
+        self.assertEqual(shown["scan"]["warnings"], ["measure a field of 40 um"])
+        self.assertEqual([shown["trend"][0][name] for name in ("device_force", "restoring_force", "ratio", "lower", "upper", "level")],
+                         [2e-7, 1e-6, 5.0, 2.5, 10.0, "releases"])
+        self.assertEqual((shown["device"]["number"], shown["device"]["scans"], shown["device"]["part"]), (1, "3 scans", "part lot 3"))
+        texts = {figure["name"]: figure["text"] for figure in shown["device"]["figures"]}
+        self.assertEqual(texts["device_pull_off_force"], "200 nN (100 to 400)")
+        self.assertEqual(texts["linear_pull_off_force"], "3.00 µN")
+        # The next scan is not judged by the force that was found before it.
+        state.add_prediction(2 * SECOND, awaiting)
+        shown = state.snapshot()
+        self.assertEqual((shown["scan"]["verdict"]["word"], shown["device"]["number"]), ("NOT KNOWN", 1))
+        # Another load afterwards: the same scan, judged under other settings.
+        state.add_device(2 * SECOND, device_message(sticks=StictionPrediction.STICKS_YES, settings_hash="11ff"))
+        verdict = state.snapshot()["scan"]["verdict"]
+        self.assertEqual((verdict["word"], verdict["reason"]), ("STICKS", "Above 1. Judged again, under the settings of now."))
+
+    def test_a_device_whose_force_was_not_found_says_why_and_judges_nothing(self):
+        state = PageState()
+        state.add_prediction(SECOND, prediction(2.0, StictionPrediction.STICKS_NO))
+        state.add_device(SECOND, device_message(status=DeviceAdhesion.REFUSED, message="no scan is large enough", pull_off_force=NAN, margin=NAN, contacts=NAN))
+        shown = json.loads(json.dumps(state.snapshot(), allow_nan=False))
+        self.assertEqual((shown["scan"]["verdict"]["word"], shown["trend"][0]["ratio"]), ("RELEASES", 2.0))
+        self.assertEqual((shown["device"]["is_found"], shown["device"]["message"]), (False, "No scan is large enough."))
+        self.assertNotIn("device_contacts", [figure["name"] for figure in shown["device"]["figures"]])
 
     def test_what_is_not_finite_is_no_trouble_for_json(self):
         state = PageState()

@@ -12,18 +12,18 @@ import dynamic_reconfigure.client
 import numpy as np
 import rospy
 import rostest
-from mems_stiction.msg import (CycleContactAction, CycleContactGoal, HalfSpaceSolution, PartVerdict, StictionPrediction,
+from mems_stiction.msg import (CycleContactAction, CycleContactGoal, DeviceAdhesion, HalfSpaceSolution, PartVerdict, StictionPrediction,
                                SweepLoadAction, SweepLoadGoal)
 from mems_stiction.page_words import VERDICTS, flags_of, judge_word, ratio_text, with_unit
 from mems_stiction.provenance import provenance_words
-from mems_stiction.quantities import percent
+from mems_stiction.quantities import percent, typeset, with_interval
 from roslib.packages import find_node
 from stiction_client import TIMEOUT, Collector, Counts, Station, Traffic, image_message, info_message, rough_surface, wait_for_listener, wait_until
 
 # A spring of 1 N/m over 1 um is far stronger than 3e-13 m^2 of these surfaces hold; three contacts carry a statement.
 DEVICE = dict(spring_stiffness=100.0, travel=1e-6, contact_area=48 * 64 * 1e-16, mechanical_load=1e-5, electrode_area=1e-8)
 HOSTILE = "<img src=x onerror=\"document.title='broken'\"><script>alert(1)</script>&amp;"
-SHOWN = ("pull_off_force", "device_pull_off_force", "restoring_force", "contact_fraction", "asperity_count", "rms_height",
+SHOWN = ("pull_off_force", "restoring_force", "contact_fraction", "asperity_count", "rms_height",
          "mechanical_load", "flattening_ratio")
 
 
@@ -44,6 +44,7 @@ class PageTest(unittest.TestCase):
         cls.counts = Counts()
         cls.predictions = Collector("prediction", StictionPrediction).connect()
         cls.solutions = Collector("half_space", HalfSpaceSolution)
+        cls.devices = Collector("device_force", DeviceAdhesion).connect()
         cls.station = Station()
         cls.settings = dynamic_reconfigure.client.Client("stiction_node", timeout=TIMEOUT)
         process, cls.address = started("--stale", "10")
@@ -68,6 +69,14 @@ class PageTest(unittest.TestCase):
         prediction = self.predictions.wait(count + 1)[count]
         self.page.wait("state.scan && state.scan.stamp === '%.3f'" % image.header.stamp.to_sec())
         return prediction
+
+    def live_device(self, surface):
+        """The prediction of the surface and the force of its device, once the page shows both."""
+        prediction = self.live(surface)
+        stamp = prediction.header.stamp
+        wait_until(lambda: any(device.header.stamp == stamp for device in self.devices.messages), "the device of the scan")
+        self.page.wait("state.device && state.device.stamp === %d" % stamp.to_nsec())
+        return prediction, [device for device in self.devices.messages if device.header.stamp == stamp][-1]
 
     def figure(self, name):
         """Text and exact value beside the verdict."""
@@ -96,23 +105,28 @@ class PageTest(unittest.TestCase):
     def test_3_verdict_margin_and_figures_are_those_of_the_message(self):
         self.settings.update_configuration(DEVICE)
         smooth = rough_surface(2, rms_height=5e-10)  # three contacts hold it: one carries no statement
-        prediction = self.live(smooth)
-        self.assertEqual(prediction.sticks, StictionPrediction.STICKS_NO)
+        prediction, device = self.live_device(smooth)
+        self.assertEqual((prediction.sticks, device.sticks), (StictionPrediction.STICKS_NO, StictionPrediction.STICKS_NO))
         self.assertEqual(self.page.text("#word"), "RELEASES")
         self.assertEqual(self.page.value("document.querySelector('#verdict').className"), "releases")
-        self.assertEqual(self.page.text("#ratio-value"), ratio_text(prediction.margin))
+        self.assertEqual(self.page.text("#ratio-value"), ratio_text(device.margin))
         self.assertEqual(self.page.text("#ratio-interval"), "95 %%: %s to %s" % (
-            ratio_text(prediction.margin_lower), ratio_text(prediction.margin_upper)))
+            ratio_text(device.margin_lower), ratio_text(device.margin_upper)))
         for name in SHOWN:
             self.assertEqual(float(self.figure(name)[1]), getattr(prediction, name), name)
+        self.assertEqual(self.figure("device_pull_off_force"), [typeset(with_interval(
+            device.pull_off_force, device.pull_off_force_lower, device.pull_off_force_upper, "N")), str(device.pull_off_force)])
+        self.assertEqual(float(self.figure("linear_pull_off_force")[1]), device.linear_pull_off_force)
+        self.assertIn("RELEASES, margin %s" % ratio_text(device.margin), self.page.text("#device-words"))
         self.assertEqual(self.figure("contact_fraction")[0], percent(prediction.contact_fraction))
-        self.assertEqual(self.page.text("#limits"), " · ".join(flags_of(prediction) + ["warning: " + text for text in prediction.warnings]))
-        self.assertEqual(self.page.value("state.trend[state.trend.length - 1].ratio"), prediction.margin)
+        self.assertEqual(self.page.text("#limits"), " · ".join(
+            flags_of(prediction) + ["warning: " + text for text in list(prediction.warnings) + list(device.warnings)]))
+        self.assertEqual(self.page.value("state.trend[state.trend.length - 1].ratio"), device.margin)
         self.assertEqual(self.page.text("#origin"), provenance_words(prediction))
         self.assertEqual(self.page.value("document.querySelectorAll('#trend-ratio circle').length"), 1)  # the first had no device
 
         self.settings.update_configuration(dict(spring_stiffness=1e-4))
-        self.live(smooth)
+        self.live_device(smooth)
         self.assertEqual(self.page.text("#word"), "STICKS")
         self.assertEqual(self.page.value("document.querySelector('#verdict').className"), "sticks")
         self.settings.update_configuration(DEVICE)
@@ -150,9 +164,9 @@ class PageTest(unittest.TestCase):
         self.open_tab("node")
         self.assertIn("scan %d: Rejected the scan" % (shown + 1), self.page.text("#losses"))
         self.page.wait("document.querySelector('#diagnostics').innerText.includes('rejected\\t1')")
-        self.page.wait("document.querySelector('#link').className === 'ok'")  # of the report that counted it, 'warn'
-        prediction = self.live(rough_surface(4))
-        self.assertEqual(self.page.text("#word"), VERDICTS[prediction.sticks][1])
+        self.page.wait("document.querySelector('#link').className === 'ok'", timeout=10)  # of the report that counted it, 'warn'
+        _, device = self.live_device(rough_surface(4))
+        self.assertEqual(self.page.text("#word"), VERDICTS[device.sticks][1])
 
     def test_6_names_are_text_and_never_markup(self):
         self.live(rough_surface(5), HOSTILE)
@@ -169,8 +183,10 @@ class PageTest(unittest.TestCase):
             self.station.height.publish(image_message(rough_surface(seed), stamp))
             self.station.info.publish(info)
             self.page.wait("state.scan && state.scan.stamp === '%.3f'" % stamp.to_sec())
-            wait_until(lambda: parts.messages and parts.messages[-1].header.stamp == stamp, "the part's verdict")
-            wait_until(lambda: len(parts.messages) % 2 == 0, "the part's verdict with that of the half-space")
+            wait_until(lambda: self.devices.messages[-1].header.stamp == stamp, "the device of the scan")
+            device = self.devices.messages[-1]
+            wait_until(lambda: parts.messages and (parts.messages[-1].header.stamp, parts.messages[-1].margin) == (stamp, device.margin),
+                       "the part's verdict with that of the device")
             part = parts.messages[-1]
             self.page.wait("state.part.ratio.interval === %s && state.part.verdict_by === %s" % (
                 json.dumps("95 %%: %s to %s" % (ratio_text(part.margin_lower), ratio_text(part.margin_upper))), json.dumps(judge_word(part.verdict_by))))
@@ -226,15 +242,16 @@ class PageTest(unittest.TestCase):
         self.page.wait("state.count === %d" % (before + len(traffic.sent)))
         self.page.wait("state.control && state.control.last === state.count")
         self.assertEqual(self.page.value("document.querySelectorAll('#trend-force path[stroke=\"#c99bff\"]').length"), 3)  # limits and centre
-        self.assertEqual(self.page.value("document.querySelectorAll('#trend-force ellipse').length"), self.page.value("state.control.outside.length"))
+        shown, outside = self.page.value("[document.querySelectorAll('#trend-force ellipse').length, state.control.outside.length]")
+        self.assertEqual(shown, outside)
 
     def test_9_several_browsers_see_the_same_and_old_data_are_marked(self):
         other = browser.Browser(768, 1024)
         self.addCleanup(other.close)
         other.open(self.address + "/#node")
-        prediction = self.live(rough_surface(8))
-        other.wait("state && state.scan.number === %d" % self.page.value("state.scan.number"))
-        self.assertEqual(other.text("#ratio-value"), ratio_text(prediction.margin))
+        _, device = self.live_device(rough_surface(8))
+        other.wait("state && state.device.stamp === %d" % device.header.stamp.to_nsec())
+        self.assertEqual(other.text("#ratio-value"), ratio_text(device.margin))
         for page in (self.page, other):
             page.wait("/^last scan \\d\\d s ago$/.test(document.querySelector('#age').textContent)")
             self.assertEqual(page.value("document.querySelector('#verdict').className.split(' ')[0]"), "stale")

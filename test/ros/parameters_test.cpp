@@ -196,7 +196,7 @@ TEST(Parameters, TheShippedNodeYamlHoldsEveryKeyWithItsDefault) {
   compare(shipped, defaults, "");
   compare(shipped["display"], defaults["display"], "display/");
   compare(shipped["counter_surface"], defaults["counter_surface"], "counter_surface/");
-  EXPECT_EQ(compared, 17U);
+  EXPECT_EQ(compared, 19U);
 }
 
 }  // namespace

@@ -208,7 +208,7 @@ class Station:
         return stamp
 
 
-def _write_grid(path, heights):
+def write_grid(path, heights):
     """A text grid from which every height comes back to the bit."""
     path.write_text("".join(" ".join(repr(float(height)) for height in row) + "\n" for row in heights))
 
@@ -234,9 +234,9 @@ def predict_scan(heights, load, voltage=0.0, counter=None, arguments=(), setting
     settings = dict(settings_of() if settings is None else settings)
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        _write_grid(folder / "scan.txt", heights)
+        write_grid(folder / "scan.txt", heights)
         if counter is not None:
-            _write_grid(folder / "counter.txt", counter)
+            write_grid(folder / "counter.txt", counter)
             settings.update(counter_surface={"type": "file", "file": str(folder / "counter.txt"), "facing": "down"},
                             scan={"pitch_x": PITCH, "pitch_y": PITCH})
         (folder / "config.yaml").write_text(yaml.safe_dump(settings))

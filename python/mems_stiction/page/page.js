@@ -117,6 +117,17 @@ function showTab() {
 function showOverview() {
   showTrend();
   fillFigures("figures", state.scan ? state.scan.figures : []);
+  showDevice();
+}
+
+/** The whole device's force; by an earlier scan as long as that of the newest is on its way. */
+function showDevice() {
+  const device = state.device;
+  say("device-of", device && device.number ? `by scan ${device.number}` : "");
+  say("device-words", !device ? "No force of a whole device yet." : !device.is_found ? `Not found: ${device.message}` :
+      `${device.verdict.word}` + (device.ratio ? `, ${device.ratio.label} ${device.ratio.text}` + (device.ratio.interval ? ` (${device.ratio.interval})` : "") : "") +
+      `; by ${device.scans} of ${device.part || "no part"}.`);
+  fillFigures("device-figures", device ? device.figures : []);
 }
 
 function fillFigures(id, rows) {

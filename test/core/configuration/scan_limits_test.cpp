@@ -83,6 +83,26 @@ TEST(ScanLimits, AnInnerLimitEndsWithItsBlock) {
   EXPECT_NO_THROW(TimeLimit::check());
 }
 
+TEST(ScanLimits, WhatIsDoneBesideIsDoneWhereTheModelAsksForItsTime) {
+  ScanPredictor predictor{Configuration()};
+  const PreparedScan scan = predictor.preparer().prepare(noise(64));
+  int outer = 0, inner = 0;
+  const BesideWork beside([&] { ++outer; });
+  predictor.predict(scan);
+  EXPECT_GT(outer, 2);
+  const int before = outer;
+  {
+    const BesideWork given_up([&] {
+      if (++inner == 3) throw 7;
+    });
+    EXPECT_THROW(predictor.predict(scan), int);
+  }
+  EXPECT_EQ(inner, 3);
+  EXPECT_EQ(outer, before);
+  TimeLimit::check();
+  EXPECT_EQ(outer, before + 1);
+}
+
 TEST(ScanLimits, WithoutALimitNothingIsOver) { EXPECT_NO_THROW(TimeLimit::check()); }
 
 }  // namespace

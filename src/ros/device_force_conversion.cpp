@@ -1,0 +1,46 @@
+#include "ros/device_force_conversion.hpp"
+
+#include "device/device_force_fields.hpp"
+#include "errors/one_line.hpp"
+#include "ros/message_fields.hpp"
+#include "ros/message_text.hpp"
+
+namespace mems_stiction {
+
+DeviceAdhesion deviceMessage(const DeviceForce& force, const LoadOptions& load, const std_msgs::Header& header) {
+  DeviceAdhesion message;
+  message.header = header;
+  MessageFields fields;
+  visitDeviceForceFields(force, fields);
+  fields.fill(message);
+  message.voltage = load.voltage;
+  message.mechanical_load = load.mechanical_load;
+  for (const Realisation& made : force.realisations) message.realisations.push_back(made.pull_off_force);
+  message.warnings = withoutCommas(force.warnings);
+  message.processing_time = DeviceForce::kUnknown;
+  fillVerdict(Verdict(), message);
+  message.verdict_by.clear();
+  return message;
+}
+
+void fillVerdict(const Verdict& verdict, DeviceAdhesion& message) {
+  message.sticks = static_cast<std::uint8_t>(verdict.sticks);
+  message.verdict_reason = withoutCommas(oneLine(verdict.reason));
+  message.verdict_by = judgeText(verdict.judge);
+  message.restoring_force = verdict.restoring_force;
+  message.margin = verdict.margin;
+  message.margin_lower = verdict.margin_lower;
+  message.margin_upper = verdict.margin_upper;
+  message.peel_number = verdict.peel_number;
+  message.peel_number_lower = verdict.peel_number_lower;
+  message.peel_number_upper = verdict.peel_number_upper;
+}
+
+DeviceAdhesion refusedDevice(const std::string& reason, const LoadOptions& load, const std_msgs::Header& header) {
+  DeviceAdhesion message = deviceMessage(DeviceForce(), load, header);
+  message.status = DeviceAdhesion::REFUSED;
+  message.message = withoutCommas(oneLine(reason));
+  return message;
+}
+
+}  // namespace mems_stiction

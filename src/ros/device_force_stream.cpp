@@ -1,0 +1,259 @@
+#include "ros/device_force_stream.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <diagnostic_msgs/DiagnosticStatus.h>
+
+#include "device/device_evidence.hpp"
+#include "errors/one_line.hpp"
+#include "errors/short_number.hpp"
+#include "evaluation/frame_load.hpp"
+#include "ros/background_thread.hpp"
+#include "ros/provenance_conversion.hpp"
+#include "ros/topic_names.hpp"
+#include "settings/time_limit.hpp"
+
+namespace mems_stiction {
+namespace {
+
+/// The node ends.
+struct Stopped {};
+
+/// Parts that wait; the one that has waited longest goes.
+constexpr std::size_t kMostWaiting = 100;
+
+Prediction withoutMaps(Prediction prediction) {
+  prediction.deformed_lower.release();
+  prediction.deformed_upper.release();
+  prediction.contact_map.release();
+  prediction.pressure.release();
+  return prediction;
+}
+
+/// Of the settings that bear on a device's force.
+/// - @p with_load whether the load counts
+std::string forceHash(const Configuration& settings, bool with_load) {
+  Configuration counted = settings;
+  counted.device = DeviceOptions();
+  counted.device.contact_area = settings.device.contact_area;
+  counted.device.contacts = settings.device.contacts;
+  if (!with_load) counted.model.load = LoadOptions();
+  return settingsHash(counted);
+}
+
+/// The force that has been found under one load, under another.
+DeviceForce scaled(DeviceForce force, double force_factor, double work_factor) {
+  for (double* const value : {&force.pull_off_force, &force.pull_off_force_lower, &force.pull_off_force_upper,
+                              &force.linear_pull_off_force}) {
+    *value *= force_factor;
+  }
+  for (double* const value : {&force.apparent_work_of_adhesion, &force.apparent_work_of_adhesion_lower,
+                              &force.apparent_work_of_adhesion_upper}) {
+    *value *= work_factor;
+  }
+  for (Realisation& made : force.realisations) made.pull_off_force *= force_factor;
+  force.separation_at_rest = DeviceForce::kUnknown;
+  return force;
+}
+
+}  // namespace
+
+DeviceForceStream::DeviceForceStream(const ros::NodeHandle& handle, const KeptSurfaces& most, SolutionPause& pause,
+                                     Warn warn, Judged judged)
+    : pause_(pause), warn_(std::move(warn)), judged_(std::move(judged)), parts_(most) {
+  ros::NodeHandle node(handle);
+  // Latched: whoever comes finds the newest.
+  publisher_ = node.advertise<DeviceAdhesion>(kDeviceForceTopic, kPredictionQueue, true);
+}
+
+void DeviceForceStream::start() {
+  thread_ = std::thread([this] { loop(); });
+}
+
+void DeviceForceStream::stop() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stopping_ = true;
+  }
+  changed_.notify_all();
+  if (thread_.joinable()) thread_.join();
+}
+
+void DeviceForceStream::offer(const StationCase& scan, const PredictedScan& predicted) {
+  const SettingsOwner::Snapshot& settings = scan.settings;
+  if (!wantsDeviceForce(settings->device, settings->device_force)) return;
+  const Provenance& provenance = predicted.provenance;
+  const PartName part{provenance.part_id, provenance.serial_id};
+  Task task{part,
+            {scan.header, provenance, predicted.pool_settings_hash},
+            settings,
+            scan.scan.surfaces,
+            withoutMaps(predicted.prediction)};
+  const ScanStatement statement = statementOf(provenance.scan_name, predicted.prediction, predicted.verdict);
+  std::vector<Task> gone;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ++counts_.offered;
+    const std::vector<PartName> forgotten = parts_.add(part, scan.header.stamp.toNSec(), statement, task.surfaces);
+    const auto leave = [&](std::vector<Task>::iterator waiting) {
+      ++counts_.skipped;
+      gone.push_back(std::move(*waiting));
+      return waiting_.erase(waiting);
+    };
+    for (auto waiting = waiting_.begin(); waiting != waiting_.end();) {
+      if (waiting->part == part) {  // its surface is among those of the newer one
+        ++counts_.skipped;
+        waiting = waiting_.erase(waiting);
+      } else {
+        const bool is_forgotten = std::find(forgotten.begin(), forgotten.end(), waiting->part) != forgotten.end();
+        waiting = is_forgotten ? leave(waiting) : waiting + 1;
+      }
+    }
+    if (waiting_.size() == kMostWaiting) leave(waiting_.begin());
+    waiting_.push_back(std::move(task));
+  }
+  changed_.notify_all();
+  for (const Task& lost : gone) warn_(lost.scan.header, "device_force: scans of other parts came before its turn");
+}
+
+void DeviceForceStream::loop() {
+  yieldToOtherThreads();
+  for (;;) {
+    std::optional<Task> task;
+    std::optional<ScannedPart> part;
+    {
+      std::unique_lock<std::mutex> lock(mutex_);
+      changed_.wait(lock, [this] { return stopping_ || !waiting_.empty(); });
+      if (stopping_) return;
+      task = std::move(waiting_.back());
+      waiting_.pop_back();
+      part = parts_.of(task->part);  // there as long as its scan waits
+    }
+    try {
+      work(*task, *part);
+    } catch (const Stopped&) {
+      return;
+    }
+  }
+}
+
+void DeviceForceStream::work(const Task& task, const ScannedPart& part) {
+  std::optional<Verdict> verdict;
+  DeviceAdhesion message;
+  try {
+    message = find(task, part, verdict);
+  } catch (const std::exception& error) {
+    message = refusedDevice(error.what(), task.settings->model.load, task.scan.header);
+  }
+  if (stopping_) throw Stopped();
+  message.scan_count = static_cast<std::uint32_t>(part.scans.size());
+  fillProvenance(task.scan.provenance, message);
+  const bool is_refused = message.status == DeviceAdhesion::REFUSED;
+  publisher_.publish(message);
+  if (verdict && PartKey{task.part.first, task.part.second, ""}.isStated()) {
+    judged_(pooledVerdictOf(part.statements(), *verdict), task.scan);
+  }
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    since_.reset();
+    ++(is_refused                                       ? counts_.failed
+       : message.status == DeviceAdhesion::JUDGED_AGAIN ? counts_.judged_again
+                                                        : counts_.found);
+    if (message.status == DeviceAdhesion::FOUND) last_time_ = message.processing_time;
+    if (is_refused) last_failure_ = message.message;
+  }
+  if (is_refused) warn_(task.scan.header, "device_force: " + message.message);
+}
+
+DeviceAdhesion DeviceForceStream::find(const Task& task, const ScannedPart& part, std::optional<Verdict>& verdict) {
+  const Configuration& settings = *task.settings;
+  const Options model = onFrame(settings.model, settings.device, task.surfaces);
+  const std::vector<std::uint64_t> numbers = part.numbers();
+  const std::string hash = forceHash(settings, true);
+  const std::string unloaded_hash = forceHash(settings, false);
+  const bool is_known = found_ && found_->numbers == numbers && found_->unloaded_hash == unloaded_hash;
+  if (!is_known) {
+    const Clock::time_point begin = Clock::now();
+    DeviceForce force = make(task, part);
+    found_ = Found{numbers,
+                   unloaded_hash,
+                   hash,
+                   std::move(force),
+                   task.prediction.pull_off_force,
+                   task.prediction.apparent_work_of_adhesion,
+                   std::chrono::duration<double>(Clock::now() - begin).count()};
+  }
+  DeviceForce force = found_->force;
+  Evidence evidence;
+  evidence.device = deviceEvidence(force);
+  if (found_->hash != hash) {
+    const DeviceScale scale{*evidence.device, found_->frame_pull_off_force, found_->frame_work};
+    evidence.device = scale.under(task.prediction);
+    force = scaled(std::move(force), evidence.device->pull_off_force / force.pull_off_force,
+                   evidence.device->apparent_work_of_adhesion / force.apparent_work_of_adhesion);
+  }
+  if (part.taken > part.scans.size()) {
+    force.warnings.push_back("only " + std::to_string(part.scans.size()) + " of " + std::to_string(part.taken) +
+                             " scans are kept (max_part_scans and max_part_memory)");
+  }
+  verdict = verdictOf(task.prediction, settings.device, settings.uncertainty, model, task.surfaces.lower.cellArea(),
+                      evidence);
+  DeviceAdhesion message = deviceMessage(force, model.load, task.scan.header);
+  message.status = is_known ? DeviceAdhesion::JUDGED_AGAIN : DeviceAdhesion::FOUND;
+  message.processing_time = found_->time;
+  fillVerdict(*verdict, message);
+  return message;
+}
+
+DeviceForce DeviceForceStream::make(const Task& task, const ScannedPart& part) {
+  const Configuration& settings = *task.settings;
+  Options model = onFrame(settings.model, settings.device, task.surfaces);
+  model.output = OutputOptions();
+  model.output.deformed_surfaces = model.output.contact_map = model.output.energy_curve = false;
+  auto goOn = [this, give_way = pause_.waiter(stopping_)]() mutable {
+    give_way();
+    if (stopping_) throw Stopped();
+  };
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    since_ = Clock::now();
+    share_ = 0.0;
+  }
+  const BesideWork beside(std::ref(goOn));
+  return deviceForce(part.surfaces(), {settings.device.contact_area, settings.device.contacts}, model,
+                     settings.uncertainty, settings.device_force, [&](double share) {
+                       goOn();
+                       const std::lock_guard<std::mutex> lock(mutex_);
+                       share_ = share;
+                     });
+}
+
+void DeviceForceStream::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const double seconds = since_ ? std::chrono::duration<double>(Clock::now() - *since_).count() : 0.0;
+  if (counts_.failed > reported_failed_) {
+    status.summary(diagnostic_msgs::DiagnosticStatus::WARN, last_failure_);
+  } else {
+    status.summary(diagnostic_msgs::DiagnosticStatus::OK,
+                   counts_.offered == 0 ? "no scan of a device with a contact area yet"
+                   : since_ ? "makes surfaces of the device's size, " + shortNumber(100.0 * share_, 2) + " % after " +
+                                  shortNumber(seconds, 2) + " s"
+                            : "knows the newest scan's device");
+  }
+  status.add("offered", counts_.offered);
+  status.add("found", counts_.found);
+  status.add("judged_again", counts_.judged_again);
+  status.add("skipped", counts_.skipped);
+  status.add("failed", counts_.failed);
+  status.add("waiting", waiting_.size());
+  status.add("last_failure", last_failure_);
+  status.add("last_time [s]", last_time_);
+  status.add("time_so_far [s]", seconds);
+  status.add("share_done", since_ ? share_ : 0.0);
+  status.add("kept_scans", parts_.scans());
+  status.add("kept_memory [bytes]", parts_.bytes());
+  reported_failed_ = counts_.failed;
+}
+
+}  // namespace mems_stiction

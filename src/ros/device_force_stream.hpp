@@ -1,0 +1,117 @@
+#pragma once
+
+/// @file
+/// device_force/enabled: the force of the whole device beside the predictions. A thread of its own takes the newest scan
+/// with all scans of its part, makes surfaces of the device's size, publishes their force with the verdict by it, and
+/// takes what is the newest then.
+///
+/// What is at hand is brought to its end, whatever comes: an answer belongs to the scan of its stamp and the settings of
+/// its prediction. Of each part its newest scan waits; those before are in its surfaces. A scan without a part waits
+/// until the next one comes. Where the same scans come again under other settings, as after ~set_load, the surfaces are
+/// not made again: their force follows that of the frame (DeviceScale), and the verdict is found anew.
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <diagnostic_updater/DiagnosticStatusWrapper.h>
+#include <ros/node_handle.h>
+
+#include "evaluation/part_surfaces.hpp"
+#include "half_space/solution_pause.hpp"
+#include "ros/device_force_conversion.hpp"
+#include "ros/live_predictor.hpp"
+
+namespace mems_stiction {
+
+/// Finds the force of the newest of the scans that it is offered.
+class DeviceForceStream {
+ public:
+  /// Called for each scan without a force, on the stream's thread or on that of offer().
+  using Warn = std::function<void(const std_msgs::Header& header, const std::string& text)>;
+
+  /// Called on the stream's thread with what all scans of a part say, after the device has been judged.
+  using Judged = std::function<void(const PooledVerdict& part, const ScanOfPart& last)>;
+
+  /// - @p pause is given way to; it must outlive the stream
+  DeviceForceStream(const ros::NodeHandle& handle, const KeptSurfaces& most, SolutionPause& pause, Warn warn,
+                    Judged judged);
+  ~DeviceForceStream() { stop(); }
+  DeviceForceStream(const DeviceForceStream&) = delete;
+  DeviceForceStream& operator=(const DeviceForceStream&) = delete;
+
+  void start();
+  /// Gives up what is at hand, which is not published, and joins the thread.
+  void stop();
+
+  /// Takes the place of a scan of the same part that waits. Nothing happens if the settings ask for no force of a
+  /// device. Copies no pixels.
+  /// - @p predicted of the scan, under the settings of the case
+  void offer(const StationCase& scan, const PredictedScan& predicted);
+
+  /// One status with every count; WARN if a scan since the last report has no force.
+  void report(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  struct Task {
+    PartName part;
+    ScanOfPart scan;
+    SettingsOwner::Snapshot settings;
+    SurfacePair surfaces;   ///< of the newest scan
+    Prediction prediction;  ///< of it, without maps
+  };
+  /// What was found last, to judge by it again.
+  struct Found {
+    std::vector<std::uint64_t> numbers;  ///< of the surfaces of the scans
+    std::string unloaded_hash;           ///< of the settings that bear on the force, but for the load
+    std::string hash;                    ///< of those with the load
+    DeviceForce force;
+    double frame_pull_off_force = 0.0;  ///< of the newest scan under that load [N]
+    double frame_work = 0.0;            ///< [J/m^2]
+    double time = 0.0;                  ///< that it took [s]
+  };
+  /// Since start.
+  struct Counts {
+    std::uint64_t offered = 0;  ///< found + judged_again + skipped + failed + the one at hand and those that wait
+    std::uint64_t found = 0;
+    std::uint64_t judged_again = 0;
+    std::uint64_t skipped = 0;  ///< a newer scan came before their turn
+    std::uint64_t failed = 0;   ///< published as REFUSED
+  };
+
+  void loop();
+  void work(const Task& task, const ScannedPart& part);
+  /// What the part's surfaces say under the task's settings, and whether they had to be made.
+  DeviceAdhesion find(const Task& task, const ScannedPart& part, std::optional<Verdict>& verdict);
+  DeviceForce make(const Task& task, const ScannedPart& part);
+
+  SolutionPause& pause_;
+  ros::Publisher publisher_;
+  Warn warn_;
+  Judged judged_;
+  std::atomic<bool> stopping_{false};
+  std::optional<Found> found_;  ///< touched by the stream's thread only
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  PartSurfaces parts_;
+  std::vector<Task> waiting_;  ///< one of each part, the newest at the end
+  Counts counts_;
+  std::uint64_t reported_failed_ = 0;
+  std::string last_failure_;
+  double last_time_ = 0.0;                  ///< of surfaces that were made [s]
+  std::optional<Clock::time_point> since_;  ///< when the surfaces at hand were begun
+  double share_ = 0.0;                      ///< of them that is done
+  std::thread thread_;
+};
+
+}  // namespace mems_stiction

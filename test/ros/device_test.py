@@ -1,0 +1,213 @@
+#!/usr/bin/env python3
+"""The force of a device on its topic: that of the core for the same scans, with its verdict, beside predictions that go on."""
+
+import math
+import pathlib
+import subprocess
+import tempfile
+import time
+import unittest
+
+import dynamic_reconfigure.client
+import rospy
+import rostest
+import yaml
+from diagnostic_msgs.msg import DiagnosticArray
+from mems_stiction.msg import DeviceAdhesion, PartVerdict, StictionPrediction
+from mems_stiction.srv import SetMechanicalLoad
+from roslib.packages import find_node
+from stiction_client import (PITCH, Collector, OwnNode, Station, Traffic, image_message, info_message, rough_surface, settings_of, wait_until,
+                             write_grid)
+
+CONFIG = pathlib.Path(__file__).with_name("device_part.yaml")
+SMALL = 64  # pixels of a side
+
+
+def surface(seed, rms_height=2e-9):
+    return rough_surface(seed, rows=SMALL, cols=SMALL, rms_height=rms_height)
+
+
+def force_of(surfaces):
+    """Figures of the core by their names, and under "realisation" a list, for heights [m] in their order."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        files = [folder / ("%d.txt" % number) for number in range(len(surfaces))]
+        for file, heights in zip(files, surfaces):
+            write_grid(file, heights)
+        (folder / "config.yaml").write_text(yaml.safe_dump(settings_of(CONFIG, scan={"pitch_x": PITCH, "pitch_y": PITCH})))
+        program = find_node("mems_stiction", "device_of_scans")[0]
+        done = subprocess.run([program, folder / "config.yaml", *files], check=True, timeout=60, stdout=subprocess.PIPE, universal_newlines=True)
+    figures = {}
+    for line in done.stdout.splitlines():
+        key, value = line.split()
+        figures.setdefault(key, []).append(float(value))
+    return {key: values if key == "realisation" else values[0] for key, values in figures.items()}
+
+
+class DeviceTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node("device_test")
+        cls.reports = Collector("/diagnostics", DiagnosticArray)
+        rospy.wait_for_service("stiction_node/set_mechanical_load", timeout=30.0)
+        cls.set_load = rospy.ServiceProxy("stiction_node/set_mechanical_load", SetMechanicalLoad)
+        cls.settings = dynamic_reconfigure.client.Client("stiction_node", timeout=30.0)
+        cls.predictions = Collector("prediction", StictionPrediction).connect()
+        cls.parts = Collector("part_verdict", PartVerdict).connect()
+        cls.devices = Collector("device_force", DeviceAdhesion).connect()
+        cls.station = Station()
+
+    def counts(self, node="stiction_node"):
+        """Values of the newest status, with its level and message."""
+        for array in reversed(self.reports.messages):
+            for status in array.status:
+                if status.name == node + ": device_force":
+                    return dict({entry.key: entry.value for entry in status.values}, level=status.level, message=status.message)
+        return {}
+
+    def newest_counts(self):
+        """Of a report that was made after this call."""
+        self.reports.wait(len(self.reports.messages) + 2)
+        return self.counts()
+
+    def send(self, heights, part=("", "")):
+        """Prediction and device of one scan, once both are there."""
+        scans, devices = len(self.predictions.messages), len(self.devices.messages)
+        stamp = self.station.stamp()
+        info = info_message(stamp)
+        info.part_id, info.serial_id = part
+        self.station.height.publish(image_message(heights, stamp))
+        self.station.info.publish(info)
+        prediction, device = self.predictions.wait(scans + 1)[scans], self.devices.wait(devices + 1)[devices]
+        self.assertEqual((prediction.header.stamp, device.header.stamp), (stamp, stamp))
+        return prediction, device
+
+    def assert_is_force_of(self, device, surfaces):
+        self.assertEqual((device.status, device.message, device.scan_count), (DeviceAdhesion.FOUND, "", len(surfaces)))
+        expected = force_of(surfaces)
+        self.assertEqual(list(device.realisations), expected.pop("realisation"))
+        for name, value in expected.items():
+            self.assertEqual(float(getattr(device, name)), value, name)
+        self.assertTrue(device.pull_off_force_lower < device.pull_off_force < device.pull_off_force_upper)
+
+    def assert_judged(self, device):
+        self.assertEqual(device.margin, device.restoring_force / device.pull_off_force)
+        self.assertTrue(device.margin_lower < device.margin < device.margin_upper)
+        self.assertNotEqual(device.verdict_reason, "")
+
+    def assert_refused(self, device):
+        self.assertEqual(device.status, DeviceAdhesion.REFUSED)
+        self.assertNotEqual(device.message, "")
+        self.assertEqual((device.sticks, device.verdict_reason, device.verdict_by), (StictionPrediction.STICKS_UNKNOWN, "", ""))
+        self.assertTrue(math.isnan(device.pull_off_force) and math.isnan(device.margin))
+        self.assertEqual(list(device.realisations), [])
+
+    def test_1_before_any_scan_it_says_so(self):
+        wait_until(lambda: "no scan" in self.counts().get("message", ""), "the status")
+        self.assertEqual(self.counts()["offered"], "0")
+
+    def test_2_the_scans_of_a_part_together_judge_it_with_the_cores_figures(self):
+        surfaces = [surface(seed) for seed in (1, 2, 3)]
+        for count in range(1, 4):
+            parts = len(self.parts.messages)
+            prediction, device = self.send(surfaces[count - 1], ("lot 3", "0012"))
+            self.assert_is_force_of(device, surfaces[:count])
+            self.assert_judged(device)
+            for name in ("version", "settings_hash", "scan_name", "part_id", "serial_id"):
+                self.assertEqual(getattr(device, name), getattr(prediction, name), name)
+            self.assertEqual((device.voltage, device.mechanical_load), (prediction.voltage, prediction.mechanical_load))
+            # The frame alone makes no statement on a device of another size, and says where one comes from.
+            self.assertEqual(prediction.sticks, StictionPrediction.STICKS_UNKNOWN)
+            self.assertIn("device_force", prediction.reason)
+            before, after = self.parts.wait(parts + 2)[parts:]
+            self.assertEqual((before.sticks, before.scan_count), (StictionPrediction.STICKS_UNKNOWN, count))
+            self.assertEqual((after.header.stamp, after.scan_count, after.settings_hash), (prediction.header.stamp, count, prediction.settings_hash))
+            for name in ("sticks", "margin", "margin_lower", "margin_upper"):
+                self.assertEqual(getattr(after, name), getattr(device, name), name)
+        # Another part, and scans of none, have their own surfaces.
+        self.assert_is_force_of(self.send(surfaces[1], ("lot 3", "0013"))[1], surfaces[1:2])
+        parts = len(self.parts.messages)
+        for scan in surfaces[:2]:
+            self.assert_is_force_of(self.send(scan)[1], [scan])
+        self.assert_is_force_of(self.send(surfaces[0], ("lot 3", "0013"))[1], [surfaces[1], surfaces[0]])
+        self.parts.wait(parts + 2)
+        self.assertEqual(len(self.parts.messages), parts + 2)  # none of the scans without a part
+
+    def test_3_who_comes_late_finds_the_newest(self):
+        late = Collector("device_force", DeviceAdhesion)
+        self.assertEqual(late.wait(1)[0].header.stamp, self.devices.messages[-1].header.stamp)
+        late.close()
+
+    def test_4_under_other_settings_it_is_judged_again(self):
+        prediction, device = self.send(surface(4), ("lot 4", ""))
+        made = int(self.newest_counts()["found"])
+
+        def judged_again(change):
+            devices, parts = len(self.devices.messages), len(self.parts.messages)
+            answer = change()
+            again = self.devices.wait(devices + 1)[devices]
+            part = self.parts.wait(parts + 1)[parts]
+            self.assertEqual((again.status, again.scan_count, again.header.stamp), (DeviceAdhesion.JUDGED_AGAIN, 1, prediction.header.stamp))
+            self.assertEqual((part.settings_hash, part.margin, part.sticks), (again.settings_hash, again.margin, again.sticks))
+            self.assert_judged(again)
+            return again, answer
+
+        loaded, answer = judged_again(lambda: self.set_load(5e-5))
+        self.assertTrue(answer.success, answer.message)
+        self.assertEqual(answer.prediction.header.stamp, prediction.header.stamp)
+        self.assertEqual((loaded.mechanical_load, loaded.settings_hash), (5e-5, answer.prediction.settings_hash))
+        self.assertNotEqual(loaded.settings_hash, device.settings_hash)
+        # a frame whose summits have flowed holds more strongly, and the device as much more
+        self.assertGreater(answer.prediction.pull_off_force, 1.05 * prediction.pull_off_force)
+        self.assertAlmostEqual(loaded.pull_off_force / device.pull_off_force, answer.prediction.pull_off_force / prediction.pull_off_force, places=12)
+        back, _ = judged_again(lambda: self.set_load(1e-6))
+        self.assertEqual((back.pull_off_force, back.margin, back.settings_hash), (device.pull_off_force, device.margin, device.settings_hash))
+        stronger, _ = judged_again(lambda: self.settings.update_configuration({"spring_stiffness": 20.0}))
+        self.assertEqual((stronger.pull_off_force, stronger.restoring_force), (device.pull_off_force, 2.0 * device.restoring_force))
+        self.assertEqual(stronger.margin, 2.0 * device.margin)
+        judged_again(lambda: self.settings.update_configuration({"spring_stiffness": 10.0}))
+        shown = self.newest_counts()
+        self.assertEqual((int(shown["found"]), int(shown["judged_again"])), (made, 4))
+
+    def test_5_a_scan_without_a_force_is_said_and_the_next_one_has_one(self):
+        refused = self.send(rough_surface(5, rows=4, cols=4))[1]
+        self.assert_refused(refused)
+        shown = self.newest_counts()
+        self.assertEqual((shown["failed"], shown["last_failure"].replace(",", ";")), ("1", refused.message))
+        self.assert_is_force_of(self.send(surface(6))[1], [surface(6)])
+
+    def test_6_without_a_contact_area_nothing_is_made(self):
+        self.settings.update_configuration({"contact_area": 0.0})
+        offered = self.newest_counts()["offered"]
+        scans = len(self.predictions.messages)
+        self.station.send(surface(7))
+        self.assertNotIn("device_force", self.predictions.wait(scans + 1)[scans].reason)
+        self.assertEqual(self.newest_counts()["offered"], offered)
+        self.settings.update_configuration({"contact_area": 4e-12})
+
+    def test_7_scans_are_predicted_while_surfaces_are_made_and_every_one_is_counted(self):
+        settings = yaml.safe_load(CONFIG.read_text())
+        settings["device"]["contact_area"] = 1e-8
+        settings["device_force"] = {"realisations": 1000, "max_cells": 4.0e6}  # beyond the patience of any test
+        with OwnNode("busy", **settings) as node:
+            predictions = Collector("/busy/prediction", StictionPrediction).connect()
+            devices = Collector("/busy/device_force", DeviceAdhesion).connect()
+            station = Station("/busy/")
+            with Traffic(station, [surface(seed) for seed in (8, 9)]) as traffic:
+                wait_until(lambda: self.counts("busy/node").get("time_so_far [s]", "0") != "0", "surfaces that are made")
+                count = len(predictions.messages)
+                predictions.wait(count + 20)
+            predictions.wait(len(traffic.sent))
+            self.assertIn("makes surfaces", self.counts("busy/node")["message"])
+            wait_until(lambda: int(self.counts("busy/node")["offered"]) == len(traffic.sent), "every scan to be counted")
+            shown = self.counts("busy/node")  # one at hand, the newest waits, and those between had newer ones
+            self.assertEqual([int(shown[key]) for key in ("found", "judged_again", "failed", "waiting", "skipped")], [0, 0, 0, 1, len(traffic.sent) - 2])
+            begin = time.monotonic()
+            node.process.terminate()
+            node.process.wait(timeout=30)
+            self.assertLess(time.monotonic() - begin, 5.0)  # as promised of a signal
+            self.assertEqual((node.process.returncode, devices.messages), (0, []))
+
+
+if __name__ == "__main__":
+    rostest.rosrun("mems_stiction", "device", DeviceTest)
