@@ -18,7 +18,7 @@ import numpy as np
 import rosbag
 import rospy
 from mems_stiction import report
-from mems_stiction.msg import StictionPrediction
+from mems_stiction.msg import DeviceAdhesion, StictionPrediction
 from roslib.packages import find_node
 
 SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "scripts"
@@ -371,6 +371,16 @@ class BatchTest(unittest.TestCase):
         self.assertEqual([float(row["pull_off_force"]) for row in rows], [1e-7 / 3, 2e-7])
         self.assertEqual((float(rows[0]["time"]), float(rows[0]["stamp"])), (11.0, 1.0))
         self.assertEqual((rows[0]["flags"], rows[0]["is_conforming"], rows[0]["roughness/sq"]), ("border; one_pixel", "1", "3e-09"))
+        done = run([program("export_predictions"), "--device-force", "-o", self.folder / "none.csv", bag_path])
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("no force of a device in", done.stderr)
+        with rosbag.Bag(str(bag_path), "a") as bag:
+            bag.write("/line1/device_force", DeviceAdhesion(pull_off_force=3e-7, realisations=[2e-7, 4e-7], scan_count=2), rospy.Time(13))
+        done = run([program("export_predictions"), "--device-force", "-o", self.folder / "devices.csv", bag_path])
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("1 forces of devices of 1 bags", done.stdout)
+        row, = self.rows("devices.csv")
+        self.assertEqual((float(row["pull_off_force"]), row["realisations"], row["scan_count"]), (3e-7, "2e-07; 4e-07", "2"))
         for bags, output in (([self.inputs / "b.bag"], "none.csv"), ([self.inputs / "missing.bag"], "none.csv"), ([bag_path], "no/where.csv")):
             done = run([program("export_predictions"), "-o", self.folder / output] + bags)
             self.assertEqual((done.returncode, done.stdout), (2, ""))
