@@ -29,7 +29,7 @@ WORDS = {getattr(HalfSpaceSolution, word): word
          for word in ("SOLVED", "LOAD_NOT_REACHED", "NOT_CONVERGED", "TOO_MANY_STATES", "CANCELLED", "REFUSED")}
 WAYS = {HalfSpacePoint.APPROACH: "APPROACH", HalfSpacePoint.RETRACTION: "RETRACTION"}
 # As in the launch file.
-DEVICE = dict(spring_stiffness=1.0, travel=1e-6, contact_area=1e-12, beam_type="cantilever", beam_length=100e-6,
+DEVICE = dict(spring_stiffness=1.0, travel=1e-6, contact_area=4e-13, beam_type="cantilever", beam_length=100e-6,
               beam_thickness=2e-6, beam_gap=2e-6, beam_modulus=160e9)
 STICKS = {"no": StictionPrediction.STICKS_NO, "marginal": StictionPrediction.STICKS_MARGINAL, "yes": StictionPrediction.STICKS_YES,
           "unknown": StictionPrediction.STICKS_UNKNOWN}
@@ -45,7 +45,7 @@ def slow_surface():
 
 def record_of(surface, load=LOAD, voltage=0.0):
     """The half-space's figures, and under "verdict" the verdict."""
-    record = predict_scan(surface, load, voltage, arguments=["--half-space"], settings=settings_of(device=DEVICE))
+    record = predict_scan(surface, load, voltage, arguments=["--half-space"], settings=settings_of(device=DEVICE, device_force={"enabled": False}))
     return dict(record["half_space"], verdict={name: record[name] for name in VERDICT + ("sticks", "reason", "verdict_by")})
 
 

@@ -104,6 +104,7 @@ class PageTest(unittest.TestCase):
 
     def test_3_verdict_margin_and_figures_are_those_of_the_message(self):
         self.settings.update_configuration(DEVICE)
+        wait_until(lambda: self.devices.messages, "the device of the scan before, which is stated now")
         smooth = rough_surface(2, rms_height=5e-10)  # three contacts hold it: one carries no statement
         prediction, device = self.live_device(smooth)
         self.assertEqual((prediction.sticks, device.sticks), (StictionPrediction.STICKS_NO, StictionPrediction.STICKS_NO))
@@ -114,8 +115,9 @@ class PageTest(unittest.TestCase):
             ratio_text(device.margin_lower), ratio_text(device.margin_upper)))
         for name in SHOWN:
             self.assertEqual(float(self.figure(name)[1]), getattr(prediction, name), name)
-        self.assertEqual(self.figure("device_pull_off_force"), [typeset(with_interval(
-            device.pull_off_force, device.pull_off_force_lower, device.pull_off_force_upper, "N")), str(device.pull_off_force)])
+        text, value = self.figure("device_pull_off_force")
+        self.assertEqual(text, typeset(with_interval(device.pull_off_force, device.pull_off_force_lower, device.pull_off_force_upper, "N")))
+        self.assertEqual(float(value), device.pull_off_force)
         self.assertEqual(float(self.figure("linear_pull_off_force")[1]), device.linear_pull_off_force)
         self.assertIn("RELEASES, margin %s" % ratio_text(device.margin), self.page.text("#device-words"))
         self.assertEqual(self.figure("contact_fraction")[0], percent(prediction.contact_fraction))
@@ -123,7 +125,7 @@ class PageTest(unittest.TestCase):
             flags_of(prediction) + ["warning: " + text for text in list(prediction.warnings) + list(device.warnings)]))
         self.assertEqual(self.page.value("state.trend[state.trend.length - 1].ratio"), device.margin)
         self.assertEqual(self.page.text("#origin"), provenance_words(prediction))
-        self.assertEqual(self.page.value("document.querySelectorAll('#trend-ratio circle').length"), 1)  # the first had no device
+        self.assertEqual(self.page.value("document.querySelectorAll('#trend-ratio circle').length"), 2)
 
         self.settings.update_configuration(dict(spring_stiffness=1e-4))
         self.live_device(smooth)
