@@ -9,11 +9,13 @@ predict_device. A line for each surface and case; those that are there are not d
 
 import argparse
 import json
+import math
 import pathlib
 import sys
 import time
 
 import numpy as np
+import scipy.stats
 
 import device_surfaces
 import mems_stiction
@@ -74,10 +76,13 @@ def main():
                     start = time.monotonic()
                     found = mems_stiction.predict_device(given, area=(arguments.side * PITCH) ** 2, pitch=pitches, config=settings,
                                                          preprocessing=PREPROCESSING)
+                    # Student's distribution, as the program has it, for what the scans leave open alone
+                    reach = math.exp(scipy.stats.t.ppf(0.975, len(found.realisations) - 1) * found.force_deviation)
+                    ends = found.pull_off_force / reach, found.pull_off_force * reach
                     row = dict(what, seed=arguments.seed, side=arguments.side, case=case, truth=truth.pull_off_force,
                                true_work=truth.apparent_work_of_adhesion, is_conforming=truth.is_conforming,
                                force=found.pull_off_force, lower=found.pull_off_force_lower, upper=found.pull_off_force_upper,
-                               deviation=found.force_deviation, work=found.apparent_work_of_adhesion,
+                               deviation=found.force_deviation, surface_lower=ends[0], surface_upper=ends[1], work=found.apparent_work_of_adhesion,
                                linear=found.linear_pull_off_force, warnings=list(found.warnings), time=time.monotonic() - start)
                     out.write(json.dumps(row) + "\n")
                     out.flush()
