@@ -14,6 +14,8 @@ namespace {
 constexpr std::size_t kLanes = FloatLanes::kCount;
 /// Margins [cells] of a reach of 1. A round power law in a window of levels needs the last one.
 constexpr int kMargins[] = {32, 48, 64, 96, 128, 160};
+/// Must fit: with it, a power law loses 3e-3 of the rms height of a level.
+constexpr int kLeastMargin = 96;
 /// Share of the power that may be cut off where a larger margin would keep it: 3e-4 of the rms height.
 constexpr double kNeglected = 1e-7;
 constexpr int kSmallestLength = 64;
@@ -164,9 +166,10 @@ MEMS_STICTION_VECTORIZED void transformBack(const LineWaves<float>& waves, std::
 struct BlockConvolution::Kernel {
   Kernel(const WaveGain& gain, const BlockLayout& layout) {
     for (const int round_margin : kMargins) {
-      margin = {marginOf(round_margin, layout.reach_rows), marginOf(round_margin, layout.reach_cols)};
-      const BlockSize wanted = cheapestTransform(margin, layout.choice);
+      const BlockSize next = {marginOf(round_margin, layout.reach_rows), marginOf(round_margin, layout.reach_cols)};
+      const BlockSize wanted = cheapestTransform(next, layout.choice);
       if (wanted.rows == 0) break;  // the one before it must do
+      margin = next;
       if (wanted.rows != size.rows || wanted.cols != size.cols) {
         size = wanted;
         sample(gain, layout.for_spline);
@@ -254,8 +257,8 @@ struct BlockConvolution::Kernel {
 };
 
 bool BlockConvolution::fits(double reach_rows, double reach_cols) {
-  const int margin = kMargins[std::size(kMargins) - 1];
-  return cheapestTransform({marginOf(margin, reach_rows), marginOf(margin, reach_cols)}, BlockChoice::kSmall).rows > 0;
+  const BlockSize margin = {marginOf(kLeastMargin, reach_rows), marginOf(kLeastMargin, reach_cols)};
+  return cheapestTransform(margin, BlockChoice::kSmall).rows > 0;
 }
 
 BlockConvolution::BlockConvolution(const WaveGain& gain, const BlockLayout& layout)

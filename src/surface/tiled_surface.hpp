@@ -18,7 +18,9 @@
 ///
 /// Against the spectrum: kernels are cut off where they have lost 3e-4 of the rms height of their level, or at 160 cells;
 /// a density that ends sharply is smeared over a wave number of about 2 pi/160 cells. Waves of the spline that are shorter than its
-/// cells are 1e-3 of the height and less. Waves that the pixels cannot hold are left out.
+/// cells are 1e-3 of the height and less. Waves that the pixels cannot hold are left out. Stretched kernels reach further, and are cut
+/// off earlier, down to 96 cells of the shorter axis, where the transform would be too large; a stretch of up to 30 along rows or
+/// columns has room in it, 8 in between.
 ///
 /// Sources: convolution of noise by filters, Hu and Tonder, Int. J. Mach. Tools Manufact. 32 (1992) 83; noise in bands
 /// that are refined, Perlin, Computer Graphics (SIGGRAPH) 19 (1985) 287; refinement of splines, Unser, IEEE Signal Process.
@@ -39,7 +41,7 @@
 
 namespace mems_stiction {
 
-/// The surface of a seed. An object serves one thread at a time. It takes some 60 MB whatever the size, up to 250 MB where the
+/// The surface of a seed. An object serves one thread at a time. It takes some 60 MB whatever the size, up to 300 MB where the
 /// spectrum is stretched.
 class TiledSurface {
  public:

@@ -76,5 +76,18 @@ TEST(BlockConvolution, takesNoLargerMarginThanAKernelNeeds) {
   EXPECT_LT(convolution.neglected(), 1e-12);
 }
 
+TEST(BlockConvolution, cutsAFarReachingKernelOffEarlierThanThatItWouldNotFit) {
+  EXPECT_TRUE(BlockConvolution::fits(1.0, 30.0));
+  EXPECT_TRUE(BlockConvolution::fits(6.0, 6.0));
+  EXPECT_FALSE(BlockConvolution::fits(30.0, 30.0));
+  BlockLayout layout;
+  layout.reach_cols = 30.0;
+  const BlockConvolution convolution([](double x, double y) { return bandGain(30.0 * x, y, 1.8); }, layout);
+  EXPECT_GE(convolution.block().rows, 64);
+  EXPECT_GE(convolution.block().cols, 512);
+  EXPECT_LT(std::sqrt(convolution.neglected()), 1e-2);
+  EXPECT_GT(convolution.neglected(), 0.0);
+}
+
 }  // namespace
 }  // namespace mems_stiction
