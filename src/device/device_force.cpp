@@ -20,8 +20,12 @@
 namespace mems_stiction {
 namespace {
 
-/// The spectrum still rises towards its longest waves from this slope on, by more than its standard error [-].
+/// The spectrum still rises towards its longest waves from this slope on, by more than two standard errors [-].
 constexpr double kRising = 1.0;
+/// Standard deviation of ln force that the law's form leaves where nothing else scatters [-].
+constexpr double kOwnError = 0.12;
+/// A contact so much longer than the longest waves needs longer ones [-].
+constexpr double kLongerContact = 1.5;
 /// Scans contradict each other from this ratio of powers on, if it is so many standard errors from 1.
 constexpr double kContradiction = 1.5;
 constexpr double kBeyondScatter = 4.0;
@@ -105,33 +109,40 @@ class Surfaces {
  public:
   Surfaces(const DeviceSurfaces& scanned, double side)
       : lower_(mapsOf(scanned.scans)), upper_(mapsOf(scanned.counter_surface)), side_(side) {
-    laws_.lower = surfaceLawOf(lower_);
-    if (!upper_.empty()) laws_.upper = surfaceLawOf(upper_);
+    for (const TailForm form : {TailForm::kExponential, TailForm::kPower}) {
+      laws_.emplace_back();
+      laws_.back().lower = surfaceLawOf(lower_, form);
+      if (!upper_.empty()) laws_.back().upper = surfaceLawOf(upper_, form);
+    }
   }
 
-  const Laws& laws() const { return laws_; }
+  /// Realisations take one form of the tail after the other.
+  const Laws& laws(int realisation) const { return laws_[static_cast<std::size_t>(realisation) % laws_.size()]; }
 
   /// Of scans like those that there are, made by the laws.
-  Laws again(std::uint64_t seed) const {
+  Laws again(int realisation, std::uint64_t seed) const {
+    const Laws& stated = laws(realisation);
+    const TailForm form = realisation / 2 % 2 == 0 ? TailForm::kExponential : TailForm::kPower;
     Laws laws;
-    laws.lower = again(laws_.lower, lower_, seed);
-    if (laws_.upper) laws.upper = again(*laws_.upper, upper_, seed + 500);
+    laws.lower = again(stated.lower, lower_, form, seed);
+    if (stated.upper) laws.upper = again(*stated.upper, upper_, form, seed + 500);
     return laws;
   }
 
  private:
-  SurfaceLaw again(const SurfaceLaw& law, const std::vector<HeightMap>& scans, std::uint64_t seed) const {
+  SurfaceLaw again(const SurfaceLaw& law, const std::vector<HeightMap>& scans, TailForm form,
+                   std::uint64_t seed) const {
     std::mt19937_64 engine(seed);
     const SpectrumContinuation continuation = drawnContinuation(law, side_, engine);
     std::vector<HeightMap> made;
     for (const HeightMap& scan : scans) made.push_back(madeScan(law, continuation, scan, side_, engine()));
-    return surfaceLawOf(made);
+    return surfaceLawOf(made, form);
   }
 
   std::vector<HeightMap> lower_;
   std::vector<HeightMap> upper_;
   double side_;
-  Laws laws_;
+  std::vector<Laws> laws_;
 };
 
 /// Logarithms of figures, by realisation.
@@ -191,7 +202,7 @@ void showSpectrum(const SurfaceLaw& law, double side, DeviceForce& force) {
 
 void warnOfLongWaves(const SurfaceLaw& law, const std::vector<NamedScan>& scans, double side, DeviceForce& force) {
   const double longest = law.longestWave();
-  if (longest >= side || law.slope - law.slope_deviation < kRising) return;
+  if (kLongerContact * longest > side || law.slope < kRising || law.slope < 2.0 * law.slope_deviation) return;
   const NamedScan* widest = &scans.front();
   for (const NamedScan& scan : scans) {
     if (scan.surface.cols() * scan.surface.pitchX() > widest->surface.cols() * widest->surface.pitchX()) {
@@ -297,10 +308,10 @@ DeviceForce deviceForce(const DeviceSurfaces& surfaces, const DeviceArea& area, 
   const bool has_parts =
       options.pitch == 0.0 && haveRoom(parts_lower, pieces) && (parts_upper.empty() || haveRoom(parts_upper, pieces));
   const Surfaces known(surfaces, pieces.side());
-  showSpectrum(known.laws().lower, pieces.side(), force);
+  showSpectrum(known.laws(0).lower, pieces.side(), force);
   if (!has_parts) {
-    warnOfLongWaves(known.laws().lower, surfaces.scans, pieces.side(), force);
-    if (known.laws().upper) warnOfLongWaves(*known.laws().upper, surfaces.counter_surface, pieces.side(), force);
+    warnOfLongWaves(known.laws(0).lower, surfaces.scans, pieces.side(), force);
+    if (known.laws(0).upper) warnOfLongWaves(*known.laws(0).upper, surfaces.counter_surface, pieces.side(), force);
   }
   warnOfContradictions(surfaces.scans, force);
   warnOfContradictions(surfaces.counter_surface, force);
@@ -314,7 +325,7 @@ DeviceForce deviceForce(const DeviceSurfaces& surfaces, const DeviceArea& area, 
     const std::uint64_t seed =
         static_cast<std::uint64_t>(options.seed) * 1000003 + static_cast<std::uint64_t>(i) * 1009;
     const Realisation realisation = has_parts ? solver.realise(parts_lower, parts_upper, seed)
-                                              : solver.realise(known.laws().lower, known.laws().upper, seed);
+                                              : solver.realise(known.laws(i).lower, known.laws(i).upper, seed);
     progress((i + 0.5) / options.realisations);
     force.realisations.push_back(realisation);
     stated.add(realisation);
@@ -323,7 +334,7 @@ DeviceForce deviceForce(const DeviceSurfaces& surfaces, const DeviceArea& area, 
     if (has_parts) {
       others.add(solver.realise(drawnAgain(parts_lower, seed + 1), drawnAgain(parts_upper, seed + 2), seed + 3));
     } else {
-      const Laws again = known.again(seed + 1);
+      const Laws again = known.again(i, seed + 1);
       others.add(solver.realise(again.lower, again.upper, seed + 2));
     }
     progress((i + 1.0) / options.realisations);
@@ -333,8 +344,11 @@ DeviceForce deviceForce(const DeviceSurfaces& surfaces, const DeviceArea& area, 
   force.contacts = median(counts);
   force.separation_at_rest = median(gaps);
   const double once_more = std::sqrt(1.0 + 1.0 / options.realisations);
-  force.force_deviation = deviation(others.force) * once_more;
-  force.work_deviation = deviation(others.work) * once_more;
+  const auto scatter = [&](const std::vector<double>& of_stated, const std::vector<double>& of_others) {
+    return once_more * std::hypot(std::max(deviation(of_stated), deviation(of_others)), kOwnError);
+  };
+  force.force_deviation = scatter(stated.force, others.force);
+  force.work_deviation = scatter(stated.work, others.work);
 
   UncertaintyOptions constants = uncertainty;
   constants.scan_sampling = uncertainty.scan_sampling && has_parts;  // few scans have few contacts

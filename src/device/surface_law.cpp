@@ -20,7 +20,7 @@ constexpr double kByChance = 4.0;
 /// Waves longer than so many pixels of the widest scan are its own.
 constexpr double kJoinPixels = 16.0;
 /// Share of the variance that the widest scan must have to speak for all heights.
-constexpr double kMostVariance = 0.9;
+constexpr double kMostVariance = 0.985;
 /// Waves along the side of the fine scans above which the short ones are looked at by themselves.
 constexpr double kSplits[] = {2.0, 4.0, 8.0};
 /// The longest waves that a levelled scan has, along its side.
@@ -301,11 +301,11 @@ Candidate decisiveCandidate(const std::vector<Scan>& scans, const Scan* widest, 
 }
 
 /// Finds T and the spectrum of its numbers.
-void takeMarginal(const std::vector<Scan>& scans, const Candidate& candidate, SurfaceLaw& law) {
+void takeMarginal(const std::vector<Scan>& scans, const Candidate& candidate, TailForm form, SurfaceLaw& law) {
   law.non_gaussian_share = std::max(0.0, 1.0 - kByChance / candidate.chiSquare());
   if (!(law.non_gaussian_share > 0.0)) return;
   law.split_wave_number = candidate.split;
-  HeightMarginal marginal(candidate.sample, candidate.variance.independent);
+  HeightMarginal marginal(candidate.sample, candidate.variance.independent, form);
   std::vector<cv::Mat> values;
   for (const Scan& scan : scans) {
     const cv::Mat passed = highPassed(scan, candidate.split);
@@ -316,7 +316,7 @@ void takeMarginal(const std::vector<Scan>& scans, const Candidate& candidate, Su
     for (std::size_t i = 0; i < scans.size(); ++i) {
       if (scans[i].is_fine) addSample(values[i], 0.0, 2, sample);
     }
-    marginal = HeightMarginal(sample, candidate.variance.independent);
+    marginal = HeightMarginal(sample, candidate.variance.independent, form);
     for (cv::Mat& value : values) value = levelledUnder(marginal, value);
   }
   const Moments moments = momentsOf(candidate.sample);
@@ -413,14 +413,14 @@ double highPass(double wave_number, double split) {
   return split == 0.0 ? 1.0 : -std::expm1(-std::pow(wave_number / split, 4));
 }
 
-SurfaceLaw surfaceLawOf(const std::vector<HeightMap>& surfaces) {
+SurfaceLaw surfaceLawOf(const std::vector<HeightMap>& surfaces, TailForm form) {
   const std::vector<Scan> scans = scansOf(surfaces);
   const Scan* widest = widestOf(scans);
   std::vector<cv::Mat> values;
   for (const Scan& scan : scans) values.push_back(scan.heights);
   SurfaceLaw law;
   law.heights = law.numbers = spectrumOf(scans, values, nullptr);
-  takeMarginal(scans, decisiveCandidate(scans, widest, law.heights), law);
+  takeMarginal(scans, decisiveCandidate(scans, widest, law.heights), form, law);
   takeSlope(law);
   if (widest != nullptr) takeOwn(*widest, law);
   return law;

@@ -51,7 +51,8 @@ struct SurfaceLaw {
 double highPass(double wave_number, double split);
 
 /// - @p scans of one surface, levelled or not, at least one
+/// - @p form of the tail of their heights, which they hardly tell
 /// @throw SurfaceError if they show no roughness
-SurfaceLaw surfaceLawOf(const std::vector<HeightMap>& scans);
+SurfaceLaw surfaceLawOf(const std::vector<HeightMap>& scans, TailForm form = TailForm::kExponential);
 
 }  // namespace mems_stiction

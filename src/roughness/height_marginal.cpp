@@ -9,11 +9,13 @@
 namespace mems_stiction {
 namespace {
 
-constexpr double kTailFrom = 0.5;   ///< normal number from which the distribution is fitted
-constexpr double kBodyFrom = -3.5;  ///< and down to which it is that of the heights
+constexpr double kTailPlaces = 800.0;   ///< independent places above g0 [-],
+constexpr double kLeastTailFrom = 0.5;  ///< which lies between these
+constexpr double kMostTailFrom = 2.0;
+constexpr double kBodyFrom = -3.5;  ///< down to this number the distribution is that of the heights
 constexpr double kBodyStep = 0.1;
 constexpr double kLevelStep = 0.15;  ///< of the levels of the fit, in normal numbers
-constexpr double kShapePrior = 0.3;  ///< standard deviation of c
+constexpr double kShapePrior = 0.5;  ///< standard deviation of c, where b is about 1
 constexpr double kEnds = 9.0;        ///< of the table
 constexpr double kFewestPlaces = 20.0;
 constexpr double kAlmostStraight = 1e-6;
@@ -26,33 +28,49 @@ double straight(const std::vector<double>& x, const std::vector<double>& y, doub
   return y[above - 1] + share * (y[above] - y[above - 1]);
 }
 
-double tailHeight(double g, double a, double b, double c) {
-  return a + b * (std::abs(c) > kAlmostStraight ? std::expm1(c * g) / c : g);
-}
+/// The tail of a distribution: parameters by the table of the header.
+struct Tail {
+  double from = 0.0;  ///< g0
+  double a = 0.0;
+  double b = 1.0;
+  double c = 0.0;
+  TailForm form = TailForm::kExponential;
 
-/// Its inverse; beyond its end a number that nobody reaches.
-double tailNumber(double height, double a, double b, double c) {
-  constexpr double kNever = 30.0;
-  const double y = (height - a) / b;
-  if (std::abs(c) <= kAlmostStraight) return y;
-  const double power = 1.0 + c * y;
-  if (power > 1e-9) return std::log(power) / c;
-  return c < 0.0 ? kNever : -kNever;
-}
+  bool isPower() const { return form == TailForm::kPower && c > 0.0; }
+  double height(double g) const {
+    if (isPower()) {
+      const double power = c * (from + 1.0) + 1.0;
+      return a + b * from * std::expm1(power * std::log(g / from)) / power;
+    }
+    return a + b * (std::abs(c) > kAlmostStraight ? std::expm1(c * (g - from)) / c : g - from);
+  }
+  /// The inverse; beyond its end a number that nobody reaches.
+  double number(double height) const {
+    constexpr double kNever = 30.0;
+    const double factor = isPower() ? c * (from + 1.0) + 1.0 : c;
+    const double y = (height - a) / (isPower() ? b * from : b);
+    double step = y;
+    if (std::abs(factor) > kAlmostStraight) {
+      const double power = 1.0 + factor * y;
+      step = power > 1e-9 ? std::log(power) / factor : factor < 0.0 ? kNever : -kNever;
+    }
+    return isPower() ? from * std::exp(std::clamp(step, -kNever, 4.0)) : from + step;
+  }
+};
 
 /// Counts between levels against those of a tail: - ln likelihood of (a, ln b, c).
 class TailCost : public cv::MinProblemSolver::Function {
  public:
-  TailCost(std::vector<double> levels, std::vector<double> shares, double independent)
-      : levels_(std::move(levels)), shares_(std::move(shares)), independent_(independent) {}
+  TailCost(std::vector<double> levels, std::vector<double> shares, double independent, double from, TailForm form)
+      : levels_(std::move(levels)), shares_(std::move(shares)), independent_(independent), from_(from), form_(form) {}
 
   int getDims() const override { return 3; }
   double calc(const double* x) const override {
-    const double b = std::exp(x[1]);
+    const Tail tail{from_, x[0], std::exp(x[1]), x[2], form_};
     double above = 1.0;  // share above the level before
     double cost = 0.0;
     for (std::size_t i = 0; i < shares_.size(); ++i) {
-      const double next = i < levels_.size() ? normalShare(-tailNumber(levels_[i], x[0], b, x[2])) : 0.0;
+      const double next = i < levels_.size() ? normalShare(-tail.number(levels_[i])) : 0.0;
       cost -= shares_[i] * std::log(std::max(above - next, 1e-12));
       above = next;
     }
@@ -63,6 +81,8 @@ class TailCost : public cv::MinProblemSolver::Function {
   std::vector<double> levels_;
   std::vector<double> shares_;
   double independent_;
+  double from_;
+  TailForm form_;
 };
 
 }  // namespace
@@ -82,7 +102,7 @@ double normalNumber(double share) {
 HeightMarginal::HeightMarginal(double mean, double deviation)
     : numbers_{-kEnds, kEnds}, heights_{mean - kEnds * deviation, mean + kEnds * deviation} {}
 
-HeightMarginal::HeightMarginal(std::vector<double> sample, double independent) {
+HeightMarginal::HeightMarginal(std::vector<double> sample, double independent, TailForm form) {
   std::sort(sample.begin(), sample.end());
   const auto count = static_cast<double>(sample.size());
   const auto heightAt = [&](double g) {
@@ -92,9 +112,12 @@ HeightMarginal::HeightMarginal(std::vector<double> sample, double independent) {
     return sample[below] + (place - std::floor(place)) * (sample[above] - sample[below]);
   };
 
+  // on the grid of the table
+  const double wanted = -normalNumber(std::min(0.5, kTailPlaces / independent));
+  const double from = std::round(std::clamp(wanted, kLeastTailFrom, kMostTailFrom) / kBodyStep) * kBodyStep;
   std::vector<double> levels;
   const double top = normalNumber(1.0 - 1.0 / std::max(independent, kFewestPlaces));
-  for (double g = kTailFrom; g < top; g += kLevelStep) {
+  for (double g = from; g < top || levels.empty(); g += kLevelStep) {
     const double level = heightAt(g);
     if (levels.empty() || level > levels.back()) levels.push_back(level);
   }
@@ -108,21 +131,20 @@ HeightMarginal::HeightMarginal(std::vector<double> sample, double independent) {
   }
   shares.push_back(1.0 - before);
   const double origin = levels.front();
-  const double unit = std::max(heightAt(1.5) - origin, 1e-30);
+  const double unit = std::max(heightAt(from + 1.0) - origin, 1e-30);
   for (double& level : levels) level = (level - origin) / unit;
 
-  cv::Mat found = (cv::Mat_<double>(1, 3) << -0.5, 0.0, 0.0);
+  cv::Mat found = (cv::Mat_<double>(1, 3) << 0.0, 0.0, 0.0);
   const cv::Mat steps = (cv::Mat_<double>(1, 3) << 0.2, 0.2, 0.1);
   const cv::Ptr<cv::DownhillSolver> solver =
-      cv::DownhillSolver::create(cv::makePtr<TailCost>(levels, shares, independent), steps,
+      cv::DownhillSolver::create(cv::makePtr<TailCost>(levels, shares, independent, from, form), steps,
                                  cv::TermCriteria(cv::TermCriteria::MAX_ITER + cv::TermCriteria::EPS, 2000, 1e-6));
   solver->minimize(found);
-  const double a = found.at<double>(0);
-  const double b = std::exp(found.at<double>(1));
-  tail_shape_ = found.at<double>(2);
+  const Tail tail{from, found.at<double>(0), std::exp(found.at<double>(1)), found.at<double>(2), form};
+  tail_shape_ = tail.c;
 
   // the body moves so that it meets the tail
-  const double move = origin + unit * tailHeight(kTailFrom, a, b, tail_shape_) - heightAt(kTailFrom);
+  const double move = origin + unit * tail.height(from) - heightAt(from);
   const double slope = heightAt(kBodyFrom + 1.0) - heightAt(kBodyFrom);
   const auto add = [&](double g, double height) {
     const double least = heights_.empty() ? height : heights_.back() + 1e-6 * unit;
@@ -132,8 +154,8 @@ HeightMarginal::HeightMarginal(std::vector<double> sample, double independent) {
   for (double g = -kEnds; g < kBodyFrom - 1e-9; g += 0.25) {
     add(g, heightAt(kBodyFrom) + move + slope * (g - kBodyFrom));
   }
-  for (double g = kBodyFrom; g < kTailFrom - 1e-9; g += kBodyStep) add(g, heightAt(g) + move);
-  for (double g = kTailFrom; g < kEnds; g += kBodyStep) add(g, origin + unit * tailHeight(g, a, b, tail_shape_));
+  for (double g = kBodyFrom; g < from - 1e-9; g += kBodyStep) add(g, heightAt(g) + move);
+  for (double g = from; g < kEnds; g += kBodyStep) add(g, origin + unit * tail.height(g));
 }
 
 double HeightMarginal::heightOf(double g) const { return straight(numbers_, heights_, g); }

@@ -5,14 +5,19 @@
 /// highest one that was measured?
 ///
 ///     z = T(g)                                   T rises: the translation of a Gaussian field
-///     z = a + b (exp(c g) - 1)/c                 above a normal number of 1/2: c > 0 a longer, c < 0 a shorter tail
+///     T' = b exp(c (g - g0))                     above g0: c > 0 a longer, c < 0 a shorter tail
+///     T' = b (g/g0)^(c (g0 + 1))                 another form of the longer one: heights hardly tell which
 ///
-/// Below, T is the distribution of the heights themselves. a, b and c are the likeliest by how many of the independent
-/// places lie between levels; c has a prior about 0, so that few places say "as a Gaussian surface".
+/// Below g0, T is the distribution of the heights themselves; g0 is the normal number that some 800 independent places
+/// exceed. a = T(g0), b and c are the likeliest by how many of these places lie between levels; c has a prior about 0, so that few
+/// places say "as a Gaussian surface".
 
 #include <vector>
 
 namespace mems_stiction {
+
+/// How a distribution goes on, where its tail is a longer one.
+enum class TailForm { kExponential, kPower };
 
 /// T, by a table.
 class HeightMarginal {
@@ -21,7 +26,7 @@ class HeightMarginal {
   HeightMarginal(double mean, double deviation);
   /// - @p heights [m], any number above 100 of them
   /// - @p independent so many of them are independent of each other
-  HeightMarginal(std::vector<double> heights, double independent);
+  HeightMarginal(std::vector<double> heights, double independent, TailForm form = TailForm::kExponential);
 
   double heightOf(double g) const;
   double numberOf(double height) const;

@@ -57,5 +57,16 @@ TEST(HeightMarginal, MixedWithAGaussianOne) {
   EXPECT_NEAR(half.heightOf(2.0), 0.5 * marginal.heightOf(2.0) + 0.5 * 1.4, 1e-9);
 }
 
+/// c = 1/3 with g0 = 2 is T' = b g/2: heights as squares of normal numbers.
+TEST(HeightMarginal, TheOtherFormOfALongerTail) {
+  const auto height = [](double g) { return g > 0.0 ? g * g : 0.1 * g; };
+  const std::vector<double> sample = sampleOf(100000, 5, height);
+  const HeightMarginal power(sample, 1e5, TailForm::kPower);
+  EXPECT_NEAR(power.tailShape(), 1.0 / 3.0, 0.1);
+  EXPECT_NEAR(power.heightOf(5.5) / height(5.5), 1.0, 0.06);
+  // the exponential one goes on higher
+  EXPECT_GT(HeightMarginal(sample, 1e5).heightOf(5.5), 1.03 * power.heightOf(5.5));
+}
+
 }  // namespace
 }  // namespace mems_stiction
