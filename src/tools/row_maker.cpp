@@ -7,6 +7,7 @@
 #include <sstream>
 #include <utility>
 
+#include "device/device_evidence.hpp"
 #include "errors/error_text.hpp"
 #include "evaluation/device_scans.hpp"
 #include "evaluation/frame_load.hpp"
@@ -85,7 +86,7 @@ BatchRow RowMaker::row(const BatchScan& scan, const std::function<void(const std
   beside_ = Evidence();
   if (arguments_.device_force) {
     beside_ = evidenceOfScan(prepared_, configuration_, [&](double share) { tell(deviceText(share)); });
-  } else {
+  } else if (wantsDeviceForce(configuration_.device, configuration_.device_force)) {
     beside_.why_no_device = kRowsOfScans;
   }
   const std::optional<Verdict> verdict = judge(half_space);

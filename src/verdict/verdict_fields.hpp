@@ -18,8 +18,7 @@ void visitVerdictFields(VerdictType& verdict, Visitor&& visit) {
   visit({"sticks", "", "no, marginal, yes or unknown"}, verdict.sticks);
   visit({"reason", "", "of sticks, one sentence"}, verdict.reason);
   visit({"restoring_force", "N", "of the device's spring"}, verdict.restoring_force);
-  visit({"device_pull_off_force", "N", "of the whole device"},
-        verdict.device_pull_off_force);
+  visit({"device_pull_off_force", "N", "of the whole device"}, verdict.device_pull_off_force);
   visit({"margin", "", "restoring over pull-off force: above 1 the spring wins; infinite without adhesion"},
         verdict.margin);
   visit({"margin_lower", "", "2.5 % quantile of margin"}, verdict.margin_lower);
