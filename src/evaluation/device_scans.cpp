@@ -65,27 +65,20 @@ DeviceForce DeviceScans::force(const std::function<void(double)>& on_progress) c
                      configuration_.device_force, on_progress);
 }
 
-DeviceForce addDevice(const std::function<DeviceForce()>& find, Evidence& evidence) {
-  try {
-    DeviceForce force = find();
-    evidence.device = deviceEvidence(force);
-    return force;
-  } catch (const Error& error) {
-    evidence.device.reset();
-    evidence.why_no_device = error.what();
-    DeviceForce none;
-    none.warnings = {"the device's own force was not found: " + evidence.why_no_device};
-    return none;
-  }
-}
-
 Evidence evidenceOfScan(const PreparedScan& prepared, const Configuration& configuration,
                         const std::function<void(double)>& on_progress, DeviceForce* extra) {
   Evidence evidence;
   if (!wantsDeviceForce(configuration.device, configuration.device_force)) return evidence;
   DeviceScans scans(configuration);
   scans.add("the scan", prepared);
-  DeviceForce force = addDevice([&] { return scans.force(on_progress); }, evidence);
+  DeviceForce force;
+  try {
+    force = scans.force(on_progress);
+    evidence.device = deviceEvidence(force);
+  } catch (const Error& error) {
+    evidence.why_no_device = error.what();
+    force.warnings = {"the device's own force has not been found: " + evidence.why_no_device};
+  }
   if (extra != nullptr) *extra = std::move(force);
   return evidence;
 }

@@ -33,7 +33,6 @@ class DeviceScans {
   /// @return what looks wrong in it
   std::vector<std::string> addCounterSurface(const std::string& name, const HeightMap& measured);
 
-  int count() const { return static_cast<int>(surfaces_.scans.size()); }
   /// Place of the scan with the smallest pixels, the first of several.
   std::size_t finest() const;
 
@@ -48,13 +47,8 @@ class DeviceScans {
   bool has_own_counter_surface_ = false;
 };
 
-/// The force as evidence; where it cannot be found, why.
-/// - @p find gives it
-/// @return the force, with nothing in it but a warning if it failed
-DeviceForce addDevice(const std::function<DeviceForce()>& find, Evidence& evidence);
-
 /// What one scan by itself says of its device, if the verdict asks for it; where nothing was found, the reason.
-/// - @p extra gets the force too, unless null
+/// - @p extra gets the force too, unless null; where it was not found, one with nothing in it but a warning
 Evidence evidenceOfScan(const PreparedScan& prepared, const Configuration& configuration,
                         const std::function<void(double)>& on_progress = {}, DeviceForce* extra = nullptr);
 

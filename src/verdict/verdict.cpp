@@ -211,6 +211,9 @@ Verdict verdictOf(const Prediction& prediction, const DeviceOptions& device, con
   Evidence counted = evidence;
   if (evidence.device &&
       !(std::isfinite(evidence.device->pull_off_force) && std::isfinite(evidence.device->force_deviation))) {
+    if (counted.why_no_device.empty() && !evidence.device->warnings.empty()) {
+      counted.why_no_device = evidence.device->warnings.front();
+    }
     counted.device.reset();
   }
   if (!is_asked || !objection.empty()) counted.half_space = nullptr;

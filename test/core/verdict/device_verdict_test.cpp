@@ -151,6 +151,7 @@ TEST(DeviceVerdict, withoutItsForceItIsUnknown) {
   Evidence failed = found();
   failed.device->pull_off_force = std::nan("");
   EXPECT_EQ(verdictWith(failed, 5.0).sticks, Sticks::kUnknown);
+  EXPECT_TRUE(says(verdictWith(failed, 5.0), "has not been found (measure a field of at least 40 um)"));
 }
 
 TEST(DeviceVerdict, beamsTakeTheDevicesWork) {
