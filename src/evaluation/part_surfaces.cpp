@@ -7,27 +7,31 @@ namespace {
 
 std::size_t bytesOf(const HeightMap& surface) { return surface.heights().total() * surface.heights().elemSize(); }
 
-std::size_t bytesOf(const SurfacePair& surfaces) { return bytesOf(surfaces.lower) + bytesOf(surfaces.upper); }
-
 bool haveSamePixels(const HeightMap& left, const HeightMap& right) {
   return left.heights().data == right.heights().data && left.rows() == right.rows() && left.cols() == right.cols();
+}
+
+bool haveSamePixels(const SurfacePair& left, const SurfacePair& right) {
+  return haveSamePixels(left.lower, right.lower) && haveSamePixels(left.upper, right.upper);
+}
+
+/// The model's grid is the scan's own unless preprocessing/refine asks for another.
+std::size_t bytesOf(const PreparedScan& scan) {
+  const SurfacePair& model = scan.model_surfaces;
+  return bytesOf(scan.surfaces.lower) + bytesOf(scan.surfaces.upper) +
+         (haveSamePixels(scan.surfaces, model) ? 0 : bytesOf(model.lower) + bytesOf(model.upper));
+}
+
+PreparedScan surfacesAlone(const PreparedScan& scan) {
+  PreparedScan alone;
+  alone.surfaces = scan.surfaces;
+  alone.model_surfaces = scan.model_surfaces;
+  return alone;
 }
 
 bool areOneGrid(const HeightMap& left, const HeightMap& right) {
   return left.rows() == right.rows() && left.cols() == right.cols() && left.pitchX() == right.pitchX() &&
          left.pitchY() == right.pitchY();
-}
-
-/// Bit for bit, also where nothing was measured.
-bool haveSameHeights(const HeightMap& left, const HeightMap& right) {
-  if (!areOneGrid(left, right) || left.heights().type() != right.heights().type()) return false;
-  if (haveSamePixels(left, right)) return true;
-  const std::size_t bytes = static_cast<std::size_t>(left.cols()) * left.heights().elemSize();
-  for (int row = 0; row < left.rows(); ++row) {
-    const auto* const begin = left.heights().ptr(row);
-    if (!std::equal(begin, begin + bytes, right.heights().ptr(row))) return false;
-  }
-  return true;
 }
 
 /// The oldest of those that share the commonest grid.
@@ -36,7 +40,7 @@ std::vector<ScannedSurface>::iterator mostSpareable(std::vector<ScannedSurface>&
   std::ptrdiff_t most = 0;
   for (auto scan = scans.begin(); scan != scans.end(); ++scan) {
     const std::ptrdiff_t alike = std::count_if(scans.begin(), scans.end(), [&](const ScannedSurface& other) {
-      return areOneGrid(scan->surfaces.lower, other.surfaces.lower);
+      return areOneGrid(scan->scan.surfaces.lower, other.scan.surfaces.lower);
     });
     if (alike <= most) continue;
     most = alike;
@@ -47,15 +51,9 @@ std::vector<ScannedSurface>::iterator mostSpareable(std::vector<ScannedSurface>&
 
 }  // namespace
 
-DeviceSurfaces ScannedPart::surfaces() const {
-  DeviceSurfaces device;
-  for (const ScannedSurface& scan : scans) {
-    device.scans.push_back({scan.statement.scan_name, scan.surfaces.lower});
-    const HeightMap& upper = scan.surfaces.upper;
-    const auto is_there = [&](const NamedScan& other) { return haveSameHeights(other.surface, upper); };
-    if (upper.empty() || std::any_of(device.counter_surface.begin(), device.counter_surface.end(), is_there)) continue;
-    device.counter_surface.push_back({"the counter-surface of " + scan.statement.scan_name, upper});
-  }
+DeviceScans ScannedPart::together(const Configuration& configuration) const {
+  DeviceScans device(configuration);
+  for (const ScannedSurface& scanned : scans) device.add(scanned.statement.scan_name, scanned.scan);
   return device;
 }
 
@@ -72,7 +70,7 @@ std::vector<ScanStatement> ScannedPart::statements() const {
 }
 
 std::vector<PartName> PartSurfaces::add(const PartName& part, std::uint64_t scan_id, ScanStatement statement,
-                                        const SurfacePair& surfaces) {
+                                        const PreparedScan& scan) {
   const auto entry = std::find_if(parts_.begin(), parts_.end(), [&](const Entry& other) { return other.name == part; });
   if (entry == parts_.end()) {
     parts_.push_back({part, {}});
@@ -83,16 +81,14 @@ std::vector<PartName> PartSurfaces::add(const PartName& part, std::uint64_t scan
   std::vector<ScannedSurface>& scans = kept.scans;
   const bool is_alone = part.first.empty() && part.second.empty();
   const auto same = std::find_if(scans.begin(), scans.end(), [&](const ScannedSurface& other) {
-    return scan_id != 0 ? other.id == scan_id : haveSamePixels(other.surfaces.lower, surfaces.lower);
+    return scan_id != 0 ? other.id == scan_id : haveSamePixels(other.scan.surfaces.lower, scan.surfaces.lower);
   });
   if (same != scans.end()) {
     statement.scan_name = same->statement.scan_name;
     same->statement = std::move(statement);
-    if (haveSamePixels(same->surfaces.lower, surfaces.lower) && haveSamePixels(same->surfaces.upper, surfaces.upper)) {
-      return {};
-    }
-    bytes_ += bytesOf(surfaces) - bytesOf(same->surfaces);
-    same->surfaces = surfaces;
+    if (haveSamePixels(same->scan.surfaces, scan.surfaces)) return {};
+    bytes_ += bytesOf(scan) - bytesOf(same->scan);
+    same->scan = surfacesAlone(scan);
     same->number = ++numbers_;
   } else {
     while (is_alone && !scans.empty()) drop(kept, scans.begin());
@@ -101,8 +97,8 @@ std::vector<PartName> PartSurfaces::add(const PartName& part, std::uint64_t scan
     const bool is_named_before = std::any_of(
         scans.begin(), scans.end(), [&](const ScannedSurface& other) { return other.statement.scan_name == name; });
     if (is_named_before || name.empty()) name += (name.empty() ? "scan " : " ") + std::to_string(kept.taken);
-    scans.push_back({scan_id, ++numbers_, std::move(statement), surfaces});
-    bytes_ += bytesOf(surfaces);
+    scans.push_back({scan_id, ++numbers_, std::move(statement), surfacesAlone(scan)});
+    bytes_ += bytesOf(scan);
     while (scans.size() > most_.scans) drop(kept, mostSpareable(scans));
   }
   std::vector<PartName> gone;
@@ -129,7 +125,7 @@ std::size_t PartSurfaces::scans() const {
 }
 
 void PartSurfaces::drop(ScannedPart& part, std::vector<ScannedSurface>::iterator scan) {
-  bytes_ -= bytesOf(scan->surfaces);
+  bytes_ -= bytesOf(scan->scan);
   part.scans.erase(scan);
 }
 

@@ -9,8 +9,8 @@
 /// scan among many fine ones stays.
 ///
 ///     PartSurfaces parts({16, 1000000000});
-///     parts.add({part_id, serial_id}, stamp, statement, prepared.surfaces);
-///     const DeviceSurfaces surfaces = parts.of({part_id, serial_id})->surfaces();
+///     parts.add({part_id, serial_id}, stamp, statement, prepared);
+///     const DeviceForce force = parts.of({part_id, serial_id})->together(configuration).force();
 
 #include <cstddef>
 #include <cstdint>
@@ -20,8 +20,8 @@
 #include <utility>
 #include <vector>
 
-#include "mems_stiction/device/device_force.hpp"
-#include "mems_stiction/surface/surface_pair.hpp"
+#include "evaluation/device_scans.hpp"
+#include "mems_stiction/evaluation/prepared_scan.hpp"
 #include "verdict/part_verdict.hpp"
 
 namespace mems_stiction {
@@ -40,7 +40,7 @@ struct ScannedSurface {
   std::uint64_t id = 0;      ///< of the scan; 0 = it has none
   std::uint64_t number = 0;  ///< no two surfaces have the same
   ScanStatement statement;   ///< what it says by itself, newest; no two scans of a part have the same name
-  SurfacePair surfaces;
+  PreparedScan scan;         ///< its surfaces alone
 };
 
 /// What is kept of one part.
@@ -48,8 +48,8 @@ struct ScannedPart {
   std::vector<ScannedSurface> scans;  ///< in the order in which they came
   std::size_t taken = 0;              ///< with those that were forgotten
 
-  /// As deviceForce() takes them. An upper surface that several scans met is there once.
-  DeviceSurfaces surfaces() const;
+  /// What the device's force is found from.
+  DeviceScans together(const Configuration& configuration) const;
   /// Tells the surfaces from every others: what is made of the same numbers is the same.
   std::vector<std::uint64_t> numbers() const;
   /// As pooledVerdictOf() takes them.
@@ -64,10 +64,9 @@ class PartSurfaces {
   /// - @p scan_id a scan of the same part with the same number takes the place of the one before; one
   ///   without a number (0) is known by its pixels
   /// - @p statement what the scan says by itself, with its name
-  /// - @p surfaces on the scan's own grid, clean
   /// @return parts that had to go for it
   std::vector<PartName> add(const PartName& part, std::uint64_t scan_id, ScanStatement statement,
-                            const SurfacePair& surfaces);
+                            const PreparedScan& scan);
 
   /// Nothing if the part is not there.
   std::optional<ScannedPart> of(const PartName& part) const;

@@ -88,14 +88,14 @@ void DeviceForceStream::offer(const StationCase& scan, const PredictedScan& pred
   Task task{part,
             {scan.header, provenance, predicted.pool_settings_hash},
             settings,
-            scan.scan.surfaces,
+            scan.scan,
             withoutMaps(predicted.prediction)};
   const ScanStatement statement = statementOf(provenance.scan_name, predicted.prediction, predicted.verdict);
   std::vector<Task> gone;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     ++counts_.offered;
-    const std::vector<PartName> forgotten = parts_.add(part, scan.header.stamp.toNSec(), statement, task.surfaces);
+    const std::vector<PartName> forgotten = parts_.add(part, scan.header.stamp.toNSec(), statement, task.newest);
     const auto leave = [&](std::vector<Task>::iterator waiting) {
       ++counts_.skipped;
       gone.push_back(std::move(*waiting));
@@ -168,7 +168,7 @@ void DeviceForceStream::work(const Task& task, const ScannedPart& part) {
 
 DeviceAdhesion DeviceForceStream::find(const Task& task, const ScannedPart& part, std::optional<Verdict>& verdict) {
   const Configuration& settings = *task.settings;
-  const Options model = onFrame(settings.model, settings.device, task.surfaces);
+  const Options model = onFrame(settings.model, settings.device, task.newest.surfaces);
   const std::vector<std::uint64_t> numbers = part.numbers();
   const std::string hash = forceHash(settings, true);
   const std::string unloaded_hash = forceHash(settings, false);
@@ -176,13 +176,16 @@ DeviceAdhesion DeviceForceStream::find(const Task& task, const ScannedPart& part
   if (!is_known) {
     const Clock::time_point begin = Clock::now();
     DeviceForce force = make(task, part);
-    found_ = Found{numbers,
-                   unloaded_hash,
-                   hash,
-                   std::move(force),
-                   task.prediction.pull_off_force,
-                   task.prediction.apparent_work_of_adhesion,
-                   std::chrono::duration<double>(Clock::now() - begin).count()};
+    Found found{task.newest,
+                numbers,
+                unloaded_hash,
+                hash,
+                std::move(force),
+                task.prediction.pull_off_force,
+                task.prediction.apparent_work_of_adhesion,
+                std::chrono::duration<double>(Clock::now() - begin).count()};
+    const std::lock_guard<std::mutex> lock(mutex_);
+    found_ = std::move(found);
   }
   DeviceForce force = found_->force;
   Evidence evidence;
@@ -197,8 +200,8 @@ DeviceAdhesion DeviceForceStream::find(const Task& task, const ScannedPart& part
     force.warnings.push_back("only " + std::to_string(part.scans.size()) + " of " + std::to_string(part.taken) +
                              " scans are kept (max_part_scans and max_part_memory)");
   }
-  verdict = verdictOf(task.prediction, settings.device, settings.uncertainty, model, task.surfaces.lower.cellArea(),
-                      evidence);
+  verdict = verdictOf(task.prediction, settings.device, settings.uncertainty, model,
+                      task.newest.surfaces.lower.cellArea(), evidence);
   DeviceAdhesion message = deviceMessage(force, model.load, task.scan.header);
   message.status = is_known ? DeviceAdhesion::JUDGED_AGAIN : DeviceAdhesion::FOUND;
   message.processing_time = found_->time;
@@ -207,10 +210,6 @@ DeviceAdhesion DeviceForceStream::find(const Task& task, const ScannedPart& part
 }
 
 DeviceForce DeviceForceStream::make(const Task& task, const ScannedPart& part) {
-  const Configuration& settings = *task.settings;
-  Options model = onFrame(settings.model, settings.device, task.surfaces);
-  model.output = OutputOptions();
-  model.output.deformed_surfaces = model.output.contact_map = model.output.energy_curve = false;
   auto goOn = [this, give_way = pause_.waiter(stopping_)]() mutable {
     give_way();
     if (stopping_) throw Stopped();
@@ -221,12 +220,33 @@ DeviceForce DeviceForceStream::make(const Task& task, const ScannedPart& part) {
     share_ = 0.0;
   }
   const BesideWork beside(std::ref(goOn));
-  return deviceForce(part.surfaces(), {settings.device.contact_area, settings.device.contacts}, model,
-                     settings.uncertainty, settings.device_force, [&](double share) {
-                       goOn();
-                       const std::lock_guard<std::mutex> lock(mutex_);
-                       share_ = share;
-                     });
+  return part.together(*task.settings).force([&](double share) {
+    goOn();
+    const std::lock_guard<std::mutex> lock(mutex_);
+    share_ = share;
+  });
+}
+
+bool DeviceForceStream::isFoundWith(const StationCase& scan) const {
+  return found_ && found_->newest.surfaces.lower.heights().data == scan.scan.surfaces.lower.heights().data &&
+         found_->unloaded_hash == forceHash(*scan.settings, false);
+}
+
+std::optional<DeviceScale> DeviceForceStream::scaleOf(const StationCase& scan) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!isFoundWith(scan)) return std::nullopt;
+  return DeviceScale{deviceEvidence(found_->force), found_->frame_pull_off_force, found_->frame_work};
+}
+
+Evidence DeviceForceStream::evidenceOf(const StationCase& scan) const {
+  Evidence evidence;
+  if (!wantsDeviceForce(scan.settings->device, scan.settings->device_force)) return evidence;
+  evidence.why_no_device = kDeviceOnTopic;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (isFoundWith(scan) && found_->hash == forceHash(*scan.settings, true)) {
+    evidence.device = deviceEvidence(found_->force);
+  }
+  return evidence;
 }
 
 void DeviceForceStream::report(diagnostic_updater::DiagnosticStatusWrapper& status) {

@@ -56,6 +56,11 @@ class DeviceForceStream {
   /// - @p predicted of the scan, under the settings of the case
   void offer(const StationCase& scan, const PredictedScan& predicted);
 
+  /// The device's figures beside those of the frame, if they are known for just this scan, under this load or another.
+  std::optional<DeviceScale> scaleOf(const StationCase& scan) const;
+  /// The same as evidence for a verdict on the scan, under the load of the case alone.
+  Evidence evidenceOf(const StationCase& scan) const;
+
   /// One status with every count; WARN if a scan since the last report has no force.
   void report(diagnostic_updater::DiagnosticStatusWrapper& status);
 
@@ -66,11 +71,12 @@ class DeviceForceStream {
     PartName part;
     ScanOfPart scan;
     SettingsOwner::Snapshot settings;
-    SurfacePair surfaces;   ///< of the newest scan
+    PreparedScan newest;    ///< its surfaces
     Prediction prediction;  ///< of it, without maps
   };
   /// What was found last, to judge by it again.
   struct Found {
+    PreparedScan newest;                 ///< scan
     std::vector<std::uint64_t> numbers;  ///< of the surfaces of the scans
     std::string unloaded_hash;           ///< of the settings that bear on the force, but for the load
     std::string hash;                    ///< of those with the load
@@ -90,6 +96,8 @@ class DeviceForceStream {
 
   void loop();
   void work(const Task& task, const ScannedPart& part);
+  /// With the mutex held: whether it was found with just this scan, but for the load.
+  bool isFoundWith(const StationCase& scan) const;
   /// What the part's surfaces say under the task's settings, and whether they had to be made.
   DeviceAdhesion find(const Task& task, const ScannedPart& part, std::optional<Verdict>& verdict);
   DeviceForce make(const Task& task, const ScannedPart& part);
@@ -99,9 +107,9 @@ class DeviceForceStream {
   Warn warn_;
   Judged judged_;
   std::atomic<bool> stopping_{false};
-  std::optional<Found> found_;  ///< touched by the stream's thread only
 
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
+  std::optional<Found> found_;  ///< changed by the stream's thread only
   std::condition_variable changed_;
   PartSurfaces parts_;
   std::vector<Task> waiting_;  ///< one of each part, the newest at the end

@@ -13,8 +13,13 @@
 namespace mems_stiction {
 
 HalfSpaceStream::HalfSpaceStream(const ros::NodeHandle& handle, const HalfSpaceOptions& options, SolutionPause& pause,
-                                 Warn warn, Judged judged)
-    : solver_(options), pause_(pause), publisher_(handle), warn_(std::move(warn)), judged_(std::move(judged)) {}
+                                 Warn warn, Judged judged, Beside beside)
+    : solver_(options),
+      pause_(pause),
+      publisher_(handle),
+      warn_(std::move(warn)),
+      judged_(std::move(judged)),
+      beside_(std::move(beside)) {}
 
 void HalfSpaceStream::start() {
   thread_ = std::thread([this] { loop(); });
@@ -71,7 +76,7 @@ void HalfSpaceStream::solve(const Task& task) {
     const SolvedHalfSpace solved = solver_.solve(problem, control);
     message = halfSpaceMessage(solved, model.load, scan.header);
     if (!stopping_) {
-      verdict = halfSpaceVerdict(solved, scan.scan, model, *scan.settings);
+      verdict = halfSpaceVerdict(solved, scan.scan, model, *scan.settings, beside_(scan));
       fillVerdict(*verdict, message);
     }
     map = halfSpaceContactMap(solved, problem, solver_.options(), scan.scan.refinement);

@@ -34,9 +34,12 @@ class HalfSpaceStream {
   /// Called with the verdict on each scan that was judged, on the thread of the half-space.
   using Judged = std::function<void(const ScanOfPart& scan, const Verdict& verdict)>;
 
+  /// What is known of the device of a scan, called on the thread of the half-space.
+  using Beside = std::function<Evidence(const StationCase& scan)>;
+
   /// - @p pause is given way to; it must outlive the stream
   HalfSpaceStream(const ros::NodeHandle& handle, const HalfSpaceOptions& options, SolutionPause& pause, Warn warn,
-                  Judged judged);
+                  Judged judged, Beside beside);
   ~HalfSpaceStream() { stop(); }
   HalfSpaceStream(const HalfSpaceStream&) = delete;
   HalfSpaceStream& operator=(const HalfSpaceStream&) = delete;
@@ -81,6 +84,7 @@ class HalfSpaceStream {
   HalfSpacePublisher publisher_;
   Warn warn_;
   Judged judged_;
+  Beside beside_;
   std::atomic<bool> stopping_{false};
   std::mutex mutex_;
   std::condition_variable changed_;

@@ -12,9 +12,6 @@
 namespace mems_stiction {
 namespace {
 
-/// Why a verdict has no force of the device.
-constexpr char kOnTopic[] = "the node finds it by the scans on its topic height and publishes it on device_force";
-
 /// The node's messages always carry the roughness.
 Configuration withRoughness(Configuration configuration) {
   configuration.model.output.roughness = true;
@@ -74,7 +71,7 @@ PredictedScan LivePredictor::judged(const PreparedScan& prepared, const Configur
                                     const ScanIdentity& identity, const ScanPredictor::OnModel& on_model) {
   PredictedScan predicted;
   Evidence evidence;
-  if (wantsDeviceForce(settings.device, settings.device_force)) evidence.why_no_device = kOnTopic;
+  if (wantsDeviceForce(settings.device, settings.device_force)) evidence.why_no_device = kDeviceOnTopic;
   predictor_.setDevice(settings.device);
   predicted.prediction = predictor_.predict(prepared, on_model);
   predicted.verdict = verdictOf(predicted.prediction, settings.device, settings.uncertainty, predictor_.options(),

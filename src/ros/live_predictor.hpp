@@ -22,6 +22,10 @@
 
 namespace mems_stiction {
 
+/// Why a verdict has no force of the device.
+inline constexpr char kDeviceOnTopic[] =
+    "the node finds it by the scans on its topic height and publishes it on device_force";
+
 /// What a long run on one scan needs, so that it can go its own way while scans are predicted.
 struct StationCase {
   std_msgs::Header header;           ///< of the scan

@@ -4,10 +4,12 @@
 #include <limits>
 #include <utility>
 
+#include "evaluation/device_scans.hpp"
 #include "evaluation/frame_load.hpp"
 #include "ros/provenance_conversion.hpp"
 #include "ros/station_conversion.hpp"
 #include "ros/topic_names.hpp"
+#include "settings/time_limit.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -25,10 +27,25 @@ RunControl controlOf(LongRun<Action>& run) {
   return control;
 }
 
+/// The goal was cancelled.
+struct Cancelled {};
+
+/// What is known of the device, or found by the scan alone.
+/// @throw Cancelled
+std::optional<DeviceScale> scaleOf(const StationCase& scan, const KnownDevice& known, const std::atomic<bool>& cancel) {
+  if (std::optional<DeviceScale> scale = known(scan)) return scale;
+  const auto goOn = [&cancel] {
+    if (cancel) throw Cancelled();
+  };
+  const BesideWork beside(goOn);
+  return scaleOfScan(scan.scan, *scan.settings, [&](double) { goOn(); });
+}
+
 }  // namespace
 
-StationActions::StationActions(const ros::NodeHandle& private_handle, FindCase find_case)
+StationActions::StationActions(const ros::NodeHandle& private_handle, FindCase find_case, KnownDevice known_device)
     : find_case_(std::move(find_case)),
+      known_device_(std::move(known_device)),
       sweep_(private_handle, kSweepLoadAction, [this](const auto& goal, auto& result) { return sweep(goal, result); }),
       cycle_(private_handle, kCycleContactAction,
              [this](const auto& goal, auto& result) { return cycle(goal, result); }) {}
@@ -54,8 +71,14 @@ bool StationActions::sweep(const SweepLoadGoal& goal, SweepLoadResult& result) {
   request.mechanical_loads = goal.mechanical_loads;
   const Options model = onFrame(settings.model, settings.device, station_case.scan.surfaces);
   if (request.mechanical_loads.empty()) request.mechanical_loads = {model.load.mechanical_load};
+  std::optional<DeviceScale> scale;
+  try {  // a request that is refused is refused at once
+    if (request.validate(model).empty()) scale = scaleOf(station_case, known_device_, sweep_.cancel());
+  } catch (const Cancelled&) {
+    return false;
+  }
   const LoadSweepResult swept = sweepLoads(model, station_case.scan.model_surfaces, request, settings.device,
-                                           settings.uncertainty, controlOf(sweep_));
+                                           settings.uncertainty, controlOf(sweep_), scale);
   result = sweepMessage(swept);
   result.pull_in_reason = whatPullInLacks(settings.device);
   result.header = station_case.header;
@@ -68,10 +91,16 @@ bool StationActions::cycle(const CycleContactGoal& goal, CycleContactResult& res
   const StationCase station_case = find_case_(goal.height, goal.scan_info);
   result.header = station_case.header;
   const Configuration& settings = *station_case.settings;
+  std::optional<DeviceScale> scale;
+  try {
+    if (goal.count > 0) scale = scaleOf(station_case, known_device_, cycle_.cancel());
+  } catch (const Cancelled&) {
+    return false;
+  }
   constexpr std::uint32_t kMost = std::numeric_limits<int>::max();
   const ContactCyclesResult cycled = cycleContacts(
       onFrame(settings.model, settings.device, station_case.scan.surfaces), station_case.scan.model_surfaces,
-      static_cast<int>(std::min(goal.count, kMost)), settings.device, settings.uncertainty, controlOf(cycle_));
+      static_cast<int>(std::min(goal.count, kMost)), settings.device, settings.uncertainty, controlOf(cycle_), scale);
   result = cyclesMessage(cycled);
   result.header = station_case.header;
   fillProvenance(provenanceOf(station_case.identity, settings), result);

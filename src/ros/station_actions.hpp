@@ -4,6 +4,7 @@
 /// The long runs of a test station, ~sweep_load and ~cycle_contact, each with surfaces and settings of its own.
 
 #include <functional>
+#include <optional>
 
 #include <ros/node_handle.h>
 
@@ -17,10 +18,13 @@ namespace mems_stiction {
 /// The scan of a goal, or the last one if the image has no pixels. May throw; what() is the client's answer.
 using FindCase = std::function<StationCase(const sensor_msgs::Image& height, const ScanInfo& info)>;
 
-/// Both action servers.
+/// The device's figures beside those of the scan, if they are known.
+using KnownDevice = std::function<std::optional<DeviceScale>(const StationCase& scan)>;
+
+/// Both action servers. A run whose device is not known finds it first, by its scan alone.
 class StationActions {
  public:
-  StationActions(const ros::NodeHandle& private_handle, FindCase find_case);
+  StationActions(const ros::NodeHandle& private_handle, FindCase find_case, KnownDevice known_device);
 
   void start();
   /// Ends what runs after its present step; it is then aborted.
@@ -31,6 +35,7 @@ class StationActions {
   bool cycle(const CycleContactGoal& goal, CycleContactResult& result);
 
   FindCase find_case_;
+  KnownDevice known_device_;
   LongRun<SweepLoadAction> sweep_;
   LongRun<CycleContactAction> cycle_;
 };

@@ -48,14 +48,16 @@ StictionServer::StictionServer(const ros::NodeHandle& handle, const ros::NodeHan
       // image_transport's plugins serve dynamic_reconfigure, which talks to the master: not on the topic thread
       publisher_(withQueue(handle, service_queue_), options_.display,
                  [this] { worker_.push([this] { showLastScan(); }); }),
-      half_space_(!configuration.core.half_space.enabled
-                      ? nullptr
-                      : std::make_unique<HalfSpaceStream>(
-                            withQueue(handle, service_queue_), configuration.core.half_space, half_space_pause_,
-                            [this](const auto& header, const auto& text) { accounting_.warn(header, text); },
-                            [this](const auto& scan, const auto& verdict) {
-                              worker_.push([=] { judgePartAgain(scan, verdict); });
-                            })),
+      half_space_(
+          !configuration.core.half_space.enabled
+              ? nullptr
+              : std::make_unique<HalfSpaceStream>(
+                    withQueue(handle, service_queue_), configuration.core.half_space, half_space_pause_,
+                    [this](const auto& header, const auto& text) { accounting_.warn(header, text); },
+                    [this](const auto& scan, const auto& verdict) {
+                      worker_.push([=] { judgePartAgain(scan, verdict); });
+                    },
+                    [this](const auto& scan) { return device_force_ ? device_force_->evidenceOf(scan) : Evidence(); })),
       device_force_(!configuration.core.device_force.enabled
                         ? nullptr
                         : std::make_unique<DeviceForceStream>(
@@ -89,7 +91,9 @@ StictionServer::StictionServer(const ros::NodeHandle& handle, const ros::NodeHan
       reconfigure_(
           service_handle_, predictor_.settings(), [this](const auto& settings) { change(settings); },
           [this] { master_->writeSoon(this); }),
-      actions_(service_handle_, [this](const auto& height, const auto& info) { return findCase(height, info); }),
+      actions_(
+          service_handle_, [this](const auto& height, const auto& info) { return findCase(height, info); },
+          [this](const auto& scan) { return device_force_ ? device_force_->scaleOf(scan) : std::nullopt; }),
       half_space_calls_(service_handle_, configuration.core.half_space, half_space_pause_,
                         [this](const auto& height, const auto& info) { return findCase(height, info); }),
       diagnostics_(handle_, name),

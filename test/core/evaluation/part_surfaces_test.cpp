@@ -15,8 +15,11 @@ constexpr KeptSurfaces kPlenty{100, 1000000000};
 constexpr int kSide = 8;
 constexpr std::size_t kBytes = kSide * kSide * sizeof(double);
 
-HeightMap surfaceOf(double height, double pitch = 1e-8) {
-  return {cv::Mat(kSide, kSide, CV_64FC1, cv::Scalar(height)), pitch, pitch};
+PreparedScan surfaceOf(double height, double pitch = 1e-8) {
+  PreparedScan scan;
+  scan.surfaces = HeightMap(cv::Mat(kSide, kSide, CV_64FC1, cv::Scalar(height)), pitch, pitch);
+  scan.model_surfaces = scan.surfaces;
+  return scan;
 }
 
 ScanStatement named(const std::string& name) {
@@ -28,7 +31,8 @@ ScanStatement named(const std::string& name) {
 /// Heights of the scans in their order.
 std::vector<double> heightsOf(const PartSurfaces& parts, const PartName& part) {
   std::vector<double> heights;
-  for (const NamedScan& scan : parts.of(part)->surfaces().scans) heights.push_back(scan.surface.height(0, 0));
+  const ScannedPart kept = parts.of(part).value();  // lives as long as the loop
+  for (const ScannedSurface& scan : kept.scans) heights.push_back(scan.scan.surfaces.lower.height(0, 0));
   return heights;
 }
 
@@ -44,7 +48,6 @@ TEST(PartSurfaces, HoldsWhatStatesTheSamePart) {
   std::vector<std::string> names;
   for (const ScanStatement& statement : parts.of(kPart)->statements()) names.push_back(statement.scan_name);
   EXPECT_EQ(names, (std::vector<std::string>{"a", "a 2", "scan 3"}));
-  EXPECT_EQ(parts.of(kPart)->surfaces().scans[1].name, "a 2");
   EXPECT_EQ(parts.scans(), 4U);
   EXPECT_EQ(parts.bytes(), 4 * kBytes);
 }
@@ -60,7 +63,7 @@ TEST(PartSurfaces, HoldsOneScanWithoutAPart) {
 
 TEST(PartSurfaces, AScanThatComesAgainCountsOnce) {
   PartSurfaces parts(kPlenty);
-  const HeightMap first = surfaceOf(1.0);
+  const PreparedScan first = surfaceOf(1.0);
   parts.add(kPart, 1, named("a"), first);
   parts.add(kPart, 2, named("b"), surfaceOf(2.0));
   const std::vector<std::uint64_t> numbers = parts.of(kPart)->numbers();
@@ -73,7 +76,7 @@ TEST(PartSurfaces, AScanThatComesAgainCountsOnce) {
   EXPECT_NE(parts.of(kPart)->numbers(), numbers);
   EXPECT_EQ(heightsOf(parts, kPart), (std::vector<double>{5.0, 2.0}));
   // Without a number its pixels tell.
-  const HeightMap unnumbered = surfaceOf(6.0);
+  const PreparedScan unnumbered = surfaceOf(6.0);
   for (int i = 0; i < 2; ++i) parts.add(kPart, 0, named("c"), unnumbered);
   parts.add(kPart, 0, named("c"), surfaceOf(6.0));
   EXPECT_EQ(heightsOf(parts, kPart), (std::vector<double>{5.0, 2.0, 6.0, 6.0}));
@@ -105,18 +108,17 @@ TEST(PartSurfaces, MemoryIsThatOfThePartsThatHadAScanLast) {
   EXPECT_EQ(heightsOf(tight, kPart), std::vector<double>{1.0});  // the newest stays
 }
 
-TEST(PartSurfaces, AnUpperSurfaceThatSeveralScansMetIsThereOnce) {
+TEST(PartSurfaces, MemoryIsThatOfUpperAndRefinedSurfacesToo) {
   PartSurfaces parts(kPlenty);
-  parts.add(kPart, 1, named("a"), {surfaceOf(1.0), surfaceOf(7.0)});
-  parts.add(kPart, 2, named("b"), {surfaceOf(2.0), surfaceOf(7.0)});
-  parts.add(kPart, 3, named("c"), {surfaceOf(3.0), surfaceOf(8.0)});
-  parts.add(kPart, 4, named("d"), {surfaceOf(3.0), surfaceOf(8.0, 1e-7)});
-  parts.add(kPart, 5, named("e"), surfaceOf(4.0));
-  const DeviceSurfaces surfaces = parts.of(kPart)->surfaces();
-  EXPECT_EQ(surfaces.scans.size(), 5U);
-  ASSERT_EQ(surfaces.counter_surface.size(), 3U);
-  EXPECT_EQ(surfaces.counter_surface[1].name, "the counter-surface of c");
-  EXPECT_EQ(parts.bytes(), 9 * kBytes);
+  PreparedScan scan = surfaceOf(1.0);
+  scan.surfaces.upper = scan.model_surfaces.upper = surfaceOf(7.0).surfaces.lower;
+  parts.add(kPart, 1, named("a"), scan);
+  EXPECT_EQ(parts.bytes(), 2 * kBytes);
+  scan = surfaceOf(2.0);
+  scan.model_surfaces = HeightMap(cv::Mat::zeros(2 * kSide, 2 * kSide, CV_64FC1), 5e-9, 5e-9);
+  parts.add(kPart, 2, named("b"), scan);
+  EXPECT_EQ(parts.bytes(), 7 * kBytes);
+  EXPECT_EQ(parts.of(kPart)->together(Configuration()).count(), 2);
 }
 
 }  // namespace
