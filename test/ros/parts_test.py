@@ -33,7 +33,7 @@ class PartsTest(unittest.TestCase):
         cls.folder = pathlib.Path(folder.name)
         cls.bag = str(cls.folder / "parts.bag")
         plain = str(cls.folder / "scans.bag")
-        make_bag(plain, "--count", str(len(IDS)), "--rows", "128", "--cols", "128", "--rate", "20", "--rms-height", "3e-9", "6e-9", "--seed", "5")
+        make_bag(plain, "--count", str(len(IDS)), "--rows", "96", "--cols", "96", "--rate", "20", "--rms-height", "3e-9", "6e-9", "--seed", "5")
         with rosbag.Bag(cls.bag, "w") as target, rosbag.Bag(plain) as source:
             places = {}
             for topic, message, stamp in source.read_messages():
@@ -49,7 +49,7 @@ class PartsTest(unittest.TestCase):
     def batch(self, load):
         """Rows of the parts by stiction_batch, by serial number."""
         config = (pathlib.Path(__file__).parent / "device_station.yaml").read_text()
-        config = "".join(line + "\n" for line in config.splitlines() if line.split(":")[0] not in NODE_KEYS) + "device_force: {enabled: false}\n"
+        config = "".join(line + "\n" for line in config.splitlines() if line.split(":")[0] not in NODE_KEYS)
         (self.folder / "config.yaml").write_text(config)
         rows, parts = (str(self.folder / ("%s%g.jsonl" % (name, load))) for name in ("rows", "parts"))
         subprocess.run([find_node("mems_stiction", "stiction_batch")[0], "-c", str(self.folder / "config.yaml"), "--load", repr(load), "-o", rows,
