@@ -78,7 +78,6 @@ std::optional<AreaAdhesion> followCells(const AreaCells& cells, std::int64_t buc
   answer.approach = curve.rest().approach;
   answer.separation_at_rest = curve.meanGap();
   answer.contact_stiffness = curve.stiffness();
-  answer.joining_rise = joiningRise(curve.wayIn());
   answer.contact_count = static_cast<int>(curve.contacts().size());
   takeMedians(curve, options, answer);
   curve.part();

@@ -48,7 +48,6 @@ struct AreaAdhesion {
   double separation_at_rest = kUnknown;       ///< mean gap of the cells apart at rest [m]
   double contact_area = kUnknown;             ///< real, at rest [m^2]
   double contact_stiffness = kUnknown;        ///< -dF/dD at rest [N/m]
-  double joining_rise = kUnknown;             ///< as in ContactSolution [-]
   int contact_count = 0;                      ///< patches at rest
   int pull_off_contact_count = 0;             ///< patches in reach at the pull-off
   double median_composite_radius = kUnknown;  ///< of the contacts at rest [m]

@@ -110,7 +110,6 @@ void summarizeContact(const ContactProblem& problem, ContactSolution& solution, 
   prediction.flattening_ratio = work_of_adhesion > 0.0 ? solution.flattening_energy / work_of_adhesion : kUnknown;
   prediction.is_conforming = solution.is_conforming;
   prediction.is_bonded_by_load = solution.is_bonded_by_load;
-  prediction.joining_rise = solution.joining_rise;
   prediction.adhesion_parameter = solution.adhesion_parameter;
   prediction.bonding_regime = bondingRegimeOf(prediction.adhesion_parameter);
   prediction.composite_rms_height = problem.composite_rms_height;

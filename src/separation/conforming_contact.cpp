@@ -9,6 +9,9 @@
 namespace mems_stiction {
 namespace {
 
+/// Of the strength of the law, Gamma/z0: nearly that of springs, too.
+constexpr Exponents kLawExponents{1.5, 0.0, -0.5};
+
 /// k = 2 U/(A sigma^2); bodies without relief have nothing to give way.
 double stiffnessOf(double flattening_energy, double rms_height) {
   return flattening_energy > 0.0 && rms_height > 0.0 ? 2.0 * flattening_energy / (rms_height * rms_height)
@@ -87,7 +90,7 @@ double ConformingContact::strengthAtWeakestPlace() {
   waves_.split(relief(), {field_->cols(), field_->rows()}, bodies_.contact_modulus, cohesive_length);
   const double cell = std::hypot(field_->pitchX(), field_->pitchY());
   const double short_rms =
-      takeShortWaves(waves_.weakestPlace(), std::max(chosen::kPlaceRadius * cohesive_length, cell));
+      takeShortWaves(waves_.weakestPlace(), std::max(chosen::kTearingZone * cohesive_length, cell));
   const double short_energy = flattening_.of(*field_, waves_.longHeights(), bodies_.contact_modulus);
   if (depths_at_place_.empty()) return law_->strength() - waves_.largestTension();  // pixels without a height
   const auto [lowest, highest] = std::minmax_element(depths_at_place_.begin(), depths_at_place_.end());
@@ -98,17 +101,24 @@ double ConformingContact::strengthAtWeakestPlace() {
 }
 
 WayOut ConformingContact::fromOpenValleys(double pressure) {
-  const OpenValleyStrength open = strengthWithOpenValleys(bodies_);
-  WayOut way_out = upTo(open.traction, pressure);
+  const double brittle = brittleStrength(bodies_);
+  const double springs = strengthFrom(restOf(branch(), pressure), branch());
+  const double brittle_share = springs / (brittle + springs);
+  WayOut way_out = upTo(brittle_share * brittle, pressure);
   way_out.parting = Parting::kFromOpenValleys;
-  way_out.force_exponents = open.exponents;
+  const double fade = chosen::kDecay * bodies_.flattening_energy / bodies_.work_of_adhesion;
+  const double tough_share = 1.0 - brittle_share;
+  // of sqrt(Gamma U) exp(-2 U/Gamma) with U in proportion to E, and of the law
+  way_out.force_exponents = {brittle_share * (0.5 + fade) + tough_share * kLawExponents.adhesion,
+                             brittle_share * (0.5 - fade) + tough_share * kLawExponents.modulus,
+                             tough_share * kLawExponents.hamaker};
   return way_out;
 }
 
 WayOut ConformingContact::asAWhole(double pressure, double least_force) {
   WayOut way_out = upTo(std::max(strengthAtWeakestPlace(), least_force / area()), pressure);
   way_out.parting = Parting::kAsAWhole;
-  way_out.force_exponents = {1.5, 0.0, -0.5};  // nearly the strength of the law, Gamma/z0
+  way_out.force_exponents = kLawExponents;
   return way_out;
 }
 

@@ -31,8 +31,8 @@ double realArea(const PatchLoad& load, double area, double rim_force, double pre
 }
 
 Regime regimeOf(const PatchLoad& load, double area, double hardness) {
-  if (load.elasticShare() >= chosen::kElasticShare) return Regime::kElastic;
-  return load.carried >= chosen::kPlasticShare * hardness * area ? Regime::kPlastic : Regime::kElastoPlastic;
+  if (load.elasticShare() >= chosen::kRegimeShare) return Regime::kElastic;
+  return load.carried >= chosen::kRegimeShare * hardness * area ? Regime::kPlastic : Regime::kElastoPlastic;
 }
 
 }  // namespace
@@ -78,12 +78,13 @@ void ContactCurve::takeContacts() {
 }
 
 double ContactCurve::stiffness() const {
-  // a secant to the nearest state that is far enough before rest: forces are known to a thousandth of what is carried
+  // a secant to the nearest state that is half a step or more before rest, where the force is known to kAccuracy
   const std::vector<SeparationState>& states = way_in_.states;
   const SeparationState& rest = states.back();
+  const double least = 0.5 * chosen::kStep * (frame_.law().range() + rest.approach);
   for (auto before = states.rbegin() + 1; before != states.rend(); ++before) {
     const double length = rest.approach - before->approach;
-    if (length >= chosen::kStiffnessLength * frame_.law().range()) return (before->force() - rest.force()) / length;
+    if (length >= least) return (before->force() - rest.force()) / length;
   }
   return ContactSolution::kUnknown;
 }

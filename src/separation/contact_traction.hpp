@@ -15,6 +15,8 @@
 ///     const ContactTraction law(interface);
 ///     const double pull = law.traction(gap - approach);
 
+#include <cmath>
+
 #include "mechanics/traction_law.hpp"
 #include "mems_stiction/loads/interface.hpp"
 #include "numeric/lanes.hpp"
@@ -35,6 +37,8 @@ class ContactTraction {
   bool attracts() const { return stress() > 0.0; }
   /// Largest traction: what no interface exceeds, 1.026 Gamma/z0 [Pa].
   double strength() const { return law_.strength(); }
+  /// The gap at which it acts, 0.2 z0 [m].
+  double strongestGap() const { return (std::pow(3.0, 1.0 / 6.0) - 1.0) * range(); }
 
   /// t of one gap [Pa] or of several; @param gap d [m], >= 0
   template <typename Real>

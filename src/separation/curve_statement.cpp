@@ -29,8 +29,7 @@ bool CurveStatement::mayGrowTogether(const ContactSolution& solution, double fla
   for (const Asperity& contact : contacts) values_.push_back(contact.tabor_parameter);
   const double tabor = values_.empty() ? 0.0 : medianOf(values_);
   const double softness = std::isnan(tabor) ? 0.0 : std::min(tabor, 1.0);
-  if (flattening_ratio < chosen::kNearBonding * (1.0 + softness)) return true;
-  return flattening_ratio < chosen::kJoiningOnes && solution.joining_rise > chosen::kJoiningRise;
+  return flattening_ratio < chosen::kNearBonding * (1.0 + softness);
 }
 
 ModelStatement CurveStatement::of(const ContactSolution& solution, double work_of_adhesion) {

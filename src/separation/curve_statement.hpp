@@ -21,9 +21,7 @@ class CurveStatement {
 
  private:
   /// Whether the flattening ratio lies below 2 (1 + mu), mu the median Tabor parameter, at most 1: where contacts are
-  /// brittle, they grow together over barriers at which the curve rests. Or below 6, if the force on the way in rises again
-  /// by a tenth of its largest value after it has fallen: contacts join one after another there, and those that hold draw
-  /// the next ones near.
+  /// brittle, they grow together over barriers at which the curve rests.
   bool mayGrowTogether(const ContactSolution& solution, double flattening_ratio);
 
   std::vector<double> values_;

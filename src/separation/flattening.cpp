@@ -13,7 +13,7 @@ void StructureFunction::start(int length) {
   length_ = length;
   lags_.clear();
   const int longest = std::min(std::max(1, length / chosen::kLagsPerLine), length - 1);
-  for (int lag = 1; lag <= longest; lag = std::max(lag + 1, static_cast<int>(lag * chosen::kLagGrowth))) {
+  for (int lag = 1; lag <= longest; lag = std::max(lag + 1, static_cast<int>(lag * chosen::kNextLength))) {
     lags_.push_back({lag, 0.0, 0.0});
   }
 }

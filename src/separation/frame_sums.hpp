@@ -79,8 +79,6 @@ class FrameSums {
   double area() const { return static_cast<double>(validCount()) * field_->cellArea(); }
   /// Sum of the gaps of the valid cells at first touch [m].
   double gapSum() const { return field_->meanGap() * field_->validCount() + (far_ != nullptr ? far_->gapSum() : 0.0); }
-  /// What attraction and water together never exceed [N].
-  double strongestPull() const { return (law().strength() + water_.pressure()) * area(); }
   /// Number of cells in contact at which approach/max_contact_fraction is reached.
   std::int64_t contactLimit() const;
   /// An approach that is no larger than where it is reached, and nearly there [m]: costs nothing.

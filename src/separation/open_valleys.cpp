@@ -19,13 +19,13 @@ double highest(const cv::Mat1d& values) {
 }  // namespace
 
 bool valleysStayOpen(ReliefSpectrum& relief, const BondedBodies& bodies, double pressure) {
-  const double shortest = chosen::kShortestCrack * bodies.cohesiveLength();
-  const double longest = chosen::kLongestCrack / bodies.waveNumber();
+  const double shortest = chosen::kTearingZone * bodies.cohesiveLength();
+  const double longest = kPi / bodies.waveNumber();
   if (shortest > longest) return false;
   const double modulus = bodies.contact_modulus;
   const double critical = std::sqrt(2.0 * modulus * bodies.work_of_adhesion);
   const double most_tension = highest(relief.weighed([=](double q) { return -0.5 * modulus * q; }));
-  for (double radius = longest; radius >= shortest; radius /= chosen::kNextCrack) {
+  for (double radius = longest; radius >= shortest; radius /= chosen::kNextLength) {
     const double even = 2.0 * std::sqrt(radius / kPi);              // of an even tension
     if (even * (most_tension - pressure) < critical) return false;  // nor do shorter cracks
     const double scale = modulus / std::sqrt(kPi * radius);
@@ -35,15 +35,10 @@ bool valleysStayOpen(ReliefSpectrum& relief, const BondedBodies& bodies, double 
   return false;
 }
 
-OpenValleyStrength strengthWithOpenValleys(const BondedBodies& bodies) {
+double brittleStrength(const BondedBodies& bodies) {
   const double ratio = bodies.flattening_energy / bodies.work_of_adhesion;
-  const double wave_number = bodies.waveNumber();
-  const double brittle = std::sqrt(bodies.contact_modulus * bodies.work_of_adhesion * wave_number);
-  const double cohesion = 1.0 + chosen::kCohesion * bodies.cohesiveLength() * wave_number;
-  // of sqrt(Gamma U) exp(-2 U/Gamma) with U in proportion to E, over 1 + 0.56 l q with l in proportion to E H/Gamma^2
-  const double blunt = 1.0 - 1.0 / cohesion;
-  return {chosen::kGriffith * std::exp(-chosen::kDecay * ratio) * brittle / cohesion,
-          {0.5 + chosen::kDecay * ratio + 2.0 * blunt, 0.5 - chosen::kDecay * ratio - blunt, -blunt}};
+  return std::exp(-chosen::kDecay * ratio) *
+         std::sqrt(bodies.contact_modulus * bodies.work_of_adhesion * bodies.waveNumber());
 }
 
 }  // namespace mems_stiction

@@ -14,12 +14,11 @@
 ///
 /// Surfaces with open valleys part from them, by Griffith's balance. In it E and z0 drop out but for the relief:
 ///
-///     F/A = 0.85 exp(-2 u) sqrt(E Gamma q)/(1 + 0.56 l q),   u = U/Gamma,   q = 4 U/(E sigma^2)
+///     f = exp(-2 u) sqrt(E Gamma q),   u = U/Gamma,   q = 4 U/(E sigma^2)
 ///
-/// U is the flattening energy per area, sigma the rms height, q the mean wave number that both tell of. The three numbers
-/// are chosen on frames of the half-space (doc/separation_curve.md).
+/// U is the flattening energy per area, sigma the rms height, q the mean wave number that both tell of. The 2 is chosen on
+/// frames of the half-space (doc/separation_curve.md).
 
-#include "mems_stiction/contact/contact_solution.hpp"
 #include "separation/relief_spectrum.hpp"
 
 namespace mems_stiction {
@@ -42,11 +41,7 @@ struct BondedBodies {
 /// - @p pressure that holds the bodies together [Pa], >= 0
 bool valleysStayOpen(ReliefSpectrum& relief, const BondedBodies& bodies, double pressure);
 
-/// What surfaces with open valleys hold.
-struct OpenValleyStrength {
-  double traction = 0.0;  ///< mean, at which they part [Pa]
-  Exponents exponents;
-};
-OpenValleyStrength strengthWithOpenValleys(const BondedBodies& bodies);
+/// f, the mean traction at which brittle surfaces with open valleys part [Pa].
+double brittleStrength(const BondedBodies& bodies);
 
 }  // namespace mems_stiction

@@ -9,13 +9,15 @@
 #include "numeric/lanes.hpp"
 #include "separation/lane_functions.hpp"
 
-#include "chosen_constants.hpp"
-
 namespace mems_stiction {
 namespace {
 
 /// P/(Ha A) at which a paraboloid begins to flow: its largest pressure is three times P over the overlapped area.
 constexpr double kFlowOnset = 1.0 / 3.0;
+/// Growth of the area of a cone with its depth, A ~ delta^m: no summit is sharper.
+constexpr double kGrowthOfCone = 2.0;
+/// lambda over Tabor's parameter, (S8): Maugis' stress is the law's mean one, by the work that it does, 0.548 Gamma/z0.
+const double kMaugisPerTabor = std::cbrt(9.0 / (2.0 * kPi)) * 64.0 / 9.0 * (1.0 / 5.0 - 2.0 / 11.0 + 1.0 / 17.0);
 /// lambda^1.4 of lambda^3
 constexpr double kPowerOfCube = 1.4 / 3.0;
 
@@ -72,8 +74,7 @@ PatchForces::PatchForces(const ContactSettings& settings, double cell_area, bool
   hardness_ = can_flow ? pair.hardness : std::numeric_limits<double>::infinity();
   load_factor_ = 0.6 * contact_modulus_ * std::sqrt(kPi * cell_area);
   const double strain = law_.workOfAdhesion() / (contact_modulus_ * law_.range());
-  maugis_factor_ =
-      chosen::kMaugisPerTabor * chosen::kMaugisPerTabor * chosen::kMaugisPerTabor * strain * strain / law_.range();
+  maugis_factor_ = kMaugisPerTabor * kMaugisPerTabor * kMaugisPerTabor * strain * strain / law_.range();
 }
 
 MEMS_STICTION_INLINE PatchForces::Loads PatchForces::loadsOf(const Lanes& cells, const Lanes& gap_sum,
@@ -126,10 +127,11 @@ MEMS_STICTION_VECTORIZED void PatchForces::addContacts(const OverlapSweep& conta
       carried += weight * loads.carried;
       if (!law_.attracts()) continue;
       // A grows as delta^m, and V/A is delta/(m + 1)
-      const Lanes depth = greater(approach - gap_sum / cells, Lanes(chosen::kLeastOpening * law_.range()));
+      const Lanes depth =
+          greater(approach - gap_sum / cells, Lanes(std::numeric_limits<double>::epsilon() * law_.range()));
       const Lanes delta = greater(approach - Lanes::load(block.first_gap + i), depth);
       Lanes growth = greater(delta / depth - 1.0, Lanes(1.0));
-      growth = select(growth < chosen::kMostGrowth, growth, Lanes(chosen::kMostGrowth));
+      growth = select(growth < kGrowthOfCone, growth, Lanes(kGrowthOfCone));
       const Lanes work = law_.workOfAdhesion() * cells * cell_area_;
       const Lanes load = loads.elastic * 2.0 * depth / work;  // P/(2 pi Gamma R)
       opened += weight * growth * work / delta * 0.5 * (growth - 1.0) * load / (1.0 + load);
@@ -155,7 +157,7 @@ MEMS_STICTION_VECTORIZED void PatchForces::addReach(const OverlapSweep& in_reach
     block.gather(in_reach, place);
     for (std::size_t i = 0; i < block.count; i += Lanes::kCount) {
       const Lanes cells = Lanes::load(block.cells + i);
-      const Lanes depth = reach - Lanes::load(block.gap_sum + i) / cells + chosen::kLeastDepth * law_.range();
+      const Lanes depth = reach - Lanes::load(block.gap_sum + i) / cells + law_.strongestGap();
       const Lanes radius = cells * cell_area_ / (4.0 * kPi * depth);
       const Lanes distance = greater(Lanes::load(block.first_gap + i) - approach, Lanes(0.0));
       const Lanes weight = Lanes::load(block.weight + i) * radius * law_.energy(distance);
@@ -165,7 +167,7 @@ MEMS_STICTION_VECTORIZED void PatchForces::addReach(const OverlapSweep& in_reach
       const Lanes loss = 1.0 - 0.5 * maugis::fittedPullOffPrefactorOfPower(bend);
       const Lanes lost = weight * loss / summits;
       weights += weight;
-      soft += weight * power(cube, 1.0 / 3.0) / chosen::kMaugisPerTabor;
+      soft += weight * power(cube, 1.0 / 3.0) / kMaugisPerTabor;
       losses += lost;
       losses_alone += lost * weight;
     }

@@ -14,7 +14,7 @@ namespace {
 /// Cells of a block along a side.
 int blockSize(int cells, double pitch, double longest) {
   const double by_length = std::clamp(std::floor(longest / pitch), 1.0, static_cast<double>(cells));
-  return std::max(static_cast<int>(by_length), (cells + chosen::kMostBlocks - 1) / chosen::kMostBlocks);
+  return std::max(static_cast<int>(by_length), (cells + chosen::kParts - 1) / chosen::kParts);
 }
 
 /// q of a row or column of a spectrum [1/m].
@@ -22,9 +22,8 @@ double waveNumber(int index, int count, double width) {
   return 2.0 * kPi * std::min(index, count - index) / (count * width);
 }
 
-/// Root mean square difference of two rows or columns.
-double difference(const cv::Mat1d& a, const cv::Mat1d& b) {
-  return cv::norm(a, b, cv::NORM_L2) / std::sqrt(static_cast<double>(a.total()));
+double rmsOf(const cv::Mat1d& heights) {
+  return cv::norm(heights, cv::NORM_L2) / std::sqrt(static_cast<double>(heights.total()));
 }
 
 }  // namespace
@@ -81,12 +80,10 @@ bool ReliefSpectrum::repeatsItself() const {
   const int last_row = blocks_.height - 1;
   const int last_col = blocks_.width - 1;
   if (last_row < 1 || last_col < 1) return true;
-  const double over_rows = difference(heights_.row(0), heights_.row(last_row));
-  const double over_cols = difference(heights_.col(0), heights_.col(last_col));
-  return over_rows <=
-             chosen::kFittingEdges * difference(heights_.rowRange(1, last_row + 1), heights_.rowRange(0, last_row)) &&
-         over_cols <=
-             chosen::kFittingEdges * difference(heights_.colRange(1, last_col + 1), heights_.colRange(0, last_col));
+  // heights that have nothing to do with each other differ by sqrt(2) of what they have
+  const double height = rmsOf(heights_);
+  return rmsOf(heights_.row(0) - heights_.row(last_row)) <= height &&
+         rmsOf(heights_.col(0) - heights_.col(last_col)) <= height;
 }
 
 }  // namespace mems_stiction

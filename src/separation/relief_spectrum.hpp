@@ -4,7 +4,7 @@
 /// The relief between two surfaces as a sum of waves, each of which can be weighed by its length.
 ///
 /// Heights are means over blocks of cells. Cells without a height lie at the mean. The frame repeats itself where its
-/// opposite edges fit each other as neighbours do, and is mirrored where they do not.
+/// opposite edges differ by no more than its rms height, and is mirrored where they differ by more.
 
 #include <vector>
 

@@ -1,11 +1,8 @@
 #include "separation/relief_waves.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <opencv2/imgproc.hpp>
-
-#include "chosen_constants.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -16,10 +13,7 @@ int unmirrored(int block, int count) { return block < count ? block : 2 * count 
 }  // namespace
 
 void ReliefWaves::split(ReliefSpectrum& relief, cv::Size cells, double contact_modulus, double cohesive_length) {
-  const auto long_part = [=](double q) {
-    const double square = cohesive_length * q * cohesive_length * q;
-    return 1.0 / (1.0 + std::pow(square, 0.5 * chosen::kLongWavePower));
-  };
+  const auto long_part = [=](double q) { return 1.0 / (1.0 + cohesive_length * q * cohesive_length * q); };
   const cv::Mat1d& tension = relief.weighed([=](double q) { return -0.5 * contact_modulus * q * long_part(q); });
   cv::Point weakest;
   cv::minMaxLoc(tension, nullptr, &largest_tension_, nullptr, &weakest);

@@ -11,9 +11,7 @@
 /// longer than the cohesive length l = E z0^2/Gamma the place where it is largest tears first, and all else follows it;
 /// what is shorter is torn as a whole. The long part of a wave is
 ///
-///     f(q) = 1/(1 + (l q)^4),
-///
-/// its power chosen on frames of the half-space (doc/separation_curve.md).
+///     f(q) = 1/(1 + (l q)^2)
 
 #include <opencv2/core.hpp>
 

@@ -2,17 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+
+#include "numeric/constants.hpp"
 
 #include "chosen_constants.hpp"
 
 namespace mems_stiction {
 namespace {
 
+/// JKR's displacement at the pull-off over mu z0, 0.77 [-].
+const double kHoldPerTabor = std::cbrt(9.0 * kPi / 8.0 * (9.0 * kPi / 8.0)) / 3.0;
+
 /// b of summits with this Tabor parameter, (S8a) [m].
 double holdOf(double tabor_parameter, double range) {
   if (!(tabor_parameter > chosen::kStiffTabor)) return 0.0;  // nor if it is not known
-  return range * std::min(chosen::kHoldPerTabor * (tabor_parameter - chosen::kStiffTabor), chosen::kLongestHold);
+  return range * kHoldPerTabor * (tabor_parameter - chosen::kStiffTabor);
 }
 
 /// s, (S7) [-].
@@ -72,17 +76,23 @@ double positivePart(double from, double to, double length) {
   return 0.5 * positive * length * positive / std::abs(from - to);
 }
 
+/// What adhesion gives at most: summits that hold on while rubber is drawn out do not give more [J].
+double mostAdhesion(const FrameSums& frame) { return frame.law().workOfAdhesion() * frame.area(); }
+
 /// Integrals along the states; the part before the first one by its energies.
-void takeWork(double work_apart, SeparationCurve& curve) {
+void takeWork(const FrameSums& frame, double work_apart, SeparationCurve& curve) {
   curve.elastic_energy = 0.0;
   curve.work = curve.work_apart = work_apart;
+  double adhesion = work_apart;
   for (std::size_t i = 1; i < curve.states.size(); ++i) {
     const SeparationState& from = curve.states[i - 1];
     const SeparationState& to = curve.states[i];
     const double length = to.approach - from.approach;
     curve.elastic_energy += 0.5 * (from.carried + to.carried) * length;
     curve.work += positivePart(from.partingForce(), to.partingForce(), length);
+    adhesion += 0.5 * (from.adhesion + to.adhesion) * length;
   }
+  curve.work -= std::max(0.0, adhesion - mostAdhesion(frame));
 }
 
 /// Of a figure with its parts: attraction, what of it goes with ln(Hamaker constant), and load of the patches. The law's
@@ -93,8 +103,19 @@ Exponents exponentsOf(double figure, double adhesion, double hamaker_exponent, d
   return {(adhesion - by_hamaker) / figure, -carried / figure, by_hamaker / figure};
 }
 
-double nextApproach(double approach, double range) {
-  return approach + std::max(chosen::kStep * range, chosen::kStepPerApproach * approach);
+/// Steps before first touch. What is left of the work where they begin is that of bodies which do not bend: bending takes a
+/// quarter at most of the (4/3) Gamma (z0/(z0 - D))^2 that flat surfaces have left there.
+int stepsApart() {
+  static const int steps = static_cast<int>(
+      std::ceil(std::log(1.0 / (3.0 * chosen::kAccuracy)) / (2.0 * std::log(1.0 + 2.0 * chosen::kStep))));
+  return steps;
+}
+
+/// Approach after some steps from first touch, below 0 before it. |D| + z0 grows by the same share each time, before first
+/// touch, where the force changes less, by twice that.
+double approachAfter(int steps, double range) {
+  if (steps < 0) return range * (1.0 - std::pow(1.0 + 2.0 * chosen::kStep, -steps));
+  return range * (std::pow(1.0 + chosen::kStep, steps) - 1.0);
 }
 
 /// Where the force of the last two states comes down to -load if it goes on as it does: it falls ever more steeply. 0 while it
@@ -123,28 +144,17 @@ void settle(FrameSums& frame, double load, SeparationCurve& curve) {
   SeparationState above = states.back();
   stateAt(frame, above.approach, curve.way);
   frame.mark();
-  SeparationState found;
-  for (int search = 0; search < chosen::kRestSearches; ++search) {
+  SeparationState found = below;
+  const double narrow = chosen::kAccuracy * (below.approach - above.approach);
+  for (int search = 0; below.approach - above.approach > narrow; ++search) {
     // every third time the middle: where one side is a wall, the line hardly moves the other
     const double place = search % 3 == 2 ? 0.5 * (above.approach + below.approach) : crossing(above, below, load);
     found = stateAt(frame, place, curve.way);
     const double excess = found.force() + load;
-    if (std::abs(excess) <= chosen::kRestAccuracy * std::max(found.carried, load)) break;
+    if (std::abs(excess) <= chosen::kAccuracy * std::max(found.carried, load)) break;
     (excess >= 0.0 ? above : below) = found;
   }
   states.push_back(found);
-}
-
-/// Largest rise after a fall, going from a state on [N].
-template <typename Iterator>
-double riseAfterFall(Iterator state, Iterator end) {
-  double lowest = state->partingForce();
-  double rise = 0.0;
-  for (; state != end; ++state) {
-    lowest = std::min(lowest, state->partingForce());
-    rise = std::max(rise, state->partingForce() - lowest);
-  }
-  return rise;
 }
 
 }  // namespace
@@ -153,27 +163,18 @@ std::vector<SeparationState>::const_iterator SeparationCurve::firstPushing() con
   return std::find_if(states.begin(), states.end(), [](const auto& state) { return state.partingForce() < 0.0; });
 }
 
-double joiningRise(const SeparationCurve& curve) {
-  const auto end = curve.firstPushing();
-  const auto largest = std::max_element(curve.states.begin(), end, [](const auto& one, const auto& other) {
-    return one.partingForce() < other.partingForce();
-  });
-  if (largest == end || !(largest->partingForce() > 0.0)) return 0.0;
-  const double outwards = riseAfterFall(std::make_reverse_iterator(largest + 1), curve.states.rend());
-  return std::max(riseAfterFall(largest, end), outwards) / largest->partingForce();
-}
-
 void followCurve(FrameSums& frame, const ContactSettings& settings, SeparationCurve& curve) {
   const double range = frame.law().range();
   const double load = settings.load.mechanical_load;
   curve.way = {};
   curve.states.clear();
-  for (const double apart : chosen::kApart) curve.states.push_back(stateAt(frame, apart * range, curve.way));
+  for (int step = -stepsApart(); step < 0; ++step) {
+    curve.states.push_back(stateAt(frame, approachAfter(step, range), curve.way));
+  }
   const double work_apart = frame.energy(curve.states.front().approach);
   curve.status = Status::kNoEquilibrium;
-  int steps = 0;
-  while (steps++ < settings.approach.max_steps) {
-    double approach = nextApproach(curve.states.back().approach, range);
+  for (int step = 0; step < settings.approach.max_steps; ++step) {
+    double approach = approachAfter(step, range);
     if (approach >= frame.approachBeforeLimit()) approach = std::min(approach, frame.limitApproach());
     curve.states.push_back(stateAt(frame, approach, curve.way, expectedRest(curve.states, load)));
     const SeparationState& state = curve.states.back();
@@ -188,7 +189,7 @@ void followCurve(FrameSums& frame, const ContactSettings& settings, SeparationCu
   }
   if (curve.status == Status::kEquilibrium) settle(frame, load, curve);
   takeMaximum(curve.states, curve);
-  takeWork(work_apart, curve);
+  takeWork(frame, work_apart, curve);
 }
 
 Way wayOutOf(const SeparationCurve& way_in, double range) {
@@ -201,23 +202,14 @@ void followWayOut(FrameSums& frame, double first_touch, const Way& way, Separati
   const double range = frame.law().range();
   curve.way = way;
   curve.states.clear();
-  for (const double apart : chosen::kApart) {
-    const double approach = first_touch + apart * range;
-    if (approach < way.rest) curve.states.push_back(stateAt(frame, approach, way));
-  }
-  if (curve.states.empty()) curve.states.push_back(stateAt(frame, way.rest, way));
+  int step = -stepsApart();
+  do {
+    const double approach = first_touch + approachAfter(step++, range);
+    curve.states.push_back(stateAt(frame, std::min(approach, way.rest), way));
+  } while (curve.states.back().approach < way.rest);
   const double work_apart = frame.energy(curve.states.front().approach);
-  double pushing_step = 0.0;
-  while (curve.states.back().approach < way.rest) {
-    const SeparationState& last = curve.states.back();
-    if (pushing_step == 0.0 && last.carried > chosen::kPushing * frame.strongestPull()) {
-      pushing_step = (way.rest - last.approach) / chosen::kPushingSteps;
-    }
-    const double step_end = first_touch + nextApproach(last.approach - first_touch, range);
-    curve.states.push_back(stateAt(frame, std::min(std::max(step_end, last.approach + pushing_step), way.rest), way));
-  }
   takeMaximum(curve.states, curve);
-  takeWork(work_apart, curve);
+  takeWork(frame, work_apart, curve);
 }
 
 CurveExponents exponentsOf(FrameSums& frame, const SeparationCurve& curve) {
@@ -235,6 +227,7 @@ CurveExponents exponentsOf(FrameSums& frame, const SeparationCurve& curve) {
     carried += 0.5 * (from.carried + to.carried) * length;
     last = &to;
   }
+  adhesion = std::min(adhesion, mostAdhesion(frame));
   return {exponentsOf(curve.pull_off_force, strongest.adhesion,
                       frame.hamakerExponentOfForce(strongest.approach, strongest.hold), strongest.carried),
           exponentsOf(curve.work, adhesion, frame.hamakerExponentOfEnergy(last->approach), carried)};

@@ -58,10 +58,6 @@ struct SeparationCurve {
   bool isBondedByLoad() const { return status == Status::kBonded && firstPushing() != states.end(); }
 };
 
-/// Largest rise of the parting force after it has fallen, to either side of its maximum, as far as the first state that
-/// pushes; of the maximum [-]. It tells of contacts that join one after another.
-double joiningRise(const SeparationCurve& curve);
-
 /// Follows the curve until the surfaces come to rest under settings.load.mechanical_load: the largest approach at which
 /// F + F_m >= 0. Bonded, when they have not until the contact fraction reaches its limit; without equilibrium, when
 /// approach/max_steps end first.

@@ -18,7 +18,6 @@ void SeparationSolver::solve(const ContactProblem& problem, ContactSolution& sol
   const FrameSums& frame = curve_.frame();
   solution.steps = static_cast<int>(curve_.wayIn().states.size());
   solution.flattening_energy = flattening_.of(problem.gap, frame.patchForces().contactModulus());
-  solution.joining_rise = joiningRise(curve_.wayIn());
   takeRest(problem, solution);
   listContacts(problem, solution);
   fillMaps(problem, solution);

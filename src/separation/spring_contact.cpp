@@ -21,16 +21,24 @@ class Spring {
     double gap;
   };
 
-  Spring(const ContactTraction& law, double stiffness) {
-    points_.reserve(chosen::kLawPoints);
-    const double ratio = std::pow(chosen::kFarthest / chosen::kClosest, 1.0 / (chosen::kLawPoints - 1));
-    double gap = chosen::kClosest * law.range();
-    for (int i = 0; i < chosen::kLawPoints; ++i, gap *= ratio) {
-      // counted from the atoms' centres: the plane of contact is at z0
+  /// - @p nearest distance that is asked for [m]
+  /// - @p span from the nearest cell to the farthest one [m]: where the nearest has let go, the farthest is that much beyond
+  Spring(const ContactTraction& law, double stiffness, double nearest, double span) {
+    constexpr double kGrowth = 1.0 + chosen::kAccuracy;
+    // counted from the atoms' centres: the plane of contact is at z0
+    const auto pointAt = [&](double gap) {
       const double traction = law.traction(gap - law.range());
-      points_.push_back({gap + traction / stiffness, traction,
-                         0.5 * traction * traction / stiffness - law.energy(gap - law.range()), gap});
-    }
+      return Point{gap + traction / stiffness, traction,
+                   0.5 * traction * traction / stiffness - law.energy(gap - law.range()), gap};
+    };
+    double gap = law.range();
+    while (pointAt(gap).start > nearest && gap > chosen::kAccuracy * law.range()) gap /= kGrowth;
+    do {
+      points_.push_back(pointAt(gap));
+      // the law falls ever more steeply up to where it bends back: beyond, no spring pulls harder, and none lets go
+      if (law.curvature(gap - law.range()) < 0.0) end_ = std::max(end_, points_.back().start);
+      gap *= kGrowth;
+    } while (law.curvature(points_.back().gap - law.range()) < 0.0 || points_.back().start < end_ + span);
     while (last_inner_ + 1 < points_.size() && points_[last_inner_ + 1].start > points_[last_inner_].start) {
       ++last_inner_;
     }
@@ -42,12 +50,12 @@ class Spring {
 
   /// Whether it lets go at once when it is drawn far enough.
   bool snaps() const { return first_outer_ != last_inner_; }
-  /// Distance beyond which it has let go [m].
-  double end() const { return points_[last_inner_].start; }
+  /// Distance beyond which it has let go, or pulls ever less [m].
+  double end() const { return end_; }
 
   /// At a distance; @p place is where the last, smaller distance was found, 0 at first.
   Point at(double start, std::size_t& place) const {
-    const bool is_inner = !snaps() || start <= end();
+    const bool is_inner = !snaps() || start <= points_[last_inner_].start;
     if (!is_inner) place = std::max(place, first_outer_);
     const std::size_t last = is_inner ? last_inner_ : points_.size() - 1;
     while (place < last && points_[place + 1].start < start) ++place;
@@ -63,6 +71,7 @@ class Spring {
   std::vector<Point> points_;
   std::size_t last_inner_ = 0;
   std::size_t first_outer_ = 0;
+  double end_ = 0.0;
 };
 
 SpringState meanAt(double height, const std::vector<ReliefClass>& relief, const Spring& spring, double range) {
@@ -82,13 +91,13 @@ SpringState meanAt(double height, const std::vector<ReliefClass>& relief, const 
 
 ReliefClasses::ReliefClasses(double lowest, double highest)
     : lowest_(lowest),
-      inverse_width_(chosen::kClasses / std::max(highest - lowest, 1e-200)),
-      sums_(chosen::kClasses, 0.0),
-      counts_(chosen::kClasses, 0) {}
+      inverse_width_(chosen::kParts / std::max(highest - lowest, 1e-200)),
+      sums_(chosen::kParts, 0.0),
+      counts_(chosen::kParts, 0) {}
 
 void ReliefClasses::add(double depth) {
   const double above = depth - lowest_;
-  const auto place = static_cast<std::size_t>(std::clamp(above * inverse_width_, 0.0, chosen::kClasses - 1.0));
+  const auto place = static_cast<std::size_t>(std::clamp(above * inverse_width_, 0.0, chosen::kParts - 1.0));
   sums_[place] += above;
   ++counts_[place];
 }
@@ -105,13 +114,14 @@ std::vector<ReliefClass> ReliefClasses::classes() const {
 
 std::vector<SpringState> springBranch(const std::vector<ReliefClass>& relief, const ContactTraction& law,
                                       double stiffness) {
-  const Spring spring(law, stiffness);
   const double range = law.range();
   const double deepest = range - relief.back().depth;
-  const double highest = std::max(spring.snaps() ? spring.end() : 0.0, chosen::kFarEnough * range);
+  const double span = relief.back().depth - relief.front().depth;
+  const Spring spring(law, stiffness, range - span, span);
+  const double highest = spring.end() - relief.front().depth;
   std::vector<SpringState> branch;
-  for (int i = 0; i <= chosen::kHeights; ++i) {
-    branch.push_back(meanAt(deepest + (highest - deepest) * i / chosen::kHeights, relief, spring, range));
+  for (int i = 0; i <= chosen::kParts; ++i) {
+    branch.push_back(meanAt(deepest + (highest - deepest) * i / chosen::kParts, relief, spring, range));
   }
   return branch;
 }

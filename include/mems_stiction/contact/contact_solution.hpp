@@ -107,10 +107,8 @@ struct ContactSolution {
   Exponents work_exponents;                     ///< of the apparent work of adhesion
   bool is_conforming = false;                   ///< the surfaces lie against each other nearly everywhere
   bool is_bonded_by_load = false;               ///< bonded, but without the loads they would have come to rest before
-  /// Largest rise of the force on the way in, without loads, after it has fallen: of its largest value [-]
-  double joining_rise = 0.0;
-  double contact_area_jkr = kUnknown;    ///< sum pi a_i^2 [m^2]
-  double adhesion_parameter = kUnknown;  ///< (14) [-]; infinite without work of adhesion
+  double contact_area_jkr = kUnknown;           ///< sum pi a_i^2 [m^2]
+  double adhesion_parameter = kUnknown;         ///< (14) [-]; infinite without work of adhesion
 
   bool has_asperities = false;  ///< false: `asperities` is empty because the solver knows none
   std::vector<Asperity> asperities;

@@ -63,8 +63,6 @@ struct Prediction {
   Exponents work_exponents;      ///< of the apparent work of adhesion
   bool is_conforming = false;
   bool is_bonded_by_load = false;  ///< bonded, but not without voltage and load
-  /// Largest rise of the force on the way in, without loads, after it has fallen: of its largest value [-]
-  double joining_rise = 0.0;
 
   double adhesion_parameter = 0.0;
   BondingRegime bonding_regime = BondingRegime::kNonBonding;

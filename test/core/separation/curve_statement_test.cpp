@@ -45,17 +45,6 @@ TEST(CurveStatement, theContactsThatHoldAtThePullOffTell) {
   EXPECT_TRUE(CurveStatement().of(solution, kWork).may_grow_together);
 }
 
-TEST(CurveStatement, contactsThatJoinOneAfterAnotherMayGrowTogetherUpToSix) {
-  const auto mayGrow = [](double flattening_ratio, double rise) {
-    ContactSolution solution = solutionWith(0.0, flattening_ratio);
-    solution.joining_rise = rise;
-    return CurveStatement().of(solution, kWork).may_grow_together;
-  };
-  EXPECT_TRUE(mayGrow(5.9, 0.11));
-  EXPECT_FALSE(mayGrow(5.9, 0.09));
-  EXPECT_FALSE(mayGrow(6.1, 0.4));
-}
-
 TEST(CurveStatement, conformingSurfacesHaveAnErrorOfTheirOwn) {
   ContactSolution solution = solutionWith(0.0, 0.1);
   solution.is_conforming = true;

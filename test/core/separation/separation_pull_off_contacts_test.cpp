@@ -106,25 +106,5 @@ TEST(PullOffContacts, areThoseAtRestWithoutAdhesion) {
   EXPECT_EQ(prediction.pull_off_contact_count, prediction.asperity_count);
 }
 
-TEST(JoiningRise, isThatOfTheForceWithoutLoadsUpToRest) {
-  // force on the way in, of its largest value; the field does not count, nor what lies behind rest
-  const auto rise = [](std::initializer_list<double> forces) {
-    SeparationCurve curve;
-    for (const double force : forces) {
-      SeparationState state;
-      state.adhesion = force;
-      state.electrostatic = 1.0 + static_cast<double>(curve.states.size());
-      curve.states.push_back(state);
-    }
-    return joiningRise(curve);
-  };
-  EXPECT_NEAR(rise({0.1, 1.0, 0.5, 0.61, 0.0}), 0.11, 1e-12) << "a rise after the maximum";
-  EXPECT_NEAR(rise({0.1, 0.7, 0.55, 1.0, 0.0}), 0.15, 1e-12) << "and before it";
-  EXPECT_NEAR(rise({0.1, 0.6, 0.8, 1.0, 0.4, -0.3}), 0.0, 1e-12);
-  EXPECT_NEAR(rise({0.1, 1.0, 0.5, 0.4, -0.3, 0.6, -0.5}), 0.0, 1e-12);
-  EXPECT_EQ(rise({}), 0.0);
-  EXPECT_EQ(rise({-0.1, -0.2}), 0.0);
-}
-
 }  // namespace
 }  // namespace mems_stiction
