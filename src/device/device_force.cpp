@@ -107,12 +107,15 @@ struct Laws {
 /// What the scans say, and what they would say if they had been other ones of the same surface.
 class Surfaces {
  public:
-  Surfaces(const DeviceSurfaces& scanned, double side)
-      : lower_(mapsOf(scanned.scans)), upper_(mapsOf(scanned.counter_surface)), side_(side) {
+  Surfaces(const DeviceSurfaces& scanned, double side, bool own_long_waves)
+      : lower_(mapsOf(scanned.scans)),
+        upper_(mapsOf(scanned.counter_surface)),
+        side_(side),
+        own_long_waves_(own_long_waves) {
     for (const TailForm form : {TailForm::kExponential, TailForm::kPower}) {
       laws_.emplace_back();
-      laws_.back().lower = surfaceLawOf(lower_, form);
-      if (!upper_.empty()) laws_.back().upper = surfaceLawOf(upper_, form);
+      laws_.back().lower = lawOf(lower_, form);
+      if (!upper_.empty()) laws_.back().upper = lawOf(upper_, form);
     }
   }
 
@@ -136,12 +139,19 @@ class Surfaces {
     const SpectrumContinuation continuation = drawnContinuation(law, side_, engine);
     std::vector<HeightMap> made;
     for (const HeightMap& scan : scans) made.push_back(madeScan(law, continuation, scan, side_, engine()));
-    return surfaceLawOf(made, form);
+    return lawOf(made, form);
+  }
+
+  SurfaceLaw lawOf(const std::vector<HeightMap>& scans, TailForm form) const {
+    SurfaceLaw law = surfaceLawOf(scans, form);
+    if (!own_long_waves_) law.own.reset();
+    return law;
   }
 
   std::vector<HeightMap> lower_;
   std::vector<HeightMap> upper_;
   double side_;
+  bool own_long_waves_;
   std::vector<Laws> laws_;
 };
 
@@ -307,7 +317,7 @@ DeviceForce deviceForce(const DeviceSurfaces& surfaces, const DeviceArea& area, 
   const std::vector<HeightMap> parts_upper = fineMapsOf(surfaces.counter_surface);
   const bool has_parts =
       options.pitch == 0.0 && haveRoom(parts_lower, pieces) && (parts_upper.empty() || haveRoom(parts_upper, pieces));
-  const Surfaces known(surfaces, pieces.side());
+  const Surfaces known(surfaces, pieces.side(), options.own_long_waves);
   showSpectrum(known.laws(0).lower, pieces.side(), force);
   if (!has_parts) {
     warnOfLongWaves(known.laws(0).lower, surfaces.scans, pieces.side(), force);
