@@ -77,8 +77,8 @@ std::vector<PartName> PartSurfaces::add(const PartName& part, std::uint64_t scan
   } else {
     parts_.splice(parts_.end(), parts_, entry);
   }
-  ScannedPart& kept = parts_.back().part;
-  std::vector<ScannedSurface>& scans = kept.scans;
+  ScannedPart& own = parts_.back().part;
+  std::vector<ScannedSurface>& scans = own.scans;
   const bool is_alone = part.first.empty() && part.second.empty();
   const auto same = std::find_if(scans.begin(), scans.end(), [&](const ScannedSurface& other) {
     return scan_id != 0 ? other.id == scan_id : haveSamePixels(other.scan.surfaces.lower, scan.surfaces.lower);
@@ -91,15 +91,15 @@ std::vector<PartName> PartSurfaces::add(const PartName& part, std::uint64_t scan
     same->scan = surfacesAlone(scan);
     same->number = ++numbers_;
   } else {
-    while (is_alone && !scans.empty()) drop(kept, scans.begin());
-    kept.taken = is_alone ? 1 : kept.taken + 1;
+    while (is_alone && !scans.empty()) drop(own, scans.begin());
+    own.taken = is_alone ? 1 : own.taken + 1;
     std::string& name = statement.scan_name;
     const bool is_named_before = std::any_of(
         scans.begin(), scans.end(), [&](const ScannedSurface& other) { return other.statement.scan_name == name; });
-    if (is_named_before || name.empty()) name += (name.empty() ? "scan " : " ") + std::to_string(kept.taken);
+    if (is_named_before || name.empty()) name += (name.empty() ? "scan " : " ") + std::to_string(own.taken);
     scans.push_back({scan_id, ++numbers_, std::move(statement), surfacesAlone(scan)});
     bytes_ += bytesOf(scan);
-    while (scans.size() > most_.scans) drop(kept, mostSpareable(scans));
+    while (scans.size() > most_.scans) drop(own, mostSpareable(scans));
   }
   std::vector<PartName> gone;
   while (bytes_ > most_.bytes && parts_.size() > 1) {
@@ -108,7 +108,7 @@ std::vector<PartName> PartSurfaces::add(const PartName& part, std::uint64_t scan
     gone.push_back(oldest.name);
     parts_.pop_front();
   }
-  while (bytes_ > most_.bytes && scans.size() > 1) drop(kept, scans.begin());
+  while (bytes_ > most_.bytes && scans.size() > 1) drop(own, scans.begin());
   return gone;
 }
 

@@ -29,8 +29,8 @@ namespace mems_stiction {
 /// part_id and serial_id.
 using PartName = std::pair<std::string, std::string>;
 
-/// What may be kept.
-struct KeptSurfaces {
+/// How much may stay.
+struct SurfaceLimits {
   std::size_t scans = 0;  ///< of each part, > 0
   std::size_t bytes = 0;  ///< of all parts together; the newest scan stays whatever it takes
 };
@@ -59,7 +59,7 @@ struct ScannedPart {
 /// Not for several threads at once.
 class PartSurfaces {
  public:
-  explicit PartSurfaces(const KeptSurfaces& most) : most_(most) {}
+  explicit PartSurfaces(const SurfaceLimits& most) : most_(most) {}
 
   /// - @p scan_id a scan of the same part with the same number takes the place of the one before; one
   ///   without a number (0) is known by its pixels
@@ -82,7 +82,7 @@ class PartSurfaces {
 
   void drop(ScannedPart& part, std::vector<ScannedSurface>::iterator scan);
 
-  KeptSurfaces most_;
+  SurfaceLimits most_;
   std::list<Entry> parts_;  ///< that which had a scan last at the end
   std::size_t bytes_ = 0;
   std::uint64_t numbers_ = 0;

@@ -59,7 +59,7 @@ DeviceForce scaled(DeviceForce force, double force_factor, double work_factor) {
 
 }  // namespace
 
-DeviceForceStream::DeviceForceStream(const ros::NodeHandle& handle, const KeptSurfaces& most, SolutionPause& pause,
+DeviceForceStream::DeviceForceStream(const ros::NodeHandle& handle, const SurfaceLimits& most, SolutionPause& pause,
                                      Warn warn, Judged judged)
     : pause_(pause), warn_(std::move(warn)), judged_(std::move(judged)), parts_(most) {
   ros::NodeHandle node(handle);

@@ -41,7 +41,7 @@ class DeviceForceStream {
   using Judged = std::function<void(const PooledVerdict& part, const ScanOfPart& last)>;
 
   /// - @p pause is given way to; it must outlive the stream
-  DeviceForceStream(const ros::NodeHandle& handle, const KeptSurfaces& most, SolutionPause& pause, Warn warn,
+  DeviceForceStream(const ros::NodeHandle& handle, const SurfaceLimits& most, SolutionPause& pause, Warn warn,
                     Judged judged);
   ~DeviceForceStream() { stop(); }
   DeviceForceStream(const DeviceForceStream&) = delete;

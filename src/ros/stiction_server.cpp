@@ -62,8 +62,8 @@ StictionServer::StictionServer(const ros::NodeHandle& handle, const ros::NodeHan
                         ? nullptr
                         : std::make_unique<DeviceForceStream>(
                               withQueue(handle, service_queue_),
-                              KeptSurfaces{static_cast<std::size_t>(options_.max_part_scans),
-                                           static_cast<std::size_t>(options_.max_part_memory)},
+                              SurfaceLimits{static_cast<std::size_t>(options_.max_part_scans),
+                                            static_cast<std::size_t>(options_.max_part_memory)},
                               half_space_pause_,
                               [this](const auto& header, const auto& text) { accounting_.warn(header, text); },
                               [this](const auto& part, const auto& last) {

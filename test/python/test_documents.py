@@ -91,7 +91,8 @@ class RosApiTest(unittest.TestCase):
 
     def test_diagnostics(self):
         added = []
-        for path in ("src/ros/scan_accounting.cpp", "src/ros/stiction_server.cpp", "src/ros/master_watch.cpp", "src/ros/half_space_stream.cpp"):
+        for path in ("src/ros/scan_accounting.cpp", "src/ros/stiction_server.cpp", "src/ros/master_watch.cpp", "src/ros/half_space_stream.cpp",
+                     "src/ros/device_force_stream.cpp"):
             added += re.findall(r'status\.add\("([^"]+)"', source(path))
         listed = re.findall(r"^\| `([^`]+)` \|", section("Diagnostics"), re.MULTILINE)
         self.assertEqual(listed, added)

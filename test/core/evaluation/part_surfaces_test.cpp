@@ -11,7 +11,7 @@ namespace {
 const PartName kPart{"lot 3", "0012"};
 const PartName kOther{"lot 3", "0013"};
 const PartName kNone;
-constexpr KeptSurfaces kPlenty{100, 1000000000};
+constexpr SurfaceLimits kPlenty{100, 1000000000};
 constexpr int kSide = 8;
 constexpr std::size_t kBytes = kSide * kSide * sizeof(double);
 
@@ -31,8 +31,8 @@ ScanStatement named(const std::string& name) {
 /// Heights of the scans in their order.
 std::vector<double> heightsOf(const PartSurfaces& parts, const PartName& part) {
   std::vector<double> heights;
-  const ScannedPart kept = parts.of(part).value();  // lives as long as the loop
-  for (const ScannedSurface& scan : kept.scans) heights.push_back(scan.scan.surfaces.lower.height(0, 0));
+  const ScannedPart found = parts.of(part).value();  // lives as long as the loop
+  for (const ScannedSurface& scan : found.scans) heights.push_back(scan.scan.surfaces.lower.height(0, 0));
   return heights;
 }
 
