@@ -128,13 +128,13 @@ def device_of(device):
     """What a DeviceAdhesion says: verdict and ratio (None where nothing was found), figures, by how many scans, what they lack."""
     is_found = device.status != DEVICE_REFUSED
     level, word = VERDICTS.get(device.sticks, VERDICTS[3])
-    rows = [("device_pull_off_force", "pull-off force of the device", device.pull_off_force,
+    rows = [("device_pull_off_force", "pull-off force", device.pull_off_force,
              quantities.with_interval(device.pull_off_force, device.pull_off_force_lower, device.pull_off_force_upper, "N")),
-            ("linear_pull_off_force", "the scans' force by area would be", device.linear_pull_off_force, with_unit(device.linear_pull_off_force, "N")),
-            ("device_work_of_adhesion", "its work of adhesion", device.apparent_work_of_adhesion,
+            ("linear_pull_off_force", "the scans' by area", device.linear_pull_off_force, with_unit(device.linear_pull_off_force, "N")),
+            ("device_work_of_adhesion", "work of adhesion", device.apparent_work_of_adhesion,
              quantities.with_interval(device.apparent_work_of_adhesion, device.apparent_work_of_adhesion_lower, device.apparent_work_of_adhesion_upper,
                                       "J/m^2")),
-            ("device_contacts", "places that hold it", device.contacts, "%.3g" % device.contacts)]
+            ("device_contacts", "places that hold", device.contacts, "%.3g" % device.contacts)]
     return {"is_found": is_found, "message": sentence(device.message),
             "verdict": {"level": level, "word": word, "reason": sentence(device.verdict_reason)} if is_found else None,
             "ratio": ratio_of(device) if is_found else None,

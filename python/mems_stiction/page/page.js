@@ -126,7 +126,7 @@ function showDevice() {
   say("device-of", device && device.number ? `by scan ${device.number}` : "");
   say("device-words", !device ? "No force of a whole device yet." : !device.is_found ? `Not found: ${device.message}` :
       `${device.verdict.word}` + (device.ratio ? `, ${device.ratio.label} ${device.ratio.text}` + (device.ratio.interval ? ` (${device.ratio.interval})` : "") : "") +
-      `; by ${device.scans} of ${device.part || "no part"}.`);
+      `; by ${device.scans}` + (device.part ? ` of ${device.part}.` : "."));
   fillFigures("device-figures", device ? device.figures : []);
 }
 
