@@ -20,6 +20,7 @@ __path__ = extend_path(__path__, __name__)
 if TYPE_CHECKING:
     from mems_stiction._device import DeviceForce, predict_device
     from mems_stiction._half_space import HalfSpace, half_space
+    from mems_stiction._made_surface import MadeSurface
     from mems_stiction._prediction import Prediction, Predictor, Verdict, predict, predict_many, predict_under
     from mems_stiction._scans import Cleaned, Roughness, Scan, channels, clean, decimate, generate, read, roughness
     from mems_stiction._settings import Error, FileError, OptionsError, Settings, SurfaceError
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
 _MODULES = {
     "_device": ("DeviceForce", "predict_device"),
     "_half_space": ("HalfSpace", "half_space"),
+    "_made_surface": ("MadeSurface",),
     "_prediction": ("Prediction", "Predictor", "Verdict", "predict", "predict_many", "predict_under"),
     "_scans": ("Cleaned", "Roughness", "Scan", "channels", "clean", "decimate", "generate", "read", "roughness"),
     "_settings": ("Error", "FileError", "OptionsError", "Settings", "SurfaceError"),
@@ -39,8 +41,8 @@ _MODULES = {
 _MODULE_OF = {name: module for module, names in _MODULES.items() for name in names}
 
 __all__ = [
-    "Cleaned", "ContactCycles", "DeviceForce", "Error", "FileError", "HalfSpace", "LoadSweep", "OptionsError", "Prediction",
-    "Predictor", "Roughness", "Scan", "ScanWarning", "Settings", "SettingsWarning", "SurfaceError", "Verdict", "channels", "clean",
+    "Cleaned", "ContactCycles", "DeviceForce", "Error", "FileError", "HalfSpace", "LoadSweep", "MadeSurface", "OptionsError",
+    "Prediction", "Predictor", "Roughness", "Scan", "ScanWarning", "Settings", "SettingsWarning", "SurfaceError", "Verdict", "channels", "clean",
     "cycle_contact", "decimate", "generate", "half_space", "predict", "predict_device", "predict_many", "predict_under", "read",
     "roughness", "sweep_loads"]
 

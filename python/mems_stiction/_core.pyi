@@ -303,6 +303,18 @@ class LoadSweepResult:
     summaries: Records
     pull_in_voltage: float
 
+class MadeSurface:
+    def __init__(self, scans: Sequence[DeviceScan], counter_surface: Sequence[DeviceScan], configuration: Configuration, number: int, depth: Optional[float]) -> None: ...
+    warnings: List[str]
+    rows: int
+    cols: int
+    pitch: float
+    tile_rows: int
+    def heights(self, row: int, col: int, rows: int, cols: int) -> Optional[Memory]: ...
+    def cells(self, first_row: int, rows: int) -> bytes: ...
+    def strips(self) -> SurfaceStrips: ...
+    def adhesion(self, strips: SurfaceStrips) -> SurfaceAdhesion: ...
+
 class Memory: ...
 
 class OneScan:
@@ -354,6 +366,13 @@ class SolvedScan:
     contact_map: Optional[Memory]
     deformed_lower: HeightMap
     deformed_upper: HeightMap
+
+class SurfaceAdhesion:
+    record: Records
+    warnings: List[str]
+
+class SurfaceStrips:
+    def add(self, part: bytes) -> None: ...
 
 class Error(Exception): ...
 

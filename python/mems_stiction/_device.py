@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from typing import Any, Dict, List, Optional, Sequence, Union
+from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -123,13 +123,28 @@ def _pitches_of(pitch: Any, scans: List[Any]) -> List[Optional[Pitch]]:
     return [value if _is_number(value) else tuple(value) for value in pitch]
 
 
-def _core_scans(scans: List[Any], pitches: List[Optional[Pitch]], settings: Settings, what: str) -> List[_core.DeviceScan]:
-    found = []
-    for place, (scan, pitch) in enumerate(zip(scans, pitches)):
-        name = what if len(scans) == 1 else "%s[%d]" % (what, place)
-        surface = surface_of(scan, pitch, settings, name)
-        found.append(_core.DeviceScan(surface.name, surface.core, list(surface.notes)))
-    return found
+def _surfaces(scans: List[Any], pitches: List[Optional[Pitch]], settings: Settings, what: str) -> List[Surface]:
+    return [surface_of(scan, pitch, settings, what if len(scans) == 1 else "%s[%d]" % (what, place))
+            for place, (scan, pitch) in enumerate(zip(scans, pitches))]
+
+
+def scans_of_device(scans: Any, area: Optional[float], pitch: Optional[Pitches], contacts: Optional[int], config: Optional[Config],
+                    upper: Any, settings: Dict[str, Any], stated: Dict[str, Any]) -> Tuple[List[Surface], List[Surface], Settings]:
+    """Scans of the lower surface, those of the upper one, and the settings with what goes before them unless it is None."""
+    upper = section_or_surface(upper, settings)
+    stated = dict(stated, **{"device/contact_area": area, "device/contacts": contacts, "device_force/enabled": True})
+    checked = settings_with(config, settings, {name: value for name, value in stated.items() if value is not None})
+    lower = _listed(scans, "scans")
+    surfaces = _surfaces(lower, _pitches_of(pitch, lower), checked, "scans")
+    if upper is None:
+        return surfaces, [], checked
+    above = _listed(upper, "upper")
+    common = pitch if _is_number(pitch) or _is_pair(pitch, len(lower)) else None
+    return surfaces, _surfaces(above, _pitches_of(common, above), checked, "upper"), checked
+
+
+def core_scans(surfaces: List[Surface]) -> List[_core.DeviceScan]:
+    return [_core.DeviceScan(surface.name, surface.core, list(surface.notes)) for surface in surfaces]
 
 
 def predict_device(scans: Any, area: Optional[float] = None, pitch: Optional[Pitches] = None, contacts: Optional[int] = None,
@@ -149,16 +164,7 @@ def predict_device(scans: Any, area: Optional[float] = None, pitch: Optional[Pit
 
     The interpreter's lock is released; Ctrl-C stops it. Raises OptionsError, SurfaceError and FileError, which name the scan.
     """
-    upper = section_or_surface(upper, settings)
-    stated = {"device/contact_area": area, "device/contacts": contacts, "device_force/enabled": True}
-    checked = settings_with(config, settings, {name: value for name, value in stated.items() if value is not None})
-    lower = _listed(scans, "scans")
-    core = _core_scans(lower, _pitches_of(pitch, lower), checked, "scans")
-    counter = []
-    if upper is not None:
-        above = _listed(upper, "upper")
-        common = pitch if _is_number(pitch) or _is_pair(pitch, len(lower)) else None
-        counter = _core_scans(above, _pitches_of(common, above), checked, "upper")
-    predicted = _core.predict_device(core, counter, checked._configuration)
+    lower, above, checked = scans_of_device(scans, area, pitch, contacts, config, upper, settings, {})
+    predicted = _core.predict_device(core_scans(lower), core_scans(above), checked._configuration)
     warn(list(predicted.scan_warnings) + list(predicted.force_warnings), ScanWarning)
     return DeviceForce(predicted)

@@ -9,7 +9,7 @@ from typing import Any, Dict, List, Optional, Tuple, Union
 import numpy as np
 
 from mems_stiction import _core
-from mems_stiction._arrays import Pitch, Surface, array_of, explained, pitch_of
+from mems_stiction._arrays import Pitch, Surface, array_of, explained, pitch_of, pixels_of
 from mems_stiction._inputs import odd_in, scan_of, warn_about
 from mems_stiction._settings import Config, Settings, SurfaceError
 from mems_stiction.quantities import with_unit
@@ -82,7 +82,8 @@ class Scan:
 def _scan_of(kind: Any, heights: np.ndarray, pitch: Tuple[float, float], rest: Any, state: Dict[str, Any]) -> Scan:
     scan = kind.__new__(kind)
     scan.__dict__.update(state)
-    scan._surface = Surface(_core.height_map(heights, pitch[0], pitch[1], _core.Configuration()), *rest)
+    # pickled elsewhere than in a file (Dask), pixels may lie at odd addresses
+    scan._surface = Surface(_core.height_map(pixels_of(heights), pitch[0], pitch[1], _core.Configuration()), *rest)
     return scan
 
 

@@ -5,9 +5,10 @@
 
 #include "approach/area_cells.hpp"
 #include "errors/short_number.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
+#include "mems_stiction/settings/option_visitor.hpp"
 #include "prediction/area_adhesion.hpp"
-#include "settings/time_limit.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -22,46 +23,37 @@ constexpr double kRounding = 0.05;
 /// Pixels along the side of a frame where cells in reach are too many to be kept one by one.
 constexpr std::int64_t kFrameSide = 2048;
 
-/// visit(row, col, tile of the relief) for all tiles.
-template <typename Visit>
-void visitTiles(const MadeSize& size, MadeSurface& lower, MadeSurface* upper, const Visit& visit) {
-  const cv::Size whole = lower.tile();
-  cv::Mat tile;
-  cv::Mat above;
-  for (std::int64_t row = 0; row < size.rows; row += whole.height) {
-    const int rows = static_cast<int>(std::min<std::int64_t>(whole.height, size.rows - row));
-    for (std::int64_t col = 0; col < size.cols; col += whole.width) {
-      TimeLimit::check();
-      const int cols = static_cast<int>(std::min<std::int64_t>(whole.width, size.cols - col));
-      tile.create(rows, cols, CV_32FC1);
-      lower.heights(row, col, tile);
-      if (upper != nullptr) {
-        above.create(rows, cols, CV_32FC1);
-        upper->heights(row, col, above);
-        tile -= above;
-      }
-      visit(row, col, tile);
-    }
-  }
+/// To two digits.
+double roundedUp(double value) {
+  const double digit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
+  return std::ceil(value / digit) * digit;
+}
+
+/// The top left of the last piece.
+cv::Mat frameOf(DeviceSurface& surface) {
+  const MadeSize& size = surface.pieces().size;
+  const int side = static_cast<int>(std::min(size.rows, kFrameSide));
+  cv::Mat frame(side, side, CV_32FC1);
+  surface.heights(surface.rows() - size.rows, 0, frame);
+  return frame;
+}
+
+/// What was found is that of all cells, as if every one had been kept.
+/// @throw SurfaceError if it needs cells that lie deeper than those that were
+void checkDepth(const AreaCells& cells, const AreaAdhesion& found) {
+  const std::int64_t all = cells.counts().lowestWithin(cells.limits().most_cells);
+  if (cells.levelBucket() <= all || (found.reach == AreaReach::kEnough && !found.took_all_cells)) return;
+  const double least = cells.highest() - cells.counts().lowerEnd(all);
+  throw SurfaceError("the cells of the surface were collected down to " +
+                     shortNumber((cells.highest() - cells.level()) * 1e9, 3) +
+                     " nm below its highest place, and contacts may reach further: collect them with a depth of " +
+                     numberText(roundedUp(least)) + " m");
 }
 
 }  // namespace
 
-DevicePieces piecesOf(const DeviceArea& area, double pitch, double most_cells) {
-  constexpr std::int64_t kLeastSide = 8;
-  DevicePieces pieces;
-  pieces.count = area.contacts;
-  const double most_area = most_cells * pitch * pitch;
-  const double piece_area = area.area / area.contacts;
-  if (area.area > most_area) {
-    // fewer pieces of their own size, or a part of one
-    pieces.count = std::clamp(static_cast<int>(most_area / piece_area), 1, area.contacts);
-  }
-  const double side = std::sqrt(std::min(piece_area, most_area));
-  pieces.size.pitch_x = pieces.size.pitch_y = pitch;
-  pieces.size.rows = pieces.size.cols = std::max(kLeastSide, static_cast<std::int64_t>(std::lround(side / pitch)));
-  pieces.area_ratio = area.area / pieces.area();
-  return pieces;
+std::int64_t rowInArea(const DevicePieces& pieces, int piece, std::int64_t row) {
+  return piece * (pieces.size.rows + kRowsBetween) + row;
 }
 
 bool haveRoom(const std::vector<HeightMap>& scans, const DevicePieces& pieces) {
@@ -77,12 +69,14 @@ bool haveRoom(const std::vector<HeightMap>& scans, const DevicePieces& pieces) {
 class DeviceAreaSolver::Gatherer {
  public:
   explicit Gatherer(const DevicePieces& pieces)
-      : pieces_(pieces), cells_(pieces.size.pitch_x, pieces.size.pitch_y), goes_on_(pieces.area_ratio > kGoesOn) {
+      : pieces_(pieces),
+        cells_(pieces.size.pitch_x, pieces.size.pitch_y),
+        goes_on_(pieces.is_part && pieces.area_ratio > kGoesOn) {
     if (goes_on_) quarters_.assign(kQuarters, AreaCells(pieces.size.pitch_x, pieces.size.pitch_y));
   }
 
   void add(int piece, std::int64_t row, std::int64_t col, const cv::Mat& relief) {
-    const std::int64_t at = piece * (pieces_.size.rows + kRowsBetween) + row;
+    const std::int64_t at = rowInArea(pieces_, piece, row);
     cells_.add(at, col, relief);
     if (!goes_on_) return;
     // tiles are small against the surface: their first pixel says in which quarter they lie
@@ -116,32 +110,17 @@ void DeviceAreaSolver::warnOnce(const std::string& warning) {
   if (std::find(warnings_.begin(), warnings_.end(), warning) == warnings_.end()) warnings_.push_back(warning);
 }
 
-Realisation DeviceAreaSolver::realise(const SurfaceLaw& lower, const std::optional<SurfaceLaw>& upper,
-                                      std::uint64_t seed) {
-  std::mt19937_64 engine(seed);
-  const SpectrumContinuation lower_end = drawnContinuation(lower, pieces_.side(), engine);
-  std::optional<SpectrumContinuation> upper_end;
-  if (upper) upper_end = drawnContinuation(*upper, pieces_.side(), engine);
+Realisation DeviceAreaSolver::realise(const DeviceLaws& laws, std::uint64_t seed) {
+  DeviceSurface surface(laws, pieces_, seed);
   Gatherer gatherer(pieces_);
-  std::optional<MadeSurface> below;
-  std::optional<MadeSurface> above;
-  for (int piece = 0; piece < pieces_.count; ++piece) {
-    below.emplace(lower, lower_end, pieces_.size, pieces_.side(), engine());
-    if (upper) above.emplace(*upper, *upper_end, pieces_.size, pieces_.side(), engine());
-    visitTiles(pieces_.size, *below, above ? &*above : nullptr,
-               [&](std::int64_t row, std::int64_t col, const cv::Mat& tile) { gatherer.add(piece, row, col, tile); });
-  }
-  return follow(gatherer, [&] {
-    const int side = static_cast<int>(std::min<std::int64_t>(pieces_.size.rows, kFrameSide));
-    cv::Mat frame(side, side, CV_32FC1);
-    below->heights(0, 0, frame);
-    if (above) {
-      cv::Mat other(side, side, CV_32FC1);
-      above->heights(0, 0, other);
-      frame -= other;
-    }
-    return frame;
+  surface.visitTiles(0, surface.rows(), [&](int piece, std::int64_t row, std::int64_t col, const cv::Mat& tile) {
+    gatherer.add(piece, row, col, tile);
   });
+  return follow(gatherer.cells(), gatherer.quarters(), [&] { return frameOf(surface); });
+}
+
+Realisation DeviceAreaSolver::realise(const AreaCells& cells, DeviceSurface& surface) {
+  return follow(cells, {}, [&] { return frameOf(surface); });
 }
 
 Realisation DeviceAreaSolver::realise(const std::vector<HeightMap>& lower, const std::vector<HeightMap>& upper,
@@ -164,12 +143,13 @@ Realisation DeviceAreaSolver::realise(const std::vector<HeightMap>& lower, const
     if (!upper.empty()) relief -= partOf(upper);
     gatherer.add(piece, 0, 0, relief);
   }
-  return follow(gatherer, [&] { return relief; });
+  return follow(gatherer.cells(), gatherer.quarters(), [&] { return relief; });
 }
 
-Realisation DeviceAreaSolver::follow(const Gatherer& gathered, const std::function<cv::Mat()>& frame) {
-  const AreaCells& cells = gathered.cells();
+Realisation DeviceAreaSolver::follow(const AreaCells& cells, const std::vector<AreaCells>& quarters,
+                                     const std::function<cv::Mat()>& frame) {
   const AreaAdhesion found = areaAdhesion(cells, loadedOn(cells.area()));
+  checkDepth(cells, found);
   if (found.reach != AreaReach::kEnough) return followFrame(frame());
   force_exponents_ = found.pull_off_exponents;
   work_exponents_ = found.work_exponents;
@@ -178,10 +158,10 @@ Realisation DeviceAreaSolver::follow(const Gatherer& gathered, const std::functi
   realisation.apparent_work_of_adhesion = found.apparent_work_of_adhesion;
   realisation.contacts = found.pull_off_contact_count;
   realisation.separation_at_rest = found.separation_at_rest;
-  if (gathered.quarters().empty()) return realisation;
+  if (quarters.empty()) return realisation;
   double force = 0.0;
   double work = 0.0;
-  for (const AreaCells& quarter : gathered.quarters()) {
+  for (const AreaCells& quarter : quarters) {
     if (quarter.validCount() == 0) continue;
     const AreaAdhesion part = areaAdhesion(quarter, loadedOn(quarter.area()));
     if (part.reach != AreaReach::kEnough) return followFrame(frame());

@@ -9,28 +9,19 @@
 #include <string>
 #include <vector>
 
-#include "device/made_surface.hpp"
+#include "approach/area_cells.hpp"
+#include "device/device_surface.hpp"
 #include "mems_stiction/contact/contact_solution.hpp"
 #include "mems_stiction/device/device_force.hpp"
 #include "mems_stiction/prediction/options.hpp"
 
 namespace mems_stiction {
 
-/// The contacts of a device as squares of one size, each on a surface of its own.
-struct DevicePieces {
-  int count = 1;
-  MadeSize size;            ///< of each
-  double area_ratio = 1.0;  ///< of the device over what is made: not 1 where that has no room, or has whole pixels
-
-  double side() const { return size.sideX(); }
-  double area() const { return count * size.sideX() * size.sideY(); }  ///< that is made [m^2]
-};
+/// The row of the area in which a piece's row lies: pieces are so far from each other that no contact reaches over.
+std::int64_t rowInArea(const DevicePieces& pieces, int piece, std::int64_t row);
 
 /// Whether scans have room for all pieces: then they need not be made.
 bool haveRoom(const std::vector<HeightMap>& scans, const DevicePieces& pieces);
-
-/// - @p most_cells of all pieces together
-DevicePieces piecesOf(const DeviceArea& area, double pitch, double most_cells);
 
 /// Brings made surfaces to contact.
 class DeviceAreaSolver {
@@ -38,10 +29,14 @@ class DeviceAreaSolver {
   /// - @p model its mechanical load presses an area of `loaded_area` [m^2]
   DeviceAreaSolver(const Options& model, double loaded_area, const DevicePieces& pieces);
 
-  /// On surfaces that are made by laws.
-  Realisation realise(const SurfaceLaw& lower, const std::optional<SurfaceLaw>& upper, std::uint64_t seed);
+  /// On a surface that is made by laws.
+  Realisation realise(const DeviceLaws& laws, std::uint64_t seed);
   /// On parts of scans that are chosen at random.
   Realisation realise(const std::vector<HeightMap>& lower, const std::vector<HeightMap>& upper, std::uint64_t seed);
+
+  /// On a surface whose cells have been collected, all of them. Where too many are in reach, a frame of it is made.
+  /// @throw SurfaceError if they do not reach deep enough
+  Realisation realise(const AreaCells& cells, DeviceSurface& surface);
 
   Exponents lastForceExponents() const { return force_exponents_; }
   Exponents lastWorkExponents() const { return work_exponents_; }
@@ -51,7 +46,8 @@ class DeviceAreaSolver {
  private:
   class Gatherer;
 
-  Realisation follow(const Gatherer& gathered, const std::function<cv::Mat()>& frame);
+  Realisation follow(const AreaCells& cells, const std::vector<AreaCells>& quarters,
+                     const std::function<cv::Mat()>& frame);
   Realisation followFrame(const cv::Mat& relief);
   Options loadedOn(double area) const;
   void warnOnce(const std::string& warning);

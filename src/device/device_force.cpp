@@ -30,18 +30,6 @@ constexpr double kLongerContact = 1.5;
 constexpr double kContradiction = 1.5;
 constexpr double kBeyondScatter = 4.0;
 
-void check(const DeviceSurfaces& surfaces, const DeviceArea& area, const DeviceForceOptions& options) {
-  std::vector<std::string> violations = rangeViolations(options);
-  if (!Range::positive().contains(area.area)) {
-    violations.push_back("device/contact_area: " + numberText(area.area) + " m^2 is not allowed, must be > 0 m^2");
-  }
-  if (area.contacts < 1) {
-    violations.push_back("device/contacts: " + std::to_string(area.contacts) + " is not allowed, must be >= 1");
-  }
-  if (surfaces.scans.empty()) violations.emplace_back("the force of a device needs at least one scan of its surface");
-  if (!violations.empty()) throw OptionsError(std::move(violations));
-}
-
 double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   return quantile(values, 0.5);
@@ -98,35 +86,25 @@ SurfacePair underCounterSurface(const HeightMap& scan, const std::vector<NamedSc
   return scan;
 }
 
-/// The laws of both surfaces; the upper one may be a plane.
-struct Laws {
-  SurfaceLaw lower;
-  std::optional<SurfaceLaw> upper;
-};
-
 /// What the scans say, and what they would say if they had been other ones of the same surface.
 class Surfaces {
  public:
-  Surfaces(const DeviceSurfaces& scanned, double side, bool own_long_waves)
-      : lower_(mapsOf(scanned.scans)),
-        upper_(mapsOf(scanned.counter_surface)),
-        side_(side),
-        own_long_waves_(own_long_waves) {
-    for (const TailForm form : {TailForm::kExponential, TailForm::kPower}) {
-      laws_.emplace_back();
-      laws_.back().lower = lawOf(lower_, form);
-      if (!upper_.empty()) laws_.back().upper = lawOf(upper_, form);
-    }
+  Surfaces(const DeviceSurfaces& scanned, double side, const DeviceForceOptions& options)
+      : lower_(mapsOf(scanned.scans)), upper_(mapsOf(scanned.counter_surface)), side_(side), options_(options) {
+    laws_.push_back(lawsOf(scanned, options, TailForm::kExponential));
+    const DeviceLaws& laws = laws_.front();
+    const bool has_tails = laws.lower.non_gaussian_share > 0.0 || (laws.upper && laws.upper->non_gaussian_share > 0.0);
+    if (has_tails) laws_.push_back(lawsOf(scanned, options, TailForm::kPower));
   }
 
   /// Realisations take one form of the tail after the other.
-  const Laws& laws(int realisation) const { return laws_[static_cast<std::size_t>(realisation) % laws_.size()]; }
+  const DeviceLaws& laws(int realisation) const { return laws_[static_cast<std::size_t>(realisation) % laws_.size()]; }
 
   /// Of scans like those that there are, made by the laws.
-  Laws again(int realisation, std::uint64_t seed) const {
-    const Laws& stated = laws(realisation);
+  DeviceLaws again(int realisation, std::uint64_t seed) const {
+    const DeviceLaws& stated = laws(realisation);
     const TailForm form = realisation / 2 % 2 == 0 ? TailForm::kExponential : TailForm::kPower;
-    Laws laws;
+    DeviceLaws laws;
     laws.lower = again(stated.lower, lower_, form, seed);
     if (stated.upper) laws.upper = again(*stated.upper, upper_, form, seed + 500);
     return laws;
@@ -139,20 +117,14 @@ class Surfaces {
     const SpectrumContinuation continuation = drawnContinuation(law, side_, engine);
     std::vector<HeightMap> made;
     for (const HeightMap& scan : scans) made.push_back(madeScan(law, continuation, scan, side_, engine()));
-    return lawOf(made, form);
-  }
-
-  SurfaceLaw lawOf(const std::vector<HeightMap>& scans, TailForm form) const {
-    SurfaceLaw law = surfaceLawOf(scans, form);
-    if (!own_long_waves_) law.own.reset();
-    return law;
+    return surfaceLaw(made, options_, form);
   }
 
   std::vector<HeightMap> lower_;
   std::vector<HeightMap> upper_;
   double side_;
-  bool own_long_waves_;
-  std::vector<Laws> laws_;
+  DeviceForceOptions options_;
+  std::vector<DeviceLaws> laws_;
 };
 
 /// Logarithms of figures, by realisation.
@@ -279,7 +251,7 @@ void takeConforming(const std::vector<Prediction>& predictions, const Options& m
 DeviceForce deviceForce(const DeviceSurfaces& surfaces, const DeviceArea& area, const Options& model,
                         const UncertaintyOptions& uncertainty, const DeviceForceOptions& options,
                         const std::function<void(double)>& on_progress) {
-  check(surfaces, area, options);
+  checkDevice(surfaces, area, options);
   DeviceForce force;
   force.area = area.area;
   const auto progress = [&](double share) {
@@ -305,7 +277,7 @@ DeviceForce deviceForce(const DeviceSurfaces& surfaces, const DeviceArea& area, 
   force.linear_pull_off_force = force_per_area / static_cast<double>(predictions.size()) * area.area;
   const auto conforming = std::count_if(predictions.begin(), predictions.end(),
                                         [](const Prediction& prediction) { return prediction.is_conforming; });
-  force.pitch = options.pitch > 0.0 ? options.pitch : finest;
+  force.pitch = madePitch(surfaces, options);
 
   if (2 * conforming > static_cast<std::ptrdiff_t>(predictions.size())) {
     takeConforming(predictions, model, uncertainty, force);
@@ -317,7 +289,7 @@ DeviceForce deviceForce(const DeviceSurfaces& surfaces, const DeviceArea& area, 
   const std::vector<HeightMap> parts_upper = fineMapsOf(surfaces.counter_surface);
   const bool has_parts =
       options.pitch == 0.0 && haveRoom(parts_lower, pieces) && (parts_upper.empty() || haveRoom(parts_upper, pieces));
-  const Surfaces known(surfaces, pieces.side(), options.own_long_waves);
+  const Surfaces known(surfaces, pieces.side(), options);
   showSpectrum(known.laws(0).lower, pieces.side(), force);
   if (!has_parts) {
     warnOfLongWaves(known.laws(0).lower, surfaces.scans, pieces.side(), force);
@@ -332,10 +304,9 @@ DeviceForce deviceForce(const DeviceSurfaces& surfaces, const DeviceArea& area, 
   std::vector<double> gaps;
   DeviceAreaSolver solver(model, areaOf(surfaces.scans.front().surface), pieces);
   for (int i = 0; i < options.realisations; ++i) {
-    const std::uint64_t seed =
-        static_cast<std::uint64_t>(options.seed) * 1000003 + static_cast<std::uint64_t>(i) * 1009;
-    const Realisation realisation = has_parts ? solver.realise(parts_lower, parts_upper, seed)
-                                              : solver.realise(known.laws(i).lower, known.laws(i).upper, seed);
+    const std::uint64_t seed = realisationSeed(options, i);
+    const Realisation realisation =
+        has_parts ? solver.realise(parts_lower, parts_upper, seed) : solver.realise(known.laws(i), seed);
     progress((i + 0.5) / options.realisations);
     force.realisations.push_back(realisation);
     stated.add(realisation);
@@ -344,8 +315,8 @@ DeviceForce deviceForce(const DeviceSurfaces& surfaces, const DeviceArea& area, 
     if (has_parts) {
       others.add(solver.realise(drawnAgain(parts_lower, seed + 1), drawnAgain(parts_upper, seed + 2), seed + 3));
     } else {
-      const Laws again = known.again(i, seed + 1);
-      others.add(solver.realise(again.lower, again.upper, seed + 2));
+      const DeviceLaws again = known.again(i, seed + 1);
+      others.add(solver.realise(again, seed + 2));
     }
     progress((i + 1.0) / options.realisations);
   }

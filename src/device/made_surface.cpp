@@ -107,7 +107,6 @@ MadeSurface::MadeSurface(const SurfaceLaw& law, const SpectrumContinuation& cont
       size_(size),
       field_(fieldOf(law, continuation, size, longest_wave, law.own && fitsIn(size, *law.own), 2 * seed)),
       has_own_(law.own && fitsIn(size, *law.own)) {
-  std::mt19937_64 engine(seed);
   if (law.non_gaussian_share > 0.0) {
     translation_.emplace([&](double g) { return law.marginal.heightOf(g); });
     if (law.split_wave_number > 0.0) {
@@ -119,12 +118,23 @@ MadeSurface::MadeSurface(const SurfaceLaw& law, const SpectrumContinuation& cont
                           size.pitch_y, 2 * seed + 1);
     }
   }
+  drawPlace(seed);
+}
+
+void MadeSurface::reseed(std::uint64_t seed) {
+  field_.reseed(2 * seed);
+  if (long_waves_) long_waves_->reseed(2 * seed + 1);
+  drawPlace(seed);
+}
+
+void MadeSurface::drawPlace(std::uint64_t seed) {
   if (!has_own_) return;
+  std::mt19937_64 engine(seed);
   std::uniform_real_distribution<double> uniform;
   std::normal_distribution<double> normal;
-  const OwnLongWaves& own = *law.own;
-  place_x_ = uniform(engine) * std::max(0.0, own.heights.cols * own.pitch_x - size.sideX());
-  place_y_ = uniform(engine) * std::max(0.0, own.heights.rows * own.pitch_y - size.sideY());
+  const OwnLongWaves& own = *law_->own;
+  place_x_ = uniform(engine) * std::max(0.0, own.heights.cols * own.pitch_x - size_.sideX());
+  place_y_ = uniform(engine) * std::max(0.0, own.heights.rows * own.pitch_y - size_.sideY());
   tilt_x_ = normal(engine) * own.tilt_x;
   tilt_y_ = normal(engine) * own.tilt_y;
 }

@@ -44,6 +44,9 @@ class MadeSurface {
   MadeSurface(const SurfaceLaw& law, const SpectrumContinuation& continuation, const MadeSize& size,
               double longest_wave, std::uint64_t seed);
 
+  /// Goes on as the surface of another seed: the same as a new one, but sooner.
+  void reseed(std::uint64_t seed);
+
   /// Tiles of this size are made fastest.
   cv::Size tile() const { return field_.tile(); }
   /// Heights [m] of the tile whose first pixel is (row, col), CV_32FC1; all of it lies in the surface.
@@ -51,6 +54,8 @@ class MadeSurface {
 
  private:
   void addOwnWaves(std::int64_t row, std::int64_t col, cv::Mat& tile);
+  /// Where in the widest scan it lies, and how it is tilted.
+  void drawPlace(std::uint64_t seed);
 
   const SurfaceLaw* law_;
   MadeSize size_;

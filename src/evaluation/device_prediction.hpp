@@ -52,6 +52,12 @@ class DevicePredictor {
   std::vector<std::string> addCounterSurface(const std::string& name, const HeightMap& measured,
                                              const std::vector<std::string>& notes);
 
+  /// One of the surfaces that are made for the prediction, the whole of it.
+  /// - @p number, @p depth as of DeviceScans::surface()
+  DividedSurface surface(int number, std::optional<double> depth) const { return scans_.surface(number, depth); }
+  /// What looks wrong in the scans, each with its name.
+  const std::vector<std::string>& scanWarnings() const { return prediction_.scan_warnings; }
+
   /// @throw as deviceForce()
   DevicePrediction predict(const std::function<void(double)>& on_progress = {});
 

@@ -57,12 +57,16 @@ std::size_t DeviceScans::finest() const {
   return static_cast<std::size_t>(found - surfaces_.scans.begin());
 }
 
+Options DeviceScans::loaded() const {
+  return surfaces_.scans.empty() ? configuration_.model : onFrame(configuration_.model, configuration_.device, first_);
+}
+
+DividedSurface DeviceScans::surface(int number, std::optional<double> depth) const {
+  return {surfaces_, area(), loaded(), configuration_.device_force, number, depth};
+}
+
 DeviceForce DeviceScans::force(const std::function<void(double)>& on_progress) const {
-  const DeviceOptions& device = configuration_.device;
-  const Options options =
-      surfaces_.scans.empty() ? configuration_.model : onFrame(configuration_.model, device, first_);
-  return deviceForce(surfaces_, {device.contact_area, device.contacts}, options, configuration_.uncertainty,
-                     configuration_.device_force, on_progress);
+  return deviceForce(surfaces_, area(), loaded(), configuration_.uncertainty, configuration_.device_force, on_progress);
 }
 
 Evidence evidenceOfScan(const PreparedScan& prepared, const Configuration& configuration,

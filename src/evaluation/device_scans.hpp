@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "device/surface_strips.hpp"
 #include "mems_stiction/configuration/configuration.hpp"
 #include "mems_stiction/device/device_force.hpp"
 #include "mems_stiction/evaluation/prepared_scan.hpp"
@@ -36,11 +37,20 @@ class DeviceScans {
   /// Place of the scan with the smallest pixels, the first of several.
   std::size_t finest() const;
 
+  /// One of the surfaces that are made for it, the whole of it, to be made in strips.
+  /// - @p number from 0
+  /// - @p depth as of DividedSurface
+  /// @throw as DividedSurface()
+  DividedSurface surface(int number, std::optional<double> depth) const;
   /// Of device/contact_area and device/contacts. A load on the scanned area counts as one on the first scan.
   /// @throw as deviceForce()
   DeviceForce force(const std::function<void(double)>& on_progress = {}) const;
 
  private:
+  DeviceArea area() const { return {configuration_.device.contact_area, configuration_.device.contacts}; }
+  /// With the load on the first scan.
+  Options loaded() const;
+
   Configuration configuration_;
   DeviceSurfaces surfaces_;
   SurfacePair first_;

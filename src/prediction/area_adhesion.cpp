@@ -115,8 +115,11 @@ AreaAdhesion areaAdhesion(const AreaCells& cells, const Options& options) {
   for (;;) {
     double needed_gap = cells.highest() - counts.lowerEnd(bucket);
     try {
-      const std::optional<AreaAdhesion> answer = followCells(cells, bucket, options);
-      if (answer) return *answer;
+      std::optional<AreaAdhesion> answer = followCells(cells, bucket, options);
+      if (answer) {
+        answer->took_all_cells = bucket == level;
+        return *answer;
+      }
       AreaAdhesion scattered = withoutCells(cells, needed_gap);
       scattered.reach = AreaReach::kTooMuch;
       return scattered;

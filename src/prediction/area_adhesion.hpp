@@ -36,6 +36,7 @@ struct AreaAdhesion {
   AreaReach reach = AreaReach::kEnough;
   double needed_level = kUnknown;  ///< relief down to which cells must be kept, for the next attempt at least [m]
   std::int64_t needed_cells = 0;   ///< so many they are
+  bool took_all_cells = false;     ///< that were kept: more might have been taken
 
   Status status = Status::kNoEquilibrium;
   bool is_bonded_by_load = false;               ///< bonded, but without the loads they would have come to rest before

@@ -13,6 +13,7 @@ void bindSettings(pybind11::module& module);
 void bindScans(pybind11::module& module);
 void bindPrediction(pybind11::module& module);
 void bindDevice(pybind11::module& module);
+void bindMadeSurface(pybind11::module& module);
 void bindHalfSpace(pybind11::module& module);
 void bindStation(pybind11::module& module);
 

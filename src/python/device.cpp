@@ -10,6 +10,7 @@
 #include "bindings.hpp"
 #include "device/device_force_fields.hpp"
 #include "device/device_force_lists.hpp"
+#include "device_scan.hpp"
 #include "evaluation/device_prediction.hpp"
 #include "figures.hpp"
 #include "interruptible.hpp"
@@ -21,13 +22,6 @@ namespace {
 
 namespace py = pybind11;
 using py::literals::operator""_a;
-
-/// A scan as it came.
-struct DeviceScan {
-  std::string name;                ///< of its file; empty: its place stands for it
-  HeightMap scan;                  ///< as it came
-  std::vector<std::string> notes;  ///< on how it was read
-};
 
 using Predicted = std::shared_ptr<DevicePrediction>;
 
@@ -41,15 +35,7 @@ Predicted predictDevice(const std::vector<DeviceScan>& scans, const std::vector<
   return interruptible([&](const std::atomic<bool>& cancel) {
     const Cancellation check(cancel);
     DevicePredictor predictor(configuration);
-    for (std::size_t i = 0; i < scans.size(); ++i) {
-      check(0.0);
-      predictor.add(nameOf(scans, i, "scan"), scans[i].scan, scans[i].notes);
-    }
-    for (std::size_t i = 0; i < counter_surface.size(); ++i) {
-      check(0.0);
-      predictor.addCounterSurface(nameOf(counter_surface, i, "counter-surface"), counter_surface[i].scan,
-                                  counter_surface[i].notes);
-    }
+    addScans(scans, counter_surface, check, predictor);
     return std::make_shared<DevicePrediction>(predictor.predict(check));
   });
 }
@@ -81,6 +67,19 @@ Records spectrumOf(const Predicted& predicted) {
 }
 
 }  // namespace
+
+void addScans(const std::vector<DeviceScan>& scans, const std::vector<DeviceScan>& counter_surface,
+              const Cancellation& check, DevicePredictor& predictor) {
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    check(0.0);
+    predictor.add(nameOf(scans, i, "scan"), scans[i].scan, scans[i].notes);
+  }
+  for (std::size_t i = 0; i < counter_surface.size(); ++i) {
+    check(0.0);
+    predictor.addCounterSurface(nameOf(counter_surface, i, "counter-surface"), counter_surface[i].scan,
+                                counter_surface[i].notes);
+  }
+}
 
 void bindDevice(py::module& module) {
   DeclaredFields declared;

@@ -13,6 +13,7 @@ PYBIND11_MODULE(_core, module) {
   bindScans(module);
   bindPrediction(module);
   bindDevice(module);
+  bindMadeSurface(module);
   bindHalfSpace(module);
   bindStation(module);
 }
