@@ -29,6 +29,9 @@ REQUIRED_ROUGHNESS = 3.0
 REQUIRED_SPEED_UP = 1.6
 # A pixel of a made surface against one of a real Fourier transform of 1024 x 1024 pixels.
 REQUIRED_TILES = {"self_affine": 4.0, "translated": 4.0}
+# From scans to the force of a surface of 10^8 pixels: CPU time [s] and memory [GB] of one process.
+REQUIRED_SECONDS = 20.0
+REQUIRED_GIGABYTES = 1.5
 
 
 def times_of(path, counter=None):
@@ -142,6 +145,15 @@ def print_device(path):
     for name, time in times_of(path).items():
         if name.startswith("kernels/"):
             print("%-24s %10.0f ms, once for a spectrum and a pitch" % (name, time))
+    runs = {run["name"].split("/")[1]: run for run in json.loads(path.read_text())["benchmarks"] if run["name"].startswith("whole/")}
+    print("From four scans to the force of a surface of 10^8 pixels; a transform is a real one of as many pixels, %.1f s"
+          % runs["transform"]["seconds"])
+    print("%-24s %10s %8s %8s  %s" % ("surface", "s", "ratio", "GB", "required"))
+    for name, run in runs.items():
+        if name != "transform":
+            print("%-24s %10.1f %8.2f %8.2f  %s, %s" % (
+                name, run["seconds"], run["seconds"] / runs["transform"]["seconds"], run["gigabytes"],
+                verdict(run["seconds"], REQUIRED_SECONDS, False), verdict(run["gigabytes"], REQUIRED_GIGABYTES, False)))
 
 
 def print_latency(rows):

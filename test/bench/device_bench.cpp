@@ -1,15 +1,27 @@
 /// How long does a surface of the size of a device take? A few rows of tiles of one seed, beside the Fourier transform of a frame in
 /// the same run on the same core; both by pixel, so that the ratio depends neither on the machine nor on the size.
+/// And from scans to the force of one surface of 10^8 pixels, with its time and memory, in processes of their own.
 /// scripts/bench makes the table of ratios from its JSON.
 
 #include <benchmark/benchmark.h>
 
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
+#include <functional>
 #include <optional>
+#include <string>
 
 #include <opencv2/core.hpp>
 
+#include "device/device_area.hpp"
+#include "device/device_surface.hpp"
+#include "mems_stiction/device/device_force.hpp"
+#include "mems_stiction/prediction/options.hpp"
 #include "numeric/constants.hpp"
 #include "surface/tiled_surface.hpp"
 
@@ -59,6 +71,57 @@ void transform(benchmark::State& state) {
   state.counters["pixels"] = static_cast<double>(heights.total());
 }
 
+double secondsOf(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+/// In a process of its own, so that it has its own peak of memory.
+void measureAlone(benchmark::State& state, const std::function<void()>& work) {
+  for (auto _ : state) {
+    const pid_t child = fork();
+    if (child == 0) {
+      cv::setNumThreads(1);
+      work();
+      std::_Exit(0);
+    }
+    int status = 0;
+    rusage used{};
+    if (child < 0 || wait4(child, &status, 0, &used) != child || status != 0) {
+      state.SkipWithError("the process failed");
+      return;
+    }
+    state.counters["seconds"] = secondsOf(used.ru_utime) + secondsOf(used.ru_stime);
+    state.counters["gigabytes"] = static_cast<double>(used.ru_maxrss) * 1024e-9;
+  }
+}
+
+/// Four scans, their law, a surface of 10^8 pixels by it, its highest cells, its force.
+void findForce(benchmark::State& state, double pitch) {
+  constexpr int kScan = 512;
+  constexpr double kPixels = 1e8;
+  DeviceSurfaces surfaces;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    cv::Mat heights(kScan, kScan, CV_32FC1);
+    TiledSurface(selfAffine(), kScan, kScan, pitch, pitch, seed).heights(0, 0, heights);
+    surfaces.scans.push_back({"scan " + std::to_string(seed), HeightMap(heights, pitch, pitch)});
+  }
+  measureAlone(state, [&] {
+    const DevicePieces pieces = piecesOf({kPixels * pitch * pitch, 1}, pitch, kPixels);
+    DeviceAreaSolver solver(Options(), kScan * kScan * pitch * pitch, pieces);
+    const Realisation found = solver.realise(lawsOf(surfaces), 1);
+    if (!(found.pull_off_force > 0.0) || !solver.warnings().empty()) std::_Exit(1);
+  });
+}
+
+void transformWhole(benchmark::State& state) {
+  constexpr int kWhole = 10000;
+  measureAlone(state, [] {
+    cv::Mat heights(kWhole, kWhole, CV_32FC1, cv::Scalar(1.0));
+    cv::dft(heights, heights);
+    benchmark::DoNotOptimize(heights.data);
+  });
+}
+
 }  // namespace
 }  // namespace bench
 }  // namespace mems_stiction
@@ -83,6 +146,9 @@ int main(int argc, char** argv) {
       ->MinTime(2.0);
   benchmark::RegisterBenchmark("kernels/self_affine", makeKernels, round)->Unit(benchmark::kMillisecond);
   benchmark::RegisterBenchmark("kernels/stretched", makeKernels, stretched)->Unit(benchmark::kMillisecond);
+  benchmark::RegisterBenchmark("whole/transform", transformWhole)->Iterations(1)->Repetitions(1);
+  benchmark::RegisterBenchmark("whole/1 mm at 100 nm", findForce, 100e-9)->Iterations(1)->Repetitions(1);
+  benchmark::RegisterBenchmark("whole/100 um at 10 nm", findForce, 10e-9)->Iterations(1)->Repetitions(1);
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
   return 0;
