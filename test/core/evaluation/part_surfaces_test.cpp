@@ -118,7 +118,6 @@ TEST(PartSurfaces, MemoryIsThatOfUpperAndRefinedSurfacesToo) {
   scan.model_surfaces = HeightMap(cv::Mat::zeros(2 * kSide, 2 * kSide, CV_64FC1), 5e-9, 5e-9);
   parts.add(kPart, 2, named("b"), scan);
   EXPECT_EQ(parts.bytes(), 7 * kBytes);
-  EXPECT_EQ(parts.of(kPart)->together(Configuration()).count(), 2);
 }
 
 }  // namespace
