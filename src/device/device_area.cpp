@@ -8,6 +8,7 @@
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
 #include "mems_stiction/settings/option_visitor.hpp"
+#include "numeric/median.hpp"
 #include "prediction/area_adhesion.hpp"
 
 namespace mems_stiction {
@@ -168,14 +169,8 @@ Realisation DeviceAreaSolver::follow(const AreaCells& cells, const std::vector<A
     force += part.pull_off_force / kQuarters;
     work += part.apparent_work_of_adhesion / kQuarters;
   }
-  // the force of four times the area, by how it came about; it neither falls nor grows faster than area
-  const double power = std::clamp(std::log(realisation.pull_off_force / force) / std::log(1.0 * kQuarters), 0.0, 1.0);
-  const double fall =
-      std::clamp(std::log(realisation.apparent_work_of_adhesion / work) / std::log(1.0 * kQuarters), -1.0, 0.0);
-  realisation.pull_off_force *= std::pow(pieces_.area_ratio, power);
-  realisation.apparent_work_of_adhesion *= std::pow(pieces_.area_ratio, fall);
-  warnOnce("the device has " + shortNumber(pieces_.area_ratio, 2) +
-           " times the area that device_force/max_cells makes: its force is continued from how it grows up to there");
+  force_growths_.push_back(std::log(realisation.pull_off_force / force) / std::log(1.0 * kQuarters));
+  work_growths_.push_back(std::log(realisation.apparent_work_of_adhesion / work) / std::log(1.0 * kQuarters));
   return realisation;
 }
 
@@ -187,16 +182,31 @@ Realisation DeviceAreaSolver::followFrame(const cv::Mat& relief) {
   force_exponents_ = found.pull_off_exponents;
   work_exponents_ = found.work_exponents;
   Realisation realisation;
-  const double scale = pieces_.area() * pieces_.area_ratio / area;
+  const double scale = pieces_.area() / area;
   realisation.pull_off_force = found.pull_off_force * scale;
   realisation.apparent_work_of_adhesion = found.apparent_work_of_adhesion;
   realisation.contacts = static_cast<int>(std::min(found.pull_off_contact_count * scale, 2e9));
   realisation.separation_at_rest = found.mean_gap;
+  if (pieces_.is_part && pieces_.area_ratio > kGoesOn) {
+    force_growths_.push_back(1.0);
+    work_growths_.push_back(0.0);
+  }
   if (scale > kGoesOn) {
     warnOnce("contacts are so many that their force was found on " + std::to_string(frame.cols()) + " x " +
              std::to_string(frame.rows()) + " pixels, and goes with area from there");
   }
   return realisation;
+}
+
+AreaGrowth DeviceAreaSolver::growth() {
+  AreaGrowth growth;
+  if (force_growths_.empty()) return growth;
+  // single ones scatter by more than they are worth
+  growth.force = std::pow(pieces_.area_ratio, std::clamp(medianOf(force_growths_), 0.0, 1.0));
+  growth.work = std::pow(pieces_.area_ratio, std::clamp(medianOf(work_growths_), -1.0, 0.0));
+  warnOnce("the device has " + shortNumber(pieces_.area_ratio, 2) +
+           " times the area that device_force/max_cells makes: its force is continued from how it grows up to there");
+  return growth;
 }
 
 }  // namespace mems_stiction

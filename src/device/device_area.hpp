@@ -23,6 +23,12 @@ std::int64_t rowInArea(const DevicePieces& pieces, int piece, std::int64_t row);
 /// Whether scans have room for all pieces: then they need not be made.
 bool haveRoom(const std::vector<HeightMap>& scans, const DevicePieces& pieces);
 
+/// Factors of figures from one area to a larger one [-].
+struct AreaGrowth {
+  double force = 1.0;
+  double work = 1.0;
+};
+
 /// Brings made surfaces to contact.
 class DeviceAreaSolver {
  public:
@@ -38,6 +44,9 @@ class DeviceAreaSolver {
   /// @throw SurfaceError if they do not reach deep enough
   Realisation realise(const AreaCells& cells, DeviceSurface& surface);
 
+  /// How figures go on from the area that is made to that of the device, by all realisations so far: neither falling nor faster
+  /// than area.
+  AreaGrowth growth();
   Exponents lastForceExponents() const { return force_exponents_; }
   Exponents lastWorkExponents() const { return work_exponents_; }
   /// About all realisations, each once.
@@ -57,6 +66,8 @@ class DeviceAreaSolver {
   DevicePieces pieces_;
   Exponents force_exponents_;
   Exponents work_exponents_;
+  std::vector<double> force_growths_;  ///< powers of the area with which figures go, by realisation
+  std::vector<double> work_growths_;
   std::vector<std::string> warnings_;
 };
 

@@ -320,8 +320,13 @@ DeviceForce deviceForce(const DeviceSurfaces& surfaces, const DeviceArea& area, 
     }
     progress((i + 1.0) / options.realisations);
   }
-  force.pull_off_force = std::exp(median(stated.force));
-  force.apparent_work_of_adhesion = std::exp(median(stated.work));
+  const AreaGrowth growth = solver.growth();
+  for (Realisation& realisation : force.realisations) {
+    realisation.pull_off_force *= growth.force;
+    realisation.apparent_work_of_adhesion *= growth.work;
+  }
+  force.pull_off_force = std::exp(median(stated.force)) * growth.force;
+  force.apparent_work_of_adhesion = std::exp(median(stated.work)) * growth.work;
   force.contacts = median(counts);
   force.separation_at_rest = median(gaps);
   const double once_more = std::sqrt(1.0 + 1.0 / options.realisations);
