@@ -289,6 +289,7 @@ class DevicePrediction:
     realisations: Records
     parts_of_scans: Records
     spectrum: Records
+    made_surface: HeightMap
     def json(self) -> str: ...
 
 class DeviceScan:

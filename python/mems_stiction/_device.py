@@ -9,7 +9,7 @@ from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
 import numpy as np
 
 from mems_stiction import _core
-from mems_stiction._arrays import Pitch, Surface, explained, records_of, surface_of
+from mems_stiction._arrays import Pitch, Surface, array_of, explained, records_of, surface_of
 from mems_stiction._inputs import brings_pitch, section_or_surface
 from mems_stiction._prediction import Verdict
 from mems_stiction._settings import Config, Settings, SurfaceError, settings_with
@@ -41,6 +41,8 @@ class DeviceForce(_core.DeviceForceFigures):
         self.realisations: np.recarray = records_of(core.realisations)
         self.parts_of_scans: np.recarray = records_of(core.parts_of_scans)
         self.spectrum: np.recarray = records_of(core.spectrum)
+        surface = core.made_surface
+        self._made_surface = None if surface.pixels is None else (np.array(array_of(surface.pixels)), surface.pitch[0])
         self._json = core.json()
 
     def json(self) -> str:
@@ -52,10 +54,10 @@ class DeviceForce(_core.DeviceForceFigures):
         return json.loads(self._json)
 
     def save_picture(self, path: Union[str, "os.PathLike[str]"]) -> None:
-        """PNG, PDF or SVG: the spectrum with its 95 % range, roughness against scale, force against area."""
+        """PNG, PDF or SVG: the spectrum with its 95 % range, roughness against scale, a made surface, force against area."""
         from mems_stiction import device_figure
 
-        device_figure.save_device(self.to_dict(), path)
+        device_figure.save_device(self.to_dict(), path, self._made_surface)
 
     picture = save_picture
 

@@ -50,6 +50,24 @@ def read_device(path):
     return record
 
 
+def read_heights(path, pitch):
+    """What save_device() takes as heights; None without a path. Raises RecordError with the file and the cause."""
+    if path is None:
+        return None
+    if pitch is None or not 0 < pitch < math.inf:
+        raise RecordError("--pitch: %s is not allowed with --heights, must be a number > 0 m" % pitch)
+    try:
+        require_file(path, "an array of heights", MOST_BYTES)
+        heights = np.load(str(path))
+    except OSError as error:
+        raise RecordError("%s: cannot be read: %s" % (path, error.strerror))
+    except (UnfitFile, ValueError) as error:
+        raise RecordError("%s: %s" % (path, error))
+    if not isinstance(heights, np.ndarray) or heights.ndim != 2 or heights.dtype.kind != "f":
+        raise RecordError("%s: holds no rows x columns of heights [m]" % path)
+    return heights, pitch
+
+
 def save_device(record, path, heights=None):
     """heights: those of a made surface, or of a part of it, with its pitch [m]: (rows x columns, pitch)."""
     save(device_picture(record, heights), path)

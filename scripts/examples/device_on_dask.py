@@ -6,7 +6,7 @@ usage: device_on_dask.py --area M2 [--contacts N] [--config FILE.yaml] [--pitch 
 
 Prints one JSON object: what holds the surface of this seed, the same bits on any cluster. Without --scheduler the workers
 run on this machine. With one, they must have mems_stiction installed; the scans are sent to them, once, and the surface is made there.
-A strip whose worker dies goes to another. 10^10 pixels take about 10 minutes of one processor, 500 MB on each worker.
+A strip whose worker dies goes to another. 10^10 pixels take about 6 minutes of one processor.
 """
 
 import argparse

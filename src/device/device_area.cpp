@@ -23,6 +23,39 @@ constexpr double kGoesOn = 1.05;
 constexpr double kRounding = 0.05;
 /// Pixels along the side of a frame where cells in reach are too many to be kept one by one.
 constexpr std::int64_t kFrameSide = 2048;
+/// Pixels along the side of what is shown of a surface, at most.
+constexpr std::int64_t kShownSide = 512;
+
+/// Every so many pixels of a surface, to look at.
+class ShownSurface {
+ public:
+  explicit ShownSurface(const MadeSize& size)
+      : size_(size),
+        step_((size.rows + kShownSide - 1) / kShownSide),
+        shown_(countOf(size.rows), countOf(size.cols), CV_32FC1) {}
+
+  void add(std::int64_t row, std::int64_t col, const cv::Mat& relief) {
+    for (std::int64_t i = after(row); i < row + relief.rows; i += step_) {
+      for (std::int64_t j = after(col); j < col + relief.cols; j += step_) {
+        shown_.at<float>(static_cast<int>(i / step_), static_cast<int>(j / step_)) =
+            relief.at<float>(static_cast<int>(i - row), static_cast<int>(j - col));
+      }
+    }
+  }
+
+  HeightMap surface() const {
+    const auto step = static_cast<double>(step_);
+    return {shown_, step * size_.pitch_x, step * size_.pitch_y};
+  }
+
+ private:
+  int countOf(std::int64_t pixels) const { return static_cast<int>((pixels + step_ - 1) / step_); }
+  std::int64_t after(std::int64_t place) const { return (place + step_ - 1) / step_ * step_; }
+
+  MadeSize size_;
+  std::int64_t step_;
+  cv::Mat shown_;
+};
 
 /// To two digits.
 double roundedUp(double value) {
@@ -114,9 +147,13 @@ void DeviceAreaSolver::warnOnce(const std::string& warning) {
 Realisation DeviceAreaSolver::realise(const DeviceLaws& laws, std::uint64_t seed) {
   DeviceSurface surface(laws, pieces_, seed);
   Gatherer gatherer(pieces_);
+  std::optional<ShownSurface> shown;
+  if (made_surface_.empty()) shown.emplace(pieces_.size);
   surface.visitTiles(0, surface.rows(), [&](int piece, std::int64_t row, std::int64_t col, const cv::Mat& tile) {
     gatherer.add(piece, row, col, tile);
+    if (shown && piece == 0) shown->add(row, col, tile);
   });
+  if (shown) made_surface_ = shown->surface();
   return follow(gatherer.cells(), gatherer.quarters(), [&] { return frameOf(surface); });
 }
 

@@ -49,6 +49,8 @@ class DeviceAreaSolver {
   AreaGrowth growth();
   Exponents lastForceExponents() const { return force_exponents_; }
   Exponents lastWorkExponents() const { return work_exponents_; }
+  /// The first piece of the first surface that was made, as DeviceForce has it.
+  const HeightMap& madeSurface() const { return made_surface_; }
   /// About all realisations, each once.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
@@ -69,6 +71,7 @@ class DeviceAreaSolver {
   std::vector<double> force_growths_;  ///< powers of the area with which figures go, by realisation
   std::vector<double> work_growths_;
   std::vector<std::string> warnings_;
+  HeightMap made_surface_;
 };
 
 }  // namespace mems_stiction

@@ -342,6 +342,7 @@ DeviceForce deviceForce(const DeviceSurfaces& surfaces, const DeviceArea& area, 
   like.pull_off_exponents = solver.lastForceExponents();
   like.work_exponents = solver.lastWorkExponents();
   takeIntervals(like, model, constants, studentQuantile(options.realisations - 1), force);
+  force.made_surface = solver.madeSurface();
   for (const std::string& warning : solver.warnings()) force.warnings.push_back(warning);
   return force;
 }

@@ -5,11 +5,14 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <vector>
 
 #include "files/child_process.hpp"
 #include "files/interruption.hpp"
 #include "files/output_file.hpp"
 #include "mems_stiction/errors/errors.hpp"
+#include "mems_stiction/settings/option_visitor.hpp"
+#include "npy_file.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -40,13 +43,22 @@ std::string complaint(const fs::path& log) {
 
 }  // namespace
 
-void drawDevice(const std::string& record, const std::string& path) {
+void drawDevice(const std::string& record, const HeightMap& made_surface, const std::string& path) {
   const PrivateFolder folder;
   const fs::path file = folder.path() / "record.json";
   writeFile(file.string(), record + "\n", OutputSafety::kWhole);
   const fs::path log = folder.path() / "log";
-  const ChildResult result =
-      runChild({scriptBeside(), "-o", path, file.string()}, environmentWithout({}, {}), log.string(), kTimeout);
+  std::vector<std::string> command = {scriptBeside(), "-o", path};
+  if (!made_surface.empty()) {
+    const std::string heights = folder.path() / "heights.npy";
+    writeNpy(heights, made_surface.heights());
+    for (const std::string& word :
+         {std::string("--heights"), heights, std::string("--pitch"), numberText(made_surface.pitchX())}) {
+      command.push_back(word);
+    }
+  }
+  command.push_back(file.string());
+  const ChildResult result = runChild(command, environmentWithout({}, {}), log.string(), kTimeout);
   if (!result.started) {
     throw FileError("--picture: needs the program plot_device of the Python package, which was not found");
   }

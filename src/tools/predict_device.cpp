@@ -89,7 +89,8 @@ void describe(CLI::App& app, Arguments& arguments) {
                "pixels under the mask of a .gwy file are heights as the others, not missing");
   app.add_flag("-j,--json", arguments.json, "one JSON object on one line instead of a YAML document");
   app.add_option("--picture", arguments.picture,
-                 "draw spectrum, roughness against scale and force against area, .png, .pdf or .svg; by plot_device")
+                 "draw spectrum, roughness against scale, a made surface and force against area, .png, .pdf or .svg; "
+                 "by plot_device")
       ->type_name("OUT.png");
   app.footer(
       "Exit status: 0, or 2 for bad input (one line on stderr names the file and the cause; a scan that cannot be "
@@ -184,7 +185,8 @@ void predictDevice(const Arguments& arguments, const Configuration& configuratio
     std::cout << deviceYamlRecord(prediction) << std::flush;
   }
   if (!arguments.picture.empty()) {
-    whileSaying(arguments.picture + ": drawing", [&] { drawDevice(json, arguments.picture); });
+    whileSaying(arguments.picture + ": drawing",
+                [&] { drawDevice(json, prediction.force.made_surface, arguments.picture); });
   }
 }
 

@@ -99,6 +99,20 @@ class ProgramTest(unittest.TestCase):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertEqual((self.folder / "record.png").read_bytes()[:4], b"\x89PNG")
 
+    def test_heights_are_shown_with_their_pitch(self):
+        path, heights = self.folder / "record.json", self.folder / "heights.npy"
+        path.write_text(json.dumps(RECORD))
+        np.save(str(heights), np.eye(8, 12) * 1e-9)
+        done = self.plot("-o", self.folder / "out.svg", "--heights", heights, "--pitch", "50e-9", path)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("<!-- A made surface -->", (self.folder / "out.svg").read_text(encoding="utf-8"))
+        self.assertIn("--pitch: None is not allowed", self.plot("--heights", heights, path).stderr)
+        np.save(str(heights), np.arange(5.0))
+        for wrong, words in ((heights, "holds no rows"), (path, "record.json: "), (self.folder / "none.npy", "none.npy: ")):
+            done = self.plot("--heights", wrong, "--pitch", "50e-9", path)
+            self.assertEqual((done.returncode, len(done.stderr.splitlines())), (2, 1), done.stderr)
+            self.assertIn(words, done.stderr)
+
     def test_what_is_no_record_is_named_in_one_line(self):
         texts = {"no.json": "no json", "list.json": "[1]", "other.json": json.dumps({"pull_off_force": 1.0})}
         for name, text in texts.items():
@@ -128,7 +142,7 @@ class ProgramTest(unittest.TestCase):
         done = subprocess.run(command + ["--picture", str(picture)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(done.stdout, plain.decode())
-        self.assertIn("<svg", picture.read_text(encoding="utf-8"))
+        self.assertIn("<!-- A made surface -->", picture.read_text(encoding="utf-8"))
         lonely = shutil.copy(program, str(self.folder / "predict_device"))  # where no script lies beside it
         environment = dict(os.environ, PATH=str(self.folder))
         done = subprocess.run([lonely] + command[1:] + ["--picture", str(self.folder / "none.png")], stdout=subprocess.PIPE,

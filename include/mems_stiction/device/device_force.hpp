@@ -91,6 +91,7 @@ struct DeviceForce {
   std::vector<PartOfScan> parts_of_scans;
   std::vector<BandOfWaves> spectrum;  ///< by descending wavelength
   std::vector<std::string> warnings;  ///< in words
+  HeightMap made_surface;  ///< the relief of the first one, to look at: pixels left out; empty where none was made
 };
 
 /// - @p model the settings of the prediction; its voltage and load make the rest, as they do of a frame
