@@ -18,6 +18,7 @@ constexpr std::int64_t kCorner = 32;
 
 std::vector<HeightMap> mapsOf(const std::vector<NamedScan>& scans) {
   std::vector<HeightMap> maps;
+  maps.reserve(scans.size());
   for (const NamedScan& scan : scans) maps.push_back(scan.surface);
   return maps;
 }
