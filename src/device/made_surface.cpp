@@ -83,7 +83,7 @@ TiledSurface fieldOf(const SurfaceLaw& law, const SpectrumContinuation& continua
   const MergedSpectrum& merged = law.non_gaussian_share > 0.0 ? law.numbers : law.heights;
   const auto pass = [&](double q) {
     if (is_short) return std::pow(highPass(q, law.split_wave_number), 2);
-    return has_own ? -std::expm1(-2.0 * std::pow(q / law.join_wave_number, 4)) : 1.0;
+    return has_own ? law.own->openShare(q) : 1.0;
   };
   return TiledSurface(tableOf(merged, continuation, longest_wave, pass), size.rows, size.cols, size.pitch_x,
                       size.pitch_y, seed);
@@ -112,7 +112,7 @@ MadeSurface::MadeSurface(const SurfaceLaw& law, const SpectrumContinuation& cont
     if (law.split_wave_number > 0.0) {
       const auto pass = [&](double q) {
         const double high = highPass(q, law.split_wave_number);
-        return (1.0 - high * high) * (has_own_ ? -std::expm1(-2.0 * std::pow(q / law.join_wave_number, 4)) : 1.0);
+        return (1.0 - high * high) * (has_own_ ? law.own->openShare(q) : 1.0);
       };
       long_waves_.emplace(tableOf(law.heights, continuation, longest_wave, pass), size.rows, size.cols, size.pitch_x,
                           size.pitch_y, 2 * seed + 1);

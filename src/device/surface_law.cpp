@@ -17,8 +17,6 @@ namespace {
 constexpr double kDecisive = 25.0;
 /// Two degrees of freedom are as large as this by chance in one of seven.
 constexpr double kByChance = 4.0;
-/// Waves longer than so many pixels of the widest scan are its own.
-constexpr double kJoinPixels = 16.0;
 /// Share of the variance that the widest scan must have to speak for all heights.
 constexpr double kMostVariance = 0.985;
 /// Waves along the side of the fine scans above which the short ones are looked at by themselves.
@@ -381,28 +379,120 @@ std::pair<double, double> tiltDeviations(const MergedSpectrum& spectrum, double 
   return {std::sqrt(scale * along_x), std::sqrt(scale * along_y)};
 }
 
+/// What samples of a surface say of one of its waves.
+struct KnownWave {
+  double gain = 0.0;  ///< of the wave in the samples, for the best estimate of it [-]
+  double open = 1.0;  ///< share of its power that they leave open [-]
+};
+
+/// Samples at a distance: points, or means over as much.
+class Samples {
+ public:
+  Samples(const MergedSpectrum& spectrum, double pitch_x, double pitch_y, bool are_means)
+      : spectrum_(spectrum), pitch_x_(pitch_x), pitch_y_(pitch_y), are_means_(are_means) {}
+
+  /// Power that a wave and all that look like it have in the samples [m^4].
+  double power(double q_x, double q_y) const {
+    double sum = 0.0;
+    for (int i = -1; i <= 1; ++i) {
+      for (int j = -1; j <= 1; ++j) {
+        const double x = q_x + 2.0 * kPi * i / pitch_x_;
+        const double y = q_y + 2.0 * kPi * j / pitch_y_;
+        sum += densityAt(x, y) * passed(x, y) * passed(x, y);
+      }
+    }
+    return sum;
+  }
+
+  KnownWave wave(double q_x, double q_y) const {
+    const double all = power(q_x, q_y);
+    if (!(all > 0.0)) return {};
+    const double own = densityAt(q_x, q_y);
+    const double pass = passed(q_x, q_y);
+    return {own * pass / all, std::clamp(1.0 - own * pass * pass / all, 0.0, 1.0)};
+  }
+
+ private:
+  double densityAt(double q_x, double q_y) const { return spectrum_.densityAt(spectrum_.stretch.roundWave(q_x, q_y)); }
+  double passed(double q_x, double q_y) const {
+    return are_means_ ? sinc(0.5 * q_x * pitch_x_) * sinc(0.5 * q_y * pitch_y_) : 1.0;
+  }
+  static double sinc(double x) { return x == 0.0 ? 1.0 : std::sin(x) / x; }
+
+  const MergedSpectrum& spectrum_;
+  double pitch_x_;
+  double pitch_y_;
+  bool are_means_;
+};
+
+/// By the likelihood of the shorter waves of a scan, from an eighth of its pixels along the side on.
+bool areMeans(const Scan& scan, const MergedSpectrum& spectrum) {
+  constexpr double kFirst = 1.0 / 8.0;
+  constexpr double kLast = 1.0 / 2.2;
+  const ScanWaves waves(scan.map(scan.heights));
+  const double pixels = std::min(scan.heights.rows, scan.heights.cols);
+  double unlikeliness[2] = {0.0, 0.0};
+  for (const bool are_means : {false, true}) {
+    const Samples samples(spectrum, scan.pitch_x, scan.pitch_y, are_means);
+    waves.visit([&](const FrameWave& wave, double power, double weight) {
+      if (wave.count() < kFirst * pixels || wave.count() > kLast * pixels) return;
+      const double expected = samples.power(waves.waveNumberX(wave.x), waves.waveNumberY(wave.y));
+      if (expected > 0.0) unlikeliness[are_means ? 1 : 0] += weight * (power / expected + std::log(expected));
+    });
+  }
+  return unlikeliness[1] < unlikeliness[0];
+}
+
+/// How much finer the pixels of own waves are: cubics between them then know the shortest ones to a percent.
+int finerPixels(const cv::Mat& values) {
+  constexpr std::size_t kMost = std::size_t{1} << 22U;
+  return 16 * values.total() <= kMost ? 4 : 4 * values.total() <= kMost ? 2 : 1;
+}
+
 void takeOwn(const Scan& widest, SurfaceLaw& law) {
+  constexpr int kSteps = 128;
+  constexpr int kDirections = 8;
   const bool are_numbers = law.non_gaussian_share > 0.0 && law.split_wave_number == 0.0;
-  const double pitch = std::max(widest.pitch_x, widest.pitch_y);
-  law.join_wave_number = 2.0 * kPi / (kJoinPixels * pitch);
-  if (law.split_wave_number > 0.0) law.join_wave_number = std::min(law.join_wave_number, law.split_wave_number);
+  const MergedSpectrum& spectrum = are_numbers ? law.numbers : law.heights;
+  const Samples samples(spectrum, widest.pitch_x, widest.pitch_y, areMeans(widest, law.heights));
+  const double shortest = kPi / std::max(widest.pitch_x, widest.pitch_y);
+  // where only short waves are not Gaussian, long ones end where those begin
+  const double split = law.split_wave_number;
+  const auto longPass = [&](double q) { return split > 0.0 ? std::exp(-std::pow(q / split, 4)) : 1.0; };
   cv::Mat values = are_numbers ? numbersOf(law.marginal, levelledUnder(law.marginal, widest.heights)) : widest.heights;
   values = values(cv::Rect(0, 0, values.cols & ~1, values.rows & ~1));
   cv::Mat waves;
   cv::dct(values, waves);
+  const int finer = finerPixels(values);
+  cv::Mat padded = cv::Mat::zeros(finer * values.rows, finer * values.cols, CV_64FC1);
   for (int row = 0; row < waves.rows; ++row) {
     const double q_y = kPi * row / (waves.rows * widest.pitch_y);
-    double* line = waves.ptr<double>(row);
+    const double* from = waves.ptr<double>(row);
+    double* to = padded.ptr<double>(row);
     for (int col = 0; col < waves.cols; ++col) {
-      const double q = std::hypot(kPi * col / (waves.cols * widest.pitch_x), q_y);
-      line[col] *= std::exp(-std::pow(q / law.join_wave_number, 4));
+      const double q_x = kPi * col / (waves.cols * widest.pitch_x);
+      const double q = std::hypot(q_x, q_y);
+      if (q >= shortest) break;
+      const double gain = 0.5 * (samples.wave(q_x, q_y).gain + samples.wave(-q_x, q_y).gain);
+      to[col] = finer * gain * longPass(q) * from[col];
     }
   }
   OwnLongWaves own;
-  cv::idct(waves, own.heights);
-  own.pitch_x = widest.pitch_x;
-  own.pitch_y = widest.pitch_y;
-  const MergedSpectrum& spectrum = are_numbers ? law.numbers : law.heights;
+  cv::idct(padded, own.heights);
+  own.pitch_x = widest.pitch_x / finer;
+  own.pitch_y = widest.pitch_y / finer;
+  own.open_step = shortest / kSteps;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double q = i * own.open_step;
+    double open = 0.0;
+    for (int turn = 0; turn < kDirections; ++turn) {
+      const double angle = kPi * turn / kDirections;
+      const double pass = longPass(q);
+      const double known = 1.0 - samples.wave(q * std::cos(angle), q * std::sin(angle)).open;
+      open += (1.0 - known * pass * pass) / kDirections;
+    }
+    own.open_shares.push_back(open);
+  }
   std::tie(own.tilt_x, own.tilt_y) = tiltDeviations(spectrum, widest.sideX(), widest.sideY());
   law.own = own;
 }

@@ -13,7 +13,9 @@
 ///
 /// Scans are levelled again so that it is their numbers g, and not their heights, that have no slope; the spectrum of the
 /// field is the one of these numbers. So the short waves of a polished top count as they are on the top.
-/// A scan as large as the device has long waves of its own: they are taken in place of random ones.
+/// A scan as large as the device has long waves of its own: they are taken in place of random ones, as far as its pixels know them. What
+/// samples say of a wave is its best estimate among those that look alike in them (Wiener), and what they leave open of its power is
+/// random. Whether pixels are points or means over their area, their shorter waves tell (Whittle's likelihood).
 
 #include <optional>
 #include <vector>
@@ -31,6 +33,16 @@ struct OwnLongWaves {
   double pitch_y = 0.0;  ///< [m]
   double tilt_x = 0.0;   ///< rms height of the plane that levelling takes off such a scan, along the rows
   double tilt_y = 0.0;   ///< and along the columns
+  /// Share of a wave's power that it leaves open [-], by wave number at equal steps from 0; all of it beyond.
+  std::vector<double> open_shares;
+  double open_step = 0.0;  ///< [rad/m]
+
+  double openShare(double wave_number) const {
+    const double place = wave_number / open_step;
+    if (!(place < static_cast<double>(open_shares.size() - 1))) return 1.0;
+    const auto below = static_cast<std::size_t>(place);
+    return open_shares[below] + (place - static_cast<double>(below)) * (open_shares[below + 1] - open_shares[below]);
+  }
 };
 
 struct SurfaceLaw {

@@ -19,6 +19,9 @@ constexpr double kHannFreedom = 0.264;
 /// Below so many waves along a side nothing of the surface is thought to arrive.
 constexpr double kLeastSource = 0.4;
 
+/// Spectra that fall faster than this power of the wave number are what Hann's window lets through of longer waves.
+constexpr double kLeakage = 5.0;
+
 // the search for a stretch
 constexpr double kFirstWaveOfStretch = 3.0;
 constexpr double kLastWaveOfStretch = 128.0;
@@ -286,7 +289,11 @@ SpectrumDifference spectrumDifference(const ScanWaves& scan, const std::vector<S
   try {
     const MergedSpectrum one = trustedOf({scan});
     const MergedSpectrum all = trustedOf(others);
+    double steepest = 0.0;  // of density times q^5 so far: beyond, what is found has leaked through the window
     for (const SpectrumBand& band : one.bands) {
+      const double level = band.density * std::pow(band.wave_number, kLeakage);
+      if (level < steepest) continue;
+      steepest = level;
       const auto same = std::find_if(all.bands.begin(), all.bands.end(), [&](const SpectrumBand& other) {
         return bandOf(other.wave_number, kBandsPerOctave) == bandOf(band.wave_number, kBandsPerOctave);
       });
