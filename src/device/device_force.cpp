@@ -292,8 +292,9 @@ DeviceForce deviceForce(const DeviceSurfaces& surfaces, const DeviceArea& area, 
   const Surfaces known(surfaces, pieces.side(), options);
   showSpectrum(known.laws(0).lower, pieces.side(), force);
   if (!has_parts) {
-    warnOfLongWaves(known.laws(0).lower, surfaces.scans, pieces.side(), force);
-    if (known.laws(0).upper) warnOfLongWaves(*known.laws(0).upper, surfaces.counter_surface, pieces.side(), force);
+    const double side = std::sqrt(area.area / area.contacts);
+    warnOfLongWaves(known.laws(0).lower, surfaces.scans, side, force);
+    if (known.laws(0).upper) warnOfLongWaves(*known.laws(0).upper, surfaces.counter_surface, side, force);
   }
   warnOfContradictions(surfaces.scans, force);
   warnOfContradictions(surfaces.counter_surface, force);
