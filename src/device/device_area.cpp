@@ -22,7 +22,7 @@ constexpr int kQuarters = 4;
 constexpr double kGoesOn = 1.05;
 constexpr double kRounding = 0.05;
 /// Pixels along the side of a frame where cells in reach are too many to be kept one by one.
-constexpr std::int64_t kFrameSide = 2048;
+constexpr std::int64_t kFrameSide = 4096;
 /// Pixels along the side of what is shown of a surface, at most.
 constexpr std::int64_t kShownSide = 512;
 

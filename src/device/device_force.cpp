@@ -49,6 +49,7 @@ double longerPitch(const HeightMap& surface) { return std::max(surface.pitchX(),
 
 std::vector<HeightMap> mapsOf(const std::vector<NamedScan>& scans) {
   std::vector<HeightMap> maps;
+  maps.reserve(scans.size());
   for (const NamedScan& scan : scans) maps.push_back(scan.surface);
   return maps;
 }
@@ -116,6 +117,7 @@ class Surfaces {
     std::mt19937_64 engine(seed);
     const SpectrumContinuation continuation = drawnContinuation(law, side_, engine);
     std::vector<HeightMap> made;
+    made.reserve(scans.size());
     for (const HeightMap& scan : scans) made.push_back(madeScan(law, continuation, scan, side_, engine()));
     return surfaceLaw(made, options_, form);
   }
@@ -201,6 +203,7 @@ void warnOfLongWaves(const SurfaceLaw& law, const std::vector<NamedScan>& scans,
 void warnOfContradictions(const std::vector<NamedScan>& scans, DeviceForce& force) {
   if (scans.size() < 2) return;
   std::vector<ScanWaves> waves;
+  waves.reserve(scans.size());
   for (const NamedScan& scan : scans) waves.emplace_back(scan.surface);
   for (std::size_t i = 0; i < scans.size(); ++i) {
     std::vector<ScanWaves> others = waves;

@@ -8,6 +8,7 @@
 
 namespace mems_stiction {
 
+/// @param realisation Realisation, const or not
 /// @param visit called with (Figure, value) for each
 template <typename RealisationType, typename Visitor>
 void visitRealisationFields(RealisationType& realisation, Visitor&& visit) {
@@ -17,6 +18,7 @@ void visitRealisationFields(RealisationType& realisation, Visitor&& visit) {
   visit({"separation_at_rest", "m", "mean gap"}, realisation.separation_at_rest);
 }
 
+/// @param part PartOfScan, const or not
 /// @param visit called with (Figure, value) for each
 template <typename PartType, typename Visitor>
 void visitPartOfScanFields(PartType& part, Visitor&& visit) {
@@ -24,6 +26,7 @@ void visitPartOfScanFields(PartType& part, Visitor&& visit) {
   visit({"pull_off_force", "N", "of the part, as it was predicted"}, part.pull_off_force);
 }
 
+/// @param band BandOfWaves, const or not
 /// @param visit called with (Figure, value) for each
 template <typename BandType, typename Visitor>
 void visitBandFields(BandType& band, Visitor&& visit) {

@@ -35,6 +35,14 @@ void checkDevice(const DeviceSurfaces& surfaces, const DeviceArea& area, const D
   }
   if (surfaces.scans.empty()) violations.emplace_back("the force of a device needs at least one scan of its surface");
   if (!violations.empty()) throw OptionsError(std::move(violations));
+  constexpr int kLeastPixels = 8;
+  for (const std::vector<NamedScan>* scans : {&surfaces.scans, &surfaces.counter_surface}) {
+    for (const NamedScan& scan : *scans) {
+      if (std::min(scan.surface.rows(), scan.surface.cols()) >= kLeastPixels) continue;
+      throw SurfaceError(scan.name + ": " + std::to_string(scan.surface.cols()) + " x " +
+                         std::to_string(scan.surface.rows()) + " pixels say nothing of a device; at least 8 x 8 do");
+    }
+  }
 }
 
 DevicePieces piecesOf(const DeviceArea& area, double pitch, double most_cells) {

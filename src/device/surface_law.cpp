@@ -507,6 +507,7 @@ SurfaceLaw surfaceLawOf(const std::vector<HeightMap>& surfaces, TailForm form) {
   const std::vector<Scan> scans = scansOf(surfaces);
   const Scan* widest = widestOf(scans);
   std::vector<cv::Mat> values;
+  values.reserve(scans.size());
   for (const Scan& scan : scans) values.push_back(scan.heights);
   SurfaceLaw law;
   law.heights = law.numbers = spectrumOf(scans, values, nullptr);

@@ -45,6 +45,7 @@ struct OwnLongWaves {
   }
 };
 
+/// What random surfaces the scans may have been cut from.
 struct SurfaceLaw {
   MergedSpectrum heights;             ///< of z
   MergedSpectrum numbers;             ///< of g; that of z where all is Gaussian

@@ -193,8 +193,9 @@ DeviceAdhesion DeviceForceStream::find(const Task& task, const ScannedPart& part
   if (found_->hash != hash) {
     const DeviceScale scale{*evidence.device, found_->frame_pull_off_force, found_->frame_work};
     evidence.device = scale.under(task.prediction);
-    force = scaled(std::move(force), evidence.device->pull_off_force / force.pull_off_force,
-                   evidence.device->apparent_work_of_adhesion / force.apparent_work_of_adhesion);
+    const double by_force = evidence.device->pull_off_force / force.pull_off_force;
+    const double by_work = evidence.device->apparent_work_of_adhesion / force.apparent_work_of_adhesion;
+    force = scaled(std::move(force), by_force, by_work);
   }
   if (part.taken > part.scans.size()) {
     force.warnings.push_back("only " + std::to_string(part.scans.size()) + " of " + std::to_string(part.taken) +
@@ -210,7 +211,7 @@ DeviceAdhesion DeviceForceStream::find(const Task& task, const ScannedPart& part
 }
 
 DeviceForce DeviceForceStream::make(const Task& task, const ScannedPart& part) {
-  auto goOn = [this, give_way = pause_.waiter(stopping_)]() mutable {
+  auto go_on = [this, give_way = pause_.waiter(stopping_)]() mutable {
     give_way();
     if (stopping_) throw Stopped();
   };
@@ -219,9 +220,9 @@ DeviceForce DeviceForceStream::make(const Task& task, const ScannedPart& part) {
     since_ = Clock::now();
     share_ = 0.0;
   }
-  const BesideWork beside(std::ref(goOn));
+  const BesideWork beside(std::ref(go_on));
   return part.together(*task.settings).force([&](double share) {
-    goOn();
+    go_on();
     const std::lock_guard<std::mutex> lock(mutex_);
     share_ = share;
   });

@@ -34,11 +34,11 @@ struct Cancelled {};
 /// @throw Cancelled
 std::optional<DeviceScale> scaleOf(const StationCase& scan, const KnownDevice& known, const std::atomic<bool>& cancel) {
   if (std::optional<DeviceScale> scale = known(scan)) return scale;
-  const auto goOn = [&cancel] {
+  const auto go_on = [&cancel] {
     if (cancel) throw Cancelled();
   };
-  const BesideWork beside(goOn);
-  return scaleOfScan(scan.scan, *scan.settings, [&](double) { goOn(); });
+  const BesideWork beside(go_on);
+  return scaleOfScan(scan.scan, *scan.settings, [&](double) { go_on(); });
 }
 
 }  // namespace

@@ -65,12 +65,12 @@ WaveTransfer makeTransfer() {
     constant_of[u] = waveSum(transfer.sources[u], constant);
     slope_of[u] = waveSum(transfer.sources[u], slope);
   }
-  constexpr int kWaves = 2 * kLongWaves + 1;
+  constexpr std::size_t kWaves = 2 * kLongWaves + 1;
   std::vector<std::vector<Complex>> passed(kWaves, std::vector<Complex>(sources));
   std::vector<Complex> from_constant(kWaves);
   std::vector<Complex> from_slope(kWaves);
-  for (int m = -kLongWaves; m <= kLongWaves; ++m) {
-    const auto place = static_cast<std::size_t>(m + kLongWaves);
+  for (std::size_t place = 0; place < kWaves; ++place) {
+    const double m = static_cast<double>(place) - kLongWaves;
     from_constant[place] = waveSum(-m, windowed_constant);
     from_slope[place] = waveSum(-m, windowed_slope);
     for (std::size_t u = 0; u < sources; ++u) passed[place][u] = waveSum(transfer.sources[u] - m, window);

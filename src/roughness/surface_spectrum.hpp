@@ -18,6 +18,7 @@
 
 namespace mems_stiction {
 
+/// C by a table, stretched.
 struct SurfaceSpectrum {
   std::vector<double> wave_number;  ///< of C_iso, ascending [rad/m]
   std::vector<double> density;      ///< C_iso there [m^4]

@@ -9,6 +9,7 @@ REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 PITCH = 20e-9
 FORMULATIONS = ("separation_curve", "paper", "printed")
 DEVICE = {"spring_stiffness": 2.0, "travel": 1e-6, "contact_area": 1e-11}
+FEW = {"realisations": 3, "max_cells": 1e4}  # surfaces of the device, for tests that ask for something else
 CLEANING = {"level": "plane", "spikes": {"enabled": True}, "fill": {"enabled": True, "max_fraction": 0.5}}
 
 

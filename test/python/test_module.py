@@ -17,7 +17,7 @@ except ImportError:
     raise unittest.SkipTest("the Python module is not built: MEMS_STICTION_WITH_PYTHON is off")
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from module_cases import CLEANING, DEVICE, FORMULATIONS, PITCH, frames, program, rough, without_times  # noqa: E402  (the path comes first)
+from module_cases import CLEANING, DEVICE, FEW, FORMULATIONS, PITCH, frames, program, rough, without_times  # noqa: E402  (the path comes first)
 
 
 class BitsTest(unittest.TestCase):
@@ -66,7 +66,7 @@ class BitsTest(unittest.TestCase):
 
     def test_loads_device_and_cleaning(self):
         for formulation in FORMULATIONS:
-            self.check({"approach": {"formulation": formulation}, "device": DEVICE, "preprocessing": CLEANING,
+            self.check({"approach": {"formulation": formulation}, "device": DEVICE, "device_force": FEW, "preprocessing": CLEANING,
                         "load": {"voltage": 5.0, "mechanical_load": 1e-6},
                         "interface": {"insulator_thickness": 1e-7, "relative_humidity": 0.4}})
 
@@ -85,7 +85,7 @@ class BitsTest(unittest.TestCase):
         self.check({"counter_surface": {"type": "gaussian", "seed": 4}}, ("rough",))
 
     def test_half_space(self):
-        settings = {"lower": {"youngs_modulus": 1e9}, "upper": {"youngs_modulus": 1e9}, "load": {"mechanical_load": 1e-8}, "device": DEVICE}
+        settings = {"lower": {"youngs_modulus": 1e9}, "upper": {"youngs_modulus": 1e9}, "load": {"mechanical_load": 1e-8}, "device": DEVICE, "device_force": FEW}
         for name, record in self.records(settings, "--half-space", names=("smooth", "holes")).items():
             solved = mems_stiction.half_space(frames()[name], PITCH, settings)
             of_record = record["half_space"]
@@ -108,7 +108,7 @@ class BitsTest(unittest.TestCase):
 
     def test_one_scan_under_many_settings(self):
         heights, upper = rough(64, 48, 12e-9, 2), rough(64, 48, 6e-9, 9)
-        configs = [{"approach": {"formulation": formulation}, "load": load, "interface": {"work_of_adhesion": work}, "device": DEVICE}
+        configs = [{"approach": {"formulation": formulation}, "load": load, "interface": {"work_of_adhesion": work}, "device": DEVICE, "device_force": FEW}
                    for formulation in FORMULATIONS for load in ({}, {"pressure": 1e6}) for work in (0.02, 0.2)]
         for shared in ({}, {"preprocessing": dict(CLEANING, refine={"factor": 2}), "counter_surface": {"facing": "up"}}):
             counter = upper if shared else None

@@ -21,7 +21,7 @@ except ImportError:
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
-from module_cases import DEVICE, PITCH, Topography, program, rough, without_times  # noqa: E402  (the path comes first)
+from module_cases import DEVICE, FEW, PITCH, Topography, program, rough, without_times  # noqa: E402  (the path comes first)
 
 SOFT = {"lower": {"youngs_modulus": 1e9}, "upper": {"youngs_modulus": 1e9}}
 
@@ -156,7 +156,7 @@ class VerdictTest(unittest.TestCase):
     def test_a_half_space_that_can_judge_does(self):
         heights, pitch = rough(32, 32, 3e-10, length=8), 1e-10
         settings = {"lower": {"youngs_modulus": 1e10}, "upper": {"youngs_modulus": 1e10}, "device_force": {"enabled": False},
-                    "device": dict(DEVICE, contact_area=(32 * pitch) ** 2)}
+                    "device": dict(DEVICE, contact_area=(32 * pitch) ** 2), "device_force": FEW}
         solved = mems_stiction.half_space(heights, pitch, settings)
         self.assertTrue(solved.is_resolved)
         self.assertEqual(solved.verdict.verdict_by, "half_space")
@@ -177,10 +177,10 @@ class VerdictTest(unittest.TestCase):
         self.assertAlmostEqual(solved.verdict.device_pull_off_force / moved, 1.0, delta=1e-9)
 
     def test_one_that_cannot_leaves_it_to_the_prediction(self):
-        solved = mems_stiction.half_space(rough(16, 16), PITCH, SOFT, device=DEVICE)
+        solved = mems_stiction.half_space(rough(16, 16), PITCH, SOFT, device=DEVICE, device_force=FEW)
         self.assertFalse(solved.is_resolved)
         self.assertEqual(solved.verdict.verdict_by, "prediction")
-        predicted = mems_stiction.predict(rough(16, 16), PITCH, SOFT, device=DEVICE).verdict
+        predicted = mems_stiction.predict(rough(16, 16), PITCH, SOFT, device=DEVICE, device_force=FEW).verdict
         self.assertEqual((solved.verdict.sticks, solved.verdict.margin), (predicted.sticks, predicted.margin))
         self.assertIn("the half-space does not count", solved.verdict.reason)
 
@@ -192,7 +192,7 @@ class CopyTest(unittest.TestCase):
     def results(self):
         heights = rough(24, 30)
         topography = Topography(heights.T, (30 * PITCH, 24 * PITCH), "m")
-        return [mems_stiction.predict(topography, device=DEVICE), mems_stiction.half_space(rough(12, 12), PITCH, SOFT, device=DEVICE),
+        return [mems_stiction.predict(topography, device=DEVICE, device_force=FEW), mems_stiction.half_space(rough(12, 12), PITCH, SOFT, device=DEVICE, device_force=FEW),
                 mems_stiction.sweep_loads(heights, PITCH, [0, 1], interface={"insulator_thickness": 1e-7}),
                 mems_stiction.cycle_contact(heights, PITCH, 2), mems_stiction.clean(heights, PITCH), mems_stiction.Settings(SOFT),
                 mems_stiction.roughness(heights, PITCH)]

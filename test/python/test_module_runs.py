@@ -22,7 +22,7 @@ except ImportError:
     raise unittest.SkipTest("the Python module is not built: MEMS_STICTION_WITH_PYTHON is off")
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from module_cases import DEVICE, PITCH, REPOSITORY, Topography, program, rough  # noqa: E402  (the path comes first)
+from module_cases import DEVICE, FEW, PITCH, REPOSITORY, Topography, program, rough  # noqa: E402  (the path comes first)
 
 
 class WrongInputTest(unittest.TestCase):
@@ -153,7 +153,7 @@ time.sleep(%f)
             self.assertEqual((ended.returncode, ended.stderr), (0, b""))
 
     def test_a_prediction_goes_to_another_process(self):
-        prediction = mems_stiction.predict(rough(40, 50), PITCH, device=DEVICE)
+        prediction = mems_stiction.predict(rough(40, 50), PITCH, device=DEVICE, device_force=FEW)
         copy = pickle.loads(pickle.dumps(prediction))
         self.assertEqual(copy.json(), prediction.json())
         self.assertTrue(np.array_equal(copy.contact_map, prediction.contact_map))
@@ -170,7 +170,7 @@ class StationTest(unittest.TestCase):
 
     def test_records_have_the_fields_of_the_messages(self):
         heights = rough(48, 48)
-        sweep = mems_stiction.sweep_loads(heights, PITCH, [0, 5], [0, 1e-7], interface={"insulator_thickness": 1e-7}, device=DEVICE)
+        sweep = mems_stiction.sweep_loads(heights, PITCH, [0, 5], [0, 1e-7], interface={"insulator_thickness": 1e-7}, device=DEVICE, device_force=FEW)
         cycles = mems_stiction.cycle_contact(heights, PITCH, 3, load={"mechanical_load": 1e-6}, lower={"hardness": 1e9})
         self.assertEqual(sorted(sweep.points.dtype.names), sorted(self.fields_of("SweepPoint")))
         self.assertEqual(sorted(sweep.summaries.dtype.names), sorted(self.fields_of("SweepSummary")))

@@ -14,12 +14,12 @@ except ImportError:
     raise unittest.SkipTest("the Python module is not built: MEMS_STICTION_WITH_PYTHON is off")
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from module_cases import DEVICE, FORMULATIONS, PITCH, REPOSITORY, rough  # noqa: E402  (the path comes first)
+from module_cases import DEVICE, FEW, FORMULATIONS, PITCH, REPOSITORY, rough  # noqa: E402  (the path comes first)
 
 
 class TextTest(unittest.TestCase):
     def test_text_and_page(self):
-        prediction = mems_stiction.predict(rough(64, 64, 12e-9, 2), PITCH, device=DEVICE)
+        prediction = mems_stiction.predict(rough(64, 64, 12e-9, 2), PITCH, device=DEVICE, device_force=FEW)
         self.assertRegex(repr(prediction), r"equilibrium\n  pull-off force [\d.]+ [nu]N on .*\n.*\n  sticks: ")
         page = prediction._repr_html_()
         self.assertIn('<img src="data:image/png;base64,iVBOR', page)
@@ -44,7 +44,7 @@ class TextTest(unittest.TestCase):
         self.assertEqual(done.stdout.strip(), "False")
 
     def test_every_figure_has_its_declaration(self):
-        prediction = mems_stiction.predict(rough(20, 30), PITCH, device=DEVICE)
+        prediction = mems_stiction.predict(rough(20, 30), PITCH, device=DEVICE, device_force=FEW)
         for value, name in ((prediction, "Prediction"), (prediction.verdict, "Verdict"), (prediction.roughness, "Roughness"),
                             (mems_stiction.half_space(rough(20, 20), PITCH), "HalfSpace")):
             declared = _core.figures[name + "Figures"]

@@ -128,7 +128,7 @@ class SlowScansTest(unittest.TestCase):
         rospy.sleep(begun + 0.95 * LIMIT - time.monotonic())
         held = len(feedback) - before
         # A tenth of the time stays with it; half of it if it did not give way on a machine with one processor.
-        self.assertLessEqual(held, 0.3 * free)
+        self.assertLessEqual(held, 0.45 * free)
         action.cancel_goal()
         self.assertTrue(action.wait_for_result(rospy.Duration(TIMEOUT)))
 

@@ -118,7 +118,7 @@ std::vector<Case> cases() {
            changed(pressed(20e-6), [](Options& o) { o.approach.connectivity = Connectivity::kEight; })},
           {"voltage", gaussian(3e-9), changed(stiff(), [](Options& o) { o.load.voltage = 10.0; })},
           {"water", gaussian(3e-9), changed(stiff(), [](Options& o) { o.capillary.relative_humidity = 0.5; }),
-           3e-4},  // the frame counts cells that water fills in wider buckets
+           5e-3},  // the frame counts cells that water fills in wider buckets, and rest is found to 1/512 of the load
           {"soft", gaussian(10e-9), soft()},
           {"soft_self_affine", selfAffine(10e-9), soft(), 2e-4},
           {"without_adhesion", gaussian(3e-9),
@@ -145,7 +145,7 @@ TEST_P(AreaAdhesionOf, tilesIsThatOfTheFrame) {
     expectNear(found.pull_off_force, expected.pull_off_force, one.tolerance, "pull-off force");
     expectNear(found.apparent_work_of_adhesion, expected.apparent_work_of_adhesion, one.tolerance, "work");
     expectNear(found.approach, expected.approach, one.tolerance, "approach");
-    expectNear(found.separation_at_rest, expected.mean_gap, 1e-5, "separation");
+    expectNear(found.separation_at_rest, expected.mean_gap, 3e-5, "separation");
     expectNear(found.contact_area, expected.contact_area, one.tolerance, "contact area");
     expectNear(found.contact_stiffness, expected.contact_stiffness, 100.0 * one.tolerance, "stiffness");
     expectNear(found.median_composite_radius, expected.median_composite_radius, one.tolerance, "radius");
