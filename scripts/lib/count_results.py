@@ -92,10 +92,11 @@ def show_failures(cases):
             continue
         lines = case.text.splitlines()
         print("FAILED  %s" % case.name)
-        for line in lines[:LINES_SHOWN]:
+        if len(lines) > LINES_SHOWN:  # a compiler names the cause first, a program that gives up last
+            half = LINES_SHOWN // 2
+            lines[half:-half] = ["... %d more lines" % (len(lines) - LINES_SHOWN)]
+        for line in lines:
             print("    " + line)
-        if len(lines) > LINES_SHOWN:
-            print("    ... %d more lines" % (len(lines) - LINES_SHOWN))
 
 
 def show_skipped(cases):
