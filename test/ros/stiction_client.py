@@ -1,6 +1,7 @@
 """What the rostests share: scans to send, predictions to wait for, diagnostics to read."""
 
 import collections
+import contextlib
 import json
 import math
 import os
@@ -285,10 +286,30 @@ def _status_of(process, name):
     return int(pathlib.Path("/proc/%d/status" % process.pid).read_text().split(name + ":")[1].split()[0])
 
 
+def _computed_seconds(stat):
+    fields = stat.read_text().rsplit(")", 1)[1].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
 def processor_seconds(process):
     """What the process has computed so far."""
-    fields = pathlib.Path("/proc/%d/stat" % process.pid).read_text().rsplit(")", 1)[1].split()
-    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+    return _computed_seconds(pathlib.Path("/proc/%d/stat" % process.pid))
+
+
+def process_of(topic):
+    """Number of the process that publishes this topic."""
+    master = rosgraph.Master(rospy.get_name())
+    publishers = next(nodes for name, nodes in master.getSystemState()[0] if name == rospy.resolve_name(topic))
+    return xmlrpc.client.ServerProxy(master.lookupNode(publishers[0])).getPid(rospy.get_name())[2]
+
+
+def thread_seconds(pid):
+    """{thread: what it has computed so far [s]} of the process."""
+    seconds = {}
+    for stat in pathlib.Path("/proc/%d/task" % pid).glob("*/stat"):
+        with contextlib.suppress(OSError):  # one that ended meanwhile
+            seconds[stat.parent.name] = _computed_seconds(stat)
+    return seconds
 
 
 class OwnNode:
