@@ -4,6 +4,7 @@
 #include "errors/one_line.hpp"
 #include "ros/message_fields.hpp"
 #include "ros/message_text.hpp"
+#include "ros/verdict_conversion.hpp"
 
 namespace mems_stiction {
 
@@ -18,22 +19,13 @@ DeviceAdhesion deviceMessage(const DeviceForce& force, const LoadOptions& load, 
   for (const Realisation& made : force.realisations) message.realisations.push_back(made.pull_off_force);
   message.warnings = withoutCommas(force.warnings);
   message.processing_time = DeviceForce::kUnknown;
-  fillVerdict(Verdict(), message);
-  message.verdict_by.clear();
+  clearVerdict(message);
   return message;
 }
 
 void fillVerdict(const Verdict& verdict, DeviceAdhesion& message) {
-  message.sticks = static_cast<std::uint8_t>(verdict.sticks);
-  message.verdict_reason = withoutCommas(oneLine(verdict.reason));
-  message.verdict_by = judgeText(verdict.judge);
+  fillVerdict<DeviceAdhesion>(verdict, message);
   message.restoring_force = verdict.restoring_force;
-  message.margin = verdict.margin;
-  message.margin_lower = verdict.margin_lower;
-  message.margin_upper = verdict.margin_upper;
-  message.peel_number = verdict.peel_number;
-  message.peel_number_lower = verdict.peel_number_lower;
-  message.peel_number_upper = verdict.peel_number_upper;
 }
 
 DeviceAdhesion refusedDevice(const std::string& reason, const LoadOptions& load, const std_msgs::Header& header) {

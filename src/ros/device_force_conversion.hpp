@@ -17,6 +17,7 @@ namespace mems_stiction {
 /// Without a verdict and without a status of its own: FOUND.
 DeviceAdhesion deviceMessage(const DeviceForce& force, const LoadOptions& load, const std_msgs::Header& header);
 
+/// With the spring's force.
 void fillVerdict(const Verdict& verdict, DeviceAdhesion& message);
 
 /// REFUSED, with every figure NaN and no verdict.

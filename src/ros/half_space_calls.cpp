@@ -12,6 +12,7 @@
 #include "ros/half_space_conversion.hpp"
 #include "ros/provenance_conversion.hpp"
 #include "ros/topic_names.hpp"
+#include "ros/verdict_conversion.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -8,6 +8,7 @@
 #include "half_space/half_space_fields.hpp"
 #include "ros/message_fields.hpp"
 #include "ros/message_text.hpp"
+#include "ros/verdict_conversion.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -57,21 +58,8 @@ HalfSpaceSolution halfSpaceMessage(const SolvedHalfSpace& solved, const LoadOpti
 
   addPoints(solved.approach, HalfSpacePoint::APPROACH, message.curve);
   addPoints(solved.retraction, HalfSpacePoint::RETRACTION, message.curve);
-  fillVerdict(Verdict(), message);
-  message.verdict_by.clear();
+  clearVerdict(message);
   return message;
-}
-
-void fillVerdict(const Verdict& verdict, HalfSpaceSolution& message) {
-  message.sticks = static_cast<std::uint8_t>(verdict.sticks);
-  message.verdict_reason = withoutCommas(oneLine(verdict.reason));
-  message.verdict_by = judgeText(verdict.judge);
-  message.margin = verdict.margin;
-  message.margin_lower = verdict.margin_lower;
-  message.margin_upper = verdict.margin_upper;
-  message.peel_number = verdict.peel_number;
-  message.peel_number_lower = verdict.peel_number_lower;
-  message.peel_number_upper = verdict.peel_number_upper;
 }
 
 HalfSpaceSolution refusedMessage(const std::string& reason, const LoadOptions& load, const std_msgs::Header& header) {

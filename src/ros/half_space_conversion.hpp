@@ -10,7 +10,6 @@
 #include "mems_stiction/HalfSpaceSolution.h"
 #include "mems_stiction/half_space/half_space_solution.hpp"
 #include "mems_stiction/loads/interface.hpp"
-#include "mems_stiction/verdict/verdict.hpp"
 
 namespace mems_stiction {
 
@@ -20,8 +19,6 @@ inline constexpr std::size_t kMostCurvePoints = 4096;
 /// Without a verdict.
 HalfSpaceSolution halfSpaceMessage(const SolvedHalfSpace& solved, const LoadOptions& load,
                                    const std_msgs::Header& header);
-
-void fillVerdict(const Verdict& verdict, HalfSpaceSolution& message);
 
 /// REFUSED, with every figure NaN and no verdict.
 /// - @p reason becomes the message, on one line

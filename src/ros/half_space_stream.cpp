@@ -9,6 +9,7 @@
 #include "ros/background_thread.hpp"
 #include "ros/half_space_conversion.hpp"
 #include "ros/provenance_conversion.hpp"
+#include "ros/verdict_conversion.hpp"
 
 namespace mems_stiction {
 

@@ -57,8 +57,7 @@ void describe(CLI::App& app, BatchArguments& arguments) {
       ->type_name("FOLDER");
   app.add_option("--topic", arguments.topic, "of the scans in bags; scan_info is looked for beside it")
       ->capture_default_str();
-  app.add_flag("--ignore-mask", arguments.ignore_mask,
-               "pixels under the mask of a .gwy file are heights as the others, not missing");
+  addMaskOption(app, arguments.ignore_mask);
   app.add_flag("--no-cache", arguments.no_cache,
                "convert instrument makers' files anew, and do not keep what was converted in ~/.cache/mems_stiction");
   app.add_flag("--clear-cache", arguments.clear_cache, "first remove all that is kept there");

@@ -75,4 +75,14 @@ std::string positive(const std::string& text) {
   return is_number && !Range::positive().contains(value) ? "'" + text + "' is not allowed, must be > 0" : "";
 }
 
+void addChannelOption(CLI::App& app, std::string& channel) {
+  app.add_option("--channel", channel, "title or number of the channel to take from an instrument maker's file")
+      ->type_name("NAME");
+}
+
+void addMaskOption(CLI::App& app, bool& ignore_mask) {
+  app.add_flag("--ignore-mask", ignore_mask,
+               "pixels under the mask of a .gwy file are heights as the others, not missing");
+}
+
 }  // namespace mems_stiction

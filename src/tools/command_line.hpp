@@ -120,4 +120,10 @@ void applyLoads(const Arguments& arguments, LoadOptions& load) {
   if (arguments.load) load.setMechanicalLoad(*arguments.load);
 }
 
+/// --channel of an instrument maker's file.
+void addChannelOption(CLI::App& app, std::string& channel);
+
+/// --ignore-mask of a .gwy file.
+void addMaskOption(CLI::App& app, bool& ignore_mask);
+
 }  // namespace mems_stiction

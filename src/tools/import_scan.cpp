@@ -47,9 +47,8 @@ void describe(CLI::App& app, Arguments& arguments) {
   app.add_flag("-l,--list", arguments.list,
                "write nothing; print the channels of each file with size, pitch and unit, the one that would be taken "
                "marked with *");
-  app.add_option("--channel", arguments.channel, "title or number of the channel to take")->type_name("NAME");
-  app.add_flag("--ignore-mask", arguments.ignore_mask,
-               "pixels under the mask of a .gwy file are heights as the others, not missing");
+  addChannelOption(app, arguments.channel);
+  addMaskOption(app, arguments.ignore_mask);
   app.add_option("-p,--pitch", arguments.pitch,
                  "distance of neighbouring pixels [m]; MX,MY where columns and rows differ. Goes before what files say")
       ->type_name("M");

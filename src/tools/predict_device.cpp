@@ -82,11 +82,8 @@ void describe(CLI::App& app, Arguments& arguments) {
       ->type_name("SCAN")
       ->allow_extra_args(false);
   addLoadOptions(app, arguments);
-  app.add_option("--channel", arguments.channel,
-                 "title or number of the channel to take from an instrument maker's file")
-      ->type_name("NAME");
-  app.add_flag("--ignore-mask", arguments.ignore_mask,
-               "pixels under the mask of a .gwy file are heights as the others, not missing");
+  addChannelOption(app, arguments.channel);
+  addMaskOption(app, arguments.ignore_mask);
   app.add_flag("-j,--json", arguments.json, "one JSON object on one line instead of a YAML document");
   app.add_option("--picture", arguments.picture,
                  "draw spectrum, roughness against scale, a made surface and force against area, .png, .pdf or .svg; "

@@ -75,11 +75,8 @@ void describe(CLI::App& app, Arguments& arguments) {
          "-s,--step", [&arguments](const double& value) { arguments.step = value; },
          "approach per step of paper and printed [m], paper/step; 0 = automatic")
       ->type_name("M");
-  app.add_option("--channel", arguments.channel,
-                 "title or number of the channel to take from an instrument maker's file")
-      ->type_name("NAME");
-  app.add_flag("--ignore-mask", arguments.ignore_mask,
-               "pixels under the mask of a .gwy file are heights as the others, not missing");
+  addChannelOption(app, arguments.channel);
+  addMaskOption(app, arguments.ignore_mask);
   app.add_flag("-j,--json", arguments.json, "one JSON object per line instead of YAML documents");
   app.add_option("--curve", arguments.curve,
                  "write force over height, both ways, as CSV: that of the formulation, its height z0 - displacement, "

@@ -71,6 +71,15 @@ class CountResultsTest(unittest.TestCase):
         self.assertEqual((status, lines[-1]), (1, "1 passed, 1 failed, 0 skipped"))
         self.assertIn("    wrong format", lines)
 
+    def test_a_long_output_is_shown_from_both_ends(self):
+        output = self.folder / "output.txt"
+        output.write_text("the cause\n" + "Installing\n" * 500 + "cannot find predict_device\n")
+        self.checks.write_text("failed\tinstallation\t%s\n" % output)
+        lines = self.run_program()[1]
+        self.assertIn("    the cause", lines)
+        self.assertIn("    cannot find predict_device", lines)
+        self.assertLess(len(lines), 60)
+
 
 if __name__ == "__main__":
     unittest.main()

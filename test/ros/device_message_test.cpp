@@ -2,30 +2,16 @@
 
 #include <cmath>
 #include <set>
-#include <sstream>
 #include <string>
 
 #include <gtest/gtest.h>
 
+#include "../support/message_cases.hpp"
 #include "device/device_force_fields.hpp"
 #include "ros/device_force_conversion.hpp"
 
 namespace mems_stiction {
 namespace {
-
-LoadOptions someLoad() {
-  LoadOptions load;
-  load.voltage = 3.0;
-  load.mechanical_load = 2e-6;
-  return load;
-}
-
-/// As ROS prints a value.
-std::string text(double value) {
-  std::ostringstream stream;
-  stream << value;
-  return stream.str();
-}
 
 TEST(DeviceMessage, HoldsEveryFigure) {
   DeviceForce force;
@@ -39,15 +25,11 @@ TEST(DeviceMessage, HoldsEveryFigure) {
   std_msgs::Header header;
   header.frame_id = "stage";
   const DeviceAdhesion message = deviceMessage(force, someLoad(), header);
-  std::ostringstream stream;
-  stream << message;
-  std::set<std::string> lines;
-  std::string line;
-  for (std::istringstream reader(stream.str()); std::getline(reader, line);) lines.insert(line);
+  const std::set<std::string> lines = linesOf(message);
   visitDeviceForceFields(force, [&](const Figure& figure, const auto& value) {
     EXPECT_TRUE(lines.count(std::string(figure.name) + ": " + text(static_cast<double>(value))))
         << figure.name << " in\n"
-        << stream.str();
+        << message;
   });
   EXPECT_EQ(message.status, DeviceAdhesion::FOUND);
   EXPECT_EQ(message.header.frame_id, "stage");
@@ -61,20 +43,10 @@ TEST(DeviceMessage, HoldsEveryFigure) {
 }
 
 TEST(DeviceMessage, HoldsTheVerdict) {
-  Verdict verdict;
-  verdict.sticks = Sticks::kYes;
-  verdict.reason = "margin, 95 %";
-  verdict.restoring_force = 1e-6;
-  verdict.margin = 0.5;
-  verdict.margin_lower = 0.4;
-  verdict.margin_upper = 0.6;
-  verdict.peel_number = 5.0;
-  verdict.peel_number_lower = 4.0;
-  verdict.peel_number_upper = 6.0;
   DeviceAdhesion message = deviceMessage(DeviceForce(), someLoad(), {});
-  fillVerdict(verdict, message);
+  fillVerdict(someVerdict(), message);
   EXPECT_EQ(message.sticks, 2);
-  EXPECT_EQ(message.verdict_reason, "margin; 95 %");
+  EXPECT_EQ(message.verdict_reason, "two; lines; 95 %");
   EXPECT_EQ(message.verdict_by, "prediction");
   EXPECT_EQ((std::vector<double>{message.restoring_force, message.margin, message.margin_lower, message.margin_upper}),
             (std::vector<double>{1e-6, 0.5, 0.4, 0.6}));

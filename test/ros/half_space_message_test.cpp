@@ -3,15 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <sstream>
 #include <string>
 
 #include <gtest/gtest.h>
 
+#include "../support/message_cases.hpp"
 #include "half_space/half_space_fields.hpp"
 #include "ros/half_space_conversion.hpp"
 #include "ros/half_space_pictures.hpp"
 #include "ros/provenance_conversion.hpp"
+#include "ros/verdict_conversion.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -34,19 +35,7 @@ SolvedHalfSpace solvedWithCurve(int points) {
   return solved;
 }
 
-LoadOptions someLoad() {
-  LoadOptions load;
-  load.voltage = 3.0;
-  load.mechanical_load = 2e-6;
-  return load;
-}
-
-/// As ROS prints a value.
-std::string text(double value) {
-  std::ostringstream stream;
-  stream << value;
-  return stream.str();
-}
+using mems_stiction::text;
 std::string text(bool value) { return value ? "1" : "0"; }
 std::string text(int value) { return std::to_string(value); }
 std::string text(HalfSpaceStatus value) { return std::to_string(static_cast<int>(value)); }
@@ -65,14 +54,10 @@ TEST(HalfSpaceMessage, HoldsEveryFieldOfTheRecord) {
   std_msgs::Header header;
   header.frame_id = "stage";
   const HalfSpaceSolution message = halfSpaceMessage(solved, someLoad(), header);
-  std::ostringstream stream;
-  stream << message;
-  std::set<std::string> lines;
-  std::string line;
-  for (std::istringstream reader(stream.str()); std::getline(reader, line);) lines.insert(line);
+  const std::set<std::string> lines = linesOf(message);
   int visited = 0;
   visitHalfSpaceFields(solved, [&](const Figure& figure, const auto& value) {
-    EXPECT_TRUE(lines.count(std::string(figure.name) + ": " + text(value))) << figure.name << " in\n" << stream.str();
+    EXPECT_TRUE(lines.count(std::string(figure.name) + ": " + text(value))) << figure.name << " in\n" << message;
     ++visited;
   });
   EXPECT_EQ(visited, 12);
@@ -92,23 +77,15 @@ TEST(HalfSpaceMessage, HoldsEveryFieldOfTheRecord) {
 }
 
 TEST(HalfSpaceMessage, HoldsTheVerdictWithWhoJudged) {
-  Verdict verdict;
-  verdict.sticks = Sticks::kYes;
+  Verdict verdict = someVerdict();
   verdict.judge = Judge::kHalfSpace;
-  verdict.reason = "by the half-space:\nmargin, 95 %";
-  verdict.margin = 0.5;
-  verdict.margin_lower = 0.4;
-  verdict.margin_upper = 0.6;
-  verdict.peel_number = 5.0;
-  verdict.peel_number_lower = 4.0;
-  verdict.peel_number_upper = 6.0;
   HalfSpaceSolution message = halfSpaceMessage(solvedWithCurve(10), someLoad(), {});
   EXPECT_EQ(message.sticks, 3);
   EXPECT_EQ(message.verdict_reason + message.verdict_by, "");
   EXPECT_TRUE(std::isnan(message.margin) && std::isnan(message.peel_number_upper));
   fillVerdict(verdict, message);
   EXPECT_EQ(message.sticks, 2);
-  EXPECT_EQ(message.verdict_reason, "by the half-space:; margin; 95 %");  // commas would be fields for rostopic echo -p
+  EXPECT_EQ(message.verdict_reason, "two; lines; 95 %");  // commas would be fields for rostopic echo -p
   EXPECT_EQ(message.verdict_by, "half_space");
   EXPECT_EQ((std::vector<double>{message.margin, message.margin_lower, message.margin_upper}),
             (std::vector<double>{0.5, 0.4, 0.6}));
