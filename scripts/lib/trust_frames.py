@@ -132,6 +132,29 @@ def draw(number, pixels, scans, seed=SEED):
     return frame, heights.astype(np.float32)
 
 
+def draw_of_process(number, pixels, seed):
+    """As draw(), of the kinds that processes make (trust_kinds), in turn."""
+    import trust_kinds  # which takes its spectra from here
+
+    random = np.random.default_rng([seed, number])
+    kind = trust_kinds.KINDS[number % len(trust_kinds.KINDS)]
+    while True:
+        modulus, work = log_uniform(random, 2e9, 200e9), log_uniform(random, 0.01, 0.12)
+        hamaker = log_uniform(random, 40e-21, 150e-21)
+        length, rms = log_uniform(random, 15e-9, 200e-9), log_uniform(random, 0.1e-9, 10e-9)
+        longest = min(length / 8, cohesive_length(modulus, work, hamaker) / 2)
+        shortest = max(3 * length / pixels, LEAST_PITCH)
+        if length / 500 < rms < length / 8 and shortest < longest:
+            break
+    pitch = log_uniform(random, shortest, longest)
+    heights = rms * trust_kinds.surface(kind, pixels, pitch, length, random)
+    pressure = log_uniform(random, 1e5, 1e8) if random.random() < 1 / LOAD_EVERY else 0.0
+    frame = {"number": number, "pixels": pixels, "kind": kind, "pitch": pitch, "length": length, "rms": rms, "hurst": None,
+             "modulus": modulus, "work": work, "hamaker": hamaker, "pressure": pressure,
+             "cohesive_length": cohesive_length(modulus, work, hamaker)}
+    return frame, heights.astype(np.float32)
+
+
 def configuration(frame, formulation):
     """As YAML: equal bodies with this contact modulus; they flow only where the frame has a hardness."""
     body = "{youngs_modulus: %r, poisson_ratio: %r, hardness: %r}" % (

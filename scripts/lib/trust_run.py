@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Solves and predicts the frames of the error map; scripts/trust calls it.
 
-usage: trust_run.py FOLDER COUNT [--pixels N] [--seed N] [--scans FOLDER] [--limit S]
+usage: trust_run.py FOLDER COUNT [--kinds] [--pixels N] [--seed N] [--scans FOLDER] [--limit S]
 
 FOLDER/half_space.jsonl has a line per solved frame and is gone on with: it is the part that takes long and does not depend on
 the formulations. FOLDER/predictions.jsonl is written anew. Progress goes to the standard error.
@@ -76,12 +76,18 @@ def chosen(record, names):
     return {name: record.get(name) for name in names}
 
 
+def drawn(number, arguments, scans):
+    if arguments.kinds:
+        return trust_frames.draw_of_process(number, arguments.pixels, arguments.seed)
+    return trust_frames.draw(number, arguments.pixels, scans, arguments.seed)
+
+
 def solve(arguments, scans):
     path = arguments.folder / "half_space.jsonl"
     solved = {line["frame"]["number"]: line for line in lines_of(path)}
     with open(path, "a") as file:
         for number in range(arguments.count):
-            frame, heights = trust_frames.draw(number, arguments.pixels, scans, arguments.seed)
+            frame, heights = drawn(number, arguments, scans)
             if number in solved:
                 if solved[number]["frame"] != json.loads(json.dumps(frame)):
                     sys.exit("%s holds other frames than these: give another --output, or the same scans, pixels and seed" % path)
@@ -98,6 +104,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("count", type=int)
+    parser.add_argument("--kinds", action="store_true", help="of the surfaces that processes make, in place of the map's")
     parser.add_argument("--pixels", type=int, default=128)
     parser.add_argument("--seed", type=int, default=trust_frames.SEED, help="of the frames; another one draws frames that no rule was set on")
     parser.add_argument("--scans", help="folder of imported scans")
@@ -110,7 +117,7 @@ def main():
     with open(arguments.folder / "predictions.jsonl", "w") as file:
         for line in solved:
             if line["half_space"]["status"] == "SOLVED":
-                frame, heights = trust_frames.draw(line["frame"]["number"], arguments.pixels, scans, arguments.seed)
+                frame, heights = drawn(line["frame"]["number"], arguments, scans)
                 line["rigid"] = trust_frames.rigid_pull_off(heights, frame)
                 for formulation in FORMULATIONS:
                     prediction = mems_stiction.predict(heights, frame["pitch"], settings_of(frame, formulation))

@@ -1,0 +1,136 @@
+"""Surfaces as processes make them, for the error map: polished, ground, etched, coated, worn.
+
+Each is drawn by a generator of random numbers alone and is periodic; heights have the rms 1, `length` is the lateral scale of the process [m].
+"""
+
+import numpy as np
+import scipy.ndimage
+import trust_frames
+from device_surfaces import gaussian_spectrum, grain_surface, grooved_surface
+
+
+def gaussian(pixels, pitch, length, random):
+    return trust_frames.spectrum_surface(pixels, pitch, gaussian_spectrum(length), random)
+
+
+def fine(pixels, pitch, length, random):
+    """Roughness on top of something larger."""
+    return gaussian(pixels, pitch, max(length / 5, 3 * pitch), random)
+
+
+def distances(pixels, row, col):
+    """Of each pixel from a place, around the edges [pixels]: along the rows, along the columns."""
+    index = np.arange(pixels)
+    along = [(index - place + pixels / 2) % pixels - pixels / 2 for place in (row, col)]
+    return along[0][:, None], along[1][None, :]
+
+
+def features(pixels, pitch, length, random, coverage):
+    """Rows, columns and radii [pixels] of features that cover so much of the frame."""
+    radii = []
+    while len(radii) < 500 and np.pi * np.sum(np.square(radii)) < coverage * pixels ** 2:
+        radii.append(random.uniform(0.3, 0.8) * length / pitch)
+    return [(random.uniform(0, pixels), random.uniform(0, pixels), radius) for radius in radii]
+
+
+def gaussian_or_affine(pixels, pitch, length, random):
+    if random.random() < 0.5:
+        return gaussian(pixels, pitch, length, random)
+    return trust_frames.spectrum_surface(pixels, pitch, trust_frames.self_affine(length, pitch, random.uniform(0.5, 0.9)), random)
+
+
+def polished(pixels, pitch, length, random):
+    """Tops are worn down and rounded off, valleys stay."""
+    heights, level = gaussian(pixels, pitch, length, random), random.uniform(-0.7, 0.7)
+    return -np.logaddexp(0, -(heights - level) * random.uniform(3, 10)) + random.uniform(0, 0.05) * fine(pixels, pitch, length, random)
+
+
+def lapped(pixels, pitch, length, random):
+    """Tops are cut off, and have fine roughness of their own."""
+    heights, level = gaussian(pixels, pitch, length, random), random.uniform(-0.5, 1.0)
+    return np.minimum(heights, level) + random.uniform(0.01, 0.1) * fine(pixels, pitch, length, random)
+
+
+def ground(pixels, pitch, length, random):
+    return grooved_surface(pixels, pitch, length / 2, random.uniform(1.5, 4), random)
+
+
+def islands(pixels, pitch, length, random):
+    """Of one height on a film, with fine roughness."""
+    steep = random.uniform(3, 8)
+    return np.tanh(steep * (gaussian(pixels, pitch, length, random) - random.uniform(0, 1))) + random.uniform(0.02, 0.2) * fine(pixels, pitch, length, random)
+
+
+def long_tailed(pixels, pitch, length, random):
+    """Heights of a log-normal distribution."""
+    return np.exp(random.uniform(0.5, 1.2) * gaussian(pixels, pitch, length, random))
+
+
+def scratched(pixels, pitch, length, random):
+    """Scratches with ridges beside them, along whole rows so that the frame repeats itself."""
+    heights = random.uniform(0.1, 0.4) * gaussian(pixels, pitch, length, random)
+    for _ in range(random.integers(1, 6)):
+        across = distances(pixels, random.uniform(0, pixels), 0)[0] * pitch / (random.uniform(0.15, 0.5) * length)
+        heights = heights - random.uniform(0.5, 2) * (1 - across ** 2) * np.exp(-across ** 2 / 2) * np.ones((1, pixels))
+    return heights
+
+
+def bumps(pixels, pitch, length, random):
+    """Dimples that stand out, with fine roughness."""
+    heights = np.zeros((pixels, pixels))
+    for row, col, radius in features(pixels, pitch, length, random, random.uniform(0.1, 0.4)):
+        rows, cols = distances(pixels, row, col)
+        heights = np.maximum(heights, np.sqrt(np.maximum(0, 1 - (rows ** 2 + cols ** 2) / radius ** 2)) * random.uniform(0.9, 1.1))
+    return heights + random.uniform(0.01, 0.1) * fine(pixels, pitch, length, random)
+
+
+def grains(pixels, pitch, length, random):
+    return grain_surface(pixels, pitch, max(length, pixels * pitch / 20), random)
+
+
+def steps(pixels, pitch, length, random):
+    """Terraces one atom apart, with little roughness."""
+    return np.round(random.uniform(1, 2.5) * gaussian(pixels, pitch, length, random)) + random.uniform(0.03, 0.2) * fine(pixels, pitch, length, random)
+
+
+def pitted(pixels, pitch, length, random):
+    heights = random.uniform(0.05, 0.3) * gaussian(pixels, pitch, length, random)
+    for row, col, radius in features(pixels, pitch, length, random, random.uniform(0.05, 0.4)):
+        rows, cols = distances(pixels, row, col)
+        heights = heights - random.uniform(0.5, 2) * np.exp(-(rows ** 2 + cols ** 2) / radius ** 2)
+    return heights
+
+
+def with_particles(pixels, pitch, length, random):
+    """Spherical caps on a rough surface."""
+    heights = random.uniform(0.1, 0.5) * gaussian(pixels, pitch, length, random)
+    for row, col, radius in features(pixels, pitch, length, random, random.uniform(0.005, 0.05))[:20]:
+        rows, cols = distances(pixels, row, col)
+        heights = heights + random.uniform(0.5, 2) * np.sqrt(np.maximum(0, 1 - (rows ** 2 + cols ** 2) / radius ** 2))
+    return heights
+
+
+def two_processes(pixels, pitch, length, random):
+    """Honed: what a fine process left of the tops of a coarse one."""
+    plateau = random.uniform(0.03, 0.2) * fine(pixels, pitch, length, random)
+    return np.minimum(plateau, gaussian(pixels, pitch, length, random) + random.uniform(0.3, 1.5))
+
+
+def sawn(pixels, pitch, length, random):
+    """Wire-sawn or printed: lines with roughness."""
+    count = max(1, round(pixels * pitch / (4 * length)))
+    lines = np.sin(2 * np.pi * count * np.arange(pixels) / pixels + random.uniform(0, 2 * np.pi))[:, None]
+    return lines * np.ones((1, pixels)) + random.uniform(0.1, 0.5) * gaussian(pixels, pitch, length, random)
+
+
+DRAWS = {"Gaussian, self-affine": gaussian_or_affine, "polished": polished, "lapped": lapped, "ground": ground, "islands": islands,
+         "long-tailed": long_tailed, "scratched": scratched, "bumps": bumps, "grains": grains, "steps": steps, "pitted": pitted,
+         "particles": with_particles, "two processes": two_processes, "sawn": sawn}
+KINDS = tuple(DRAWS)
+
+
+def surface(kind, pixels, pitch, length, random):
+    """Periodic heights of this kind, their rms 1."""
+    heights = DRAWS[kind](pixels, pitch, length, random)
+    heights = scipy.ndimage.gaussian_filter(heights, 1.0, mode="wrap")  # what an instrument's point rounds off
+    return (heights - heights.mean()) / heights.std()
