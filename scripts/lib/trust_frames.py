@@ -85,6 +85,7 @@ def cohesive_length(modulus, work, hamaker):
 
 
 SEED = 20  # of the map
+SEED_OF_PROCESSES = 7  # of the page that judges
 
 
 def draw(number, pixels, scans, seed=SEED):

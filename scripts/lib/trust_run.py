@@ -106,10 +106,12 @@ def main():
     parser.add_argument("count", type=int)
     parser.add_argument("--kinds", action="store_true", help="of the surfaces that processes make, in place of the map's")
     parser.add_argument("--pixels", type=int, default=128)
-    parser.add_argument("--seed", type=int, default=trust_frames.SEED, help="of the frames; another one draws frames that no rule was set on")
+    parser.add_argument("--seed", type=int, help="of the frames; another one draws frames that no rule was set on")
     parser.add_argument("--scans", help="folder of imported scans")
     parser.add_argument("--limit", type=float, default=90.0, help="seconds that one half-space may take")
     arguments = parser.parse_args()
+    if arguments.seed is None:
+        arguments.seed = trust_frames.SEED_OF_PROCESSES if arguments.kinds else trust_frames.SEED
     warnings.simplefilter("ignore", mems_stiction.ScanWarning)  # of heights that are as drawn
     scans = trust_frames.Scans(arguments.scans)
     arguments.folder.mkdir(parents=True, exist_ok=True)

@@ -105,7 +105,8 @@ void ContactCurve::part() {
   by_contacts_.work = curve.work / frame_.area();
   by_contacts_.work_exponents = exponents.work;
   by_contacts_.curve.clear();
-  if (!has_way_out_ && !has_voltage_) return;
+  const bool has_edges = curve.states[curve.strongest].edge_share < 1.0 - chosen::kAccuracy;
+  if (!has_way_out_ && !has_voltage_ && !has_edges) return;
   for (auto state = curve.states.rbegin(); state != curve.states.rend(); ++state) {
     by_contacts_.curve.push_back({state->approach, state->partingForce(), true});
   }

@@ -40,6 +40,11 @@ class ContactCurve {
   const FrameSums& frame() const { return frame_; }
   const SeparationCurve& wayIn() const { return way_in_; }
   const SeparationState& rest() const { return way_in_.rest(); }
+  /// Share of the area that is in contact or within z0 of it at rest [-].
+  double joinedShare() {
+    return static_cast<double>(frame_.inReachAt(rest().approach, 0.0).cellCount()) /
+           static_cast<double>(frame_.validCount());
+  }
   /// At rest, in the order of the sweep's patches there.
   const std::vector<Contact>& contacts() const { return contacts_; }
   /// Mean gap of the cells apart at rest [m]; 0 when every cell touches.

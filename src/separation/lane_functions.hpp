@@ -45,7 +45,7 @@ MEMS_STICTION_INLINE Lanes squareRoot(const Lanes& x) {
 MEMS_STICTION_INLINE double squareRoot(double x) { return std::sqrt(x); }
 
 /// 2^(exponent log2 x) with a relative error below 1e-8 for x in [1e-300, 1e300] and results in [1e-300, 1e300].
-MEMS_STICTION_INLINE Lanes power(const Lanes& x, double exponent) {
+MEMS_STICTION_INLINE Lanes power(const Lanes& x, const Lanes& exponent) {
   constexpr std::int64_t kMantissa = (std::int64_t{1} << 52) - 1;
   constexpr std::int64_t kBias = 1023;
   constexpr double kTwoTo52 = 4503599627370496.0;
@@ -75,6 +75,7 @@ MEMS_STICTION_INLINE Lanes power(const Lanes& x, double exponent) {
   return exponential * lanesOf(LaneMask((bitsOf(shifted).bits() + kBias) << 52));
 }
 
+MEMS_STICTION_INLINE Lanes power(const Lanes& x, double exponent) { return power(x, Lanes(exponent)); }
 MEMS_STICTION_INLINE double power(double x, double exponent) { return std::pow(x, exponent); }
 
 }  // namespace mems_stiction

@@ -18,6 +18,8 @@ constexpr double kFlowOnset = 1.0 / 3.0;
 constexpr double kGrowthOfCone = 2.0;
 /// lambda over Tabor's parameter, (S8): Maugis' stress is the law's mean one, by the work that it does, 0.548 Gamma/z0.
 const double kMaugisPerTabor = std::cbrt(9.0 / (2.0 * kPi)) * 64.0 / 9.0 * (1.0 / 5.0 - 2.0 / 11.0 + 1.0 / 17.0);
+/// Overlap of a patch that round-off has left none [m].
+constexpr double kLeastDepth = std::numeric_limits<double>::min();
 /// lambda^1.4 of lambda^3
 constexpr double kPowerOfCube = 1.4 / 3.0;
 
@@ -64,6 +66,18 @@ MEMS_STICTION_INLINE Lanes flowedFullness(const Lanes& fullness) {
   return root * root;
 }
 
+/// 1 - m of a top whose area grows as A ~ delta^m with the depth: 0 of a paraboloid and of all that is sharper, 1 of a punch.
+/// - @p depth of its deepest cell [m]
+/// - @p mean_depth V/A [m], depth/(m + 1)
+MEMS_STICTION_INLINE Lanes flatnessOf(const Lanes& cells, const Lanes& depth, const Lanes& mean_depth) {
+  // the summit lies half a cell's share of the depth above the deepest cell
+  const Lanes growth = depth / mean_depth * cells / (cells - 0.5) - 1.0;
+  // n cells tell m within 1/sqrt(n), one cell nothing: what may be a paraboloid is one
+  const Lanes blur = select(cells > 1.5, 1.0 / squareRoot(cells), Lanes(0.5));
+  const Lanes flatness = greater((1.0 - growth - blur) / (1.0 - blur), Lanes(0.0));
+  return select(flatness < 1.0, flatness, Lanes(1.0));
+}
+
 }  // namespace
 
 PatchForces::PatchForces(const ContactSettings& settings, double cell_area, bool flows)
@@ -74,6 +88,10 @@ PatchForces::PatchForces(const ContactSettings& settings, double cell_area, bool
   hardness_ = can_flow ? pair.hardness : std::numeric_limits<double>::infinity();
   load_factor_ = 0.6 * contact_modulus_ * std::sqrt(kPi * cell_area);
   const double strain = law_.workOfAdhesion() / (contact_modulus_ * law_.range());
+  // a flat punch of this radius, sqrt(8 pi E Gamma a^3), holds what the strength s of the law does, pi a^2 s
+  flaw_length_ = law_.attracts()
+                     ? 8.0 / kPi * contact_modulus_ * law_.workOfAdhesion() / (law_.strength() * law_.strength())
+                     : std::numeric_limits<double>::infinity();
   maugis_factor_ = kMaugisPerTabor * kMaugisPerTabor * kMaugisPerTabor * strain * strain / law_.range();
 }
 
@@ -82,7 +100,7 @@ MEMS_STICTION_INLINE PatchForces::Loads PatchForces::loadsOf(const Lanes& cells,
   const Lanes area = cells * cell_area_;
   const Lanes load_term = merged_term + volumeTerm(cells, gap_sum, approach);
   // round-off may leave no depth
-  const Lanes depth = greater(approach - gap_sum / cells, Lanes(std::numeric_limits<double>::min()));
+  const Lanes depth = greater(approach - gap_sum / cells, Lanes(kLeastDepth));
   Loads loads;
   loads.elastic = area * law_.pressureInSeries(load_factor_ * load_term / area, depth);
   loads.carried = loads.elastic;
@@ -152,30 +170,42 @@ MEMS_STICTION_VECTORIZED void PatchForces::addReach(const OverlapSweep& in_reach
   Lanes soft = 0.0;
   Lanes losses = 0.0;
   Lanes losses_alone = 0.0;
+  Lanes edge_losses = 0.0;
+  Lanes edge_slopes = 0.0;
   PatchBlock block;
   for (std::size_t place = 0; place < in_reach.livePatches().size(); place += PatchBlock::kMost) {
     block.gather(in_reach, place);
     for (std::size_t i = 0; i < block.count; i += Lanes::kCount) {
       const Lanes cells = Lanes::load(block.cells + i);
-      const Lanes depth = reach - Lanes::load(block.gap_sum + i) / cells + law_.strongestGap();
+      const Lanes first_gap = Lanes::load(block.first_gap + i);
+      const Lanes overlap = greater(reach - Lanes::load(block.gap_sum + i) / cells, Lanes(kLeastDepth));
+      const Lanes depth = overlap + law_.strongestGap();
       const Lanes radius = cells * cell_area_ / (4.0 * kPi * depth);
-      const Lanes distance = greater(Lanes::load(block.first_gap + i) - approach, Lanes(0.0));
+      const Lanes distance = greater(first_gap - approach, Lanes(0.0));
       const Lanes weight = Lanes::load(block.weight + i) * radius * law_.energy(distance);
       const Lanes summits = Lanes::load(block.summits + i);
       const Lanes cube = maugis_factor_ * radius / summits;
       const Lanes bend = power(cube, kPowerOfCube);
       const Lanes loss = 1.0 - 0.5 * maugis::fittedPullOffPrefactorOfPower(bend);
       const Lanes lost = weight * loss / summits;
+      const Lanes flatness = flatnessOf(cells, reach - first_gap, overlap);
       weights += weight;
-      soft += weight * power(cube, 1.0 / 3.0) / kMaugisPerTabor;
+      soft += weight * (1.0 - flatness) * power(cube, 1.0 / 3.0) / kMaugisPerTabor;
       losses += lost;
       losses_alone += lost * weight;
+      const Lanes exponent = 0.5 * flatness;
+      const Lanes size = squareRoot(cells * (cell_area_ / kPi)) / flaw_length_;
+      const Lanes left = weight * power(1.0 + size, -1.0 * exponent);
+      edge_losses += weight - left;
+      edge_slopes += left * exponent * size / (1.0 + size);
     }
   }
   sums.weight += weights.sum();
   sums.soft += soft.sum();
   sums.loss += losses.sum();
   sums.loss_alone += losses_alone.sum();
+  sums.edge_loss += edge_losses.sum();
+  sums.edge_slope += edge_slopes.sum();
 }
 
 }  // namespace mems_stiction

@@ -1,8 +1,8 @@
 #pragma once
 
 /// @file
-/// What patches carry, one and all, and what the bending of their summits takes from the attraction: equations (S4) to
-/// (S8b) of doc/separation_curve.md. Sums over the patches of a sweep take four at a time.
+/// What patches carry, one and all, and what the bending of their summits and their edges take from the attraction:
+/// equations (S4) to (S8c) of doc/separation_curve.md. Sums over the patches of a sweep take four at a time.
 
 #include <vector>
 
@@ -39,7 +39,7 @@ class PatchForces {
   void addContacts(const OverlapSweep& contacts, double approach, PlaceSums& sums) const;
   /// c of a summit of radius R [m]: its pull-off force is c pi Gamma R [-], between DMT (2) and JKR (1.5).
   double pullOffPrefactor(double radius) const;
-  /// Adds the sums of (S7).
+  /// Adds the sums of (S7) and (S8c).
   /// - @p in_reach the patches of the surfaces brought z0 closer, or more
   void addReach(const OverlapSweep& in_reach, double approach, PlaceSums& sums) const;
 
@@ -58,6 +58,7 @@ class PatchForces {
   double hardness_;
   double load_factor_;    ///< 0.6 E sqrt(pi dA) [N/m]
   double maugis_factor_;  ///< lambda^3 per R [1/m]
+  double flaw_length_;    ///< a0, (S8c) [m]
 };
 
 }  // namespace mems_stiction

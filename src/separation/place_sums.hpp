@@ -23,6 +23,9 @@ struct PlaceSums {
   double soft = 0.0;        ///< V mu
   double loss = 0.0;        ///< V (1 - c(mu)/2)/sqrt(n)
   double loss_alone = 0.0;  ///< V times that [N^2]
+  // over the same, (S8c)
+  double edge_loss = 0.0;   ///< V times what edges take
+  double edge_slope = 0.0;  ///< V times what they leave, and its exponent of the modulus
 
   PlaceSums& operator+=(const PlaceSums& other) {
     contact_count += other.contact_count;
@@ -35,6 +38,8 @@ struct PlaceSums {
     soft += other.soft;
     loss += other.loss;
     loss_alone += other.loss_alone;
+    edge_loss += other.edge_loss;
+    edge_slope += other.edge_slope;
     return *this;
   }
 

@@ -41,8 +41,22 @@ SeparationState stateAt(FrameSums& frame, double approach, const Way& way, doubl
   state.carried = sums.carried;
   state.electrostatic = sums.electrostatic;
   state.capillary = sums.capillary;
+  state.is_in_reach = sums.weight > 0.0;
+  if (state.is_in_reach) {
+    state.edge_share = 1.0 - sums.edge_loss / sums.weight;
+    state.edge_slope = sums.edge_slope / (sums.weight * state.edge_share);
+  }
   state.adhesion = bendingFactor(sums) * std::max(sums.adhesion - sums.opened, 0.0);
   return state;
+}
+
+/// Gives states that are too far apart for any patch the edges of the first one that is not.
+void spreadEdges(std::vector<SeparationState>& states) {
+  for (std::size_t i = states.size() - 1; i-- > 0;) {
+    if (states[i].is_in_reach) continue;
+    states[i].edge_share = states[i + 1].edge_share;
+    states[i].edge_slope = states[i + 1].edge_slope;
+  }
 }
 
 /// The vertex of the parabola through three points of the curve, if it lies between them; else the middle one.
@@ -89,7 +103,7 @@ void takeWork(const FrameSums& frame, double work_apart, SeparationCurve& curve)
     const SeparationState& to = curve.states[i];
     const double length = to.approach - from.approach;
     curve.elastic_energy += 0.5 * (from.carried + to.carried) * length;
-    curve.work += positivePart(from.partingForce(), to.partingForce(), length);
+    curve.work += positivePart(from.givenForce(), to.givenForce(), length);
     adhesion += 0.5 * (from.adhesion + to.adhesion) * length;
   }
   curve.work -= std::max(0.0, adhesion - mostAdhesion(frame));
@@ -106,15 +120,14 @@ Exponents exponentsOf(double figure, double adhesion, double hamaker_exponent, d
 /// Steps before first touch. What is left of the work where they begin is that of bodies which do not bend: bending takes a
 /// quarter at most of the (4/3) Gamma (z0/(z0 - D))^2 that flat surfaces have left there.
 int stepsApart() {
-  static const int steps = static_cast<int>(
-      std::ceil(std::log(1.0 / (3.0 * chosen::kAccuracy)) / (2.0 * std::log(1.0 + 2.0 * chosen::kStep))));
+  static const int steps =
+      static_cast<int>(std::ceil(std::log(1.0 / (3.0 * chosen::kAccuracy)) / (2.0 * std::log(1.0 + chosen::kStep))));
   return steps;
 }
 
-/// Approach after some steps from first touch, below 0 before it. |D| + z0 grows by the same share each time, before first
-/// touch, where the force changes less, by twice that.
+/// Approach after some steps from first touch, below 0 before it. |D| + z0 grows by the same share each time.
 double approachAfter(int steps, double range) {
-  if (steps < 0) return range * (1.0 - std::pow(1.0 + 2.0 * chosen::kStep, -steps));
+  if (steps < 0) return range * (1.0 - std::pow(1.0 + chosen::kStep, -steps));
   return range * (std::pow(1.0 + chosen::kStep, steps) - 1.0);
 }
 
@@ -160,7 +173,7 @@ void settle(FrameSums& frame, double load, SeparationCurve& curve) {
 }  // namespace
 
 std::vector<SeparationState>::const_iterator SeparationCurve::firstPushing() const {
-  return std::find_if(states.begin(), states.end(), [](const auto& state) { return state.partingForce() < 0.0; });
+  return std::find_if(states.begin(), states.end(), [](const auto& state) { return state.givenForce() < 0.0; });
 }
 
 void followCurve(FrameSums& frame, const ContactSettings& settings, SeparationCurve& curve) {
@@ -188,6 +201,7 @@ void followCurve(FrameSums& frame, const ContactSettings& settings, SeparationCu
     }
   }
   if (curve.status == Status::kEquilibrium) settle(frame, load, curve);
+  spreadEdges(curve.states);
   takeMaximum(curve.states, curve);
   takeWork(frame, work_apart, curve);
 }
@@ -208,6 +222,7 @@ void followWayOut(FrameSums& frame, double first_touch, const Way& way, Separati
     curve.states.push_back(stateAt(frame, std::min(approach, way.rest), way));
   } while (curve.states.back().approach < way.rest);
   const double work_apart = frame.energy(curve.states.front().approach);
+  spreadEdges(curve.states);
   takeMaximum(curve.states, curve);
   takeWork(frame, work_apart, curve);
 }
@@ -221,16 +236,23 @@ CurveExponents exponentsOf(FrameSums& frame, const SeparationCurve& curve) {
   for (std::size_t i = 1; i < curve.states.size(); ++i) {
     const SeparationState& from = curve.states[i - 1];
     const SeparationState& to = curve.states[i];
-    if (!(from.partingForce() + to.partingForce() > 0.0)) continue;  // a step that pushes more than it pulls
+    if (!(from.givenForce() + to.givenForce() > 0.0)) continue;  // a step that pushes more than it pulls
     const double length = to.approach - from.approach;
     adhesion += 0.5 * (from.adhesion + to.adhesion) * length;
     carried += 0.5 * (from.carried + to.carried) * length;
     last = &to;
   }
   adhesion = std::min(adhesion, mostAdhesion(frame));
-  return {exponentsOf(curve.pull_off_force, strongest.adhesion,
-                      frame.hamakerExponentOfForce(strongest.approach, strongest.hold), strongest.carried),
-          exponentsOf(curve.work, adhesion, frame.hamakerExponentOfEnergy(last->approach), carried)};
+  const double held = strongest.edge_share * strongest.adhesion;
+  Exponents pull_off = exponentsOf(curve.pull_off_force, held,
+                                   frame.hamakerExponentOfForce(strongest.approach, strongest.hold), strongest.carried);
+  if (curve.pull_off_force > 0.0) {  // a0 goes with E z0^2/Gamma, E H/Gamma^2
+    const double by_edges = strongest.edge_slope * held / curve.pull_off_force;
+    pull_off.adhesion -= 2.0 * by_edges;
+    pull_off.modulus += by_edges;
+    pull_off.hamaker += by_edges;
+  }
+  return {pull_off, exponentsOf(curve.work, adhesion, frame.hamakerExponentOfEnergy(last->approach), carried)};
 }
 
 }  // namespace mems_stiction

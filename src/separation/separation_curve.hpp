@@ -7,7 +7,8 @@
 ///
 /// D is the displacement of the upper surface past first touch, below zero apart. F > 0 attracts. P_i is what a patch
 /// carries, O what contacts have opened of the gap around them (S8b), s what the bodies' bending leaves of the attraction
-/// (S7). On the way out soft summits hold until they are drawn out by b (S8a); on the way in b is 0.
+/// (S7). On the way out soft summits hold until they are drawn out by b (S8a), and flat tops let go from their edges (S8c);
+/// on the way in neither counts.
 
 #include <vector>
 
@@ -26,10 +27,16 @@ struct SeparationState {
   double carried = 0.0;          ///< by all patches
   double tabor_parameter = 0.0;  ///< of the summits in reach [-]
   double hold = 0.0;             ///< b, how far beyond its place apart a summit still holds [m]
+  double edge_share = 1.0;       ///< what the edges of flat tops leave of the attraction's force, (S8c) [-]
+  double edge_slope = 0.0;       ///< d ln(edge_share)/d ln E [-]
+  bool is_in_reach = false;      ///< whether any patch is: further apart edges are those of the first state that is
 
   double force() const { return adhesion + electrostatic + capillary - carried; }
-  /// The same when the loads that brought the surfaces together, voltage too, have been taken away.
-  double partingForce() const { return adhesion + capillary - carried; }
+  /// The same when the loads that brought the surfaces together, voltage too, have been taken away: what bodies give that
+  /// are drawn apart, whatever the way takes. Its integral is the work.
+  double givenForce() const { return adhesion + capillary - carried; }
+  /// What it takes to draw them apart: edges let go at less, and over a longer way.
+  double partingForce() const { return edge_share * adhesion + capillary - carried; }
 };
 
 /// On which way the surfaces are.

@@ -14,6 +14,7 @@ namespace mems_stiction {
 void SeparationSolver::solve(const ContactProblem& problem, ContactSolution& solution) {
   solution.clear();
   curve_.comeToRest(problem.gap, problem.settings);
+  const double joined_share = curve_.joinedShare();
   curve_.appendWayIn(solution.curve);
   const FrameSums& frame = curve_.frame();
   solution.steps = static_cast<int>(curve_.wayIn().states.size());
@@ -23,9 +24,9 @@ void SeparationSolver::solve(const ContactProblem& problem, ContactSolution& sol
   fillMaps(problem, solution);
   curve_.part();
   conforming_.start(problem.gap, frame.law(), frame.patchForces().contactModulus(), solution.flattening_energy);
-  const std::optional<WayOut> conforming =
-      conformingWayOut(curve_.byContacts(), conforming_, solution.flattening_energy / frame.law().workOfAdhesion(),
-                       problem.settings.load.mechanical_load / frame.area());
+  const std::optional<WayOut> conforming = conformingWayOut(curve_.byContacts(), joined_share, conforming_,
+                                                            solution.flattening_energy / frame.law().workOfAdhesion(),
+                                                            problem.settings.load.mechanical_load / frame.area());
   takeWayOut(conforming ? *conforming : curve_.byContacts(), solution);
   listPullOffContacts(problem, solution);
   solution.model = statement_.of(solution, problem.settings.interface.work_of_adhesion);

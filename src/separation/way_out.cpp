@@ -8,10 +8,11 @@
 
 namespace mems_stiction {
 
-std::optional<WayOut> conformingWayOut(const WayOut& by_contacts, ConformingContact& bonded, double flattening_ratio,
-                                       double pressure) {
-  const bool conforms = flattening_ratio < chosen::kConformingRatio && bonded.work() > 0.0;
-  if (!conforms) return std::nullopt;
+std::optional<WayOut> conformingWayOut(const WayOut& by_contacts, double joined_share, ConformingContact& bonded,
+                                       double flattening_ratio, double pressure) {
+  // bonded by its energy is not yet bonded by its way: tall summits keep the rest apart
+  const bool comes_near = joined_share > chosen::kJoinedShare;
+  if (!comes_near || !(flattening_ratio < chosen::kConformingRatio) || !(bonded.work() > 0.0)) return std::nullopt;
   if (bonded.hasOpenValleys(pressure)) return bonded.fromOpenValleys(pressure);
   // contacts with the work of bonded surfaces would hold the force in proportion
   return bonded.asAWhole(pressure, by_contacts.force * std::max(1.0, bonded.work() / by_contacts.work));

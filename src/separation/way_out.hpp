@@ -34,9 +34,10 @@ class ConformingContact;
 /// The decision: the way out of surfaces that conform, or none if they part by contacts.
 /// - @p by_contacts the candidate of the patches
 /// - @p bonded makes the candidates of surfaces that conform
+/// - @p joined_share ContactCurve::joinedShare() of the way in [-]
 /// - @p flattening_ratio U/(A Gamma) [-], may be infinite or NaN
 /// - @p pressure of the load that holds the surfaces together [Pa], >= 0
-std::optional<WayOut> conformingWayOut(const WayOut& by_contacts, ConformingContact& bonded, double flattening_ratio,
-                                       double pressure);
+std::optional<WayOut> conformingWayOut(const WayOut& by_contacts, double joined_share, ConformingContact& bonded,
+                                       double flattening_ratio, double pressure);
 
 }  // namespace mems_stiction

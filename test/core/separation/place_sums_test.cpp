@@ -45,7 +45,7 @@ void expectEqual(const PlaceSums& a, const PlaceSums& b, double relative) {
   EXPECT_EQ(a.contact_count, b.contact_count);
   for (double PlaceSums::*sum :
        {&PlaceSums::adhesion, &PlaceSums::electrostatic, &PlaceSums::carried, &PlaceSums::opened, &PlaceSums::weight,
-        &PlaceSums::soft, &PlaceSums::loss, &PlaceSums::loss_alone}) {
+        &PlaceSums::soft, &PlaceSums::loss, &PlaceSums::loss_alone, &PlaceSums::edge_loss, &PlaceSums::edge_slope}) {
     EXPECT_NEAR(a.*sum, b.*sum, relative * std::abs(b.*sum));
   }
   // far from contact, cells that water fills are counted by the bucket

@@ -111,6 +111,58 @@ TEST(Shoulders, thatAContactHasOpenedDoNotAttract) {
   EXPECT_NEAR(ratios.pull_off, 1.0, 0.08);
 }
 
+/// Height of 200 nm over everything around.
+HeightMap punch(double radius, int pixels, double pitch) {
+  cv::Mat1d heights(pixels, pixels, -200e-9);
+  for (int row = 0; row < pixels; ++row) {
+    for (int col = 0; col < pixels; ++col) {
+      if (std::hypot(row - pixels / 2, col - pixels / 2) * pitch < radius) heights(row, col) = 0.0;
+    }
+  }
+  return {heights, pitch, pitch};
+}
+
+class FlatPunch : public testing::TestWithParam<double> {};
+
+TEST_P(FlatPunch, letsGoFromItsEdge) {
+  // from the strength of the law on all of its area to Griffith's crack around it, sqrt(8 pi E Gamma a^3): by its radius
+  // over the one at which both are the same
+  const double radius = 40e-9;
+  const Options law = elastic(1e9);
+  const double strength = 16.0 * kWork / (9.0 * std::sqrt(3.0) * rangeOf(law));
+  const double even = kPi * radius * radius * strength;
+  const double modulus = even * even / (8.0 * kPi * kWork * std::pow(radius, 3.0)) / GetParam();
+  const Options options = elastic(modulus);
+  const HeightMap surface = punch(radius, 128, 1e-9);
+  const double crack = std::sqrt(8.0 * kPi * modulus * kWork * std::pow(radius, 3.0));
+  const Prediction prediction = AdhesionModel(options).predict(surface);
+  ASSERT_FALSE(prediction.is_conforming);
+  EXPECT_NEAR(prediction.pull_off_force * std::hypot(1.0 / even, 1.0 / crack), 1.0, 0.04);
+  const Ratios ratios = againstHalfSpace(surface, options);
+  EXPECT_NEAR(ratios.pull_off, 1.0, 0.12);
+  EXPECT_NEAR(ratios.work, 1.0, 0.1);
+}
+
+INSTANTIATE_TEST_SUITE_P(RadiusOverEven, FlatPunch, testing::Values(0.1, 1.0, 10.0));
+
+TEST(Decision, aTallSummitKeepsSurfacesApartThatWouldHoldIfTheyMet) {
+  // pressed flat the relief would store less than adhesion gives
+  cv::Mat1d heights(128, 128);
+  for (int row = 0; row < 128; ++row) {
+    for (int col = 0; col < 128; ++col) {
+      const double square = (std::pow(row - 64, 2.0) + std::pow(col - 64, 2.0)) / 36.0;
+      heights(row, col) = 7e-9 * std::exp(-0.5 * square) + 5e-11 * std::sin(0.4 * row) * std::sin(0.5 * col);
+    }
+  }
+  const Options options = elastic(5e9);
+  const HeightMap surface(heights, 2e-9, 2e-9);
+  const Prediction prediction = AdhesionModel(options).predict(surface);
+  EXPECT_LT(prediction.flattening_ratio, 0.75);
+  EXPECT_FALSE(prediction.is_conforming);
+  const Ratios ratios = againstHalfSpace(surface, options);
+  EXPECT_NEAR(ratios.pull_off, 1.0, 0.15);
+}
+
 TEST(Decision, candidatesMeetWhereItFalls) {
   // a wave that is flattened for a little less and a little more than three quarters of what adhesion gives
   const double pitch = 1e-9;
