@@ -36,6 +36,7 @@ const std::map<std::string, Usual>& usualValues() {
   static const Usual hardness{1e5, 2e11, {{"GPa", 1e9}, {"MPa", 1e6}, {"kPa", 1e3}}};
   static const Usual atomic{3e-11, 5e-9, {{"nm", 1e-9}, {"Angstrom", 1e-10}, {"pm", 1e-12}}};
   static const Usual layer{3e-10, 1e-4, {{"nm", 1e-9}, {"um", 1e-6}, {"Angstrom", 1e-10}}};
+  static const Usual layer_or_part{3e-10, 1e-2, {{"um", 1e-6}, {"nm", 1e-9}, {"mm", 1e-3}}};
   static const Usual tip{1e-10, 1e-3, {{"nm", 1e-9}, {"um", 1e-6}}};
   static const Usual travel{1e-9, 1e-3, {{"um", 1e-6}, {"nm", 1e-9}, {"mm", 1e-3}}};
   static const std::vector<Unit> areas{{"um^2", 1e-12}, {"um^2", 1e-12, 1e6}, {"mm^2", 1e-6}};
@@ -50,6 +51,10 @@ const std::map<std::string, Usual>& usualValues() {
       {"lower/youngs_modulus", modulus},
       {"upper/youngs_modulus", modulus},
       {"device/beam_modulus", modulus},
+      {"lower/substrate/youngs_modulus", modulus},
+      {"upper/substrate/youngs_modulus", modulus},
+      {"lower/thickness", layer_or_part},
+      {"upper/thickness", layer_or_part},
       {"lower/hardness", hardness},
       {"upper/hardness", hardness},
       {"interface/work_of_adhesion", {1e-6, 10.0, {{"mJ/m^2", 1e-3}, {"uJ/m^2", 1e-6}}}},

@@ -35,6 +35,10 @@ void check(const HalfSpaceProblem& problem, const TractionLawOptions& law) {
   std::vector<std::string> violations = validator.violations();
   const std::vector<std::string> of_law = law.validate();
   violations.insert(violations.end(), of_law.begin(), of_law.end());
+  for (const auto& [name, body] :
+       {std::pair("lower", &problem.lower_material), std::pair("upper", &problem.upper_material)}) {
+    for (std::string& contradiction : body->contradictions(name)) violations.push_back(std::move(contradiction));
+  }
   if (!violations.empty()) throw OptionsError(std::move(violations));
 }
 

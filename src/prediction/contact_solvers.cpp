@@ -1,5 +1,6 @@
 #include "prediction/contact_solvers.hpp"
 
+#include <initializer_list>
 #include <utility>
 
 #include "mems_stiction/errors/errors.hpp"
@@ -14,6 +15,7 @@ struct Entry {
   const char* formulation;
   std::unique_ptr<ContactSolver> (*make)();
   std::vector<UnusedSetting> (*unused)(const ContactSettings&);  ///< that have no meaning for it
+  bool bends_bodies;                                             ///< whether it asks how thick they are
 };
 
 template <typename Solver, auto... Arguments>
@@ -25,14 +27,33 @@ std::vector<UnusedSetting> usesAll(const ContactSettings&) { return {}; }
 
 /// A line per solver, the default first.
 constexpr Entry kSolvers[] = {
-    {"separation_curve", make<SeparationSolver>, CurveStatement::unusedSettings},
-    {"paper", make<AsperitySolver, Formulation::kPaper>, usesAll},
-    {"printed", make<AsperitySolver, Formulation::kPrinted>, usesAll},
+    {"separation_curve", make<SeparationSolver>, CurveStatement::unusedSettings, false},
+    {"paper", make<AsperitySolver, Formulation::kPaper>, usesAll, false},
+    {"printed", make<AsperitySolver, Formulation::kPrinted>, usesAll, false},
 };
 
 /// What only condensed water needs.
 constexpr const char* kOfWater[] = {"interface/surface_tension", "interface/contact_angle", "interface/temperature",
                                     "interface/molar_volume"};
+
+/// What of a body's other side bears on nothing.
+/// - @p bends_bodies of the solver
+void addOfOtherSide(const Material& body, const std::string& name, bool bends_bodies,
+                    std::vector<IgnoredSetting>& ignored) {
+  const auto add = [&](std::initializer_list<const char*> keys, const std::string& why) {
+    for (const char* key : keys) ignored.push_back({name + key, why});
+  };
+  if (body.thickness == 0.0) {
+    add({"/backing", "/substrate/youngs_modulus", "/substrate/poisson_ratio"}, name + "/thickness is 0");
+  } else if (!bends_bodies) {
+    add({"/thickness", "/backing", "/substrate/youngs_modulus", "/substrate/poisson_ratio"},
+        "the half-space alone asks how thick bodies are");
+  } else if (body.backing == Backing::kFree) {
+    add({"/substrate/youngs_modulus", "/substrate/poisson_ratio"}, name + "/backing is free");
+  } else if (body.substrate.youngs_modulus == 0.0) {
+    add({"/substrate/poisson_ratio"}, name + "/substrate/youngs_modulus is 0");
+  }
+}
 
 struct Retired {
   const char* formulation;
@@ -76,6 +97,8 @@ std::vector<IgnoredSetting> ignoredSettings(const std::string& formulation, cons
                                          ? std::string(unused.why)
                                          : "approach/formulation " + formulation + " does not use it"});
     }
+    addOfOtherSide(settings.lower, "lower", entry.bends_bodies, ignored);
+    addOfOtherSide(settings.upper, "upper", entry.bends_bodies, ignored);
     if (settings.capillary.relative_humidity > 0.0) continue;
     for (const char* key : kOfWater) ignored.push_back({key, "interface/relative_humidity is 0"});
   }

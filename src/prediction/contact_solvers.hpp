@@ -20,7 +20,7 @@ std::string retirement(const std::string& formulation);
 
 /// A setting without effect, and why.
 struct IgnoredSetting {
-  const char* key;
+  std::string key;
   std::string why;
 };
 /// The settings that bear on nothing that a formulation predicts, nor on the intervals of that, while the others are as

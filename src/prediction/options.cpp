@@ -1,5 +1,8 @@
 #include "mems_stiction/prediction/options.hpp"
 
+#include <initializer_list>
+#include <utility>
+
 #include "mems_stiction/errors/errors.hpp"
 #include "prediction/contact_solvers.hpp"
 
@@ -30,6 +33,9 @@ std::vector<std::string> Options::validate() const {
     violations.push_back("interface/insulator_thickness: 0 m is not allowed with load/voltage " +
                          numberText(load.voltage) +
                          " V: bare surfaces in contact short-circuit; must be > 0 m, or the voltage 0 V");
+  }
+  for (const auto& [name, body] : {std::pair("lower", &lower), std::pair("upper", &upper)}) {
+    for (std::string& contradiction : body->contradictions(name)) violations.push_back(std::move(contradiction));
   }
   const int stated = (load.mechanical_load > 0.0) + (load.pressure > 0.0) + (load.device_force > 0.0);
   if (stated > 1) {

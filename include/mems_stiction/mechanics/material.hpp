@@ -1,13 +1,23 @@
 #pragma once
 
 /// @file
-/// The two bodies: elastic constants and hardness.
+/// The two bodies: elastic constants, hardness, and what is behind their surfaces.
 
 #include <string>
+#include <vector>
 
 #include "mems_stiction/settings/option_visitor.hpp"
 
 namespace mems_stiction {
+
+/// What holds a body of finite thickness: nothing, as a beam or plate in the air, or all of its lower side.
+enum class Backing { kFree, kBonded };
+
+/// What a film is bonded to; thick.
+struct Substrate {
+  double youngs_modulus = 0.0;  ///< [Pa], >= 0; 0 = rigid
+  double poisson_ratio = 0.22;  ///< [-], in (-1, 0.5]; not looked at where it is rigid
+};
 
 /// One body. Defaults: polysilicon, E and nu by Sharpe et al. 1997 (J. MEMS / MEMS '97); hardness 12 GPa, the middle of
 /// the 11-13 GPa of nanoindentation on polysilicon films.
@@ -15,8 +25,13 @@ struct Material {
   double youngs_modulus = 169e9;  ///< [Pa], > 0
   double poisson_ratio = 0.22;    ///< [-], in (-1, 0.5]
   double hardness = 12e9;         ///< indentation hardness [Pa], > 0
+  double thickness = 0.0;         ///< [m], >= 0; 0 = thick against every wave of its surface
+  Backing backing = Backing::kFree;
+  Substrate substrate;  ///< of a bonded film
 
   void describe(OptionVisitor& visitor, const std::string& prefix);
+  /// Settings that do not go together, one line each; empty when all is well. Ranges are not looked at.
+  std::vector<std::string> contradictions(const std::string& prefix) const;
 };
 
 /// What contact mechanics needs of a pair of bodies.

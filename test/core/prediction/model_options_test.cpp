@@ -67,6 +67,26 @@ TEST(ModelOptions, nameWhatIsWrongItsValueAndWhatIsAllowed) {
   expectViolation(options, "paper/step", "inf", ">= 0");
 }
 
+TEST(ModelOptions, ofTheOtherSideOfABodyGoTogether) {
+  Options options;
+  options.upper.thickness = -1e-6;
+  expectViolation(options, "upper/thickness", "-1e-06", ">= 0");
+  options = Options();
+  options.lower.thickness = std::numeric_limits<double>::infinity();
+  expectViolation(options, "lower/thickness", "inf", ">= 0");
+  options = Options();
+  options.lower.thickness = 2e-6;
+  EXPECT_TRUE(violationsOf(options).empty());
+  options.lower.substrate.youngs_modulus = 7e10;
+  expectViolation(options, "lower/substrate/youngs_modulus", "7e+10", "lower/backing free");
+  options.lower.backing = Backing::kBonded;
+  EXPECT_TRUE(violationsOf(options).empty());
+  options.lower.substrate.poisson_ratio = 0.51;
+  expectViolation(options, "lower/substrate/poisson_ratio", "0.51", "(-1, 0.5]");
+  options.lower.substrate = {-1.0, 0.3};
+  expectViolation(options, "lower/substrate/youngs_modulus", "-1", ">= 0");
+}
+
 TEST(ModelOptions, needAnInsulatorUnderAVoltage) {
   Options options;
   options.load.voltage = 5.0;
