@@ -71,10 +71,10 @@ struct ContactMinimiser::Evaluation {
   bool has_slopes = false;        ///< t' of each cell is at hand
 };
 
-ContactMinimiser::ContactMinimiser(const HalfSpaceGrid& grid, const TractionLaw& law, double contact_modulus,
+ContactMinimiser::ContactMinimiser(const HalfSpaceGrid& grid, const TractionLaw& law, const ElasticResponse& response,
                                    LargePageVector<double> relief, const MinimiserSettings& settings)
-    : ContactMinimiser(grid, law, ElasticResponse{contact_modulus, nullptr}, std::move(relief), {}, settings) {
-  windows_ = std::make_unique<ContactWindows>(grid, law, contact_modulus, settings);
+    : ContactMinimiser(grid, law, response, std::move(relief), {}, settings) {
+  windows_ = std::make_unique<ContactWindows>(grid, law, response, settings);
 }
 
 void ContactMinimiser::takeRelief(LargePageVector<double> relief) {

@@ -16,6 +16,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include <opencv2/core.hpp>
@@ -50,10 +51,15 @@ struct ContactState {
 /// Finds equilibria one after the other, each from the one before.
 class ContactMinimiser {
  public:
-  /// - @p contact_modulus [Pa], > 0
+  /// - @p response without an influence
   /// - @p relief frame_rows x frame_cols, row by row [m], >= 0; infinite where nothing was measured
-  ContactMinimiser(const HalfSpaceGrid& grid, const TractionLaw& law, double contact_modulus,
+  ContactMinimiser(const HalfSpaceGrid& grid, const TractionLaw& law, const ElasticResponse& response,
                    LargePageVector<double> relief, const MinimiserSettings& settings);
+  /// Of half-spaces.
+  /// - @p contact_modulus [Pa], > 0
+  ContactMinimiser(const HalfSpaceGrid& grid, const TractionLaw& law, double contact_modulus,
+                   LargePageVector<double> relief, const MinimiserSettings& settings)
+      : ContactMinimiser(grid, law, ElasticResponse{contact_modulus}, std::move(relief), settings) {}
   /// A window of a larger frame, with free edges, which has no windows of its own.
   /// - @p relief as above, less the displacement that is not this one's
   /// - @p fixed traction that this other displacement takes, frame_rows x frame_cols [Pa]; empty for none

@@ -6,6 +6,7 @@
 #include <initializer_list>
 #include <utility>
 
+#include "half_space/cell_influence.hpp"
 #include "half_space/contact_minimiser.hpp"
 #include "half_space/row_work.hpp"
 #include "numeric/vectorized.hpp"
@@ -52,9 +53,9 @@ MEMS_STICTION_VECTORIZED void raiseTo(const float* residual, float mean, std::ve
 
 }  // namespace
 
-ContactWindows::ContactWindows(const HalfSpaceGrid& grid, const TractionLaw& law, double contact_modulus,
+ContactWindows::ContactWindows(const HalfSpaceGrid& grid, const TractionLaw& law, const ElasticResponse& response,
                                const MinimiserSettings& settings)
-    : grid_(grid), law_(law), settings_(settings), response_{contact_modulus, nullptr} {
+    : grid_(grid), law_(law), settings_(settings), response_(response) {
   settings_.give_way = nullptr;
   settings_.max_newton_steps = kMostNewtonSteps;
 }
@@ -222,15 +223,24 @@ ContactWindows::Relaxed ContactWindows::relaxOne(const Frame& frame, const Windo
 }
 
 void ContactWindows::findResponse(StiffnessOperator<double>& stiffness) {
-  if (grid_.boundary == HalfSpaceBoundary::kFree || !influence_.empty()) return;
-  LargePageVector<double> impulse(grid_.size(), 0.0);
-  impulse[0] = 1.0;
-  stiffness.displace(impulse.data(), impulse.data());
-  influence_.create(static_cast<int>(kWidestWindow * grid_.frame_rows) + 1,
-                    static_cast<int>(kWidestWindow * grid_.frame_cols) + 1);
-  for (int row = 0; row < influence_.rows; ++row) {
-    std::copy_n(impulse.data() + grid_.offset(row), influence_.cols, influence_[row]);
+  const bool is_free = grid_.boundary == HalfSpaceBoundary::kFree;
+  if (!influence_.empty() || (is_free && response_.layers == nullptr)) return;
+  cv::Mat1d influence(static_cast<int>(kWidestWindow * grid_.frame_rows) + 1,
+                      static_cast<int>(kWidestWindow * grid_.frame_cols) + 1);
+  if (is_free) {
+    const CellInfluence cell(response_.contact_modulus, response_.layers, grid_.pitch_x, grid_.pitch_y);
+    forEachRow(influence.rows, settings_.threads, [&](int row) {
+      for (int col = 0; col < influence.cols; ++col) influence(row, col) = cell.at(row, col);
+    });
+  } else {
+    LargePageVector<double> impulse(grid_.size(), 0.0);
+    impulse[0] = 1.0;
+    stiffness.displace(impulse.data(), impulse.data());
+    for (int row = 0; row < influence.rows; ++row) {
+      std::copy_n(impulse.data() + grid_.offset(row), influence.cols, influence[row]);
+    }
   }
+  influence_ = influence;
   response_.influence = &influence_;
 }
 

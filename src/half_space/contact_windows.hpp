@@ -45,9 +45,9 @@ class ContactWindows {
     double largest_residual;         ///< without that [Pa]
   };
 
-  /// - @p contact_modulus [Pa], > 0
+  /// - @p response of the frame, without an influence
   /// - @p settings cancel and threads are taken from it
-  ContactWindows(const HalfSpaceGrid& grid, const TractionLaw& law, double contact_modulus,
+  ContactWindows(const HalfSpaceGrid& grid, const TractionLaw& law, const ElasticResponse& response,
                  const MinimiserSettings& settings);
   ~ContactWindows();
 
@@ -84,14 +84,15 @@ class ContactWindows {
   template <typename Work>
   void forEachCell(const cv::Rect& cells, const Work& work) const;
   bool owns(const Window& window, int row, int col) const;
-  /// How a window answers: a frame with free edges as itself, a periodic one as its impulse response says.
+  /// How a window answers: half-spaces with free edges as themselves, films with them as worked out once, a periodic frame
+  /// as its impulse response says.
   void findResponse(StiffnessOperator<double>& stiffness);
 
   HalfSpaceGrid grid_;
   TractionLaw law_;
   MinimiserSettings settings_;
   ElasticResponse response_;
-  cv::Mat1d influence_;  ///< of a periodic frame, within the widest window [m/Pa]
+  cv::Mat1d influence_;  ///< of a periodic frame or of films, within the widest window [m/Pa]
   cv::Mat1i labels_;     ///< of the blocks: 0 for those in no window
   std::mutex idle_mutex_;
   std::vector<std::unique_ptr<ContactMinimiser>> idle_;  ///< minimisers of windows of all shapes that came up

@@ -8,6 +8,7 @@
 
 #include "approach/gap_field.hpp"
 #include "deformation/modified_topography.hpp"
+#include "half_space/cell_influence.hpp"
 #include "half_space/contact_groups.hpp"
 #include "half_space/contact_minimiser.hpp"
 #include "half_space/contact_path.hpp"
@@ -15,6 +16,7 @@
 #include "half_space/row_work.hpp"
 #include "half_space/traction_law.hpp"
 #include "height_map/validity.hpp"
+#include "mechanics/wave_stiffness.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/mechanics/plasticity.hpp"
 
@@ -26,7 +28,25 @@ constexpr double kPixelsPerCohesiveLength = 2.0;
 /// Pull-off forces that finer steps change by less than this are converged in the step.
 constexpr double kStepConvergence = 0.02;
 
-void check(const HalfSpaceProblem& problem, const TractionLawOptions& law) {
+/// What a frame with free edges cannot have on its other side.
+void checkBacking(const Material& body, const std::string& name, const HeightMap& frame,
+                  std::vector<std::string>& violations) {
+  if (body.thickness == 0.0) return;
+  const std::string thickness =
+      name + "/thickness: " + numberText(body.thickness) + " m with half_space/boundary free ";
+  const double thinnest = CellInfluence::kThinnestFilm * std::max(frame.pitchX(), frame.pitchY());
+  if (body.backing == Backing::kFree) {
+    violations.push_back(thickness + "and " + name +
+                         "/backing free is not allowed: how far a plate bends under a contact depends on where it is "
+                         "held; must be 0 m, or the boundary periodic");
+  } else if (body.thickness < thinnest) {
+    violations.push_back(thickness + "is not allowed: too thin for pixels of " +
+                         numberText(thinnest / CellInfluence::kThinnestFilm) +
+                         " m; must be >= " + numberText(thinnest) + " m, or the boundary periodic");
+  }
+}
+
+void check(const HalfSpaceProblem& problem, const HalfSpaceOptions& options, const TractionLawOptions& law) {
   OptionValidator validator;
   describeConst(problem.lower_material, validator, "lower");
   describeConst(problem.upper_material, validator, "upper");
@@ -38,6 +58,10 @@ void check(const HalfSpaceProblem& problem, const TractionLawOptions& law) {
   for (const auto& [name, body] :
        {std::pair("lower", &problem.lower_material), std::pair("upper", &problem.upper_material)}) {
     for (std::string& contradiction : body->contradictions(name)) violations.push_back(std::move(contradiction));
+  }
+  if (violations.empty() && options.boundary == HalfSpaceBoundary::kFree) {
+    checkBacking(problem.lower_material, "lower", problem.surfaces.lower, violations);
+    checkBacking(problem.upper_material, "upper", problem.surfaces.lower, violations);
   }
   if (!violations.empty()) throw OptionsError(std::move(violations));
 }
@@ -206,7 +230,7 @@ HalfSpaceSolver::HalfSpaceSolver(const HalfSpaceOptions& options) : options_(opt
 SolvedHalfSpace HalfSpaceSolver::solve(const HalfSpaceProblem& problem, const HalfSpaceControl& control) const {
   const auto begin = std::chrono::steady_clock::now();
   const TractionLawOptions law_options = lawOptions(options_, problem);
-  check(problem, law_options);
+  check(problem, options_, law_options);
   const HeightMap& lower = problem.surfaces.lower;
   if (lower.empty()) throw SurfaceError("the height map has no valid pixel");
   const auto pixels = static_cast<std::size_t>(lower.rows()) * static_cast<std::size_t>(lower.cols());
@@ -215,6 +239,8 @@ SolvedHalfSpace HalfSpaceSolver::solve(const HalfSpaceProblem& problem, const Ha
                        " pixels is larger than half_space/max_pixels = " + std::to_string(options_.max_pixels));
   }
   const ContactPair pair(problem.lower_material, problem.upper_material);
+  const WaveStiffness layers(problem.lower_material, problem.upper_material);
+  const ElasticResponse response{pair.contact_modulus, nullptr, layers.isThick() ? nullptr : &layers};
   const TractionLaw law(law_options);
   const HalfSpaceGrid grid(lower.rows(), lower.cols(), lower.pitchX(), lower.pitchY(), options_.boundary);
   MinimiserSettings minimiser_settings;
@@ -234,8 +260,7 @@ SolvedHalfSpace HalfSpaceSolver::solve(const HalfSpaceProblem& problem, const Ha
   solution.is_resolved = solution.cohesive_length >= kPixelsPerCohesiveLength * std::max(grid.pitch_x, grid.pitch_y);
   LargePageVector<float> flowed;
   {
-    ContactMinimiser minimiser(grid, law, pair.contact_modulus, reliefOf(problem.surfaces, options_.threads),
-                               minimiser_settings);
+    ContactMinimiser minimiser(grid, law, response, reliefOf(problem.surfaces, options_.threads), minimiser_settings);
     ContactPath path(minimiser, path_settings);
     PathStatus status = minimiser.isSetUp() ? path.approach(problem.load.mechanical_load) : PathStatus::kCancelled;
     if (status == PathStatus::kDone) {

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <vector>
 
+#include "half_space/cell_influence.hpp"
 #include "half_space/row_work.hpp"
 #include "line_transform.hpp"
 #include "numeric/constants.hpp"
@@ -19,6 +21,8 @@ namespace {
 constexpr std::size_t kBlock = 8;
 /// Shift of K^-1, of the smallest stiffness: none to speak of, but for the mean that K does not resist.
 constexpr double kNoShift = 1e-6;
+/// The least compliance of a wave in a window, of the same wave's in a periodic frame.
+constexpr double kLeastShare = 0.1;
 
 /// Each complex number of a column times the real factor that its wave number has.
 template <typename Scalar, typename Multiplier>
@@ -82,26 +86,6 @@ MEMS_STICTION_VECTORIZED double dotRow(std::size_t count, const float* a, const 
 }
 MEMS_STICTION_VECTORIZED double dotRow(std::size_t count, const double* a, const double* b) {
   return dotLanes(count, a, b);
-}
-
-/// Integral of 1/r over the quarter between the axes and (x, y), seen from the origin, signed [m].
-double cornerIntegral(double x, double y) {
-  const double r = std::hypot(x, y);
-  // asinh keeps its digits where r and the other coordinate nearly cancel
-  const double along_x = y != 0.0 ? y * std::asinh(x / std::abs(y)) : 0.0;
-  const double along_y = x != 0.0 ? x * std::asinh(y / std::abs(x)) : 0.0;
-  return r > 0.0 ? along_x + along_y : 0.0;
-}
-
-/// Displacement [m] at a distance (x, y) from the middle of a cell under 1 Pa.
-double loveInfluence(double x, double y, double pitch_x, double pitch_y, double contact_modulus) {
-  const double left = x - 0.5 * pitch_x;
-  const double right = x + 0.5 * pitch_x;
-  const double below = y - 0.5 * pitch_y;
-  const double above = y + 0.5 * pitch_y;
-  const double integral = cornerIntegral(right, above) - cornerIntegral(left, above) - cornerIntegral(right, below) +
-                          cornerIntegral(left, below);
-  return integral / (kPi * contact_modulus);
 }
 
 /// Fourier transform of even real sequences, which is real and even, too: of both only the first half is given.
@@ -168,7 +152,7 @@ StiffnessOperator<Scalar>::StiffnessOperator(const HalfSpaceGrid& grid, const El
   for (auto& pad : pads_) pad.resize(pad_size_);
   transforms_ = std::make_unique<Transforms>(grid_, pads_.front().data(), pads_.front().data() + pad_size_ / 2);
   if (grid_.boundary == HalfSpaceBoundary::kPeriodic) {
-    fillPeriodic(response.contact_modulus);
+    fillPeriodic(response);
   } else {
     fillFree(response);
   }
@@ -189,18 +173,40 @@ Scalar& StiffnessOperator<Scalar>::entry(int row, int col) {
 }
 
 template <typename Scalar>
-void StiffnessOperator<Scalar>::fillPeriodic(double contact_modulus) {
-  const auto stiffnessOf = [&](int row, int col) {
-    const double q_y = 2.0 * kPi * std::min(row, grid_.rows - row) / (grid_.rows * grid_.pitch_y);
-    const double q_x = 2.0 * kPi * col / (grid_.cols * grid_.pitch_x);
-    return 0.5 * contact_modulus * std::sqrt(q_x * q_x + q_y * q_y);
+double StiffnessOperator<Scalar>::waveNumber(int row, int col) const {
+  const double q_y = 2.0 * kPi * std::min(row, grid_.rows - row) / (grid_.rows * grid_.pitch_y);
+  const double q_x = 2.0 * kPi * col / (grid_.cols * grid_.pitch_x);
+  return std::sqrt(q_x * q_x + q_y * q_y);
+}
+
+template <typename Scalar>
+void StiffnessOperator<Scalar>::fillPeriodic(const ElasticResponse& response) {
+  struct Extremes {
+    double smallest = std::numeric_limits<double>::infinity();
+    double largest = 0.0;
+    Extremes& operator+=(const Extremes& other) {
+      smallest = std::min(smallest, other.smallest);
+      largest = std::max(largest, other.largest);
+      return *this;
+    }
   };
-  forEachRow(grid_.cols / 2 + 1, threads_, [&](int col) {
-    for (int row = 0; row < grid_.rows; ++row) entry(row, col) = static_cast<Scalar>(stiffnessOf(row, col));
+  std::vector<Extremes> of_columns;
+  const Extremes all = sumOverRows(of_columns, grid_.cols / 2 + 1, threads_, [&](int col) {
+    Extremes extremes;
+    for (int row = 0; row < grid_.rows && !isCancelled(); ++row) {
+      if (row == 0 && col == 0) {
+        entry(row, col) = Scalar(0);  // the mean
+        continue;
+      }
+      const double q = waveNumber(row, col);
+      const double stiffness = response.layers != nullptr ? response.layers->at(q) : 0.5 * response.contact_modulus * q;
+      entry(row, col) = static_cast<Scalar>(stiffness);
+      extremes += {stiffness, stiffness};
+    }
+    return extremes;
   });
-  if (grid_.rows > 1) smallest_ = stiffnessOf(1, 0);
-  if (grid_.cols > 1) smallest_ = std::min(smallest_, stiffnessOf(0, 1));
-  largest_ = stiffnessOf(grid_.rows / 2, grid_.cols / 2);
+  smallest_ = all.smallest;
+  largest_ = all.largest;
 }
 
 template <typename Scalar>
@@ -210,13 +216,14 @@ void StiffnessOperator<Scalar>::fillFree(const ElasticResponse& response) {
   const int half_rows = grid_.rows / 2 + 1;
   const int half_cols = grid_.cols / 2 + 1;
   const auto width = static_cast<std::size_t>(half_cols);
+  std::optional<CellInfluence> influence;
+  if (response.influence == nullptr) {
+    influence.emplace(response.contact_modulus, response.layers, grid_.pitch_x, grid_.pitch_y);
+  }
   const auto influenceAt = [&](int row, int col) {
-    if (response.influence != nullptr) {
-      // the padding may be longer than twice the frame: there nothing is asked for
-      return (*response.influence)(std::min(row, grid_.frame_rows), std::min(col, grid_.frame_cols));
-    }
-    return loveInfluence(col * grid_.pitch_x, row * grid_.pitch_y, grid_.pitch_x, grid_.pitch_y,
-                         response.contact_modulus);
+    // the padding may be longer than twice the frame: there nothing is asked for
+    return influence ? influence->at(row, col)
+                     : (*response.influence)(std::min(row, grid_.frame_rows), std::min(col, grid_.frame_cols));
   };
   LargePageVector<double> of_rows(static_cast<std::size_t>(half_rows) * width);
   {
@@ -239,7 +246,12 @@ void StiffnessOperator<Scalar>::fillFree(const ElasticResponse& response) {
   for (int row = 0; row < grid_.rows && !isCancelled(); ++row) {
     const double* const line = of_rows.data() + static_cast<std::size_t>(std::min(row, grid_.rows - row)) * width;
     for (int col = 0; col < half_cols; ++col) {
-      const double stiffness = 1.0 / line[col];
+      double stiffness = 1.0 / line[col];
+      if (response.influence != nullptr && response.layers != nullptr && row + col > 0) {
+        // a plate bends far beyond a window, whose edge cuts that off: what is left may resist some waves with less than 0
+        const double of_wave = response.layers->at(waveNumber(row, col));
+        if (!(line[col] * of_wave > kLeastShare)) stiffness = of_wave;
+      }
       entry(row, col) = static_cast<Scalar>(stiffness);
       smallest_ = std::min(smallest_, stiffness);
       largest_ = std::max(largest_, stiffness);

@@ -7,7 +7,10 @@
 ///     free:      u = G * t,  G(x, y) = 1/(pi E) times the integral of 1/r over a cell   (Love; Johnson (3.25))
 ///                K_q = 1/G_q on a frame padded to twice its size
 ///
-/// Both are products in Fourier space: rows are transformed, two at a time, then columns are transformed, multiplied and
+/// Bodies of finite thickness (mechanics/wave_stiffness.hpp): K(q) in place of (E/2) |q|; with free edges films alone, whose
+/// G has a part more (cell_influence.hpp).
+///
+/// All are products in Fourier space: rows are transformed, two at a time, then columns are transformed, multiplied and
 /// transformed back while they lie in the cache, then rows back. E is the contact modulus of the pair, u the sum of both
 /// bodies' displacements. Sources: Johnson, Contact Mechanics (1985), chapter 3; Stanley and Kato, J. Tribology 119
 /// (1997) 481 for the periodic form; Hockney, Methods Comput. Phys. 9 (1970) 135 for the padding.
@@ -24,16 +27,20 @@
 #include <opencv2/core.hpp>
 
 #include "half_space/half_space_grid.hpp"
+#include "mechanics/wave_stiffness.hpp"
 #include "numeric/large_pages.hpp"
 
 namespace mems_stiction {
 
 /// How a body answers tractions.
 struct ElasticResponse {
-  double contact_modulus = 0.0;  ///< E [Pa], > 0; not looked at where an influence is given
+  double contact_modulus = 0.0;  ///< E of the thick bodies [Pa], > 0; not looked at where an influence is given
   /// u at a distance of (row, col) cells under a unit traction on one cell [m/Pa], for a frame with free edges that is no
   /// larger; null for the half-space's.
   const cv::Mat1d* influence = nullptr;
+  /// The bodies if one is not thick, which must outlive what answers so; null for half-spaces. With an influence of long
+  /// waves that a frame of this size cannot have they answer instead.
+  const WaveStiffness* layers = nullptr;
 };
 
 /// Memory for the half spectrum of a frame, which operators that do not work at the same time can share.
@@ -87,7 +94,9 @@ class StiffnessOperator {
   /// A finish that writes the rows to `to` and then calls after_rows(first, second).
   template <typename AfterRows>
   auto writeTo(Scalar* to, const AfterRows& after_rows) const;
-  void fillPeriodic(double contact_modulus);
+  void fillPeriodic(const ElasticResponse& response);
+  /// Of the wave at (row, col) [rad/m].
+  double waveNumber(int row, int col) const;
   void fillFree(const ElasticResponse& response);
   /// Complex numbers of a row of the half spectrum.
   Scalar* spectrumOf(std::size_t row);

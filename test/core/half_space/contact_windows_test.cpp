@@ -51,7 +51,7 @@ class Undeformed {
     });
     MinimiserSettings settings;
     settings.threads = threads;
-    ContactWindows windows(grid_, law_, kModulus, settings);
+    ContactWindows windows(grid_, law_, ElasticResponse{kModulus}, settings);
     largest_before = largest(residual_);
     did_relax = windows.relax(
         {height_, relief_.data(), zeros_.data(), zeros_.data(), residual_.data(), mean(residual_), largest_before},

@@ -2,11 +2,15 @@
 
 #include <atomic>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
+#include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
 #include "mechanics/hertz.hpp"
+#include "mechanics/wave_stiffness.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/half_space/half_space_solver.hpp"
 #include "numeric/constants.hpp"
@@ -97,6 +101,118 @@ TEST(HalfSpaceSolver, WestergaardsWavyWall) {
     const double half_width = length / kPi * std::asin(std::sqrt(share));
     EXPECT_NEAR(solution.contact_area / (2.0 * pitch), 2.0 * half_width, 3.0 * pitch);
   }
+}
+
+/// Amplitude of one wave along x in the second row of a map.
+double waveAmplitude(const cv::Mat& map) {
+  double sum = 0.0;
+  for (int col = 0; col < map.cols; ++col) {
+    sum += 2.0 / map.cols * static_cast<double>(map.at<float>(1, col)) * std::sin(2.0 * kPi * col / map.cols);
+  }
+  return std::abs(sum);
+}
+
+TEST(HalfSpaceSolver, AWaveInFullContactNeedsItsStiffnessTimesItsAmplitude) {
+  const int cols = 32;
+  const double pitch = 8e-9;
+  const double amplitude = 0.5 * kRange;
+  const double q = 2.0 * kPi / (cols * pitch);
+  HalfSpaceOptions options = elastic();
+  options.tolerance = 1e-6;
+  HalfSpaceProblem problem = problemOf(analytic::sine(2, cols, pitch, pitch, amplitude, 1));
+  problem.lower_material.poisson_ratio = 0.3;
+  for (const auto& [backing, substrate] :
+       {std::pair(Backing::kFree, 0.0), std::pair(Backing::kBonded, 0.0), std::pair(Backing::kBonded, 10e9)}) {
+    for (const double s : {0.05, 0.4, 1.5, 6.0, 100.0}) {
+      problem.lower_material.thickness = s / q;
+      problem.lower_material.backing = backing;
+      problem.lower_material.substrate.youngs_modulus = substrate;
+      const double stiffness = WaveStiffness(problem.lower_material, problem.upper_material).at(q);
+      problem.interface.work_of_adhesion =
+          12.5 * stiffness * kRange * kRange;  // contacts 200 times as stiff as the wave
+      const SolvedHalfSpace solution = solve(problem, options);
+      ASSERT_EQ(solution.status, HalfSpaceStatus::kSolved) << solution.message;
+      const double of_gap = waveAmplitude(solution.gap);
+      EXPECT_LT(of_gap, 0.01 * amplitude) << s;
+      EXPECT_NEAR(waveAmplitude(solution.pressure) / (stiffness * (amplitude - of_gap)), 1.0, 1e-3) << s;
+    }
+  }
+}
+
+TEST(HalfSpaceSolver, ThickBodiesAreHalfSpacesToTheBit) {
+  const HalfSpaceProblem half_space = problemOf(waves(24, 30, 5e-9, 5e-9, 0.4e-9));
+  const SolvedHalfSpace before = solve(half_space);
+  for (const Backing backing : {Backing::kFree, Backing::kBonded}) {
+    HalfSpaceProblem problem = half_space;
+    problem.lower_material.thickness = problem.upper_material.thickness = 1e-3;
+    problem.lower_material.backing = problem.upper_material.backing = backing;
+    const SolvedHalfSpace thick = solve(problem);
+    EXPECT_EQ(thick.pull_off_force, before.pull_off_force);
+    EXPECT_EQ(thick.work_of_adhesion, before.work_of_adhesion);
+    EXPECT_EQ(thick.newton_steps, before.newton_steps);
+  }
+}
+
+TEST(HalfSpaceSolver, ThinPlatesConformMoreAndFilmsOnSomethingStiffLess) {
+  HalfSpaceProblem problem = problemOf(waves(48, 60, 5e-9, 5e-9, 0.4e-9));
+  problem.load.mechanical_load = 5e-7;
+  const SolvedHalfSpace half_space = solve(problem);
+  problem.lower_material.thickness = 40e-9;
+  const SolvedHalfSpace plate = solve(problem);
+  EXPECT_GT(plate.pull_off_force, 1.05 * half_space.pull_off_force);
+  EXPECT_GT(plate.contact_area, 1.1 * half_space.contact_area);
+  problem.lower_material.backing = Backing::kBonded;
+  problem.lower_material.thickness = 5e-9;
+  const SolvedHalfSpace film = solve(problem);
+  EXPECT_LT(film.contact_area, 0.9 * half_space.contact_area);
+  problem.lower_material.substrate.youngs_modulus = 0.1 * kModulus;
+  EXPECT_GT(solve(problem).contact_area, 1.1 * half_space.contact_area);
+}
+
+TEST(HalfSpaceSolver, AFilmWithFreeEdgesIsSofterThanItsSubstrateAlone) {
+  HalfSpaceOptions options = elastic();
+  options.boundary = HalfSpaceBoundary::kFree;
+  const HeightMap sphere = analytic::paraboloid(41, 41, 2e-9, 2e-9, 300e-9);
+  HalfSpaceProblem problem = problemOf(sphere);
+  problem.load.mechanical_load = 2e-7;
+  const double stiff = solve(problem, options).contact_area;
+  problem.lower_material.youngs_modulus = 20e9;
+  const double soft = solve(problem, options).contact_area;
+  problem.lower_material.backing = Backing::kBonded;
+  problem.lower_material.thickness = 10e-9;
+  problem.lower_material.substrate = {kModulus, 0.0};
+  const double coated = solve(problem, options).contact_area;
+  EXPECT_GT(coated, 1.1 * stiff);
+  EXPECT_LT(coated, soft / 1.1);
+}
+
+TEST(HalfSpaceSolver, RefusesWhatFreeEdgesCannotHaveBehindThem) {
+  HalfSpaceOptions options = elastic();
+  options.boundary = HalfSpaceBoundary::kFree;
+  HalfSpaceProblem problem = problemOf(analytic::flat(12, 15, 2e-9, 3e-9));
+  const auto refusal = [&]() -> std::string {
+    try {
+      solve(problem, options);
+    } catch (const OptionsError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  problem.upper_material.thickness = 2e-6;
+  EXPECT_EQ(
+      refusal(),
+      "upper/thickness: 2e-06 m with half_space/boundary free and upper/backing free is not allowed: how far a plate "
+      "bends under a contact depends on where it is held; must be 0 m, or the boundary periodic");
+  problem.upper_material.backing = Backing::kBonded;
+  EXPECT_EQ(refusal(), "");
+  problem.upper_material.thickness = 0.2e-9;
+  EXPECT_NE(refusal().find("upper/thickness: 2e-10 m with half_space/boundary free is not allowed: too thin"),
+            std::string::npos)
+      << refusal();
+  options.boundary = HalfSpaceBoundary::kPeriodic;
+  EXPECT_EQ(refusal(), "");
+  problem.lower_material.substrate.youngs_modulus = 1e9;
+  EXPECT_NE(refusal().find("lower/substrate/youngs_modulus: 1e+09 Pa with lower/backing free"), std::string::npos);
 }
 
 TEST(HalfSpaceSolver, ForcesScaleWithModulusAndAdhesionTogether) {

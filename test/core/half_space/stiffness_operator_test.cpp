@@ -1,7 +1,10 @@
 /// The elastic half-space in Fourier space against waves and against sums of single loads.
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstddef>
+#include <initializer_list>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -43,11 +46,28 @@ LargePageVector<Scalar> noise(const HalfSpaceGrid& grid, bool on_frame_only) {
   return field;
 }
 
-TEST_P(StiffnessOfFrame, WaveNeedsHalfModulusTimesWaveNumber) {
-  const Frame& frame = GetParam();
+/// A body with an other side, against one that is rigid.
+struct Body {
+  explicit Body(double thickness, Backing backing, double substrate = 0.0) {
+    lower.youngs_modulus = kModulus;
+    lower.poisson_ratio = 0.3;
+    lower.thickness = thickness;
+    lower.backing = backing;
+    lower.substrate.youngs_modulus = substrate;
+    upper.youngs_modulus = 1e40;
+  }
+  double contactModulus() const { return ContactPair(lower, upper).contact_modulus; }
+
+  Material lower;
+  Material upper;
+};
+
+/// Every wave of a periodic frame needs stiffness_of(its wave number).
+template <typename StiffnessOf>
+void expectWaves(const Frame& frame, const ElasticResponse& response, const StiffnessOf& stiffness_of) {
   const HalfSpaceGrid grid(frame.rows, frame.cols, frame.pitch_x, frame.pitch_y, HalfSpaceBoundary::kPeriodic);
   SpectrumMemory memory;
-  StiffnessOperator<double> stiffness(grid, kModulus, 1, memory);
+  StiffnessOperator<double> stiffness(grid, response, 1, memory);
   for (int wave_y = 0; wave_y <= frame.rows / 2; wave_y += 2) {
     for (int wave_x = 0; wave_x <= frame.cols / 2; wave_x += 3) {
       const double q =
@@ -63,17 +83,113 @@ TEST_P(StiffnessOfFrame, WaveNeedsHalfModulusTimesWaveNumber) {
       stiffness.multiply(wave.data(), traction.data());
       for (std::size_t i = 0; i < wave.size(); ++i) {
         // round-off of the transforms, of the stiffest wave
-        ASSERT_NEAR(traction[i], 0.5 * kModulus * q * wave[i], 1e-12 * kModulus / frame.pitch_x);
+        ASSERT_NEAR(traction[i], stiffness_of(q) * wave[i], 1e-12 * stiffness.largest() + 1e-300);
+      }
+    }
+  }
+}
+
+TEST_P(StiffnessOfFrame, WaveNeedsHalfModulusTimesWaveNumber) {
+  expectWaves(GetParam(), ElasticResponse{kModulus}, [](double q) { return 0.5 * kModulus * q; });
+}
+
+TEST_P(StiffnessOfFrame, WaveNeedsTheStiffnessOfAPlateOrFilm) {
+  for (const Body& body :
+       {Body(8e-9, Backing::kFree), Body(8e-9, Backing::kBonded), Body(8e-9, Backing::kBonded, 5e9)}) {
+    const WaveStiffness layers(body.lower, body.upper);
+    expectWaves(GetParam(), ElasticResponse{body.contactModulus(), nullptr, &layers},
+                [&](double q) { return q > 0.0 ? layers.at(q) : 0.0; });
+  }
+}
+
+TEST(StiffnessOperator, ThickBodiesAnswerAsHalfSpacesToTheBit) {
+  const HalfSpaceGrid grid(24, 30, 5e-9, 4e-9, HalfSpaceBoundary::kPeriodic);
+  SpectrumMemory memory;
+  const LargePageVector<double> displacement = noise<double>(grid, false);
+  LargePageVector<double> of_half_space(grid.size(), 0.0), of_thick(grid.size(), 0.0);
+  for (const Backing backing : {Backing::kFree, Backing::kBonded}) {
+    const Body body(1e-3, backing);
+    const WaveStiffness layers(body.lower, body.upper);
+    StiffnessOperator<double> half_space(grid, body.contactModulus(), 1, memory);
+    half_space.multiply(displacement.data(), of_half_space.data());
+    StiffnessOperator<double> thick(grid, ElasticResponse{body.contactModulus(), nullptr, &layers}, 1, memory);
+    thick.multiply(displacement.data(), of_thick.data());
+    EXPECT_EQ(of_half_space, of_thick);
+    EXPECT_EQ(half_space.smallest(), thick.smallest());
+    EXPECT_EQ(half_space.largest(), thick.largest());
+  }
+}
+
+TEST(StiffnessOperator, KnowsTheSoftestAndTheStiffestWave) {
+  const HalfSpaceGrid grid(24, 30, 5e-9, 4e-9, HalfSpaceBoundary::kPeriodic);
+  Body body(3e-9, Backing::kBonded);
+  body.lower.poisson_ratio = 0.5;  // long waves and short ones are stiff
+  const WaveStiffness layers(body.lower, body.upper);
+  SpectrumMemory memory;
+  const StiffnessOperator<double> stiffness(grid, ElasticResponse{body.contactModulus(), nullptr, &layers}, 1, memory);
+  double smallest = 1e300, largest = 0.0;
+  for (int row = 0; row <= 12; ++row) {
+    for (int col = 0; col <= 15; ++col) {
+      if (row + col == 0) continue;
+      const double of_wave = layers.at(2.0 * kPi * std::hypot(row / (24 * 4e-9), col / (30 * 5e-9)));
+      smallest = std::min(smallest, of_wave);
+      largest = std::max(largest, of_wave);
+    }
+  }
+  EXPECT_NEAR(stiffness.smallest() / smallest, 1.0, 1e-12);
+  EXPECT_NEAR(stiffness.largest() / largest, 1.0, 1e-12);
+}
+
+/// Displacement at some distance from the middle of a Gaussian pressure of 1 Pa [m].
+double ofGaussianPressure(const WaveStiffness& layers, double width, double distance) {
+  double sum = 0.0;
+  const double step = 2e-3 / width;
+  for (double q = 0.5 * step; q * width < 7.0; q += step) {
+    sum += step * q / layers.at(q) * width * width * std::exp(-0.5 * q * q * width * width) * ::j0(q * distance);
+  }
+  return sum;
+}
+
+TEST(StiffnessOperator, FilmsWithFreeEdgesGiveWayAsTheirWavesDo) {
+  const double pitch = 4e-9;
+  const int cells = 96;
+  const double width = 8.0 * pitch;
+  const HalfSpaceGrid grid(cells, cells, pitch, pitch, HalfSpaceBoundary::kFree);
+  SpectrumMemory memory;
+  for (const double pixels : {0.3, 2.0, 20.0, 300.0}) {
+    for (const double substrate : {0.0, 10e9, 400e9}) {
+      Body body(pixels * pitch, Backing::kBonded, substrate);
+      body.upper = body.lower;
+      body.upper.thickness = 0.0;
+      body.upper.youngs_modulus *= 3.0;
+      const WaveStiffness layers(body.lower, body.upper);
+      StiffnessOperator<double> stiffness(grid, ElasticResponse{body.contactModulus(), nullptr, &layers}, 1, memory);
+      EXPECT_GT(stiffness.smallest(), 0.0);
+      LargePageVector<double> traction(grid.size(), 0.0), displacement(grid.size(), 0.0);
+      const auto place = [&](int row, int col) { return grid.offset(row) + static_cast<std::size_t>(col); };
+      for (int row = 0; row < cells; ++row) {
+        for (int col = 0; col < cells; ++col) {
+          const double r = pitch * std::hypot(row - cells / 2, col - cells / 2);
+          traction[place(row, col)] = std::exp(-0.5 * r * r / (width * width));
+        }
+      }
+      stiffness.precondition(1e-12 * stiffness.smallest(), traction.data(), displacement.data());
+      const double deepest = ofGaussianPressure(layers, width, 0.0);
+      for (const int away : {0, 5, 17, 40}) {
+        EXPECT_NEAR(displacement[place(cells / 2, cells / 2 + away)], ofGaussianPressure(layers, width, away * pitch),
+                    1e-3 * deepest)
+            << pixels << ' ' << substrate << ' ' << away;  // the pressure of each cell is that of its middle
       }
     }
   }
 }
 
 template <typename Scalar>
-void expectInverse(const Frame& frame, HalfSpaceBoundary boundary, double tolerance) {
+void expectInverse(const Frame& frame, HalfSpaceBoundary boundary, double tolerance,
+                   const ElasticResponse& response = ElasticResponse{kModulus}) {
   const HalfSpaceGrid grid(frame.rows, frame.cols, frame.pitch_x, frame.pitch_y, boundary);
   SpectrumMemory memory;
-  StiffnessOperator<Scalar> stiffness(grid, kModulus, 1, memory);
+  StiffnessOperator<Scalar> stiffness(grid, response, 1, memory);
   const LargePageVector<Scalar> traction = noise<Scalar>(grid, false);
   LargePageVector<Scalar> displacement(grid.size(), Scalar(0)), back(grid.size(), Scalar(0));
   const double shift = 0.1 * kModulus / frame.pitch_x;
@@ -100,6 +216,13 @@ TEST_P(StiffnessOfFrame, PreconditionerIsTheShiftedInverse) {
   for (const HalfSpaceBoundary boundary : {HalfSpaceBoundary::kPeriodic, HalfSpaceBoundary::kFree}) {
     expectInverse<double>(GetParam(), boundary, 1e-12);
     expectInverse<float>(GetParam(), boundary, 1e-4);
+  }
+  for (const Backing backing : {Backing::kFree, Backing::kBonded}) {
+    const Body body(8e-9, backing);
+    const WaveStiffness layers(body.lower, body.upper);
+    const ElasticResponse response{body.contactModulus(), nullptr, &layers};
+    expectInverse<double>(GetParam(), HalfSpaceBoundary::kPeriodic, 1e-12, response);
+    expectInverse<float>(GetParam(), HalfSpaceBoundary::kPeriodic, 1e-4, response);
   }
 }
 
