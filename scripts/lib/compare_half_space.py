@@ -30,7 +30,7 @@ STEP = 0.2  # between two heights, of z0
 WALL = 1e-11  # z0 where nothing attracts [m]
 
 SETTINGS = """
-lower: {{youngs_modulus: {modulus}, poisson_ratio: 0.0}}
+lower: {{youngs_modulus: {modulus}, poisson_ratio: {poisson}, thickness: {thickness}, backing: bonded}}
 upper: {{youngs_modulus: 1.0e+30, poisson_ratio: 0.0}}
 interface: {{work_of_adhesion: {work}}}
 half_space: {{range: {range}, flow: false, attraction: {attraction}, step: {step}, tolerance: {tolerance}}}
@@ -41,7 +41,7 @@ HEADING = """
 
 Written by `scripts/compare_half_space`, on periodic Gaussian frames of 128 x 128 pixels, 5 nm: tamaas 2.9.0 (Polonsky
 and Keer), ContactMechanics 1.8.3 (constrained conjugate gradients) and Adhesion 0.93 (L-BFGS-B, the same law as its
-VDW82). Without attraction the wall here is as soft as z0 = 0.01 nm, theirs is hard; Adhesion's mean displacement counts
+VDW82). The films are ContactMechanics' `thickness`. Without attraction the wall here is as soft as z0 = 0.01 nm, theirs is hard; Adhesion's mean displacement counts
 as height. Its retraction is sampled at every 0.2 z0, the largest force by a parabola.
 
 """
@@ -62,13 +62,13 @@ class Ours:
     def __init__(self, program, folder):
         self.program, self.folder = program, folder
 
-    def solve(self, heights, load=0.0, attraction=True):
+    def solve(self, heights, load=0.0, attraction=True, thickness=0.0, poisson=0.0):
         scan = self.folder / "frame.tiff"
         settings = self.folder / "frame_settings.yaml"
         curve = self.folder / "curve.csv"
         tifffile.imwrite(scan, heights.astype(np.float32))
         settings.write_text(SETTINGS.format(modulus=MODULUS, work=WORK, range=RANGE if attraction else WALL, step=STEP if attraction else 2.0,
-                                            attraction=str(attraction).lower(), tolerance=TOLERANCE))
+                                            attraction=str(attraction).lower(), tolerance=TOLERANCE, thickness=thickness, poisson=poisson))
         self.command = [self.program, "--json", "--config", settings, "--pitch", str(PITCH), "--load", str(load), scan]
         command = [*self.command, "--half-space", "--curve", curve]
         record = json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)["half_space"]
@@ -98,9 +98,12 @@ def tamaas_area(heights, load):
     return tamaas.Statistics2D.contact(model.traction) * length ** 2
 
 
-def contact_mechanics_area(heights, load):
-    """Contact area [m^2] by its constrained conjugate gradients."""
-    substrate = PeriodicFFTElasticHalfSpace((SIZE, SIZE), 1.0, (SIZE, SIZE))
+def contact_mechanics_area(heights, load, **film):
+    """Contact area [m^2] by its constrained conjugate gradients.
+
+    @param film  thickness [pixels] and Poisson's ratio of a film on something rigid
+    """
+    substrate = PeriodicFFTElasticHalfSpace((SIZE, SIZE), 1.0, (SIZE, SIZE), **film)
     system = make_hard_system(interaction="hardwall", substrate=substrate, surface=Topography(heights / PITCH, (SIZE, SIZE)))
     system.minimize_proxy(external_force=load / MODULUS / PITCH ** 2, pentol=1e-8, maxiter=10000)
     return np.count_nonzero(system.contact_zone) * PITCH ** 2
@@ -157,6 +160,16 @@ def area_rows(ours):
                    max(0.02, PITCH ** 2 / area), "2 % or a cell")
 
 
+def film_rows(ours):
+    heights = rough_frame(1e-9, 60e-9, 1)
+    for thickness, poisson, share in ((20e-9, 0.3, 0.02), (20e-9, 0.3, 0.1), (60e-9, 0.45, 0.05), (200e-9, 0.0, 0.05)):
+        load = share * MODULUS * 0.05 * (SIZE * PITCH) ** 2
+        found = ours.solve(heights, load, attraction=False, thickness=thickness, poisson=poisson)["contact_area"]
+        area = contact_mechanics_area(heights, load, thickness=thickness / PITCH, poisson=poisson)
+        yield (f"the same of a film of {1e9 * thickness:.0f} nm on something rigid, nu {poisson:g}, at p/E = {share * 0.05:g}, "
+               "ContactMechanics", "m^2", found, area, max(0.01, PITCH ** 2 / area), "1 % or a cell")
+
+
 def adhesion_rows(ours):
     for name, rms_height, length in (("l 60 nm, sigma 1 nm", 1e-9, 60e-9), ("l 100 nm, sigma 3 nm", 3e-9, 100e-9)):
         heights = rough_frame(rms_height, length, 1)
@@ -193,7 +206,7 @@ def main():
     ours = Ours(arguments.predict_scan, arguments.folder)
     lines = ["| quantity | unit | here | the other | error | tolerance | why | |", "|---|---|---|---|---|---|---|---|"]
     is_out = False
-    for rows in (area_rows(ours), adhesion_rows(ours)):
+    for rows in (area_rows(ours), film_rows(ours), adhesion_rows(ours)):
         for quantity, unit, here, other, tolerance, why in rows:
             if tolerance is None:
                 holds = here >= other

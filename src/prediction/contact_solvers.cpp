@@ -47,7 +47,7 @@ void addOfOtherSide(const Material& body, const std::string& name, bool bends_bo
     add({"/backing", "/substrate/youngs_modulus", "/substrate/poisson_ratio"}, name + "/thickness is 0");
   } else if (!bends_bodies) {
     add({"/thickness", "/backing", "/substrate/youngs_modulus", "/substrate/poisson_ratio"},
-        "the half-space alone asks how thick bodies are");
+        "the prediction takes bodies for thick, which the half-space does not");
   } else if (body.backing == Backing::kFree) {
     add({"/substrate/youngs_modulus", "/substrate/poisson_ratio"}, name + "/backing is free");
   } else if (body.substrate.youngs_modulus == 0.0) {

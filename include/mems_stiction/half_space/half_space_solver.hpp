@@ -5,9 +5,10 @@
 ///
 /// Both surfaces as one elastic half-space with the composite roughness, a traction between them that depends on the
 /// gap (traction_law.hpp), equilibrium by minimising the energy (contact_minimiser.hpp), heights from apart to rest
-/// under voltage and mechanical load, and back without them (contact_path.hpp). Bodies with a thickness bend or feel their
-/// substrate. Assumptions: slopes are small, no friction, no time. Pixels must resolve the length over which a contact parts, E z0^2/Gamma,
-/// or its edge is caught by the lattice: is_resolved says so. One-pixel contacts are flat punches: no better than the scan.
+/// under voltage and mechanical load, and back without them (contact_path.hpp). A body with a thickness bends, or feels its
+/// substrate. Assumptions: slopes are small, no friction, no time. Pixels must resolve the length over which a contact
+/// parts, E z0^2/Gamma, or its edge is caught by the lattice: is_resolved says so. One-pixel contacts are flat punches: no
+/// better than the scan.
 /// The asperity model answers the same question a thousand times faster, with what it assumes about contacts.
 /// Sources: see the parts; Medina and Dini, Int. J. Solids Struct. 51 (2014) 2620 for spheres that jump under such a law.
 ///
