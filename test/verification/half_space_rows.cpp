@@ -196,11 +196,65 @@ std::vector<Row> waveRows() {
                0.01, "bisection to 0.3 %; a cohesive length of a 64th of the wave, where JKR has none")};
 }
 
+/// Amplitude of a wave along x in a map.
+double amplitudeOf(const cv::Mat& map) {
+  double sum = 0.0;
+  for (int col = 0; col < map.cols; ++col) {
+    sum += 2.0 / map.cols * static_cast<double>(map.at<float>(0, col)) * std::sin(2.0 * kPi * col / map.cols);
+  }
+  return std::abs(sum);
+}
+
+/// A wave that is closed all over, in a body of which it is 1/s radians long: pressure over what is gone of its amplitude.
+Row closedWaveRow(const char* name, const char* source, Material body, double s, double expected, double tolerance,
+                  const char* why) {
+  const int cols = 32;
+  const double amplitude = 0.5 * kRange;
+  const double pitch = 2.0 * kPi * body.thickness / (s * cols);
+  HalfSpaceProblem problem = onRigidPlane(analytic::sine(2, cols, pitch, pitch, amplitude, 1), kModulus);
+  problem.lower_material = body;
+  problem.interface.work_of_adhesion = 12.5 * expected * kRange * kRange;  // contacts are 200 times as stiff
+  HalfSpaceOptions options = elastic(kRange);
+  options.tolerance = 1e-6;
+  const SolvedHalfSpace found = solve(problem, options);
+  const double stiffness = found.status == HalfSpaceStatus::kSolved
+                               ? amplitudeOf(found.pressure) / (amplitude - amplitudeOf(found.gap))
+                               : std::nan("");
+  return near(std::string("a closed wave, ") + name, "Pa/m", source, stiffness, expected, tolerance, why);
+}
+
+std::vector<Row> layerRows() {
+  Material body;
+  body.youngs_modulus = 80e9;
+  body.poisson_ratio = 0.3;
+  body.thickness = 1e-6;
+  const double plane = 80e9 / (1.0 - 0.3 * 0.3);
+  const double confined = 80e9 * 0.7 / (1.3 * 0.4);
+  const double t = body.thickness;
+  const char* kResidual = "half_space/tolerance";
+  Material film = body;
+  film.backing = Backing::kBonded;
+  Material coated = film;
+  coated.substrate = {20e9, 0.3};
+  const double thin = 0.03;
+  return {
+      closedWaveRow("plate of s = qt = 0.03", "a plate that bends: E' t^3 q^4/12", body, thin,
+                    plane * std::pow(thin, 4) / (12.0 * t), 1e-3, "shear, of s^2"),
+      closedWaveRow("plate of s = 30", "a half-space: (E'/2) q", body, 30.0, 0.5 * plane * 30.0 / t, 1e-3, kResidual),
+      closedWaveRow("film on something rigid, s = 0.03", "a confined film: E (1 - nu)/((1 + nu)(1 - 2 nu) t)", film,
+                    thin, confined / t, 5e-3, "sideways strain, of s^2"),
+      closedWaveRow("film on something rigid, s = 30", "a half-space: (E'/2) q", film, 30.0, 0.5 * plane * 30.0 / t,
+                    1e-3, kResidual),
+      closedWaveRow("film on a soft body, s = 30", "a half-space of the film: (E'/2) q", coated, 30.0,
+                    0.5 * plane * 30.0 / t, 1e-3, kResidual)};
+}
+
 }  // namespace
 
 Section halfSpaceSection() {
   Section section{"The half-space", {}};
-  for (const std::vector<Row>& rows : {flatRows(), hertzRows(), westergaardRows(), sphereRows(), waveRows()}) {
+  for (const std::vector<Row>& rows :
+       {flatRows(), hertzRows(), westergaardRows(), sphereRows(), waveRows(), layerRows()}) {
     section.rows.insert(section.rows.end(), rows.begin(), rows.end());
   }
   return section;
