@@ -88,11 +88,12 @@ MEMS_STICTION_VECTORIZED void gapsBelow(double top, const double* relief, std::s
 
 }  // namespace
 
-void GapField::takeGrid(const HeightMap& lower) {
-  rows_ = lower.rows();
-  cols_ = lower.cols();
-  pitch_x_ = lower.pitchX();
-  pitch_y_ = lower.pitchY();
+template <typename Grid>
+void GapField::takeGrid(const Grid& grid) {
+  rows_ = grid.rows();
+  cols_ = grid.cols();
+  pitch_x_ = grid.pitchX();
+  pitch_y_ = grid.pitchY();
 }
 
 template <typename Scalar, typename RowSource>
@@ -142,6 +143,21 @@ void GapField::compute(const SurfacePair& surfaces) {
   } else {
     computeBetween(surfaces.lower, surfaces.upper);
   }
+}
+
+void GapField::lower(const GapField& field, const cv::Mat1d& lowering) {
+  takeGrid(field);
+  upper_is_flat_ = false;
+  lower_.resize(static_cast<std::size_t>(cellCount()));
+  fillRelief(relief_, [&](int row, double* line) {
+    field.gapsOfRow(row, line);
+    const double* const down = lowering[row];
+    double* const lower_line = lower_.data() + static_cast<std::ptrdiff_t>(row) * cols_;
+    for (int col = 0; col < cols_; ++col) {
+      line[col] = -line[col] - down[col];
+      lower_line[col] = std::isfinite(line[col]) ? field.lowerHeight(row * cols_ + col) : 0.0;
+    }
+  });
 }
 
 void GapField::computeAgainstPlane(const HeightMap& lower) {

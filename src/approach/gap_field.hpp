@@ -8,6 +8,8 @@
 #include <limits>
 #include <vector>
 
+#include <opencv2/core.hpp>
+
 #include "approach/cell_order.hpp"
 #include "mems_stiction/surface/surface_pair.hpp"
 #include "numeric/large_pages.hpp"
@@ -31,6 +33,8 @@ class GapField {
  public:
   /// @throw SurfaceError if the grids differ or no pixel is valid in both, or if gaps lie more than 1e100 m apart.
   void compute(const SurfacePair& surfaces);
+  /// The gaps of another field whose relief has been lowered cell by cell [m], as a plate that tilts or bends does for itself.
+  void lower(const GapField& field, const cv::Mat1d& lowering);
 
   int rows() const { return rows_; }
   int cols() const { return cols_; }
@@ -74,7 +78,8 @@ class GapField {
   static constexpr double kInvalidGap = std::numeric_limits<double>::infinity();
 
  private:
-  void takeGrid(const HeightMap& lower);
+  template <typename Grid>
+  void takeGrid(const Grid& grid);
   void computeAgainstPlane(const HeightMap& lower);
   void computeBetween(const HeightMap& lower, const HeightMap& upper);
   /// - @p fill_row(row, line) writes a row's z1 - z2 [m], not finite where it is not valid

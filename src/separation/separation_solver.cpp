@@ -12,6 +12,12 @@
 namespace mems_stiction {
 
 void SeparationSolver::solve(const ContactProblem& problem, ContactSolution& solution) {
+  if (problem.settings.guidance == Guidance::kGuided) return solveStanding(problem, solution);
+  const GapField& settled = tilt_.settle(problem.gap, problem.settings);
+  solveStanding({problem.surfaces, settled, problem.composite_rms_height, problem.settings}, solution);
+}
+
+void SeparationSolver::solveStanding(const ContactProblem& problem, ContactSolution& solution) {
   solution.clear();
   curve_.comeToRest(problem.gap, problem.settings);
   const double joined_share = curve_.joinedShare();

@@ -23,6 +23,7 @@
 #include "separation/contact_curve.hpp"
 #include "separation/curve_statement.hpp"
 #include "separation/flattening.hpp"
+#include "separation/plate_tilt.hpp"
 #include "separation/way_out.hpp"
 
 namespace mems_stiction {
@@ -33,6 +34,8 @@ class SeparationSolver : public ContactSolver {
   void solve(const ContactProblem& problem, ContactSolution& solution) override;
 
  private:
+  /// Of the surfaces as the problem has them.
+  void solveStanding(const ContactProblem& problem, ContactSolution& solution);
   void takeRest(const ContactProblem& problem, ContactSolution& solution);
   void findBorder(const GapField& field);
   /// Calls take(row, column, overlap [m], patch, contact) for each cell that overlaps at rest, row by row.
@@ -44,6 +47,7 @@ class SeparationSolver : public ContactSolver {
   /// The contacts that hold at the pull-off: patches within reach of the attraction there.
   void listPullOffContacts(const ContactProblem& problem, ContactSolution& solution);
 
+  PlateTilt tilt_;
   ContactCurve curve_;
   std::vector<std::uint8_t> is_at_border_;  ///< of the contacts at rest
   std::vector<double> row_gaps_;

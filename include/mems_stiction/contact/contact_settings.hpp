@@ -30,6 +30,12 @@ struct PaperOptions {
   void describe(OptionVisitor& visitor);
 };
 
+/// How the part is led while it touches.
+enum class Guidance {
+  kGuided,  ///< it stays as the frame shows it
+  kFree,    ///< it tilts until it rests on three contacts around its middle
+};
+
 /// What every solver is given. A solver leaves alone what has no meaning for it.
 struct ContactSettings {
   Material lower;
@@ -39,6 +45,7 @@ struct ContactSettings {
   LoadOptions load;
   ApproachOptions approach;
   Deformation deformation = Deformation::kThreeRegimes;
+  Guidance guidance = Guidance::kGuided;
   PaperOptions paper;
   OutputOptions output;
 };
