@@ -23,13 +23,14 @@ std::unique_ptr<ContactSolver> make() {
   return std::make_unique<Solver>(Arguments...);
 }
 
-std::vector<UnusedSetting> usesAll(const ContactSettings&) { return {}; }
+/// What neither of the paper's formulations has.
+std::vector<UnusedSetting> unusedByPaper(const ContactSettings&) { return {{"device/guidance"}}; }
 
 /// A line per solver, the default first.
 constexpr Entry kSolvers[] = {
-    {"separation_curve", make<SeparationSolver>, CurveStatement::unusedSettings, false},
-    {"paper", make<AsperitySolver, Formulation::kPaper>, usesAll, false},
-    {"printed", make<AsperitySolver, Formulation::kPrinted>, usesAll, false},
+    {"separation_curve", make<SeparationSolver>, CurveStatement::unusedSettings, true},
+    {"paper", make<AsperitySolver, Formulation::kPaper>, unusedByPaper, false},
+    {"printed", make<AsperitySolver, Formulation::kPrinted>, unusedByPaper, false},
 };
 
 /// What only condensed water needs.
@@ -47,7 +48,7 @@ void addOfOtherSide(const Material& body, const std::string& name, bool bends_bo
     add({"/backing", "/substrate/youngs_modulus", "/substrate/poisson_ratio"}, name + "/thickness is 0");
   } else if (!bends_bodies) {
     add({"/thickness", "/backing", "/substrate/youngs_modulus", "/substrate/poisson_ratio"},
-        "the prediction takes bodies for thick, which the half-space does not");
+        "the separation curve and the half-space alone ask how thick bodies are");
   } else if (body.backing == Backing::kFree) {
     add({"/substrate/youngs_modulus", "/substrate/poisson_ratio"}, name + "/backing is free");
   } else if (body.substrate.youngs_modulus == 0.0) {

@@ -63,6 +63,15 @@ constexpr ModelError kConformingError{0.15, 0.05};
 constexpr ModelError kNearBondingError{0.14, 0.13};
 constexpr ModelError kSparseError{0.06, 0.04};
 
+/// Flattening ratio below which contacts of thin bodies may grow together, place by place [-]: bending reaches from one to the next.
+/// Set on frames of plates (doc/separation_curve.md, "Bodies that bend"). No force hangs on it: the flag and the interval do.
+constexpr double kBentTogether = 15.0;
+/// Bodies bend if closing the relief takes less than this share of what thick bodies need [-]; the same flag and interval.
+constexpr double kBends = 0.85;
+/// Standard deviations of the logarithm of force and work there, of contacts and of surfaces that conform.
+constexpr ModelError kBentError{0.7, 0.7};
+constexpr ModelError kBentConformingError{0.3, 0.3};
+
 // ---------------------------------------------------------------- steps: they cost accuracy or time, not physics
 // Half of each step, and twice as many parts and lines, change no figure by more than 0.4 percent of frames.
 

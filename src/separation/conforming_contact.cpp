@@ -21,10 +21,14 @@ double stiffnessOf(double flattening_energy, double rms_height) {
 }  // namespace
 
 void ConformingContact::start(const GapField& field, const ContactTraction& law, double contact_modulus,
-                              double flattening_energy) {
+                              double flattening_energy, const BentBodies* bent) {
+  bent_ = bent != nullptr ? *bent : BentBodies{};
   field_ = &field;
   law_ = &law;
   bodies_ = {contact_modulus, law.workOfAdhesion(), law.range(), flattening_energy, field.rmsGap()};
+  if (bent_.compliance != nullptr) {
+    bodies_.bending = bent_.compliance->cohesiveLength(bodies_.cohesiveLength()) / bodies_.cohesiveLength();
+  }
   has_relief_ = false;
   branch_.clear();
 }
@@ -43,7 +47,7 @@ const std::vector<SpringState>& ConformingContact::branch() {
   return branch_;
 }
 
-double ConformingContact::work() { return std::max(0.0, -restOf(branch(), 0.0)->energy); }
+double ConformingContact::work() { return std::max(0.0, -restOf(branch(), 0.0)->energy - bent_.energy); }
 
 ReliefSpectrum& ConformingContact::relief() {
   if (!has_relief_) relief_.take(*field_, ReliefWaves::blockLength(bodies_.cohesiveLength()));
@@ -87,7 +91,7 @@ double ConformingContact::takeShortWaves(cv::Point2d place, double radius) {
 
 double ConformingContact::strengthAtWeakestPlace() {
   const double cohesive_length = bodies_.cohesiveLength();
-  waves_.split(relief(), {field_->cols(), field_->rows()}, bodies_.contact_modulus, cohesive_length);
+  waves_.split(relief(), {field_->cols(), field_->rows()}, bodies_.contact_modulus, cohesive_length, bent_.compliance);
   const double cell = std::hypot(field_->pitchX(), field_->pitchY());
   const double short_rms =
       takeShortWaves(waves_.weakestPlace(), std::max(chosen::kTearingZone * cohesive_length, cell));
@@ -115,8 +119,19 @@ WayOut ConformingContact::fromOpenValleys(double pressure) {
   return way_out;
 }
 
+double ConformingContact::strengthOfBent(double strength) const {
+  if (bent_.compliance == nullptr || !(strength > 0.0) || !(bodies_.bending < 1.0)) return strength;
+  // Griffith's balance of a wave of the mean stiffness, p^2/(2 K) = Gamma, as in (S10d)
+  const double energy = bodies_.flattening_energy + bent_.energy;
+  const double stiffness = 2.0 * energy / (bent_.rms_height * bent_.rms_height);
+  const double brittle = std::exp(-chosen::kDecay * energy / bodies_.work_of_adhesion) *
+                         std::sqrt(2.0 * stiffness * bodies_.work_of_adhesion);
+  const double share = 1.0 - bodies_.bending * bodies_.bending;
+  return 1.0 / (1.0 / strength + share / brittle);
+}
+
 WayOut ConformingContact::asAWhole(double pressure, double least_force) {
-  WayOut way_out = upTo(std::max(strengthAtWeakestPlace(), least_force / area()), pressure);
+  WayOut way_out = upTo(strengthOfBent(std::max(strengthAtWeakestPlace(), least_force / area())), pressure);
   way_out.parting = Parting::kAsAWhole;
   way_out.force_exponents = kLawExponents;
   return way_out;

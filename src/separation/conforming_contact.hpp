@@ -18,6 +18,7 @@
 
 #include "approach/gap_field.hpp"
 #include "separation/contact_traction.hpp"
+#include "separation/extra_compliance.hpp"
 #include "separation/flattening.hpp"
 #include "separation/open_valleys.hpp"
 #include "separation/relief_waves.hpp"
@@ -26,13 +27,22 @@
 
 namespace mems_stiction {
 
+/// Bodies that have bent until the gap is what thick ones would have to close.
+struct BentBodies {
+  double energy = 0.0;                          ///< of the bending, per area [J/m^2]
+  double rms_height = 0.0;                      ///< of the gap before [m]
+  const ExtraCompliance* compliance = nullptr;  ///< what they yield
+};
+
 /// Bonded surfaces of one frame. Keeps its memory between frames.
 class ConformingContact {
  public:
   /// What the next calls are about. Everything must outlive them; nothing is computed yet.
   /// - @p flattening_energy U/A [J/m^2], >= 0
   /// - @p contact_modulus E [Pa], > 0
-  void start(const GapField& field, const ContactTraction& law, double contact_modulus, double flattening_energy);
+  /// - @p bent nullptr: thick bodies
+  void start(const GapField& field, const ContactTraction& law, double contact_modulus, double flattening_energy,
+             const BentBodies* bent = nullptr);
 
   /// What drawing the bonded surfaces apart takes [J/m^2]; 0 if they do not stay together.
   double work();
@@ -48,6 +58,8 @@ class ConformingContact {
   WayOut upTo(double strength, double pressure);
   /// Mean traction at which the weakest place tears [Pa]; negative if flattening alone does it.
   double strengthAtWeakestPlace();
+  /// The same of bodies that bend: they tear from open places over the length of a crack that bending makes easy, too (S10e).
+  double strengthOfBent(double strength) const;
   /// The short waves over the whole frame: rms height [m]; and those near a place, as depths below the mean plane [m].
   double takeShortWaves(cv::Point2d place, double radius);
   const std::vector<SpringState>& branch();
@@ -57,6 +69,7 @@ class ConformingContact {
   const GapField* field_ = nullptr;
   const ContactTraction* law_ = nullptr;
   BondedBodies bodies_;
+  BentBodies bent_;                  ///< of thick bodies: none
   std::vector<SpringState> branch_;  ///< empty until it is asked for
   ReliefSpectrum relief_;
   bool has_relief_ = false;

@@ -32,7 +32,7 @@ bool CurveStatement::mayGrowTogether(const ContactSolution& solution, double fla
   return flattening_ratio < chosen::kNearBonding * (1.0 + softness);
 }
 
-ModelStatement CurveStatement::of(const ContactSolution& solution, double work_of_adhesion) {
+ModelStatement CurveStatement::of(const ContactSolution& solution, double work_of_adhesion, bool bends) {
   ModelStatement statement;
   statement.is_bound_where_bonded = false;
   statement.knows_every_load = true;
@@ -42,6 +42,10 @@ ModelStatement CurveStatement::of(const ContactSolution& solution, double work_o
   statement.error = chosen::kSparseError;
   if (statement.may_grow_together) statement.error = chosen::kNearBondingError;
   if (solution.is_conforming) statement.error = chosen::kConformingError;
+  if (bends && solution.flattening_energy < chosen::kBentTogether * work_of_adhesion) {
+    statement.may_grow_together = true;
+    statement.error = solution.is_conforming ? chosen::kBentConformingError : chosen::kBentError;
+  }
   return statement;
 }
 

@@ -17,7 +17,8 @@ class CurveStatement {
 
   /// - @p solution with its contacts, those at the pull-off too
   /// - @p work_of_adhesion Gamma [J/m^2]
-  ModelStatement of(const ContactSolution& solution, double work_of_adhesion);
+  /// - @p bends whether the bodies bend under the long waves of their relief
+  ModelStatement of(const ContactSolution& solution, double work_of_adhesion, bool bends = false);
 
  private:
   /// Whether the flattening ratio lies below 2 (1 + mu), mu the median Tabor parameter, at most 1: where contacts are

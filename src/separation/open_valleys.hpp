@@ -31,7 +31,9 @@ struct BondedBodies {
   double flattening_energy = 0.0;  ///< U [J/m^2], > 0
   double rms_height = 0.0;         ///< sigma of the gap [m], > 0
 
-  double cohesiveLength() const { return contact_modulus * range * range / work_of_adhesion; }
+  double bending = 1.0;  ///< what the bodies' bending leaves of the cohesive length [-]
+
+  double cohesiveLength() const { return bending * contact_modulus * range * range / work_of_adhesion; }
   /// Mean wave number of the relief [1/m].
   double waveNumber() const { return 4.0 * flattening_energy / (contact_modulus * rms_height * rms_height); }
 };

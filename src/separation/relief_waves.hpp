@@ -15,6 +15,7 @@
 
 #include <opencv2/core.hpp>
 
+#include "separation/extra_compliance.hpp"
 #include "separation/relief_spectrum.hpp"
 
 namespace mems_stiction {
@@ -26,7 +27,9 @@ class ReliefWaves {
   /// - @p cells columns and rows of the frame
   /// - @p contact_modulus E [Pa], > 0
   /// - @p cohesive_length l [m], > 0
-  void split(ReliefSpectrum& relief, cv::Size cells, double contact_modulus, double cohesive_length);
+  /// - @p bending of bodies whose cohesive length this is; nullptr: of thick ones. What is long is told by their stiffness.
+  void split(ReliefSpectrum& relief, cv::Size cells, double contact_modulus, double cohesive_length,
+             const ExtraCompliance* bending = nullptr);
 
   /// Blocks that resolve what is long against a cohesive length [m].
   static double blockLength(double cohesive_length) { return 0.5 * cohesive_length; }

@@ -9,33 +9,71 @@
 #include "mems_stiction/mechanics/plasticity.hpp"
 #include "numeric/constants.hpp"
 
+#include "chosen_constants.hpp"
+
 namespace mems_stiction {
 
 void SeparationSolver::solve(const ContactProblem& problem, ContactSolution& solution) {
-  if (problem.settings.guidance == Guidance::kGuided) return solveStanding(problem, solution);
+  if (problem.settings.guidance == Guidance::kGuided) return solveSettled(problem, solution);
   const GapField& settled = tilt_.settle(problem.gap, problem.settings);
-  solveStanding({problem.surfaces, settled, problem.composite_rms_height, problem.settings}, solution);
+  solveSettled({problem.surfaces, settled, problem.composite_rms_height, problem.settings}, solution);
 }
 
-void SeparationSolver::solveStanding(const ContactProblem& problem, ContactSolution& solution) {
+void SeparationSolver::solveSettled(const ContactProblem& problem, ContactSolution& solution) {
+  const ContactSettings& settings = problem.settings;
+  if (WaveStiffness(settings.lower, settings.upper).isThick()) {
+    return solveStanding(problem, nullptr, solution);
+  }
+  const GapField& at_rest = bent_.solve(problem.gap, settings);
+  const BentContact::Closed closed = bent_.closed();
+  solveStanding({problem.surfaces, at_rest, problem.composite_rms_height, settings}, &closed, solution);
+  const bool bends = solution.flattening_energy <
+                     chosen::kBends * flattening_.of(problem.gap, curve_.frame().patchForces().contactModulus());
+  solution.model = statement_.of(solution, settings.interface.work_of_adhesion, bends);
+  if (bent_.isStiff() || solution.is_conforming) return;
+  solution.energies.elastic += bent_.energyAtRest() * curve_.frame().area();
+  const BentContact::Parting& parting = bent_.parting();
+  const GapField& strongest = bent_.bent(parting.bed_stiffness);
+  curve_.comeToRest(strongest, settings);
+  curve_.part();
+  const WayOut& way_out = curve_.byContacts();
+  solution.pull_off_force = parting.force;
+  solution.pull_off_exponents = way_out.force_exponents;
+  solution.apparent_work_of_adhesion = parting.work;
+  solution.work_exponents = way_out.work_exponents;
+  solution.curve.erase(std::remove_if(solution.curve.begin(), solution.curve.end(),
+                                      [](const SeparationCurvePoint& point) { return point.is_separation; }),
+                       solution.curve.end());
+  solution.curve.insert(solution.curve.end(), parting.curve.begin(), parting.curve.end());
+  solution.pull_off_contacts.clear();
+  listPullOffContacts({problem.surfaces, strongest, problem.composite_rms_height, settings}, solution);
+  solution.model = statement_.of(solution, settings.interface.work_of_adhesion, bends);
+}
+
+void SeparationSolver::solveStanding(const ContactProblem& problem, const BentContact::Closed* closed,
+                                     ContactSolution& solution) {
   solution.clear();
   curve_.comeToRest(problem.gap, problem.settings);
   const double joined_share = curve_.joinedShare();
   curve_.appendWayIn(solution.curve);
   const FrameSums& frame = curve_.frame();
   solution.steps = static_cast<int>(curve_.wayIn().states.size());
-  solution.flattening_energy = flattening_.of(problem.gap, frame.patchForces().contactModulus());
+  const GapField& left_to_close = closed != nullptr ? *closed->gap : problem.gap;
+  const double bending_energy = closed != nullptr ? closed->bodies.energy : 0.0;
+  const double flattening_energy = flattening_.of(left_to_close, frame.patchForces().contactModulus());
+  solution.flattening_energy = flattening_energy + bending_energy;
   takeRest(problem, solution);
   listContacts(problem, solution);
   fillMaps(problem, solution);
   curve_.part();
-  conforming_.start(problem.gap, frame.law(), frame.patchForces().contactModulus(), solution.flattening_energy);
+  conforming_.start(left_to_close, frame.law(), frame.patchForces().contactModulus(), flattening_energy,
+                    closed != nullptr ? &closed->bodies : nullptr);
   const std::optional<WayOut> conforming = conformingWayOut(curve_.byContacts(), joined_share, conforming_,
                                                             solution.flattening_energy / frame.law().workOfAdhesion(),
                                                             problem.settings.load.mechanical_load / frame.area());
   takeWayOut(conforming ? *conforming : curve_.byContacts(), solution);
   listPullOffContacts(problem, solution);
-  solution.model = statement_.of(solution, problem.settings.interface.work_of_adhesion);
+  solution.model = statement_.of(solution, problem.settings.interface.work_of_adhesion, false);
 }
 
 void SeparationSolver::takeWayOut(const WayOut& way_out, ContactSolution& solution) const {

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "contact/contact_solver.hpp"
+#include "separation/bent_contact.hpp"
 #include "separation/conforming_contact.hpp"
 #include "separation/contact_curve.hpp"
 #include "separation/curve_statement.hpp"
@@ -34,8 +35,11 @@ class SeparationSolver : public ContactSolver {
   void solve(const ContactProblem& problem, ContactSolution& solution) override;
 
  private:
+  /// Of a plate that has settled, whose bodies may bend.
+  void solveSettled(const ContactProblem& problem, ContactSolution& solution);
   /// Of the surfaces as the problem has them.
-  void solveStanding(const ContactProblem& problem, ContactSolution& solution);
+  /// - @p closed what is left of the relief where bodies bend and it closes; nullptr: all of it
+  void solveStanding(const ContactProblem& problem, const BentContact::Closed* closed, ContactSolution& solution);
   void takeRest(const ContactProblem& problem, ContactSolution& solution);
   void findBorder(const GapField& field);
   /// Calls take(row, column, overlap [m], patch, contact) for each cell that overlaps at rest, row by row.
@@ -48,6 +52,7 @@ class SeparationSolver : public ContactSolver {
   void listPullOffContacts(const ContactProblem& problem, ContactSolution& solution);
 
   PlateTilt tilt_;
+  BentContact bent_;
   ContactCurve curve_;
   std::vector<std::uint8_t> is_at_border_;  ///< of the contacts at rest
   std::vector<double> row_gaps_;

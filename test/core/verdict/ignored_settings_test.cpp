@@ -34,8 +34,7 @@ Settings busy() {
   settings.model.lower.hardness = 2.0e9;
   settings.model.upper.hardness = 2.1e9;
   for (Material* body : {&settings.model.lower, &settings.model.upper}) {
-    body->thickness = 2e-6;
-    body->backing = Backing::kBonded;
+    body->thickness = 20e-9;
   }
   settings.model.interface.insulator_thickness = 100e-9;
   settings.model.load.voltage = 5.0;

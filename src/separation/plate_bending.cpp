@@ -1,0 +1,97 @@
+#include "separation/plate_bending.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include <opencv2/imgproc.hpp>
+
+#include "numeric/constants.hpp"
+
+namespace mems_stiction {
+namespace {
+
+/// Blocks of the relief are so many times shorter than the thinner body: shorter waves do not reach through it.
+constexpr double kBlocksPerThickness = 8.0;
+
+double thinner(const WaveStiffness& stiffness) {
+  double thickness = std::numeric_limits<double>::infinity();
+  for (const LayerCompliance* body : {&stiffness.lower(), &stiffness.upper()}) {
+    if (!body->isThick()) thickness = std::min(thickness, body->thickness());
+  }
+  return thickness;
+}
+
+double meanSquare(const cv::Mat1d& heights) { return heights.dot(heights) / static_cast<double>(heights.total()); }
+
+/// The plane through the relief of least squares, at every cell.
+void meanPlane(const GapField& field, std::vector<double>& line, cv::Mat1d& plane) {
+  cv::Matx33d products = cv::Matx33d::zeros();
+  cv::Vec3d sums = cv::Vec3d::all(0.0);
+  const auto placeOf = [&](int row, int col) {
+    return cv::Vec3d(1.0, (col + 0.5) / field.cols() - 0.5, (row + 0.5) / field.rows() - 0.5);
+  };
+  line.resize(static_cast<std::size_t>(field.cols()));
+  for (int row = 0; row < field.rows(); ++row) {
+    field.gapsOfRow(row, line.data());
+    for (int col = 0; col < field.cols(); ++col) {
+      const double gap = line[static_cast<std::size_t>(col)];
+      if (!(gap <= field.largestGap())) continue;
+      const cv::Vec3d place = placeOf(row, col);
+      products += place * place.t();
+      sums += (field.meanGap() - gap) * place;
+    }
+  }
+  // a frame of one row or column, or with few cells, has no slope there
+  for (int i = 0; i < 3; ++i) products(i, i) += 1e-9 * products(0, 0);
+  const cv::Vec3d fit = products.solve(sums, cv::DECOMP_LU);
+  plane.create(field.rows(), field.cols());
+  for (int row = 0; row < field.rows(); ++row) {
+    for (int col = 0; col < field.cols(); ++col) plane(row, col) = fit.dot(placeOf(row, col));
+  }
+}
+
+}  // namespace
+
+void PlateBending::start(const GapField& field, const WaveStiffness& stiffness) {
+  field_ = &field;
+  const double width = field.cols() * field.pitchX();
+  const double height = field.rows() * field.pitchY();
+  const double shortest = kPi * std::hypot(1.0 / field.pitchX(), 1.0 / field.pitchY());
+  compliance_ = ExtraCompliance(stiffness, 0.5 * kPi / std::max(width, height), 2.0 * shortest);
+  const double longest_block = thinner(stiffness) / kBlocksPerThickness;
+  relief_.take(field, longest_block);
+  if (relief_.repeats()) return;
+  std::vector<double> line;
+  meanPlane(field, line, bending_);
+  level_.lower(field, bending_);
+  relief_.take(level_, longest_block);
+}
+
+template <typename Bed>
+const GapField& PlateBending::lowered(const Bed& bed, GapField& gap) {
+  energy_ = 0.5 * meanSquare(relief_.weighed([&](double q) {
+              const double compliance = compliance_.at(q);
+              return bed(q) * std::sqrt(compliance) / (1.0 + bed(q) * compliance);
+            }));
+  const cv::Mat1d& conforming = relief_.weighed([&](double q) {
+    const double yield = bed(q) * compliance_.at(q);
+    return yield / (1.0 + yield);
+  });
+  rms_bending_ = std::sqrt(meanSquare(conforming));
+  cv::resize(conforming(cv::Rect({0, 0}, relief_.blocks())), bending_, {field_->cols(), field_->rows()}, 0.0, 0.0,
+             cv::INTER_LINEAR);
+  gap.lower(*field_, bending_);
+  return gap;
+}
+
+const GapField& PlateBending::bent(double bed_stiffness) {
+  return lowered([=](double) { return bed_stiffness; }, bent_);
+}
+
+const GapField& PlateBending::closed() {
+  return lowered([this](double q) { return 0.5 * compliance_.contactModulus() * q; }, closed_);
+}
+
+}  // namespace mems_stiction
