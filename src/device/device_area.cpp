@@ -191,6 +191,7 @@ Realisation DeviceAreaSolver::follow(const AreaCells& cells, const std::vector<A
   if (found.reach != AreaReach::kEnough) return followFrame(frame());
   force_exponents_ = found.pull_off_exponents;
   work_exponents_ = found.work_exponents;
+  stiffness_ = found.contact_stiffness / found.area;
   Realisation realisation;
   realisation.pull_off_force = found.pull_off_force;
   realisation.apparent_work_of_adhesion = found.apparent_work_of_adhesion;
@@ -218,6 +219,7 @@ Realisation DeviceAreaSolver::followFrame(const cv::Mat& relief) {
   const Prediction found = model.predict(frame);
   force_exponents_ = found.pull_off_exponents;
   work_exponents_ = found.work_exponents;
+  stiffness_ = found.contact_stiffness / area;
   Realisation realisation;
   const double scale = pieces_.area() / area;
   realisation.pull_off_force = found.pull_off_force * scale;

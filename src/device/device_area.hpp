@@ -49,6 +49,9 @@ class DeviceAreaSolver {
   AreaGrowth growth();
   Exponents lastForceExponents() const { return force_exponents_; }
   Exponents lastWorkExponents() const { return work_exponents_; }
+  double lastStiffness() const {
+    return stiffness_;
+  }  ///< of the contact at rest, per area [Pa/m]; NaN if it is not known
   /// The first piece of the first surface that was made, as DeviceForce has it.
   const HeightMap& madeSurface() const { return made_surface_; }
   /// About all realisations, each once.
@@ -68,6 +71,7 @@ class DeviceAreaSolver {
   DevicePieces pieces_;
   Exponents force_exponents_;
   Exponents work_exponents_;
+  double stiffness_ = 0.0;             ///< [Pa/m]
   std::vector<double> force_growths_;  ///< powers of the area with which figures go, by realisation
   std::vector<double> work_growths_;
   std::vector<std::string> warnings_;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "device/device_area.hpp"
+#include "device/device_mosaic.hpp"
 #include "device/made_surface.hpp"
 #include "device/surface_law.hpp"
 #include "errors/short_number.hpp"
@@ -249,12 +250,37 @@ void takeConforming(const std::vector<Prediction>& predictions, const Options& m
   force.warnings.emplace_back("the scans' surfaces conform and bond all over: force and work go with area");
 }
 
+/// Of a part whose bodies are thin, or that may tilt.
+DeviceForce forceOfStructure(const DeviceSurfaces& surfaces, const DeviceArea& area, const Options& model,
+                             const UncertaintyOptions& uncertainty, const DeviceForceOptions& options,
+                             const std::function<void(double)>& on_progress) {
+  const Options stiff = stiffModel(model);
+  const bool is_thin = model.lower.thickness > 0.0 || model.upper.thickness > 0.0;
+  const double length =
+      is_thin ? mosaicLength(surfaces, area, model, options) : std::numeric_limits<double>::infinity();
+  DeviceArea place = area;
+  if (std::isfinite(length)) place = {length * length, 1};
+  DeviceForce force = deviceForce(surfaces, place, stiff, uncertainty, options, on_progress);
+  if (std::isfinite(length)) {
+    takePlaces(area, length, force);
+  } else if (is_thin) {
+    force.warnings.emplace_back("bodies of this thickness are stiff over the whole contact: no wave of it bends them");
+  }
+  if (model.guidance != Guidance::kGuided) {
+    force.warnings.emplace_back("device/guidance: free is taken for frames alone: made surfaces stay level");
+  }
+  return force;
+}
+
 }  // namespace
 
 DeviceForce deviceForce(const DeviceSurfaces& surfaces, const DeviceArea& area, const Options& model,
                         const UncertaintyOptions& uncertainty, const DeviceForceOptions& options,
                         const std::function<void(double)>& on_progress) {
   checkDevice(surfaces, area, options);
+  if (model.guidance != Guidance::kGuided || model.lower.thickness > 0.0 || model.upper.thickness > 0.0) {
+    return forceOfStructure(surfaces, area, model, uncertainty, options, on_progress);
+  }
   DeviceForce force;
   force.area = area.area;
   const auto progress = [&](double share) {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "approach/area_cells.hpp"
+#include "device/device_mosaic.hpp"
 #include "files/byte_pieces.hpp"
 #include "files/content_hash.hpp"
 #include "mems_stiction/errors/errors.hpp"
@@ -58,7 +59,7 @@ DividedSurface::DividedSurface(const DeviceSurfaces& surfaces, const DeviceArea&
                                const DeviceForceOptions& options, int number, std::optional<double> depth)
     : laws_(std::make_unique<const DeviceLaws>(lawsOf(surfaces, options, TailForm::kExponential))),
       surface_(*laws_, wholePieces(surfaces, area, options), realisationSeed(options, number)),
-      solver_(model, areaOf(surfaces.scans.front().surface), surface_.pieces()),
+      solver_(stiffModel(model), areaOf(surfaces.scans.front().surface), surface_.pieces()),
       depth_(depth) {
   if (depth_ && !(*depth_ > 0.0)) {
     throw OptionsError({"depth: " + numberText(*depth_) + " m is not allowed, must be > 0 m"});

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include <opencv2/imgproc.hpp>
@@ -193,6 +194,32 @@ TEST_F(DeviceForceTest, RefusesWhatMakesNoSense) {
   EXPECT_THROW(force(1e-9), OptionsError);
   surfaces_.scans = {{"flat", HeightMap(cv::Mat::zeros(64, 64, CV_64FC1), kPitch, kPitch)}};
   EXPECT_NO_THROW(force(areaOfPixels(512)));  // it conforms
+}
+
+TEST_F(DeviceForceTest, thinBodiesAreAMosaicWhoseForceGoesWithArea) {
+  model_.lower.thickness = 40e-9;
+  const DeviceForce once = force(areaOfPixels(1200));
+  const DeviceForce twice = force(2.0 * areaOfPixels(1200));
+  const auto tellsOfMosaic = [](const DeviceForce& found) {
+    return std::any_of(found.warnings.begin(), found.warnings.end(),
+                       [](const std::string& warning) { return warning.find("is a mosaic of") != std::string::npos; });
+  };
+  EXPECT_TRUE(tellsOfMosaic(once));
+  EXPECT_TRUE(tellsOfMosaic(twice));
+  EXPECT_NEAR(twice.pull_off_force, 2.0 * once.pull_off_force, 0.2 * once.pull_off_force);
+  EXPECT_NEAR(twice.contacts, 2.0 * once.contacts, 0.3 * once.contacts);
+  EXPECT_EQ(twice.area, 2.0 * areaOfPixels(1200));
+  model_.lower.thickness = 0.0;
+  EXPECT_GT(once.pull_off_force, 1.5 * force(areaOfPixels(1200)).pull_off_force);
+}
+
+TEST_F(DeviceForceTest, aBlockIsAsGoodAsThickAndSaysSo) {
+  const DeviceForce thick = force(areaOfPixels(600));
+  model_.upper.thickness = 20e-6;
+  const DeviceForce block = force(areaOfPixels(600));
+  EXPECT_EQ(block.pull_off_force, thick.pull_off_force);
+  EXPECT_EQ(block.pull_off_force_upper, thick.pull_off_force_upper);
+  EXPECT_EQ(block.warnings.size(), thick.warnings.size() + 1);
 }
 
 }  // namespace
