@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "approach/area_cells.hpp"
+#include "device/scan_list.hpp"
 #include "errors/short_number.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
@@ -94,7 +95,7 @@ bool haveRoom(const std::vector<HeightMap>& scans, const DevicePieces& pieces) {
   double area = 0.0;
   for (const HeightMap& scan : scans) {
     if (scan.cols() < pieces.size.cols || scan.rows() < pieces.size.rows) return false;
-    area += scan.rows() * scan.cols() * scan.cellArea();
+    area += areaOf(scan);
   }
   return pieces.area_ratio <= 1.0 + kRounding && pieces.area() <= area;
 }
@@ -214,7 +215,7 @@ Realisation DeviceAreaSolver::follow(const AreaCells& cells, const std::vector<A
 
 Realisation DeviceAreaSolver::followFrame(const cv::Mat& relief) {
   const HeightMap frame(relief, pieces_.size.pitch_x, pieces_.size.pitch_y);
-  const double area = frame.rows() * frame.cols() * frame.cellArea();
+  const double area = areaOf(frame);
   AdhesionModel model(loadedOn(area));
   const Prediction found = model.predict(frame);
   force_exponents_ = found.pull_off_exponents;

@@ -9,6 +9,7 @@
 #include "device/device_area.hpp"
 #include "device/device_mosaic.hpp"
 #include "device/made_surface.hpp"
+#include "device/scan_list.hpp"
 #include "device/surface_law.hpp"
 #include "errors/short_number.hpp"
 #include "mems_stiction/errors/errors.hpp"
@@ -16,6 +17,7 @@
 #include "mems_stiction/surface/surface_pair.hpp"
 #include "mems_stiction/verdict/margin_uncertainty.hpp"
 #include "numeric/constants.hpp"
+#include "numeric/median.hpp"
 #include "verdict/part_verdict.hpp"
 
 namespace mems_stiction {
@@ -31,39 +33,12 @@ constexpr double kLongerContact = 1.5;
 constexpr double kContradiction = 1.5;
 constexpr double kBeyondScatter = 4.0;
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return quantile(values, 0.5);
-}
-
 double deviation(const std::vector<double>& values) {
   double mean = 0.0;
   for (const double value : values) mean += value / static_cast<double>(values.size());
   double sum = 0.0;
   for (const double value : values) sum += (value - mean) * (value - mean);
   return std::sqrt(sum / static_cast<double>(values.size() - 1));
-}
-
-double areaOf(const HeightMap& surface) { return surface.rows() * surface.cols() * surface.cellArea(); }
-
-double longerPitch(const HeightMap& surface) { return std::max(surface.pitchX(), surface.pitchY()); }
-
-std::vector<HeightMap> mapsOf(const std::vector<NamedScan>& scans) {
-  std::vector<HeightMap> maps;
-  maps.reserve(scans.size());
-  for (const NamedScan& scan : scans) maps.push_back(scan.surface);
-  return maps;
-}
-
-/// The finest, which alone may stand for contacts.
-std::vector<HeightMap> fineMapsOf(const std::vector<NamedScan>& scans) {
-  double finest = std::numeric_limits<double>::infinity();
-  for (const NamedScan& scan : scans) finest = std::min(finest, longerPitch(scan.surface));
-  std::vector<HeightMap> maps;
-  for (const NamedScan& scan : scans) {
-    if (longerPitch(scan.surface) < 1.01 * finest) maps.push_back(scan.surface);
-  }
-  return maps;
 }
 
 /// As many of them, by lot.
@@ -234,8 +209,8 @@ void takeConforming(const std::vector<Prediction>& predictions, const Options& m
     forces.push_back(std::log(of_area));
     works.push_back(std::log(prediction.apparent_work_of_adhesion));
   }
-  force.pull_off_force = std::exp(median(forces));
-  force.apparent_work_of_adhesion = std::exp(median(works));
+  force.pull_off_force = std::exp(medianOf(forces));
+  force.apparent_work_of_adhesion = std::exp(medianOf(works));
   force.contacts = 1.0;
   force.separation_at_rest = predictions.back().mean_gap;
   double student = 0.0;
@@ -289,8 +264,7 @@ DeviceForce deviceForce(const DeviceSurfaces& surfaces, const DeviceArea& area, 
   progress(0.0);
 
   AdhesionModel adhesion(model);
-  double finest = std::numeric_limits<double>::infinity();
-  for (const NamedScan& scan : surfaces.scans) finest = std::min(finest, longerPitch(scan.surface));
+  const double finest = finestPitch(mapsOf(surfaces.scans));
   std::vector<Prediction> predictions;
   double force_per_area = 0.0;
   for (const NamedScan& scan : surfaces.scans) {
@@ -355,10 +329,10 @@ DeviceForce deviceForce(const DeviceSurfaces& surfaces, const DeviceArea& area, 
     realisation.pull_off_force *= growth.force;
     realisation.apparent_work_of_adhesion *= growth.work;
   }
-  force.pull_off_force = std::exp(median(stated.force)) * growth.force;
-  force.apparent_work_of_adhesion = std::exp(median(stated.work)) * growth.work;
-  force.contacts = median(counts);
-  force.separation_at_rest = median(gaps);
+  force.pull_off_force = std::exp(medianOf(stated.force)) * growth.force;
+  force.apparent_work_of_adhesion = std::exp(medianOf(stated.work)) * growth.work;
+  force.contacts = medianOf(counts);
+  force.separation_at_rest = medianOf(gaps);
   const double once_more = std::sqrt(1.0 + 1.0 / options.realisations);
   const auto scatter = [&](const std::vector<double>& of_stated, const std::vector<double>& of_others) {
     return once_more * std::hypot(std::max(deviation(of_stated), deviation(of_others)), kOwnError);

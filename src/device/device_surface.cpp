@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "device/scan_list.hpp"
 #include "files/byte_pieces.hpp"
 #include "files/content_hash.hpp"
 #include "mems_stiction/errors/errors.hpp"
@@ -15,13 +15,6 @@ namespace {
 
 /// Pixels along the side of the corner by which a surface is known.
 constexpr std::int64_t kCorner = 32;
-
-std::vector<HeightMap> mapsOf(const std::vector<NamedScan>& scans) {
-  std::vector<HeightMap> maps;
-  maps.reserve(scans.size());
-  for (const NamedScan& scan : scans) maps.push_back(scan.surface);
-  return maps;
-}
 
 }  // namespace
 
@@ -64,12 +57,7 @@ DevicePieces piecesOf(const DeviceArea& area, double pitch, double most_cells) {
 }
 
 double madePitch(const DeviceSurfaces& surfaces, const DeviceForceOptions& options) {
-  if (options.pitch > 0.0) return options.pitch;
-  double finest = std::numeric_limits<double>::infinity();
-  for (const NamedScan& scan : surfaces.scans) {
-    finest = std::min(finest, std::max(scan.surface.pitchX(), scan.surface.pitchY()));
-  }
-  return finest;
+  return options.pitch > 0.0 ? options.pitch : finestPitch(mapsOf(surfaces.scans));
 }
 
 std::uint64_t realisationSeed(const DeviceForceOptions& options, int number) {

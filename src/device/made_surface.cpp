@@ -53,7 +53,7 @@ struct CubicPlace {
   double weights[4] = {};
 };
 
-CubicPlace cubicPlace(double place, int count) {
+CubicPlace cubicPlace(double place) {
   CubicPlace cubic;
   const double floor = std::floor(place);
   const double t = place - floor;
@@ -62,7 +62,6 @@ CubicPlace cubicPlace(double place, int count) {
   cubic.weights[1] = 0.5 * (2.0 + t * t * (-5.0 + 3.0 * t));
   cubic.weights[2] = 0.5 * t * (1.0 + t * (4.0 - 3.0 * t));
   cubic.weights[3] = 0.5 * t * t * (t - 1.0);
-  (void)count;
   return cubic;
 }
 
@@ -167,7 +166,7 @@ void MadeSurface::addOwnWaves(std::int64_t row, std::int64_t col, cv::Mat& tile)
   for (int j = 0; j < tile.cols; ++j) {
     const double x = (static_cast<double>(col + j) + 0.5) * size_.pitch_x;
     const auto at = static_cast<std::size_t>(j);
-    places[at] = cubicPlace((place_x_ + x) / own.pitch_x - 0.5, own.heights.cols);
+    places[at] = cubicPlace((place_x_ + x) / own.pitch_x - 0.5);
     planes[at] = tilt_x_ * root * (x / size_.sideX() - 0.5);
     first = std::min(first, places[at].first);
     last = std::max(last, places[at].first + 3);
@@ -175,7 +174,7 @@ void MadeSurface::addOwnWaves(std::int64_t row, std::int64_t col, cv::Mat& tile)
   std::vector<double> across(static_cast<std::size_t>(last - first + 1));
   for (int i = 0; i < tile.rows; ++i) {
     const double y = (static_cast<double>(row + i) + 0.5) * size_.pitch_y;
-    const CubicPlace place = cubicPlace((place_y_ + y) / own.pitch_y - 0.5, own.heights.rows);
+    const CubicPlace place = cubicPlace((place_y_ + y) / own.pitch_y - 0.5);
     const double plane = tilt_y_ * root * (y / size_.sideY() - 0.5);
     for (int at = first; at <= last; ++at) {
       double sum = 0.0;

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "device/scan_list.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "preprocess/level.hpp"
 
@@ -200,8 +201,7 @@ cv::Mat numbersOf(const HeightMarginal& marginal, const cv::Mat& heights) {
 }
 
 std::vector<Scan> scansOf(const std::vector<HeightMap>& surfaces) {
-  double finest = std::numeric_limits<double>::infinity();
-  for (const HeightMap& surface : surfaces) finest = std::min(finest, std::max(surface.pitchX(), surface.pitchY()));
+  const double finest = finestPitch(surfaces);
   std::vector<Scan> scans;
   for (const HeightMap& surface : surfaces) {
     Scan scan;

@@ -7,6 +7,7 @@
 
 #include "approach/area_cells.hpp"
 #include "device/device_mosaic.hpp"
+#include "device/scan_list.hpp"
 #include "files/byte_pieces.hpp"
 #include "files/content_hash.hpp"
 #include "mems_stiction/errors/errors.hpp"
@@ -31,8 +32,6 @@ DevicePieces wholePieces(const DeviceSurfaces& surfaces, const DeviceArea& area,
   checkDevice(surfaces, area, options);
   return piecesOf(area, madePitch(surfaces, options), std::numeric_limits<double>::infinity());
 }
-
-double areaOf(const HeightMap& surface) { return surface.rows() * surface.cols() * surface.cellArea(); }
 
 /// How far the highest part of the heights reaches down, by squares that lie all over the surface [m].
 double depthOfHighest(DeviceSurface& surface) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "mems_stiction/errors/errors.hpp"
@@ -30,6 +31,12 @@ constexpr double kLeastGain = 10.0;  ///< of the logarithm of the likelihood
 
 int bandOf(double wave_number, double bands_per_octave) {
   return static_cast<int>(std::floor(bands_per_octave * std::log2(wave_number)));
+}
+
+double finestPitch(const std::vector<ScanWaves>& scans) {
+  double finest = std::numeric_limits<double>::infinity();
+  for (const ScanWaves& scan : scans) finest = std::min(finest, scan.longerPitch());
+  return finest;
 }
 
 /// Of one band of the scans of one kind.
@@ -200,12 +207,11 @@ double MergedSpectrum::rootMean(int order, double from, double to) const {
 std::vector<ScanTrust> trustOf(const std::vector<ScanWaves>& scans) {
   double longest = 0.0;
   double shortest = std::numeric_limits<double>::infinity();
-  double finest = std::numeric_limits<double>::infinity();
   for (const ScanWaves& scan : scans) {
     longest = std::max(longest, scan.longerSide());
     shortest = std::min(shortest, scan.longerSide());
-    finest = std::min(finest, scan.longerPitch());
   }
+  const double finest = finestPitch(scans);
   std::vector<ScanTrust> trust;
   for (const ScanWaves& scan : scans) {
     const bool is_wide = scan.longerSide() == longest && longest > shortest;
@@ -261,9 +267,7 @@ SpectrumStretch stretchOf(const std::vector<ScanWaves>& scans, const std::vector
 
 MergedSpectrum mergedSpectrum(const std::vector<ScanWaves>& scans, const std::vector<ScanTrust>& trust,
                               const SpectrumStretch& stretch) {
-  double finest = std::numeric_limits<double>::infinity();
-  for (const ScanWaves& scan : scans) finest = std::min(finest, scan.longerPitch());
-  const double largest = kPi * std::sqrt(2.0) / finest * std::sqrt(stretch.ratio);
+  const double largest = kPi * std::sqrt(2.0) / finestPitch(scans) * std::sqrt(stretch.ratio);
   std::vector<ScanGroup> groups = groupsOf(scans, trust, stretch);
   MergedSpectrum spectrum = pooled(groups, stretch, largest);
   if (spectrum.bands.empty()) throw SurfaceError("the scans show no roughness: a spectrum needs waves of some height");
