@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <random>
 #include <utility>
 
@@ -68,10 +69,15 @@ class Surfaces {
  public:
   Surfaces(const DeviceSurfaces& scanned, double side, const DeviceForceOptions& options)
       : lower_(mapsOf(scanned.scans)), upper_(mapsOf(scanned.counter_surface)), side_(side), options_(options) {
-    laws_.push_back(lawsOf(scanned, options, TailForm::kExponential));
-    const DeviceLaws& laws = laws_.front();
-    const bool has_tails = laws.lower.non_gaussian_share > 0.0 || (laws.upper && laws.upper->non_gaussian_share > 0.0);
-    if (has_tails) laws_.push_back(lawsOf(scanned, options, TailForm::kPower));
+    const SurfaceStudy lower(lower_);
+    std::optional<SurfaceStudy> upper;
+    if (!upper_.empty()) upper.emplace(upper_);
+    const bool has_tails = !lower.isGaussian() || (upper && !upper->isGaussian());
+    for (const TailForm form : {TailForm::kExponential, TailForm::kPower}) {
+      if (form == TailForm::kPower && !has_tails) break;
+      laws_.push_back({lawOf(lower, options, form), std::nullopt});
+      if (upper) laws_.back().upper = lawOf(*upper, options, form);
+    }
   }
 
   /// Realisations take one form of the tail after the other.
@@ -92,10 +98,7 @@ class Surfaces {
                    std::uint64_t seed) const {
     std::mt19937_64 engine(seed);
     const SpectrumContinuation continuation = drawnContinuation(law, side_, engine);
-    std::vector<HeightMap> made;
-    made.reserve(scans.size());
-    for (const HeightMap& scan : scans) made.push_back(madeScan(law, continuation, scan, side_, engine()));
-    return surfaceLaw(made, options_, form);
+    return lawOf(SurfaceStudy(madeScans(law, continuation, scans, side_, engine)), options_, form);
   }
 
   std::vector<HeightMap> lower_;

@@ -64,16 +64,19 @@ std::uint64_t realisationSeed(const DeviceForceOptions& options, int number) {
   return static_cast<std::uint64_t>(options.seed) * 1000003 + static_cast<std::uint64_t>(number) * 1009;
 }
 
-SurfaceLaw surfaceLaw(const std::vector<HeightMap>& scans, const DeviceForceOptions& options, TailForm form) {
-  SurfaceLaw law = surfaceLawOf(scans, form);
+SurfaceLaw lawOf(const SurfaceStudy& study, const DeviceForceOptions& options, TailForm form) {
+  SurfaceLaw law = study.law(form);
   if (!options.own_long_waves) law.own.reset();
   return law;
 }
 
 DeviceLaws lawsOf(const DeviceSurfaces& surfaces, const DeviceForceOptions& options, TailForm form) {
+  const auto of = [&](const std::vector<NamedScan>& scans) {
+    return lawOf(SurfaceStudy(mapsOf(scans)), options, form);
+  };
   DeviceLaws laws;
-  laws.lower = surfaceLaw(mapsOf(surfaces.scans), options, form);
-  if (!surfaces.counter_surface.empty()) laws.upper = surfaceLaw(mapsOf(surfaces.counter_surface), options, form);
+  laws.lower = of(surfaces.scans);
+  if (!surfaces.counter_surface.empty()) laws.upper = of(surfaces.counter_surface);
   return laws;
 }
 

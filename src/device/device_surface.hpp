@@ -47,9 +47,9 @@ struct DeviceLaws {
   SurfaceLaw lower;
   std::optional<SurfaceLaw> upper;
 };
+/// The law of one surface, with long waves of its own if the options want them.
+SurfaceLaw lawOf(const SurfaceStudy& study, const DeviceForceOptions& options, TailForm form);
 DeviceLaws lawsOf(const DeviceSurfaces& surfaces, const DeviceForceOptions& options, TailForm form);
-/// The law of one of them, with long waves of its own if the options want them.
-SurfaceLaw surfaceLaw(const std::vector<HeightMap>& scans, const DeviceForceOptions& options, TailForm form);
 
 /// Contacts lie one after another, along the columns. One object serves one thread at a time.
 class DeviceSurface {

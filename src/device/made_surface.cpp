@@ -70,6 +70,11 @@ int reflected(int index, int count) {
   return std::clamp(at, 0, count - 1);
 }
 
+bool isAlike(const HeightMap& one, const HeightMap& other) {
+  return one.rows() == other.rows() && one.cols() == other.cols() && one.pitchX() == other.pitchX() &&
+         one.pitchY() == other.pitchY();
+}
+
 bool fitsIn(const MadeSize& size, const OwnLongWaves& own) {
   constexpr double kRounding = 0.999;
   return own.heights.cols * own.pitch_x >= kRounding * size.sideX() &&
@@ -195,17 +200,31 @@ void MadeSurface::addOwnWaves(std::int64_t row, std::int64_t col, cv::Mat& tile)
   }
 }
 
-HeightMap madeScan(const SurfaceLaw& law, const SpectrumContinuation& continuation, const HeightMap& like,
-                   double longest_wave, std::uint64_t seed) {
-  const MadeSize size{like.rows(), like.cols(), like.pitchX(), like.pitchY()};
-  const bool is_widest = law.own && size.sideX() >= kAsWide * law.own->heights.cols * law.own->pitch_x &&
-                         size.sideY() >= kAsWide * law.own->heights.rows * law.own->pitch_y;
-  SurfaceLaw its_law = law;
-  if (!is_widest) its_law.own.reset();
-  MadeSurface surface(its_law, continuation, size, std::max({longest_wave, size.sideX(), size.sideY()}), seed);
-  cv::Mat heights(like.rows(), like.cols(), CV_32FC1);
-  surface.heights(0, 0, heights);
-  return {heights, like.pitchX(), like.pitchY()};
+std::vector<HeightMap> madeScans(const SurfaceLaw& law, const SpectrumContinuation& continuation,
+                                 const std::vector<HeightMap>& like, double longest_wave, std::mt19937_64& engine) {
+  SurfaceLaw without_own = law;
+  without_own.own.reset();
+  std::vector<HeightMap> made;
+  made.reserve(like.size());
+  std::optional<MadeSurface> surface;
+  const HeightMap* before = nullptr;  // scans alike differ by their seeds alone
+  for (const HeightMap& scan : like) {
+    const std::uint64_t seed = engine();
+    if (before != nullptr && isAlike(*before, scan)) {
+      surface->reseed(seed);
+    } else {
+      const MadeSize size{scan.rows(), scan.cols(), scan.pitchX(), scan.pitchY()};
+      const bool is_widest = law.own && size.sideX() >= kAsWide * law.own->heights.cols * law.own->pitch_x &&
+                             size.sideY() >= kAsWide * law.own->heights.rows * law.own->pitch_y;
+      surface.emplace(is_widest ? law : without_own, continuation, size,
+                      std::max({longest_wave, size.sideX(), size.sideY()}), seed);
+      before = &scan;
+    }
+    cv::Mat heights(scan.rows(), scan.cols(), CV_32FC1);
+    surface->heights(0, 0, heights);
+    made.emplace_back(heights, scan.pitchX(), scan.pitchY());
+  }
+  return made;
 }
 
 }  // namespace mems_stiction

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <random>
+#include <vector>
 
 #include <opencv2/core.hpp>
 
@@ -70,9 +71,10 @@ class MadeSurface {
   cv::Mat spare_;
 };
 
-/// A scan of a surface of this law, with the pixels and size of another scan. One as large as the widest has its long waves.
+/// Scans of surfaces of this law, with the pixels and sizes of other scans. Those as large as the widest have its long waves.
 /// - @p longest_wave that the surface has, if it is longer than the scan [m]
-HeightMap madeScan(const SurfaceLaw& law, const SpectrumContinuation& continuation, const HeightMap& like,
-                   double longest_wave, std::uint64_t seed);
+/// - @p engine draws a seed for each
+std::vector<HeightMap> madeScans(const SurfaceLaw& law, const SpectrumContinuation& continuation,
+                                 const std::vector<HeightMap>& like, double longest_wave, std::mt19937_64& engine);
 
 }  // namespace mems_stiction

@@ -11,7 +11,9 @@
 
 namespace mems_stiction {
 
-inline double areaOf(const HeightMap& surface) { return surface.rows() * surface.cols() * surface.cellArea(); }  // [m^2]
+inline double areaOf(const HeightMap& surface) {
+  return surface.rows() * surface.cols() * surface.cellArea();
+}  // [m^2]
 inline double longerPitch(const HeightMap& surface) { return std::max(surface.pitchX(), surface.pitchY()); }
 
 /// Without their names; the pixels are shared.

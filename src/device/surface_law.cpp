@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <limits>
-#include <tuple>
 #include <utility>
 
 #include "device/scan_list.hpp"
@@ -226,12 +224,11 @@ const Scan* widestOf(const std::vector<Scan>& scans) {
   return widest->longerSide() > fine_side * (1.0 + 1e-9) ? widest : nullptr;
 }
 
-MergedSpectrum spectrumOf(const std::vector<Scan>& scans, const std::vector<cv::Mat>& values,
-                          const SpectrumStretch* stretch) {
+std::vector<ScanWaves> wavesOf(const std::vector<Scan>& scans, const std::vector<cv::Mat>& values) {
   std::vector<ScanWaves> waves;
+  waves.reserve(scans.size());
   for (std::size_t i = 0; i < scans.size(); ++i) waves.emplace_back(scans[i].map(values[i]));
-  const std::vector<ScanTrust> trust = trustOf(waves);
-  return mergedSpectrum(waves, trust, stretch != nullptr ? *stretch : stretchOf(waves, trust));
+  return waves;
 }
 
 /// Heights that may tell whether the surface is Gaussian.
@@ -239,11 +236,15 @@ struct Candidate {
   double split = 0.0;
   bool is_widest = false;
   std::vector<double> sample;
+  Moments moments;
   SamplingVariance variance;
+  double chi_square = 0.0;
 
-  double chiSquare() const {
-    const Moments moments = momentsOf(sample);
-    return moments.skewness * moments.skewness / variance.skewness + moments.excess * moments.excess / variance.excess;
+  void take(const SamplingVariance& found) {
+    variance = found;
+    moments = momentsOf(sample);
+    chi_square =
+        moments.skewness * moments.skewness / variance.skewness + moments.excess * moments.excess / variance.excess;
   }
 };
 
@@ -263,7 +264,7 @@ Candidate fineCandidate(const std::vector<Scan>& scans, const MergedSpectrum& sp
     addSample(highPassed(scan, candidate.split), margin, 2, candidate.sample);
     area += scan.area() * (1.0 - 2.0 * margin) * (1.0 - 2.0 * margin);
   }
-  candidate.variance = samplingVariance(spectrum, candidate.split, kFirstOfLevelled * 2.0 * kPi / side, area);
+  candidate.take(samplingVariance(spectrum, candidate.split, kFirstOfLevelled * 2.0 * kPi / side, area));
   return candidate;
 }
 
@@ -275,7 +276,7 @@ Candidate decisiveCandidate(const std::vector<Scan>& scans, const Scan* widest, 
   std::optional<Candidate> first;
   const auto isDecisive = [&](const Candidate& candidate) {
     if (!first) first = candidate;
-    return candidate.chiSquare() >= kDecisive;
+    return candidate.chi_square >= kDecisive;
   };
   if (widest != nullptr) {
     Candidate candidate;
@@ -284,8 +285,8 @@ Candidate decisiveCandidate(const std::vector<Scan>& scans, const Scan* widest, 
     const double total = spectrum.rootMean(0, 2.0 * kPi / widest->longerSide(), spectrum.largest_wave_number);
     const double deviation = momentsOf(candidate.sample).deviation;
     if (deviation * deviation > kMostVariance * total * total) {
-      candidate.variance =
-          samplingVariance(spectrum, 0.0, kFirstOfLevelled * 2.0 * kPi / widest->longerSide(), widest->area());
+      candidate.take(
+          samplingVariance(spectrum, 0.0, kFirstOfLevelled * 2.0 * kPi / widest->longerSide(), widest->area()));
       if (isDecisive(candidate)) return candidate;
     }
   }
@@ -296,31 +297,6 @@ Candidate decisiveCandidate(const std::vector<Scan>& scans, const Scan* widest, 
     if (isDecisive(fine)) return fine;
   }
   return *first;
-}
-
-/// Finds T and the spectrum of its numbers.
-void takeMarginal(const std::vector<Scan>& scans, const Candidate& candidate, TailForm form, SurfaceLaw& law) {
-  law.non_gaussian_share = std::max(0.0, 1.0 - kByChance / candidate.chiSquare());
-  if (!(law.non_gaussian_share > 0.0)) return;
-  law.split_wave_number = candidate.split;
-  HeightMarginal marginal(candidate.sample, candidate.variance.independent, form);
-  std::vector<cv::Mat> values;
-  for (const Scan& scan : scans) {
-    const cv::Mat passed = highPassed(scan, candidate.split);
-    values.push_back(candidate.split == 0.0 ? levelledUnder(marginal, passed) : passed);
-  }
-  if (candidate.split == 0.0 && !candidate.is_widest) {
-    std::vector<double> sample;
-    for (std::size_t i = 0; i < scans.size(); ++i) {
-      if (scans[i].is_fine) addSample(values[i], 0.0, 2, sample);
-    }
-    marginal = HeightMarginal(sample, candidate.variance.independent, form);
-    for (cv::Mat& value : values) value = levelledUnder(marginal, value);
-  }
-  const Moments moments = momentsOf(candidate.sample);
-  law.marginal = marginal.mixed(law.non_gaussian_share, moments.mean, moments.deviation);
-  for (cv::Mat& value : values) value = numbersOf(law.marginal, value);
-  law.numbers = spectrumOf(scans, values, &law.heights.stretch);
 }
 
 void takeSlope(SurfaceLaw& law) {
@@ -352,168 +328,85 @@ void takeSlope(SurfaceLaw& law) {
   law.slope_deviation = std::sqrt(1.0 / squares);
 }
 
-/// Rms heights of the planes (along x, along y) that levelling takes off a scan of these sides.
-std::pair<double, double> tiltDeviations(const MergedSpectrum& spectrum, double side_x, double side_y) {
-  constexpr int kReach = 6;
-  constexpr double kStep = 0.25;
-  constexpr double kLeast = 0.9;  // waves along the side: longer ones are the device's tilt
-  // |sum of the wave u with the constant and with the slope|^2 over a side of length 1
-  const auto constantOf = [](double u) { return u == 0.0 ? 1.0 : std::pow(std::sin(kPi * u) / (kPi * u), 2); };
-  const auto slopeOf = [](double u) {
-    if (u == 0.0) return 0.0;
-    const double part = (std::sin(kPi * u) / (kPi * u) - std::cos(kPi * u)) / (2.0 * kPi * u);
-    return 12.0 * part * part;
-  };
-  double along_x = 0.0;
-  double along_y = 0.0;
-  for (double uy = -kReach; uy <= kReach; uy += kStep) {
-    for (double ux = -kReach; ux <= kReach; ux += kStep) {
-      if (std::hypot(ux, uy) < kLeast) continue;
-      const double density =
-          spectrum.densityAt(spectrum.stretch.roundWave(2.0 * kPi * ux / side_x, 2.0 * kPi * uy / side_y));
-      along_x += density * constantOf(uy) * slopeOf(ux);
-      along_y += density * constantOf(ux) * slopeOf(uy);
-    }
-  }
-  const double scale = kStep * kStep / (side_x * side_y);
-  return {std::sqrt(scale * along_x), std::sqrt(scale * along_y)};
-}
-
-/// What samples of a surface say of one of its waves.
-struct KnownWave {
-  double gain = 0.0;  ///< of the wave in the samples, for the best estimate of it [-]
-  double open = 1.0;  ///< share of its power that they leave open [-]
-};
-
-/// Samples at a distance: points, or means over as much.
-class Samples {
- public:
-  Samples(const MergedSpectrum& spectrum, double pitch_x, double pitch_y, bool are_means)
-      : spectrum_(spectrum), pitch_x_(pitch_x), pitch_y_(pitch_y), are_means_(are_means) {}
-
-  /// Power that a wave and all that look like it have in the samples [m^4].
-  double power(double q_x, double q_y) const {
-    double sum = 0.0;
-    for (int i = -1; i <= 1; ++i) {
-      for (int j = -1; j <= 1; ++j) {
-        const double x = q_x + 2.0 * kPi * i / pitch_x_;
-        const double y = q_y + 2.0 * kPi * j / pitch_y_;
-        sum += densityAt(x, y) * passed(x, y) * passed(x, y);
-      }
-    }
-    return sum;
-  }
-
-  KnownWave wave(double q_x, double q_y) const {
-    const double all = power(q_x, q_y);
-    if (!(all > 0.0)) return {};
-    const double own = densityAt(q_x, q_y);
-    const double pass = passed(q_x, q_y);
-    return {own * pass / all, std::clamp(1.0 - own * pass * pass / all, 0.0, 1.0)};
-  }
-
- private:
-  double densityAt(double q_x, double q_y) const { return spectrum_.densityAt(spectrum_.stretch.roundWave(q_x, q_y)); }
-  double passed(double q_x, double q_y) const {
-    return are_means_ ? sinc(0.5 * q_x * pitch_x_) * sinc(0.5 * q_y * pitch_y_) : 1.0;
-  }
-  static double sinc(double x) { return x == 0.0 ? 1.0 : std::sin(x) / x; }
-
-  const MergedSpectrum& spectrum_;
-  double pitch_x_;
-  double pitch_y_;
-  bool are_means_;
-};
-
-/// By the likelihood of the shorter waves of a scan, from an eighth of its pixels along the side on.
-bool areMeans(const Scan& scan, const MergedSpectrum& spectrum) {
-  constexpr double kFirst = 1.0 / 8.0;
-  constexpr double kLast = 1.0 / 2.2;
-  const ScanWaves waves(scan.map(scan.heights));
-  const double pixels = std::min(scan.heights.rows, scan.heights.cols);
-  double unlikeliness[2] = {0.0, 0.0};
-  for (const bool are_means : {false, true}) {
-    const Samples samples(spectrum, scan.pitch_x, scan.pitch_y, are_means);
-    waves.visit([&](const FrameWave& wave, double power, double weight) {
-      if (wave.count() < kFirst * pixels || wave.count() > kLast * pixels) return;
-      const double expected = samples.power(waves.waveNumberX(wave.x), waves.waveNumberY(wave.y));
-      if (expected > 0.0) unlikeliness[are_means ? 1 : 0] += weight * (power / expected + std::log(expected));
-    });
-  }
-  return unlikeliness[1] < unlikeliness[0];
-}
-
-/// How much finer the pixels of own waves are: cubics between them then know the shortest ones to a percent.
-int finerPixels(const cv::Mat& values) {
-  constexpr std::size_t kMost = std::size_t{1} << 22U;
-  return 16 * values.total() <= kMost ? 4 : 4 * values.total() <= kMost ? 2 : 1;
-}
-
-void takeOwn(const Scan& widest, SurfaceLaw& law) {
-  constexpr int kSteps = 128;
-  constexpr int kDirections = 8;
-  const bool are_numbers = law.non_gaussian_share > 0.0 && law.split_wave_number == 0.0;
-  const MergedSpectrum& spectrum = are_numbers ? law.numbers : law.heights;
-  const Samples samples(spectrum, widest.pitch_x, widest.pitch_y, areMeans(widest, law.heights));
-  const double shortest = kPi / std::max(widest.pitch_x, widest.pitch_y);
-  // where only short waves are not Gaussian, long ones end where those begin
-  const double split = law.split_wave_number;
-  const auto longPass = [&](double q) { return split > 0.0 ? std::exp(-std::pow(q / split, 4)) : 1.0; };
-  cv::Mat values = are_numbers ? numbersOf(law.marginal, levelledUnder(law.marginal, widest.heights)) : widest.heights;
-  values = values(cv::Rect(0, 0, values.cols & ~1, values.rows & ~1));
-  cv::Mat waves;
-  cv::dct(values, waves);
-  const int finer = finerPixels(values);
-  cv::Mat padded = cv::Mat::zeros(finer * values.rows, finer * values.cols, CV_64FC1);
-  for (int row = 0; row < waves.rows; ++row) {
-    const double q_y = kPi * row / (waves.rows * widest.pitch_y);
-    const double* from = waves.ptr<double>(row);
-    double* to = padded.ptr<double>(row);
-    for (int col = 0; col < waves.cols; ++col) {
-      const double q_x = kPi * col / (waves.cols * widest.pitch_x);
-      const double q = std::hypot(q_x, q_y);
-      if (q >= shortest) break;
-      const double gain = 0.5 * (samples.wave(q_x, q_y).gain + samples.wave(-q_x, q_y).gain);
-      to[col] = finer * gain * longPass(q) * from[col];
-    }
-  }
-  OwnLongWaves own;
-  cv::idct(padded, own.heights);
-  own.pitch_x = widest.pitch_x / finer;
-  own.pitch_y = widest.pitch_y / finer;
-  own.open_step = shortest / kSteps;
-  for (int i = 0; i <= kSteps; ++i) {
-    const double q = i * own.open_step;
-    double open = 0.0;
-    for (int turn = 0; turn < kDirections; ++turn) {
-      const double angle = kPi * turn / kDirections;
-      const double pass = longPass(q);
-      const double known = 1.0 - samples.wave(q * std::cos(angle), q * std::sin(angle)).open;
-      open += (1.0 - known * pass * pass) / kDirections;
-    }
-    own.open_shares.push_back(open);
-  }
-  std::tie(own.tilt_x, own.tilt_y) = tiltDeviations(spectrum, widest.sideX(), widest.sideY());
-  law.own = own;
-}
-
 }  // namespace
 
-double highPass(double wave_number, double split) {
-  return split == 0.0 ? 1.0 : -std::expm1(-std::pow(wave_number / split, 4));
+/// Scans and what is known of them before their heights are translated.
+struct SurfaceStudy::Findings {
+  std::vector<Scan> scans;
+  const Scan* widest = nullptr;
+  bool has_mean_pixels = false;  ///< the widest
+  Candidate candidate;
+  std::vector<cv::Mat> passed;  ///< of each scan, the waves that are translated
+  SurfaceLaw law;               ///< but for T, the spectrum of its numbers and own waves
+
+  bool isTranslated() const { return law.non_gaussian_share > 0.0; }
+  /// Finds T and the spectrum of its numbers.
+  void translate(TailForm form, SurfaceLaw& translated) const;
+};
+
+void SurfaceStudy::Findings::translate(TailForm form, SurfaceLaw& translated) const {
+  const double independent = candidate.variance.independent;
+  HeightMarginal marginal(candidate.sample, independent, form);
+  std::vector<cv::Mat> values = passed;
+  if (candidate.split == 0.0) {
+    for (cv::Mat& value : values) value = levelledUnder(marginal, value);
+    if (!candidate.is_widest) {
+      std::vector<double> sample;
+      for (std::size_t i = 0; i < scans.size(); ++i) {
+        if (scans[i].is_fine) addSample(values[i], 0.0, 2, sample);
+      }
+      marginal = HeightMarginal(sample, independent, form);
+      for (cv::Mat& value : values) value = levelledUnder(marginal, value);
+    }
+  }
+  translated.marginal = marginal.mixed(law.non_gaussian_share, candidate.moments.mean, candidate.moments.deviation);
+  for (cv::Mat& value : values) value = numbersOf(translated.marginal, value);
+  const std::vector<ScanWaves> waves = wavesOf(scans, values);
+  translated.numbers = mergedSpectrum(waves, trustOf(waves), law.heights.stretch);
 }
 
-SurfaceLaw surfaceLawOf(const std::vector<HeightMap>& surfaces, TailForm form) {
-  const std::vector<Scan> scans = scansOf(surfaces);
-  const Scan* widest = widestOf(scans);
-  std::vector<cv::Mat> values;
-  values.reserve(scans.size());
-  for (const Scan& scan : scans) values.push_back(scan.heights);
-  SurfaceLaw law;
-  law.heights = law.numbers = spectrumOf(scans, values, nullptr);
-  takeMarginal(scans, decisiveCandidate(scans, widest, law.heights), form, law);
+SurfaceStudy::SurfaceStudy(const std::vector<HeightMap>& surfaces) {
+  auto findings = std::make_unique<Findings>();
+  findings->scans = scansOf(surfaces);
+  const std::vector<Scan>& scans = findings->scans;
+  const Scan* widest = findings->widest = widestOf(scans);
+  std::vector<cv::Mat> heights;
+  heights.reserve(scans.size());
+  for (const Scan& scan : scans) heights.push_back(scan.heights);
+  const std::vector<ScanWaves> waves = wavesOf(scans, heights);
+  const std::vector<ScanTrust> trust = trustOf(waves);
+  SurfaceLaw& law = findings->law;
+  law.heights = law.numbers = mergedSpectrum(waves, trust, stretchOf(waves, trust));
   takeSlope(law);
-  if (widest != nullptr) takeOwn(*widest, law);
+  if (widest != nullptr) {
+    const auto place = static_cast<std::size_t>(widest - scans.data());
+    findings->has_mean_pixels = areMeans(widest->map(widest->heights), waves[place], law.heights);
+  }
+  findings->candidate = decisiveCandidate(scans, widest, law.heights);
+  law.non_gaussian_share = std::max(0.0, 1.0 - kByChance / findings->candidate.chi_square);
+  if (findings->isTranslated()) {
+    law.split_wave_number = findings->candidate.split;
+    for (const Scan& scan : scans) findings->passed.push_back(highPassed(scan, law.split_wave_number));
+  }
+  findings_ = std::move(findings);
+}
+
+SurfaceStudy::~SurfaceStudy() = default;
+SurfaceStudy::SurfaceStudy(SurfaceStudy&& other) noexcept = default;
+SurfaceStudy& SurfaceStudy::operator=(SurfaceStudy&& other) noexcept = default;
+
+bool SurfaceStudy::isGaussian() const { return !findings_->isTranslated(); }
+
+SurfaceLaw SurfaceStudy::law(TailForm form) const {
+  SurfaceLaw law = findings_->law;
+  if (findings_->isTranslated()) findings_->translate(form, law);
+  if (findings_->widest == nullptr) return law;
+  const Scan& widest = *findings_->widest;
+  const bool are_numbers = findings_->isTranslated() && law.split_wave_number == 0.0;
+  const cv::Mat values =
+      are_numbers ? numbersOf(law.marginal, levelledUnder(law.marginal, widest.heights)) : widest.heights;
+  law.own = ownLongWaves(widest.map(values), are_numbers ? law.numbers : law.heights, law.split_wave_number,
+                         findings_->has_mean_pixels);
   return law;
 }
 

@@ -13,37 +13,18 @@
 ///
 /// Scans are levelled again so that it is their numbers g, and not their heights, that have no slope; the spectrum of the
 /// field is the one of these numbers. So the short waves of a polished top count as they are on the top.
-/// A scan as large as the device has long waves of its own: they are taken in place of random ones, as far as its pixels know them. What
-/// samples say of a wave is its best estimate among those that look alike in them (Wiener), and what they leave open of its power is
-/// random. Whether pixels are points or means over their area, their shorter waves tell (Whittle's likelihood).
+/// A scan as large as the device gives its own long waves (own_long_waves.hpp).
 
+#include <memory>
 #include <optional>
 #include <vector>
 
+#include "device/own_long_waves.hpp"
 #include "mems_stiction/height_map/height_map.hpp"
 #include "roughness/height_marginal.hpp"
 #include "roughness/merged_spectrum.hpp"
 
 namespace mems_stiction {
-
-/// The waves of the widest scan that are long against its pixels.
-struct OwnLongWaves {
-  cv::Mat heights;       ///< or numbers, CV_64FC1
-  double pitch_x = 0.0;  ///< [m]
-  double pitch_y = 0.0;  ///< [m]
-  double tilt_x = 0.0;   ///< rms height of the plane that levelling takes off such a scan, along the rows
-  double tilt_y = 0.0;   ///< and along the columns
-  /// Share of a wave's power that it leaves open [-], by wave number at equal steps from 0; all of it beyond.
-  std::vector<double> open_shares;
-  double open_step = 0.0;  ///< [rad/m]
-
-  double openShare(double wave_number) const {
-    const double place = wave_number / open_step;
-    if (!(place < static_cast<double>(open_shares.size() - 1))) return 1.0;
-    const auto below = static_cast<std::size_t>(place);
-    return open_shares[below] + (place - static_cast<double>(below)) * (open_shares[below + 1] - open_shares[below]);
-  }
-};
 
 /// What random surfaces the scans may have been cut from.
 struct SurfaceLaw {
@@ -60,12 +41,28 @@ struct SurfaceLaw {
   double longestWave() const { return 2.0 * kPi / heights.bands.front().wave_number; }  ///< that is believed [m]
 };
 
-/// Share of a wave's height that is above a split, as a filter.
-double highPass(double wave_number, double split);
+/// What the scans of one surface say of its law, but for the form of the tail of their heights, which they hardly tell.
+class SurfaceStudy {
+ public:
+  /// - @p scans levelled or not, at least one
+  /// @throw SurfaceError if they show no roughness
+  explicit SurfaceStudy(const std::vector<HeightMap>& scans);
+  ~SurfaceStudy();
+  SurfaceStudy(SurfaceStudy&& other) noexcept;
+  SurfaceStudy& operator=(SurfaceStudy&& other) noexcept;
 
-/// - @p scans of one surface, levelled or not, at least one
-/// - @p form of the tail of their heights, which they hardly tell
-/// @throw SurfaceError if they show no roughness
-SurfaceLaw surfaceLawOf(const std::vector<HeightMap>& scans, TailForm form = TailForm::kExponential);
+  /// Whether both forms of the tail are the same law.
+  bool isGaussian() const;
+  SurfaceLaw law(TailForm form = TailForm::kExponential) const;
+
+ private:
+  struct Findings;
+  std::unique_ptr<const Findings> findings_;
+};
+
+/// The law that scans say.
+inline SurfaceLaw surfaceLawOf(const std::vector<HeightMap>& scans, TailForm form = TailForm::kExponential) {
+  return SurfaceStudy(scans).law(form);
+}
 
 }  // namespace mems_stiction
