@@ -145,8 +145,7 @@ void DeviceAreaSolver::warnOnce(const std::string& warning) {
   if (std::find(warnings_.begin(), warnings_.end(), warning) == warnings_.end()) warnings_.push_back(warning);
 }
 
-Realisation DeviceAreaSolver::realise(const DeviceLaws& laws, std::uint64_t seed) {
-  DeviceSurface surface(laws, pieces_, seed);
+Realisation DeviceAreaSolver::realise(DeviceSurface& surface) {
   Gatherer gatherer(pieces_);
   std::optional<ShownSurface> shown;
   if (made_surface_.empty()) shown.emplace(pieces_.size);

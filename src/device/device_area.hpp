@@ -35,8 +35,8 @@ class DeviceAreaSolver {
   /// - @p model its mechanical load presses an area of `loaded_area` [m^2]
   DeviceAreaSolver(const Options& model, double loaded_area, const DevicePieces& pieces);
 
-  /// On a surface that is made by laws.
-  Realisation realise(const DeviceLaws& laws, std::uint64_t seed);
+  /// On a surface that is made.
+  Realisation realise(DeviceSurface& surface);
   /// On parts of scans that are chosen at random.
   Realisation realise(const std::vector<HeightMap>& lower, const std::vector<HeightMap>& upper, std::uint64_t seed);
 

@@ -3,19 +3,20 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <random>
 #include <utility>
 
 #include "device/device_area.hpp"
 #include "device/device_mosaic.hpp"
+#include "device/law_check.hpp"
 #include "device/made_surface.hpp"
 #include "device/scan_list.hpp"
 #include "device/surface_law.hpp"
 #include "errors/short_number.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
-#include "mems_stiction/surface/surface_pair.hpp"
 #include "mems_stiction/verdict/margin_uncertainty.hpp"
 #include "numeric/constants.hpp"
 #include "numeric/median.hpp"
@@ -28,11 +29,11 @@ namespace {
 constexpr double kRising = 1.0;
 /// Standard deviation of ln force that the law's form leaves where nothing else scatters [-].
 constexpr double kOwnError = 0.12;
-/// A contact so much longer than the longest waves needs longer ones [-].
-constexpr double kLongerContact = 1.5;
 /// Scans contradict each other from this ratio of powers on, if it is so many standard errors from 1.
 constexpr double kContradiction = 1.5;
 constexpr double kBeyondScatter = 4.0;
+/// A misfit of the law that moves the force by less is not worth a sentence.
+constexpr double kToldMisfit = 1.1;
 
 double deviation(const std::vector<double>& values) {
   double mean = 0.0;
@@ -50,18 +51,6 @@ std::vector<HeightMap> drawnAgain(const std::vector<HeightMap>& scans, std::uint
     drawn.push_back(scans[std::uniform_int_distribution<std::size_t>(0, scans.size() - 1)(engine)]);
   }
   return drawn;
-}
-
-/// The scan under the first part of the counter-surface that has its grid; under a plane if none has.
-SurfacePair underCounterSurface(const HeightMap& scan, const std::vector<NamedScan>& counter_surface) {
-  for (const NamedScan& other : counter_surface) {
-    const HeightMap& upper = other.surface;
-    if (upper.rows() >= scan.rows() && upper.cols() >= scan.cols() && upper.pitchX() == scan.pitchX() &&
-        upper.pitchY() == scan.pitchY()) {
-      return {scan, HeightMap(upper.heights()(cv::Rect(0, 0, scan.cols(), scan.rows())), scan.pitchX(), scan.pitchY())};
-    }
-  }
-  return scan;
 }
 
 /// What the scans say, and what they would say if they had been other ones of the same surface.
@@ -83,22 +72,35 @@ class Surfaces {
   /// Realisations take one form of the tail after the other.
   const DeviceLaws& laws(int realisation) const { return laws_[static_cast<std::size_t>(realisation) % laws_.size()]; }
 
-  /// Of scans like those that there are, made by the laws.
-  DeviceLaws again(int realisation, std::uint64_t seed) const {
+  /// Scans like those that there are, made by the laws of a realisation.
+  struct MadeScans {
+    std::vector<HeightMap> lower;
+    std::vector<HeightMap> upper;
+  };
+  MadeScans scansAgain(int realisation, std::uint64_t seed) const {
     const DeviceLaws& stated = laws(realisation);
+    MadeScans made;
+    made.lower = again(stated.lower, lower_, seed);
+    if (stated.upper) made.upper = again(*stated.upper, upper_, seed + 500);
+    return made;
+  }
+  /// What they say.
+  DeviceLaws lawsAgain(int realisation, const MadeScans& made) const {
     const TailForm form = realisation / 2 % 2 == 0 ? TailForm::kExponential : TailForm::kPower;
     DeviceLaws laws;
-    laws.lower = again(stated.lower, lower_, form, seed);
-    if (stated.upper) laws.upper = again(*stated.upper, upper_, form, seed + 500);
+    laws.lower = lawOf(SurfaceStudy(made.lower), options_, form);
+    if (!made.upper.empty()) laws.upper = lawOf(SurfaceStudy(made.upper), options_, form);
     return laws;
   }
 
+  const std::vector<HeightMap>& lower() const { return lower_; }
+  const std::vector<HeightMap>& upper() const { return upper_; }
+
  private:
-  SurfaceLaw again(const SurfaceLaw& law, const std::vector<HeightMap>& scans, TailForm form,
-                   std::uint64_t seed) const {
+  std::vector<HeightMap> again(const SurfaceLaw& law, const std::vector<HeightMap>& scans, std::uint64_t seed) const {
     std::mt19937_64 engine(seed);
     const SpectrumContinuation continuation = drawnContinuation(law, side_, engine);
-    return lawOf(SurfaceStudy(madeScans(law, continuation, scans, side_, engine)), options_, form);
+    return madeScans(law, continuation, scans, side_, engine);
   }
 
   std::vector<HeightMap> lower_;
@@ -106,6 +108,28 @@ class Surfaces {
   double side_;
   DeviceForceOptions options_;
   std::vector<DeviceLaws> laws_;
+};
+
+/// Surfaces of the device's size by what the scans say; one for each law, which goes on from seed to seed.
+class StatedSurfaces {
+ public:
+  /// - @p known outlives the object
+  StatedSurfaces(const Surfaces& known, const DevicePieces& pieces) : known_(known), pieces_(pieces) {}
+
+  DeviceSurface& surface(int realisation, std::uint64_t seed) {
+    std::optional<DeviceSurface>& surface = surfaces_[&known_.laws(realisation)];
+    if (surface) {
+      surface->reseed(seed);
+    } else {
+      surface.emplace(known_.laws(realisation), pieces_, seed);
+    }
+    return *surface;
+  }
+
+ private:
+  const Surfaces& known_;
+  DevicePieces pieces_;
+  std::map<const DeviceLaws*, std::optional<DeviceSurface>> surfaces_;
 };
 
 /// Logarithms of figures, by realisation.
@@ -165,7 +189,7 @@ void showSpectrum(const SurfaceLaw& law, double side, DeviceForce& force) {
 
 void warnOfLongWaves(const SurfaceLaw& law, const std::vector<NamedScan>& scans, double side, DeviceForce& force) {
   const double longest = law.longestWave();
-  if (kLongerContact * longest > side || law.slope < kRising || law.slope < 2.0 * law.slope_deviation) return;
+  if (!lacksLongWaves(law, side) || law.slope < kRising || law.slope < 2.0 * law.slope_deviation) return;
   const NamedScan* widest = &scans.front();
   for (const NamedScan& scan : scans) {
     if (scan.surface.cols() * scan.surface.pitchX() > widest->surface.cols() * widest->surface.pitchX()) {
@@ -184,10 +208,9 @@ void warnOfContradictions(const std::vector<NamedScan>& scans, DeviceForce& forc
   std::vector<ScanWaves> waves;
   waves.reserve(scans.size());
   for (const NamedScan& scan : scans) waves.emplace_back(scan.surface);
+  const std::vector<SpectrumDifference> differences = spectrumDifferences(waves);
   for (std::size_t i = 0; i < scans.size(); ++i) {
-    std::vector<ScanWaves> others = waves;
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-    const SpectrumDifference difference = spectrumDifference(waves[i], others);
+    const SpectrumDifference& difference = differences[i];
     if (!(std::abs(difference.logarithm) > std::log(kContradiction)) ||
         !(std::abs(difference.logarithm) > kBeyondScatter * difference.deviation)) {
       continue;
@@ -197,6 +220,23 @@ void warnOfContradictions(const std::vector<NamedScan>& scans, DeviceForce& forc
                              shortNumber(difference.longest_wave * 1e6, 2) + " um its rms heights are " +
                              shortNumber(std::exp(0.5 * difference.logarithm), 2) + " times theirs");
   }
+}
+
+/// The misfit of the law, where there is one.
+void takeMisfit(const LawCheck& check, DeviceForce& force) {
+  const LawMisfit of_force = check.force();
+  const LawMisfit of_work = check.work();
+  force.pull_off_force *= std::exp(of_force.shift());
+  force.apparent_work_of_adhesion *= std::exp(of_work.shift());
+  force.force_deviation = std::hypot(force.force_deviation, of_force.shiftDeviation());
+  force.work_deviation = std::hypot(force.work_deviation, of_work.shiftDeviation());
+  if (std::abs(of_force.shift()) < std::log(kToldMisfit)) return;
+  force.warnings.push_back(
+      "the scans hold " + shortNumber(std::exp(of_force.difference), 2) +
+      " times as strongly as scans of the surfaces that were made by their spectrum and heights: their summits "
+      "are others. The force was taken " +
+      shortNumber(std::exp(of_force.shift()), 2) +
+      " times as large for that, and the interval holds what of it may not go for the device");
 }
 
 /// The surfaces bond all over: force and work go with area.
@@ -275,7 +315,7 @@ DeviceForce deviceForce(const DeviceSurfaces& surfaces, const DeviceArea& area, 
     Options of_scan = model;
     of_scan.load.mechanical_load *= areaOf(scan.surface) / areaOf(surfaces.scans.front().surface);
     adhesion.setOptions(of_scan);
-    predictions.push_back(adhesion.predict(underCounterSurface(scan.surface, surfaces.counter_surface)));
+    predictions.push_back(adhesion.predict(underCounterSurface(scan.surface, mapsOf(surfaces.counter_surface))));
     const Prediction& prediction = predictions.back();
     force_per_area += prediction.pull_off_force / prediction.nominal_area;
     force.parts_of_scans.push_back({prediction.nominal_area, prediction.pull_off_force});
@@ -310,10 +350,13 @@ DeviceForce deviceForce(const DeviceSurfaces& surfaces, const DeviceArea& area, 
   std::vector<double> counts;
   std::vector<double> gaps;
   DeviceAreaSolver solver(model, areaOf(surfaces.scans.front().surface), pieces);
+  StatedSurfaces made(known, pieces);
+  std::optional<LawCheck> check;
+  if (!has_parts) check.emplace(model, known.lower(), known.upper());
   for (int i = 0; i < options.realisations; ++i) {
     const std::uint64_t seed = realisationSeed(options, i);
     const Realisation realisation =
-        has_parts ? solver.realise(parts_lower, parts_upper, seed) : solver.realise(known.laws(i), seed);
+        has_parts ? solver.realise(parts_lower, parts_upper, seed) : solver.realise(made.surface(i, seed));
     progress((i + 0.5) / options.realisations);
     force.realisations.push_back(realisation);
     stated.add(realisation);
@@ -322,8 +365,11 @@ DeviceForce deviceForce(const DeviceSurfaces& surfaces, const DeviceArea& area, 
     if (has_parts) {
       others.add(solver.realise(drawnAgain(parts_lower, seed + 1), drawnAgain(parts_upper, seed + 2), seed + 3));
     } else {
-      const DeviceLaws again = known.again(i, seed + 1);
-      others.add(solver.realise(again, seed + 2));
+      const Surfaces::MadeScans scans = known.scansAgain(i, seed + 1);
+      check->add(scans.lower, scans.upper);
+      const DeviceLaws again = known.lawsAgain(i, scans);
+      DeviceSurface surface(again, pieces, seed + 2);
+      others.add(solver.realise(surface));
     }
     progress((i + 1.0) / options.realisations);
   }
@@ -342,6 +388,7 @@ DeviceForce deviceForce(const DeviceSurfaces& surfaces, const DeviceArea& area, 
   };
   force.force_deviation = scatter(stated.force, others.force);
   force.work_deviation = scatter(stated.work, others.work);
+  if (check) takeMisfit(*check, force);
 
   UncertaintyOptions constants = uncertainty;
   constants.scan_sampling = uncertainty.scan_sampling && has_parts;  // few scans have few contacts

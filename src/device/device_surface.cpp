@@ -80,17 +80,32 @@ DeviceLaws lawsOf(const DeviceSurfaces& surfaces, const DeviceForceOptions& opti
   return laws;
 }
 
-DeviceSurface::DeviceSurface(const DeviceLaws& laws, const DevicePieces& pieces, std::uint64_t seed) : pieces_(pieces) {
+DeviceSurface::DeviceSurface(const DeviceLaws& laws, const DevicePieces& pieces, std::uint64_t seed)
+    : laws_(&laws), pieces_(pieces) {
+  reseed(seed);
+}
+
+void DeviceSurface::reseed(std::uint64_t seed) {
   std::mt19937_64 engine(seed);
-  const SpectrumContinuation lower_end = drawnContinuation(laws.lower, pieces_.side(), engine);
-  std::optional<SpectrumContinuation> upper_end;
-  if (laws.upper) upper_end = drawnContinuation(*laws.upper, pieces_.side(), engine);
+  std::pair<SpectrumContinuation, SpectrumContinuation> ends;
+  ends.first = drawnContinuation(laws_->lower, pieces_.side(), engine);
+  if (laws_->upper) ends.second = drawnContinuation(*laws_->upper, pieces_.side(), engine);
+  seeds_.clear();
   for (int piece = 0; piece < pieces_.count; ++piece) {
     const std::uint64_t below = engine();
-    seeds_.emplace_back(below, laws.upper ? engine() : 0);
+    seeds_.emplace_back(below, laws_->upper ? engine() : 0);
   }
-  lower_.emplace(laws.lower, lower_end, pieces_.size, pieces_.side(), seeds_.front().first);
-  if (laws.upper) upper_.emplace(*laws.upper, *upper_end, pieces_.size, pieces_.side(), seeds_.front().second);
+  identity_.clear();
+  piece_ = 0;
+  const auto& [below, above] = seeds_.front();
+  if (ends_ == ends) {
+    lower_->reseed(below);
+    if (upper_) upper_->reseed(above);
+    return;
+  }
+  ends_ = ends;
+  lower_.emplace(laws_->lower, ends.first, pieces_.size, pieces_.side(), below);
+  if (laws_->upper) upper_.emplace(*laws_->upper, ends.second, pieces_.size, pieces_.side(), above);
 }
 
 void DeviceSurface::goTo(int piece) {

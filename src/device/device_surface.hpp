@@ -58,6 +58,8 @@ class DeviceSurface {
 
   /// - @p laws must outlive the object
   DeviceSurface(const DeviceLaws& laws, const DevicePieces& pieces, std::uint64_t seed);
+  /// Goes on as the surface of another seed: the same as a new one, but sooner.
+  void reseed(std::uint64_t seed);
 
   const DevicePieces& pieces() const { return pieces_; }
   std::int64_t rows() const { return pieces_.count * pieces_.size.rows; }
@@ -77,8 +79,10 @@ class DeviceSurface {
   void goTo(int piece);
   void pieceHeights(std::int64_t row, std::int64_t col, cv::Mat& tile);
 
+  const DeviceLaws* laws_;
   DevicePieces pieces_;
-  std::vector<std::pair<std::uint64_t, std::uint64_t>> seeds_;  ///< of each piece, below and above
+  std::optional<std::pair<SpectrumContinuation, SpectrumContinuation>> ends_;  ///< below and above
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> seeds_;                 ///< of each piece, below and above
   std::optional<MadeSurface> lower_;
   std::optional<MadeSurface> upper_;
   int piece_ = 0;

@@ -95,6 +95,11 @@ TiledSurface fieldOf(const SurfaceLaw& law, const SpectrumContinuation& continua
 
 }  // namespace
 
+bool lacksLongWaves(const SurfaceLaw& law, double side) {
+  constexpr double kLonger = 1.5;
+  return side > kLonger * law.longestWave();
+}
+
 SpectrumContinuation drawnContinuation(const SurfaceLaw& law, double side, std::mt19937_64& engine) {
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> uniform;
@@ -102,6 +107,7 @@ SpectrumContinuation drawnContinuation(const SurfaceLaw& law, double side, std::
   SpectrumContinuation continuation;
   continuation.slope = std::clamp(law.slope + law.slope_deviation * normal(engine), 0.0, kSteepest);
   continuation.rolloff = first * std::pow(std::min(2.0 * kPi / side / first, 1.0), uniform(engine));
+  if (!lacksLongWaves(law, side)) return {0.0, first};
   return continuation;
 }
 

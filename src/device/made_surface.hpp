@@ -21,9 +21,14 @@ namespace mems_stiction {
 struct SpectrumContinuation {
   double slope = 0.0;    ///< -d ln C/d ln q [-]
   double rolloff = 0.0;  ///< wave number from which on downwards it is flat [rad/m]
+
+  bool operator==(const SpectrumContinuation& other) const { return slope == other.slope && rolloff == other.rolloff; }
 };
-/// One that the scans leave open: the slope by its standard error, the roll-off anywhere up to waves as long as the device.
+/// Whether a contact is so much longer than the longest waves that the scans show that it needs longer ones.
 /// - @p side of the device [m]
+bool lacksLongWaves(const SurfaceLaw& law, double side);
+/// One that the scans leave open: the slope by its standard error, the roll-off anywhere up to waves as long as the device. Flat
+/// where the device needs no longer waves.
 SpectrumContinuation drawnContinuation(const SurfaceLaw& law, double side, std::mt19937_64& engine);
 
 /// The size of a surface that is made.

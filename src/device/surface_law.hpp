@@ -33,7 +33,6 @@ struct SurfaceLaw {
   HeightMarginal marginal{0.0, 1.0};  ///< T
   double non_gaussian_share = 0.0;    ///< 0: all is Gaussian
   double split_wave_number = 0.0;     ///< longer waves are Gaussian in any case [rad/m]
-  double join_wave_number = 0.0;      ///< longer ones are the widest scan's own [rad/m]
   std::optional<OwnLongWaves> own;
   double slope = 0.0;            ///< -d ln C/d ln q at the longest waves that are believed [-]
   double slope_deviation = 0.0;  ///< standard error of it [-]

@@ -177,6 +177,67 @@ double unlikeliness(const std::vector<VectorWave>& waves, const SpectrumStretch&
   return 0.5 * kHannFreedom * total;
 }
 
+/// The spectrum of groups, with what their windows and levelling have done to the longest waves.
+MergedSpectrum corrected(std::vector<ScanGroup>& groups, const SpectrumStretch& stretch, double largest) {
+  MergedSpectrum spectrum = pooled(groups, stretch, largest);
+  if (spectrum.bands.empty()) throw SurfaceError("the scans show no roughness: a spectrum needs waves of some height");
+  for (int round = 0; round < kCorrections; ++round) {
+    for (ScanGroup& group : groups) correct(spectrum, group);
+    spectrum = pooled(groups, stretch, largest);
+  }
+  return spectrum;
+}
+
+SpectrumDifference differenceOf(std::vector<ScanGroup>& scan, std::vector<ScanGroup>& others, double largest) {
+  SpectrumDifference difference;
+  double weights = 0.0;
+  double sum = 0.0;
+  try {
+    const MergedSpectrum one = corrected(scan, {}, largest);
+    const MergedSpectrum all = corrected(others, {}, largest);
+    double steepest = 0.0;  // of density times q^5 so far: beyond, what is found has leaked through the window
+    for (const SpectrumBand& band : one.bands) {
+      const double level = band.density * std::pow(band.wave_number, kLeakage);
+      if (level < steepest) continue;
+      steepest = level;
+      const auto same = std::find_if(all.bands.begin(), all.bands.end(), [&](const SpectrumBand& other) {
+        return bandOf(other.wave_number, kBandsPerOctave) == bandOf(band.wave_number, kBandsPerOctave);
+      });
+      if (same == all.bands.end()) continue;
+      const double weight = 0.5 / (1.0 / band.freedom + 1.0 / same->freedom);
+      weights += weight;
+      sum += weight * std::log(band.density / same->density);
+      const double wave = 2.0 * kPi / band.wave_number;
+      difference.longest_wave = std::max(difference.longest_wave, wave);
+      difference.shortest_wave = wave;
+    }
+  } catch (const SurfaceError&) {  // one of them has no such waves
+    return {};
+  }
+  if (!(weights > 0.0)) return {};
+  difference.logarithm = sum / weights;
+  difference.deviation = std::sqrt(1.0 / weights);
+  return difference;
+}
+
+/// Sums of all scans but those of one.
+std::vector<ScanGroup> without(const std::vector<ScanGroup>& all, const ScanWaves& scan, const ScanGroup& its_own) {
+  std::vector<ScanGroup> rest;
+  for (const ScanGroup& group : all) {
+    rest.push_back(group);
+    if (!group.first->isAlike(scan)) continue;
+    rest.back().count -= its_own.count;
+    for (const auto& [band, sum] : its_own.bands) {
+      BandSum& left = rest.back().bands[band];
+      left.count -= sum.count;
+      left.power = left.count > 0.0 ? left.power - sum.power : 0.0;
+      left.log_wave_number -= sum.log_wave_number;
+    }
+    if (rest.back().count == 0.0) rest.pop_back();
+  }
+  return rest;
+}
+
 }  // namespace
 
 double MergedSpectrum::densityAt(double wave_number) const {
@@ -269,53 +330,24 @@ MergedSpectrum mergedSpectrum(const std::vector<ScanWaves>& scans, const std::ve
                               const SpectrumStretch& stretch) {
   const double largest = kPi * std::sqrt(2.0) / finestPitch(scans) * std::sqrt(stretch.ratio);
   std::vector<ScanGroup> groups = groupsOf(scans, trust, stretch);
-  MergedSpectrum spectrum = pooled(groups, stretch, largest);
-  if (spectrum.bands.empty()) throw SurfaceError("the scans show no roughness: a spectrum needs waves of some height");
-  for (int round = 0; round < kCorrections; ++round) {
-    for (ScanGroup& group : groups) correct(spectrum, group);
-    spectrum = pooled(groups, stretch, largest);
-  }
-  return spectrum;
+  return corrected(groups, stretch, largest);
 }
 
-SpectrumDifference spectrumDifference(const ScanWaves& scan, const std::vector<ScanWaves>& others) {
-  const auto trustedOf = [](const std::vector<ScanWaves>& scans) {
-    std::vector<ScanTrust> trust = trustOf(scans);
-    for (std::size_t i = 0; i < scans.size(); ++i) {
-      trust[i].least_waves = kFirstWaveOfStretch;
-      trust[i].most_wave_number = 2.0 * kPi / (kPixelsOfShortest * scans[i].longerPitch());
-    }
-    return mergedSpectrum(scans, trust, {});
-  };
-  SpectrumDifference difference;
-  double weights = 0.0;
-  double sum = 0.0;
-  try {
-    const MergedSpectrum one = trustedOf({scan});
-    const MergedSpectrum all = trustedOf(others);
-    double steepest = 0.0;  // of density times q^5 so far: beyond, what is found has leaked through the window
-    for (const SpectrumBand& band : one.bands) {
-      const double level = band.density * std::pow(band.wave_number, kLeakage);
-      if (level < steepest) continue;
-      steepest = level;
-      const auto same = std::find_if(all.bands.begin(), all.bands.end(), [&](const SpectrumBand& other) {
-        return bandOf(other.wave_number, kBandsPerOctave) == bandOf(band.wave_number, kBandsPerOctave);
-      });
-      if (same == all.bands.end()) continue;
-      const double weight = 0.5 / (1.0 / band.freedom + 1.0 / same->freedom);
-      weights += weight;
-      sum += weight * std::log(band.density / same->density);
-      const double wave = 2.0 * kPi / band.wave_number;
-      difference.longest_wave = std::max(difference.longest_wave, wave);
-      difference.shortest_wave = wave;
-    }
-  } catch (const SurfaceError&) {  // one of them has no such waves
-    return {};
+std::vector<SpectrumDifference> spectrumDifferences(const std::vector<ScanWaves>& scans) {
+  std::vector<ScanTrust> trust;
+  for (const ScanWaves& scan : scans) {
+    trust.push_back({kFirstWaveOfStretch, 2.0 * kPi / (kPixelsOfShortest * scan.longerPitch())});
   }
-  if (!(weights > 0.0)) return {};
-  difference.logarithm = sum / weights;
-  difference.deviation = std::sqrt(1.0 / weights);
-  return difference;
+  const double largest = kPi * std::sqrt(2.0) / finestPitch(scans);
+  const std::vector<ScanGroup> all = groupsOf(scans, trust, {});
+  std::vector<SpectrumDifference> differences;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    const std::vector<ScanWaves> alone{scans[i]};
+    std::vector<ScanGroup> own = groupsOf(alone, {trust[i]}, {});
+    std::vector<ScanGroup> rest = without(all, scans[i], own.front());
+    differences.push_back(differenceOf(own, rest, largest));
+  }
+  return differences;
 }
 
 }  // namespace mems_stiction

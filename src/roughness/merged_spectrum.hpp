@@ -63,13 +63,14 @@ SpectrumStretch stretchOf(const std::vector<ScanWaves>& scans, const std::vector
 MergedSpectrum mergedSpectrum(const std::vector<ScanWaves>& scans, const std::vector<ScanTrust>& trust,
                               const SpectrumStretch& stretch);
 
-/// By how much the powers of one scan differ from those of others, at the waves that both are believed about.
+/// By how much the powers of one scan differ from those of all others, at the waves that both are believed about.
 struct SpectrumDifference {
   double logarithm = 0.0;      ///< of the ratio of powers, mean over waves [-]
   double deviation = 0.0;      ///< standard error of it; 0 where they have no waves in common
   double shortest_wave = 0.0;  ///< [m]
   double longest_wave = 0.0;   ///< [m]
 };
-SpectrumDifference spectrumDifference(const ScanWaves& scan, const std::vector<ScanWaves>& others);
+/// Of each scan, none if it is alone.
+std::vector<SpectrumDifference> spectrumDifferences(const std::vector<ScanWaves>& scans);
 
 }  // namespace mems_stiction

@@ -22,6 +22,8 @@ constexpr double kWholeCells =
 constexpr int kMostLevels = 24;
 constexpr double kLargestCount = 1e9;
 constexpr std::size_t kRememberedBytes = std::size_t{12} << 20U;  ///< of blocks, on each level
+/// Pixels of a surface that are made sooner than the kernel of large blocks.
+constexpr std::int64_t kFewPixels = 1 << 20;
 /// Blocks that meet at a corner: with fewer, each of them would make those of the coarser level anew.
 constexpr std::size_t kLeastRemembered = 4;
 
@@ -216,7 +218,7 @@ class TiledSurface::Levels {
         return window == 0.0 ? 0.0 : window * std::sqrt(spectrum.densityAt(q) / cell_area);
       };
       BlockLayout layout;
-      layout.choice = level == 0 ? BlockChoice::kFast : BlockChoice::kSmall;
+      layout.choice = level == 0 && rows * cols > kFewPixels ? BlockChoice::kFast : BlockChoice::kSmall;
       layout.reach_rows = waves.reachOverRows();
       layout.reach_cols = waves.reachOverCols();
       layout.for_spline = level > 0;

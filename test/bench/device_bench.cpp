@@ -108,7 +108,9 @@ void findForce(benchmark::State& state, double pitch) {
   measureAlone(state, [&] {
     const DevicePieces pieces = piecesOf({kPixels * pitch * pitch, 1}, pitch, kPixels);
     DeviceAreaSolver solver(Options(), kScan * kScan * pitch * pitch, pieces);
-    const Realisation found = solver.realise(lawsOf(surfaces, {}, TailForm::kExponential), 1);
+    const DeviceLaws laws = lawsOf(surfaces, {}, TailForm::kExponential);
+    DeviceSurface surface(laws, pieces, 1);
+    const Realisation found = solver.realise(surface);
     if (!(found.pull_off_force > 0.0) || !solver.warnings().empty()) std::_Exit(1);
   });
 }

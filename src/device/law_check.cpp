@@ -1,0 +1,116 @@
+#include "device/law_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "device/scan_list.hpp"
+#include "preprocess/level.hpp"
+
+namespace mems_stiction {
+namespace {
+
+/// The square of a difference over its standard error that is no evidence yet: two standard errors.
+constexpr double kByChance = 4.0;
+/// Share of a misfit at the size of the scans that is found at that of the device; the rest of it is its uncertainty
+/// (doc/device.md says on which surfaces it was set).
+constexpr double kCarried = 0.7;
+/// Scans with pixels up to so much longer than the finest show the same summits.
+constexpr double kAsFine = 1.5;
+/// Of many scans, so many are made and predicted in each round.
+constexpr std::size_t kScansOfRound = 4;
+
+double logOf(double figure) { return std::log(std::max(figure, std::numeric_limits<double>::min())); }
+
+double meanOf(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
+double squaresAbout(double mean, const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double value : values) sum += (value - mean) * (value - mean);
+  return sum;
+}
+
+}  // namespace
+
+SurfacePair underCounterSurface(const HeightMap& scan, const std::vector<HeightMap>& counter_surface) {
+  for (const HeightMap& upper : counter_surface) {
+    if (upper.rows() >= scan.rows() && upper.cols() >= scan.cols() && upper.pitchX() == scan.pitchX() &&
+        upper.pitchY() == scan.pitchY()) {
+      return {scan, HeightMap(upper.heights()(cv::Rect(0, 0, scan.cols(), scan.rows())), scan.pitchX(), scan.pitchY())};
+    }
+  }
+  return scan;
+}
+
+double LawMisfit::share() const {
+  if (!(difference != 0.0)) return 0.0;
+  return std::max(0.0, 1.0 - kByChance * deviation * deviation / (difference * difference));
+}
+
+double LawMisfit::shift() const { return kCarried * share() * difference; }
+
+double LawMisfit::shiftDeviation() const {
+  return share() * std::hypot((1.0 - kCarried) * difference, kCarried * deviation);
+}
+
+LawCheck::LawCheck(const Options& model, const std::vector<HeightMap>& scans,
+                   const std::vector<HeightMap>& counter_surface)
+    : options_(model), loaded_area_(areaOf(scans.front())), adhesion_(model) {
+  const double finest = finestPitch(scans);
+  for (std::size_t place = 0; place < scans.size(); ++place) {
+    if (longerPitch(scans[place]) > kAsFine * finest) continue;
+    checked_.emplace_back();
+    checked_.back().place = place;
+    predict(scans[place], counter_surface, checked_.back().own);
+  }
+}
+
+void LawCheck::add(const std::vector<HeightMap>& made, const std::vector<HeightMap>& made_counter_surface) {
+  const std::size_t every = (checked_.size() + kScansOfRound - 1) / kScansOfRound;
+  for (std::size_t i = 0; i < checked_.size(); ++i) {
+    if ((i + rounds_) % every == 0) predict(made[checked_[i].place], made_counter_surface, checked_[i].made);
+  }
+  ++rounds_;
+}
+
+void LawCheck::predict(const HeightMap& scan, const std::vector<HeightMap>& counter_surface, Logs& logs) {
+  Options of_scan = options_;
+  of_scan.load.mechanical_load *= areaOf(scan) / loaded_area_;
+  adhesion_.setOptions(of_scan);
+  // made scans are not levelled yet, and all are to be alike
+  const Prediction found = adhesion_.predict(underCounterSurface(levelled(scan), counter_surface));
+  logs.force.push_back(logOf(found.pull_off_force));
+  logs.work.push_back(logOf(found.apparent_work_of_adhesion));
+}
+
+LawMisfit LawCheck::misfit(std::vector<double> Logs::*figure) const {
+  std::vector<double> differences;
+  double squares = 0.0;
+  double freedom = 0.0;
+  double made_count = 0.0;
+  for (const Checked& checked : checked_) {
+    const std::vector<double>& made = checked.made.*figure;
+    if (made.empty()) continue;
+    const double mean = meanOf(made);
+    differences.push_back((checked.own.*figure).front() - mean);
+    const auto count = static_cast<double>(made.size());
+    squares += squaresAbout(mean, made);
+    freedom += count - 1.0;
+    made_count += count;
+  }
+  if (differences.empty()) return {};
+  LawMisfit misfit;
+  misfit.difference = meanOf(differences);
+  squares += squaresAbout(misfit.difference, differences);
+  const auto scans = static_cast<double>(differences.size());
+  freedom += scans - 1.0;
+  if (!(freedom > 0.0)) return {};
+  misfit.deviation = std::sqrt(squares / freedom * (1.0 / scans + 1.0 / made_count));
+  return misfit;
+}
+
+}  // namespace mems_stiction

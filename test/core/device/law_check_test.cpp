@@ -1,0 +1,70 @@
+#include "device/law_check.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "roughness/half_spectrum.hpp"
+#include "surface/random_field.hpp"
+
+namespace mems_stiction {
+namespace {
+
+constexpr double kPitch = 10e-9;
+constexpr int kSide = 64;
+
+std::vector<HeightMap> scansOf(double rms, int first_seed, int count) {
+  std::vector<HeightMap> scans;
+  for (int seed = first_seed; seed < first_seed + count; ++seed) {
+    const cv::Mat field = filteredNoise(whiteNoise(kSide, kSide, seed), [](int row, int col) {
+      const double q = std::hypot(waveNumber(col, kSide, kPitch), waveNumber(row, kSide, kPitch));
+      return std::exp(-q * q * 50e-9 * 50e-9 / 8.0);
+    });
+    cv::Scalar mean;
+    cv::Scalar deviation;
+    cv::meanStdDev(field, mean, deviation);
+    scans.emplace_back(field * (rms / deviation[0]), kPitch, kPitch);
+  }
+  return scans;
+}
+
+LawMisfit misfitOf(const std::vector<HeightMap>& scans, double rms) {
+  LawCheck check(Options(), scans, {});
+  const int count = static_cast<int>(scans.size());
+  for (int round = 0; round < 4; ++round) check.add(scansOf(rms, 100 + round * count, count), {});
+  return check.force();
+}
+
+TEST(LawCheck, ScansOfTheSameSurfacesHaveNoMisfit) {
+  const LawMisfit misfit = misfitOf(scansOf(5e-9, 1, 4), 5e-9);
+  EXPECT_GT(misfit.deviation, 0.0);
+  EXPECT_LT(std::abs(misfit.difference), 3.0 * misfit.deviation);
+  EXPECT_LT(std::abs(misfit.shift()), 0.6 * std::abs(misfit.difference));
+}
+
+TEST(LawCheck, ScansThatHoldMoreStronglyHaveOne) {
+  const LawMisfit misfit = misfitOf(scansOf(1e-9, 1, 4), 10e-9);
+  EXPECT_GT(misfit.difference, 5.0 * misfit.deviation);
+  EXPECT_GT(misfit.shift(), 0.5 * misfit.difference);
+  EXPECT_LT(misfit.shift(), misfit.difference);
+  EXPECT_GT(misfit.shiftDeviation(), 0.2 * misfit.difference);
+}
+
+/// Many scans are not all made in each round, and none is left out.
+TEST(LawCheck, ManyScansTakeTurns) {
+  const LawMisfit all = misfitOf(scansOf(1e-9, 1, 10), 10e-9);
+  EXPECT_GT(all.difference, 5.0 * all.deviation);
+  EXPECT_NEAR(all.difference, misfitOf(scansOf(1e-9, 1, 4), 10e-9).difference, 0.5 * all.difference);
+}
+
+TEST(LawMisfit, TwoStandardErrorsAreChance) {
+  EXPECT_EQ((LawMisfit{0.2, 0.1}).shift(), 0.0);
+  EXPECT_EQ((LawMisfit{-0.2, 0.1}).shiftDeviation(), 0.0);
+  EXPECT_EQ((LawMisfit{}).shift(), 0.0);
+  EXPECT_GT((LawMisfit{0.4, 0.1}).shift(), 0.0);
+  EXPECT_LT((LawMisfit{-0.4, 0.1}).shift(), 0.0);
+}
+
+}  // namespace
+}  // namespace mems_stiction
