@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Writes the tables and the picture of doc/device.md from what device_study.py found.
+"""Writes the tables and the picture of doc/device.md from what device_study.py and device_scans.py found.
 
 usage: device_page.py RESULTS.jsonl PAGE.md FIGURE.png
+       device_page.py --scans RESULTS.jsonl PAGE.md
 
-The page keeps its text: what stands between the two marks is written anew.
+The page keeps its text: what stands between two marks is written anew.
 """
 
 import json
@@ -18,7 +19,10 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
 import numpy as np  # noqa: E402
 
-BEGIN, END = "<!-- study: begin -->", "<!-- study: end -->"
+import device_surfaces  # noqa: E402
+
+MARKS = "<!-- %s: begin -->", "<!-- %s: end -->"
+PITCH = 0.01  # um
 COLUMNS = "| {} | surfaces | bias | spread | within 1.3 | 1.5 | 2 | 2.5 | interval covers | linear rule |\n|---|---|---|---|---|---|---|---|---|---|"
 LONG_WAVES = "measure a field"
 CASES = {"k1": "1 scan", "k4": "4 scans", "k16": "16 scans", "k1+wide": "1 scan and a wide one", "k4+wide": "4 scans and a wide one"}
@@ -41,64 +45,108 @@ def line(title, rows):
         math.exp(logs(rows, "linear").mean()))
 
 
+def warned_of_long_waves(row):
+    return any(LONG_WAVES in warning for warning in row["warnings"])
+
+
+def groups(rows):
+    """(case, side, rows) of each table. Surfaces that bond all over go with area: nothing is asked of them."""
+    asked = [row for row in rows if not row["is_conforming"]]
+    for case in CASES:
+        for side in sorted({row["side"] for row in asked if row["case"] == case}, reverse=True):
+            yield case, side, [row for row in asked if (row["case"], row["side"]) == (case, side)]
+
+
 def tables(rows):
     parts = []
-    for case in [case for case in CASES if any(row["case"] == case for row in rows)]:
-        of_case = [row for row in rows if row["case"] == case and not row["is_conforming"]]
-        warned = [row for row in of_case if any(LONG_WAVES in warning for warning in row["warnings"])]
-        parts += ["### %s" % CASES[case].capitalize(), "", COLUMNS.format("kind")]
-        for kind in dict.fromkeys(row["kind"] for row in of_case):
-            parts.append(line(kind, [row for row in of_case if row["kind"] == kind]))
-        parts.append(line("all", of_case))
-        if warned and len(warned) < len(of_case):
+    for case, side, found in groups(rows):
+        warned = [row for row in found if warned_of_long_waves(row)]
+        parts += ["### %s, of %d x %d pixels" % (CASES[case].capitalize(), side, side), "", COLUMNS.format("kind")]
+        for kind in [kind for kind in device_surfaces.KINDS if any(row["kind"] == kind for row in found)]:
+            parts.append(line(kind, [row for row in found if row["kind"] == kind]))
+        parts.append(line("all", found))
+        if warned and len(warned) < len(found):
             parts.append(line("with the warning that long waves are missing", warned))
-            parts.append(line("without it", [row for row in of_case if row not in warned]))
+            parts.append(line("without it", [row for row in found if row not in warned]))
         parts.append("")
     return "\n".join(parts)
 
 
+def scan_tables(rows):
+    parts = []
+    for case in [case for case in CASES if any(row["case"] == case for row in rows)]:
+        of_case = [row for row in rows if row["case"] == case and not row["is_conforming"]]
+        parts += ["### %s, measured" % CASES[case].capitalize(), "", COLUMNS.format("scan").replace("surfaces", "draws")]
+        for scan in dict.fromkeys(row["scan"] for row in of_case):
+            of_scan = [row for row in of_case if row["scan"] == scan]
+            parts.append(line("`%s`, %d pixels of %.3g nm" % (scan, of_scan[0]["side"], 1e9 * of_scan[0]["pitch"]), of_scan))
+        parts += [line("all", of_case), ""]
+    conforming = sorted({row["scan"] for row in rows if row["is_conforming"]})
+    if conforming:
+        parts.append("%s bond all over as a whole, and force goes with area: left out.\n" % ", ".join("`%s`" % scan for scan in conforming))
+    return "\n".join(parts)
+
+
 def figure(rows, path):
-    cases = [case for case in CASES if any(row["case"] == case for row in rows)]
-    kinds = list(dict.fromkeys(row["kind"] for row in rows))
-    drawing, axes = plt.subplots(1, len(cases), figsize=(1.5 + 3.1 * len(cases), 4.2), sharey=True, squeeze=False)
-    for axis, case in zip(axes[0], cases):
+    found = list(groups(rows))
+    kinds = [kind for kind in device_surfaces.KINDS if any(row["kind"] == kind for row in rows)]
+    drawing, axes = plt.subplots(len(found), 1, figsize=(8.5, 0.7 + 2.3 * len(found)), sharex=True, squeeze=False)
+    for axis, (case, side, of_case) in zip(axes[:, 0], found):
         for place, kind in enumerate(kinds):
-            of_kind = [row for row in rows if row["case"] == case and row["kind"] == kind and not row["is_conforming"]]
-            x = place + np.linspace(-0.25, 0.25, max(len(of_kind), 2))[:len(of_kind)]
-            ratio = np.array([row["force"] / row["truth"] for row in of_kind])
+            of_kind = [row for row in of_case if row["kind"] == kind]
+            if not of_kind:
+                continue
+            x = place + 0.16 * (np.arange(len(of_kind)) - (len(of_kind) - 1) / 2)
+            truth = np.array([row["truth"] for row in of_kind])
+            ratio = np.array([row["force"] for row in of_kind]) / truth
             ends = np.array([[row["force"] - row["surface_lower"], row["surface_upper"] - row["force"]] for row in of_kind]).T
-            if of_kind:
-                axis.errorbar(x, ratio, ends / [row["truth"] for row in of_kind], fmt="o", ms=4, lw=1, color="#2f7fd1")
-                axis.plot(x, [row["linear"] / row["truth"] for row in of_kind], "x", ms=4, color="#d1322f")
-        axis.axhline(1.0, color="0.3", lw=0.8)
+            axis.errorbar(x, ratio, ends / truth, fmt="o", ms=4, lw=1.2, color="#2f7fd1")
+            axis.plot(x, [row["linear"] for row in of_kind] / truth, "x", ms=5, color="#d1322f")
         axis.axhspan(1 / 1.5, 1.5, color="0.92", zorder=0)
+        axis.axhline(1.0, color="0.3", lw=0.8, zorder=1)
         axis.set_yscale("log")
-        axis.set_ylim(0.02, 200)
-        axis.set_xticks(range(len(kinds)))
-        axis.set_xticklabels(kinds, rotation=60, ha="right")
-        axis.set_title(CASES[case], fontsize=10)
-    axes[0][0].set_ylabel("force said over that of the large surface [-]")
-    axes[0][0].plot([], [], "o", color="#2f7fd1", label="predict_device, 95 % by the scans")
-    axes[0][0].plot([], [], "x", color="#d1322f", label="scans' force by area")
-    axes[0][0].legend(loc="lower left", fontsize=8)
-    drawing.tight_layout()
+        axis.set_ylim(0.05, 200)
+        axis.set_yticks([0.1, 1, 10, 100])
+        axis.set_yticklabels(["0.1", "1", "10", "100"])
+        axis.set_title("%s, of %d x %d pixels" % (CASES[case], side, side), fontsize=10, loc="left")
+    axes[-1][0].set_xticks(range(len(kinds)))
+    axes[-1][0].set_xticklabels(kinds)
+    axes[-1][0].set_xlim(-0.5, len(kinds) - 0.5)
+    drawing.supylabel("force said over that of the large surface [-]", fontsize=10)
+    said = axes[0][0].plot([], [], "o", color="#2f7fd1", label="predict_device, 95 % by the scans")
+    linear = axes[0][0].plot([], [], "x", color="#d1322f", label="the scans' force by area")
+    drawing.legend(handles=said + linear, loc="lower center", ncol=2, fontsize=9, frameon=False)
+    drawing.tight_layout(rect=(0, 0.03 + 0.03 / len(found), 1, 1))
     drawing.savefig(path, dpi=110)
 
 
+def read(path):
+    return [json.loads(text) for text in pathlib.Path(path).read_text().splitlines()]
+
+
+def rewrite(page, name, text):
+    """What stands between the marks of this name."""
+    begin, end = (mark % name for mark in MARKS)
+    before, rest = page.read_text().split(begin)
+    _, after = rest.split(end)
+    page.write_text("%s%s\n\n%s\n%s%s" % (before, begin, text, end, after))
+
+
 def main():
-    results, page, picture = (pathlib.Path(argument) for argument in sys.argv[1:])
-    rows = [json.loads(text) for text in results.read_text().splitlines()]
+    if sys.argv[1] == "--scans":
+        rewrite(pathlib.Path(sys.argv[3]), "scans", scan_tables(read(sys.argv[2])))
+        return
+    results, page, picture = sys.argv[1:]
+    rows = read(results)
     figure(rows, picture)
-    text = page.read_text()
-    before, rest = text.split(BEGIN)
-    _, after = rest.split(END)
-    side = rows[0]["side"] * 0.01
-    head = ("Surfaces of %d x %d pixels of 10 nm (%.0f um), %d of them, drawn by kind and number (seed %s); scans of 512 x 512 pixels at random\n"
-            "places, the wide one with pixels of 80 nm over the whole. *Bias* is the geometric mean of the ratio to the force of the whole surface, *spread*\n"
-            "the standard deviation of its logarithm; the interval is that of the scans alone, since constants and model are the same on both sides.\n"
-            % (rows[0]["side"], rows[0]["side"], side, len({(row["kind"], row["number"], row["seed"]) for row in rows}),
+    sizes = ", ".join("%d x %d (%.0f um)" % (side, side, side * PITCH) for side in sorted({row["side"] for row in rows}, reverse=True))
+    head = ("Surfaces of %s pixels of 10 nm, %d of them, drawn by kind and number (seed %s); scans of 512 x 512\n"
+            "pixels at random places, the wide one with pixels of 80 nm over the whole. *Bias* is the geometric mean of the ratio to the force of the\n"
+            "whole surface, *spread* the standard deviation of its logarithm; the interval is that of the scans alone, since constants and model are the\n"
+            "same on both sides. Surfaces that bond all over are left out: their force goes with area.\n"
+            % (sizes, len({(row["kind"], row["number"], row["seed"], row["side"]) for row in rows}),
                ", ".join(sorted({str(row["seed"]) for row in rows}))))
-    page.write_text("%s%s\n\n%s\n![force of devices](images/device.png)\n\n%s\n%s%s" % (before, BEGIN, head, tables(rows), END, after))
+    rewrite(pathlib.Path(page), "study", "%s\n![force of devices](images/device.png)\n\n%s" % (head, tables(rows)))
 
 
 if __name__ == "__main__":

@@ -43,7 +43,7 @@ def main():
     parser.add_argument("results", type=pathlib.Path)
     parser.add_argument("count", type=int, help="surfaces of each kind")
     parser.add_argument("--side", type=int, default=4096)
-    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--seed", type=int, default=21)
     parser.add_argument("--kinds", default=",".join(device_surfaces.KINDS))
     parser.add_argument("--cases", default="k4+wide,k1+wide,k1,k4,k16")
     parser.add_argument("--settings")

@@ -13,6 +13,7 @@
 #include "device/law_check.hpp"
 #include "device/made_surface.hpp"
 #include "device/scan_list.hpp"
+#include "device/scan_shortcomings.hpp"
 #include "device/surface_law.hpp"
 #include "errors/short_number.hpp"
 #include "mems_stiction/errors/errors.hpp"
@@ -25,13 +26,8 @@
 namespace mems_stiction {
 namespace {
 
-/// The spectrum still rises towards its longest waves from this slope on, by more than two standard errors [-].
-constexpr double kRising = 1.0;
 /// Standard deviation of ln force that the law's form leaves where nothing else scatters [-].
 constexpr double kOwnError = 0.12;
-/// Scans contradict each other from this ratio of powers on, if it is so many standard errors from 1.
-constexpr double kContradiction = 1.5;
-constexpr double kBeyondScatter = 4.0;
 /// A misfit of the law that moves the force by less is not worth a sentence.
 constexpr double kToldMisfit = 1.1;
 
@@ -171,54 +167,53 @@ double chiSquareFactor(double freedom, double normal) {
   return std::pow(std::max(1.0 - term + normal * std::sqrt(term), 0.0), 3);
 }
 
+/// Waves between the longest that the scans show and those as long as the device, by what is drawn of them: the slope goes on up
+/// to a roll-off anywhere.
+std::vector<BandOfWaves> continuedBands(const SurfaceLaw& law, double side) {
+  if (!lacksLongWaves(law, side)) return {};
+  constexpr double kBandsPerOctave = 2.0;
+  const SpectrumBand& first = law.heights.bands.front();
+  const double last = 2.0 * kPi / side;
+  const int count = static_cast<int>(std::ceil(kBandsPerOctave * std::log2(first.wave_number / last)));
+  const auto slopeAt = [&](double normal) { return std::clamp(law.slope + normal * law.slope_deviation, 0.0, 4.0); };
+  std::vector<BandOfWaves> bands;
+  for (int i = count; i >= 1; --i) {
+    const double distance = std::log(first.wave_number / last) * i / count;
+    BandOfWaves band;
+    band.wavelength = law.longestWave() * std::exp(distance);
+    band.density =
+        first.density * std::exp(slopeAt(0.0) * std::min(distance, 0.5 * std::log(first.wave_number / last)));
+    band.density_lower = first.density;
+    band.density_upper = first.density * std::exp(slopeAt(1.96) * distance);
+    band.is_measured = false;
+    bands.push_back(band);
+  }
+  return bands;
+}
+
 void showSpectrum(const SurfaceLaw& law, double side, DeviceForce& force) {
-  const MergedSpectrum& spectrum = law.heights;
-  const double from = std::min(2.0 * kPi / side, spectrum.bands.front().wave_number);
-  for (const SpectrumBand& band : spectrum.bands) {
+  force.spectrum = continuedBands(law, side);
+  for (const SpectrumBand& band : law.heights.bands) {
     BandOfWaves shown;
     shown.wavelength = 2.0 * kPi / band.wave_number;
     shown.density = band.density;
     shown.density_lower = band.density * chiSquareFactor(band.freedom, -1.96);
     shown.density_upper = band.density * chiSquareFactor(band.freedom, 1.96);
-    shown.rms_height = spectrum.rootMean(0, band.wave_number, spectrum.largest_wave_number);
-    shown.rms_slope = spectrum.rootMean(1, from, band.wave_number);
-    shown.rms_curvature = spectrum.rootMean(2, from, band.wave_number);
     force.spectrum.push_back(shown);
   }
-}
-
-void warnOfLongWaves(const SurfaceLaw& law, const std::vector<NamedScan>& scans, double side, DeviceForce& force) {
-  const double longest = law.longestWave();
-  if (!lacksLongWaves(law, side) || law.slope < kRising || law.slope < 2.0 * law.slope_deviation) return;
-  const NamedScan* widest = &scans.front();
-  for (const NamedScan& scan : scans) {
-    if (scan.surface.cols() * scan.surface.pitchX() > widest->surface.cols() * widest->surface.pitchX()) {
-      widest = &scan;
-    }
+  std::stable_sort(force.spectrum.begin(), force.spectrum.end(),
+                   [](const BandOfWaves& one, const BandOfWaves& other) { return one.wavelength > other.wavelength; });
+  MergedSpectrum spectrum = law.heights;  // with the continued bands
+  spectrum.bands.clear();
+  for (const BandOfWaves& shown : force.spectrum) {
+    spectrum.bands.push_back({2.0 * kPi / shown.wavelength, shown.density, 0.0});
   }
-  force.warnings.push_back(
-      "roughness still rises towards the longest waves that the scans show (" + shortNumber(longest * 1e6, 2) +
-      " um, by " + widest->name + "): measure a field of at least " + shortNumber(side * 1e6, 2) + " um, pixels of " +
-      shortNumber(longest / 16.0 * 1e9, 2) + " nm will do. Until then the interval holds what longer waves may do");
-}
-
-/// Scans whose roughness differs from that of all others, at the same waves, by more than scatter.
-void warnOfContradictions(const std::vector<NamedScan>& scans, DeviceForce& force) {
-  if (scans.size() < 2) return;
-  std::vector<ScanWaves> waves;
-  waves.reserve(scans.size());
-  for (const NamedScan& scan : scans) waves.emplace_back(scan.surface);
-  const std::vector<SpectrumDifference> differences = spectrumDifferences(waves);
-  for (std::size_t i = 0; i < scans.size(); ++i) {
-    const SpectrumDifference& difference = differences[i];
-    if (!(std::abs(difference.logarithm) > std::log(kContradiction)) ||
-        !(std::abs(difference.logarithm) > kBeyondScatter * difference.deviation)) {
-      continue;
-    }
-    force.warnings.push_back(scans[i].name + " contradicts the other scans: between waves of " +
-                             shortNumber(difference.shortest_wave * 1e6, 2) + " and " +
-                             shortNumber(difference.longest_wave * 1e6, 2) + " um its rms heights are " +
-                             shortNumber(std::exp(0.5 * difference.logarithm), 2) + " times theirs");
+  const double from = std::min(2.0 * kPi / side, spectrum.bands.front().wave_number);
+  for (BandOfWaves& shown : force.spectrum) {
+    const double wave_number = 2.0 * kPi / shown.wavelength;
+    shown.rms_height = spectrum.rootMean(0, wave_number, spectrum.largest_wave_number);
+    shown.rms_slope = spectrum.rootMean(1, from, wave_number);
+    shown.rms_curvature = spectrum.rootMean(2, from, wave_number);
   }
 }
 
@@ -339,11 +334,9 @@ DeviceForce deviceForce(const DeviceSurfaces& surfaces, const DeviceArea& area, 
   showSpectrum(known.laws(0).lower, pieces.side(), force);
   if (!has_parts) {
     const double side = std::sqrt(area.area / area.contacts);
-    warnOfLongWaves(known.laws(0).lower, surfaces.scans, side, force);
-    if (known.laws(0).upper) warnOfLongWaves(*known.laws(0).upper, surfaces.counter_surface, side, force);
+    force.warnings = missingLongWaves(surfaces, known.laws(0), side);
   }
-  warnOfContradictions(surfaces.scans, force);
-  warnOfContradictions(surfaces.counter_surface, force);
+  for (const std::string& warning : contradictions(surfaces)) force.warnings.push_back(warning);
 
   Logs stated;  // by the law of the scans, or by parts of them
   Logs others;  // by what other scans of the same surfaces would give

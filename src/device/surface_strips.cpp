@@ -8,6 +8,7 @@
 #include "approach/area_cells.hpp"
 #include "device/device_mosaic.hpp"
 #include "device/scan_list.hpp"
+#include "device/scan_shortcomings.hpp"
 #include "files/byte_pieces.hpp"
 #include "files/content_hash.hpp"
 #include "mems_stiction/errors/errors.hpp"
@@ -60,6 +61,9 @@ DividedSurface::DividedSurface(const DeviceSurfaces& surfaces, const DeviceArea&
       surface_(*laws_, wholePieces(surfaces, area, options), realisationSeed(options, number)),
       solver_(stiffModel(model), areaOf(surfaces.scans.front().surface), surface_.pieces()),
       depth_(depth) {
+  const double side = std::sqrt(area.area / area.contacts);
+  shortcomings_ = missingLongWaves(surfaces, *laws_, side);
+  for (const std::string& warning : contradictions(surfaces)) shortcomings_.push_back(warning);
   if (depth_ && !(*depth_ > 0.0)) {
     throw OptionsError({"depth: " + numberText(*depth_) + " m is not allowed, must be > 0 m"});
   }

@@ -42,6 +42,8 @@ class DividedSurface {
   /// @throw SurfaceError if rows are missing, or the cells do not reach deep enough
   Realisation realise(const SurfaceStrips& strips);
   const std::vector<std::string>& warnings() const { return solver_.warnings(); }
+  /// What the scans lack, and where they contradict each other, in words.
+  const std::vector<std::string>& shortcomings() const { return shortcomings_; }
 
  private:
   /// Below the highest place of a strip [m].
@@ -51,6 +53,7 @@ class DividedSurface {
   DeviceSurface surface_;
   DeviceAreaSolver solver_;
   std::optional<double> depth_;
+  std::vector<std::string> shortcomings_;
 };
 
 /// What has come in of a surface.

@@ -94,7 +94,10 @@ std::shared_ptr<SharedSurface> madeSurface(const std::vector<DeviceScan>& scans,
     const BesideWork beside([&] { check(0.0); });
     DevicePredictor predictor(configuration);
     addScans(scans, counter_surface, check, predictor);
-    return std::make_shared<SharedSurface>(predictor.surface(number, depth), predictor.scanWarnings());
+    DividedSurface surface = predictor.surface(number, depth);
+    std::vector<std::string> warnings = predictor.scanWarnings();
+    for (const std::string& shortcoming : surface.shortcomings()) warnings.push_back(shortcoming);
+    return std::make_shared<SharedSurface>(std::move(surface), std::move(warnings));
   });
 }
 

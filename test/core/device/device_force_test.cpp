@@ -117,11 +117,18 @@ TEST_F(DeviceForceTest, LongWavesThatAreMissingAreNamedAndWidenTheInterval) {
   const DeviceForce without = force(areaOfPixels(kSide));
   ASSERT_EQ(without.warnings.size(), 1U);
   EXPECT_NE(without.warnings[0].find("measure a field of at least 7.7 um"), std::string::npos) << without.warnings[0];
+  // the spectrum goes on to waves as long as the device, and says that nobody has measured those
+  EXPECT_FALSE(without.spectrum.front().is_measured);
+  EXPECT_NEAR(without.spectrum.front().wavelength, kSide * kPitch, 1e-3 * kSide * kPitch);
+  EXPECT_GT(without.spectrum.front().density_upper, without.spectrum.front().density);
+  EXPECT_GT(without.spectrum.front().density, without.spectrum.front().density_lower);
+  EXPECT_TRUE(without.spectrum.back().is_measured);
   cv::Mat coarse;
   cv::resize(heights, coarse, cv::Size(kSide / 8, kSide / 8), 0.0, 0.0, cv::INTER_AREA);
   surfaces_.scans.push_back({"wide", HeightMap(coarse, 8 * kPitch, 8 * kPitch)});
   const DeviceForce with = force(areaOfPixels(kSide));
   EXPECT_TRUE(with.warnings.empty()) << with.warnings.front();
+  EXPECT_TRUE(with.spectrum.front().is_measured);
 }
 
 TEST_F(DeviceForceTest, ScansThatContradictEachOtherAreNamed) {

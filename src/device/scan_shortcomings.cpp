@@ -1,0 +1,67 @@
+#include "device/scan_shortcomings.hpp"
+
+#include <cmath>
+
+#include "errors/short_number.hpp"
+#include "roughness/merged_spectrum.hpp"
+
+namespace mems_stiction {
+namespace {
+
+/// The spectrum still rises towards its longest waves from this slope on, by more than two standard errors [-].
+constexpr double kRising = 1.0;
+/// Scans contradict each other from this ratio of powers on, if it is so many standard errors from 1.
+constexpr double kContradiction = 1.5;
+constexpr double kBeyondScatter = 4.0;
+void warnOfLongWaves(const SurfaceLaw& law, const std::vector<NamedScan>& scans, double side,
+                     std::vector<std::string>& warnings) {
+  const double longest = law.longestWave();
+  if (!lacksLongWaves(law, side) || law.slope < kRising || law.slope < 2.0 * law.slope_deviation) return;
+  const NamedScan* widest = &scans.front();
+  for (const NamedScan& scan : scans) {
+    if (scan.surface.cols() * scan.surface.pitchX() > widest->surface.cols() * widest->surface.pitchX()) {
+      widest = &scan;
+    }
+  }
+  warnings.push_back("roughness still rises towards the longest waves that the scans show (" +
+                     shortNumber(longest * 1e6, 2) + " um, by " + widest->name + "): measure a field of at least " +
+                     shortNumber(side * 1e6, 2) + " um, pixels of " + shortNumber(longest / 16.0 * 1e9, 2) +
+                     " nm will do. Until then the interval holds what longer waves may do");
+}
+
+void warnOfContradictions(const std::vector<NamedScan>& scans, std::vector<std::string>& warnings) {
+  if (scans.size() < 2) return;
+  std::vector<ScanWaves> waves;
+  waves.reserve(scans.size());
+  for (const NamedScan& scan : scans) waves.emplace_back(scan.surface);
+  const std::vector<SpectrumDifference> differences = spectrumDifferences(waves);
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    const SpectrumDifference& difference = differences[i];
+    if (!(std::abs(difference.logarithm) > std::log(kContradiction)) ||
+        !(std::abs(difference.logarithm) > kBeyondScatter * difference.deviation)) {
+      continue;
+    }
+    warnings.push_back(scans[i].name + " contradicts the other scans: between waves of " +
+                       shortNumber(difference.shortest_wave * 1e6, 2) + " and " +
+                       shortNumber(difference.longest_wave * 1e6, 2) + " um its rms heights are " +
+                       shortNumber(std::exp(0.5 * difference.logarithm), 2) + " times theirs");
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> missingLongWaves(const DeviceSurfaces& surfaces, const DeviceLaws& laws, double side) {
+  std::vector<std::string> warnings;
+  warnOfLongWaves(laws.lower, surfaces.scans, side, warnings);
+  if (laws.upper) warnOfLongWaves(*laws.upper, surfaces.counter_surface, side, warnings);
+  return warnings;
+}
+
+std::vector<std::string> contradictions(const DeviceSurfaces& surfaces) {
+  std::vector<std::string> warnings;
+  warnOfContradictions(surfaces.scans, warnings);
+  warnOfContradictions(surfaces.counter_surface, warnings);
+  return warnings;
+}
+
+}  // namespace mems_stiction

@@ -1,0 +1,21 @@
+#pragma once
+
+/// @file
+/// What scans leave open of a device, and where they contradict each other, in sentences that name the scan.
+
+#include <string>
+#include <vector>
+
+#include "device/device_surface.hpp"
+#include "mems_stiction/device/device_force.hpp"
+
+namespace mems_stiction {
+
+/// Long waves that no scan shows though the spectrum still rises towards them.
+/// - @p side of a contact [m]
+std::vector<std::string> missingLongWaves(const DeviceSurfaces& surfaces, const DeviceLaws& laws, double side);
+
+/// Scans whose roughness differs from that of all others, at the same waves, by more than scatter.
+std::vector<std::string> contradictions(const DeviceSurfaces& surfaces);
+
+}  // namespace mems_stiction
