@@ -73,7 +73,7 @@ class Surfaces {
     std::vector<HeightMap> lower;
     std::vector<HeightMap> upper;
   };
-  MadeScans scansAgain(int realisation, std::uint64_t seed) const {
+  MadeScans scansAgain(int realisation, std::uint64_t seed) {
     const DeviceLaws& stated = laws(realisation);
     MadeScans made;
     made.lower = again(stated.lower, lower_, seed);
@@ -93,10 +93,10 @@ class Surfaces {
   const std::vector<HeightMap>& upper() const { return upper_; }
 
  private:
-  std::vector<HeightMap> again(const SurfaceLaw& law, const std::vector<HeightMap>& scans, std::uint64_t seed) const {
+  std::vector<HeightMap> again(const SurfaceLaw& law, const std::vector<HeightMap>& scans, std::uint64_t seed) {
     std::mt19937_64 engine(seed);
     const SpectrumContinuation continuation = drawnContinuation(law, side_, engine);
-    return madeScans(law, continuation, scans, side_, engine);
+    return makers_.try_emplace(&law, law, scans, side_).first->second.make(continuation, engine);
   }
 
   std::vector<HeightMap> lower_;
@@ -104,6 +104,7 @@ class Surfaces {
   double side_;
   DeviceForceOptions options_;
   std::vector<DeviceLaws> laws_;
+  std::map<const SurfaceLaw*, ScanMaker> makers_;
 };
 
 /// Surfaces of the device's size by what the scans say; one for each law, which goes on from seed to seed.
@@ -330,7 +331,7 @@ DeviceForce deviceForce(const DeviceSurfaces& surfaces, const DeviceArea& area, 
   const std::vector<HeightMap> parts_upper = fineMapsOf(surfaces.counter_surface);
   const bool has_parts =
       options.pitch == 0.0 && haveRoom(parts_lower, pieces) && (parts_upper.empty() || haveRoom(parts_upper, pieces));
-  const Surfaces known(surfaces, pieces.side(), options);
+  Surfaces known(surfaces, pieces.side(), options);
   showSpectrum(known.laws(0).lower, pieces.side(), force);
   if (!has_parts) {
     const double side = std::sqrt(area.area / area.contacts);

@@ -70,11 +70,6 @@ int reflected(int index, int count) {
   return std::clamp(at, 0, count - 1);
 }
 
-bool isAlike(const HeightMap& one, const HeightMap& other) {
-  return one.rows() == other.rows() && one.cols() == other.cols() && one.pitchX() == other.pitchX() &&
-         one.pitchY() == other.pitchY();
-}
-
 bool fitsIn(const MadeSize& size, const OwnLongWaves& own) {
   constexpr double kRounding = 0.999;
   return own.heights.cols * own.pitch_x >= kRounding * size.sideX() &&
@@ -206,29 +201,40 @@ void MadeSurface::addOwnWaves(std::int64_t row, std::int64_t col, cv::Mat& tile)
   }
 }
 
-std::vector<HeightMap> madeScans(const SurfaceLaw& law, const SpectrumContinuation& continuation,
-                                 const std::vector<HeightMap>& like, double longest_wave, std::mt19937_64& engine) {
-  SurfaceLaw without_own = law;
-  without_own.own.reset();
-  std::vector<HeightMap> made;
-  made.reserve(like.size());
-  std::optional<MadeSurface> surface;
-  const HeightMap* before = nullptr;  // scans alike differ by their seeds alone
+ScanMaker::ScanMaker(const SurfaceLaw& law, const std::vector<HeightMap>& like, double longest_wave)
+    : law_(&law), without_own_(law), longest_wave_(longest_wave) {
+  without_own_.own.reset();
   for (const HeightMap& scan : like) {
+    const MadeSize size{scan.rows(), scan.cols(), scan.pitchX(), scan.pitchY()};
+    const auto known = std::find_if(kinds_.begin(), kinds_.end(), [&](const Kind& kind) { return kind.size == size; });
+    kind_of_.push_back(static_cast<std::size_t>(known - kinds_.begin()));
+    if (known != kinds_.end()) continue;
+    kinds_.emplace_back();
+    kinds_.back().size = size;
+    kinds_.back().has_own = law.own && size.sideX() >= kAsWide * law.own->heights.cols * law.own->pitch_x &&
+                            size.sideY() >= kAsWide * law.own->heights.rows * law.own->pitch_y;
+  }
+}
+
+std::vector<HeightMap> ScanMaker::make(const SpectrumContinuation& continuation, std::mt19937_64& engine) {
+  if (!(continuation_ == continuation)) {
+    for (Kind& kind : kinds_) kind.surface.reset();
+    continuation_ = continuation;
+  }
+  std::vector<HeightMap> made;
+  made.reserve(kind_of_.size());
+  for (const std::size_t place : kind_of_) {
+    Kind& kind = kinds_[place];
     const std::uint64_t seed = engine();
-    if (before != nullptr && isAlike(*before, scan)) {
-      surface->reseed(seed);
+    if (kind.surface) {
+      kind.surface->reseed(seed);
     } else {
-      const MadeSize size{scan.rows(), scan.cols(), scan.pitchX(), scan.pitchY()};
-      const bool is_widest = law.own && size.sideX() >= kAsWide * law.own->heights.cols * law.own->pitch_x &&
-                             size.sideY() >= kAsWide * law.own->heights.rows * law.own->pitch_y;
-      surface.emplace(is_widest ? law : without_own, continuation, size,
-                      std::max({longest_wave, size.sideX(), size.sideY()}), seed);
-      before = &scan;
+      kind.surface.emplace(kind.has_own ? *law_ : without_own_, continuation, kind.size,
+                           std::max({longest_wave_, kind.size.sideX(), kind.size.sideY()}), seed);
     }
-    cv::Mat heights(scan.rows(), scan.cols(), CV_32FC1);
-    surface->heights(0, 0, heights);
-    made.emplace_back(heights, scan.pitchX(), scan.pitchY());
+    cv::Mat heights(static_cast<int>(kind.size.rows), static_cast<int>(kind.size.cols), CV_32FC1);
+    kind.surface->heights(0, 0, heights);
+    made.emplace_back(heights, kind.size.pitch_x, kind.size.pitch_y);
   }
   return made;
 }

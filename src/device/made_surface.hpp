@@ -4,6 +4,7 @@
 /// One surface of the device's size, as the scans may have been cut from it: made tile by tile, by the law of the scans
 /// (surface_law.hpp) and what is drawn of what that leaves open.
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <random>
@@ -40,6 +41,9 @@ struct MadeSize {
 
   double sideX() const { return static_cast<double>(cols) * pitch_x; }
   double sideY() const { return static_cast<double>(rows) * pitch_y; }
+  bool operator==(const MadeSize& other) const {
+    return rows == other.rows && cols == other.cols && pitch_x == other.pitch_x && pitch_y == other.pitch_y;
+  }
 };
 
 /// Heights by tile; one object serves one thread at a time.
@@ -76,10 +80,34 @@ class MadeSurface {
   cv::Mat spare_;
 };
 
-/// Scans of surfaces of this law, with the pixels and sizes of other scans. Those as large as the widest have its long waves.
-/// - @p longest_wave that the surface has, if it is longer than the scan [m]
-/// - @p engine draws a seed for each
-std::vector<HeightMap> madeScans(const SurfaceLaw& law, const SpectrumContinuation& continuation,
-                                 const std::vector<HeightMap>& like, double longest_wave, std::mt19937_64& engine);
+/// Makes scans of surfaces of one law, with the pixels and sizes of other scans. Those as large as the widest have its long
+/// waves.
+class ScanMaker {
+ public:
+  /// - @p law must outlive the object
+  /// - @p like have these sizes and pixels
+  /// - @p longest_wave that the surface has, where it is longer than a scan [m]
+  ScanMaker(const SurfaceLaw& law, const std::vector<HeightMap>& like, double longest_wave);
+  ScanMaker(const ScanMaker&) = delete;
+  ScanMaker& operator=(const ScanMaker&) = delete;
+
+  /// - @p engine draws a seed for each
+  std::vector<HeightMap> make(const SpectrumContinuation& continuation, std::mt19937_64& engine);
+
+ private:
+  /// What scans alike have in common.
+  struct Kind {
+    MadeSize size;
+    bool has_own = false;
+    std::optional<MadeSurface> surface;
+  };
+
+  const SurfaceLaw* law_;
+  SurfaceLaw without_own_;
+  double longest_wave_;
+  std::optional<SpectrumContinuation> continuation_;
+  std::vector<Kind> kinds_;
+  std::vector<std::size_t> kind_of_;  ///< of each scan
+};
 
 }  // namespace mems_stiction
