@@ -86,7 +86,7 @@ void DeviceForceStream::offer(const StationCase& scan, const PredictedScan& pred
   const Provenance& provenance = predicted.provenance;
   const PartName part{provenance.part_id, provenance.serial_id};
   Task task{part,
-            {scan.header, provenance, predicted.pool_settings_hash},
+            {scan.header, provenance, predicted.pool_settings_hash, predicted.scan_id},
             settings,
             scan.scan,
             withoutMaps(predicted.prediction)};

@@ -85,6 +85,15 @@ double statedPitch(const char* field, double stated, double parameter) {
   return stated;
 }
 
+/// Names are kept for a thousand scans of each part, and stand in every sentence about them.
+constexpr std::size_t kLongestName = 1000;
+
+void requireShort(const char* field, const std::string& name) {
+  if (name.size() <= kLongestName) return;
+  throw SurfaceError(std::string(field) + ": a name of " + std::to_string(name.size()) +
+                     " bytes is not allowed, must have at most " + std::to_string(kLongestName));
+}
+
 double finite(const char* field, double value) {
   if (!std::isfinite(value)) {
     throw SurfaceError(std::string("scan_info.") + field + ": " + numberText(value) +
@@ -126,6 +135,12 @@ ScanInfo scanInfoMessage(const ScanOptions& options, const std_msgs::Header& hea
 }
 
 ScanIdentity identityOf(const std_msgs::Header& header, const ScanInfo* info) {
+  requireShort("header.frame_id", header.frame_id);
+  if (info != nullptr) {
+    requireShort("scan_info.scan_name", info->scan_name);
+    requireShort("scan_info.part_id", info->part_id);
+    requireShort("scan_info.serial_id", info->serial_id);
+  }
   ScanIdentity identity;
   if (info != nullptr) identity = {info->scan_name, info->part_id, info->serial_id};
   if (identity.scan_name.empty()) identity.scan_name = header.frame_id;

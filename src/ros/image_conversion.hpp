@@ -37,6 +37,7 @@ ScanInfo scanInfoMessage(const ScanOptions& options, const std_msgs::Header& hea
 
 /// What the messages say of what was scanned: without a scan_name the frame_id is it.
 /// - @p info null: there is none.
+/// @throw SurfaceError if a name is longer than anybody reads.
 ScanIdentity identityOf(const std_msgs::Header& header, const ScanInfo* info);
 
 /// Shares the pixels of 32FC1 and 64FC1 in this machine's byte order with scale 1, offset 0, no invalid value and no height

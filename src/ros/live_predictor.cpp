@@ -28,6 +28,13 @@ OutputOptions figuresOnly() {
   return output;
 }
 
+LoadFigures figuresOf(const Prediction& prediction) {
+  return {prediction.pull_off_force, prediction.contact_area, prediction.electrostatic_force};
+}
+
+/// Beyond every stamp [ns].
+constexpr std::uint64_t kUnstamped = std::uint64_t{1} << 63U;
+
 PartKey keyOf(const ScanOfPart& scan) {
   return {scan.provenance.part_id, scan.provenance.serial_id, scan.pool_settings_hash};
 }
@@ -90,13 +97,13 @@ PredictedScan LivePredictor::judged(const PreparedScan& prepared, const Configur
 
 void LivePredictor::addToPart(const ReceivedScan& scan, PredictedScan& predicted) {
   predicted.part =
-      parts_.add(keyOf({scan.header, predicted.provenance, predicted.pool_settings_hash}), scan.header.stamp.toNSec(),
+      parts_.add(keyOf({scan.header, predicted.provenance, predicted.pool_settings_hash}), predicted.scan_id,
                  statementOf(predicted.provenance.scan_name, predicted.prediction, predicted.verdict));
 }
 
 std::optional<PartNews> LivePredictor::judgeAgain(const ScanOfPart& scan, const Verdict& verdict) {
   const PartKey key = keyOf(scan);
-  const std::optional<PooledVerdict> pooled = parts_.judgeAgain(key, scan.header.stamp.toNSec(), verdict);
+  const std::optional<PooledVerdict> pooled = parts_.judgeAgain(key, scan.id, verdict);
   if (!pooled) return std::nullopt;
   const bool is_of_last_part = last_ && !(keyOf(last_->part) < key) && !(key < keyOf(last_->part));
   return PartNews{*pooled, is_of_last_part ? last_->part : scan};
@@ -119,11 +126,17 @@ PredictedScan LivePredictor::predictScan(const ReceivedScan& scan, const OutputO
   };
   PredictedScan predicted =
       judged(prepared, *settings, scan.identity, accumulate_deformation_ ? ScanPredictor::OnModel(addWear) : nullptr);
+  predicted.scan_id = scan.header.stamp.isZero() ? kUnstamped | ++unstamped_ : scan.header.stamp.toNSec();
   addToPart(scan, predicted);
   as_made.preparation_time = 0.0;  // later predictions of this scan do not prepare it
-  last_ = LastScan{scan, as_made, prepared, {scan.header, predicted.provenance, predicted.pool_settings_hash}, wear_};
+  last_ = LastScan{scan,
+                   as_made,
+                   prepared,
+                   {scan.header, predicted.provenance, predicted.pool_settings_hash, predicted.scan_id},
+                   wear_};
   last_->prepared.preparation_time = 0.0;
   wear_ = std::move(wear);
+  figures_ = {settings, figuresOf(predicted.prediction)};
   return predicted;
 }
 
@@ -133,7 +146,16 @@ std::optional<PredictedScan> LivePredictor::predictLastScan() {
   Options options = settings->model;
   options.output = figuresOnly();
   predictor_.setOptions(options);
-  return judged(lastPrepared(), *settings, last_->received.identity);
+  PredictedScan predicted = judged(lastPrepared(), *settings, last_->received.identity);
+  predicted.scan_id = last_->part.id;
+  figures_ = {settings, figuresOf(predicted.prediction)};
+  return predicted;
+}
+
+std::optional<LoadFigures> LivePredictor::lastFigures() {
+  if (!last_) return std::nullopt;
+  if (figures_.settings != settings_.snapshot()) predictLastScan();
+  return figures_.figures;
 }
 
 PredictedScan LivePredictor::predictOnce(const ReceivedScan& scan, double voltage, double mechanical_load) {
@@ -156,6 +178,7 @@ void LivePredictor::setCounterSurface(const ReceivedScan& counter_surface) {
   predictor_.preparer().setMeasuredCounterSurface(counter_surface.surface);
   has_counter_surface_ = true;
   if (last_) last_->has_newer_counter = true;
+  figures_ = {};
 }
 
 void LivePredictor::resetSurface() {
@@ -163,6 +186,7 @@ void LivePredictor::resetSurface() {
   if (!last_ || last_->wear_before.empty()) return;
   last_->wear_before = Wear();
   last_->is_reset = true;
+  figures_ = {};
 }
 
 }  // namespace mems_stiction

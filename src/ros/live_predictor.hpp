@@ -34,9 +34,16 @@ struct StationCase {
   SettingsOwner::Snapshot settings;  ///< of the time when it was asked for
 };
 
+/// What a load bears on most.
+struct LoadFigures {
+  double pull_off_force = 0.0;       ///< [N]
+  double contact_area = 0.0;         ///< [m^2]
+  double electrostatic_force = 0.0;  ///< [N]
+};
+
 /// How many parts the node remembers: that which has waited longest for a scan is forgotten first.
 inline constexpr std::size_t kMostParts = 100;
-/// And scans of each, the newest: some 500 bytes a scan, 50 MB for all.
+/// And scans of each, the newest: some 500 bytes a scan, 50 MB for all; with names as long as they may be, 150 MB.
 inline constexpr std::size_t kMostScansOfAPart = 1000;
 
 /// The core as the node uses it, one scan after the other.
@@ -62,6 +69,10 @@ class LivePredictor {
   /// Another verdict on a scan that predictScan() has counted for its part.
   /// @return what all scans of the part say now; nothing if the scan states no part, or is not among its scans any more.
   std::optional<PartNews> judgeAgain(const ScanOfPart& scan, const Verdict& verdict);
+
+  /// What the last scan gives with the settings of now: as it was predicted last, or predicted again if they have changed.
+  /// @return nothing if there is no scan yet. @throw SurfaceError as above.
+  std::optional<LoadFigures> lastFigures();
 
   /// A scan at a load of its own, unworn; nothing is remembered.
   /// @throw OptionsError, SurfaceError as above.
@@ -96,6 +107,12 @@ class LivePredictor {
     bool has_newer_counter = false;  ///< another counter-surface has come since
   };
 
+  /// Of the last scan, as long as nothing has changed.
+  struct KnownFigures {
+    SettingsOwner::Snapshot settings;  ///< that they are of; null: there are none
+    LoadFigures figures;
+  };
+
   PreparedScan prepare(const ReceivedScan& scan);
   /// Brought up to date, if need be.
   const PreparedScan& lastPrepared();
@@ -112,6 +129,8 @@ class LivePredictor {
   bool accumulate_deformation_;
   bool has_counter_surface_ = false;
   std::optional<LastScan> last_;
+  KnownFigures figures_;
+  std::uint64_t unstamped_ = 0;  ///< scans without a stamp so far
   PartScans parts_{kMostParts, kMostScansOfAPart};
   Wear wear_;  ///< of the contacts so far
 };

@@ -24,7 +24,8 @@ namespace {
 
 /// Durations of ROS end at 2^31 s.
 constexpr double kLongestDuration = 1e9;
-const Range kDuration{0.0, kLongestDuration, true, false};
+/// Timers go by them: shorter ones would keep a core busy with nothing else.
+const Range kPeriod = Range::within(0.01, kLongestDuration);
 
 YAML::Node yamlOf(XmlRpc::XmlRpcValue& value, const std::string& key, std::vector<std::string>& violations) {
   using XmlRpc::XmlRpcValue;
@@ -193,7 +194,7 @@ void NodeOptions::describe(OptionVisitor& visitor) {
       "max_waiting_memory", max_waiting_memory, "bytes", Range::within(1e6, 1e12),
       "that what waits in one place may hold, with either drop_policy; older ones beyond it are given up and counted");
   visitor.flag("use_scan_info", use_scan_info, "false: the parameters scan/... serve for every scan");
-  visitor.number("pairing_timeout", pairing_timeout, "s", kDuration,
+  visitor.number("pairing_timeout", pairing_timeout, "s", kPeriod,
                  "how long a scan and its scan_info wait for each other");
   visitor.flag("accumulate_deformation", accumulate_deformation,
                "each contact leaves its mark on the scans of the same size that follow");
@@ -201,7 +202,7 @@ void NodeOptions::describe(OptionVisitor& visitor) {
                   "of one part, kept for the force of its device; of more, the oldest of the commonest grid goes");
   visitor.number("max_part_memory", max_part_memory, "bytes", Range::within(1e6, 1e12),
                  "that the scans of all parts may hold that are kept for it; the part that has waited longest goes");
-  visitor.number("diagnostic_period", diagnostic_period, "s", kDuration, "between messages on /diagnostics");
+  visitor.number("diagnostic_period", diagnostic_period, "s", kPeriod, "between messages on /diagnostics");
   visitor.number("warning_period", warning_period, "s", Range::within(0.0, kLongestDuration),
                  "at most one warning of a kind about scans in so long a time");
   transform.describe(visitor);

@@ -13,6 +13,7 @@
 #include <ros/serialization.h>
 
 #include "mems_stiction/settings/option_visitor.hpp"
+#include "ros/message_bytes.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -53,11 +54,6 @@ std::vector<ros::Time> stampsOf(const Queue& queue) {
   stamps.reserve(queue.size());
   for (const auto& waiting : queue) stamps.push_back(waiting.message->header.stamp);
   return stamps;
-}
-
-template <typename Message>
-std::size_t bytesOf(const Message& message) {
-  return ros::serialization::serializationLength(*message);
 }
 
 template <typename Queue>

@@ -11,6 +11,7 @@
 #include "errors/one_line.hpp"
 #include "evaluation/plausibility.hpp"
 #include "ros/force_curve_picture.hpp"
+#include "ros/message_bytes.hpp"
 #include "ros/own_log.hpp"
 #include "ros/scan_folders.hpp"
 #include "ros/topic_names.hpp"
@@ -218,7 +219,8 @@ void StictionServer::onScan(const sensor_msgs::ImageConstPtr& image, const ScanI
   gate_.add(
       image->header, [this, image, info, arrival](const SurfacePose& pose) { queueScan(image, info, arrival, pose); },
       [this, header = image->header](const std::string& reason) { accounting_.rejected(header, oneLine(reason)); },
-      [this, header = image->header] { accounting_.dropped(header, kTooMuchWaits); }, image->data.size(), arrival);
+      [this, header = image->header] { accounting_.dropped(header, kTooMuchWaits); }, bytesOf(image) + bytesOf(info),
+      arrival);
 }
 
 void StictionServer::queueScan(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info,
@@ -229,7 +231,7 @@ void StictionServer::queueScan(const sensor_msgs::ImageConstPtr& image, const Sc
                                                      ? "newer scans came before its turn (drop_policy is latest)"
                                                      : kTooMuchWaits);
                    },
-                   image->data.size());
+                   bytesOf(image) + bytesOf(info));
 }
 
 void StictionServer::onCounterSurface(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info) {
@@ -237,11 +239,12 @@ void StictionServer::onCounterSurface(const sensor_msgs::ImageConstPtr& image, c
   const auto drop = [this, header = image->header] {
     accounting_.counterSurfaceRejected(header, std::string("a newer one came before its turn, and ") + kTooMuchWaits);
   };
-  const auto queue = [this, image, info, drop] {
-    worker_.pushCounterSurface([this, image, info] { takeCounterSurface(image, info); }, drop, image->data.size());
+  const std::size_t bytes = bytesOf(image) + bytesOf(info);
+  const auto queue = [this, image, info, drop, bytes] {
+    worker_.pushCounterSurface([this, image, info] { takeCounterSurface(image, info); }, drop, bytes);
   };
   if (counter_surface_frame_) {
-    gate_.addCounterSurface(queue, drop, image->data.size(), ros::WallTime::now());
+    gate_.addCounterSurface(queue, drop, bytes, ros::WallTime::now());
   } else {
     queue();
   }
@@ -299,7 +302,7 @@ void StictionServer::predictAndPublish(const sensor_msgs::ImageConstPtr& image, 
     publisher_.publish(predicted, scan);
     if (half_space_) {
       half_space_->offer(predictor_.stationCase(nullptr),
-                         {scan.header, predicted.provenance, predicted.pool_settings_hash},
+                         {scan.header, predicted.provenance, predicted.pool_settings_hash, predicted.scan_id},
                          predicted.prediction.contact_map, drawnCurve(predicted));
     }
     offerToDevice(predicted);
@@ -314,7 +317,7 @@ void StictionServer::predictAndPublish(const sensor_msgs::ImageConstPtr& image, 
 void StictionServer::judgePartAgain(const ScanOfPart& scan, const Verdict& verdict) {
   const std::optional<PartNews> news = predictor_.judgeAgain(scan, verdict);
   // A device that has been judged by its own force is not judged by one frame after that.
-  if (news && scan.header.stamp != judged_by_device_) publisher_.publishPart(news->verdict, news->last);
+  if (news && scan.id != judged_by_device_) publisher_.publishPart(news->verdict, news->last);
 }
 
 void StictionServer::offerToDevice(const PredictedScan& predicted) {
@@ -322,7 +325,7 @@ void StictionServer::offerToDevice(const PredictedScan& predicted) {
 }
 
 void StictionServer::publishPartOfDevice(const PooledVerdict& part, const ScanOfPart& last) {
-  judged_by_device_ = last.header.stamp;
+  judged_by_device_ = last.id;
   publisher_.publishPart(part, last);
 }
 

@@ -97,6 +97,7 @@ class StictionServer {
   void changeLoad(const std::function<void(LoadOptions&)>& set, Response& response);
   /// On the worker: nothing also when the last scan cannot be predicted.
   std::optional<PredictedScan> lastScanOrNothing();
+  std::optional<LoadFigures> lastFiguresOrNothing();
   bool getLoad(GetLoad::Request& request, GetLoad::Response& response);
   bool predict(Predict::Request& request, Predict::Response& response);
   bool resetSurface(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
@@ -115,7 +116,7 @@ class StictionServer {
   SolutionPause half_space_pause_;                   ///< held while a scan is predicted
   std::unique_ptr<HalfSpaceStream> half_space_;      ///< null: half_space/enabled is not set
   std::unique_ptr<DeviceForceStream> device_force_;  ///< null: device_force/enabled is not set
-  ros::Time judged_by_device_;                       ///< stamp of the last scan of a part; touched by the worker only
+  std::uint64_t judged_by_device_ = 0;               ///< ScanOfPart::id of the last scan; touched by the worker only
   WorkQueue worker_;
   std::atomic<bool> stopping_{false};
 

@@ -45,7 +45,7 @@ std::string loadChange(const LoadOptions& before, const LoadOptions& after) {
 std::string figure(double value, const char* unit) { return shortNumber(value) + " " + unit; }
 
 /// What another load has done to the same scan.
-std::string effect(const Prediction& before, const Prediction& after) {
+std::string effect(const LoadFigures& before, const Prediction& after) {
   return changeText("pull-off force", figure(before.pull_off_force, "N"), figure(after.pull_off_force, "N")) + "; " +
          changeText("contact area", figure(before.contact_area, "m^2"), figure(after.contact_area, "m^2")) + "; " +
          changeText("electrostatic force", figure(before.electrostatic_force, "N"),
@@ -92,9 +92,9 @@ void StictionServer::changeLoad(const std::function<void(LoadOptions&)>& set, Re
     RunningSettings settings = predictor_.settings().current();
     const LoadOptions before = settings.load;
     set(settings.load);
-    // At one go: no scan comes between the two predictions.
+    // At one go: no scan comes between what was and what is.
     worker_.call([&] {
-      const std::optional<PredictedScan> old = lastScanOrNothing();
+      const std::optional<LoadFigures> old = lastFiguresOrNothing();
       predictor_.settings().change(settings);
       response.success = true;
       response.message = loadChange(before, settings.load);
@@ -102,7 +102,7 @@ void StictionServer::changeLoad(const std::function<void(LoadOptions&)>& set, Re
         if (const std::optional<PredictedScan> predicted = predictor_.predictLastScan()) {
           response.prediction = predictionMessage(*predicted, predictor_.lastScan()->header);
           offerToDevice(*predicted);
-          if (old) response.message += "; " + effect(old->prediction, predicted->prediction);
+          if (old) response.message += "; " + effect(*old, predicted->prediction);
         } else {
           response.message += "; no scan yet, so there is no prediction";
         }
@@ -123,6 +123,14 @@ void StictionServer::changeLoad(const std::function<void(LoadOptions&)>& set, Re
 std::optional<PredictedScan> StictionServer::lastScanOrNothing() {
   try {
     return predictor_.predictLastScan();
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
+std::optional<LoadFigures> StictionServer::lastFiguresOrNothing() {
+  try {
+    return predictor_.lastFigures();
   } catch (const Error&) {
     return std::nullopt;
   }

@@ -208,17 +208,21 @@ Finding objectionTo(const std::vector<ScanStatement>& scans, const PooledVerdict
   return {Sticks::kNo, ""};
 }
 
+int judgedBy(Judge judge, const std::vector<const ScanStatement*>& scans) {
+  return static_cast<int>(
+      std::count_if(scans.begin(), scans.end(), [&](const ScanStatement* scan) { return scan->judge == judge; }));
+}
+
 std::string judgesOf(const std::vector<const ScanStatement*>& scans) {
   std::string text;
   for (const Judge judge : {Judge::kPrediction, Judge::kHalfSpace}) {
-    const bool is_one =
-        std::any_of(scans.begin(), scans.end(), [&](const ScanStatement* scan) { return scan->judge == judge; });
-    if (is_one) text += (text.empty() ? "" : " and ") + std::string(judgeText(judge));
+    if (judgedBy(judge, scans) > 0) text += (text.empty() ? "" : " and ") + std::string(judgeText(judge));
   }
   return text;
 }
 
-std::vector<std::string> warningsOf(const std::vector<ScanStatement>& scans, const PooledVerdict& part) {
+std::vector<std::string> warningsOf(const std::vector<ScanStatement>& scans,
+                                    const std::vector<const ScanStatement*>& counted, const PooledVerdict& part) {
   std::vector<std::string> warnings;
   const int silent = part.scan_count - part.counted_scans;
   if (silent > 0) {
@@ -226,8 +230,11 @@ std::vector<std::string> warningsOf(const std::vector<ScanStatement>& scans, con
     warnings.push_back(std::to_string(silent) + " of " + countText(part.scan_count, "scan") +
                        (silent == 1 ? " does" : " do") + " not count; of " + last->scan_name + ": " + last->reason);
   }
-  if (part.verdict_by.find(" and ") != std::string::npos) {
-    warnings.emplace_back("the half-space has judged some of the scans, the prediction the others");
+  const int by_half_space = judgedBy(Judge::kHalfSpace, counted);
+  const int by_prediction = judgedBy(Judge::kPrediction, counted);
+  if (by_half_space > 0 && by_prediction > 0) {
+    warnings.push_back("the half-space has judged " + std::to_string(by_half_space) + " of the " +
+                       std::to_string(part.counted_scans) + " scans that count, the prediction the others");
   }
   return warnings;
 }
@@ -263,7 +270,7 @@ PooledVerdict pooledVerdictOf(const std::vector<ScanStatement>& scans) {
   part.scan_count = static_cast<int>(scans.size());
   part.counted_scans = static_cast<int>(counted.size());
   part.verdict_by = judgesOf(counted);
-  part.warnings = warningsOf(scans, part);
+  part.warnings = warningsOf(scans, counted, part);
   part.margin = pooled(counted, [](const ScanStatement& scan) -> const JudgedRatio& { return scan.margin; });
   part.peel_number = pooled(counted, [](const ScanStatement& scan) -> const JudgedRatio& { return scan.peel_number; });
   if (scans.size() == 1) {

@@ -245,6 +245,30 @@ TEST(ScanInfoMessage, RefusesAPitchThatIsNotPositiveByName) {
   }
 }
 
+TEST(ScanInfoMessage, NamesThatNobodyReadsAreRefused) {
+  const std::string longest(1000, 'a');
+  std_msgs::Header header;
+  header.frame_id = longest;
+  ScanInfo info;
+  info.scan_name = info.part_id = info.serial_id = longest;
+  EXPECT_EQ(identityOf(header, &info).part_id, longest);
+  header.frame_id += "a";
+  EXPECT_THROW(identityOf(header, nullptr), SurfaceError);
+  header.frame_id = "scan";
+  for (std::string* name : {&info.scan_name, &info.part_id, &info.serial_id}) {
+    *name += "a";
+    EXPECT_THROW(identityOf(header, &info), SurfaceError);
+    *name = longest;
+  }
+  info.part_id.append(1000000, 'a');
+  try {
+    identityOf(header, &info);
+    FAIL();
+  } catch (const SurfaceError& error) {
+    EXPECT_STREQ(error.what(), "scan_info.part_id: a name of 1001000 bytes is not allowed, must have at most 1000");
+  }
+}
+
 TEST(HeightImage, NarrowsToFloatAndKeepsInvalidCells) {
   cv::Mat heights = (cv::Mat_<double>(2, 3) << 1e-9, 2e-9, kNaN, -4e-9, 5e-9, 6e-9);
   std_msgs::Header header;

@@ -511,7 +511,8 @@ TEST(LivePredictor, AScanThatIsJudgedAgainCountsSoForItsPart) {
   const auto predicted = [&](int seed, const std::string& part) {
     const ReceivedScan scan = scanOfPart(seed, part);
     const PredictedScan result = predictor.predictScan(scan, OutputOptions());
-    return std::pair(ScanOfPart{scan.header, result.provenance, result.pool_settings_hash}, result.verdict);
+    return std::pair(ScanOfPart{scan.header, result.provenance, result.pool_settings_hash, result.scan_id},
+                     result.verdict);
   };
   auto [first, verdict] = predicted(3, "lot 3");
   const ScanOfPart second = predicted(4, "lot 3").first;
@@ -527,6 +528,47 @@ TEST(LivePredictor, AScanThatIsJudgedAgainCountsSoForItsPart) {
   EXPECT_EQ(predictor.judgeAgain(second, verdict)->verdict.verdict_by, "half_space");
   EXPECT_EQ(predictor.judgeAgain(first, verdict)->last.header.stamp, first.header.stamp);
   EXPECT_FALSE(predictor.judgeAgain(predicted(6, "").first, verdict));  // of no part
+}
+
+TEST(LivePredictor, ScansWithoutAStampAreJudgedAgainEachByItself) {
+  LivePredictor predictor(deviceConfiguration(), false);
+  std::vector<ScanOfPart> scans;
+  Verdict verdict;
+  for (const int seed : {3, 4}) {
+    ReceivedScan scan = scanOfPart(seed, "lot 3");
+    scan.header.stamp = ros::Time();
+    const PredictedScan predicted = predictor.predictScan(scan, OutputOptions());
+    EXPECT_EQ(predicted.part->scan_count, seed - 2);
+    EXPECT_EQ(predictor.predictLastScan()->scan_id, predicted.scan_id);
+    scans.push_back({scan.header, predicted.provenance, predicted.pool_settings_hash, predicted.scan_id});
+    verdict = predicted.verdict;
+  }
+  verdict.judge = Judge::kHalfSpace;
+  EXPECT_EQ(predictor.judgeAgain(scans[0], verdict)->verdict.verdict_by, "prediction and half_space");
+  EXPECT_EQ(predictor.judgeAgain(scans[1], verdict)->verdict.verdict_by, "half_space");
+}
+
+TEST(LivePredictor, FiguresOfTheLastScanAreThoseOfItsNewestPrediction) {
+  Configuration configuration = softConfiguration();
+  configuration.model.load.mechanical_load = 1e-4;  // flows
+  LivePredictor predictor(configuration, true);
+  EXPECT_FALSE(predictor.lastFigures());
+  const auto expectFigures = [&](const PredictedScan& expected) {
+    const std::optional<LoadFigures> figures = predictor.lastFigures();
+    ASSERT_TRUE(figures);
+    EXPECT_EQ(figures->pull_off_force, expected.prediction.pull_off_force);
+    EXPECT_EQ(figures->contact_area, expected.prediction.contact_area);
+    EXPECT_EQ(figures->electrostatic_force, expected.prediction.electrostatic_force);
+  };
+  expectFigures(predictor.predictScan(roughScan(), OutputOptions()));
+  expectFigures(predictor.predictScan(roughScan(), OutputOptions()));
+  const double worn = predictor.lastFigures()->contact_area;
+  setLoad(predictor, 1e-3, 5e-5);
+  const LoadFigures changed = *predictor.lastFigures();
+  EXPECT_NE(changed.contact_area, worn);
+  expectFigures(*predictor.predictLastScan());
+  predictor.resetSurface();
+  EXPECT_NE(predictor.lastFigures()->contact_area, changed.contact_area);
 }
 
 TEST(LivePredictor, ScansUnderAnotherLoadAreAPoolOfTheirOwn) {

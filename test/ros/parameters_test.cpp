@@ -52,6 +52,13 @@ TEST(Parameters, EveryBadKeyIsNamedAtOnce) {
   EXPECT_NE(text.find("newest"), std::string::npos) << text;
 }
 
+TEST(Parameters, TimersHaveAShortestPeriod) {
+  for (const std::string key : {"diagnostic_period", "pairing_timeout"}) {
+    EXPECT_NE(violations("{" + key + ": 1.0e-9}").find(key), std::string::npos);
+    EXPECT_EQ(violations("{" + key + ": 0.01}"), "");
+  }
+}
+
 TEST(Parameters, AFormulationOfEarlierVersionsIsRefusedWithWhatServesInstead) {
   const std::string text = violations("{approach: {formulation: corrected}}");
   EXPECT_NE(text.find("approach/formulation: 'corrected' is no longer there"), std::string::npos) << text;
