@@ -39,8 +39,12 @@ class ForeignTextTest(unittest.TestCase):
     def test_a_spreadsheet_takes_no_text_for_a_formula(self):
         for text in ("=1+1", "+A1", "-A1", "@sum", "\t=1"):
             self.assertEqual(csv_cell(text), "'" + text)
-        for value in ("plain", "-1.5e-9", "", -2.0, None):
+        for value in ("plain", "-1.5e-9", "", -2.0, None, "\u00b5m\u00a0a\tb"):
             self.assertEqual(csv_cell(value), value)
+
+    def test_no_cell_moves_the_cursor_of_a_terminal(self):
+        self.assertEqual(csv_cell("a\x1b]0;b\x07\x9b2J\rc\u202ed"), "a\\x1b]0;b\\x07\\x9b2J\\x0dc\\x202ed")
+        self.assertEqual(csv_cell("\x1b=1"), "\\x1b=1")
 
 
 class QuantitiesTest(unittest.TestCase):
