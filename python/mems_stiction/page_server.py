@@ -1,7 +1,7 @@
 """The web server of the station's page, by tornado: files of the folder page, maps as PNG, the state over a web socket.
 
 A browser says that it is ready and gets the state once that has changed: a slow one gets fewer, and no other one waits for
-it. The page reads only; nothing of it comes from elsewhere.
+it. A connection that is silent, or takes nothing, ends. The page reads only; nothing of it comes from elsewhere.
 """
 
 import asyncio
@@ -21,6 +21,8 @@ from mems_stiction.page_maps import contact_png, height_png, rings
 FOLDER = pathlib.Path(__file__).resolve().parent / "page"
 SHORTEST_PERIOD = 0.2  # between two states for one browser [s], however fast scans come
 LONGEST_PERIOD = 2.0  # ages are told again [s]
+PATIENCE = 60.0  # with a connection that asks for nothing, or does not take what it asked for [s]
+LONGEST_REQUEST = 65536  # bytes; browsers send some hundred
 PICTURES = {"height": height_png, "contacts": contact_png}
 POLICY = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self'; connect-src 'self'"
 LOCAL_NAMES = ("localhost", "127.0.0.1", "[::1]")
@@ -45,11 +47,25 @@ class _Guarded:
         self.set_header("Cache-Control", "no-store")
 
 
-class _PageFile(_Guarded, tornado.web.StaticFileHandler):
+class _InTime(_Guarded):
+    """The connection ends if the answer has not been taken in time."""
+
+    def prepare(self):
+        stream = self.request.connection.stream
+        self._end = tornado.ioloop.IOLoop.current().call_later(self.application.settings["patience"], stream.close)
+        super().prepare()
+
+    def finish(self, chunk=None):
+        taken = super().finish(chunk)
+        taken.add_done_callback(lambda _: tornado.ioloop.IOLoop.current().remove_timeout(self._end))
+        return taken
+
+
+class _PageFile(_InTime, tornado.web.StaticFileHandler):
     pass
 
 
-class _Picture(_Guarded, tornado.web.RequestHandler):
+class _Picture(_InTime, tornado.web.RequestHandler):
     """/map/height.png, /map/contacts.png: of the newest scan. Drawn once for all browsers."""
 
     def get(self, name):
@@ -95,13 +111,14 @@ class _StateSocket(_Guarded, tornado.websocket.WebSocketHandler):
             pass
 
 
-def application(state, is_local, stale_after):
+def application(state, is_local, stale_after, patience=PATIENCE):
     """state: a PageState. stale_after [s]: without a scan for so long, the page marks what it shows as old."""
     return tornado.web.Application(
         [(r"/state", _StateSocket), (r"/map/(height|contacts)\.png", _Picture),
          (r"/()", _PageFile, {"path": str(FOLDER), "default_filename": "index.html"}),
          (r"/((?:index|page|charts)\.(?:html|css|js))", _PageFile, {"path": str(FOLDER)})],
-        state=state, is_local=is_local, stale_after=stale_after, drawn=_Drawn(), websocket_ping_interval=10.0)
+        state=state, is_local=is_local, stale_after=stale_after, patience=patience, drawn=_Drawn(), websocket_ping_interval=10.0,
+        websocket_max_message_size=LONGEST_REQUEST)
 
 
 def bound_sockets(address, port):
@@ -128,12 +145,14 @@ def is_loopback(address):
 class PageServer:
     """Serves until stop(). Made and run in one thread; stop() may be called from any, and by a signal's handler."""
 
-    def __init__(self, state, address, port, stale_after):
+    def __init__(self, state, address, port, stale_after, patience=PATIENCE):
         asyncio.set_event_loop(asyncio.new_event_loop())
         self._sockets = bound_sockets(address, port)
         self.port = self._sockets[0].getsockname()[1]
         self._loop = tornado.ioloop.IOLoop.current()
-        self._server = tornado.httpserver.HTTPServer(application(state, is_loopback(address), stale_after))
+        self._server = tornado.httpserver.HTTPServer(
+            application(state, is_loopback(address), stale_after, patience), idle_connection_timeout=patience, body_timeout=patience,
+            max_header_size=LONGEST_REQUEST, max_body_size=LONGEST_REQUEST)
         self._server.add_sockets(self._sockets)
 
     def run(self):

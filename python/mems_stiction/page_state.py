@@ -4,12 +4,13 @@ Callbacks of topics write, the server reads; both may come from any thread. What
 """
 
 import collections
+import math
 import re
 import threading
 import time
 
 from mems_stiction.control_chart import control_limits, of_newest_settings
-from mems_stiction.page_words import (NO_EQUILIBRIUM, curve_of, device_of, diagnostics_of, figures_of, finite, flags_of, half_space_of, judged_by, part_of,
+from mems_stiction.page_words import (NO_EQUILIBRIUM, curve_of, device_of, all_finite, diagnostics_of, figures_of, finite, flags_of, half_space_of, judged_by, part_of,
                                       ratio_of, sentence, trace_of, verdict_of, with_unit)
 from mems_stiction.provenance import provenance_words
 from mems_stiction.quantities import typeset
@@ -146,7 +147,8 @@ class PageState:
         points = [{"way": "up" if point.direction == UP else "down", "load": point.mechanical_load,
                    "load_text": with_unit(point.mechanical_load, "N"), "voltage": point.voltage,
                    "margin": finite(point.margin), "lower": finite(point.margin_lower), "held": finite(point.holding_margin),
-                   "force": finite(point.pull_off_force), "is_open": bool(point.is_open)} for point in result.points]
+                   "force": finite(point.pull_off_force), "is_open": bool(point.is_open)}
+                  for point in result.points if math.isfinite(point.voltage)]
         self._end("sweep", goal, points, sweep_sentences(result, width=None) if points else [], result.message)
 
     def add_cycles(self, goal, result):
@@ -164,13 +166,13 @@ class PageState:
         """All of it, as JSON can have it; ages in seconds."""
         with self._lock:
             now = self._clock()
-            return {"version": self.version, "link": self._link, "age": None if self._heard is None else now - self._heard,
+            return all_finite({"version": self.version, "link": self._link, "age": None if self._heard is None else now - self._heard,
                     "count": self._count, "lost": self._lost, "loss_is_newest": self._loss_is_newest,
                     "losses": list(self._losses), "scan": self._scan(), "trend": list(self._trend), "control": self._control(),
                     "part": self._shown_part(), "half_space": self._with_number(self._half_space),
                     "device": self._with_number(self._device), "maps": self._shown_maps(),
                     "diagnostics": [dict(entry, age=now - heard) for _, (entry, heard) in sorted(self._diagnostics.items())],
-                    "runs": {kind: self._run(run, now) for kind, run in self._runs.items()}}
+                    "runs": {kind: self._run(run, now) for kind, run in self._runs.items()}})
 
     def _scan(self):
         if self._latest is None:

@@ -22,6 +22,15 @@ def finite(value):
     return value if math.isfinite(value) else None
 
 
+def all_finite(value):
+    """A copy of lists, dictionaries, numbers and texts as JSON can have it."""
+    if isinstance(value, dict):
+        return {key: all_finite(item) for key, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [all_finite(item) for item in value]
+    return finite(value) if isinstance(value, float) else value
+
+
 def with_unit(value, unit):
     """As people write it: "1.23 µN", "not known"."""
     return "not known" if math.isnan(value) else typeset(quantities.with_unit(value, unit))
@@ -146,8 +155,9 @@ def device_of(device):
 
 def curve_of(prediction):
     """Force over displacement past first touch: way in, way out where it is another; the pull-off force where it is largest."""
-    way_in = [(point.displacement, point.force) for point in prediction.curve if not point.is_separation]
-    way_out = [(point.displacement, point.force) for point in prediction.curve if point.is_separation]
+    drawn = [point for point in prediction.curve if math.isfinite(point.displacement) and math.isfinite(point.force)]
+    way_in = [(point.displacement, point.force) for point in drawn if not point.is_separation]
+    way_out = [(point.displacement, point.force) for point in drawn if point.is_separation]
     if not way_in and not way_out:
         return None
     place, force = max(way_out or way_in, key=lambda point: point[1])
@@ -168,7 +178,9 @@ def half_space_of(solution):
     """State, figures and curve of a HalfSpaceSolution, over the displacement that predictions have: its range less its height."""
     ways = {"in": [], "out": []}
     for point in solution.curve:
-        ways["out" if point.direction else "in"].append((solution.range - point.height, point.force))
+        displacement = solution.range - point.height
+        if math.isfinite(displacement) and math.isfinite(point.force):
+            ways["out" if point.direction else "in"].append((displacement, point.force))
     is_solved = solution.status == 0
     return {"status": HALF_SPACE_STATES[solution.status] if solution.status < len(HALF_SPACE_STATES) else "?",
             "message": sentence(solution.message), "is_solved": is_solved, "pull_off_force": finite(solution.pull_off_force),

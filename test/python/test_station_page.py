@@ -1,6 +1,7 @@
 """The station's page without a graph: what it keeps, what it says, what it serves, and whom it refuses."""
 
 import asyncio
+import contextlib
 import json
 import math
 import os
@@ -19,7 +20,8 @@ from types import SimpleNamespace
 import numpy as np
 import tornado.websocket
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
-from mems_stiction.msg import DeviceAdhesion, HalfSpaceSolution, PartVerdict, SeparationPoint, StictionPrediction, SweepLoadResult, SweepPoint, SweepSummary
+from mems_stiction.msg import (CycleContactResult, CyclePoint, DeviceAdhesion, HalfSpacePoint, HalfSpaceSolution, PartVerdict, SeparationPoint,
+                               StictionPrediction, SweepLoadResult, SweepPoint, SweepSummary)
 from mems_stiction.control_chart import control_limits
 from mems_stiction.page_maps import contact_png, height_png, rings, severest
 from mems_stiction.page_server import FOLDER, CannotServe, PageServer
@@ -76,6 +78,18 @@ def jumping_sweep():
               for voltage, force, area, count in ((0, 1, 1, 1), (10, 1.01, 1.01, 1), (20, 10, 10, 90), (30, 10.1, 10.1, 90), (40, 10.2, 10.2, 90))]
     summary = SweepSummary(mechanical_load=1e-6, highest_releasing_voltage=NAN, highest_safe_voltage=NAN, lowest_sticking_voltage=NAN, opening_voltage=NAN)
     return SweepLoadResult(points=points, summaries=[summary], pull_in_voltage=12.5)
+
+
+def emptied(message, value):
+    """The message with each of its floating-point numbers replaced, also in the messages that it holds."""
+    for name, kind in zip(message.__slots__, message._slot_types):
+        field = getattr(message, name)
+        if kind in ("float32", "float64"):
+            setattr(message, name, value)
+        for part in field if isinstance(field, list) else [field]:
+            if hasattr(part, "_slot_types"):
+                emptied(part, value)
+    return message
 
 
 def map_message(array):
@@ -185,6 +199,29 @@ class StateTest(unittest.TestCase):
         shown = json.loads(json.dumps(state.snapshot(), allow_nan=False))
         self.assertEqual((shown["scan"]["ratio"]["text"], shown["scan"]["ratio"]["value"]), ("infinite", None))
         self.assertNotIn("rms_height", [figure["name"] for figure in shown["scan"]["figures"]])
+
+    def test_messages_without_one_finite_number_leave_the_page_alive(self):
+        for value in (NAN, math.inf, -math.inf):
+            state = PageState()
+            state.add_prediction(SECOND, emptied(prediction(curve=[SeparationPoint(), SeparationPoint(is_separation=True)]), value))
+            state.add_half_space(SECOND, emptied(HalfSpaceSolution(curve=[HalfSpacePoint(), HalfSpacePoint(direction=1)], verdict_by="half_space"), value))
+            state.add_device(SECOND, emptied(device_message(), value))
+            state.add_part(SECOND, emptied(part_message(), value))
+            state.add_sweep("goal", emptied(jumping_sweep(), value))
+            state.add_cycles("goal", emptied(CycleContactResult(cycles=[CyclePoint(cycle=1), CyclePoint(cycle=2)]), value))
+            shown = json.loads(json.dumps(state.snapshot(), allow_nan=False))
+            self.assertEqual((shown["runs"]["sweep"]["points"], len(shown["runs"]["cycles"]["points"])), ([], 2))
+            self.assertIsNone(shown["scan"]["curve"])
+
+    def test_one_point_that_is_not_finite_takes_no_other_with_it(self):
+        state = PageState()
+        result = jumping_sweep()
+        result.points[1].mechanical_load = result.points[2].voltage = NAN
+        state.add_sweep("goal", result)
+        self.assertEqual([(point["voltage"], point["load"]) for point in state.snapshot()["runs"]["sweep"]["points"]],
+                         [(0, 1e-6), (10, None), (30, 1e-6), (40, 1e-6)])
+        points = [SeparationPoint(displacement=x, force=force) for x, force in ((-1e-9, 1e-9), (NAN, 2e-9), (0.0, NAN), (1e-9, 3e-9))]
+        self.assertEqual(curve_of(prediction(curve=points))["in"], [(-1e-9, 1e-9), (1e-9, 3e-9)])
 
     def test_ages_are_told_in_seconds_of_the_clock(self):
         now = [100.0]
@@ -348,6 +385,49 @@ class ServerTest(unittest.TestCase):
         self.assertRaisesRegex(CannotServe, "port %d of 127.0.0.1 is taken" % self.server.port, PageServer, self.state, "127.0.0.1",
                                self.server.port, 30.0)
         self.assertRaisesRegex(CannotServe, "192.0.2.1 cannot be listened on", PageServer, self.state, "192.0.2.1", 0, 30.0)
+
+
+class PatienceTest(unittest.TestCase):
+    def setUp(self):
+        self.state = PageState()
+        started = threading.Event()
+
+        def serve():
+            self.server = PageServer(self.state, "127.0.0.1", 0, 30.0, patience=0.5)
+            started.set()
+            self.server.run()
+
+        thread = threading.Thread(target=serve)
+        thread.start()
+        started.wait(120)
+        self.addCleanup(thread.join, 120)
+        self.addCleanup(self.server.stop)
+
+    def ended(self, request):
+        """All that comes until the server ends the connection."""
+        with socket.socket() as client:
+            client.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+            client.settimeout(120)
+            client.connect(("127.0.0.1", self.server.port))
+            client.sendall(request)
+            time.sleep(2.0)  # takes nothing
+            got = b""
+            with contextlib.suppress(ConnectionResetError):
+                for piece in iter(lambda: client.recv(65536), b""):
+                    got += piece
+            return got
+
+    def test_a_connection_that_says_nothing_or_half_a_request_ends(self):
+        self.assertEqual(self.ended(b""), b"")
+        self.assertEqual(self.ended(b"GET / HTTP/1.1\r\nHost: localhost\r\n"), b"")
+        self.assertIn(b" 200 OK", self.ended(b"GET / HTTP/1.1\r\nHost: localhost\r\n\r\n"))
+
+    def test_one_that_does_not_take_its_answer_ends(self):
+        random = np.random.RandomState(1)
+        self.state.set_map("height", 1, map_message(random.randint(0, 255, (500, 500))))
+        asked = 100
+        got = self.ended(b"GET /map/height.png HTTP/1.1\r\nHost: localhost\r\n\r\n" * asked)
+        self.assertLess(got.count(b" 200 OK"), asked)
 
 
 class ProgramTest(unittest.TestCase):
