@@ -10,7 +10,7 @@ import rosgraph
 import rospy
 from mems_stiction import interrupted
 from mems_stiction.prediction_text import printable
-from mems_stiction.whole_file import check_writable
+from mems_stiction.whole_file import check_writable, reason_of
 
 
 class Printable:
@@ -119,7 +119,8 @@ def run_program(program, main, status):
         interrupted.ignore_from_here_on()
         raise
     except (CannotRun, OSError) as error:
-        print("%s: %s" % (program, " ".join(str(error).split())), file=sys.stderr)
+        text = reason_of(error) if isinstance(error, OSError) else str(error)
+        print("%s: %s" % (program, " ".join(text.split())), file=sys.stderr)
         sys.exit(status)
     interrupted.ignore_from_here_on()
     sys.exit(result)

@@ -7,6 +7,27 @@ import pathlib
 import shutil
 
 
+class CannotWrite(OSError):
+    """A file that could not be written; the text is one sentence with its name."""
+
+    def __init__(self, path, error):
+        super().__init__(error.errno, error.strerror or str(error))
+        self._path = path
+
+    def __str__(self):
+        return "%s: cannot be written: %s" % (self._path, self.strerror)
+
+
+def reason_of(error):
+    """An OSError in words, without its number: "a.csv: No such file or directory"."""
+    if isinstance(error, CannotWrite) or not error.strerror:
+        return str(error)
+    if error.filename:
+        return "%s: %s" % (error.filename, error.strerror)
+    is_disk = error.errno in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
+    return ("what is printed cannot be written: " if is_disk else "") + error.strerror
+
+
 def part_of(path):
     """The place beside a file where it is written, with its ending, which says to others what is in it."""
     return path.with_name(".%s.part%s" % (path.stem, path.suffix))
@@ -22,22 +43,26 @@ def refuse_pipe(path):
 def whole(path):
     """A place to write to; what was written there takes the file's name when it is whole.
 
-    A link stays a link, and a device is written to as it is.
+    A link stays a link, and a device is written to as it is. Raises CannotWrite where that fails.
     """
+    asked = path
     path = pathlib.Path(os.path.realpath(str(path)))
     refuse_pipe(path)
-    if path.exists() and not path.is_file():
-        yield path
-        return
-    part = part_of(path)
+    is_device = path.exists() and not path.is_file()
+    part = path if is_device else part_of(path)
     try:
         yield part
+        if is_device:
+            return
         if path.exists():
             shutil.copymode(str(path), str(part))
         os.replace(str(part), str(path))
-    except BaseException:
-        with contextlib.suppress(OSError):
-            part.unlink()
+    except BaseException as error:
+        if not is_device:
+            with contextlib.suppress(OSError):
+                part.unlink()
+        if isinstance(error, OSError) and not isinstance(error, CannotWrite) and error.filename in (None, str(part), part):
+            raise CannotWrite(asked, error) from error
         raise
 
 

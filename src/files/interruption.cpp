@@ -2,6 +2,7 @@
 
 #include <signal.h>
 #include <stdlib.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -36,11 +37,21 @@ void writeLine(const std::string& text) {
   [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, whole.data(), whole.size());
 }
 
+/// Until no process of the child's group is left that could still write, on a busy machine, too; 2 s at most.
+void awaitEnd(pid_t child) {
+  for (int waited = 0; waited < 2000; ++waited) {
+    waitpid(child, nullptr, WNOHANG);
+    if (kill(-child, 0) != 0) return;
+    usleep(1000);
+  }
+}
+
 void cleanUp() {
   if (registry().has_line) writeLine("");
   for (const pid_t child : registry().children) kill(-child, SIGKILL);
+  for (const pid_t child : registry().children) awaitEnd(child);
   for (const std::string& path : registry().paths) {
-    // A child that has just been ended may still have made a file: once more, then.
+    // What a child had begun to write may appear only now: once more, then.
     std::error_code error;
     for (int attempt = 0; attempt < 3; ++attempt) {
       std::filesystem::remove_all(path, error);

@@ -85,7 +85,6 @@ class ScanBag {
  public:
   explicit ScanBag(const Arguments& arguments)
       : path_(arguments.bag),
-        partial_([&] { return arguments.bag + "." + std::to_string(getpid()); }),
         period_(1.0 / arguments.rate),
         part_id_(arguments.part_id),
         serial_id_(arguments.serial_id) {
@@ -101,13 +100,15 @@ class ScanBag {
     if (!folder.empty() && !fs::is_directory(folder, error)) {
       throw FileError(path + ": cannot be written: there is no folder '" + folder.string() + "'");
     }
-    guarded([&] { bag_->open(partial_.path(), rosbag::bagmode::Write); });
+    // It is made while no interruption is handled: one that came before would remove nothing, and the file would stay.
+    partial_.emplace([&] {
+      const std::string partial = path + "." + std::to_string(getpid());
+      guarded(partial, [&] { bag_->open(partial, rosbag::bagmode::Write); });
+      return partial;
+    });
   }
   ~ScanBag() {
-    if (is_whole_) return;
-    static_cast<void>(bag_.release());  // to the end of the process: closing writes, and would fail in the destructor
-    std::error_code ignored;
-    fs::remove(partial_.path(), ignored);
+    if (!is_whole_ && partial_) giveUp(partial_->path());
   }
   ScanBag(const ScanBag&) = delete;
   ScanBag& operator=(const ScanBag&) = delete;
@@ -125,15 +126,15 @@ class ScanBag {
     ScanInfo info = scanInfoMessage(calibration, header);
     info.part_id = part_id_;
     info.serial_id = serial_id_;
-    guarded([&] {
+    guarded(partial_->path(), [&] {
       bag_->write(absolute(kHeightTopic), header.stamp, *exactHeightImage(surface.heights(), header));
       bag_->write(absolute(kScanInfoTopic), header.stamp, info);
     });
   }
 
   void finish() {
-    guarded([&] { bag_->close(); });
-    is_whole_ = std::rename(partial_.path().c_str(), path_.c_str()) == 0;
+    guarded(partial_->path(), [&] { bag_->close(); });
+    is_whole_ = std::rename(partial_->path().c_str(), path_.c_str()) == 0;
     if (!is_whole_) throw std::runtime_error(path_ + ": cannot be written: " + std::strerror(errno));
   }
 
@@ -143,19 +144,29 @@ class ScanBag {
   /// As `rosbag record` names topics, so that filters and prefixes find them.
   static std::string absolute(const std::string& topic) { return "/" + topic; }
 
+  /// Nothing of it stays. The bag lives to the end of the process: closing writes, and would fail in its destructor.
+  void giveUp(const std::string& partial) {
+    static_cast<void>(bag_.release());
+    std::error_code ignored;
+    fs::remove(partial, ignored);
+  }
+
   /// @throw std::runtime_error, which ends the program: no scan can be written after it
   template <typename Function>
-  void guarded(Function&& function) {
+  void guarded(const std::string& partial, Function&& function) {
+    errno = 0;
     try {
       function();
     } catch (const rosbag::BagException& error) {
-      throw std::runtime_error(path_ + ": cannot be written: " + error.what());
+      const std::string reason = errno != 0 ? std::strerror(errno) : error.what();
+      giveUp(partial);
+      throw std::runtime_error(path_ + ": cannot be written: " + reason);
     }
   }
 
   std::string path_;
-  ScratchPath partial_;
   std::unique_ptr<rosbag::Bag> bag_ = std::make_unique<rosbag::Bag>();
+  std::optional<ScratchPath> partial_;
   bool is_whole_ = false;
   double period_;
   std::string part_id_;

@@ -7,6 +7,7 @@ import tempfile
 import unittest
 
 import numpy as np
+from mems_stiction.whole_file import CannotWrite, reason_of
 from roslib.packages import find_node
 
 SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "scripts"
@@ -75,8 +76,42 @@ class FullDiskTest(unittest.TestCase):
         done = self.run_program(SCRIPTS / "stiction_report", "--config", self.config, "-o", self.disk / "report.html",
                                 self.scans[0])
         self.assertEqual(done.returncode, 2)
-        self.assertIn("No space left on device", done.stderr)
-        self.assertFalse((self.disk / "report.html").exists())
+        self.assertEqual(done.stderr.splitlines()[-1], "stiction_report: %s: cannot be written: No space left on device" % (self.disk / "report.html"))
+        self.assertEqual([path.name for path in self.disk.iterdir()], ["fill"])
+
+    def test_a_bag_is_whole_or_absent_wherever_the_disk_is_full(self):
+        """At its head, its first scan, a later one, its index."""
+        whole = self.folder / "whole.bag"
+        command = [find_node("mems_stiction", "make_scan_bag")[0], "--pitch", "1e-8", "-o"]
+        self.assertEqual(self.run_program(*command, whole, *self.scans[:2]).returncode, 0)
+        page = os.sysconf("SC_PAGE_SIZE")
+        for size in range(0, whole.stat().st_size, page):
+            self.leave(size)
+            done = self.run_program(*command, self.disk / "scans.bag", *self.scans[:2])
+            self.assertEqual((done.returncode, done.stderr), (
+                2, "make_scan_bag: %s: cannot be written: No space left on device\n" % (self.disk / "scans.bag")), size)
+            self.assertEqual([path.name for path in self.disk.iterdir()], ["fill"], size)
+            (self.disk / "fill").unlink()
+
+    def test_a_sweep_or_cycles_are_whole_or_absent(self):
+        from mems_stiction.long_run import write_csv
+        from mems_stiction.msg import CycleContactResult, CyclePoint
+        from mems_stiction.station_figures import save_cycles
+
+        result = CycleContactResult(cycles=[CyclePoint(cycle=cycle) for cycle in range(1000)])
+        self.leave(4096)
+        for name, write in (("cycles.csv", lambda path: write_csv(result.cycles, path, result)), ("cycles.png", lambda path: save_cycles(result, path))):
+            path = str(self.disk / name)
+            with self.assertRaises(CannotWrite) as caught:
+                write(path)
+            self.assertEqual(reason_of(caught.exception), path + ": cannot be written: No space left on device")
+            self.assertEqual([one.name for one in self.disk.iterdir()], ["fill"])
+
+    def test_what_is_printed_to_a_full_disk_is_said_so(self):
+        with self.assertRaises(OSError) as caught, open("/dev/full", "w") as full:
+            full.write("x")
+            full.flush()
+        self.assertEqual(reason_of(caught.exception), "what is printed cannot be written: No space left on device")
 
 
 if __name__ == "__main__":
