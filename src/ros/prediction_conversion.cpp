@@ -1,5 +1,7 @@
 #include "ros/prediction_conversion.hpp"
 
+#include "errors/one_line.hpp"
+#include "errors/short_number.hpp"
 #include "prediction/prediction_fields.hpp"
 #include "ros/message_fields.hpp"
 #include "ros/message_text.hpp"
@@ -84,6 +86,17 @@ StictionPrediction predictionMessage(const PredictedScan& scan, const std_msgs::
   message.flags = regimeFlagList(scan.verdict.regime_flags);
   message.curve = curveMessage(prediction.curve);
   return message;
+}
+
+std::string summaryOf(const PredictedScan& scan) {
+  const Prediction& prediction = scan.prediction;
+  const Verdict& verdict = scan.verdict;
+  std::string line = scan.provenance.scan_name + ": sticks " + sticksText(verdict.sticks) + " (" + verdict.reason +
+                     "); pull-off force " + shortNumber(prediction.pull_off_force) + " N";
+  if (prediction.has_asperities) line += "; " + std::to_string(prediction.asperity_count) + " contacts";
+  for (const std::string& flag : regimeFlagList(verdict.regime_flags)) line += "; " + flag;
+  for (const std::string& warning : scan.warnings) line += "; warning: " + warning;
+  return oneLine(line);
 }
 
 AsperityArray asperitiesMessage(const Prediction& prediction, const std_msgs::Header& header) {

@@ -3,6 +3,8 @@
 /// @file
 /// From the core's prediction to messages; no figure is computed here.
 
+#include <string>
+
 #include <std_msgs/Header.h>
 
 #include "mems_stiction/AsperityArray.h"
@@ -12,6 +14,9 @@
 namespace mems_stiction {
 
 StictionPrediction predictionMessage(const PredictedScan& scan, const std_msgs::Header& header);
+
+/// What matters of it in one line, for `rostopic echo`: name, verdict with its reason, force, contacts, what speaks against it.
+std::string summaryOf(const PredictedScan& scan);
 
 AsperityArray asperitiesMessage(const Prediction& prediction, const std_msgs::Header& header);
 

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include <std_msgs/String.h>
+
 #include "ros/display_conversion.hpp"
 #include "ros/force_curve_picture.hpp"
 #include "ros/part_verdict_conversion.hpp"
@@ -23,6 +25,7 @@ ResultPublisher::ResultPublisher(const ros::NodeHandle& handle, const DisplayOpt
     : display_(display), transport_(handle) {
   ros::NodeHandle node(handle);
   prediction_ = node.advertise<StictionPrediction>(kPredictionTopic, kPredictionQueue);
+  summary_ = node.advertise<std_msgs::String>(kSummaryTopic, kPredictionQueue);
   // Latched: whoever comes finds what the last part's scans say.
   part_verdict_ = node.advertise<PartVerdict>(kPartVerdictTopic, kPredictionQueue, true);
   deformed_height_ = transport_.advertise(kDeformedHeightTopic, kMapQueue);
@@ -73,6 +76,11 @@ void ResultPublisher::publish(const PredictedScan& predicted, const ReceivedScan
   }
   if (hasListener(force_curve_)) force_curve_.publish(forceCurvePicture(predicted, header));
   if (predicted.part) publishPart(*predicted.part, {header, predicted.provenance, predicted.pool_settings_hash});
+  if (hasListener(summary_)) {
+    std_msgs::String summary;
+    summary.data = summaryOf(predicted);
+    summary_.publish(summary);
+  }
   // Last, so that whoever waits for the prediction finds the rest sent.
   prediction_.publish(predictionMessage(predicted, header));
 }

@@ -35,6 +35,7 @@ class ResultPublisher {
   DisplayOptions display_;
   image_transport::ImageTransport transport_;
   ros::Publisher prediction_;
+  ros::Publisher summary_;
   ros::Publisher part_verdict_;
   image_transport::Publisher deformed_height_;
   image_transport::Publisher deformed_counter_height_;

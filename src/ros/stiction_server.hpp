@@ -21,6 +21,7 @@
 #include <std_srvs/Trigger.h>
 
 #include "mems_stiction/GetLoad.h"
+#include "mems_stiction/GetPrediction.h"
 #include "mems_stiction/Predict.h"
 #include "mems_stiction/SetLoad.h"
 #include "mems_stiction/SetMechanicalLoad.h"
@@ -99,6 +100,7 @@ class StictionServer {
   std::optional<PredictedScan> lastScanOrNothing();
   std::optional<LoadFigures> lastFiguresOrNothing();
   bool getLoad(GetLoad::Request& request, GetLoad::Response& response);
+  bool getPrediction(GetPrediction::Request& request, GetPrediction::Response& response);
   bool predict(Predict::Request& request, Predict::Response& response);
   bool resetSurface(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
 

@@ -59,6 +59,7 @@ void StictionServer::advertiseServices() {
                service_handle_.advertiseService(kSetVoltageService, &StictionServer::setVoltage, this),
                service_handle_.advertiseService(kSetMechanicalLoadService, &StictionServer::setMechanicalLoad, this),
                service_handle_.advertiseService(kGetLoadService, &StictionServer::getLoad, this),
+               service_handle_.advertiseService(kGetPredictionService, &StictionServer::getPrediction, this),
                service_handle_.advertiseService(kPredictService, &StictionServer::predict, this),
                service_handle_.advertiseService(kResetSurfaceService, &StictionServer::resetSurface, this)};
 }
@@ -101,6 +102,7 @@ void StictionServer::changeLoad(const std::function<void(LoadOptions&)>& set, Re
       try {
         if (const std::optional<PredictedScan> predicted = predictor_.predictLastScan()) {
           response.prediction = predictionMessage(*predicted, predictor_.lastScan()->header);
+          response.prediction.curve.clear();  // a thousand lines for whoever calls by hand
           offerToDevice(*predicted);
           if (old) response.message += "; " + effect(*old, predicted->prediction);
         } else {
@@ -144,6 +146,23 @@ bool StictionServer::getLoad(GetLoad::Request& /*request*/, GetLoad::Response& r
   response.max_mechanical_load = load.max_mechanical_load;
   response.pressure = load.pressure;
   response.device_force = load.device_force;
+  return true;
+}
+
+bool StictionServer::getPrediction(GetPrediction::Request& /*request*/, GetPrediction::Response& response) {
+  response.prediction = predictionMessage(PredictedScan(), std_msgs::Header());
+  try {
+    worker_.call([&] {
+      const std::optional<PredictedScan> predicted = predictor_.predictLastScan();
+      response.success = predicted.has_value();
+      if (predicted) response.prediction = predictionMessage(*predicted, predictor_.lastScan()->header);
+    });
+    if (!response.success) response.message = "no scan yet";
+  } catch (const std::future_error&) {
+    response.message = kShuttingDown;
+  } catch (const std::exception& error) {
+    response.message = oneLine(reasonOf(error));
+  }
   return true;
 }
 

@@ -16,6 +16,7 @@ inline constexpr char kCounterScanInfoTopic[] = "counter_scan_info";
 
 // Out
 inline constexpr char kPredictionTopic[] = "prediction";
+inline constexpr char kSummaryTopic[] = "summary";
 inline constexpr char kPartVerdictTopic[] = "part_verdict";
 inline constexpr char kDeformedHeightTopic[] = "deformed_height";
 inline constexpr char kDeformedCounterHeightTopic[] = "deformed_counter_height";
@@ -41,6 +42,7 @@ inline constexpr char kSetLoadService[] = "set_load";
 inline constexpr char kSetVoltageService[] = "set_voltage";
 inline constexpr char kSetMechanicalLoadService[] = "set_mechanical_load";
 inline constexpr char kGetLoadService[] = "get_load";
+inline constexpr char kGetPredictionService[] = "get_prediction";
 inline constexpr char kPredictService[] = "predict";
 inline constexpr char kResetSurfaceService[] = "reset_surface";
 inline constexpr char kSolveHalfSpaceService[] = "solve_half_space";

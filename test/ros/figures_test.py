@@ -162,12 +162,14 @@ class FiguresTest(unittest.TestCase):
         self.assertEqual([message.header.stamp for message in live], sorted(traffic.sent))
         seen = set()
         for message in live + [answer.prediction for answer in answers if answer.success]:
+            leaving_out = () if message.curve else ("curve",)  # answers to loads
             index = [surface is traffic.sent[message.header.stamp] for surface in self.surfaces].index(True)
             load = (message.voltage, message.mechanical_load)
             if (index, load) not in expected:  # between two calls
                 expected[index, load] = record(self.surfaces[index], load[1], load[0])
-            self.assert_same(message, expected[index, load])
+            self.assert_same(message, expected[index, load], leaving_out)
             seen.add(load)
+        self.assertTrue(all(message.curve for message in live))
         self.assertLessEqual(set(loads), seen)
         self.assertTrue(all(answer.success for answer in answers))
 

@@ -10,8 +10,9 @@ import rospy
 import rostest
 import yaml
 from mems_stiction.msg import ScanInfo, StictionPrediction
-from mems_stiction.srv import GetLoad, Predict, SetLoad, SetMechanicalLoad, SetVoltage
+from mems_stiction.srv import GetLoad, GetPrediction, Predict, SetLoad, SetMechanicalLoad, SetVoltage
 from rosgraph_msgs.msg import Log
+from std_msgs.msg import String
 from std_srvs.srv import Trigger
 from stiction_client import TIMEOUT, Collector, Counts, Station, figures, image_message, info_message, rough_surface, wait_until
 
@@ -30,6 +31,7 @@ class ServicesTest(unittest.TestCase):
         cls.set_voltage = rospy.ServiceProxy("stiction_node/set_voltage", SetVoltage)
         cls.set_mechanical_load = rospy.ServiceProxy("stiction_node/set_mechanical_load", SetMechanicalLoad)
         cls.get_load = rospy.ServiceProxy("stiction_node/get_load", GetLoad)
+        cls.get_prediction = rospy.ServiceProxy("stiction_node/get_prediction", GetPrediction)
         cls.predict = rospy.ServiceProxy("stiction_node/predict", Predict)
         cls.reset_surface = rospy.ServiceProxy("stiction_node/reset_surface", Trigger)
         cls.predictions = Collector("prediction", StictionPrediction).connect()
@@ -58,6 +60,8 @@ class ServicesTest(unittest.TestCase):
         self.assertIn("no scan yet", answer.message)
         self.assertEqual(answer.prediction.status, StictionPrediction.NO_EQUILIBRIUM)
         self.assert_load(1.0, LOAD)
+        answer = self.get_prediction()
+        self.assertEqual((answer.success, answer.message, len(answer.prediction.curve)), (False, "no scan yet", 0))
 
     def test_2_set_load_predicts_the_last_scan_and_the_force_goes_with_the_square_of_the_voltage(self):
         surface = rough_surface(2)
@@ -76,6 +80,7 @@ class ServicesTest(unittest.TestCase):
         self.assertGreater(once.electrostatic_force, 0.2 * plates)
         # A voltage that counts never takes them apart.
         strong = self.set_load(50.0, LOAD).prediction
+        strong.curve = self.get_prediction().prediction.curve
         self.assertGreater(strong.electrostatic_force, LOAD)
         self.assertAlmostEqual(strong.normal_load, strong.electrostatic_force + strong.van_der_waals_force + LOAD,
                                delta=1e-9 * strong.normal_load)
@@ -116,6 +121,35 @@ class ServicesTest(unittest.TestCase):
             self.assertFalse(answer.success)
             self.assertIn(name, answer.message)
         self.assert_load(5.0, 0.0)
+
+    def test_3b_answers_to_loads_are_short_and_the_curve_has_a_call_of_its_own(self):
+        live = self.send(rough_surface(3))
+        self.assertGreater(len(live.curve), 0)
+        answer = self.get_prediction()
+        self.assertTrue(answer.success, answer.message)
+        answer.prediction.header.seq = live.header.seq
+        self.assertEqual(figures(answer.prediction), figures(live))
+        for answer in (self.set_load(0.0, LOAD), self.set_voltage(0.0), self.set_mechanical_load(LOAD)):
+            self.assertEqual(len(answer.prediction.curve), 0)
+            answer.prediction.curve = live.curve
+            self.assertEqual(figures(answer.prediction), figures(live))
+        self.set_voltage(10.0)
+        answer = self.get_prediction()
+        self.assertEqual(answer.prediction.voltage, 10.0)
+        self.assertGreater(len(answer.prediction.curve), 0)
+        shown = subprocess.run(["rosservice", "call", "/stiction_node/set_voltage", "10"], stdout=subprocess.PIPE, universal_newlines=True,
+                               timeout=TIMEOUT, check=True).stdout
+        self.assertLess(len(shown.splitlines()), 200)
+
+    def test_3b_a_summary_is_one_line_for_each_scan(self):
+        summaries = Collector("summary", String).connect()
+        prediction = self.send(rough_surface(3))
+        line = summaries.wait(1)[0].data
+        self.assertRegex(line, "^scan: sticks unknown \\(.*\\); pull-off force [0-9.e-]+ N; %d contacts" % prediction.asperity_count)
+        self.assertAlmostEqual(float(line.split("pull-off force ")[1].split(" N")[0]) / prediction.pull_off_force, 1.0, delta=0.006)
+        for flag in prediction.flags:
+            self.assertIn("; " + flag, line)
+        self.assertNotIn("\n", line)
 
     def test_3b_what_rosservice_leaves_out_is_said_and_set_alone_elsewhere(self):
         def call(service, request):
@@ -176,7 +210,7 @@ class ServicesTest(unittest.TestCase):
         self.assertTrue(other.success, other.message)
         self.assertEqual(other.prediction.voltage, 10.0)
         self.assert_load(0.0, LOAD)
-        self.assertEqual(figures(self.set_load(0.0, LOAD).prediction), figures(live))
+        self.assertEqual(figures(self.get_prediction().prediction), figures(live))
         self.assertEqual(len(self.predictions.messages), published)
 
     def test_5_predict_refuses_with_a_reason(self):
