@@ -11,6 +11,7 @@
 #include "height_map/scan_sanity.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "preprocess/refine.hpp"
+#include "preprocess/tilt.hpp"
 #include "settings/time_limit.hpp"
 #include "surface/wear.hpp"
 
@@ -59,13 +60,25 @@ CleanedScan cleanedOrWhyNot(ScanCleaner& cleaner, const HeightMap& scan) {
   }
 }
 
+double widthOf(const HeightMap& scan) { return std::max(scan.cols() * scan.pitchX(), scan.rows() * scan.pitchY()); }
+
 /// A filter that is longer than the scan leaves nothing.
-void addSmoothing(const HeightMap& scan, double cutoff_wavelength, std::vector<std::string>& warnings) {
-  const double width = std::max(scan.cols() * scan.pitchX(), scan.rows() * scan.pitchY());
-  if (cutoff_wavelength < width) return;
-  warnings.push_back("preprocessing/low_pass/cutoff_wavelength " + shortNumber(cutoff_wavelength) +
-                     " m is longer than the scan's width of " + shortNumber(width) +
+bool isSmoothedAway(const HeightMap& scan, const PipelineOptions& cleaning) {
+  return cleaning.low_pass.cutoff_wavelength >= widthOf(scan);
+}
+
+void addSmoothing(const HeightMap& scan, const PipelineOptions& cleaning, std::vector<std::string>& warnings) {
+  if (!isSmoothedAway(scan, cleaning)) return;
+  warnings.push_back("preprocessing/low_pass/cutoff_wavelength " + shortNumber(cleaning.low_pass.cutoff_wavelength) +
+                     " m is longer than the scan's width of " + shortNumber(widthOf(scan)) +
                      " m: it leaves no roughness and such a surface bonds");
+}
+
+/// What is smoothed to nothing has no relief to compare a tilt with.
+void addTilt(const HeightMap& cleaned, const PipelineOptions& cleaning, std::vector<std::string>& warnings) {
+  if (cleaning.level.shape != LevelShape::kNone || isSmoothedAway(cleaned, cleaning)) return;
+  const Tilt tilt = tiltOf(cleaned);
+  if (tilt.isLarge()) warnings.push_back(tilt.advice());
 }
 
 }  // namespace
@@ -142,7 +155,8 @@ PreparedScan ScanPreparer::prepare(const HeightMap& scan) {
   record.steps.insert(record.steps.end(), prepared.record.steps.begin(), prepared.record.steps.end());
   prepared.record = std::move(record);
   prepared.warnings = scanWarnings(scan);
-  addSmoothing(scan, cleaner_.options().low_pass.cutoff_wavelength, prepared.warnings);
+  addSmoothing(scan, cleaner_.options(), prepared.warnings);
+  addTilt(cleaned.surface, cleaner_.options(), prepared.warnings);
   prepared.counter_warnings = counter_surface_->warnings(cleaned.surface);
   prepared.outside = cleaned.outside;
   TimeLimit::check();

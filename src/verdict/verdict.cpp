@@ -26,12 +26,35 @@ Finding withoutContacts(const std::string& what, const Prediction& prediction) {
               (prediction.has_asperities ? "output/asperities is off" : "this approach/formulation tells none apart")};
 }
 
-/// Why a scan can carry no plain "no", and what to do; empty if it can.
+/// "2.2e-09 m (now 1e-08 m), 512 x 512 of them on 1.1e-06 m": pixels of which a contact of one pixel would have enough.
+std::string finerPixels(double cell_area) {
+  constexpr int kUsual = 512;  // pixels of a side
+  const double pitch = std::sqrt(cell_area);
+  const double finer = pitch / std::sqrt(kFewestCellsPerContact);
+  const std::string side = std::to_string(kUsual);
+  return shortNumber(finer, 2) + " m (now " + shortNumber(pitch, 2) + " m), " + side + " x " + side + " of them on " +
+         shortNumber(kUsual * finer, 2) + " m";
+}
+
+/// "at least 3 times", for one contact.
+std::string areaFactor(int contacts) {
+  const double factor = static_cast<double>(kFewestContactsForStatement) / std::max(contacts, 1);
+  return "at least " + shortNumber(factor, 2) + " times";
+}
+
+/// Why a scan can carry no plain "no", and what to do, one thing after the other; empty if it can.
+/// - @p cell_area of the scan [m^2]
 /// - @p is_of_device surfaces of the device's size judge, whose contacts are not those of the scan
-std::string whatLacks(const Prediction& prediction, std::uint32_t flags, bool is_of_device) {
+std::string whatLacks(const Prediction& prediction, std::uint32_t flags, double cell_area, bool is_of_device) {
+  const bool has_few = prediction.has_asperities && prediction.pull_off_contact_count < kFewestContactsForStatement;
   if ((flags & kOnePixelFlag) != 0) {
-    return "the answer rests on contacts of one pixel: scan a smaller area with finer pixels, or set "
-           "preprocessing/refine";
+    const bool needs_places = !is_of_device && (has_few || (flags & kBorderFlag) != 0);
+    return "the answer rests on contacts of one pixel: scan finer pixels" + std::string(needs_places ? " first" : "") +
+           ", of at most " + finerPixels(cell_area) +
+           (needs_places ? ", then as many such places as have " + std::to_string(kFewestContactsForStatement) +
+                               " contacts inside; a larger area of the same pixels would show none better"
+                         : "") +
+           "; or set preprocessing/refine";
   }
   if (is_of_device) return "";
   if ((flags & kBorderFlag) != 0) {
@@ -39,10 +62,10 @@ std::string whatLacks(const Prediction& prediction, std::uint32_t flags, bool is
            "place, "
            "or a larger one";
   }
-  if (prediction.has_asperities && prediction.pull_off_contact_count < kFewestContactsForStatement) {
+  if (has_few) {
     return "the answer rests on " + std::to_string(prediction.pull_off_contact_count) +
-           (prediction.pull_off_contact_count == 1 ? " contact" : " contacts") +
-           ": scan a larger area or more places, another may have higher summits";
+           (prediction.pull_off_contact_count == 1 ? " contact" : " contacts") + ": scan more places, or an area " +
+           areaFactor(prediction.pull_off_contact_count) + " as large, another may have higher summits";
   }
   return "";
 }
@@ -124,10 +147,12 @@ Finding beamFinding(const Holding& holding, Verdict& verdict) {
 
 /// - @p prediction of whoever judges the scan
 /// - @p flags of the formulation's prediction
+/// - @p cell_area of the scan [m^2]
 /// - @p evidence on the device, with the cleanings; its half-space is in the prediction
 /// - @p spread_of gives the spread of the figures, if it is needed
 Verdict verdictBy(const Prediction& prediction, const DeviceOptions& device, const Options& options,
-                  std::uint32_t flags, const Evidence& evidence, const std::function<AdhesionSpread()>& spread_of) {
+                  std::uint32_t flags, double cell_area, const Evidence& evidence,
+                  const std::function<AdhesionSpread()>& spread_of) {
   Verdict verdict;
   verdict.regime_flags = flags;
   verdict.pull_in_voltage = closingVoltage(device, options.interface);
@@ -172,7 +197,7 @@ Verdict verdictBy(const Prediction& prediction, const DeviceOptions& device, con
   verdict.sticks = finding.sticks;
   verdict.reason = finding.reason;
   const std::string lack = finding.sticks == Sticks::kNo && prediction.pull_off_force > 0.0
-                               ? whatLacks(prediction, flags, of_device != nullptr)
+                               ? whatLacks(prediction, flags, cell_area, of_device != nullptr)
                                : "";
   if (!lack.empty()) {
     verdict.sticks = Sticks::kUnknown;
@@ -222,7 +247,7 @@ Verdict verdictOf(const Prediction& prediction, const DeviceOptions& device, con
       counted.device = scaled(*counted.device, figures.pull_off_force / prediction.pull_off_force,
                               figures.apparent_work_of_adhesion / prediction.apparent_work_of_adhesion);
     }
-    return verdictBy(figures, device, options, flags, counted,
+    return verdictBy(figures, device, options, flags, cell_area, counted,
                      [&] { return adhesionSpread(prediction, options, uncertainty, counted); });
   };
   if (counted.half_space == nullptr) {

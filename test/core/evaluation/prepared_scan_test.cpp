@@ -199,6 +199,19 @@ TEST(ScanPreparer, SaysThatTheScanMeetsItsOwnCast) {
   EXPECT_EQ(counterWarning(ScanPreparer(configuration).prepare(rough(1))), "");
 }
 
+TEST(ScanPreparer, SaysThatAScanIsTiltedUntilItIsLevelled) {
+  const HeightMap scan = rough(1);
+  cv::Mat tilted = scan.asDouble().heights().clone();
+  for (int row = 0; row < tilted.rows; ++row) tilted.row(row) += 1e-9 * row;
+  const HeightMap aslant(tilted, scan.pitchX(), scan.pitchY());
+  Configuration configuration;
+  const std::vector<std::string> warnings = ScanPreparer(configuration).prepare(aslant).warnings;
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("the scan is tilted"), std::string::npos) << warnings[0];
+  configuration.preprocessing.level.shape = LevelShape::kPlane;
+  EXPECT_TRUE(ScanPreparer(configuration).prepare(aslant).warnings.empty());
+}
+
 TEST(ScanPreparer, SaysThatAFilterLongerThanTheScanLeavesNothing) {
   Configuration configuration;
   configuration.preprocessing.low_pass.cutoff_wavelength = 1e-6;  // um for nm; the scan is half as wide

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "errors/short_number.hpp"
 #include "mems_stiction/verdict/verdict.hpp"
 #include "numeric/constants.hpp"
 #include "paper/contact_growth.hpp"
@@ -156,6 +157,26 @@ TEST(HalfSpaceVerdict, AContactOfOnePixelIsNoBetterByTheHalfSpace) {
   EXPECT_EQ(verdict.sticks, Sticks::kUnknown);
   EXPECT_EQ(verdict.judge, Judge::kHalfSpace);
   EXPECT_TRUE(says(verdict, "contacts of one pixel")) << verdict.reason;
+}
+
+TEST(HalfSpaceVerdict, OfContactsThatAreSmallAndFewOneSentenceSaysWhatComesFirst) {
+  Prediction prediction = predicted();
+  for (Asperity& asperity : prediction.asperities) asperity.area = kCell;
+  const Verdict many = verdictWith(Evidence(), prediction, 5.0);
+  const std::string finer = "scan finer pixels, of at most " + shortNumber(std::sqrt(kCell / 20.0), 2) + " m (now " +
+                            shortNumber(std::sqrt(kCell), 2) + " m)";
+  EXPECT_TRUE(says(many, finer)) << many.reason;
+  EXPECT_FALSE(says(many, "places")) << many.reason;
+
+  prediction.pull_off_contact_count = 2;
+  const Verdict few = verdictWith(Evidence(), prediction, 5.0);
+  EXPECT_TRUE(says(few, "scan finer pixels first")) << few.reason;
+  EXPECT_TRUE(says(few, "then as many such places as have 3 contacts inside")) << few.reason;
+
+  for (Asperity& asperity : prediction.asperities) asperity.area = 100.0 * kCell;
+  const Verdict large = verdictWith(Evidence(), prediction, 5.0);
+  EXPECT_TRUE(says(large, "2 contacts: scan more places, or an area at least 1.5 times as large")) << large.reason;
+  EXPECT_FALSE(says(large, "pixels")) << large.reason;
 }
 
 TEST(HalfSpaceVerdict, ASearchThatEndedIsNoObstacle) {
