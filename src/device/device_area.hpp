@@ -49,9 +49,8 @@ class DeviceAreaSolver {
   AreaGrowth growth();
   Exponents lastForceExponents() const { return force_exponents_; }
   Exponents lastWorkExponents() const { return work_exponents_; }
-  double lastStiffness() const {
-    return stiffness_;
-  }  ///< of the contact at rest, per area [Pa/m]; NaN if it is not known
+  /// Of the contact at rest, per area [Pa/m]; NaN if it is not known.
+  double lastStiffness() const { return stiffness_; }
   /// The first piece of the first surface that was made, as DeviceForce has it.
   const HeightMap& madeSurface() const { return made_surface_; }
   /// About all realisations, each once.

@@ -49,15 +49,17 @@ double mosaicLength(const DeviceSurfaces& surfaces, const DeviceArea& area, cons
   const double pitch = madePitch(surfaces, options);
   const HeightMap& scan = surfaces.scans.front().surface;
   const double scanned_area = scan.rows() * scan.cols() * scan.cellArea();
-  /// How much softer the wave of this length is than the contact, as a logarithm: from the mean of some surfaces.
+  // how much softer the wave of this length is than the contact, as a logarithm: from the mean of some surfaces.
   const auto softness = [&](double length) {
     const double compliance = bendingCompliance(model, length);
     if (compliance == 0.0) return -std::numeric_limits<double>::infinity();
     const DevicePieces pieces = piecesOf({length * length, 1}, pitch, std::min(options.max_cells, kMostCells));
     DeviceAreaSolver solver(stiff, scanned_area, pieces);
+    DeviceSurface surface(laws, pieces, realisationSeed(options, 0));
     double sum = 0.0;
     for (int i = 0; i < kSurfaces; ++i) {
-      solver.realise(laws, realisationSeed(options, i));
+      if (i > 0) surface.reseed(realisationSeed(options, i));
+      solver.realise(surface);
       sum += std::log(compliance * solver.lastStiffness());
     }
     return sum / kSurfaces;
