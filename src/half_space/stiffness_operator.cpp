@@ -243,14 +243,16 @@ void StiffnessOperator<Scalar>::fillFree(const ElasticResponse& response) {
     double* const column = of_rows.data() + col;
     transform.apply(column, width, column, width);
   });
+  const double lowest_wave = 2.0 * kPi / std::max(grid_.rows * grid_.pitch_y, grid_.cols * grid_.pitch_x);
   for (int row = 0; row < grid_.rows && !isCancelled(); ++row) {
     const double* const line = of_rows.data() + static_cast<std::size_t>(std::min(row, grid_.rows - row)) * width;
     for (int col = 0; col < half_cols; ++col) {
       double stiffness = 1.0 / line[col];
-      if (response.influence != nullptr && response.layers != nullptr && row + col > 0) {
+      if (response.influence != nullptr && response.layers != nullptr) {
         // a plate bends far beyond a window, whose edge cuts that off: what is left may resist some waves with less than 0
-        const double of_wave = response.layers->at(waveNumber(row, col));
-        if (!(line[col] * of_wave > kLeastShare)) stiffness = of_wave;
+        const bool is_mean = row + col == 0;
+        const double of_wave = response.layers->at(is_mean ? lowest_wave : waveNumber(row, col));
+        if (!(line[col] * of_wave > (is_mean ? 0.0 : kLeastShare))) stiffness = of_wave;
       }
       entry(row, col) = static_cast<Scalar>(stiffness);
       smallest_ = std::min(smallest_, stiffness);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -189,11 +190,16 @@ TEST(ContactWindows, BitsDoNotDependOnTheThreads) {
   EXPECT_EQ(one.change, three.change);
 }
 
-TEST_P(WindowsOfFrame, StatesAreThoseOfNewtonsMethodAlone) {
-  const HalfSpaceGrid grid(241, 303, kPitch, kPitch, GetParam());
-  const MinimiserSettings settings;
-  ContactMinimiser with_windows(grid, law(), kModulus, rough(241, 303, 4e-9), settings);
-  ContactMinimiser alone(grid, law(), ElasticResponse{kModulus, nullptr}, rough(241, 303, 4e-9), {}, settings);
+/// One state after the other, with windows and without; and what products these took.
+/// - @p share that the windows may take of the products without
+void expectTheSameStates(const HalfSpaceGrid& grid, const ElasticResponse& response, double share) {
+  MinimiserSettings settings;
+  // what is left of a long wave's residual moves a thin body the more
+  if (response.layers != nullptr) settings.tolerance *= 0.1;
+  const LargePageVector<double> relief = rough(grid.frame_rows, grid.frame_cols, 4e-9);
+  ContactMinimiser with_windows(grid, law(), response, relief, settings);
+  ContactMinimiser alone(grid, law(), response, relief, {}, settings);
+  double largest_force = 0.0;
   int products_with = 0;
   int products_alone = 0;
   for (const double height : {4.0, 2.0, 1.5, 1.2, 1.0, 0.8, 0.6, 0.4, 0.6, 0.8, 1.2, 2.0}) {
@@ -203,13 +209,38 @@ TEST_P(WindowsOfFrame, StatesAreThoseOfNewtonsMethodAlone) {
     const ContactState other = alone.solve(height * law().range());
     ASSERT_TRUE(one.is_converged);
     ASSERT_TRUE(other.is_converged);
-    EXPECT_NEAR(one.force, other.force, 1e-3 * std::abs(other.force)) << height;
+    largest_force = std::max(largest_force, std::abs(other.force));
+    EXPECT_NEAR(one.force, other.force, 1e-3 * (response.layers == nullptr ? std::abs(other.force) : largest_force))
+        << height;
     EXPECT_NEAR(one.energy, other.energy, 1e-3 * std::abs(other.energy)) << height;
     EXPECT_EQ(one.contact_area, other.contact_area) << height;
     products_with += one.products;
     products_alone += other.products;
   }
-  EXPECT_LT(products_with, products_alone / 2);
+  EXPECT_LT(products_with, share * products_alone);
+}
+
+TEST_P(WindowsOfFrame, StatesAreThoseOfNewtonsMethodAlone) {
+  expectTheSameStates(HalfSpaceGrid(241, 303, kPitch, kPitch, GetParam()), ElasticResponse{kModulus}, 0.5);
+}
+
+TEST_P(WindowsOfFrame, PlatesAndFilmsAreRelaxedToo) {
+  Material lower, upper;
+  lower.youngs_modulus = kModulus;
+  lower.poisson_ratio = 0.3;
+  upper.youngs_modulus = 1e30;
+  for (const double thickness : {8.0 * kPitch, 40.0 * kPitch}) {
+    for (const Backing backing : {Backing::kBonded, Backing::kFree}) {
+      if (backing == Backing::kFree && GetParam() == HalfSpaceBoundary::kFree) continue;
+      lower.thickness = thickness;
+      lower.backing = backing;
+      const WaveStiffness layers(lower, upper);
+      SCOPED_TRACE(thickness / kPitch);
+      expectTheSameStates(HalfSpaceGrid(241, 303, kPitch, kPitch, GetParam()),
+                          ElasticResponse{ContactPair(lower, upper).contact_modulus, nullptr, &layers},
+                          backing == Backing::kFree ? 0.9 : 0.5);
+    }
+  }
 }
 
 }  // namespace
