@@ -5,8 +5,11 @@ pressure and have no gap. Its stiffness of a wave is written down here as others
 equation A.30, which ContactMechanics takes for `thickness`, and Filon (1903) for a plate.
 """
 
+import json
 import pathlib
+import subprocess
 import sys
+import tempfile
 import unittest
 import warnings
 
@@ -19,7 +22,7 @@ except ImportError:
     raise unittest.SkipTest("the Python module is not built: MEMS_STICTION_WITH_PYTHON is off")
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from module_cases import rough  # noqa: E402  (the path comes first)
+from module_cases import program, rough  # noqa: E402  (the path comes first)
 
 SIZE, PITCH = 64, 5e-9
 YOUNG, POISSON = 90e9, 0.3
@@ -100,6 +103,23 @@ class PlatesAndFilmsTest(unittest.TestCase):
             self.assertTrue(0.02 * SIZE ** 2 < touching < 0.9 * SIZE ** 2, what)
             self.assertAlmostEqual(found.contact_fraction * SIZE ** 2 / touching, 1.0, delta=max(0.01, 1 / touching), msg=what)
             self.assertLess(np.linalg.norm(found.pressure - expected), 0.01 * np.linalg.norm(expected), what)
+
+    def test_predict_scan_finds_the_same_of_the_same_settings(self):
+        lower = {"youngs_modulus": YOUNG, "backing": "bonded", "substrate": {"youngs_modulus": 5e9, "poisson_ratio": 0.4}}
+        figures = {}
+        with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
+            warnings.simplefilter("ignore", mems_stiction.SettingsWarning)
+            scan, config = pathlib.Path(folder) / "scan.npy", pathlib.Path(folder) / "config.yaml"
+            np.save(str(scan), self.heights)
+            for thickness in (0.0, 30e-9):
+                lower["thickness"] = thickness
+                config.write_text(json.dumps({"lower": lower}))
+                command = [program(), "--half-space", "--json", "--pitch", str(PITCH), "-c", str(config), str(scan)]
+                record = json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL).stdout.decode())
+                found = mems_stiction.half_space(self.heights, PITCH, {"lower": lower})
+                figures[thickness] = record["half_space"]["pull_off_force"]
+                self.assertEqual(found.pull_off_force, figures[thickness])
+        self.assertGreater(abs(figures[30e-9] / figures[0.0] - 1), 0.005)
 
     def test_settings_that_make_no_sense_are_named(self):
         for lower, words in (({"thickness": -1e-6}, "lower/thickness: -1e-06 m"), ({"backing": "glued"}, "lower/backing: 'glued'.*free, bonded"),
