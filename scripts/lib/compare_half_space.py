@@ -41,8 +41,9 @@ HEADING = """
 
 Written by `scripts/compare_half_space`, on periodic Gaussian frames of 128 x 128 pixels, 5 nm: tamaas 2.9.0 (Polonsky
 and Keer), ContactMechanics 1.8.3 (constrained conjugate gradients) and Adhesion 0.93 (L-BFGS-B, the same law as its
-VDW82). The films are ContactMechanics' `thickness`. Without attraction the wall here is as soft as z0 = 0.01 nm, theirs is hard; Adhesion's mean displacement counts
-as height. Its retraction is sampled at every 0.2 z0, the largest force by a parabola.
+VDW82). The films are ContactMechanics' `thickness`. Without attraction the wall here is as soft as z0 = 0.01 nm,
+theirs is hard; Adhesion's mean displacement counts as height. Its retraction is sampled at every 0.2 z0, the largest
+force by a parabola.
 
 """
 
