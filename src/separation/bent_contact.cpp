@@ -12,6 +12,9 @@ constexpr double kLeastBending = 0.02;
 /// From one k to the next, and how many there may be.
 constexpr double kNextBed = 2.0;
 constexpr int kMostBeds = 60;
+/// From one number of summits to the next, and how many there may be.
+constexpr double kNextSummits = 1.42;
+constexpr int kMostSummits = 64;
 /// Steps of the way out, as a share of the law's range.
 constexpr double kStep = 0.05;
 
@@ -46,15 +49,12 @@ double BentContact::Bed::energyAt(double height, double area) const {
   return area * energy - between(works, place.from, place.share);
 }
 
-void BentContact::addBed(double stiffness) {
-  const GapField& gap = bent(stiffness);
+void BentContact::follow(Bed bed) {
+  const GapField& gap = bent(bed);
   curve_.comeToRest(gap, *settings_);
   curve_.part();
   area_ = curve_.frame().area();
   const SeparationCurve& way = curve_.wayOut();
-  Bed bed;
-  bed.stiffness = stiffness;
-  bed.energy = stiffness > 0.0 ? bending_.energy() : 0.0;
   bed.work_apart = way.work_apart;
   for (auto state = way.states.rbegin(); state != way.states.rend(); ++state) {
     bed.heights.push_back(gap.meanGap() - state->approach);
@@ -91,8 +91,8 @@ void BentContact::part() {
     for (bool falls = true; falls;) {
       falls = false;
       const double energy = beds_[here].energyAt(height, area_);
-      for (const std::size_t other : {here - 1, here + 1}) {
-        if (other >= beds_.size() || !(beds_[other].energyAt(height, area_) < energy)) continue;
+      for (const std::size_t other : nextTo(here)) {
+        if (!(beds_[other].energyAt(height, area_) < energy)) continue;
         here = other;
         falls = true;
         break;
@@ -101,7 +101,7 @@ void BentContact::part() {
     const double force = beds_[here].forceAt(height);
     if (force > parting_.force) {
       parting_.force = force;
-      parting_.bed_stiffness = beds_[here].stiffness;
+      parting_.strongest = here;
     }
     work += 0.5 * step * std::max(0.0, last + force);
     last = force;
@@ -110,25 +110,62 @@ void BentContact::part() {
   parting_.work = std::min(work / area_, curve_.frame().law().workOfAdhesion());
 }
 
-const GapField& BentContact::solve(const GapField& field, const ContactSettings& settings) {
-  field_ = &field;
-  settings_ = &settings;
-  beds_.clear();
-  bending_.start(field, WaveStiffness(settings.lower, settings.upper));
-  addBed(0.0);
+std::vector<std::size_t> BentContact::nextTo(std::size_t bed) const {
+  std::vector<std::size_t> next;
+  if (bed == first_summits_) {
+    next.push_back(0);
+  } else if (bed > 0) {
+    next.push_back(bed - 1);
+  }
+  if (bed + 1 < beds_.size() && bed + 1 != first_summits_) next.push_back(bed + 1);
+  if (bed == 0 && first_summits_ > 1 && first_summits_ < beds_.size()) next.push_back(first_summits_);
+  return next;
+}
+
+void BentContact::followBeds() {
   const ContactTraction& law = curve_.frame().law();
   // no contact is stiffer than the law of all places at once, and none gives more than its work
   double stiffness = law.strength() / law.range();
   for (int i = 0; i < kMostBeds; ++i, stiffness /= kNextBed) {
     bending_.bent(stiffness);
     if (bending_.rmsBending() < kLeastBending * law.range()) break;
-    if (bending_.energy() < law.workOfAdhesion()) addBed(stiffness);
+    if (bending_.energy() < law.workOfAdhesion()) {
+      Bed bed;
+      bed.stiffness = stiffness;
+      bed.energy = bending_.energy();
+      bed.bending = bending_.blocks().clone();
+      follow(std::move(bed));
+    }
   }
-  // by ascending stiffness
   std::reverse(beds_.begin() + 1, beds_.end());
+  first_summits_ = beds_.size();
+}
+
+void BentContact::followSummits() {
+  SummitBending summits = bending_.onSummits();
+  int next = 2;
+  while (summits.count() < kMostSummits && summits.addSummit()) {
+    if (summits.count() < next) continue;
+    if (summits.energy() > curve_.frame().law().workOfAdhesion()) break;
+    next = std::max(next + 1, static_cast<int>(next * kNextSummits));
+    Bed bed;
+    bed.energy = summits.energy();
+    bed.bending = summits.bending().clone();
+    follow(std::move(bed));
+  }
+}
+
+const GapField& BentContact::solve(const GapField& field, const ContactSettings& settings) {
+  field_ = &field;
+  settings_ = &settings;
+  beds_.clear();
+  bending_.start(field, WaveStiffness(settings.lower, settings.upper));
+  follow({});
+  followBeds();
+  if (first_summits_ > 1) followSummits();
   takeRest();
   if (!isStiff()) part();
-  return bent(bedStiffness());
+  return bent(beds_[at_rest_]);
 }
 
 }  // namespace mems_stiction

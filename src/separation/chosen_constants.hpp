@@ -69,8 +69,8 @@ constexpr double kBentTogether = 15.0;
 /// Bodies bend if closing the relief takes less than this share of what thick bodies need [-]; the same flag and interval.
 constexpr double kBends = 0.85;
 /// Standard deviations of the logarithm of force and work there, of contacts and of surfaces that conform.
-constexpr ModelError kBentError{0.7, 0.7};
-constexpr ModelError kBentConformingError{0.3, 0.3};
+constexpr ModelError kBentError{0.4, 0.4};
+constexpr ModelError kBentConformingError{0.2, 0.2};
 
 // ---------------------------------------------------------------- steps: they cost accuracy or time, not physics
 // Half of each step, and twice as many parts and lines, change no figure by more than 0.4 percent of frames.

@@ -60,12 +60,15 @@ void PlateBending::start(const GapField& field, const WaveStiffness& stiffness) 
   const double height = field.rows() * field.pitchY();
   const double shortest = kPi * std::hypot(1.0 / field.pitchX(), 1.0 / field.pitchY());
   compliance_ = ExtraCompliance(stiffness, 0.5 * kPi / std::max(width, height), 2.0 * shortest);
-  const double longest_block = thinner(stiffness) / kBlocksPerThickness;
+  thickness_ = thinner(stiffness);
+  levelled_ = &field;
+  const double longest_block = thickness_ / kBlocksPerThickness;
   relief_.take(field, longest_block);
   if (relief_.repeats()) return;
   std::vector<double> line;
   meanPlane(field, line, bending_);
   level_.lower(field, bending_);
+  levelled_ = &level_;
   relief_.take(level_, longest_block);
 }
 
@@ -80,11 +83,17 @@ const GapField& PlateBending::lowered(const Bed& bed, GapField& gap) {
     return yield / (1.0 + yield);
   });
   rms_bending_ = std::sqrt(meanSquare(conforming));
-  cv::resize(conforming(cv::Rect({0, 0}, relief_.blocks())), bending_, {field_->cols(), field_->rows()}, 0.0, 0.0,
-             cv::INTER_LINEAR);
+  conforming(cv::Rect({0, 0}, relief_.blocks())).copyTo(blocks_);
+  return lowerBy(blocks_, gap);
+}
+
+const GapField& PlateBending::lowerBy(const cv::Mat1d& blocks, GapField& gap) {
+  cv::resize(blocks, bending_, {field_->cols(), field_->rows()}, 0.0, 0.0, cv::INTER_LINEAR);
   gap.lower(*field_, bending_);
   return gap;
 }
+
+const GapField& PlateBending::bentBy(const cv::Mat1d& blocks) { return lowerBy(blocks, bent_); }
 
 const GapField& PlateBending::bent(double bed_stiffness) {
   return lowered([=](double) { return bed_stiffness; }, bent_);

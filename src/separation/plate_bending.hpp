@@ -20,6 +20,7 @@
 #include "mechanics/wave_stiffness.hpp"
 #include "separation/extra_compliance.hpp"
 #include "separation/relief_spectrum.hpp"
+#include "separation/summit_bending.hpp"
 
 namespace mems_stiction {
 
@@ -31,6 +32,13 @@ class PlateBending {
 
   /// The relief on a bed of stiffness k [Pa/m], >= 0; valid until the next call.
   const GapField& bent(double bed_stiffness);
+  /// The relief that bends by so much in each block [m].
+  const GapField& bentBy(const cv::Mat1d& blocks);
+  /// The bending of the last bent(), by block [m].
+  const cv::Mat1d& blocks() const { return blocks_; }
+  /// Onto summits of the relief.
+  SummitBending onSummits() { return {*levelled_, relief_, compliance_, thickness_}; }
+
   /// What thick bodies would have to close of the relief, when bodies that bend close all of it: each wave keeps the share of K in
   /// (E/2) q.
   const GapField& closed();
@@ -43,8 +51,11 @@ class PlateBending {
   /// - @p bed k by wave number [Pa/m]
   template <typename Bed>
   const GapField& lowered(const Bed& bed, GapField& gap);
+  const GapField& lowerBy(const cv::Mat1d& blocks, GapField& gap);
 
   const GapField* field_ = nullptr;
+  const GapField* levelled_ = nullptr;
+  double thickness_ = 0.0;  ///< of the thinner body [m]
   ExtraCompliance compliance_;
   ReliefSpectrum relief_;
   GapField level_;

@@ -24,6 +24,14 @@ class ReliefSpectrum {
   /// images behind. Valid until the next call.
   template <typename Weigh>
   const cv::Mat1d& weighed(const Weigh& weigh);
+  /// The same of an image of weighedSize(), in place of the relief.
+  template <typename Weigh>
+  const cv::Mat1d& weighed(const cv::Mat1d& image, const Weigh& weigh);
+  /// Of what weighed() returns: mirror images included.
+  cv::Size weighedSize() const { return frame_.size(); }
+  double blockArea() const { return block_width_ * block_height_; }  ///< [m^2]
+  double blockWidth() const { return block_width_; }                 ///< along x [m]
+  double blockHeight() const { return block_height_; }               ///< along y [m]
   /// Rows and columns of blocks of the frame itself.
   cv::Size blocks() const { return blocks_; }
   /// Whether the frame repeats itself, or is mirrored.
@@ -33,6 +41,8 @@ class ReliefSpectrum {
   void takeBlocks(const GapField& field, double longest_block);
   void takeWaveNumbers();
   bool repeatsItself() const;
+  template <typename Weigh>
+  const cv::Mat1d& backFrom(const cv::Mat2d& spectrum, const Weigh& weigh);
 
   cv::Size blocks_;
   double block_width_ = 0.0;   ///< along x [m]
@@ -42,6 +52,7 @@ class ReliefSpectrum {
   std::vector<double> line_;
   cv::Mat1d frame_;  ///< with mirror images
   cv::Mat2d spectrum_;
+  cv::Mat2d image_spectrum_;
   cv::Mat1d wave_numbers_;  ///< [1/m]
   cv::Mat2d weighed_spectrum_;
   cv::Mat1d weighed_;
@@ -49,10 +60,21 @@ class ReliefSpectrum {
 
 template <typename Weigh>
 const cv::Mat1d& ReliefSpectrum::weighed(const Weigh& weigh) {
-  weighed_spectrum_.create(spectrum_.size());
-  for (int row = 0; row < spectrum_.rows; ++row) {
-    for (int col = 0; col < spectrum_.cols; ++col) {
-      weighed_spectrum_(row, col) = spectrum_(row, col) * weigh(wave_numbers_(row, col));
+  return backFrom(spectrum_, weigh);
+}
+
+template <typename Weigh>
+const cv::Mat1d& ReliefSpectrum::weighed(const cv::Mat1d& image, const Weigh& weigh) {
+  cv::dft(image, image_spectrum_, cv::DFT_COMPLEX_OUTPUT);
+  return backFrom(image_spectrum_, weigh);
+}
+
+template <typename Weigh>
+const cv::Mat1d& ReliefSpectrum::backFrom(const cv::Mat2d& spectrum, const Weigh& weigh) {
+  weighed_spectrum_.create(spectrum.size());
+  for (int row = 0; row < spectrum.rows; ++row) {
+    for (int col = 0; col < spectrum.cols; ++col) {
+      weighed_spectrum_(row, col) = spectrum(row, col) * weigh(wave_numbers_(row, col));
     }
   }
   cv::dft(weighed_spectrum_, weighed_, cv::DFT_INVERSE | cv::DFT_SCALE | cv::DFT_REAL_OUTPUT);

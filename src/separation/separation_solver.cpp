@@ -33,7 +33,7 @@ void SeparationSolver::solveSettled(const ContactProblem& problem, ContactSoluti
   if (bent_.isStiff() || solution.is_conforming) return;
   solution.energies.elastic += bent_.energyAtRest() * curve_.frame().area();
   const BentContact::Parting& parting = bent_.parting();
-  const GapField& strongest = bent_.bent(parting.bed_stiffness);
+  const GapField& strongest = bent_.strongest();
   curve_.comeToRest(strongest, settings);
   curve_.part();
   const WayOut& way_out = curve_.byContacts();
