@@ -1,5 +1,6 @@
 #include "mems_stiction/configuration/configuration.hpp"
 
+#include "contact/guidance_setting.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "surface/counter_surface.hpp"
 
@@ -15,6 +16,7 @@ void Configuration::describe(OptionVisitor& visitor) {
   preprocessing.describe(visitor);
   counter_surface.describe(visitor);
   device.describe(visitor);
+  describeGuidance(visitor, model.guidance);
   device_force.describe(visitor);
   uncertainty.describe(visitor);
   half_space.describe(visitor);

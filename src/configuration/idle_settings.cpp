@@ -51,6 +51,8 @@ constexpr Idle kIdle[] = {
     {"counter_surface/self_affine/", isNotOfType<CounterSurfaceType::kSelfAffine>, kNotSelfAffine},
     {"output/hurst_", [](const Configuration& all) { return !all.spatial_roughness.enabled; },
      "output/spatial_roughness is false"},
+    {"device/guidance", [](const Configuration& all) { return all.model.formulation != kDefaultFormulation; },
+     "the separation curve alone lets a part tilt"},
     {"device/contacts", [](const Configuration& all) { return all.device.contact_area == 0.0; },
      "device/contact_area is 0"},
     {"device_force/realisations", isWithoutDeviceForce, kNoDeviceForce},

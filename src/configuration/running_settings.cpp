@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "contact/guidance_setting.hpp"
+
 namespace mems_stiction {
 namespace {
 
@@ -17,6 +19,7 @@ RunningSettings::RunningSettings(const Configuration& configuration)
       capillary(configuration.model.capillary),
       load(configuration.model.load),
       device(configuration.device),
+      guidance(configuration.model.guidance),
       paper(configuration.model.paper) {}
 
 void RunningSettings::describe(OptionVisitor& visitor) {
@@ -24,6 +27,7 @@ void RunningSettings::describe(OptionVisitor& visitor) {
   capillary.describe(visitor);
   load.describe(visitor);
   device.describe(visitor);
+  describeGuidance(visitor, guidance);
   paper.describe(visitor);
 }
 
@@ -41,6 +45,7 @@ void SettingsOwner::change(const RunningSettings& settings) {
   configuration.model.capillary = settings.capillary;
   configuration.model.load = settings.load;
   configuration.device = settings.device;
+  configuration.model.guidance = settings.guidance;
   configuration.model.paper = settings.paper;
   configuration_ = checked(std::move(configuration));
 }

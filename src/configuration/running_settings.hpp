@@ -20,6 +20,7 @@ struct RunningSettings {
   CapillaryOptions capillary;
   LoadOptions load;
   DeviceOptions device;
+  Guidance guidance;  ///< of the section device, too
   PaperOptions paper;
 
   explicit RunningSettings(const Configuration& configuration);

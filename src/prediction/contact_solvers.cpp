@@ -23,14 +23,13 @@ std::unique_ptr<ContactSolver> make() {
   return std::make_unique<Solver>(Arguments...);
 }
 
-/// What neither of the paper's formulations has.
-std::vector<UnusedSetting> unusedByPaper(const ContactSettings&) { return {{"device/guidance"}}; }
+std::vector<UnusedSetting> usesAll(const ContactSettings&) { return {}; }
 
 /// A line per solver, the default first.
 constexpr Entry kSolvers[] = {
     {"separation_curve", make<SeparationSolver>, CurveStatement::unusedSettings, true},
-    {"paper", make<AsperitySolver, Formulation::kPaper>, unusedByPaper, false},
-    {"printed", make<AsperitySolver, Formulation::kPrinted>, unusedByPaper, false},
+    {"paper", make<AsperitySolver, Formulation::kPaper>, usesAll, false},
+    {"printed", make<AsperitySolver, Formulation::kPrinted>, usesAll, false},
 };
 
 /// What only condensed water needs.

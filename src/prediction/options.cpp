@@ -21,8 +21,6 @@ void Options::describe(OptionVisitor& visitor) {
   visitor.enumeration("approach/deformation", deformation,
                       {{"three_regimes", Deformation::kThreeRegimes}, {"elastic", Deformation::kElastic}},
                       "elastic, elasto-plastic and plastic asperities, or all of them elastic");
-  visitor.enumeration("device/guidance", guidance, {{"guided", Guidance::kGuided}, {"free", Guidance::kFree}},
-                      "whether the part stays level as it touches, or tilts until it rests on three contacts");
   paper.describe(visitor);
   output.describe(visitor);
 }
