@@ -76,6 +76,12 @@ bool fitsIn(const MadeSize& size, const OwnLongWaves& own) {
          own.heights.rows * own.pitch_y >= kRounding * size.sideY();
 }
 
+/// Large blocks are worth their kernel where many pixels are made of them.
+BlockChoice blocksOf(const MadeSize& size) {
+  constexpr std::int64_t kFewPixels = 1 << 20;
+  return size.rows * size.cols > kFewPixels ? BlockChoice::kFast : BlockChoice::kSmall;
+}
+
 TiledSurface fieldOf(const SurfaceLaw& law, const SpectrumContinuation& continuation, const MadeSize& size,
                      double longest_wave, bool has_own, std::uint64_t seed) {
   const bool is_short = law.non_gaussian_share > 0.0 && law.split_wave_number > 0.0;
@@ -85,7 +91,7 @@ TiledSurface fieldOf(const SurfaceLaw& law, const SpectrumContinuation& continua
     return has_own ? law.own->openShare(q) : 1.0;
   };
   return TiledSurface(tableOf(merged, continuation, longest_wave, pass), size.rows, size.cols, size.pitch_x,
-                      size.pitch_y, seed);
+                      size.pitch_y, seed, std::nullopt, blocksOf(size));
 }
 
 }  // namespace
@@ -120,7 +126,7 @@ MadeSurface::MadeSurface(const SurfaceLaw& law, const SpectrumContinuation& cont
         return (1.0 - high * high) * (has_own_ ? law.own->openShare(q) : 1.0);
       };
       long_waves_.emplace(tableOf(law.heights, continuation, longest_wave, pass), size.rows, size.cols, size.pitch_x,
-                          size.pitch_y, 2 * seed + 1);
+                          size.pitch_y, 2 * seed + 1, std::nullopt, blocksOf(size));
     }
   }
   drawPlace(seed);

@@ -22,8 +22,6 @@ constexpr double kWholeCells =
 constexpr int kMostLevels = 24;
 constexpr double kLargestCount = 1e9;
 constexpr std::size_t kRememberedBytes = std::size_t{12} << 20U;  ///< of blocks, on each level
-/// Pixels of a surface that are made sooner than the kernel of large blocks.
-constexpr std::int64_t kFewPixels = 1 << 20;
 /// Blocks that meet at a corner: with fewer, each of them would make those of the coarser level anew.
 constexpr std::size_t kLeastRemembered = 4;
 
@@ -201,7 +199,7 @@ void checkPitch(const char* name, double pitch, std::vector<std::string>& violat
 class TiledSurface::Levels {
  public:
   Levels(const SurfaceSpectrum& spectrum, std::int64_t rows, std::int64_t cols, double pitch_x, double pitch_y,
-         std::uint64_t seed, std::optional<HeightTranslation> translation)
+         std::uint64_t seed, std::optional<HeightTranslation> translation, BlockChoice finest)
       : rows_(rows), cols_(cols), translation_(std::move(translation)) {
     check(spectrum, pitch_x, pitch_y);
     const RoundWaves waves(spectrum, pitch_x, pitch_y);
@@ -218,7 +216,7 @@ class TiledSurface::Levels {
         return window == 0.0 ? 0.0 : window * std::sqrt(spectrum.densityAt(q) / cell_area);
       };
       BlockLayout layout;
-      layout.choice = level == 0 && rows * cols > kFewPixels ? BlockChoice::kFast : BlockChoice::kSmall;
+      layout.choice = level == 0 ? finest : BlockChoice::kSmall;
       layout.reach_rows = waves.reachOverRows();
       layout.reach_cols = waves.reachOverCols();
       layout.for_spline = level > 0;
@@ -322,8 +320,9 @@ class TiledSurface::Levels {
 };
 
 TiledSurface::TiledSurface(const SurfaceSpectrum& spectrum, std::int64_t rows, std::int64_t cols, double pitch_x,
-                           double pitch_y, std::uint64_t seed, std::optional<HeightTranslation> translation)
-    : levels_(std::make_unique<Levels>(spectrum, rows, cols, pitch_x, pitch_y, seed, std::move(translation))) {}
+                           double pitch_y, std::uint64_t seed, std::optional<HeightTranslation> translation,
+                           BlockChoice blocks)
+    : levels_(std::make_unique<Levels>(spectrum, rows, cols, pitch_x, pitch_y, seed, std::move(translation), blocks)) {}
 
 TiledSurface::~TiledSurface() = default;
 TiledSurface::TiledSurface(TiledSurface&&) noexcept = default;

@@ -37,6 +37,7 @@
 #include <opencv2/core.hpp>
 
 #include "roughness/surface_spectrum.hpp"
+#include "surface/block_convolution.hpp"
 #include "surface/height_translation.hpp"
 
 namespace mems_stiction {
@@ -47,9 +48,11 @@ class TiledSurface {
  public:
   /// - @p spectrum of the heights, or of the normal numbers that `translation` turns into heights: then its scale has no effect
   /// - @p rows, @p cols from 1 to 10^9
+  /// - @p blocks kSmall is made sooner where few pixels are wanted; heights then differ by rounding
   /// @throw OptionsError naming each value that is not allowed.
   TiledSurface(const SurfaceSpectrum& spectrum, std::int64_t rows, std::int64_t cols, double pitch_x, double pitch_y,
-               std::uint64_t seed, std::optional<HeightTranslation> translation = std::nullopt);
+               std::uint64_t seed, std::optional<HeightTranslation> translation = std::nullopt,
+               BlockChoice blocks = BlockChoice::kFast);
   ~TiledSurface();
   TiledSurface(TiledSurface&&) noexcept;
   TiledSurface& operator=(TiledSurface&&) noexcept;
