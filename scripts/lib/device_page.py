@@ -61,7 +61,7 @@ def tables(rows):
     parts = []
     for case, side, found in groups(rows):
         warned = [row for row in found if warned_of_long_waves(row)]
-        parts += ["### %s, of %d x %d pixels" % (CASES[case].capitalize(), side, side), "", COLUMNS.format("kind")]
+        parts += ["### %s; surfaces of %d x %d pixels" % (CASES[case].capitalize(), side, side), "", COLUMNS.format("kind")]
         for kind in [kind for kind in device_surfaces.KINDS if any(row["kind"] == kind for row in found)]:
             parts.append(line(kind, [row for row in found if row["kind"] == kind]))
         parts.append(line("all", found))
@@ -108,7 +108,7 @@ def figure(rows, path):
         axis.set_ylim(0.05, 200)
         axis.set_yticks([0.1, 1, 10, 100])
         axis.set_yticklabels(["0.1", "1", "10", "100"])
-        axis.set_title("%s, of %d x %d pixels" % (CASES[case], side, side), fontsize=10, loc="left")
+        axis.set_title("%s; surfaces of %d x %d pixels" % (CASES[case], side, side), fontsize=10, loc="left")
     axes[-1][0].set_xticks(range(len(kinds)))
     axes[-1][0].set_xticklabels(kinds)
     axes[-1][0].set_xlim(-0.5, len(kinds) - 0.5)

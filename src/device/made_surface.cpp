@@ -83,7 +83,7 @@ BlockChoice blocksOf(const MadeSize& size) {
 }
 
 TiledSurface fieldOf(const SurfaceLaw& law, const SpectrumContinuation& continuation, const MadeSize& size,
-                     double longest_wave, bool has_own, std::uint64_t seed) {
+                     double longest_wave, bool has_own, std::uint64_t seed, BlockChoice blocks) {
   const bool is_short = law.non_gaussian_share > 0.0 && law.split_wave_number > 0.0;
   const MergedSpectrum& merged = law.non_gaussian_share > 0.0 ? law.numbers : law.heights;
   const auto pass = [&](double q) {
@@ -91,7 +91,7 @@ TiledSurface fieldOf(const SurfaceLaw& law, const SpectrumContinuation& continua
     return has_own ? law.own->openShare(q) : 1.0;
   };
   return TiledSurface(tableOf(merged, continuation, longest_wave, pass), size.rows, size.cols, size.pitch_x,
-                      size.pitch_y, seed, std::nullopt, blocksOf(size));
+                      size.pitch_y, seed, std::nullopt, blocks);
 }
 
 }  // namespace
@@ -113,10 +113,10 @@ SpectrumContinuation drawnContinuation(const SurfaceLaw& law, double side, std::
 }
 
 MadeSurface::MadeSurface(const SurfaceLaw& law, const SpectrumContinuation& continuation, const MadeSize& size,
-                         double longest_wave, std::uint64_t seed)
+                         double longest_wave, std::uint64_t seed, BlockChoice blocks)
     : law_(&law),
       size_(size),
-      field_(fieldOf(law, continuation, size, longest_wave, law.own && fitsIn(size, *law.own), 2 * seed)),
+      field_(fieldOf(law, continuation, size, longest_wave, law.own && fitsIn(size, *law.own), 2 * seed, blocks)),
       has_own_(law.own && fitsIn(size, *law.own)) {
   if (law.non_gaussian_share > 0.0) {
     translation_.emplace([&](double g) { return law.marginal.heightOf(g); });
@@ -126,7 +126,7 @@ MadeSurface::MadeSurface(const SurfaceLaw& law, const SpectrumContinuation& cont
         return (1.0 - high * high) * (has_own_ ? law.own->openShare(q) : 1.0);
       };
       long_waves_.emplace(tableOf(law.heights, continuation, longest_wave, pass), size.rows, size.cols, size.pitch_x,
-                          size.pitch_y, 2 * seed + 1, std::nullopt, blocksOf(size));
+                          size.pitch_y, 2 * seed + 1, std::nullopt, blocks);
     }
   }
   drawPlace(seed);
@@ -236,7 +236,7 @@ std::vector<HeightMap> ScanMaker::make(const SpectrumContinuation& continuation,
       kind.surface->reseed(seed);
     } else {
       kind.surface.emplace(kind.has_own ? *law_ : without_own_, continuation, kind.size,
-                           std::max({longest_wave_, kind.size.sideX(), kind.size.sideY()}), seed);
+                           std::max({longest_wave_, kind.size.sideX(), kind.size.sideY()}), seed, blocksOf(kind.size));
     }
     cv::Mat heights(static_cast<int>(kind.size.rows), static_cast<int>(kind.size.cols), CV_32FC1);
     kind.surface->heights(0, 0, heights);

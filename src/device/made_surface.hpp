@@ -52,7 +52,7 @@ class MadeSurface {
   /// - @p law must outlive the object
   /// - @p longest_wave longer ones are left out: they tilt it [m]
   MadeSurface(const SurfaceLaw& law, const SpectrumContinuation& continuation, const MadeSize& size,
-              double longest_wave, std::uint64_t seed);
+              double longest_wave, std::uint64_t seed, BlockChoice blocks = BlockChoice::kFast);
 
   /// Goes on as the surface of another seed: the same as a new one, but sooner.
   void reseed(std::uint64_t seed);
