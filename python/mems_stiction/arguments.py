@@ -3,7 +3,24 @@
 import argparse
 import math
 
+from mems_stiction.version import version
+
 PICTURES = (".png", ".pdf", ".svg")
+
+
+class PrintVersion(argparse.Action):
+    """As the programs print it; found only when it is asked for."""
+
+    def __init__(self, option_strings, dest, **_):
+        super().__init__(option_strings, dest, nargs=0, default=argparse.SUPPRESS, help="print the version and end")
+
+    def __call__(self, parser, *_):
+        parser.exit(message="%s of mems_stiction %s\n" % (parser.prog, version()))
+
+
+def add_version(parser):
+    """--version, as every program of the package has it."""
+    parser.add_argument("--version", action=PrintVersion)
 
 
 def number(text):

@@ -12,6 +12,7 @@
 #include "bindings.hpp"
 #include "evaluation/plausibility.hpp"
 #include "mems_stiction/configuration/configuration_yaml.hpp"
+#include "mems_stiction/configuration/provenance.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "settings/option_yaml.hpp"
 
@@ -80,6 +81,7 @@ void bindErrors(py::module& module) {
 }
 
 void bindSettings(py::module& module) {
+  module.def("version", &packageVersion, "of the package, which the core was compiled with");
   py::class_<Configuration>(module, "Configuration")
       .def(py::init<>())
       .def(

@@ -101,7 +101,7 @@ std::vector<std::string> inputsOf(const BatchArguments& arguments) {
     }
   }
   if (inputs.empty()) throw OptionsError({"INPUT: no bag and no scan file is given"});
-  return withoutSidecars(inputs);
+  return scansOf(inputs);
 }
 
 Configuration configurationOf(const BatchArguments& arguments) {

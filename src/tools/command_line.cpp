@@ -2,10 +2,13 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
 
 #include "files/output_file.hpp"
+#include "mems_stiction/configuration/provenance.hpp"
 #include "numeric/words.hpp"
 
 namespace mems_stiction {
@@ -27,7 +30,50 @@ std::vector<std::string> namesOf(const CLI::App& app) {
   return names;
 }
 
+/// Not hidden, and not of an ending that no scan has.
+bool mayHoldScan(const fs::path& file) {
+  constexpr const char* kOthers[] = {".yaml", ".yml", ".md",   ".rst",   ".html", ".pdf",
+                                     ".py",   ".sh",  ".json", ".jsonl", ".log",  ".zip"};
+  const std::string name = file.filename().string();
+  return name.front() != '.' &&
+         std::find(std::begin(kOthers), std::end(kOthers), file.extension().string()) == std::end(kOthers);
+}
+
 }  // namespace
+
+std::vector<std::string> scansOf(const std::vector<std::string>& paths) {
+  std::vector<std::string> files;
+  for (const std::string& path : paths) {
+    std::error_code error;
+    if (!fs::is_directory(path, error) || fs::path(path).extension() == ".bag") {  // a bag that is a folder is a slip
+      files.push_back(path);
+      continue;
+    }
+    std::vector<std::string> inside;
+    for (fs::directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error)) {
+      std::error_code ignored;
+      if (entry->is_regular_file(ignored) && mayHoldScan(entry->path())) inside.push_back(entry->path().string());
+    }
+    if (error) throw FileError(path + ": cannot be read: " + error.message());
+    if (inside.empty()) throw FileError(path + ": holds no scan file");
+    std::sort(inside.begin(), inside.end());
+    files.insert(files.end(), inside.begin(), inside.end());
+  }
+  return withoutSidecars(files);
+}
+
+bool asksVersion(int argc, char** argv) {
+  for (int i = 1; i < argc && std::strcmp(argv[i], "--") != 0; ++i) {
+    if (std::strcmp(argv[i], "--version") == 0) return true;
+  }
+  return false;
+}
+
+void addVersion(CLI::App& app) { app.add_flag("--version", "print the version and end"); }
+
+void printVersion(const std::string& program) {
+  std::cout << program << " of mems_stiction " << packageVersion() << std::endl;
+}
 
 std::string parseFailure(const CLI::App& app, const CLI::Error& error) {
   constexpr const char* kHelp = "; --help shows all options";

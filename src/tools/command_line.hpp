@@ -55,6 +55,16 @@ std::string parseFailure(const CLI::App& app, const CLI::Error& error);
 /// @throw OptionsError
 void requireOutput(const std::string& option, const std::string& path, const std::vector<std::string>& inputs);
 
+/// The scan files that the arguments of a program name: those of a folder, by name, in its place; sidecars aside. A folder's
+/// hidden files, folders and files that hold no scan by their ending (.yaml, .md, .py, ...) are left out.
+/// @throw FileError for a folder without any
+std::vector<std::string> scansOf(const std::vector<std::string>& paths);
+
+/// "--version" is among the arguments. Then it is all that is asked for.
+bool asksVersion(int argc, char** argv);
+void addVersion(CLI::App& app);
+void printVersion(const std::string& program);
+
 /// Numbers above 0, as an option's check.
 std::string positive(const std::string& text);
 
@@ -63,7 +73,7 @@ std::string positive(const std::string& text);
 template <typename Handler>
 int forEachScan(const std::string& program, const std::vector<std::string>& scans, Handler&& handle) {
   int status = 0;
-  for (const std::string& path : withoutSidecars(scans)) {
+  for (const std::string& path : scansOf(scans)) {
     try {
       handle(path);
     } catch (const std::exception& error) {
@@ -80,9 +90,14 @@ template <typename Arguments, typename Describe, typename Run>
 int runProgram(const std::string& program, int argc, char** argv, Describe&& describe, Run&& run) {
   cleanUpWhenInterrupted();
   try {
+    if (asksVersion(argc, argv)) {
+      printVersion(program);
+      return 0;
+    }
     CLI::App app;
     Arguments arguments;
     describe(app, arguments);
+    addVersion(app);
     try {
       app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

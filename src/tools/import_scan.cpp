@@ -158,4 +158,9 @@ int run(const Arguments& arguments) {
 
 }  // namespace
 
-int main(int argc, char** argv) { return runProgram<Arguments>("import_scan", argc, argv, describe, run); }
+int main(int argc, char** argv) {
+  return runProgram<Arguments>("import_scan", argc, argv, describe, [](Arguments arguments) {
+    arguments.scans = scansOf(arguments.scans);
+    return run(arguments);
+  });
+}

@@ -202,7 +202,7 @@ int run(const Arguments& arguments) {
   ScanFileOptions file_options;
   file_options.pitch_x = file_options.pitch_y = arguments.pitch;
   ScanBag bag(arguments);
-  for (const std::string& path : withoutSidecars(arguments.scans)) {
+  for (const std::string& path : scansOf(arguments.scans)) {
     std::optional<ScanFile> scan;
     try {
       if (fs::path(path).extension() == ".bag") throw FileError(path + ": is a bag already; rosbag filter joins bags");

@@ -188,9 +188,9 @@ void predictDevice(const Arguments& arguments, const Configuration& configuratio
 }
 
 int run(const Arguments& arguments) {
-  const std::vector<std::string> paths = withoutSidecars(arguments.scans);
+  const std::vector<std::string> paths = scansOf(arguments.scans);
   const std::vector<InputScan> inputs = inputsOf(arguments, paths, false);
-  const std::vector<InputScan> counter_inputs = inputsOf(arguments, withoutSidecars(arguments.counter_surface), true);
+  const std::vector<InputScan> counter_inputs = inputsOf(arguments, scansOf(arguments.counter_surface), true);
   const Configuration configuration = configurationOf(arguments);
   requirePicture(arguments);
   for (const std::string& warning : settingsWarnings(configuration)) warn("predict_device", warning);

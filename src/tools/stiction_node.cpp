@@ -62,6 +62,11 @@ int run(int argc, char** argv) {
   app.add_flag("--take-over", takes_over,
                "if a node of this name runs, end it and take its place; else that is refused");
   app.footer("Exit status: 0 ended, 1 it cannot start, 2 bad command line.");
+  if (asksVersion(argc, argv)) {
+    printVersion("stiction_node");
+    return EXIT_SUCCESS;
+  }
+  addVersion(app);
   ros::V_string stated;
   ros::removeROSArgs(argc, argv, stated);
   try {

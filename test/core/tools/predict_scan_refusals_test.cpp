@@ -68,6 +68,9 @@ TEST_F(PredictScan, UnitSlipsAreWarnedOfOnStandardError) {
 TEST_F(PredictScan, WhatIsMistypedIsNamedWithWhatIsAllowed) {
   const std::string scan = sphere();
   const std::string settings = folder_.write("part.yaml", "load: {voltage: 0}\n");
+  std::filesystem::create_directories(folder_.file("none/of scans"));
+  folder_.write("none/README.md", "no scan");
+  folder_.write("none/.hidden", "no scan");
   const std::vector<std::pair<std::string, std::string>> slips = {
       {"", "predict_scan: SCAN is required; --help shows all options"},
       {"--piych 20e-9 " + scan, "--piych: there is no such option (did you mean --pitch?)"},
@@ -76,7 +79,7 @@ TEST_F(PredictScan, WhatIsMistypedIsNamedWithWhatIsAllowed) {
       {"--pitch 20e-9 " + settings, "part.yaml: is a file of settings, not a scan; give it with --config"},
       {"--pitch 20e-9 " + folder_.write("a.bag", "#ROSBAG V2.0\n"), "a.bag: is a bag; stiction_batch predicts"},
       {"--pitch 20e-9 -c " + folder_.file(".") + " " + scan, "is a folder, not a configuration file"},
-      {"--pitch 20e-9 " + folder_.file("."), "is a folder, not a scan"},
+      {"--pitch 20e-9 " + folder_.file("none"), "none: holds no scan file"},
       {"--pitch 20e-9 " + folder_.write("empty.tiff", ""), "empty.tiff: is empty"}};
   for (const auto& [arguments, expected] : slips) {
     const Outcome outcome = run(arguments);

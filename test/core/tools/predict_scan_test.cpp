@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <sstream>
@@ -51,6 +52,34 @@ TEST_F(PredictScan, JsonIsOneObjectPerLine) {
     EXPECT_EQ(record["pitch_y"].get<double>(), 30e-9);
   }
   EXPECT_EQ(count, 2);
+}
+
+TEST_F(PredictScan, AFolderIsItsScansByName) {
+  std::filesystem::create_directories(folder_.file("scans/deeper"));
+  const std::string pixels = ScratchFolder::read(sphere());
+  for (const char* name : {"b.tiff", "a.tiff", "deeper/c.tiff", ".d.tiff"})
+    folder_.write(std::string("scans/") + name, pixels);
+  folder_.write("scans/b.tiff.yaml", "pitch_x: 30.0e-9\npitch_y: 30.0e-9\n");
+  folder_.write("scans/README.md", "no scan");
+  folder_.write("scans/a.tiff.yaml", "pitch_x: 20.0e-9\npitch_y: 20.0e-9\n");
+  const Outcome outcome = run("--json " + folder_.file("scans"));
+  EXPECT_EQ(outcome.status, 0);
+  std::istringstream lines(outcome.output);
+  std::vector<std::pair<std::string, double>> found;
+  for (std::string line; std::getline(lines, line);) {
+    const nlohmann::json record = nlohmann::json::parse(line);
+    found.emplace_back(record["scan_name"], record["pitch_x"]);
+  }
+  EXPECT_EQ(found, (std::vector<std::pair<std::string, double>>{{"a", 20e-9}, {"b", 30e-9}}));
+  const Outcome refused = run("--deformed " + folder_.file("out.tiff") + " " + folder_.file("scans"));
+  EXPECT_EQ(refused.status, 2) << "one file cannot hold what belongs to two scans";
+}
+
+TEST_F(PredictScan, TheVersionIsAllThatIsAskedFor) {
+  const Outcome outcome = run("--version --no-such-option");
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_TRUE(std::regex_match(outcome.output, std::regex("predict_scan of mems_stiction \\d+\\.\\d+\\.\\d+\n")))
+      << outcome.output;
 }
 
 TEST_F(PredictScan, ConfigurationFileAndOptionsMeet) {
