@@ -48,10 +48,12 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
+    if name == "__version__":
+        return import_module("mems_stiction.version").version()
     if name not in _MODULE_OF:
         raise AttributeError("module 'mems_stiction' has no attribute '%s'" % name)
     return getattr(import_module("mems_stiction." + _MODULE_OF[name]), name)
 
 
 def __dir__() -> List[str]:
-    return sorted(set(globals()) | set(__all__))
+    return sorted(set(__all__) | {"__version__"} | {name for name in globals() if name.startswith("__")})

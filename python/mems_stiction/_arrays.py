@@ -114,7 +114,9 @@ def pitch_of(pitch: Pitch) -> Tuple[float, float]:
 
 
 def _shape_text(array: np.ndarray, what: str) -> str:
-    return "%s: an array of shape %s is not allowed, must have two dimensions, rows x columns" % (what, array.shape)
+    line = ("; one line says nothing of the contacts beside it: of a surface of grooves, repeat the line as the rows of an array"
+            if array.ndim == 1 or array.ndim == 2 and 1 in array.shape else "")
+    return "%s: an array of shape %s is not allowed, must have two dimensions, rows x columns%s" % (what, array.shape, line)
 
 
 def pixels_of(heights: Any, what: str = "heights") -> np.ndarray:
@@ -162,6 +164,19 @@ def records_of(records: _core.Records) -> np.recarray:
     memory = np.asarray(records.bytes)
     memory.flags.writeable = False
     return memory.view(layout).view(np.recarray)
+
+
+class ReadOnly:
+    """A result: what was found stays as it was found."""
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if not name.startswith("_"):
+            raise AttributeError("%s.%s: a result cannot be changed; predict with other settings, or take a copy of its figures" % (
+                type(self).__name__, name))
+        super().__setattr__(name, value)
+
+    def __delattr__(self, name: str) -> None:
+        raise AttributeError("%s.%s: a result cannot be changed" % (type(self).__name__, name))
 
 
 def explained(kind: Kind) -> Kind:

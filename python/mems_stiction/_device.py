@@ -9,7 +9,7 @@ from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
 import numpy as np
 
 from mems_stiction import _core
-from mems_stiction._arrays import Pitch, Surface, array_of, explained, records_of, surface_of
+from mems_stiction._arrays import Pitch, ReadOnly, Surface, array_of, explained, records_of, surface_of
 from mems_stiction._inputs import brings_pitch, section_or_surface
 from mems_stiction._prediction import Verdict
 from mems_stiction._settings import Config, Settings, SurfaceError, settings_with
@@ -21,7 +21,7 @@ Pitches = Union[Pitch, Sequence[Optional[Pitch]]]
 
 
 @explained
-class DeviceForce(_core.DeviceForceFigures):
+class DeviceForce(_core.DeviceForceFigures, ReadOnly):
     """What holds a device, by all scans of its surfaces; NaN: not known.
 
     realisations: a record for each made surface: pull_off_force [N], apparent_work_of_adhesion [J/m^2], contacts,
@@ -35,12 +35,15 @@ class DeviceForce(_core.DeviceForceFigures):
     def __init__(self, core: _core.DevicePrediction) -> None:
         self.__dict__.update(core.figures)
         verdict = core.verdict
-        self.verdict = None if verdict is None else Verdict(verdict)
-        self.scans = tuple(core.scans)
-        self.warnings = tuple(core.warnings)
-        self.realisations: np.recarray = records_of(core.realisations)
-        self.parts_of_scans: np.recarray = records_of(core.parts_of_scans)
-        self.spectrum: np.recarray = records_of(core.spectrum)
+        self.verdict: Optional[Verdict]
+        self.scans: Tuple[str, ...]
+        self.warnings: Tuple[str, ...]
+        self.realisations: np.recarray
+        self.parts_of_scans: np.recarray
+        self.spectrum: np.recarray
+        self.__dict__.update(
+            verdict=None if verdict is None else Verdict(verdict), scans=tuple(core.scans), warnings=tuple(core.warnings),
+            realisations=records_of(core.realisations), parts_of_scans=records_of(core.parts_of_scans), spectrum=records_of(core.spectrum))
         surface = core.made_surface
         self._made_surface = None if surface.pixels is None else (np.array(array_of(surface.pixels)), surface.pitch[0])
         self._json = core.json()

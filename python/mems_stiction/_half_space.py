@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict, Optional
+import os
+from typing import Any, Dict, Optional, Union
 
 import numpy as np
 
 from mems_stiction import _core
-from mems_stiction._arrays import Pitch, Surface, array_of, explained, records_of
+from mems_stiction._arrays import Pitch, ReadOnly, Surface, array_of, explained, records_of
 from mems_stiction._inputs import inputs_of
 from mems_stiction._prediction import Verdict
 from mems_stiction._settings import Config
@@ -15,7 +16,7 @@ from mems_stiction.quantities import percent, with_unit
 
 
 @explained
-class HalfSpace(_core.HalfSpaceFigures):
+class HalfSpace(_core.HalfSpaceFigures, ReadOnly):
     """What the half-space answers. Forces and areas are of the frame, attraction is positive; NaN: not reached.
 
     verdict: on the device, by the half-space if it can judge, else by a prediction of the same surfaces (verdict_by says
@@ -30,20 +31,30 @@ class HalfSpace(_core.HalfSpaceFigures):
 
         self.__dict__.update(core.figures)
         verdict = core.verdict
-        self.verdict = None if verdict is None else Verdict(verdict)
-        self.name = surface.name
+        self.verdict: Optional[Verdict]
+        self.name: str
         #: force over height, both ways: height [m] over first touch, force [N], direction (0 approach, 1 retraction)
-        self.curve: np.recarray = records_of(core.curve)
+        self.curve: np.recarray
         #: between the surfaces at rest [Pa], repulsion positive; None if there is no rest, as the maps below
-        self.pressure = view(core.pressure)
+        self.pressure: Optional[np.ndarray]
         #: at rest [m]
-        self.gap = view(core.gap)
+        self.gap: Optional[np.ndarray]
         #: 0 apart, 1 elastic, 3 plastic
-        self.contact_map = view(core.contact_map)
+        self.contact_map: Optional[np.ndarray]
         #: the scan after contact [m]: what flowed is missing
-        self.deformed_lower = view(core.deformed_lower.pixels)
+        self.deformed_lower: Optional[np.ndarray]
         #: the same of the upper surface; None if it is flat and harder
-        self.deformed_upper = view(core.deformed_upper.pixels)
+        self.deformed_upper: Optional[np.ndarray]
+        self.__dict__.update(
+            verdict=None if verdict is None else Verdict(verdict), name=surface.name, curve=records_of(core.curve), pressure=view(core.pressure),
+            gap=view(core.gap), contact_map=view(core.contact_map), deformed_lower=view(core.deformed_lower.pixels),
+            deformed_upper=view(core.deformed_upper.pixels))
+
+    def save_picture(self, path: Union[str, "os.PathLike[str]"]) -> None:
+        """PNG: pressure at rest, and force over height."""
+        from mems_stiction import _pictures
+
+        _pictures.save_half_space(self, os.fspath(path))
 
     def __getstate__(self) -> Dict[str, Any]:
         return {name: np.array(value).view(type(value)) if isinstance(value, np.ndarray) else value

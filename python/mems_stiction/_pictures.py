@@ -99,10 +99,23 @@ def half_space_html(solution: HalfSpace) -> str:
         rows.append(("does the device stick?", solution.verdict.summary))
     if solution.status != "SOLVED":
         rows.append(("why", solution.message))
+    return _table(rows) + _embedded(_half_space_figure(solution))
+
+
+def save_half_space(solution: HalfSpace, path: str) -> None:
+    """As the notebook shows it, on a page of its own."""
+    figure = _half_space_figure(solution)
+    figure.set_dpi(2 * DPI)
+    figure.suptitle("%s: %s, pull-off force %s" % (solution.name or "half-space", solution.status.lower().replace("_", " "),
+                                                   plots.with_unit(solution.pull_off_force, "N")), y=0.99, fontsize=12)
+    plots.save(figure, path)
+
+
+def _half_space_figure(solution: HalfSpace) -> Figure:
     figure = Figure(figsize=(10, 4.8), dpi=DPI)
-    grid = figure.add_gridspec(1, 2, left=0.07, right=0.985, top=0.92, bottom=0.14, wspace=0.3)
+    grid = figure.add_gridspec(1, 2, left=0.07, right=0.985, top=0.88, bottom=0.14, wspace=0.3)
     left, right = figure.add_subplot(grid[0]), figure.add_subplot(grid[1])
-    left.set_title("Pressure at rest [GPa]", fontsize=11)
+    left.set_title("Pressure at rest [GPa], by column and row", fontsize=11)
     if solution.pressure is None:
         left.set_axis_off()
     else:
@@ -111,4 +124,4 @@ def half_space_html(solution: HalfSpace) -> str:
     right.set_title("Force over height", fontsize=11)
     if len(solution.curve):
         draw_curves(right, [curve_of("half-space", solution.curve, solution.pull_off_force)])
-    return _table(rows) + _embedded(figure)
+    return figure

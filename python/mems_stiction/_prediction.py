@@ -14,7 +14,7 @@ from typing import Any, Dict, Iterable, Iterator, List, Optional, Tuple, Union
 import numpy as np
 
 from mems_stiction import _core
-from mems_stiction._arrays import Pitch, Surface, array_of, explained, records_of, surface_of
+from mems_stiction._arrays import Pitch, ReadOnly, Surface, array_of, explained, records_of, surface_of
 from mems_stiction._inputs import brings_pitch, counter_of, section_or_surface, warn_about
 from mems_stiction._scans import Roughness
 from mems_stiction._settings import Config, Error, OptionsError, Settings
@@ -22,7 +22,7 @@ from mems_stiction.quantities import area, percent, ratio, with_interval, with_u
 
 
 @explained
-class Verdict(_core.VerdictFigures):
+class Verdict(_core.VerdictFigures, ReadOnly):
     """Does the device stick? Of a prediction whose settings state device/...; NaN where they do not allow to say."""
 
     def __init__(self, figures: Dict[str, Any]) -> None:
@@ -39,7 +39,7 @@ class Verdict(_core.VerdictFigures):
 
 
 @explained
-class Prediction(_core.PredictionFigures):
+class Prediction(_core.PredictionFigures, ReadOnly):
     """What comes out for one pair of surfaces. Forces and areas are of the scan; NaN: the formulation does not know it.
     Equation numbers are those of Deladi, Krijnen, Tas and Elwenspoek 2002; doc/theory.md has each as implemented.
 
@@ -55,11 +55,13 @@ class Prediction(_core.PredictionFigures):
     def __init__(self, core: _core.PredictedScan, surface: Surface) -> None:
         self.__dict__.update(core.figures)
         verdict = core.verdict
-        self.verdict = None if verdict is None else Verdict(verdict)
-        self.device_force = core.device_force
-        self.warnings = tuple(core.warnings)
-        self.name = surface.name
-        self.pitch = core.scan.pitch
+        self.verdict: Optional[Verdict]
+        self.device_force: Optional[Dict[str, Any]]
+        self.warnings: Tuple[str, ...]
+        self.name: str
+        self.pitch: Tuple[float, float]
+        self.__dict__.update(verdict=None if verdict is None else Verdict(verdict), device_force=core.device_force,
+                             warnings=tuple(core.warnings), name=surface.name, pitch=core.scan.pitch)
         self._core: Optional[_core.PredictedScan] = core
         self._surface: Optional[Surface] = surface
         self._is_transposed = surface.is_transposed
@@ -152,6 +154,19 @@ class Prediction(_core.PredictionFigures):
     def flags(self) -> Tuple[str, ...]:
         """The names of the bits of regime_flags, as in doc/validity.md."""
         return self._cached("flags", lambda: tuple(filter(None, self._core.flag_names.split(", "))))  # type: ignore[union-attr]
+
+    @property
+    def version(self) -> str:
+        """Of the package that predicted."""
+        return self._origin()["version"]
+
+    @property
+    def settings_hash(self) -> str:
+        """Of all settings: predictions with the same one were made alike."""
+        return self._origin()["settings_hash"]
+
+    def _origin(self) -> Dict[str, Any]:
+        return self._cached("record", self.to_dict)
 
     def json(self) -> str:
         """The record that predict_scan --json prints, one line."""

@@ -9,7 +9,7 @@ from typing import Any, Dict, List, Optional, Tuple, Union
 import numpy as np
 
 from mems_stiction import _core
-from mems_stiction._arrays import Pitch, Surface, array_of, explained, pitch_of, pixels_of
+from mems_stiction._arrays import Pitch, ReadOnly, Surface, array_of, explained, pitch_of, pixels_of
 from mems_stiction._inputs import odd_in, scan_of, warn_about
 from mems_stiction._settings import Config, Settings, SurfaceError
 from mems_stiction.quantities import with_unit
@@ -97,7 +97,7 @@ class Cleaned(Scan):
 
 
 @explained
-class Roughness(_core.RoughnessFigures):
+class Roughness(_core.RoughnessFigures, ReadOnly):
     """Roughness of ISO 25178-2 over the valid pixels; the caller levels. Figures from sal on are NaN unless asked for."""
 
     def __init__(self, figures: Dict[Any, float]) -> None:

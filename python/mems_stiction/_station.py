@@ -8,14 +8,14 @@ from typing import Any, List, Optional, Sequence, Union
 import numpy as np
 
 from mems_stiction import _core
-from mems_stiction._arrays import Pitch, Surface, array_of, records_of
+from mems_stiction._arrays import Pitch, ReadOnly, Surface, array_of, records_of
 from mems_stiction._inputs import inputs_of
 from mems_stiction._settings import Config, OptionsError
 
 LARGEST_COUNT = 2**31 - 1
 
 
-class LoadSweep:
+class LoadSweep(ReadOnly):
     """A contact while the voltage goes up and down again, for each mechanical load.
 
     points: a record for each load, with the fields of msg/SweepPoint.msg: direction (0 up, 1 down), voltage [V],
@@ -29,9 +29,10 @@ class LoadSweep:
     """
 
     def __init__(self, core: _core.LoadSweepResult) -> None:
-        self.points: np.recarray = records_of(core.points)
-        self.summaries: np.recarray = records_of(core.summaries)
-        self.pull_in_voltage = core.pull_in_voltage
+        self.points: np.recarray
+        self.summaries: np.recarray
+        self.pull_in_voltage: float
+        self.__dict__.update(points=records_of(core.points), summaries=records_of(core.summaries), pull_in_voltage=core.pull_in_voltage)
 
     def __repr__(self) -> str:
         from mems_stiction import station_text
@@ -46,7 +47,7 @@ class LoadSweep:
         station_figures.save_sweep(self, path)
 
 
-class ContactCycles:
+class ContactCycles(ReadOnly):
     """A contact that is made and opened again and again, each time as the last one left the surfaces.
 
     cycles: a record for each contact, with the fields of msg/CyclePoint.msg: cycle, status (0 equilibrium, 1 bonded, 2
@@ -62,10 +63,12 @@ class ContactCycles:
             array = array_of(memory)
             return None if array is None else surface.back(array)
 
-        self.cycles: np.recarray = records_of(core.cycles)
-        self.first_sticking_cycle = core.first_sticking_cycle
-        self.lower = view(core.lower.pixels)
-        self.upper = view(core.upper.pixels)
+        self.cycles: np.recarray
+        self.first_sticking_cycle: int
+        self.lower: Optional[np.ndarray]
+        self.upper: Optional[np.ndarray]
+        self.__dict__.update(cycles=records_of(core.cycles), first_sticking_cycle=core.first_sticking_cycle, lower=view(core.lower.pixels),
+                             upper=view(core.upper.pixels))
 
     def __repr__(self) -> str:
         from mems_stiction import station_text

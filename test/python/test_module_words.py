@@ -1,12 +1,14 @@
 """What people see of the Python module: texts, pictures, descriptions, types, the notebook."""
 
 import pathlib
+import pickle
 import subprocess
 import sys
 import tempfile
 import unittest
 
 import mems_stiction
+import numpy as np
 
 try:
     from mems_stiction import _core
@@ -18,6 +20,39 @@ from module_cases import DEVICE, FEW, FORMULATIONS, PITCH, REPOSITORY, rough  # 
 
 
 class TextTest(unittest.TestCase):
+    def test_results_are_read_only_and_say_where_they_come_from(self):
+        prediction = mems_stiction.predict(rough(20, 20), PITCH)
+        results = [prediction, prediction.roughness, mems_stiction.half_space(rough(20, 20), PITCH), mems_stiction.cycle_contact(rough(20, 20), PITCH, count=2),
+                   mems_stiction.sweep_loads(rough(20, 20), PITCH, voltages=[0.0])]
+        for result in results:
+            for name in ("pull_off_force", "pitch", "anything"):
+                self.assertRaisesRegex(AttributeError, "a result cannot be changed", setattr, result, name, 1.0)
+            self.assertRaisesRegex(AttributeError, "a result cannot be changed", delattr, result, next(iter(vars(result))))
+        copied = pickle.loads(pickle.dumps(prediction))
+        record = prediction.to_dict()
+        for one in (prediction, copied):
+            self.assertEqual((one.version, one.settings_hash), (record["version"], record["settings_hash"]))
+        self.assertEqual(mems_stiction.__version__, record["version"])
+        other = mems_stiction.predict(rough(20, 20), PITCH, load={"mechanical_load": 2e-6})
+        self.assertNotEqual(other.settings_hash, prediction.settings_hash)
+
+    def test_dir_has_what_users_use(self):
+        names = [name for name in dir(mems_stiction) if not name.startswith("__")]
+        self.assertEqual(names, sorted(mems_stiction.__all__))
+        self.assertIn("__version__", dir(mems_stiction))
+
+    def test_a_line_is_refused_with_a_reason(self):
+        for line in (np.zeros(64), [1e-9, 2e-9, 3e-9]):
+            with self.assertRaisesRegex(mems_stiction.SurfaceError, "one line says nothing of the contacts beside it"):
+                mems_stiction.predict(line, PITCH)
+
+    def test_a_half_space_has_a_picture(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "solved.png"
+            mems_stiction.half_space(rough(20, 20), PITCH, lower={"youngs_modulus": 1e9}, upper={"youngs_modulus": 1e9}).save_picture(path)
+            self.assertEqual(path.read_bytes()[:4], b"\x89PNG")
+            self.assertEqual([one.name for one in pathlib.Path(folder).iterdir()], ["solved.png"])
+
     def test_text_and_page(self):
         prediction = mems_stiction.predict(rough(64, 64, 12e-9, 2), PITCH, device=DEVICE, device_force=FEW)
         self.assertRegex(repr(prediction), r"equilibrium\n  pull-off force [\d.]+ [nu]N on .*\n.*\n  sticks: ")
