@@ -48,15 +48,22 @@ class Interruption {
   sigset_t mask_before_{};
 };
 
-/// From two seconds on, in place on the terminal.
+/// From two seconds on, in place on the terminal: also while one height takes minutes.
 class Progress {
  public:
   void show(const ForcePoint& point) {
-    const std::string text = text_.next(point);
+    doing_ = text_.next(point);
+    tick();
+  }
+  /// Called many times a second.
+  void tick() {
     const auto now = Clock::now();
-    if (seconds(now - begin_) < kPatience || seconds(now - shown_) < kPeriod) return;
+    const double passed = seconds(now - begin_);
+    if (passed < kPatience || seconds(now - shown_) < kPeriod) return;
     shown_ = now;
-    line_.show(text);
+    char time[32];
+    std::snprintf(time, sizeof time, ", %.0f s", passed);
+    line_.show(doing_ + time);
   }
 
  private:
@@ -65,6 +72,7 @@ class Progress {
 
   StatusLine line_;
   HalfSpaceText text_;
+  std::string doing_ = "half-space: the first height";
   Clock::time_point begin_ = Clock::now();
   Clock::time_point shown_{};
 };
@@ -93,6 +101,7 @@ SolvedHalfSpace solveWithProgress(const HalfSpaceSolver& solver, const HalfSpace
   HalfSpaceControl control;
   control.cancel = &is_interrupted;
   control.on_state = [&progress](const ForcePoint& point) { progress.show(point); };
+  control.give_way = [&progress] { progress.tick(); };
   return solver.solve(problem, control);
 }
 

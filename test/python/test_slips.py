@@ -38,7 +38,7 @@ class Terminal:
             self._ours, theirs = pty.openpty()
         except OSError as error:
             raise unittest.SkipTest("there is no pseudo-terminal here: %s" % error)
-        self._shown = b""
+        self.shown = b""
         try:
             # what it ignores in the background, a terminal's program does not
             self.process = subprocess.Popen([find_node("mems_stiction", name)[0]] + list(arguments), cwd=str(folder), stdout=subprocess.DEVNULL,
@@ -55,29 +55,29 @@ class Terminal:
         self.process.wait()
         os.close(self._ours)
 
-    def _read(self):
+    def read(self):
         """Whether there was more."""
         if not select.select([self._ours], [], [], LONGEST_SILENCE)[0]:
-            raise AssertionError("nothing more after %r" % self._shown)
+            raise AssertionError("nothing more after %r" % self.shown)
         try:
             part = os.read(self._ours, 4096)
         except OSError:  # the other end is closed
             part = b""
-        self._shown += part
+        self.shown += part
         return bool(part)
 
     def until(self, words):
-        while words not in self._shown:
-            if not self._read():
-                raise AssertionError("it ended with %r" % self._shown)
+        while words not in self.shown:
+            if not self.read():
+                raise AssertionError("it ended with %r" % self.shown)
 
     def until_it_ends(self, status):
         """All that it has written."""
-        while self._read():
+        while self.read():
             pass
         ended = self.process.wait(timeout=LONGEST_SILENCE)
-        assert ended == status, (ended, self._shown)
-        return self._shown
+        assert ended == status, (ended, self.shown)
+        return self.shown
 
 
 class SlipTest(unittest.TestCase):
@@ -363,6 +363,20 @@ class SlipTest(unittest.TestCase):
             terminal.process.send_signal(signal.SIGINT)
             shown = terminal.until_it_ends(-signal.SIGINT)
         self.assertTrue(shown.endswith(WIPED), shown[-60:])  # nothing is left on the line
+
+    def test_on_a_terminal_a_half_space_speaks_while_one_height_takes_long_and_ctrl_c_ends_it(self):
+        random = np.random.RandomState(1)
+        np.save(str(self.folder / "fine.npy"), random.normal(size=(512, 512)).cumsum(0).cumsum(1) * 1e-12)
+        with Terminal(self.folder, "predict_scan", "--pitch", "20e-9", "--load", "1e-4", "--half-space", "fine.npy") as terminal:
+            terminal.until(b"half-space: ")
+            while True:  # two lines of one height
+                said = re.findall(rb"(half-space: [^\r\x1b]*), \d+ s", terminal.shown)
+                if len(said) > len(set(said)):
+                    break
+                self.assertTrue(terminal.read(), terminal.shown)
+            terminal.process.send_signal(signal.SIGINT)
+            shown = terminal.until_it_ends(-signal.SIGINT)
+        self.assertTrue(shown.endswith(WIPED), shown[-60:])
 
     def test_on_a_terminal_a_short_work_leaves_nothing(self):
         with Terminal(self.folder, "predict_scan", "scan.npy") as terminal:
