@@ -33,9 +33,9 @@ class BentContact {
 
   /// The way out by contacts.
   struct Parting {
-    std::size_t strongest = 0;                ///< bending where the force is largest
-    double force = 0.0;          ///< the largest [N]
-    double work = 0.0;           ///< per area [J/m^2]
+    std::size_t strongest = 0;  ///< bending where the force is largest
+    double force = 0.0;         ///< the largest [N]
+    double work = 0.0;          ///< per area [J/m^2]
     std::vector<SeparationCurvePoint>
         curve;  ///< by descending displacement, counted from the first touch of stiff bodies
   };

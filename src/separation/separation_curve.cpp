@@ -243,11 +243,11 @@ CurveExponents exponentsOf(FrameSums& frame, const SeparationCurve& curve) {
     last = &to;
   }
   adhesion = std::min(adhesion, mostAdhesion(frame));
-  const double held = strongest.edge_share * strongest.adhesion;
-  Exponents pull_off = exponentsOf(curve.pull_off_force, held,
+  const double attraction = strongest.edge_share * strongest.adhesion;
+  Exponents pull_off = exponentsOf(curve.pull_off_force, attraction,
                                    frame.hamakerExponentOfForce(strongest.approach, strongest.hold), strongest.carried);
   if (curve.pull_off_force > 0.0) {  // a0 goes with E z0^2/Gamma, E H/Gamma^2
-    const double by_edges = strongest.edge_slope * held / curve.pull_off_force;
+    const double by_edges = strongest.edge_slope * attraction / curve.pull_off_force;
     pull_off.adhesion -= 2.0 * by_edges;
     pull_off.modulus += by_edges;
     pull_off.hamaker += by_edges;
