@@ -74,9 +74,10 @@ void addSmoothing(const HeightMap& scan, const PipelineOptions& cleaning, std::v
                      " m: it leaves no roughness and such a surface bonds");
 }
 
-/// What is smoothed to nothing has no relief to compare a tilt with.
+/// What is smoothed to nothing, or is too small, has no relief to compare a tilt with.
 void addTilt(const HeightMap& cleaned, const PipelineOptions& cleaning, std::vector<std::string>& warnings) {
   if (cleaning.level.shape != LevelShape::kNone || isSmoothedAway(cleaned, cleaning)) return;
+  if (std::min(cleaned.rows(), cleaned.cols()) < kFewestPixelsOfASide) return;
   const Tilt tilt = tiltOf(cleaned);
   if (tilt.isLarge()) warnings.push_back(tilt.advice());
 }

@@ -17,7 +17,6 @@ constexpr double kLongestPixel = 100.0;           // [-]: quick scans of few lin
 constexpr double kSteepest = 10.0;                // [-], rms: gratings of steep steps
 constexpr double kSmoothest = 1e-4;               // [-], rms at a pitch of 1 um
 constexpr double kMicrometre = 1e-6;              // [m]
-constexpr int kFewestPixels = 8;                  // along a side: a contact of 12 pixels and what surrounds it
 constexpr int kSlopeRows = 256;                   // that the slope is taken from
 constexpr double kThousand = 1e3;                 // from unit to unit
 constexpr double kSpacingShare = 0.1;             // of the rms height: quantisation then adds 0.04 % to its square
@@ -136,10 +135,11 @@ void checkHeights(const HeightMap& scan, const HeightStatistics& statistics, std
 /// @return whether a line was added
 bool checkContent(const HeightMap& scan, const HeightStatistics& statistics, std::vector<std::string>& lines) {
   constexpr const char* kSaysNothing = " says nothing about roughness: ";
-  if (std::min(scan.rows(), scan.cols()) < kFewestPixels) {
+  if (std::min(scan.rows(), scan.cols()) < kFewestPixelsOfASide) {
     lines.push_back("a frame of " + std::to_string(scan.cols()) + " x " + std::to_string(scan.rows()) + " pixels" +
                     kSaysNothing + "it has no room for a contact and its surroundings (" +
-                    std::to_string(kFewestPixels) + " x " + std::to_string(kFewestPixels) + "); was the scan cut off?");
+                    std::to_string(kFewestPixelsOfASide) + " x " + std::to_string(kFewestPixelsOfASide) +
+                    "); was the scan cut off?");
   } else if (statistics.max == statistics.min) {
     lines.push_back("a frame whose every height is " + metres(statistics.min) + kSaysNothing +
                     "was nothing measured or another channel taken?");

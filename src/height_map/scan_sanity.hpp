@@ -11,6 +11,9 @@
 
 namespace mems_stiction {
 
+/// A contact of 12 pixels and what surrounds it: smaller frames say nothing about roughness.
+inline constexpr int kFewestPixelsOfASide = 8;
+
 /// One line for each of these, naming the value, what is usual and the likely slip of units, without commas; empty for a
 /// plausible scan:
 /// - a pitch outside 1 pm .. 1 mm, or pixels more than 100 times as long as wide
