@@ -123,13 +123,15 @@ class SlowScansTest(unittest.TestCase):
         start = thread_seconds(node)
         rospy.sleep(0.7 * LIMIT)
         free = {thread: seconds - start.get(thread, 0.0) for thread, seconds in thread_seconds(node).items()}
-        busiest = max(free, key=free.get)  # nothing else is asked for: the half-space's
+        solving = [thread for thread, seconds in free.items() if seconds > 0.1 * LIMIT]  # and what else is still computed
+        self.assertTrue(solving, free)
         begun = self.while_a_scan_is_at_hand()
         rospy.sleep(begun + 0.25 * LIMIT - time.monotonic())
-        start = thread_seconds(node)[busiest]
+        start = thread_seconds(node)
         rospy.sleep(begun + 0.95 * LIMIT - time.monotonic())
-        held = thread_seconds(node)[busiest] - start
-        self.assertLessEqual(held, 0.2 * free[busiest])  # a tenth of the time stays with it
+        beside = thread_seconds(node)
+        shares = [(beside[thread] - start[thread]) / free[thread] for thread in solving]
+        self.assertLessEqual(min(shares), 0.2)  # one of them has given way: a tenth of the time stays with it
         before = len(feedback)
         wait_until(lambda: len(feedback) > before, "progress after the scan")
         action.cancel_goal()
