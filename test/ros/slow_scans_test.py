@@ -114,7 +114,7 @@ class SlowScansTest(unittest.TestCase):
     def test_5_a_half_space_rests_while_a_scan_is_predicted(self):
         action = actionlib.SimpleActionClient("stiction_node/half_space", HalfSpaceAction)
         self.assertTrue(action.wait_for_server(rospy.Duration(TIMEOUT)))
-        surface = rough_surface(1, rows=256, cols=256, rms_height=5e-10)  # near bonding, in small steps: a minute, with a word every 50 ms or so
+        surface = rough_surface(1, rows=512, cols=512, rms_height=5e-10)  # near bonding, in small steps: much longer than two scans take
         feedback = []
         action.send_goal(HalfSpaceGoal(height=image_message(surface, rospy.Time(9)), scan_info=info_message(rospy.Time(9)), voltage=0.0,
                                        mechanical_load=LOAD), feedback_cb=feedback.append)
