@@ -20,6 +20,7 @@
 
 namespace mems_stiction {
 
+/// Of one cell under an even pressure, by the distance from it.
 class CellInfluence {
  public:
   /// A film is to be thicker than this share of a pixel.

@@ -335,6 +335,7 @@ MergedSpectrum mergedSpectrum(const std::vector<ScanWaves>& scans, const std::ve
 
 std::vector<SpectrumDifference> spectrumDifferences(const std::vector<ScanWaves>& scans) {
   std::vector<ScanTrust> trust;
+  trust.reserve(scans.size());
   for (const ScanWaves& scan : scans) {
     trust.push_back({kFirstWaveOfStretch, 2.0 * kPi / (kPixelsOfShortest * scan.longerPitch())});
   }

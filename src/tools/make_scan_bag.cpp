@@ -102,7 +102,7 @@ class ScanBag {
     }
     // It is made while no interruption is handled: one that came before would remove nothing, and the file would stay.
     partial_.emplace([&] {
-      const std::string partial = path + "." + std::to_string(getpid());
+      std::string partial = path + "." + std::to_string(getpid());
       guarded(partial, [&] { bag_->open(partial, rosbag::bagmode::Write); });
       return partial;
     });
