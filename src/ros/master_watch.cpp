@@ -58,8 +58,14 @@ MasterWatch::~MasterWatch() {
 }
 
 void MasterWatch::add(const void* owner, Member member) {
-  const std::lock_guard<std::mutex> lock(members_mutex_);
-  members_[owner] = std::move(member);
+  {
+    const std::lock_guard<std::mutex> lock(members_mutex_);
+    members_[owner] = std::move(member);
+  }
+  std::unique_lock<std::mutex> lock(mutex_);
+  const unsigned look = ++looks_asked_;
+  changed_.notify_all();
+  looked_.wait(lock, [&] { return looks_made_ >= look; });
 }
 
 void MasterWatch::remove(const void* owner) {
@@ -84,15 +90,22 @@ void MasterWatch::writeSoon(const void* owner) {
 
 void MasterWatch::loop() {
   auto next_look = std::chrono::steady_clock::now();
+  unsigned asked = 0;
   for (;;) {
     if (std::chrono::steady_clock::now() >= next_look) {
       look();
       next_look = std::chrono::steady_clock::now() + kPeriod;
     }
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      looks_made_ = asked;
+    }
+    looked_.notify_all();
     write();
     std::unique_lock<std::mutex> lock(mutex_);
-    changed_.wait_until(lock, next_look, [this] { return stopping_ || is_asked_; });
+    changed_.wait_until(lock, next_look, [&] { return stopping_ || is_asked_ || looks_asked_ != asked; });
     if (stopping_) return;
+    if (std::exchange(asked, looks_asked_) != asked) next_look = std::chrono::steady_clock::now();
   }
 }
 

@@ -41,6 +41,8 @@ class MasterWatch {
   MasterWatch(const MasterWatch&) = delete;
   MasterWatch& operator=(const MasterWatch&) = delete;
 
+  /// To be called once all of the member is advertised. Returns when the watch has seen at the master what the process offers
+  /// there: a master that ends right afterwards costs nothing.
   void add(const void* owner, Member member);
   /// Afterwards nothing of the member runs any more.
   void remove(const void* owner);
@@ -70,6 +72,9 @@ class MasterWatch {
   bool stopping_ = false;
   std::set<const void*> due_;  ///< to be written
   bool is_asked_ = false;      ///< since they were looked at
+  std::condition_variable looked_;
+  unsigned looks_asked_ = 0;  ///< by new members
+  unsigned looks_made_ = 0;   ///< of those
   Registrations::State state_ = Registrations::State::kKnown;
   ros::SteadyTime last_known_ = ros::SteadyTime::now();
   unsigned registered_again_ = 0;

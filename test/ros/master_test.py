@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""A roscore of the test's own is killed and started again on the same port, while a bag is played to the node."""
+"""A roscore of the test's own is killed and started again on the same port: while a bag is played to the node, and as soon
+as the node answers."""
 
 import pathlib
 import signal
@@ -29,6 +30,10 @@ SCANS = 60
 def launch_node():
     return subprocess.Popen(["roslaunch", "mems_stiction", "stiction.launch", "config:=%s" % CONFIG,
                              "nodelet:=%s" % str(NODELET).lower(), "--wait"])
+
+
+def services_of(process):
+    return sorted(name for name, nodes in rosgraph.Master("/master_test").getSystemState()[2] if process in nodes)
 
 
 class MasterTest(unittest.TestCase):
@@ -107,6 +112,22 @@ class MasterTest(unittest.TestCase):
         self.assertEqual(last.header.stamp, stamp)
         self.assertEqual(last.pull_off_force, record["pull_off_force"])
         self.assertEqual(float(echoed), record["pull_off_force"])
+
+    def test_a_node_that_loses_its_master_at_its_first_answer_is_found_with_all_services_at_the_next(self):
+        cls = type(self)
+        cls.launch.send_signal(signal.SIGINT)
+        cls.launch.wait(timeout=TIMEOUT)
+        cls.launch = launch_node()
+        rospy.wait_for_service("/stiction_node/set_load", timeout=TIMEOUT)
+        # A service answers only once the node has started: before its first regular look at the master.
+        self.assertTrue(rospy.ServiceProxy("/stiction_node/set_load", SetLoad)(2.0, LOAD).success)
+        services = services_of(PROCESS)
+        self.assertIn("/stiction_node/get_load", services)
+        self.roscore.kill()
+        self.roscore.start()
+        wait_until(lambda: services_of(PROCESS) == services, "all services at the next master")
+        load = rospy.ServiceProxy("/stiction_node/get_load", GetLoad)()
+        self.assertEqual((load.voltage, load.mechanical_load), (2.0, LOAD))
 
 
 if __name__ == "__main__":
