@@ -109,6 +109,14 @@ void takeWork(const FrameSums& frame, double work_apart, SeparationCurve& curve)
   curve.work -= std::max(0.0, adhesion - mostAdhesion(frame));
 }
 
+/// What a curve says once all of its states are there.
+/// - @p work_apart what lies before the first of them [J]
+void takeFigures(const FrameSums& frame, double work_apart, SeparationCurve& curve) {
+  spreadEdges(curve.states);
+  takeMaximum(curve.states, curve);
+  takeWork(frame, work_apart, curve);
+}
+
 /// Of a figure with its parts: attraction, what of it goes with ln(Hamaker constant), and load of the patches. The law's
 /// range goes with sqrt(H/Gamma), so that at a given H Gamma moves the attraction by the rest.
 Exponents exponentsOf(double figure, double adhesion, double hamaker_exponent, double carried) {
@@ -201,9 +209,7 @@ void followCurve(FrameSums& frame, const ContactSettings& settings, SeparationCu
     }
   }
   if (curve.status == Status::kEquilibrium) settle(frame, load, curve);
-  spreadEdges(curve.states);
-  takeMaximum(curve.states, curve);
-  takeWork(frame, work_apart, curve);
+  takeFigures(frame, work_apart, curve);
 }
 
 Way wayOutOf(const SeparationCurve& way_in, double range) {
@@ -222,9 +228,7 @@ void followWayOut(FrameSums& frame, double first_touch, const Way& way, Separati
     curve.states.push_back(stateAt(frame, std::min(approach, way.rest), way));
   } while (curve.states.back().approach < way.rest);
   const double work_apart = frame.energy(curve.states.front().approach);
-  spreadEdges(curve.states);
-  takeMaximum(curve.states, curve);
-  takeWork(frame, work_apart, curve);
+  takeFigures(frame, work_apart, curve);
 }
 
 CurveExponents exponentsOf(FrameSums& frame, const SeparationCurve& curve) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "contact/prepared_maps.hpp"
 #include "deformation/modified_topography.hpp"
@@ -14,72 +15,74 @@
 namespace mems_stiction {
 
 void SeparationSolver::solve(const ContactProblem& problem, ContactSolution& solution) {
-  if (problem.settings.guidance == Guidance::kGuided) return solveSettled(problem, solution);
-  const GapField& settled = tilt_.settle(problem.gap, problem.settings);
-  solveSettled({problem.surfaces, settled, problem.composite_rms_height, problem.settings}, solution);
-}
-
-void SeparationSolver::solveSettled(const ContactProblem& problem, ContactSolution& solution) {
   const ContactSettings& settings = problem.settings;
-  if (WaveStiffness(settings.lower, settings.upper).isThick()) {
-    return solveStanding(problem, nullptr, solution);
-  }
-  const GapField& at_rest = bent_.solve(problem.gap, settings);
-  const BentContact::Closed closed = bent_.closed();
-  solveStanding({problem.surfaces, at_rest, problem.composite_rms_height, settings}, &closed, solution);
-  const bool bends = solution.flattening_energy <
-                     chosen::kBends * flattening_.of(problem.gap, curve_.frame().patchForces().contactModulus());
-  solution.model = statement_.of(solution, settings.interface.work_of_adhesion, bends);
-  if (bent_.isStiff() || solution.is_conforming) return;
-  solution.energies.elastic += bent_.energyAtRest() * curve_.frame().area();
-  const BentContact::Parting& parting = bent_.parting();
-  const GapField& strongest = bent_.strongest();
-  curve_.comeToRest(strongest, settings);
+  const double gamma = settings.interface.work_of_adhesion;
+  const GapField& settled = settings.guidance == Guidance::kGuided ? problem.gap : tilt_.settle(problem.gap, settings);
+  const bool is_thick = WaveStiffness(settings.lower, settings.upper).isThick();
+  const GapField& at_rest = is_thick ? settled : bent_.solve(settled, settings);
+  std::optional<BentContact::Closed> closed;
+  if (!is_thick) closed = bent_.closed();
+  const ContactProblem standing = {problem.surfaces, at_rest, problem.composite_rms_height, settings};
+
+  comeToRest(standing, solution);
+  const double joined_share = curve_.joinedShare();
+  const double contact_modulus = curve_.frame().patchForces().contactModulus();
+  const double flattening_energy = flattening_.of(closed ? *closed->gap : at_rest, contact_modulus);
+  solution.flattening_energy = flattening_energy + (closed ? closed->bodies.energy : 0.0);
+  const bool bends = closed && solution.flattening_energy < chosen::kBends * flattening_.of(settled, contact_modulus);
+
   curve_.part();
-  const WayOut& way_out = curve_.byContacts();
-  solution.pull_off_force = parting.force;
-  solution.pull_off_exponents = way_out.force_exponents;
-  solution.apparent_work_of_adhesion = parting.work;
-  solution.work_exponents = way_out.work_exponents;
-  solution.curve.erase(std::remove_if(solution.curve.begin(), solution.curve.end(),
-                                      [](const SeparationCurvePoint& point) { return point.is_separation; }),
-                       solution.curve.end());
-  solution.curve.insert(solution.curve.end(), parting.curve.begin(), parting.curve.end());
-  solution.pull_off_contacts.clear();
-  listPullOffContacts({problem.surfaces, strongest, problem.composite_rms_height, settings}, solution);
-  solution.model = statement_.of(solution, settings.interface.work_of_adhesion, bends);
+  conforming_.start(closed ? *closed->gap : at_rest, curve_.frame().law(), contact_modulus, flattening_energy,
+                    closed ? &closed->bodies : nullptr);
+  const std::optional<WayOut> conforming =
+      conformingWayOut(curve_.byContacts(), joined_share, conforming_,
+                       solution.flattening_energy / curve_.frame().law().workOfAdhesion(),
+                       settings.load.mechanical_load / curve_.frame().area());
+  takeDecision(conforming.has_value(), solution);
+  if (conforming || is_thick || bent_.isStiff()) {
+    takeWayOut(conforming ? *conforming : curve_.byContacts(), solution);
+    listPullOffContacts(standing, solution);
+  } else {
+    solution.energies.elastic += bent_.energyAtRest() * curve_.frame().area();
+    const double contact_area = curve_.byContacts().contact_area;
+    const ContactProblem strongest = {problem.surfaces, bent_.strongest(), problem.composite_rms_height, settings};
+    curve_.comeToRest(strongest.gap, settings);
+    curve_.part();
+    takeWayOut(bentWayOut(contact_area), solution);
+    listPullOffContacts(strongest, solution);
+  }
+  solution.model = statement_.of(solution, gamma, bends);
 }
 
-void SeparationSolver::solveStanding(const ContactProblem& problem, const BentContact::Closed* closed,
-                                     ContactSolution& solution) {
+void SeparationSolver::comeToRest(const ContactProblem& problem, ContactSolution& solution) {
   solution.clear();
   curve_.comeToRest(problem.gap, problem.settings);
-  const double joined_share = curve_.joinedShare();
   curve_.appendWayIn(solution.curve);
-  const FrameSums& frame = curve_.frame();
   solution.steps = static_cast<int>(curve_.wayIn().states.size());
-  const GapField& left_to_close = closed != nullptr ? *closed->gap : problem.gap;
-  const double bending_energy = closed != nullptr ? closed->bodies.energy : 0.0;
-  const double flattening_energy = flattening_.of(left_to_close, frame.patchForces().contactModulus());
-  solution.flattening_energy = flattening_energy + bending_energy;
   takeRest(problem, solution);
   listContacts(problem, solution);
   fillMaps(problem, solution);
-  curve_.part();
-  conforming_.start(left_to_close, frame.law(), frame.patchForces().contactModulus(), flattening_energy,
-                    closed != nullptr ? &closed->bodies : nullptr);
-  const std::optional<WayOut> conforming = conformingWayOut(curve_.byContacts(), joined_share, conforming_,
-                                                            solution.flattening_energy / frame.law().workOfAdhesion(),
-                                                            problem.settings.load.mechanical_load / frame.area());
-  takeWayOut(conforming ? *conforming : curve_.byContacts(), solution);
-  listPullOffContacts(problem, solution);
-  solution.model = statement_.of(solution, problem.settings.interface.work_of_adhesion, false);
+}
+
+WayOut SeparationSolver::bentWayOut(double contact_area) const {
+  const BentContact::Parting& parting = bent_.parting();
+  WayOut way_out;
+  way_out.force = parting.force;
+  way_out.work = parting.work;
+  way_out.contact_area = contact_area;
+  way_out.force_exponents = curve_.byContacts().force_exponents;
+  way_out.work_exponents = curve_.byContacts().work_exponents;
+  way_out.curve = parting.curve;
+  return way_out;
+}
+
+void SeparationSolver::takeDecision(bool is_conforming, ContactSolution& solution) const {
+  solution.is_conforming = is_conforming;
+  solution.status = is_conforming ? Status::kBonded : curve_.wayIn().status;
+  solution.is_bonded_by_load = !is_conforming && curve_.wayIn().isBondedByLoad();
 }
 
 void SeparationSolver::takeWayOut(const WayOut& way_out, ContactSolution& solution) const {
-  solution.is_conforming = way_out.parting != Parting::kByContacts;
-  solution.status = solution.is_conforming ? Status::kBonded : curve_.wayIn().status;
-  solution.is_bonded_by_load = !solution.is_conforming && curve_.wayIn().isBondedByLoad();
   solution.pull_off_force = way_out.force;
   solution.pull_off_exponents = way_out.force_exponents;
   solution.apparent_work_of_adhesion = way_out.work;

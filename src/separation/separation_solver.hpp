@@ -35,11 +35,8 @@ class SeparationSolver : public ContactSolver {
   void solve(const ContactProblem& problem, ContactSolution& solution) override;
 
  private:
-  /// Of a plate that has settled, whose bodies may bend.
-  void solveSettled(const ContactProblem& problem, ContactSolution& solution);
-  /// Of the surfaces as the problem has them.
-  /// - @p closed what is left of the relief where bodies bend and it closes; nullptr: all of it
-  void solveStanding(const ContactProblem& problem, const BentContact::Closed* closed, ContactSolution& solution);
+  /// All that a solution says of the surfaces at rest.
+  void comeToRest(const ContactProblem& problem, ContactSolution& solution);
   void takeRest(const ContactProblem& problem, ContactSolution& solution);
   void findBorder(const GapField& field);
   /// Calls take(row, column, overlap [m], patch, contact) for each cell that overlaps at rest, row by row.
@@ -47,6 +44,11 @@ class SeparationSolver : public ContactSolver {
   void visitOverlaps(const GapField& field, const Taker& take);
   void listContacts(const ContactProblem& problem, ContactSolution& solution);
   void fillMaps(const ContactProblem& problem, ContactSolution& solution);
+  /// Which way the surfaces part, of two that have come to rest.
+  void takeDecision(bool is_conforming, ContactSolution& solution) const;
+  /// Of bodies that spring back on the way, once the curve has followed the relief where they hold most.
+  /// - @p contact_area at rest [m^2]
+  WayOut bentWayOut(double contact_area) const;
   void takeWayOut(const WayOut& way_out, ContactSolution& solution) const;
   /// The contacts that hold at the pull-off: patches within reach of the attraction there.
   void listPullOffContacts(const ContactProblem& problem, ContactSolution& solution);
