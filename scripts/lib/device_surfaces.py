@@ -13,10 +13,6 @@ def rms(heights, wanted):
     return heights * (wanted / heights.std())
 
 
-def gaussian_spectrum(length):
-    return lambda q: np.exp(-(q * length) ** 2 / 4)
-
-
 def grooved_surface(side, pitch, length, stretch, random):
     """Correlation length along the columns is so much longer."""
     qx = 2 * np.pi * np.fft.rfftfreq(side, pitch)[None, :]
@@ -63,12 +59,12 @@ def draw(kind, number, seed, side, pitch):
         heights = grain_surface(side, pitch, size, random)
         height = heights.std() * min(1.0, height / heights.std())
     else:
-        heights = of_spectrum(gaussian_spectrum(length))
+        heights = of_spectrum(trust_frames.gaussian_spectrum(length))
         what.update(length=length)
         if kind == "two scales":
             ratio, share = random.uniform(5, 20), random.uniform(0.3, 1.0)
             what.update(ratio=ratio, share=share)
-            heights = heights + of_spectrum(gaussian_spectrum(ratio * length)) / share
+            heights = heights + of_spectrum(trust_frames.gaussian_spectrum(ratio * length)) / share
         elif kind == "skewed":
             skew = random.uniform(0.15, 0.4) * random.choice((-1, 1))
             what.update(skew=skew)
@@ -77,9 +73,9 @@ def draw(kind, number, seed, side, pitch):
             level = random.uniform(-0.5, 0.5)
             what.update(level=level)
             heights = np.where(heights > level, level + 0.1 * (heights - level), heights)
-            heights += 0.03 * of_spectrum(gaussian_spectrum(length / 2))
+            heights += 0.03 * of_spectrum(trust_frames.gaussian_spectrum(length / 2))
         elif kind == "plateaus":  # etched islands with fine roughness
-            heights = np.tanh(3 * heights) + 0.05 * of_spectrum(gaussian_spectrum(length / 2))
+            heights = np.tanh(3 * heights) + 0.05 * of_spectrum(trust_frames.gaussian_spectrum(length / 2))
     return what, rms(heights, height).astype(np.float32)
 
 

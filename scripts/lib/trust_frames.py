@@ -30,6 +30,10 @@ def spectrum_surface(pixels, pitch, psd_of, random):
     return heights / heights.std()
 
 
+def gaussian_spectrum(length):
+    return lambda q: np.exp(-(q * length) ** 2 / 4)
+
+
 def self_affine(length, pitch, hurst):
     roll_off, cut_off = 2 * np.pi / length, 2 * np.pi / (4 * pitch)
     return lambda q: np.where(q <= cut_off, np.maximum(q, roll_off) ** (-2 - 2 * hurst), 0.0)
@@ -85,7 +89,6 @@ def cohesive_length(modulus, work, hamaker):
 
 
 SEED = 20  # of the map
-SEED_OF_PROCESSES = 7  # of the page that judges
 
 
 def draw(number, pixels, scans, seed=SEED):
@@ -120,8 +123,8 @@ def draw(number, pixels, scans, seed=SEED):
         else:
             hurst = random.uniform(0.5, 0.9)
             frame["hurst"] = hurst if kind == "self-affine" else None
-            gaussian = lambda q: np.exp(-(q * length) ** 2 / 4)  # noqa: E731
-            heights = spectrum_surface(pixels, pitch, self_affine(length, pitch, hurst) if kind == "self-affine" else gaussian, random)
+            spectrum = self_affine(length, pitch, hurst) if kind == "self-affine" else gaussian_spectrum(length)
+            heights = spectrum_surface(pixels, pitch, spectrum, random)
             if kind == "skewed":
                 skew = random.uniform(0.15, 0.5) * random.choice((-1, 1))
                 heights = np.exp(skew * heights)
@@ -130,29 +133,6 @@ def draw(number, pixels, scans, seed=SEED):
     pressure = log_uniform(random, 1e5, 1e8) if number % LOAD_EVERY == 2 else 0.0
     frame.update(modulus=modulus, work=work, hamaker=hamaker, pressure=pressure,
                  cohesive_length=cohesive_length(modulus, work, hamaker))
-    return frame, heights.astype(np.float32)
-
-
-def draw_of_process(number, pixels, seed):
-    """As draw(), of the kinds that processes make (trust_kinds), in turn."""
-    import trust_kinds  # which takes its spectra from here
-
-    random = np.random.default_rng([seed, number])
-    kind = trust_kinds.KINDS[number % len(trust_kinds.KINDS)]
-    while True:
-        modulus, work = log_uniform(random, 2e9, 200e9), log_uniform(random, 0.01, 0.12)
-        hamaker = log_uniform(random, 40e-21, 150e-21)
-        length, rms = log_uniform(random, 15e-9, 200e-9), log_uniform(random, 0.1e-9, 10e-9)
-        longest = min(length / 8, cohesive_length(modulus, work, hamaker) / 2)
-        shortest = max(3 * length / pixels, LEAST_PITCH)
-        if length / 500 < rms < length / 8 and shortest < longest:
-            break
-    pitch = log_uniform(random, shortest, longest)
-    heights = rms * trust_kinds.surface(kind, pixels, pitch, length, random)
-    pressure = log_uniform(random, 1e5, 1e8) if random.random() < 1 / LOAD_EVERY else 0.0
-    frame = {"number": number, "pixels": pixels, "kind": kind, "pitch": pitch, "length": length, "rms": rms, "hurst": None,
-             "modulus": modulus, "work": work, "hamaker": hamaker, "pressure": pressure,
-             "cohesive_length": cohesive_length(modulus, work, hamaker)}
     return frame, heights.astype(np.float32)
 
 

@@ -5,12 +5,14 @@ Each is drawn by a generator of random numbers alone and is periodic; heights ha
 
 import numpy as np
 import scipy.ndimage
-import trust_frames
-from device_surfaces import gaussian_spectrum, grain_surface, grooved_surface
+from device_surfaces import grain_surface, grooved_surface
+from trust_frames import LEAST_PITCH, LOAD_EVERY, cohesive_length, gaussian_spectrum, log_uniform, self_affine, spectrum_surface
+
+SEED = 7  # of the page that judges
 
 
 def gaussian(pixels, pitch, length, random):
-    return trust_frames.spectrum_surface(pixels, pitch, gaussian_spectrum(length), random)
+    return spectrum_surface(pixels, pitch, gaussian_spectrum(length), random)
 
 
 def fine(pixels, pitch, length, random):
@@ -36,7 +38,7 @@ def features(pixels, pitch, length, random, coverage):
 def gaussian_or_affine(pixels, pitch, length, random):
     if random.random() < 0.5:
         return gaussian(pixels, pitch, length, random)
-    return trust_frames.spectrum_surface(pixels, pitch, trust_frames.self_affine(length, pitch, random.uniform(0.5, 0.9)), random)
+    return spectrum_surface(pixels, pitch, self_affine(length, pitch, random.uniform(0.5, 0.9)), random)
 
 
 def polished(pixels, pitch, length, random):
@@ -134,3 +136,24 @@ def surface(kind, pixels, pitch, length, random):
     heights = DRAWS[kind](pixels, pitch, length, random)
     heights = scipy.ndimage.gaussian_filter(heights, 1.0, mode="wrap")  # what an instrument's point rounds off
     return (heights - heights.mean()) / heights.std()
+
+
+def draw(number, pixels, seed=SEED):
+    """As trust_frames.draw(): the kinds in turn."""
+    random = np.random.default_rng([seed, number])
+    kind = KINDS[number % len(KINDS)]
+    while True:
+        modulus, work = log_uniform(random, 2e9, 200e9), log_uniform(random, 0.01, 0.12)
+        hamaker = log_uniform(random, 40e-21, 150e-21)
+        length, rms = log_uniform(random, 15e-9, 200e-9), log_uniform(random, 0.1e-9, 10e-9)
+        longest = min(length / 8, cohesive_length(modulus, work, hamaker) / 2)
+        shortest = max(3 * length / pixels, LEAST_PITCH)
+        if length / 500 < rms < length / 8 and shortest < longest:
+            break
+    pitch = log_uniform(random, shortest, longest)
+    heights = rms * surface(kind, pixels, pitch, length, random)
+    pressure = log_uniform(random, 1e5, 1e8) if random.random() < 1 / LOAD_EVERY else 0.0
+    frame = {"number": number, "pixels": pixels, "kind": kind, "pitch": pitch, "length": length, "rms": rms, "hurst": None,
+             "modulus": modulus, "work": work, "hamaker": hamaker, "pressure": pressure,
+             "cohesive_length": cohesive_length(modulus, work, hamaker)}
+    return frame, heights.astype(np.float32)

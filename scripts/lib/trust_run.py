@@ -19,6 +19,7 @@ import mems_stiction
 import yaml
 
 import trust_frames
+import trust_kinds
 
 FORMULATIONS = ("separation_curve", "paper", "printed")
 HALF_SPACE_FIGURES = ("status", "pull_off_force", "apparent_work_of_adhesion", "contact_area", "contact_count", "is_resolved",
@@ -78,7 +79,7 @@ def chosen(record, names):
 
 def drawn(number, arguments, scans):
     if arguments.kinds:
-        return trust_frames.draw_of_process(number, arguments.pixels, arguments.seed)
+        return trust_kinds.draw(number, arguments.pixels, arguments.seed)
     return trust_frames.draw(number, arguments.pixels, scans, arguments.seed)
 
 
@@ -111,7 +112,7 @@ def main():
     parser.add_argument("--limit", type=float, default=90.0, help="seconds that one half-space may take")
     arguments = parser.parse_args()
     if arguments.seed is None:
-        arguments.seed = trust_frames.SEED_OF_PROCESSES if arguments.kinds else trust_frames.SEED
+        arguments.seed = trust_kinds.SEED if arguments.kinds else trust_frames.SEED
     warnings.simplefilter("ignore", mems_stiction.ScanWarning)  # of heights that are as drawn
     scans = trust_frames.Scans(arguments.scans)
     arguments.folder.mkdir(parents=True, exist_ok=True)
