@@ -9,12 +9,10 @@
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/evaluation/scan_predictor.hpp"
 #include "prediction/prediction_fields.hpp"
+#include "preprocess/tilt.hpp"
 
 namespace mems_stiction {
 namespace {
-
-/// Less of the rms height is left by levelling where a scan is tilted.
-constexpr double kTilted = 0.5;
 
 struct Levelling {
   const char* name;
@@ -98,7 +96,8 @@ std::vector<CleaningRow> cleaningSpread(const HeightMap& scan, const Configurati
           rowOf(std::string(levelling.name) + (without_spikes ? ", spikes filled" : ""), scan, changed, scale));
     }
     CleaningRow& not_levelled = rows[first + kNotLevelled];
-    if (rows[first + kPlane].rms_height < kTilted * not_levelled.rms_height) not_levelled.is_reasonable = false;
+    const Tilt tilt = {not_levelled.rms_height, rows[first + kPlane].rms_height};
+    if (tilt.isLarge()) not_levelled.is_reasonable = false;
   }
   return rows;
 }
