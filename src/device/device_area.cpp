@@ -1,9 +1,11 @@
 #include "device/device_area.hpp"
+#include "device/area_load.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "approach/area_cells.hpp"
+#include "device/area_load.hpp"
 #include "device/scan_list.hpp"
 #include "errors/short_number.hpp"
 #include "mems_stiction/errors/errors.hpp"
@@ -134,13 +136,6 @@ class DeviceAreaSolver::Gatherer {
 DeviceAreaSolver::DeviceAreaSolver(const Options& model, double loaded_area, const DevicePieces& pieces)
     : model_(model), loaded_area_(loaded_area), pieces_(pieces) {}
 
-Options DeviceAreaSolver::loadedOn(double area) const {
-  Options options = model_;
-  options.load.setMechanicalLoad(model_.load.mechanical_load * area / loaded_area_);
-  options.load.max_mechanical_load = std::max(options.load.max_mechanical_load, options.load.mechanical_load);
-  return options;
-}
-
 void DeviceAreaSolver::warnOnce(const std::string& warning) {
   if (std::find(warnings_.begin(), warnings_.end(), warning) == warnings_.end()) warnings_.push_back(warning);
 }
@@ -186,7 +181,7 @@ Realisation DeviceAreaSolver::realise(const std::vector<HeightMap>& lower, const
 
 Realisation DeviceAreaSolver::follow(const AreaCells& cells, const std::vector<AreaCells>& quarters,
                                      const std::function<cv::Mat()>& frame) {
-  const AreaAdhesion found = areaAdhesion(cells, loadedOn(cells.area()));
+  const AreaAdhesion found = areaAdhesion(cells, loadedOn(model_, loaded_area_, cells.area()));
   checkDepth(cells, found);
   if (found.reach != AreaReach::kEnough) return followFrame(frame());
   force_exponents_ = found.pull_off_exponents;
@@ -202,7 +197,7 @@ Realisation DeviceAreaSolver::follow(const AreaCells& cells, const std::vector<A
   double work = 0.0;
   for (const AreaCells& quarter : quarters) {
     if (quarter.validCount() == 0) continue;
-    const AreaAdhesion part = areaAdhesion(quarter, loadedOn(quarter.area()));
+    const AreaAdhesion part = areaAdhesion(quarter, loadedOn(model_, loaded_area_, quarter.area()));
     if (part.reach != AreaReach::kEnough) return followFrame(frame());
     force += part.pull_off_force / kQuarters;
     work += part.apparent_work_of_adhesion / kQuarters;
@@ -215,7 +210,7 @@ Realisation DeviceAreaSolver::follow(const AreaCells& cells, const std::vector<A
 Realisation DeviceAreaSolver::followFrame(const cv::Mat& relief) {
   const HeightMap frame(relief, pieces_.size.pitch_x, pieces_.size.pitch_y);
   const double area = areaOf(frame);
-  AdhesionModel model(loadedOn(area));
+  AdhesionModel model(loadedOn(model_, loaded_area_, area));
   const Prediction found = model.predict(frame);
   force_exponents_ = found.pull_off_exponents;
   work_exponents_ = found.work_exponents;

@@ -62,7 +62,6 @@ class DeviceAreaSolver {
   Realisation follow(const AreaCells& cells, const std::vector<AreaCells>& quarters,
                      const std::function<cv::Mat()>& frame);
   Realisation followFrame(const cv::Mat& relief);
-  Options loadedOn(double area) const;
   void warnOnce(const std::string& warning);
 
   Options model_;

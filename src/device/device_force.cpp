@@ -8,6 +8,7 @@
 #include <random>
 #include <utility>
 
+#include "device/area_load.hpp"
 #include "device/device_area.hpp"
 #include "device/device_mosaic.hpp"
 #include "device/law_check.hpp"
@@ -20,6 +21,7 @@
 #include "mems_stiction/prediction/adhesion_model.hpp"
 #include "mems_stiction/verdict/margin_uncertainty.hpp"
 #include "numeric/constants.hpp"
+#include "numeric/mean.hpp"
 #include "numeric/median.hpp"
 #include "verdict/part_verdict.hpp"
 
@@ -30,14 +32,6 @@ namespace {
 constexpr double kOwnError = 0.12;
 /// A misfit of the law that moves the force by less is not worth a sentence.
 constexpr double kToldMisfit = 1.1;
-
-double deviation(const std::vector<double>& values) {
-  double mean = 0.0;
-  for (const double value : values) mean += value / static_cast<double>(values.size());
-  double sum = 0.0;
-  for (const double value : values) sum += (value - mean) * (value - mean);
-  return std::sqrt(sum / static_cast<double>(values.size() - 1));
-}
 
 /// As many of them, by lot.
 std::vector<HeightMap> drawnAgain(const std::vector<HeightMap>& scans, std::uint64_t seed) {
@@ -256,8 +250,8 @@ void takeConforming(const std::vector<Prediction>& predictions, const Options& m
   force.force_deviation = force.work_deviation = 0.0;
   if (forces.size() > 1) {
     const double once_more = std::sqrt(1.0 + 1.0 / static_cast<double>(forces.size()));
-    force.force_deviation = deviation(forces) * once_more;
-    force.work_deviation = deviation(works) * once_more;
+    force.force_deviation = deviationOf(forces) * once_more;
+    force.work_deviation = deviationOf(works) * once_more;
     student = studentQuantile(static_cast<double>(forces.size()) - 1.0);
   }
   takeIntervals(predictions.back(), model, uncertainty, student, force);
@@ -304,14 +298,14 @@ DeviceForce deviceForce(const DeviceSurfaces& surfaces, const DeviceArea& area, 
 
   AdhesionModel adhesion(model);
   const double finest = finestPitch(mapsOf(surfaces.scans));
+  const std::vector<HeightMap> counter_surface = mapsOf(surfaces.counter_surface);
+  const double loaded_area = areaOf(surfaces.scans.front().surface);
   std::vector<Prediction> predictions;
   double force_per_area = 0.0;
   for (const NamedScan& scan : surfaces.scans) {
-    if (longerPitch(scan.surface) > 1.5 * finest) continue;
-    Options of_scan = model;
-    of_scan.load.mechanical_load *= areaOf(scan.surface) / areaOf(surfaces.scans.front().surface);
-    adhesion.setOptions(of_scan);
-    predictions.push_back(adhesion.predict(underCounterSurface(scan.surface, mapsOf(surfaces.counter_surface))));
+    if (!showsSummits(scan.surface, finest)) continue;
+    adhesion.setOptions(loadedOn(model, loaded_area, areaOf(scan.surface)));
+    predictions.push_back(adhesion.predict(underCounterSurface(scan.surface, counter_surface)));
     const Prediction& prediction = predictions.back();
     force_per_area += prediction.pull_off_force / prediction.nominal_area;
     force.parts_of_scans.push_back({prediction.nominal_area, prediction.pull_off_force});
@@ -378,7 +372,7 @@ DeviceForce deviceForce(const DeviceSurfaces& surfaces, const DeviceArea& area, 
   force.separation_at_rest = medianOf(gaps);
   const double once_more = std::sqrt(1.0 + 1.0 / options.realisations);
   const auto scatter = [&](const std::vector<double>& of_stated, const std::vector<double>& of_others) {
-    return once_more * std::hypot(std::max(deviation(of_stated), deviation(of_others)), kOwnError);
+    return once_more * std::hypot(std::max(deviationOf(of_stated), deviationOf(of_others)), kOwnError);
   };
   force.force_deviation = scatter(stated.force, others.force);
   force.work_deviation = scatter(stated.work, others.work);

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "device/area_load.hpp"
 #include "device/scan_list.hpp"
+#include "numeric/mean.hpp"
 #include "preprocess/level.hpp"
 
 namespace mems_stiction {
@@ -15,24 +17,10 @@ constexpr double kByChance = 4.0;
 /// Share of a misfit at the size of the scans that is found at that of the device; the rest of it is its uncertainty
 /// (doc/device.md says on which surfaces it was set).
 constexpr double kCarried = 0.7;
-/// Scans with pixels up to so much longer than the finest show the same summits.
-constexpr double kAsFine = 1.5;
 /// Of many scans, so many are made and predicted in each round.
 constexpr std::size_t kScansOfRound = 4;
 
 double logOf(double figure) { return std::log(std::max(figure, std::numeric_limits<double>::min())); }
-
-double meanOf(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
-}
-
-double squaresAbout(double mean, const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double value : values) sum += (value - mean) * (value - mean);
-  return sum;
-}
 
 }  // namespace
 
@@ -62,7 +50,7 @@ LawCheck::LawCheck(const Options& model, const std::vector<HeightMap>& scans,
     : options_(model), loaded_area_(areaOf(scans.front())), adhesion_(model) {
   const double finest = finestPitch(scans);
   for (std::size_t place = 0; place < scans.size(); ++place) {
-    if (longerPitch(scans[place]) > kAsFine * finest) continue;
+    if (!showsSummits(scans[place], finest)) continue;
     checked_.emplace_back();
     checked_.back().place = place;
     predict(scans[place], counter_surface, checked_.back().own);
@@ -78,9 +66,7 @@ void LawCheck::add(const std::vector<HeightMap>& made, const std::vector<HeightM
 }
 
 void LawCheck::predict(const HeightMap& scan, const std::vector<HeightMap>& counter_surface, Logs& logs) {
-  Options of_scan = options_;
-  of_scan.load.mechanical_load *= areaOf(scan) / loaded_area_;
-  adhesion_.setOptions(of_scan);
+  adhesion_.setOptions(loadedOn(options_, loaded_area_, areaOf(scan)));
   // made scans are not levelled yet, and all are to be alike
   const Prediction found = adhesion_.predict(underCounterSurface(levelled(scan), counter_surface));
   logs.force.push_back(logOf(found.pull_off_force));

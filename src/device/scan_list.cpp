@@ -17,6 +17,11 @@ double finestPitch(const std::vector<HeightMap>& scans) {
   return finest;
 }
 
+bool showsSummits(const HeightMap& scan, double finest) {
+  constexpr double kAsFine = 1.5;
+  return longerPitch(scan) <= kAsFine * finest;
+}
+
 std::vector<HeightMap> fineMapsOf(const std::vector<NamedScan>& scans) {
   std::vector<HeightMap> maps = mapsOf(scans);
   const double finest = finestPitch(maps);

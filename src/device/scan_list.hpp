@@ -20,6 +20,8 @@ inline double longerPitch(const HeightMap& surface) { return std::max(surface.pi
 std::vector<HeightMap> mapsOf(const std::vector<NamedScan>& scans);
 /// The shortest of their longer pitches [m]; infinity for none.
 double finestPitch(const std::vector<HeightMap>& scans);
+/// Whether a scan's pixels are short enough beside the finest [m] to show the same summits.
+bool showsSummits(const HeightMap& scan, double finest);
 /// The finest, which alone may stand for contacts.
 std::vector<HeightMap> fineMapsOf(const std::vector<NamedScan>& scans);
 

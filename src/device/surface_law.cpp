@@ -207,7 +207,7 @@ std::vector<Scan> scansOf(const std::vector<HeightMap>& surfaces) {
     scan.heights.setTo(0.0, scan.heights != scan.heights);
     scan.pitch_x = surface.pitchX();
     scan.pitch_y = surface.pitchY();
-    scan.is_fine = std::max(scan.pitch_x, scan.pitch_y) < 1.5 * finest;
+    scan.is_fine = showsSummits(surface, finest);
     scans.push_back(scan);
   }
   return scans;

@@ -6,6 +6,7 @@
 
 #include "errors/short_number.hpp"
 #include "numeric/constants.hpp"
+#include "numeric/mean.hpp"
 #include "verdict/finding.hpp"
 #include "verdict/regime_flags.hpp"
 
@@ -35,12 +36,6 @@ bool lacksOnlyContacts(const ScanStatement& scan) {
 bool counts(const ScanStatement& scan) { return scan.sticks != Sticks::kUnknown || lacksOnlyContacts(scan); }
 
 double squared(double value) { return value * value; }
-
-double meanOf(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
-}
 
 /// Share of Student's distribution within -t ... t: with tan(theta) = t/sqrt(freedom) its density is that of a power of
 /// the cosine, which is summed by Simpson's rule.
