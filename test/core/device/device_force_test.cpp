@@ -208,6 +208,13 @@ TEST_F(DeviceForceTest, ALoadOnTheScanIsAPressureOnTheDevice) {
   EXPECT_LT(loaded.separation_at_rest, unloaded.separation_at_rest);
 }
 
+/// The limit is for what is stated, the load on the first scan; on a larger one the same pressure is more.
+TEST_F(DeviceForceTest, ALargerScanMayBePressedByMoreThanTheLargestLoadThatMayBeStated) {
+  surfaces_.scans.push_back(part("large", large_, 0, 0, kSide));
+  model_.load.mechanical_load = model_.load.max_mechanical_load = 1e8 * areaOfPixels(256);
+  EXPECT_GT(force(areaOfPixels(420)).pull_off_force, 0.0);
+}
+
 TEST_F(DeviceForceTest, TwoRoughBodiesHoldLessThanOne) {
   const DeviceForce one = force(areaOfPixels(420));
   surfaces_.counter_surface = {part("counter", surfaceOf(512, 60e-9, 5e-9, 8), 0, 0, 256)};
