@@ -16,6 +16,7 @@ void bindDevice(pybind11::module& module);
 void bindMadeSurface(pybind11::module& module);
 void bindHalfSpace(pybind11::module& module);
 void bindStation(pybind11::module& module);
+void bindBeams(pybind11::module& module);
 
 }  // namespace python
 }  // namespace mems_stiction

@@ -16,4 +16,5 @@ PYBIND11_MODULE(_core, module) {
   bindMadeSurface(module);
   bindHalfSpace(module);
   bindStation(module);
+  bindBeams(module);
 }

@@ -1,0 +1,410 @@
+"""The constants of a process from what was measured on its parts: forces, beams, works, each with the scans of its surfaces."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+from typing import Any, Callable, Dict, List, NamedTuple, Optional, Sequence, Tuple, Union
+
+import numpy as np
+
+from mems_stiction._arrays import ReadOnly
+from mems_stiction._settings import Config, OptionsError, Settings
+from mems_stiction.calibration_data import Measurement, measurements_of, values_of
+from mems_stiction.calibration_fit import Fit, Interval, Likelihood
+from mems_stiction.calibration_words import UNITS
+from mems_stiction.quantities import ratio, with_interval, with_unit
+
+WORK, HAMAKER, ANGLE = "interface/work_of_adhesion", "interface/hamaker_constant", "interface/contact_angle"
+RANGE = {WORK: (1e-4, 2.0), HAMAKER: (1e-21, 1e-18)}  # that is searched [J/m^2, J]
+WIDEST_COSINES = (0.01, 1.0)
+COARSE_NODES = 13
+FINE_NODES = 9
+REACH_AROUND = 2.0  # of ln work of adhesion, where a second constant is sought, too
+MOST_REFINEMENTS = 3
+STEP_FOR_SLOPES = 1.15
+TELLING = 2.0  # ends of an interval over the value: wider ones tell nothing
+TELLING_WORK = 6.0  # the same of a work of adhesion
+TELLING_COSINE = 0.6  # width of an interval of the angle's cosine
+NORMAL_95 = 1.959964
+
+OnProgress = Callable[[float], None]
+
+
+class Calibration(ReadOnly):
+    """Constants that a process has, by measurements; NaN: they do not tell.
+
+    work_of_adhesion, work_of_adhesion_lower, work_of_adhesion_upper: best fit and 95 % interval [J/m^2]. hamaker_constant,
+    ..._lower, ..._upper [J] and contact_angle, ... [rad]: the same where the measurements tell; else the configured value, its
+    ends NaN. The intervals are those of the measurements; the model's own error comes with each prediction.
+    relative_uncertainty: of the work, as uncertainty/work_of_adhesion takes it.
+    chi_square, degrees_of_freedom: of the misfit. scatter: share of the surfaces' stated scatter from place to place that the
+    measurements show; NaN where none has any.
+    measurements: a record of each: name, kind, value, uncertainty, fitted [its unit], deviation (standardised), is_outlier: it does
+    not belong to the others, and was left out.
+    statements: what the measurements tell and what they cannot. settings: Settings with the fitted constants.
+    """
+
+    work_of_adhesion: float
+    work_of_adhesion_lower: float
+    work_of_adhesion_upper: float
+    hamaker_constant: float
+    hamaker_constant_lower: float
+    hamaker_constant_upper: float
+    contact_angle: float
+    contact_angle_lower: float
+    contact_angle_upper: float
+    relative_uncertainty: float
+    chi_square: float
+    degrees_of_freedom: int
+    scatter: float
+    measurements: np.recarray
+    statements: Tuple[str, ...]
+    settings: Settings
+
+    def __init__(self, figures: Dict[str, Any], fingerprints: Sequence[str]) -> None:
+        self.__dict__.update(figures)
+        self._fingerprints = tuple(fingerprints)
+
+    def to_dict(self) -> Dict[str, Any]:
+        """What json() prints. None stands for what is not known."""
+        names = [name for name in type(self).__annotations__ if name not in ("measurements", "statements", "settings")]
+        record: Dict[str, Any] = {name: _plain(getattr(self, name)) for name in names}
+        record["measurements"] = [{name: _plain(row[name]) for name in self.measurements.dtype.names} for row in self.measurements]
+        record["statements"] = list(self.statements)
+        return record
+
+    def json(self) -> str:
+        """One line."""
+        return json.dumps(self.to_dict())
+
+    def yaml(self) -> str:
+        """The settings with these constants, as every program takes them, with what they come from in comments.
+
+        Raises OptionsError where the measurements do not tell the work of adhesion.
+        """
+        if math.isnan(self.work_of_adhesion):
+            raise OptionsError("calibration: %s; there is nothing to configure" % self.statements[0])
+        return "".join("# %s\n" % line for line in self._provenance()) + self.settings.yaml()
+
+    def _provenance(self) -> List[str]:
+        from mems_stiction.version import version
+
+        lines = ["Calibrated by mems_stiction %s: work of adhesion %s" % (version(), self._work_text())]
+        lines += list(self.statements)
+        lines.append("measurement, kind, value, standard uncertainty, fitted, deviation, scans (SHA-256 of their heights)")
+        for row, fingerprint in zip(self.measurements, self._fingerprints):
+            lines.append("%s, %s, %.6g, %.3g, %.6g, %.2f, %s%s" % (row.name, row.kind, row.value, row.uncertainty, row.fitted, row.deviation,
+                                                               fingerprint, ", left out" if row.is_outlier else ""))
+        return lines
+
+    def _work_text(self) -> str:
+        return with_interval(self.work_of_adhesion, self.work_of_adhesion_lower, self.work_of_adhesion_upper, "J/m^2")
+
+    def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
+        """Writes yaml() to a file."""
+        from mems_stiction.whole_file import whole
+
+        text = self.yaml()
+        with whole(path) as part:
+            part.write_text(text, encoding="utf-8")
+
+    def save_picture(self, path: Union[str, "os.PathLike[str]"]) -> None:
+        """PNG, PDF or SVG: measured against fitted values with their errors."""
+        from mems_stiction.calibration_figure import save_calibration
+
+        save_calibration(self.to_dict(), path)
+
+    picture = save_picture
+
+    def __repr__(self) -> str:
+        lines = ["Calibration by %d measurements: work of adhesion %s" % (
+            len(self.measurements), "not known" if math.isnan(self.work_of_adhesion) else self._work_text())]
+        lines += ["  " + statement for statement in self.statements]
+        for row in self.measurements:
+            lines.append("  %s: %s %s, fitted %s, %+.1f standard deviations%s" % (
+                row.name, row.kind, with_unit(row.value, UNITS[row.kind]), with_unit(row.fitted, UNITS[row.kind]), row.deviation,
+                " (left out)" if row.is_outlier else ""))
+        return "\n".join(lines)
+
+
+def _plain(value: Any) -> Any:
+    value = value.item() if hasattr(value, "item") else value
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+class _Axis:
+    """One constant that is sought: its name, what of it is sought, its range."""
+
+    def __init__(self, name: str, base: Dict[str, Any]) -> None:
+        self.name = name
+        self.configured = float(base[name])
+        self.is_cosine = name == ANGLE
+        self.bounds = WIDEST_COSINES if self.is_cosine else tuple(math.log(end) for end in RANGE[name])
+
+    def value(self, parameter: float) -> float:
+        return math.acos(min(max(parameter, 0.0), 1.0)) if self.is_cosine else math.exp(parameter)
+
+    def parameter(self, value: float) -> float:
+        return math.cos(value) if self.is_cosine else math.log(value)
+
+    def tells(self, interval: Interval) -> bool:
+        if self.is_cosine:
+            return interval.upper - interval.lower < TELLING_COSINE
+        return interval.is_closed and interval.upper - interval.lower < 2.0 * math.log(TELLING_WORK if self.name == WORK else TELLING)
+
+
+class _Surrogate:
+    """ln of the expected values at nodes of the constants, and between them."""
+
+    def __init__(self, measurements: List[Measurement], axes: List[_Axis], on_step: Callable[[], None]) -> None:
+        self.measurements, self.axes, self.on_step = measurements, axes, on_step
+        self.known: Dict[Tuple[float, ...], np.ndarray] = {}
+        self.nodes: List[np.ndarray] = []
+        self.interpolation: Any = None
+
+    def take(self, nodes: List[np.ndarray]) -> None:
+        from scipy.interpolate import PchipInterpolator, RegularGridInterpolator
+
+        self.nodes = nodes
+        grid = np.stack(np.meshgrid(*nodes, indexing="ij"), axis=-1)
+        values = np.array([self._at(tuple(parameters)) for parameters in grid.reshape(-1, len(nodes))])
+        values = values.reshape(grid.shape[:-1] + (len(self.measurements),))
+        if len(nodes) == 1:
+            self.interpolation = PchipInterpolator(nodes[0], values, axis=0)
+        else:
+            self.interpolation = RegularGridInterpolator(nodes, values, method="pchip" if len(nodes[0]) > 3 else "linear")
+
+    def expected(self, parameters: np.ndarray) -> np.ndarray:
+        inside = [np.clip(value, nodes[0], nodes[-1]) for value, nodes in zip(parameters, self.nodes)]
+        return np.exp(np.ravel(self.interpolation(inside[0] if len(inside) == 1 else np.array([inside]))))
+
+    def bounds(self) -> List[Tuple[float, float]]:
+        return [(float(nodes[0]), float(nodes[-1])) for nodes in self.nodes]
+
+    def _at(self, parameters: Tuple[float, ...]) -> np.ndarray:
+        if parameters not in self.known:
+            constants = {axis.name: axis.value(value) for axis, value in zip(self.axes, parameters)}
+            values = [measurement.expected(constants) for measurement in self.measurements]
+            self.known[parameters] = np.log(np.maximum(values, [1e-12 * measurement.value for measurement in self.measurements]))
+            self.on_step()
+        return self.known[parameters]
+
+
+class _Found(NamedTuple):
+    """What a search found."""
+
+    axes: List[_Axis]
+    whole: Likelihood  # of all measurements
+    likelihood: Likelihood  # without outliers
+    fit: Fit
+    intervals: List[Interval]
+    outliers: List[int]
+
+    def deviations(self) -> np.ndarray:
+        """Of all measurements, standardised."""
+        return self.whole.deviations(self.whole.model(self.fit.parameters), self.fit.scatter)[0]
+
+
+class _Search:
+    """Best constants of a list of axes."""
+
+    def __init__(self, measurements: List[Measurement], axes: List[_Axis], on_step: Callable[[], None]) -> None:
+        self.measurements, self.axes = measurements, axes
+        self.surrogate = _Surrogate(measurements, axes, on_step)
+
+    def run(self, around: Optional[float] = None) -> "_Found":
+        """- around: ln work of adhesion, as it is known from before"""
+        nodes = [np.linspace(*axis.bounds, COARSE_NODES) for axis in self.axes]
+        if around is not None:
+            nodes[0] = nodes[0][np.abs(nodes[0] - around) < REACH_AROUND]
+        for _ in range(MOST_REFINEMENTS):
+            self.surrogate.take(nodes)
+            whole = self._likelihood()
+            outliers = whole.outliers()
+            likelihood = whole.part([place for place in range(len(self.measurements)) if place not in outliers])
+            fit = likelihood.fit()
+            intervals = [likelihood.interval(fit, index) for index in range(len(self.axes))]
+            finer = [_refined(axis, interval) for axis, interval in zip(nodes, intervals)]
+            if all(len(one) == len(other) for one, other in zip(finer, nodes)):
+                break
+            nodes = finer
+        return _Found(self.axes, whole, likelihood, fit, intervals, outliers)
+
+    def _likelihood(self) -> Likelihood:
+        middle = {axis.name: axis.configured for axis in self.axes}
+        return Likelihood([m.value for m in self.measurements], [m.uncertainty for m in self.measurements],
+                          [m.scatter(middle) for m in self.measurements], [m.kind for m in self.measurements],
+                          self.surrogate.expected, self.surrogate.bounds())
+
+
+def _refined(nodes: np.ndarray, interval: Interval) -> np.ndarray:
+    """With nodes where the interval lies, no further apart than an eighth of it, nor closer than a percent."""
+    width = interval.upper - interval.lower
+    low, high = max(interval.lower - 0.25 * width, nodes[0]), min(interval.upper + 0.25 * width, nodes[-1])
+    inside = nodes[(nodes > low) & (nodes < high)]
+    if len(inside) >= FINE_NODES - 2 or high - low < 0.01 * FINE_NODES:
+        return nodes
+    return np.unique(np.concatenate([nodes, np.linspace(low, high, FINE_NODES)]))
+
+
+def calibrate(measurements: Sequence[Any], config: Optional[Config] = None, *, on_progress: Optional[OnProgress] = None,
+              **settings: Any) -> Calibration:
+    """Which work of adhesion has this process, by what was measured on its parts?
+
+        found = mems_stiction.calibrate([
+            {"kind": "pull_off_force", "value": 210e-9, "uncertainty": 40e-9, "scans": "dimple.gwy"},
+            {"kind": "detachment_length", "value": 350e-6, "uncertainty": 30e-6, "scans": ["a.gwy", "b.gwy"], "area": 4e-9,
+             "beam_type": "cantilever", "thickness": 2e-6, "gap": 2e-6, "modulus": 169e9}], config="process.yaml")
+        found.work_of_adhesion, found.work_of_adhesion_lower, found.work_of_adhesion_upper
+
+    measurements: dictionaries with
+        kind: pull_off_force [N], apparent_work_of_adhesion [J/m^2], detachment_length [m] (the longest beam that comes off by
+            itself) or crack_length [m] (the free arm of a stuck, S-shaped beam);
+        value, uncertainty: as measured, and its standard uncertainty in the same unit;
+        scans, pitch, upper: of the surfaces that it was measured on, as predict_device() takes them;
+        area, contacts: of the contact [m^2], larger or smaller than the scans; without it, the scan itself is what touched;
+        radius: of a tip or sphere [m] that was pulled off the scanned surface, or off a smooth plane without scans;
+        beam_type (cantilever, doubly_clamped), thickness [m], gap [m], modulus [Pa], residual_stress [Pa]: of a beam;
+        relative_humidity, mechanical_load [N], name: of this measurement.
+    config, settings: as of predict(): materials, cleaning, and the constants that are not sought.
+    on_progress: called with the share of the work that is done; what it throws ends it.
+
+    Maximum likelihood with profile intervals (doc/process.md). The Hamaker constant is fitted, too, where the measurements tell
+    it; the angle of contact of the liquid where they were made at several humidities. Raises OptionsError and SurfaceError,
+    which name the measurement.
+    """
+    base = Settings(config, **settings)
+    data = measurements_of(measurements, base, {})
+    values = values_of(base)
+    progress = _Progress(on_progress)
+    found = _Search(data, [_Axis(WORK, values)], progress.step).run()
+    second, statements = _second_axis(data, values, found)
+    if second is not None:
+        both = _Search(data, found.axes + [second], progress.step).run(found.fit.parameters[0])
+        if second.tells(both.intervals[1]):
+            found = both
+        else:
+            statements.append(_not_told(second))
+    progress.end()
+    return _calibration(data, base, values, found, statements)
+
+
+class _Progress:
+    """A share that only grows, of work whose end is not known before."""
+
+    def __init__(self, on_progress: Optional[OnProgress]) -> None:
+        self.on_progress, self.steps = on_progress, 0
+
+    def step(self) -> None:
+        self.steps += 1
+        if self.on_progress is not None:
+            self.on_progress(1.0 - 1.0 / (1.0 + self.steps / 15.0))
+
+    def end(self) -> None:
+        if self.on_progress is not None:
+            self.on_progress(1.0)
+
+
+def _second_axis(data: List[Measurement], values: Dict[str, Any], found: _Found) -> Tuple[Optional[_Axis], List[str]]:
+    """A second constant that the measurements may tell, and a sentence where they clearly do not."""
+    humidities = {datum.place.humidity for datum in data}
+    if len(humidities) > 1:
+        return _Axis(ANGLE, values), []
+    if len(data) < 3 or float(values[HAMAKER]) <= 0.0:
+        return None, [_not_told(_Axis(HAMAKER, values))] if float(values[HAMAKER]) > 0.0 else []
+    axis = _Axis(HAMAKER, values)
+    here = {WORK: found.axes[0].value(found.fit.parameters[0]), HAMAKER: axis.configured}
+    slopes = np.array([[_slope(datum, here, name) for name in (WORK, HAMAKER)] for datum in data])
+    weights = 1.0 / np.maximum(found.whole.deviations(found.whole.model(found.fit.parameters), found.fit.scatter)[1], 1e-12)
+    information = (slopes * weights[:, None]).T @ slopes
+    determinant = np.linalg.det(information)
+    if determinant <= 0.0 or math.sqrt(information[0, 0] / determinant) * NORMAL_95 > 1.5 * math.log(TELLING):
+        return None, [_not_told(axis)]
+    return axis, []
+
+
+def _slope(datum: Measurement, here: Dict[str, float], name: str) -> float:
+    """d ln value/d ln constant."""
+    ends = []
+    for factor in (1.0 / STEP_FOR_SLOPES, STEP_FOR_SLOPES):
+        value = datum.expected(dict(here, **{name: factor * here[name]}))
+        if not 0.0 < value < math.inf:
+            return 0.0
+        ends.append(math.log(value))
+    return (ends[1] - ends[0]) / (2.0 * math.log(STEP_FOR_SLOPES))
+
+
+def _not_told(axis: _Axis) -> str:
+    if axis.is_cosine:
+        return "these humidities do not tell the liquid's angle of contact; it stays at %s rad as configured" % ratio(axis.configured)
+    return "the measurements do not tell the Hamaker constant apart from the work of adhesion; it stays at %.3g J as configured" % axis.configured
+
+
+def _calibration(data: List[Measurement], base: Settings, values: Dict[str, Any], found: _Found, statements: List[str]) -> Calibration:
+    fit = found.fit
+    has_places = (found.likelihood.places > 0).any()
+    figures: Dict[str, Any] = {"chi_square": fit.chi_square, "degrees_of_freedom": max(len(fit.values) - len(found.axes), 0),
+                               "scatter": fit.scatter if has_places else math.nan}
+    for name, word in ((HAMAKER, "hamaker_constant"), (ANGLE, "contact_angle")):
+        figures.update({word: float(values[name]), word + "_lower": math.nan, word + "_upper": math.nan})
+    constants: Dict[str, float] = {}
+    for axis, parameter, interval in zip(found.axes, fit.parameters, found.intervals):
+        word = axis.name.partition("/")[2]
+        ends = sorted(axis.value(end) for end in (interval.lower, interval.upper))
+        figures.update({word: axis.value(parameter), word + "_lower": ends[0], word + "_upper": ends[1]})
+        constants[axis.name] = axis.value(parameter)
+        if not axis.is_cosine:
+            constants["uncertainty/" + word] = _relative(interval)
+    statements = _of_outliers(data, found) + _of_misfit(found) + statements
+    if not found.axes[0].tells(found.intervals[0]):
+        statements.insert(0, _open_end(found.intervals[0], found.axes[0]))
+        figures.update(work_of_adhesion=math.nan, work_of_adhesion_lower=math.nan, work_of_adhesion_upper=math.nan)
+        constants = {}
+    rows = [(datum.name, datum.kind, datum.value, datum.uncertainty, float(value), float(deviation), place in found.outliers)
+            for place, (datum, value, deviation) in enumerate(zip(data, found.whole.model(fit.parameters), found.deviations()))]
+    table = np.rec.fromrecords(rows, dtype=[("name", object), ("kind", object), ("value", float), ("uncertainty", float), ("fitted", float),
+                                            ("deviation", float), ("is_outlier", bool)])
+    figures.update(relative_uncertainty=constants.get("uncertainty/work_of_adhesion", math.nan), measurements=table,
+                   statements=tuple(statements), settings=Settings(base, **constants))
+    return Calibration(figures, [datum.place.fingerprint() for datum in data])
+
+
+def _relative(interval: Interval) -> float:
+    """Relative standard deviation of a lognormal number with this 95 % interval of its logarithm, as uncertainty/... take it."""
+    return min(math.sqrt(math.expm1(((interval.upper - interval.lower) / (2.0 * NORMAL_95)) ** 2)), 1.0)
+
+
+def _of_outliers(data: List[Measurement], found: _Found) -> List[str]:
+    if not found.outliers:
+        return []
+    expected = found.whole.model(found.fit.parameters)
+    with_all = found.axes[0].value(found.whole.fit().parameters[0])
+    return ["%s does not belong to the others and was left out: %s was measured, %s is expected; with all measurements the work of adhesion would be %s" % (
+        data[place].name, with_unit(data[place].value, UNITS[data[place].kind]), with_unit(float(expected[place]), UNITS[data[place].kind]),
+        with_unit(with_all, "J/m^2")) for place in found.outliers]
+
+
+def _open_end(interval: Interval, axis: _Axis) -> str:
+    """What is still said of a work of adhesion that has no interval."""
+    if interval.is_closed:
+        return "these surfaces hardly tell the work of adhesion: it lies between %s and %s" % (
+            with_unit(axis.value(interval.lower), "J/m^2"), with_unit(axis.value(interval.upper), "J/m^2"))
+    if interval.has_lower:
+        return "these surfaces do not tell the work of adhesion: it is at least %s, and may be anything above" % with_unit(
+            axis.value(interval.lower), "J/m^2")
+    if interval.has_upper:
+        return "these surfaces do not tell the work of adhesion: it is at most %s, and may be anything below" % with_unit(
+            axis.value(interval.upper), "J/m^2")
+    return "these surfaces do not tell the work of adhesion: what holds them hardly depends on it (rough, stiff, or far apart)"
+
+
+def _of_misfit(found: _Found) -> List[str]:
+    fit, said = found.fit, []
+    if fit.widening > 1.0:
+        said.append("the measurements scatter %s times as much as their uncertainties say (chi^2 %s of %d); the interval was widened by that" % (
+            ratio(fit.widening), ratio(fit.chi_square), fit.freedom))
+    if found.likelihood.has_scatter and fit.scatter > 0.5:
+        said.append("much of the scatter is that of surfaces from place to place: more parts tell more, more precise ones do not")
+    return said

@@ -1,0 +1,243 @@
+"""Constants of a process by maximum likelihood: what fits measurements best, how far it is known, and which measurement does not belong.
+
+Nothing here knows of surfaces: a model is a function from parameters to the values that would be measured. Errors are
+independent and normal, but for surfaces that scatter from place to place: those are lognormal. An uncertainty that is the same
+share of all values is that share of the true one: taken of the measured values it would give low ones more weight, and so a
+constant that is too low. Its deviance is that of a variance that goes with the square of the mean (Wedderburn, Biometrika 61
+(1974) 439).
+
+Intervals are those of the profile likelihood (Venzon and Moolgavkar, Appl. Stat. 37 (1988) 87), 95 %.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Callable, Dict, List, Optional, Sequence, Tuple
+
+import numpy as np
+import scipy.optimize
+import scipy.stats
+
+QUANTILE_95 = float(scipy.stats.chi2.ppf(0.95, 1))
+FEWEST_FOR_SCATTER = 4  # fewer measurements do not tell how much surfaces scatter
+FEWEST_FOR_OUTLIERS = 4  # others are needed to tell one that does not belong
+FALSE_OUTLIERS = 0.02  # probability that one of sound measurements is taken for one
+UNLIKELY = 0.01  # probability of a misfit that is no chance
+SAME_SHARE = 1.5  # of the share itself
+STARTS = 25
+MOST_ROUNDS = 6
+SIMPLEX = 0.03  # of the range
+STEPS_TO_AN_END = 64
+
+Model = Callable[[np.ndarray], np.ndarray]
+
+
+@dataclass(frozen=True)
+class Interval:
+    """Of one parameter; an end where the range that was searched ends is none."""
+
+    lower: float
+    upper: float
+    has_lower: bool
+    has_upper: bool
+
+    @property
+    def is_closed(self) -> bool:
+        return self.has_lower and self.has_upper
+
+
+@dataclass(frozen=True)
+class Fit:
+    """Best parameters and what they leave.
+
+    values: what the model gives; deviations: standard ones, of each measurement about it; scatter: share of the stated scatter
+    of surfaces that the measurements show; chi_square, freedom, probability: of the misfit; widening: factor on the intervals
+    where that is no chance (Birge, Phys. Rev. 40 (1932) 207).
+    """
+
+    parameters: np.ndarray
+    values: np.ndarray
+    deviations: np.ndarray
+    scatter: float
+    deviance: float
+    chi_square: float
+    freedom: int
+    probability: float
+
+    @property
+    def widening(self) -> float:
+        return float(np.sqrt(self.chi_square / self.freedom)) if self.probability < UNLIKELY else 1.0
+
+
+class Likelihood:
+    """Of measurements, under a model.
+
+    values, uncertainties: measured, in the same unit. places: standard deviation of ln value from one place of the surfaces to
+    another, which the measurements may show in full or in part; 0 where the very place is known.
+    groups: a word for each measurement: those of one group are of one kind and unit.
+    model: parameters -> values; bounds: of each parameter.
+    """
+
+    def __init__(self, values: Sequence[float], uncertainties: Sequence[float], places: Sequence[float], groups: Sequence[str],
+                 model: Model, bounds: Sequence[Tuple[float, float]]) -> None:
+        self.values = np.asarray(values, float)
+        self.uncertainties = np.asarray(uncertainties, float)
+        self.places = np.asarray(places, float)
+        self.groups = list(groups)
+        self.model = model
+        self.bounds = list(bounds)
+        self.shares = _shares(self.values, self.uncertainties, self.groups)
+        self.has_scatter = np.count_nonzero(self.places > 0) >= FEWEST_FOR_SCATTER
+
+    def part(self, members: Sequence[int]) -> "Likelihood":
+        """Of some of the measurements."""
+        chosen = np.array(members, dtype=int)
+        return Likelihood(self.values[chosen], self.uncertainties[chosen], self.places[chosen], [self.groups[i] for i in chosen],
+                          lambda parameters: self.model(parameters)[chosen], self.bounds)
+
+    def deviations(self, fitted: np.ndarray, scatter: float) -> Tuple[np.ndarray, np.ndarray]:
+        """Standardised deviations of the measurements from what a model gives, and the variances of ln value about it."""
+        own = np.where(np.isnan(self.shares), self.uncertainties / fitted, self.shares)
+        variances = own ** 2 + (scatter * self.places) ** 2
+        of_places = np.log(self.values / fitted) + own ** 2 / 2  # a normal error of this share lowers the mean logarithm by that
+        return np.where(self.places > 0, of_places, self.values / fitted - 1.0) / np.sqrt(variances), variances
+
+    def deviance(self, unknowns: np.ndarray) -> float:
+        """-2 ln quasi-likelihood but for a constant; unknowns: parameters, and the scatter where it is one."""
+        scatter = unknowns[-1] if self.has_scatter else 1.0
+        fitted = self.model(unknowns[:len(self.bounds)])
+        deviations, variances = self.deviations(fitted, scatter)
+        over = self.values / fitted
+        normal = deviations ** 2 + np.where(self.places > 0, np.log(variances), 0.0)
+        of_shares = 2.0 * (over - 1.0 - np.log(over)) / variances
+        found = float(np.sum(np.where((self.places > 0) | np.isnan(self.shares), normal, of_shares)))
+        return found if np.isfinite(found) else 1e300
+
+    def fit(self) -> Fit:
+        starts = self._starts({})
+        best = min((self._improved(start, {}) for start in starts[:3]), key=lambda found: found[1])
+        parameters = best[0][:len(self.bounds)]
+        scatter = float(best[0][-1]) if self.has_scatter else 1.0
+        fitted = self.model(parameters)
+        deviations = self.deviations(fitted, scatter)[0]
+        freedom = max(len(self.values) - len(self.bounds), 1)
+        chi_square = float(np.sum(deviations ** 2))
+        probability = float(scipy.stats.chi2.sf(chi_square, freedom)) if len(self.values) > len(self.bounds) else 1.0
+        return Fit(parameters, fitted, deviations, scatter, best[1], chi_square, freedom, probability)
+
+    def interval(self, fit: Fit, index: int) -> Interval:
+        """Of one parameter, 95 %: where the others follow as they fit best."""
+        limit = fit.deviance + QUANTILE_95 * fit.widening ** 2
+        ends = [self._end(fit, index, limit, self.bounds[index][side]) for side in (0, 1)]
+        return Interval(ends[0][0], ends[1][0], ends[0][1], ends[1][1])
+
+    def profile(self, index: int, value: float, near: Optional[np.ndarray] = None) -> float:
+        """Least deviance where one parameter has this value; near: unknowns that are worth a start, too."""
+        fixed = {index: value}
+        if self._free(fixed) == []:
+            return self.deviance(self._unknowns([], fixed))
+        starts = self._starts(fixed)[:2] + [near[self._free(fixed)]] * (near is not None)
+        return min(self._improved(start, fixed)[1] for start in starts)
+
+    def outliers(self) -> List[int]:
+        """Measurements that the others do not expect, the worst first: at most a fifth of them, each against a fit without it."""
+        members, found = list(range(len(self.values))), []
+        while len(members) >= max(FEWEST_FOR_OUTLIERS, len(self.bounds) + 2) and 5 * (len(found) + 1) <= len(self.values):
+            distances = [self._distance(place, [other for other in members if other != place]) for place in members]
+            # the worst of so many
+            if max(distances) < float(scipy.stats.norm.isf(FALSE_OUTLIERS / (2 * len(members)))):
+                break
+            found.append(members.pop(int(np.argmax(distances))))
+        return found
+
+    def _distance(self, place: int, others: List[int]) -> float:
+        """Of a measurement from what others expect [standard deviations]."""
+        likelihood = self.part(others)
+        fit = likelihood.fit()
+        # surfaces may scatter as stated, whatever a few of them show
+        deviation = self.deviations(self.model(fit.parameters), 1.0)[0][place]
+        return float(abs(deviation) / np.sqrt(1.0 + 1.0 / len(others)) / fit.widening)
+
+    def _end(self, fit: Fit, index: int, limit: float, bound: float) -> Tuple[float, bool]:
+        """Where the profile reaches the limit on the way to the bound; whether it does."""
+        near = np.append(fit.parameters, fit.scatter) if self.has_scatter else fit.parameters
+
+        def over(value: float) -> float:
+            return self.profile(index, value, near) - limit
+
+        best = before = fit.parameters[index]
+        for share in np.linspace(0.0, 1.0, STEPS_TO_AN_END + 1)[1:] ** 2:
+            here = best + share * (bound - best)
+            if over(here) > 0.0:
+                if over(before) >= 0.0:  # the search for the others ended elsewhere this time
+                    return before, True
+                return float(scipy.optimize.brentq(over, before, here, xtol=1e-4 * abs(here - before) + 1e-12)), True
+            before = here
+        return bound, False
+
+    def _all_bounds(self) -> List[Tuple[float, float]]:
+        return self.bounds + ([(0.0, 1.0)] if self.has_scatter else [])
+
+    def _free(self, fixed: Dict[int, float]) -> List[int]:
+        return [i for i in range(len(self._all_bounds())) if i not in fixed]
+
+    def _unknowns(self, free: Sequence[float], fixed: Dict[int, float]) -> np.ndarray:
+        unknowns = np.empty(len(self._all_bounds()))
+        unknowns[self._free(fixed)] = free
+        for index, value in fixed.items():
+            unknowns[index] = value
+        return unknowns
+
+    def _starts(self, fixed: Dict[int, float]) -> List[np.ndarray]:
+        """Places to begin from, the best first: on a grid of the first free parameter, and a few of the others."""
+        bounds = [self._all_bounds()[i] for i in self._free(fixed)]
+        axes = [np.linspace(low, high, STARTS if place == 0 and 0 not in fixed else 4) for place, (low, high) in enumerate(bounds)]
+        grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, len(axes))
+        return sorted(grid, key=lambda start: self.deviance(self._unknowns(start, fixed)))
+
+    def _improved(self, start: np.ndarray, fixed: Dict[int, float]) -> Tuple[np.ndarray, float]:
+        bounds = [self._all_bounds()[i] for i in self._free(fixed)]
+        widths = np.array([high - low for low, high in bounds])
+        low = np.array([low for low, _ in bounds])
+
+        def of_shares(shares: np.ndarray) -> float:
+            return self.deviance(self._unknowns(low + np.clip(shares, 0.0, 1.0) * widths, fixed))
+
+        shares = (start - low) / widths
+        if len(bounds) == 1:
+            reach = 1.0 / (STARTS - 1)
+            shares = np.array([scipy.optimize.minimize_scalar(of_shares, bounds=(max(shares[0] - reach, 0.0), min(shares[0] + reach, 1.0)),
+                                                              method="bounded", options={"xatol": 1e-7}).x])
+        else:
+            for _ in range(MOST_ROUNDS):  # a simplex that has collapsed goes on as a new one
+                found = scipy.optimize.minimize(of_shares, shares, method="Nelder-Mead", bounds=[(0.0, 1.0)] * len(bounds),
+                                                options={"xatol": 1e-7, "fatol": 1e-7, "initial_simplex": _simplex(shares)})
+                has_moved = of_shares(shares) - found.fun > 1e-5
+                shares = found.x
+                if not has_moved:
+                    break
+        unknowns = self._unknowns(low + np.clip(shares, 0.0, 1.0) * widths, fixed)
+        return unknowns, self.deviance(unknowns)
+
+
+def _simplex(shares: np.ndarray) -> np.ndarray:
+    """Around a place, inside of the unit box."""
+    corners = np.tile(shares, (len(shares) + 1, 1))
+    for place, share in enumerate(shares):
+        corners[place + 1, place] = share + (SIMPLEX if share < 0.5 else -SIMPLEX)
+    return corners
+
+
+def _shares(values: np.ndarray, uncertainties: np.ndarray, groups: Sequence[str]) -> np.ndarray:
+    """Uncertainty over value where it goes with the value, else NaN: in its group shares differ less than uncertainties do.
+
+    Shares that differ by no more than measured values scatter are one share, of the true values.
+    """
+    shares = np.full(len(values), np.nan)
+    for group in set(groups):
+        members = np.array([other == group for other in groups])
+        own = uncertainties[members] / values[members]
+        if np.std(np.log(own)) <= np.std(np.log(uncertainties[members])):
+            common = float(np.median(own))
+            shares[members] = common if np.std(np.log(own)) < SAME_SHARE * common else own
+    return shares

@@ -1,0 +1,247 @@
+"""calibrate: constants come back from made measurements, their intervals hold, and what does not belong is said."""
+
+import json
+import math
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+import warnings
+
+import mems_stiction
+import numpy as np
+import yaml
+
+try:
+    from mems_stiction import _core
+except ImportError:
+    raise unittest.SkipTest("the Python module is not built: MEMS_STICTION_WITH_PYTHON is off")
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+
+from mems_stiction._calibration import WORK, _Axis, _Search  # noqa: E402
+from mems_stiction.calibration_data import measurements_of, values_of  # noqa: E402
+from mems_stiction.calibration_fit import Likelihood  # noqa: E402
+from module_cases import REPOSITORY, rough  # noqa: E402  (the path comes first)
+
+PITCH = 10e-9
+TRUTH = 0.031  # work of adhesion [J/m^2]
+SURFACES = [rough(96, 96, 3e-9, seed) for seed in range(3)]
+CALIBRATE = str(REPOSITORY / "scripts" / "calibrate")
+
+
+def force_of(heights, **interface):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", mems_stiction.ScanWarning)
+        warnings.simplefilter("ignore", mems_stiction.SettingsWarning)
+        return mems_stiction.predict(heights, PITCH, interface=dict({"work_of_adhesion": TRUTH}, **interface)).pull_off_force
+
+
+def measured(value, heights, error=0.2, **others):
+    return dict({"kind": "pull_off_force", "value": value, "uncertainty": error * value, "scans": heights, "pitch": PITCH}, **others)
+
+
+def exact():
+    """Ten forces as the model has them."""
+    return [measured(force_of(SURFACES[place % 3]), SURFACES[place % 3], name="tip %d" % place) for place in range(10)]
+
+
+def calibrated(data, config=None, **settings):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", mems_stiction.ScanWarning)
+        warnings.simplefilter("ignore", mems_stiction.SettingsWarning)
+        return mems_stiction.calibrate(data, config, **settings)
+
+
+class MadeDataTest(unittest.TestCase):
+    def test_intervals_of_200_draws_hold_the_truth_and_there_is_no_bias(self):
+        data = measurements_of(exact(), None, {})
+        search = _Search(data, [_Axis(WORK, values_of(mems_stiction.Settings()))], lambda: None)
+        search.run()
+        truth = np.array([datum.value for datum in data])
+        covered, logs = 0, []
+        for draw in range(200):
+            values = truth * (1.0 + 0.2 * np.random.RandomState(draw).standard_normal(len(truth)))
+            likelihood = Likelihood(values, 0.2 * values, np.zeros(len(truth)), ["force"] * len(truth), search.surrogate.expected,
+                                    search.surrogate.bounds())
+            fit = likelihood.fit()
+            interval = likelihood.interval(fit, 0)
+            covered += interval.lower < math.log(TRUTH) < interval.upper
+            logs.append(fit.parameters[0] - math.log(TRUTH))
+        self.assertGreaterEqual(covered, 180)
+        self.assertLessEqual(covered, 196)
+        self.assertAlmostEqual(math.exp(np.mean(logs)), 1.0, delta=0.02)
+
+    def test_surfaces_that_scatter_widen_the_interval_as_far_as_the_measurements_show(self):
+        model = lambda parameters: np.full(10, math.exp(parameters[0]))  # noqa: E731
+        for scatter, lowest, highest in ((0.0, 0.1, 0.3), (0.3, 0.2, 0.6)):
+            covered, widths = 0, []
+            for draw in range(60):
+                random = np.random.RandomState(draw)
+                values = (1.0 + 0.1 * random.standard_normal(10)) * np.exp(scatter * random.standard_normal(10))
+                likelihood = Likelihood(values, 0.1 * values, np.full(10, 0.3), ["force"] * 10, model, [(-3.0, 3.0)])
+                interval = likelihood.interval(likelihood.fit(), 0)
+                covered += interval.lower < 0.0 < interval.upper
+                widths.append(interval.upper - interval.lower)
+            self.assertGreaterEqual(covered, 51)
+            self.assertGreater(np.median(widths), lowest)
+            self.assertLess(np.median(widths), highest)
+
+    def test_one_of_ten_that_does_not_belong_is_named_and_left_out(self):
+        data = exact()
+        data[4].update(value=2.5 * data[4]["value"], uncertainty=2.5 * data[4]["uncertainty"])
+        found = calibrated(data)
+        self.assertEqual(list(np.flatnonzero(found.measurements.is_outlier)), [4])
+        self.assertRegex(found.statements[0], "^tip 4 does not belong")
+        self.assertAlmostEqual(found.work_of_adhesion / TRUTH, 1.0, delta=0.02)
+
+    def test_two_constants_where_surfaces_tell_them_apart(self):
+        surfaces = [rough(96, 96, rms, seed) for seed, rms in enumerate((0.3e-9, 1e-9, 3e-9, 10e-9))]
+        found = calibrated([measured(force_of(heights, hamaker_constant=3e-20), heights, 0.05) for heights in surfaces])
+        self.assertAlmostEqual(found.hamaker_constant / 3e-20, 1.0, delta=0.05)
+        self.assertLess(found.hamaker_constant_lower, 3e-20)
+        self.assertGreater(found.hamaker_constant_upper, 3e-20)
+        self.assertAlmostEqual(found.work_of_adhesion / TRUTH, 1.0, delta=0.05)
+
+    def test_the_part_of_humidity_where_several_were_measured(self):
+        data = [measured(force_of(heights, relative_humidity=humidity, contact_angle=0.7), heights, 0.1, relative_humidity=humidity)
+                for humidity in (0.0, 0.3, 0.6) for heights in SURFACES[:2]]
+        found = calibrated(data)
+        self.assertAlmostEqual(found.contact_angle, 0.7, delta=0.05)
+        self.assertLess(found.contact_angle_lower, 0.7)
+        self.assertGreater(found.contact_angle_upper, 0.7)
+        self.assertAlmostEqual(found.work_of_adhesion / TRUTH, 1.0, delta=0.1)
+
+    def test_forces_that_no_work_of_adhesion_explains_end_in_a_sentence(self):
+        found = calibrated([measured(1e5 * force_of(SURFACES[0]), SURFACES[0])])
+        self.assertTrue(math.isnan(found.work_of_adhesion))
+        self.assertRegex(found.statements[0], "do not tell the work of adhesion: it is at least ")
+        with self.assertRaisesRegex(mems_stiction.OptionsError, "nothing to configure"):
+            found.yaml()
+
+    def test_works_of_large_surfaces_that_far_forces_hold_end_in_a_sentence(self):
+        """A few of their summits touch: it is Hamaker's constant that gives most of the work."""
+        few = {"device_force": {"realisations": 3, "max_cells": 1e4}}
+        datum = {"kind": "apparent_work_of_adhesion", "value": 5e-6, "uncertainty": 1e-6, "scans": SURFACES[:1], "pitch": PITCH, "area": 1e-11}
+        found = calibrated([datum], **few)
+        self.assertTrue(math.isnan(found.work_of_adhesion))
+        self.assertRegex(found.statements[0], "tell the work of adhesion: ")
+
+
+class KindsTest(unittest.TestCase):
+    def test_lengths_of_beams_are_those_of_the_predicted_work(self):
+        work = mems_stiction.predict(SURFACES[0], PITCH, interface={"work_of_adhesion": TRUTH}).apparent_work_of_adhesion
+        beam = {"thickness": 2e-6, "gap": 1e-6, "modulus": 169e9}
+        lengths = {"detachment_length": (0.375, "cantilever"), "crack_length": (1.5, "cantilever")}
+        for kind, (factor, beam_type) in lengths.items():
+            # Mastrangelo and Hsu 1993; de Boer and Michalske 1999
+            length = (factor * 169e9 * 2e-6 ** 3 * 1e-6 ** 2 / work) ** 0.25
+            datum = dict(beam, kind=kind, value=length, uncertainty=0.01 * length, scans=SURFACES[0], pitch=PITCH, beam_type=beam_type)
+            self.assertAlmostEqual(calibrated([datum]).work_of_adhesion / TRUTH, 1.0, delta=0.02, msg=kind)
+
+    def test_a_smooth_sphere_lies_between_jkr_and_dmt(self):
+        radius = 1e-6
+        force = 2 * math.pi * radius * TRUTH  # DMT
+        found = calibrated([{"kind": "pull_off_force", "value": force, "uncertainty": 0.01 * force, "radius": radius}])
+        self.assertGreater(found.work_of_adhesion, 0.98 * TRUTH)
+        self.assertLess(found.work_of_adhesion, 1.02 * TRUTH * 4 / 3)  # JKR
+
+    def test_a_sphere_on_a_rough_surface_scatters_from_place_to_place(self):
+        found = calibrated([measured(2e-8, SURFACES[0], 0.01, radius=0.5e-6)])
+        self.assertGreater(found.work_of_adhesion_upper, 1.2 * found.work_of_adhesion)
+
+    def test_an_area_is_judged_by_made_surfaces(self):
+        few = {"device_force": {"realisations": 3, "max_cells": 1e4}}
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", mems_stiction.ScanWarning)
+            device = mems_stiction.predict_device(SURFACES, 4e-12, PITCH, interface={"work_of_adhesion": TRUTH}, **few)
+        datum = measured(device.pull_off_force, SURFACES, 0.01, area=4e-12)
+        found = calibrated([datum], **few)
+        self.assertAlmostEqual(found.measurements.fitted[0] / device.pull_off_force, 1.0, delta=0.05)
+
+
+class FacesTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.path = pathlib.Path(self.folder.name)
+
+    def run_program(self, *arguments):
+        return subprocess.run([sys.executable, CALIBRATE, *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                              universal_newlines=True)
+
+    def write_list(self):
+        listed = []
+        for place, heights in enumerate(SURFACES):
+            np.save(str(self.path / ("scan%d.npy" % place)), heights)
+            force = float(force_of(heights))
+            listed.append({"kind": "pull_off_force", "value": force, "uncertainty": 0.1 * force, "scans": "scan%d.npy" % place, "pitch": PITCH,
+                           "name": "dimple %d" % place})
+        (self.path / "measured.yaml").write_text(yaml.safe_dump(listed))
+        return self.path / "measured.yaml"
+
+    def test_the_program_writes_a_configuration_that_the_verdict_takes(self):
+        calibrated_yaml, picture = self.path / "process.yaml", self.path / "fit.png"
+        run = self.run_program("--json", "-o", calibrated_yaml, "--picture", picture, self.write_list())
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        record = json.loads(run.stdout)
+        self.assertAlmostEqual(record["work_of_adhesion"] / TRUTH, 1.0, delta=0.02)
+        values = values_of(mems_stiction.Settings(calibrated_yaml))
+        self.assertEqual(values["interface/work_of_adhesion"], record["work_of_adhesion"])
+        # lognormal with this relative deviation: the interval comes back
+        spread = math.sqrt(math.log1p(values["uncertainty/work_of_adhesion"] ** 2))
+        self.assertAlmostEqual(math.exp(2 * 1.96 * spread) / (record["work_of_adhesion_upper"] / record["work_of_adhesion_lower"]), 1.0, delta=0.01)
+        self.assertIn("dimple 2, pull_off_force", calibrated_yaml.read_text())
+        self.assertEqual(picture.read_bytes()[:4], b"\x89PNG")
+
+    def test_measurements_that_tell_nothing_end_with_1_and_write_no_configuration(self):
+        listed = yaml.safe_load(self.write_list().read_text())[:1]
+        listed[0].update(value=1e-2, uncertainty=1e-3)
+        (self.path / "measured.yaml").write_text(yaml.safe_dump(listed))
+        run = self.run_program("-o", self.path / "process.yaml", self.path / "measured.yaml")
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("do not tell the work of adhesion", run.stdout)
+        self.assertFalse((self.path / "process.yaml").exists())
+
+    def test_the_program_names_what_is_wrong(self):
+        run = self.run_program(self.path / "none.yaml")
+        self.assertEqual(run.returncode, 2)
+        self.assertRegex(run.stderr, r"^calibrate: .*none\.yaml: [^\n]*\n$")
+        (self.path / "text.yaml").write_text("kind: pull_off_force\n")
+        self.assertRegex(self.run_program(self.path / "text.yaml").stderr, r"^calibrate: .*text\.yaml: must be a list")
+
+    def test_each_wrong_measurement_is_named(self):
+        good = measured(1e-7, SURFACES[0])
+        for changed, words in (({"kind": "force"}, r"measurements\[0\]/kind: 'force' is not allowed, must be one of pull_off_force"),
+                               ({"value": -1}, r"measurements\[0\]/value: -1 is not allowed, must be a number > 0"),
+                               ({"value": "1 nN"}, r"measurements\[0\]/value: '1 nN' is not allowed"),
+                               ({"uncertainty": 0}, r"measurements\[0\]/uncertainty: 0 is not allowed"),
+                               ({"thickness": 1e-6}, r"measurements\[0\]/thickness: there is no such key for pull_off_force"),
+                               ({"scans": None}, r"measurements\[0\]/scans: are missing"),
+                               ({"radius": 1e-6, "area": 1e-12}, r"measurements\[0\]/radius: is not allowed with area"),
+                               ({"relative_humidity": 1.5}, r"measurements\[0\]: interface/relative_humidity")):
+            with self.assertRaisesRegex(mems_stiction.OptionsError, words):
+                calibrated([dict(good, **changed)])
+        with self.assertRaisesRegex(mems_stiction.OptionsError, "an empty list"):
+            calibrated([])
+        with self.assertRaisesRegex(mems_stiction.OptionsError, "must be a list of dictionaries"):
+            calibrated(good)
+        with self.assertRaisesRegex(mems_stiction.OptionsError, "beam_type: 'bridge' is not allowed"):
+            calibrated([dict(good, kind="crack_length", thickness=1e-6, gap=1e-6, modulus=1e11, beam_type="bridge")])
+
+    def test_progress_ends_it_where_it_throws(self):
+        shares = []
+
+        def stop(share):
+            shares.append(share)
+            if len(shares) == 3:
+                raise KeyboardInterrupt
+
+        with self.assertRaises(KeyboardInterrupt):
+            calibrated([measured(1e-7, SURFACES[0])], on_progress=stop)
+        self.assertEqual(shares, sorted(shares))
+
+
+if __name__ == "__main__":
+    unittest.main()
