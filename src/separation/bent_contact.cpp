@@ -2,170 +2,159 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "chosen_constants.hpp"
 
 namespace mems_stiction {
 namespace {
 
 /// Bending below this share of the law's range changes nothing.
 constexpr double kLeastBending = 0.02;
-/// From one k to the next, and how many there may be.
-constexpr double kNextBed = 2.0;
-constexpr int kMostBeds = 60;
-/// From one number of summits to the next, and how many there may be.
-constexpr double kNextSummits = 1.42;
-constexpr int kMostSummits = 64;
-/// Steps of the way out, as a share of the law's range.
-constexpr double kStep = 0.05;
+/// Where a way begins and ends, in ranges of the law before first touch.
+constexpr double kApart = 3.0;
+/// Steps are so many times as long as those of thick bodies. The way in has no figure of its own but its end, and the way out has
+/// shorter ones where its force is largest.
+constexpr double kStepsIn = 3.0;
+constexpr double kStepsOut = 2.0;
+constexpr int kMostTrials = 12;
+/// Where bodies jump while the force is largest, steps become as short as this.
+constexpr double kShortestStep = 0.15;
 
-/// - @p share of the way from one point to the next, in [0, 1]
-double between(const std::vector<double>& values, std::size_t from, double share) {
-  return values[from] + share * (values[from + 1] - values[from]);
-}
-
-struct Place {
-  std::size_t from;
-  double share;
-};
-/// Where a height lies among ascending ones; it is within them.
-Place placeOf(const std::vector<double>& heights, double height) {
-  const auto above = std::upper_bound(heights.begin() + 1, heights.end() - 1, height);
-  const auto from = static_cast<std::size_t>(above - heights.begin() - 1);
-  return {from, (height - heights[from]) / (heights[from + 1] - heights[from])};
+/// The next step of a way [m].
+double stepFrom(const SeparationState& state, double range, double length) {
+  return length * chosen::kStep * (range + std::abs(state.approach));
 }
 
 }  // namespace
 
-double BentContact::Bed::forceAt(double height) const {
-  if (heights.size() < 2 || height >= heights.back()) return 0.0;
-  const Place place = placeOf(heights, height);
-  return between(forces, place.from, place.share);
+void BentContact::settleBetween(double above, double below) {
+  const double load = settings_->load.mechanical_load;
+  const cv::Mat1d from = plate_.shape().clone();
+  for (int trial = 0; trial < kMostTrials; ++trial) {
+    const double middle = 0.5 * (above + below);
+    plate_.takeBack(from);
+    const SeparationState& state = plate_.settle(middle, {middle, 0.0});
+    if (std::abs(state.force() + load) <= chosen::kAccuracy * std::max(state.carried, load)) {
+      height_at_rest_ = middle;
+      return;
+    }
+    (state.force() + load >= 0.0 ? above : below) = middle;
+    height_at_rest_ = middle;
+  }
 }
 
-double BentContact::Bed::energyAt(double height, double area) const {
-  if (heights.size() < 2 || height < heights.front()) return std::numeric_limits<double>::infinity();
-  if (height >= heights.back()) return area * energy - work_apart;
-  const Place place = placeOf(heights, height);
-  return area * energy - between(works, place.from, place.share);
+void BentContact::comeToRest() {
+  const double load = settings_->load.mechanical_load;
+  const double range = curve_.frame().law().range();
+  double height = field_->meanGap() + kApart * range;
+  way_in_.states.clear();
+  cv::Mat1d before;
+  double above = height;
+  for (int step = 0; step < settings_->approach.max_steps; ++step) {
+    plate_.shape().copyTo(before);
+    const SeparationState state = plate_.settle(height, {height, 0.0});
+    way_in_.states.push_back(state);
+    height_at_rest_ = height;
+    if (state.force() + load < 0.0) {
+      plate_.takeBack(before);
+      settleBetween(above, height);
+      way_in_.states.push_back(plate_.state());
+      break;
+    }
+    if (state.contact_count >= plate_.frame().contactLimit()) break;
+    above = height;
+    height -= stepFrom(state, range, kStepsIn);
+  }
+  at_rest_ = plate_.blocks();
+  energy_at_rest_ = plate_.energy();
 }
 
-void BentContact::follow(Bed bed) {
-  const GapField& gap = bent(bed);
-  curve_.comeToRest(gap, *settings_);
-  curve_.part();
-  area_ = curve_.frame().area();
-  const SeparationCurve& way = curve_.wayOut();
-  bed.work_apart = way.work_apart;
-  for (auto state = way.states.rbegin(); state != way.states.rend(); ++state) {
-    bed.heights.push_back(gap.meanGap() - state->approach);
-    bed.forces.push_back(state->partingForce());
+void BentContact::flow(const GapField& at_rest) {
+  curve_.comeToRest(at_rest, *settings_);
+  const double approach = curve_.rest().approach;
+  flowed_.create(field_->rows(), field_->cols());
+  flowed_ = 0.0;
+  const OverlapSweep& sweep = curve_.frame().contactsAt(approach);
+  bool has_flowed = false;
+  for (int i = 0; i < sweep.cellCount(); ++i) {
+    const OrderedCell& ordered = curve_.frame().orderedCells()[static_cast<std::size_t>(i)];
+    const auto contact = static_cast<std::size_t>(sweep.livePlace(sweep.patchOf(ordered)));
+    const RemainingOverlap& remaining = curve_.contacts()[contact].remaining;
+    if (!remaining.isChanged()) continue;
+    has_flowed = true;
+    const GridCell cell = field_->cellAt(ordered.cell);
+    flowed_(cell.row, cell.col) = approach - ordered.gap - remaining.of(approach - ordered.gap);
   }
-  bed.works.assign(bed.heights.size(), way.work_apart);
-  for (std::size_t i = bed.works.size(); i-- > 1;) {
-    bed.works[i - 1] = bed.works[i] + 0.5 * (bed.forces[i - 1] + bed.forces[i]) * (bed.heights[i] - bed.heights[i - 1]);
-  }
-  beds_.push_back(std::move(bed));
-}
-
-void BentContact::takeRest() {
-  at_rest_ = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < beds_.size(); ++i) {
-    const double height = beds_[i].heights.front();
-    const double energy = beds_[i].energyAt(height, area_) + settings_->load.mechanical_load * height;
-    if (!(energy < least)) continue;
-    least = energy;
-    at_rest_ = i;
-  }
+  if (!has_flowed) return;
+  changed_.lower(*field_, flowed_);
+  height_at_rest_ += cv::sum(flowed_)[0] / field_->validCount();  // heights count from the mean
+  plate_.change(changed_);
 }
 
 void BentContact::part() {
   parting_ = {};
-  const double step = kStep * curve_.frame().law().range();
-  const double end = beds_.front().heights.back();
+  const double range = plate_.frame().law().range();
+  const double most = plate_.frame().law().workOfAdhesion();
+  const Way way = wayOutOf(way_in_, range);
   const double level = field_->meanGap();
-  double work = beds_.front().work_apart;
-  double last = 0.0;
-  std::size_t here = at_rest_;
-  for (double height = beds_[here].heights.front(); height < end; height += step) {
-    for (bool falls = true; falls;) {
-      falls = false;
-      const double energy = beds_[here].energyAt(height, area_);
-      for (const std::size_t other : nextTo(here)) {
-        if (!(beds_[other].energyAt(height, area_) < energy)) continue;
-        here = other;
-        falls = true;
-        break;
-      }
-    }
-    const double force = beds_[here].forceAt(height);
+  const auto take = [&](double height) {
+    const double force = plate_.state().partingForce();
     if (force > parting_.force) {
       parting_.force = force;
-      parting_.strongest = here;
+      strongest_ = plate_.blocks();
     }
-    work += 0.5 * step * std::max(0.0, last + force);
-    last = force;
     parting_.curve.push_back({level - height, force, true});
-  }
-  parting_.work = std::min(work / area_, curve_.frame().law().workOfAdhesion());
-}
-
-std::vector<std::size_t> BentContact::nextTo(std::size_t bed) const {
-  std::vector<std::size_t> next;
-  if (bed == first_summits_) {
-    next.push_back(0);
-  } else if (bed > 0) {
-    next.push_back(bed - 1);
-  }
-  if (bed + 1 < beds_.size() && bed + 1 != first_summits_) next.push_back(bed + 1);
-  if (bed == 0 && first_summits_ > 1 && first_summits_ < beds_.size()) next.push_back(first_summits_);
-  return next;
-}
-
-void BentContact::followBeds() {
-  const ContactTraction& law = curve_.frame().law();
-  // no contact is stiffer than the law of all places at once, and none gives more than its work
-  double stiffness = law.strength() / law.range();
-  for (int i = 0; i < kMostBeds; ++i, stiffness /= kNextBed) {
-    bending_.bent(stiffness);
-    if (bending_.rmsBending() < kLeastBending * law.range()) break;
-    if (bending_.energy() < law.workOfAdhesion()) {
-      Bed bed;
-      bed.stiffness = stiffness;
-      bed.energy = bending_.energy();
-      bed.bending = bending_.blocks().clone();
-      follow(std::move(bed));
+  };
+  double height = height_at_rest_;
+  SeparationState state = plate_.settle(height, {height, way.longest_hold});
+  take(height);
+  cv::Mat1d before;
+  double work = 0.0;
+  double rise = 0.0;
+  double longest = stepFrom(state, range, kStepsOut);
+  while (state.approach > -kApart * range) {
+    plate_.shape().copyTo(before);
+    double step = longest;
+    SeparationState next = plate_.settle(height + step, {height_at_rest_, way.longest_hold});
+    // where bodies jump out of a valley in which the force would have become the largest, how far the valley goes
+    const bool falls = next.partingForce() < state.partingForce();
+    if (falls && state.partingForce() + rise * step > parting_.force && step > stepFrom(state, range, kShortestStep)) {
+      plate_.takeBack(before);
+      longest = 0.5 * step;
+      continue;
     }
+    height += step;
+    take(height);
+    work += 0.5 * step * (std::max(0.0, state.givenForce()) + std::max(0.0, next.givenForce()));
+    rise = std::max(0.0, next.partingForce() - state.partingForce()) / step;
+    state = next;
+    longest = stepFrom(state, range, kStepsOut);
   }
-  std::reverse(beds_.begin() + 1, beds_.end());
-  first_summits_ = beds_.size();
+  work += plate_.frame().energy(state.approach);
+  parting_.work = std::min(work / plate_.frame().area(), most);
 }
 
-void BentContact::followSummits() {
-  SummitBending summits = bending_.onSummits();
-  int next = 2;
-  while (summits.count() < kMostSummits && summits.addSummit()) {
-    if (summits.count() < next) continue;
-    if (summits.energy() > curve_.frame().law().workOfAdhesion()) break;
-    next = std::max(next + 1, static_cast<int>(next * kNextSummits));
-    Bed bed;
-    bed.energy = summits.energy();
-    bed.bending = summits.bending().clone();
-    follow(std::move(bed));
-  }
+bool BentContact::staysStraight() {
+  curve_.comeToRest(*field_, *settings_);
+  curve_.part();
+  plate_.start(bending_, *field_, *settings_);
+  const double level = field_->meanGap();
+  const double rest = level - curve_.rest().approach;
+  const double least = kLeastBending * curve_.frame().law().range();
+  return plate_.firstMove(rest, {rest, 0.0}) < least &&
+         plate_.firstMove(level - curve_.wayOut().pull_off_approach, {rest, curve_.wayOut().way.longest_hold}) < least;
 }
 
 const GapField& BentContact::solve(const GapField& field, const ContactSettings& settings) {
   field_ = &field;
   settings_ = &settings;
-  beds_.clear();
   bending_.start(field, WaveStiffness(settings.lower, settings.upper));
-  follow({});
-  followBeds();
-  if (first_summits_ > 1) followSummits();
-  takeRest();
-  if (!isStiff()) part();
-  return bent(beds_[at_rest_]);
+  is_stiff_ = staysStraight();
+  if (is_stiff_) return field;
+  comeToRest();
+  flow(bending_.bentBy(field, at_rest_));
+  part();
+  return bending_.bentBy(field, at_rest_);
 }
 
 }  // namespace mems_stiction

@@ -1,23 +1,18 @@
 #pragma once
 
 /// @file
-/// Two surfaces whose bodies bend under the long waves of their relief: how far at rest, and how they part.
+/// Two surfaces whose bodies bend under what presses and pulls at them: how they come to rest, and how they part.
 ///
-/// The relief lies on a bed of stiffness k (plate_bending.hpp), and k is what costs least, contact and bending together:
-///
-///     E(Z) = min over k of [ B(k) A - integral of F_k from Z to apart dZ ],   F(Z) = F_k(Z) at that k            (S15)
-///
-/// Z is the height of the upper body over the mean of the relief, F_k the curve of the relief on a bed of k, B what bending
-/// stores per area. Where E is least, k is the contact's own stiffness, -(dF/dZ)/A. At rest all k are compared, each at its own
-/// rest under the load: the answer does not depend on where a search begins. On the way out the bodies stay in the valley of E
-/// in which they are, and spring back where it ends: long waves come back one after another, and what they have stored with
-/// them.
+/// The upper body comes down until the force on it is balanced, and is drawn off again; at each height the bodies settle
+/// (pressed_plate.hpp). They stay in the equilibrium in which they are: contacts that bending brings near close by jumps, and open by
+/// jumps on the way out, with what has been stored in the bodies. Force and work are those of this way.
 
 #include <vector>
 
 #include "separation/conforming_contact.hpp"
 #include "separation/contact_curve.hpp"
 #include "separation/plate_bending.hpp"
+#include "separation/pressed_plate.hpp"
 
 namespace mems_stiction {
 
@@ -28,23 +23,20 @@ class BentContact {
   /// @return the gap at rest, valid until the next call
   const GapField& solve(const GapField& field, const ContactSettings& settings);
   /// Whether bodies bend so little that they are as good as thick.
-  bool isStiff() const { return at_rest_ == 0; }
-  double energyAtRest() const { return beds_[at_rest_].energy; }  ///< of bending, per area [J/m^2]
+  bool isStiff() const { return is_stiff_; }
+  double energyAtRest() const { return energy_at_rest_; }  ///< of bending, per area [J/m^2]
 
   /// The way out by contacts.
   struct Parting {
-    std::size_t strongest = 0;  ///< bending where the force is largest
-    double force = 0.0;         ///< the largest [N]
-    double work = 0.0;          ///< per area [J/m^2]
+    double force = 0.0;  ///< the largest [N]
+    double work = 0.0;   ///< per area [J/m^2]
     std::vector<SeparationCurvePoint>
         curve;  ///< by descending displacement, counted from the first touch of stiff bodies
   };
   const Parting& parting() const { return parting_; }
 
-  /// k at rest [Pa/m]; 0 where bodies lie on summits, or are stiff.
-  double bedStiffness() const { return beds_[at_rest_].stiffness; }
   /// The gap where the force is largest, valid until the next call.
-  const GapField& strongest() { return bent(beds_[parting_.strongest]); }
+  const GapField& strongest() { return bending_.bentBy(*field_, strongest_); }
   /// What is left to thick bodies of a relief that closes, and how they have bent to it.
   struct Closed {
     const GapField* gap;
@@ -56,37 +48,29 @@ class BentContact {
   }
 
  private:
-  struct Bed {
-    double stiffness = 0.0;  ///< k [Pa/m]
-    cv::Mat1d bending;       ///< by block [m]; empty: none
-    double energy = 0.0;     ///< B [J/m^2]
-    double work_apart = 0.0;
-    std::vector<double> heights;  ///< Z [m], ascending from rest
-    std::vector<double> forces;   ///< on the way out [N]
-    std::vector<double> works;    ///< from there to apart [J]
-    /// Of the way out at a height, 0 beyond its end.
-    double forceAt(double height) const;
-    /// E at a height [J], infinite nearer than rest.
-    double energyAt(double height, double area) const;
-  };
-  const GapField& bent(const Bed& bed) { return bed.bending.empty() ? *field_ : bending_.bentBy(bed.bending); }
-  /// - @p bed with what it does to the relief
-  void follow(Bed bed);
-  void followBeds();
-  void followSummits();
-  /// The bendings next to one: by k, or by the number of summits.
-  std::vector<std::size_t> nextTo(std::size_t bed) const;
-  void takeRest();
+  /// Whether all that presses and pulls at straight bodies, at rest and where they hold most, hardly bends them.
+  bool staysStraight();
+  /// From apart to rest.
+  void comeToRest();
+  /// Takes the height of rest from those above and below it.
+  void settleBetween(double above, double below);
+  /// The relief as contacts at rest have changed it by flow, if they have.
+  void flow(const GapField& at_rest);
   void part();
 
   const GapField* field_ = nullptr;
   const ContactSettings* settings_ = nullptr;
   PlateBending bending_;
+  PressedPlate plate_;
   ContactCurve curve_;
-  double area_ = 0.0;
-  std::vector<Bed> beds_;          ///< none, then by ascending k, then by the number of summits
-  std::size_t first_summits_ = 1;  ///< where these begin
-  std::size_t at_rest_ = 0;
+  SeparationCurve way_in_;
+  bool is_stiff_ = true;
+  double height_at_rest_ = 0.0;  ///< over the mean of the relief [m]
+  double energy_at_rest_ = 0.0;
+  cv::Mat1d at_rest_;  ///< u by block [m]
+  cv::Mat1d strongest_;
+  cv::Mat1d flowed_;  ///< by cell [m]
+  GapField changed_;
   Parting parting_;
 };
 

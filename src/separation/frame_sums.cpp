@@ -33,11 +33,11 @@ PyramidRule ruleOf(const ContactTraction& law) { return {0.0, law.range()}; }
 CellsMissing::CellsMissing(double gap)
     : Error("cells with gaps up to " + numberText(gap) + " m come in reach and are not in the frame"), gap_(gap) {}
 
-void FrameSums::start(const GapField& field, const ContactSettings& settings, const FarGaps* far) {
+void FrameSums::start(const GapField& field, const ContactSettings& settings, const FarGaps* far, bool flows) {
   field_ = &field;
   far_ = far;
   settings_ = &settings;
-  patch_forces_.emplace(settings, field.cellArea(), true);
+  patch_forces_.emplace(settings, field.cellArea(), flows);
   wider_law_.emplace(withMoreHamaker(settings.interface));
   voltage_.emplace(settings.load.voltage, settings.interface.insulator_thickness,
                    settings.interface.insulator_relative_permittivity);

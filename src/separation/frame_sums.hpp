@@ -40,7 +40,8 @@ class FrameSums {
   /// Field, settings and gaps must outlive the object's use.
   /// - @p far gaps of the cells that are not in the frame, if there are any. Every call then throws CellsMissing where they would
   ///   come in reach.
-  void start(const GapField& field, const ContactSettings& settings, const FarGaps* far = nullptr);
+  /// - @p flows whether the hardness limits what patches carry
+  void start(const GapField& field, const ContactSettings& settings, const FarGaps* far = nullptr, bool flows = true);
 
   /// The sums over the patches in reach: those of the surfaces brought closer by z0 and a hold [m].
   /// - @p expected_end where the displacements will probably end [m]: so many cells are put in order at once when there are

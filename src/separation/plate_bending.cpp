@@ -13,7 +13,7 @@ namespace mems_stiction {
 namespace {
 
 /// Blocks of the relief are so many times shorter than the thinner body: shorter waves do not reach through it.
-constexpr double kBlocksPerThickness = 8.0;
+constexpr double kBlocksPerThickness = 4.0;
 
 double thinner(const WaveStiffness& stiffness) {
   double thickness = std::numeric_limits<double>::infinity();
@@ -60,47 +60,34 @@ void PlateBending::start(const GapField& field, const WaveStiffness& stiffness) 
   const double height = field.rows() * field.pitchY();
   const double shortest = kPi * std::hypot(1.0 / field.pitchX(), 1.0 / field.pitchY());
   compliance_ = ExtraCompliance(stiffness, 0.5 * kPi / std::max(width, height), 2.0 * shortest);
-  thickness_ = thinner(stiffness);
-  levelled_ = &field;
-  const double longest_block = thickness_ / kBlocksPerThickness;
-  relief_.take(field, longest_block);
-  if (relief_.repeats()) return;
-  std::vector<double> line;
-  meanPlane(field, line, bending_);
-  level_.lower(field, bending_);
-  levelled_ = &level_;
-  relief_.take(level_, longest_block);
+  const double longest_block = thinner(stiffness) / kBlocksPerThickness;
+  relief_.take(field, longest_block, true);
+  if (!relief_.repeats()) {
+    std::vector<double> line;
+    meanPlane(field, line, bending_);
+    level_.lower(field, bending_);
+    relief_.take(level_, longest_block, true);
+  }
+  roots_ = relief_.filterOf([this](double q) { return std::sqrt(compliance_.at(q)); });
 }
 
-template <typename Bed>
-const GapField& PlateBending::lowered(const Bed& bed, GapField& gap) {
-  energy_ = 0.5 * meanSquare(relief_.weighed([&](double q) {
-              const double compliance = compliance_.at(q);
-              return bed(q) * std::sqrt(compliance) / (1.0 + bed(q) * compliance);
-            }));
-  const cv::Mat1d& conforming = relief_.weighed([&](double q) {
-    const double yield = bed(q) * compliance_.at(q);
-    return yield / (1.0 + yield);
-  });
-  rms_bending_ = std::sqrt(meanSquare(conforming));
-  conforming(cv::Rect({0, 0}, relief_.blocks())).copyTo(blocks_);
-  return lowerBy(blocks_, gap);
-}
-
-const GapField& PlateBending::lowerBy(const cv::Mat1d& blocks, GapField& gap) {
-  cv::resize(blocks, bending_, {field_->cols(), field_->rows()}, 0.0, 0.0, cv::INTER_LINEAR);
-  gap.lower(*field_, bending_);
+const GapField& PlateBending::lowerBy(const GapField& field, const cv::Mat1d& blocks, GapField& gap) {
+  cv::resize(blocks, bending_, {field.cols(), field.rows()}, 0.0, 0.0, cv::INTER_LINEAR);
+  gap.lower(field, bending_);
   return gap;
 }
 
-const GapField& PlateBending::bentBy(const cv::Mat1d& blocks) { return lowerBy(blocks, bent_); }
-
-const GapField& PlateBending::bent(double bed_stiffness) {
-  return lowered([=](double) { return bed_stiffness; }, bent_);
+const GapField& PlateBending::bentBy(const GapField& field, const cv::Mat1d& blocks) {
+  return lowerBy(field, blocks, bent_);
 }
 
 const GapField& PlateBending::closed() {
-  return lowered([this](double q) { return 0.5 * compliance_.contactModulus() * q; }, closed_);
+  const auto yield = [this](double q) { return 0.5 * compliance_.contactModulus() * q * compliance_.at(q); };
+  energy_ = 0.5 * meanSquare(relief_.weighed([&](double q) {
+              return 0.5 * compliance_.contactModulus() * q * std::sqrt(compliance_.at(q)) / (1.0 + yield(q));
+            }));
+  const cv::Mat1d& conforming = relief_.weighed([&](double q) { return yield(q) / (1.0 + yield(q)); });
+  return lowerBy(*field_, conforming(cv::Rect({0, 0}, relief_.blocks())), closed_);
 }
 
 }  // namespace mems_stiction

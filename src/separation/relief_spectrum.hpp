@@ -18,7 +18,8 @@ namespace mems_stiction {
 class ReliefSpectrum {
  public:
   /// - @p longest_block a side of a block [m], where pixels and the most blocks there may be allow it
-  void take(const GapField& field, double longest_block);
+  /// - @p is_for_many whether many sums of waves are to come: a few blocks more may make them quicker
+  void take(const GapField& field, double longest_block, bool is_for_many = false);
 
   /// The sum of the waves, each times weigh(q), q its wave number [1/m]: at every block, and at those of the mirror
   /// images behind. Valid until the next call.
@@ -27,6 +28,11 @@ class ReliefSpectrum {
   /// The same of an image of weighedSize(), in place of the relief.
   template <typename Weigh>
   const cv::Mat1d& weighed(const cv::Mat1d& image, const Weigh& weigh);
+  /// What multiplies each wave, in the order in which filter() meets them.
+  template <typename Weigh>
+  cv::Mat1d filterOf(const Weigh& weigh) const;
+  /// The sum of an image's waves, each times its weight: weighed(image, ...) at half of the cost.
+  void filter(const cv::Mat1d& image, const cv::Mat1d& weights, cv::Mat1d& filtered);
   /// Of what weighed() returns: mirror images included.
   cv::Size weighedSize() const { return frame_.size(); }
   double blockArea() const { return block_width_ * block_height_; }  ///< [m^2]
@@ -38,7 +44,7 @@ class ReliefSpectrum {
   bool repeats() const { return frame_.size() == blocks_; }
 
  private:
-  void takeBlocks(const GapField& field, double longest_block);
+  void takeBlocks(const GapField& field, double longest_block, bool is_for_many);
   void takeWaveNumbers();
   bool repeatsItself() const;
   template <typename Weigh>
@@ -53,10 +59,25 @@ class ReliefSpectrum {
   cv::Mat1d frame_;  ///< with mirror images
   cv::Mat2d spectrum_;
   cv::Mat2d image_spectrum_;
+  cv::Mat1d packed_spectrum_;
   cv::Mat1d wave_numbers_;  ///< [1/m]
   cv::Mat2d weighed_spectrum_;
   cv::Mat1d weighed_;
 };
+
+template <typename Weigh>
+cv::Mat1d ReliefSpectrum::filterOf(const Weigh& weigh) const {
+  // a spectrum of real numbers holds each wave once: real and imaginary parts lie side by side along rows, but for the columns
+  // without a partner, where they lie one above the other
+  cv::Mat1d weights(wave_numbers_.size());
+  for (int row = 0; row < weights.rows; ++row) {
+    for (int col = 0; col < weights.cols; ++col) {
+      const bool is_alone = col == 0 || (col == weights.cols - 1 && weights.cols % 2 == 0);
+      weights(row, col) = weigh(wave_numbers_(is_alone ? (row + 1) / 2 : row, (col + 1) / 2));
+    }
+  }
+  return weights;
+}
 
 template <typename Weigh>
 const cv::Mat1d& ReliefSpectrum::weighed(const Weigh& weigh) {

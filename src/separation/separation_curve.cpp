@@ -27,29 +27,6 @@ double bendingFactor(const PlaceSums& sums) {
   return 1.0 - loss / sums.weight;
 }
 
-/// (S11), but for the loads.
-SeparationState stateAt(FrameSums& frame, double approach, const Way& way, double expected_end = 0.0) {
-  PlaceSums sums = frame.reach(approach, way.longest_hold, expected_end);
-  SeparationState state;
-  state.approach = approach;
-  state.tabor_parameter = sums.taborParameter();
-  // what has not been nearer than at rest holds nothing
-  const double hold = std::min(holdOf(state.tabor_parameter, frame.law().range()), way.longest_hold);
-  state.hold = std::clamp(way.rest - approach, 0.0, hold);
-  frame.add(approach, state.hold, sums);
-  state.contact_count = sums.contact_count;
-  state.carried = sums.carried;
-  state.electrostatic = sums.electrostatic;
-  state.capillary = sums.capillary;
-  state.is_in_reach = sums.weight > 0.0;
-  if (state.is_in_reach) {
-    state.edge_share = 1.0 - sums.edge_loss / sums.weight;
-    state.edge_slope = sums.edge_slope / (sums.weight * state.edge_share);
-  }
-  state.adhesion = bendingFactor(sums) * std::max(sums.adhesion - sums.opened, 0.0);
-  return state;
-}
-
 /// Gives states that are too far apart for any patch the edges of the first one that is not.
 void spreadEdges(std::vector<SeparationState>& states) {
   for (std::size_t i = states.size() - 1; i-- > 0;) {
@@ -179,6 +156,29 @@ void settle(FrameSums& frame, double load, SeparationCurve& curve) {
 }
 
 }  // namespace
+
+// (S11), but for the loads
+SeparationState stateAt(FrameSums& frame, double approach, const Way& way, double expected_end) {
+  PlaceSums sums = frame.reach(approach, way.longest_hold, expected_end);
+  SeparationState state;
+  state.approach = approach;
+  state.tabor_parameter = sums.taborParameter();
+  // what has not been nearer than at rest holds nothing
+  const double hold = std::min(holdOf(state.tabor_parameter, frame.law().range()), way.longest_hold);
+  state.hold = std::clamp(way.rest - approach, 0.0, hold);
+  frame.add(approach, state.hold, sums);
+  state.contact_count = sums.contact_count;
+  state.carried = sums.carried;
+  state.electrostatic = sums.electrostatic;
+  state.capillary = sums.capillary;
+  state.is_in_reach = sums.weight > 0.0;
+  if (state.is_in_reach) {
+    state.edge_share = 1.0 - sums.edge_loss / sums.weight;
+    state.edge_slope = sums.edge_slope / (sums.weight * state.edge_share);
+  }
+  state.adhesion = bendingFactor(sums) * std::max(sums.adhesion - sums.opened, 0.0);
+  return state;
+}
 
 std::vector<SeparationState>::const_iterator SeparationCurve::firstPushing() const {
   return std::find_if(states.begin(), states.end(), [](const auto& state) { return state.givenForce() < 0.0; });

@@ -65,6 +65,10 @@ struct SeparationCurve {
   bool isBondedByLoad() const { return status == Status::kBonded && firstPushing() != states.end(); }
 };
 
+/// The state at one approach.
+/// - @p expected_end as in FrameSums::reach()
+SeparationState stateAt(FrameSums& frame, double approach, const Way& way, double expected_end = 0.0);
+
 /// Follows the curve until the surfaces come to rest under settings.load.mechanical_load: the largest approach at which
 /// F + F_m >= 0. Bonded, when they have not until the contact fraction reaches its limit; without equilibrium, when
 /// approach/max_steps end first.

@@ -75,17 +75,11 @@ TEST(PlateBending, aWaveKeepsItsShareAndStoresTheRest) {
     bending.start(field, stiffness);
     const double q = 2.0 * kPi * std::hypot(along_x, along_y) / kLength;
     const double extra = 1.0 / stiffness.at(q) - 2.0 / (kModulus * q);
-    for (const double bed : {0.0, 0.1 / extra, 1.0 / extra, 20.0 / extra}) {
-      const double share = 1.0 / (1.0 + bed * extra);
-      const double left = rmsOf(bending.bent(bed));
-      EXPECT_NEAR(left, share * field.rmsGap(), 0.01 * field.rmsGap());
-      const double rest = (1.0 - share) * field.rmsGap();
-      EXPECT_NEAR(bending.rmsBending(), rest, 0.01 * field.rmsGap());
-      EXPECT_NEAR(bending.energy(), 0.5 * rest * rest / extra, 0.02 * rest * rest / extra);
-    }
     // closed: both parts together cost K/2 of the square
     const double ratio = stiffness.at(q) / (0.5 * kModulus * q);
     EXPECT_NEAR(rmsOf(bending.closed()), ratio * field.rmsGap(), 0.01 * field.rmsGap());
+    const double rest = (1.0 - ratio) * field.rmsGap();
+    EXPECT_NEAR(bending.energy(), 0.5 * rest * rest / extra, 0.02 * rest * rest / extra);
   }
 }
 
@@ -96,7 +90,7 @@ TEST(PlateBending, aFilmOnSomethingStiffKeepsItsWaves) {
   field.compute(HeightMap(waves(1, 1, 2e-9), kPitch, kPitch));
   PlateBending bending;
   bending.start(field, WaveStiffness(options.lower, options.upper));
-  EXPECT_NEAR(rmsOf(bending.bent(1e20)), field.rmsGap(), 1e-6 * field.rmsGap());
+  EXPECT_NEAR(rmsOf(bending.closed()), field.rmsGap(), 1e-6 * field.rmsGap());
 }
 
 TEST(PlateBending, pixelsThatAreMissingOrNotSquareMakeNoWaves) {
@@ -109,9 +103,9 @@ TEST(PlateBending, pixelsThatAreMissingOrNotSquareMakeNoWaves) {
   PlateBending bending;
   bending.start(field, stiffness);
   const double q = 2.0 * kPi * std::hypot(2.0, 1.0) / kLength;
-  const double extra = 1.0 / stiffness.at(q) - 2.0 / (kModulus * q);
-  EXPECT_NEAR(rmsOf(bending.bent(1.0 / extra)), 0.5 * field.rmsGap(), 0.03 * field.rmsGap());
-  EXPECT_EQ(bending.bent(1.0 / extra).validCount(), field.validCount());
+  const double ratio = stiffness.at(q) / (0.5 * kModulus * q);
+  EXPECT_NEAR(rmsOf(bending.closed()), ratio * field.rmsGap(), 0.03 * field.rmsGap());
+  EXPECT_EQ(bending.closed().validCount(), field.validCount());
 }
 
 TEST(PlateBending, theTiltOfAFrameIsNoWave) {
@@ -124,50 +118,35 @@ TEST(PlateBending, theTiltOfAFrameIsNoWave) {
   field.compute(HeightMap(heights, kPitch, kPitch));
   PlateBending bending;
   bending.start(field, WaveStiffness(options.lower, options.upper));
-  EXPECT_NEAR(rmsOf(bending.bent(1e20)), field.rmsGap(), 1e-6 * field.rmsGap());
+  EXPECT_NEAR(rmsOf(bending.closed()), field.rmsGap(), 1e-6 * field.rmsGap());
 }
 
-/// Three summits that no long wave raises: bending brings them to one height, with forces that balance, at the cost of a
-/// quadratic form; more of them cost more.
-TEST(SummitBending, bringsTheHighestPlacesToOneHeight) {
-  for (const bool is_mirrored : {false, true}) {
-    const Options options = thin(kLength / 12.0);
-    cv::Mat1d heights(kSide, kSide, 0.0);
-    const cv::Point summits[] = {{20, 30}, {90, 40}, {50, 100}};
-    for (int i = 0; i < 3; ++i) heights(summits[i]) = (4.0 + i) * 1e-10;
-    if (is_mirrored) heights.col(0) = -2e-10;  // and its far end is not
-    if (is_mirrored) heights.row(0) = -2e-10;
-    GapField field;
-    field.compute(HeightMap(heights, kPitch, kPitch));
-    PlateBending bending;
-    bending.start(field, WaveStiffness(options.lower, options.upper));
-    SummitBending onto = bending.onSummits();
-    ASSERT_TRUE(onto.addSummit());
-    EXPECT_EQ(onto.energy(), 0.0);
-    double last = 0.0;
-    for (int count = 2; count <= 3; ++count) {
-      ASSERT_TRUE(onto.addSummit());
-      EXPECT_GT(onto.energy(), last);
-      last = onto.energy();
+/// A low wave far from contact: attraction that falls with the gap by k = -dt/dg draws its summits nearer, to 1/(1 - k C) of its height.
+TEST(PressedPlate, attractionDrawsOutAWave) {
+  const Options options = thin(kLength / 12.0);
+  const ContactTraction law(options.interface);
+  const WaveStiffness stiffness(options.lower, options.upper);
+  const double q = 2.0 * kPi / kLength;
+  const double extra = 1.0 / stiffness.at(q) - 2.0 / (kModulus * q);
+  GapField field;
+  field.compute(HeightMap(waves(1, 0, law.range()), kPitch, kPitch));
+  PlateBending bending;
+  bending.start(field, stiffness);
+  PressedPlate plate;
+  for (const double share : {0.1, 0.4}) {
+    plate.start(bending, field, options);
+    // the height over the mean at which k C is the share: outside of the law's largest pull
+    double near = law.range();
+    double far = 100.0 * law.range();
+    for (int i = 0; i < 60; ++i) {
+      const double middle = 0.5 * (near + far);
+      (-law.slope(middle) * extra > share ? near : far) = middle;
     }
-    const GapField& bent = bending.bentBy(onto.bending());
-    double lowest = 1.0;
-    double highest = 0.0;
-    for (const cv::Point& summit : summits) {
-      const double gap = bent.gap(summit.y * kSide + summit.x);
-      lowest = std::min(lowest, gap);
-      highest = std::max(highest, gap);
-    }
-    EXPECT_LT(highest - lowest, 0.05 * 2e-10) << is_mirrored;
-    // twice the height costs four times as much
-    cv::Mat1d higher = 2.0 * heights;
-    GapField other;
-    other.compute(HeightMap(higher, kPitch, kPitch));
-    PlateBending bending_of_other;
-    bending_of_other.start(other, WaveStiffness(options.lower, options.upper));
-    SummitBending onto_other = bending_of_other.onSummits();
-    for (int count = 1; count <= 3; ++count) onto_other.addSummit();
-    EXPECT_NEAR(onto_other.energy(), 4.0 * last, 0.02 * last);
+    plate.settle(near, {near, 0.0});
+    const double found = bending.bentBy(field, plate.blocks()).rmsGap() / field.rmsGap();
+    EXPECT_NEAR(found, 1.0 / (1.0 - share), 0.05) << share;  // bodies that move less than 0.02 z0 have settled
+    const double drawn = (found - 1.0) * field.rmsGap();
+    EXPECT_NEAR(plate.energy(), 0.5 * drawn * drawn / extra, 0.02 * drawn * drawn / extra);
   }
 }
 
