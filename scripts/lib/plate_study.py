@@ -5,7 +5,7 @@ usage: plate_study.py RESULTS.jsonl --first N --count N      solves frames that 
        plate_study.py RESULTS.jsonl --page PAGE.md           predicts them anew and writes the table between the marks of a page
        plate_study.py --figure FIGURE.png                    force against thickness, from film to block
 
-A frame is drawn by its number alone. Rules were set on those below 1000 and looked at on those from 1000; from 3000 they are judged.
+A frame is drawn by its number alone. Rules were set on those below 1000 and looked at on those from 1000; from 5000 they are judged.
 """
 
 import argparse
@@ -22,7 +22,7 @@ import mems_stiction
 
 PIXELS = 64
 BEGIN, END = "<!-- plates: begin -->", "<!-- plates: end -->"
-GROUPS = [("set", 0, 1000), ("looked at", 1000, 3000), ("judged", 3000, 10**9)]
+GROUPS = [("set", 0, 1000), ("looked at", 1000, 5000), ("judged", 5000, 10**9)]
 STIFF = {"upper/youngs_modulus": 1e17, "upper/poisson_ratio": 0.0, "lower/poisson_ratio": 0.0, "lower/hardness": 1e14, "upper/hardness": 1e14}
 
 
@@ -190,7 +190,7 @@ def figure(picture):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("results", nargs="?", type=pathlib.Path)
-    parser.add_argument("--first", type=int, default=3000)
+    parser.add_argument("--first", type=int, default=5000)
     parser.add_argument("--count", type=int, default=0)
     parser.add_argument("--patience", type=int, default=120, metavar="S", help="for the half-space of a frame [s]")
     parser.add_argument("--page", type=pathlib.Path)

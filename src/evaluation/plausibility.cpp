@@ -159,6 +159,16 @@ void addContradictions(const Configuration& configuration, std::vector<std::stri
   };
   checkBody("lower", configuration.model.lower);
   checkBody("upper", configuration.model.upper);
+  const auto checkPlate = [&](const std::string& body, const Material& material) {
+    const LoadOptions& load = configuration.model.load;
+    if (load.voltage == 0.0 || !(material.thickness > 0.0) || material.backing != Backing::kFree) return;
+    lines.push_back(
+        "load/voltage " + rounded(load.voltage) + " V beside " + body + "/thickness " + rounded(material.thickness) +
+        " m: the voltage presses the surfaces of the frame together and their plate bends onto the contacts; how it "
+        "bends the whole part between its anchors is left out");
+  };
+  checkPlate("lower", configuration.model.lower);
+  checkPlate("upper", configuration.model.upper);
   const DeviceOptions& device = configuration.device;
   if (device.hasBeam() && device.beam_length < kSlenderness * device.beam_thickness) {
     lines.push_back("device/beam_length " + rounded(device.beam_length) + " m beside device/beam_thickness " +

@@ -12,17 +12,15 @@ namespace {
 constexpr double kLeastBending = 0.02;
 /// Where a way begins and ends, in ranges of the law before first touch.
 constexpr double kApart = 3.0;
-/// Steps are so many times as long as those of thick bodies. The way in has no figure of its own but its end, and the way out has
-/// shorter ones where its force is largest.
+/// The way in has no figure but its end: so many times as long as the others are its steps.
 constexpr double kStepsIn = 3.0;
-constexpr double kStepsOut = 2.0;
 constexpr int kMostTrials = 12;
-/// Where bodies jump while the force is largest, steps become as short as this.
-constexpr double kShortestStep = 0.15;
+/// Where bodies jump while the force is largest, steps become so many times shorter.
+constexpr double kShortestStep = 0.1;
 
 /// The next step of a way [m].
-double stepFrom(const SeparationState& state, double range, double length) {
-  return length * chosen::kStep * (range + std::abs(state.approach));
+double stepFrom(const SeparationState& state, double range) {
+  return chosen::kStep * (range + std::abs(state.approach));
 }
 
 }  // namespace
@@ -63,7 +61,7 @@ void BentContact::comeToRest() {
     }
     if (state.contact_count >= plate_.frame().contactLimit()) break;
     above = height;
-    height -= stepFrom(state, range, kStepsIn);
+    height -= kStepsIn * stepFrom(state, range);
   }
   at_rest_ = plate_.blocks();
   energy_at_rest_ = plate_.energy();
@@ -111,14 +109,14 @@ void BentContact::part() {
   cv::Mat1d before;
   double work = 0.0;
   double rise = 0.0;
-  double longest = stepFrom(state, range, kStepsOut);
+  double longest = stepFrom(state, range);
   while (state.approach > -kApart * range) {
     plate_.shape().copyTo(before);
     double step = longest;
     SeparationState next = plate_.settle(height + step, {height_at_rest_, way.longest_hold});
     // where bodies jump out of a valley in which the force would have become the largest, how far the valley goes
     const bool falls = next.partingForce() < state.partingForce();
-    if (falls && state.partingForce() + rise * step > parting_.force && step > stepFrom(state, range, kShortestStep)) {
+    if (falls && state.partingForce() + rise * step > parting_.force && step > kShortestStep * stepFrom(state, range)) {
       plate_.takeBack(before);
       longest = 0.5 * step;
       continue;
@@ -128,7 +126,7 @@ void BentContact::part() {
     work += 0.5 * step * (std::max(0.0, state.givenForce()) + std::max(0.0, next.givenForce()));
     rise = std::max(0.0, next.partingForce() - state.partingForce()) / step;
     state = next;
-    longest = stepFrom(state, range, kStepsOut);
+    longest = stepFrom(state, range);
   }
   work += plate_.frame().energy(state.approach);
   parting_.work = std::min(work / plate_.frame().area(), most);

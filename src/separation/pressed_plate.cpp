@@ -10,7 +10,7 @@ namespace mems_stiction {
 namespace {
 
 /// Steps at one height before what has been found counts, and parts of one step.
-constexpr int kMostSteps = 15;
+constexpr int kMostSteps = 30;
 constexpr int kMostHalvings = 6;
 /// Of conjugate gradients, and the share of the residual that they leave: the next step takes the rest.
 constexpr int kMostProducts = 100;
@@ -18,7 +18,7 @@ constexpr double kLeftOver = 0.3;
 /// Below this share of the bodies' own stiffness there is no equilibrium near by.
 constexpr double kLeastCurvature = 0.01;
 /// What bodies that have settled may still move, as a share of the law's range.
-constexpr double kSettled = 0.02;
+constexpr double kSettled = 0.01;
 
 int blockOf(int cell, int blocks, int cells) {
   return static_cast<int>(static_cast<std::int64_t>(cell) * blocks / cells);

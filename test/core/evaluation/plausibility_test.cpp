@@ -138,6 +138,21 @@ TEST(Plausibility, WhatSettingsSayOfEachOtherIsNamed) {
   EXPECT_NE(onlyWarning(configuration).find("is no beam"), std::string::npos);
 }
 
+TEST(Plausibility, WhatAVoltageBendsOfAPartIsSaid) {
+  Configuration configuration;
+  configuration.model.interface.insulator_thickness = 100e-9;
+  configuration.model.load.voltage = 20.0;
+  EXPECT_TRUE(settingsWarnings(configuration).empty());
+  configuration.model.upper.thickness = 2e-6;
+  EXPECT_EQ(onlyWarning(configuration).find("load/voltage 20 V beside upper/thickness 2e-06 m: "), 0U);
+  EXPECT_EQ(onlyWarning(configuration).find(','), std::string::npos);
+  configuration.model.upper.backing = Backing::kBonded;  // a film lies on something that no field bends
+  EXPECT_TRUE(settingsWarnings(configuration).empty());
+  configuration.model.upper.backing = Backing::kFree;
+  configuration.model.load.voltage = 0.0;
+  EXPECT_TRUE(settingsWarnings(configuration).empty());
+}
+
 TEST(Plausibility, ASettingOfWhatIsOffIsNamed) {
   Configuration configuration;
   configuration.preprocessing.spikes.threshold = 4.0;
