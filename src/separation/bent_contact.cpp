@@ -19,8 +19,9 @@ constexpr int kMostTrials = 12;
 constexpr double kShortestStep = 0.1;
 
 /// The next step of a way [m].
-double stepFrom(const SeparationState& state, double range) {
-  return chosen::kStep * (range + std::abs(state.approach));
+/// - @p length of it so far: bodies that are soft are drawn out far
+double stepFrom(const SeparationState& state, double length, double range) {
+  return chosen::kStep * (range + std::max(std::abs(state.approach), length));
 }
 
 }  // namespace
@@ -61,7 +62,7 @@ void BentContact::comeToRest() {
     }
     if (state.contact_count >= plate_.frame().contactLimit()) break;
     above = height;
-    height -= kStepsIn * stepFrom(state, range);
+    height -= kStepsIn * stepFrom(state, 0.0, range);
   }
   at_rest_ = plate_.blocks();
   energy_at_rest_ = plate_.energy();
@@ -109,14 +110,15 @@ void BentContact::part() {
   cv::Mat1d before;
   double work = 0.0;
   double rise = 0.0;
-  double longest = stepFrom(state, range);
+  double longest = stepFrom(state, height - height_at_rest_, range);
   while (state.approach > -kApart * range) {
     plate_.shape().copyTo(before);
     double step = longest;
     SeparationState next = plate_.settle(height + step, {height_at_rest_, way.longest_hold});
     // where bodies jump out of a valley in which the force would have become the largest, how far the valley goes
     const bool falls = next.partingForce() < state.partingForce();
-    if (falls && state.partingForce() + rise * step > parting_.force && step > kShortestStep * stepFrom(state, range)) {
+    if (falls && state.partingForce() + rise * step > parting_.force &&
+        step > kShortestStep * stepFrom(state, height - height_at_rest_, range)) {
       plate_.takeBack(before);
       longest = 0.5 * step;
       continue;
@@ -126,7 +128,7 @@ void BentContact::part() {
     work += 0.5 * step * (std::max(0.0, state.givenForce()) + std::max(0.0, next.givenForce()));
     rise = std::max(0.0, next.partingForce() - state.partingForce()) / step;
     state = next;
-    longest = stepFrom(state, range);
+    longest = stepFrom(state, height - height_at_rest_, range);
   }
   work += plate_.frame().energy(state.approach);
   parting_.work = std::min(work / plate_.frame().area(), most);
@@ -143,15 +145,23 @@ bool BentContact::staysStraight() {
          plate_.firstMove(level - curve_.wayOut().pull_off_approach, {rest, curve_.wayOut().way.longest_hold}) < least;
 }
 
+const BentContact::Parting& BentContact::parting() {
+  if (!has_parted_) {
+    flow(bending_.bentBy(*field_, at_rest_));
+    part();
+    has_parted_ = true;
+  }
+  return parting_;
+}
+
 const GapField& BentContact::solve(const GapField& field, const ContactSettings& settings) {
   field_ = &field;
   settings_ = &settings;
   bending_.start(field, WaveStiffness(settings.lower, settings.upper));
   is_stiff_ = staysStraight();
   if (is_stiff_) return field;
+  has_parted_ = false;
   comeToRest();
-  flow(bending_.bentBy(field, at_rest_));
-  part();
   return bending_.bentBy(field, at_rest_);
 }
 

@@ -33,7 +33,8 @@ class BentContact {
     std::vector<SeparationCurvePoint>
         curve;  ///< by descending displacement, counted from the first touch of stiff bodies
   };
-  const Parting& parting() const { return parting_; }
+  /// Found when it is asked for: surfaces that conform part otherwise.
+  const Parting& parting();
 
   /// The gap where the force is largest, valid until the next call.
   const GapField& strongest() { return bending_.bentBy(*field_, strongest_); }
@@ -72,6 +73,7 @@ class BentContact {
   cv::Mat1d flowed_;  ///< by cell [m]
   GapField changed_;
   Parting parting_;
+  bool has_parted_ = false;
 };
 
 }  // namespace mems_stiction

@@ -10,10 +10,10 @@ namespace mems_stiction {
 namespace {
 
 /// Steps at one height before what has been found counts, and parts of one step.
-constexpr int kMostSteps = 30;
-constexpr int kMostHalvings = 6;
+constexpr int kMostSteps = 8;
+constexpr int kMostShorter = 2;
 /// Of conjugate gradients, and the share of the residual that they leave: the next step takes the rest.
-constexpr int kMostProducts = 100;
+constexpr int kMostProducts = 30;
 constexpr double kLeftOver = 0.3;
 /// Below this share of the bodies' own stiffness there is no equilibrium near by.
 constexpr double kLeastCurvature = 0.01;
@@ -179,12 +179,14 @@ const SeparationState& PressedPlate::settle(double height, const Held& held) {
     shape_.copyTo(from_);
     const double along = residual_.dot(step_);
     double part = 1.0;
-    for (int halving = 0;; ++halving) {
+    for (int shorter = 0;; ++shorter) {
       cv::scaleAdd(step_, part, from_, shape_);
       stateOf(height, held);
       takeResidual();
-      if (halving == kMostHalvings || residual_.dot(step_) >= -0.5 * along) break;
-      part *= 0.5;
+      const double there = residual_.dot(step_);
+      if (shorter == kMostShorter || there >= -0.5 * along) break;
+      // where a line through both vanishes
+      part *= std::max(0.1, along / (along - there));
     }
   }
   return state_;
