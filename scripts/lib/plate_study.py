@@ -5,7 +5,7 @@ usage: plate_study.py RESULTS.jsonl --first N --count N      solves frames that 
        plate_study.py RESULTS.jsonl --page PAGE.md           predicts them anew and writes the table between the marks of a page
        plate_study.py --figure FIGURE.png                    force against thickness, from film to block
 
-A frame is drawn by its number alone. Rules were set on those below 1000 and looked at on those from 1000; from 5000 they are judged.
+A frame is drawn by its number alone. Rules were set on those below 1000 and looked at on those from 1000; from 7000 they are judged.
 """
 
 import argparse
@@ -22,7 +22,7 @@ import mems_stiction
 
 PIXELS = 64
 BEGIN, END = "<!-- plates: begin -->", "<!-- plates: end -->"
-GROUPS = [("set", 0, 1000), ("looked at", 1000, 5000), ("judged", 5000, 10**9)]
+GROUPS = [("set", 0, 1000), ("looked at", 1000, 7000), ("judged", 7000, 10**9)]
 STIFF = {"upper/youngs_modulus": 1e17, "upper/poisson_ratio": 0.0, "lower/poisson_ratio": 0.0, "lower/hardness": 1e14, "upper/hardness": 1e14}
 
 
@@ -152,18 +152,18 @@ def figure(picture):
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
-    pixels, pitch, work = 96, 60e-9, 0.05
+    pixels, pitch, work = 96, 12e-9, 0.05
     width = pixels * pitch
-    heights = 1.6e-9 * self_affine(np.random.default_rng(4), pixels, pitch, 0.5 * width, 0.8, 6 * pitch)
+    heights = 0.75e-9 * self_affine(np.random.default_rng(4), pixels, pitch, 0.5 * width, 0.8, 6 * pitch)
     settings = {"interface/work_of_adhesion": work, **STIFF, "lower/poisson_ratio": 0.22}
 
     def predicted(thickness):
         return mems_stiction.predict(heights, pitch, **settings, **{"lower/thickness": float(thickness)})
 
     thick = predicted(0.0)
-    thicknesses = np.geomspace(0.05e-6, 20e-6, 40)
+    thicknesses = np.geomspace(0.025e-6, 4e-6, 30)
     forces = [predicted(thickness).pull_off_force for thickness in thicknesses]
-    plates = np.geomspace(0.1e-6, 10e-6, 6)
+    plates = np.geomspace(0.03e-6, 3e-6, 8)
     solved = [mems_stiction.half_space(heights, pitch, **settings, **{"lower/thickness": float(thickness), "half_space/flow": False, "half_space/tolerance": 1e-3})
               for thickness in plates]
     # the wave whose stiffness is the contact's own: where it is as long as the frame
@@ -190,7 +190,7 @@ def figure(picture):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("results", nargs="?", type=pathlib.Path)
-    parser.add_argument("--first", type=int, default=5000)
+    parser.add_argument("--first", type=int, default=7000)
     parser.add_argument("--count", type=int, default=0)
     parser.add_argument("--patience", type=int, default=120, metavar="S", help="for the half-space of a frame [s]")
     parser.add_argument("--page", type=pathlib.Path)

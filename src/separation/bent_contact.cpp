@@ -26,13 +26,22 @@ double stepFrom(const SeparationState& state, double length, double range) {
 
 }  // namespace
 
+SeparationState BentContact::approached(double height) {
+  SeparationState state = plate_.settle(height, {height, 0.0});
+  const double load = settings_->load.mechanical_load;
+  for (int i = 0; i < kMostTrials && !plate_.hasSettled() && state.force() + load < 0.0; ++i) {
+    state = plate_.settle(height, {height, 0.0});
+  }
+  return state;
+}
+
 void BentContact::settleBetween(double above, double below) {
   const double load = settings_->load.mechanical_load;
   const cv::Mat1d from = plate_.shape().clone();
   for (int trial = 0; trial < kMostTrials; ++trial) {
     const double middle = 0.5 * (above + below);
     plate_.takeBack(from);
-    const SeparationState& state = plate_.settle(middle, {middle, 0.0});
+    const SeparationState state = approached(middle);
     if (std::abs(state.force() + load) <= chosen::kAccuracy * std::max(state.carried, load)) {
       height_at_rest_ = middle;
       return;
@@ -51,7 +60,7 @@ void BentContact::comeToRest() {
   double above = height;
   for (int step = 0; step < settings_->approach.max_steps; ++step) {
     plate_.shape().copyTo(before);
-    const SeparationState state = plate_.settle(height, {height, 0.0});
+    const SeparationState state = approached(height);
     way_in_.states.push_back(state);
     height_at_rest_ = height;
     if (state.force() + load < 0.0) {

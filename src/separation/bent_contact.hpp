@@ -53,6 +53,8 @@ class BentContact {
   bool staysStraight();
   /// From apart to rest.
   void comeToRest();
+  /// The state on the way in. One that pushes is one at which the bodies have settled.
+  SeparationState approached(double height);
   /// Takes the height of rest from those above and below it.
   void settleBetween(double above, double below);
   /// The relief as contacts at rest have changed it by flow, if they have.

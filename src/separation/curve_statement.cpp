@@ -42,8 +42,7 @@ ModelStatement CurveStatement::of(const ContactSolution& solution, double work_o
   statement.error = chosen::kSparseError;
   if (statement.may_grow_together) statement.error = chosen::kNearBondingError;
   if (solution.is_conforming) statement.error = chosen::kConformingError;
-  if (bends && solution.flattening_energy < chosen::kBentTogether * work_of_adhesion) {
-    statement.may_grow_together = true;
+  if (bends && statement.may_grow_together) {
     statement.error = solution.is_conforming ? chosen::kBentConformingError : chosen::kBentError;
   }
   return statement;

@@ -172,10 +172,14 @@ const SeparationState& PressedPlate::settle(double height, const Held& held) {
   stateOf(height, held);
   takeResidual();
   const double range = frame_.law().range();
+  has_settled_ = false;
   for (int i = 0; i < kMostSteps; ++i) {
     findStep();
     bending_->root(step_, rooted_);
-    if (std::sqrt(rooted_.dot(rooted_) / static_cast<double>(rooted_.total())) <= kSettled * range) break;
+    if (std::sqrt(rooted_.dot(rooted_) / static_cast<double>(rooted_.total())) <= kSettled * range) {
+      has_settled_ = true;
+      break;
+    }
     shape_.copyTo(from_);
     const double along = residual_.dot(step_);
     double part = 1.0;

@@ -39,6 +39,8 @@ class PressedPlate {
   /// Lets the bodies settle.
   /// - @p height of the upper body over the mean of the relief [m]
   const SeparationState& settle(double height, const Held& held);
+  /// Whether the last settle() came to an end: bodies that still fall to another place go on at the next height.
+  bool hasSettled() const { return has_settled_; }
 
   /// How far the bodies as they are would move at a height, at most [m]; they stay.
   double firstMove(double height, const Held& held);
@@ -68,6 +70,7 @@ class PressedPlate {
   const GapField* field_ = nullptr;
   const ContactSettings* settings_ = nullptr;
   bool flows_ = true;
+  bool has_settled_ = false;
   FrameSums frame_;
   const GapField* bent_ = nullptr;
   SeparationState state_;
