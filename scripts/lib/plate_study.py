@@ -163,13 +163,19 @@ def figure(picture):
     thick = predicted(0.0)
     thicknesses = np.geomspace(0.025e-6, 4e-6, 30)
     forces = [predicted(thickness).pull_off_force for thickness in thicknesses]
-    plates = np.geomspace(0.03e-6, 3e-6, 8)
+    plates = np.geomspace(0.03e-6, 3e-6, 10)
     solved = [mems_stiction.half_space(heights, pitch, **settings, **{"lower/thickness": float(thickness), "half_space/flow": False, "half_space/tolerance": 1e-3})
               for thickness in plates]
     # the wave whose stiffness is the contact's own: where it is as long as the frame
     bed = thick.contact_stiffness / width**2
     modulus = 169e9 / (1 - 0.22**2)
-    mosaic = 2 * np.pi * (modulus * thicknesses**3 / 12 / bed) ** 0.25
+
+    def mosaic(thickness):
+        return 2 * np.pi * (modulus * thickness**3 / 12 / bed) ** 0.25
+
+    def thickness_of(length):
+        return (12 * bed / modulus * (length / (2 * np.pi)) ** 4) ** (1 / 3)
+
     parts = [mems_stiction.predict(np.ascontiguousarray(heights[r:r + 24, c:c + 24]), pitch, **settings).pull_off_force
              for r in range(0, pixels, 24) for c in range(0, pixels, 24)]
     plt.figure(figsize=(7, 4.4))
@@ -177,9 +183,10 @@ def figure(picture):
     plt.loglog(plates * 1e6, [1e6 * found.pull_off_force for found in solved], "o", label="half-space solver, as a plate")
     plt.axhline(thick.pull_off_force * 1e6, color="0.6", linestyle=":", label="thick body")
     plt.axhline(sum(parts) * 1e6, color="C3", linestyle="--", label="linear rule: parts of a quarter of the side, by area")
-    crossing = np.interp(width, mosaic, thicknesses)
-    plt.axvline(crossing * 1e6, color="C2", linestyle="-.", label="the mosaic's length is the frame's side")
+    plt.axvline(thickness_of(width) * 1e6, color="C2", linestyle="-.", label="the mosaic's length is the frame's side")
     plt.xlabel("thickness [um]")
+    top = plt.gca().secondary_xaxis("top", functions=(lambda um: 1e6 * mosaic(1e-6 * np.maximum(um, 1e-9)), lambda um: 1e6 * thickness_of(1e-6 * um)))
+    top.set_xlabel("length from which force goes with area [um]")
     plt.ylabel("pull-off force [uN]")
     plt.title("One surface of %.1f um, from film to block" % (width * 1e6))
     plt.legend(fontsize=8)

@@ -42,13 +42,13 @@ void PressedPlate::change(const GapField& field) {
 
 double PressedPlate::energy() const { return 0.5 * shape_.dot(shape_) / static_cast<double>(shape_.total()); }
 
-void PressedPlate::stateOf(double height, const Held& held) {
+void PressedPlate::stateOf(double height, const HeightWay& way) {
   bending_->root(shape_, rooted_);
   rooted_(cv::Rect({0, 0}, bending_->waves().blocks())).copyTo(blocks_);
   bent_ = &bending_->bentBy(*field_, blocks_);
   frame_.start(*bent_, *settings_, nullptr, flows_);
   const double approach = bent_->meanGap() - height;
-  state_ = stateAt(frame_, approach, {approach + height - held.rest, held.longest_hold});
+  state_ = stateAt(frame_, approach, {approach + height - way.rest, way.longest_hold});
 }
 
 void PressedPlate::mirror(cv::Mat1d& blocks, cv::Mat1d& all) const {
@@ -160,16 +160,16 @@ bool PressedPlate::solve(const cv::Mat1d& stiffness) {
   return true;
 }
 
-double PressedPlate::firstMove(double height, const Held& held) {
-  stateOf(height, held);
+double PressedPlate::firstMove(double height, const HeightWay& way) {
+  stateOf(height, way);
   takeResidual();
   findStep();
   bending_->root(step_, rooted_);
   return cv::norm(rooted_, cv::NORM_INF);
 }
 
-const SeparationState& PressedPlate::settle(double height, const Held& held) {
-  stateOf(height, held);
+const SeparationState& PressedPlate::settle(double height, const HeightWay& way) {
+  stateOf(height, way);
   takeResidual();
   const double range = frame_.law().range();
   has_settled_ = false;
@@ -185,7 +185,7 @@ const SeparationState& PressedPlate::settle(double height, const Held& held) {
     double part = 1.0;
     for (int shorter = 0;; ++shorter) {
       cv::scaleAdd(step_, part, from_, shape_);
-      stateOf(height, held);
+      stateOf(height, way);
       takeResidual();
       const double there = residual_.dot(step_);
       if (shorter == kMostShorter || there >= -0.5 * along) break;

@@ -32,18 +32,18 @@ class PressedPlate {
   void change(const GapField& field);
 
   /// On which way the surfaces are.
-  struct Held {
+  struct HeightWay {
     double rest = 0.0;          ///< height from which they part [m]
     double longest_hold = 0.0;  ///< as in Way
   };
   /// Lets the bodies settle.
   /// - @p height of the upper body over the mean of the relief [m]
-  const SeparationState& settle(double height, const Held& held);
+  const SeparationState& settle(double height, const HeightWay& way);
   /// Whether the last settle() came to an end: bodies that still fall to another place go on at the next height.
   bool hasSettled() const { return has_settled_; }
 
   /// How far the bodies as they are would move at a height, at most [m]; they stay.
-  double firstMove(double height, const Held& held);
+  double firstMove(double height, const HeightWay& way);
 
   const SeparationState& state() const { return state_; }
   FrameSums& frame() { return frame_; }
@@ -55,7 +55,7 @@ class PressedPlate {
   double energy() const;  ///< of bending, per area [J/m^2]
 
  private:
-  void stateOf(double height, const Held& held);
+  void stateOf(double height, const HeightWay& way);
   void takeForces();
   /// residual_ of state and shape.
   void takeResidual();
