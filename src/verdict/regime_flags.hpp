@@ -38,6 +38,9 @@ inline constexpr int kFewestContacts = 10;
 /// - @p cell_area of the scan [m^2], > 0
 std::uint32_t regimeFlags(const Prediction& prediction, double cell_area);
 
+/// Whether the flags say that the pull-off force may be out by more than 1.3 against the half-space, which can then be asked.
+constexpr bool isOutsideModelRange(std::uint32_t flags) { return (flags & kNearBondingFlag) != 0; }
+
 /// "bonded, tabor": the names of the flags set, in the order above; empty when none is.
 std::string regimeFlagNames(std::uint32_t flags);
 /// The same one by one.

@@ -42,6 +42,7 @@ TEST(RegimeFlags, nearBondingIsAsTheModelSays) {
     Prediction prediction = contactsWith(0.5);
     prediction.model.may_grow_together = is_near;
     EXPECT_EQ((regimeFlags(prediction, kCell) & kNearBondingFlag) != 0, is_near);
+    EXPECT_EQ(isOutsideModelRange(regimeFlags(prediction, kCell)), is_near);
   }
 }
 
