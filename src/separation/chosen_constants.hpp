@@ -52,19 +52,21 @@ constexpr double kDecay = 2.0;
 
 // ---------------------------------------------------------------- what the curve says of its own error
 
-/// Flattening ratio below which stiff contacts (DMT) may grow together, and soft ones (JKR) at twice that [-]. Set on the
-/// map, whose rows for near bonding (doc/trust.md) say what it parts. No force hangs on it: the flag and the interval do.
-/// With 1, a frame whose force is out by more than 1.3 has no flag.
-constexpr double kNearBonding = 2.0;
+/// Share of the strength of the law from which bonded surfaces hold as if they had no cracks, however brittle they are [-]. Set on
+/// frames of other kinds (scripts/trust --kinds, seeds 5, 6, 8 and 9) and the map. No force hangs on it: the flag and the interval do.
+constexpr double kNearlyWhole = 0.75;
 
 /// Standard deviations of the logarithm of force and work, by the map's rows (doc/trust.md). That of conforming surfaces is
 /// made by one brittle frame at the criterion for open valleys, which is out by 2.7; without it, it is 0.08.
 constexpr ModelError kConformingError{0.15, 0.05};
-constexpr ModelError kNearBondingError{0.14, 0.13};
+constexpr ModelError kDoubtError{0.14, 0.13};
 constexpr ModelError kSparseError{0.06, 0.04};
 
 /// Bodies bend if closing the relief takes less than this share of what thick bodies need [-]. No force hangs on it.
 constexpr double kBends = 0.85;
+/// Contacts of bodies that bend may grow together where flattening costs less than so often what adhesion gives [-]. No force hangs
+/// on it: the flag and the interval do.
+constexpr double kBentTogether = 4.0;
 /// Standard deviations of the logarithm of force and work where bodies bend and may grow together, of contacts and of surfaces that
 /// conform: of 28 and 58 frames of plates (doc/separation_curve.md, "Bodies that bend").
 constexpr ModelError kBentError{0.25, 0.25};

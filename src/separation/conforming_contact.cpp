@@ -89,19 +89,19 @@ double ConformingContact::takeShortWaves(cv::Point2d place, double radius) {
   return std::sqrt(std::max(square_sum / count - sum * sum / (count * count), 0.0));
 }
 
-double ConformingContact::strengthAtWeakestPlace() {
+double ConformingContact::strengthOfShortWaves() {
   const double cohesive_length = bodies_.cohesiveLength();
   waves_.split(relief(), {field_->cols(), field_->rows()}, bodies_.contact_modulus, cohesive_length, bent_.compliance);
   const double cell = std::hypot(field_->pitchX(), field_->pitchY());
   const double short_rms =
       takeShortWaves(waves_.weakestPlace(), std::max(chosen::kTearingZone * cohesive_length, cell));
   const double short_energy = flattening_.of(*field_, waves_.longHeights(), bodies_.contact_modulus);
-  if (depths_at_place_.empty()) return law_->strength() - waves_.largestTension();  // pixels without a height
+  if (depths_at_place_.empty()) return law_->strength();  // pixels without a height
   const auto [lowest, highest] = std::minmax_element(depths_at_place_.begin(), depths_at_place_.end());
   ReliefClasses depths(*lowest, *highest);
   for (const double depth : depths_at_place_) depths.add(depth);
   const std::vector<SpringState> branch = springBranch(depths.classes(), *law_, stiffnessOf(short_energy, short_rms));
-  return strengthFrom(branch.begin(), branch) - waves_.largestTension();
+  return strengthFrom(branch.begin(), branch);
 }
 
 WayOut ConformingContact::fromOpenValleys(double pressure) {
@@ -110,6 +110,7 @@ WayOut ConformingContact::fromOpenValleys(double pressure) {
   const double brittle_share = springs / (brittle + springs);
   WayOut way_out = upTo(brittle_share * brittle, pressure);
   way_out.parting = Parting::kFromOpenValleys;
+  way_out.doubt = "the surfaces are bonded but for valleys that stay open, and tear from there";
   const double fade = chosen::kDecay * bodies_.flattening_energy / bodies_.work_of_adhesion;
   const double tough_share = 1.0 - brittle_share;
   // of sqrt(Gamma U) exp(-2 U/Gamma) with U in proportion to E, and of the law
@@ -131,7 +132,18 @@ double ConformingContact::strengthOfBent(double strength) const {
 }
 
 WayOut ConformingContact::asAWhole(double pressure, double least_force) {
-  WayOut way_out = upTo(strengthOfBent(std::max(strengthAtWeakestPlace(), least_force / area())), pressure);
+  const double of_place = strengthOfShortWaves();
+  const double at_once = of_place - waves_.largestTension();
+  double by_contacts = least_force / area();
+  if (bent_.compliance == nullptr && at_once < by_contacts) {
+    by_contacts = strengthAgainstCracks(relief(), bodies_, of_place, by_contacts);
+  }
+  const double strength = std::max(at_once, by_contacts);
+  WayOut way_out = upTo(strengthOfBent(strength), pressure);
+  const bool has_cracks = bodies_.equalRadius(law_->strength()) < bodies_.longestCrack();
+  if (has_cracks && way_out.force < chosen::kNearlyWhole * law_->strength() * area()) {
+    way_out.doubt = "the surfaces are bonded and part by cracks, which go by details of the relief";
+  }
   way_out.parting = Parting::kAsAWhole;
   way_out.force_exponents = kLawExponents;
   return way_out;

@@ -56,8 +56,8 @@ class ConformingContact {
  private:
   /// The springs up to a mean traction [Pa].
   WayOut upTo(double strength, double pressure);
-  /// Mean traction at which the weakest place tears [Pa]; negative if flattening alone does it.
-  double strengthAtWeakestPlace();
+  /// Strength of the short waves at the place where the long ones pull most [Pa].
+  double strengthOfShortWaves();
   /// The same of bodies that bend: they tear from open places over the length of a crack that bending makes easy, too (S10e).
   double strengthOfBent(double strength) const;
   /// The short waves over the whole frame: rms height [m]; and those near a place, as depths below the mean plane [m].

@@ -35,6 +35,18 @@ Regime regimeOf(const PatchLoad& load, double area, double hardness) {
   return load.carried >= chosen::kRegimeShare * hardness * area ? Regime::kPlastic : Regime::kElastoPlastic;
 }
 
+/// Where the patches' approximations weigh most: contacts wider than a0, which part by their edges, and a force that is the small
+/// difference of large ones.
+const char* doubtOf(const SeparationCurve& curve) {
+  const SeparationState& strongest = curve.states[curve.strongest];
+  if (!(strongest.adhesion > 0.0)) return nullptr;
+  if (strongest.width > 1.0) return "contacts that hold are so wide that they part by cracks from their edges";
+  if (strongest.carried > curve.pull_off_force) {
+    return "where the force is largest the contacts press with more than that: it is a difference of larger forces";
+  }
+  return nullptr;
+}
+
 }  // namespace
 
 void ContactCurve::comeToRest(const GapField& field, const ContactSettings& settings, const FarGaps* far) {
@@ -104,6 +116,7 @@ void ContactCurve::part() {
   by_contacts_.force_exponents = exponents.pull_off;
   by_contacts_.work = curve.work / frame_.area();
   by_contacts_.work_exponents = exponents.work;
+  by_contacts_.doubt = doubtOf(curve);
   by_contacts_.curve.clear();
   const bool has_edges = curve.states[curve.strongest].edge_share < 1.0 - chosen::kAccuracy;
   if (!has_way_out_ && !has_voltage_ && !has_edges) return;

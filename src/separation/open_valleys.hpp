@@ -19,6 +19,7 @@
 /// U is the flattening energy per area, sigma the rms height, q the mean wave number that both tell of. The 2 is chosen on
 /// frames of the half-space (doc/separation_curve.md).
 
+#include "numeric/constants.hpp"
 #include "separation/relief_spectrum.hpp"
 
 namespace mems_stiction {
@@ -34,6 +35,12 @@ struct BondedBodies {
   double bending = 1.0;  ///< what the bodies' bending leaves of the cohesive length [-]
 
   double cohesiveLength() const { return bending * contact_modulus * range * range / work_of_adhesion; }
+  /// a0, radius of the crack that needs as much by Irwin as an interface of this strength [Pa] does without one [m].
+  double equalRadius(double strength) const {
+    return 0.5 * kPi * bending * contact_modulus * work_of_adhesion / (strength * strength);
+  }
+  /// Half a wave of the relief: beyond there is no more tension [m].
+  double longestCrack() const { return kPi / waveNumber(); }
   /// Mean wave number of the relief [1/m].
   double waveNumber() const { return 4.0 * flattening_energy / (contact_modulus * rms_height * rms_height); }
 };
@@ -42,6 +49,17 @@ struct BondedBodies {
 /// - @p relief in blocks no longer than half the cohesive length
 /// - @p pressure that holds the bodies together [Pa], >= 0
 bool valleysStayOpen(ReliefSpectrum& relief, const BondedBodies& bodies, double pressure);
+
+/// Mean traction at which no place holds its crack any more, (S10e) [Pa]. A round crack of radius a needs
+///
+///     s/sqrt(1 + a/a0) - (tension of the long waves over it),   a0 = pi E Gamma/(2 s^2):
+///
+/// the strength s of an interface where it is short, Irwin's where it is long. It begins with no radius and has to grow, so a place
+/// holds what its crack needs at most, and the weakest place counts.
+/// - @p relief in blocks no longer than half the cohesive length
+/// - @p strength s [Pa], > 0
+/// - @p enough returned if cracks need more than that, or if half a wave is no longer than 2 a0: then nothing is a crack
+double strengthAgainstCracks(ReliefSpectrum& relief, const BondedBodies& bodies, double strength, double enough);
 
 /// f, the mean traction at which brittle surfaces with open valleys part [Pa].
 double brittleStrength(const BondedBodies& bodies);

@@ -172,6 +172,7 @@ MEMS_STICTION_VECTORIZED void PatchForces::addReach(const OverlapSweep& in_reach
   Lanes losses_alone = 0.0;
   Lanes edge_losses = 0.0;
   Lanes edge_slopes = 0.0;
+  Lanes widths = 0.0;
   PatchBlock block;
   for (std::size_t place = 0; place < in_reach.livePatches().size(); place += PatchBlock::kMost) {
     block.gather(in_reach, place);
@@ -196,6 +197,7 @@ MEMS_STICTION_VECTORIZED void PatchForces::addReach(const OverlapSweep& in_reach
       const Lanes exponent = 0.5 * flatness;
       const Lanes size = squareRoot(cells * (cell_area_ / kPi)) / flaw_length_;
       const Lanes left = weight * power(1.0 + size, -1.0 * exponent);
+      widths += weight * size;
       edge_losses += weight - left;
       edge_slopes += left * exponent * size / (1.0 + size);
     }
@@ -206,6 +208,7 @@ MEMS_STICTION_VECTORIZED void PatchForces::addReach(const OverlapSweep& in_reach
   sums.loss_alone += losses_alone.sum();
   sums.edge_loss += edge_losses.sum();
   sums.edge_slope += edge_slopes.sum();
+  sums.width += widths.sum();
 }
 
 }  // namespace mems_stiction

@@ -26,6 +26,7 @@ struct PlaceSums {
   // over the same, (S8c)
   double edge_loss = 0.0;   ///< V times what edges take
   double edge_slope = 0.0;  ///< V times what they leave, and its exponent of the modulus
+  double width = 0.0;       ///< V a/a0
 
   PlaceSums& operator+=(const PlaceSums& other) {
     contact_count += other.contact_count;
@@ -40,6 +41,7 @@ struct PlaceSums {
     loss_alone += other.loss_alone;
     edge_loss += other.edge_loss;
     edge_slope += other.edge_slope;
+    width += other.width;
     return *this;
   }
 

@@ -173,6 +173,7 @@ SeparationState stateAt(FrameSums& frame, double approach, const Way& way, doubl
   state.capillary = sums.capillary;
   state.is_in_reach = sums.weight > 0.0;
   if (state.is_in_reach) {
+    state.width = sums.width / sums.weight;
     state.edge_share = 1.0 - sums.edge_loss / sums.weight;
     state.edge_slope = sums.edge_slope / (sums.weight * state.edge_share);
   }

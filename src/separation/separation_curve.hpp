@@ -29,6 +29,7 @@ struct SeparationState {
   double hold = 0.0;             ///< b, how far beyond its place apart a summit still holds [m]
   double edge_share = 1.0;       ///< what the edges of flat tops leave of the attraction's force, (S8c) [-]
   double edge_slope = 0.0;       ///< d ln(edge_share)/d ln E [-]
+  double width = 0.0;            ///< a/a0 of the patches in reach, (S8c), their mean by weight [-]
   bool is_in_reach = false;      ///< whether any patch is: further apart edges are those of the first state that is
 
   double force() const { return adhesion + electrostatic + capillary - carried; }

@@ -51,7 +51,7 @@ void SeparationSolver::solve(const ContactProblem& problem, ContactSolution& sol
     takeWayOut(bentWayOut(contact_area), solution);
     listPullOffContacts(strongest, solution);
   }
-  solution.model = statement_.of(solution, gamma, bends);
+  solution.model = CurveStatement::of(solution, gamma, bends);
 }
 
 void SeparationSolver::comeToRest(const ContactProblem& problem, ContactSolution& solution) {
@@ -73,6 +73,7 @@ WayOut SeparationSolver::bentWayOut(double contact_area) const {
   way_out.force_exponents = curve_.byContacts().force_exponents;
   way_out.work_exponents = curve_.byContacts().work_exponents;
   way_out.curve = parting.curve;
+  way_out.doubt = curve_.byContacts().doubt;
   return way_out;
 }
 
@@ -83,6 +84,7 @@ void SeparationSolver::takeDecision(bool is_conforming, ContactSolution& solutio
 }
 
 void SeparationSolver::takeWayOut(const WayOut& way_out, ContactSolution& solution) const {
+  solution.model.doubt = way_out.doubt;
   solution.pull_off_force = way_out.force;
   solution.pull_off_exponents = way_out.force_exponents;
   solution.apparent_work_of_adhesion = way_out.work;

@@ -61,7 +61,6 @@ class SeparationSolver : public ContactSolver {
   std::vector<std::int32_t> columns_;
   FlatteningEnergy flattening_;
   ConformingContact conforming_;
-  CurveStatement statement_;
 };
 
 }  // namespace mems_stiction

@@ -49,7 +49,7 @@ std::uint32_t regimeFlags(const Prediction& prediction, double cell_area) {
   std::uint32_t flags = 0;
   if (prediction.status == Status::kBonded && !prediction.is_bonded_by_load) flags |= kBondedFlag;
   if (prediction.status == Status::kNoEquilibrium) flags |= kNoEquilibriumFlag;
-  if (prediction.model.may_grow_together) flags |= kNearBondingFlag;
+  if (prediction.model.doubt != nullptr) flags |= kNearBondingFlag;
   if (!prediction.has_asperities) return flags;  // nothing is known of single contacts
   if (prediction.pull_off_contact_count == 0) return flags | kFewContactsFlag;
   if (prediction.model.assumes_jkr && prediction.contact_theory != ContactTheory::kJkr) flags |= kTaborFlag;

@@ -25,7 +25,9 @@ struct ModelStatement {
   bool is_bound_where_bonded = true;  ///< bonded surfaces hold with the pull-off force or more: the search ended there
   bool knows_every_load = false;  ///< the contact at another load is found by asking again, for surfaces that bore more
   bool assumes_jkr = true;        ///< of each contact, whatever Tabor's parameter says
-  bool may_grow_together = false;  ///< contacts may draw the next ones near, where the model lets them rest
+  /// Why the pull-off force may be out by more than 1.3 against the half-space, as a sentence without its full stop; nullptr: it is
+  /// within the range of the model.
+  const char* doubt = nullptr;
   /// How the figures move with the constants; nullptr: with the exponents of the solution.
   MakeContactResponse respond = nullptr;
 };
