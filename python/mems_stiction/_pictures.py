@@ -69,7 +69,7 @@ def prediction_html(prediction: Prediction) -> str:
     if prediction.verdict is not None:
         rows.append(("does the device stick?", prediction.verdict.summary))
     if prediction.flags:
-        rows.append(("outside the model's range", flag_words(prediction.flags)))
+        rows.append(("outside the model's range", flag_words(prediction.flags, prediction.model_doubt)))
     rows += [("warning", text) for text in prediction.warnings]
     return _table(rows) + _embedded(_prediction_figure(prediction))
 

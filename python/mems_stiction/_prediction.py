@@ -156,6 +156,11 @@ class Prediction(_core.PredictionFigures, ReadOnly):
         return self._cached("flags", lambda: tuple(filter(None, self._core.flag_names.split(", "))))  # type: ignore[union-attr]
 
     @property
+    def model_doubt(self) -> str:
+        """Why the pull-off force may be out by more than 1.3 against the half-space (flag near_bonding); else empty."""
+        return self._core.model_doubt
+
+    @property
     def version(self) -> str:
         """Of the package that predicted."""
         return self._origin()["version"]
@@ -212,6 +217,8 @@ class Prediction(_core.PredictionFigures, ReadOnly):
             lines.append("  sticks: %s" % self.verdict.summary)
         if self.flags:
             lines.append("  outside the model's range: %s" % ", ".join(self.flags))
+        if self.model_doubt:
+            lines.append("  may be out by more than 1.3: %s" % self.model_doubt)
         lines += ["  warning: " + text for text in self.warnings]
         return "\n".join(lines)
 

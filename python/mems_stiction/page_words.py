@@ -6,7 +6,7 @@ Each function returns what JSON can have: numbers are SI, None where there is no
 import math
 
 from mems_stiction import quantities
-from mems_stiction.prediction_text import FLAGS, STATUS_NAMES, bound_of
+from mems_stiction.prediction_text import STATUS_NAMES, bound_of, flag_names, flag_words
 from mems_stiction.quantities import percent, ratio, typeset
 
 NO_EQUILIBRIUM = 2  # StictionPrediction.status
@@ -78,8 +78,8 @@ def ratio_of(prediction):
 
 
 def flags_of(prediction):
-    """The flags that are set, in words."""
-    return [words for bit, (_, words) in sorted(FLAGS.items()) if prediction.regime_flags & bit]
+    """The flags that are set, in words; a part has no doubt of a model's own."""
+    return [flag_words([name], getattr(prediction, "model_doubt", "")) for name in flag_names(prediction.regime_flags)]
 
 
 def trace_of(prediction):

@@ -134,7 +134,7 @@ def _caption(picture):
              "rms height %s" % with_unit(prediction.rms_height, "m"),
              "normal load %s" % with_unit(prediction.normal_load, "N"), "voltage %s" % with_unit(prediction.voltage, "V")]
     text = "   |   ".join(parts)
-    flags = flag_words(flag_names(prediction.regime_flags))
+    flags = flag_words(flag_names(prediction.regime_flags), prediction.model_doubt)
     return text + "\n" + textwrap.fill("Outside the model's range: " + flags, CAPTION_WIDTH) if flags else text
 
 

@@ -12,7 +12,7 @@ FLAGS = {1: ("bonded", "the surfaces bond"), 2: ("no_equilibrium", "the search e
          8: ("plasticity", "most of the adhesion is of contacts that flow"),
          16: ("resolution", "most of the adhesion is of contacts of few pixels"),
          32: ("few_contacts", "few contacts: another place of the surface may differ much"),
-         64: ("near_bonding", "little more would press the surfaces flat: contacts may grow together"),
+         64: ("near_bonding", "the pull-off force may be out by more than 1.3"),
          128: ("border", "most of the adhesion is of contacts at the frame's border: their summits may lie outside"),
          256: ("one_pixel", "most of the adhesion is of contacts of one pixel")}
 
@@ -31,15 +31,18 @@ def flag_names(flags):
     return [name for bit, (name, _) in sorted(FLAGS.items()) if flags & bit]
 
 
-def flag_words(names):
-    """What the flags of these names mean, as one text; a name that is not known stands for itself."""
+def flag_words(names, model_doubt=""):
+    """What the flags of these names mean, as one text; a name that is not known stands for itself. near_bonding has the model's
+    own reason behind it."""
     meanings = dict(FLAGS.values())
+    if model_doubt:
+        meanings["near_bonding"] += " (%s)" % model_doubt
     return "; ".join(meanings.get(name, name) for name in names)
 
 
 def limits_of(prediction):
     """What speaks against relying on the prediction, in one line: its flags in words, and the warnings about its scan."""
-    flags = flag_words(flag_names(prediction.regime_flags))
+    flags = flag_words(flag_names(prediction.regime_flags), prediction.model_doubt)
     return "; ".join((["outside the model's range: " + flags] if flags else [])
                      + ["warning: " + text for text in prediction.warnings])
 

@@ -160,7 +160,7 @@ def scan_section(row, folder, stages=(), why_no_stages=""):
             "surface_figures": _figures(result, SURFACE_FIGURES) + surface_figures_of(heights),
             "origin": origin_of(result), "warnings": [row["warnings"]] if row["warnings"] else [], "sticks": result.get("sticks"),
             "releases": verdict_word(result.get("sticks")),
-            "verdict": _sentence(result.get("verdict_reason", "")), "flags": _flags(result["regime_flag_names"])}
+            "verdict": _sentence(result.get("verdict_reason", "")), "flags": _flags(result)}
 
 
 def _cleaning(stages, result):
@@ -222,13 +222,14 @@ def _half_space_cell(row):
     return "not solved" if force == "not stated" else "%s (%s)" % (force, _half_space_ratio(row))
 
 
-def _flags(names):
-    return flag_words([name for name in names.split(", ") if name])
+def _flags(row):
+    names = row.get("regime_flag_names", "")
+    return flag_words([name for name in names.split(", ") if name], row.get("model_doubt", ""))
 
 
 def _limits(row):
     """What speaks against relying on a row: flags in words, and warnings."""
-    return "; ".join(text for text in (_flags(row.get("regime_flag_names", "")), row.get("warnings", "")) if text)
+    return "; ".join(text for text in (_flags(row), row.get("warnings", "")) if text)
 
 
 def _sentence(text):

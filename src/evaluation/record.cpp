@@ -40,6 +40,7 @@ void visitResultFields(const HeightMap& scan, const Prediction& prediction, cons
   });
   const std::uint32_t flags = regimeFlags(prediction, scan.cellArea());
   visit({"regime_flag_names"}, regimeFlagNames(flags));
+  visit({"model_doubt"}, modelDoubt(prediction));
   if (extras.verdict) {
     visitVerdictFields(*extras.verdict, visit);
     if (extras.half_space) visit({"verdict_by"}, std::string(judgeText(extras.verdict->judge)));

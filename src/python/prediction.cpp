@@ -246,6 +246,7 @@ void bindPrediction(py::module& module) {
       .def_property_readonly(
           "flag_names",
           [](const PredictedScan& one) { return regimeFlagNames(regimeFlags(one.prediction, one.scan.cellArea())); })
+      .def_property_readonly("model_doubt", [](const PredictedScan& one) { return modelDoubt(one.prediction); })
       .def_property_readonly("preprocessing",
                              [](const PredictedScan& one) { return stepsOf(one.extras.preprocessing); })
       .def_readonly("scan_warnings", &PredictedScan::scan_warnings)

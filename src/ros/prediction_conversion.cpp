@@ -84,6 +84,7 @@ StictionPrediction predictionMessage(const PredictedScan& scan, const std_msgs::
   message.formulation = scan.formulation;
   message.warnings = withoutCommas(scan.warnings);
   message.flags = regimeFlagList(scan.verdict.regime_flags);
+  message.model_doubt = modelDoubt(prediction);
   message.curve = curveMessage(prediction.curve);
   return message;
 }

@@ -46,6 +46,7 @@ void visitFigures(const HeightMap& scan, const std::vector<std::string>& warning
     visit({"regime_flags"}, flags);
   }
   visit({"regime_flag_names"}, regimeFlagNames(flags));
+  visit({"model_doubt"}, modelDoubt(prediction));
   visitProvenanceFields(provenance,
                         [&](const Figure& figure, const std::string& value) { visit(figure, oneLine(value)); });
 }

@@ -62,6 +62,10 @@ std::uint32_t regimeFlags(const Prediction& prediction, double cell_area) {
   return flags;
 }
 
+std::string modelDoubt(const Prediction& prediction) {
+  return prediction.model.doubt != nullptr ? prediction.model.doubt : "";
+}
+
 std::vector<std::string> regimeFlagList(std::uint32_t flags) {
   const std::pair<RegimeFlag, const char*> names[] = {{kBondedFlag, "bonded"},
                                                       {kNoEquilibriumFlag, "no_equilibrium"},

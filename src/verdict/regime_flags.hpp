@@ -20,7 +20,7 @@ enum RegimeFlag : std::uint32_t {
   kPlasticityFlag = 8,     ///< more than half of the adhesion is of contacts that flow: their radii have changed
   kResolutionFlag = 16,    ///< more than half of the adhesion is of contacts of few pixels: a finer pitch may change it
   kFewContactsFlag = 32,   ///< so few contacts that another place of the surface may differ much
-  kNearBondingFlag = 64,   ///< contacts may draw the next ones near (ModelStatement::may_grow_together)
+  kNearBondingFlag = 64,   ///< the pull-off force may be out by more than 1.3 (ModelStatement::doubt)
   kBorderFlag = 128,       ///< more than half of the adhesion is of contacts at the frame's border
   kOnePixelFlag = 256,     ///< more than half of the adhesion is of contacts of one pixel
 };
@@ -40,6 +40,9 @@ std::uint32_t regimeFlags(const Prediction& prediction, double cell_area);
 
 /// Whether the flags say that the pull-off force may be out by more than 1.3 against the half-space, which can then be asked.
 constexpr bool isOutsideModelRange(std::uint32_t flags) { return (flags & kNearBondingFlag) != 0; }
+
+/// Why they say so, as a sentence without its full stop; empty if they do not.
+std::string modelDoubt(const Prediction& prediction);
 
 /// "bonded, tabor": the names of the flags set, in the order above; empty when none is.
 std::string regimeFlagNames(std::uint32_t flags);

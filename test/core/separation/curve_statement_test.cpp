@@ -2,9 +2,6 @@
 
 #include "separation/curve_statement.hpp"
 
-#include <limits>
-#include <utility>
-
 #include <gtest/gtest.h>
 
 #include "separation/chosen_constants.hpp"
@@ -14,49 +11,36 @@ namespace {
 
 constexpr double kWork = 0.05;  // J/m^2
 
-ContactSolution solutionWith(double tabor_parameter, double flattening_ratio) {
+ContactSolution solutionWith(double flattening_ratio, const char* doubt) {
   ContactSolution solution;
-  solution.asperities.resize(3);
-  for (Asperity& asperity : solution.asperities) asperity.tabor_parameter = tabor_parameter;
   solution.flattening_energy = flattening_ratio * kWork;
+  solution.model.doubt = doubt;
   return solution;
 }
 
-TEST(CurveStatement, brittleContactsMayGrowTogetherAtTwiceTheFlatteningRatio) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  const double infinite = std::numeric_limits<double>::infinity();
-  CurveStatement statement;
-  for (const auto& [tabor, limit] :
-       {std::pair(0.0, 2.0), {0.4, 2.8}, {1.0, 4.0}, {3.0, 4.0}, {infinite, 4.0}, {nan, 2.0}}) {
-    for (const bool is_near : {false, true}) {
-      const ModelStatement stated = statement.of(solutionWith(tabor, limit * (is_near ? 0.999 : 1.001)), kWork);
-      EXPECT_EQ(stated.may_grow_together, is_near) << tabor;
-      EXPECT_EQ(stated.error.pull_off, (is_near ? chosen::kNearBondingError : chosen::kSparseError).pull_off);
-      EXPECT_EQ(stated.error.work, (is_near ? chosen::kNearBondingError : chosen::kSparseError).work);
+TEST(CurveStatement, takesTheDoubtOfTheWayOutAndItsError) {
+  for (const bool is_conforming : {false, true}) {
+    for (const char* doubt : {static_cast<const char*>(nullptr), "it tears"}) {
+      ContactSolution solution = solutionWith(3.0, doubt);
+      solution.is_conforming = is_conforming;
+      const ModelStatement stated = CurveStatement::of(solution, kWork);
+      EXPECT_EQ(stated.doubt, doubt);
+      const ModelError sure = is_conforming ? chosen::kConformingError : chosen::kSparseError;
+      const ModelError& error = doubt != nullptr ? chosen::kDoubtError : sure;
+      EXPECT_EQ(stated.error.pull_off, error.pull_off);
+      EXPECT_EQ(stated.error.work, error.work);
+      EXPECT_FALSE(stated.is_bound_where_bonded);
     }
   }
 }
 
-TEST(CurveStatement, theContactsThatHoldAtThePullOffTell) {
-  ContactSolution solution = solutionWith(0.0, 3.9);
-  EXPECT_FALSE(CurveStatement().of(solution, kWork).may_grow_together);
-  solution.pull_off_contacts.resize(1);
-  solution.pull_off_contacts[0].tabor_parameter = 1.0;
-  EXPECT_TRUE(CurveStatement().of(solution, kWork).may_grow_together);
-}
-
-TEST(CurveStatement, conformingSurfacesHaveAnErrorOfTheirOwn) {
-  ContactSolution solution = solutionWith(0.0, 0.1);
-  solution.is_conforming = true;
-  const ModelStatement stated = CurveStatement().of(solution, kWork);
-  EXPECT_TRUE(stated.may_grow_together);
-  EXPECT_EQ(stated.error.pull_off, chosen::kConformingError.pull_off);
-  EXPECT_EQ(stated.error.work, chosen::kConformingError.work);
-  EXPECT_FALSE(stated.is_bound_where_bonded);
-}
-
-TEST(CurveStatement, withoutAdhesionNothingGrowsTogether) {
-  EXPECT_FALSE(CurveStatement().of(solutionWith(0.0, 0.0), 0.0).may_grow_together);
+TEST(CurveStatement, thinBodiesAreDoubtedWhereTheyBendBetweenContacts) {
+  for (const bool is_near : {false, true}) {
+    const double ratio = chosen::kBentTogether * (is_near ? 0.999 : 1.001);
+    const ModelStatement stated = CurveStatement::of(solutionWith(ratio, nullptr), kWork, true);
+    EXPECT_EQ(stated.doubt != nullptr, is_near);
+    EXPECT_EQ(stated.error.pull_off, (is_near ? chosen::kBentError : chosen::kSparseError).pull_off);
+  }
 }
 
 }  // namespace

@@ -72,6 +72,35 @@ TEST(OpenValleys, wavesThatAreNotLongAgainstTheCohesiveLengthHaveNoCracks) {
   EXPECT_FALSE(wave.staysOpen(10.0 * wave.criticalAmplitude()));
 }
 
+/// Of a wave with this tension when it is flat, over the strength of the law.
+double strengthAgainstCracksOf(const Wave& wave, double share) {
+  const double strength = 16.0 / (9.0 * std::sqrt(3.0)) * kWork / kRange;
+  const double amplitude = 2.0 * share * strength / (kModulus * wave.waveNumber());
+  GapField field;
+  field.compute(analytic::sine(kSide, kSide, wave.pitch, wave.pitch, amplitude, 1, 0));
+  const BondedBodies bodies = wave.bodiesWith(amplitude);
+  ReliefSpectrum relief;
+  relief.take(field, 0.5 * bodies.cohesiveLength());
+  return strengthAgainstCracks(relief, bodies, strength, 10.0 * strength) / strength;
+}
+
+TEST(Cracks, beginAtTheDeepestPlaceOfALongWave) {
+  // once a crack begins there, nothing holds a longer one: Johnson's full contact with a law of finite strength
+  for (const double share : {0.2, 0.5}) EXPECT_NEAR(strengthAgainstCracksOf(Wave(100.0), share), 1.0 - share, 0.02);
+}
+
+TEST(Cracks, areHeldWhereTheWaveIsNoMoreUnderTension) {
+  // (s^-2 + 4 a/(pi K^2))^-1/2 + (E h/2) sin(q a)/a is largest at an a > 0 where tension falls sooner than Irwin's strength
+  const double at_once = 1.0 - 0.9;
+  const double held = strengthAgainstCracksOf(Wave(12.0), 0.9);
+  EXPECT_GT(held, at_once + 0.05);
+  EXPECT_LT(held, 1.0);
+}
+
+TEST(Cracks, areNoneInWavesThatAreShorterThanThey) {
+  EXPECT_EQ(strengthAgainstCracksOf(Wave(4.0), 0.5), 10.0);
+}
+
 TEST(OpenValleys, brittleSurfacesHoldWhatTheHalfSpaceSays) {
   // a cohesive length of a tenth of the correlation length, flattening ratios of 0.6 to 0.8: by their patches, with the
   // work of bonded ones, these would hold 0.45 to 0.63 of the half-space's force

@@ -124,7 +124,7 @@ TEST(HalfSpaceVerdict, OneThatCannotJudgeLeavesThePredictionsVerdictAndSaysWhy) 
 TEST(HalfSpaceVerdict, ItsErrorTakesThePlaceOfTheModels) {
   Prediction near_bonding = predicted();
   near_bonding.model.error = {0.10, 0.11};
-  near_bonding.model.may_grow_together = true;
+  near_bonding.model.doubt = "it tears";
   // By the error map the interval of the curve holds 1, by 0.02 that of the half-space does not.
   EXPECT_EQ(verdictWith(Evidence(), near_bonding, 1.2).sticks, Sticks::kMarginal);
   const Verdict verdict = verdictWith(solved(1.0), near_bonding, 1.2);

@@ -38,11 +38,13 @@ TEST(RegimeFlags, resolutionIsThatOfMoreThanHalfOfTheAdhesion) {
 }
 
 TEST(RegimeFlags, nearBondingIsAsTheModelSays) {
-  for (const bool is_near : {false, true}) {
+  for (const char* doubt : {static_cast<const char*>(nullptr), "it tears"}) {
     Prediction prediction = contactsWith(0.5);
-    prediction.model.may_grow_together = is_near;
-    EXPECT_EQ((regimeFlags(prediction, kCell) & kNearBondingFlag) != 0, is_near);
-    EXPECT_EQ(isOutsideModelRange(regimeFlags(prediction, kCell)), is_near);
+    prediction.model.doubt = doubt;
+    const std::uint32_t flags = regimeFlags(prediction, kCell);
+    EXPECT_EQ((flags & kNearBondingFlag) != 0, doubt != nullptr);
+    EXPECT_EQ(isOutsideModelRange(flags), doubt != nullptr);
+    EXPECT_EQ(modelDoubt(prediction), doubt != nullptr ? "it tears" : "");
   }
 }
 
