@@ -329,6 +329,7 @@ class PredictedScan:
     device_force: Optional[Dict[str, Any]]
     roughness: Dict[str, Any]
     flag_names: str
+    model_doubt: str
     preprocessing: List[Dict[str, Any]]
     scan_warnings: List[str]
     warnings: List[str]

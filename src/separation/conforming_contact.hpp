@@ -58,7 +58,7 @@ class ConformingContact {
   WayOut upTo(double strength, double pressure);
   /// Strength of the short waves at the place where the long ones pull most [Pa].
   double strengthOfShortWaves();
-  /// The same of bodies that bend: they tear from open places over the length of a crack that bending makes easy, too (S10e).
+  /// The same of bodies that bend: they tear from open places over the length of a crack that bending makes easy, too (S15a).
   double strengthOfBent(double strength) const;
   /// The short waves over the whole frame: rms height [m]; and those near a place, as depths below the mean plane [m].
   double takeShortWaves(cv::Point2d place, double radius);

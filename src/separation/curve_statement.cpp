@@ -24,8 +24,7 @@ ModelStatement CurveStatement::of(const ContactSolution& solution, double work_o
   statement.knows_every_load = true;
   statement.assumes_jkr = false;
   statement.doubt = solution.model.doubt;
-  statement.error = solution.is_conforming ? chosen::kConformingError : chosen::kSparseError;
-  if (statement.doubt != nullptr) statement.error = chosen::kDoubtError;
+  statement.error = statement.doubt == nullptr ? chosen::kSureError : chosen::kDoubtError;
   if (bends && solution.flattening_energy < chosen::kBentTogether * work_of_adhesion) {
     statement.doubt = "the bodies are thin and bend from contact to contact";
     statement.error = solution.is_conforming ? chosen::kBentConformingError : chosen::kBentError;

@@ -49,14 +49,13 @@ double strengthAgainstCracks(ReliefSpectrum& relief, const BondedBodies& bodies,
   const auto long_part = [=](double q) { return 1.0 / (1.0 + length * q * length * q); };
   // at each place, what the crack around it has needed up to this radius
   cv::Mat1d needed = strength - relief.weighed([=](double q) { return -0.5 * modulus * q * long_part(q); });
-  const double half_frame = 0.5 * std::min(relief.blocks().width * relief.blockWidth(),
-                                           relief.blocks().height * relief.blockHeight());
+  const double half_frame =
+      0.5 * std::min(relief.blocks().width * relief.blockWidth(), relief.blocks().height * relief.blockHeight());
   for (double radius = 0.25 * length; radius < half_frame; radius *= chosen::kNextLength) {
     if (lowest(needed) >= enough) return enough;
     const double flat = strength / std::sqrt(1.0 + radius / equal_radius);
     const double scale = 0.5 * modulus / radius;
-    const cv::Mat1d& tension =
-        relief.weighed([=](double q) { return -scale * std::sin(q * radius) * long_part(q); });
+    const cv::Mat1d& tension = relief.weighed([=](double q) { return -scale * std::sin(q * radius) * long_part(q); });
     needed = cv::max(needed, flat - tension);
   }
   return std::min(lowest(needed), enough);

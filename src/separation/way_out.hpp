@@ -26,7 +26,7 @@ struct WayOut {
   double contact_area = 0.0;  ///< at rest [m^2]
   Exponents force_exponents;
   Exponents work_exponents;
-  const char* doubt = nullptr;  ///< why the force may be out by more than 1.3 (ModelStatement::doubt)
+  const char* doubt = nullptr;              ///< why the force may be out by more than 1.3 (ModelStatement::doubt)
   std::vector<SeparationCurvePoint> curve;  ///< by descending displacement; empty where it is the way in
 };
 

@@ -25,8 +25,7 @@ TEST(CurveStatement, takesTheDoubtOfTheWayOutAndItsError) {
       solution.is_conforming = is_conforming;
       const ModelStatement stated = CurveStatement::of(solution, kWork);
       EXPECT_EQ(stated.doubt, doubt);
-      const ModelError sure = is_conforming ? chosen::kConformingError : chosen::kSparseError;
-      const ModelError& error = doubt != nullptr ? chosen::kDoubtError : sure;
+      const ModelError& error = doubt != nullptr ? chosen::kDoubtError : chosen::kSureError;
       EXPECT_EQ(stated.error.pull_off, error.pull_off);
       EXPECT_EQ(stated.error.work, error.work);
       EXPECT_FALSE(stated.is_bound_where_bonded);
@@ -39,7 +38,7 @@ TEST(CurveStatement, thinBodiesAreDoubtedWhereTheyBendBetweenContacts) {
     const double ratio = chosen::kBentTogether * (is_near ? 0.999 : 1.001);
     const ModelStatement stated = CurveStatement::of(solutionWith(ratio, nullptr), kWork, true);
     EXPECT_EQ(stated.doubt != nullptr, is_near);
-    EXPECT_EQ(stated.error.pull_off, (is_near ? chosen::kBentError : chosen::kSparseError).pull_off);
+    EXPECT_EQ(stated.error.pull_off, (is_near ? chosen::kBentError : chosen::kSureError).pull_off);
   }
 }
 

@@ -97,9 +97,7 @@ TEST(Cracks, areHeldWhereTheWaveIsNoMoreUnderTension) {
   EXPECT_LT(held, 1.0);
 }
 
-TEST(Cracks, areNoneInWavesThatAreShorterThanThey) {
-  EXPECT_EQ(strengthAgainstCracksOf(Wave(4.0), 0.5), 10.0);
-}
+TEST(Cracks, areNoneInWavesThatAreShorterThanThey) { EXPECT_EQ(strengthAgainstCracksOf(Wave(4.0), 0.5), 10.0); }
 
 TEST(OpenValleys, brittleSurfacesHoldWhatTheHalfSpaceSays) {
   // a cohesive length of a tenth of the correlation length, flattening ratios of 0.6 to 0.8: by their patches, with the
