@@ -21,17 +21,16 @@ import trust_kinds  # noqa: E402
 
 CONFORMING, DOUBTED = "conforming", "doubted"
 SPARSE = "sparse"
-SURE = "not doubted"
 FEW_CONTACTS = 10
 WARNING_FLAGS = {"near_bonding", "resolution"}
 COLOURS = {CONFORMING: "#d1322f", DOUBTED: "#f2b705", SPARSE: "#2f7fd1"}
 NORMAL_95 = 1.96
 OF_THE_MAP = ("rms heights of 0.03 to 12 nm, correlation lengths of 10 to 300 nm, contact moduli of 0.1 to 100 GPa, works of adhesion of 5 to 150 mJ/m^2, "
               "Hamaker constants of 65 and 200 zJ.")
-SETS = ("**Three sets.** Rules, the flag and its interval were set on the frames of seeds 5, 8 and 9 and looked at on those of 6 and 7; this page, of seed 10, judges: "
-        "nobody looked at these frames while a rule was made. `scripts/trust --kinds --seed N` draws others.")
+SETS = ("**Three sets.** Rules and the flag were set on the frames of seeds 5, 8 and 9 and looked at on those of 6 and 7, 168 of each; this page, of seed 10, judges: "
+        "rules and flag stood when these frames were drawn. `scripts/trust --kinds --seed N` draws others.")
 CONSTANTS = pathlib.Path(__file__).resolve().parents[2] / "src" / "separation" / "chosen_constants.hpp"
-ERRORS = {SURE: "Sure", DOUBTED: "Doubt"}
+ERRORS = {(SPARSE, False): "Sure", (CONFORMING, False): "SureBonded", (SPARSE, True): "Doubt", (CONFORMING, True): "DoubtBonded"}
 OF_PROCESSES = ["in equal shares as processes make them (`scripts/lib/trust_kinds.py`): " + ", ".join(trust_kinds.KINDS),
                 "rms heights of 0.1 to 10 nm, lateral scales of 15 to 200 nm, contact moduli of 2 to 200 GPa, works of adhesion of 10 to 120 mJ/m^2, Hamaker "
                 "constants of 40 to 150 zJ."]
@@ -47,8 +46,17 @@ def regime(frame):
     return CONFORMING if frame["separation_curve"]["is_conforming"] else SPARSE
 
 
+def group_of(frame):
+    """Whose error the curve states."""
+    return CONFORMING if frame["separation_curve"]["is_conforming"] else SPARSE, is_doubted(frame)
+
+
+def group_title(group):
+    return group[0] + (", doubted" if group[1] else "")
+
+
 def errors_of_code():
-    """Deviations of force and work that the curve states, of frames that it does not doubt and of those that it does."""
+    """Deviations of force and work that the curve states: of contacts and of bonded surfaces, without a doubt and with one."""
     source = CONSTANTS.read_text(encoding="utf-8")
     found = {name: re.search(r"ModelError k%sError\{(0\.\d+), (0\.\d+)\};" % word, source) for name, word in ERRORS.items()}
     return {name: tuple(map(float, match.groups())) for name, match in found.items()}
@@ -118,15 +126,15 @@ def coverage_rows(frames):
         cells = []
         for i, quantity in enumerate((pull_off, work)):
             logs = ratios(some, quantity("separation_curve"), quantity("half_space"))
-            reach = np.array([NORMAL_95 * stated[DOUBTED if is_doubted(frame) else SURE][i] for frame in some])
+            reach = np.array([NORMAL_95 * stated[group_of(frame)][i] for frame in some])
             known = np.isfinite(logs)
             cells.append("%.0f %%" % (100 * np.mean(np.abs(logs[known]) <= reach[known])) if known.any() else "")
         return tuple(cells)
 
     lines = ["| frames | number | pull-off force | work | covered, pull-off force | covered, work |", "|---|---|---|---|---|---|"]
-    for name in (SURE, DOUBTED):
-        some = [frame for frame in frames if is_doubted(frame) == (name == DOUBTED)]
-        lines.append("| %s | %d | %.2f | %.2f | %s | %s |" % ((name, len(some)) + stated[name] + covered(some)))
+    for group in ERRORS:
+        some = [frame for frame in frames if group_of(frame) == group]
+        lines.append("| %s | %d | %.2f | %.2f | %s | %s |" % ((group_title(group), len(some)) + stated[group] + covered(some)))
     ordered = sorted(frames, key=lambda frame: frame["separation_curve"]["flattening_ratio"])
     for i, name in enumerate(("lowest flattening ratios", "middle third", "highest")):
         some = ordered[i * len(ordered) // 3:(i + 1) * len(ordered) // 3]
@@ -208,9 +216,9 @@ def page(lines, figure):
              "show what the lattice does to the half-space, not how far the curve is off.", ""]
     text += [
              "## The interval of the margin", "",
-             "The margin's interval contains the error of the model beside that of the constants (`uncertainty/...`): a standard deviation of the logarithm, of frames that the "
-             "curve doubts and of those that it does not. It was set on both maps together (kinds of the seeds 5, 6, 8 and 9, the map of seed 20), so that 95 % of either lie within 1.96 times it, and "
-             "rounded up. *Covered* is the share of this page's frames of which the model's part of the 95 % interval covers the deviation by itself.", ""]
+             "The margin's interval contains the error of the model beside that of the constants (`uncertainty/...`): a standard deviation of the logarithm, of contacts and of "
+             "surfaces that conform, without a doubt and with one. It was set on [other kinds](trust_kinds.md) of the seeds 5 to 9, so that 95 % of each lie within 1.96 times it. On the map, whose frames are easier, it "
+             "is wide. *Covered* is the share of this page's frames of which the model's part of the 95 % interval covers the deviation by itself.", ""]
     text += coverage_rows(resolved)
     return "\n".join(text + ([SETS, ""] if is_of_processes else []))
 

@@ -24,7 +24,11 @@ ModelStatement CurveStatement::of(const ContactSolution& solution, double work_o
   statement.knows_every_load = true;
   statement.assumes_jkr = false;
   statement.doubt = solution.model.doubt;
-  statement.error = statement.doubt == nullptr ? chosen::kSureError : chosen::kDoubtError;
+  if (statement.doubt == nullptr) {
+    statement.error = solution.is_conforming ? chosen::kSureBondedError : chosen::kSureError;
+  } else {
+    statement.error = solution.is_conforming ? chosen::kDoubtBondedError : chosen::kDoubtError;
+  }
   if (bends && solution.flattening_energy < chosen::kBentTogether * work_of_adhesion) {
     statement.doubt = "the bodies are thin and bend from contact to contact";
     statement.error = solution.is_conforming ? chosen::kBentConformingError : chosen::kBentError;

@@ -77,8 +77,8 @@ class TrustTest(unittest.TestCase):
         stated = trust_page.errors_of_code()
         for name in ("trust.md", "trust_kinds.md"):
             table = (REPOSITORY / "doc" / name).read_text(encoding="utf-8").split("## The interval of the margin")[1]
-            for group in (trust_page.SURE, trust_page.DOUBTED):
-                of_page = re.search(r"^\| %s \| \d+ \| (\S+) \| (\S+) \|" % group, table, re.MULTILINE).groups()
+            for group in stated:
+                of_page = re.search(r"^\| %s \| \d+ \| (\S+) \| (\S+) \|" % trust_page.group_title(group), table, re.MULTILINE).groups()
                 self.assertEqual(tuple(map(float, of_page)), stated[group], name)
 
     def test_the_flag_catches(self):

@@ -25,7 +25,9 @@ TEST(CurveStatement, takesTheDoubtOfTheWayOutAndItsError) {
       solution.is_conforming = is_conforming;
       const ModelStatement stated = CurveStatement::of(solution, kWork);
       EXPECT_EQ(stated.doubt, doubt);
-      const ModelError& error = doubt != nullptr ? chosen::kDoubtError : chosen::kSureError;
+      const ModelError& sure = is_conforming ? chosen::kSureBondedError : chosen::kSureError;
+      const ModelError& doubted = is_conforming ? chosen::kDoubtBondedError : chosen::kDoubtError;
+      const ModelError& error = doubt != nullptr ? doubted : sure;
       EXPECT_EQ(stated.error.pull_off, error.pull_off);
       EXPECT_EQ(stated.error.work, error.work);
       EXPECT_FALSE(stated.is_bound_where_bonded);
