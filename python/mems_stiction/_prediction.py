@@ -50,7 +50,7 @@ class Prediction(_core.PredictionFigures, ReadOnly):
     """
 
     _LAZY = ("contact_map", "deformed_lower", "deformed_upper", "pressure", "heights", "upper_heights", "asperities",
-             "energy_curve", "curve", "curve_over_height", "preprocessing", "roughness", "flags")
+             "energy_curve", "curve", "curve_over_height", "preprocessing", "roughness", "flags", "model_doubt")
 
     def __init__(self, core: _core.PredictedScan, surface: Surface) -> None:
         self.__dict__.update(core.figures)
@@ -158,7 +158,7 @@ class Prediction(_core.PredictionFigures, ReadOnly):
     @property
     def model_doubt(self) -> str:
         """Why the pull-off force may be out by more than 1.3 against the half-space (flag near_bonding); else empty."""
-        return self._core.model_doubt
+        return self._cached("model_doubt", lambda: self._core.model_doubt)  # type: ignore[union-attr]
 
     @property
     def version(self) -> str:

@@ -141,7 +141,7 @@ class PictureTest(unittest.TestCase):
         heights = rough()
         contact = SimpleNamespace(x=3e-7, y=2e-7, load=1e-6, cap_radius=2e-8, composite_radius=4.28e-7, plasticity_index=2.24, regime=1, area=1e-16)
         prediction = SimpleNamespace(status=0, pull_off_force=4e-7, contact_area_jkr=math.nan, contact_fraction=1e-5, rms_height=3e-9, normal_load=1e-6,
-                                     voltage=0.0, regime_flags=511, elastic_count=1, elasto_plastic_count=0, plastic_count=0)
+                                     voltage=0.0, regime_flags=511, model_doubt="it tears", elastic_count=1, elasto_plastic_count=0, plastic_count=0)
         regimes = np.zeros(heights.shape, np.uint8)
         regimes[20, 30] = 1
         picture = plots.ScanPicture("scan", heights, heights, None, regimes, [contact], prediction, 1e-8, 1e-8)

@@ -119,6 +119,7 @@ class PredictionTextTest(unittest.TestCase):
         self.assertTrue(line.endswith("  few_contacts, one_pixel, warning: rows jump"), line)
         self.assertEqual(flag_words(flag_names(0)), "")
         self.assertIn("contacts of one pixel", flag_words(flag_names(256)))
+        self.assertIn("1.3 (it tears); ", flag_words(flag_names(64 + 256), "it tears"))
         self.assertEqual(flag_words(["newer"]), "newer")
 
     def test_the_flags_are_those_of_the_message(self):
