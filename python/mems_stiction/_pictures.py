@@ -36,6 +36,7 @@ def picture_of(prediction: Prediction) -> Any:
 
     record = SimpleNamespace(**{name: getattr(prediction, name) for name in _core.figures["PredictionFigures"]})
     record.status = STATUS_CODES[prediction.status]
+    record.model_doubt = prediction.model_doubt
     return plots.ScanPicture(
         prediction.name or "scan", heights, map_of(prediction.deformed_lower, heights), map_of(prediction.deformed_upper, None),
         map_of(prediction.contact_map, np.zeros(heights.shape, np.uint8)), prediction.asperities, record, *prediction.pitch)

@@ -136,6 +136,7 @@ def picture_of(folder, result, title):
     prediction.status = STATES[result["status"]][0]
     for name in ("elastic_count", "elasto_plastic_count", "plastic_count", "regime_flags"):
         setattr(prediction, name, result[name])
+    prediction.model_doubt = result.get("model_doubt", "")
     return ScanPicture(title, arrays["heights"], arrays["deformed"], arrays["counter_deformed"], arrays["contact_map"],
                        asperities, prediction, result["pitch_x"], result["pitch_y"])
 
