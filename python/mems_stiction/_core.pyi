@@ -327,6 +327,7 @@ class PredictedScan:
     figures: Dict[str, Any]
     verdict: Optional[Dict[str, Any]]
     device_force: Optional[Dict[str, Any]]
+    half_space: Optional[Dict[str, Any]]
     roughness: Dict[str, Any]
     flag_names: str
     model_doubt: str

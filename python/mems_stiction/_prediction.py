@@ -45,6 +45,8 @@ class Prediction(_core.PredictionFigures, ReadOnly):
 
     verdict: a Verdict, or None without a device. device_force: what its own force was found to be, by this scan alone, as a
     dictionary with the names of DeviceForce; None without a contact area, or with device_force/enabled false.
+    half_space: the same of HalfSpace, where the scan was solved as one (half_space/enabled); the verdict's reason says which
+    flags have asked for it, or why there is none.
     roughness: a Roughness, of the cleaned scan.
     preprocessing: what each step of the cleaning did. warnings: about pitch, heights and settings.
     """
@@ -57,11 +59,12 @@ class Prediction(_core.PredictionFigures, ReadOnly):
         verdict = core.verdict
         self.verdict: Optional[Verdict]
         self.device_force: Optional[Dict[str, Any]]
+        self.half_space: Optional[Dict[str, Any]]
         self.warnings: Tuple[str, ...]
         self.name: str
         self.pitch: Tuple[float, float]
         self.__dict__.update(verdict=None if verdict is None else Verdict(verdict), device_force=core.device_force,
-                             warnings=tuple(core.warnings), name=surface.name, pitch=core.scan.pitch)
+                             half_space=core.half_space, warnings=tuple(core.warnings), name=surface.name, pitch=core.scan.pitch)
         self._core: Optional[_core.PredictedScan] = core
         self._surface: Optional[Surface] = surface
         self._is_transposed = surface.is_transposed
@@ -263,7 +266,9 @@ def predict(heights: Any, pitch: Optional[Pitch] = None, config: Optional[Config
     upper: the counter-surface as it was measured beside the scan, on the same grid and in its index order;
     counter_surface/facing must say which way it faces, "up" as measured or "down" as mounted. None: the configured one, a plane unless counter_surface/type says otherwise.
     settings: sections that go before config: load={"mechanical_load": 1e-6}. A dictionary as `upper` is the section of
-    that name.
+    that name. half_space: "auto", True and False are half_space/enabled flagged, true and false. Where the settings state a
+    device, "auto" holds: scans whose flags say that the model's force may be far out take seconds to minutes, and the
+    half-space judges them.
 
     Bits are those of predict_scan with the same settings. Raises SurfaceError for heights, OptionsError for settings,
     each in a sentence with what is allowed; warns (ScanWarning, SettingsWarning) of what looks like a wrong unit.

@@ -26,7 +26,8 @@ class Settings:
     """A configuration that is read and checked once, for many calls.
 
     config: None for the defaults, a dictionary, the path of a YAML file, or other Settings.
-    settings: sections or single keys that go before it: load={"voltage": 5.0}, **{"load/voltage": 5.0}.
+    settings: sections or single keys that go before it: load={"voltage": 5.0}, **{"load/voltage": 5.0}. half_space="auto",
+    True or False stands for half_space={"enabled": ...}.
     Raises OptionsError with a line for each key that is unknown, of the wrong type or out of range; FileError.
     Warns (SettingsWarning) about values that look like a wrong unit.
     """
@@ -84,7 +85,13 @@ def _settings_of_text(text: str) -> Settings:
 
 def _plain(mapping: Mapping) -> Dict[str, Any]:
     """What YAML would give: dictionaries, and Python's own numbers in place of NumPy's."""
-    return {str(key): _plain_value(value) for key, value in mapping.items()}
+    return {str(key): _half_space_section(value) if key == "half_space" else _plain_value(value) for key, value in mapping.items()}
+
+
+def _half_space_section(value: Any) -> Any:
+    """half_space="auto" is short for its setting `enabled`."""
+    plain = _plain_value(value)
+    return {"enabled": "flagged" if plain == "auto" else plain} if isinstance(plain, (bool, str)) else plain
 
 
 def _plain_value(value: Any) -> Any:

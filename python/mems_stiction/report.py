@@ -51,6 +51,8 @@ HALF_SPACE_FIGURES = (("pull-off force, prediction", "pull_off_force"), ("pull-o
                       ("mean gap, prediction", "mean_gap"), ("mean gap, half-space", "half_space_mean_gap"),
                       ("apparent work of adhesion, half-space", "half_space_apparent_work_of_adhesion"),
                       ("adhesion hysteresis, half-space", "half_space_adhesion_hysteresis"), ("time of the solution", "half_space_processing_time"))
+#: half_space_reason of a row whose scan was not to be solved
+NOT_FLAGGED = "no flag asks for it"
 DECLARED = dict({"half_space_" + name: figure for name, figure in _core.figures["HalfSpaceFigures"].items()},
                 **{name: figure for kind in ("Verdict", "Roughness", "Prediction") for name, figure in _core.figures[kind + "Figures"].items()})
 SHARES = ("contact_fraction", "invalid_fraction", "sdr")  # that are read as percent
@@ -197,7 +199,7 @@ def _figures(result, wanted):
 
 def _half_space(picture, result, folder):
     """What the page shows of the half-space; None if it was not asked for."""
-    if "half_space_reason" not in result:
+    if not _is_half_space_asked(result):
         return None
     image, path = "", folder / "half_space_pressure.npy"
     if "half_space_curve" in result:
@@ -212,6 +214,11 @@ def _half_space(picture, result, folder):
     return {"words": half_space_words(result), "image": image, "figures": figures}
 
 
+def _is_half_space_asked(row):
+    """Whether the scan was to be solved as a half-space."""
+    return row.get("half_space_reason", NOT_FLAGGED) != NOT_FLAGGED
+
+
 def _half_space_ratio(row):
     value = pull_off_ratio(row)
     return "" if math.isnan(value) else ("≥ " if is_lower_bound(row) else "") + ratio(value)
@@ -219,6 +226,8 @@ def _half_space_ratio(row):
 
 def _half_space_cell(row):
     """The pull-off force of the half-space for the table, and how many times as large the prediction's is."""
+    if not _is_half_space_asked(row):
+        return "not asked"
     force = text_of(row.get("half_space_pull_off_force"), "N")
     return "not solved" if force == "not stated" else "%s (%s)" % (force, _half_space_ratio(row))
 
@@ -302,7 +311,7 @@ def page(title, rows, sections, settings_text, configuration_path, parts=(), dat
     return environment.from_string(PAGE).render(
         title=title, version=settings["version"], summary=summary(rows, drawn),
         date=date or datetime.datetime.now().strftime("%Y-%m-%d %H:%M"),
-        has_half_space=any("half_space_reason" in row for row in predicted),
+        has_half_space=any(_is_half_space_asked(row) for row in predicted),
         has_device=any("sticks" in row for row in predicted), judged_by=judged_by(predicted).replace("_", " "),
         table=[table_row(row, drawn, judged_by(predicted)) for row in rows],
         parts=[part_row(part, judged_by(predicted)) for part in parts] if any("sticks" in row for row in predicted) else [],

@@ -32,7 +32,7 @@ class SettingsDigest : public OptionVisitor {
 
  private:
   static bool counts(const std::string& key) {
-    for (const char* without : {"part/", "limits/", "output/", "half_space/enabled", "half_space/threads"}) {
+    for (const char* without : {"part/", "limits/", "output/", "half_space/threads"}) {
       if (key.rfind(without, 0) == 0) return false;
     }
     return true;

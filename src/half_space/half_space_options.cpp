@@ -3,8 +3,11 @@
 namespace mems_stiction {
 
 void HalfSpaceOptions::describe(OptionVisitor& visitor) {
-  visitor.flag("half_space/enabled", enabled,
-               "whether the node solves the newest scan so beside its predictions; programs are asked by --half-space");
+  visitor.enumeration(
+      "half_space/enabled", enabled,
+      {{"false", HalfSpaceUse::kNever}, {"flagged", HalfSpaceUse::kFlagged}, {"true", HalfSpaceUse::kAlways}},
+      "which scans are solved so, and their device judged by it: none; where a device is stated those whose flags say "
+      "that the model's force may be far out; every one (the node: the newest)");
   visitor.number("half_space/range", range, "m", Range::nonNegative(),
                  "z0, the gap at which the traction between the surfaces changes sign; 0 = from "
                  "interface/work_of_adhesion and interface/hamaker_constant");
@@ -23,6 +26,11 @@ void HalfSpaceOptions::describe(OptionVisitor& visitor) {
                   "Newton steps of one state before it is given up");
   visitor.integer("half_space/max_pixels", max_pixels, Range::within(1, 1000000000),
                   "larger frames are refused; a pixel takes up to 300 bytes");
+  visitor.integer("half_space/max_flagged_pixels", max_flagged_pixels, Range::within(1, 1000000000),
+                  "larger frames are not solved for their flags alone");
+  visitor.integer("half_space/max_flagged_products", max_flagged_products, Range::within(1, 2000000000),
+                  "pairs of Fourier transforms after which a solution is given up that flags alone asked for, of the "
+                  "largest such frame; a smaller one has as many more as it has fewer pixels");
   visitor.integer("half_space/threads", threads, Range::within(1, 64),
                   "threads of one solution; its bits do not change");
 }

@@ -80,6 +80,12 @@ TractionLawOptions lawOptions(const HalfSpaceOptions& options, const HalfSpacePr
   return law;
 }
 
+/// E z0^2/Gamma [m].
+double cohesiveLength(const HalfSpaceProblem& problem, const TractionLaw& law) {
+  const ContactPair pair(problem.lower_material, problem.upper_material);
+  return pair.contact_modulus * law.range() * law.range() / problem.interface.work_of_adhesion;
+}
+
 /// The composite gap at first touch, infinite where it is not known.
 LargePageVector<double> reliefOf(const SurfacePair& surfaces, int threads) {
   GapField field;
@@ -222,6 +228,14 @@ void takeSurfaces(const HalfSpaceProblem& problem, const LargePageVector<float>&
 
 }  // namespace
 
+bool isResolved(const HalfSpaceProblem& problem, const HalfSpaceOptions& options) {
+  const TractionLawOptions law_options = lawOptions(options, problem);
+  check(problem, options, law_options);
+  const HeightMap& lower = problem.surfaces.lower;
+  return cohesiveLength(problem, TractionLaw(law_options)) >=
+         kPixelsPerCohesiveLength * std::max(lower.pitchX(), lower.pitchY());
+}
+
 HalfSpaceSolver::HalfSpaceSolver(const HalfSpaceOptions& options) : options_(options) {
   std::vector<std::string> violations = rangeViolations(options);
   if (!violations.empty()) throw OptionsError(std::move(violations));
@@ -256,7 +270,7 @@ SolvedHalfSpace HalfSpaceSolver::solve(const HalfSpaceProblem& problem, const Ha
 
   SolvedHalfSpace solution;
   solution.range = law.range();
-  solution.cohesive_length = pair.contact_modulus * law.range() * law.range() / problem.interface.work_of_adhesion;
+  solution.cohesive_length = cohesiveLength(problem, law);
   solution.is_resolved = solution.cohesive_length >= kPixelsPerCohesiveLength * std::max(grid.pitch_x, grid.pitch_y);
   LargePageVector<float> flowed;
   {

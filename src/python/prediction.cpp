@@ -2,7 +2,7 @@
 
 #include <pybind11/stl.h>
 
-#include <functional>
+#include <atomic>
 #include <limits>
 #include <memory>
 #include <mutex>
@@ -16,13 +16,16 @@
 #include "device/device_force_fields.hpp"
 #include "evaluation/device_scans.hpp"
 #include "evaluation/frame_load.hpp"
+#include "evaluation/half_space_call.hpp"
 #include "evaluation/plausibility.hpp"
 #include "evaluation/record.hpp"
 #include "figures.hpp"
+#include "half_space/half_space_fields.hpp"
 #include "interruptible.hpp"
 #include "memory.hpp"
 #include "mems_stiction/configuration/configuration_yaml.hpp"
 #include "mems_stiction/errors/errors.hpp"
+#include "mems_stiction/evaluation/half_space_scan.hpp"
 #include "mems_stiction/evaluation/scan_predictor.hpp"
 #include "prediction/force_curve.hpp"
 #include "verdict/regime_flags.hpp"
@@ -50,20 +53,20 @@ struct PredictedScan {
 
 using Predicted = std::shared_ptr<PredictedScan>;
 
-/// Runs work(check), where check(share) ends it when the user presses Ctrl-C. Predictions alone are too short for that.
+/// Runs work(cancel), where the user's Ctrl-C sets `cancel`. Predictions alone are too short for that.
 template <typename Work>
 Predicted predicting(const Configuration& configuration, const Work& work) {
-  if (wantsDeviceForce(configuration.device, configuration.device_force)) {
-    return interruptible([&](const std::atomic<bool>& cancel) { return work(Cancellation(cancel)); });
+  if (wantsDeviceForce(configuration.device, configuration.device_force) || mayCallHalfSpace(configuration)) {
+    return interruptible(work);
   }
   const WithoutLock unlocked;
-  return work([](double) {});
+  return work(std::atomic<bool>(false));
 }
 
 /// The record of a prediction.
-/// - @p on_progress of the device's own force
+/// - @p cancel ends what takes long
 Predicted predictedScan(const HeightMap& scan, const PreparedScan& prepared, Prediction&& prediction,
-                        const Configuration& configuration, const std::function<void(double)>& on_progress) {
+                        const Configuration& configuration, const std::atomic<bool>& cancel) {
   auto predicted = std::make_shared<PredictedScan>();
   predicted->scan = scan;
   predicted->surfaces = prepared.surfaces;
@@ -74,16 +77,29 @@ Predicted predictedScan(const HeightMap& scan, const PreparedScan& prepared, Pre
   predicted->extras.provenance = provenanceOf({}, configuration);
   predicted->scan_warnings = warningsOf(prepared);
   predicted->extras.warnings = predictionWarnings(prepared, configuration, predicted->prediction, configuration.model);
-  if (configuration.device.isStated()) {
+  if (configuration.device.isStated() || mayCallHalfSpace(configuration)) {
     const Options on_frame = onFrame(configuration.model, configuration.device, prepared.surfaces);
     Evidence evidence;
     if (wantsDeviceForce(configuration.device, configuration.device_force)) {
       DeviceForce& force = predicted->extras.device_force.emplace();
-      evidence = evidenceOfScan(prepared, configuration, on_progress, &force);
+      evidence = evidenceOfScan(prepared, configuration, Cancellation(cancel), &force);
       predicted->extras.warnings.insert(predicted->extras.warnings.end(), force.warnings.begin(), force.warnings.end());
     }
-    predicted->extras.verdict = verdictOf(predicted->prediction, configuration.device, configuration.uncertainty,
-                                          on_frame, scan.cellArea(), evidence);
+    SolvedHalfSpace solution;
+    const HalfSpaceCall call = halfSpaceCall(predicted->prediction, prepared, on_frame, configuration);
+    if (call.is_made) {
+      HalfSpaceControl control;
+      control.cancel = &cancel;
+      solution =
+          answerOf(call, HalfSpaceSolver(configuration.half_space), halfSpaceProblem(prepared, on_frame), control);
+      if (call.objection.empty()) predicted->extras.half_space = solution;
+      evidence.half_space = &solution;
+      evidence.why_half_space = call.why;
+    }
+    if (configuration.device.isStated()) {
+      predicted->extras.verdict = verdictOf(predicted->prediction, configuration.device, configuration.uncertainty,
+                                            on_frame, scan.cellArea(), evidence);
+    }
   }
   predicted->curve = curveOf(predicted->prediction, configuration.model.interface);
   return predicted;
@@ -99,12 +115,12 @@ class Predictor {
   /// - @p notes on how the scan was read
   Predicted predict(const HeightMap& scan, const std::optional<HeightMap>& counter_surface,
                     const std::vector<std::string>& notes) {
-    return predicting(configuration_, [&](const auto& check) {
+    return predicting(configuration_, [&](const std::atomic<bool>& cancel) {
       const std::lock_guard<std::mutex> lock(mutex_);
       predictor_.preparer().setMeasuredCounterSurface(counter_surface.value_or(HeightMap()));
       PreparedScan prepared = predictor_.preparer().prepare(scan);
       prepared.warnings.insert(prepared.warnings.begin(), notes.begin(), notes.end());
-      Predicted predicted = predictedScan(scan, prepared, predictor_.predict(prepared), configuration_, check);
+      Predicted predicted = predictedScan(scan, prepared, predictor_.predict(prepared), configuration_, cancel);
       predictor_.preparer().setMeasuredCounterSurface({});
       return predicted;
     });
@@ -131,7 +147,7 @@ class OneScan {
 
   /// @throw OptionsError for settings with another preparation than the first.
   Predicted predict(const Configuration& configuration) {
-    return predicting(configuration, [&](const auto& check) {
+    return predicting(configuration, [&](const std::atomic<bool>& cancel) {
       const std::lock_guard<std::mutex> lock(mutex_);
       if (preparation(configuration) != preparation(configuration_)) {
         throw OptionsError(
@@ -143,7 +159,7 @@ class OneScan {
       predictor_.setDevice(configuration.device);
       Prediction prediction = is_seen_ ? predictor_.predictAgain(prepared_) : predictor_.predict(prepared_);
       is_seen_ = true;
-      return predictedScan(scan_, prepared_, std::move(prediction), configuration, check);
+      return predictedScan(scan_, prepared_, std::move(prediction), configuration, cancel);
     });
   }
 
@@ -196,6 +212,13 @@ std::optional<py::dict> deviceForceOfScan(const PredictedScan& predicted) {
   return fields.dictionary;
 }
 
+std::optional<py::dict> halfSpaceOfScan(const PredictedScan& predicted) {
+  if (!predicted.extras.half_space) return std::nullopt;
+  DictionaryFields fields;
+  visitHalfSpaceFields(*predicted.extras.half_space, fields);
+  return fields.dictionary;
+}
+
 py::dict roughnessOfScan(const PredictedScan& predicted) {
   DictionaryFields fields;
   visitRoughnessFields(predicted.prediction.roughness, fields);
@@ -242,6 +265,7 @@ void bindPrediction(py::module& module) {
       .def_property_readonly("figures", &figuresOf)
       .def_property_readonly("verdict", &verdictOfScan)
       .def_property_readonly("device_force", &deviceForceOfScan)
+      .def_property_readonly("half_space", &halfSpaceOfScan)
       .def_property_readonly("roughness", &roughnessOfScan)
       .def_property_readonly(
           "flag_names",

@@ -117,6 +117,28 @@ void DeviceForceStream::offer(const StationCase& scan, const PredictedScan& pred
   for (const Task& lost : gone) warn_(lost.scan.header, "device_force: scans of other parts came before its turn");
 }
 
+bool DeviceForceStream::HalfSpaceOfScan::isOf(const PreparedScan& other, const std::string& other_hash) const {
+  return scan.surfaces.lower.heights().data == other.surfaces.lower.heights().data && hash == other_hash;
+}
+
+void DeviceForceStream::takeHalfSpace(const StationCase& scan, const SolvedHalfSpace& solution,
+                                      const std::string& why) {
+  if (!wantsDeviceForce(scan.settings->device, scan.settings->device_force)) return;
+  HalfSpaceOfScan taken{scan.scan, forceHash(*scan.settings, true), solution, why};
+  for (cv::Mat* const map : {&taken.solution.pressure, &taken.solution.gap}) map->release();
+  taken.solution.deformed_lower = taken.solution.deformed_upper = HeightMap();
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    half_space_ = std::move(taken);
+    if (!last_ || !is_judged_ || !half_space_->isOf(last_->newest, forceHash(*last_->settings, true))) return;
+    const auto is_newer = [this](const Task& waiting) { return waiting.part == last_->part; };
+    if (std::any_of(waiting_.begin(), waiting_.end(), is_newer)) return;
+    ++counts_.offered;
+    waiting_.push_back(*last_);
+  }
+  changed_.notify_all();
+}
+
 void DeviceForceStream::loop() {
   yieldToOtherThreads();
   for (;;) {
@@ -129,6 +151,8 @@ void DeviceForceStream::loop() {
       task = std::move(waiting_.back());
       waiting_.pop_back();
       part = parts_.of(task->part);  // there as long as its scan waits
+      last_ = task;
+      is_judged_ = false;
     }
     try {
       work(*task, *part);
@@ -197,12 +221,28 @@ DeviceAdhesion DeviceForceStream::find(const Task& task, const ScannedPart& part
     const double by_work = evidence.device->apparent_work_of_adhesion / force.apparent_work_of_adhesion;
     force = scaled(std::move(force), by_force, by_work);
   }
+  std::optional<HalfSpaceOfScan> half_space;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (half_space_ && half_space_->isOf(task.newest, hash)) half_space = half_space_;
+    is_judged_ = true;
+  }
+  if (half_space) {
+    evidence.half_space = &half_space->solution;
+    evidence.why_half_space = half_space->why;
+  }
   if (part.taken > part.scans.size()) {
     force.warnings.push_back("only " + std::to_string(part.scans.size()) + " of " + std::to_string(part.taken) +
                              " scans are kept (max_part_scans and max_part_memory)");
   }
   verdict = verdictOf(task.prediction, settings.device, settings.uncertainty, model,
                       task.newest.surfaces.lower.cellArea(), evidence);
+  if (verdict->judge == Judge::kHalfSpace) {  // the device's own figures moved as those of the scan did
+    const double separation = force.separation_at_rest;
+    force = scaled(std::move(force), half_space->solution.pull_off_force / task.prediction.pull_off_force,
+                   half_space->solution.work_of_adhesion / task.prediction.apparent_work_of_adhesion);
+    force.separation_at_rest = separation;
+  }
   DeviceAdhesion message = deviceMessage(force, model.load, task.scan.header);
   message.status = is_known ? DeviceAdhesion::JUDGED_AGAIN : DeviceAdhesion::FOUND;
   message.processing_time = found_->time;

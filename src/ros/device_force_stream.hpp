@@ -56,6 +56,10 @@ class DeviceForceStream {
   /// - @p predicted of the scan, under the settings of the case
   void offer(const StationCase& scan, const PredictedScan& predicted);
 
+  /// A half-space of a scan, which judges its device too: from now on, and once more if its force has been found.
+  /// - @p why as of Evidence
+  void takeHalfSpace(const StationCase& scan, const SolvedHalfSpace& solution, const std::string& why);
+
   /// The device's figures beside those of the frame, if they are known for just this scan, under this load or another.
   std::optional<DeviceScale> scaleOf(const StationCase& scan) const;
   /// The same as evidence for a verdict on the scan, under the load of the case alone.
@@ -94,6 +98,16 @@ class DeviceForceStream {
     std::uint64_t failed = 0;   ///< published as REFUSED
   };
 
+  /// The newest half-space, and what it is of.
+  struct HalfSpaceOfScan {
+    PreparedScan scan;
+    std::string hash;  ///< of the settings that bear on the device's force
+    SolvedHalfSpace solution;
+    std::string why;
+
+    bool isOf(const PreparedScan& other, const std::string& other_hash) const;
+  };
+
   void loop();
   void work(const Task& task, const ScannedPart& part);
   /// With the mutex held: whether it was found with just this scan, but for the load.
@@ -110,6 +124,9 @@ class DeviceForceStream {
 
   mutable std::mutex mutex_;
   std::optional<Found> found_;  ///< changed by the stream's thread only
+  std::optional<HalfSpaceOfScan> half_space_;
+  std::optional<Task> last_;  ///< that is at hand, or was
+  bool is_judged_ = false;    ///< a half-space that comes now is too late for it
   std::condition_variable changed_;
   PartSurfaces parts_;
   std::vector<Task> waiting_;  ///< one of each part, the newest at the end

@@ -1,5 +1,6 @@
 #include "ros/half_space_stream.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include <diagnostic_msgs/DiagnosticStatus.h>
@@ -12,14 +13,21 @@
 #include "ros/verdict_conversion.hpp"
 
 namespace mems_stiction {
+namespace {
+
+/// Scans that wait as their flags ask for it; the one that has waited longest goes.
+constexpr std::size_t kMostWaiting = 8;
+
+}  // namespace
 
 HalfSpaceStream::HalfSpaceStream(const ros::NodeHandle& handle, const HalfSpaceOptions& options, SolutionPause& pause,
-                                 Warn warn, Judged judged, Beside beside)
+                                 Warn warn, Judged judged, Solved solved, Beside beside)
     : solver_(options),
       pause_(pause),
       publisher_(handle),
       warn_(std::move(warn)),
       judged_(std::move(judged)),
+      solved_(std::move(solved)),
       beside_(std::move(beside)) {}
 
 void HalfSpaceStream::start() {
@@ -35,17 +43,33 @@ void HalfSpaceStream::stop() {
   if (thread_.joinable()) thread_.join();
 }
 
-void HalfSpaceStream::offer(const StationCase& predicted, const ScanOfPart& scan, const cv::Mat& model_map,
-                            const DrawnCurve& model_curve) {
-  std::optional<Task> task(
-      Task{predicted, scan, model_map.clone(), model_curve});  // the model uses its map's memory again
+void HalfSpaceStream::offer(const HalfSpaceCall& call, const StationCase& predicted, const ScanOfPart& scan,
+                            const cv::Mat& model_map, const DrawnCurve& model_curve) {
+  Task task{call, predicted, scan, model_map.clone(), model_curve};  // the model uses its map's memory again
+  const std::size_t most = call.why.empty() ? 1 : kMostWaiting;
+  std::vector<Task> gone;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (waiting_) ++counts_.skipped;
     ++counts_.offered;
-    waiting_.swap(task);
+    // the same scan under other settings is another question, and the newer one
+    const auto same =
+        std::find_if(waiting_.begin(), waiting_.end(), [&](const Task& waiting) { return waiting.scan.id == scan.id; });
+    if (same != waiting_.end()) {
+      ++counts_.skipped;
+      waiting_.erase(same);
+    }
+    while (waiting_.size() >= most) {
+      ++counts_.skipped;
+      gone.push_back(std::move(waiting_.front()));
+      waiting_.erase(waiting_.begin());
+    }
+    waiting_.push_back(std::move(task));
   }
   changed_.notify_all();
+  for (const Task& lost : gone) {
+    if (lost.call.why.empty()) continue;
+    warn_(lost.predicted.header, "half-space: " + lost.call.why + " asks for it, but newer scans came before its turn");
+  }
 }
 
 void HalfSpaceStream::loop() {
@@ -54,9 +78,10 @@ void HalfSpaceStream::loop() {
     std::optional<Task> task;
     {
       std::unique_lock<std::mutex> lock(mutex_);
-      changed_.wait(lock, [this] { return stopping_ || waiting_; });
+      changed_.wait(lock, [this] { return stopping_ || !waiting_.empty(); });
       if (stopping_) return;
-      task.swap(waiting_);
+      task = std::move(waiting_.back());
+      waiting_.pop_back();
     }
     solve(*task);
   }
@@ -70,14 +95,17 @@ void HalfSpaceStream::solve(const Task& task) {
   control.give_way = pause_.waiter(stopping_);
   HalfSpaceSolution message;
   std::optional<Verdict> verdict;
+  SolvedHalfSpace solved;
   cv::Mat map;
   try {
     model = onFrame(model, scan.settings->device, scan.scan.surfaces);
     const HalfSpaceProblem problem = halfSpaceProblem(scan.scan, model);
-    const SolvedHalfSpace solved = solver_.solve(problem, control);
+    solved = answerOf(task.call, solver_, problem, control);
     message = halfSpaceMessage(solved, model.load, scan.header);
     if (!stopping_) {
-      verdict = halfSpaceVerdict(solved, scan.scan, model, *scan.settings, beside_(scan));
+      Evidence beside = beside_(scan);
+      beside.why_half_space = task.call.why;
+      verdict = halfSpaceVerdict(solved, scan.scan, model, *scan.settings, beside);
       fillVerdict(*verdict, message);
     }
     map = halfSpaceContactMap(solved, problem, solver_.options(), scan.scan.refinement);
@@ -88,7 +116,10 @@ void HalfSpaceStream::solve(const Task& task) {
   fillProvenance(task.scan.provenance, message);
   const bool is_solved = message.status == HalfSpaceSolution::SOLVED;
   publisher_.publish(message, task.model_map, map, task.model_curve);
-  if (verdict) judged_(task.scan, *verdict);
+  if (verdict) {
+    judged_(task.scan, *verdict);
+    solved_(scan, solved, task.call.why);
+  }
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     ++(is_solved ? counts_.solved : counts_.failed);
@@ -99,17 +130,21 @@ void HalfSpaceStream::solve(const Task& task) {
 }
 
 void HalfSpaceStream::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const HalfSpaceOptions& options = solver_.options();
   const std::lock_guard<std::mutex> lock(mutex_);
   if (counts_.failed > reported_failed_) {
     status.summary(diagnostic_msgs::DiagnosticStatus::WARN, last_failure_);
   } else {
-    status.summary(diagnostic_msgs::DiagnosticStatus::OK,
-                   counts_.offered == 0 ? "no scan yet" : "solves the newest scan");
+    status.summary(diagnostic_msgs::DiagnosticStatus::OK, counts_.offered == 0 ? "no scan yet"
+                                                          : options.enabled == HalfSpaceUse::kFlagged
+                                                              ? "solves scans whose flags ask for it"
+                                                              : "solves the newest scan");
   }
   status.add("offered", counts_.offered);
   status.add("solved", counts_.solved);
   status.add("skipped", counts_.skipped);
   status.add("failed", counts_.failed);
+  status.add("waiting", waiting_.size());
   status.add("last_failure", last_failure_);
   status.add("last_solution_time [s]", last_time_);
   reported_failed_ = counts_.failed;

@@ -2,8 +2,9 @@
 
 /// @file
 /// half_space/enabled: the half-space beside the predictions. A thread of its own solves the newest scan, publishes the
-/// answer, and takes the scan that is the newest then; scans between are skipped. It takes the prepared scan and the
-/// settings of its prediction, whatever changes meanwhile: the answer belongs to the prediction of its stamp.
+/// answer, and takes the scan that is the newest then. Of those between, some wait whose flags ask for it; the others are
+/// skipped. It takes the prepared scan and the settings of its prediction, whatever changes meanwhile: the answer belongs
+/// to the prediction of its stamp.
 
 #include <atomic>
 #include <condition_variable>
@@ -13,11 +14,13 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <diagnostic_updater/DiagnosticStatusWrapper.h>
 #include <ros/node_handle.h>
 #include <opencv2/core.hpp>
 
+#include "evaluation/half_space_call.hpp"
 #include "half_space/solution_pause.hpp"
 #include "mems_stiction/half_space/half_space_solver.hpp"
 #include "ros/half_space_publisher.hpp"
@@ -28,18 +31,21 @@ namespace mems_stiction {
 /// Solves the newest of the scans that it is offered.
 class HalfSpaceStream {
  public:
-  /// Called for each scan without a solution, on the thread of the half-space.
+  /// Called for each scan without a solution, on the thread of the half-space or on that of offer().
   using Warn = std::function<void(const std_msgs::Header& header, const std::string& text)>;
 
   /// Called with the verdict on each scan that was judged, on the thread of the half-space.
   using Judged = std::function<void(const ScanOfPart& scan, const Verdict& verdict)>;
+
+  /// Called after that with what judged it, on the same thread.
+  using Solved = std::function<void(const StationCase& scan, const SolvedHalfSpace& solution, const std::string& why)>;
 
   /// What is known of the device of a scan, called on the thread of the half-space.
   using Beside = std::function<Evidence(const StationCase& scan)>;
 
   /// - @p pause is given way to; it must outlive the stream
   HalfSpaceStream(const ros::NodeHandle& handle, const HalfSpaceOptions& options, SolutionPause& pause, Warn warn,
-                  Judged judged, Beside beside);
+                  Judged judged, Solved solved, Beside beside);
   ~HalfSpaceStream() { stop(); }
   HalfSpaceStream(const HalfSpaceStream&) = delete;
   HalfSpaceStream& operator=(const HalfSpaceStream&) = delete;
@@ -51,11 +57,12 @@ class HalfSpaceStream {
   /// Whether offer() wants the model's contact map.
   bool isModelMapWanted() const { return publisher_.areBothMapsWanted(); }
 
-  /// Takes the place of a scan that waits. Copies no pixels but the map's.
+  /// Takes the place of a scan that waits, unless flags ask for that one. Copies no pixels but the map's.
+  /// - @p call that is made
   /// - @p scan where its prediction comes from
   /// - @p model_map contact map of the prediction; may be empty
   /// - @p model_curve that the prediction has followed; may have no point
-  void offer(const StationCase& predicted, const ScanOfPart& scan, const cv::Mat& model_map,
+  void offer(const HalfSpaceCall& call, const StationCase& predicted, const ScanOfPart& scan, const cv::Mat& model_map,
              const DrawnCurve& model_curve);
 
   /// One status with every count; WARN if a scan since the last report has no solution.
@@ -63,6 +70,7 @@ class HalfSpaceStream {
 
  private:
   struct Task {
+    HalfSpaceCall call;
     StationCase predicted;
     ScanOfPart scan;
     cv::Mat model_map;
@@ -70,7 +78,7 @@ class HalfSpaceStream {
   };
   /// Since start.
   struct Counts {
-    std::uint64_t offered = 0;  ///< solved + skipped + failed + the one at hand and the one that waits
+    std::uint64_t offered = 0;  ///< solved + skipped + failed + the one at hand and those that wait
     std::uint64_t solved = 0;
     std::uint64_t skipped = 0;  ///< a newer scan came before their turn
     std::uint64_t failed = 0;   ///< published with another status
@@ -84,11 +92,12 @@ class HalfSpaceStream {
   HalfSpacePublisher publisher_;
   Warn warn_;
   Judged judged_;
+  Solved solved_;
   Beside beside_;
   std::atomic<bool> stopping_{false};
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::optional<Task> waiting_;
+  std::vector<Task> waiting_;  ///< the newest at the end
   Counts counts_;
   std::uint64_t reported_failed_ = 0;
   std::string last_failure_;

@@ -81,6 +81,11 @@ PredictedScan LivePredictor::judged(const PreparedScan& prepared, const Configur
   if (wantsDeviceForce(settings.device, settings.device_force)) evidence.why_no_device = kDeviceOnTopic;
   predictor_.setDevice(settings.device);
   predicted.prediction = predictor_.predict(prepared, on_model);
+  predicted.half_space = halfSpaceCall(predicted.prediction, prepared, predictor_.options(), settings);
+  const SolvedHalfSpace unsolved = unsolvedHalfSpace(predicted.half_space.objection);
+  if (!predicted.half_space.objection.empty()) evidence.half_space = &unsolved;
+  evidence.why_half_space = predicted.half_space.why;
+  evidence.where_half_space = kHalfSpaceOnTopic;
   predicted.verdict = verdictOf(predicted.prediction, settings.device, settings.uncertainty, predictor_.options(),
                                 prepared.surfaces.lower.cellArea(), evidence);
   predicted.preprocessing = prepared.record;

@@ -22,6 +22,9 @@
 
 namespace mems_stiction {
 
+/// Where the half-space is found that flags ask for.
+inline constexpr char kHalfSpaceOnTopic[] = "it follows on the topic half_space; ~solve_half_space has it on demand";
+
 /// Why a verdict has no force of the device.
 inline constexpr char kDeviceOnTopic[] =
     "the node finds it by the scans on its topic height and publishes it on device_force";

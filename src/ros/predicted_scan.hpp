@@ -11,6 +11,7 @@
 #include <std_msgs/Header.h>
 
 #include "contact/curve_point.hpp"
+#include "evaluation/half_space_call.hpp"
 #include "mems_stiction/configuration/provenance.hpp"
 #include "mems_stiction/prediction/prediction.hpp"
 #include "mems_stiction/preprocess/pipeline.hpp"
@@ -44,6 +45,7 @@ struct PredictedScan {
   std::optional<PooledVerdict> part;  ///< what all scans of its part say with it; nothing if it states no part
   std::string pool_settings_hash;     ///< of the settings that those scans share
   std::uint64_t scan_id = 0;          ///< ScanOfPart::id; 0: not from the topic
+  HalfSpaceCall half_space;           ///< whether it is to be solved as a half-space
   std::vector<CurvePoint> curve;      ///< force over height; empty if the formulation does not follow it
 };
 

@@ -50,13 +50,16 @@ StictionServer::StictionServer(const ros::NodeHandle& handle, const ros::NodeHan
       publisher_(withQueue(handle, service_queue_), options_.display,
                  [this] { worker_.push([this] { showLastScan(); }); }),
       half_space_(
-          !configuration.core.half_space.enabled
+          configuration.core.half_space.enabled == HalfSpaceUse::kNever
               ? nullptr
               : std::make_unique<HalfSpaceStream>(
                     withQueue(handle, service_queue_), configuration.core.half_space, half_space_pause_,
                     [this](const auto& header, const auto& text) { accounting_.warn(header, text); },
                     [this](const auto& scan, const auto& verdict) {
                       worker_.push([=] { judgePartAgain(scan, verdict); });
+                    },
+                    [this](const auto& scan, const auto& solution, const auto& why) {
+                      if (device_force_) device_force_->takeHalfSpace(scan, solution, why);
                     },
                     [this](const auto& scan) { return device_force_ ? device_force_->evidenceOf(scan) : Evidence(); })),
       device_force_(!configuration.core.device_force.enabled
@@ -285,8 +288,11 @@ void StictionServer::change(const RunningSettings& settings) {
   worker_.call([&] {
     predictor_.settings().change(settings);
     const SettingsOwner::Snapshot changed = predictor_.settings().snapshot();
-    if (!device_force_ || !wantsDeviceForce(changed->device, changed->device_force)) return;
-    if (const std::optional<PredictedScan> predicted = lastScanOrNothing()) offerToDevice(*predicted);
+    const bool wants_device = device_force_ && wantsDeviceForce(changed->device, changed->device_force);
+    const bool wants_half_space = half_space_ && mayCallHalfSpace(*changed);
+    if (!wants_device && !wants_half_space) return;
+    const std::optional<PredictedScan> predicted = lastScanOrNothing();
+    if (predicted) offerAgain(*predicted);
   });
 }
 
@@ -300,11 +306,7 @@ void StictionServer::predictAndPublish(const sensor_msgs::ImageConstPtr& image, 
     if (half_space_ && half_space_->isModelMapWanted()) demanded.contact_map = true;
     const PredictedScan predicted = predictor_.predictScan(scan, demanded);
     publisher_.publish(predicted, scan);
-    if (half_space_) {
-      half_space_->offer(predictor_.stationCase(nullptr),
-                         {scan.header, predicted.provenance, predicted.pool_settings_hash, predicted.scan_id},
-                         predicted.prediction.contact_map, drawnCurve(predicted));
-    }
+    offerToHalfSpace(predicted);
     offerToDevice(predicted);
     if (publisher_.isPreviewWanted()) publisher_.publishPreview(predictor_.lastSurface(), scan.header);
     accounting_.predicted((ros::WallTime::now() - arrival).toSec(), predicted.prediction.processing_time);
@@ -318,6 +320,19 @@ void StictionServer::judgePartAgain(const ScanOfPart& scan, const Verdict& verdi
   const std::optional<PartNews> news = predictor_.judgeAgain(scan, verdict);
   // A device that has been judged by its own force is not judged by one frame after that.
   if (news && scan.id != judged_by_device_) publisher_.publishPart(news->verdict, news->last);
+}
+
+void StictionServer::offerToHalfSpace(const PredictedScan& predicted) {
+  if (!half_space_ || !predicted.half_space.is_made || !predicted.half_space.objection.empty()) return;
+  const StationCase scan = predictor_.stationCase(nullptr);
+  half_space_->offer(predicted.half_space, scan,
+                     {scan.header, predicted.provenance, predicted.pool_settings_hash, predicted.scan_id},
+                     predicted.prediction.contact_map, drawnCurve(predicted));
+}
+
+void StictionServer::offerAgain(const PredictedScan& predicted) {
+  if (!predicted.half_space.why.empty()) offerToHalfSpace(predicted);
+  offerToDevice(predicted);
 }
 
 void StictionServer::offerToDevice(const PredictedScan& predicted) {

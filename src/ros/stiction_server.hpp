@@ -73,6 +73,10 @@ class StictionServer {
                          const std::optional<SurfacePose>& pose);
   /// What the part's scans say once the half-space has judged one of them.
   void judgePartAgain(const ScanOfPart& scan, const Verdict& verdict);
+  /// The last scan to the stream that solves it as a half-space, if it is to be.
+  void offerToHalfSpace(const PredictedScan& predicted);
+  /// The last scan to both streams, under settings that have changed: to that of the half-space if its flags ask for it.
+  void offerAgain(const PredictedScan& predicted);
   /// The last scan to the stream that finds its device's force.
   void offerToDevice(const PredictedScan& predicted);
   void publishPartOfDevice(const PooledVerdict& part, const ScanOfPart& last);
@@ -116,7 +120,7 @@ class StictionServer {
   LivePredictor predictor_;  ///< touched by the worker only, but for what is for every thread
   ResultPublisher publisher_;
   SolutionPause half_space_pause_;                   ///< held while a scan is predicted
-  std::unique_ptr<HalfSpaceStream> half_space_;      ///< null: half_space/enabled is not set
+  std::unique_ptr<HalfSpaceStream> half_space_;      ///< null: half_space/enabled is false
   std::unique_ptr<DeviceForceStream> device_force_;  ///< null: device_force/enabled is not set
   std::uint64_t judged_by_device_ = 0;               ///< ScanOfPart::id of the last scan; touched by the worker only
   WorkQueue worker_;

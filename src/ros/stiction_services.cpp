@@ -103,7 +103,7 @@ void StictionServer::changeLoad(const std::function<void(LoadOptions&)>& set, Re
         if (const std::optional<PredictedScan> predicted = predictor_.predictLastScan()) {
           response.prediction = predictionMessage(*predicted, predictor_.lastScan()->header);
           response.prediction.curve.clear();  // a thousand lines for whoever calls by hand
-          offerToDevice(*predicted);
+          offerAgain(*predicted);
           if (old) response.message += "; " + effect(*old, predicted->prediction);
         } else {
           response.message += "; no scan yet, so there is no prediction";

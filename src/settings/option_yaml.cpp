@@ -96,6 +96,20 @@ std::string shown(const YAML::Node& node) {
   return node.IsSequence() ? "a list" : "no value";
 }
 
+/// YAML's word for a flag; empty if it is none.
+std::string flagOf(const std::string& text) {
+  const std::string word = lowered(text);
+  if (word == "true" || word == "yes" || word == "on") return "true";
+  if (word == "false" || word == "no" || word == "off") return "false";
+  return "";
+}
+
+/// Where true and false are among the choices, every word for them is.
+std::string choiceOf(const std::string& text, const std::vector<std::string>& names) {
+  const std::string flag = flagOf(text);
+  return std::find(names.begin(), names.end(), flag) != names.end() ? flag : text;
+}
+
 /// Of so many keys that nobody knows each is named: more are another file.
 constexpr std::size_t kMostUnknown = 100;
 
@@ -144,13 +158,11 @@ class YamlReader : public OptionVisitor {
   void flag(const std::string& key, bool& value, const std::string& /*meaning*/) override {
     const YAML::Node* node = take(key);
     if (node == nullptr) return;
-    const std::string word = node->IsScalar() ? lowered(node->Scalar()) : "";
-    if (word == "true" || word == "yes" || word == "on") {
-      value = true;
-    } else if (word == "false" || word == "no" || word == "off") {
-      value = false;
-    } else {
+    const std::string word = node->IsScalar() ? flagOf(node->Scalar()) : "";
+    if (word.empty()) {
       wrongType(key, *node, "true or false");
+    } else {
+      value = word == "true";
     }
   }
 
@@ -166,7 +178,7 @@ class YamlReader : public OptionVisitor {
 
   void choice(const std::string& key, std::string& value, const std::vector<std::string>& names,
               const std::string& meaning) override {
-    if (const YAML::Node* node = take(key)) value = node->IsScalar() ? node->Scalar() : shown(*node);
+    if (const YAML::Node* node = take(key)) value = node->IsScalar() ? choiceOf(node->Scalar(), names) : shown(*node);
     OptionValidator validator;
     validator.choice(key, value, names, meaning);
     append(validator);

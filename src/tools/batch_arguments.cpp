@@ -32,9 +32,11 @@ void describe(CLI::App& app, BatchArguments& arguments) {
   app.add_option("-c,--config", arguments.configuration, "every key is explained in config/stiction.yaml")
       ->type_name("FILE.yaml");
   addLoadOptions(app, arguments);
-  app.add_flag("--half-space", arguments.half_space,
-               "columns half_space_... too: each scan as one elastic half-space, seconds to minutes each, "
-               "doc/half_space.md; half_space_reason says what has no solution, and why");
+  app.add_flag(
+      "--half-space", arguments.half_space,
+      "columns half_space_... too: each scan as one elastic half-space, as half_space/enabled true does, "
+      "seconds to minutes each, doc/half_space.md; half_space_reason says what has no solution, and why. Without "
+      "it the columns are there where a device is stated, for scans whose flags ask for it");
   app.add_flag(
       "--device-force", arguments.device_force,
       "each row's verdict rests on the device's own force by that scan alone, seconds to minutes each; without it "
@@ -108,6 +110,7 @@ Configuration configurationOf(const BatchArguments& arguments) {
   Configuration configuration;
   if (!arguments.configuration.empty()) configuration = loadConfiguration(arguments.configuration);
   applyLoads(arguments, configuration.model.load);
+  if (arguments.half_space) configuration.half_space.enabled = HalfSpaceUse::kAlways;
   configuration.check();
   return configuration;
 }

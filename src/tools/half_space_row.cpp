@@ -35,7 +35,7 @@ std::vector<std::string> halfSpaceColumnNames(bool with_verdict) {
   std::optional<Verdict> verdict;
   if (with_verdict) verdict.emplace();
   std::vector<std::string> names;
-  for (const auto& field : halfSpaceFields({SolvedHalfSpace(), ""}, verdict)) names.push_back(field.first);
+  for (const auto& field : halfSpaceFields({true, SolvedHalfSpace(), ""}, verdict)) names.push_back(field.first);
   return names;
 }
 

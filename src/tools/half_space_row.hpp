@@ -16,6 +16,7 @@ namespace mems_stiction {
 
 /// A solution, as far as it came, and why there is none.
 struct HalfSpaceAnswer {
+  bool is_called = false;                   ///< the scan was to be solved
   std::optional<SolvedHalfSpace> solution;  ///< nothing if it could not be asked
   std::string reason;                       ///< empty if it is solved
 };

@@ -95,14 +95,14 @@ std::string HalfSpaceText::next(const ForcePoint& point) {
   return text;
 }
 
-SolvedHalfSpace solveWithProgress(const HalfSpaceSolver& solver, const HalfSpaceProblem& problem) {
+SolvedHalfSpace withHalfSpaceProgress(const std::function<SolvedHalfSpace(const HalfSpaceControl&)>& solve) {
   const Interruption interruption;  // outlives the line on the terminal, which is gone when the program ends
   Progress progress;
   HalfSpaceControl control;
   control.cancel = &is_interrupted;
   control.on_state = [&progress](const ForcePoint& point) { progress.show(point); };
   control.give_way = [&progress] { progress.tick(); };
-  return solver.solve(problem, control);
+  return solve(control);
 }
 
 std::vector<std::pair<std::string, std::string>> HalfSpaceMapFiles::wanted() const {

@@ -2,6 +2,7 @@
 
 /// A solution of the half-space as a program gives it: with progress, with Ctrl-C, and with its maps in files.
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,8 +24,8 @@ class HalfSpaceText {
 };
 
 /// On a terminal it says how far it is, from two seconds on. Ctrl-C ends the program.
-/// @throw as HalfSpaceSolver::solve()
-SolvedHalfSpace solveWithProgress(const HalfSpaceSolver& solver, const HalfSpaceProblem& problem);
+/// - @p solve gets what it is to be watched by
+SolvedHalfSpace withHalfSpaceProgress(const std::function<SolvedHalfSpace(const HalfSpaceControl&)>& solve);
 
 /// Where the maps of one solution go; names that are empty are not written.
 struct HalfSpaceMapFiles {

@@ -10,6 +10,7 @@
 #include "evaluation/frame_load.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/import/scan_file.hpp"
+#include "verdict/regime_flags.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -37,11 +38,10 @@ HeightMap PartDevices::surface(std::size_t number) {
   return openScanFile(scan.input, configuration_.scan, fileOptions(arguments_)).surface;
 }
 
-PartDevice PartDevices::device(const std::vector<std::size_t>& numbers,
-                               const std::function<void(double)>& on_progress) {
+PartDevice PartDevices::device(const std::vector<RowOfPart>& rows, const std::function<void(double)>& on_progress) {
   PartDevice part;
   const DeviceOptions& device = configuration_.device;
-  if (numbers.empty() || !wantsDeviceForce(device, configuration_.device_force)) return part;
+  if (rows.empty() || !wantsDeviceForce(device, configuration_.device_force)) return part;
   try {
     if (!scans_) {
       scans_.emplace(arguments_, inputs_, configuration_);
@@ -49,18 +49,24 @@ PartDevice PartDevices::device(const std::vector<std::size_t>& numbers,
     }
     DeviceScans scans(configuration_);
     std::vector<PreparedScan> prepared;
-    for (std::size_t i = 0; i < std::min(numbers.size(), kMostScansOfDevice); ++i) {
-      const HeightMap scan = surface(numbers[i]);
+    for (std::size_t i = 0; i < std::min(rows.size(), kMostScansOfDevice); ++i) {
+      const HeightMap scan = surface(rows[i].number);
       prepared.push_back(predictor_->preparer().prepare(scan));
-      scans.add("the scan of row " + std::to_string(numbers[i]), prepared.back());
+      scans.add("the scan of row " + std::to_string(rows[i].number), prepared.back());
     }
-    if (numbers.size() > kMostScansOfDevice) {
+    if (rows.size() > kMostScansOfDevice) {
       part.warnings.push_back("the device's force is by the first " + std::to_string(kMostScansOfDevice) + " of " +
-                              std::to_string(numbers.size()) + " scans");
+                              std::to_string(rows.size()) + " scans");
     }
     Evidence evidence;
     evidence.device = deviceEvidence(scans.force(on_progress));
     const PreparedScan& finest = prepared[scans.finest()];
+    const RowOfPart& row = rows[scans.finest()];
+    if (row.half_space) {
+      evidence.half_space = &*row.half_space;
+      const bool is_flagged = configuration_.half_space.enabled == HalfSpaceUse::kFlagged;
+      if (is_flagged) evidence.why_half_space = regimeFlagNames(flagsForHalfSpace(row.flags));
+    }
     const Prediction prediction = predictor_->predict(finest);
     part.verdict =
         verdictOf(prediction, device, configuration_.uncertainty,

@@ -3,6 +3,7 @@
 /// The force of a part's device, by all of its scans together: what stiction_batch --parts judges by.
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -12,12 +13,20 @@
 #include "batch_scans.hpp"
 #include "mems_stiction/configuration/configuration.hpp"
 #include "mems_stiction/evaluation/scan_predictor.hpp"
+#include "mems_stiction/half_space/half_space_solution.hpp"
 #include "mems_stiction/verdict/verdict.hpp"
 
 namespace mems_stiction {
 
 /// More scans of one part do not make its force better known; the first ones are taken.
 constexpr std::size_t kMostScansOfDevice = 100;
+
+/// A row of a scan that was predicted.
+struct RowOfPart {
+  std::size_t number = 0;
+  std::optional<SolvedHalfSpace> half_space;  ///< that judged it: force and work alone
+  std::uint32_t flags = 0;                    ///< bits of RegimeFlag
+};
 
 /// What all scans of a part say of its device.
 struct PartDevice {
@@ -33,9 +42,10 @@ class PartDevices {
   PartDevices(const PartDevices&) = delete;
   PartDevices& operator=(const PartDevices&) = delete;
 
-  /// - @p numbers of the rows of one part, those that were predicted
+  /// The half-space of the finest scan, where it judged, moves the device's force as that of its scan.
+  /// - @p rows of one part
   /// - @p on_progress share of the device's force
-  PartDevice device(const std::vector<std::size_t>& numbers, const std::function<void(double)>& on_progress);
+  PartDevice device(const std::vector<RowOfPart>& rows, const std::function<void(double)>& on_progress);
 
  private:
   HeightMap surface(std::size_t number);

@@ -44,7 +44,7 @@ class Row {
 
 /// In the order of the rows.
 struct ScansOfPart {
-  std::vector<std::size_t> numbers;
+  std::vector<RowOfPart> rows;
   std::vector<ScanStatement> statements;
 };
 
@@ -73,6 +73,23 @@ ScanStatement statementOf(const Row& row) {
   return scan;
 }
 
+/// By how much finer steps may exceed a pull-off force that judges, over it: rows do not say it.
+constexpr double kStepUncertainty = 0.02;
+
+RowOfPart rowOfPart(const Row& row) {
+  RowOfPart of_part;
+  of_part.number = row.count("number");
+  of_part.flags = row.count("regime_flags");
+  if (row.text("verdict_by") != judgeText(Judge::kHalfSpace)) return of_part;
+  SolvedHalfSpace& solution = of_part.half_space.emplace();
+  solution.status = HalfSpaceStatus::kSolved;
+  solution.is_converged = solution.is_resolved = solution.is_step_converged = true;
+  solution.pull_off_force = row.number("half_space_pull_off_force");
+  solution.pull_off_uncertainty = kStepUncertainty * solution.pull_off_force;
+  solution.work_of_adhesion = row.number("half_space_apparent_work_of_adhesion");
+  return of_part;
+}
+
 RowFields fieldsOf(std::size_t number, const PartKey& key, const PooledVerdict& part) {
   RowFields fields = {{"number", number},
                       {"part_id", oneLine(key.part_id)},
@@ -95,7 +112,7 @@ RowFields fieldsOf(std::size_t number, const PartKey& key, const PooledVerdict& 
 }  // namespace
 
 std::size_t writeParts(const std::string& rows_path, const std::string& path,
-                       const std::function<PartDevice(const std::vector<std::size_t>&)>& device) {
+                       const std::function<PartDevice(const std::vector<RowOfPart>&)>& device) {
   const RowFormat format = rowFormatOf(path, "--parts");
   PartScans parts(kNoLimit, kNoLimit);
   std::map<PartKey, ScansOfPart> scans_of;
@@ -104,7 +121,7 @@ std::size_t writeParts(const std::string& rows_path, const std::string& path,
     if (!row.text("reason").empty()) continue;
     const PartKey key{row.text("part_id"), row.text("serial_id"), row.text("settings_hash")};
     if (!parts.add(key, row.count("number"), statementOf(row))) continue;
-    scans_of[key].numbers.push_back(row.count("number"));
+    scans_of[key].rows.push_back(rowOfPart(row));
     scans_of[key].statements.push_back(statementOf(row));
   }
   std::vector<std::string> columns;
@@ -113,7 +130,7 @@ std::size_t writeParts(const std::string& rows_path, const std::string& path,
   std::size_t count = 0;
   for (auto& [key, by_scans] : parts.verdicts()) {
     const ScansOfPart& scans = scans_of.at(key);
-    const PartDevice found = device(scans.numbers);
+    const PartDevice found = device(scans.rows);
     PooledVerdict verdict = found.verdict ? pooledVerdictOf(scans.statements, *found.verdict) : by_scans;
     verdict.warnings.insert(verdict.warnings.end(), found.warnings.begin(), found.warnings.end());
     text += rowText(fieldsOf(++count, key, verdict), format, columns);

@@ -16,9 +16,9 @@ namespace mems_stiction {
 /// Pools the rows of a file by part_id and serial_id, and writes a row for each part. Rows that state neither belong to none;
 /// a scan that was not predicted does not say of which part it was.
 /// @param path .csv or .jsonl, as rowFormatOf() takes it
-/// @param device gives what all scans of a part say of its device together, by the numbers of their rows
+/// @param device gives what all scans of a part say of its device together, by their rows
 /// @return how many parts there are. @throw FileError, OptionsError
 std::size_t writeParts(const std::string& rows_path, const std::string& path,
-                       const std::function<PartDevice(const std::vector<std::size_t>&)>& device);
+                       const std::function<PartDevice(const std::vector<RowOfPart>&)>& device);
 
 }  // namespace mems_stiction

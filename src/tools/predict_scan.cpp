@@ -15,6 +15,7 @@
 #include "device_run.hpp"
 #include "evaluation/device_scans.hpp"
 #include "evaluation/frame_load.hpp"
+#include "evaluation/half_space_call.hpp"
 #include "evaluation/plausibility.hpp"
 #include "evaluation/record.hpp"
 #include "half_space/half_space_fields.hpp"
@@ -96,9 +97,11 @@ void describe(CLI::App& app, Arguments& arguments) {
   app.add_option("-d,--deformed", arguments.deformed,
                  "write the surface after contact as a float TIFF in metres; for one scan")
       ->type_name("OUT.tiff");
-  app.add_flag("--half-space", arguments.half_space,
-               "solve the whole surface as one elastic half-space too, to see how far the asperity model is from it; "
-               "and to judge the device by it; takes seconds to minutes, doc/half_space.md");
+  app.add_flag(
+      "--half-space", arguments.half_space,
+      "solve the whole surface of each scan as one elastic half-space too, as half_space/enabled true does, to "
+      "see how far the asperity model is from it, and to judge the device by it; takes seconds to minutes, "
+      "doc/half_space.md. Without it those are solved whose flags ask for it, where a device is stated");
   HalfSpaceMapFiles& files = arguments.half_space_maps;
   app.add_option("--half-space-pressure", files.pressure,
                  "write the pressure between the surfaces at rest in pascals, positive in contact; for one scan")
@@ -164,6 +167,7 @@ Configuration configurationOf(const Arguments& arguments) {
   if (!arguments.configuration.empty()) configuration = loadConfiguration(arguments.configuration);
   applyLoads(arguments, configuration.model.load);
   if (arguments.step) configuration.model.paper.step = *arguments.step;
+  if (arguments.half_space) configuration.half_space.enabled = HalfSpaceUse::kAlways;
   configuration.check();
   for (const auto& [option, path] :
        {std::make_pair("--deformed", arguments.deformed), std::make_pair("--curve", arguments.curve),
@@ -211,6 +215,7 @@ void predictScan(const std::string& path, const Arguments& arguments, const Scan
   extras.warnings = scan.notes;
   Options options = configuration.model;
   Evidence evidence;
+  SolvedHalfSpace solution;
   try {
     const PreparedScan prepared =
         whileSaying(path + ": cleaning", [&] { return predictor.preparer().prepare(scan.surface); });
@@ -244,27 +249,34 @@ void predictScan(const std::string& path, const Arguments& arguments, const Scan
       extras.cleanings = whileSaying(path + ": predicting under each cleaning",
                                      [&] { return cleaningSpread(scan.surface, configuration, scale); });
     }
-    if (arguments.half_space) {
-      extras.half_space = solveWithProgress(half_space, halfSpaceProblem(prepared, options));
+    const HalfSpaceCall call = halfSpaceCall(prediction, prepared, options, configuration);
+    if (call.is_made) {
+      solution = withHalfSpaceProgress([&](const HalfSpaceControl& control) {
+        return answerOf(call, half_space, halfSpaceProblem(prepared, options), control);
+      });
+      if (call.objection.empty()) extras.half_space = solution;
+      evidence.half_space = &solution;
+      evidence.why_half_space = call.why;
+      if (solution.status != HalfSpaceStatus::kSolved) {
+        const std::string asked = call.why.empty() ? "" : call.why + " asks for it: ";
+        warn(path, "half-space: " + asked + solution.message);
+      }
     }
   } catch (const SurfaceError& error) {
     throw SurfaceError(path + ": " + error.what());
   }
   if (configuration.device.isStated()) {
-    if (extras.half_space) evidence.half_space = &*extras.half_space;
     if (arguments.cleanings) evidence.cleaning = reachOf(extras.cleanings);
     extras.verdict = verdictOf(prediction, configuration.device, configuration.uncertainty, options,
                                scan.surface.cellArea(), evidence);
   }
   if (!arguments.deformed.empty()) writeHeightTiff(arguments.deformed, prediction.deformed_lower);
-  if (extras.half_space && extras.half_space->status != HalfSpaceStatus::kSolved) {
-    warn(path, "half-space: " + extras.half_space->message);
-  }
   if (!curve_files.formulation.empty()) {
     writeCurve(curve_files.formulation, curveOf(prediction, options.interface), *extras.provenance);
   }
-  if (!curve_files.half_space.empty())
+  if (!curve_files.half_space.empty()) {
     writeCurve(curve_files.half_space, curveOf(*extras.half_space), *extras.provenance);
+  }
   if (extras.half_space) writeMaps(arguments.half_space_maps, *extras.half_space);
   if (arguments.json) {
     std::cout << jsonRecord(path, scan.surface, prediction, extras) << std::endl;

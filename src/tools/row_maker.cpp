@@ -11,6 +11,7 @@
 #include "errors/error_text.hpp"
 #include "evaluation/device_scans.hpp"
 #include "evaluation/frame_load.hpp"
+#include "evaluation/half_space_call.hpp"
 #include "evaluation/plausibility.hpp"
 #include "half_space_run.hpp"
 #include "mems_stiction/evaluation/half_space_scan.hpp"
@@ -21,6 +22,8 @@ namespace {
 
 constexpr const char* kRowsOfScans =
     "rows are of scans; --parts finds it for each part and --device-force for each scan";
+
+constexpr const char* kNotFlagged = "no flag asks for it";
 
 std::string deviceText(double share) {
   char text[64];
@@ -78,22 +81,23 @@ BatchRow RowMaker::row(const BatchScan& scan, const std::function<void(const std
     append(stateFields(state), row.fields);
     return row;
   }
-  HalfSpaceAnswer half_space;
-  if (arguments_.half_space) {
-    half_space = solve(tell);
-    row.is_solved = half_space.reason.empty();
-  }
   beside_ = Evidence();
   if (arguments_.device_force) {
     beside_ = evidenceOfScan(prepared_, configuration_, [&](double share) { tell(deviceText(share)); });
   } else if (wantsDeviceForce(configuration_.device, configuration_.device_force)) {
     beside_.why_no_device = kRowsOfScans;
   }
+  HalfSpaceAnswer half_space;
+  const bool has_half_space = mayCallHalfSpace(configuration_);
+  if (has_half_space) {
+    half_space = solve(tell);
+    row.is_unsolved = half_space.is_called && !half_space.reason.empty();
+  }
   const std::optional<Verdict> verdict = judge(half_space);
   append(figureFields(surface_, subject.warnings, prediction_, verdict, configuration_.model.formulation,
                       provenanceOf(subject.identity, configuration_)),
          row.fields);
-  if (arguments_.half_space) append(halfSpaceFields(half_space, verdict), row.fields);
+  if (has_half_space) append(halfSpaceFields(half_space, verdict), row.fields);
   append(stateFields(state), row.fields);
   if (!arguments_.dump.empty()) dump(scan.number, row.fields, half_space.solution);
   return row;
@@ -128,19 +132,26 @@ std::optional<Verdict> RowMaker::judge(const HalfSpaceAnswer& half_space) const 
   if (!hasDevice()) return std::nullopt;
   const SolvedHalfSpace unsolved = unsolvedHalfSpace(half_space.reason);
   Evidence evidence = beside_;
-  if (arguments_.half_space) evidence.half_space = half_space.solution ? &*half_space.solution : &unsolved;
+  if (half_space.is_called) evidence.half_space = half_space.solution ? &*half_space.solution : &unsolved;
   return verdictOf(prediction_, configuration_.device, configuration_.uncertainty, configuration_.model,
                    surface_.cellArea(), evidence);
 }
 
-HalfSpaceAnswer RowMaker::solve(const std::function<void(const std::string&)>& tell) const {
+HalfSpaceAnswer RowMaker::solve(const std::function<void(const std::string&)>& tell) {
   HalfSpaceAnswer answer;
   try {
+    const Options options = onFrame(configuration_.model, configuration_.device, prepared_.surfaces);
+    const HalfSpaceCall call = halfSpaceCall(prediction_, prepared_, options, configuration_);
+    answer.is_called = call.is_made;
+    beside_.why_half_space = call.why;
+    if (!call.is_made || !call.objection.empty()) {
+      answer.reason = call.is_made ? call.objection : kNotFlagged;
+      return answer;
+    }
     HalfSpaceText text;
     HalfSpaceControl control;
     control.on_state = [&](const ForcePoint& point) { tell(text.next(point)); };
-    answer.solution = half_space_.solve(
-        halfSpaceProblem(prepared_, onFrame(configuration_.model, configuration_.device, prepared_.surfaces)), control);
+    answer.solution = answerOf(call, half_space_, halfSpaceProblem(prepared_, options), control);
     if (answer.solution->status != HalfSpaceStatus::kSolved) answer.reason = answer.solution->message;
   } catch (const std::exception& error) {
     answer.reason = reasonOf(error);

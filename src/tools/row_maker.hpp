@@ -26,7 +26,7 @@ struct BatchRow {
   RowFields fields;
   std::string reason;  ///< why it is not predicted; empty if it is
   bool is_predicted = false;
-  bool is_solved = false;  ///< by the half-space
+  bool is_unsolved = false;  ///< the half-space was asked and has no solution
 };
 
 /// Every column of a row, in order. @param with_verdict whether a device is stated
@@ -55,7 +55,7 @@ class RowMaker {
 
   bool hasDevice() const { return configuration_.device.isStated(); }
   Subject predict(const BatchScan& scan, ScanOrigin& origin, ScanState& state);
-  HalfSpaceAnswer solve(const std::function<void(const std::string&)>& tell) const;
+  HalfSpaceAnswer solve(const std::function<void(const std::string&)>& tell);
   /// On the device, if it is stated; by the half-space, if it was asked and can.
   std::optional<Verdict> judge(const HalfSpaceAnswer& half_space) const;
   void dump(std::size_t number, RowFields fields, const std::optional<SolvedHalfSpace>& half_space) const;

@@ -16,6 +16,7 @@
 #include "batch_settings.hpp"
 #include "command_line.hpp"
 #include "device_run.hpp"
+#include "evaluation/half_space_call.hpp"
 #include "evaluation/plausibility.hpp"
 #include "files/output_file.hpp"
 #include "import/import_cache.hpp"
@@ -57,9 +58,9 @@ bool isIgnored(const std::string& key, const Options& options) {
 void pool(const BatchArguments& arguments, const std::vector<std::string>& inputs, const Configuration& configuration) {
   if (arguments.parts.empty()) return;
   PartDevices devices(arguments, inputs, configuration);
-  const auto device = [&](const std::vector<std::size_t>& numbers) {
-    return withProgress("a part of " + std::to_string(numbers.size()) + " scans",
-                        [&](const auto& on_progress) { return devices.device(numbers, on_progress); });
+  const auto device = [&](const std::vector<RowOfPart>& rows) {
+    return withProgress("a part of " + std::to_string(rows.size()) + " scans",
+                        [&](const auto& on_progress) { return devices.device(rows, on_progress); });
   };
   const std::size_t count = writeParts(arguments.output, arguments.parts, device);
   std::cout << oneLine(arguments.parts) << ": " << count << " parts\n";
@@ -128,9 +129,10 @@ int run(const BatchArguments& arguments) {
   BatchScans scans(arguments, inputs, configuration);
   RowQueue queue(arguments, configuration, scans);
   const bool has_device = configuration.device.isStated();
-  const std::vector<std::string> columns = batchColumns(has_device, arguments.half_space);
+  const bool has_half_space = mayCallHalfSpace(configuration);
+  const std::vector<std::string> columns = batchColumns(has_device, has_half_space);
   checkSettings(arguments.output,
-                settingsText(scans.size(), inputs, arguments, batchUnits(has_device, arguments.half_space), stated));
+                settingsText(scans.size(), inputs, arguments, batchUnits(has_device, has_half_space), stated));
   std::vector<std::size_t> numbers;
   for (std::size_t number = shard.index; number <= scans.size(); number += shard.count) numbers.push_back(number);
 
@@ -161,13 +163,15 @@ int run(const BatchArguments& arguments) {
         rows.append(line);
       }
       if (!row.is_predicted && ++failed_count == 1) first_reason = row.reason;
-      if (row.is_predicted && !row.is_solved) ++unsolved_count;
+      if (row.is_unsolved) ++unsolved_count;
     }
   }
   rows.settle();
   std::cout << oneLine(arguments.output) << ": " << rows.done() << " rows, " << before << " of them from before, "
             << failed_count << " scans failed in this run";
-  if (arguments.half_space) std::cout << ", half-space not solved for " << unsolved_count << " others";
+  if (arguments.half_space || unsolved_count > 0) {
+    std::cout << ", half-space not solved for " << unsolved_count << " others";
+  }
   std::cout << "\n";
   if (failed_count > 0) {
     complain("stiction_batch",

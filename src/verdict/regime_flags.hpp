@@ -38,8 +38,9 @@ inline constexpr int kFewestContacts = 10;
 /// - @p cell_area of the scan [m^2], > 0
 std::uint32_t regimeFlags(const Prediction& prediction, double cell_area);
 
-/// Whether the flags say that the pull-off force may be out by more than 1.3 against the half-space, which can then be asked.
-constexpr bool isOutsideModelRange(std::uint32_t flags) { return (flags & kNearBondingFlag) != 0; }
+/// Of a set of flags those that say that the pull-off force may be out by more than 1.3 against the half-space: with
+/// half_space/enabled flagged they ask for it. The others speak of the scan, which a half-space sees no better, or of the place.
+std::uint32_t flagsForHalfSpace(std::uint32_t flags);
 
 /// Why they say so, as a sentence without its full stop; empty if they do not.
 std::string modelDoubt(const Prediction& prediction);

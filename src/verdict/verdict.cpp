@@ -233,6 +233,7 @@ Verdict verdictOf(const Prediction& prediction, const DeviceOptions& device, con
   const std::uint32_t flags = regimeFlags(prediction, cell_area);
   const bool is_asked = evidence.half_space != nullptr && (hasContact(device) || device.hasBeam());
   const std::string objection = is_asked ? whyNotJudging(*evidence.half_space) : "";
+  const std::string& why = evidence.why_half_space;
   Evidence counted = evidence;
   if (evidence.device &&
       !(std::isfinite(evidence.device->pull_off_force) && std::isfinite(evidence.device->force_deviation))) {
@@ -252,12 +253,17 @@ Verdict verdictOf(const Prediction& prediction, const DeviceOptions& device, con
   };
   if (counted.half_space == nullptr) {
     Verdict verdict = judged_by(prediction);
-    if (!objection.empty()) verdict.reason += "; the half-space does not count: " + objection;
+    if (!objection.empty()) {
+      verdict.reason += "; " + (why.empty() ? "the half-space" : why + " asks for the half-space, which") +
+                        " does not count: " + objection;
+    } else if (!why.empty() && !evidence.where_half_space.empty()) {
+      verdict.reason += "; " + why + " asks for the half-space: " + evidence.where_half_space;
+    }
     return verdict;
   }
   Verdict verdict = judged_by(withHalfSpace(prediction, *evidence.half_space));
   verdict.judge = Judge::kHalfSpace;
-  verdict.reason = "by the half-space: " + verdict.reason;
+  verdict.reason = "by the half-space" + (why.empty() ? "" : ", as " + why + " asks for it") + ": " + verdict.reason;
   return verdict;
 }
 

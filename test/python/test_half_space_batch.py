@@ -33,6 +33,14 @@ def sphere(pixels, radius=100e-9, pitch=2e-9):
     return -(offset[:, None]**2 + offset[None, :]**2) / (2 * radius)
 
 
+def rough(pixels, rms_height):
+    """Smoothed noise [m]; 0.3 nm are near bonding on pixels of 10 nm."""
+    noise = np.random.RandomState(1).normal(size=(pixels, pixels))
+    ky, kx = np.meshgrid(np.fft.fftfreq(pixels), np.fft.rfftfreq(pixels), indexing="ij")
+    smooth = np.fft.irfft2(np.fft.rfft2(noise) * np.exp(-(kx**2 + ky**2) * 200.0), s=(pixels, pixels))
+    return smooth * rms_height / smooth.std()
+
+
 class HalfSpaceBatchTest(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -73,7 +81,7 @@ class HalfSpaceBatchTest(unittest.TestCase):
         self.batch("more.csv", "--half-space")
         self.assertFalse([name for name in self.rows("plain.csv")[0] if name.startswith("half_space")])
         for plain, more in zip(self.rows("plain.csv"), self.rows("more.csv")):
-            self.assertEqual(plain, {name: more[name] for name in plain})
+            self.assertEqual(dict(plain, settings_hash=""), dict({name: more[name] for name in plain}, settings_hash=""))
 
     def test_what_has_no_solution_has_its_reason_and_its_prediction(self):
         self.config.write_text(CONFIG + "half_space: {max_pixels: 1500}\n")
@@ -162,13 +170,54 @@ class HalfSpaceBatchTest(unittest.TestCase):
                          {name: plain[1][name] for name in ("sticks", "margin", "margin_lower")})
         self.assertIn("the half-space does not count: ", refused["verdict_reason"])
         self.assertIn("half_space/max_pixels = 1500", refused["verdict_reason"])
-        self.assertNotIn("verdict_by", plain[0])
+        self.assertEqual((plain[0]["verdict_by"], plain[0]["half_space_reason"]), ("prediction", "no flag asks for it"))
         done = run([program("stiction_report"), "--half-space", "-c", self.config, "-o", self.folder / "r.html", self.small])
         self.assertEqual(done.returncode, 0)
         self.assertRegex(done.stderr, r"\Astiction_batch: warning: device/contact_area 4\.096e-15 m\^2 is outside the usual .*\n\Z")
         plain_text = re.sub(r"<[^>]+>", " ", re.sub(r'src="[^"]*"', "", (self.folder / "r.html").read_text(encoding="utf-8")))
         self.assertIn("By the half-space: margin", plain_text)
         self.assertIn("(half-space)", plain_text)
+
+    def test_scans_whose_flags_ask_for_it_are_solved_by_themselves(self):
+        surfaces = {"smooth": 3e-10, "rough": 5e-9, "large": 3e-10}
+        for name, rms_height in surfaces.items():
+            np.savetxt(str(self.folder / (name + ".txt")), rough(72 if name == "large" else 64, rms_height))
+        inputs = [self.folder / (name + ".txt") for name in surfaces]
+        self.config.write_text("scan: {pitch_x: 1.0e-8, pitch_y: 1.0e-8}\nhalf_space: {max_flagged_pixels: 4096}\n"
+                               "device: {spring_stiffness: 1.0, travel: 1.0e-6, contact_area: 4.096e-13}\ndevice_force: {enabled: false}\n")
+        done = self.batch("rows.csv", "--parts", self.folder / "parts.csv", inputs=inputs)
+        self.assertIn("half-space not solved for 1 others", done.stdout)
+        smooth, unflagged, large = self.rows("rows.csv")
+        done = run([program("predict_scan"), "--json", "-c", self.config] + inputs[:1])
+        record = json.loads(done.stdout)
+        self.assertEqual((smooth["half_space_status"], smooth["half_space_reason"], smooth["verdict_by"]), ("SOLVED", "", "half_space"))
+        self.assertTrue(smooth["verdict_reason"].startswith("by the half-space, as near_bonding asks for it: "), smooth["verdict_reason"])
+        self.assertEqual((float(smooth["margin"]), smooth["verdict_reason"]), (record["margin"], record["reason"]))
+        self.assertEqual((unflagged["half_space_status"], unflagged["half_space_reason"], unflagged["verdict_by"]),
+                         ("", "no flag asks for it", "prediction"))
+        self.assertNotIn("half-space", unflagged["verdict_reason"])
+        self.assertEqual((large["half_space_status"], large["verdict_by"]), ("", "prediction"))
+        self.assertIn("a frame of 72 x 72 pixels is larger than half_space/max_flagged_pixels = 4096", large["half_space_reason"])
+        self.assertIn("near_bonding asks for the half-space, which does not count: a frame of 72 x 72", large["verdict_reason"])
+        # the setting is one of those that rows are made with
+        self.config.write_text(self.config.read_text().replace("half_space: {", "half_space: {enabled: false, "))
+        self.assertIn("other inputs, settings", self.batch("rows.csv", inputs=inputs, status=2).stderr)
+        self.batch("plain.csv", inputs=inputs)
+        self.assertFalse([name for name in self.rows("plain.csv")[0] if name.startswith("half_space")])
+
+    def test_a_report_shows_what_flags_asked_for(self):
+        for name, rms_height in (("smooth", 3e-10), ("rough", 5e-9)):
+            np.savetxt(str(self.folder / (name + ".txt")), rough(64, rms_height))
+        self.config.write_text("scan: {pitch_x: 1.0e-8, pitch_y: 1.0e-8}\n"
+                               "device: {spring_stiffness: 1.0, travel: 1.0e-6, contact_area: 4.096e-13}\ndevice_force: {enabled: false}\n")
+        done = run([program("stiction_report"), "-c", self.config, "-o", self.folder / "r.html", self.folder / "smooth.txt",
+                    self.folder / "rough.txt"])
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        text = (self.folder / "r.html").read_text(encoding="utf-8")
+        plain = re.sub(r"<[^>]+>", " ", re.sub(r'src="[^"]*"', "", text))
+        self.assertIn("as near_bonding asks for it", plain)
+        self.assertIn("not asked", plain)
+        self.assertEqual(plain.count("The whole surface as one elastic half-space"), 1)
 
     def test_the_report_shows_both_forces_their_ratio_and_what_was_not_solved(self):
         self.config.write_text(CONFIG + "half_space: {max_pixels: 1500}\n")

@@ -164,14 +164,41 @@ class VerdictTest(unittest.TestCase):
         self.assertRegex(repr(solved), "sticks: %s, margin .* by the half-space" % solved.verdict.sticks)
         self.assertIn("by the half-space", solved._repr_html_())
         self.assertAlmostEqual(solved.verdict.device_pull_off_force / solved.pull_off_force, 1.0, delta=1e-9)  # round-off
-        self.assertEqual(mems_stiction.predict(heights, pitch, settings).verdict.verdict_by, "prediction")
+        predicted = mems_stiction.predict(heights, pitch, settings, half_space=False)
+        self.assertEqual((predicted.verdict.verdict_by, predicted.half_space), ("prediction", None))
+
+    def test_scans_whose_flags_ask_for_it_are_solved_by_themselves(self):
+        smooth, pitch = rough(48, 48, 3e-10, length=12), 5e-9
+        settings = {"device": dict(DEVICE, contact_area=(48 * pitch) ** 2), "device_force": {"enabled": False}}
+        solved = mems_stiction.half_space(smooth, pitch, settings)
+        for given in ({}, {"half_space": "auto"}, {"half_space": {"enabled": "flagged"}}):
+            predicted = mems_stiction.predict(smooth, pitch, settings, **given)
+            self.assertIn("near_bonding", predicted.flags)
+            self.assertEqual(predicted.half_space["pull_off_force"], solved.pull_off_force)
+            self.assertEqual((predicted.verdict.margin, predicted.verdict.verdict_by), (solved.verdict.margin, "half_space"))
+            self.assertRegex(predicted.verdict.reason, "^by the half-space, as near_bonding asks for it: margin")
+            self.assertEqual(predicted.to_dict()["half_space"]["pull_off_force"], solved.pull_off_force)
+        [of_many] = mems_stiction.predict_many([smooth], pitch, settings, workers=2)
+        [under] = mems_stiction.predict_under(smooth, pitch, [settings])
+        for other in (of_many, under):
+            self.assertEqual(other.verdict.reason, predicted.verdict.reason)
+        for heights, given in ((smooth, {"half_space": False}), (rough(48, 48, 5e-9, length=12), {})):
+            predicted = mems_stiction.predict(heights, pitch, settings, **given)
+            self.assertEqual((predicted.half_space, predicted.verdict.verdict_by), (None, "prediction"))
+        self.assertIsNone(mems_stiction.predict(smooth, pitch).half_space)  # no device
+        self.assertEqual(mems_stiction.predict(smooth, pitch, half_space=True).half_space["pull_off_force"], solved.pull_off_force)
+        large = mems_stiction.predict(smooth, pitch, settings, half_space={"max_flagged_pixels": 2000})
+        self.assertEqual((large.half_space, large.verdict.verdict_by), (None, "prediction"))
+        self.assertIn("half_space/max_flagged_pixels = 2000", large.verdict.reason)
+        with self.assertRaisesRegex(mems_stiction.OptionsError, "half_space/enabled: 'maybe' is not allowed, must be one of: false, flagged, true"):
+            mems_stiction.predict(smooth, pitch, half_space="maybe")
 
     def test_it_moves_the_devices_own_force_as_it_moves_that_of_the_frame(self):
         heights, pitch = rough(32, 32, 3e-10, length=8), 1e-10
         settings = {"lower": {"youngs_modulus": 1e10}, "upper": {"youngs_modulus": 1e10}, "device": dict(DEVICE, contact_area=1e-16),
                     "device_force": {"realisations": 3, "max_cells": 1e4}}
         solved = mems_stiction.half_space(heights, pitch, settings)
-        predicted = mems_stiction.predict(heights, pitch, settings)
+        predicted = mems_stiction.predict(heights, pitch, settings, half_space=False)
         self.assertEqual(solved.verdict.verdict_by, "half_space")
         moved = predicted.device_force["pull_off_force"] * solved.pull_off_force / predicted.pull_off_force
         self.assertAlmostEqual(solved.verdict.device_pull_off_force / moved, 1.0, delta=1e-9)
@@ -180,7 +207,7 @@ class VerdictTest(unittest.TestCase):
         solved = mems_stiction.half_space(rough(16, 16), PITCH, SOFT, device=DEVICE, device_force=FEW)
         self.assertFalse(solved.is_resolved)
         self.assertEqual(solved.verdict.verdict_by, "prediction")
-        predicted = mems_stiction.predict(rough(16, 16), PITCH, SOFT, device=DEVICE, device_force=FEW).verdict
+        predicted = mems_stiction.predict(rough(16, 16), PITCH, SOFT, device=DEVICE, device_force=FEW, half_space=False).verdict
         self.assertEqual((solved.verdict.sticks, solved.verdict.margin), (predicted.sticks, predicted.margin))
         self.assertIn("the half-space does not count", solved.verdict.reason)
 

@@ -97,7 +97,7 @@ heights = 5e-9 * numpy.random.default_rng(1).standard_normal((512, 512))
 soft = {"youngs_modulus": 1e8}
 print("started", flush=True)
 try:
-    mems_stiction.half_space(heights, 20e-9, lower=soft, upper=soft, load={"mechanical_load": 1e-5})
+    mems_stiction.%s, lower=soft, upper=soft, load={"mechanical_load": 1e-5})
 except KeyboardInterrupt:
     print("interrupted", flush=True)
 """
@@ -105,7 +105,13 @@ except KeyboardInterrupt:
 
 class ThreadTest(unittest.TestCase):
     def test_ctrl_c_stops_a_half_space(self):
-        process = subprocess.Popen([sys.executable, "-c", LONG], stdout=subprocess.PIPE, universal_newlines=True)
+        self.interrupt("half_space(heights, 20e-9")
+
+    def test_ctrl_c_stops_a_prediction_with_a_half_space(self):
+        self.interrupt("predict(heights, 20e-9, half_space=True")
+
+    def interrupt(self, call):
+        process = subprocess.Popen([sys.executable, "-c", LONG % call], stdout=subprocess.PIPE, universal_newlines=True)
         self.assertEqual(process.stdout.readline(), "started\n")
         time.sleep(1.0)
         self.assertIsNone(process.poll(), "the frame is too small to be interrupted")

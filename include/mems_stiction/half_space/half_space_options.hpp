@@ -10,19 +10,28 @@ namespace mems_stiction {
 /// What lies beyond the frame: copies of it, or a free, flat half-space.
 enum class HalfSpaceBoundary { kPeriodic, kFree };
 
+/// Which scans are solved as a half-space beside their predictions, and judged by it.
+enum class HalfSpaceUse {
+  kNever,
+  kFlagged,  ///< where a device is stated, those whose flags say that the model's force may be far out
+  kAlways,
+};
+
 /// Settings of HalfSpaceSolver; keys half_space/...
 struct HalfSpaceOptions {
-  bool enabled = false;  ///< whether a running node solves the newest scan beside its predictions
-  double range = 0.0;    ///< z0 of the traction law [m], >= 0; 0 derives it from work of adhesion and Hamaker constant
+  HalfSpaceUse enabled = HalfSpaceUse::kFlagged;
+  double range = 0.0;  ///< z0 of the traction law [m], >= 0; 0 derives it from work of adhesion and Hamaker constant
   bool attraction = true;  ///< false: surfaces only repel each other, closer than z0
   bool flow = true;        ///< false: no pressure is too high
   HalfSpaceBoundary boundary = HalfSpaceBoundary::kPeriodic;
-  double step = 0.4;             ///< usual change of the height between two states, of z0 [-], in [0.01, 2]
-  double tolerance = 1e-4;       ///< largest residual of an equilibrium, of 8 Gamma/(3 z0) [-], in [1e-6, 1e-3]
-  int max_states = 2000;         ///< solved on the path before it is given up, in [10, 1000000]
-  int max_newton_steps = 10000;  ///< of one state, in [10, 100000]
-  int max_pixels = 4194304;      ///< larger frames are refused, >= 1
-  int threads = 1;               ///< in [1, 64]; results do not depend on it
+  double step = 0.4;                 ///< usual change of the height between two states, of z0 [-], in [0.01, 2]
+  double tolerance = 1e-4;           ///< largest residual of an equilibrium, of 8 Gamma/(3 z0) [-], in [1e-6, 1e-3]
+  int max_states = 2000;             ///< solved on the path before it is given up, in [10, 1000000]
+  int max_newton_steps = 10000;      ///< of one state, in [10, 100000]
+  int max_pixels = 4194304;          ///< larger frames are refused, >= 1
+  int max_flagged_pixels = 262144;   ///< of frames that are solved for their flags alone, >= 1
+  int max_flagged_products = 20000;  ///< of the largest of them, >= 1
+  int threads = 1;                   ///< in [1, 64]; results do not depend on it
 
   void describe(OptionVisitor& visitor);
 };

@@ -50,4 +50,9 @@ class HalfSpaceSolver {
   HalfSpaceOptions options_;
 };
 
+/// Whether the pixels of the frame are small enough for the edges of contacts (SolvedHalfSpace::is_resolved): known before
+/// it is solved.
+/// @throw OptionsError as solve()
+bool isResolved(const HalfSpaceProblem& problem, const HalfSpaceOptions& options);
+
 }  // namespace mems_stiction

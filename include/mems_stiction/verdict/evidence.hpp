@@ -47,9 +47,11 @@ struct DeviceEvidence {
 /// Each may be missing.
 struct Evidence {
   const SolvedHalfSpace* half_space = nullptr;  ///< of the same scan, settings and load, if it was asked
+  std::string why_half_space;                   ///< flags that ask for it, if they do; empty: every scan has one
   std::optional<CleaningReach> cleaning;        ///< if other cleanings were tried
   std::optional<DeviceEvidence> device;         ///< of the same surface, settings and load, if it was found
   std::string why_no_device;                    ///< where it is missing, why and what to do; empty: nobody asked
+  std::string where_half_space;                 ///< where it will be found that why_half_space asks for
 };
 
 /// The figures of the device over those of one frame, both made under the same load. Under other loads, and on surfaces
@@ -70,6 +72,10 @@ DeviceEvidence scaled(DeviceEvidence device, double force_factor, double work_fa
 /// A half-space that could not be asked.
 /// - @p reason why, in a sentence
 SolvedHalfSpace unsolvedHalfSpace(const std::string& reason);
+
+/// What a half-space that cannot judge for its pixels asks for.
+inline constexpr const char* kPixelsTooLarge =
+    "its pixels are too large for the edges of the contacts: scan a smaller area with finer pixels";
 
 /// Why a half-space cannot judge, in words: it is not solved, not converged, its pixels are too large for the edges of
 /// the contacts, or its steps for the pull-off force. Empty if it can.

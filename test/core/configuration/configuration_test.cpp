@@ -116,6 +116,21 @@ TEST(Configuration, ChoicesAndFlagsAreRead) {
   EXPECT_FALSE(configuration.model.output.asperities);
 }
 
+TEST(Configuration, AChoiceBesideTrueAndFalseTakesEveryWordForThem) {
+  EXPECT_EQ(Configuration().half_space.enabled, HalfSpaceUse::kFlagged);
+  EXPECT_EQ(read("half_space/enabled: flagged").half_space.enabled, HalfSpaceUse::kFlagged);
+  for (const char* word : {"true", "True", "on", "yes", "'true'"}) {
+    EXPECT_EQ(read(std::string("half_space/enabled: ") + word).half_space.enabled, HalfSpaceUse::kAlways) << word;
+  }
+  for (const char* word : {"false", "OFF", "no"}) {
+    EXPECT_EQ(read(std::string("half_space/enabled: ") + word).half_space.enabled, HalfSpaceUse::kNever) << word;
+  }
+  const std::string line = refusal("half_space/enabled: maybe");
+  EXPECT_TRUE(mentions(line, "half_space/enabled: 'maybe' is not allowed, must be one of: false, flagged, true"))
+      << line;
+  EXPECT_TRUE(mentions(refusal("counter_surface/type: on"), "counter_surface/type: 'on' is not allowed"));
+}
+
 TEST(Configuration, UnknownKeyIsNamedWithTheOneThatWasMeant) {
   const std::string spelling = refusal("lower: {youngs_modulos: 78e9}");
   EXPECT_TRUE(mentions(spelling, "lower/youngs_modulos: '78e9'")) << spelling;

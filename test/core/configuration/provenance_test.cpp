@@ -22,13 +22,16 @@ TEST(Provenance, AnotherSettingIsAnotherHash) {
   changed = Configuration();
   changed.preprocessing.region.mask_file = "mask.png";
   EXPECT_NE(settingsHash(changed), hash);
+  changed = Configuration();
+  changed.half_space.enabled = HalfSpaceUse::kAlways;  // another judge
+  EXPECT_NE(settingsHash(changed), hash);
 }
 
 TEST(Provenance, WhoTheScanIsOfAndWhatIsAskedForDoNotCount) {
   Configuration changed;
   changed.part.id = "17";
   changed.model.output.contact_map = false;
-  changed.half_space.enabled = true;
+  changed.half_space.threads = 2;
   changed.limits.max_time = 1.0;
   EXPECT_EQ(settingsHash(changed), settingsHash(Configuration()));
 }

@@ -17,6 +17,7 @@
 #include "mems_stiction/import/scan_file.hpp"
 #include "mems_stiction/settings/option_visitor.hpp"
 #include "support/predict_scan_program.hpp"
+#include "surface/gaussian_surface.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -131,6 +132,47 @@ TEST_F(PredictScanHalfSpace, JudgesTheDeviceAndSaysSo) {
   const std::string reason = unsolved["reason"].get<std::string>();
   EXPECT_EQ(reason.find(plain["reason"].get<std::string>() + "; the half-space does not count: "), 0U) << reason;
   EXPECT_NE(reason.find("half_space/max_states = 10"), std::string::npos) << reason;
+}
+
+TEST_F(PredictScanHalfSpace, ScansWhoseFlagsAskForItAreSolvedAndJudgedByThemselves) {
+  GaussianSurfaceOptions options;
+  options.rows = options.cols = 48;
+  options.pitch_x = options.pitch_y = 5e-9;
+  options.correlation_length_x = options.correlation_length_y = 60e-9;
+  options.rms_height = 0.3e-9;
+  writeHeightTiff(folder_.file("smooth.tiff"), gaussianSurface(options).heights());
+  const auto record = [&](const std::string& arguments, const std::string& half_space) {
+    const std::string device =
+        "device: {spring_stiffness: 1e-2, travel: 1e-6, contact_area: 5.76e-14}\ndevice_force: {enabled: false}\n";
+    const std::string file = folder_.write("flagged.yaml", device + "half_space: {" + half_space + "}\n");
+    const Outcome outcome = run("--json --pitch 5e-9 -c " + file + " " + arguments + folder_.file("smooth.tiff"));
+    EXPECT_EQ(outcome.status, 0);
+    nlohmann::json found = nlohmann::json::parse(outcome.output);
+    found["errors"] = outcome.errors;
+    return found;
+  };
+  const nlohmann::json flagged = record("", "");
+  ASSERT_EQ(flagged["verdict_by"], "half_space");
+  const std::string why = "by the half-space, as near_bonding asks for it: margin ";
+  EXPECT_EQ(flagged["reason"].get<std::string>().find(why), 0U) << flagged["reason"];
+  EXPECT_TRUE(flagged["errors"].empty()) << flagged["errors"];  // progress is for terminals
+  const nlohmann::json asked = record("--half-space ", "");
+  EXPECT_EQ(flagged["margin"], asked["margin"]);
+  EXPECT_EQ(flagged["half_space"]["pull_off_force"], asked["half_space"]["pull_off_force"]);
+  EXPECT_EQ(record("", "enabled: true")["reason"], asked["reason"]);
+
+  const nlohmann::json never = record("", "enabled: false");
+  EXPECT_FALSE(never.contains("half_space"));
+  EXPECT_FALSE(never.contains("verdict_by"));
+  const nlohmann::json bounded = record("", "max_flagged_pixels: 2000");
+  EXPECT_FALSE(bounded.contains("half_space"));
+  EXPECT_EQ(bounded["margin"], never["margin"]);
+  const std::string sentence = "a frame of 48 x 48 pixels is larger than half_space/max_flagged_pixels = 2000";
+  EXPECT_NE(bounded["reason"].get<std::string>().find(sentence), std::string::npos) << bounded["reason"];
+  ASSERT_EQ(bounded["errors"].size(), 1U);
+  EXPECT_NE(bounded["errors"][0].get<std::string>().find("half-space: near_bonding asks for it: " + sentence),
+            std::string::npos)
+      << bounded["errors"];
 }
 
 TEST_F(PredictScanHalfSpace, CurveFileHasThePullOffForceAsItsLargestAttraction) {

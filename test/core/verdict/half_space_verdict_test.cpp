@@ -121,6 +121,25 @@ TEST(HalfSpaceVerdict, OneThatCannotJudgeLeavesThePredictionsVerdictAndSaysWhy) 
   }
 }
 
+TEST(HalfSpaceVerdict, WhatFlagsAskedForIsSaid) {
+  const SolvedHalfSpace solution = solved(6.0);
+  Evidence evidence;
+  evidence.half_space = &solution;
+  evidence.why_half_space = "near_bonding";
+  const Verdict judged = verdictWith(evidence, predicted(), 3.0);
+  EXPECT_EQ(judged.judge, Judge::kHalfSpace);
+  EXPECT_EQ(judged.reason.find("by the half-space, as near_bonding asks for it: margin 0.5"), 0U) << judged.reason;
+  const SolvedHalfSpace none = unsolvedHalfSpace("the frame is large");
+  evidence.half_space = &none;
+  const Verdict by_curve = verdictWith(Evidence(), predicted(), 3.0);
+  EXPECT_EQ(verdictWith(evidence, predicted(), 3.0).reason,
+            by_curve.reason + "; near_bonding asks for the half-space, which does not count: the frame is large");
+  evidence.half_space = nullptr;
+  evidence.where_half_space = "it follows";
+  EXPECT_EQ(verdictWith(evidence, predicted(), 3.0).reason,
+            by_curve.reason + "; near_bonding asks for the half-space: it follows");
+}
+
 TEST(HalfSpaceVerdict, ItsErrorTakesThePlaceOfTheModels) {
   Prediction near_bonding = predicted();
   near_bonding.model.error = {0.10, 0.11};

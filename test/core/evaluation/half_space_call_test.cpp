@@ -1,0 +1,168 @@
+/// Which scans are solved as a half-space, why, and what it may cost.
+
+#include "evaluation/half_space_call.hpp"
+
+#include <atomic>
+
+#include <gtest/gtest.h>
+
+#include "evaluation/frame_load.hpp"
+#include "mems_stiction/evaluation/half_space_scan.hpp"
+#include "mems_stiction/evaluation/scan_predictor.hpp"
+#include "mems_stiction/verdict/evidence.hpp"
+#include "surface/gaussian_surface.hpp"
+#include "verdict/regime_flags.hpp"
+
+namespace mems_stiction {
+namespace {
+
+/// - @p rms [m]: low ones are near bonding
+HeightMap roughSurface(double rms) {
+  GaussianSurfaceOptions options;
+  options.rows = options.cols = 64;
+  options.pitch_x = options.pitch_y = 5e-9;
+  options.correlation_length_x = options.correlation_length_y = 60e-9;
+  options.rms_height = rms;
+  return gaussianSurface(options);
+}
+
+constexpr double kSmooth = 0.3e-9;
+constexpr double kRough = 5e-9;
+
+/// With a device whose spring pulls at a contact of any size.
+Configuration withDevice() {
+  Configuration configuration;
+  configuration.device.spring_stiffness = 1.0;
+  configuration.device.travel = 1e-6;
+  configuration.device.contact_area = 1e-13;
+  return configuration;
+}
+
+/// A scan with all that is asked about it.
+struct Case {
+  Configuration configuration;
+  PreparedScan prepared;
+  Prediction prediction;
+  Options options;
+
+  Case(const Configuration& settings, double rms)
+      : configuration(settings), prepared(ScanPreparer(settings).prepare(roughSurface(rms))) {
+    ScanPredictor predictor(settings);
+    prediction = predictor.predict(prepared);
+    options = onFrame(settings.model, settings.device, prepared.surfaces);
+  }
+  HalfSpaceCall call() const { return halfSpaceCall(prediction, prepared, options, configuration); }
+  SolvedHalfSpace answer(const HalfSpaceControl& control = {}) const {
+    return answerOf(call(), HalfSpaceSolver(configuration.half_space), halfSpaceProblem(prepared, options), control);
+  }
+};
+
+TEST(HalfSpaceCall, FlagsAskWhereADeviceIsStated) {
+  const Case flagged(withDevice(), kSmooth);
+  EXPECT_TRUE(mayCallHalfSpace(flagged.configuration));
+  EXPECT_TRUE(flagged.call().is_made);
+  EXPECT_EQ(flagged.call().why, "near_bonding");
+  EXPECT_EQ(flagged.call().objection, "");
+  EXPECT_FALSE(Case(withDevice(), kRough).call().is_made);
+  EXPECT_FALSE(mayCallHalfSpace(Configuration()));
+  EXPECT_FALSE(Case(Configuration(), kSmooth).call().is_made);
+  Configuration half_stated = withDevice();
+  half_stated.device.contact_area = 0.0;
+  EXPECT_FALSE(mayCallHalfSpace(half_stated));
+  Configuration beam;
+  beam.device.beam_type = BeamType::kCantilever;
+  EXPECT_TRUE(mayCallHalfSpace(beam));
+}
+
+TEST(HalfSpaceCall, PublishedFormulationsAreAskedForWhatWasPublished) {
+  Configuration paper = withDevice();
+  paper.model.formulation = "paper";
+  EXPECT_FALSE(mayCallHalfSpace(paper));
+  EXPECT_FALSE(Case(paper, kSmooth).call().is_made);
+  paper.half_space.enabled = HalfSpaceUse::kAlways;
+  EXPECT_TRUE(Case(paper, kSmooth).call().is_made);
+}
+
+TEST(HalfSpaceCall, TheSettingCallsForAllOrNone) {
+  Configuration settings = withDevice();
+  settings.half_space.enabled = HalfSpaceUse::kNever;
+  EXPECT_FALSE(Case(settings, kSmooth).call().is_made);
+  settings = Configuration();
+  settings.half_space.enabled = HalfSpaceUse::kAlways;
+  const HalfSpaceCall call = Case(settings, kRough).call();
+  EXPECT_TRUE(call.is_made);
+  EXPECT_EQ(call.why, "");
+}
+
+TEST(HalfSpaceCall, OnlyFlagsOfTheModelsForceCount) {
+  EXPECT_EQ(flagsForHalfSpace(kResolutionFlag | kFewContactsFlag | kBorderFlag | kOnePixelFlag | kPlasticityFlag), 0U);
+  for (const std::uint32_t flag : {kBondedFlag, kNoEquilibriumFlag, kNearBondingFlag}) {
+    EXPECT_EQ(flagsForHalfSpace(flag | kBorderFlag), flag);
+  }
+}
+
+TEST(HalfSpaceCall, TheAnswerIsTheSolvers) {
+  const Case flagged(withDevice(), kSmooth);
+  const SolvedHalfSpace expected =
+      HalfSpaceSolver(flagged.configuration.half_space).solve(halfSpaceProblem(flagged.prepared, flagged.options));
+  ASSERT_EQ(expected.status, HalfSpaceStatus::kSolved) << expected.message;
+  const SolvedHalfSpace answer = flagged.answer();
+  EXPECT_EQ(answer.pull_off_force, expected.pull_off_force);
+  EXPECT_EQ(answer.work_of_adhesion, expected.work_of_adhesion);
+  EXPECT_EQ(whyNotJudging(answer), whyNotJudging(expected));
+}
+
+TEST(HalfSpaceCall, LargeFramesAreNotSolvedForTheirFlags) {
+  Configuration settings = withDevice();
+  settings.half_space.max_flagged_pixels = 64 * 64 - 1;
+  const Case large(settings, kSmooth);
+  EXPECT_TRUE(large.call().is_made);
+  EXPECT_NE(large.call().objection.find("half_space/max_flagged_pixels = 4095"), std::string::npos)
+      << large.call().objection;
+  EXPECT_EQ(large.answer().message, large.call().objection);
+  EXPECT_EQ(whyNotJudging(large.answer()), large.call().objection);
+  settings.half_space.enabled = HalfSpaceUse::kAlways;  // who asks gets it
+  EXPECT_EQ(Case(settings, kSmooth).answer().status, HalfSpaceStatus::kSolved);
+}
+
+TEST(HalfSpaceCall, WhatCouldNotJudgeIsNotBegun) {
+  Configuration soft = withDevice();
+  soft.model.lower.youngs_modulus = soft.model.upper.youngs_modulus = 1e9;
+  const Case unresolved(soft, kSmooth);
+  ASSERT_TRUE(unresolved.call().is_made);
+  EXPECT_EQ(unresolved.call().objection, kPixelsTooLarge);
+  Configuration free_plate = withDevice();
+  free_plate.model.lower.thickness = 1e-6;
+  free_plate.half_space.boundary = HalfSpaceBoundary::kFree;
+  const Case refused(free_plate, kSmooth);
+  ASSERT_TRUE(refused.call().is_made);
+  EXPECT_NE(refused.call().objection.find("lower/backing free is not allowed"), std::string::npos)
+      << refused.call().objection;
+}
+
+TEST(HalfSpaceCall, ASolutionThatTakesTooMuchIsGivenUpWithAReason) {
+  Configuration settings = withDevice();
+  settings.half_space.max_flagged_products = 3;
+  settings.half_space.max_flagged_pixels = 2 * 64 * 64;
+  const SolvedHalfSpace answer = Case(settings, kSmooth).answer();
+  EXPECT_EQ(answer.status, HalfSpaceStatus::kCancelled);
+  EXPECT_EQ(answer.message.find("its solution takes more than 6 products (half_space/max_flagged_products = 3)"), 0U)
+      << answer.message;
+  EXPECT_EQ(whyNotJudging(answer), answer.message);
+}
+
+TEST(HalfSpaceCall, ItsCallerEndsItAndIsAskedToGiveWay) {
+  const Case flagged(withDevice(), kSmooth);
+  std::atomic<bool> cancel{false};
+  int ways = 0;
+  HalfSpaceControl control;
+  control.cancel = &cancel;
+  control.give_way = [&] { cancel = ++ways == 2; };
+  const SolvedHalfSpace answer = flagged.answer(control);
+  EXPECT_EQ(ways, 2);
+  EXPECT_EQ(answer.status, HalfSpaceStatus::kCancelled);
+  EXPECT_EQ(answer.message.find("max_flagged_products"), std::string::npos) << answer.message;
+}
+
+}  // namespace
+}  // namespace mems_stiction

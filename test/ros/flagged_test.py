@@ -1,0 +1,121 @@
+#!/usr/bin/env python3
+"""half_space/enabled by default: scans whose flags ask for a half-space are solved by themselves, and their device is judged by it."""
+
+import math
+import unittest
+
+import rospy
+import rostest
+from mems_stiction.msg import (DeviceAdhesion, HalfSpaceSolution, PartVerdict, StictionPrediction)
+from mems_stiction.srv import SetMechanicalLoad, SolveHalfSpace, SolveHalfSpaceRequest
+from stiction_client import TIMEOUT, Collector, Station, image_message, info_message, rough_surface, wait_until
+
+SMALL = 64  # pixels of a side, as many as the launch file allows
+BY_HALF_SPACE = "by the half-space; as near_bonding asks for it: "  # a comma would end a field of rostopic echo -p
+
+
+def smooth(seed, rows=SMALL):
+    """Near bonding."""
+    return rough_surface(seed, rows=rows, cols=SMALL, rms_height=3e-10)
+
+
+def rough(seed):
+    return rough_surface(seed, rows=SMALL, cols=SMALL, rms_height=2e-9)
+
+
+class FlaggedTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node("flagged_test")
+        rospy.wait_for_service("stiction_node/solve_half_space", timeout=TIMEOUT)
+        cls.solve = rospy.ServiceProxy("stiction_node/solve_half_space", SolveHalfSpace)
+        cls.set_load = rospy.ServiceProxy("stiction_node/set_mechanical_load", SetMechanicalLoad)
+        cls.predictions = Collector("prediction", StictionPrediction).connect()
+        cls.solutions = Collector("half_space", HalfSpaceSolution).connect()
+        cls.parts = Collector("part_verdict", PartVerdict).connect()
+        cls.devices = Collector("device_force", DeviceAdhesion).connect()
+        cls.station = Station()
+
+    def send(self, heights, serial=""):
+        """Its stamp and prediction."""
+        count, stamp = len(self.predictions.messages), self.station.stamp()
+        info = info_message(stamp)
+        info.part_id, info.serial_id = ("lot 3", serial) if serial else ("", "")
+        self.station.height.publish(image_message(heights, stamp))
+        self.station.info.publish(info)
+        prediction = self.predictions.wait(count + 1)[count]
+        self.assertEqual(prediction.header.stamp, stamp)
+        return stamp, prediction
+
+    def of(self, collector, stamp, what, accepts=lambda message: True):
+        """The message of the scan that is accepted, once it is there."""
+        found = []
+
+        def is_there():
+            found[:] = [message for message in collector.messages if message.header.stamp == stamp and accepts(message)]
+            return found
+
+        wait_until(is_there, what)
+        return found[-1]
+
+    def judged_by_half_space(self, collector, stamp, what):
+        return self.of(collector, stamp, what, lambda message: message.verdict_by == "half_space")
+
+    def test_1_a_flagged_scan_is_solved_and_judges_device_and_part(self):
+        stamp, prediction = self.send(smooth(1), "0012")
+        self.assertTrue(prediction.regime_flags & StictionPrediction.FLAG_NEAR_BONDING)
+        self.assertIn("near_bonding asks for the half-space: it follows on the topic half_space", prediction.reason)
+        solution = self.of(self.solutions, stamp, "the half-space")
+        self.assertEqual(solution.status, HalfSpaceSolution.SOLVED, solution.message)
+        for name in ("version", "settings_hash", "part_id", "serial_id"):
+            self.assertEqual(getattr(solution, name), getattr(prediction, name), name)
+        device = self.judged_by_half_space(self.devices, stamp, "the device by the half-space")
+        self.assertTrue(device.verdict_reason.startswith(BY_HALF_SPACE), device.verdict_reason)
+        self.assertAlmostEqual(device.margin * device.pull_off_force / device.restoring_force, 1.0, places=12)
+        by_area = solution.pull_off_force * device.area / prediction.nominal_area
+        self.assertAlmostEqual(device.linear_pull_off_force / by_area, 1.0, places=9)
+        part = self.of(self.parts, stamp, "the part", lambda message: message.margin == device.margin)
+        self.assertEqual((part.sticks, part.margin_lower, part.scan_count), (device.sticks, device.margin_lower, 1))
+
+    def test_2_other_scans_are_not_solved(self):
+        first, prediction = self.send(rough(1))
+        self.assertFalse(prediction.regime_flags & StictionPrediction.FLAG_NEAR_BONDING)
+        self.assertNotIn("half-space", prediction.reason)
+        second, _ = self.send(smooth(2))
+        self.of(self.solutions, second, "the half-space")
+        self.assertNotIn(first, [solution.header.stamp for solution in self.solutions.messages])
+
+    def test_3_several_in_a_row_are_all_answered(self):
+        stamps = [self.send(smooth(seed))[0] for seed in range(3, 7)]
+        for stamp in stamps:
+            self.of(self.solutions, stamp, "the half-space")
+
+    def test_4_one_that_is_too_large_is_left_out_with_a_sentence(self):
+        stamp, prediction = self.send(smooth(8, rows=SMALL + 1))
+        self.assertTrue(prediction.regime_flags & StictionPrediction.FLAG_NEAR_BONDING)
+        self.assertIn("near_bonding asks for the half-space; which does not count: a frame of 65 x 64 pixels is larger than "
+                      "half_space/max_flagged_pixels = 4096", prediction.reason)
+        device = self.of(self.devices, stamp, "the device")
+        self.assertEqual(device.verdict_by, "prediction")
+        answer = self.solve(SolveHalfSpaceRequest(voltage=math.nan, mechanical_load=math.nan))  # who asks gets it
+        self.assertTrue(answer.success, answer.message)
+        self.assertEqual(answer.solution.header.stamp, stamp)
+        self.assertNotIn(stamp, [solution.header.stamp for solution in self.solutions.messages])
+
+    def test_5_after_another_load_the_last_scan_is_solved_again(self):
+        stamp, prediction = self.send(smooth(10))
+        self.judged_by_half_space(self.devices, stamp, "the device by the half-space")
+        load = 2.0 * prediction.mechanical_load
+        self.assertTrue(self.set_load(load).success)
+        try:
+            solution = self.of(self.solutions, stamp, "the half-space under the load", lambda one: one.mechanical_load == load)
+            self.assertEqual(solution.status, HalfSpaceSolution.SOLVED, solution.message)
+            device = self.of(self.devices, stamp, "the device under the load",
+                             lambda one: one.mechanical_load == load and one.verdict_by == "half_space")
+            self.assertEqual(device.status, DeviceAdhesion.JUDGED_AGAIN)
+        finally:
+            self.set_load(prediction.mechanical_load)
+
+
+if __name__ == "__main__":
+    rostest.rosrun("mems_stiction", "flagged", FlaggedTest)
