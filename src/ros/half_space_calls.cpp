@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <future>
+#include <memory>
 #include <utility>
 
 #include "evaluation/frame_load.hpp"
@@ -55,10 +56,11 @@ class PathProgress {
 }  // namespace
 
 HalfSpaceCalls::HalfSpaceCalls(const ros::NodeHandle& private_handle, const HalfSpaceOptions& options,
-                               SolutionPause& pause, FindCase find_case)
+                               SolutionPause& pause, FindCase find_case, Beside beside)
     : solver_(options),
       pause_(pause),
       find_case_(std::move(find_case)),
+      beside_(std::move(beside)),
       action_(private_handle, kHalfSpaceAction, [this](const auto& goal, auto& result) { return run(goal, result); }),
       handle_(private_handle),
       spinner_(kServiceThreads, &queue_) {
@@ -95,20 +97,22 @@ HalfSpaceSolution HalfSpaceCalls::solve(const Asked& asked, const HalfSpaceContr
     return message;
   };
   try {
-    const StationCase station_case = find_case_(asked.height, asked.scan_info);
+    StationCase station_case = find_case_(asked.height, asked.scan_info);
     header = station_case.header;
     Configuration settings = *station_case.settings;
     if (!std::isnan(asked.voltage)) settings.model.load.voltage = asked.voltage;
     if (!std::isnan(asked.mechanical_load)) settings.model.load.setMechanicalLoad(asked.mechanical_load);
     provenance = provenanceOf(station_case.identity, settings);
-    const Options options = onFrame(settings.model, station_case.settings->device, station_case.scan.surfaces);
+    station_case.settings =
+        std::make_shared<const Configuration>(settings);  // what is known of the device is of a load
+    const Options options = onFrame(settings.model, settings.device, station_case.scan.surfaces);
     load = options.load;
     options.check();
     const SolvedHalfSpace solved = solver_.solve(halfSpaceProblem(station_case.scan, options), control);
     HalfSpaceSolution message = halfSpaceMessage(solved, load, header);
     fillProvenance(provenance, message);
     if (solved.status != HalfSpaceStatus::kCancelled) {
-      fillVerdict(halfSpaceVerdict(solved, station_case.scan, options, *station_case.settings), message);
+      fillVerdict(halfSpaceVerdict(solved, station_case.scan, options, settings, beside_(station_case)), message);
     }
     return message;
   } catch (const std::future_error&) {

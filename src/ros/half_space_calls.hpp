@@ -6,6 +6,7 @@
 /// wait for it; one call and one goal at a time.
 
 #include <atomic>
+#include <functional>
 
 #include <ros/node_handle.h>
 #include <ros/spinner.h>
@@ -24,9 +25,12 @@ namespace mems_stiction {
 /// Service and action.
 class HalfSpaceCalls {
  public:
+  /// What is known of the device of a scan, called on the threads of the calls.
+  using Beside = std::function<Evidence(const StationCase& scan)>;
+
   /// - @p pause is given way to; it must outlive the calls
   HalfSpaceCalls(const ros::NodeHandle& private_handle, const HalfSpaceOptions& options, SolutionPause& pause,
-                 FindCase find_case);
+                 FindCase find_case, Beside beside);
   ~HalfSpaceCalls();
   HalfSpaceCalls(const HalfSpaceCalls&) = delete;
   HalfSpaceCalls& operator=(const HalfSpaceCalls&) = delete;
@@ -45,6 +49,7 @@ class HalfSpaceCalls {
   const HalfSpaceSolver solver_;
   SolutionPause& pause_;
   FindCase find_case_;
+  Beside beside_;
   std::atomic<bool> stopping_{false};
   LongRun<HalfSpaceAction> action_;
   GuardedQueue queue_;

@@ -98,8 +98,10 @@ StictionServer::StictionServer(const ros::NodeHandle& handle, const ros::NodeHan
       actions_(
           service_handle_, [this](const auto& height, const auto& info) { return findCase(height, info); },
           [this](const auto& scan) { return device_force_ ? device_force_->scaleOf(scan) : std::nullopt; }),
-      half_space_calls_(service_handle_, configuration.core.half_space, half_space_pause_,
-                        [this](const auto& height, const auto& info) { return findCase(height, info); }),
+      half_space_calls_(
+          service_handle_, configuration.core.half_space, half_space_pause_,
+          [this](const auto& height, const auto& info) { return findCase(height, info); },
+          [this](const auto& scan) { return device_force_ ? device_force_->evidenceOf(scan) : Evidence(); }),
       diagnostics_(handle_, name),
       parameters_(handle_, private_handle_),
       master_(MasterWatch::ofThisProcess()),

@@ -4,14 +4,16 @@
 import math
 import unittest
 
+import actionlib
 import rospy
 import rostest
-from mems_stiction.msg import (DeviceAdhesion, HalfSpaceSolution, PartVerdict, StictionPrediction)
+from mems_stiction.msg import (DeviceAdhesion, HalfSpaceAction, HalfSpaceGoal, HalfSpaceSolution, PartVerdict, StictionPrediction)
 from mems_stiction.srv import SetMechanicalLoad, SolveHalfSpace, SolveHalfSpaceRequest
 from stiction_client import TIMEOUT, Collector, Station, image_message, info_message, rough_surface, wait_until
 
 SMALL = 64  # pixels of a side, as many as the launch file allows
 BY_HALF_SPACE = "by the half-space; as near_bonding asks for it: "  # a comma would end a field of rostopic echo -p
+VERDICT = ("sticks", "margin", "margin_lower", "margin_upper", "verdict_reason", "verdict_by")
 
 
 def smooth(seed, rows=SMALL):
@@ -102,7 +104,26 @@ class FlaggedTest(unittest.TestCase):
         self.assertEqual(answer.solution.header.stamp, stamp)
         self.assertNotIn(stamp, [solution.header.stamp for solution in self.solutions.messages])
 
-    def test_5_after_another_load_the_last_scan_is_solved_again(self):
+    def test_5_service_and_action_know_the_device(self):
+        stamp, prediction = self.send(smooth(9))
+        device = self.judged_by_half_space(self.devices, stamp, "the device by the half-space")
+        answer = self.solve(SolveHalfSpaceRequest(voltage=math.nan, mechanical_load=math.nan)).solution
+        action = actionlib.SimpleActionClient("stiction_node/half_space", HalfSpaceAction)
+        self.assertTrue(action.wait_for_server(rospy.Duration(TIMEOUT)))
+        action.send_goal(HalfSpaceGoal(voltage=math.nan, mechanical_load=math.nan))
+        self.assertTrue(action.wait_for_result(rospy.Duration(TIMEOUT)))
+        for name in VERDICT:
+            self.assertEqual(getattr(answer, name), getattr(action.get_result().solution, name), name)
+        self.assertEqual(answer.verdict_by, "half_space")
+        self.assertNotEqual(answer.sticks, StictionPrediction.STICKS_UNKNOWN)
+        for name in ("sticks", "margin", "margin_lower", "margin_upper"):
+            self.assertEqual(getattr(answer, name), getattr(device, name), name)
+        # The device is known under its own load alone.
+        other = self.solve(SolveHalfSpaceRequest(voltage=math.nan, mechanical_load=2.0 * prediction.mechanical_load)).solution
+        self.assertEqual((other.sticks, math.isnan(other.margin)), (StictionPrediction.STICKS_UNKNOWN, True))
+        self.assertIn("device_force", other.verdict_reason)
+
+    def test_6_after_another_load_the_last_scan_is_solved_again(self):
         stamp, prediction = self.send(smooth(10))
         self.judged_by_half_space(self.devices, stamp, "the device by the half-space")
         load = 2.0 * prediction.mechanical_load
