@@ -2,10 +2,11 @@
 
 import math
 
-from mems_stiction.quantities import area, known_digits, percent, ratio, with_unit
+from mems_stiction.quantities import area, known_digits, percent, ratio, with_interval, with_unit
 
 STATUS_NAMES = {0: "equilibrium", 1: "bonded", 2: "no equilibrium"}
 STICKS_NAMES = {0: "no", 1: "marginal", 2: "yes", 3: "unknown"}
+NOTHING_FOUND = 2  # DeviceAdhesion.REFUSED
 # Bits of regime_flags: name, and what it means.
 FLAGS = {1: ("bonded", "the surfaces bond"), 2: ("no_equilibrium", "the search ended before the equilibrium"),
          4: ("tabor", "JKR is not the theory for these asperities"),
@@ -63,7 +64,7 @@ def digits_of(result):
 
 
 def has_verdict(prediction):
-    """Whether a device is stated as far as a margin or a peel number needs it."""
+    """Whether a device is stated as far as a margin or a peel number needs it. Of a DeviceAdhesion, too."""
     return not (math.isnan(prediction.margin) and math.isnan(prediction.peel_number))
 
 
@@ -100,6 +101,20 @@ def table_line(name, prediction, with_verdict=False):
         line += _VERDICT % (ratio(figure, digits_of(prediction)), STICKS_NAMES.get(prediction.sticks, "?"))
     limits = flag_names(prediction.regime_flags) + ["warning: " + text for text in prediction.warnings]
     return printable(line + ("  " + ", ".join(limits) if limits else ""))
+
+
+def device_line(name, device):
+    """What a DeviceAdhesion says of the device that a scan is of: force with its interval, by how many scans, margin or peel number, whether it
+    sticks and who says so; or why there is none."""
+    if device.status == NOTHING_FOUND:
+        return printable("%-18s  device: no force: %s" % (shortened(name), device.message))
+    line = "%-18s  device: pull-off force %s by %d scan%s" % (
+        shortened(name), with_interval(device.pull_off_force, device.pull_off_force_lower, device.pull_off_force_upper, "N"), device.scan_count,
+        "" if device.scan_count == 1 else "s")
+    if has_verdict(device):
+        named, figure = ("peel number", device.peel_number) if math.isnan(device.margin) else ("margin", device.margin)
+        line += ", %s %s, sticks: %s" % (named, ratio(figure, digits_of(device)), STICKS_NAMES.get(device.sticks, "?"))
+    return printable(line + (", by the half-space" if device.verdict_by == "half_space" else ""))
 
 
 def load_effect(before, after):

@@ -1,6 +1,9 @@
 """What a station saw so far, scan by scan: predicted, lost, or still waiting. No ROS here."""
 
 MOST_SCANS = 10000  # that are kept: some 5 kB each
+MOST_EARLY = 100  # verdicts on devices that wait for the prediction of their scan
+NOTHING_FOUND = 2  # DeviceAdhesion.REFUSED
+TAKEN = ("sticks", "restoring_force", "margin", "margin_lower", "margin_upper", "peel_number", "peel_number_lower", "peel_number_upper")
 
 
 class Scan:
@@ -26,6 +29,7 @@ class Trend:
         self._forgotten = 0
         self._forgotten_losses = 0
         self._uncounted = 0  # scans seen to be lost before the node's count said so
+        self._early = {}  # verdicts on devices by the stamps of scans that are not predicted yet
 
     def add_scan(self, stamp):
         """An image has arrived."""
@@ -47,8 +51,26 @@ class Trend:
             self.scans += waiting
         scan = waiting[0]
         scan.prediction, scan.is_lost = prediction, False
+        if stamp in self._early:
+            self.judge(stamp, self._early.pop(stamp))
         self._lose(self.scans[:self.scans.index(scan)])
         self._forget()
+
+    def judge(self, stamp, device):
+        """The verdict on the whole device (a DeviceAdhesion) takes the place of the prediction's, whose settings it has: the newest scan of
+        the stamp is meant. What was judged under other settings belongs to no scan here."""
+        predicted = [scan.prediction for scan in self.scans if scan.stamp == stamp and scan.prediction is not None]
+        if not predicted:
+            self._early[stamp] = device
+            while len(self._early) > MOST_EARLY:
+                del self._early[next(iter(self._early))]
+            return
+        prediction = predicted[-1]
+        if device.status == NOTHING_FOUND or device.settings_hash != prediction.settings_hash:
+            return
+        for name in TAKEN:
+            setattr(prediction, name, getattr(device, name))
+        prediction.reason, prediction.device_pull_off_force = device.verdict_reason, device.pull_off_force
 
     def _lose(self, scans):
         """A later one is predicted already."""

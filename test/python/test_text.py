@@ -8,7 +8,7 @@ import unittest
 from types import SimpleNamespace
 
 from mems_stiction.csv_text import csv_cell
-from mems_stiction.prediction_text import FLAGS, flag_names, flag_words, has_verdict, load_effect, table_header, table_line
+from mems_stiction.prediction_text import FLAGS, device_line, flag_names, flag_words, has_verdict, load_effect, table_header, table_line
 from mems_stiction.quantities import length_scale, percent, ratio, with_interval, with_unit
 
 
@@ -104,6 +104,19 @@ class PredictionTextTest(unittest.TestCase):
         self.assertTrue(table_line("a", beam, True).rstrip().endswith("0.5  yes"))
         self.assertTrue(table_line("a", unstated, True).rstrip().endswith("-  unknown"))
         self.assertTrue(table_header(True).endswith("   margin  sticks"))
+
+    def test_the_device_has_a_line_of_its_own(self):
+        known = dict(status=0, message="", scan_count=3, pull_off_force=2.1234e-6, pull_off_force_lower=1.5e-6, pull_off_force_upper=3e-6,
+                     margin=4.71, margin_lower=3.3, margin_upper=6.7, peel_number=math.nan, sticks=0, verdict_by="prediction")
+
+        def line(**changes):
+            return device_line("7 scan", SimpleNamespace(**dict(known, **changes)))
+
+        self.assertEqual(line(), "7 scan              device: pull-off force 2.1 uN (1.5 to 3) by 3 scans, margin 4.7, sticks: no")
+        self.assertTrue(line(scan_count=1, verdict_by="half_space").endswith(" by 1 scan, margin 4.7, sticks: no, by the half-space"))
+        self.assertTrue(line(margin=math.nan, peel_number=0.5, sticks=2).endswith(" by 3 scans, peel number 0.5, sticks: yes"))
+        self.assertTrue(line(margin=math.nan).endswith(" by 3 scans"))
+        self.assertEqual(line(status=2, message="too\x1b few"), "7 scan              device: no force: too\\x1b few")
 
     def test_the_force_of_a_bonded_surface_is_marked_as_a_lower_bound(self):
         self.assertIn(">= 2.30 uN", table_line("a", prediction(status=1)))

@@ -23,6 +23,15 @@ def prediction(force=2e-7, sticks=3, margin=NAN, **changes):
     return SimpleNamespace(**values)
 
 
+def device(margin, sticks=1, **changes):
+    """The force of the whole device, as the node publishes it."""
+    values = dict(status=0, sticks=sticks, verdict_reason="of the device", pull_off_force=2e-6 / margin, restoring_force=2e-6, margin=margin,
+                  margin_lower=0.5 * margin, margin_upper=2 * margin, peel_number=NAN, peel_number_lower=NAN, peel_number_upper=NAN,
+                  settings_hash="00ff")
+    values.update(changes)
+    return SimpleNamespace(**values)
+
+
 def states(trend):
     return "".join("p" if scan.prediction is not None else "x" if scan.is_lost else "." for scan in trend.scans)
 
@@ -75,6 +84,43 @@ class TrendTest(unittest.TestCase):
         self.predictions(4)
         self.scans(4)
         self.assertEqual(states(self.trend), "pxpp")
+
+    def test_the_verdict_on_the_device_takes_the_place_of_the_predictions(self):
+        for stamp in (1, 2):
+            self.trend.add_prediction(stamp, prediction(sticks=3))
+        self.trend.judge(1, device(margin=0.5, sticks=2))
+        first, second = [scan.prediction for scan in self.trend.scans]
+        self.assertEqual((first.margin, first.margin_lower, first.sticks, first.reason), (0.5, 0.25, 2, "of the device"))
+        self.assertEqual((first.device_pull_off_force, first.restoring_force), (4e-6, 2e-6))
+        self.assertTrue(math.isnan(second.margin))
+        self.trend.judge(1, device(margin=2.0, sticks=0))  # once more, as after another load and back
+        self.assertEqual((first.margin, first.sticks), (2.0, 0))
+
+    def test_a_verdict_without_a_force_or_under_other_settings_changes_nothing(self):
+        self.trend.add_prediction(1, prediction(sticks=3))
+        self.trend.judge(1, device(margin=0.5, settings_hash="11ff"))
+        self.trend.judge(1, device(margin=0.5, status=2))
+        self.assertEqual(self.trend.scans[0].prediction.reason, "the reason")
+        self.trend.judge(7, device(margin=0.5))
+        self.assertEqual(len(self.trend.scans), 1)
+
+    def test_a_verdict_may_overtake_its_prediction(self):
+        self.scans(1)
+        self.trend.judge(1, device(margin=0.5, sticks=2))
+        self.assertEqual(states(self.trend), ".")
+        self.trend.add_prediction(1, prediction(sticks=3))
+        self.assertEqual(self.trend.scans[0].prediction.sticks, 2)
+        for stamp in range(1000, 2000):
+            self.trend.judge(stamp, device(margin=0.5))
+        self.trend.add_prediction(1000, prediction(sticks=3))  # only the newest wait
+        self.trend.add_prediction(1999, prediction(sticks=3))
+        self.assertEqual([scan.prediction.sticks for scan in self.trend.scans], [2, 3, 1])
+
+    def test_of_a_replay_the_newest_scan_is_judged(self):
+        for _ in range(2):
+            self.trend.add_prediction(1, prediction(sticks=3))
+        self.trend.judge(1, device(margin=0.5, sticks=2))
+        self.assertEqual([scan.prediction.sticks for scan in self.trend.scans], [3, 2])
 
     def test_a_replay_of_the_same_stamps_is_a_new_series(self):
         for _ in range(2):

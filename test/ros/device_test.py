@@ -15,10 +15,11 @@ import rostest
 import yaml
 from diagnostic_msgs.msg import DiagnosticArray
 from mems_stiction.msg import DeviceAdhesion, PartVerdict, StictionPrediction
+from mems_stiction.prediction_text import device_line
 from mems_stiction.srv import SetMechanicalLoad
 from roslib.packages import find_node
-from stiction_client import (PITCH, Collector, OwnNode, Station, Traffic, image_message, info_message, rough_surface, settings_of, wait_until,
-                             write_grid)
+from stiction_client import (PITCH, Collector, OwnNode, Station, Traffic, image_message, info_message, rough_surface, settings_of, wait_for_listener,
+                             wait_until, write_grid)
 
 CONFIG = pathlib.Path(__file__).with_name("device_part.yaml")
 SMALL = 64  # pixels of a side
@@ -143,6 +144,19 @@ class DeviceTest(unittest.TestCase):
         late = Collector("device_force", DeviceAdhesion)
         self.assertEqual(late.wait(1)[0].header.stamp, self.devices.messages[-1].header.stamp)
         late.close()
+
+    def test_3b_the_terminal_has_a_line_for_the_device(self):
+        process = subprocess.Popen([find_node("mems_stiction", "print_predictions")[0]], stdout=subprocess.PIPE, universal_newlines=True)
+        try:
+            wait_for_listener("prediction", "/print_predictions")
+            wait_for_listener("device_force", "/print_predictions")
+            _, device = self.send(surface(10))
+            lines = [process.stdout.readline() for _ in range(4)]  # two of the head
+        finally:
+            process.terminate()
+            process.communicate()
+        self.assertTrue(lines[2].startswith("1 scan  "), lines)
+        self.assertEqual(lines[3].rstrip("\n"), device_line("1 scan", device))  # not that of the scan before, which is latched
 
     def test_4_under_other_settings_it_is_judged_again(self):
         prediction, device = self.send(surface(4), ("lot 4", ""))
