@@ -76,8 +76,14 @@ void addSmoothing(const HeightMap& scan, const PipelineOptions& cleaning, std::v
 
 /// What is smoothed to nothing, or is too small, has no relief to compare a tilt with.
 void addTilt(const HeightMap& cleaned, const PipelineOptions& cleaning, std::vector<std::string>& warnings) {
-  if (cleaning.level.shape != LevelShape::kNone || isSmoothedAway(cleaned, cleaning)) return;
+  if (isSmoothedAway(cleaned, cleaning)) return;
   if (std::min(cleaned.rows(), cleaned.cols()) < kFewestPixelsOfASide) return;
+  if (cleaning.level.shape != LevelShape::kNone) {
+    if (cleaning.level.robust) return;
+    const TiltLeft left = tiltLeft(cleaned, cleaning.level.shape == LevelShape::kPlane ? 1 : 2);
+    if (left.isLarge()) warnings.push_back(left.advice());
+    return;
+  }
   const Tilt tilt = tiltOf(cleaned);
   if (tilt.isLarge()) warnings.push_back(tilt.advice());
 }

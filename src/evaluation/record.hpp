@@ -3,6 +3,7 @@
 /// @file
 /// A prediction as text for scripts: field names of StictionPrediction, SI units, words for the enumerations.
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,6 +29,7 @@ void visitStepFields(const PreprocessStep& step, Visitor&& visit) {
   visit({"rms_change", "m"}, step.rms_change);
   visit({"changed_pixels"}, step.changed_pixels);
   visit({"invalid_pixels"}, step.invalid_pixels);
+  if (!std::isnan(step.tilt_left)) visit({"tilt_left", "m"}, step.tilt_left);
 }
 
 /// What a record may have beside the prediction; each is left out when empty.

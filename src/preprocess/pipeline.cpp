@@ -1,9 +1,11 @@
 #include "mems_stiction/preprocess/pipeline.hpp"
 
+#include <cmath>
 #include <cstdio>
 
 #include <opencv2/imgproc.hpp>
 
+#include "errors/short_number.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "preprocess/fill_holes.hpp"
 #include "preprocess/levelling.hpp"
@@ -13,6 +15,7 @@
 #include "preprocess/region.hpp"
 #include "preprocess/spike_removal.hpp"
 #include "preprocess/stage_offset.hpp"
+#include "preprocess/tilt.hpp"
 #include "preprocess/tip_correction.hpp"
 #include "preprocess/working_surface.hpp"
 #include "settings/time_limit.hpp"
@@ -164,7 +167,11 @@ const CleanedScan& ScanCleaner::clean(const HeightMap& scan) {
     cleaned_.record.tip_unreached_fraction = correction.unreached_fraction;
     note(replace(work, correction.surface));
   }
-  if (isWanted(options_.level)) note(levelBy(work, options_.level));
+  if (isWanted(options_.level)) {
+    const HeightChange change = levelBy(work, options_.level);
+    step->tilt_left = tiltLeft(work.surface(), 2).rms_height;
+    note(change);
+  }
   if (isWanted(options_.low_pass)) note(replace(work, lowPassed(work.surface(), options_.low_pass)));
   if (isWanted(options_.refine)) note(replace(work, refined(work.surface(), options_.refine)));
   cleaned_.surface = work.surface();
@@ -182,6 +189,7 @@ std::vector<std::string> recordLines(const PreprocessRecord& record) {
     std::snprintf(change, sizeof change, "%.4g", step.rms_change);
     lines.push_back(step.name + (step.parameters.empty() ? "" : " (" + step.parameters + ")") + ": rms change " +
                     change + " m; " + std::to_string(step.changed_pixels) + " pixels changed");
+    if (!std::isnan(step.tilt_left)) lines.back() += "; tilt and bow left " + shortNumber(step.tilt_left) + " m";
     if (step.name == "tip") {
       char fraction[32];
       std::snprintf(fraction, sizeof fraction, "%.4g", record.tip_unreached_fraction);

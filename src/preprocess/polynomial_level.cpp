@@ -20,9 +20,14 @@ constexpr double kHuber = 1.345;
 constexpr double kTukey = 4.685;
 constexpr int kHuberRounds = 8;
 constexpr int kTukeyRounds = 30;
-constexpr double kRest = 1e-4;        ///< step that ends the rounds, in units of the noise
-constexpr int kStrides[] = {16, 4};   ///< pixels from one of a sample to the next
-constexpr int kSmallestSample = 256;  ///< valid pixels that a sample must have
+constexpr double kRest = 1e-4;                  ///< step that ends the rounds, in units of the noise
+constexpr int kStrides[] = {16, 4};             ///< pixels from one of a sample to the next
+constexpr int kSmallestSample = 256;            ///< valid pixels that a sample must have
+constexpr int kMasks = 3;                       ///< how often the ground is looked for anew
+constexpr std::size_t kMostSorted = 65536;      ///< residuals, at equal distances
+constexpr double kGroundShare = 0.25;           ///< of the pixels, whose heights lie closest together
+constexpr double kGroundWidth = 2.0 * 0.31864;  ///< of that share of a normal distribution, in standard deviations
+constexpr double kClearlyNarrower = 0.8;
 
 enum class Weighting { kAlike, kByHuber, kByTukey };
 
@@ -188,6 +193,29 @@ PolynomialSurface frameOf(const cv::Mat& heights, double pitch_x, double pitch_y
   return frame;
 }
 
+/// The quarter of all residuals that lie closest together: the ground, where features stand on it.
+struct Ground {
+  double height = 0.0;                                      ///< above the polynomial, median of the quarter [m]
+  double noise = std::numeric_limits<double>::quiet_NaN();  ///< by the quarter's width [m]
+};
+
+/// - @p residuals all valid; they come back sorted
+Ground groundOf(std::vector<double>& residuals) {
+  Ground ground;
+  const std::size_t size = residuals.size();
+  if (size < 2) return ground;
+  std::sort(residuals.begin(), residuals.end());
+  const std::size_t reach =
+      std::max<std::size_t>(1, static_cast<std::size_t>(kGroundShare * static_cast<double>(size)));
+  std::size_t first = 0;
+  for (std::size_t i = 1; i + reach < size; ++i) {
+    if (residuals[i + reach] - residuals[i] < residuals[first + reach] - residuals[first]) first = i;
+  }
+  ground.height = residuals[first + reach / 2];
+  ground.noise = (residuals[first + reach] - residuals[first]) / kGroundWidth;
+  return ground;
+}
+
 /// The rounds of a fit over one grid.
 class Rounds {
  public:
@@ -236,6 +264,33 @@ class Rounds {
     }
   }
 
+  Ground ground() const {
+    const std::size_t stride = grid_.heights.total() / kMostSorted + 1;
+    std::vector<double> residuals;
+    residuals.reserve(grid_.heights.total() / stride + 1);
+    const auto cols = static_cast<std::size_t>(grid_.heights.cols);
+    for (std::size_t place = 0; place < grid_.heights.total(); place += stride) {
+      const auto row = static_cast<int>(place / cols);
+      const auto col = place % cols;
+      const double u = memory_.places[col];
+      const LineCurve curve = curveAt(fit_, yOf(row));
+      const double height = grid_.heights.ptr<double>(row)[col];
+      if (!std::isnan(height)) residuals.push_back(height - curve.origin - (curve.a + u * (curve.b + curve.c * u)));
+    }
+    return groundOf(residuals);
+  }
+
+  /// Masks what stands out of the ground, fits the rest, and again until it rests.
+  void settleOnGround() {
+    for (int mask = 0; mask < kMasks; ++mask) {
+      const Ground found = ground();
+      if (std::isnan(found.noise)) return;
+      fit_.coefficients[0] += found.height;
+      fit_.noise = found.noise;
+      settle();
+    }
+  }
+
  private:
   /// A noise at the rounding of the polynomial itself.
   bool isExact() const { return !(fit_.noise > 1e-13 * fit_.coefficients.cwiseAbs().maxCoeff()); }
@@ -246,6 +301,53 @@ class Rounds {
   CleaningMemory& memory_;
   double step_ = 0.0;
 };
+
+/// Slopes from each pixel to the next along a row or column, less what features' edges add: b + c u + d v, in heights per
+/// unit of the frame.
+Eigen::Vector3d slopesOf(const cv::Mat& differences, double pitch_x, double pitch_y, double step,
+                         const PolynomialSurface& frame, double first_x, double first_y, int degree,
+                         CleaningMemory& memory) {
+  if (differences.empty() || cv::countNonZero(differences == differences) == 0) return Eigen::Vector3d::Zero();
+  PolynomialSurface slopes = frameOf(differences, pitch_x, pitch_y, degree, memory);
+  slopes.origin = medianOf(differences, memory);
+  Rounds rounds(allPixels(differences, pitch_x, pitch_y), slopes, memory);
+  rounds.findNoise();
+  rounds.reweight(kHuberRounds);
+  const double per_unit = frame.unit / step;
+  const double ratio = frame.unit / slopes.unit;
+  const double u = (frame.centre_x - first_x - slopes.centre_x) / slopes.unit;
+  const double v = (frame.centre_y - first_y - slopes.centre_y) / slopes.unit;
+  const auto& terms = slopes.coefficients;
+  return per_unit *
+         Eigen::Vector3d(slopes.origin + terms[0] + terms[1] * u + terms[2] * v, ratio * terms[1], ratio * terms[2]);
+}
+
+/// A start that features do not spoil, however high they are: the slopes of neighbours, of which only their edges are others.
+void startByNeighbours(const cv::Mat& heights, double pitch_x, double pitch_y, PolynomialSurface& fit,
+                       CleaningMemory& memory) {
+  const int degree = fit.degree - 1;
+  cv::Mat along_x;
+  cv::Mat along_y;
+  if (heights.cols > 1) along_x = heights.colRange(1, heights.cols) - heights.colRange(0, heights.cols - 1);
+  if (heights.rows > 1) along_y = heights.rowRange(1, heights.rows) - heights.rowRange(0, heights.rows - 1);
+  const Eigen::Vector3d x = slopesOf(along_x, pitch_x, pitch_y, pitch_x, fit, 0.5 * pitch_x, 0.0, degree, memory);
+  const Eigen::Vector3d y = slopesOf(along_y, pitch_x, pitch_y, pitch_y, fit, 0.0, 0.5 * pitch_y, degree, memory);
+  const double twist = heights.rows > 1 && heights.cols > 1 ? 0.5 * (x[2] + y[1]) : 0.0;
+  fit.coefficients << 0.0, x[0], y[0], 0.5 * x[1], twist, 0.5 * y[2];
+}
+
+/// Features on more than a part of the frame pull least squares so far that no reweighting finds back. Where a fit from
+/// the slopes of neighbours has a clearly narrower ground, it is the one.
+void findGround(const cv::Mat& heights, double pitch_x, double pitch_y, PolynomialSurface& fit,
+                CleaningMemory& memory) {
+  PolynomialSurface other = fit;
+  startByNeighbours(heights, pitch_x, pitch_y, other, memory);
+  const PixelGrid grid = allPixels(heights, pitch_x, pitch_y);
+  Rounds rounds(grid, other, memory);
+  rounds.settleOnGround();
+  const double width = rounds.ground().noise;
+  if (width < kClearlyNarrower * Rounds(grid, fit, memory).ground().noise) fit = other;
+}
 
 }  // namespace
 
@@ -263,7 +365,9 @@ PolynomialSurface fitPolynomial(const cv::Mat& heights, double pitch_x, double p
   Rounds rounds(grid, fit, memory);
   rounds.solve(Weighting::kAlike);
   rounds.findNoise();
-  if (weights == FitWeights::kRobust) rounds.reweight(kHuberRounds);
+  if (weights != FitWeights::kRobust) return fit;
+  rounds.reweight(kHuberRounds);
+  if (degree > 0) findGround(heights, pitch_x, pitch_y, fit, memory);
   return fit;
 }
 

@@ -9,7 +9,13 @@
 /// with Tukey's biweight (c = 4.685), residuals in units of 1.4826 times the median of their absolute values. Both
 /// constants keep 95 % of the efficiency of least squares on Gaussian roughness (Huber and Ronchetti, Robust
 /// Statistics, 2009). Pixels more than 4.685 units away, such as particles, spikes and etched steps, then have no
-/// say. Assumption: features cover less than about a third of the frame, otherwise they are the surface.
+/// say.
+///
+/// Tall features on a fifth of the frame can pull the first fit so far that the reweighting does not find back. So a second
+/// one starts from the slopes between neighbouring pixels, which features change at their edges alone. It masks what stands
+/// out of the ground (the quarter of all residuals that lie closest together, whose width is its noise), fits the rest, and
+/// masks again, three times to rest. The second one is taken where its ground is less than 0.8 as wide. Assumption: features
+/// leave at least about a third of the frame, or are flat themselves; otherwise they are the surface.
 /// Degenerate cases: terms that the valid pixels do not determine (a single row has no slope across it) are 0.
 
 #include <Eigen/Core>

@@ -6,6 +6,7 @@
 
 #include "errors/short_number.hpp"
 #include "preprocess/level.hpp"
+#include "preprocess/polynomial_level.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -47,6 +48,25 @@ Tilt tiltOf(const HeightMap& scan) {
   const cv::Mat valid = sample.heights() == sample.heights();
   if (cv::countNonZero(valid) < kFewestPixels) return {};
   return {heightStatistics(sample).rms_height, heightStatistics(levelled(sample)).rms_height};
+}
+
+std::string TiltLeft::advice() const {
+  return "tall features have pulled the levelling aslant: their ground is left with a tilt of " +
+         shortNumber(rms_height) + " m rms and is itself rough by " + shortNumber(noise) +
+         " m; set preprocessing/level_robust to true";
+}
+
+TiltLeft tiltLeft(const HeightMap& levelled, int degree) {
+  const HeightMap sample = sampleOf(levelled);
+  const cv::Mat valid = sample.heights() == sample.heights();
+  if (cv::countNonZero(valid) < kFewestPixels) return {};
+  const double surface_rms_height = heightStatistics(sample).rms_height;
+  WorkingSurface work(sample);
+  const PolynomialSurface fit =
+      fitPolynomial(work.heights, work.pitch_x, work.pitch_y, degree, FitWeights::kRobust, work.memory);
+  work.heights.setTo(0.0, valid);
+  subtract(fit, work);
+  return {heightStatistics(work.surface()).rms_height, fit.noise, surface_rms_height};
 }
 
 }  // namespace mems_stiction

@@ -29,4 +29,19 @@ struct Tilt {
 /// - @p scan of any size; with fewer than three valid pixels in the sample there is no tilt
 Tilt tiltOf(const HeightMap& scan);
 
+/// What a robust polynomial of degree 1 (tilt) or 2 (tilt and bow) would still take off.
+struct TiltLeft {
+  double rms_height = 0.0;          ///< of the polynomial over the sample [m]
+  double noise = 0.0;               ///< of the ground that it is fitted to, as a standard deviation [m]
+  double surface_rms_height = 0.0;  ///< Sq of the sample [m]
+
+  /// More than the ground's own roughness, and no rounding of the surface.
+  bool isLarge() const { return rms_height > noise && rms_height > 0.02 * surface_rms_height; }
+  /// For a surface that was levelled by all pixels alike; without commas.
+  std::string advice() const;
+};
+
+/// - @p levelled of any size, by the sample of tiltOf
+TiltLeft tiltLeft(const HeightMap& levelled, int degree);
+
 }  // namespace mems_stiction

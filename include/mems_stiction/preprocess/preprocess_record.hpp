@@ -3,6 +3,7 @@
 /// @file
 /// What cleaning did to a scan, step by step.
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,8 @@ struct HeightChange {
 struct PreprocessStep : HeightChange {
   std::string name;        ///< of the table above
   std::string parameters;  ///< "threshold=6 window=5"
+  /// After `level`: rms height of the tilt and bow that a fit without the features still finds [m]; else NaN.
+  double tilt_left = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// What the steps that ran did to one scan.

@@ -199,6 +199,24 @@ TEST(ScanPreparer, SaysThatTheScanMeetsItsOwnCast) {
   EXPECT_EQ(counterWarning(ScanPreparer(configuration).prepare(rough(1))), "");
 }
 
+TEST(ScanPreparer, SaysThatFeaturesHavePulledThePlane) {
+  const HeightMap scan = analytic::sine(64, 96, 10e-9, 20e-9, 2e-9, 3, 0);
+  cv::Mat heights = scan.heights().clone();
+  heights.colRange(0, 30) += 100e-9;
+  Configuration configuration;
+  configuration.preprocessing.level.shape = LevelShape::kPlane;
+  PreparedScan prepared = ScanPreparer(configuration).prepare({heights, scan.pitchX(), scan.pitchY()});
+  ASSERT_EQ(prepared.warnings.size(), 1u);
+  EXPECT_NE(prepared.warnings[0].find("set preprocessing/level_robust to true"), std::string::npos)
+      << prepared.warnings[0];
+  EXPECT_GT(prepared.record.steps[0].tilt_left, 30e-9);
+  configuration.preprocessing.level.robust = true;
+  prepared = ScanPreparer(configuration).prepare({heights, scan.pitchX(), scan.pitchY()});
+  EXPECT_TRUE(prepared.warnings.empty());
+  EXPECT_LT(prepared.record.steps[0].tilt_left, 1e-9);
+  EXPECT_NE(recordLines(prepared.record)[0].find("; tilt and bow left "), std::string::npos);
+}
+
 TEST(ScanPreparer, SaysThatAScanIsTiltedUntilItIsLevelled) {
   const HeightMap scan = rough(1);
   cv::Mat tilted = scan.asDouble().heights().clone();

@@ -101,6 +101,37 @@ TEST(PolynomialLevel, robustFitDoesNotMindFeaturesOnAFifthOfTheFrame) {
   EXPECT_LT(errorOf(FitWeights::kRobust), 0.4e-9);
 }
 
+/// Rms of what is wrong in the fit of degree 1 to a tilted, rough ground with features on it.
+double errorUnder(const cv::Mat& features) {
+  const HeightMap clean = gaussianSurface(rough());
+  const HeightMap tilt = analytic::tiltedPlane(200, 310, kPitchX, kPitchY, 0.02, -0.03);
+  const HeightMap surface(clean.heights() + tilt.heights() + features, kPitchX, kPitchY);
+  return heightStatistics(without(fitPolynomial(surface, 1, FitWeights::kRobust), tilt)).rms_height;
+}
+
+TEST(PolynomialLevel, tallFeaturesOnMostOfTheFrameDoNotTiltIt) {
+  for (const double share : {0.2, 0.4, 0.6}) {
+    cv::Mat ridge = cv::Mat::zeros(200, 310, CV_64FC1);
+    ridge.colRange(10, 10 + static_cast<int>(share * 310)) += 100e-9;
+    cv::Mat corner = cv::Mat::zeros(200, 310, CV_64FC1);
+    corner(cv::Rect(8, 8, static_cast<int>(310 * std::sqrt(share)) - 8,
+                    static_cast<int>(200 * std::sqrt(share)) - 8)) += 100e-9;
+    // least squares err by 25 nm and more; the roughness itself has a tilt of 2 nm over some 300 independent patches
+    EXPECT_LT(errorUnder(ridge), 0.6e-9) << share;
+    EXPECT_LT(errorUnder(corner), 0.6e-9) << share;
+  }
+}
+
+TEST(PolynomialLevel, tallFeaturesDoNotBendIt) {
+  const HeightMap clean = gaussianSurface(rough());
+  const HeightMap shape = bent(analytic::flat(200, 310, kPitchX, kPitchY));
+  cv::Mat heights = clean.heights() + shape.heights();
+  heights(cv::Rect(0, 0, 140, 200)) += 100e-9;  // 45 % of the frame
+  heights.at<double>(100, 200) = std::numeric_limits<double>::quiet_NaN();
+  const PolynomialSurface fit = fitPolynomial(HeightMap(heights, kPitchX, kPitchY), 2, FitWeights::kRobust);
+  EXPECT_LT(heightStatistics(without(fit, shape)).rms_height, 1.0e-9);
+}
+
 TEST(PolynomialLevel, leavesInvalidPixelsInvalidAndOutOfTheFit) {
   const HeightMap surface = bent(analytic::flat(31, 44, kPitchX, kPitchY));
   cv::Mat heights = surface.heights().clone();
