@@ -95,6 +95,22 @@ GxsmStatements gxsmStatements(const std::string& bytes);
 /// group thousands, sizes and units that are stated twice, numbers that were cut off.
 FileChannel parseTextGrid(const std::string& bytes, const TextOptions& options = {});
 
+/// Surfer's text grids (DSAA): numbers of nodes, limits of x, y and z, then rows from the lowest y on. Blank nodes are NaN.
+/// @return a channel that takes settings; x and y are in the unit of z.
+/// @throw FileError cut off, more numbers than stated, ranges that do not grow.
+FileChannel parseSurferGrid(const std::string& bytes);
+
+/// What h5py reads of an HDF5 file; no channels where its layout is none of those known.
+struct Hdf5Channels {
+  std::vector<FileChannel> channels;
+  bool is_library_missing = false;  ///< there is no python3, or it has no h5py
+};
+
+/// HDF5 by h5py, in a python3 of its own, since there is no reader that a damaged file cannot crash: Bruker's `.h5-jpk` (the
+/// first frame), `.topostats` and SurfaceTopography's NetCDF-4. Optional, as gwyddion is.
+/// @throw FileError crashed, timed out, damaged.
+Hdf5Channels channelsByH5py(const std::string& path, double timeout);
+
 /// Instrument makers' files, read by the program gwyddion as a child process: a damaged file that crashes the reader
 /// ends that process and nothing else. gwyddion is optional; the project neither links nor ships it.
 /// - @p bytes the file's content, by which a conversion is cached and found again if ImportOptions say so

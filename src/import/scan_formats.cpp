@@ -93,12 +93,20 @@ Channels readByGwyddion(const std::string& path, const std::string& bytes, const
   return channels;
 }
 
-/// HDF5 has arrays of any meaning under any names: some instruments' layouts are known to gwyddion, no other is guessed.
+/// HDF5 has arrays of any meaning under any names: some layouts are read by h5py, some by gwyddion, no other is guessed.
 Channels readHdf5(const std::string& path, const std::string& bytes, const ImportOptions& options) {
+  const Hdf5Channels read = channelsByH5py(path, options.timeout);
+  if (!read.channels.empty()) return read.channels;
   try {
     return channelsByGwyddion(path, bytes, options);
   } catch (const FileError& error) {
-    throw FileError(std::string(error.what()) + " (an HDF5 file: write its array of heights as .npy and give --pitch)");
+    const std::string library =
+        read.is_library_missing
+            ? "h5py, which reads .h5-jpk, .topostats and NetCDF-4, is not installed (Debian package: "
+              "python3-h5py); else "
+            : "";
+    throw FileError(std::string(error.what()) + " (an HDF5 file: " + library +
+                    "write its array of heights as .npy and give --pitch)");
   }
 }
 
@@ -117,6 +125,8 @@ bool readKnown(const std::string& path, const std::string& bytes, const ImportOp
     channels = {parseNpy(bytes)};
   } else if (beginsWithOneOf(bytes, {"DIGITAL SURF", "DSCOMPRESSED"})) {
     channels = parseSur(bytes);
+  } else if (beginsWithOneOf(bytes, {"DSAA\n", "DSAA\r", "DSAA "})) {
+    channels = {parseSurferGrid(bytes)};
   } else if (isWsxmImage(bytes.substr(0, 200))) {
     channels = {parseWsxm(bytes)};
   } else if (beginsWithOneOf(bytes, {"\x89HDF\r\n"})) {

@@ -114,6 +114,7 @@ void checkStatedSize(const TextHeader& header, const cv::Mat& values) {
 void applyUnits(const TextHeader& header, FileChannel& channel) {
   if (header.missing_value)
     channel.values.setTo(std::numeric_limits<double>::quiet_NaN(), channel.values == *header.missing_value);
+  if (header.scale != 1.0) channel.values *= header.scale;
   if (header.unit_z.empty()) return;
   channel.unit_z = header.unit_z;
   const auto unit = lengthUnit(header.unit_z);

@@ -8,6 +8,7 @@
 
 #include "import/length_unit.hpp"
 #include "import/plain_number.hpp"
+#include "import/text_style.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/settings/option_visitor.hpp"
 #include "numeric/words.hpp"
@@ -184,9 +185,9 @@ bool readPointHeading(const std::string& text, bool is_comment, TextHeader& head
   return true;
 }
 
-/// WSxM writes two lines before its lists, "WSxM file copyright UAM" and "WSxM ASCII XYZ file".
+/// WSxM writes two lines before its texts, "WSxM file copyright UAM" and "WSxM ASCII XYZ file" or "WSxM ASCII Matrix file".
 bool readWsxmLine(const std::string& text, TextHeader& header) {
-  if (text.compare(0, 19, "WSxM file copyright") == 0) return true;
+  if (text.compare(0, 19, "WSxM file copyright") == 0 || text.compare(0, 17, "WSxM ASCII Matrix") == 0) return true;
   if (text.compare(0, 14, "WSxM ASCII XYZ") != 0) return false;
   header.is_y_up = true;
   return true;
@@ -203,15 +204,98 @@ void readLength(const std::string& value, const std::string& what, const Marks& 
   }
 }
 
+/// The pieces of a line without quotes and the blanks around them.
+std::vector<std::string> cellsOf(const std::string& line, char separator) {
+  std::vector<std::string> cells;
+  for (const TextPiece& piece : piecesOf(line, separator)) cells.push_back(bare(unquoted(line, piece)));
+  return cells;
+}
+
+std::size_t countOf(const std::string& value) { return static_cast<std::size_t>(std::max(0.0, plainNumber(value))); }
+
+/// "h=650 w=650": rows and columns. @return false if the line is no such pair
+bool readCounts(const std::string& text, TextHeader& header) {
+  const std::vector<std::string> words = cellsOf(text, ' ');
+  if (words.size() != 2 || words[0][0] == words[1][0]) return false;
+  for (const std::string& word : words) {
+    const bool is_count = word.size() > 2 && word.size() < 12 && (word[0] == 'h' || word[0] == 'w') && word[1] == '=' &&
+                          word.find_first_not_of("0123456789", 2) == std::string::npos;
+    if (!is_count) return false;
+  }
+  for (const std::string& word : words) {
+    state(word[0] == 'h' ? header.rows : header.cols, countOf(word.substr(2)),
+          word[0] == 'h' ? "number of rows" : "number of columns");
+  }
+  return true;
+}
+
+constexpr char kWyko[] = "Wyko ASCII Data File Format";
+
+/// Wyko's text: blocks "name, type, length, value" between tabs, pitch in mm, heights in nm or in waves over `Mult`. Its
+/// "X Size" is the number of lines.
+TextHeader wykoHeader(const std::vector<TextLine>& heading) {
+  TextHeader header;
+  header.unit_z = "nm";
+  double wavelength = 0.0;
+  double divisor = 1.0;
+  for (const TextLine& line : heading) {
+    const std::vector<std::string> cells = cellsOf(line.text, '\t');
+    const std::string key = lowered(cells[0]);
+    if (cells.size() == 2 && key == "x size") state(header.rows, countOf(cells[1]), "number of rows");
+    if (cells.size() == 2 && key == "y size") state(header.cols, countOf(cells[1]), "number of columns");
+    if (cells.size() < 4 || cells[3].empty()) continue;
+    if (key == "pixel_size") header.pitch_x = header.pitch_y = 1e-3 * plainNumber(cells[3]);
+    if (key == "wavelength") wavelength = plainNumber(cells[3]);
+    if (key == "mult") divisor = plainNumber(cells[3]);
+  }
+  const std::vector<std::string> flags = cellsOf(heading.front().text.substr(sizeof kWyko - 1), '\t');
+  if (flags.size() > 1 && flags[1] == "1") return header;
+  if (!(wavelength > 0.0) || !(divisor > 0.0)) {
+    throw FileError("Wyko's heights are in waves and the heading states no wavelength");
+  }
+  header.scale = wavelength / divisor;
+  return header;
+}
+
+bool isKeyence(const std::vector<TextLine>& heading) {
+  return std::any_of(heading.begin(), heading.end(),
+                     [](const TextLine& line) { return line.text.compare(0, 16, "\"XY Calibration\"") == 0; });
+}
+
+/// Keyence's tables: "key","value","unit", of which pitch, numbers of pixels and unit of the heights count.
+TextHeader keyenceHeader(const std::vector<TextLine>& heading) {
+  TextHeader header;
+  for (const TextLine& line : heading) {
+    const std::vector<std::string> cells = cellsOf(line.text, ',');
+    const std::string key = lowered(cells[0]);
+    if (cells.size() == 3 && key == "xy calibration") {
+      const auto unit = lengthUnit(cells[2]);
+      if (!unit) throw FileError("'" + shownPiece(cells[2]) + "' is not a unit of length");
+      header.pitch_x = header.pitch_y = plainNumber(cells[1]) * *unit;
+    }
+    if (cells.size() < 2) continue;
+    if (key == "horizontal") state(header.cols, countOf(cells[1]), "number of columns");
+    if (key == "vertical") state(header.rows, countOf(cells[1]), "number of rows");
+    if (key == "unit") stateText(header.unit_z, cells[1], "unit of the heights");
+    if (key == "output image data") header.title = cells[1];
+  }
+  return header;
+}
+
+/// The unit of "Z Amplitude: 25 nm", WSxM's: that of its numbers.
+std::string unitOfAmplitude(const std::string& value) { return bare(value.substr(markedNumberEnd(value))); }
+
 /// @return true if the key is known
 bool readEntry(const std::string& key, const std::string& value, const Marks& marks, TextHeader& header) {
-  const auto count = [&value] { return static_cast<std::size_t>(std::max(0.0, plainNumber(value))); };
-  if (isOneOf(key, {"width", "x-length", "breite", "largeur", "anchura", "larghezza", "largura"})) {
+  const auto count = [&value] { return countOf(value); };
+  if (isOneOf(key, {"width", "x-length", "x amplitude", "breite", "largeur", "anchura", "larghezza", "largura"})) {
     readLength(value, "width", marks, header.width, header);
-  } else if (isOneOf(key, {"height", "y-length", "höhe", "hauteur", "altura", "altezza"})) {
+  } else if (isOneOf(key, {"height", "y-length", "y amplitude", "höhe", "hauteur", "altura", "altezza"})) {
     readLength(value, "height", marks, header.height, header);
   } else if (isOneOf(key, {"value units", "value unit", "z-unit", "zunit", "unit data", "einheiten", "unités"})) {
     stateText(header.unit_z, value, "unit of the heights");
+  } else if (key == "z amplitude") {
+    stateText(header.unit_z, unitOfAmplitude(value), "unit of the heights");
   } else if (key == "lateral units") {  // Gwyddion's lists: x and y are those of its images
     const auto unit = lengthUnit(value);
     if (!unit) throw FileError("'" + shownPiece(value) + "' is not a unit of length");
@@ -278,6 +362,8 @@ char headingMark(const std::vector<TextLine>& heading) {
 }
 
 TextHeader textHeader(const std::vector<TextLine>& heading, char decimal, char of_data) {
+  if (!heading.empty() && heading.front().text.compare(0, sizeof kWyko - 1, kWyko) == 0) return wykoHeader(heading);
+  if (isKeyence(heading)) return keyenceHeader(heading);
   const Marks marks{decimal, of_data};
   TextHeader header;
   std::string mentioned;
@@ -288,6 +374,7 @@ TextHeader textHeader(const std::vector<TextLine>& heading, char decimal, char o
     std::string key;
     std::string value;
     try {
+      if (readCounts(text, header)) continue;
       if (splitKey(text, key, value) && readEntry(key, value, marks, header)) continue;
       if (readWsxmLine(text, header)) continue;
       if (readPointHeading(text, is_comment, header)) continue;

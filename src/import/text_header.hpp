@@ -1,7 +1,8 @@
 #pragma once
 
 /// @file
-/// What the heading of a text file says of its numbers: as Gwyddion, SurfaceTopography, SPIP, Nova and ESRI grids write it.
+/// What the heading of a text file says of its numbers: as Gwyddion, SurfaceTopography, SPIP, Nova, WSxM, Wyko, Keyence and
+/// ESRI grids write it.
 
 #include <optional>
 #include <string>
@@ -16,6 +17,7 @@ struct TextHeader {
   std::string title;                    ///< "Channel: Height"
   double width = 0.0, height = 0.0;     ///< "Width: 1 µm" [m]; 0 = not stated
   double pitch_x = 0.0, pitch_y = 0.0;  ///< "cellsize", "Scale X" [m]; 0 = not stated
+  double scale = 1.0;                   ///< of the numbers, in unit_z
   std::string unit_z;                   ///< "Value units: nm", as it is spelt; empty = not stated
   double unit_of_points = 0.0;          ///< of x and y in a heading "x [nm] y [nm] z [nm]" [m]; 0 = not stated
   std::size_t cols = 0, rows = 0;       ///< 0 = not stated

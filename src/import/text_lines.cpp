@@ -91,6 +91,14 @@ bool isHeading(const std::string& text) {
   return start != "nan" && start != "inf";
 }
 
+/// "No Data" is one word, whatever separates the cells.
+void joinNoData(std::string& text) {
+  for (std::size_t at = text.find(' ', 2); at != std::string::npos; at = text.find(' ', at + 1)) {
+    const bool may_be = text[at - 1] == 'o' || text[at - 1] == 'O';
+    if (may_be && lowered(text.substr(at - 2, 7)) == "no data") text.erase(at, 1);
+  }
+}
+
 /// Signs that may group thousands: seldom, so that nothing is copied for the lines without.
 bool hasSignsBeyondNumbers(const std::string& text) {
   return std::any_of(text.begin(), text.end(),
@@ -128,6 +136,7 @@ TextLines textLines(const std::string& bytes) {
     } else {
       if (begins_block) lines.blocks.push_back(lines.data.size());
       begins_block = false;
+      joinNoData(content);
       lines.data.push_back({number, content});
     }
   }

@@ -97,6 +97,7 @@ const std::map<std::string, std::vector<Example>> kRows = {
      {written("a.txt", "1.5 nan\n2.5 3.5\n", 1), written("a.asc", "1.5\tinf\n2.5\t3.5\n", 1),
       written("a.csv", "1.5,,2\n4,5,6\n", 1)}},
     {"`.xyz`", {written("a.xyz", "0 0 1.5\n1 0 2.5\n0 1 0.5\n1 1 0.25\n0 2 7.5\n", 1)}},
+    {"`.grd`", {written("a.grd", "DSAA\n3 2\n0 2e-9\n0 1e-9\n0 1e-9\n0 1e-9 0\n2e-9 1.70141e+38 5e-10\n", 1)}},
     {"`.gwy`", {written("a.gwy", gwy_bytes::example(), 1)}},
     {"`.stp` `.top`", {written("a.stp", wsxmImage(), 0), published("top-1.top")}},
     {"`.sur`", {written("a.sur", sur(Sur{}), 1), published("misread/sur-2.sur", 117)}},

@@ -54,6 +54,83 @@ std::string refusal(const std::string& text) {
 
 bool mentions(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
+TEST(TextGrid, ReadsHeadingsOfWsxmWykoAndKeyence) {
+  FileChannel channel = parseTextGrid(
+      "WSxM file copyright UAM\nWSxM ASCII Matrix file\nX Amplitude: 4 \xB5m\nY Amplitude: 500nm\n"
+      "Z Amplitude: 4.841 nm\n" +
+      written("\t"));
+  expectNumbers(channel, 1e-9);
+  EXPECT_DOUBLE_EQ(channel.width, 4e-6);
+  EXPECT_DOUBLE_EQ(channel.height, 500e-9);
+
+  const std::string wyko =
+      "\nX Size\t5\nY Size\t4\nBlock Name\tType\tLength\tValue\nPixel_size\t7\t4\t0.002\n"
+      "Wavelength\t7\t4\t632.8\nMult\t7\t4\t2\nRAW_DATA\t3\t80\t\n";
+  channel = parseTextGrid("Wyko ASCII Data File Format 0\t0\t1" + wyko + written("\t"));
+  expectNumbers(channel, 632.8e-9 / 2.0);
+  EXPECT_DOUBLE_EQ(channel.width, 8e-6);
+  EXPECT_DOUBLE_EQ(channel.height, 10e-6);
+  std::string with_bad = "Wyko ASCII Data File Format 0\t1\t1" + wyko + written("\t");
+  with_bad.replace(with_bad.find("0.437"), 5, "Bad");
+  channel = parseTextGrid(with_bad);
+  EXPECT_TRUE(std::isnan(channel.values.at<double>(0, 0)));
+  EXPECT_DOUBLE_EQ(channel.values.at<double>(0, 1), 1.041e-9);
+
+  const std::string keyence =
+      "\"Measured date\",\"2024-02-03 10:11:12\"\n\"Model\",\"VK-X3000 Series\"\n"
+      "\"XY Calibration\",\"7.413\",\"um\"\n\"Output image data\",\"Height\"\n\"Horizontal\",\"4\"\n"
+      "\"Vertical\",\"5\"\n\"Unit\",\"um\"\n\"Reference data name\",\"\"\n\n\"Height\"\n";
+  channel = parseTextGrid(keyence + written(",", '.', "\n", "\""));
+  expectNumbers(channel, 1e-6);
+  EXPECT_EQ(channel.title, "Height");
+  EXPECT_DOUBLE_EQ(channel.width, 4 * 7.413e-6);
+  EXPECT_TRUE(channel.notes.empty());
+}
+
+TEST(TextGrid, HoldsTheSizesOfTheseHeadingsAgainstTheNumbers) {
+  expectNumbers(parseTextGrid("h=5 w=4\n" + written(" ")));
+  expectNumbers(parseTextGrid("# w=4 h=5\n" + written(" ")));
+  EXPECT_TRUE(mentions(refusal("h=5 w=5\n" + written(" ")), "states 5 x 5 numbers, the file has 4 x 5"));
+  EXPECT_TRUE(mentions(refusal("Wyko ASCII Data File Format 0\t1\t1\nX Size\t4\n" + written("\t")), "states 0 x 4"));
+  EXPECT_TRUE(mentions(refusal("Wyko ASCII Data File Format 0\t0\t1\nX Size\t5\n" + written("\t")), "no wavelength"));
+  EXPECT_TRUE(
+      mentions(refusal("\"XY Calibration\",\"7\",\"um\"\n\"Horizontal\",\"9\"\n" + written(",")), "states 9 x 0"));
+}
+
+TEST(TextGrid, EveryWordForNoNumberIsOne) {
+  for (const std::string word : {"NA", "N/A", "null", "---", "BAD", "No Data", "#N/A", "nan", "-inf"}) {
+    for (const std::string separator : {",", ";", "\t"}) {
+      std::string text = written(separator);
+      text.replace(text.find("0.125"), 5, word);
+      const FileChannel channel = parseTextGrid(text);
+      ASSERT_EQ(channel.values.size(), cv::Size(4, 5)) << word;
+      EXPECT_TRUE(std::isnan(channel.values.at<double>(1, 1))) << word;
+      EXPECT_EQ(cv::countNonZero(channel.values == channel.values), 19) << word;
+    }
+  }
+}
+
+TEST(SurferGrid, RowsComeFromTheLowestYOn) {
+  const FileChannel channel =
+      parseSurferGrid("DSAA\r\n3 2\r\n10 14\r\n-1 1\r\n0 6\r\n1 2\r\n3\r\n\r\n4 1.70141e+038 6\r\n");
+  ASSERT_EQ(channel.values.size(), cv::Size(3, 2));
+  EXPECT_EQ(channel.values.at<double>(1, 0), 1.0);
+  EXPECT_EQ(channel.values.at<double>(1, 2), 3.0);
+  EXPECT_EQ(channel.values.at<double>(0, 0), 4.0);
+  EXPECT_TRUE(std::isnan(channel.values.at<double>(0, 1)));
+  EXPECT_DOUBLE_EQ(channel.width, 6.0);  // nodes 2 apart
+  EXPECT_DOUBLE_EQ(channel.height, 4.0);
+  EXPECT_EQ(channel.unit_xy, "");
+}
+
+TEST(SurferGrid, WhatIsDamagedIsRefused) {
+  for (const char* text : {"DSAA\n3 2\n0 1\n0 1\n0 1\n1 2 3\n4 5", "DSAA\n3 2\n0 1\n0 1\n0 1\n1 2 3\n4 5 6 7\n",
+                           "DSAA\n3 1\n0 1\n0 1\n0 1\n1 2 3\n", "DSAA\n3 2\n1 1\n0 1\n0 1\n1 2 3\n4 5 6\n",
+                           "DSAA\n3 2\n0 1\n0 1\n0 1\n1 2 x\n4 5 6\n", "DSAA\n", "DSAA\n900000 900000\n0 1\n"}) {
+    EXPECT_THROW(parseSurferGrid(text), FileError) << text;
+  }
+}
+
 TEST(TextGrid, DecimalCommasAreReadWhereOtherSignsSeparate) {
   for (const std::string separator : {";", "; ", "\t", " ", "   "}) {
     SCOPED_TRACE("'" + separator + "'");

@@ -202,7 +202,11 @@ std::vector<Slip> slips() {
       {"units of z alone", list("x\ty\tz [nm]\n", true), {}, "write x [nm], y [nm], z [nm]"},
       {"units without that of z", list("x [nm]\ty [nm]\tz\n", true), {}, "write x [nm], y [nm], z [nm]"},
       {"y before x", list("y [nm]\tx [nm]\tz [m]\n", true), {}, "in this order"},
-      {"a matrix of WSxM", "WSxM file copyright UAM\nWSxM ASCII Matrix file\n" + kPlain, {}, "'WSxM' is not a number"},
+      {"a matrix of WSxM", "WSxM file copyright UAM\nWSxM ASCII Matrix file\n" + kPlain, kHeights, ""},
+      {"a matrix of WSxM of currents",
+       "WSxM file copyright UAM\nWSxM ASCII Matrix file\nX Amplitude: 3 bars\n" + kPlain,
+       {},
+       "'bars' is not a unit of length"},
       {"decimal commas in a list",
        "0,0\t2,0\t0,500\n2,0\t2,0\t0,250\n4,0\t2,0\t0,750\n"
        "0,0\t0,0\t1,500\n2,0\t0,0\t0,125\n4,0\t0,0\t0,375\n",
@@ -220,7 +224,7 @@ std::vector<Slip> slips() {
       {"exponents of Fortran", "0.5D0 2.5D-01 7.5d-1\n1.5D+00 1.25D-1 3.75D-1\n", kHeights, ""},
       // ---- Words for none
       {"words for none", "BAD;0.25;N/A\n1.5;null;---\n", {{kNone, 0.25, kNone}, {1.5, kNone, kNone}}, ""},
-      {"two words for none", "No Data\t0.25\n1.5\t0.75\n", {}, "not a number"},
+      {"two words for none", "No Data\t0.25\n1.5\t0.75\n", {{kNone, 0.25}, {1.5, 0.75}}, ""},
       {"a spreadsheet's word for none",
        "#N/A\t0.25\n1.5\t#N/A\n0.7\t0.1\n",
        {{kNone, 0.25}, {1.5, kNone}, {0.7, 0.1}},

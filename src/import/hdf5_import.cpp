@@ -1,0 +1,172 @@
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "files/child_process.hpp"
+#include "files/interruption.hpp"
+#include "import/file_bytes.hpp"
+#include "import/format_readers.hpp"
+#include "import/plain_number.hpp"
+#include "mems_stiction/errors/errors.hpp"
+#include "mems_stiction/settings/option_visitor.hpp"
+
+namespace mems_stiction {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kList = "channels";
+constexpr int kNoLibrary = 3;
+constexpr int kOtherLayout = 4;
+
+/// Writes each channel as N.npy, and a line "title, width, height, unit, note" between tabs. Lengths are in metres.
+constexpr const char* kScript = R"(
+import sys
+sys.path = [folder for folder in sys.path if folder]
+try:
+    import h5py
+    import numpy
+except ImportError:
+    sys.exit(3)
+LENGTHS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "\u00b5m": 1e-6, "\u03bcm": 1e-6, "nm": 1e-9, "pm": 1e-12, "A": 1e-10, "\u00c5": 1e-10}
+
+
+def text(value):
+    value = value.item() if hasattr(value, "item") else value
+    return value.decode("utf-8", "replace") if isinstance(value, bytes) else str(value)
+
+
+def number(value):
+    return float(numpy.asarray(value).reshape(-1)[0])
+
+
+def jpk(file):
+    for measurement in sorted(name for name in file if name.startswith("Measurement_")):
+        grid = file[measurement].attrs
+        if "position-pattern.grid.ilength" not in grid:
+            continue
+        columns = int(number(grid["position-pattern.grid.ilength"]))
+        rows = int(number(grid.get("position-pattern.grid.jlength", columns)))
+        width = number(grid["position-pattern.grid.ulength"])
+        height = number(grid.get("position-pattern.grid.vlength", width * rows / columns))
+        for name in sorted(name for name in file[measurement] if name.startswith("Channel_")):
+            group = file[measurement][name]
+            arrays = [item for item in group.values() if isinstance(item, h5py.Dataset) and item.ndim in (1, 2)]
+            arrays = [item for item in arrays if item.shape[0] == rows * columns]
+            if "channel.name" not in group.attrs or len(arrays) != 1:
+                continue
+            title = text(group.attrs["channel.name"]).strip()
+            frames = arrays[0].shape[1] if arrays[0].ndim == 2 else 1
+            values = numpy.asarray(arrays[0][:, 0] if arrays[0].ndim == 2 else arrays[0][:], dtype=float)
+            values = values * number(group.attrs.get("net-encoder.scaling.multiplier", 1.0))
+            values = values + number(group.attrs.get("net-encoder.scaling.offset", 0.0))
+            unit = "m" if "height" in title.lower() else text(group.attrs.get("net-encoder.scaling.unit.unit", "V"))
+            way = "retrace" if text(group.attrs.get("retrace", False)).strip().lower() in ("true", "1") else "trace"
+            note = "the first of %d frames" % frames if frames > 1 else ""
+            yield title + " " + way, numpy.flipud(values.reshape(rows, columns)), width, height, unit, note
+
+
+def topostats(file):
+    if "pixel_to_nm_scaling" not in file:
+        return
+    pitch = 1e-9 * number(file["pixel_to_nm_scaling"][()])
+    for name, title in (("image", "Height"), ("image_original", "Image as TopoStats found it")):
+        if name in file and isinstance(file[name], h5py.Dataset) and file[name].ndim == 2:
+            values = 1e-9 * numpy.asarray(file[name], dtype=float)
+            yield title, values, pitch * values.shape[1], pitch * values.shape[0], "m", ""
+
+
+def surface_topography(file):
+    if "heights" not in file or file["heights"].ndim != 2:
+        return
+    values = numpy.array(file["heights"], dtype=float)
+    if "mask" in file:
+        values[numpy.asarray(file["mask"]) != 0] = numpy.nan
+    sides, unit = [], text(file["heights"].attrs.get("unit", ""))
+    for axis in ("x", "y"):
+        attributes = file[axis].attrs if axis in file else {}
+        unit = unit or text(attributes.get("unit", ""))
+        scale = LENGTHS.get(text(attributes.get("unit", "")), 0.0)
+        sides.append(scale * number(attributes["length"]) if "length" in attributes else 0.0)
+    if unit in LENGTHS:
+        values, unit = values * LENGTHS[unit], "m"
+    yield "heights", values.T, sides[0], sides[1], unit, ""
+
+
+def main(path, folder):
+    try:
+        file = h5py.File(path, "r")
+    except OSError:
+        sys.exit(4)
+    lines = []
+    for layout in (jpk, topostats, surface_topography):
+        for title, values, width, height, unit, note in layout(file):
+            numpy.save("%s/%d.npy" % (folder, len(lines)), numpy.ascontiguousarray(values, dtype="<f8"))
+            words = [title.replace("\t", " ").replace("\n", " "), repr(width), repr(height), unit, note]
+            lines.append("\t".join(words) + "\n")
+    if not lines:
+        sys.exit(4)
+    with open(folder + "/channels", "w", encoding="utf-8") as stream:
+        stream.writelines(lines)
+
+
+main(sys.argv[1], sys.argv[2])
+)";
+
+ChildResult runReader(const std::string& python, const std::string& path, const std::string& folder, double timeout) {
+  return runChild({python, "-c", kScript, path, folder}, environmentWithout({}, {"PYTHONIOENCODING=utf-8"}),
+                  folder + "/log", timeout);
+}
+
+/// The python3 of the PATH may lack the library that the system's has.
+ChildResult readerResult(const std::string& path, const std::string& folder, double timeout) {
+  const ChildResult result = runReader("python3", path, folder, timeout);
+  if (result.started && result.exit_code != kNoLibrary) return result;
+  const ChildResult other = runReader("/usr/bin/python3", path, folder, timeout);
+  return other.started ? other : result;
+}
+
+FileChannel channelOf(const std::string& line, const std::string& npy, int id) {
+  std::vector<std::string> words(1);
+  for (const char c : line) {
+    if (c == '\t') {
+      words.emplace_back();
+    } else {
+      words.back() += c;
+    }
+  }
+  if (words.size() != 5) throw FileError("damaged");
+  FileChannel channel = parseNpy(npy);
+  channel.takes_settings = false;
+  channel.id = id;
+  channel.title = words[0];
+  channel.width = plainNumber(words[1]);
+  channel.height = plainNumber(words[2]);
+  if (channel.width > 0.0 && channel.height > 0.0) channel.unit_xy = "m";
+  channel.unit_z = words[3];
+  if (!words[4].empty()) channel.notes.push_back(words[4]);
+  return channel;
+}
+
+}  // namespace
+
+Hdf5Channels channelsByH5py(const std::string& path, double timeout) {
+  const PrivateFolder folder;
+  const std::string target = folder.path().string();
+  const ChildResult result = readerResult(fs::absolute(path).string(), target, timeout);
+  Hdf5Channels read;
+  if (result.timed_out) throw FileError("h5py did not finish within " + numberText(timeout) + " s and was stopped");
+  if (result.signal != 0) throw FileError("h5py crashed on this file: it is damaged");
+  read.is_library_missing = !result.started || result.exit_code == kNoLibrary;
+  if (read.is_library_missing || result.exit_code == kOtherLayout) return read;
+  std::ifstream list(target + "/" + kList);
+  if (result.exit_code != 0 || !list) throw FileError("its layout is known, but what it should have is not there");
+  int id = 0;
+  for (std::string line; std::getline(list, line); ++id) {
+    read.channels.push_back(channelOf(line, readFileBytes(target + "/" + std::to_string(id) + ".npy"), id));
+  }
+  return read;
+}
+
+}  // namespace mems_stiction
