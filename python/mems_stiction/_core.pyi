@@ -181,6 +181,10 @@ class PredictionFigures:
     """median_contact_pixels is below resolution/min_contact_pixels"""
     is_tip_limited: bool
     """the tip is blunter than the contacts: its radius exceeds median_composite_radius"""
+    tip_limit: float
+    """[m] shorter waves of the scan, and contacts of a smaller diameter, are drawn by the tip: over this length the sharpest summit has half of its curvature; 0 none, NaN where no tip is stated"""
+    below_tip_count: int
+    """contacts at the pull-off that are smaller than tip_limit; -1 not known"""
     pull_off_contact_count: int
     """contacts that hold at the pull-off, on which flags and verdict rest; -1 not known"""
     formulation: str

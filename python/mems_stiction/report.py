@@ -159,7 +159,7 @@ def scan_section(row, folder, stages=(), why_no_stages=""):
             "details": embedded(scan_figure(result)), "figures": _figures(result, FIGURES),
             "half_space": _half_space(picture, result, folder), "cleaning": _cleaning(list(stages), result),
             "why_no_cleaning": _sentence(why_no_stages),
-            "surface": embedded(surface_figure(heights, result["pitch_x"], result["pitch_y"])),
+            "surface": embedded(surface_figure(heights, result["pitch_x"], result["pitch_y"], result.get("tip_limit"))),
             "surface_figures": _figures(result, SURFACE_FIGURES) + surface_figures_of(heights),
             "origin": origin_of(result), "warnings": [row["warnings"]] if row["warnings"] else [], "sticks": result.get("sticks"),
             "releases": verdict_word(result.get("sticks")),

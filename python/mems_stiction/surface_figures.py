@@ -55,7 +55,7 @@ def profile_spectrum(heights, pitch):
     return frequencies[1:], densities.mean(axis=0)[1:], len(rows)
 
 
-def surface_figure(heights, pitch_x, pitch_y):
+def surface_figure(heights, pitch_x, pitch_y, tip_limit=None):
     """A PNG as bytes of the three panels."""
     figure, axes = plt.subplots(1, 3, figsize=(15, 4.3), dpi=100)
     figure.subplots_adjust(left=0.05, right=0.985, top=0.9, bottom=0.14, wspace=0.27)
@@ -67,7 +67,7 @@ def surface_figure(heights, pitch_x, pitch_y):
     limits = (low - room) * scale, (high + room) * scale
     _draw_histogram(axes[0], heights, scale, unit, limits)
     _draw_material_ratio(axes[1], curve, scale, unit, limits)
-    _draw_spectrum(axes[2], heights, pitch_x, pitch_y)
+    _draw_spectrum(axes[2], heights, pitch_x, pitch_y, tip_limit)
     return png_of(figure)
 
 
@@ -120,7 +120,7 @@ def _draw_material_ratio(axes, curve, scale, unit, limits):
     _finish(axes, "Material ratio (bearing) curve")
 
 
-def _draw_spectrum(axes, heights, pitch_x, pitch_y):
+def _draw_spectrum(axes, heights, pitch_x, pitch_y, tip_limit):
     drawn = False
     for rows, pitch, colour, label in ((heights, pitch_x, BLUE, "along x"), (heights.T, pitch_y, ORANGE, "along y")):
         frequencies, densities, count = profile_spectrum(rows, pitch)
@@ -134,6 +134,9 @@ def _draw_spectrum(axes, heights, pitch_x, pitch_y):
         axes.set_axis_off()
         axes.text(0.5, 0.5, "no spectrum: flat, or no line without missing pixels", ha="center", va="center", transform=axes.transAxes, color=GREY)
         return
+    if tip_limit and np.isfinite(tip_limit):
+        axes.axvspan(1e-6 / tip_limit, max(axes.get_xlim()[1], 1e-6 / tip_limit), color=GREY, alpha=0.25, linewidth=0,
+                     label="drawn by the tip, below %s" % with_unit(tip_limit, "m"))
     axes.set_xlabel("spatial frequency [1/µm]; lines end at two pixels")
     axes.set_ylabel("profile PSD [nm³]")
     axes.legend(fontsize=8.5, frameon=False, loc="lower left")

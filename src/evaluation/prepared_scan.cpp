@@ -10,8 +10,10 @@
 #include "evaluation/counter_surface_source.hpp"
 #include "height_map/scan_sanity.hpp"
 #include "mems_stiction/errors/errors.hpp"
+#include "preprocess/recipe.hpp"
 #include "preprocess/refine.hpp"
 #include "preprocess/tilt.hpp"
+#include "roughness/tip_limit.hpp"
 #include "settings/time_limit.hpp"
 #include "surface/wear.hpp"
 
@@ -75,7 +77,9 @@ void addSmoothing(const HeightMap& scan, const PipelineOptions& cleaning, std::v
 }
 
 /// What is smoothed to nothing, or is too small, has no relief to compare a tilt with.
-void addTilt(const HeightMap& cleaned, const PipelineOptions& cleaning, std::vector<std::string>& warnings) {
+/// - @p is_as_measured no step has changed the scan
+void addTilt(const HeightMap& cleaned, const PipelineOptions& cleaning, bool is_as_measured,
+             std::vector<std::string>& warnings) {
   if (isSmoothedAway(cleaned, cleaning)) return;
   if (std::min(cleaned.rows(), cleaned.cols()) < kFewestPixelsOfASide) return;
   if (cleaning.level.shape != LevelShape::kNone) {
@@ -85,7 +89,11 @@ void addTilt(const HeightMap& cleaned, const PipelineOptions& cleaning, std::vec
     return;
   }
   const Tilt tilt = tiltOf(cleaned);
-  if (tilt.isLarge()) warnings.push_back(tilt.advice());
+  if (!tilt.isLarge()) return;
+  warnings.push_back(tilt.advice());
+  if (!is_as_measured) return;
+  const CleaningRecipe recipe = cleaningRecipe(cleaned);
+  if (recipe.needsMoreThanAPlane()) warnings.back() += "; for this scan " + recipe.sentence();
 }
 
 }  // namespace
@@ -112,6 +120,8 @@ ScanPreparer::ScanPreparer(const Configuration& configuration)
       limits_(configuration.limits),
       with_roughness_(configuration.model.output.roughness),
       spatial_roughness_(configuration.spatial_roughness),
+      tip_radius_(configuration.resolution.tip_radius > 0.0 ? configuration.resolution.tip_radius
+                                                            : configuration.preprocessing.tip.radius),
       counter_surface_(std::make_unique<CounterSurfaceSource>(configuration.counter_surface, configuration.scan,
                                                               withoutRegion(cleaner_.options()))) {
   try {
@@ -163,11 +173,12 @@ PreparedScan ScanPreparer::prepare(const HeightMap& scan) {
   prepared.record = std::move(record);
   prepared.warnings = scanWarnings(scan);
   addSmoothing(scan, cleaner_.options(), prepared.warnings);
-  addTilt(cleaned.surface, cleaner_.options(), prepared.warnings);
+  addTilt(cleaned.surface, cleaner_.options(), prepared.record.steps.empty(), prepared.warnings);
   prepared.counter_warnings = counter_surface_->warnings(cleaned.surface);
   prepared.outside = cleaned.outside;
   TimeLimit::check();
   addRoughness(prepared);
+  if (tip_radius_ > 0.0) prepared.tip_limit = tipLimit(prepared.surfaces.lower, tip_radius_);
   prepared.preparation_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return prepared;
 }

@@ -100,6 +100,7 @@ Prediction ScanPredictor::finished(const PreparedScan& prepared, Prediction&& pr
   prediction.roughness = prepared.roughness;
   prediction.spatial_roughness = prepared.spatial_roughness;
   flagResolution(min_contact_pixels_, tip_radius_, prediction);
+  countBelowTip(prepared.tip_limit, prediction);
   if (!prepared.outside.empty()) countRegionAlone(prepared, prediction);
   prediction.processing_time += prepared.preparation_time;
   return std::move(prediction);

@@ -182,6 +182,13 @@ void visitPredictionFields(PredictionType& prediction, Visitor&& visit) {
         prediction.is_resolution_limited);
   visit({"is_tip_limited", "", "the tip is blunter than the contacts: its radius exceeds median_composite_radius"},
         prediction.is_tip_limited);
+  visit({"tip_limit", "m",
+         "shorter waves of the scan, and contacts of a smaller diameter, are drawn by the tip: over this length the "
+         "sharpest "
+         "summit has half of its curvature; 0 none, NaN where no tip is stated"},
+        prediction.tip_limit);
+  visit({"below_tip_count", "", "contacts at the pull-off that are smaller than tip_limit; -1 not known"},
+        prediction.below_tip_count);
   visit({"pull_off_contact_count", "",
          "contacts that hold at the pull-off, on which flags and verdict rest; -1 not known"},
         prediction.pull_off_contact_count);

@@ -61,6 +61,8 @@ class MigrationTest(unittest.TestCase):
         message.spatial_roughness.hurst = 0.8
         message.preprocessing = ["level (shape=plane)"]
         message.regime_flags = 5
+        if "pull_off_contact_count" in message.__slots__:
+            message.pull_off_contact_count = 12
         if "curve" in message.__slots__:
             message.formulation, message.warnings = "separation_curve", ["a stage offset"]
             message.curve = [SeparationPoint(displacement=1e-9, force=2e-7)]
@@ -71,7 +73,7 @@ class MigrationTest(unittest.TestCase):
         return MessageMigrator(rule_files(), plugins=False)
 
     def test_what_was_recorded_stays_and_what_was_not_known_is_nan(self):
-        self.assertEqual(len(old_predictions()), 3)
+        self.assertEqual(len(old_predictions()), 4)
         for old_class in old_predictions():
             self.record(old_class)
             with contextlib.redirect_stdout(io.StringIO()):
@@ -87,7 +89,9 @@ class MigrationTest(unittest.TestCase):
             self.assertEqual((message.roughness.sq, message.spatial_roughness.hurst), (3e-9, 0.8))
             self.assertEqual((message.preprocessing, message.regime_flags), (["level (shape=plane)"], 5))
             self.assertEqual((message.version, message.settings_hash, message.part_id, message.flags), ("", "", "", []))
-            self.assertEqual(message.pull_off_contact_count, -1)
+            self.assertEqual(message.pull_off_contact_count, 12 if "pull_off_contact_count" in old_class.__slots__ else -1)
+            self.assertTrue(math.isnan(message.tip_limit))
+            self.assertEqual(message.below_tip_count, -1)
             if "curve" in old_class.__slots__:
                 self.assertEqual((message.formulation, message.warnings), ("separation_curve", ["a stage offset"]))
                 self.assertEqual([(point.displacement, point.force) for point in message.curve], [(1e-9, 2e-7)])

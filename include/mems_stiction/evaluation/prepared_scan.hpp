@@ -13,6 +13,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -39,7 +40,8 @@ struct PreparedScan {
   cv::Mat outside;                            ///< pixels of the scan that preprocessing/region leaves out; empty = none
   ArealParameters roughness;                  ///< of model_surfaces.lower, if output/roughness asks for it
   SpatialRoughness spatial_roughness;         ///< of surfaces.lower; NaN unless output/spatial_roughness asks for it
-  double preparation_time = 0.0;              ///< wall time of prepare() [s], part of the time of the scan's prediction
+  double tip_limit = std::numeric_limits<double>::quiet_NaN();  ///< of surfaces.lower [m]; NaN where no tip is stated
+  double preparation_time = 0.0;  ///< wall time of prepare() [s], part of the time of the scan's prediction
 };
 
 /// Surfaces on the model's grid that have become `after` of prepared.model_surfaces, as those of the scan's grid: each
@@ -90,6 +92,7 @@ class ScanPreparer {
   ScanLimits limits_;
   bool with_roughness_;
   SpatialRoughnessOptions spatial_roughness_;
+  double tip_radius_;  ///< of the tip that drew the scan [m]; 0 = not known
   std::unique_ptr<CounterSurfaceSource> counter_surface_;
   std::atomic<std::uint64_t> scans_cleaned_{0};
 };

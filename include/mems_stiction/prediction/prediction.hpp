@@ -105,6 +105,8 @@ struct Prediction {
   double median_composite_radius = 0.0;
   bool is_resolution_limited = false;
   bool is_tip_limited = false;
+  double tip_limit = std::numeric_limits<double>::quiet_NaN();
+  int below_tip_count = -1;
   SpatialRoughness spatial_roughness;  ///< of the scan; NaN unless output/spatial_roughness is set
 };
 

@@ -25,4 +25,8 @@ struct ResolutionOptions {
 /// - @p tip_radius [m]; 0 = not known
 void flagResolution(double min_contact_pixels, double tip_radius, Prediction& prediction);
 
+/// Sets tip_limit, and below_tip_count by the contacts that hold at the pull-off.
+/// - @p tip_limit [m]; NaN = not known
+void countBelowTip(double tip_limit, Prediction& prediction);
+
 }  // namespace mems_stiction

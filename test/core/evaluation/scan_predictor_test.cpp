@@ -304,6 +304,23 @@ TEST(Resolution, FewPixelsAndBluntTipsSetTheirFlags) {
   EXPECT_FALSE(ScanPredictor(configuration).predict(coarse).is_resolution_limited);
 }
 
+TEST(Resolution, AStatedTipCountsTheContactsThatItHasDrawn) {
+  const HeightMap scan = analytic::paraboloid(301, 301, 2e-9, 2e-9, 1e-6, 0.7e-9, 0.3e-9);
+  Configuration configuration = pressed(1e-6);
+  Prediction prediction = ScanPredictor(configuration).predict(scan);
+  EXPECT_TRUE(std::isnan(prediction.tip_limit));
+  EXPECT_EQ(prediction.below_tip_count, -1);
+  configuration.resolution.tip_radius = 0.4e-6;  // half of its curvature is more than the summit's
+  prediction = ScanPredictor(configuration).predict(scan);
+  EXPECT_EQ(prediction.tip_limit, 0.0);
+  EXPECT_EQ(prediction.below_tip_count, 0);
+  configuration.resolution.tip_radius = 0.0;
+  configuration.preprocessing.tip.radius = 0.8e-6;  // sharper than any tip of 0.8 um: its own shape all over
+  prediction = ScanPredictor(configuration).predict(analytic::paraboloid(301, 301, 2e-9, 2e-9, 1e-6, 0.7e-9, 0.3e-9));
+  EXPECT_GT(prediction.tip_limit, 0.0);
+  EXPECT_EQ(prediction.below_tip_count, prediction.pull_off_contact_count);
+}
+
 TEST(Resolution, TheDefaultLimitIsWhereASpheresRadiusIsWithinFivePercent) {
   // What config/stiction.yaml says about 12 pixels.
   Configuration configuration = paperConfiguration();
