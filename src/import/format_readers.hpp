@@ -95,6 +95,12 @@ GxsmStatements gxsmStatements(const std::string& bytes);
 /// group thousands, sizes and units that are stated twice, numbers that were cut off.
 FileChannel parseTextGrid(const std::string& bytes, const TextOptions& options = {});
 
+/// NanoScope's text exports: its heading, whose lines begin with a backslash, then a line of names "Height_Sensor(nm)" and a
+/// line of numbers for each point, row by row.
+/// @return a channel for each column
+/// @throw FileError cut off, without number of points or names.
+std::vector<FileChannel> parseNanoscopeText(const std::string& bytes);
+
 /// Surfer's text grids (DSAA): numbers of nodes, limits of x, y and z, then rows from the lowest y on. Blank nodes are NaN.
 /// @return a channel that takes settings; x and y are in the unit of z.
 /// @throw FileError cut off, more numbers than stated, ranges that do not grow.

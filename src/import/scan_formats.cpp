@@ -148,6 +148,8 @@ std::vector<FileChannel> readChannels(const std::string& path, const ImportOptio
   if (readKnown(path, bytes, options, channels)) return channels;
   const std::string name_end = lowered(std::filesystem::path(path).extension().string());
   for (const char* text : {".txt", ".asc", ".csv", ".xyz"}) {
+    const bool is_nanoscope = beginsWithOneOf(bytes, {"\\*File list", "\"\\*File list"});
+    if (name_end == text && is_nanoscope) return parseNanoscopeText(bytes);
     if (name_end == text) return {parseTextGrid(bytes, options.text)};
   }
   if (beginsWithOneOf(bytes, {"GWYO", "GWYQ"})) return readOtherGwy(path, bytes, options);

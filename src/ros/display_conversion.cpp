@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <opencv2/imgproc.hpp>
+
 #include <sensor_msgs/image_encodings.h>
 #include <sensor_msgs/point_cloud2_iterator.h>
 #include <std_msgs/ColorRGBA.h>
@@ -127,6 +129,62 @@ class PreviewGrid {
   double step_y_ = 1.0;
 };
 
+/// Heights from dark to bright [m].
+struct GreyRange {
+  double low = 0.0;
+  double high = 0.0;
+  double mean = 0.0;
+};
+
+GreyRange greyRange(const std::vector<double>& heights, double stated) {
+  std::vector<double> sorted;
+  std::copy_if(heights.begin(), heights.end(), std::back_inserter(sorted),
+               [](double height) { return std::isfinite(height); });
+  if (sorted.empty()) return {0.0, 1e-15, 0.0};
+  std::sort(sorted.begin(), sorted.end());
+  GreyRange range;
+  for (const double height : sorted) range.mean += (height - sorted.front()) / static_cast<double>(sorted.size());
+  range.mean += sorted.front();
+  const auto at = [&](double share) {
+    return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+  };
+  range.low = stated > 0.0 ? range.mean - 0.5 * stated : at(0.01);
+  range.high = stated > 0.0 ? range.mean + 0.5 * stated : range.low + std::max(at(0.99) - range.low, 1e-15);
+  return range;  // a flat surface is dark
+}
+
+constexpr int kBarGap = 4;           // pixels
+constexpr int kBarWidth = 12;        // pixels
+constexpr int kBarTextWidth = 64;    // pixels
+constexpr int kLeastBarHeight = 40;  // pixels: three lines of text
+constexpr double kBarTextScale = 0.35;
+
+/// The picture with a bar to its right: bright at the top, with the heights above the mean of both ends and of the middle.
+void addBar(const GreyRange& range, sensor_msgs::Image& image) {
+  const cv::Mat picture(static_cast<int>(image.height), static_cast<int>(image.width), CV_8UC1, image.data.data());
+  const int height = std::max(picture.rows, kLeastBarHeight);
+  cv::Mat with_bar(height, picture.cols + kBarGap + kBarWidth + kBarTextWidth, CV_8UC1, cv::Scalar(0));
+  picture.copyTo(with_bar(cv::Rect(0, 0, picture.cols, picture.rows)));
+  const int left = picture.cols + kBarGap;
+  for (int row = 0; row < height; ++row) {
+    const double grey = 255.0 - 254.0 * row / (height - 1);
+    with_bar(cv::Rect(left, row, kBarWidth, 1)).setTo(std::lround(grey));
+  }
+  const double span = range.high - range.low;
+  for (const double share : {0.0, 0.5, 1.0}) {
+    const double above_mean = range.high - share * span - range.mean;
+    const std::string sign = above_mean < -1e-3 * span ? "-" : "";
+    const int baseline = 10 + static_cast<int>(std::lround(share * (height - 13)));
+    cv::putText(with_bar, sign + lengthText(std::abs(above_mean) < 1e-3 * span ? 0.0 : std::abs(above_mean)),
+                cv::Point(left + kBarWidth + kBarGap, baseline), cv::FONT_HERSHEY_SIMPLEX, kBarTextScale,
+                cv::Scalar(255));
+  }
+  image.height = static_cast<std::uint32_t>(with_bar.rows);
+  image.width = static_cast<std::uint32_t>(with_bar.cols);
+  image.step = image.width;
+  image.data.assign(with_bar.datastart, with_bar.dataend);
+}
+
 }  // namespace
 
 sensor_msgs::PointCloud2 surfacePoints(const Prediction& prediction, const HeightMap& scan,
@@ -237,20 +295,13 @@ sensor_msgs::Image previewImage(const HeightMap& surface, const std_msgs::Header
     const double* line = heights.ptr<double>(grid.scanRow(row));
     for (int col = 0; col < grid.cols(); ++col) shown.push_back(line[grid.scanCol(col)]);
   }
-  std::vector<double> sorted;
-  std::copy_if(shown.begin(), shown.end(), std::back_inserter(sorted),
-               [](double height) { return std::isfinite(height); });
-  std::sort(sorted.begin(), sorted.end());
-  const auto at = [&](double share) {
-    return sorted.empty() ? 0.0 : sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
-  };
-  const double low = at(0.01);
-  const double range = std::max(at(0.99) - low, 1e-15);  // a flat surface is dark
+  const GreyRange range = greyRange(shown, options.preview_range);
   for (const double height : shown) {
-    const double level =
-        std::isfinite(height) ? 1.0 + 254.0 * std::min(std::max((height - low) / range, 0.0), 1.0) : 0.0;
+    const double share = (height - range.low) / (range.high - range.low);
+    const double level = std::isfinite(height) ? 1.0 + 254.0 * std::min(std::max(share, 0.0), 1.0) : 0.0;
     image.data.push_back(static_cast<std::uint8_t>(std::lround(level)));
   }
+  if (options.preview_bar) addBar(range, image);
   return image;
 }
 

@@ -30,7 +30,8 @@ visualization_msgs::MarkerArray asperityMarkers(const Prediction& prediction, co
 
 /// The surface as a mono8 picture, low dark and high bright: 1 at the height that 1 % of the pixels lie below, 255 at
 /// that of 99 %; 0 where invalid. Its pixels are squares, also where the pitches of the scan differ: a round particle is
-/// round. Rows and columns are thinned out to keep options.max_preview_size.
+/// round. Rows and columns are thinned out to keep options.max_preview_size. With options.preview_range dark and bright
+/// are half of it below and above the mean; with options.preview_bar a bar to the right says which grey is which height.
 sensor_msgs::Image previewImage(const HeightMap& surface, const std_msgs::Header& header,
                                 const DisplayOptions& options);
 

@@ -176,6 +176,12 @@ void DisplayOptions::describe(OptionVisitor& visitor) {
                  "smaller contacts get discs of this size, so that they are seen");
   visitor.integer("display/max_preview_size", max_preview_size, Range::within(1, 32768),
                   "pixels of the longer side of preview");
+  visitor.number(
+      "display/preview_range", preview_range, "m", Range::nonNegative(),
+      "height from dark to bright in preview, half of it on either side of the mean, so that scans compare; 0 = "
+      "from that which 1 % of the pixels lie below to that of 99 %");
+  visitor.flag("display/preview_bar", preview_bar,
+               "a bar beside preview with the heights of its greys above the mean; the picture is then wider");
 }
 
 void TransformOptions::describe(OptionVisitor& visitor) {

@@ -34,6 +34,8 @@ struct DisplayOptions {
   int max_markers = 500;             ///< of asperity_markers; the contacts with the largest loads are shown
   double min_marker_diameter = 0.1;  ///< of a disc on the screen, so that small contacts are seen [m], >= 0
   int max_preview_size = 512;        ///< pixels of the longer side of preview
+  double preview_range = 0.0;        ///< height from dark to bright, about the mean [m]; 0 = by each scan's own heights
+  bool preview_bar = false;          ///< beside the preview stands which grey is which height
 
   void describe(OptionVisitor& visitor);
 };

@@ -45,6 +45,50 @@ TEST(Preview, IsAPictureOfTheValidPixels) {
   }
 }
 
+/// Heights 0, 1, 2 ... nm from left to right.
+HeightMap ramp(int rows, int cols) {
+  cv::Mat heights(rows, cols, CV_64FC1);
+  for (int col = 0; col < cols; ++col) heights.col(col).setTo(1e-9 * col);
+  return {heights, 1e-8, 1e-8};
+}
+
+TEST(Preview, AStatedRangeIsTheSameForEveryScan) {
+  DisplayOptions display;
+  display.preview_range = 20e-9;
+  for (const double lift : {0.0, 3e-6}) {
+    const HeightMap surface(ramp(5, 5).heights() + lift, 1e-8, 1e-8);
+    const sensor_msgs::Image image = previewImage(surface, {}, display);
+    for (int col = 0; col < 5; ++col) {  // 2 nm on either side of the mean, of 10
+      EXPECT_NEAR(image.data[static_cast<std::size_t>(col)], 128.0 + 12.7 * (col - 2), 0.6) << col;
+    }
+  }
+  const sensor_msgs::Image beyond = previewImage(ramp(1, 101), {}, display);
+  EXPECT_EQ(beyond.data[0], 1);
+  EXPECT_EQ(beyond.data[100], 255);
+}
+
+TEST(Preview, ABarSaysWhichGreyIsWhichHeight) {
+  DisplayOptions display;
+  const sensor_msgs::Image alone = previewImage(ramp(100, 60), {}, display);
+  display.preview_bar = true;
+  const sensor_msgs::Image image = previewImage(ramp(100, 60), {}, display);
+  ASSERT_EQ(image.height, 100U);
+  ASSERT_GT(image.width, 60U + 12U);
+  ASSERT_EQ(image.data.size(), static_cast<std::size_t>(image.step) * image.height);
+  EXPECT_EQ(image.step, image.width);
+  const auto at = [&](std::size_t row, std::size_t col) { return image.data[row * image.step + col]; };
+  for (std::size_t row = 0; row < 100; ++row) {
+    for (std::size_t col = 0; col < 60; ++col) ASSERT_EQ(at(row, col), alone.data[row * 60 + col]);
+    EXPECT_NEAR(at(row, 60 + 8), 255.0 - 254.0 * static_cast<double>(row) / 99.0, 0.6);
+  }
+  int text = 0;
+  for (std::size_t row = 0; row < 100; ++row) {
+    for (std::size_t col = 60 + 20; col < image.width; ++col) text += at(row, col) > 128 ? 1 : 0;
+  }
+  EXPECT_GT(text, 60) << "numbers at both ends and in the middle";
+  EXPECT_GE(previewImage(ramp(3, 60), {}, display).height, 40U) << "room for the numbers";
+}
+
 /// A disc of height 1 nm and of the given diameter in the middle of a plane of 0.6 um.
 HeightMap disc(double diameter, double pitch_x, double pitch_y) {
   const double size = 0.6e-6;
