@@ -14,6 +14,7 @@ NO_EQUILIBRIUM = 2  # StictionPrediction.status
 VERDICTS = {0: ("releases", "RELEASES"), 1: ("marginal", "MARGINAL"), 2: ("sticks", "STICKS"), 3: ("unknown", "NOT KNOWN")}
 LEVELS = ("ok", "warn", "error", "stale")  # diagnostic_msgs/DiagnosticStatus.level
 DEVICE_REFUSED = 2  # DeviceAdhesion.status
+WIDEST_INTERVAL = 1e4  # upper over lower end of a ratio that is shown as a number
 HALF_SPACE_STATES = ("solved", "load not reached", "not converged", "too many states", "cancelled", "refused")
 
 
@@ -77,6 +78,12 @@ def ratio_of(prediction):
             "text": ratio_text(value), "interval": interval}
 
 
+def says_nothing(shown):
+    """Whether the interval of a ratio spans so many decades that the number in it is none."""
+    lower, upper = shown["lower"], shown["upper"]
+    return lower is not None and upper is not None and upper > WIDEST_INTERVAL * lower
+
+
 def flags_of(prediction):
     """The flags that are set, in words; a part has no doubt of a model's own."""
     return [flag_words([name], getattr(prediction, "model_doubt", "")) for name in flag_names(prediction.regime_flags)]
@@ -105,7 +112,11 @@ def part_of(part):
     if not part.counted_scans and part.reason.startswith("the device is not stated"):
         level, word = "none", "NO VERDICT"
     worst = getattr(part, "worst_" + name)
-    return {"name": part_name(part), "level": level, "word": word, "reason": sentence(part.reason), "ratio": ratio_of(part),
+    shown, reason = ratio_of(part), sentence(part.reason)
+    if shown and says_nothing(shown):
+        counted = "%d scan%s" % (part.counted_scans, " says" if part.counted_scans == 1 else "s say")
+        shown, reason = None, "%s nothing of the %s yet. %s" % (counted, shown["label"], reason)
+    return {"name": part_name(part), "level": level, "word": word, "reason": reason, "ratio": shown,
             "verdict_by": judge_word(part.verdict_by), "settings_hash": part.settings_hash,
             "scans": "%d scan%s" % (part.scan_count, "" if part.scan_count == 1 else "s")
                      + ("" if part.counted_scans == part.scan_count else ", %d count" % part.counted_scans),

@@ -155,7 +155,7 @@ GreyRange greyRange(const std::vector<double>& heights, double stated) {
 
 constexpr int kBarGap = 4;           // pixels
 constexpr int kBarWidth = 12;        // pixels
-constexpr int kBarTextWidth = 64;    // pixels
+constexpr int kBarTextWidth = 84;    // pixels
 constexpr int kLeastBarHeight = 40;  // pixels: three lines of text
 constexpr double kBarTextScale = 0.35;
 
@@ -173,9 +173,10 @@ void addBar(const GreyRange& range, sensor_msgs::Image& image) {
   const double span = range.high - range.low;
   for (const double share : {0.0, 0.5, 1.0}) {
     const double above_mean = range.high - share * span - range.mean;
-    const std::string sign = above_mean < -1e-3 * span ? "-" : "";
+    const bool is_mean = std::abs(above_mean) < 0.01 * span;
+    const std::string sign = above_mean < 0.0 && !is_mean ? "-" : "";
     const int baseline = 10 + static_cast<int>(std::lround(share * (height - 13)));
-    cv::putText(with_bar, sign + lengthText(std::abs(above_mean) < 1e-3 * span ? 0.0 : std::abs(above_mean)),
+    cv::putText(with_bar, sign + lengthText(is_mean ? 0.0 : std::abs(above_mean)),
                 cv::Point(left + kBarWidth + kBarGap, baseline), cv::FONT_HERSHEY_SIMPLEX, kBarTextScale,
                 cv::Scalar(255));
   }

@@ -267,6 +267,13 @@ class WordsTest(unittest.TestCase):
         bare = part_of(part_message(margin=NAN, worst_margin=NAN, counted_scans=0, sticks=3, reason="the device is not stated: it needs", verdict_by=""))
         self.assertEqual((bare["word"], bare["ratio"], bare["worst"]), ("NO VERDICT", None, None))
 
+    def test_two_scans_that_say_nothing_of_a_part_show_no_number(self):
+        shown = part_of(part_message(scan_count=2, counted_scans=2, margin=6.18, margin_lower=9.57e-11, margin_upper=2.07e12, sticks=1, reason="why"))
+        self.assertEqual((shown["word"], shown["ratio"]), ("MARGINAL", None))
+        self.assertEqual(shown["reason"], "2 scans say nothing of the margin yet. Why.")
+        known = part_of(part_message(scan_count=2, counted_scans=2, margin=6.18, margin_lower=0.1, margin_upper=90.0, reason="why"))
+        self.assertEqual((known["ratio"]["interval"], known["reason"]), ("95 %: 0.1 to 90", "Why."))
+
     def test_a_part_is_the_newest_scans_or_said_to_be_before_it(self):
         state = PageState()
         state.add_part(1 * SECOND, part_message())

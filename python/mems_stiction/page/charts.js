@@ -153,10 +153,17 @@ function drawAxes(svg, chart, place) {
   let xTicks = ticksOf(chart.x.low, chart.x.high, (place.right - place.left) / 90);
   if (chart.x.whole) xTicks = xTicks.filter(Number.isInteger);
   const yTicks = chart.y.log ? logTicksOf(chart.y.low, chart.y.high, (place.bottom - place.top) / 24) : ticksOf(chart.y.low, chart.y.high, (place.bottom - place.top) / 42);
+  // Over more than three decades each tick has its own prefix, since one for all would need 0.000001 of it.
+  const hasOwnPrefixes = Boolean(chart.y.log && chart.y.unit && chart.y.high > 1e3 * chart.y.low);
+  const yText = (tick) => {
+    if (!hasOwnPrefixes) return shortNumber(tick / yFactor);
+    const [factor, prefix] = prefixFor(tick);
+    return `${shortNumber(tick / factor)} ${prefix}`;
+  };
   for (const tick of yTicks) {
     const y = place.y(tick);
     svg.append(element("line", {x1: place.left, x2: place.right, y1: y, y2: y, stroke: Math.abs(tick) < 1e-30 ? "#a8adb8" : "#3a3f4a"}));
-    svg.append(element("text", {x: place.left - 8, y: y + 5, "text-anchor": "end"}, shortNumber(tick / yFactor)));
+    svg.append(element("text", {x: place.left - 8, y: y + 5, "text-anchor": "end"}, yText(tick)));
   }
   for (const tick of xTicks) {
     const x = place.x(tick);
@@ -166,7 +173,7 @@ function drawAxes(svg, chart, place) {
   const unit = (axis, prefix) => axis.unit ? ` [${prefix}${axis.unit}]` : "";
   svg.append(element("text", {class: "label", x: (place.left + place.right) / 2, y: place.bottom + 38, "text-anchor": "middle"}, chart.x.label && chart.x.label + unit(chart.x, xPrefix)));
   const middle = (place.top + place.bottom) / 2;
-  const label = element("text", {class: "label", x: 16, y: middle, "text-anchor": "middle", transform: `rotate(-90 16 ${middle})`}, chart.y.label + unit(chart.y, yPrefix));
+  const label = element("text", {class: "label", x: 16, y: middle, "text-anchor": "middle", transform: `rotate(-90 16 ${middle})`}, chart.y.label + unit(chart.y, hasOwnPrefixes ? "" : yPrefix));
   svg.append(label);
   fitInto(label, svg.clientHeight, middle);
 }

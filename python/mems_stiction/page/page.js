@@ -85,7 +85,7 @@ function showPart() {
   const shown = part && part.is_newest ? state.scan.flags : [];  // above, of the newest scan
   const flags = part ? part.flags.filter((text) => !shown.includes(text)) : [];
   // that of a part that releases is its interval, which stands above
-  const said = part ? (part.level === "releases" ? [] : [part.reason]).concat(part.warnings.map((text) => `Warning: ${text}.`)) : [];
+  const said = part ? (part.level === "releases" && part.ratio ? [] : [part.reason]).concat(part.warnings.map((text) => `Warning: ${text}.`)) : [];
   say("part-reason", said.concat(flags.length ? [`Of its other scans: ${flags.join("; ")}.`] : []).join(" "));
 }
 
@@ -243,6 +243,8 @@ function showCurve() {
       (half.verdict ? ` Judged by ${half.verdict.by}: ${half.verdict.word}, ${half.verdict.ratio.label} ${half.verdict.ratio.text}` +
         (half.verdict.ratio.interval ? ` (${half.verdict.ratio.interval})` : "") + "." : "") + half.notes.map((note) => ` But ${note}.`).join("") : "");
   const all = [curve, halfCurve].filter(Boolean).flatMap((one) => one.in.concat(one.out));
+  fillKeys("curve-keys", curve ? [["#7fb2ff", "solid", "approach"], ["#f2b705", "solid", "retraction"]] : [],
+           halfCurve ? [["#8f7fc4", "dotted", "half-space, approach"], ["#c6a8ff", "solid", "half-space, retraction"]] : []);
   if (!all.length) { byId("force-curve").replaceChildren(); return; }
   const strongest = Math.max(...all.map((point) => point[1]), 1e-30);
   const near = all.filter((point) => Math.abs(point[1]) > 0.02 * strongest && point[1] > -1.2 * strongest);
@@ -258,6 +260,17 @@ function showCurve() {
     marks: curve ? [{x: curve.peak[0], y: curve.peak[1], colour: "#ff5a4f", radius: 8}] : [],
     texts: curve ? [{x: curve.peak[0], y: curve.peak[1], text: `pull-off ${curve.text}`}] : [],
   });
+}
+
+/** What the lines of a chart are: a piece of each, and its name. */
+function fillKeys(id, ...groups) {
+  byId(id).replaceChildren(...groups.flat().map(([colour, style, text]) => {
+    const item = document.createElement("li");
+    const piece = document.createElement("span");
+    piece.style.borderTop = `3px ${style} ${colour}`;
+    item.append(piece, text);
+    return item;
+  }));
 }
 
 function signedLength(metres) {
