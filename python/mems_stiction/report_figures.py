@@ -19,6 +19,7 @@ ELASTIC_LIMIT, PLASTIC_LIMIT = 0.6, 1.1  # of the plasticity index
 GREY = "#555555"
 LAST_STEPS = 30  # of the approach, around the equilibrium
 STEEP_SHARE = 0.15  # of the approach: may leave the picture of the energies
+SUM = "#5b6675"  # of bars that are sums: a black one outshouts what it is made of
 PRESSING = (("van der Waals", "van_der_waals_force", "#4c78a8"), ("electrostatic", "electrostatic_force", "#f2a33c"),
             ("mechanical", "mechanical_load", "#7f7f7f"), ("capillary", "capillary_force", "#54a89e"))
 HOLDING = (("contacts (JKR)", "pull_off_force_jkr", "#b0413e"), ("van der Waals", "van_der_waals_force", "#4c78a8"),
@@ -175,12 +176,12 @@ def _draw_forces(axes, result):
     rows = [(label, number(result[name]), colour) for label, name, colour in PRESSING]
     if result["force_curve"]:
         rows[0] = ("adhesion at rest",) + rows[0][1:]
-    rows.append(("normal load, their sum", number(result["normal_load"]), "black"))
+    rows.append(("normal load, their sum", number(result["normal_load"]), SUM))
     if result["force_curve"]:  # adhesion is followed as a whole
-        rows.append(("pull-off force, the largest", number(result["pull_off_force"]), "black"))
+        rows.append(("pull-off force, the largest", number(result["pull_off_force"]), SUM))
     else:
         rows += [(label, number(result[name]), colour) for label, name, colour in HOLDING]
-        rows.append(("pull-off force, their sum", number(result["pull_off_force"]), "black"))
+        rows.append(("pull-off force, their sum", number(result["pull_off_force"]), SUM))
     places = [place + (place > len(PRESSING)) for place in range(len(rows))]
     widths, unit = scaled([value for _, value, _ in rows], "N")
     axes.barh(places, widths, color=[colour for _, _, colour in rows], height=0.72)
