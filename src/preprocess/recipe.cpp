@@ -37,6 +37,7 @@ std::vector<double> stepsOf(const cv::Mat& heights, int first, int last) {
 /// Beyond this, a step is that of a feature.
 double limitOf(const std::vector<double>& steps) {
   std::vector<double> distances;
+  distances.reserve(steps.size());
   for (const double step : steps) distances.push_back(std::abs(step));
   return kFarOut * 1.4826 * medianOf(distances);
 }
