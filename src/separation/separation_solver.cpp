@@ -45,10 +45,11 @@ void SeparationSolver::solve(const ContactProblem& problem, ContactSolution& sol
   } else {
     solution.energies.elastic += bent_.energyAtRest() * curve_.frame().area();
     const double contact_area = curve_.byContacts().contact_area;
+    const BentContact::Parting& parting = bent_.parting();
     const ContactProblem strongest = {problem.surfaces, bent_.strongest(), problem.composite_rms_height, settings};
     curve_.comeToRest(strongest.gap, settings);
     curve_.part();
-    takeWayOut(bentWayOut(contact_area), solution);
+    takeWayOut(bentWayOut(parting, contact_area), solution);
     listPullOffContacts(strongest, solution);
   }
   solution.model = CurveStatement::of(solution, gamma, bends);
@@ -64,8 +65,7 @@ void SeparationSolver::comeToRest(const ContactProblem& problem, ContactSolution
   fillMaps(problem, solution);
 }
 
-WayOut SeparationSolver::bentWayOut(double contact_area) const {
-  const BentContact::Parting& parting = bent_.parting();
+WayOut SeparationSolver::bentWayOut(const BentContact::Parting& parting, double contact_area) const {
   WayOut way_out;
   way_out.force = parting.force;
   way_out.work = parting.work;

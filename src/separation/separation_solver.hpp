@@ -48,7 +48,7 @@ class SeparationSolver : public ContactSolver {
   void takeDecision(bool is_conforming, ContactSolution& solution) const;
   /// Of bodies that spring back on the way, once the curve has followed the relief where they hold most.
   /// - @p contact_area at rest [m^2]
-  WayOut bentWayOut(double contact_area) const;
+  WayOut bentWayOut(const BentContact::Parting& parting, double contact_area) const;
   void takeWayOut(const WayOut& way_out, ContactSolution& solution) const;
   /// The contacts that hold at the pull-off: patches within reach of the attraction there.
   void listPullOffContacts(const ContactProblem& problem, ContactSolution& solution);

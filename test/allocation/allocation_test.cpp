@@ -64,7 +64,8 @@ TEST_P(RepeatedFrame, AgainstARoughCounterSurfaceAllocatesNothing) {
 
 INSTANTIATE_TEST_SUITE_P(Outputs, RepeatedFrame, testing::Values(false, true));
 
-TEST(RepeatedScan, IsCleanedWithoutAllocation) {
+/// What levelling left is measured on a sample of 64 x 64 pixels, whatever the size of the scan.
+TEST(RepeatedScan, IsCleanedWithoutAllocationButForTheSampleOfItsTilt) {
   const HeightMap scan = frame(1);
   PipelineOptions options;
   options.offset.enabled = true;
@@ -77,6 +78,14 @@ TEST(RepeatedScan, IsCleanedWithoutAllocation) {
   ASSERT_EQ(cleaner.clean(scan).record.steps[2].changed_pixels, 0);
   startCountingAllocations();
   cleaner.clean(scan);
+  const AllocationCount with_tilt = stopCountingAllocations();
+  EXPECT_LT(with_tilt.peak, static_cast<std::ptrdiff_t>(8 * 64 * 64 * sizeof(double)));
+
+  options.level.shape = LevelShape::kNone;
+  ScanCleaner without_level(options);
+  without_level.clean(scan);
+  startCountingAllocations();
+  without_level.clean(scan);
   const AllocationCount count = stopCountingAllocations();
   EXPECT_EQ(count.calls, 0);
 }

@@ -34,7 +34,7 @@ def sphere(pixels, radius=100e-9, pitch=2e-9):
 
 
 def rough(pixels, rms_height):
-    """Smoothed noise [m]; 0.3 nm are near bonding on pixels of 10 nm."""
+    """Smoothed noise [m]; 0.45 nm are near bonding on pixels of 10 nm."""
     noise = np.random.RandomState(1).normal(size=(pixels, pixels))
     ky, kx = np.meshgrid(np.fft.fftfreq(pixels), np.fft.rfftfreq(pixels), indexing="ij")
     smooth = np.fft.irfft2(np.fft.rfft2(noise) * np.exp(-(kx**2 + ky**2) * 200.0), s=(pixels, pixels))
@@ -179,7 +179,7 @@ class HalfSpaceBatchTest(unittest.TestCase):
         self.assertIn("(half-space)", plain_text)
 
     def test_scans_whose_flags_ask_for_it_are_solved_by_themselves(self):
-        surfaces = {"smooth": 3e-10, "rough": 5e-9, "large": 3e-10}
+        surfaces = {"smooth": 4.5e-10, "rough": 5e-9, "large": 4.5e-10}
         for name, rms_height in surfaces.items():
             np.savetxt(str(self.folder / (name + ".txt")), rough(72 if name == "large" else 64, rms_height))
         inputs = [self.folder / (name + ".txt") for name in surfaces]
@@ -206,7 +206,7 @@ class HalfSpaceBatchTest(unittest.TestCase):
         self.assertFalse([name for name in self.rows("plain.csv")[0] if name.startswith("half_space")])
 
     def test_a_report_shows_what_flags_asked_for(self):
-        for name, rms_height in (("smooth", 3e-10), ("rough", 5e-9)):
+        for name, rms_height in (("smooth", 4.5e-10), ("rough", 5e-9)):
             np.savetxt(str(self.folder / (name + ".txt")), rough(64, rms_height))
         self.config.write_text("scan: {pitch_x: 1.0e-8, pitch_y: 1.0e-8}\n"
                                "device: {spring_stiffness: 1.0, travel: 1.0e-6, contact_area: 4.096e-13}\ndevice_force: {enabled: false}\n")

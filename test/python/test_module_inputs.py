@@ -168,7 +168,7 @@ class VerdictTest(unittest.TestCase):
         self.assertEqual((predicted.verdict.verdict_by, predicted.half_space), ("prediction", None))
 
     def test_scans_whose_flags_ask_for_it_are_solved_by_themselves(self):
-        smooth, pitch = rough(48, 48, 3e-10, length=12), 5e-9
+        smooth, pitch = rough(48, 48, 1.5e-10, length=12), 5e-9
         settings = {"device": dict(DEVICE, contact_area=(48 * pitch) ** 2), "device_force": {"enabled": False}}
         solved = mems_stiction.half_space(smooth, pitch, settings)
         for given in ({}, {"half_space": "auto"}, {"half_space": {"enabled": "flagged"}}):

@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -155,9 +157,12 @@ TEST_F(VendorImport, EveryScanIsImportedToTheLastBitAndPredictedAlike) {
   }
   const Outcome from_vendor = predictScan("--json -l 1e-6 -c " + cleaning + joined(scans_) + joined(bad_));
   EXPECT_EQ(from_vendor.status, 2);
-  EXPECT_EQ(from_vendor.errors.size(), bad_.size());
-  for (std::size_t i = 0; i < from_vendor.errors.size(); ++i) {
-    EXPECT_NE(from_vendor.errors[i].find(bad_[i].string()), std::string::npos) << from_vendor.errors[i];
+  std::vector<std::string> errors;
+  std::copy_if(from_vendor.errors.begin(), from_vendor.errors.end(), std::back_inserter(errors),
+               [](const std::string& line) { return line.find(": warning: ") == std::string::npos; });
+  ASSERT_EQ(errors.size(), bad_.size());
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    EXPECT_NE(errors[i].find(bad_[i].string()), std::string::npos) << errors[i];
   }
   const Outcome from_tiff = predictScan("--json -l 1e-6 -c " + cleaning + joined(tiffs));
   EXPECT_EQ(from_tiff.status, 0);

@@ -136,14 +136,14 @@ TEST_F(PredictScanHalfSpace, JudgesTheDeviceAndSaysSo) {
 
 TEST_F(PredictScanHalfSpace, ScansWhoseFlagsAskForItAreSolvedAndJudgedByThemselves) {
   GaussianSurfaceOptions options;
-  options.rows = options.cols = 48;
+  options.rows = options.cols = 64;
   options.pitch_x = options.pitch_y = 5e-9;
   options.correlation_length_x = options.correlation_length_y = 60e-9;
-  options.rms_height = 0.3e-9;
+  options.rms_height = 0.4e-9;
   writeHeightTiff(folder_.file("smooth.tiff"), gaussianSurface(options).heights());
   const auto record = [&](const std::string& arguments, const std::string& half_space) {
     const std::string device =
-        "device: {spring_stiffness: 1e-2, travel: 1e-6, contact_area: 5.76e-14}\ndevice_force: {enabled: false}\n";
+        "device: {spring_stiffness: 1e-2, travel: 1e-6, contact_area: 1.024e-13}\ndevice_force: {enabled: false}\n";
     const std::string file = folder_.write("flagged.yaml", device + "half_space: {" + half_space + "}\n");
     const Outcome outcome = run("--json --pitch 5e-9 -c " + file + " " + arguments + folder_.file("smooth.tiff"));
     EXPECT_EQ(outcome.status, 0);
@@ -167,7 +167,7 @@ TEST_F(PredictScanHalfSpace, ScansWhoseFlagsAskForItAreSolvedAndJudgedByThemselv
   const nlohmann::json bounded = record("", "max_flagged_pixels: 2000");
   EXPECT_FALSE(bounded.contains("half_space"));
   EXPECT_EQ(bounded["margin"], never["margin"]);
-  const std::string sentence = "a frame of 48 x 48 pixels is larger than half_space/max_flagged_pixels = 2000";
+  const std::string sentence = "a frame of 64 x 64 pixels is larger than half_space/max_flagged_pixels = 2000";
   EXPECT_NE(bounded["reason"].get<std::string>().find(sentence), std::string::npos) << bounded["reason"];
   ASSERT_EQ(bounded["errors"].size(), 1U);
   EXPECT_NE(bounded["errors"][0].get<std::string>().find("half-space: near_bonding asks for it: " + sentence),

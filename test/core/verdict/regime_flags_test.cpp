@@ -43,7 +43,7 @@ TEST(RegimeFlags, nearBondingIsAsTheModelSays) {
     prediction.model.doubt = doubt;
     const std::uint32_t flags = regimeFlags(prediction, kCell);
     EXPECT_EQ((flags & kNearBondingFlag) != 0, doubt != nullptr);
-    EXPECT_EQ(flagsForHalfSpace(flags) != 0, doubt != nullptr);
+    EXPECT_EQ((flagsForHalfSpace(flags) & kNearBondingFlag) != 0, doubt != nullptr);
     EXPECT_EQ(modelDoubt(prediction), doubt != nullptr ? "it tears" : "");
   }
 }
