@@ -66,9 +66,7 @@ std::string modelDoubt(const Prediction& prediction) {
   return prediction.model.doubt != nullptr ? prediction.model.doubt : "";
 }
 
-std::uint32_t flagsForHalfSpace(std::uint32_t flags) {
-  return flags & (kNoEquilibriumFlag | kNearBondingFlag);
-}
+std::uint32_t flagsForHalfSpace(std::uint32_t flags) { return flags & (kNoEquilibriumFlag | kNearBondingFlag); }
 
 std::vector<std::string> regimeFlagList(std::uint32_t flags) {
   const std::pair<RegimeFlag, const char*> names[] = {{kBondedFlag, "bonded"},
