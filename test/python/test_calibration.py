@@ -161,6 +161,18 @@ class KindsTest(unittest.TestCase):
         self.assertAlmostEqual(found.measurements.fitted[0] / device.pull_off_force, 1.0, delta=0.05)
 
 
+class DocumentTest(unittest.TestCase):
+    def test_the_measurements_of_the_document_are_read(self):
+        text = (REPOSITORY / "doc" / "process.md").read_text(encoding="utf-8")
+        listed = yaml.safe_load(text.split("```yaml\n")[1].split("```")[0])
+        for datum in listed:
+            datum.update(scans=SURFACES[0], pitch=PITCH)
+        data = measurements_of(listed, None, {})
+        self.assertEqual([datum.kind for datum in data], ["pull_off_force", "pull_off_force", "detachment_length", "crack_length"])
+        self.assertEqual([datum.value for datum in data], [2.1e-7, 6e-6, 3.5e-4, 2.4e-4])
+        self.assertEqual([datum.place.humidity for datum in data], [0.0, 0.0, 0.0, 0.4])
+
+
 class FacesTest(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
