@@ -64,7 +64,7 @@ def _draw_kind(axes, kind, rows):
     axes.set_xlim(*ends)
     axes.set_ylim(*ends)
     unit = typeset(prefix + UNITS[kind])
-    axes.set_title(kind.replace("_", " "), fontsize=11)
+    axes.set_title(kind.replace("pull_off", "pull-off").replace("_", " "), fontsize=11)
     axes.set_xlabel("fitted [%s]" % unit)
     axes.set_ylabel("measured [%s]" % unit)
     axes.grid(color="#dddddd", linewidth=0.6)

@@ -26,6 +26,8 @@ constexpr double kGoesOn = 1.05;
 constexpr double kRounding = 0.05;
 /// Pixels along the side of a frame where cells in reach are too many to be kept one by one.
 constexpr std::int64_t kFrameSide = 4096;
+/// The same of a plate that tilts, which comes to rest again and again.
+constexpr std::int64_t kTiltedSide = 2048;
 /// Pixels along the side of what is shown of a surface, at most.
 constexpr std::int64_t kShownSide = 512;
 
@@ -89,6 +91,18 @@ void checkDepth(const AreaCells& cells, const AreaAdhesion& found) {
 
 }  // namespace
 
+std::string whyLevel(const DevicePieces& pieces) {
+  if (pieces.count > 1 || pieces.area_ratio > 1.5) {
+    return "device/guidance: free: the plate of a device of several contacts, or of more pixels than are made, stays "
+           "level "
+           "here: where its contacts lie is not known";
+  }
+  if (pieces.size.rows <= kTiltedSide) return "";
+  return "device/guidance: free: a plate of " + std::to_string(pieces.size.cols) + " x " +
+         std::to_string(pieces.size.rows) + " pixels stays level here, " + std::to_string(kTiltedSide) + " x " +
+         std::to_string(kTiltedSide) + " can be tilted";
+}
+
 std::int64_t rowInArea(const DevicePieces& pieces, int piece, std::int64_t row) {
   return piece * (pieces.size.rows + kRowsBetween) + row;
 }
@@ -141,9 +155,17 @@ void DeviceAreaSolver::warnOnce(const std::string& warning) {
 }
 
 Realisation DeviceAreaSolver::realise(DeviceSurface& surface) {
-  Gatherer gatherer(pieces_);
   std::optional<ShownSurface> shown;
   if (made_surface_.empty()) shown.emplace(pieces_.size);
+  if (tilts()) {
+    const cv::Mat frame = frameOf(surface);
+    if (shown) {
+      shown->add(0, 0, frame);
+      made_surface_ = shown->surface();
+    }
+    return followFrame(frame);
+  }
+  Gatherer gatherer(pieces_);
   surface.visitTiles(0, surface.rows(), [&](int piece, std::int64_t row, std::int64_t col, const cv::Mat& tile) {
     gatherer.add(piece, row, col, tile);
     if (shown && piece == 0) shown->add(row, col, tile);
@@ -181,6 +203,7 @@ Realisation DeviceAreaSolver::realise(const std::vector<HeightMap>& lower, const
 
 Realisation DeviceAreaSolver::follow(const AreaCells& cells, const std::vector<AreaCells>& quarters,
                                      const std::function<cv::Mat()>& frame) {
+  if (tilts()) return followFrame(frame());
   const AreaAdhesion found = areaAdhesion(cells, loadedOn(model_, loaded_area_, cells.area()));
   checkDepth(cells, found);
   if (found.reach != AreaReach::kEnough) return followFrame(frame());

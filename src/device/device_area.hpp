@@ -29,10 +29,15 @@ struct AreaGrowth {
   double work = 1.0;
 };
 
+/// Why a plate that may tilt cannot do so over a device, as a sentence: where its contacts lie is not known, or it is not made whole.
+/// Empty if it can.
+std::string whyLevel(const DevicePieces& pieces);
+
 /// Brings made surfaces to contact.
 class DeviceAreaSolver {
  public:
-  /// - @p model its mechanical load presses an area of `loaded_area` [m^2]
+  /// - @p model its mechanical load presses an area of `loaded_area` [m^2]; where its plate may tilt, the pieces are one
+  ///   contact that is made whole (whyLevel()), which is a frame then
   DeviceAreaSolver(const Options& model, double loaded_area, const DevicePieces& pieces);
 
   /// On a surface that is made.
@@ -62,6 +67,7 @@ class DeviceAreaSolver {
   Realisation follow(const AreaCells& cells, const std::vector<AreaCells>& quarters,
                      const std::function<cv::Mat()>& frame);
   Realisation followFrame(const cv::Mat& relief);
+  bool tilts() const { return model_.guidance != Guidance::kGuided; }
   void warnOnce(const std::string& warning);
 
   Options model_;

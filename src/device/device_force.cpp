@@ -258,24 +258,23 @@ void takeConforming(const std::vector<Prediction>& predictions, const Options& m
   force.warnings.emplace_back("the scans' surfaces conform and bond all over: force and work go with area");
 }
 
-/// Of a part whose bodies are thin, or that may tilt.
-DeviceForce forceOfStructure(const DeviceSurfaces& surfaces, const DeviceArea& area, const Options& model,
-                             const UncertaintyOptions& uncertainty, const DeviceForceOptions& options,
-                             const std::function<void(double)>& on_progress) {
-  const Options stiff = stiffModel(model);
-  const bool is_thin = model.lower.thickness > 0.0 || model.upper.thickness > 0.0;
-  const double length =
-      is_thin ? mosaicLength(surfaces, area, model, options) : std::numeric_limits<double>::infinity();
-  DeviceArea place = area;
-  if (std::isfinite(length)) place = {length * length, 1};
-  DeviceForce force = deviceForce(surfaces, place, stiff, uncertainty, options, on_progress);
-  if (std::isfinite(length)) {
-    takePlaces(area, length, force);
-  } else if (is_thin) {
+/// Of a part whose bodies are thin.
+DeviceForce forceOfThinBodies(const DeviceSurfaces& surfaces, const DeviceArea& area, const Options& model,
+                              const UncertaintyOptions& uncertainty, const DeviceForceOptions& options,
+                              const std::function<void(double)>& on_progress) {
+  const double length = mosaicLength(surfaces, area, model, options);
+  Options stiff = stiffModel(model);
+  if (!std::isfinite(length)) {
+    stiff.guidance = model.guidance;
+    DeviceForce force = deviceForce(surfaces, area, stiff, uncertainty, options, on_progress);
     force.warnings.emplace_back("bodies of this thickness are stiff over the whole contact: no wave of it bends them");
+    return force;
   }
+  DeviceForce force = deviceForce(surfaces, {length * length, 1}, stiff, uncertainty, options, on_progress);
+  takePlaces(area, length, force);
   if (model.guidance != Guidance::kGuided) {
-    force.warnings.emplace_back("device/guidance: free is taken for frames alone: made surfaces stay level");
+    force.warnings.emplace_back(
+        "device/guidance: free changes nothing here: a thin body bends down to its contacts before it would tilt");
   }
   return force;
 }
@@ -286,9 +285,10 @@ DeviceForce deviceForce(const DeviceSurfaces& surfaces, const DeviceArea& area, 
                         const UncertaintyOptions& uncertainty, const DeviceForceOptions& options,
                         const std::function<void(double)>& on_progress) {
   checkDevice(surfaces, area, options);
-  if (model.guidance != Guidance::kGuided || model.lower.thickness > 0.0 || model.upper.thickness > 0.0) {
-    return forceOfStructure(surfaces, area, model, uncertainty, options, on_progress);
+  if (model.lower.thickness > 0.0 || model.upper.thickness > 0.0) {
+    return forceOfThinBodies(surfaces, area, model, uncertainty, options, on_progress);
   }
+  const Options level = stiffModel(model);  // of scans, which are parts of a plate
   DeviceForce force;
   force.area = area.area;
   const auto progress = [&](double share) {
@@ -296,7 +296,7 @@ DeviceForce deviceForce(const DeviceSurfaces& surfaces, const DeviceArea& area, 
   };
   progress(0.0);
 
-  AdhesionModel adhesion(model);
+  AdhesionModel adhesion(level);
   const double finest = finestPitch(mapsOf(surfaces.scans));
   const std::vector<HeightMap> counter_surface = mapsOf(surfaces.counter_surface);
   const double loaded_area = areaOf(surfaces.scans.front().surface);
@@ -304,7 +304,7 @@ DeviceForce deviceForce(const DeviceSurfaces& surfaces, const DeviceArea& area, 
   double force_per_area = 0.0;
   for (const NamedScan& scan : surfaces.scans) {
     if (!showsSummits(scan.surface, finest)) continue;
-    adhesion.setOptions(loadedOn(model, loaded_area, areaOf(scan.surface)));
+    adhesion.setOptions(loadedOn(level, loaded_area, areaOf(scan.surface)));
     predictions.push_back(adhesion.predict(underCounterSurface(scan.surface, counter_surface)));
     const Prediction& prediction = predictions.back();
     force_per_area += prediction.pull_off_force / prediction.nominal_area;
@@ -337,10 +337,19 @@ DeviceForce deviceForce(const DeviceSurfaces& surfaces, const DeviceArea& area, 
   Logs others;  // by what other scans of the same surfaces would give
   std::vector<double> counts;
   std::vector<double> gaps;
-  DeviceAreaSolver solver(model, areaOf(surfaces.scans.front().surface), pieces);
+  Options of_plate = level;
+  if (model.guidance != Guidance::kGuided) {
+    const std::string why_level = whyLevel(pieces);
+    if (why_level.empty()) {
+      of_plate.guidance = model.guidance;
+    } else {
+      force.warnings.push_back(why_level);
+    }
+  }
+  DeviceAreaSolver solver(of_plate, loaded_area, pieces);
   StatedSurfaces made(known, pieces);
   std::optional<LawCheck> check;
-  if (!has_parts) check.emplace(model, known.lower(), known.upper());
+  if (!has_parts) check.emplace(level, known.lower(), known.upper());
   for (int i = 0; i < options.realisations; ++i) {
     const std::uint64_t seed = realisationSeed(options, i);
     const Realisation realisation =

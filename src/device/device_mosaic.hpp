@@ -19,7 +19,7 @@ namespace mems_stiction {
 double mosaicLength(const DeviceSurfaces& surfaces, const DeviceArea& area, const Options& model,
                     const DeviceForceOptions& options);
 
-/// The model with thick bodies, whose frame stays level.
+/// The model with thick bodies, whose plate stays level.
 Options stiffModel(const Options& model);
 
 /// The force of a device from that of one place of its mosaic.

@@ -8,6 +8,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "device/device_area.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
 #include "roughness/half_spectrum.hpp"
@@ -263,6 +264,43 @@ TEST_F(DeviceForceTest, thinBodiesAreAMosaicWhoseForceGoesWithArea) {
   EXPECT_EQ(twice.area, 2.0 * areaOfPixels(1200));
   model_.lower.thickness = 0.0;
   EXPECT_GT(once.pull_off_force, 1.5 * force(areaOfPixels(1200)).pull_off_force);
+}
+
+/// A plate that tilts comes to rest on more contacts than the one that is highest.
+TEST_F(DeviceForceTest, aPlateOfOneContactTilts) {
+  const DeviceForce guided = force(areaOfPixels(420));
+  model_.guidance = Guidance::kFree;
+  const DeviceForce free = force(areaOfPixels(420));
+  EXPECT_LT(free.separation_at_rest, guided.separation_at_rest);
+  EXPECT_GT(free.pull_off_force, guided.pull_off_force);
+  EXPECT_TRUE(free.warnings.empty()) << free.warnings.front();
+  EXPECT_EQ(free.linear_pull_off_force, guided.linear_pull_off_force);
+}
+
+/// The same made surface, as the frame that it is.
+TEST_F(DeviceForceTest, aTiltedPlateIsTheFramesOwn) {
+  model_.guidance = Guidance::kFree;
+  const DevicePieces pieces = piecesOf({areaOfPixels(300), 1}, kPitch, 1e6);
+  const DeviceLaws laws = lawsOf(surfaces_, options_, TailForm::kExponential);
+  DeviceSurface surface(laws, pieces, 5);
+  DeviceAreaSolver solver(model_, areaOfPixels(256), pieces);
+  const Realisation found = solver.realise(surface);
+  cv::Mat relief(300, 300, CV_32FC1);
+  surface.heights(0, 0, relief);
+  const Prediction whole = AdhesionModel(model_).predict(HeightMap(relief, kPitch, kPitch));
+  EXPECT_EQ(found.pull_off_force, whole.pull_off_force);
+  EXPECT_EQ(found.apparent_work_of_adhesion, whole.apparent_work_of_adhesion);
+  EXPECT_EQ(found.separation_at_rest, whole.mean_gap);
+}
+
+TEST_F(DeviceForceTest, platesThatCannotBeTiltedStayLevelAndSaySo) {
+  const DeviceForce guided = force(areaOfPixels(420), 4);
+  model_.guidance = Guidance::kFree;
+  const DeviceForce free = force(areaOfPixels(420), 4);
+  EXPECT_EQ(free.pull_off_force, guided.pull_off_force);
+  EXPECT_TRUE(isTold(free, "where its contacts lie is not known"));
+  EXPECT_NE(whyLevel(piecesOf({areaOfPixels(3000), 1}, kPitch, 1e8)).find("3000 x 3000 pixels"), std::string::npos);
+  EXPECT_EQ(whyLevel(piecesOf({areaOfPixels(2048), 1}, kPitch, 1e8)), "");
 }
 
 TEST_F(DeviceForceTest, aBlockIsAsGoodAsThickAndSaysSo) {
