@@ -101,6 +101,7 @@ void BentContact::flow(const GapField& at_rest) {
 
 void BentContact::part() {
   parting_ = {};
+  strongest_ = at_rest_.clone();  // where nothing holds
   const double range = plate_.frame().law().range();
   const double most = plate_.frame().law().workOfAdhesion();
   const Way way = wayOutOf(way_in_, range);

@@ -33,6 +33,7 @@ void spreadEdges(std::vector<SeparationState>& states) {
     if (states[i].is_in_reach) continue;
     states[i].edge_share = states[i + 1].edge_share;
     states[i].edge_slope = states[i + 1].edge_slope;
+    states[i].width = states[i + 1].width;
   }
 }
 

@@ -182,6 +182,16 @@ TEST(BentContact, thinnerBodiesLieCloserAndNeedLessToLieFlat) {
   }
 }
 
+/// Nothing holds them on the way out, which has no strongest place then.
+TEST(BentContact, bodiesWithoutAdhesionPart) {
+  Options options = thin(kLength / 12.0, 1e-7);
+  options.interface.work_of_adhesion = 0.0;
+  const Prediction found = predict(roughness(2e-9), options);
+  EXPECT_EQ(found.pull_off_force, 0.0);
+  EXPECT_EQ(found.apparent_work_of_adhesion, 0.0);
+  EXPECT_GT(found.contact_area, 0.0);
+}
+
 TEST(BentContact, whatABlockHoldsOffAFilmLiesFlatOn) {
   const cv::Mat1d heights = roughness(1.1e-9);
   const Prediction block = predict(heights, thin(0.0));
