@@ -22,6 +22,8 @@ struct Stopped {};
 
 /// Parts that wait; the one that has waited longest goes.
 constexpr std::size_t kMostWaiting = 100;
+/// Scans that wait for a half-space (HalfSpaceStream), and so half-spaces whose device may still be at hand.
+constexpr std::size_t kMostHalfSpaces = 8;
 
 Prediction withoutMaps(Prediction prediction) {
   prediction.deformed_lower.release();
@@ -89,7 +91,8 @@ void DeviceForceStream::offer(const StationCase& scan, const PredictedScan& pred
             {scan.header, provenance, predicted.pool_settings_hash, predicted.scan_id},
             settings,
             scan.scan,
-            withoutMaps(predicted.prediction)};
+            withoutMaps(predicted.prediction),
+            predicted.half_space};
   const ScanStatement statement = statementOf(provenance.scan_name, predicted.prediction, predicted.verdict);
   std::vector<Task> gone;
   {
@@ -129,8 +132,12 @@ void DeviceForceStream::takeHalfSpace(const StationCase& scan, const SolvedHalfS
   taken.solution.deformed_lower = taken.solution.deformed_upper = HeightMap();
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    half_space_ = std::move(taken);
-    if (!last_ || !is_judged_ || !half_space_->isOf(last_->newest, forceHash(*last_->settings, true))) return;
+    const auto is_older = [&](const HalfSpaceOfScan& other) { return other.isOf(taken.scan, taken.hash); };
+    half_spaces_.erase(std::remove_if(half_spaces_.begin(), half_spaces_.end(), is_older), half_spaces_.end());
+    half_spaces_.push_front(std::move(taken));
+    if (half_spaces_.size() > kMostHalfSpaces) half_spaces_.pop_back();
+    const bool is_of_last = last_ && half_spaces_.front().isOf(last_->newest, forceHash(*last_->settings, true));
+    if (!is_of_last || !is_judged_ || !parts_.of(last_->part)) return;
     const auto is_newer = [this](const Task& waiting) { return waiting.part == last_->part; };
     if (std::any_of(waiting_.begin(), waiting_.end(), is_newer)) return;
     ++counts_.offered;
@@ -150,7 +157,11 @@ void DeviceForceStream::loop() {
       if (stopping_) return;
       task = std::move(waiting_.back());
       waiting_.pop_back();
-      part = parts_.of(task->part);  // there as long as its scan waits
+      part = parts_.of(task->part);  // there as long as its scan waits, but for one that is to be judged again
+      if (!part) {
+        ++counts_.skipped;
+        continue;
+      }
       last_ = task;
       is_judged_ = false;
     }
@@ -222,14 +233,21 @@ DeviceAdhesion DeviceForceStream::find(const Task& task, const ScannedPart& part
     force = scaled(std::move(force), by_force, by_work);
   }
   std::optional<HalfSpaceOfScan> half_space;
+  SolvedHalfSpace unsolved;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (half_space_ && half_space_->isOf(task.newest, hash)) half_space = half_space_;
+    const auto known = std::find_if(half_spaces_.begin(), half_spaces_.end(),
+                                    [&](const HalfSpaceOfScan& other) { return other.isOf(task.newest, hash); });
+    if (known != half_spaces_.end()) half_space = *known;
     is_judged_ = true;
   }
   if (half_space) {
     evidence.half_space = &half_space->solution;
     evidence.why_half_space = half_space->why;
+  } else if (!task.half_space.objection.empty()) {
+    unsolved = unsolvedHalfSpace(task.half_space.objection);
+    evidence.half_space = &unsolved;
+    evidence.why_half_space = task.half_space.why;
   }
   if (part.taken > part.scans.size()) {
     force.warnings.push_back("only " + std::to_string(part.scans.size()) + " of " + std::to_string(part.taken) +

@@ -14,6 +14,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <mutex>
 #include <optional>
@@ -24,6 +25,7 @@
 #include <diagnostic_updater/DiagnosticStatusWrapper.h>
 #include <ros/node_handle.h>
 
+#include "evaluation/half_space_call.hpp"
 #include "evaluation/part_surfaces.hpp"
 #include "half_space/solution_pause.hpp"
 #include "ros/device_force_conversion.hpp"
@@ -75,8 +77,9 @@ class DeviceForceStream {
     PartName part;
     ScanOfPart scan;
     SettingsOwner::Snapshot settings;
-    PreparedScan newest;    ///< its surfaces
-    Prediction prediction;  ///< of it, without maps
+    PreparedScan newest;       ///< its surfaces
+    Prediction prediction;     ///< of it, without maps
+    HalfSpaceCall half_space;  ///< that was asked for
   };
   /// What was found last, to judge by it again.
   struct Found {
@@ -98,7 +101,7 @@ class DeviceForceStream {
     std::uint64_t failed = 0;   ///< published as REFUSED
   };
 
-  /// The newest half-space, and what it is of.
+  /// A half-space, and what it is of.
   struct HalfSpaceOfScan {
     PreparedScan scan;
     std::string hash;  ///< of the settings that bear on the device's force
@@ -123,10 +126,10 @@ class DeviceForceStream {
   std::atomic<bool> stopping_{false};
 
   mutable std::mutex mutex_;
-  std::optional<Found> found_;  ///< changed by the stream's thread only
-  std::optional<HalfSpaceOfScan> half_space_;
-  std::optional<Task> last_;  ///< that is at hand, or was
-  bool is_judged_ = false;    ///< a half-space that comes now is too late for it
+  std::optional<Found> found_;               ///< changed by the stream's thread only
+  std::deque<HalfSpaceOfScan> half_spaces_;  ///< the newest first; a few, since several scans wait for theirs
+  std::optional<Task> last_;                 ///< that is at hand, or was
+  bool is_judged_ = false;                   ///< a half-space that comes now is too late for it
   std::condition_variable changed_;
   PartSurfaces parts_;
   std::vector<Task> waiting_;  ///< one of each part, the newest at the end

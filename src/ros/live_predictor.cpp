@@ -75,7 +75,8 @@ const PreparedScan& LivePredictor::lastPrepared() {
 }
 
 PredictedScan LivePredictor::judged(const PreparedScan& prepared, const Configuration& settings,
-                                    const ScanIdentity& identity, const ScanPredictor::OnModel& on_model) {
+                                    const ScanIdentity& identity, const char* where_half_space,
+                                    const ScanPredictor::OnModel& on_model) {
   PredictedScan predicted;
   Evidence evidence;
   if (wantsDeviceForce(settings.device, settings.device_force)) evidence.why_no_device = kDeviceOnTopic;
@@ -85,7 +86,7 @@ PredictedScan LivePredictor::judged(const PreparedScan& prepared, const Configur
   const SolvedHalfSpace unsolved = unsolvedHalfSpace(predicted.half_space.objection);
   if (!predicted.half_space.objection.empty()) evidence.half_space = &unsolved;
   evidence.why_half_space = predicted.half_space.why;
-  evidence.where_half_space = kHalfSpaceOnTopic;
+  evidence.where_half_space = where_half_space;
   predicted.verdict = verdictOf(predicted.prediction, settings.device, settings.uncertainty, predictor_.options(),
                                 prepared.surfaces.lower.cellArea(), evidence);
   predicted.preprocessing = prepared.record;
@@ -129,8 +130,8 @@ PredictedScan LivePredictor::predictScan(const ReceivedScan& scan, const OutputO
     requireDeformedSurfaces(contact);
     wear.add(as_made.model_surfaces, contact.deformed_lower, contact.deformed_upper);
   };
-  PredictedScan predicted =
-      judged(prepared, *settings, scan.identity, accumulate_deformation_ ? ScanPredictor::OnModel(addWear) : nullptr);
+  PredictedScan predicted = judged(prepared, *settings, scan.identity, kHalfSpaceOnTopic,
+                                   accumulate_deformation_ ? ScanPredictor::OnModel(addWear) : nullptr);
   predicted.scan_id = scan.header.stamp.isZero() ? kUnstamped | ++unstamped_ : scan.header.stamp.toNSec();
   addToPart(scan, predicted);
   as_made.preparation_time = 0.0;  // later predictions of this scan do not prepare it
@@ -151,7 +152,7 @@ std::optional<PredictedScan> LivePredictor::predictLastScan() {
   Options options = settings->model;
   options.output = figuresOnly();
   predictor_.setOptions(options);
-  PredictedScan predicted = judged(lastPrepared(), *settings, last_->received.identity);
+  PredictedScan predicted = judged(lastPrepared(), *settings, last_->received.identity, kHalfSpaceOnTopic);
   predicted.scan_id = last_->part.id;
   figures_ = {settings, figuresOf(predicted.prediction)};
   return predicted;
@@ -170,7 +171,7 @@ PredictedScan LivePredictor::predictOnce(const ReceivedScan& scan, double voltag
   options.load.voltage = voltage;
   options.load.setMechanicalLoad(mechanical_load);
   predictor_.setOptions(options);  // refuses before the scan is touched
-  return judged(prepare(scan), *settings, scan.identity);
+  return judged(prepare(scan), *settings, scan.identity, kHalfSpaceOnDemand);
 }
 
 StationCase LivePredictor::stationCase(const ReceivedScan* given) {

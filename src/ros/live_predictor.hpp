@@ -23,6 +23,7 @@
 namespace mems_stiction {
 
 /// Where the half-space is found that flags ask for.
+inline constexpr char kHalfSpaceOnDemand[] = "~solve_half_space has it";
 inline constexpr char kHalfSpaceOnTopic[] = "it follows on the topic half_space; ~solve_half_space has it on demand";
 
 /// Why a verdict has no force of the device.
@@ -125,7 +126,7 @@ class LivePredictor {
   void addToPart(const ReceivedScan& scan, PredictedScan& predicted);
   /// The prediction with `options` set before, and its verdict.
   PredictedScan judged(const PreparedScan& prepared, const Configuration& settings, const ScanIdentity& identity,
-                       const ScanPredictor::OnModel& on_model = {});
+                       const char* where_half_space, const ScanPredictor::OnModel& on_model = {});
 
   SettingsOwner settings_;
   ScanPredictor predictor_;

@@ -14,6 +14,8 @@ namespace mems_stiction {
 namespace {
 
 constexpr std::chrono::seconds kPeriod{2};
+/// After a look that a member's end has cut short.
+constexpr std::chrono::milliseconds kSoon{50};
 /// A master that takes the call and does not answer is as good as none after so many periods.
 constexpr double kPatience = 3.0 * kPeriod.count();
 
@@ -93,14 +95,14 @@ void MasterWatch::loop() {
   unsigned asked = 0;
   for (;;) {
     if (std::chrono::steady_clock::now() >= next_look) {
-      look();
-      next_look = std::chrono::steady_clock::now() + kPeriod;
+      const bool is_whole = look();
+      next_look = std::chrono::steady_clock::now() + (is_whole ? std::chrono::milliseconds(kPeriod) : kSoon);
+      if (is_whole) {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        looks_made_ = asked;
+      }
+      looked_.notify_all();
     }
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      looks_made_ = asked;
-    }
-    looked_.notify_all();
     write();
     std::unique_lock<std::mutex> lock(mutex_);
     changed_.wait_until(lock, next_look, [&] { return stopping_ || is_asked_ || looks_asked_ != asked; });
@@ -109,11 +111,13 @@ void MasterWatch::loop() {
   }
 }
 
-void MasterWatch::look() {
+bool MasterWatch::look() {
   const Registrations::State state = registrations_.look(calls_);
-  if (ros::isShuttingDown() || calls_.give_up > 0) return;
+  if (ros::isShuttingDown()) return true;
+  if (calls_.give_up > 0) return false;
   enter(state);
   if (state == Registrations::State::kForgotten) registerAgain();
+  return true;
 }
 
 /// What is due, unless the name is another node's, or nobody is there to take it: then later.

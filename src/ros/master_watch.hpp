@@ -42,7 +42,8 @@ class MasterWatch {
   MasterWatch& operator=(const MasterWatch&) = delete;
 
   /// To be called once all of the member is advertised. Returns when the watch has seen at the master what the process offers
-  /// there: a master that ends right afterwards costs nothing.
+  /// there: a master that ends right afterwards costs nothing. One that is gone already, or silent, is waited for as long as a
+  /// look takes, some seconds.
   void add(const void* owner, Member member);
   /// Afterwards nothing of the member runs any more.
   void remove(const void* owner);
@@ -55,7 +56,8 @@ class MasterWatch {
  private:
   MasterWatch();
   void loop();
-  void look();
+  /// @return false: it was cut short, and is to be repeated
+  bool look();
   void write();
   void registerAgain();
   /// Logs a state once, when it begins.

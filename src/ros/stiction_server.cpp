@@ -291,7 +291,8 @@ void StictionServer::change(const RunningSettings& settings) {
     predictor_.settings().change(settings);
     const SettingsOwner::Snapshot changed = predictor_.settings().snapshot();
     const bool wants_device = device_force_ && wantsDeviceForce(changed->device, changed->device_force);
-    const bool wants_half_space = half_space_ && mayCallHalfSpace(*changed);
+    const bool wants_half_space =
+        half_space_ && changed->half_space.enabled == HalfSpaceUse::kFlagged && mayCallHalfSpace(*changed);
     if (!wants_device && !wants_half_space) return;
     const std::optional<PredictedScan> predicted = lastScanOrNothing();
     if (predicted) offerAgain(*predicted);
