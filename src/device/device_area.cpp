@@ -1,5 +1,4 @@
 #include "device/device_area.hpp"
-#include "device/area_load.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -175,7 +175,7 @@ Configuration configurationOf(const Arguments& arguments) {
     if (!path.empty()) requireOneScan(arguments, option, path);
   }
   for (const auto& [option, path] : arguments.half_space_maps.wanted()) {
-    if (!arguments.half_space) {
+    if (configuration.half_space.enabled != HalfSpaceUse::kAlways) {
       throw OptionsError({option + ": only the half-space has it; give --half-space too"});
     }
     requireOneScan(arguments, option, path);
