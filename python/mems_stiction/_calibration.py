@@ -187,6 +187,10 @@ class _Surrogate:
         if parameters not in self.known:
             constants = {axis.name: axis.value(value) for axis, value in zip(self.axes, parameters)}
             values = [measurement.expected(constants) for measurement in self.measurements]
+            for measurement, value in zip(self.measurements, values):
+                if not np.isfinite(value):
+                    raise OptionsError("%s: what is expected of it is not known (%r) with %s; are its scans and settings those that it was measured with?" % (
+                        measurement.name, value, ", ".join("%s = %.3g" % item for item in constants.items())))
             self.known[parameters] = np.log(np.maximum(values, [1e-12 * measurement.value for measurement in self.measurements]))
             self.on_step()
         return self.known[parameters]
@@ -219,23 +223,25 @@ class _Search:
         nodes = [np.linspace(*axis.bounds, COARSE_NODES) for axis in self.axes]
         if around is not None:
             nodes[0] = nodes[0][np.abs(nodes[0] - around) < REACH_AROUND]
+        constants = {axis.name: axis.configured for axis in self.axes}
         for _ in range(MOST_REFINEMENTS):
             self.surrogate.take(nodes)
-            whole = self._likelihood()
+            whole = self._likelihood(constants)
             outliers = whole.outliers()
             likelihood = whole.part([place for place in range(len(self.measurements)) if place not in outliers])
             fit = likelihood.fit()
             intervals = [likelihood.interval(fit, index) for index in range(len(self.axes))]
+            constants = {axis.name: axis.value(parameter) for axis, parameter in zip(self.axes, fit.parameters)}
             finer = [_refined(axis, interval) for axis, interval in zip(nodes, intervals)]
             if all(len(one) == len(other) for one, other in zip(finer, nodes)):
                 break
             nodes = finer
         return _Found(self.axes, whole, likelihood, fit, intervals, outliers)
 
-    def _likelihood(self) -> Likelihood:
-        middle = {axis.name: axis.configured for axis in self.axes}
+    def _likelihood(self, constants: Dict[str, float]) -> Likelihood:
+        """- constants: those at which surfaces scatter from place to place as they do"""
         return Likelihood([m.value for m in self.measurements], [m.uncertainty for m in self.measurements],
-                          [m.scatter(middle) for m in self.measurements], [m.kind for m in self.measurements],
+                          [m.scatter(constants) for m in self.measurements], [m.kind for m in self.measurements],
                           self.surrogate.expected, self.surrogate.bounds())
 
 

@@ -25,6 +25,11 @@ BEAMS = {"detachment_length": _core.detachment_length, "crack_length": _core.cra
 COMMON = ("kind", "value", "uncertainty", "scans", "pitch", "upper", "area", "contacts", "relative_humidity", "mechanical_load", "name")
 OF_FORCES = ("radius",)
 OF_BEAMS = ("beam_type", "thickness", "gap", "modulus", "residual_stress")
+FRAME_ALONE = {"device_force": {"enabled": False}, "half_space": {"enabled": False}}  # neither is looked at
+NO_CLEANING = {"preprocessing": {
+    "region": {"left": 0.0, "top": 0.0, "width": 0.0, "height": 0.0, "polygon_file": "", "mask_file": ""}, "offset": {"enabled": False},
+    "lines": {"method": "none"}, "spikes": {"enabled": False}, "fill": {"enabled": False}, "tip": {"radius": 0.0, "half_angle": 0.0},
+    "level": "none", "level_robust": False, "low_pass": {"cutoff_wavelength": 0.0}, "refine": {"factor": 1}}}
 POSITIVE = ("value", "uncertainty", "area", "radius", "thickness", "gap", "modulus")
 
 PROBE_PIXELS = 256
@@ -72,6 +77,7 @@ class Place:
                  settings: Settings) -> None:
         self.scans, self.upper, self.area, self.contacts, self.radius, self.settings = scans, upper, area, contacts, radius, settings
         self._known: Dict[Tuple[Tuple[str, float], ...], Figures] = {}
+        self._clean_scans: Optional[List[Any]] = None
 
     @property
     def is_device(self) -> bool:
@@ -107,13 +113,20 @@ class Place:
             made = found.realisations
             return Figures(found.pull_off_force, found.apparent_work_of_adhesion, _scatter(made.pull_off_force),
                            _scatter(made.apparent_work_of_adhesion))
-        predictor = mems_stiction.Predictor(settings, device_force={"enabled": False})
         if self.radius is None:
+            predictor = mems_stiction.Predictor(settings, **FRAME_ALONE)
             return _of_several([predictor.predict(scan, None, self.upper) for scan in self.scans])
+        predictor = mems_stiction.Predictor(settings, **FRAME_ALONE, **NO_CLEANING)
         if not self.scans:
             heights, pitch = _probe_alone(self.radius, settings)
             return _of_several([predictor.predict(heights, pitch)])
-        return _of_several([predictor.predict(scan, None, probe) for scan in self.scans for probe in _probes_over(scan, self.radius)])
+        return _of_several([predictor.predict(scan, None, probe) for scan in self._cleaned() for probe in _probes_over(scan, self.radius)])
+
+    def _cleaned(self) -> List[Any]:
+        """The scans as their surface is predicted: cleaning would take a probe over them for its tilt and bow."""
+        if self._clean_scans is None:
+            self._clean_scans = [mems_stiction.clean(scan, None, self.settings) for scan in self.scans]
+        return self._clean_scans
 
 
 def _scatter(values: Any) -> float:

@@ -136,7 +136,7 @@ class Likelihood:
         fixed = {index: value}
         if self._free(fixed) == []:
             return self.deviance(self._unknowns([], fixed))
-        starts = self._starts(fixed)[:2] + [near[self._free(fixed)]] * (near is not None)
+        starts = self._starts(fixed)[:2] + ([] if near is None else [near[self._free(fixed)]])
         return min(self._improved(start, fixed)[1] for start in starts)
 
     def outliers(self) -> List[int]:

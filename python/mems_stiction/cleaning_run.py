@@ -31,6 +31,7 @@ def stages_of(batch, settings, arguments, number, last, folder):
 def _predicted(batch, configuration, arguments, number, total, place):
     """Heights and row of one scan."""
     place.mkdir()
+    configuration = dict(configuration, half_space=dict(configuration.get("half_space") or {}, enabled=False))  # heights and force alone
     (place / "settings.yaml").write_text(yaml.safe_dump(configuration), encoding="utf-8")
     done = subprocess.run([batch, "-o", str(place / "rows.jsonl"), "--dump", str(place / "scans"), "--config", str(place / "settings.yaml"),
                            "--shard", "%d/%d" % (number, total)] + arguments, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,

@@ -151,6 +151,18 @@ class KindsTest(unittest.TestCase):
         found = calibrated([measured(2e-8, SURFACES[0], 0.01, radius=0.5e-6)])
         self.assertGreater(found.work_of_adhesion_upper, 1.2 * found.work_of_adhesion)
 
+    def test_a_probe_keeps_its_shape_and_its_places_whatever_cleans_the_scan(self):
+        def spread(tilt, **preprocessing):
+            scan = SURFACES[0] + tilt * np.arange(96)
+            found = calibrated([measured(2e-8, scan, 0.01, radius=0.5e-6)], preprocessing=preprocessing)
+            return found.work_of_adhesion, found.work_of_adhesion_upper / found.work_of_adhesion_lower
+
+        plain = spread(0.0)
+        self.assertGreater(plain[1], 1.5)
+        for level in ("plane", "polynomial"):
+            for found, expected in zip(spread(1e-10, level=level), plain):
+                self.assertAlmostEqual(found / expected, 1.0, delta=0.25, msg=level)
+
     def test_an_area_is_judged_by_made_surfaces(self):
         few = {"device_force": {"realisations": 3, "max_cells": 1e4}}
         with warnings.catch_warnings():
