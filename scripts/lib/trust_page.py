@@ -27,7 +27,7 @@ COLOURS = {CONFORMING: "#d1322f", DOUBTED: "#f2b705", SPARSE: "#2f7fd1"}
 NORMAL_95 = 1.96
 OF_THE_MAP = ("rms heights of 0.03 to 12 nm, correlation lengths of 10 to 300 nm, contact moduli of 0.1 to 100 GPa, works of adhesion of 5 to 150 mJ/m^2, "
               "Hamaker constants of 65 and 200 zJ.")
-SETS = ("**Three sets.** Rules and the flag were set on the frames of seeds 5, 8 and 9 and looked at on those of 6 and 7, 168 of each; this page, of seed 10, judges: "
+SETS = ("**Three sets.** Rules and the flag were set on the frames of seeds 5, 6, 8 and 9 and looked at on those of 7, 168 of each; this page, of seed 10, judges: "
         "rules and flag stood when these frames were drawn. `scripts/trust --kinds --seed N` draws others.")
 CONSTANTS = pathlib.Path(__file__).resolve().parents[2] / "src" / "separation" / "chosen_constants.hpp"
 ERRORS = {(SPARSE, False): "Sure", (CONFORMING, False): "SureBonded", (SPARSE, True): "Doubt", (CONFORMING, True): "DoubtBonded"}
