@@ -141,7 +141,9 @@ class _Axis:
         self.name = name
         self.configured = float(base[name])
         self.is_cosine = name == ANGLE
-        self.bounds = WIDEST_COSINES if self.is_cosine else tuple(math.log(end) for end in RANGE[name])
+        self.bounds: Tuple[float, float] = WIDEST_COSINES
+        if not self.is_cosine:
+            self.bounds = math.log(RANGE[name][0]), math.log(RANGE[name][1])
 
     def value(self, parameter: float) -> float:
         return math.acos(min(max(parameter, 0.0), 1.0)) if self.is_cosine else math.exp(parameter)
@@ -220,7 +222,7 @@ class _Search:
 
     def run(self, around: Optional[float] = None) -> "_Found":
         """- around: ln work of adhesion, as it is known from before"""
-        nodes = [np.linspace(*axis.bounds, COARSE_NODES) for axis in self.axes]
+        nodes = [np.linspace(axis.bounds[0], axis.bounds[1], COARSE_NODES) for axis in self.axes]
         if around is not None:
             nodes[0] = nodes[0][np.abs(nodes[0] - around) < REACH_AROUND]
         constants = {axis.name: axis.configured for axis in self.axes}

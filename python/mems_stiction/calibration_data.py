@@ -9,7 +9,7 @@ import math
 import os
 import warnings
 from collections.abc import Mapping
-from typing import Any, Dict, List, NamedTuple, Optional, Tuple
+from typing import Any, Callable, Dict, List, NamedTuple, Optional, Tuple
 
 import numpy as np
 
@@ -21,7 +21,7 @@ from mems_stiction._settings import OptionsError, Settings, settings_with
 from mems_stiction._warnings import ScanWarning, SettingsWarning
 from mems_stiction.calibration_words import UNITS
 
-BEAMS = {"detachment_length": _core.detachment_length, "crack_length": _core.crack_length}
+BEAMS: Dict[str, Callable[..., float]] = {"detachment_length": _core.detachment_length, "crack_length": _core.crack_length}
 COMMON = ("kind", "value", "uncertainty", "scans", "pitch", "upper", "area", "contacts", "relative_humidity", "mechanical_load", "name")
 OF_FORCES = ("radius",)
 OF_BEAMS = ("beam_type", "thickness", "gap", "modulus", "residual_stress")
@@ -256,7 +256,7 @@ def _surfaces_of(given: Any, pitch: Any, settings: Settings, what: str) -> List[
 
 def values_of(settings: Settings) -> Dict[str, Any]:
     """Every setting with its value, by "section/key"."""
-    import yaml
+    import yaml  # type: ignore[import]
 
     values: Dict[str, Any] = {}
     _flatten(yaml.safe_load(settings.yaml()), "", values)

@@ -12,7 +12,7 @@ Intervals are those of the profile likelihood (Venzon and Moolgavkar, Appl. Stat
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Callable, Dict, List, Optional, Sequence, Tuple
+from typing import Callable, Dict, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 import scipy.optimize
@@ -141,7 +141,8 @@ class Likelihood:
 
     def outliers(self) -> List[int]:
         """Measurements that the others do not expect, the worst first: at most a fifth of them, each against a fit without it."""
-        members, found = list(range(len(self.values))), []
+        members = list(range(len(self.values)))
+        found: List[int] = []
         while len(members) >= max(FEWEST_FOR_OUTLIERS, len(self.bounds) + 2) and 5 * (len(found) + 1) <= len(self.values):
             distances = [self._distance(place, [other for other in members if other != place]) for place in members]
             # the worst of so many
@@ -181,7 +182,7 @@ class Likelihood:
     def _free(self, fixed: Dict[int, float]) -> List[int]:
         return [i for i in range(len(self._all_bounds())) if i not in fixed]
 
-    def _unknowns(self, free: Sequence[float], fixed: Dict[int, float]) -> np.ndarray:
+    def _unknowns(self, free: Union[Sequence[float], np.ndarray], fixed: Dict[int, float]) -> np.ndarray:
         unknowns = np.empty(len(self._all_bounds()))
         unknowns[self._free(fixed)] = free
         for index, value in fixed.items():
