@@ -19,6 +19,7 @@ __path__ = extend_path(__path__, __name__)
 
 if TYPE_CHECKING:
     from mems_stiction._calibration import Calibration, calibrate
+    from mems_stiction._design import DesignSweep, design_sweep
     from mems_stiction._device import DeviceForce, predict_device
     from mems_stiction._half_space import HalfSpace, half_space
     from mems_stiction._made_surface import MadeSurface
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
 # Found when they are first used: what only draws, or only wants the messages of ROS, does not load the core.
 _MODULES = {
     "_calibration": ("Calibration", "calibrate"),
+    "_design": ("DesignSweep", "design_sweep"),
     "_device": ("DeviceForce", "predict_device"),
     "_half_space": ("HalfSpace", "half_space"),
     "_made_surface": ("MadeSurface",),
@@ -43,9 +45,9 @@ _MODULES = {
 _MODULE_OF = {name: module for module, names in _MODULES.items() for name in names}
 
 __all__ = [
-    "Calibration", "Cleaned", "ContactCycles", "DeviceForce", "Error", "FileError", "HalfSpace", "LoadSweep", "MadeSurface", "OptionsError",
+    "Calibration", "Cleaned", "ContactCycles", "DesignSweep", "DeviceForce", "Error", "FileError", "HalfSpace", "LoadSweep", "MadeSurface", "OptionsError",
     "Prediction", "Predictor", "Roughness", "Scan", "ScanWarning", "Settings", "SettingsWarning", "SurfaceError", "Verdict", "calibrate", "channels", "clean",
-    "cycle_contact", "decimate", "generate", "half_space", "predict", "predict_device", "predict_many", "predict_under", "read",
+    "cycle_contact", "decimate", "design_sweep", "generate", "half_space", "predict", "predict_device", "predict_many", "predict_under", "read",
     "roughness", "sweep_loads"]
 
 

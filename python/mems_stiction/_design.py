@@ -1,0 +1,174 @@
+"""Which design releases? The margin of a device over one or two quantities of its design, and where it is surely above 1."""
+
+from __future__ import annotations
+
+import contextlib
+import itertools
+import json
+import math
+import multiprocessing
+import os
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures.process import BrokenProcessPool
+from typing import Any, Callable, Dict, Generator, List, Mapping, Optional, Tuple, Union
+
+import numpy as np
+
+from mems_stiction._arrays import ReadOnly
+from mems_stiction._device import Pitches, scans_of_device
+from mems_stiction._settings import Config, Error, OptionsError
+from mems_stiction._warnings import ScanWarning, warn
+from mems_stiction.calibration_data import values_of
+from mems_stiction.design_axes import AREA, ETCH, OF_THE_SPRING, Axis
+from mems_stiction.design_points import Found, Holding, axes_of, find, start_worker
+from mems_stiction.design_rows import FIGURES, Rows
+from mems_stiction.design_words import statements_of
+
+OnProgress = Callable[[float], None]
+
+
+class DesignSweep(ReadOnly):
+    """The margin of a device over one or two quantities of its design.
+
+    axes: names of the quantities, each with its values in ascending order.
+    margin, margin_lower, margin_upper: over the axes, in their order [-]: median and 95 % interval.
+    rows: a record for each point: the axes by their names, restoring_force, pull_off_force, pull_off_force_lower,
+    pull_off_force_upper [N], margin, margin_lower, margin_upper, margin_transition [-], sticks, doubt: why no verdict is sure there.
+    statements: where the device surely releases, in sentences.
+    """
+
+    axes: Dict[str, np.ndarray]
+    margin: np.ndarray
+    margin_lower: np.ndarray
+    margin_upper: np.ndarray
+    rows: np.recarray
+    statements: Tuple[str, ...]
+
+    def __init__(self, rows: Rows) -> None:
+        listed = rows.all_rows()
+        self._units = {axis.name: axis.unit for axis in rows.axes}
+        self._origin = {"version": rows.version, "sweep": rows.fingerprint}
+        shape = [len(axis.values) for axis in rows.axes]
+        names = [axis.name for axis in rows.axes] + list(FIGURES) + ["sticks", "doubt"]
+        kinds = [(name, object if name in ("sticks", "doubt") else float) for name in names]
+        table = np.rec.fromrecords([tuple(row[name] for name in names) for row in listed], dtype=kinds)
+        self.__dict__.update(
+            axes={axis.name: np.array(axis.values) for axis in rows.axes}, rows=table, statements=statements_of(rows.axes, listed),
+            **{name: table[name].reshape(shape) for name in ("margin", "margin_lower", "margin_upper")})
+
+    def to_dict(self) -> Dict[str, Any]:
+        """What json() prints. None stands for what is not known, and for the infinite margin where nothing holds."""
+        return dict(self._origin, axes={name: list(map(float, values)) for name, values in self.axes.items()}, units=dict(self._units),
+                    statements=list(self.statements),
+                    rows=[{name: _plain(row[name]) for name in self.rows.dtype.names} for row in self.rows])
+
+    def json(self) -> str:
+        """One line."""
+        return json.dumps(self.to_dict())
+
+    def save_picture(self, path: Union[str, "os.PathLike[str]"]) -> None:
+        """PNG, PDF or SVG: the margin over the axes, with the line of margin 1 and its 95 % band."""
+        from mems_stiction.design_figure import save_design
+
+        save_design(self.to_dict(), path)
+
+    picture = save_picture
+
+    def __repr__(self) -> str:
+        lines = ["Design over %s: %d points" % (" and ".join(self.axes), len(self.rows))]
+        return "\n".join(lines + ["  " + statement for statement in self.statements])
+
+
+def _plain(value: Any) -> Any:
+    value = value.item() if hasattr(value, "item") else value
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def design_sweep(scans: Any, axes: Mapping[str, Any], config: Optional[Config] = None, pitch: Optional[Pitches] = None,
+                 output: Optional[Union[str, "os.PathLike[str]"]] = None, workers: Optional[int] = None,
+                 on_progress: Optional[OnProgress] = None, *, upper: Any = None, etch_wavelength: Optional[float] = None,
+                 **settings: Any) -> DesignSweep:
+    """Which design of this device releases?
+
+        found = mems_stiction.design_sweep(["a.gwy", "b.gwy"], {"device/spring_stiffness": (0.5, 50, 12),
+                                           "interface/work_of_adhesion": [0.02, 0.05, 0.1]}, config="part.yaml", output="rows.csv")
+        found.statements
+
+    scans, pitch, upper, config, settings: as of predict_device(); the settings state the device.
+    axes: one or two names of settings, each with its values: a list, or (from, to, count), which is filled by ratio where the ends lie
+    a factor of 10 or more apart. Beside settings, what processing makes of the scans' heights: roughness/scale, a factor of all
+    heights; roughness/polish [m], a wavelength that a Gaussian filter halves (shorter waves go, 0: none); roughness/etch, a factor of
+    the waves that are shorter than etch_wavelength [m].
+    output: a .csv file that gets the rows as they come; a run that finds rows of the same sweep there goes on after them.
+    workers: processes; as many as processors if None. With 1 all is done in this one. A program that starts more needs the usual
+    `if __name__ == "__main__":`.
+    on_progress: called with the share of the work that is done; what it throws ends it.
+
+    Each margin is that of predict_device(). Stiffness and travel of the spring do not change what holds: their values cost no time.
+    Ctrl-C ends it; the rows that are written stay. Raises OptionsError, SurfaceError and FileError.
+    """
+    count = os.cpu_count() or 1 if workers is None else workers
+    if not isinstance(count, int) or isinstance(count, bool) or count < 1:
+        raise OptionsError("workers: %r is not allowed, must be an integer >= 1" % (workers,))
+    lower, above, checked = scans_of_device(scans, None, pitch, None, config, upper, settings, {})
+    sought = axes_of(axes, checked)
+    _check_etching(sought, etch_wavelength)
+    fixed = _fixed(sought, values_of(checked))
+    holding = Holding(lower, above, checked, etch_wavelength)
+    rows = Rows(sought, fixed, holding.fingerprint(sought), output)
+    force_axes = [axis for axis in sought if axis.name not in OF_THE_SPRING]
+    points = [dict(zip([axis.name for axis in force_axes], values)) for values in itertools.product(*(axis.values for axis in force_axes))]
+    missing = [point for point in points if rows.key(point) not in rows.rows]
+    tell = on_progress or (lambda share: None)
+    done = len(points) - len(missing)
+    tell(done / len(points))
+    told: Dict[str, None] = {}
+    with contextlib.closing(_found(holding, missing, min(count, len(missing)))) as answers:
+        for point, (hold, said) in answers:
+            rows.add(point, hold)
+            told.update(dict.fromkeys(said))
+            done += 1
+            tell(done / len(points))
+    rows.write()
+    warn(told, ScanWarning)
+    return DesignSweep(rows)
+
+
+def _check_etching(axes: List[Axis], wavelength: Optional[float]) -> None:
+    is_etched = any(axis.name == ETCH for axis in axes)
+    if not is_etched and wavelength is not None:
+        raise OptionsError("etch_wavelength: is not allowed without the axis %s" % ETCH)
+    if is_etched and not (isinstance(wavelength, (int, float)) and 0.0 < wavelength < math.inf):
+        raise OptionsError("etch_wavelength: %r is not allowed with the axis %s, must be a number > 0 m" % (wavelength, ETCH))
+
+
+def _fixed(axes: List[Axis], values: Dict[str, Any]) -> Dict[str, float]:
+    """What of the spring is no axis. Raises OptionsError where the device is not stated."""
+    swept = [axis.name for axis in axes]
+    for name in OF_THE_SPRING + (AREA,):
+        if name not in swept and not values[name] > 0:
+            raise OptionsError("%s: is not stated; must be > 0, or one of the axes" % name)
+    return {name: float(values[name]) for name in OF_THE_SPRING if name not in swept}
+
+
+def _found(holding: Holding, points: List[Dict[str, float]], count: int) -> Generator[Tuple[Dict[str, float], Found], None, None]:
+    """Each point with what holds there, in the order in which they end."""
+    if count <= 1:
+        for point in points:
+            yield point, holding.at(point)
+        return
+    # Not forked: the core's threads and locks would be copied as they stand.
+    pool = ProcessPoolExecutor(count, multiprocessing.get_context("spawn"), start_worker, (holding,))
+    try:
+        futures = {pool.submit(find, point): point for point in points}
+        for future in as_completed(futures):
+            yield futures[future], future.result()
+    except BrokenProcessPool:
+        raise Error("a worker process has ended: memory may be short, or a program that calls design_sweep() lacks "
+                    "`if __name__ == \"__main__\":`; workers=1 does without other processes") from None
+    except BaseException:
+        for process in list((getattr(pool, "_processes", None) or {}).values()):
+            process.terminate()
+        raise
+    finally:
+        pool.shutdown()

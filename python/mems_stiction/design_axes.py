@@ -1,0 +1,25 @@
+"""What may be changed in a sweep of a design: names, and an axis with its values."""
+
+from __future__ import annotations
+
+from typing import NamedTuple, Tuple
+
+STIFFNESS, TRAVEL, AREA = "device/spring_stiffness", "device/travel", "device/contact_area"
+OF_THE_SPRING = (STIFFNESS, TRAVEL)
+SCALE, POLISH, ETCH = "roughness/scale", "roughness/polish", "roughness/etch"
+OF_THE_SURFACE = {SCALE: "", POLISH: "m", ETCH: ""}  # with their units
+BY_RATIO = 10.0  # ends of a range that lie further apart are filled by ratio
+
+
+class Axis(NamedTuple):
+    """One quantity of the design. name: of the setting, or roughness/...; unit: as SI has it; values: ascending."""
+
+    name: str
+    unit: str
+    values: Tuple[float, ...]
+
+    @property
+    def word(self) -> str:
+        """For sentences."""
+        words = {SCALE: "factor of the heights", POLISH: "polished wavelength", ETCH: "factor of the short waves"}
+        return words.get(self.name, self.name.rpartition("/")[2].replace("_", " "))

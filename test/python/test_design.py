@@ -1,0 +1,303 @@
+"""design_sweep: its margins are those of predict_device, its limits where they cross 1, its rows go on after an interruption."""
+
+import contextlib
+import json
+import math
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+import warnings
+from unittest import mock
+
+import mems_stiction
+import numpy as np
+
+try:
+    from mems_stiction import _core  # noqa: F401
+except ImportError:
+    raise unittest.SkipTest("the Python module is not built: MEMS_STICTION_WITH_PYTHON is off")
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+
+from mems_stiction._device import scans_of_device  # noqa: E402
+from mems_stiction.design_axes import ETCH, Axis  # noqa: E402
+from mems_stiction.design_points import Hold, Holding, axes_of  # noqa: E402
+from mems_stiction.design_words import statements_of  # noqa: E402
+from module_cases import REPOSITORY, rough  # noqa: E402  (the path comes first)
+
+PITCH = 10e-9
+SCAN = rough(64, 64, 3e-9, 1, 12)  # its contacts have pixels enough
+PART = {"device": {"spring_stiffness": 0.1, "travel": 1e-6, "contact_area": 2.5e-13}, "device_force": {"realisations": 3, "max_cells": 1e4}}
+STIFFNESS, TRAVEL, WORK = "device/spring_stiffness", "device/travel", "interface/work_of_adhesion"
+DESIGN_SWEEP = str(REPOSITORY / "scripts" / "design_sweep")
+MOST_WAITED = 120.0  # for a program under way [s]
+
+
+def swept(axes, scans=SCAN, workers=1, **others):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return mems_stiction.design_sweep(scans, axes, PART, PITCH if isinstance(scans, np.ndarray) else None, workers=workers, **others)
+
+
+def verdict_of(heights=SCAN, **settings):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return mems_stiction.predict_device(heights, None, PITCH, None, PART, **settings).verdict
+
+
+def held(force=1e-7, lower=0.5, upper=2.0, doubt="", is_bound=False):
+    return Hold(force, 0.4 * force, 2.5 * force, (lower, upper, 1.0), doubt, is_bound)
+
+
+def as_if(force_of):
+    """Instead of the device's force: a made one, of each point. Counts the points."""
+    return mock.patch.object(Holding, "at", autospec=True, side_effect=lambda _, point: (held(force_of(point)), ()))
+
+
+class MarginTest(unittest.TestCase):
+    def assertIsOf(self, row, verdict):
+        for name in ("margin", "margin_lower", "margin_upper", "margin_transition", "restoring_force"):
+            self.assertAlmostEqual(row[name] / getattr(verdict, name), 1.0, delta=1e-12, msg=name)
+        self.assertEqual(row["sticks"], verdict.sticks)
+
+    def test_springs_have_the_verdicts_of_predict_device_and_one_force(self):
+        forces = []
+        at = Holding.at
+        with mock.patch.object(Holding, "at", autospec=True, side_effect=lambda self, point: forces.append(point) or at(self, point)):
+            found = swept({STIFFNESS: [1e-4, 0.04, 10.0], TRAVEL: [1e-6, 2e-6]})
+        self.assertEqual(forces, [{}])
+        self.assertEqual(found.margin.shape, (3, 2))
+        words = set()
+        for place in (0, 3, 5):
+            row = found.rows[place]
+            self.assertIsOf(row, verdict_of(**{STIFFNESS: row[STIFFNESS], TRAVEL: row[TRAVEL]}))
+            words.add(row["sticks"])
+        self.assertEqual(words, {"yes", "marginal", "no"})
+
+    def test_the_surface_may_be_scaled_polished_and_etched(self):
+        for axes, heights, settings in (({"roughness/scale": [1.5]}, 1.5 * SCAN, {}),
+                                        ({"roughness/polish": [100e-9]}, SCAN, {"preprocessing/low_pass/cutoff_wavelength": 100e-9})):
+            self.assertIsOf(swept(axes).rows[0], verdict_of(heights, **settings))
+        x = np.arange(256) * PITCH
+        long_waves, short_waves = (np.tile(height * np.cos(2 * math.pi * x / wave), (256, 1)) for height, wave in ((3e-9, 1280e-9), (1e-9, 40e-9)))
+        lower, above, settings = scans_of_device(long_waves + short_waves + rough(256, 256, 1e-12), None, PITCH, None, PART, None, {}, {})
+        etched = Holding(lower, above, settings, 200e-9)._changed(mems_stiction.Scan(lower[0]), {ETCH: 3.0}).heights
+        inside = slice(64, -64)
+        np.testing.assert_allclose(etched[inside, inside], (long_waves + 3.0 * short_waves)[inside, inside], atol=0.15e-9)
+
+    def test_a_force_that_is_at_least_so_large_or_doubted_is_no_plain_no(self):
+        for hold, words in ((held(), ["yes", "marginal", "no"]), (held(doubt="one pixel"), ["yes", "marginal", "unknown"]),
+                            (held(doubt="they bond", is_bound=True), ["yes", "unknown", "unknown"]),
+                            (held(lower=math.nan, upper=math.nan), ["unknown"] * 3)):
+            self.assertEqual([hold.word(force) for force in (4e-8, 1e-7, 3e-7)], words)
+        self.assertEqual(held(0.0).word(1e-9), "no")
+
+    def test_a_sure_spring_tells_a_doubt_that_the_verdict_has(self):
+        """Contacts of one pixel: the verdict of a strong spring is unknown, that of a weak one is what it is."""
+        coarse = rough(64, 64, 6e-9, 1, 2)
+        row = swept({STIFFNESS: [100.0]}, coarse).rows[0]
+        verdict = verdict_of(coarse, **{STIFFNESS: 100.0})
+        self.assertEqual(verdict.sticks, "unknown")
+        self.assertIsOf(row, verdict)
+        self.assertIn(row["doubt"].split(":")[0], verdict.reason)
+
+
+class SentenceTest(unittest.TestCase):
+    def sentence(self, values, lowest, name=STIFFNESS, doubts=None):
+        rows = [{name: value, "margin": 2.0 * low, "margin_lower": low, "margin_transition": 2.0 * low, "doubt": doubt}
+                for value, low, doubt in zip(values, lowest, doubts or [""] * len(values))]
+        sentence, = statements_of([Axis(name, "N/m" if name == STIFFNESS else "J/m^2", tuple(values))], rows)
+        return sentence
+
+    def test_the_limit_is_where_the_lower_end_is_1(self):
+        self.assertEqual(self.sentence([1.0, 100.0], [0.237, 23.7]), "smallest spring stiffness that releases surely: 4.22 N/m (the margin is 1 at 2.11 N/m)")
+        self.assertEqual(self.sentence([0.01, 0.1], [4.0, 0.4], WORK),
+                         "largest work of adhesion that releases surely: 40 mJ/m^2 (the margin is 1 at 80 mJ/m^2; interpolated between 10 mJ/m^2 and 100 mJ/m^2)")
+
+    def test_there_may_be_no_limit(self):
+        self.assertEqual(self.sentence([1.0, 2.0], [0.2, 0.4]), "no spring stiffness of 1 N/m to 2 N/m releases surely: the lower end of the margin is "
+                         "at most 0.4, at 2 N/m; the margin goes in proportion, so 5 N/m would")
+        self.assertNotIn("proportion", self.sentence([0.01, 0.02], [0.4, 0.2], WORK))
+        self.assertEqual(self.sentence([1.0, 2.0], [1.2, 2.4]), "every spring stiffness of 1 N/m to 2 N/m releases surely")
+        self.assertIn("no margin is known for some", self.sentence([1.0, 2.0], [math.nan, 2.4]))
+
+    def test_several_stretches(self):
+        self.assertEqual(self.sentence([0.01, 0.02, 0.04, 0.08], [2.0, 0.5, 2.0, 0.5], WORK),
+                         "work of adhesion releases surely from 10 mJ/m^2 to 14.1 mJ/m^2 and from 28.3 mJ/m^2 to 56.5 mJ/m^2")
+
+    def test_what_stands_against_a_no_is_said(self):
+        self.assertTrue(self.sentence([1.0, 2.0], [0.9, 1.8], doubts=["one pixel"] * 2).endswith("; but at 2 N/m the verdict stays unknown: one pixel"))
+
+
+class RowsTest(unittest.TestCase):
+    AXES = {WORK: (0.01, 0.1, 4), STIFFNESS: [0.05, 0.5]}
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.path = pathlib.Path(self.folder.name)
+
+    @staticmethod
+    def force(point):
+        return 1.7e-6 * point[WORK]
+
+    def test_an_interrupted_sweep_goes_on_where_it_was(self):
+        whole, torn = self.path / "whole.csv", self.path / "torn.csv"
+        shares = []
+        with as_if(self.force) as at:
+            uninterrupted = swept(self.AXES, output=whole, on_progress=shares.append)
+            self.assertEqual((at.call_count, shares), (4, [0.0, 0.25, 0.5, 0.75, 1.0]))
+
+        def stop(share):
+            if share == 0.5:
+                raise KeyboardInterrupt
+
+        with as_if(self.force) as at, self.assertRaises(KeyboardInterrupt):
+            swept(self.AXES, output=torn, on_progress=stop)
+        text = torn.read_text()
+        self.assertEqual(text.count("\n"), 1 + 2 * 2)
+        torn.write_text(text[:-30])  # as if the machine had stopped
+        with as_if(self.force) as at:
+            resumed = swept(self.AXES, output=torn)
+        self.assertEqual(at.call_count, 3)
+        self.assertEqual(torn.read_text(), whole.read_text())
+        self.assertEqual(resumed.json(), uninterrupted.json())
+        with as_if(self.force) as at:
+            swept(self.AXES, output=torn)
+        self.assertEqual(at.call_count, 0)
+
+    def test_rows_of_another_sweep_and_other_files_stay(self):
+        rows = self.path / "rows.csv"
+        with as_if(self.force):
+            swept(self.AXES, output=rows)
+            before = rows.read_text()
+            for changed in ({"interface": {"hamaker_constant": 5e-20}}, {"scans": 1.01 * SCAN}, {"axes": {WORK: (0.01, 0.1, 5), STIFFNESS: [0.05, 0.5]}},
+                            {"axes": {WORK: [0.01, 0.02]}}):
+                with self.assertRaisesRegex(mems_stiction.OptionsError, r"rows\.csv: holds rows of another sweep"):
+                    swept(**dict({"axes": self.AXES, "output": rows}, **changed))
+            self.assertEqual(rows.read_text(), before)
+            for text in ("a,b\n1,2\n", "notes"):
+                rows.write_text(text)
+                with self.assertRaisesRegex(mems_stiction.OptionsError, r"rows\.csv: holds no rows of a sweep"):
+                    swept(self.AXES, output=rows)
+                self.assertEqual(rows.read_text(), text)
+            with self.assertRaisesRegex(mems_stiction.OptionsError, "must end in .csv"):
+                swept(self.AXES, output=self.path / "rows.txt")
+
+    def test_the_limit_of_each_value_of_the_other_axis(self):
+        with as_if(self.force):
+            statements = swept({WORK: [0.01, 0.02], STIFFNESS: [0.01, 1.0]}).statements
+        self.assertEqual(statements, ("at work of adhesion 10 mJ/m^2: smallest spring stiffness that releases surely: 34 mN/m (the margin is 1 at 17 mN/m)",
+                                      "at work of adhesion 20 mJ/m^2: smallest spring stiffness that releases surely: 68 mN/m (the margin is 1 at 34 mN/m)"))
+
+    def test_processes_find_what_one_finds(self):
+        axes = {WORK: [0.02, 0.08]}
+        self.assertEqual(swept(axes, workers=2).json(), swept(axes).json())
+
+
+class AxesTest(unittest.TestCase):
+    def test_ranges_are_filled_evenly_or_by_ratio(self):
+        settings = mems_stiction.Settings(PART)
+        for given, values in (((1, 5, 3), (1, 3, 5)), ((1, 100, 3), (1, 10, 100)), ([3, 1, 2, 1], (1, 2, 3)), (2, (2,))):
+            axis, = axes_of({STIFFNESS: given}, settings)
+            np.testing.assert_allclose(axis.values, values)
+            self.assertEqual(axis.unit, "N/m")
+        axis, = axes_of({"device/contacts": (1, 8, 4)}, settings)
+        self.assertEqual(axis.values, (1.0, 3.0, 6.0, 8.0))
+
+    def test_each_wrong_axis_is_named(self):
+        for axes, words in (({}, "must be a dictionary with one or two names"), ({"a": 1, "b": 2, "c": 3}, "a dictionary of 3 is not allowed"),
+                            ({"device/spring": [1]}, "there is no setting 'device/spring'"), ({"device/guidance": [1]}, "device/guidance is no number"),
+                            ({STIFFNESS: "1"}, "must be numbers"), ({STIFFNESS: []}, "must be numbers"), ({STIFFNESS: (3, 1, 5)}, "with from < to"),
+                            ({STIFFNESS: [0.0]}, "device/spring_stiffness: 0 is not allowed, must be > 0"),
+                            ({"interface/relative_humidity": [0.5, 1.5]}, "interface/relative_humidity"),
+                            ({"roughness/scale": [0.0]}, "roughness/scale: 0 is not allowed"), ({ETCH: [2.0]}, "etch_wavelength: None is not allowed")):
+            with self.assertRaisesRegex(mems_stiction.OptionsError, re.escape(words)):
+                swept(axes)
+        with self.assertRaisesRegex(mems_stiction.OptionsError, "etch_wavelength: is not allowed without"):
+            swept({STIFFNESS: [1.0]}, etch_wavelength=1e-7)
+        with self.assertRaisesRegex(mems_stiction.OptionsError, "workers: 0 is not allowed"):
+            swept({STIFFNESS: [1.0]}, workers=0)
+        with self.assertRaisesRegex(mems_stiction.OptionsError, "device/travel: is not stated; must be > 0, or one of the axes"):
+            swept({STIFFNESS: [1.0]}, device={"travel": 0.0})
+        with self.assertRaisesRegex(mems_stiction.OptionsError, "roughness/scale is not allowed with preprocessing/tip/radius"):
+            swept({"roughness/scale": [1.5]}, preprocessing={"tip/radius": 5e-9})
+
+
+class ProgramTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.path = pathlib.Path(self.folder.name)
+        np.save(str(self.path / "scan.npy"), SCAN)
+        (self.path / "part.yaml").write_text(json.dumps(PART))
+
+    def command(self, *arguments):
+        return [sys.executable, DESIGN_SWEEP, "--config", str(self.path / "part.yaml"), "--pitch", str(PITCH), *map(str, arguments), str(self.path / "scan.npy")]
+
+    def run_program(self, *arguments):
+        return subprocess.run(self.command(*arguments), stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
+
+    @staticmethod
+    def kill(program):
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(program.pid, signal.SIGKILL)
+        program.communicate()
+
+    def test_it_writes_rows_a_record_and_a_picture(self):
+        rows, picture = self.path / "rows.csv", self.path / "map.png"
+        run = self.run_program("--axis", STIFFNESS + "=0.01:10:4", "--axis", WORK + "=0.02,0.05", "--workers", 1, "-o", rows, "--picture", picture, "--json")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertNotIn("%", re.sub(r"95 %", "", run.stderr))  # progress is for terminals
+        record = json.loads(run.stdout)
+        self.assertEqual(len(record["rows"]), 8)
+        self.assertEqual(rows.read_text().count("\n"), 9)
+        self.assertRegex(record["statements"][0], "^at work of adhesion 20 mJ/m.2: smallest spring stiffness that releases surely: ")
+        self.assertEqual(picture.read_bytes()[:4], b"\x89PNG")
+
+    def test_it_names_what_is_wrong(self):
+        for arguments, words in ((("--axis", "device/spring=1:2:3"), r"^design_sweep: axes: there is no setting 'device/spring'[^\n]*\n$"),
+                                 (("--axis", STIFFNESS), "must be NAME=FROM:TO:COUNT"), (("--axis", STIFFNESS + "=1", "--axis", STIFFNESS + "=2"), "twice"),
+                                 (("--axis", STIFFNESS + "=1,2", "-o", self.path / "none" / "rows.csv"), r"^design_sweep: [^\n]*none[^\n]*\n$")):
+            run = self.run_program(*arguments)
+            self.assertEqual(run.returncode, 2)
+            self.assertRegex(run.stderr, words)
+
+    def test_ctrl_c_keeps_rows_and_leaves_no_process(self):
+        rows = self.path / "rows.csv"
+        axis, count = "0.01:0.1:5000", 5000  # more than anybody waits for
+        program = subprocess.Popen(self.command("--axis", WORK + "=" + axis, "--workers", 2, "-o", rows), stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                   universal_newlines=True, start_new_session=True)
+        self.addCleanup(self.kill, program)
+        end = time.monotonic() + MOST_WAITED
+        while not (rows.exists() and rows.read_text().count("\n") > 1):
+            self.assertIsNone(program.poll(), program.stderr.read() if program.poll() is not None else "")
+            self.assertLess(time.monotonic(), end)
+            time.sleep(0.1)
+        os.killpg(program.pid, signal.SIGINT)  # as a terminal does
+        _, told = program.communicate(timeout=MOST_WAITED)
+        self.assertEqual((program.returncode, told), (-signal.SIGINT, "design_sweep: interrupted\n"))
+        while True:  # its processes are of its group
+            try:
+                os.killpg(program.pid, 0)
+            except ProcessLookupError:
+                break
+            self.assertLess(time.monotonic(), end)
+            time.sleep(0.1)
+        done = rows.read_text().count("\n") - 1
+        self.assertGreater(done, 0)
+        with as_if(lambda point: 1e-7) as at, warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            found = mems_stiction.design_sweep([str(self.path / "scan.npy")], {WORK: (0.01, 0.1, count)}, self.path / "part.yaml", PITCH, rows, 1)
+        self.assertEqual(at.call_count, count - done)
+        self.assertEqual(len(found.rows), count)
+
+
+if __name__ == "__main__":
+    unittest.main()
