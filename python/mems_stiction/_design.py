@@ -8,7 +8,7 @@ import json
 import math
 import multiprocessing
 import os
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures import Executor, ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from typing import Any, Callable, Dict, Generator, List, Mapping, Optional, Tuple, Union
 
@@ -22,7 +22,7 @@ from mems_stiction.calibration_data import values_of
 from mems_stiction.design_axes import AREA, ETCH, OF_THE_SPRING, Axis
 from mems_stiction.design_points import Found, Holding, axes_of, find, start_worker
 from mems_stiction.design_rows import FIGURES, Rows
-from mems_stiction.design_words import statements_of
+from mems_stiction.design_words import statements_of, told_once
 
 OnProgress = Callable[[float], None]
 
@@ -87,7 +87,7 @@ def _plain(value: Any) -> Any:
 def design_sweep(scans: Any, axes: Mapping[str, Any], config: Optional[Config] = None, pitch: Optional[Pitches] = None,
                  output: Optional[Union[str, "os.PathLike[str]"]] = None, workers: Optional[int] = None,
                  on_progress: Optional[OnProgress] = None, *, upper: Any = None, etch_wavelength: Optional[float] = None,
-                 **settings: Any) -> DesignSweep:
+                 executor: Optional[Executor] = None, **settings: Any) -> DesignSweep:
     """Which design of this device releases?
 
         found = mems_stiction.design_sweep(["a.gwy", "b.gwy"], {"device/spring_stiffness": (0.5, 50, 12),
@@ -103,6 +103,8 @@ def design_sweep(scans: Any, axes: Mapping[str, Any], config: Optional[Config] =
     workers: processes; as many as processors if None. With 1 all is done in this one. A program that starts more needs the usual
     `if __name__ == "__main__":`.
     on_progress: called with the share of the work that is done; what it throws ends it.
+    executor: of concurrent.futures, that gets the points instead of processes of this machine: processes elsewhere, as those of
+    Client.get_executor() of Dask.
 
     Each margin is that of predict_device(). Stiffness and travel of the spring do not change what holds: their values cost no time.
     Ctrl-C ends it; the rows that are written stay. Raises OptionsError, SurfaceError and FileError.
@@ -122,15 +124,16 @@ def design_sweep(scans: Any, axes: Mapping[str, Any], config: Optional[Config] =
     tell = on_progress or (lambda share: None)
     done = len(points) - len(missing)
     tell(done / len(points))
-    told: Dict[str, None] = {}
-    with contextlib.closing(_found(holding, missing, min(count, len(missing)))) as answers:
+    told: List[str] = []
+    answers_of = _found(holding, missing, min(count, len(missing))) if executor is None else _found_by(executor, holding, missing)
+    with contextlib.closing(answers_of) as answers:
         for point, (hold, said) in answers:
             rows.add(point, hold)
-            told.update(dict.fromkeys(said))
+            told += said
             done += 1
             tell(done / len(points))
     rows.write()
-    warn(told, ScanWarning)
+    warn(told_once(told), ScanWarning)
     return DesignSweep(rows)
 
 
@@ -151,7 +154,21 @@ def _fixed(axes: List[Axis], values: Dict[str, Any]) -> Dict[str, float]:
     return {name: float(values[name]) for name in OF_THE_SPRING if name not in swept}
 
 
-def _found(holding: Holding, points: List[Dict[str, float]], count: int) -> Generator[Tuple[Dict[str, float], Found], None, None]:
+Answers = Generator[Tuple[Dict[str, float], Found], None, None]
+
+
+def _found_by(executor: Executor, holding: Holding, points: List[Dict[str, float]]) -> Answers:
+    """The same by whoever has the processors. What is not begun when it ends is not begun any more."""
+    futures = {executor.submit(holding.at, point): point for point in points}
+    try:
+        for future in as_completed(futures):
+            yield futures[future], future.result()
+    finally:
+        for future in futures:
+            future.cancel()
+
+
+def _found(holding: Holding, points: List[Dict[str, float]], count: int) -> Answers:
     """Each point with what holds there, in the order in which they end."""
     if count <= 1:
         for point in points:

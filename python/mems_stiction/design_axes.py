@@ -8,6 +8,7 @@ STIFFNESS, TRAVEL, AREA = "device/spring_stiffness", "device/travel", "device/co
 OF_THE_SPRING = (STIFFNESS, TRAVEL)
 SCALE, POLISH, ETCH = "roughness/scale", "roughness/polish", "roughness/etch"
 OF_THE_SURFACE = {SCALE: "", POLISH: "m", ETCH: ""}  # with their units
+WORDS = {SCALE: "factor of the heights", POLISH: "polished wavelength", ETCH: "factor of the short waves", "device/contacts": "number of contacts"}
 BY_RATIO = 10.0  # ends of a range that lie further apart are filled by ratio
 
 
@@ -21,5 +22,6 @@ class Axis(NamedTuple):
     @property
     def word(self) -> str:
         """For sentences."""
-        words = {SCALE: "factor of the heights", POLISH: "polished wavelength", ETCH: "factor of the short waves"}
-        return words.get(self.name, self.name.rpartition("/")[2].replace("_", " "))
+        section, _, last = self.name.rpartition("/")
+        body = section + " body's " if section in ("lower", "upper") else ""
+        return WORDS.get(self.name, body + last.replace("_", " "))

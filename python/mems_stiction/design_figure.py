@@ -12,7 +12,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-from mems_stiction.design_axes import BY_RATIO
+from mems_stiction.design_axes import BY_RATIO, Axis
 from mems_stiction.design_words import crossings, safe_text, text_of
 from mems_stiction.plots import plt, save
 from mems_stiction.provenance import sign
@@ -66,7 +66,7 @@ def _label(axis, name, values, unit):
         axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if few else (1.0,)))
         axis.set_minor_formatter(NullFormatter())
     axis.set_major_formatter(FuncFormatter(lambda value, _: typeset(text_of(float("%.6g" % value), unit))))
-    axis.set_label_text(name.replace("_", " ").replace("/", ", "))
+    axis.set_label_text(Axis(name, unit, tuple(values)).word)
 
 
 def _draw_line(axes, span, margins):

@@ -42,6 +42,14 @@ def crossings(values: Sequence[float], margins: Sequence[float]) -> List[Crossin
     return found
 
 
+def told_once(texts: Sequence[str]) -> List[str]:
+    """Warnings of many points: those that differ in their figures alone by the first of them."""
+    alike: Dict[str, List[str]] = {}
+    for text in texts:
+        alike.setdefault(re.sub(r"\d+(\.\d+)?(e[+-]?\d+)?", "#", text), []).append(text)
+    return [found[0] + ("" if len(set(found)) == 1 else " (the figures of other points differ)") for found in alike.values()]
+
+
 def sought_first(axes: List[Axis]) -> List[Axis]:
     """The axis whose limit is sought comes first: the spring's, where there is one."""
     return sorted(axes, key=lambda axis: axis.name not in OF_THE_SPRING)
@@ -125,8 +133,8 @@ def _stretches(axis: Axis, lowest: List[float], sure: List[Crossing]) -> List[st
 
 
 def _doubt(axis: Axis, rows: List[Dict[str, Any]]) -> str:
-    """What stands against a verdict where the margin alone would say "no"."""
+    """What stands against a verdict where the margin alone would say "no"; what to do about it is in the rows."""
     doubted: Optional[Dict[str, Any]] = next((row for row in rows if row["doubt"] and _surely(row) > 1.0), None)
     if doubted is None:
         return ""
-    return "; but at %s the verdict stays unknown: %s" % (text_of(doubted[axis.name], axis.unit), doubted["doubt"])
+    return "; but at %s the verdict stays unknown: %s" % (text_of(doubted[axis.name], axis.unit), doubted["doubt"].partition(": ")[0])

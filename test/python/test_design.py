@@ -1,5 +1,6 @@
 """design_sweep: its margins are those of predict_device, its limits where they cross 1, its rows go on after an interruption."""
 
+import concurrent.futures
 import contextlib
 import json
 import math
@@ -28,7 +29,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 from mems_stiction._device import scans_of_device  # noqa: E402
 from mems_stiction.design_axes import ETCH, Axis  # noqa: E402
 from mems_stiction.design_points import Hold, Holding, axes_of  # noqa: E402
-from mems_stiction.design_words import statements_of  # noqa: E402
+from mems_stiction.design_words import statements_of, told_once  # noqa: E402
 from module_cases import REPOSITORY, rough  # noqa: E402  (the path comes first)
 
 PITCH = 10e-9
@@ -131,8 +132,12 @@ class SentenceTest(unittest.TestCase):
         self.assertEqual(self.sentence([0.01, 0.02, 0.04, 0.08], [2.0, 0.5, 2.0, 0.5], WORK),
                          "work of adhesion releases surely from 10 mJ/m^2 to 14.1 mJ/m^2 and from 28.3 mJ/m^2 to 56.5 mJ/m^2")
 
+    def test_warnings_of_many_points_are_told_once(self):
+        self.assertEqual(told_once(["6.2 times as large", "no unit", "1e-07 times as large", "no unit"]),
+                         ["6.2 times as large (the figures of other points differ)", "no unit"])
+
     def test_what_stands_against_a_no_is_said(self):
-        self.assertTrue(self.sentence([1.0, 2.0], [0.9, 1.8], doubts=["one pixel"] * 2).endswith("; but at 2 N/m the verdict stays unknown: one pixel"))
+        self.assertTrue(self.sentence([1.0, 2.0], [0.9, 1.8], doubts=["one pixel: scan finer ones"] * 2).endswith("; but at 2 N/m the verdict stays unknown: one pixel"))
 
 
 class RowsTest(unittest.TestCase):
@@ -198,7 +203,10 @@ class RowsTest(unittest.TestCase):
 
     def test_processes_find_what_one_finds(self):
         axes = {WORK: [0.02, 0.08]}
-        self.assertEqual(swept(axes, workers=2).json(), swept(axes).json())
+        alone = swept(axes).json()
+        self.assertEqual(swept(axes, workers=2).json(), alone)
+        with concurrent.futures.ThreadPoolExecutor(1) as executor:
+            self.assertEqual(swept(axes, executor=executor).json(), alone)
 
 
 class AxesTest(unittest.TestCase):
@@ -260,6 +268,25 @@ class ProgramTest(unittest.TestCase):
         self.assertEqual(rows.read_text().count("\n"), 9)
         self.assertRegex(record["statements"][0], "^at work of adhesion 20 mJ/m.2: smallest spring stiffness that releases surely: ")
         self.assertEqual(picture.read_bytes()[:4], b"\x89PNG")
+
+    def test_workers_of_dask_find_the_same_rows(self):
+        try:
+            import distributed  # noqa: F401
+        except ImportError:
+            self.skipTest("distributed is not installed")
+        options = ["--axis", WORK + "=0.02:0.05:2", "--workers", "1"]
+        here, there = self.path / "here.csv", self.path / "there.csv"
+        self.assertEqual(self.run_program(*options, "-o", here).returncode, 0)
+        command = self.command(*options, "-o", there)
+        command[1] = str(REPOSITORY / "scripts" / "examples" / "design_on_dask.py")
+        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(there.read_text(), here.read_text())
+        self.assertRegex(done.stderr, r"(?m)^100 %$")
+        command[command.index(WORK + "=0.02:0.05:2")] = "device/spring=1:2:2"
+        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
+        self.assertEqual(done.returncode, 2)
+        self.assertRegex(done.stderr, "(?m)^design_on_dask: axes: there is no setting 'device/spring'")
 
     def test_it_names_what_is_wrong(self):
         for arguments, words in ((("--axis", "device/spring=1:2:3"), r"^design_sweep: axes: there is no setting 'device/spring'[^\n]*\n$"),
