@@ -18,8 +18,9 @@
 
 namespace mems_stiction {
 
+/// The steps that a scan needs, and what of it they are for.
 struct CleaningRecipe {
-  PipelineOptions steps;
+  PipelineOptions steps;            ///< to be switched on
   double rms_height = 0.0;          ///< as measured [m]
   double cleaned_rms_height = 0.0;  ///< [m]
   double line_jumps = 0.0;          ///< standard deviation from row to row [m]
