@@ -27,6 +27,7 @@ class ChartTest(unittest.TestCase):
         cls.page.open("file://%s" % (REPOSITORY / "python" / "mems_stiction" / "page" / "index.html"))
         cls.page.wait("typeof showCurve === 'function' && document.readyState === 'complete'")
         cls.page.click("button[data-tab=curve]")
+        cls.page.wait("byId('force-curve').clientWidth > 0")  # the tab is shown a moment after the click; a hidden chart draws nothing
 
     def test_ticks_over_many_decades_have_prefixes_of_their_own(self):
         words = self.page.value(CHART % (1e-9, 2e-3))
