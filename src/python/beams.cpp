@@ -28,23 +28,21 @@ Beam beamOf(const std::string& type, double thickness, double gap, double modulu
   return beam;
 }
 
+/// A length of a beam by the apparent work of adhesion.
+void bindLength(py::module& module, const char* name, double (*length)(const Beam&, double), const char* text) {
+  module.def(
+      name,
+      [length](const std::string& type, double thickness, double gap, double modulus, double residual_stress,
+               double work) { return length(beamOf(type, thickness, gap, modulus, residual_stress), work); },
+      "beam_type"_a, "thickness"_a, "gap"_a, "modulus"_a, "residual_stress"_a, "work"_a, text);
+}
+
 }  // namespace
 
 void bindBeams(py::module& module) {
-  module.def(
-      "detachment_length",
-      [](const std::string& type, double thickness, double gap, double modulus, double residual_stress, double work) {
-        return detachmentLength(beamOf(type, thickness, gap, modulus, residual_stress), work);
-      },
-      "beam_type"_a, "thickness"_a, "gap"_a, "modulus"_a, "residual_stress"_a, "work"_a,
-      "of the longest beam that comes off by itself [m]");
-  module.def(
-      "crack_length",
-      [](const std::string& type, double thickness, double gap, double modulus, double residual_stress, double work) {
-        return unstuckLength(beamOf(type, thickness, gap, modulus, residual_stress), work);
-      },
-      "beam_type"_a, "thickness"_a, "gap"_a, "modulus"_a, "residual_stress"_a, "work"_a,
-      "of the arm of a stuck beam that is S-shaped, from its clamp to where it lies on the substrate [m]");
+  bindLength(module, "detachment_length", &detachmentLength, "of the longest beam that comes off by itself [m]");
+  bindLength(module, "crack_length", &unstuckLength,
+             "of the arm of a stuck beam that is S-shaped, from its clamp to where it lies on the substrate [m]");
 }
 
 }  // namespace python

@@ -27,12 +27,13 @@ void SeparationSolver::solve(const ContactProblem& problem, ContactSolution& sol
   comeToRest(standing, solution);
   const double joined_share = curve_.joinedShare();
   const double contact_modulus = curve_.frame().patchForces().contactModulus();
-  const double flattening_energy = flattening_.of(closed ? *closed->gap : at_rest, contact_modulus);
+  const GapField& left_to_close = closed ? *closed->gap : at_rest;
+  const double flattening_energy = flattening_.of(left_to_close, contact_modulus);
   solution.flattening_energy = flattening_energy + (closed ? closed->bodies.energy : 0.0);
   const bool bends = closed && solution.flattening_energy < chosen::kBends * flattening_.of(settled, contact_modulus);
 
   curve_.part();
-  conforming_.start(closed ? *closed->gap : at_rest, curve_.frame().law(), contact_modulus, flattening_energy,
+  conforming_.start(left_to_close, curve_.frame().law(), contact_modulus, flattening_energy,
                     closed ? &closed->bodies : nullptr);
   const std::optional<WayOut> conforming =
       conformingWayOut(curve_.byContacts(), joined_share, conforming_,
