@@ -166,6 +166,12 @@ def records_of(records: _core.Records) -> np.recarray:
     return memory.view(layout).view(np.recarray)
 
 
+def plain_value(value: Any) -> Any:
+    """As JSON has it: Python's own number, None for what is not finite."""
+    value = value.item() if hasattr(value, "item") else value
+    return None if isinstance(value, float) and not np.isfinite(value) else value
+
+
 class ReadOnly:
     """A result: what was found stays as it was found."""
 

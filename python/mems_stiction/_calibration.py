@@ -9,9 +9,9 @@ from typing import Any, Callable, Dict, List, NamedTuple, Optional, Sequence, Tu
 
 import numpy as np
 
-from mems_stiction._arrays import ReadOnly
-from mems_stiction._settings import Config, OptionsError, Settings
-from mems_stiction.calibration_data import Measurement, measurements_of, values_of
+from mems_stiction._arrays import ReadOnly, plain_value
+from mems_stiction._settings import Config, OptionsError, Settings, values_of
+from mems_stiction.calibration_data import Measurement, measurements_of
 from mems_stiction.calibration_fit import Fit, Interval, Likelihood
 from mems_stiction.calibration_words import UNITS
 from mems_stiction.quantities import ratio, with_interval, with_unit
@@ -70,8 +70,8 @@ class Calibration(ReadOnly):
     def to_dict(self) -> Dict[str, Any]:
         """What json() prints. None stands for what is not known."""
         names = [name for name in type(self).__annotations__ if name not in ("measurements", "statements", "settings")]
-        record: Dict[str, Any] = {name: _plain(getattr(self, name)) for name in names}
-        record["measurements"] = [{name: _plain(row[name]) for name in self.measurements.dtype.names} for row in self.measurements]
+        record: Dict[str, Any] = {name: plain_value(getattr(self, name)) for name in names}
+        record["measurements"] = [{name: plain_value(row[name]) for name in self.measurements.dtype.names} for row in self.measurements]
         record["statements"] = list(self.statements)
         return record
 
@@ -127,11 +127,6 @@ class Calibration(ReadOnly):
                 row.name, row.kind, with_unit(row.value, UNITS[row.kind]), with_unit(row.fitted, UNITS[row.kind]), row.deviation,
                 " (left out)" if row.is_outlier else ""))
         return "\n".join(lines)
-
-
-def _plain(value: Any) -> Any:
-    value = value.item() if hasattr(value, "item") else value
-    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 class _Axis:

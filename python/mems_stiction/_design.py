@@ -14,11 +14,10 @@ from typing import Any, Callable, Dict, Generator, List, Mapping, Optional, Tupl
 
 import numpy as np
 
-from mems_stiction._arrays import ReadOnly
+from mems_stiction._arrays import ReadOnly, plain_value
 from mems_stiction._device import Pitches, scans_of_device
-from mems_stiction._settings import Config, Error, OptionsError
+from mems_stiction._settings import Config, Error, OptionsError, values_of
 from mems_stiction._warnings import ScanWarning, warn
-from mems_stiction.calibration_data import values_of
 from mems_stiction.design_axes import AREA, ETCH, OF_THE_SPRING, Axis
 from mems_stiction.design_points import Found, Holding, axes_of, find, start_worker
 from mems_stiction.design_rows import FIGURES, Rows
@@ -60,7 +59,7 @@ class DesignSweep(ReadOnly):
         """What json() prints. None stands for what is not known, and for the infinite margin where nothing holds."""
         return dict(self._origin, axes={name: list(map(float, values)) for name, values in self.axes.items()}, units=dict(self._units),
                     statements=list(self.statements),
-                    rows=[{name: _plain(row[name]) for name in self.rows.dtype.names} for row in self.rows])
+                    rows=[{name: plain_value(row[name]) for name in self.rows.dtype.names} for row in self.rows])
 
     def json(self) -> str:
         """One line."""
@@ -77,11 +76,6 @@ class DesignSweep(ReadOnly):
     def __repr__(self) -> str:
         lines = ["Design over %s: %d points" % (" and ".join(self.axes), len(self.rows))]
         return "\n".join(lines + ["  " + statement for statement in self.statements])
-
-
-def _plain(value: Any) -> Any:
-    value = value.item() if hasattr(value, "item") else value
-    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def design_sweep(scans: Any, axes: Mapping[str, Any], config: Optional[Config] = None, pitch: Optional[Pitches] = None,

@@ -115,3 +115,20 @@ def _lines(text: str) -> Any:
             section = setting[:-1]
         else:
             yield "/".join(part for part in (section, setting.strip()) if part) if line.startswith(" ") else setting
+
+
+def values_of(settings: Settings) -> Dict[str, Any]:
+    """Every setting with its value, by "section/key"."""
+    import yaml  # type: ignore[import]
+
+    values: Dict[str, Any] = {}
+    _flatten(yaml.safe_load(settings.yaml()), "", values)
+    return values
+
+
+def _flatten(section: Dict[str, Any], before: str, values: Dict[str, Any]) -> None:
+    for key, value in section.items():
+        if isinstance(value, dict):
+            _flatten(value, before + key + "/", values)
+        else:
+            values[before + key] = value

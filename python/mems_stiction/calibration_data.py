@@ -17,7 +17,7 @@ import mems_stiction
 from mems_stiction import _core
 from mems_stiction._arrays import surface_of
 from mems_stiction._device import _listed, _pitches_of
-from mems_stiction._settings import OptionsError, Settings, settings_with
+from mems_stiction._settings import OptionsError, Settings, settings_with, values_of
 from mems_stiction._warnings import ScanWarning, SettingsWarning
 from mems_stiction.calibration_words import UNITS
 
@@ -252,20 +252,3 @@ def _surfaces_of(given: Any, pitch: Any, settings: Settings, what: str) -> List[
     scans = _listed(given, what)
     names = [what if len(scans) == 1 else "%s[%d]" % (what, place) for place in range(len(scans))]
     return [mems_stiction.Scan(surface_of(scan, own, settings, name)) for scan, own, name in zip(scans, _pitches_of(pitch, scans), names)]
-
-
-def values_of(settings: Settings) -> Dict[str, Any]:
-    """Every setting with its value, by "section/key"."""
-    import yaml  # type: ignore[import]
-
-    values: Dict[str, Any] = {}
-    _flatten(yaml.safe_load(settings.yaml()), "", values)
-    return values
-
-
-def _flatten(section: Dict[str, Any], before: str, values: Dict[str, Any]) -> None:
-    for key, value in section.items():
-        if isinstance(value, dict):
-            _flatten(value, before + key + "/", values)
-        else:
-            values[before + key] = value

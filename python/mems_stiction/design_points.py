@@ -22,9 +22,8 @@ import numpy as np
 import mems_stiction
 from mems_stiction import _core
 from mems_stiction._arrays import Surface
-from mems_stiction._settings import OptionsError, Settings
+from mems_stiction._settings import OptionsError, Settings, values_of
 from mems_stiction._warnings import SettingsWarning
-from mems_stiction.calibration_data import values_of
 from mems_stiction.design_axes import AREA, BY_RATIO, ETCH, OF_THE_SPRING, OF_THE_SURFACE, POLISH, SCALE, STIFFNESS, TRAVEL, Axis
 
 LOW_PASS, TIP = "preprocessing/low_pass/cutoff_wavelength", "preprocessing/tip/radius"

@@ -21,7 +21,8 @@ except ImportError:
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
 from mems_stiction._calibration import WORK, _Axis, _Search  # noqa: E402
-from mems_stiction.calibration_data import measurements_of, values_of  # noqa: E402
+from mems_stiction._settings import values_of  # noqa: E402
+from mems_stiction.calibration_data import measurements_of  # noqa: E402
 from mems_stiction.calibration_fit import Likelihood  # noqa: E402
 from module_cases import REPOSITORY, rough  # noqa: E402  (the path comes first)
 
