@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <cstdlib>
 #include <deque>
 #include <mutex>
 #include <thread>
@@ -15,7 +16,8 @@ namespace {
 constexpr std::size_t kMostLines = 1000;
 constexpr std::chrono::seconds kLongestFinish{1};
 
-/// Lives as long as the process, since nobody can end a thread that rosconsole holds.
+/// Lives as long as the process, since nobody can end a thread that rosconsole holds. The process ends behind its last
+/// line: rosconsole's locks go with the process, and a line that is written then would abort it.
 class OwnLog {
  public:
   static OwnLog& ofThisProcess() {
@@ -37,18 +39,31 @@ class OwnLog {
 
   void finish() {
     std::unique_lock<std::mutex> lock(mutex_);
-    changed_.wait_for(lock, kLongestFinish, [this] { return lines_.empty(); });
+    finish(lock);
   }
 
  private:
   OwnLog() {
     std::thread([this] { loop(); }).detach();
+    std::atexit([] { ofThisProcess().close(); });
+  }
+
+  void finish(std::unique_lock<std::mutex>& lock) {
+    changed_.wait_for(lock, kLongestFinish, [this] { return lines_.empty(); });
+  }
+
+  void close() {
+    std::unique_lock<std::mutex> lock(mutex_);
+    finish(lock);
+    is_closed_ = true;
+    if (is_writing_) changed_.wait_for(lock, kLongestFinish, [this] { return !is_writing_; });
   }
 
   [[noreturn]] void loop() {
     std::unique_lock<std::mutex> lock(mutex_);
     for (;;) {
-      changed_.wait(lock, [this] { return !lines_.empty(); });
+      changed_.wait(lock, [this] { return !lines_.empty() && !is_closed_; });
+      is_writing_ = true;
       const auto [level, text] = lines_.front();
       const std::size_t lost = std::exchange(lost_, 0);
       lock.unlock();
@@ -56,7 +71,8 @@ class OwnLog {
       if (lost > 0) ROS_WARN_STREAM(lost << " lines of the log are missing: it could not be written for a while");
       lock.lock();
       lines_.pop_front();  // only now, so that finish() waits for it
-      if (lines_.empty()) changed_.notify_all();
+      is_writing_ = false;
+      if (lines_.empty() || is_closed_) changed_.notify_all();
     }
   }
 
@@ -64,6 +80,8 @@ class OwnLog {
   std::condition_variable changed_;
   std::deque<std::pair<ros::console::Level, std::string>> lines_;
   std::size_t lost_ = 0;
+  bool is_writing_ = false;
+  bool is_closed_ = false;
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "ros/scan_accounting.hpp"
 
+#include <cstdlib>
 #include <map>
 #include <string>
 #include <vector>
@@ -111,6 +112,16 @@ TEST(ScanAccounting, WhatAMessageSaysMakesNoNewKindOfWarning) {
   books.warn(header, "the scan's range is odd, and the counter's too");
   finishLog();
   EXPECT_EQ(warnings.texts.size(), 4U);  // an apostrophe is no quotation mark
+}
+
+TEST(OwnLogDeathTest, AProcessEndsBehindTheLinesThatWait) {
+  testing::GTEST_FLAG(death_test_style) = "threadsafe";
+  EXPECT_EXIT(
+      {
+        for (int line = 0; line < 50; ++line) logSoon(ros::console::levels::Warn, "line " + std::to_string(line));
+        std::exit(0);
+      },
+      testing::ExitedWithCode(0), "line 49");
 }
 
 TEST(ScanAccounting, TellsWhatBecameOfEachScan) {
