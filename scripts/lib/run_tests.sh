@@ -28,9 +28,10 @@ runGoogleTest() {
   local name=$1 status=0 log=$results/logs/$1.txt program_file
   program_file=$(builtProgram "$name")
   timeout -k 10 "${google_test_timeout:-900}" "${program_file:-$name}" --gtest_output="xml:$results/google/$name.xml" >"$log" 2>&1 || status=$?
-  # Without a result file the executable is missing, crashed or ran out of time.
-  if [ ! -f "$results/google/$name.xml" ]; then
-    { tail -n 20 "$log"; echo "exit status $status, no result"; } >"$log.end"
+  # Without a result file the executable is missing, crashed or ran out of time; with one in which nothing failed it
+  # crashed at its end.
+  if [ "$status" -ne 0 ] && ! grep -qs '<failure' "$results/google/$name.xml"; then
+    { tail -n 20 "$log"; echo "exit status $status, no failed case"; } >"$log.end"
     record failed "$name" "$log.end"
   fi
 }
