@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from mems_stiction._design import DesignSweep, design_sweep
     from mems_stiction._device import DeviceForce, predict_device
     from mems_stiction._half_space import HalfSpace, half_space
+    from mems_stiction._lots import LotComparison, compare_lots
     from mems_stiction._made_surface import MadeSurface
     from mems_stiction._prediction import Prediction, Predictor, Verdict, predict, predict_many, predict_under
     from mems_stiction._scans import Cleaned, Roughness, Scan, channels, clean, decimate, generate, read, roughness
@@ -35,6 +36,7 @@ _MODULES = {
     "_design": ("DesignSweep", "design_sweep"),
     "_device": ("DeviceForce", "predict_device"),
     "_half_space": ("HalfSpace", "half_space"),
+    "_lots": ("LotComparison", "compare_lots"),
     "_made_surface": ("MadeSurface",),
     "_prediction": ("Prediction", "Predictor", "Verdict", "predict", "predict_many", "predict_under"),
     "_scans": ("Cleaned", "Roughness", "Scan", "channels", "clean", "decimate", "generate", "read", "roughness"),
@@ -45,10 +47,10 @@ _MODULES = {
 _MODULE_OF = {name: module for module, names in _MODULES.items() for name in names}
 
 __all__ = [
-    "Calibration", "Cleaned", "ContactCycles", "DesignSweep", "DeviceForce", "Error", "FileError", "HalfSpace", "LoadSweep", "MadeSurface", "OptionsError",
-    "Prediction", "Predictor", "Roughness", "Scan", "ScanWarning", "Settings", "SettingsWarning", "SurfaceError", "Verdict", "calibrate", "channels", "clean",
-    "cycle_contact", "decimate", "design_sweep", "generate", "half_space", "predict", "predict_device", "predict_many", "predict_under", "read",
-    "roughness", "sweep_loads"]
+    "Calibration", "Cleaned", "ContactCycles", "DesignSweep", "DeviceForce", "Error", "FileError", "HalfSpace", "LoadSweep", "LotComparison",
+    "MadeSurface", "OptionsError", "Prediction", "Predictor", "Roughness", "Scan", "ScanWarning", "Settings", "SettingsWarning", "SurfaceError",
+    "Verdict", "calibrate", "channels", "clean", "compare_lots", "cycle_contact", "decimate", "design_sweep", "generate", "half_space", "predict",
+    "predict_device", "predict_many", "predict_under", "read", "roughness", "sweep_loads"]
 
 
 def __getattr__(name: str) -> Any:

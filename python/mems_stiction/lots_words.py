@@ -1,0 +1,161 @@
+"""What rows say of lots and wafers, and what they cannot, in sentences."""
+
+from __future__ import annotations
+
+import math
+from typing import Dict, List, Sequence
+
+from mems_stiction.lots_data import RELEASING, UNITS, WORDS, Lots, Place, wafer_word, word_of
+from mems_stiction.lots_variance import Components, Hierarchy
+from mems_stiction.lots_wafer import BadPlace, Trend, is_steep
+from mems_stiction.lots_yield import BOUND, COUNTED, NORMAL, Share
+from mems_stiction.quantities import percent, ratio, with_unit
+
+FEW = 4  # degrees of freedom: below, an interval is wider than a factor of three either way
+MOST_NAMED = 6
+LEAST_TOLD = 1e-6  # of a share, as share_text() says
+MOST_FACTOR = 1000  # that is told
+SMALL = 1e-12  # of a variance over all of them
+
+
+def text_of(value: float, figure: str) -> str:
+    return with_unit(value, UNITS[figure]) if UNITS[figure] else ratio(value)
+
+
+def condition_text(at: float, against: str) -> str:
+    """"voltage 20 V"; empty without a condition."""
+    if not against:
+        return ""
+    unit = UNITS.get(against, "")
+    return "%s %s" % (WORDS.get(against, against), with_unit(at, unit) if unit else ratio(at))
+
+
+def _some(texts: Sequence[str]) -> str:
+    shown = list(texts[:MOST_NAMED])
+    return ", ".join(shown) + (" and %d more" % (len(texts) - MOST_NAMED) if len(texts) > MOST_NAMED else "")
+
+
+def of_rows(lots: Lots) -> List[str]:
+    """What was left out, and what rows do not say."""
+    said = []
+    lost = sum(not place.is_known() for place in lots.places)
+    if lost:
+        said.append("%d of %d rows have no %s and are left out" % (lost, len(lots.places), WORDS[lots.figure]))
+    if len(lots.conditions()) > 1:
+        said.append("lots, wafers and places are compared at %s, where most rows are" % condition_text(lots.at, lots.against))
+    free = sum(math.isinf(place.value) for place in lots.chosen)
+    if free:
+        said.append("%d rows have an infinite %s, since nothing holds there: they count as releasing, and are left out of differences" % (
+            free, WORDS[lots.figure]))
+    settings = {place.settings for place in lots.chosen if place.settings}
+    if len(settings) > 1:
+        said.append("the rows were made with %d different settings: what these change is taken for a difference of the places" % len(settings))
+    stated = [word for word, given in (("lot_id", any(place.lot for place in lots.places)), ("wafer_id", any(place.wafer for place in lots.places)),
+                                       ("site_x, site_y", any(place.has_site() for place in lots.places))) if not given]
+    if stated:
+        said.append("no row has %s, and nothing is said of these" % ", ".join(stated))
+    return said
+
+
+def of_bad_places(found: Sequence[BadPlace]) -> List[str]:
+    return ["%s does not belong to its wafer: %s %s, %s expected there (%.1f robust standard deviations, limit %.1f)" % (
+        word_of(bad.place), WORDS[bad.figure], text_of(bad.value, bad.figure), text_of(bad.expected, bad.figure), abs(bad.deviations), bad.limit)
+        for bad in of_each_place(found)][:MOST_NAMED]
+
+
+def of_each_place(found: Sequence[BadPlace]) -> List[BadPlace]:
+    """The first of each: what is compared goes before force and rms height."""
+    first: Dict[int, BadPlace] = {}
+    for bad in found:
+        first.setdefault(id(bad.place), bad)
+    return list(first.values())
+
+
+def _factor(variance: float) -> str:
+    factor = math.exp(min(math.sqrt(variance), 700.0))
+    return ratio(factor) if factor < MOST_FACTOR else "more than %d" % MOST_FACTOR
+
+
+def of_components(components: Components, hierarchy: Hierarchy, left_out: int) -> List[str]:
+    """left_out: bad places, which were."""
+    said = []
+    total = components.total()
+    for place, word in enumerate(components.words):
+        low, best, high = components.lower[place], components.variances[place], components.upper[place]
+        share = best / total if total > SMALL else math.nan
+        text = "%s differ by a factor of %s (%s to %s) for one standard deviation, %s of the variance" % (
+            word, _factor(best), _factor(low), _factor(high), percent(share))
+        if components.freedoms[place] < FEW:
+            text = "%d %s cannot tell how far %s differ: %s" % (components.counts[place], word, word, text)
+        elif low <= SMALL and place < len(components.words) - 1:
+            text += "; they may not differ at all"
+        said.append(text)
+    for word in hierarchy.single:
+        said.append("all rows are of one of the %s: how far %s differ cannot be told" % (word, word))
+    said += hierarchy.merged
+    if left_out:
+        said.append("the %d bad places are left out of these differences, not of the share that sticks" % left_out)
+    if not components.is_likelihood:
+        said.append("differences are those of mean squares, since restricted likelihood was not found; apt-get install python3-statsmodels gives it, "
+                    "where it is missing")
+    return said
+
+
+def of_trends(trends: Sequence[Trend], figure: str) -> List[str]:
+    """Those that are there, the steepest first; one sentence for the others."""
+    steep = sorted((trend for trend in trends if is_steep(trend)), key=lambda trend: -trend.factor)
+    said = []
+    for trend in steep[:MOST_NAMED]:
+        low, high = max(trend.factor_lower, 1.0), trend.factor_upper
+        said.append("%s: %s grows by a factor of %s (%s to %s) over %s, towards %.0f deg from x" % (
+            wafer_word(trend.lot, trend.wafer) or "the wafer", WORDS[figure], ratio(trend.factor), ratio(low), ratio(high), with_unit(trend.extent, "m"),
+            math.degrees(trend.direction)))
+    if len(steep) > MOST_NAMED:
+        said.append("%d more wafers have a trend, too" % (len(steep) - MOST_NAMED))
+    flat = [wafer_word(trend.lot, trend.wafer) or "the wafer" for trend in trends if not is_steep(trend)]
+    if flat:
+        said.append("no trend is seen over %s" % _some(flat))
+    return said
+
+
+def share_text(value: float) -> str:
+    """As far as digits tell something."""
+    if 0.0 < value < LEAST_TOLD:
+        return "less than 0.0001 %"
+    return "more than 99.9 %" if 0.9995 < value < 1.0 else percent(value)
+
+
+def share_words(share: Share) -> str:
+    """What is expected to stick, and by what."""
+    if share.method == BOUND and share.lower < 0.001 and share.upper > 0.999:
+        return "not known (%s of %d places stick%s, but the error of constants and model, which all margins share, reaches across 1)" % (
+            "none" if share.sticking == 0 else "all", share.places, "s" if share.sticking == 0 else "")
+    if share.method == BOUND:
+        bound = "at most %s" % share_text(share.upper) if share.sticking == 0 else "at least %s" % share_text(share.lower)
+        return "%s (%s of %d places stick%s)" % (bound, "none" if share.sticking == 0 else "all", share.places, "s" if share.sticking == 0 else "")
+    return "%s (%s to %s)" % (share_text(share.share), share_text(share.lower), share_text(share.upper))
+
+
+def of_shares(shares: Sequence[Share], lots: Lots, hierarchy: Hierarchy) -> List[str]:
+    if lots.figure not in RELEASING:
+        return ["no row has a margin: state the device (device/spring_stiffness, device/travel, device/contact_area) for the share that sticks"]
+    said = []
+    for share in shares:
+        where = condition_text(share.at, lots.against)
+        text = "%sexpected to stick: %s" % ("at %s " % where if where else "", share_words(share))
+        said.append(text + ", " + _method(share))
+    if any(not share.has_interval for share in shares):
+        said.append("margins come without intervals: the error of constants and model, which all rows share, is not in the share that sticks")
+    if hierarchy.single:
+        said.append("that share is for more places of the same %s" % hierarchy.single[-1].rstrip("s"))
+    return said
+
+
+def _method(share: Share) -> str:
+    if share.method == NORMAL:
+        return "by the normal distribution of the logarithms of %d margins; %d of them stick" % (share.places, share.sticking)
+    worth = "" if share.worth > 0.95 * share.places else "; places of one unit are alike, and these are worth %s independent ones" % ratio(share.worth, 2)
+    if share.method == COUNTED:
+        return "counted: %d of %d places%s" % (share.sticking, share.places, worth)
+    tail = "" if math.isnan(share.tail) else "; by a normal distribution it would be %s, but its tail is further out than these places show" % share_text(share.tail)
+    return "a bound of 95 %%%s%s" % (worth, tail)
