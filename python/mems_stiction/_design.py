@@ -55,6 +55,14 @@ class DesignSweep(ReadOnly):
             axes={axis.name: np.array(axis.values) for axis in rows.axes}, rows=table, statements=statements_of(rows.axes, listed),
             **{name: table[name].reshape(shape) for name in ("margin", "margin_lower", "margin_upper")})
 
+    def save_rows(self, path: Union[str, "os.PathLike[str]"]) -> None:
+        """CSV, or Parquet with units where the path ends in .parquet: every point, as in rows."""
+        from mems_stiction import row_table
+
+        units = dict({name: "N" for name in FIGURES if name.endswith("force") or "_force_" in name}, **self._units)
+        rows = [dict(zip(self.rows.dtype.names or (), point)) for point in self.rows.tolist()]
+        row_table.write_rows(os.fspath(path), self.rows.dtype.names, rows, {name: unit for name, unit in units.items() if unit}, self._origin)
+
     def to_dict(self) -> Dict[str, Any]:
         """What json() prints. None stands for what is not known, and for the infinite margin where nothing holds."""
         return dict(self._origin, axes={name: list(map(float, values)) for name, values in self.axes.items()}, units=dict(self._units),

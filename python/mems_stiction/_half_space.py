@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import json
 import os
-from typing import Any, Dict, Optional, Union
+from typing import Any, Dict, Optional, Tuple, Union
 
 import numpy as np
 
 from mems_stiction import _core
-from mems_stiction._arrays import Pitch, ReadOnly, Surface, array_of, explained, records_of
+from mems_stiction._arrays import Pitch, ReadOnly, Surface, array_of, explained, plain_value, records_of
 from mems_stiction._inputs import inputs_of
 from mems_stiction._prediction import Verdict
 from mems_stiction._settings import Config
@@ -33,6 +34,8 @@ class HalfSpace(_core.HalfSpaceFigures, ReadOnly):
         verdict = core.verdict
         self.verdict: Optional[Verdict]
         self.name: str
+        self.pitch: Tuple[float, float]
+        self._is_transposed = surface.is_transposed
         #: force over height, both ways: height [m] over first touch, force [N], direction (0 approach, 1 retraction)
         self.curve: np.recarray
         #: between the surfaces at rest [Pa], repulsion positive; None if there is no rest, as the maps below
@@ -46,9 +49,19 @@ class HalfSpace(_core.HalfSpaceFigures, ReadOnly):
         #: the same of the upper surface; None if it is flat and harder
         self.deformed_upper: Optional[np.ndarray]
         self.__dict__.update(
-            verdict=None if verdict is None else Verdict(verdict), name=surface.name, curve=records_of(core.curve), pressure=view(core.pressure),
+            verdict=None if verdict is None else Verdict(verdict), name=surface.name, pitch=surface.core.pitch, curve=records_of(core.curve), pressure=view(core.pressure),
             gap=view(core.gap), contact_map=view(core.contact_map), deformed_lower=view(core.deformed_lower.pixels),
             deformed_upper=view(core.deformed_upper.pixels))
+
+    def save_maps(self, path: Union[str, "os.PathLike[str]"]) -> None:
+        """HDF5 in the layout of NetCDF-4 (.h5, .hdf5, .nc), by h5py: the maps and the curve (group curve) with their units as attributes."""
+        from mems_stiction import map_file
+
+        maps = [map_file.Map("gap", self.gap, "m", "gap at rest")] + map_file.maps_after_contact(self)
+        figures = {name: getattr(self, name) for name in _core.figures["HalfSpaceFigures"]}
+        map_file.save(path, maps, {"curve": self.curve}, self.pitch, self._is_transposed,
+                      {"version": _core.version(), "scan_name": self.name, "status": self.status},
+                      json.dumps({name: plain_value(value) for name, value in figures.items()}))
 
     def save_picture(self, path: Union[str, "os.PathLike[str]"]) -> None:
         """PNG: pressure at rest, and force over height."""

@@ -18,6 +18,7 @@ from mems_stiction._arrays import Pitch, ReadOnly, Surface, array_of, explained,
 from mems_stiction._inputs import brings_pitch, counter_of, section_or_surface, warn_about
 from mems_stiction._scans import Roughness
 from mems_stiction._settings import Config, Error, OptionsError, Settings
+from mems_stiction.provenance import FIELDS
 from mems_stiction.quantities import area, percent, ratio, with_interval, with_unit
 
 
@@ -199,6 +200,18 @@ class Prediction(_core.PredictionFigures, ReadOnly):
         from mems_stiction import _pictures, plots
 
         plots.save_picture(_pictures.picture_of(self), os.fspath(path))
+
+    def save_maps(self, path: Union[str, "os.PathLike[str]"]) -> None:
+        """HDF5 in the layout of NetCDF-4 (.h5, .hdf5, .nc), by h5py: the maps that output/... asked for, curve and contacts, with their
+        units as attributes, and the record. h5py, xarray and MATLAB read it; groups: curve, curve_over_height, energy_curve, contacts."""
+        from mems_stiction import map_file
+
+        maps = [map_file.Map("heights", self.heights, "m", "height of the scan after its cleaning"),
+                map_file.Map("upper_heights", self.upper_heights, "m", "height of the counter-surface in its place")]
+        curves = {"curve": self.curve, "curve_over_height": self.curve_over_height, "energy_curve": self.energy_curve, "contacts": self.asperities}
+        origin = self._origin()
+        map_file.save(path, maps + map_file.maps_after_contact(self), curves, self.pitch, self._is_transposed,
+                      {name: origin[name] for name in FIELDS if origin.get(name)}, self.json())
 
     def __getstate__(self) -> Dict[str, Any]:
         """With copies of all arrays: for another process."""

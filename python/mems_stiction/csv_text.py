@@ -23,3 +23,6 @@ def csv_cell(value):
     except ValueError:
         return "'" + value
     return value
+
+
+ESCAPED = r"^'([=+\-@\t])"  # what csv_cell() has put an apostrophe before

@@ -1,7 +1,6 @@
 """Runs one of the node's long actions for a person at a terminal: progress, and Ctrl-C that cancels and keeps what is done."""
 
 import argparse
-import csv
 import math
 import re
 import sys
@@ -10,10 +9,9 @@ import time
 import actionlib
 import rospy
 from actionlib import CommState, TerminalState
-from mems_stiction.csv_text import csv_cell
 from mems_stiction.provenance import FIELDS as PROVENANCE
+from mems_stiction.row_table import units_of, write_rows
 from mems_stiction.station_node import CannotRun, no_node
-from mems_stiction.whole_file import whole
 
 DONE, CANCELLED, NOT_RUN = 0, 1, 2  # exit statuses
 MOST_NUMBERS = 1000000  # of a range; the node takes no more
@@ -91,17 +89,13 @@ def numbers(text):
     return [first + index * step for index in range(count)]
 
 
-def write_csv(messages, path, result):
-    """One line for each message, with its field names, and what the result says of where it comes from; units stand in the
-    .msg file."""
+def write_points(messages, path, result):
+    """A CSV, or Parquet, with one line for each message, its field names, and what the result says of where it comes from."""
     names = messages[0].__slots__ if messages else []
-    origin = [getattr(result, name) for name in PROVENANCE]
-    with whole(path) as part, open(str(part), "w", encoding="utf-8", newline="") as stream:
-        writer = csv.writer(stream, lineterminator="\n")
-        writer.writerow(list(names) + list(PROVENANCE))
-        for message in messages:
-            writer.writerow([repr(value) if isinstance(value, float) else int(value) for value in
-                             (getattr(message, name) for name in names)] + [csv_cell(text) for text in origin])
+    origin = {name: getattr(result, name) for name in PROVENANCE}
+    rows = [dict({name: getattr(message, name) for name in names}, **origin) for message in messages]
+    units = units_of(type(messages[0])) if messages else {}
+    write_rows(path, list(names) + list(PROVENANCE), rows, units, origin)
 
 
 def left_out(all_items, most, what):

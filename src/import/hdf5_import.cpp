@@ -94,13 +94,34 @@ def surface_topography(file):
     yield "heights", values.T, sides[0], sides[1], unit, ""
 
 
+def coordinates(file):
+    """Maps of NetCDF-4 over evenly spaced x and y with units of length, by the conventions of CF: what save_maps() of ours writes."""
+    for name in sorted(name for name in file if isinstance(file[name], h5py.Dataset) and file[name].ndim == 2):
+        data = file[name]
+        scales = [dict(dimension.items()) for dimension in data.dims]
+        axes = [scale[axis] for scale, axis in zip(scales, ("y", "x")) if axis in scale]
+        factors = [LENGTHS.get(text(axis.attrs.get("units", "")), 0.0) for axis in axes]
+        if len(axes) != 2 or min(factors) == 0.0 or min(data.shape) < 2 or data.dtype.kind not in "fiu":
+            continue
+        sides = []
+        for axis, factor, count in zip(axes, factors, data.shape):
+            steps = numpy.diff(numpy.asarray(axis, dtype=float)) * factor
+            sides.append(steps.mean() * count if numpy.allclose(steps, steps.mean(), rtol=1e-6, atol=0.0) else 0.0)
+        values, unit = numpy.asarray(data, dtype=float), text(data.attrs.get("units", ""))
+        if unit in LENGTHS:
+            values, unit = values * LENGTHS[unit], "m"
+        yield name, values, sides[1], sides[0], unit, ""
+
+
 def main(path, folder):
     try:
         file = h5py.File(path, "r")
     except OSError:
         sys.exit(4)
     lines = []
-    for layout in (jpk, topostats, surface_topography):
+    for layout in (coordinates, jpk, topostats, surface_topography):
+        if lines:
+            break
         for title, values, width, height, unit, note in layout(file):
             numpy.save("%s/%d.npy" % (folder, len(lines)), numpy.ascontiguousarray(values, dtype="<f8"))
             words = [title.replace("\t", " ").replace("\n", " "), repr(width), repr(height), unit, note]

@@ -1,17 +1,24 @@
 """A disk that fills up while a batch, a report or a curve is written: one line, a status, and nothing that looks whole."""
 
+import importlib.util
 import os
 import pathlib
 import subprocess
 import tempfile
 import unittest
 
+import mems_stiction
 import numpy as np
 from mems_stiction.whole_file import CannotWrite, reason_of
 from roslib.packages import find_node
 
 SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "scripts"
 SCANS = 40
+
+
+def has(module):
+    """Whether a library of others is installed."""
+    return importlib.util.find_spec(module) is not None
 
 
 class FullDiskTest(unittest.TestCase):
@@ -94,18 +101,46 @@ class FullDiskTest(unittest.TestCase):
             (self.disk / "fill").unlink()
 
     def test_a_sweep_or_cycles_are_whole_or_absent(self):
-        from mems_stiction.long_run import write_csv
+        from mems_stiction.long_run import write_points
         from mems_stiction.msg import CycleContactResult, CyclePoint
         from mems_stiction.station_figures import save_cycles
 
-        result = CycleContactResult(cycles=[CyclePoint(cycle=cycle) for cycle in range(1000)])
+        result = CycleContactResult(cycles=[CyclePoint(cycle=cycle, pull_off_force=cycle / 7) for cycle in range(1000)])
         self.leave(4096)
-        for name, write in (("cycles.csv", lambda path: write_csv(result.cycles, path, result)), ("cycles.png", lambda path: save_cycles(result, path))):
+        writers = {"cycles.csv": lambda path: write_points(result.cycles, path, result), "cycles.png": lambda path: save_cycles(result, path)}
+        if has("pyarrow"):
+            writers["cycles.parquet"] = writers["cycles.csv"]
+        for name, write in writers.items():
             path = str(self.disk / name)
             with self.assertRaises(CannotWrite) as caught:
                 write(path)
             self.assertEqual(reason_of(caught.exception), path + ": cannot be written: No space left on device")
             self.assertEqual([one.name for one in self.disk.iterdir()], ["fill"])
+
+    def test_maps_are_whole_or_absent(self):
+        if not has("h5py"):
+            self.skipTest("not installed: h5py")
+        prediction = mems_stiction.predict(np.random.RandomState(1).normal(size=(64, 64)) * 1e-9, 1e-8, output={"deformed_surfaces": True})
+        for size in (0, 4096, 32768):
+            self.leave(size)
+            with self.assertRaises(CannotWrite) as caught:
+                prediction.save_maps(self.disk / "maps.h5")
+            self.assertIn("maps.h5: cannot be written: ", reason_of(caught.exception))
+            self.assertEqual([one.name for one in self.disk.iterdir()], ["fill"])
+            (self.disk / "fill").unlink()
+
+    def test_a_recording_is_whole_or_absent(self):
+        if not has("mcap_ros2"):
+            self.skipTest("not installed: mcap_ros2")
+        bag = self.folder / "scans.bag"
+        self.assertEqual(self.run_program(find_node("mems_stiction", "make_scan_bag")[0], "--pitch", "1e-8", "-o", bag, *self.scans).returncode, 0)
+        for size in (0, 4096, 32768):
+            self.leave(size)
+            done = self.run_program(SCRIPTS / "bag_to_mcap", "-o", self.disk / "scans.mcap", bag)
+            self.assertEqual((done.returncode, done.stderr), (
+                2, "bag_to_mcap: %s: cannot be written: No space left on device\n" % (self.disk / "scans.mcap")), size)
+            self.assertEqual([path.name for path in self.disk.iterdir()], ["fill"], size)
+            (self.disk / "fill").unlink()
 
     def test_what_is_printed_to_a_full_disk_is_said_so(self):
         with self.assertRaises(OSError) as caught, open("/dev/full", "w") as full:

@@ -1,5 +1,6 @@
 """Ctrl-C in the middle of each program: no traceback, the status of a signal, no file that only looks whole, what was there before stays."""
 
+import importlib.util
 import os
 import pathlib
 import signal
@@ -151,6 +152,13 @@ class InterruptedTest(unittest.TestCase):
 
     def test_a_bag_of_scans(self):
         self.try_all_over([program("make_scan_bag"), "-o", self.folder / "scans.bag", "--pitch", "1e-8", *self.scans])
+
+    def test_a_recording_as_mcap(self):
+        if importlib.util.find_spec("mcap_ros2") is None:
+            self.skipTest("not installed: mcap_ros2")
+        bag = self.inputs / "scans.bag"
+        subprocess.run([program("make_scan_bag"), "-o", str(bag), "--pitch", "1e-8"] + list(map(str, self.scans)), check=True, stdout=subprocess.DEVNULL)
+        self.try_all_over([SCRIPTS / "bag_to_mcap", "-o", self.folder / "scans.mcap", bag])
 
     def test_a_batch_goes_on_with_nothing_lost_or_twice(self):
         small = []
