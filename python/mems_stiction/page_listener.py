@@ -54,7 +54,7 @@ class PageListener:
         topics = [("prediction", StictionPrediction, self._on_prediction, None, dict(queue_size=1000)),
                   ("part_verdict", PartVerdict, self._on_part, None, dict(queue_size=10)),
                   ("scan_info", ScanInfo, self._on_info, None, dict(queue_size=100)),
-                  ("preview", Image, self._on_map, "height", dict(queue_size=1, buff_size=MAP_BUFFER)),
+                  ("deformed_height", Image, self._on_map, "height", dict(queue_size=1, buff_size=MAP_BUFFER)),
                   ("contact_map", Image, self._on_map, "contacts", dict(queue_size=1, buff_size=MAP_BUFFER)),
                   ("device_force", DeviceAdhesion, self._on_device, None, dict(queue_size=10)),
                   ("half_space", HalfSpaceSolution, self._on_half_space, None, dict(queue_size=10)),
@@ -79,7 +79,7 @@ class PageListener:
 
     def _on_map(self, image, name):
         stamp = image.header.stamp.to_nsec()
-        self._state.set_map(name, stamp, image, self._size(stamp, image) if name == "contacts" else None)
+        self._state.set_map(name, stamp, image, self._size(stamp, image))
 
     def _size(self, stamp, image):
         """Width and height of the scan [m] by the pitch that its scan_info or the parameters state; None if neither does."""

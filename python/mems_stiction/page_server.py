@@ -6,6 +6,7 @@ it. A connection that is silent, or takes nothing, ends. The page reads only; no
 
 import asyncio
 import errno
+import io
 import ipaddress
 import json
 import pathlib
@@ -16,7 +17,8 @@ import tornado.netutil
 import tornado.web
 import tornado.websocket
 
-from mems_stiction.page_maps import contact_png, height_png, rings
+from mems_stiction.page_maps import LONGEST, LONGEST_ZOOMED, contact_png, height_png, height_range, measured_at, rings
+from mems_stiction.row_table import write_csv
 
 FOLDER = pathlib.Path(__file__).resolve().parent / "page"
 SHORTEST_PERIOD = 0.2  # between two states for one browser [s], however fast scans come
@@ -24,7 +26,7 @@ LONGEST_PERIOD = 2.0  # ages are told again [s]
 PATIENCE = 60.0  # with a connection that asks for nothing, or does not take what it asked for [s]
 LONGEST_REQUEST = 65536  # bytes; browsers send some hundred
 PICTURES = {"height": height_png, "contacts": contact_png}
-POLICY = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self'; connect-src 'self'"
+POLICY = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob:; connect-src 'self'"
 LOCAL_NAMES = ("localhost", "127.0.0.1", "[::1]")
 
 
@@ -66,14 +68,50 @@ class _PageFile(_InTime, tornado.web.StaticFileHandler):
 
 
 class _Picture(_InTime, tornado.web.RequestHandler):
-    """/map/height.png, /map/contacts.png: of the newest scan. Drawn once for all browsers."""
+    """/map/height.png, /map/contacts.png: of the newest scan, with ?zoomed in all its pixels, with ?turned clockwise. Drawn once for all browsers."""
 
     def get(self, name):
         found = self.application.settings["state"].map_of(name)
         if found is None:
             raise tornado.web.HTTPError(404)
+        longest = LONGEST_ZOOMED if "zoomed" in self.request.arguments else LONGEST
+        quarters = 1 if "turned" in self.request.arguments else 0
         self.set_header("Content-Type", "image/png")
-        self.write(self.application.settings["drawn"].get(name, *found, PICTURES[name]))
+        self.write(self.application.settings["drawn"].get("%s %d %d" % (name, longest, quarters), *found, lambda image: PICTURES[name](image, longest, quarters)))
+
+
+class _Measured(_InTime, tornado.web.RequestHandler):
+    """/measure?id=STAMP&x=0.1&y=0.2[&x=0.3&y=0.4]: the heights at places of the newest scan, and what is between two of them."""
+
+    def get(self):
+        state = self.application.settings["state"]
+        try:
+            places = [(float(x), float(y)) for x, y in zip(self.get_arguments("x"), self.get_arguments("y"))]
+        except ValueError:
+            places = []
+        if not 1 <= len(places) <= 2 or not all(0 <= share <= 1 for place in places for share in place):
+            raise tornado.web.HTTPError(400)
+        found = state.map_of("height")
+        if found is None or str(found[0]) != self.get_argument("id", ""):  # a newer scan has come
+            raise tornado.web.HTTPError(404)
+        self.write(measured_at(found[1], state.size_of("height"), places))
+
+
+class _Rows(_InTime, tornado.web.RequestHandler):
+    """/scan.csv, /parts.csv: the newest prediction, and the newest verdict on each part."""
+
+    def get(self, name):
+        state = self.application.settings["state"]
+        row = state.scan_row()
+        rows = state.part_rows() if name == "parts" else [row] if row else []
+        if not rows:
+            raise tornado.web.HTTPError(404)
+        file = "parts" if name == "parts" else "scan_%d" % row["number"]
+        self.set_header("Content-Type", "text/csv; charset=utf-8")
+        self.set_header("Content-Disposition", 'attachment; filename="%s.csv"' % file)
+        text = io.StringIO()
+        write_csv(text, list(dict.fromkeys(name for row in rows for name in row)), rows)
+        self.write(text.getvalue())
 
 
 class _Drawn:
@@ -103,8 +141,10 @@ class _StateSocket(_Guarded, tornado.websocket.WebSocketHandler):
         snapshot = state.snapshot()
         self._seen = snapshot["version"]
         found = state.map_of("contacts")
-        snapshot["stale_after"] = self.application.settings["stale_after"]
+        snapshot["stale_after"] = self.application.settings["stale_after"] or snapshot["stale_after"]
         snapshot["rings"] = self.application.settings["drawn"].get("rings", *found, rings) if found else []
+        found = state.map_of("height")
+        snapshot["height_range"] = self.application.settings["drawn"].get("range", *found, height_range) if found else None
         try:
             await self.write_message(json.dumps(snapshot, allow_nan=False))
         except (tornado.websocket.WebSocketClosedError, tornado.iostream.StreamClosedError):
@@ -112,11 +152,12 @@ class _StateSocket(_Guarded, tornado.websocket.WebSocketHandler):
 
 
 def application(state, is_local, stale_after, patience=PATIENCE):
-    """state: a PageState. stale_after [s]: without a scan for so long, the page marks what it shows as old."""
+    """state: a PageState. stale_after [s]: without a scan for so long, the page marks what it shows as old; None: by the rate of the scans."""
     return tornado.web.Application(
         [(r"/state", _StateSocket), (r"/map/(height|contacts)\.png", _Picture),
          (r"/()", _PageFile, {"path": str(FOLDER), "default_filename": "index.html"}),
-         (r"/((?:index|page|charts)\.(?:html|css|js))", _PageFile, {"path": str(FOLDER)})],
+         (r"/measure", _Measured), (r"/(scan|parts)\.csv", _Rows),
+         (r"/([a-z]+\.(?:html|css|js))", _PageFile, {"path": str(FOLDER)})],
         state=state, is_local=is_local, stale_after=stale_after, patience=patience, drawn=_Drawn(), websocket_ping_interval=10.0,
         websocket_max_message_size=LONGEST_REQUEST)
 

@@ -13,11 +13,18 @@ from mems_stiction.control_chart import control_limits, of_newest_settings
 from mems_stiction.page_words import (NO_EQUILIBRIUM, curve_of, device_of, all_finite, diagnostics_of, figures_of, finite, flags_of, half_space_of, judged_by, part_of,
                                       ratio_of, sentence, trace_of, verdict_of, with_unit)
 from mems_stiction.provenance import provenance_words
+from mems_stiction.message_rows import flattened
+from mems_stiction.prediction_text import contact_area_of
 from mems_stiction.quantities import typeset
-from mems_stiction.station_text import cycle_sentences, sweep_sentences
+from mems_stiction.station_text import area_label, cycle_sentences, safe_voltage_words, sweep_sentences
+from mems_stiction.sweep_jumps import jumps_of
 
 MOST_SCANS = 300  # of the trend
 MOST_LOSSES = 50  # with their reasons
+MOST_PARTS = 100  # whose newest verdicts are kept, as many as the node keeps
+MOST_PERIODS = 9  # between scans, by which their rate is known
+STALE_UNTIL_KNOWN = 30.0  # without a scan for so long, what is shown is old, while the scans' rate is not known [s]
+STALE_PERIODS, SHORTEST_STALE = 3.0, 5.0  # so many usual periods, and at least so long [s]
 UP = 0  # SweepPoint.UP
 
 
@@ -25,6 +32,15 @@ def stamp_of_reason(reason):
     """"rejected the scan of stamp 1001.500000000: ..." -> 1001500000000 [ns]; None where there is no stamp."""
     match = re.search(r"of stamp (\d+)\.(\d{9}):", reason)
     return int(match.group(1)) * 10**9 + int(match.group(2)) if match else None
+
+
+def _jumps_of(result):
+    """The jumps of a sweep as plots of it number them: where they are, and why."""
+    jumps = [(load, jump) for load in sorted({point.mechanical_load for point in result.points})
+             for jump in jumps_of(result.points, load, result.pull_in_voltage)]
+    return [{"number": number, "load": load, "voltage": 0.5 * (jump.before.voltage + jump.after.voltage),
+             "area": 0.5 * (contact_area_of(jump.before) + contact_area_of(jump.after)), "words": typeset(jump.words())}
+            for number, (load, jump) in enumerate(jumps, 1)]
 
 
 class PageState:
@@ -43,9 +59,11 @@ class PageState:
         self._latest = None  # (number, stamp, prediction)
         self._loss_is_newest = False
         self._heard = None  # when the last scan was predicted
+        self._periods = collections.deque(maxlen=MOST_PERIODS)  # between predictions [s]
         self._half_space = None
         self._device = None
         self._part = None
+        self._parts = {}  # newest last: (part, serial number) -> (what the page shows, message, when)
         self._maps = {}
         self._diagnostics = {}
         self._runs = {}
@@ -74,6 +92,8 @@ class PageState:
                 "is_usable": prediction.status != NO_EQUILIBRIUM})
             self._latest = (self._count, stamp, prediction)
             self._loss_is_newest = False
+            if self._heard is not None:
+                self._periods.append(self._clock() - self._heard)
             self._heard = self._clock()
             self._changed()
 
@@ -108,7 +128,9 @@ class PageState:
     def add_device(self, stamp, device):
         """The force of the whole device, by the scan of this stamp [ns] and those of its part before."""
         with self._lock:
-            self._device = shown = dict(device_of(device), stamp=stamp)
+            shown = dict(device_of(device), stamp=stamp)
+            if not self._is_earlier(stamp, self._device):
+                self._device = shown
             if shown["is_found"]:
                 ratio = shown["ratio"] or dict.fromkeys(("value", "lower", "upper"))
                 for row in self._trend:
@@ -120,13 +142,37 @@ class PageState:
     def add_part(self, stamp, part):
         """What all scans of a part say together. stamp: of its last scan [ns]."""
         with self._lock:
-            self._part = dict(part_of(part), stamp=stamp)
+            shown = dict(part_of(part), stamp=stamp)
+            if not self._is_earlier(stamp, self._part):
+                self._part = shown
+            self._parts.pop((part.part_id, part.serial_id), None)
+            self._parts[part.part_id, part.serial_id] = (shown, part, self._clock())
+            while len(self._parts) > MOST_PARTS:
+                del self._parts[next(iter(self._parts))]
             self._changed()
+
+    def scan_row(self):
+        """The newest prediction as a row, {column: cell} with the names of its message; None before the first."""
+        with self._lock:
+            return self._latest and dict(number=self._latest[0], stamp="%.9f" % (self._latest[1] * 1e-9), **flattened(self._latest[2]))
+
+    def part_rows(self):
+        """The newest verdict on each part as a row, with the names of PartVerdict; the part that was heard of last comes last."""
+        with self._lock:
+            return [flattened(message) for _, message, _ in self._parts.values()]
+
+    def stale_after(self):
+        """For how long nothing may come before what is shown is old [s]: three times as long as it usually takes."""
+        with self._lock:
+            if not self._periods:
+                return STALE_UNTIL_KNOWN
+            usual = sorted(self._periods)[len(self._periods) // 2]
+            return max(SHORTEST_STALE, STALE_PERIODS * usual)
 
     def set_map(self, name, stamp, image, size=None):
         """An image message that is drawn when a browser asks for it. size: (width, height) of the scan [m], if known."""
         with self._lock:
-            self._maps[name] = (stamp, image, size or self._maps.get(name, (0, None, None))[2])
+            self._maps[name] = (stamp, image, size)
             self._changed()
 
     def map_of(self, name):
@@ -134,6 +180,11 @@ class PageState:
         with self._lock:
             found = self._maps.get(name)
             return found and found[:2]
+
+    def size_of(self, name):
+        """(width, height) [m] of what a map shows; None where it is not known."""
+        with self._lock:
+            return self._maps[name][2]
 
     def add_progress(self, kind, goal, done, total):
         """Of the sweep or the cycles that run. Progress of a goal that has ended comes too late: topics do not wait for each other."""
@@ -146,20 +197,23 @@ class PageState:
     def add_sweep(self, goal, result):
         points = [{"way": "up" if point.direction == UP else "down", "load": point.mechanical_load,
                    "load_text": with_unit(point.mechanical_load, "N"), "voltage": point.voltage,
-                   "margin": finite(point.margin), "lower": finite(point.margin_lower), "held": finite(point.holding_margin),
-                   "force": finite(point.pull_off_force), "is_open": bool(point.is_open)}
+                   "margin": finite(point.margin), "lower": finite(point.margin_lower), "upper": finite(point.margin_upper),
+                   "held": finite(point.holding_margin), "force": finite(point.pull_off_force), "force_lower": finite(point.pull_off_force_lower),
+                   "force_upper": finite(point.pull_off_force_upper), "area": finite(contact_area_of(point)), "is_open": bool(point.is_open)}
                   for point in result.points if math.isfinite(point.voltage)]
-        self._end("sweep", goal, points, sweep_sentences(result, width=None) if points else [], result.message)
+        safe = [{"load": summary.mechanical_load, "load_text": with_unit(summary.mechanical_load, "N"), "voltage": finite(summary.highest_safe_voltage),
+                 "words": typeset(safe_voltage_words(summary, result.points))} for summary in result.summaries]
+        self._end("sweep", goal, points, sweep_sentences(result, width=None) if points else [], result.message, safe=safe,
+                  jumps=_jumps_of(result) if points else [], area_label=area_label(result.points), pull_in=finite(result.pull_in_voltage))
 
     def add_cycles(self, goal, result):
         points = [{"cycle": cycle.cycle, "force": finite(cycle.pull_off_force), "margin": finite(cycle.margin),
                    "lower": finite(cycle.margin_lower), "plastic": cycle.plastic_count} for cycle in result.cycles]
         self._end("cycles", goal, points, cycle_sentences(result), result.message)
 
-    def _end(self, kind, goal, points, sentences, message):
+    def _end(self, kind, goal, points, sentences, message, **more):
         with self._lock:
-            self._runs[kind] = {"goal": goal, "points": points, "sentences": [typeset(text) for text in sentences],
-                                "message": message, "ended": self._clock()}
+            self._runs[kind] = dict(more, goal=goal, points=points, sentences=[typeset(text) for text in sentences], message=message, ended=self._clock())
             self._changed()
 
     def snapshot(self):
@@ -169,7 +223,9 @@ class PageState:
             return all_finite({"version": self.version, "link": self._link, "age": None if self._heard is None else now - self._heard,
                     "count": self._count, "lost": self._lost, "loss_is_newest": self._loss_is_newest,
                     "losses": list(self._losses), "scan": self._scan(), "trend": list(self._trend), "control": self._control(),
-                    "part": self._shown_part(), "half_space": self._with_number(self._half_space),
+                    "part": self._shown_part(), "parts": [dict(shown, number=self._number_of(shown["stamp"]), age=now - heard)
+                                                          for shown, _, heard in self._parts.values()],
+                    "stale_after": self.stale_after(), "half_space": self._with_number(self._half_space),
                     "device": self._with_number(self._device), "maps": self._shown_maps(),
                     "diagnostics": [dict(entry, age=now - heard) for _, (entry, heard) in sorted(self._diagnostics.items())],
                     "runs": {kind: self._run(run, now) for kind, run in self._runs.items()}})
@@ -209,6 +265,12 @@ class PageState:
 
     def _with_number(self, of_scan):
         return of_scan and dict(of_scan, number=self._number_of(of_scan["stamp"]))
+
+    def _is_earlier(self, stamp, shown):
+        """Whether what comes is of a scan before that of what is shown: when that was solved as a half-space it is judged again, and hides no later one. By
+        the order in which scans came, since a bag brings the stamps of its day."""
+        number, other = self._number_of(stamp), shown and self._number_of(shown["stamp"])
+        return number is not None and other is not None and number < other
 
     def _number_of(self, stamp):
         return next((row["number"] for row in reversed(self._trend) if row.get("stamp") == stamp), None)

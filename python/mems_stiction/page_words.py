@@ -59,6 +59,7 @@ def verdict_of(prediction):
 
 
 def sentence(text):
+    text = typeset(text)
     return text[:1].upper() + text[1:] + ("" if not text or text.endswith(".") else ".")
 
 
@@ -116,7 +117,7 @@ def part_of(part):
     if shown and says_nothing(shown):
         counted = "%d scan%s" % (part.counted_scans, " says" if part.counted_scans == 1 else "s say")
         shown, reason = None, "%s nothing of the %s yet. %s" % (counted, shown["label"], reason)
-    return {"name": part_name(part), "level": level, "word": word, "reason": reason, "ratio": shown,
+    return {"name": part_name(part), "part": part.part_id, "serial": part.serial_id, "level": level, "word": word, "reason": reason, "ratio": shown,
             "verdict_by": judge_word(part.verdict_by), "settings_hash": part.settings_hash,
             "scans": "%d scan%s" % (part.scan_count, "" if part.scan_count == 1 else "s")
                      + ("" if part.counted_scans == part.scan_count else ", %d count" % part.counted_scans),

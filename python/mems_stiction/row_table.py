@@ -66,9 +66,14 @@ def write_rows(path, names, rows, units, origin=None):
         write_table(path, _table_of(names, rows, units), units, origin or {})
         return
     with whole(path) as part, open(str(part), "w", encoding="utf-8", newline="") as stream:
-        writer = csv.writer(stream, lineterminator="\n")
-        writer.writerow(names)
-        writer.writerows([_cell(row.get(name)) for name in names] for row in rows)
+        write_csv(stream, names, rows)
+
+
+def write_csv(stream, names, rows):
+    """The rows as text; columns that a row lacks are empty there."""
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow(names)
+    writer.writerows([_cell(row.get(name)) for name in names] for row in rows)
 
 
 def _cell(value):

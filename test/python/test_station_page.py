@@ -2,6 +2,7 @@
 
 import asyncio
 import contextlib
+import io
 import json
 import math
 import os
@@ -23,12 +24,13 @@ from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 from mems_stiction.msg import (CycleContactResult, CyclePoint, DeviceAdhesion, HalfSpacePoint, HalfSpaceSolution, PartVerdict, SeparationPoint,
                                StictionPrediction, SweepLoadResult, SweepPoint, SweepSummary)
 from mems_stiction.control_chart import control_limits
-from mems_stiction.page_maps import contact_png, height_png, rings, severest
+from mems_stiction.page_maps import contact_png, height_png, height_range, rings, severest
 from mems_stiction.page_server import FOLDER, CannotServe, PageServer
-from mems_stiction.page_state import MOST_SCANS, PageState, stamp_of_reason
+from mems_stiction.page_state import MOST_PARTS, MOST_SCANS, PageState, stamp_of_reason
 from mems_stiction.page_words import curve_of, half_space_of, part_of, ratio_of, trace_of, verdict_of
 from mems_stiction.quantities import typeset
 from mems_stiction.station_text import sweep_sentences
+from PIL import Image as Picture
 from sensor_msgs.msg import Image
 
 STATION_PAGE = pathlib.Path(__file__).resolve().parents[2] / "scripts/station_page"
@@ -231,6 +233,42 @@ class StateTest(unittest.TestCase):
         now[0] = 135.0
         self.assertEqual(state.snapshot()["age"], 35.0)
 
+    def test_what_is_old_follows_the_rate_of_the_scans(self):
+        now = [0.0]
+        state = PageState(clock=lambda: now[0])
+        self.assertEqual(state.snapshot()["stale_after"], 30.0)
+        for period, expected in ((600.0, 1800.0), (0.05, 5.0)):
+            for _ in range(20):
+                now[0] += period
+                state.add_prediction(1, prediction())
+            self.assertAlmostEqual(state.snapshot()["stale_after"], expected)
+        now[0] += 1e5  # a night is no period of theirs
+        state.add_prediction(1, prediction())
+        self.assertAlmostEqual(state.snapshot()["stale_after"], 5.0)
+
+    def test_a_scan_that_is_judged_again_does_not_hide_a_later_one(self):
+        state = PageState()
+        for stamp in (5, 6):
+            state.add_prediction(stamp * SECOND, prediction())
+            state.add_device(stamp * SECOND, device_message())
+            state.add_part(stamp * SECOND, part_message(serial_id=str(stamp)))
+        state.add_device(5 * SECOND, device_message(margin=7.0))
+        state.add_part(5 * SECOND, part_message(serial_id="5", margin=7.0))
+        shown = state.snapshot()
+        self.assertEqual((shown["device"]["number"], shown["part"]["serial"]), (2, "6"))
+        self.assertEqual(shown["trend"][0]["ratio"], 7.0)
+        self.assertEqual([(part["serial"], part["ratio"]["value"]) for part in shown["parts"]], [("6", 3.0), ("5", 7.0)])
+        state.add_prediction(1 * SECOND, prediction())  # a bag of an earlier day
+        state.add_device(1 * SECOND, device_message())
+        self.assertEqual(state.snapshot()["device"]["number"], 3)
+
+    def test_parts_are_bounded(self):
+        state = PageState()
+        for number in range(2 * MOST_PARTS):
+            state.add_part(number, part_message(serial_id=str(number)))
+        self.assertEqual([part["serial"] for part in state.snapshot()["parts"]], [str(number) for number in range(MOST_PARTS, 2 * MOST_PARTS)])
+        self.assertEqual(len(state.part_rows()), MOST_PARTS)
+
     def test_progress_that_comes_after_the_result_is_not_shown(self):
         state = PageState()
         state.add_progress("cycles", "goal 1", 1, 2)
@@ -333,6 +371,13 @@ class MapTest(unittest.TestCase):
     def test_pictures_are_png_whatever_the_map_says(self):
         for make in (contact_png, height_png):
             self.assertEqual(make(map_message([[0, 1], [2, 255]]))[:4], b"\x89PNG")
+        self.assertEqual(height_png(map_message(np.ones((4, 4))))[:4], b"\x89PNG")  # no range
+        nothing = Image(height=1, width=2, step=8, encoding="32FC1", data=np.full(2, np.nan, np.float32).tobytes())
+        self.assertEqual((height_png(nothing)[:4], height_range(nothing)), (b"\x89PNG", (0.0, 0.0)))
+
+    def test_a_turned_map_has_its_top_to_the_right(self):
+        with Picture.open(io.BytesIO(contact_png(map_message([[1, 2], [0, 0], [3, 0]]), quarters=1))) as picture:
+            self.assertEqual(np.asarray(picture).tolist(), [[3, 0, 1], [0, 0, 2]])
 
 
 class ServerTest(unittest.TestCase):
@@ -373,8 +418,13 @@ class ServerTest(unittest.TestCase):
             self.assertEqual([one for one in addresses if one != "http://www.w3.org/2000/svg"], [], file.name)
 
     def test_other_files_and_maps_that_are_not_there_are_not_found(self):
-        for path in ("/../page_server.py", "/%2e%2e/page_server.py", "/page_server.py", "/map/height.png", "/map/other.png"):
+        for path in ("/../page_server.py", "/%2e%2e/page_server.py", "/page_server.py", "/map/height.png", "/map/other.png", "/scan.csv", "/parts.csv",
+                     "/measure?id=1&x=0.5&y=0.5"):
             self.assertEqual(self.get(path)[0], 404, path)
+
+    def test_what_cannot_be_measured_is_refused(self):
+        for places in ("", "x=0.5", "x=a&y=0", "x=2&y=0", "x=nan&y=0", "x=0&y=0&x=0&y=0&x=0&y=0"):
+            self.assertEqual(self.get("/measure?id=1&" + places)[0], 400, places)
 
     def test_a_name_of_another_site_gets_nothing(self):
         self.assertEqual(self.get("/", "stiction.example:80")[0], 403)

@@ -113,13 +113,31 @@ class Browser:
         """What stands in the element, as it is seen."""
         return self.value("document.querySelector(%s).innerText" % json.dumps(selector))
 
-    def click(self, selector):
-        """With the mouse, in the middle of the element, scrolled to as a person would."""
-        x, y = self.value("(() => { const found = document.querySelector(%s); found.scrollIntoView({block: 'nearest'});"
+    def place(self, selector, across=0.5, down=0.5):
+        """Of a point of the element, which is scrolled to as a person would; shares of its width and height."""
+        return self.value("(() => { const found = document.querySelector(%s); found.scrollIntoView({block: 'nearest'});"
                           "const box = found.getBoundingClientRect();"
-                          "return [box.x + box.width / 2, box.y + box.height / 2]; })()" % json.dumps(selector))
-        for kind in ("mousePressed", "mouseReleased"):
-            self._call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", clickCount=1)
+                          "return [box.x + %r * box.width, box.y + %r * box.height]; })()" % (json.dumps(selector), across, down))
+
+    def mouse(self, kind, place, **more):
+        self._call("Input.dispatchMouseEvent", type=kind, x=place[0], y=place[1], **more)
+
+    def click(self, selector, across=0.5, down=0.5, count=1):
+        """With the mouse, in the middle of the element or elsewhere on it; count: 2 for a double click."""
+        place = self.place(selector, across, down)
+        for number in range(1, count + 1):
+            for kind in ("mousePressed", "mouseReleased"):
+                self.mouse(kind, place, button="left", clickCount=number)
+
+    def drag(self, selector, start, end):
+        """With the mouse, from one point of the element to another."""
+        self.mouse("mousePressed", self.place(selector, *start), button="left", clickCount=1)
+        self.mouse("mouseMoved", self.place(selector, *end), button="left", buttons=1)
+        self.mouse("mouseReleased", self.place(selector, *end), button="left", clickCount=1)
+
+    def download_to(self, folder):
+        """What the page saves goes there."""
+        self._call("Browser.setDownloadBehavior", behavior="allow", downloadPath=str(folder))
 
     def screenshot(self, path, whole=False):
         picture = self._call("Page.captureScreenshot", format="png", captureBeyondViewport=whole)

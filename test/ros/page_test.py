@@ -53,7 +53,7 @@ class PageTest(unittest.TestCase):
         cls.page = browser.Browser(1024, 768)
         cls.addClassCleanup(cls.page.close)
         cls.page.open(cls.address)
-        for topic in ("prediction", "half_space", "part_verdict", "contact_map"):
+        for topic in ("prediction", "half_space", "part_verdict", "contact_map", "deformed_height"):
             wait_for_listener(topic, "/station_page")
 
     def setUp(self):
@@ -121,7 +121,7 @@ class PageTest(unittest.TestCase):
         self.assertEqual(float(self.figure("linear_pull_off_force")[1]), device.linear_pull_off_force)
         self.assertIn("RELEASES, margin %s" % ratio_text(device.margin), self.page.text("#device-words"))
         self.assertEqual(self.figure("contact_fraction")[0], percent(prediction.contact_fraction))
-        self.assertEqual(self.page.text("#limits"), " · ".join(
+        self.assertEqual(self.page.value("byId('limits-text').textContent"), " · ".join(
             flags_of(prediction) + ["warning: " + text for text in list(prediction.warnings) + list(device.warnings)]))
         self.assertEqual(self.page.value("state.trend[state.trend.length - 1].ratio"), device.margin)
         self.assertEqual(self.page.text("#origin"), provenance_words(prediction))
@@ -142,6 +142,7 @@ class PageTest(unittest.TestCase):
         self.page.wait("document.querySelector('#height-of').textContent === 'of scan ' + state.scan.number")
         self.assertIn("640 nm x 480 nm", self.page.text("#height-legend"))
         self.assertEqual(self.page.value("Math.round(100 * document.querySelector('.map').clientWidth / document.querySelector('.map').clientHeight)"), 133)
+        self.page.wait("state.height_range && state.height_range[1] > 0")
         small = self.page.value("state.rings.length")
         self.assertEqual(self.page.value("document.querySelectorAll('#rings ellipse').length"), small)
 

@@ -3,6 +3,7 @@
 
 const PREFIXES = [[1e9, "G"], [1e6, "M"], [1e3, "k"], [1, ""], [1e-3, "m"], [1e-6, "µ"], [1e-9, "n"], [1e-12, "p"], [1e-15, "f"], [1e-18, "a"]];
 const MARGIN = {left: 74, right: 14, top: 10, bottom: 44};
+const zooms = {};  // of the charts that show a piece of their x axis: [low, high] by the id of the svg
 
 /** Factor and prefix with which `value` has one to three digits before the point. */
 function prefixFor(value) {
@@ -59,19 +60,30 @@ function limitsOf(values, mayBeLogarithmic) {
 
 /**
  * Draws into an svg element. chart: {x: {label, unit, low, high, whole}, y: {label, unit, low, high, log},
- * lines: [{points: [[x, y]], colour, width, dash}], whiskers: [[x, low, high]], marks: [{x, y, colour, shape}],
- * rings: [{x, y, colour}], bands: [x], levels: [{y, colour}], texts: [{x, y, text}]}. A point whose y is null breaks a line.
+ * areas: [{points: [[x, low, high]], colour}], whiskers: [[x, low, high]], marks: [{x, y, colour, radius, shape}], rings: [{x, y, colour}], bands: [x],
+ * levels: [{y, colour}], uprights: [{x, colour, dash}], numbers: [{x, y, text, isNumber: true}], texts: [{x, y, text}]}. A point whose y is null breaks a line.
  */
-function drawChart(svg, chart) {
+function drawChart(svg, whole) {
   const width = svg.clientWidth;
   const height = svg.clientHeight;
   svg.replaceChildren();
   if (!width || !height) return;
   svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
+  const chart = zoomedChart(svg, whole);
   const place = placesOf(chart, width, height);
+  followZoom(svg, chart, place);
   drawBands(svg, chart, place);
   drawAxes(svg, chart, place);
   const inside = clipped(svg, place);
+  for (const area of chart.areas || []) {
+    const known = area.points.filter(([, low, high]) => low !== null && high !== null);
+    const outline = known.map(([x, low]) => [x, low]).concat(known.map(([x, , high]) => [x, high]).reverse());
+    inside.append(element("path", {d: pathOf(outline, place), fill: area.colour, "fill-opacity": 0.2, class: "area"}));
+  }
+  for (const upright of chart.uprights || []) {
+    const x = place.x(upright.x);
+    inside.append(element("line", {x1: x, x2: x, y1: place.top, y2: place.bottom, stroke: upright.colour, "stroke-width": 2.5, "stroke-dasharray": upright.dash, class: "upright"}));
+  }
   for (const level of chart.levels || []) {
     const y = place.y(level.y);
     inside.append(element("line", {x1: place.left, x2: place.right, y1: y, y2: y, stroke: level.colour, "stroke-width": 2, "stroke-dasharray": "8 5"}));
@@ -91,11 +103,94 @@ function drawChart(svg, chart) {
   for (const ring of chart.rings || []) {
     inside.append(element("ellipse", {cx: place.x(ring.x), cy: place.y(ring.y), rx: 10, ry: 10, fill: "none", stroke: ring.colour, "stroke-width": 2.5}));
   }
-  for (const note of chart.texts || []) {
-    const x = place.x(note.x);
-    const anchor = x > 0.6 * place.right ? "end" : "start";
-    svg.append(element("text", {x: x + (anchor === "end" ? -10 : 10), y: Math.max(place.top + 6, place.y(note.y) - 9), "text-anchor": anchor}, note.text));
+  const taken = [];  // by texts: boxes [left, top, right, bottom]
+  const drawn = drawnPoints(chart, place);
+  for (const note of (chart.numbers || []).concat(chart.texts || [])) {
+    if (place.x(note.x) < place.left - 1 || place.x(note.x) > place.right + 1) continue;
+    const text = element("text", note.isNumber ? {class: "number"} : {}, note.text);
+    svg.append(text);
+    putBeside(text, [place.x(note.x), place.y(note.y)], place, drawn, taken);
   }
+}
+
+/** Points in pixels along all that is drawn, so that texts can keep off it. */
+function drawnPoints(chart, place) {
+  const points = (chart.marks || []).filter((mark) => mark.y !== null).map((mark) => [place.x(mark.x), place.y(mark.y)]);
+  for (const {points: line} of chart.lines || []) {
+    for (let index = 0; index + 1 < line.length; ++index) {
+      const [[x0, y0], [x1, y1]] = [line[index], line[index + 1]];
+      if (y0 === null || y1 === null) continue;
+      const [from, to] = [[place.x(x0), place.y(y0)], [place.x(x1), place.y(y1)]];
+      const steps = Math.min(200, Math.ceil(Math.hypot(to[0] - from[0], to[1] - from[1]) / 4));
+      for (let step = 0; step <= steps; ++step) points.push([0, 1].map((axis) => from[axis] + (to[axis] - from[axis]) * step / Math.max(1, steps)));
+    }
+  }
+  for (const {y} of chart.levels || []) for (let x = place.left; x < place.right; x += 4) points.push([x, place.y(y)]);
+  return points;
+}
+
+/** Puts a text beside its point, inside the axes, where it hides least of what is drawn and no other text. */
+function putBeside(text, [x, y], place, drawn, taken) {
+  const {width, height} = text.getBBox();
+  const boxAt = ([dx, dy]) => {
+    const left = Math.min(Math.max(x + dx - width / 2, place.left + 2), place.right - width - 2);
+    const top = Math.min(Math.max(y + dy - height / 2, place.top + 1), place.bottom - height - 1);
+    return [left, top, left + width, top + height];
+  };
+  const hidden = ([left, top, right, bottom]) =>
+    drawn.filter(([px, py]) => px > left - 2 && px < right + 2 && py > top - 1 && py < bottom + 1).length +
+    1000 * taken.filter((box) => box[0] < right + 2 && box[2] > left - 2 && box[1] < bottom && box[3] > top).length;
+  const [side, over] = [width / 2 + 12, height / 2 + 7];
+  const places = [1, 2, 3, 4].flatMap((far) => [[0, -over * far], [side, -over * far], [-side, -over * far], [side * far, 0], [-side * far, 0], [0, over * far],
+                                               [side, over * far], [-side, over * far]]).map(boxAt);
+  const best = places.reduce((found, box) => hidden(box) < hidden(found) ? box : found);
+  taken.push(best);
+  text.setAttribute("x", best[0]);
+  text.setAttribute("y", best[1] + 0.8 * height);
+}
+
+// ---------------------------------------------------------------- zoom
+
+/** The chart over the piece of its x axis that was dragged; the whole where nothing was. */
+function zoomedChart(svg, chart) {
+  const range = zooms[svg.id];
+  if (!range) return chart;
+  const x = Object.assign({}, chart.x, {low: Math.max(range[0], chart.x.low), high: Math.min(range[1], chart.x.high)});
+  if (!(x.high > x.low)) { delete zooms[svg.id]; return chart; }
+  const seen = (chart.lines || []).flatMap((line) => line.points).concat((chart.marks || []).map((mark) => [mark.x, mark.y]))
+    .concat((chart.whiskers || []).flatMap(([at, low, high]) => [[at, low], [at, high]])).filter(([at]) => at >= x.low && at <= x.high).map(([, y]) => y)
+    .concat((chart.levels || []).map((level) => level.y));
+  const y = seen.some((value) => value !== null) ? Object.assign({}, chart.y, limitsOf(seen, Boolean(chart.y.log))) : chart.y;
+  return Object.assign({}, chart, {x, y});
+}
+
+/** A drag along the x axis shows that piece of it, a double click the whole. */
+function followZoom(svg, chart, place) {
+  svg.zoomPlace = {chart, place};
+  if (svg.followsZoom) return;
+  svg.followsZoom = true;
+  let from = null;
+  const at = (event) => Math.min(Math.max(event.clientX - svg.getBoundingClientRect().left, svg.zoomPlace.place.left), svg.zoomPlace.place.right);
+  const valueAt = (x) => {
+    const {chart: shown, place: where} = svg.zoomPlace;
+    return shown.x.low + (x - where.left) / (where.right - where.left) * (shown.x.high - shown.x.low);
+  };
+  svg.addEventListener("pointerdown", (event) => { from = at(event); svg.setPointerCapture(event.pointerId); });
+  svg.addEventListener("pointermove", (event) => {
+    if (from === null) return;
+    for (const old of svg.querySelectorAll(".drag")) old.remove();
+    const {top, bottom} = svg.zoomPlace.place;
+    svg.append(element("rect", {class: "drag", x: Math.min(from, at(event)), width: Math.abs(at(event) - from), y: top, height: bottom - top}));
+  });
+  svg.addEventListener("pointerup", (event) => {
+    if (from === null) return;
+    const ends = [from, at(event)].sort((a, b) => a - b);
+    from = null;
+    if (ends[1] - ends[0] > 8) zooms[svg.id] = ends.map(valueAt);
+    show();
+  });
+  svg.addEventListener("pointercancel", () => { from = null; });
+  svg.addEventListener("dblclick", () => { delete zooms[svg.id]; show(); });
 }
 
 /** A group whose content does not leave the axes by more than a mark. */
@@ -168,7 +263,10 @@ function drawAxes(svg, chart, place) {
   for (const tick of xTicks) {
     const x = place.x(tick);
     svg.append(element("line", {x1: x, x2: x, y1: place.top, y2: place.bottom, stroke: "#3a3f4a"}));
-    svg.append(element("text", {x: x, y: place.bottom + 18, "text-anchor": "middle"}, shortNumber(tick / xFactor)));
+    const label = element("text", {x: x, y: place.bottom + 18, "text-anchor": "middle"}, shortNumber(tick / xFactor));
+    svg.append(label);
+    const half = label.getComputedTextLength() / 2;
+    label.setAttribute("x", Math.min(x, svg.clientWidth - half - 1));
   }
   const unit = (axis, prefix) => axis.unit ? ` [${prefix}${axis.unit}]` : "";
   svg.append(element("text", {class: "label", x: (place.left + place.right) / 2, y: place.bottom + 38, "text-anchor": "middle"}, chart.x.label && chart.x.label + unit(chart.x, xPrefix)));

@@ -8,20 +8,6 @@ const SILENCE = 8000;    // [ms] without a state: the server is gone
 const FRESH = 10;        // [s] a warning of the node's diagnostics is shown at the top for so long
 let state = null;
 let received = 0;        // when the state came [ms]
-const shownMaps = {};
-
-const byId = (id) => document.getElementById(id);
-const say = (id, text) => { if (byId(id).textContent !== text) byId(id).textContent = text; };
-
-function fillList(id, texts) {
-  byId(id).replaceChildren(...texts.map((text) => { const item = document.createElement("li"); item.textContent = text; return item; }));
-}
-
-/** "12 s", "3 min", "2.5 h" */
-function duration(seconds) {
-  if (seconds < 120) return `${Math.round(seconds)} s`;
-  return seconds < 7200 ? `${Math.round(seconds / 60)} min` : `${(seconds / 3600).toFixed(1)} h`;
-}
 
 const sinceState = () => (performance.now() - received) / 1000;
 
@@ -41,6 +27,7 @@ function show() {
   showVerdict();
   say("origin", state.scan ? state.scan.origin : "");
   say("counts", state.count ? `${state.count} scans` + (state.lost ? `, ${state.lost} not predicted` : "") : "");
+  showDownloads();
   showTab();
 }
 
@@ -69,7 +56,8 @@ function showVerdict() {
   say("ratio-value", shownRatio ? scan.ratio.text : "");
   say("ratio-interval", shownRatio ? scan.ratio.interval : "");
   const limits = scan && !isLost ? scan.flags.concat(scan.warnings.map((text) => `warning: ${text}`)) : [];
-  say("limits", limits.join(" \u00b7 "));
+  say("limits-text", limits.join(" \u00b7 "));
+  byId("limits").hidden = !limits.length;
   showPart();
   showAge();
 }
@@ -100,7 +88,7 @@ function showAge() {
 
 // ---------------------------------------------------------------- tabs
 
-const TABS = {overview: showOverview, maps: showMaps, curve: showCurve, runs: showRuns, node: showNode};
+const TABS = {overview: showOverview, maps: showMaps, curve: showCurve, runs: showRuns, parts: showParts, node: showNode};
 
 function chosenTab() {
   const name = location.hash.slice(1);
@@ -110,6 +98,7 @@ function chosenTab() {
 function showTab() {
   const chosen = chosenTab();
   for (const button of document.querySelectorAll("nav button")) button.classList.toggle("chosen", button.dataset.tab === chosen);
+  document.body.classList.toggle("compact", chosen !== "overview");
   for (const tab of document.querySelectorAll(".tab")) tab.classList.toggle("chosen", tab.id === `tab-${chosen}`);
   if (state) TABS[chosen]();
 }
@@ -130,18 +119,10 @@ function showDevice() {
   fillFigures("device-figures", device ? device.figures : []);
 }
 
-function fillFigures(id, rows) {
-  const figures = byId(id);
-  figures.replaceChildren();
-  for (const figure of rows) {
-    const label = document.createElement("dt");
-    const text = document.createElement("dd");
-    label.textContent = figure.label;
-    text.textContent = figure.text;
-    text.dataset.name = figure.name;
-    text.dataset.value = String(figure.value);
-    figures.append(label, text);
-  }
+/** Downloads of rows are there as soon as there are rows. */
+function showDownloads() {
+  byId("scan-row").hidden = !state.scan;
+  byId("part-rows").hidden = !state.parts.length;
 }
 
 function showTrend() {
@@ -165,9 +146,11 @@ function showTrend() {
     y: Object.assign({label: isDevice ? "pull-off, device" : "pull-off, scan", unit: "N"}, limitsOf(forces.concat(springs, control ? [control.lower, control.upper] : []), true)),
     lines: (control ? controlLines(control) : []).concat([{points: line(forces), colour: "#7fb2ff", width: 1.5}, {points: line(springs), colour: "#35c46a", width: 2.5, dash: "8 5"}]),
     marks: marks(forces), rings: control ? control.outside.map((number) => ({x: number, y: forces[numbers.indexOf(number)], colour: CONTROL})) : [],
-    texts: (springs.length && rows.length && springs[0] ? [{x: first, y: springs[0], text: "restoring force of the spring"}] : [])
-      .concat(control ? [{x: control.last, y: control.upper, text: "control limits"}] : []),
   });
+  const hasSpring = springs.some((value) => value !== null && value !== undefined);
+  fillKeys("trend-keys", hasSpring ? [["#35c46a", "dashed", "restoring force of the spring"]] : [],
+           control ? [[CONTROL, "dotted", "control limits"], [CONTROL, "solid", "their centre"]] : [],
+           hasRatio ? [["#a8adb8", "solid", "95 %"], ["#ff5a4f", "dashed", "1: sticks below"]] : []);
   byId("trend-ratio").style.display = hasRatio ? "block" : "none";
   if (!hasRatio) return;
   const whiskers = rows.map((row) => [row.number, valueOf(row, "lower"), valueOf(row, "upper")]);
@@ -183,60 +166,13 @@ function controlLines(control) {
     points: [[control.first - 0.5, control[name]], [control.last + 0.5, control[name]]], colour: CONTROL, width, dash}));
 }
 
-// ---------------------------------------------------------------- maps
-
-const ofScan = (map) => map.number ? `of scan ${map.number}` : "";
-
-function showMaps() {
-  const {height, contacts} = state.maps;
-  const any = contacts || height;
-  if (!any) { say("height-legend", "No map yet."); return; }
-  const [width, length] = (contacts && contacts.size) || [any.columns, any.rows];
-  fitMaps(width / length);
-  say("height-of", height ? ofScan(height) : "");
-  say("contacts-of", contacts ? ofScan(contacts) : "");
-  say("height-legend", `dark: low, bright: high, from 1 % to 99 % of the heights; mauve: not measured` +
-      (contacts && contacts.size ? `; ${lengthText(width)} x ${lengthText(length)}` : ""));
-  if (height) for (const id of ["height", "relief"]) load(id, `map/height.png?${height.id}`);
-  if (contacts) load("contacts", `map/contacts.png?${contacts.id}`);
-  const box = byId("rings");
-  box.setAttribute("viewBox", "0 0 1000 1000");
-  box.setAttribute("preserveAspectRatio", "none");
-  const [rx, ry] = width > length ? [16, 16 * width / length] : [16 * length / width, 16];
-  box.replaceChildren(...state.rings.map(([x, y, regime]) => element("ellipse", {
-    cx: 1000 * x, cy: 1000 * y, rx, ry, fill: "none", "stroke-width": 4, stroke: ["", "#2f9bff", "#ffd23f", "#ff4d4d"][regime]})));
-}
-
-/** As large as the panel and the window allow, in the scan's own aspect. */
-function fitMaps(aspect) {
-  for (const map of document.querySelectorAll(".map")) {
-    const room = Math.max(240, window.innerHeight - map.getBoundingClientRect().top - window.scrollY - 80);
-    map.style.width = `${Math.min(map.parentElement.clientWidth, room * aspect)}px`;
-    map.style.aspectRatio = String(aspect);
-  }
-}
-
-function lengthText(metres) {
-  const [factor, prefix] = prefixFor(metres);
-  return `${Number((metres / factor).toPrecision(3))} ${prefix}m`;
-}
-
-/** A map that is still on its way is not asked for again. */
-function load(id, address) {
-  const image = byId(id);
-  if (shownMaps[id] === address || (image.dataset.address && !image.complete)) return;
-  shownMaps[id] = address;
-  image.dataset.address = address;
-  image.src = address;
-}
-
 // ---------------------------------------------------------------- force curve
 
 function showCurve() {
   const curve = state.scan && state.scan.curve;
   const half = state.half_space;
   const halfCurve = half && half.is_solved && half.in.length + half.out.length ? half : null;
-  say("curve-words", curve ? `Scan ${state.scan.number}, ${curve.formulation}: pull-off force ${curve.text}, at ${signedLength(curve.peak[0])}.` :
+  say("curve-words", curve ? `Scan ${state.scan.number}, ${curve.formulation.replace(/_/g, " ")}: pull-off force ${curve.text}, at ${signedLength(curve.peak[0])}.` :
       state.scan ? "This formulation does not follow the force over the height." : "No scan yet.");
   say("half-space", half ? `Half-space${half.number ? " of scan " + half.number : ""}: ${half.status}. ` +
       (half.is_solved ? `Pull-off force ${half.text}.` : half.message) +
@@ -262,73 +198,9 @@ function showCurve() {
   });
 }
 
-/** What the lines of a chart are: a piece of each, and its name. */
-function fillKeys(id, ...groups) {
-  byId(id).replaceChildren(...groups.flat().map(([colour, style, text]) => {
-    const item = document.createElement("li");
-    const piece = document.createElement("span");
-    piece.style.borderTop = `3px ${style} ${colour}`;
-    item.append(piece, text);
-    return item;
-  }));
-}
-
 function signedLength(metres) {
   if (Math.abs(metres) < 5e-14) return "first touch";
   return `${lengthText(Math.abs(metres))} ${metres < 0 ? "apart" : "past first touch"}`;
-}
-
-// ---------------------------------------------------------------- sweeps, cycles
-
-const LOAD_COLOURS = ["#7fb2ff", "#f2b705", "#35c46a", "#c6a8ff", "#ff9f6e", "#e0e0e0"];
-
-function showRuns() {
-  const {sweep, cycles} = state.runs;
-  showRun("sweep", sweep, "None yet: sweep_load --voltages 0:30:5 makes one.", drawSweep);
-  showRun("cycles", cycles, "None yet: cycle_contact --count 20 makes some.", drawCycles);
-}
-
-function showRun(name, run, none, draw) {
-  const isDone = run && run.points;
-  const running = run && run.progress ? `running, ${run.progress[0]} of ${run.progress[1]}` : "";
-  say(`${name}-age`, running || (isDone ? `${duration(run.age + sinceState())} ago` : ""));
-  const words = isDone ? run.sentences.concat(run.message ? [`Ended early: ${run.message}`] : []) : [running ? "" : none];
-  fillList(`${name}-words`, words.filter(Boolean));
-  byId(`${name}-chart`).style.display = isDone && run.points.length ? "block" : "none";
-  if (isDone && run.points.length) draw(run.points);
-}
-
-function drawSweep(points) {
-  const loads = [...new Set(points.map((point) => point.load))];
-  const hasMargin = points.some((point) => point.held !== null || point.margin !== null);
-  const value = hasMargin ? "held" : "force";
-  const lines = loads.flatMap((load, place) => ["up", "down"].map((way) => ({
-    points: points.filter((point) => point.load === load && point.way === way).map((point) => [point.voltage, point.is_open ? null : point[value]]),
-    colour: LOAD_COLOURS[place % LOAD_COLOURS.length], dash: way === "up" ? "none" : "7 5", width: 2.5})));
-  const voltages = points.map((point) => point.voltage);
-  drawChart(byId("sweep-chart"), {
-    x: {label: "voltage, up as a line, down as dashes", unit: "V", low: 0, high: Math.max(...voltages) * 1.03 || 1},
-    y: Object.assign(hasMargin ? {label: "margin while held"} : {label: "pull-off", unit: "N"},
-                     limitsOf(points.map((point) => point.is_open ? null : point[value]).concat(hasMargin ? [1] : []), true)),
-    lines, levels: hasMargin ? [{y: 1, colour: "#ff5a4f"}] : [],
-    marks: lines.flatMap((line) => line.points.map(([x, y]) => ({x, y, colour: line.colour, radius: 4}))),
-    texts: loads.length < 2 ? [] : loads.map((load) => points.filter((point) => point.load === load && point.way === "up")[0])
-      .filter((first) => first && first[value] !== null).map((first) => ({x: first.voltage, y: first[value], text: `pressed with ${first.load_text}`})),
-  });
-}
-
-function drawCycles(points) {
-  const value = points.some((point) => point.margin !== null) ? "margin" : "force";
-  const last = points[points.length - 1].cycle;
-  const shown = points.map((point) => [point.cycle, point[value]]);
-  const lower = value === "margin" ? points.map((point) => [point.cycle, point.lower]) : [];
-  drawChart(byId("cycles-chart"), {
-    x: {label: "number of the contact", low: 0.5, high: Math.max(last, 5) + 0.5, whole: true},
-    y: Object.assign(value === "margin" ? {label: "margin, dots: 95 %"} : {label: "pull-off", unit: "N"},
-                     limitsOf(shown.concat(lower).map((point) => point[1]).concat(value === "margin" ? [1] : []), true)),
-    lines: [{points: shown, colour: "#7fb2ff", width: 2.5}, {points: lower, colour: "#7fb2ff", width: 2, dash: "2 5"}],
-    levels: value === "margin" ? [{y: 1, colour: "#ff5a4f"}] : [],
-  });
 }
 
 // ---------------------------------------------------------------- the node
@@ -357,6 +229,8 @@ function showNode() {
 }
 
 for (const button of document.querySelectorAll("nav button")) button.addEventListener("click", () => { location.hash = button.dataset.tab; });
+for (const id of ["verdict", "limits", "part"]) byId(id).addEventListener("click", () => { document.body.classList.toggle("unfolded"); if (state) show(); });
+addPictureButtons();
 window.addEventListener("hashchange", showTab);
 window.addEventListener("resize", () => { if (state) show(); });
 setInterval(showAge, 500);
