@@ -28,6 +28,7 @@ class Surface(NamedTuple):
     is_transposed: bool  # the caller's first index is x
     channel: str = ""
     notes: Tuple[str, ...] = ()  # what to know of how the file was read
+    identity: _core.ScanIdentity = _core.ScanIdentity()  # of what it is, and who measured it
 
     def back(self, array: np.ndarray) -> np.ndarray:
         """A map of the core in the index order of the heights that came in."""
@@ -43,8 +44,8 @@ def surface_of(heights: Any, pitch: Optional[Pitch], settings: Settings, what: s
         return heights
     if isinstance(heights, (str, os.PathLike)):
         x, y = (0.0, 0.0) if pitch is None else pitch_of(pitch)
-        core, channel, notes = _core.read(os.fspath(heights), settings._configuration, x, y, "", False)
-        return Surface(core, os.fspath(heights), False, channel, tuple(notes))
+        core, channel, notes, identity = _core.read(os.fspath(heights), settings._configuration, x, y, "", False)
+        return Surface(core, os.fspath(heights), False, channel, tuple(notes), identity)
     own = getattr(heights, "_surface", None)
     if isinstance(own, Surface):
         if pitch is not None:

@@ -191,6 +191,28 @@ class PredictionFigures:
     """whose answer it is"""
     regime_flags: int
     """where the model leaves its range: bits, of which flags has the names (doc/validity.md)"""
+    scan_name: str
+    """scan_info.scan_name, else the frame_id"""
+    part_id: str
+    """scan_info.part_id, else the parameter part/id"""
+    serial_id: str
+    """scan_info.serial_id, else the parameter part/serial"""
+    lot_id: str
+    """scan_info.lot_id, else the parameter part/lot"""
+    wafer_id: str
+    """scan_info.wafer_id, else the parameter part/wafer"""
+    site_x: float
+    """[m] where on its wafer the scan was taken"""
+    site_y: float
+    """[m] where on its wafer the scan was taken"""
+    acquisition_time: str
+    """when it was measured, by ISO 8601; without a zone where the file states none"""
+    instrument: str
+    """it was measured with"""
+    operator_name: str
+    """who measured it"""
+    checksum: str
+    """sha256: and 64 hexadecimal digits, of the bytes of the scan's file"""
 
 class RoughnessFigures:
     sa: float
@@ -229,6 +251,30 @@ class RoughnessFigures:
     """[m] 1/mean curvature of the summits"""
     hurst: float
     """exponent of the self-affine range"""
+
+class ScanIdentityFigures:
+    scan_name: str
+    """scan_info.scan_name, else the frame_id"""
+    part_id: str
+    """scan_info.part_id, else the parameter part/id"""
+    serial_id: str
+    """scan_info.serial_id, else the parameter part/serial"""
+    lot_id: str
+    """scan_info.lot_id, else the parameter part/lot"""
+    wafer_id: str
+    """scan_info.wafer_id, else the parameter part/wafer"""
+    site_x: float
+    """[m] where on its wafer the scan was taken"""
+    site_y: float
+    """[m] where on its wafer the scan was taken"""
+    acquisition_time: str
+    """when it was measured, by ISO 8601; without a zone where the file states none"""
+    instrument: str
+    """it was measured with"""
+    operator_name: str
+    """who measured it"""
+    checksum: str
+    """sha256: and 64 hexadecimal digits, of the bytes of the scan's file"""
 
 class VerdictFigures:
     sticks: str
@@ -297,7 +343,7 @@ class DevicePrediction:
     def json(self) -> str: ...
 
 class DeviceScan:
-    def __init__(self, name: str, scan: HeightMap, notes: Sequence[str]) -> None: ...
+    def __init__(self, name: str, scan: HeightMap, notes: Sequence[str], identity: ScanIdentity) -> None: ...
 
 class HeightMap:
     pixels: Optional[Memory]
@@ -323,7 +369,7 @@ class MadeSurface:
 class Memory: ...
 
 class OneScan:
-    def __init__(self, scan: HeightMap, counter_surface: Optional[HeightMap], configuration: Configuration, notes: Sequence[str]) -> None: ...
+    def __init__(self, scan: HeightMap, counter_surface: Optional[HeightMap], configuration: Configuration, notes: Sequence[str], identity: ScanIdentity) -> None: ...
     scan_warnings: List[str]
     def predict(self, configuration: Configuration) -> PredictedScan: ...
 
@@ -354,7 +400,7 @@ class PredictedScan:
 
 class Predictor:
     def __init__(self, configuration: Configuration) -> None: ...
-    def predict(self, scan: HeightMap, counter_surface: Optional[HeightMap], notes: Sequence[str]) -> PredictedScan: ...
+    def predict(self, scan: HeightMap, counter_surface: Optional[HeightMap], notes: Sequence[str], identity: ScanIdentity) -> PredictedScan: ...
 
 class PreparedScan:
     warnings: List[str]
@@ -363,6 +409,10 @@ class Records:
     bytes: Memory
     record_size: int
     fields: List[Tuple[str, str, int]]
+
+class ScanIdentity:
+    def __init__(self) -> None: ...
+    figures: Dict[str, Any]
 
 class SolvedScan:
     figures: Dict[str, Any]
@@ -400,7 +450,7 @@ def half_space(prepared: PreparedScan, configuration: Configuration) -> SolvedSc
 def height_map(pixels: np.ndarray, pitch_x: float, pitch_y: float, configuration: Configuration) -> HeightMap: ...
 def predict_device(scans: Sequence[DeviceScan], counter_surface: Sequence[DeviceScan], configuration: Configuration) -> DevicePrediction: ...
 def prepare(scan: HeightMap, counter_surface: Optional[HeightMap], configuration: Configuration) -> PreparedScan: ...
-def read(path: str, configuration: Configuration, pitch_x: float, pitch_y: float, channel: str, ignore_mask: bool) -> Tuple[HeightMap, str, List[str]]: ...
+def read(path: str, configuration: Configuration, pitch_x: float, pitch_y: float, channel: str, ignore_mask: bool) -> Tuple[HeightMap, str, List[str], ScanIdentity]: ...
 def roughness(scan: HeightMap, configuration: Configuration, is_spatial: bool) -> Dict[str, Any]: ...
 def scan_warnings(scan: HeightMap) -> List[str]: ...
 def sweep_loads(prepared: PreparedScan, configuration: Configuration, voltages: Sequence[float], mechanical_loads: Sequence[float]) -> LoadSweepResult: ...

@@ -149,7 +149,7 @@ def scans_of_device(scans: Any, area: Optional[float], pitch: Optional[Pitches],
 
 
 def core_scans(surfaces: List[Surface]) -> List[_core.DeviceScan]:
-    return [_core.DeviceScan(surface.name, surface.core, list(surface.notes)) for surface in surfaces]
+    return [_core.DeviceScan(surface.name, surface.core, list(surface.notes), surface.identity) for surface in surfaces]
 
 
 def predict_device(scans: Any, area: Optional[float] = None, pitch: Optional[Pitches] = None, contacts: Optional[int] = None,

@@ -259,7 +259,7 @@ class Predictor:
     def predict(self, heights: Any, pitch: Optional[Pitch] = None, upper: Any = None) -> Prediction:
         """As the function predict()."""
         surface = surface_of(heights, pitch, self.settings)
-        predicted = self._core.predict(surface.core, counter_of(upper, surface, self.settings), surface.notes)
+        predicted = self._core.predict(surface.core, counter_of(upper, surface, self.settings), surface.notes, surface.identity)
         warn_about(surface, predicted.scan_warnings)
         return Prediction(predicted, surface)
 
@@ -312,7 +312,7 @@ def _predictions_under(heights: Any, pitch: Optional[Pitch], configs: Iterator[S
     for settings in configs:
         if scan is None:
             surface = surface_of(heights, pitch, settings)
-            scan = _core.OneScan(surface.core, counter_of(upper, surface, settings), settings._configuration, surface.notes)
+            scan = _core.OneScan(surface.core, counter_of(upper, surface, settings), settings._configuration, surface.notes, surface.identity)
             warn_about(surface, scan.scan_warnings)
         yield Prediction(scan.predict(settings._configuration), surface)
 

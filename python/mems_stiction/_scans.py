@@ -15,13 +15,14 @@ from mems_stiction._settings import Config, Settings, SurfaceError
 from mems_stiction.quantities import with_unit
 
 
-class Scan:
+@explained
+class Scan(_core.ScanIdentityFigures):
     """Heights in metres with their pitch; every function of this package takes it in place of an array.
 
     heights: rows x columns [m], read-only, NaN where nothing was measured; row 0 is the top, columns go along x.
     pitch: (along columns, along rows) [m]. physical_sizes: (width, height) [m]. unit: always "m".
     channel: which of the file's; empty where it has one only. notes: what to know of how the file was read. warnings: these,
-    and what does not look like a scan, as the programs say it.
+    and what does not look like a scan, as the programs say it. The other attributes are what the file and its sidecar state; empty or NaN where they do not.
     """
 
     unit = "m"
@@ -29,6 +30,7 @@ class Scan:
     def __init__(self, surface: Surface, channel: str = "") -> None:
         self._surface = surface
         self.channel = channel
+        self.__dict__.update(surface.identity.figures)
 
     @property
     def notes(self) -> Tuple[str, ...]:
@@ -121,8 +123,8 @@ def read(path: Union[str, "os.PathLike[str]"], channel: str = "", pitch: Optiona
     programs warn about: how the file was read, and what looks like a wrong unit.
     """
     x, y = (0.0, 0.0) if pitch is None else pitch_of(pitch)
-    core, chosen, notes = _core.read(os.fspath(path), Settings(config, **settings)._configuration, x, y, str(channel), ignore_mask)
-    surface = Surface(core, os.fspath(path), False, chosen, tuple(notes))
+    core, chosen, notes, identity = _core.read(os.fspath(path), Settings(config, **settings)._configuration, x, y, str(channel), ignore_mask)
+    surface = Surface(core, os.fspath(path), False, chosen, tuple(notes), identity)
     warn_about(surface, odd_in(surface))
     return Scan(surface, chosen)
 

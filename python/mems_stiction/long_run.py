@@ -92,7 +92,8 @@ def numbers(text):
 def write_points(messages, path, result):
     """A CSV, or Parquet, with one line for each message, its field names, and what the result says of where it comes from."""
     names = messages[0].__slots__ if messages else []
-    origin = {name: getattr(result, name) for name in PROVENANCE}
+    known = {name: getattr(result, name) for name in PROVENANCE}
+    origin = {name: None if isinstance(value, float) and math.isnan(value) else value for name, value in known.items()}
     rows = [dict({name: getattr(message, name) for name in names}, **origin) for message in messages]
     units = units_of(type(messages[0])) if messages else {}
     write_rows(path, list(names) + list(PROVENANCE), rows, units, origin)

@@ -1,8 +1,10 @@
-"""Where a result comes from, in one line: scan, part, serial number, settings, version."""
+"""Where a result comes from, in one line: scan, part, serial number, lot, wafer, settings, version."""
 
-FIELDS = ("version", "settings_hash", "scan_name", "part_id", "serial_id")  # of every result, as the messages name them
-_WORDS = (("scan", "scan_name"), ("part", "part_id"), ("serial number", "serial_id"), ("settings", "settings_hash"),
-          ("mems_stiction", "version"))
+# of every result, as the messages name them
+FIELDS = ("version", "settings_hash", "scan_name", "part_id", "serial_id", "lot_id", "wafer_id", "site_x", "site_y", "acquisition_time",
+          "instrument", "operator_name", "checksum")
+_WORDS = (("scan", "scan_name"), ("part", "part_id"), ("serial number", "serial_id"), ("lot", "lot_id"), ("wafer", "wafer_id"),
+          ("settings", "settings_hash"), ("mems_stiction", "version"))
 
 
 def provenance_words(source, leave_out=()):

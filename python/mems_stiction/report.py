@@ -117,9 +117,13 @@ def scan_name(row):
 
 
 def origin_of(row):
-    """What the row was made of and with, in one line."""
-    words = (("part", "part_id"), ("serial number", "serial_id"), ("settings", "settings_hash"), ("version", "version"))
-    return ", ".join("%s %s" % (word, row[key]) for word, key in words if row.get(key))
+    """What was scanned, by whom and when, and what the row was made with, in one line."""
+    words = (("part", "part_id"), ("serial number", "serial_id"), ("lot", "lot_id"), ("wafer", "wafer_id"), ("site", "site"),
+             ("measured", "acquisition_time"), ("with", "instrument"), ("by", "operator_name"), ("file", "checksum"),
+             ("settings", "settings_hash"), ("version", "version"))
+    site = [number(row.get(name)) for name in ("site_x", "site_y")]
+    known = row if any(map(math.isnan, site)) else dict(row, site="%s, %s" % tuple(with_unit(value, "m") for value in site))
+    return ", ".join("%s %s" % (word, known[key]) for word, key in words if known.get(key))
 
 
 def chosen(rows, most):

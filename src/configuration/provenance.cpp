@@ -53,6 +53,8 @@ class SettingsDigest : public OptionVisitor {
 void PartOptions::describe(OptionVisitor& visitor) {
   visitor.text("part/id", id, "part that scans belong to, where they do not say so; goes into every prediction");
   visitor.text("part/serial", serial, "serial number of the part, where the scan does not say so");
+  visitor.text("part/lot", lot, "lot that the wafer is of, where the scan does not say so");
+  visitor.text("part/wafer", wafer, "wafer that the part is of, where the scan does not say so");
 }
 
 const char* packageVersion() { return MEMS_STICTION_VERSION; }
@@ -66,8 +68,11 @@ std::string settingsHash(const Configuration& configuration) {
 Provenance provenanceOf(const ScanIdentity& identity, const Configuration& configuration) {
   Provenance provenance;
   static_cast<ScanIdentity&>(provenance) = identity;
-  if (provenance.part_id.empty()) provenance.part_id = configuration.part.id;
-  if (provenance.serial_id.empty()) provenance.serial_id = configuration.part.serial;
+  const PartOptions& part = configuration.part;
+  if (provenance.part_id.empty()) provenance.part_id = part.id;
+  if (provenance.serial_id.empty()) provenance.serial_id = part.serial;
+  if (provenance.lot_id.empty()) provenance.lot_id = part.lot;
+  if (provenance.wafer_id.empty()) provenance.wafer_id = part.wafer;
   provenance.version = packageVersion();
   provenance.settings_hash = settingsHash(configuration);
   return provenance;

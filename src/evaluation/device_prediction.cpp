@@ -36,6 +36,14 @@ auto named(const std::string& name, Work&& work) {
   }
 }
 
+/// Of one scan all that it states.
+ScanIdentity identityOfAll(const std::vector<ScanIdentity>& identities) {
+  if (identities.empty()) return {};
+  ScanIdentity all = identities.front();
+  for (std::size_t i = 1; i < identities.size(); ++i) all = commonIdentity(all, identities[i]);
+  return all;
+}
+
 }  // namespace
 
 std::vector<std::string> DevicePrediction::warnings() const {
@@ -46,9 +54,11 @@ std::vector<std::string> DevicePrediction::warnings() const {
 }
 
 DevicePredictor::DevicePredictor(const Configuration& configuration)
-    : configuration_(forVerdict(configuration)), predictor_(configuration_), scans_(configuration_) {
+    : stated_(configuration),
+      configuration_(forVerdict(configuration)),
+      predictor_(configuration_),
+      scans_(configuration_) {
   prediction_.formulation = configuration_.model.formulation;
-  prediction_.provenance = provenanceOf({}, configuration);
 }
 
 std::vector<std::string> DevicePredictor::noted(const std::string& name, std::vector<std::string> lines) {
@@ -58,10 +68,11 @@ std::vector<std::string> DevicePredictor::noted(const std::string& name, std::ve
 }
 
 std::vector<std::string> DevicePredictor::add(const std::string& name, const HeightMap& scan,
-                                              const std::vector<std::string>& notes) {
+                                              const std::vector<std::string>& notes, const ScanIdentity& identity) {
   prepared_.push_back(named(name, [&] { return predictor_.preparer().prepare(scan); }));
   scans_.add(name, prepared_.back());
   prediction_.scans.push_back(name);
+  prediction_.identities.push_back(identity);
   std::vector<std::string> lines = notes;
   for (std::string& line : warningsOf(prepared_.back())) lines.push_back(std::move(line));
   return noted(name, std::move(lines));
@@ -79,6 +90,7 @@ std::vector<std::string> DevicePredictor::addCounterSurface(const std::string& n
 
 DevicePrediction DevicePredictor::predict(const std::function<void(double)>& on_progress) {
   DevicePrediction prediction = prediction_;
+  prediction.provenance = provenanceOf(identityOfAll(prediction.identities), stated_);
   prediction.settings_warnings = settingsWarnings(configuration_);
   prediction.force = scans_.force(on_progress);
   const DeviceOptions& device = configuration_.device;

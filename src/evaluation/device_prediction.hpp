@@ -25,10 +25,11 @@ namespace mems_stiction {
 struct DevicePrediction {
   DeviceForce force;
   std::vector<std::string> scans;            ///< names of what was scanned of the lower surface
+  std::vector<ScanIdentity> identities;      ///< of these
   std::vector<std::string> counter_surface;  ///< the same of the upper one
   std::string formulation;                   ///< that the made surfaces were brought to contact by
   std::optional<Verdict> verdict;            ///< on the device, where it states what is to open it
-  std::optional<Provenance> provenance;      ///< version, hash of the settings
+  std::optional<Provenance> provenance;      ///< version, hash of the settings, what all scans state alike
   std::vector<std::string> scan_warnings;    ///< what looks wrong in a scan, with its name
   std::vector<std::string> settings_warnings;
 
@@ -46,7 +47,8 @@ class DevicePredictor {
   /// - @p notes on how it was read
   /// @return what looks wrong in the scan, each with its name
   /// @throw SurfaceError with the name, if it cannot be used
-  std::vector<std::string> add(const std::string& name, const HeightMap& scan, const std::vector<std::string>& notes);
+  std::vector<std::string> add(const std::string& name, const HeightMap& scan, const std::vector<std::string>& notes,
+                               const ScanIdentity& identity = {});
   /// Of the surface that meets it, in place of the configured one. @return, @throw as add(), and OptionsError if
   /// counter_surface/facing does not say how it lies
   std::vector<std::string> addCounterSurface(const std::string& name, const HeightMap& measured,
@@ -64,6 +66,7 @@ class DevicePredictor {
  private:
   std::vector<std::string> noted(const std::string& name, std::vector<std::string> lines);
 
+  Configuration stated_;
   Configuration configuration_;
   ScanPredictor predictor_;
   DeviceScans scans_;

@@ -1,5 +1,6 @@
 #include "evaluation/device_prediction.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -32,12 +33,13 @@ template <typename Fields>
 void addRecord(const DevicePrediction& prediction, Fields& fields) {
   const DeviceForce& force = prediction.force;
   fields.texts("scans", prediction.scans);
-  if (!prediction.counter_surface.empty()) fields.texts("counter_surface", prediction.counter_surface);
-  if (prediction.provenance) {
-    visitProvenanceFields(*prediction.provenance, [&](const Figure& figure, const std::string& value) {
-      if (!value.empty()) fields(figure, value);
-    });
+  std::vector<std::string> checksums;
+  for (const ScanIdentity& identity : prediction.identities) checksums.push_back(identity.checksum);
+  if (std::any_of(checksums.begin(), checksums.end(), [](const std::string& text) { return !text.empty(); })) {
+    fields.texts("scan_checksums", checksums);
   }
+  if (!prediction.counter_surface.empty()) fields.texts("counter_surface", prediction.counter_surface);
+  if (prediction.provenance) visitStatedProvenance(*prediction.provenance, fields);
   fields({"formulation"}, prediction.formulation);
   visitDeviceForceFields(force, fields);
   if (prediction.verdict) addVerdict(*prediction.verdict, fields);

@@ -28,11 +28,7 @@ void visitScanFields(const HeightMap& scan, Visitor&& visit) {
 template <typename Visitor>
 void visitResultFields(const HeightMap& scan, const Prediction& prediction, const RecordExtras& extras,
                        Visitor&& visit) {
-  if (extras.provenance) {
-    visitProvenanceFields(*extras.provenance, [&](const Figure& figure, const std::string& value) {
-      if (!value.empty()) visit(figure, value);
-    });
-  }
+  if (extras.provenance) visitStatedProvenance(*extras.provenance, visit);
   if (!extras.formulation.empty()) visit({"formulation"}, extras.formulation);
   visitPredictionFields(prediction, [&](const Figure& figure, const auto& value) {
     const bool verdict_has_it = extras.verdict && std::strcmp(figure.name, "apparent_work_of_adhesion") == 0;

@@ -8,6 +8,7 @@
 #include "height_map/validity.hpp"
 #include "import/byte_cursor.hpp"
 #include "import/file_bytes.hpp"
+#include "import/file_statements.hpp"
 #include "mems_stiction/errors/errors.hpp"
 
 namespace mems_stiction {
@@ -121,6 +122,16 @@ FileChannel readField(ByteCursor field) {
   return channel;
 }
 
+/// What the maker of the file, or Gwyddion's user, has noted of a channel.
+FileStatements readMeta(ByteCursor meta) {
+  FileStatements statements;
+  while (!meta.atEnd()) {
+    Component component = readComponent(meta);
+    if (component.type == 's') statements[component.name] = component.content.text();
+  }
+  return statements;
+}
+
 /// N of "/N/rest"; -1 for other names.
 int channelId(const std::string& name, std::string& rest) {
   if (name.size() < 3 || name[0] != '/') return -1;
@@ -156,6 +167,7 @@ std::vector<FileChannel> parseGwy(const std::string& bytes, bool ignore_mask) {
   std::map<int, FileChannel> channels;
   std::map<int, std::string> titles;
   std::map<int, cv::Mat> masks;
+  std::map<int, ScanIdentity> identities;
   while (!container.atEnd()) {
     Component component = readComponent(container);
     std::string rest;
@@ -164,6 +176,8 @@ std::vector<FileChannel> parseGwy(const std::string& bytes, bool ignore_mask) {
     const bool is_field = component.type == 'o' && component.object_type == "GwyDataField";
     if (rest == "data" && is_field) channels[id] = readField(component.content);
     if (rest == "mask" && is_field) masks[id] = readField(component.content).values;
+    const bool is_container = component.type == 'o' && component.object_type == "GwyContainer";
+    if (rest == "meta" && is_container) identities[id] = identityFrom(readMeta(component.content));
     if (rest == "data/title" && component.type == 's') titles[id] = component.content.text();
   }
 
@@ -171,6 +185,7 @@ std::vector<FileChannel> parseGwy(const std::string& bytes, bool ignore_mask) {
   for (auto& [id, channel] : channels) {
     channel.id = id;
     channel.title = titles[id];
+    channel.identity = identities[id];
     const int masked = masks.count(id) == 0 || ignore_mask ? 0 : invalidateMasked(channel, masks[id]);
     if (masked > 0) {
       channel.notes.push_back(std::to_string(masked) +

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "import/file_checks.hpp"
+#include "import/file_statements.hpp"
 #include "import/header_lines.hpp"
 #include "import/length_unit.hpp"
 #include "import/plain_number.hpp"
@@ -131,6 +132,17 @@ void checkNanoscope(const std::string& bytes) {
     }
   }
   demandLength("NanoScope", bytes.size(), parts.back().second);
+}
+
+ScanIdentity nanoscopeIdentity(const std::string& bytes) {
+  if (!isNanoscope(bytes)) return {};
+  FileStatements statements;
+  for (const List& list : listsOf(bytes)) {
+    for (const char* key : {"Date", "Microscope", "Scanner type", "Head Type", "Serial Number", "Operator"}) {
+      if (list.lines.has(key)) statements.emplace(key, list.lines.value(key));
+    }
+  }
+  return identityFrom(statements);
 }
 
 std::optional<double> nanoscopeReach(const std::string& bytes) {

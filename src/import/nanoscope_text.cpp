@@ -10,6 +10,7 @@
 #include <opencv2/core.hpp>
 
 #include "import/file_bytes.hpp"
+#include "import/file_statements.hpp"
 #include "import/format_readers.hpp"
 #include "import/length_unit.hpp"
 #include "import/plain_number.hpp"
@@ -26,6 +27,7 @@ struct Heading {
   std::size_t cols = 0, rows = 0;
   double width = 0.0, height = 0.0;  ///< [m]
   std::vector<std::string> names;    ///< of the columns, "Height(nm)"
+  FileStatements statements;
 };
 
 std::string bare(const std::string& text) { return trimmed(text, " \t\r\""); }
@@ -53,6 +55,7 @@ void readEntry(const std::string& line, Heading& heading) {
   const std::string key = lowered(line.substr(1, colon - 1));
   const std::string value = bare(line.substr(colon + 2));
   const auto count = [&value] { return static_cast<std::size_t>(std::max(0.0, plainNumber(value))); };
+  heading.statements.emplace(key, value);
   if (key == "samps/line" && heading.cols == 0) heading.cols = count();
   if (key == "lines" && heading.rows == 0) heading.rows = count();
   if (key == "scan size" && heading.width == 0.0) readSize(value, heading);
@@ -111,9 +114,11 @@ std::vector<FileChannel> parseNanoscopeText(const std::string& bytes) {
   if (heading.names.empty()) throw FileError("the file ends before its numbers");
   if (heading.cols < 2 || heading.rows < 2) throw FileError("the heading states no Samps/line and Lines");
   checkPixelCount(heading.cols, heading.rows);
+  const ScanIdentity identity = identityFrom(heading.statements);
   std::vector<FileChannel> channels;
   for (const std::string& name : heading.names) {
     channels.push_back(channelOf(name, heading, static_cast<int>(channels.size())));
+    channels.back().identity = identity;
   }
   std::size_t pixel = 0;
   while (std::getline(stream, line)) {

@@ -25,6 +25,7 @@ namespace fs = std::filesystem;
 /// Settings, and whether the sidecar says what a pixel is worth.
 struct Settings {
   ScanOptions options;
+  ScanIdentity identity;
   bool has_scale = false;
 };
 
@@ -34,9 +35,9 @@ std::array<std::string, 2> sidecarsOf(const std::string& path) {
 }
 
 /// The sidecar's settings over those given. Both spellings, "pitch_x" and "scan/pitch_x", are the same key.
-Settings withSidecar(const std::string& path, const ScanOptions& given) {
+Settings withSidecar(const std::string& path, const ScanOptions& given, const ScanIdentity& stated = {}) {
   const std::string sidecar = sidecarOf(path);
-  Settings settings{given, false};
+  Settings settings{given, stated, false};
   if (sidecar.empty()) return settings;
   ScanOptions& options = settings.options;
   std::vector<std::string> lines;
@@ -56,11 +57,15 @@ Settings withSidecar(const std::string& path, const ScanOptions& given) {
     const YAML::Node nested = scan["scan"];
     settings.has_scale = scan["scan/height_scale"].IsDefined() ||
                          (nested.IsDefined() && nested.IsMap() && nested["height_scale"].IsDefined());
-    lines = readYaml(scan, [&options](OptionVisitor& visitor) { options.describe(visitor); });
+    lines = readYaml(scan, [&settings](OptionVisitor& visitor) {
+      settings.options.describe(visitor);
+      settings.identity.describe(visitor);
+    });
   } catch (const YAML::Exception& yaml_error) {
     throw FileError(sidecar + ": " + yamlTrouble(text, yaml_error.what()));
   }
   if (options.height_scale == 0.0) lines.emplace_back("scan/height_scale: 0 is not allowed, must not be 0");
+  for (std::string& line : identityComplaints(settings.identity, "scan/")) lines.push_back(std::move(line));
   for (std::string& line : lines) line.insert(0, sidecar + ": ");
   if (!lines.empty()) throw OptionsError(std::move(lines));
   return settings;
@@ -147,6 +152,13 @@ ImportOptions withTextOptions(const std::string& path, const ScanOptions& given,
   return options;
 }
 
+/// What the file says of itself, and before it what its sidecar says.
+ScanIdentity identityOf(const std::string& path, const FileChannel& channel) {
+  ScanIdentity stated = channel.identity;
+  stated.scan_name = fs::path(path).stem().string();
+  return withSidecar(path, {}, stated).identity;
+}
+
 /// A single channel without a title needs no name.
 std::string nameOf(const FileChannel& channel, std::size_t count) {
   return channel.takes_settings && count == 1 && channel.title.empty() ? "" : channelName(channel);
@@ -174,7 +186,8 @@ ScanFile openScanFile(const std::string& path, const ScanOptions& scan, const Sc
     const std::vector<FileChannel> channels = readChannels(path, withTextOptions(path, scan, options.import));
     const std::size_t chosen = chooseHeightChannel(channels, options.import.channel);
     const FileChannel& channel = channels[chosen];
-    ScanFile file{surfaceOf(path, channel, scan, options), nameOf(channel, channels.size()), channel.notes};
+    ScanFile file{surfaceOf(path, channel, scan, options), nameOf(channel, channels.size()), channel.notes,
+                  identityOf(path, channel)};
     file.surface = measuredOnly(file.surface, file.notes);
     const std::string passed_over = options.import.channel.empty() ? passedOver(channels, chosen) : "";
     if (!passed_over.empty()) file.notes.push_back(passed_over);

@@ -4,9 +4,11 @@
 #include <cctype>
 #include <filesystem>
 
+#include "files/sha256.hpp"
 #include "import/channel_choice.hpp"
 #include "import/file_bytes.hpp"
 #include "import/file_checks.hpp"
+#include "import/file_statements.hpp"
 #include "import/format_readers.hpp"
 #include "import/nanoscope_check.hpp"
 #include "import/plain_number.hpp"
@@ -85,9 +87,11 @@ Channels readByGwyddion(const std::string& path, const std::string& bytes, const
   checkStatedLength(bytes);
   Channels channels = channelsByGwyddion(path, bytes, options);
   const std::vector<std::string> notes = nanoscopeNotes(bytes);
+  const ScanIdentity identity = nanoscopeIdentity(bytes);
   const double reach = nanoscopeReach(bytes).value_or(0.0);
   for (FileChannel& channel : channels) {
     channel.reach = reach;
+    channel.identity = completed(identity, channel.identity);
     channel.notes.insert(channel.notes.end(), notes.begin(), notes.end());
   }
   return channels;
@@ -139,11 +143,8 @@ bool readKnown(const std::string& path, const std::string& bytes, const ImportOp
   return true;
 }
 
-}  // namespace
-
-std::vector<FileChannel> readChannels(const std::string& path, const ImportOptions& options) {
-  const std::string bytes = readFileBytes(path);
-  checkTransfer(bytes);
+/// Of the file with these bytes.
+Channels channelsOf(const std::string& path, const std::string& bytes, const ImportOptions& options) {
   Channels channels;
   if (readKnown(path, bytes, options, channels)) return channels;
   const std::string name_end = lowered(std::filesystem::path(path).extension().string());
@@ -157,6 +158,17 @@ std::vector<FileChannel> readChannels(const std::string& path, const ImportOptio
     if (name_end == image) throw FileError("is not a " + name_end.substr(1) + " image: damaged, or misnamed");
   }
   return readByGwyddion(path, bytes, options);
+}
+
+}  // namespace
+
+std::vector<FileChannel> readChannels(const std::string& path, const ImportOptions& options) {
+  const std::string bytes = readFileBytes(path);
+  checkTransfer(bytes);
+  Channels channels = channelsOf(path, bytes, options);
+  const std::string checksum = sha256Text(bytes);
+  for (FileChannel& channel : channels) channel.identity.checksum = checksum;
+  return channels;
 }
 
 }  // namespace mems_stiction

@@ -1,5 +1,6 @@
 #include "import/scan_writer.hpp"
 
+#include <yaml-cpp/yaml.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 #include "errors/one_line.hpp"
@@ -16,6 +18,7 @@
 #include "height_map/validity.hpp"
 #include "import/file_bytes.hpp"
 #include "mems_stiction/errors/errors.hpp"
+#include "mems_stiction/settings/figure.hpp"
 #include "settings/option_yaml.hpp"
 
 namespace mems_stiction {
@@ -67,6 +70,23 @@ std::string tiffOf(const cv::Mat& pixels) {
   return bytes;
 }
 
+/// What is stated of the scan, as keys of the sidecar.
+std::string identityLines(const ScanIdentity& identity) {
+  std::string lines;
+  visitScanIdentityFields(identity, [&lines](const Figure& figure, const auto& value) {
+    const std::string name = figure.name;
+    if (!isStated(value) || name == "checksum") return;
+    if constexpr (std::is_same_v<decltype(value), const std::string&>) {
+      YAML::Emitter text;
+      text << YAML::DoubleQuoted << oneLine(value);
+      lines += name + ": " + text.c_str() + "\n";
+    } else {
+      lines += name + ": " + yamlNumber(value) + "\n";
+    }
+  });
+  return lines;
+}
+
 std::string checksum(const std::string& bytes) {
   char text[16];
   std::snprintf(text, sizeof text, "%08lx",
@@ -96,7 +116,8 @@ void writeHeightTiff(const std::string& path, const cv::Mat& heights) {
   writeFile(path, tiffOf(pixels));
 }
 
-void writeScan(const std::string& path, const HeightMap& surface, const std::string& note) {
+void writeScan(const std::string& path, const HeightMap& surface, const std::string& note,
+               const ScanIdentity& identity) {
   const cv::Mat heights = ownedHeights(surface);
   cv::Mat pixels = heights;
   if (isSinglePrecision(heights)) heights.convertTo(pixels, CV_32F);
@@ -104,7 +125,7 @@ void writeScan(const std::string& path, const HeightMap& surface, const std::str
   const std::string lines = "# " + oneLine(note) +
                             "\n# Heights in metres: height = pixel x height_scale + height_offset.\n" +
                             "pitch_x: " + yamlNumber(surface.pitchX()) + "\npitch_y: " + yamlNumber(surface.pitchY()) +
-                            "\nheight_scale: 1.0\nheight_offset: 0.0\n";
+                            "\nheight_scale: 1.0\nheight_offset: 0.0\n" + identityLines(identity);
   writeFile(path, bytes);
   writeFile(path + ".yaml", seal(bytes, lines) + lines);
 }

@@ -2,12 +2,15 @@
 
 #include <zlib.h>
 
+#include <array>
 #include <cstdint>
+#include <cstdio>
 #include <limits>
 
 #include "import/byte_cursor.hpp"
 #include "import/file_bytes.hpp"
 #include "import/file_checks.hpp"
+#include "import/file_statements.hpp"
 #include "import/length_unit.hpp"
 #include "import/plain_number.hpp"
 #include "mems_stiction/errors/errors.hpp"
@@ -27,8 +30,18 @@ struct Header {
   int objects = 0, kind = 0, special_points = 0, bits = 0, inversion = 0, comment = 0, hidden = 0;
   std::int32_t smallest = 0, cols = 0, rows = 0;
   double step_x = 0.0, step_y = 0.0, step_z = 0.0;
-  std::string name, maker, title, unit_x, unit_y, unit_z;
+  std::string name, operator_name, date, title, unit_x, unit_y, unit_z;
 };
+
+/// Seconds, minutes, hours, day, month, year and day of the week.
+std::string dateIn(ByteCursor numbers) {
+  std::array<int, 6> part{};
+  for (int& number : part) number = numbers.number<std::int16_t>();
+  char text[64];
+  std::snprintf(text, sizeof text, "%04d-%02d-%02d %02d:%02d:%02d", part[5], part[4], part[3], part[2], part[1],
+                part[0]);
+  return text;
+}
 
 Header readHeader(ByteCursor& file) {
   ByteCursor cursor = file.part(512);
@@ -41,7 +54,7 @@ Header readHeader(ByteCursor& file) {
   cursor.take(2);
   header.kind = cursor.number<std::int16_t>();
   header.name = cursor.field(30);
-  header.maker = cursor.field(30);
+  header.operator_name = cursor.field(30);
   cursor.take(6);
   header.special_points = cursor.number<std::int16_t>();
   cursor.take(10);
@@ -61,7 +74,9 @@ Header readHeader(ByteCursor& file) {
   header.unit_z = toUtf8(cursor.field(16));
   cursor.take(3 * 16 + 3 * 4 + 2);
   header.inversion = cursor.number<std::int16_t>();
-  cursor.take(2 + 12 + 14 + 4 + 4 + 6);
+  cursor.take(2 + 12);
+  header.date = dateIn(cursor.part(14));
+  cursor.take(4 + 4 + 6);
   header.comment = cursor.number<std::uint16_t>();
   header.hidden = cursor.number<std::uint16_t>();
   const bool is_count_right = points == 0 || points == std::int64_t{header.cols} * header.rows;
@@ -114,6 +129,7 @@ FileChannel readObject(ByteCursor& file, const Header& header) {
   const double scale = header.step_z * unit_z.value_or(1.0) * (is_turned ? -1.0 : 1.0);
   FileChannel channel;
   channel.title = header.title;
+  channel.identity = identityFrom({{"Date", header.date}, {"Operator", header.operator_name}});
   channel.unit_xy = "m";
   channel.unit_z = unit_z ? "m" : header.unit_z;
   channel.width = header.step_x * unitOf(header.unit_x, "x") * header.cols;
@@ -136,7 +152,7 @@ FileChannel readObject(ByteCursor& file, const Header& header) {
 /// Gwyddion calls the surfaces that it writes profiles.
 bool isSurface(const Header& header) {
   return header.kind == kSurface || header.kind == kSurfaceSeries || header.kind == kColourSurface ||
-         (header.kind == kProfile && header.rows > 1 && header.name == "SCRATCH" && header.maker == "csm");
+         (header.kind == kProfile && header.rows > 1 && header.name == "SCRATCH" && header.operator_name == "csm");
 }
 
 }  // namespace

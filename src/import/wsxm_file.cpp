@@ -8,6 +8,7 @@
 #include "import/byte_cursor.hpp"
 #include "import/file_bytes.hpp"
 #include "import/file_checks.hpp"
+#include "import/file_statements.hpp"
 #include "import/length_unit.hpp"
 #include "import/plain_number.hpp"
 #include "mems_stiction/errors/errors.hpp"
@@ -112,6 +113,7 @@ FileChannel parseWsxm(const std::string& bytes) {
   FileChannel channel;
   const auto title = header.find("General Info/Acquisition channel");
   if (title != header.end()) channel.title = title->second;
+  channel.identity = identityFrom(header);
   channel.width = sideOf(header, "Control/X Amplitude");
   channel.height = header.count("Control/Y Amplitude") != 0 ? sideOf(header, "Control/Y Amplitude") : channel.width;
   channel.unit_xy = "m";

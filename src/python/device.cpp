@@ -72,7 +72,7 @@ void addScans(const std::vector<DeviceScan>& scans, const std::vector<DeviceScan
               const Cancellation& check, DevicePredictor& predictor) {
   for (std::size_t i = 0; i < scans.size(); ++i) {
     check(0.0);
-    predictor.add(nameOf(scans, i, "scan"), scans[i].scan, scans[i].notes);
+    predictor.add(nameOf(scans, i, "scan"), scans[i].scan, scans[i].notes, scans[i].identity);
   }
   for (std::size_t i = 0; i < counter_surface.size(); ++i) {
     check(0.0);
@@ -88,10 +88,11 @@ void bindDevice(py::module& module) {
   declared.addTo(module, "DeviceForceFigures");
 
   py::class_<DeviceScan>(module, "DeviceScan")
-      .def(py::init([](const std::string& name, const HeightMap& scan, const std::vector<std::string>& notes) {
-             return DeviceScan{name, scan, notes};
+      .def(py::init([](const std::string& name, const HeightMap& scan, const std::vector<std::string>& notes,
+                       const ScanIdentity& identity) {
+             return DeviceScan{name, scan, notes, identity};
            }),
-           "name"_a, "scan"_a, "notes"_a);
+           "name"_a, "scan"_a, "notes"_a, "identity"_a);
   py::class_<DevicePrediction, Predicted>(module, "DevicePrediction")
       .def_property_readonly("figures", &figuresOf)
       .def_property_readonly("verdict", &verdictOfDevice)

@@ -18,6 +18,7 @@ struct DeviceScan {
   std::string name;                ///< of its file; empty: its place stands for it
   HeightMap scan;                  ///< as it came
   std::vector<std::string> notes;  ///< on how it was read
+  ScanIdentity identity;           ///< as its file states it
 };
 
 /// Cleans all of them for the predictor.

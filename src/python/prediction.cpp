@@ -66,7 +66,8 @@ Predicted predicting(const Configuration& configuration, const Work& work) {
 /// The record of a prediction.
 /// - @p cancel ends what takes long
 Predicted predictedScan(const HeightMap& scan, const PreparedScan& prepared, Prediction&& prediction,
-                        const Configuration& configuration, const std::atomic<bool>& cancel) {
+                        const ScanIdentity& identity, const Configuration& configuration,
+                        const std::atomic<bool>& cancel) {
   auto predicted = std::make_shared<PredictedScan>();
   predicted->scan = scan;
   predicted->surfaces = prepared.surfaces;
@@ -74,7 +75,7 @@ Predicted predictedScan(const HeightMap& scan, const PreparedScan& prepared, Pre
   if (!configuration.model.output.roughness) predicted->prediction.roughness = kNoRoughness;
   predicted->extras.formulation = configuration.model.formulation;
   predicted->extras.preprocessing = prepared.record;
-  predicted->extras.provenance = provenanceOf({}, configuration);
+  predicted->extras.provenance = provenanceOf(identity, configuration);
   predicted->scan_warnings = warningsOf(prepared);
   predicted->extras.warnings = predictionWarnings(prepared, configuration, predicted->prediction, configuration.model);
   if (configuration.device.isStated() || mayCallHalfSpace(configuration)) {
@@ -114,13 +115,13 @@ class Predictor {
   /// - @p counter_surface that was measured beside the scan; none: the configured one
   /// - @p notes on how the scan was read
   Predicted predict(const HeightMap& scan, const std::optional<HeightMap>& counter_surface,
-                    const std::vector<std::string>& notes) {
+                    const std::vector<std::string>& notes, const ScanIdentity& identity) {
     return predicting(configuration_, [&](const std::atomic<bool>& cancel) {
       const std::lock_guard<std::mutex> lock(mutex_);
       predictor_.preparer().setMeasuredCounterSurface(counter_surface.value_or(HeightMap()));
       PreparedScan prepared = predictor_.preparer().prepare(scan);
       prepared.warnings.insert(prepared.warnings.begin(), notes.begin(), notes.end());
-      Predicted predicted = predictedScan(scan, prepared, predictor_.predict(prepared), configuration_, cancel);
+      Predicted predicted = predictedScan(scan, prepared, predictor_.predict(prepared), identity, configuration_, cancel);
       predictor_.preparer().setMeasuredCounterSurface({});
       return predicted;
     });
@@ -137,8 +138,8 @@ class OneScan {
  public:
   /// - @p notes on how the scan was read
   OneScan(const HeightMap& scan, const std::optional<HeightMap>& counter_surface, const Configuration& configuration,
-          const std::vector<std::string>& notes)
-      : scan_(scan), configuration_(configuration), predictor_(configuration) {
+          const std::vector<std::string>& notes, const ScanIdentity& identity)
+      : scan_(scan), identity_(identity), configuration_(configuration), predictor_(configuration) {
     const WithoutLock unlocked;
     if (counter_surface) predictor_.preparer().setMeasuredCounterSurface(*counter_surface);
     prepared_ = predictor_.preparer().prepare(scan_);
@@ -159,7 +160,7 @@ class OneScan {
       predictor_.setDevice(configuration.device);
       Prediction prediction = is_seen_ ? predictor_.predictAgain(prepared_) : predictor_.predict(prepared_);
       is_seen_ = true;
-      return predictedScan(scan_, prepared_, std::move(prediction), configuration, cancel);
+      return predictedScan(scan_, prepared_, std::move(prediction), identity_, configuration, cancel);
     });
   }
 
@@ -179,6 +180,7 @@ class OneScan {
   }
 
   HeightMap scan_;
+  ScanIdentity identity_;
   Configuration configuration_;
   ScanPredictor predictor_;
   PreparedScan prepared_;
@@ -192,6 +194,8 @@ void visitFigures(const PredictedScan& predicted, Visitor&& visit) {
   visit({"formulation", "", "whose answer it is"}, predicted.extras.formulation);
   visit({"regime_flags", "", "where the model leaves its range: bits, of which flags has the names (doc/validity.md)"},
         regimeFlags(predicted.prediction, predicted.scan.cellArea()));
+  const Provenance provenance = predicted.extras.provenance.value_or(Provenance());
+  visitScanIdentityFields(provenance, visit);
 }
 
 py::dict figuresOf(const PredictedScan& predicted) {
@@ -299,11 +303,11 @@ void bindPrediction(py::module& module) {
 
   py::class_<Predictor>(module, "Predictor")
       .def(py::init<Configuration>(), "configuration"_a)
-      .def("predict", &Predictor::predict, "scan"_a, "counter_surface"_a, "notes"_a);
+      .def("predict", &Predictor::predict, "scan"_a, "counter_surface"_a, "notes"_a, "identity"_a);
   py::class_<OneScan>(module, "OneScan")
       .def(py::init<const HeightMap&, const std::optional<HeightMap>&, const Configuration&,
-                    const std::vector<std::string>&>(),
-           "scan"_a, "counter_surface"_a, "configuration"_a, "notes"_a)
+                    const std::vector<std::string>&, const ScanIdentity&>(),
+           "scan"_a, "counter_surface"_a, "configuration"_a, "notes"_a, "identity"_a)
       .def_property_readonly("scan_warnings", &OneScan::warnings)
       .def("predict", &OneScan::predict, "configuration"_a);
 }

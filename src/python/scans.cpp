@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <tuple>
+#include <type_traits>
 #include <vector>
 
 #include "bindings.hpp"
@@ -40,16 +41,15 @@ ScanFileOptions fileOptions(double pitch_x, double pitch_y, const std::string& c
   return options;
 }
 
-std::tuple<HeightMap, std::string, std::vector<std::string>> readScan(const std::string& path,
-                                                                      const Configuration& configuration,
-                                                                      double pitch_x, double pitch_y,
-                                                                      const std::string& channel, bool ignore_mask) {
+std::tuple<HeightMap, std::string, std::vector<std::string>, ScanIdentity> readScan(
+    const std::string& path, const Configuration& configuration, double pitch_x, double pitch_y,
+    const std::string& channel, bool ignore_mask) {
   ScanFile file;
   {
     const WithoutLock unlocked;
     file = openScanFile(path, configuration.scan, fileOptions(pitch_x, pitch_y, channel, ignore_mask));
   }
-  return {file.surface, file.channel, file.notes};
+  return {file.surface, file.channel, file.notes, file.identity};
 }
 
 py::list channelsOf(const std::string& path, const Configuration& configuration) {
@@ -116,6 +116,20 @@ PreparedScan prepared(const HeightMap& scan, const std::optional<HeightMap>& cou
   });
 }
 
+py::dict identityFigures(const ScanIdentity& identity) {
+  DictionaryFields fields;
+  visitScanIdentityFields(identity, fields);
+  return fields.dictionary;
+}
+
+ScanIdentity identityFromFigures(const py::dict& figures) {
+  ScanIdentity identity;
+  visitScanIdentityFields(identity, [&](const Figure& figure, auto& value) {
+    value = figures[figure.name].cast<std::decay_t<decltype(value)>>();
+  });
+  return identity;
+}
+
 }  // namespace
 
 void bindScans(py::module& module) {
@@ -125,6 +139,15 @@ void bindScans(py::module& module) {
   visitRoughnessFields(areal, declared);
   visitSpatialRoughnessFields(spatial, declared);
   declared.addTo(module, "RoughnessFigures");
+
+  DeclaredFields of_identity;
+  const ScanIdentity identity;
+  visitScanIdentityFields(identity, of_identity);
+  of_identity.addTo(module, "ScanIdentityFigures");
+  py::class_<ScanIdentity>(module, "ScanIdentity")
+      .def(py::init<>())
+      .def_property_readonly("figures", &identityFigures)
+      .def(py::pickle(&identityFigures, &identityFromFigures));
 
   module.def(
       "height_map",

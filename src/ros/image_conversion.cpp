@@ -12,6 +12,7 @@
 #include "height_map/scan_sanity.hpp"
 #include "height_map/unmeasured.hpp"
 #include "mems_stiction/errors/errors.hpp"
+#include "ros/provenance_conversion.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -85,13 +86,14 @@ double statedPitch(const char* field, double stated, double parameter) {
   return stated;
 }
 
-/// Names are kept for a thousand scans of each part, and stand in every sentence about them.
-constexpr std::size_t kLongestName = 1000;
+/// A publisher that knows of no site leaves 0, 0.
+bool isSiteStated(const ScanInfo& info) { return info.has_site || info.site_x != 0.0 || info.site_y != 0.0; }
 
-void requireShort(const char* field, const std::string& name) {
-  if (name.size() <= kLongestName) return;
-  throw SurfaceError(std::string(field) + ": a name of " + std::to_string(name.size()) +
-                     " bytes is not allowed, must have at most " + std::to_string(kLongestName));
+ScanIdentity statedIdentity(const ScanInfo& info) {
+  ScanIdentity identity;
+  copyIdentity(info, identity);
+  if (!isSiteStated(info)) identity.site_x = identity.site_y = ScanIdentity().site_x;
+  return identity;
 }
 
 double finite(const char* field, double value) {
@@ -134,15 +136,22 @@ ScanInfo scanInfoMessage(const ScanOptions& options, const std_msgs::Header& hea
   return info;
 }
 
+void fillIdentity(const ScanIdentity& identity, ScanInfo& info) {
+  copyIdentity(identity, info);
+  info.has_site = isStated(identity.site_x);
+}
+
 ScanIdentity identityOf(const std_msgs::Header& header, const ScanInfo* info) {
-  requireShort("header.frame_id", header.frame_id);
-  if (info != nullptr) {
-    requireShort("scan_info.scan_name", info->scan_name);
-    requireShort("scan_info.part_id", info->part_id);
-    requireShort("scan_info.serial_id", info->serial_id);
+  if (header.frame_id.size() > kLongestName) {
+    throw SurfaceError("header.frame_id: a name of " + std::to_string(header.frame_id.size()) +
+                       " bytes is not allowed, must have at most " + std::to_string(kLongestName));
   }
   ScanIdentity identity;
-  if (info != nullptr) identity = {info->scan_name, info->part_id, info->serial_id};
+  if (info != nullptr) {
+    identity = statedIdentity(*info);
+    const std::vector<std::string> complaints = identityComplaints(identity, "scan_info.");
+    if (!complaints.empty()) throw SurfaceError(complaints.front());
+  }
   if (identity.scan_name.empty()) identity.scan_name = header.frame_id;
   return identity;
 }

@@ -37,8 +37,11 @@ ScanInfo scanInfoMessage(const ScanOptions& options, const std_msgs::Header& hea
 
 /// What the messages say of what was scanned: without a scan_name the frame_id is it.
 /// - @p info null: there is none.
-/// @throw SurfaceError if a name is longer than anybody reads.
+/// @throw SurfaceError if a name is longer than anybody reads, or half a site is stated.
 ScanIdentity identityOf(const std_msgs::Header& header, const ScanInfo* info);
+
+/// What was scanned, as a message states it.
+void fillIdentity(const ScanIdentity& identity, ScanInfo& info);
 
 /// Shares the pixels of 32FC1 and 64FC1 in this machine's byte order with scale 1, offset 0, no invalid value and no height
 /// beyond kLargestHeight, which counts as missing; copies otherwise. The image's memory is never written to.

@@ -2,7 +2,6 @@
 
 #include "ros/message_fields.hpp"
 #include "ros/message_text.hpp"
-#include "ros/provenance_conversion.hpp"
 #include "verdict/part_verdict_fields.hpp"
 #include "verdict/regime_flags.hpp"
 
@@ -11,8 +10,11 @@ namespace mems_stiction {
 PartVerdict partVerdictMessage(const PooledVerdict& part, const ScanOfPart& last) {
   PartVerdict message;
   message.header = last.header;
-  fillProvenance(last.provenance, message);
+  message.version = last.provenance.version;
   message.settings_hash = last.pool_settings_hash;
+  message.scan_name = last.provenance.scan_name;
+  message.part_id = last.provenance.part_id;
+  message.serial_id = last.provenance.serial_id;
   MessageFields fields;
   visitPartVerdictFields(part, fields);
   fields.fill(message);

@@ -62,7 +62,8 @@ void sign(cv::Mat& picture, const Provenance& provenance) {
   std::string text;
   for (const auto& [word, value] :
        {std::pair("scan ", provenance.scan_name), std::pair("part ", provenance.part_id),
-        std::pair("serial number ", provenance.serial_id), std::pair("settings ", provenance.settings_hash),
+        std::pair("serial number ", provenance.serial_id), std::pair("lot ", provenance.lot_id),
+        std::pair("wafer ", provenance.wafer_id), std::pair("settings ", provenance.settings_hash),
         std::pair("mems_stiction ", provenance.version)}) {
     if (!value.empty()) text += (text.empty() ? "" : ", ") + (word + value);
   }

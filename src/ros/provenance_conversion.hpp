@@ -7,13 +7,27 @@
 
 namespace mems_stiction {
 
+/// What was scanned: between ScanIdentity, ScanInfo and the messages with results, which name it alike.
+template <typename Source, typename Target>
+void copyIdentity(const Source& source, Target& target) {
+  target.scan_name = source.scan_name;
+  target.part_id = source.part_id;
+  target.serial_id = source.serial_id;
+  target.lot_id = source.lot_id;
+  target.wafer_id = source.wafer_id;
+  target.site_x = source.site_x;
+  target.site_y = source.site_y;
+  target.acquisition_time = source.acquisition_time;
+  target.instrument = source.instrument;
+  target.operator_name = source.operator_name;
+  target.checksum = source.checksum;
+}
+
 template <typename Message>
 void fillProvenance(const Provenance& provenance, Message& message) {
   message.version = provenance.version;
   message.settings_hash = provenance.settings_hash;
-  message.scan_name = provenance.scan_name;
-  message.part_id = provenance.part_id;
-  message.serial_id = provenance.serial_id;
+  copyIdentity(provenance, message);
 }
 
 template <typename Message>
@@ -21,9 +35,7 @@ Provenance provenanceIn(const Message& message) {
   Provenance provenance;
   provenance.version = message.version;
   provenance.settings_hash = message.settings_hash;
-  provenance.scan_name = message.scan_name;
-  provenance.part_id = message.part_id;
-  provenance.serial_id = message.serial_id;
+  copyIdentity(message, provenance);
   return provenance;
 }
 

@@ -1,5 +1,7 @@
 #include "curve_file.hpp"
 
+#include <type_traits>
+
 #include "csv_text.hpp"
 #include "errors/one_line.hpp"
 #include "files/output_file.hpp"
@@ -10,9 +12,13 @@ namespace mems_stiction {
 void writeCurve(const std::string& path, const std::vector<CurvePoint>& curve, const Provenance& provenance) {
   std::string text = "height,force,direction";
   std::string origin;
-  visitProvenanceFields(provenance, [&](const Figure& figure, const std::string& value) {
+  visitProvenanceFields(provenance, [&](const Figure& figure, const auto& value) {
     text += std::string(",") + figure.name;
-    origin += "," + csvText(oneLine(value));
+    if constexpr (std::is_same_v<decltype(value), const std::string&>) {
+      origin += "," + csvText(oneLine(value));
+    } else {
+      origin += "," + (isStated(value) ? numberText(value) : "");
+    }
   });
   text += "\n";
   for (const CurvePoint& point : curve) {

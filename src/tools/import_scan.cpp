@@ -110,7 +110,10 @@ class Importer {
           " or its .yaml is there and is not as import_scan wrote it: remove both, or choose another --output");
     }
     const std::string of_channel = scan.channel.empty() ? "" : ", channel " + scan.channel;
-    writeScan(target.string(), scan.surface, fs::path(path).filename().string() + of_channel);
+    ScanIdentity identity = scan.identity;
+    if (identity.scan_name == target.stem()) identity.scan_name.clear();  // the target's, too
+    writeScan(target.string(), scan.surface,
+              fs::path(path).filename().string() + of_channel + ", " + scan.identity.checksum, identity);
     for (const std::string& note : scan.notes) warn(path, note);
     for (const std::string& warning : scanWarnings(scan.surface)) warn(path, warning);
     report(path, target.string(), scan);
@@ -123,7 +126,12 @@ class Importer {
     std::snprintf(figures, sizeof figures, "%d x %d pixels of %.6g x %.6g m, %.3g %% missing", surface.cols(),
                   surface.rows(), surface.pitchX(), surface.pitchY(), 100.0 * invalidFraction(surface));
     std::cout << oneLine(path) << (scan.channel.empty() ? "" : " [" + oneLine(scan.channel) + "]") << " -> "
-              << oneLine(target) << ": " << figures << std::endl;
+              << oneLine(target) << ": " << figures;
+    const ScanIdentity& identity = scan.identity;
+    for (const std::string& text : {identity.acquisition_time, identity.instrument, identity.operator_name}) {
+      if (!text.empty()) std::cout << ", " << oneLine(text);
+    }
+    std::cout << std::endl;
   }
 
   const Arguments& arguments_;

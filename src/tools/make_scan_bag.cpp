@@ -39,8 +39,7 @@ struct Arguments {
   std::string bag;
   std::vector<std::string> scans;
   int count = 0;
-  std::string part_id;
-  std::string serial_id;
+  ScanIdentity identity;  ///< of all scans, before what their files say
   double rate = 10.0;
   double pitch = 0.0;
   double correlation_length = 80e-9;
@@ -74,8 +73,10 @@ void describe(CLI::App& app, Arguments& arguments) {
       ->capture_default_str();
   app.add_option("--seed", arguments.surface.seed, "of the first surface; each further one takes the next")
       ->capture_default_str();
-  app.add_option("--part-id", arguments.part_id, "of scan_info: the part that all these scans are places of");
-  app.add_option("--serial-id", arguments.serial_id, "of scan_info: its serial number");
+  app.add_option("--part-id", arguments.identity.part_id, "of scan_info: the part that all these scans are places of");
+  app.add_option("--serial-id", arguments.identity.serial_id, "of scan_info: its serial number");
+  app.add_option("--lot-id", arguments.identity.lot_id, "of scan_info: the lot that its wafer is of");
+  app.add_option("--wafer-id", arguments.identity.wafer_id, "of scan_info: the wafer that it is of");
   app.add_option("--rate", arguments.rate, "scans per second [Hz]")->check(positive)->capture_default_str();
   app.footer("Exit status: 0, or 2 for bad input (one line on stderr for each; the other scans are still written).");
 }
@@ -84,10 +85,7 @@ void describe(CLI::App& app, Arguments& arguments) {
 class ScanBag {
  public:
   explicit ScanBag(const Arguments& arguments)
-      : path_(arguments.bag),
-        period_(1.0 / arguments.rate),
-        part_id_(arguments.part_id),
-        serial_id_(arguments.serial_id) {
+      : path_(arguments.bag), period_(1.0 / arguments.rate), given_(arguments.identity) {
     const std::string& path = path_;
     std::error_code error;
     if (fs::exists(path, error) && !fs::is_regular_file(path, error)) {
@@ -113,7 +111,8 @@ class ScanBag {
   ScanBag(const ScanBag&) = delete;
   ScanBag& operator=(const ScanBag&) = delete;
 
-  void write(const HeightMap& surface, const std::string& frame) {
+  /// - @p stated of the scan by its file
+  void write(const HeightMap& surface, const std::string& frame, const ScanIdentity& stated = {}) {
     std_msgs::Header header;
     header.seq = count_;
     header.stamp = ros::Time(kFirstStamp) + ros::Duration(count_ * period_);
@@ -124,8 +123,7 @@ class ScanBag {
     calibration.pitch_x = surface.pitchX();
     calibration.pitch_y = surface.pitchY();
     ScanInfo info = scanInfoMessage(calibration, header);
-    info.part_id = part_id_;
-    info.serial_id = serial_id_;
+    fillIdentity(withGiven(stated), info);
     guarded(partial_->path(), [&] {
       bag_->write(absolute(kHeightTopic), header.stamp, *exactHeightImage(surface.heights(), header));
       bag_->write(absolute(kScanInfoTopic), header.stamp, info);
@@ -141,6 +139,15 @@ class ScanBag {
   std::uint32_t count() const { return count_; }
 
  private:
+  ScanIdentity withGiven(ScanIdentity identity) const {
+    identity.scan_name.clear();  // the image's frame_id is its name
+    for (std::string ScanIdentity::*name :
+         {&ScanIdentity::part_id, &ScanIdentity::serial_id, &ScanIdentity::lot_id, &ScanIdentity::wafer_id}) {
+      if (!(given_.*name).empty()) identity.*name = given_.*name;
+    }
+    return identity;
+  }
+
   /// As `rosbag record` names topics, so that filters and prefixes find them.
   static std::string absolute(const std::string& topic) { return "/" + topic; }
 
@@ -169,8 +176,7 @@ class ScanBag {
   std::optional<ScratchPath> partial_;
   bool is_whole_ = false;
   double period_;
-  std::string part_id_;
-  std::string serial_id_;
+  ScanIdentity given_;
   std::uint32_t count_ = 0;
 };
 
@@ -212,7 +218,7 @@ int run(const Arguments& arguments) {
       complain("make_scan_bag", error.what());
       status = kBadInput;
     }
-    if (scan) bag.write(scan->surface, stemOf(path));
+    if (scan) bag.write(scan->surface, stemOf(path), scan->identity);
   }
   const int default_count = arguments.scans.empty() ? 1 : 0;
   writeGenerated(arguments, arguments.count > 0 ? arguments.count : default_count, bag);

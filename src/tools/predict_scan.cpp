@@ -210,7 +210,7 @@ void predictScan(const std::string& path, const Arguments& arguments, const Scan
   RecordExtras extras;
   extras.channel = scan.channel;
   extras.formulation = configuration.model.formulation;
-  extras.provenance = provenanceOf({std::filesystem::path(path).stem().string(), "", ""}, configuration);
+  extras.provenance = provenanceOf(scan.identity, configuration);
   extras.has_curve = arguments.record_curve;
   extras.warnings = scan.notes;
   Options options = configuration.model;

@@ -106,11 +106,11 @@ BatchRow RowMaker::row(const BatchScan& scan, const std::function<void(const std
 RowMaker::Subject RowMaker::predict(const BatchScan& scan, ScanOrigin& origin, ScanState& state) {
   Subject subject;
   if (scan.place == 0) {
-    subject.identity.scan_name = std::filesystem::path(scan.input).stem().string();
     const ScanAhead ahead = ahead_.take(scan.input);
     state = ahead.state;
     if (ahead.failure) std::rethrow_exception(ahead.failure);
     surface_ = ahead.scan.surface;
+    subject.identity = ahead.scan.identity;
     subject.warnings = ahead.scan.notes;
     origin.channel = ahead.scan.channel;
   } else {

@@ -87,8 +87,11 @@ boost::shared_ptr<const Message> instantiate(const rosbag::MessageInstance& mess
 
 /// MD5 sum of ScanInfo before it named scan and part.
 constexpr const char* kUnnamedScanInfo = "e2c5059195594fd4b9cdb74aaee36cf7";
+/// The same before it named lot and wafer, and who measured.
+constexpr const char* kNamedScanInfo = "c6e33f09a2cac5e2c805eeac41e5c8ab";
 
-void readUnnamed(ros::serialization::IStream stream, ScanInfo* info) {
+/// - @p has_names of scan and part
+void readFormer(ros::serialization::IStream stream, bool has_names, ScanInfo* info) {
   stream.next(info->header);
   stream.next(info->pitch_x);
   stream.next(info->pitch_y);
@@ -96,13 +99,18 @@ void readUnnamed(ros::serialization::IStream stream, ScanInfo* info) {
   stream.next(info->height_offset);
   stream.next(info->invalid_value);
   stream.next(info->has_invalid_value);
+  if (!has_names) return;
+  stream.next(info->scan_name);
+  stream.next(info->part_id);
+  stream.next(info->serial_id);
 }
 
 /// scan_info of today, or of bags that were recorded before: what is of today only stands behind the rest.
 boost::shared_ptr<const ScanInfo> instantiateInfo(const rosbag::MessageInstance& message) {
-  if (message.getMD5Sum() != kUnnamedScanInfo) return instantiate<ScanInfo>(message);
+  const bool has_names = message.getMD5Sum() == kNamedScanInfo;
+  if (!has_names && message.getMD5Sum() != kUnnamedScanInfo) return instantiate<ScanInfo>(message);
   const auto info = boost::make_shared<ScanInfo>();
-  readBytes(message, [&](const ros::serialization::IStream& stream) { readUnnamed(stream, info.get()); });
+  readBytes(message, [&](const ros::serialization::IStream& stream) { readFormer(stream, has_names, info.get()); });
   return info;
 }
 

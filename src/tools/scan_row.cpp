@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
+#include <type_traits>
 
 #include "errors/one_line.hpp"
 #include "files/output_file.hpp"
@@ -47,8 +48,13 @@ void visitFigures(const HeightMap& scan, const std::vector<std::string>& warning
   }
   visit({"regime_flag_names"}, regimeFlagNames(flags));
   visit({"model_doubt"}, modelDoubt(prediction));
-  visitProvenanceFields(provenance,
-                        [&](const Figure& figure, const std::string& value) { visit(figure, oneLine(value)); });
+  visitProvenanceFields(provenance, [&](const Figure& figure, const auto& value) {
+    if constexpr (std::is_same_v<decltype(value), const std::string&>) {
+      visit(figure, oneLine(value));
+    } else {
+      visit(figure, value);
+    }
+  });
 }
 
 /// By columns, which are there without a contact too; regimes by their numbers, as in contact_map.

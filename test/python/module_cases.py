@@ -43,7 +43,7 @@ def frames():
 def without_times(record):
     """What two runs can share."""
     return {name: without_times(value) if isinstance(value, dict) else value for name, value in record.items()
-            if name not in ("processing_time", "file", "scan_name", "settings_hash")}
+            if name not in ("processing_time", "file", "scan_name", "checksum", "settings_hash")}
 
 
 class Topography:

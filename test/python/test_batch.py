@@ -1,6 +1,7 @@
 """stiction_batch and what drives it: one row per scan, whatever happens in between."""
 
 import csv
+import hashlib
 import json
 import os
 import pathlib
@@ -357,6 +358,37 @@ class BatchTest(unittest.TestCase):
         self.assertEqual(row["settings_hash"], plain["settings_hash"])  # who the part is changes no figure
         self.predict("other.csv", "--voltage", "0", "--load", "2e-6", inputs=[self.inputs / "b.bag"])
         self.assertNotEqual(self.rows("other.csv")[0]["settings_hash"], plain["settings_hash"])
+
+    def test_a_row_says_which_place_of_which_wafer_it_is_and_who_measured_it(self):
+        scan = self.folder / "place.txt"
+        scan.write_text("0 1e-9 0\n0 0 2e-9\n0 0 0\n")
+        sidecar = self.folder / "place.txt.yaml"
+        sidecar.write_text("pitch_x: 1e-8\npitch_y: 1e-8\npart_id: die 4\nserial_id: 0012\nlot_id: L7\nwafer_id: W3\nsite_x: -5.0e-3\nsite_y: 0.0\n"
+                           "acquisition_time: 2026-03-01T14:05:00+01:00\ninstrument: \"AFM\\e[31m 2\"\noperator_name: =ann\n")
+        expected = {"scan_name": "place", "part_id": "die 4", "serial_id": "0012", "lot_id": "L7", "wafer_id": "W3", "site_x": -5e-3, "site_y": 0.0,
+                    "acquisition_time": "2026-03-01T14:05:00+01:00", "instrument": "AFM\\x1b[31m 2", "operator_name": "=ann",
+                    "checksum": "sha256:" + hashlib.sha256(scan.read_bytes()).hexdigest()}
+        self.predict("place.jsonl", inputs=[scan])
+        self.assertEqual({name: value for name, value in json.loads((self.folder / "place.jsonl").read_text()).items() if name in expected}, expected)
+        self.predict("place.csv", inputs=[scan])
+        row = self.rows("place.csv")[0]
+        self.assertEqual([row[name] for name in ("lot_id", "wafer_id", "part_id", "serial_id")], ["L7", "W3", "die 4", "0012"])
+        self.assertEqual((float(row["site_x"]), float(row["site_y"]), row["operator_name"]), (-5e-3, 0.0, "'=ann"))
+
+        bag = self.folder / "place.bag"
+        self.assertEqual(run([program("make_scan_bag"), "-o", bag, "--wafer-id", "W4", scan]).returncode, 0)
+        self.predict("bag.jsonl", inputs=[bag])
+        of_bag = {name: value for name, value in json.loads((self.folder / "bag.jsonl").read_text()).items() if name in expected}
+        self.assertEqual(of_bag, dict(expected, wafer_id="W4"))
+
+        (self.folder / "wafer.yaml").write_text(CONFIG + "part: {lot: L8, wafer: W9}\n")
+        sidecar.write_text("pitch_x: 1e-8\npitch_y: 1e-8\nlot_id: L7\n")
+        self.predict("other.jsonl", "--config", self.folder / "wafer.yaml", inputs=[scan])
+        other = json.loads((self.folder / "other.jsonl").read_text())
+        self.assertEqual((other["lot_id"], other["wafer_id"], other["site_x"], other["operator_name"]), ("L7", "W9", None, ""))
+        sidecar.write_text("pitch_x: 1e-8\npitch_y: 1e-8\nsite_y: 1e-3\n")
+        self.predict("half.jsonl", inputs=[scan], status=1)
+        self.assertIn("site_y: 0.001 is stated without site_x", json.loads((self.folder / "half.jsonl").read_text())["reason"])
 
     def test_recorded_predictions_come_out_as_a_table(self):
         bag_path = self.folder / "day.bag"

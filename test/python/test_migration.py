@@ -91,6 +91,7 @@ class MigrationTest(unittest.TestCase):
             self.assertEqual((message.version, message.settings_hash, message.part_id, message.flags), ("", "", "", []))
             self.assertEqual(message.pull_off_contact_count, 12 if "pull_off_contact_count" in old_class.__slots__ else -1)
             self.assertTrue(math.isnan(message.tip_limit))
+            self.assert_no_site_and_nobody(message)
             self.assertEqual(message.below_tip_count, -1)
             if "curve" in old_class.__slots__:
                 self.assertEqual((message.formulation, message.warnings), ("separation_curve", ["a stage offset"]))
@@ -101,7 +102,7 @@ class MigrationTest(unittest.TestCase):
 
     def test_the_calibration_of_an_earlier_scan_stays(self):
         old = [kind for kind in old_classes() if kind._type == "mems_stiction/ScanInfo"]
-        self.assertEqual(len(old), 1)
+        self.assertEqual(len(old), 2)
         message = old[0](pitch_x=1e-8, pitch_y=2e-8, height_scale=1e-9, invalid_value=-1.0, has_invalid_value=True)
         message.header.stamp = rospy.Time(12, 34)
         with rosbag.Bag(self.bag, "w") as bag:
@@ -114,9 +115,27 @@ class MigrationTest(unittest.TestCase):
         self.assertEqual((new.header.stamp, new.pitch_x, new.pitch_y), (rospy.Time(12, 34), 1e-8, 2e-8))
         self.assertEqual((new.height_scale, new.invalid_value, new.has_invalid_value), (1e-9, -1.0, True))
         self.assertEqual((new.scan_name, new.part_id, new.serial_id), ("", "", ""))
+        self.assert_no_site_and_nobody(new)
+
+    def test_the_names_of_an_earlier_scan_stay(self):
+        old = [kind for kind in old_classes() if kind._type == "mems_stiction/ScanInfo"][1]
+        with rosbag.Bag(self.bag, "w") as bag:
+            bag.write("/scan_info", old(pitch_x=1e-8, scan_name="place 3", part_id="lot 3", serial_id="0012"), rospy.Time(12, 50))
+        with contextlib.redirect_stdout(io.StringIO()):
+            self.assertEqual(fixbag2(self.migrator(), self.bag, self.fixed), [])
+        with rosbag.Bag(self.fixed) as bag:
+            (_, new, _), = bag.read_messages()
+        self.assertEqual(new._md5sum, ScanInfo._md5sum)
+        self.assertEqual((new.pitch_x, new.scan_name, new.part_id, new.serial_id), (1e-8, "place 3", "lot 3", "0012"))
+        self.assert_no_site_and_nobody(new)
+
+    def assert_no_site_and_nobody(self, message):
+        self.assertTrue(math.isnan(message.site_x) and math.isnan(message.site_y))
+        self.assertFalse(getattr(message, "has_site", False))
+        self.assertEqual((message.lot_id, message.wafer_id, message.acquisition_time, message.instrument, message.operator_name, message.checksum), ("",) * 6)
 
     def test_a_half_space_that_was_recorded_before_it_judged_has_no_verdict(self):
-        old, judged, _ = (kind for kind in old_classes() if kind._type == "mems_stiction/HalfSpaceSolution")
+        old, judged, *_ = (kind for kind in old_classes() if kind._type == "mems_stiction/HalfSpaceSolution")
         self.assertNotIn("sticks", old.__slots__)
         self.assertIn("sticks", judged.__slots__)
         message = old(status=HalfSpaceSolution.TOO_MANY_STATES, message="a sentence", pull_off_force=2e-7, contact_count=-1,
@@ -140,7 +159,7 @@ class MigrationTest(unittest.TestCase):
         self.assertTrue(all(math.isnan(value) for value in (new.margin, new.margin_upper, new.peel_number)))
 
     def test_a_half_space_that_was_recorded_before_it_named_its_scan_keeps_its_verdict(self):
-        _, old, _ = (kind for kind in old_classes() if kind._type == "mems_stiction/HalfSpaceSolution")
+        _, old, *_ = (kind for kind in old_classes() if kind._type == "mems_stiction/HalfSpaceSolution")
         message = old(pull_off_force=2e-7, sticks=StictionPrediction.STICKS_NO, verdict_reason="why", verdict_by="half_space", margin=2.0)
         with rosbag.Bag(self.bag, "w") as bag:
             bag.write("half_space", message, rospy.Time(12, 50))
@@ -151,9 +170,23 @@ class MigrationTest(unittest.TestCase):
         self.assertEqual(new._md5sum, HalfSpaceSolution._md5sum)
         self.assertEqual((new.pull_off_force, new.sticks, new.verdict_reason, new.verdict_by, new.margin), (2e-7, 0, "why", "half_space", 2.0))
         self.assertEqual((new.version, new.settings_hash, new.scan_name, new.part_id, new.serial_id), ("", "", "", "", ""))
+        self.assert_no_site_and_nobody(new)
+
+    def test_a_half_space_that_was_recorded_before_wafers_keeps_all_it_had(self):
+        *_, old = (kind for kind in old_classes() if kind._type == "mems_stiction/HalfSpaceSolution")
+        with rosbag.Bag(self.bag, "w") as bag:
+            bag.write("half_space", old(voltage=20.0, pull_off_force=2e-7, pull_off_force_under_voltage=3e-7, verdict_by="half_space", sticks=2,
+                                        part_id="lot 3"), rospy.Time(12, 50))
+        with contextlib.redirect_stdout(io.StringIO()):
+            self.assertEqual(fixbag2(self.migrator(), self.bag, self.fixed), [])
+        with rosbag.Bag(self.fixed) as bag:
+            (_, new, _), = bag.read_messages()
+        self.assertEqual(new._md5sum, HalfSpaceSolution._md5sum)
+        self.assertEqual((new.pull_off_force, new.pull_off_force_under_voltage, new.sticks, new.part_id), (2e-7, 3e-7, 2, "lot 3"))
+        self.assert_no_site_and_nobody(new)
 
     def test_a_half_space_that_was_held_by_its_voltage_says_so_and_judges_no_more(self):
-        *_, old = (kind for kind in old_classes() if kind._type == "mems_stiction/HalfSpaceSolution")
+        _, _, old, _ = (kind for kind in old_classes() if kind._type == "mems_stiction/HalfSpaceSolution")
         with rosbag.Bag(self.bag, "w") as bag:
             for voltage, judge in ((20.0, "half_space"), (20.0, "prediction"), (0.0, "half_space")):
                 bag.write("half_space", old(voltage=voltage, pull_off_force=2e-5, sticks=2, verdict_reason="why", verdict_by=judge, margin=0.1,
@@ -170,12 +203,14 @@ class MigrationTest(unittest.TestCase):
         self.assertEqual((plain.sticks, plain.pull_off_force, plain.margin), (2, 2e-5, 0.1))
 
     def test_the_batch_reads_scans_that_were_recorded_before(self):
-        old, = (kind for kind in old_classes() if kind._type == "mems_stiction/ScanInfo")
+        unnamed, named = (kind for kind in old_classes() if kind._type == "mems_stiction/ScanInfo")
         heights = np.random.RandomState(1).normal(scale=1e-9, size=(32, 48)).astype(np.float32)
         rows = {}
-        for name, kind in (("old", old), ("new", ScanInfo)):
+        for name, kind in (("unnamed", unnamed), ("named", named), ("new", ScanInfo)):
             image = Image(height=32, width=48, encoding="32FC1", step=4 * 48, data=heights.tobytes())
             info = kind(pitch_x=1e-8, pitch_y=2e-8, height_scale=2.0)
+            if kind is not unnamed:
+                info.scan_name, info.part_id, info.serial_id = "place 3", "lot 3", "0012"
             image.header.stamp = info.header.stamp = rospy.Time(12, 34)
             bag_path = self.folder / (name + ".bag")
             with rosbag.Bag(str(bag_path), "w") as bag:
@@ -187,7 +222,10 @@ class MigrationTest(unittest.TestCase):
             for of_the_file in ("file", "file_size", "file_time", "file_checksum"):
                 rows[name].pop(of_the_file)
         self.assertEqual(rows["new"]["pitch_y"], 2e-8)
-        self.assertEqual(rows["old"], rows["new"])
+        self.assertEqual((rows["new"]["scan_name"], rows["new"]["part_id"], rows["new"]["serial_id"]), ("place 3", "lot 3", "0012"))
+        self.assertEqual(rows["named"], rows["new"])
+        of_today = ("scan_name", "part_id", "serial_id")
+        self.assertEqual(rows["unnamed"], dict(rows["new"], **dict.fromkeys(of_today, "")))
 
     def test_without_the_rule_the_bag_does_not_play(self):
         for old_class in old_predictions():

@@ -2,6 +2,7 @@
 
 import base64
 import csv
+import hashlib
 import io
 import json
 import os
@@ -309,10 +310,12 @@ class SlipTest(unittest.TestCase):
         self.assertIn('reason: "the device is not stated in full: device/contact_area must be > 0"', record)
 
     def test_a_bag_names_the_part_of_its_scans(self):
-        self.assertEqual(self.run_it("make_scan_bag", "-o", "a.bag", "--part-id", "lot 3", "--serial-id", "0012", "scan.npy").returncode, 0)
+        self.assertEqual(self.run_it("make_scan_bag", "-o", "a.bag", "--part-id", "lot 3", "--serial-id", "0012", "--lot-id", "L7", "--wafer-id", "W3",
+                                     "scan.npy").returncode, 0)
         with rosbag.Bag(str(self.folder / "a.bag")) as bag:
             info, = [message for _, message, _ in bag.read_messages(topics=["/scan_info"])]
-        self.assertEqual((info.part_id, info.serial_id), ("lot 3", "0012"))
+        self.assertEqual((info.part_id, info.serial_id, info.lot_id, info.wafer_id, info.has_site), ("lot 3", "0012", "L7", "W3", False))
+        self.assertEqual(info.checksum, "sha256:" + hashlib.sha256((self.folder / "scan.npy").read_bytes()).hexdigest())
 
     def test_a_name_that_is_no_utf8_is_spelled_out(self):
         name = "h\udcf6he.npy"

@@ -4,6 +4,10 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <sstream>
+#include <string>
+#include <type_traits>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <sensor_msgs/image_encodings.h>
@@ -255,7 +259,12 @@ TEST(ScanInfoMessage, NamesThatNobodyReadsAreRefused) {
   header.frame_id += "a";
   EXPECT_THROW(identityOf(header, nullptr), SurfaceError);
   header.frame_id = "scan";
-  for (std::string* name : {&info.scan_name, &info.part_id, &info.serial_id}) {
+  for (std::string* name : {&info.scan_name, &info.part_id, &info.serial_id, &info.lot_id, &info.wafer_id,
+                            &info.acquisition_time, &info.instrument, &info.operator_name, &info.checksum}) {
+    *name = longest;
+  }
+  EXPECT_EQ(identityOf(header, &info).checksum, longest);
+  for (std::string* name : {&info.scan_name, &info.part_id, &info.serial_id, &info.operator_name, &info.checksum}) {
     *name += "a";
     EXPECT_THROW(identityOf(header, &info), SurfaceError);
     *name = longest;
@@ -267,6 +276,56 @@ TEST(ScanInfoMessage, NamesThatNobodyReadsAreRefused) {
   } catch (const SurfaceError& error) {
     EXPECT_STREQ(error.what(), "scan_info.part_id: a name of 1001000 bytes is not allowed, must have at most 1000");
   }
+}
+
+TEST(ScanInfoMessage, ASiteIsStatedAsAWholeOrNotAtAll) {
+  std_msgs::Header header;
+  ScanInfo info;
+  EXPECT_TRUE(std::isnan(identityOf(header, &info).site_x)) << "what a publisher leaves that knows of no site";
+  info.has_site = true;
+  EXPECT_EQ(identityOf(header, &info).site_x, 0.0) << "the middle of the wafer";
+  EXPECT_EQ(identityOf(header, &info).site_y, 0.0);
+  info.has_site = false;
+  info.site_y = -0.01;
+  EXPECT_EQ(identityOf(header, &info).site_x, 0.0);
+  EXPECT_EQ(identityOf(header, &info).site_y, -0.01);
+  info.site_x = kNaN;
+  try {
+    identityOf(header, &info);
+    FAIL();
+  } catch (const SurfaceError& error) {
+    EXPECT_STREQ(error.what(), "scan_info.site_y: -0.01 is stated without site_x: state both, or none");
+  }
+  info.site_y = kNaN;
+  EXPECT_TRUE(std::isnan(identityOf(header, &info).site_y));
+}
+
+TEST(ScanInfoMessage, WhatIsStatedOfAScanComesBack) {
+  ScanIdentity identity;
+  visitScanIdentityFields(identity, [](const Figure& figure, auto& value) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::string>) {
+      value = std::string("of ") + figure.name;
+    } else {
+      value = figure.name[5] == 'x' ? 0.0 : -2e-3;
+    }
+  });
+  ScanInfo info;
+  fillIdentity(identity, info);
+  ScanIdentity back = identityOf({}, &info);
+  std::vector<std::string> stated;
+  visitScanIdentityFields(identity, [&](const Figure&, const auto& value) {
+    std::ostringstream text;
+    text << value;
+    stated.push_back(text.str());
+  });
+  visitScanIdentityFields(back, [&, place = std::size_t{0}](const Figure& figure, const auto& value) mutable {
+    std::ostringstream text;
+    text << value;
+    EXPECT_EQ(text.str(), stated[place++]) << figure.name;
+  });
+  fillIdentity({}, info);
+  EXPECT_FALSE(info.has_site);
+  EXPECT_TRUE(std::isnan(identityOf({}, &info).site_x));
 }
 
 TEST(HeightImage, NarrowsToFloatAndKeepsInvalidCells) {

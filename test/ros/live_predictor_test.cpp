@@ -472,7 +472,7 @@ ReceivedScan scanOfPart(int seed, const std::string& part_id) {
   options.seed = seed;
   ReceivedScan scan = scanOf(gaussianSurface(options));
   scan.header.stamp = ros::Time(seed, 0);
-  scan.identity = {"place " + std::to_string(seed), part_id, ""};
+  scan.identity = {"place " + std::to_string(seed), part_id};
   return scan;
 }
 

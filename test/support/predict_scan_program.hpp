@@ -32,7 +32,9 @@ class PredictScan : public ::testing::Test {
 };
 
 /// What --curve begins with.
-constexpr const char* kCurveColumns = "height,force,direction,version,settings_hash,scan_name,part_id,serial_id";
+constexpr const char* kCurveColumns =
+    "height,force,direction,version,settings_hash,scan_name,part_id,serial_id,lot_id,wafer_id,site_x,site_y,"
+    "acquisition_time,instrument,operator_name,checksum";
 
 /// Height [m] and force [N] of the points of one direction, in the order of the file.
 inline std::vector<std::pair<double, double>> pointsOf(const std::string& csv, const std::string& direction) {

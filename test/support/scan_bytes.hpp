@@ -89,6 +89,8 @@ struct Sur {
   int special = 1, inversion = 0;
   bool is_compressed = false;
   std::string unit_z = "nm";
+  std::string operator_name = "";
+  std::vector<std::int16_t> date = {0, 0, 0, 0, 0, 0};  ///< second, minute, hour, day, month, year
 };
 
 /// 3 x 2 heights of 10 to 50 with step 0.5, one not measured (8 = 10 - 2).
@@ -99,20 +101,67 @@ inline std::string sur(const Sur& kind) {
   uLongf size = packed.size();
   compress(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(data.data()), data.size());
   packed.resize(size);
-  std::string header =
-      std::string(kind.is_compressed ? "DSCOMPRESSED" : "DIGITAL SURF") + littleBytes(std::int16_t{0}) +
-      littleBytes(std::int16_t{1}) + littleBytes(std::int16_t{1}) + littleBytes(std::int16_t{2}) +
-      std::string(60 + 6, '\0') + littleBytes(static_cast<std::int16_t>(kind.special)) + std::string(10, '\0') +
-      littleBytes(std::int16_t{32}) + littleBytes(std::int32_t{10}) + littleBytes(std::int32_t{50}) +
-      littleBytes(std::int32_t{3}) + littleBytes(std::int32_t{2}) + littleBytes(std::int32_t{6}) + littleBytes(0.25F) +
-      littleBytes(0.5F) + littleBytes(0.5F) + std::string(32, ' ') + field("Topography", 16, ' ') +
-      field("\xE6m", 16, ' ') + field("\xB5m", 16, ' ') + field(kind.unit_z, 16, ' ') +
-      std::string(3 * 16 + 3 * 4 + 2, '\0') + littleBytes(static_cast<std::int16_t>(kind.inversion));
+  std::string header = std::string(kind.is_compressed ? "DSCOMPRESSED" : "DIGITAL SURF") +
+                       littleBytes(std::int16_t{0}) + littleBytes(std::int16_t{1}) + littleBytes(std::int16_t{1}) +
+                       littleBytes(std::int16_t{2}) + std::string(30, '\0') + field(kind.operator_name, 30) +
+                       std::string(6, '\0') + littleBytes(static_cast<std::int16_t>(kind.special)) +
+                       std::string(10, '\0') + littleBytes(std::int16_t{32}) + littleBytes(std::int32_t{10}) +
+                       littleBytes(std::int32_t{50}) + littleBytes(std::int32_t{3}) + littleBytes(std::int32_t{2}) +
+                       littleBytes(std::int32_t{6}) + littleBytes(0.25F) + littleBytes(0.5F) + littleBytes(0.5F) +
+                       std::string(32, ' ') + field("Topography", 16, ' ') + field("\xE6m", 16, ' ') +
+                       field("\xB5m", 16, ' ') + field(kind.unit_z, 16, ' ') + std::string(3 * 16 + 3 * 4 + 2, '\0') +
+                       littleBytes(static_cast<std::int16_t>(kind.inversion));
+  header = field(header, 306);
+  for (const std::int16_t number : kind.date) header += littleBytes(number);
   header = field(header, 334) + littleBytes(std::int16_t{7}) + littleBytes(std::int16_t{0});
   header = field(header, 512) + "comment";
   if (!kind.is_compressed) return header + data;
   return header + littleBytes(std::int32_t{1}) + littleBytes(static_cast<std::int32_t>(data.size())) +
          littleBytes(static_cast<std::int32_t>(packed.size())) + packed;
+}
+
+// ---- x3p
+
+/// An archive of stored files: names and contents.
+inline std::string zip(const std::vector<std::pair<std::string, std::string>>& files) {
+  std::string bytes;
+  std::string list;
+  for (const auto& [name, content] : files) {
+    const auto sum = static_cast<std::uint32_t>(
+        crc32(0, reinterpret_cast<const Bytef*>(content.data()), static_cast<uInt>(content.size())));
+    const auto size = static_cast<std::uint32_t>(content.size());
+    const std::string entry = littleBytes(std::uint16_t{20}) + std::string(8, '\0') + littleBytes(sum) +
+                              littleBytes(size) + littleBytes(size) +
+                              littleBytes(static_cast<std::uint16_t>(name.size())) + std::string(2, '\0');
+    list += "PK\1\2" + littleBytes(std::uint16_t{20}) + entry + std::string(10, '\0') +
+            littleBytes(static_cast<std::uint32_t>(bytes.size())) + name;
+    bytes += "PK\3\4" + entry + name + content;
+  }
+  const auto count = static_cast<std::uint16_t>(files.size());
+  return bytes + list + "PK\5\6" + std::string(4, '\0') + littleBytes(count) + littleBytes(count) +
+         littleBytes(static_cast<std::uint32_t>(list.size())) + littleBytes(static_cast<std::uint32_t>(bytes.size())) +
+         std::string(2, '\0');
+}
+
+/// ISO 25178-72: 3 x 2 heights, and who measured them.
+inline std::string x3p() {
+  std::string data;
+  for (const double height : {1e-9, 2e-9, 3e-9, 4e-9, 5e-9, 6e-9}) data += littleBytes(height);
+  const auto axis = [](const char* name, const char* kind, const char* type) {
+    return std::string("<") + name + "><AxisType>" + kind + "</AxisType><DataType>" + type +
+           "</DataType><Increment>1e-8</Increment><Offset>0</Offset></" + name + ">";
+  };
+  const std::string xml =
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>"
+      "<p:ISO5436_2 xmlns:p=\"http://www.opengps.eu/2008/ISO5436_2\"><Record1><Revision>ISO5436 - 2000</Revision>"
+      "<FeatureType>SUR</FeatureType><Axes>" +
+      axis("CX", "I", "L") + axis("CY", "I", "L") + axis("CZ", "A", "D") +
+      "</Axes></Record1><Record2><Date>2026-03-01T14:05:00+01:00</Date><Creator>A. Worker</Creator><Instrument>"
+      "<Manufacturer>Maker</Manufacturer><Model>Two</Model><Serial>0012</Serial><Version>1</Version></Instrument>"
+      "<CalibrationDate>2025-03-01T14:05:00+01:00</CalibrationDate></Record2><Record3><MatrixDimension>"
+      "<SizeX>3</SizeX><SizeY>2</SizeY><SizeZ>1</SizeZ></MatrixDimension><DataLink><PointDataLink>bindata/data.bin"
+      "</PointDataLink></DataLink></Record3></p:ISO5436_2>";
+  return zip({{"main.xml", xml}, {"bindata/data.bin", data}});
 }
 
 // ---- NetCDF

@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include "mems_stiction/height_map/scan_identity.hpp"
 #include "mems_stiction/settings/figure.hpp"
 #include "mems_stiction/settings/option_visitor.hpp"
 
@@ -17,15 +18,10 @@ struct Configuration;
 struct PartOptions {
   std::string id;      ///< scans of one id belong together
   std::string serial;  ///< its serial number
+  std::string lot;     ///< that its wafer is of
+  std::string wafer;   ///< that it is of
 
   void describe(OptionVisitor& visitor);
-};
-
-/// What was scanned.
-struct ScanIdentity {
-  std::string scan_name;
-  std::string part_id;
-  std::string serial_id;
 };
 
 /// What was scanned, and what it was predicted with.
@@ -51,9 +47,15 @@ void visitProvenanceFields(Source& provenance, Visitor&& visit) {
   visit({"version", "", "of this package"}, provenance.version);
   visit({"settings_hash", "", "16 hexadecimal digits, of every setting that bears on the figures"},
         provenance.settings_hash);
-  visit({"scan_name", "", "scan_info.scan_name, else the frame_id"}, provenance.scan_name);
-  visit({"part_id", "", "scan_info.part_id, else the parameter part/id"}, provenance.part_id);
-  visit({"serial_id", "", "scan_info.serial_id, else the parameter part/serial"}, provenance.serial_id);
+  visitScanIdentityFields(provenance, visit);
+}
+
+/// Of the same fields those that are stated: no empty text, and no NaN.
+template <typename Visitor>
+void visitStatedProvenance(const Provenance& provenance, Visitor&& visit) {
+  visitProvenanceFields(provenance, [&](const Figure& figure, const auto& value) {
+    if (isStated(value)) visit(figure, value);
+  });
 }
 
 }  // namespace mems_stiction

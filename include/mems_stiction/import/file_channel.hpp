@@ -10,6 +10,7 @@
 #include <opencv2/core.hpp>
 
 #include "mems_stiction/height_map/raw_scan.hpp"
+#include "mems_stiction/height_map/scan_identity.hpp"
 
 namespace mems_stiction {
 
@@ -27,6 +28,7 @@ struct FileChannel {
   /// The pitch is from a field that programs fill without being asked (dots per inch): ScanOptions go before it.
   bool is_pitch_a_guess = false;
   double reach = 0.0;              ///< what the instrument can move in z [unit_z]: no heights span more; 0 = not stated
+  ScanIdentity identity;           ///< who measured it, when and with what, as far as the file says it
   std::vector<std::string> notes;  ///< what the user should know of how it was read, a line each
 };
 

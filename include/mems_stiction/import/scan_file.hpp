@@ -5,13 +5,15 @@
 ///
 /// Pitch and unit are those that the format or the file states. Images, arrays and text often state nothing: then
 /// ScanOptions do. A sidecar goes before both, and a pitch in ScanFileOptions before all. The sidecar is a YAML file
-/// beside the scan, "scan.tiff.yaml" or "scan.yaml" for "scan.tiff", with keys of ScanOptions, with or without "scan/".
+/// beside the scan, "scan.tiff.yaml" or "scan.yaml" for "scan.tiff", with keys of ScanOptions and ScanIdentity, with or
+/// without "scan/".
 
 #include <string>
 #include <vector>
 
 #include "mems_stiction/height_map/height_map.hpp"
 #include "mems_stiction/height_map/raw_scan.hpp"
+#include "mems_stiction/height_map/scan_identity.hpp"
 #include "mems_stiction/import/file_channel.hpp"
 
 namespace mems_stiction {
@@ -28,6 +30,7 @@ struct ScanFile {
   HeightMap surface;               ///< [m]
   std::string channel;             ///< the channel that was chosen, "0: ZSensor"; empty where a file has one only
   std::vector<std::string> notes;  ///< what the user should know of how it was read, a line each
+  ScanIdentity identity;           ///< as sidecar and file state it; scan_name is the file's name if they state none
 };
 
 /// @throw FileError in one line with the file and the cause: missing, empty, cut off, not a height map, without pitch.

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "mems_stiction/configuration/configuration.hpp"
 
 namespace mems_stiction {
@@ -38,13 +40,31 @@ TEST(Provenance, WhoTheScanIsOfAndWhatIsAskedForDoNotCount) {
 
 TEST(Provenance, WhatTheScanSaysGoesBeforeTheSettings) {
   Configuration configuration;
-  configuration.part = {"lot 3", "0012"};
-  const Provenance of_settings = provenanceOf({"scan", "", ""}, configuration);
+  configuration.part = {"lot 3", "0012", "L7", "W3"};
+  const Provenance of_settings = provenanceOf({"scan"}, configuration);
   EXPECT_EQ(of_settings.scan_name, "scan");
   EXPECT_EQ(of_settings.part_id, "lot 3");
   EXPECT_EQ(of_settings.serial_id, "0012");
+  EXPECT_EQ(of_settings.lot_id, "L7");
+  EXPECT_EQ(of_settings.wafer_id, "W3");
   EXPECT_FALSE(of_settings.version.empty());
-  EXPECT_EQ(provenanceOf({"scan", "lot 4", ""}, configuration).part_id, "lot 4");
+  ScanIdentity scan;
+  scan.part_id = "lot 4";
+  scan.wafer_id = "W4";
+  EXPECT_EQ(provenanceOf(scan, configuration).part_id, "lot 4");
+  EXPECT_EQ(provenanceOf(scan, configuration).wafer_id, "W4");
+  EXPECT_EQ(provenanceOf(scan, configuration).lot_id, "L7");
+}
+
+TEST(Provenance, OfItTheStatedFieldsAlone) {
+  ScanIdentity scan;
+  scan.part_id = "lot 4";
+  scan.site_x = 0.0;
+  scan.site_y = -1e-3;
+  std::string names;
+  visitStatedProvenance(provenanceOf(scan, {}),
+                        [&](const Figure& figure, const auto&) { names += std::string(figure.name) + " "; });
+  EXPECT_EQ(names, "version settings_hash part_id site_x site_y ");
 }
 
 }  // namespace

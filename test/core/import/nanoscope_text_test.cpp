@@ -41,6 +41,18 @@ TEST(NanoscopeText, HasAChannelForEachColumn) {
   EXPECT_DOUBLE_EQ(channels[1].values.at<double>(1, 2), 0.6);
 }
 
+TEST(NanoscopeText, SaysWhenAndWithWhatItWasMeasured) {
+  const std::string text = exported(kPoints);
+  const std::size_t lists = text.find("\"\\Scan Size");
+  const ScanIdentity identity =
+      parseNanoscopeText(text.substr(0, lists) +
+                         "\"\\Date: 01:33:51 PM Mon Dec 15 2014\"\r\n\"\\Microscope: Dimension V\"\r\n" +
+                         text.substr(lists))[1]
+          .identity;
+  EXPECT_EQ(identity.acquisition_time, "2014-12-15T13:33:51");
+  EXPECT_EQ(identity.instrument, "Dimension V");
+}
+
 TEST(NanoscopeText, IsReadAsAScan) {
   const ScratchFolder folder;
   const HeightMap surface = readScanFile(folder.write("scan.txt", exported(kPoints)));

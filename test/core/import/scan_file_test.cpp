@@ -173,6 +173,47 @@ TEST(ScanFile, SidecarErrorsNameTheSidecar) {
   EXPECT_THROW(readScanFile(path), FileError);
 }
 
+TEST(ScanFile, WhatIsScannedIsStatedByTheSidecarAndTheFilesBytes) {
+  const ScratchFolder folder;
+  const std::string path = folder.write("place 3.txt", "1 2\n3 4\n");
+  EXPECT_EQ(openScanFile(path, withPitch()).identity.scan_name, "place 3");
+  folder.write("place 3.txt.yaml",
+               "pitch_x: 5e-9\npitch_y: 5e-9\nserial_id: 0012\nscan/lot_id: L7\nscan: {wafer_id: W3, site_x: -5e-3}\n"
+               "site_y: 0.0\noperator_name: ann\ninstrument: AFM 2\nacquisition_time: 2026-03-01T14:05:00+01:00\n");
+  const ScanIdentity identity = openScanFile(path).identity;
+  EXPECT_EQ(identity.scan_name, "place 3");
+  EXPECT_EQ(identity.part_id, "");
+  EXPECT_EQ(identity.serial_id, "0012");
+  EXPECT_EQ(identity.lot_id, "L7");
+  EXPECT_EQ(identity.wafer_id, "W3");
+  EXPECT_EQ(identity.site_x, -5e-3);
+  EXPECT_EQ(identity.site_y, 0.0);
+  EXPECT_EQ(identity.operator_name, "ann");
+  EXPECT_EQ(identity.instrument, "AFM 2");
+  EXPECT_EQ(identity.acquisition_time, "2026-03-01T14:05:00+01:00");
+  EXPECT_EQ(identity.checksum, "sha256:871d6e7f463a42c5573203c50db6e52da506d5395af73e09237410dec5eff856");
+}
+
+TEST(ScanFile, ASidecarWithHalfASiteOrATextThatNobodyReadsIsRefused) {
+  const ScratchFolder folder;
+  const std::string path = folder.write("scan.txt", "1 2\n3 4\n");
+  const std::string pitch = "pitch_x: 5e-9\npitch_y: 5e-9\n";
+  for (const auto& [lines, complaint] : std::vector<std::pair<std::string, std::string>>{
+           {"site_x: 0.01\n", "scan/site_x: 0.01 is stated without site_y: state both, or none"},
+           {"site_x: .inf\nsite_y: 0\n", "scan/site_x: inf is not allowed"},
+           {"checksum: sha256:0\n", "scan/checksum: "},
+           {"operator: ann\n", "scan/operator_name"},
+           {"wafer_id: " + std::string(1001, 'w') + "\n", "scan/wafer_id: a name of 1001 bytes is not allowed"}}) {
+    const std::string sidecar = folder.write("scan.txt.yaml", pitch + lines);
+    try {
+      openScanFile(path);
+      ADD_FAILURE() << lines;
+    } catch (const OptionsError& error) {
+      EXPECT_TRUE(mentions(error.what(), sidecar + ": scan/") && mentions(error.what(), complaint)) << error.what();
+    }
+  }
+}
+
 TEST(ScanFile, FilesThatAreNoScansAreRefused) {
   const ScratchFolder folder;
   EXPECT_TRUE(mentions(refusal(folder.file("none.tiff")), "no such file"));

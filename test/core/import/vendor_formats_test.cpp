@@ -104,6 +104,26 @@ TEST(SurFile, PointsThatWereNotMeasuredAreMissing) {
   }
 }
 
+TEST(SurFile, SaysWhoMeasuredAndWhen) {
+  Sur kind;
+  EXPECT_EQ(parseSur(sur(kind))[0].identity.acquisition_time, "");
+  kind.operator_name = "A. Worker";
+  kind.date = {51, 33, 13, 15, 12, 2014};
+  const ScanIdentity identity = parseSur(sur(kind))[0].identity;
+  EXPECT_EQ(identity.operator_name, "A. Worker");
+  EXPECT_EQ(identity.acquisition_time, "2014-12-15T13:33:51");
+}
+
+/// An archive of x3p as its standard has it, through gwyddion.
+TEST(X3pFile, SaysWhoMeasuredWhenAndWithWhat) {
+  if (std::system("command -v gwyddion >/dev/null 2>&1") != 0) GTEST_SKIP() << "needs the program gwyddion";
+  const ScratchFolder folder;
+  const ScanIdentity identity = openScanFile(folder.write("scan.x3p", x3p())).identity;
+  EXPECT_EQ(identity.acquisition_time, "2026-03-01T14:05:00+01:00");
+  EXPECT_EQ(identity.operator_name, "A. Worker");
+  EXPECT_EQ(identity.instrument, "Maker Two, serial number 0012");
+}
+
 TEST(SurFile, WhereAllPointsWereMeasuredNoneIsMissing) {
   Sur kind;
   kind.special = 0;

@@ -13,6 +13,7 @@
 #include "mems_stiction/import/scan_file.hpp"
 #include "mems_stiction/roughness/areal_parameters.hpp"
 #include "preprocess/level.hpp"
+#include "support/program_run.hpp"
 #include "support/scratch_folder.hpp"
 
 namespace mems_stiction {
@@ -119,6 +120,32 @@ TEST_F(VendorScans, BytesTooManyTooFewOrTakenForTextAreRefused) {
           << file << " of " << damaged.size() << " bytes";
     }
     EXPECT_NO_THROW(readScanFile(scratch.write(name, bytes))) << file;
+  }
+}
+
+/// What the headers say, read by hand with `strings` and `unzip -p`.
+TEST_F(VendorScans, SayWhenAndWithWhatTheyWereMeasured) {
+  struct Known {
+    const char* file;
+    const char* time;
+    const char* instrument;
+  };
+  for (const Known& known : std::vector<Known>{
+           {"di-3.di", "2014-12-15T13:33:51", "Dim 4000, serial number 1BEC3"},
+           {"di-5.di", "2021-06-30T11:38:13", "Dim 4000, serial number 1A03F9"},
+           {"di-6.di", "2016-02-03T17:40:34", "Dimension V, serial number Hybrid 306"},
+           {"top-1.top", "03/11/2011, 20:23:46.484",
+            "AFM, serial number 24"},  // the third of November, or the 11th of March
+           {"opd-1.opd", "2015-07-07T16:19:48", ""},
+           {"x3p-2.x3p", "", "DIGITAL SURF Mountains Map Technology Software"},  // its date is that of no clock
+           {"misread/sur-2.sur", "", ""}}) {
+    const ScanIdentity identity = openScanFile(folder_ + "/" + known.file).identity;
+    EXPECT_EQ(identity.acquisition_time, known.time) << known.file;
+    EXPECT_EQ(identity.instrument, known.instrument) << known.file;
+    EXPECT_EQ(identity.operator_name, "") << known.file;
+    EXPECT_EQ(identity.scan_name, std::filesystem::path(known.file).stem()) << known.file;
+    const Outcome summed = runProgram(ScratchFolder(), "sha256sum " + folder_ + "/" + known.file);
+    EXPECT_EQ(identity.checksum, "sha256:" + summed.output.substr(0, 64)) << known.file;
   }
 }
 
