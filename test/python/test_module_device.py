@@ -1,5 +1,6 @@
 """The force of a device from Python: scans of every dress, their pitches, what comes out, and Ctrl-C."""
 
+import hashlib
 import json
 import os
 import pathlib
@@ -69,6 +70,21 @@ class DeviceTest(unittest.TestCase):
             self.assertEqual(record[name], getattr(device, name), name)
         again = pickle.loads(pickle.dumps(device))
         self.assertEqual((again.json(), again.realisations.tolist()), (device.json(), device.realisations.tolist()))
+
+    def test_it_says_which_files_it_is_of_and_what_they_state_alike(self):
+        with tempfile.TemporaryDirectory() as folder:
+            paths = [pathlib.Path(folder) / name for name in ("a.npy", "b.npy")]
+            for path, heights, site in zip(paths, scans(), (0.0, 1e-3)):
+                np.save(str(path), heights)
+                path.with_name(path.name + ".yaml").write_text(
+                    "pitch_x: 1.0e-8\npitch_y: 1.0e-8\nwafer_id: W3\npart_id: %s\nsite_x: %r\nsite_y: 0.0\n" % (path.stem, site))
+            sums = ["sha256:" + hashlib.sha256(path.read_bytes()).hexdigest() for path in paths]
+            both = predicted([str(path) for path in paths], AREA, part={"lot": "L7"}).to_dict()
+            self.assertEqual((both["wafer_id"], both["lot_id"], both["scan_checksums"]), ("W3", "L7", sums))
+            self.assertEqual([name for name in ("part_id", "site_x", "checksum", "scan_name") if name in both], [])
+            one = predicted(str(paths[1]), AREA).to_dict()
+            self.assertEqual((one["part_id"], one["site_x"], one["checksum"], one["scan_checksums"]), ("b", 1e-3, sums[1], sums[1:]))
+        self.assertNotIn("scan_checksums", predicted(scans(), AREA, PITCH).to_dict())
 
     def test_it_is_the_programs_to_the_last_bit(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -1,6 +1,7 @@
 """The Python module for somebody who has not seen it: slips are named or warned of at the caller's line, results can be copied and sent."""
 
 import copy
+import hashlib
 import json
 import multiprocessing
 import pathlib
@@ -48,6 +49,27 @@ class SlipTest(unittest.TestCase):
         self.named(mems_stiction.SurfaceError, "^pitch: an array says nothing of it", mems_stiction.predict, good)
         for sizes in ((-1.0, 1.0), (1.0,), (1.0, 1.0, 1.0), "ab", 1.0):
             self.named(mems_stiction.SurfaceError, "^physical_sizes: .*two numbers > 0", mems_stiction.predict, Topography(good, sizes, "m"))
+
+    def test_a_scan_says_which_place_of_which_wafer_it_is(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "place.npy"
+            np.save(str(path), rough(20, 30))
+            path.with_name("place.npy.yaml").write_text("pitch_x: 1.0e-8\npitch_y: 1.0e-8\nwafer_id: W3\nsite_x: -5.0e-3\nsite_y: 0.0\noperator_name: ann\n")
+            scan = mems_stiction.read(path)
+            prediction = mems_stiction.predict(path, part={"lot": "L7"})
+            record = subprocess.run([program(), "--json", str(path)], stdout=subprocess.PIPE, check=True, timeout=60).stdout
+            checksum = "sha256:" + hashlib.sha256(path.read_bytes()).hexdigest()
+        for one in (scan, pickle.loads(pickle.dumps(scan)), mems_stiction.clean(scan), mems_stiction.predict(scan), prediction,
+                    pickle.loads(pickle.dumps(prediction))):
+            self.assertEqual((one.scan_name, one.wafer_id, one.site_x, one.site_y, one.operator_name, one.checksum, one.part_id),
+                             ("place", "W3", -5e-3, 0.0, "ann", checksum, ""))
+        self.assertEqual((scan.lot_id, prediction.lot_id), ("", "L7"))
+        self.assertEqual(next(mems_stiction.predict_under(scan, configs=[{}])).wafer_id, "W3")
+        known = ("scan_name", "wafer_id", "site_x", "site_y", "operator_name", "checksum")
+        self.assertEqual({name: mems_stiction.predict(scan).to_dict()[name] for name in known}, {name: json.loads(record)[name] for name in known})
+        nobody = mems_stiction.predict(rough(20, 30), PITCH)
+        self.assertTrue(np.isnan(nobody.site_x) and nobody.checksum == nobody.wafer_id == "")
+        self.assertEqual([name for name in known if name in nobody.to_dict()], [])
 
     def test_a_line_scan_is_no_surface(self):
         self.named(mems_stiction.SurfaceError, "two dimensions", mems_stiction.predict, Topography(rough(1, 30)[0], (1e-6,), "m"))

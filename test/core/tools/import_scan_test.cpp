@@ -76,6 +76,30 @@ TEST_F(ImportScan, Float32StaysFloat32AndDoubleKeepsItsDigits) {
   expectSame(readScanFile(folder_.file("double.tiff")), sphere);
 }
 
+TEST_F(ImportScan, WhatIsStatedOfTheScanGoesWithIt) {
+  const std::string text = folder_.write("grid.csv", "1e-9,2e-9,nan\n3e-9,4e-9,5e-9\n");
+  folder_.write("grid.csv.yaml",
+                "pitch_x: 1e-9\npitch_y: 1e-9\nwafer_id: 'W \"3\": #4'\nserial_id: 0012\nsite_x: -5e-3\nsite_y: 0\n"
+                "operator_name: ann\nacquisition_time: 2026-03-01\n");
+  const Outcome outcome = importScan("-o " + folder_.file("o") + " " + text);
+  ASSERT_EQ(outcome.status, 0);
+  EXPECT_NE(outcome.output.find("missing, 2026-03-01, ann\n"), std::string::npos) << outcome.output;
+  const ScanIdentity of_text = openScanFile(text).identity;
+  const ScanIdentity of_tiff = openScanFile(folder_.file("o/grid.tiff")).identity;
+  EXPECT_EQ(of_tiff.wafer_id, "W \"3\": #4");
+  EXPECT_EQ(of_tiff.serial_id, "0012");
+  EXPECT_EQ(of_tiff.site_x, -5e-3);
+  EXPECT_EQ(of_tiff.site_y, 0.0);
+  EXPECT_EQ(of_tiff.operator_name, "ann");
+  EXPECT_EQ(of_tiff.acquisition_time, "2026-03-01");
+  EXPECT_EQ(of_tiff.scan_name, "grid");
+  EXPECT_NE(of_tiff.checksum, of_text.checksum) << "of other bytes";
+  const std::string sidecar = ScratchFolder::read(folder_.file("o/grid.tiff.yaml"));
+  EXPECT_NE(sidecar.find("# grid.csv, " + of_text.checksum + "\n"), std::string::npos) << sidecar;
+  EXPECT_EQ(importScan("-o " + folder_.file("o") + " " + text).status, 0)
+      << "as it was written, it may be written again";
+}
+
 TEST_F(ImportScan, NeverWritesOverAScanOrTwiceToOneFile) {
   writeScan(folder_.file("a.tiff"), analytic::paraboloid(21, 31, 20e-9, 20e-9, 2e-6), "a");
   const std::string before = ScratchFolder::read(folder_.file("a.tiff"));
