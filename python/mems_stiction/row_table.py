@@ -160,7 +160,7 @@ def write_table(path, table, units, origin):
     import pyarrow.parquet
 
     fields = [field.with_metadata({"unit": units[field.name]}) if field.name in units else field for field in table.schema]
-    told = {"mems_stiction." + word: str(text) for word, text in dict({"version": version()}, **origin).items()}
+    told = {"mems_stiction." + word: str(text) for word, text in dict({"version": version()}, **origin).items() if text is not None}
     # Not by its name: pyarrow removes what it cannot write, be it a device.
     with whole(path) as part, open(str(part), "wb") as stream:
         pyarrow.parquet.write_table(table.cast(pyarrow.schema(fields, told)), stream, compression="zstd")
