@@ -6,7 +6,7 @@ import json
 import math
 import os
 import pathlib
-from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, Iterator, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -80,22 +80,28 @@ class LotComparison(ReadOnly):
 
     def save_maps(self, folder: Path) -> List[pathlib.Path]:
         """A map of each wafer with sites as PNG into a folder, which is made: the figure, the force and the rms height. Returns the paths."""
-        from mems_stiction.lots_maps import save_map
+        from mems_stiction.plots import save
 
         target = pathlib.Path(os.fspath(folder))
         target.mkdir(parents=True, exist_ok=True)
-        wafers = by_wafer(self._lots.chosen)
         paths: List[pathlib.Path] = []
-        for (lot, wafer), places in wafers.items():
-            if not any(place.has_site() for place in places):
-                continue
+        for lot, wafer, figure in self.maps():
             name = "_".join(["wafer"] + [_file_name(text) for text in (lot, wafer) if text]) + ".png"
             path = target / (name if target / name not in paths else "%s_%d.png" % (name[:-4], len(paths) + 1))
-            save_map((self.figure, self._lots.force), places, missing_sites(places, self._lots.chosen), self._lots.chosen,
-                     [bad for bad in self.bad_places if (bad.lot_id, bad.wafer_id) == (lot, wafer)],
-                     next((trend for trend in self.trends if (trend.lot_id, trend.wafer_id) == (lot, wafer)), None), path)
+            save(figure, path)
             paths.append(path)
         return paths
+
+    def maps(self) -> Iterator[Tuple[str, str, Any]]:
+        """lot_id, wafer_id and the figure of each wafer with sites, drawn when its turn comes. The caller saves it."""
+        from mems_stiction.lots_maps import map_figure
+
+        for (lot, wafer), places in by_wafer(self._lots.chosen).items():
+            if any(place.has_site() for place in places):
+                trends = [trend for trend in self.trends if (trend.lot_id, trend.wafer_id) == (lot, wafer)]
+                yield lot, wafer, map_figure((self.figure, self._lots.force), places, missing_sites(places, self._lots.chosen), self._lots.chosen,
+                                             [bad for bad in self.bad_places if (bad.lot_id, bad.wafer_id) == (lot, wafer)],
+                                             trends[0] if trends else None)
 
     def __repr__(self) -> str:
         lines = ["Comparison of %d rows by their %s" % (len(self._lots.places), WORDS[self.figure])]

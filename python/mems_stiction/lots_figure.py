@@ -27,7 +27,12 @@ MARKERS = {"normal": "o", "counted": "s", "bound": "v"}
 
 def save_comparison(record, path):
     """Writes PNG, PDF or SVG, by the ending of the path."""
-    lines = _lines(record["statements"])
+    save(comparison_figure(record), path)
+
+
+def comparison_figure(record, has_statements=True):
+    """The figure; the caller saves it. has_statements: the sentences stand below the panels."""
+    lines = _lines(record["statements"]) if has_statements else []
     below = 0.35 + LINE * len(lines)
     height = 7.6 + below
     figure = plt.figure(figsize=(11.0, height))
@@ -39,7 +44,7 @@ def save_comparison(record, path):
     figure.suptitle("Lots, wafers and parts by their %s" % WORDS[record["figure"]], fontsize=13, y=1.0 - 0.2 / height)
     figure.text(0.04, (0.3 + LINE * len(lines)) / height, "\n".join(lines), fontsize=9, va="top", color="#333333")
     sign(figure, {"version": record["version"]})
-    save(figure, path)
+    return figure
 
 
 def _lines(statements):

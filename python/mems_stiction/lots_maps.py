@@ -8,7 +8,7 @@ from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from mems_stiction.lots_data import UNITS, WORDS, wafer_word
 from mems_stiction.lots_words import text_of
-from mems_stiction.plots import plt, save
+from mems_stiction.plots import plt
 from mems_stiction.provenance import sign
 from mems_stiction.quantities import length_scale, prefix_for, ratio, typeset
 from mems_stiction.version import version
@@ -20,8 +20,10 @@ MIDDLE = (2.5, 97.5)  # percent of the values that colours tell apart: what is f
 EXTENDED = {(False, False): "neither", (True, False): "min", (False, True): "max", (True, True): "both"}
 
 
-def save_map(figures, places, missing, others, bad, trend, path):
-    """figures: what is compared, and the column of the forces; places: of one wafer; missing: (x, y) of sites where others have one;
+def map_figure(figures, places, missing, others, bad, trend):
+    """The figure; the caller saves it.
+
+    figures: what is compared, and the column of the forces; places: of one wafer; missing: (x, y) of sites where others have one;
     others: places of all wafers, for one range of colours; bad: records of bad places; trend: its record or None."""
     figure = figures[0]
     panels = [(name, values) for name, values in _panels(figures, places) if np.isfinite(values).any()]
@@ -52,7 +54,7 @@ def save_map(figures, places, missing, others, bad, trend, path):
     _head(drawn, figure, places, missing, bad, trend)
     drawn.legend(handles=_legend(bad, missing, places, trend), loc="lower center", ncol=3, fontsize=9, frameon=False, bbox_to_anchor=(0.5, 0.02))
     sign(drawn, {"version": version()})
-    save(drawn, path)
+    return drawn
 
 
 def _panels(figures, places):

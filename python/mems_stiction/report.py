@@ -27,6 +27,7 @@ from mems_stiction.plots import ScanPicture, save_picture, with_unit
 from mems_stiction.prediction_text import digits_of, flag_words
 from mems_stiction.quantities import percent, ratio, with_interval
 from mems_stiction.report_figures import is_lower_bound, number, scan_figure, trend_figure
+from mems_stiction.report_lots import lots_section
 from mems_stiction.report_template import PAGE
 from mems_stiction.surface_figures import surface_figure, surface_figures_of
 
@@ -314,7 +315,7 @@ def page(title, rows, sections, settings_text, configuration_path, parts=(), dat
     environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined)
     return environment.from_string(PAGE).render(
         title=title, version=settings["version"], summary=summary(rows, drawn),
-        date=date or datetime.datetime.now().strftime("%Y-%m-%d %H:%M"),
+        date=date or datetime.datetime.now().strftime("%Y-%m-%d %H:%M"), lots=lots_section(rows, embedded),
         has_half_space=any(_is_half_space_asked(row) for row in predicted),
         has_device=any("sticks" in row for row in predicted), judged_by=judged_by(predicted).replace("_", " "),
         table=[table_row(row, drawn, judged_by(predicted)) for row in rows],

@@ -47,6 +47,11 @@ PAGE = """<!DOCTYPE html>
 {% endfor %}</tbody>
 </table></div>
 <p class="quiet">The scans of one part and serial number, pooled: the geometric mean and its 95 % interval. What is common to all scans (constants, model, pitch) does not shrink with their number.</p>{% endif %}
+{% if lots %}<div id="lots"><h2>Lots and wafers</h2>
+<ul>{% for statement in lots.statements %}<li>{{ statement }}</li>{% endfor %}</ul>
+<img alt="How far lots, wafers and parts differ, and which share is expected to stick" src="{{ lots.picture }}">
+{% for name, map in lots.maps %}<img alt="Maps of {{ name }}" src="{{ map }}">
+{% endfor %}{% if lots.has_more %}<p class="quiet">Of the maps the first {{ lots.maps | length }}; compare_lots --maps draws all.</p>{% endif %}</div>{% endif %}
 
 <h2>Scans</h2>
 <div class="wide"><table class="overview">

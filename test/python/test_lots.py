@@ -211,16 +211,15 @@ class WaferTest(unittest.TestCase):
         for number, site in enumerate(SITES):
             scans.append(cls.path / ("%02d.npy" % number))
             np.save(str(scans[-1]), rough(96, 96, 0.3e-9 if site in BAD else 3e-9 * math.exp(15.0 * site[0]), number + 1, 12))
-        table = cls.path / "batch.csv"
-        done = subprocess.run([archive.program(), "--config", str(cls.path / "part.yaml"), "-o", str(table), *map(str, scans)],
+        lines = cls.path / "batch.jsonl"
+        done = subprocess.run([archive.program(), "--config", str(cls.path / "part.yaml"), "-o", str(lines), *map(str, scans)],
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
         assert done.returncode == 0, done.stderr
-        with open(str(table), encoding="utf-8", newline="") as stream:
-            cls.rows = [dict(cells, lot_id="L7", wafer_id="3", site_x=repr(site[0]), site_y=repr(site[1]))
-                        for cells, site in zip(csv.DictReader(stream), SITES)]
+        with open(str(lines), encoding="utf-8") as stream:
+            cls.rows = [dict(json.loads(line), lot_id="L7", wafer_id="3", site_x=site[0], site_y=site[1]) for line, site in zip(stream, SITES)]
         cls.table = cls.path / "rows.csv"
         with open(str(cls.table), "w", encoding="utf-8", newline="") as stream:
-            writer = csv.DictWriter(stream, list(cls.rows[0]))
+            writer = csv.DictWriter(stream, list(max(cls.rows, key=len)))
             writer.writeheader()
             writer.writerows(cls.rows)
 
@@ -259,7 +258,8 @@ class WaferTest(unittest.TestCase):
         expected = mems_stiction.compare_lots(self.rows).json()
         lines = self.path / "rows.jsonl"
         lines.write_text("".join(json.dumps(one) + "\n" for one in self.rows))
-        records = np.rec.fromrecords([tuple(one.values()) for one in self.rows], names=list(self.rows[0]))
+        names = list(max(self.rows, key=len))  # a row leaves out what it does not know
+        records = np.array([tuple(map(one.get, names)) for one in self.rows], dtype=[(name, object) for name in names])
         for form in (self.table, str(self.table), [self.table], lines, records):
             self.assertEqual(mems_stiction.compare_lots(form).json(), expected)
         try:
@@ -279,13 +279,29 @@ class WaferTest(unittest.TestCase):
         self.assertRegex(run.stdout, r"^Comparison of 49 rows by their margin\n  expected to stick: ")
         self.assertIn("lot L7, wafer 3: margin ", run.stdout)
 
+    def test_a_report_has_lots_and_maps_where_rows_name_them(self):
+        try:
+            from mems_stiction import report
+        except ImportError as missing:
+            self.skipTest("%s is not installed" % missing.name)
+        settings = (self.path / "batch.jsonl.settings.yaml").read_text()
+        page = report.page("Wafer", self.rows, [], settings, None)
+        section = page[page.index('<div id="lots">'):page.index("<h2>Scans</h2>")]
+        self.assertEqual(section.count("data:image/png;base64,"), 2)
+        self.assertIn("<li>Expected to stick: ", section)
+        self.assertIn('alt="Maps of wafer 3 of lot L7"', section)
+        plain = [{name: value for name, value in one.items() if name not in ("lot_id", "wafer_id", "site_x", "site_y")} for one in self.rows]
+        self.assertNotIn('id="lots"', report.page("Scans", plain, [], settings, None))
+        many = [dict(one, wafer_id="w%d" % wafer) for wafer in range(13) for one in self.rows[:7]]
+        self.assertIn("Of the maps the first 12; compare_lots --maps draws all.", report.page("Lot", many, [], settings, None))
+
     def test_maps_mark_missing_sites_and_draw_each_wafer(self):
         rows = [dict(one, wafer_id=wafer) for wafer in ("3", "4/b") for one in self.rows]
         rows[60]["margin"] = "nan"
         del rows[70]
-        from mems_stiction import lots_maps
+        from mems_stiction import plots
 
-        with mock.patch.object(lots_maps, "save", autospec=True, side_effect=lots_maps.save) as save:
+        with mock.patch.object(plots, "save", autospec=True, side_effect=plots.save) as save:
             paths = mems_stiction.compare_lots(rows).save_maps(self.path / "more")
         self.assertEqual([path.name for path in paths], ["wafer_L7_3.png", "wafer_L7_4-b.png"])
         titles = [call[0][0]._suptitle.get_text() for call in save.call_args_list]
