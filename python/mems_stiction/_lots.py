@@ -12,11 +12,10 @@ import numpy as np
 
 from mems_stiction._arrays import ReadOnly, plain_value
 from mems_stiction.lots_data import RELEASING, WORDS, Lots, Place, by_wafer, lots_of
-from mems_stiction.lots_variance import Components, Hierarchy, components_of, hierarchy_of
+from mems_stiction.lots_variance import Components, components_of, hierarchy_of
 from mems_stiction.lots_wafer import BadPlace, Trend, bad_places, missing_sites, trend_of
-from mems_stiction.lots_words import condition_text, of_bad_places, of_components, of_rows, of_shares, of_trends, share_words, text_of
+from mems_stiction.lots_words import of_bad_places, of_components, of_rows, of_shares, of_trends, text_of
 from mems_stiction.lots_yield import Share, share_of
-from mems_stiction.quantities import ratio
 
 RMS = "rms_height"
 UNITS_SHOWN = 60  # of one level, in the text

@@ -2,12 +2,13 @@
 
 The first values are the baseline: their centre and scatter (control_chart) judge those that follow, so that a drift does not widen its own limits.
 
-The average is the EWMA (Roberts 1959; Montgomery, Introduction to Statistical Quality Control, section 9.2) z = 0.2 x + 0.8 z, which finds slow changes that no single value
-shows. Its limits, 2.86 sigma of z, would be crossed by chance once in 370 values if centre and sigma were known; so would those of single values, at 3 sigma. They
-are from the baseline: so the centre's own variance is added, and 2.86 and 3 become quantiles of Student's t with the degrees of freedom of a mean moving range.
+The average is the EWMA (Roberts 1959; Montgomery, Introduction to Statistical Quality Control, section 9.2) z = 0.2 x + 0.8 z, which finds slow
+changes that no single value shows. Its limits, 2.86 sigma of z, would be crossed by chance once in 370 values if centre and sigma were known; so would
+those of single values, at 3 sigma. They are from the baseline: so the centre's own variance is added, and 2.86 and 3 become quantiles of Student's t
+with the degrees of freedom of a mean moving range.
 
-The rules on runs are those of Western Electric (1956) and Nelson (J. Quality Technology 16 (1984) 237). All of them together call most series of a hundred
-values that do not change; so they are signs, and only the average and the single value raise an alarm unless told otherwise.
+The rules on runs are those of Western Electric (1956) and Nelson (J. Quality Technology 16 (1984) 237). All of them together call most series of a
+hundred values that do not change; so they are signs, and only the average and the single value raise an alarm unless told otherwise.
 """
 
 import math

@@ -7,6 +7,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from mems_stiction.lots_data import UNITS, WORDS, wafer_word
+from mems_stiction.lots_wafer import is_steep
 from mems_stiction.lots_words import text_of
 from mems_stiction.plots import plt
 from mems_stiction.provenance import sign
@@ -46,7 +47,7 @@ def map_figure(figures, places, missing, others, bad, trend):
         if outlying:
             axes.scatter([scale * row.site_x for row in outlying], [scale * row.site_y for row in outlying], facecolors="none", edgecolors=BAD,
                          linewidths=2.2, s=_size(sites) * 2.0, zorder=4)
-        if trend is not None and name == figure and trend.chance < 0.05:
+        if trend is not None and name == figure and is_steep(trend):
             _draw_trend(axes, trend, sites * scale)
         axes.set_xlabel("x [%s]" % unit)
         if number == 0:
@@ -115,7 +116,7 @@ def _head(drawn, figure, places, missing, bad, trend):
     lines = ["bad at (%.4g, %.4g) mm: %s %s, expected %s" % (
         1e3 * row.site_x, 1e3 * row.site_y, WORDS[row.figure], text_of(row.value, row.figure), text_of(row.expected, row.figure)) for row in worst[:2]]
     lines += ["and %d more" % (len(worst) - 2)] if len(worst) > 2 else []
-    if trend is not None and trend.chance < 0.05:
+    if trend is not None and is_steep(trend):
         lines.insert(0, "grows by a factor of %s (%s to %s) along the arrow" % (
             ratio(trend.factor), ratio(max(trend.factor_lower, 1.0)), ratio(trend.factor_upper)))
     drawn.text(0.5, 0.905, typeset("; ".join(lines)), ha="center", fontsize=9, color="#333333")
@@ -128,6 +129,6 @@ def _legend(bad, missing, places, trend):
                               label="bad: far from the wafer's trend"))
     if missing or any(not place.is_known() for place in places):
         handles.append(Line2D([], [], marker="x", color="#777777", linestyle="", label="missing: no value"))
-    if trend is not None and trend.chance < 0.05:
+    if trend is not None and is_steep(trend):
         handles.append(Line2D([], [], color="black", marker=">", label="steepest rise"))
     return handles

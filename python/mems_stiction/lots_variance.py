@@ -9,7 +9,7 @@ distribution is exact for equal ones. Two wafers have one degree of freedom, and
 from __future__ import annotations
 
 import warnings
-from typing import Any, List, NamedTuple, Optional, Sequence, Tuple
+from typing import Any, List, NamedTuple, Sequence, Tuple
 
 import numpy as np
 
@@ -20,7 +20,11 @@ SEED = 20260101  # the same rows have the same interval
 LEVELS = ("lots", "wafers", "parts", "places")
 LEAST_SHARE = 1e-6  # of the variance
 METHODS = ("bfgs", "powell")  # of the likelihood: the better end of the two
-MOST_EFFECTS = 1500  # units in one group: MixedLM's time goes by their square
+MOST_CELLS = 20000  # values times units in one group, in whose matrices MixedLM's time goes
+MOST_VALUES = 5000  # in all
+NOT_INSTALLED = "statsmodels is not installed (apt-get install python3-statsmodels)"
+TOO_MANY = "restricted likelihood would take minutes for so many rows"
+NO_END = "restricted likelihood has no maximum here that was found"
 
 
 class Level(NamedTuple):
@@ -58,7 +62,7 @@ class Components(NamedTuple):
     mean_draws: np.ndarray
     total_draws: np.ndarray
     mean_squares: Tuple[MeanSquare, ...]
-    is_likelihood: bool  # else estimates are of mean squares
+    why_squares: str  # why estimates are those of mean squares; empty where they are of restricted likelihood
 
     def total(self) -> float:
         return float(self.variances.sum())
@@ -133,14 +137,14 @@ def components_of(values: np.ndarray, hierarchy: Hierarchy, by_likelihood: bool 
         by_squares[place] = (square.value - square.coefficients[place + 1:] @ by_squares[place + 1:]) / square.coefficients[place]
     mean_draws = mean + random.standard_normal(DRAWS) * np.sqrt(np.maximum(spread_of_mean @ draws, 0.0))
     clipped = np.maximum(draws, 0.0)
-    likely = (_of_likelihood(values, levels) if levels else by_squares) if by_likelihood else None
-    variances = np.maximum(by_squares if likely is None else likely, 0.0)
+    found, why = _of_likelihood(values, levels) if by_likelihood and levels else (by_squares, "")
+    variances = np.maximum(by_squares if why else found, 0.0)
     variances[variances < LEAST_SHARE * variances.sum()] = 0.0  # the optimiser ends near it
     ends = np.percentile(clipped, (2.5, 97.5), axis=1)
     return Components(tuple(level.word for level in hierarchy.levels) + (hierarchy.rest,),
                       tuple(int(level.max()) + 1 for level in levels) + (len(values),), tuple(square.freedom for square in squares), variances,
                       np.minimum(ends[0], variances), np.maximum(ends[1], variances), mean, mean_draws, clipped.sum(axis=0), tuple(squares),
-                      likely is not None)
+                      why)
 
 
 def _numbered(units: np.ndarray) -> np.ndarray:
@@ -155,10 +159,12 @@ def has_likelihood() -> bool:
     return True
 
 
-def _of_likelihood(values: np.ndarray, levels: Sequence[np.ndarray]) -> Optional[np.ndarray]:
-    """Variances by restricted likelihood, those of the levels first; None where it was not found."""
+def _of_likelihood(values: np.ndarray, levels: Sequence[np.ndarray]) -> Tuple[np.ndarray, str]:
+    """Variances by restricted likelihood, those of the levels first; none of them, and why not."""
     if not has_likelihood():
-        return None
+        return np.empty(0), NOT_INSTALLED
+    if len(values) > MOST_VALUES:
+        return np.empty(0), TOO_MANY
     from statsmodels.regression.mixed_linear_model import MixedLM, VCSpec
 
     scale = float(values.std()) or 1.0  # the optimiser's steps are absolute
@@ -166,8 +172,8 @@ def _of_likelihood(values: np.ndarray, levels: Sequence[np.ndarray]) -> Optional
     groups = levels[0]
     for place, level in enumerate(levels[1:]):
         inside = [_numbered(level[groups == group]) for group in range(groups.max() + 1)]
-        if max(len(units) for units in inside) * (max(units.max() for units in inside) + 1) > MOST_EFFECTS ** 2:
-            return None
+        if max(len(units) * (units.max() + 1) for units in inside) > MOST_CELLS:
+            return np.empty(0), TOO_MANY
         names.append("level %d" % place)
         matrices.append([np.eye(units.max() + 1)[units] for units in inside])
         columns.append([["%d" % unit for unit in range(units.max() + 1)] for units in inside])
@@ -179,9 +185,9 @@ def _of_likelihood(values: np.ndarray, levels: Sequence[np.ndarray]) -> Optional
                         exog_vc=VCSpec(names, columns, matrices) if names else None)
         fits = [fit for fit in (_fit(model, method) for method in METHODS) if fit is not None]
     if not fits:
-        return None
+        return np.empty(0), NO_END
     best = max(fits, key=lambda fit: fit.llf)
-    return np.concatenate([np.ravel(best.cov_re), best.vcomp, [best.scale]]) * scale ** 2
+    return np.concatenate([np.ravel(best.cov_re), best.vcomp, [best.scale]]) * scale ** 2, ""
 
 
 def _fit(model: Any, method: str) -> Any:

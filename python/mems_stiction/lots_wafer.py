@@ -14,7 +14,7 @@ ROUNDS = 30  # of weights
 TUNING = 4.685  # of Tukey's biweight: 95 % efficient
 MAD_TO_SIGMA = 1.4826
 EFFICIENCY = 0.37  # of the median deviation: as uncertain as the standard deviation of so many fewer values
-CHANCE = 0.05  # that one of the places of a sound wafer is taken for bad
+CHANCE = 0.05  # that one of the places of a sound wafer is taken for bad, or that it is said to have a trend
 LEAST_SPREAD = 1e-6  # of logarithms: below is round-off
 
 
@@ -118,13 +118,13 @@ def trend_of(places: Sequence[Place]) -> Optional[Trend]:
     half = reach * math.sqrt(float(along @ covariance @ along))
     margins = reach * np.sqrt(np.diag(covariance))
     statistic = float(slopes @ np.linalg.solve(covariance, slopes)) / 2.0 if variance > 0.0 else math.inf
-    return Trend(known[0].lot, known[0].wafer, len(known), slopes[0], slopes[0] - margins[0], slopes[0] + margins[0], slopes[1], slopes[1] - margins[1],
-                 slopes[1] + margins[1], math.exp(steepness * extent), math.exp((steepness - half) * extent), math.exp((steepness + half) * extent), extent,
-                 math.atan2(along[1], along[0]), float(f.sf(statistic, 2, free)))
+    return Trend(known[0].lot, known[0].wafer, len(known), slopes[0], slopes[0] - margins[0], slopes[0] + margins[0], slopes[1],
+                 slopes[1] - margins[1], slopes[1] + margins[1], math.exp(steepness * extent), math.exp((steepness - half) * extent),
+                 math.exp((steepness + half) * extent), extent, math.atan2(along[1], along[0]), float(f.sf(statistic, 2, free)))
 
 
 def is_steep(trend: Trend) -> bool:
-    return trend.chance < 0.05
+    return trend.chance < CHANCE
 
 
 def missing_sites(own: Sequence[Place], others: Sequence[Place]) -> List[Tuple[float, float]]:

@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 from typing import Dict, List, Sequence
 
-from mems_stiction.lots_data import RELEASING, UNITS, WORDS, Lots, Place, wafer_word, word_of
+from mems_stiction.lots_data import RELEASING, UNITS, WORDS, Lots, wafer_word, word_of
 from mems_stiction.lots_variance import Components, Hierarchy
-from mems_stiction.lots_wafer import BadPlace, Trend, is_steep
+from mems_stiction.lots_wafer import CHANCE, BadPlace, Trend, is_steep
 from mems_stiction.lots_yield import BOUND, COUNTED, NORMAL, Share
 from mems_stiction.quantities import percent, ratio, with_unit
 
 FEW = 4  # degrees of freedom: below, an interval is wider than a factor of three either way
+MANY_WAFERS = 20  # of which one has a bad place by chance
 MOST_NAMED = 6
 LEAST_TOLD = 1e-6  # of a share, as share_text() says
 MOST_FACTOR = 1000  # that is told
@@ -40,7 +41,7 @@ def of_rows(lots: Lots) -> List[str]:
     said = []
     lost = sum(not place.is_known() for place in lots.places)
     if lost:
-        said.append("%d of %d rows have no %s and are left out" % (lost, len(lots.places), WORDS[lots.figure]))
+        said.append("without a %s, and left out: %d of %d rows" % (WORDS[lots.figure], lost, len(lots.places)))
     if len(lots.conditions()) > 1:
         said.append("lots, wafers and places are compared at %s, where most rows are" % condition_text(lots.at, lots.against))
     free = sum(math.isinf(place.value) for place in lots.chosen)
@@ -58,8 +59,9 @@ def of_rows(lots: Lots) -> List[str]:
 
 
 def of_bad_places(found: Sequence[BadPlace]) -> List[str]:
-    return ["%s does not belong to its wafer: %s %s, %s expected there (%.1f robust standard deviations, limit %.1f)" % (
-        word_of(bad.place), WORDS[bad.figure], text_of(bad.value, bad.figure), text_of(bad.expected, bad.figure), abs(bad.deviations), bad.limit)
+    return ["%s does not belong to %s: %s %s, %s expected there (%.1f robust standard deviations, limit %.1f)" % (
+        word_of(bad.place), "its wafer" if bad.place.wafer else "the others", WORDS[bad.figure], text_of(bad.value, bad.figure),
+        text_of(bad.expected, bad.figure), abs(bad.deviations), bad.limit)
         for bad in of_each_place(found)][:MOST_NAMED]
 
 
@@ -78,11 +80,13 @@ def _factor(variance: float) -> str:
 
 def of_components(components: Components, hierarchy: Hierarchy, left_out: int) -> List[str]:
     """left_out: bad places, which were."""
-    said = []
     total = components.total()
+    if total <= SMALL:
+        return ["no differences: all of %d values are equal" % components.counts[-1]]
+    said = []
     for place, word in enumerate(components.words):
         low, best, high = components.lower[place], components.variances[place], components.upper[place]
-        share = best / total if total > SMALL else math.nan
+        share = best / total
         text = "%s differ by a factor of %s (%s to %s) for one standard deviation, %s of the variance" % (
             word, _factor(best), _factor(low), _factor(high), percent(share))
         if components.freedoms[place] < FEW:
@@ -95,9 +99,8 @@ def of_components(components: Components, hierarchy: Hierarchy, left_out: int) -
     said += hierarchy.merged
     if left_out:
         said.append("the %d bad places are left out of these differences, not of the share that sticks" % left_out)
-    if not components.is_likelihood:
-        said.append("differences are those of mean squares, since restricted likelihood was not found; apt-get install python3-statsmodels gives it, "
-                    "where it is missing")
+    if components.why_squares:
+        said.append("differences are estimated by mean squares: %s" % components.why_squares)
     return said
 
 
@@ -115,6 +118,8 @@ def of_trends(trends: Sequence[Trend], figure: str) -> List[str]:
     flat = [wafer_word(trend.lot, trend.wafer) or "the wafer" for trend in trends if not is_steep(trend)]
     if flat:
         said.append("no trend is seen over %s" % _some(flat))
+    if len(trends) >= MANY_WAFERS:
+        said.append("by chance alone some %.0f of %d wafers show a trend, and as many a bad place" % (CHANCE * len(trends), len(trends)))
     return said
 
 
@@ -157,5 +162,6 @@ def _method(share: Share) -> str:
     worth = "" if share.worth > 0.95 * share.places else "; places of one unit are alike, and these are worth %s independent ones" % ratio(share.worth, 2)
     if share.method == COUNTED:
         return "counted: %d of %d places%s" % (share.sticking, share.places, worth)
-    tail = "" if math.isnan(share.tail) else "; by a normal distribution it would be %s, but its tail is further out than these places show" % share_text(share.tail)
+    tail = "" if math.isnan(share.tail) else (
+        "; by a normal distribution it would be %s, but its tail is further out than these places show" % share_text(share.tail))
     return "a bound of 95 %%%s%s" % (worth, tail)

@@ -3,15 +3,15 @@
 Two things make a share uncertain: few places, wafers and lots were measured; and each margin has an interval of its own, by constants and model. The
 latter is one and the same error of all rows: all margins may be too large together. So both ends of the interval take it with them.
 
-Where the logarithms of the margins are as a normal distribution has them, the share is its tail below 1. Where they are not, places are counted, and the interval is that of
-Clopper and Pearson (1934), of as many independent places as the rows are worth (Korn and Graubard 1998): places of one wafer are alike. Where none
-sticks, or all do, there is a bound.
+Where the logarithms of the margins are as a normal distribution has them, the share is its tail below 1. Where they are not, places are counted, and
+the interval is that of Clopper and Pearson (1934), of as many independent places as the rows are worth (Korn and Graubard 1998): places of one wafer are
+alike. Where none sticks, or all do, there is a bound.
 """
 
 from __future__ import annotations
 
 import math
-from typing import List, NamedTuple, Sequence, Tuple
+from typing import NamedTuple, Sequence, Tuple
 
 import numpy as np
 
@@ -20,6 +20,7 @@ from mems_stiction.lots_variance import DRAWS, SEED, Components, Hierarchy, comp
 
 NORMAL_95 = 1.959964
 FEWEST_FOR_SHAPE = 20  # places: fewer do not show whether their distribution is normal
+MOST_FOR_SHAPE = 5000  # beyond, the test is none
 LEAST_CHANCE = 0.05  # of a shape as odd as this, if the distribution is normal
 
 NORMAL, COUNTED, BOUND = "normal", "counted", "bound"
@@ -122,4 +123,4 @@ def _is_normal(values: np.ndarray, hierarchy: Hierarchy) -> bool:
     scaled = (centred / np.sqrt(np.maximum(1.0 - 1.0 / sizes[inverse], 1e-9)))[sizes[inverse] > 1]
     if len(scaled) < FEWEST_FOR_SHAPE or scaled.std() <= 0.0:
         return False
-    return bool(shapiro(scaled).pvalue >= LEAST_CHANCE)
+    return bool(shapiro(scaled[::1 + len(scaled) // MOST_FOR_SHAPE]).pvalue >= LEAST_CHANCE)

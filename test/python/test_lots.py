@@ -91,8 +91,7 @@ class KnownVariancesTest(unittest.TestCase):
             places = made((1, 8, 12), (0.0, 0.3, 0.3), seed)
             values, hierarchy = self.logs(places), hierarchy_of(places)
             likely, by_squares = (components_of(values, hierarchy, flag) for flag in (True, False))
-            self.assertTrue(likely.is_likelihood)
-            self.assertFalse(by_squares.is_likelihood)
+            self.assertEqual(likely.why_squares, "")
             np.testing.assert_allclose(likely.variances, by_squares.variances, rtol=2e-2, atol=1e-4)
             ratios.append(likely.variances / 0.09)
         self.assertAlmostEqual(np.mean(ratios, axis=0)[0], 1.0, delta=0.3)
@@ -348,6 +347,12 @@ class SentencesTest(unittest.TestCase):
         self.assertTrue(any(text.startswith("2 wafers cannot tell how far wafers differ: ") for text in found.statements), found.statements)
         self.assertIn("no trend is seen over wafer 1 of lot A, wafer 2 of lot A", found.statements)
 
+    def test_of_many_wafers_some_show_something_by_chance(self):
+        random = np.random.RandomState(1)
+        found = mems_stiction.compare_lots([row(wafer=str(wafer), site=site, margin=3.0 * math.exp(0.2 * random.standard_normal()))
+                                            for wafer in range(40) for site in SITES[::5]])
+        self.assertIn("by chance alone some 2 of 40 wafers show a trend, and as many a bad place", found.statements)
+
     def test_rows_alone(self):
         """Of a new user: no lot, no wafer, no site."""
         found = mems_stiction.compare_lots([{"margin": 2.0 + 0.1 * place} for place in range(10)])
@@ -355,6 +360,17 @@ class SentencesTest(unittest.TestCase):
         self.assertTrue(any("no row has lot_id, wafer_id, site_x, site_y" in text for text in found.statements))
         self.assertEqual(len(found.units), 0)
         self.assertIn("Comparison of 10 rows", repr(found))
+
+    def test_equal_values(self):
+        found = mems_stiction.compare_lots([row(site=site, wafer=wafer) for site in SITES for wafer in "12"])
+        self.assertIn("no differences: all of 98 values are equal", found.statements)
+        self.assertLess(found.components.deviation.max(), 1e-12)
+
+    def test_a_bad_one_of_rows_alone(self):
+        found = mems_stiction.compare_lots([{"margin": 2.0 + 0.01 * (place % 7), "scan_name": "s%d" % place} for place in range(30)] +
+                                           [{"margin": 0.3, "scan_name": "s30"}])
+        self.assertTrue(any(text.startswith("s30 does not belong to the others: margin 0.3, 2.03 expected") for text in found.statements),
+                        found.statements)
 
     def test_one_row(self):
         found = mems_stiction.compare_lots([row()])
@@ -367,6 +383,9 @@ class SentencesTest(unittest.TestCase):
         with mock.patch.object(lots_variance, "has_likelihood", return_value=False):
             found = mems_stiction.compare_lots(rows)
         self.assertTrue(any("python3-statsmodels" in text for text in found.statements))
+        with mock.patch.object(lots_variance, "MOST_VALUES", 100):
+            self.assertTrue(any("take minutes for so many rows" in text for text in mems_stiction.compare_lots(rows).statements) or
+                            not lots_variance.has_likelihood())
         self.assertAlmostEqual(found.components.deviation[0] / 0.158, 1.0, delta=0.05)  # of 0 to 0.4 in steps of 0.1
 
     def test_identifiers_as_tables_read_them(self):
