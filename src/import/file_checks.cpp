@@ -25,6 +25,7 @@ constexpr const char* kZip = "the zip archive";
 constexpr std::uint32_t kZipEntry = 0x02014B50;     // in the central directory
 constexpr std::uint32_t kZipLocal = 0x04034B50;     // before the data
 constexpr std::uint64_t kNarrowLimit = 0xFFFFFFFF;  // larger sizes stand in a field of their own
+constexpr std::size_t kCreatecHeader = 16384;       // [bytes]
 constexpr std::size_t kMostFiller = 16384;          // [bytes] that programs add behind the data
 
 ByteCursor at(const std::string& bytes, std::size_t offset, const char* what, ByteOrder order = ByteOrder::kLittle) {
@@ -149,9 +150,8 @@ std::uint64_t unpackedCreatec(const std::string& bytes, std::size_t start, std::
 }
 
 void checkCreatec(const std::string& bytes) {
-  constexpr std::size_t kHeader = 16384;
-  if (bytes.size() <= kHeader) throw FileError("the Createc file ends in its header: cut off");
-  const HeaderLines header(bytes.substr(0, kHeader), "=");
+  if (bytes.size() <= kCreatecHeader) throw FileError("the Createc file ends in its header: cut off");
+  const HeaderLines header(bytes.substr(0, kCreatecHeader), "=");
   const auto count = [&header](const std::string& key) {
     return header.has(key) ? header.count(key) : header.count(key + " / " + key);
   };
@@ -160,18 +160,12 @@ void checkCreatec(const std::string& bytes) {
   checkPixelCount(cols, rows);
   const std::uint64_t pixels = cols * rows * count("Channels");
   if (bytes.compare(0, 11, "[Paramco32]") == 0) {
-    const std::size_t mark = bytes.rfind("DATA", kHeader);
-    if (mark != std::string::npos && mark + 4 < kHeader && bytes.compare(mark + 4, 1, "x") == 0) {
-      throw FileError(
-          "its data begin inside of the Createc header, at byte " + std::to_string(mark + 4) +
-          ", as newer programs write them, where gwyddion does not look: export the heights as text or .npy");
-    }
     const std::uint64_t needed = 4 + 4 * pixels;
-    demandLength("unpacked Createc", unpackedCreatec(bytes, kHeader, needed), needed);
+    demandLength("unpacked Createc", unpackedCreatec(bytes, kCreatecHeader, needed), needed);
     return;
   }
   const std::uint64_t bytes_each = bytes.compare(0, 11, "[Paramet32]") == 0 ? 4 : 2;
-  const std::uint64_t end = kHeader + bytes_each * (pixels + 1);
+  const std::uint64_t end = kCreatecHeader + bytes_each * (pixels + 1);
   const bool is_filled = bytes.size() > end && bytes.size() - end <= kMostFiller &&
                          bytes.find_first_not_of('\0', static_cast<std::size_t>(end)) == std::string::npos;
   if (!is_filled) demandLength("Createc", bytes.size(), end);
@@ -337,6 +331,19 @@ void checkStatedLength(const std::string& bytes) {
   for (const Format& format : kFormats) {
     if (bytes.compare(0, format.start.size(), format.start) == 0) return format.check(bytes);
   }
+}
+
+std::optional<std::string> withWholeCreatecHeader(const std::string& bytes) {
+  const std::string mark = "DATA";
+  if (bytes.compare(0, 11, "[Paramco32]") != 0) return std::nullopt;
+  for (std::size_t at = bytes.find(mark); at < kCreatecHeader - mark.size(); at = bytes.find(mark, at + 1)) {
+    const std::size_t data = at + mark.size();
+    if (data + 1 >= bytes.size()) break;
+    const auto* head = reinterpret_cast<const unsigned char*>(bytes.data() + data);
+    if (head[0] != 0x78 || (256 * head[0] + head[1]) % 31 != 0) continue;  // no stream of zlib
+    return bytes.substr(0, at) + std::string(kCreatecHeader - data, '\0') + bytes.substr(at);
+  }
+  return std::nullopt;
 }
 
 void checkTransfer(const std::string& bytes) {

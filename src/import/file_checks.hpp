@@ -5,6 +5,7 @@
 /// checksums.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,10 @@ void demandLength(const std::string& maker, std::uint64_t length, std::uint64_t 
 /// MATRIX, Nanosurf and Wyko; nothing for all others.
 /// @throw FileError without a file name if the file's length is not what its header states, or a last number was cut off
 void checkStatedLength(const std::string& bytes);
+
+/// Newer programs of Createc write the compressed data right behind the text of the header; gwyddion looks for them at byte 16384.
+/// @return the file with its header filled up to there; none for every other file
+std::optional<std::string> withWholeCreatecHeader(const std::string& bytes);
 
 /// Programs that take every file for text change bytes all over it. For files of binary data, of any format.
 /// @throw FileError without a file name if every line end was made CR LF, if bytes were replaced as no UTF-8, or if this is

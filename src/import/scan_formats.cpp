@@ -4,6 +4,8 @@
 #include <cctype>
 #include <filesystem>
 
+#include "files/interruption.hpp"
+#include "files/output_file.hpp"
 #include "files/sha256.hpp"
 #include "import/channel_choice.hpp"
 #include "import/file_bytes.hpp"
@@ -80,10 +82,25 @@ Channels readOtherGwy(const std::string& path, const std::string& bytes, const I
   }
 }
 
+/// Other bytes in place of the file's, which gwyddion can read.
+Channels readRewritten(const std::string& path, const std::string& bytes, const ImportOptions& options) {
+  checkStatedLength(bytes);
+  const PrivateFolder folder;
+  const std::string copy = (folder.path() / ("copy" + std::filesystem::path(path).extension().string())).string();
+  writeFile(copy, bytes);
+  try {
+    return channelsByGwyddion(copy, bytes, options);
+  } catch (const FileError& error) {
+    const std::string text = error.what();
+    throw FileError(text.compare(0, copy.size(), copy) == 0 ? path + text.substr(copy.size()) : text);
+  }
+}
+
 /// What gwyddion reads, after the file's own statements have been held against each other and against its bytes.
 Channels readByGwyddion(const std::string& path, const std::string& bytes, const ImportOptions& options) {
   if (beginsWithOneOf(bytes, {"PK\3\4"})) checkX3pFolder(checkZip(bytes));
   checkNanoscope(bytes);
+  if (const auto whole = withWholeCreatecHeader(bytes)) return readRewritten(path, *whole, options);
   checkStatedLength(bytes);
   Channels channels = channelsByGwyddion(path, bytes, options);
   const std::vector<std::string> notes = nanoscopeNotes(bytes);

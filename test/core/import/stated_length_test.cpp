@@ -89,10 +89,21 @@ TEST(StatedLength, FillerBehindCreatecDataIsNoSurplus) {
   EXPECT_TRUE(mentions(complaint(checkStatedLength, halved), "its header states")) << "half of the data is no filler";
 }
 
-TEST(StatedLength, ACreatecHeaderWithDataInsideSaysSo) {
-  std::string bytes = createc("[Paramco32]");
-  bytes.replace(16300, 5, "DATAx");
-  EXPECT_TRUE(mentions(complaint(checkStatedLength, bytes), "at byte 16304"));
+TEST(StatedLength, ACreatecHeaderThatEndsWithItsTextIsFilledUp) {
+  std::string whole = createc("[Paramco32]");
+  whole.replace(16380, 4, "DATA");
+  EXPECT_FALSE(withWholeCreatecHeader(whole)) << "its data are where they are looked for";
+  const std::string text = whole.substr(0, whole.find('\0')) + "Comment=DATAxy of DATA\r\n";
+  const auto filled = withWholeCreatecHeader(text + whole.substr(16380));
+  ASSERT_TRUE(filled);
+  EXPECT_EQ(filled->substr(16380), whole.substr(16380));
+  EXPECT_EQ(filled->substr(0, text.size()), text);
+  EXPECT_EQ(complaint(checkStatedLength, *filled), "");
+  EXPECT_FALSE(withWholeCreatecHeader(text + "DATA"));
+  EXPECT_FALSE(withWholeCreatecHeader("[Paramet32]" + text.substr(11) + whole.substr(16380)));
+  const auto cut = withWholeCreatecHeader((text + whole.substr(16380)).substr(0, text.size() + 40));
+  ASSERT_TRUE(cut);
+  EXPECT_TRUE(mentions(complaint(checkStatedLength, *cut), "cut off"));
 }
 
 TEST(StatedLength, SurfstandTextHasTheHeightsThatItStates) {

@@ -1,6 +1,7 @@
 /// Formats of instruments and programs that are read here, from bytes by their definitions.
 
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -267,6 +268,39 @@ TEST(NpyFile, WhatIsNoMatrixOfNumbersIsRefused) {
   EXPECT_TRUE(mentions(refusal([] { parseNpy(npy("|O", std::string(48, '\0'))); }), "integers or floating-point"));
   EXPECT_TRUE(mentions(refusal([] { parseNpy(npy("<f8", std::string(47, '\0'))); }), "47 bytes of numbers"));
   EXPECT_TRUE(mentions(refusal([] { parseNpy(npy("<f8", "", "(30000, 30000)")); }), "30000 x 30000 pixels are more"));
+}
+
+// ---- Createc
+
+/// Compressed, one channel of heights; @p is_filled: with the header up to byte 16384, as older programs write it.
+std::string createcHeights(bool is_filled) {
+  const std::string header =
+      "[Paramco32]\r\nDAC-Type=20bit\r\nNum.X / Num.X=4\r\nNum.Y / Num.Y=3\r\nChannels / Channels=1\r\n"
+      "Delta X / Delta X [Dac]=8\r\nDelta Y / Delta Y [Dac]=8\r\nGainX / GainX=10\r\nGainY / GainY=10\r\n"
+      "GainZ / GainZ=10\r\nXpiezoconst=48\r\nYPiezoconst=48\r\nZPiezoconst=19\r\n";
+  std::string numbers = littleBytes(0.0F);
+  for (int i = 0; i < 12; ++i) numbers += littleBytes(static_cast<float>(i * i));
+  std::string packed(1000, '\0');
+  uLongf size = packed.size();
+  compress(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(numbers.data()),
+           numbers.size());
+  const std::string filler(is_filled ? 16380 - header.size() : 0, '\0');
+  return header + filler + "DATA" + packed.substr(0, size);
+}
+
+TEST(Createc, DataRightBehindTheHeaderAreReadAsThoseBehindAFilledOne) {
+  if (std::system("command -v gwyddion >/dev/null 2>&1") != 0) GTEST_SKIP() << "needs the program gwyddion";
+  const ScratchFolder folder;
+  const ScanFile old = openScanFile(folder.write("old.dat", createcHeights(true)));
+  const ScanFile newer = openScanFile(folder.write("newer.dat", createcHeights(false)));
+  EXPECT_EQ(old.surface.rows(), 3);
+  EXPECT_GT(cv::norm(old.surface.heights(), cv::NORM_INF), 0.0);
+  EXPECT_EQ(cv::norm(old.surface.heights(), newer.surface.heights(), cv::NORM_INF), 0.0);
+  EXPECT_EQ(old.surface.pitchX(), newer.surface.pitchX());
+  const std::string bytes = createcHeights(false);
+  const std::string cut = folder.write("cut.dat", bytes.substr(0, bytes.size() - 3));
+  const std::string said = refusal([&] { openScanFile(cut); });
+  EXPECT_TRUE(mentions(said, cut) && mentions(said, "cut off")) << said;
 }
 
 }  // namespace
