@@ -23,6 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
+/// It needs none to convert files, and a folder of its own would stay where a process ends without cleaning up.
+constexpr const char* kNoHome = "/dev/null";
 constexpr std::size_t kLongestRequest = 16000;
 
 /// The library that makes gwyddion wait, beside this one; empty if it is not there.
@@ -69,9 +71,9 @@ class WaitingGwyddion {
           if (preload.empty() || connection_.farEnd() < 0) return static_cast<pid_t>(-1);
           const char* others = std::getenv("LD_PRELOAD");
           const std::string all = others == nullptr || *others == '\0' ? preload : preload + ":" + others;
-          const std::string home = home_.path().string();
           return startChild(gwyddionArguments(program, "scan.gwy", kWaitingFileName),
-                            gwyddionEnvironment(home, {"LD_PRELOAD=" + all}), "/dev/null", connection_.farEnd(), home);
+                            gwyddionEnvironment(kNoHome, {"LD_PRELOAD=" + all}), "/dev/null", connection_.farEnd(),
+                            "/");
         }) {
     connection_.closeFarEnd();
   }
@@ -114,7 +116,6 @@ class WaitingGwyddion {
   }
 
  private:
-  PrivateFolder home_;
   Connection connection_;
   RunningChild child_;
 };
@@ -125,8 +126,14 @@ std::vector<std::string> gwyddionArguments(const std::string& program, const std
 }
 
 std::vector<std::string> gwyddionEnvironment(const std::string& home, std::vector<std::string> settings) {
-  // Its threads take longer to start than a small file takes to read.
+  // Its threads take longer to start than a small file takes to read. Memory in large pages that stays with the process saves a
+  // quarter of the time, which went into faults of small ones.
   settings.insert(settings.end(), {"HOME=" + home, "LC_ALL=C.UTF-8", "OMP_NUM_THREADS=1"});
+  if (std::getenv("GLIBC_TUNABLES") == nullptr) {
+    settings.emplace_back(
+        "GLIBC_TUNABLES=glibc.malloc.hugetlb=1:glibc.malloc.mmap_threshold=1073741824:"
+        "glibc.malloc.trim_threshold=2147483648");
+  }
   std::vector<std::string> names = {"DISPLAY", "WAYLAND_DISPLAY", "XDG_CONFIG_HOME", "LANGUAGE"};
   for (const std::string& setting : settings) names.push_back(setting.substr(0, setting.find('=')));
   return environmentWithout(names, settings);

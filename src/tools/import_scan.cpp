@@ -2,6 +2,7 @@
 /// gwyddion any more.
 
 #include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -16,6 +17,7 @@
 #include "import/waiting_gwyddion.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/import/scan_file.hpp"
+#include "scans_ahead.hpp"
 #include "waiting_line.hpp"
 
 namespace {
@@ -88,11 +90,16 @@ void printChannels(const std::string& path, const ScanFileOptions& options) {
 /// Keeps track of what was written, so that no two scans of a call end in one file and no input is overwritten.
 class Importer {
  public:
-  explicit Importer(const Arguments& arguments) : arguments_(arguments) {}
+  Importer(const Arguments& arguments, const ScanFileOptions& options)
+      : arguments_(arguments), ahead_({}, options, "", 1) {
+    ahead_.expect(arguments.scans);
+  }
 
   /// @throw Error in one line, with the file's name
-  void import(const std::string& path, const ScanFileOptions& options) {
-    const ScanFile scan = whileSaying(path + ": reading", [&] { return openScanFile(path, {}, options); });
+  void import(const std::string& path) {
+    const ScanAhead ahead = whileSaying(path + ": reading", [&] { return ahead_.take(path); });
+    if (ahead.failure) std::rethrow_exception(ahead.failure);
+    const ScanFile& scan = ahead.scan;
     fs::path target = fs::path(arguments_.output) / fs::path(path).filename();
     target.replace_extension(".tiff");
     if (!written_.insert(target.string()).second) {
@@ -136,6 +143,7 @@ class Importer {
 
   const Arguments& arguments_;
   std::set<std::string> written_;
+  ScansAhead ahead_;  ///< while one is written others are read
 };
 
 int run(const Arguments& arguments) {
@@ -154,14 +162,11 @@ int run(const Arguments& arguments) {
     complain("import_scan", error.what());
     return kBadInput;
   }
-  Importer importer(arguments);
-  return forEachScan("import_scan", arguments.scans, [&](const std::string& path) {
-    if (arguments.list) {
-      printChannels(path, options);
-    } else {
-      importer.import(path, options);
-    }
-  });
+  if (arguments.list) {
+    return forEachScan("import_scan", arguments.scans, [&](const std::string& path) { printChannels(path, options); });
+  }
+  Importer importer(arguments, options);
+  return forEachScan("import_scan", arguments.scans, [&](const std::string& path) { importer.import(path); });
 }
 
 }  // namespace
