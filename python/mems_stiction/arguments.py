@@ -15,7 +15,8 @@ class PrintVersion(argparse.Action):
         super().__init__(option_strings, dest, nargs=0, default=argparse.SUPPRESS, help="print the version and end")
 
     def __call__(self, parser, *_):
-        parser.exit(message="%s of mems_stiction %s\n" % (parser.prog, version()))
+        print("%s of mems_stiction %s" % (parser.prog, version()))  # argparse alone would write to the standard error
+        parser.exit()
 
 
 def add_version(parser):

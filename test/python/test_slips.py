@@ -107,6 +107,17 @@ class SlipTest(unittest.TestCase):
             self.assertNotIn("basic_filebuf", done.stderr)
             self.assertEqual(done.stderr.rstrip().splitlines()[-1].split(":")[0], name)
 
+    def test_every_program_says_its_version(self):
+        """Those that are installed, by the list of the build."""
+        lists = (pathlib.Path(__file__).resolve().parents[2] / "CMakeLists.txt").read_text()
+        names = re.findall(r"scripts/(\w+)(?=[\s)])", re.search(r"catkin_install_python\(PROGRAMS(.*?)DESTINATION", lists, re.DOTALL).group(1) + " ")
+        names += re.search(r"set\(core_programs ([^)]*)\)", lists).group(1).split() + ["stiction_node", "make_scan_bag"]
+        self.assertGreater(len(names), 20)
+        for name in names:
+            done = self.run_it(name, "--version")
+            self.assertEqual((done.returncode, done.stderr), (0, ""), name)
+            self.assertRegex(done.stdout, r"^%s of mems_stiction \d+\.\d+\.\d+\n$" % name)
+
     def test_bags_are_written_to_bags_alone_and_not_without_a_scan(self):
         before = (self.folder / "scan.npy").read_bytes()
         self.assert_refused("must end in .bag", "make_scan_bag", "-o", "scan.npy", "scan.npy")
