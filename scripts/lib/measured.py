@@ -91,6 +91,52 @@ def separation_rows(study):
             median([work / plane for work, plane in zip(works, planes)]))
 
 
+def device(study, rms_height, area):
+    """The force of a whole plate, by predict_device() from some frames of its surface."""
+    case = next(case for case in cases.CASES if case.key == "plates")
+    pixels = min(case.pixels, 96) if study.is_quick else case.pixels
+    made = [cases.surface(case, cases.AS_ASSUMED, rms_height, seed, pixels) for seed in range(1, cases.PLATE_SCANS + 1)]
+    options = {"realisations": 3, "max_cells": 1e4} if study.is_quick else {}
+    frame = made[0][0]
+    return mems_stiction.predict_device([heights for _, heights in made], area, frame["pitch"], config=trust_run.settings_of(frame, "separation_curve"),
+                                        device_force=options)
+
+
+def micro(value):
+    return number(value * 1e6)
+
+
+def device_section(study):
+    """What a plate holds as a whole, and how that goes with its area."""
+    case = next(case for case in cases.CASES if case.key == "plates")
+    plates = {(rms_height, 1.0): device(study, rms_height, cases.PLATE_AREA) for rms_height in case.rms_heights}
+    for share in cases.AREA_SHARES[:-1]:
+        plates[cases.AREA_RMS, share] = device(study, cases.AREA_RMS, share * cases.PLATE_AREA)
+    text = ["## The plates as a whole", "",
+            "A frame of 12.8 um is an eighth of such a plate. [The force of the device](device.md) is that of its whole area: one plate that comes to rest on its "
+            "highest summits. From %d frames each, beside what the frames' force by area would say:" % cases.PLATE_SCANS, "",
+            "| rms height | measured [uN] | the device [uN] | 95 % interval | the frames by area [uN] | factor |", "|---|---|---|---|---|---|"]
+    for rms_height in case.rms_heights:
+        found = plates[rms_height, 1.0]
+        text.append("| %g nm | %s (read) | %s | %s ... %s | %s | %s |" % (
+            round(rms_height * 1e9, 3), number(cases.PLATE_FORCE * 1e6), micro(found.pull_off_force), micro(found.pull_off_force_lower),
+            micro(found.pull_off_force_upper), micro(found.linear_pull_off_force), number(found.pull_off_force / cases.PLATE_FORCE)))
+    shares = [plates[cases.AREA_RMS, share] for share in cases.AREA_SHARES]
+    power = math.log(shares[-1].pull_off_force / shares[0].pull_off_force) / math.log(cases.AREA_SHARES[-1] / cases.AREA_SHARES[0])
+    inside = [rms_height for rms_height in case.rms_heights
+              if plates[rms_height, 1.0].pull_off_force_lower <= cases.PLATE_FORCE <= plates[rms_height, 1.0].pull_off_force_upper]
+    text += ["",
+             "What can be said now: %s. The interval is that of plates of the same statistics; what roughness and constants leave open stands in "
+             "[the table of assumptions](#what-the-assumptions-move). The frames' force by area, which was all that could be said before, counts the "
+             "force of one frame for each part of the plate, though the whole rests on few summits." % (
+                 "of the rms heights that were tried, the measured force lies within the 95 %% interval of the whole plate at %s alone"
+                 % " and ".join("%g nm" % round(rms_height * 1e9, 3) for rms_height in inside) if inside else
+                 "the measured force lies outside of the 95 % interval of the whole plate for each of these rms heights"), "",
+             "Force over area, at %g nm: %s uN on %s of the area. The force goes with the area to the power of %.2f." % (
+                 round(cases.AREA_RMS * 1e9, 3), ", ".join(micro(found.pull_off_force) for found in shares), ", ".join("%g" % share for share in cases.AREA_SHARES), power), ""]
+    return text
+
+
 def exponent(rows):
     """Of the work over the mean separation, between the ends."""
     (first_gap, first_work, _), (last_gap, last_work, _) = rows[0], rows[-1]
@@ -121,8 +167,9 @@ def page(study):
              "the work of the planes from rest on.", "",
              "A plate that springs tear off does not stay parallel. It peels, and the largest force is not that of all its area at once: for such a "
              "plate the prediction is an upper bound. Where the measured force is larger still, the plates were smoother, wet or charged, or fitted "
-             "each other; the source does not say.", "",
-             "## The separation law", "",
+             "each other; the source does not say.", ""]
+    text += device_section(study)
+    text += ["## The separation law", "",
              "One statement of the polysilicon measurements was read that needs no constant but the Hamaker constant. At small roughness the work is "
              "that of planes at the average separation, H/(12 pi D_ave^2); at large roughness contacts take over. Predicted, for the beams' settings:", "",
              "| rms height | D_ave | work [uJ/m^2] | H/(12 pi D_ave^2) [uJ/m^2] | ratio |", "|---|---|---|---|---|"]

@@ -67,6 +67,13 @@ CASES = (
          "16 nm. The measured value is a lower bound"),
 )
 
+# The plates as they were: the whole area, of which a frame is one part in eight.
+PLATE_AREA = 1.256e-9
+PLATE_FORCE = 13.3e-6
+PLATE_SCANS = 3
+AREA_SHARES = (1 / 16, 1 / 4, 1.0)
+AREA_RMS = 5e-9
+
 # rms, length, pixels and settings are factors on the case's own.
 Variation = collections.namedtuple("Variation", "name rms length pixels settings is_self_affine")
 AS_ASSUMED = Variation("as assumed", 1.0, 1.0, 1, {}, False)
