@@ -11,6 +11,7 @@ from mems_stiction.msg import (CycleContactActionFeedback, CycleContactActionRes
 from sensor_msgs.msg import Image
 
 LOOK_PERIOD = 1.0  # [s]
+MAPS = ("height", "contacts")
 MAP_BUFFER = 2**26  # bytes: the newest map alone is kept
 
 
@@ -21,6 +22,7 @@ class PageListener:
         self._state, self._node = state, node
         self._subscribers = []
         self._infos = {}
+        self._pairing = threading.Lock()  # of maps and infos: either may come first
 
     def start(self):
         threading.Thread(target=self.follow, daemon=True).start()
@@ -73,13 +75,20 @@ class PageListener:
         self._state.add_part(part.header.stamp.to_nsec(), part)
 
     def _on_info(self, info):
-        self._infos[info.header.stamp.to_nsec()] = (info.pitch_x, info.pitch_y)
-        while len(self._infos) > 100:
-            del self._infos[next(iter(self._infos))]
+        stamp = info.header.stamp.to_nsec()
+        with self._pairing:
+            self._infos[stamp] = (info.pitch_x, info.pitch_y)
+            while len(self._infos) > 100:
+                del self._infos[next(iter(self._infos))]
+            for name in MAPS:
+                found = self._state.map_of(name)
+                if found and found[0] == stamp:
+                    self._state.set_map(name, *found, self._size(*found))
 
     def _on_map(self, image, name):
         stamp = image.header.stamp.to_nsec()
-        self._state.set_map(name, stamp, image, self._size(stamp, image))
+        with self._pairing:
+            self._state.set_map(name, stamp, image, self._size(stamp, image))
 
     def _size(self, stamp, image):
         """Width and height of the scan [m] by the pitch that its scan_info or the parameters state; None if neither does."""

@@ -75,6 +75,14 @@ def typeset(text):
     return re.sub(r"(?<=\d )u(?=\w)", "µ", text).replace("^2", "²")
 
 
+_UNITS = r"(?:[afpnuµmkMG]?(?:m|N|V|J|Pa|s|Hz|K)(?:\^?[2²3³])?(?:/(?:m|s)(?:\^?[2²3³])?)?|%)"
+
+
+def unbroken(text):
+    """The text with a space that ends no line between each number and its unit, and behind a bound's sign."""
+    return re.sub(r"(?<=≥) (?=\d)|(?<=\d) (?=%s(?![\w]))" % _UNITS, "\u00a0", text)
+
+
 def area(value):
     """Prefixes do not fit squares: area(2e-16) is "200 nm^2", area(2e-13) "0.2 um^2"."""
     return "%s nm^2" % ratio(value * 1e18) if value < 1e-14 else "%s um^2" % ratio(value * 1e12)

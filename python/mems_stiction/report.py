@@ -25,7 +25,8 @@ from mems_stiction.csv_text import csv_cell
 from mems_stiction.half_space_figure import half_space_figure, half_space_words, pull_off_ratio
 from mems_stiction.plots import ScanPicture, save_picture, with_unit
 from mems_stiction.prediction_text import digits_of, flag_words
-from mems_stiction.quantities import percent, ratio, with_interval
+from mems_stiction.quantities import percent, ratio, typeset, unbroken, with_interval
+from mems_stiction.report_device import area, device_lines, measurement_of, measurements_of
 from mems_stiction.report_figures import is_lower_bound, number, scan_figure, trend_figure
 from mems_stiction.report_lots import lots_section
 from mems_stiction.report_template import PAGE
@@ -95,9 +96,7 @@ def text_of(value, unit, digits=3):
     if unit == "%":
         return percent(value)
     if unit == "m^2":
-        if value >= 1e-8:
-            return "%.3g mm²" % (value * 1e6)
-        return "%.3g µm²" % (value * 1e12) if value >= 1e-15 else "%.3g nm²" % (value * 1e18)
+        return area(value)
     if unit:
         return with_unit(value, unit, digits).replace("^2", "²")
     return ratio(value, digits)
@@ -166,7 +165,7 @@ def scan_section(row, folder, stages=(), why_no_stages=""):
             "why_no_cleaning": _sentence(why_no_stages),
             "surface": embedded(surface_figure(heights, result["pitch_x"], result["pitch_y"], result.get("tip_limit"))),
             "surface_figures": _figures(result, SURFACE_FIGURES) + surface_figures_of(heights),
-            "origin": origin_of(result), "warnings": [row["warnings"]] if row["warnings"] else [], "sticks": result.get("sticks"),
+            "origin": origin_of(result), "measurement": measurement_of(row), "warnings": [row["warnings"]] if row["warnings"] else [], "sticks": result.get("sticks"),
             "releases": verdict_word(result.get("sticks")),
             "verdict": _sentence(result.get("verdict_reason", "")), "flags": _flags(result)}
 
@@ -248,11 +247,13 @@ def _limits(row):
 
 
 def _sentence(text):
+    text = typeset(text)
     return text[:1].upper() + text[1:] + ("" if not text or text.endswith(".") else ".")
 
 
 def table_row(row, drawn, judge):
-    entry = {"number": row["number"], "name": scan_name(row), "reason": row["reason"], "anchor": row["number"] in drawn}
+    entry = {"number": row["number"], "name": scan_name(row), "reason": row["reason"], "anchor": row["number"] in drawn,
+             "measured": ", ".join(str(row[name]) for name in ("acquisition_time", "operator") if row.get(name))}
     if not row["reason"]:
         bound = "≥ " if is_lower_bound(row) else ""
         entry.update(status=STATES[row["status"]][1], pull_off=bound + text_of(row["pull_off_force"], "N", digits_of_row(row)),
@@ -312,7 +313,7 @@ def page(title, rows, sections, settings_text, configuration_path, parts=(), dat
     versions = [("mems_stiction", settings["version"]), ("OpenCV", settings["opencv_version"]),
                 ("Python", platform.python_version()), ("Matplotlib", matplotlib.__version__),
                 ("Jinja", jinja2.__version__)]
-    environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined)
+    environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined, finalize=_kept_together)
     return environment.from_string(PAGE).render(
         title=title, version=settings["version"], summary=summary(rows, drawn),
         date=date or datetime.datetime.now().strftime("%Y-%m-%d %H:%M"), lots=lots_section(rows, embedded),
@@ -320,10 +321,20 @@ def page(title, rows, sections, settings_text, configuration_path, parts=(), dat
         has_device=any("sticks" in row for row in predicted), judged_by=judged_by(predicted).replace("_", " "),
         table=[table_row(row, drawn, judged_by(predicted)) for row in rows],
         parts=[part_row(part, judged_by(predicted)) for part in parts] if any("sticks" in row for row in predicted) else [],
-        bounded=any(is_lower_bound(row) for row in predicted), limited=any(_limits(row) for row in predicted),
+        bounded=any(is_lower_bound(row) for row in predicted),
         trends=embedded(trend_figure(predicted)) if len(predicted) > 1 else "", scans=sections,
-        inputs=settings["inputs"], versions=versions, sources=SOURCES, configuration_file=given,
-        configuration_name=str(configuration_path or ""), configuration=re.sub(r"(?m)^  ", "", configuration))
+        device=device_lines(settings["configuration"]), measurements=measurements_of(rows), has_measurements=any(measurement_of(row) for row in rows),
+        inputs=settings["inputs"], versions=versions, sources=SOURCES, configuration_file=Verbatim(given),
+        configuration_name=str(configuration_path or ""), configuration=Verbatim(re.sub(r"(?m)^  ", "", configuration)))
+
+
+class Verbatim(str):
+    """A text that stays as it is, to be copied."""
+
+
+def _kept_together(value):
+    """What the page writes: no line ends between a number and its unit."""
+    return unbroken(value) if isinstance(value, str) and not isinstance(value, Verbatim) and not value.startswith("data:") else value
 
 
 def write_csv(rows, path):

@@ -16,6 +16,7 @@ import numpy as np
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 ELASTIC_LIMIT, PLASTIC_LIMIT = 0.6, 1.1  # of the plasticity index
+FEWEST = 5  # contacts of which a distribution is drawn
 GREY = "#555555"
 LAST_STEPS = 30  # of the approach, around the equilibrium
 STEEP_SHARE = 0.15  # of the approach: may leave the picture of the energies
@@ -71,14 +72,16 @@ def scaled(values, unit):
 
 def scan_figure(result):
     """Force over height, or energy over approach where the formulation has that, with what is around its equilibrium; force budget, distributions of loads
-    and of plasticity indices."""
+    and of plasticity indices where there are a handful of contacts."""
     # The forces stand in the right column, where there is room for their long names.
     if result["force_curve"]:
         panels = (_draw_curve, _draw_forces, _draw_loads, _draw_plasticity)
     else:
         panels = (_draw_energy, draw_energy_at_rest, _draw_loads, _draw_forces, _draw_plasticity)
+    if len(result["asperities"]["load"]) < FEWEST:
+        panels = tuple(draw for draw in panels if draw not in (_draw_loads, _draw_plasticity))
     rows = (len(panels) + 1) // 2
-    figure, all_axes = plt.subplots(rows, 2, figsize=(13, 4.2 * rows), dpi=100)
+    figure, all_axes = plt.subplots(rows, 2, figsize=(13, 4.2 * rows), dpi=100, squeeze=False)
     figure.subplots_adjust(left=0.065, right=0.985, top=1 - 0.1 / rows, bottom=0.15 / rows, hspace=0.34, wspace=0.38)
     for draw, axes in zip(panels, all_axes.flat):
         draw(axes, result)
@@ -300,6 +303,7 @@ def trend_figure(rows):
         axes.set_title(label[0].upper() + label[1:], fontsize=11)
         axes.set_ylabel("%s [%s]" % (label.split(":")[0], shown_unit or "-"))
         axes.set_xlabel("number of the scan")
+        axes.set_xlim(numbers[0] - 0.5, numbers[-1] + 0.5)  # of all panels, however few scans a figure is known of
         axes.xaxis.set_major_locator(MaxNLocator(integer=True))
         axes.grid(color="#dddddd", linewidth=0.6)
         axes.legend(fontsize=8.5, framealpha=0.8, edgecolor="none", loc="upper left", ncol=3)

@@ -17,7 +17,7 @@ PAGE = """<!DOCTYPE html>
   td.n, th.n { text-align: right; white-space: nowrap; }
   .wide { overflow-x: auto; } .overview { font-size: 13px; }
   .path { overflow-wrap: anywhere; } td.path { min-width: 180px; }
-  .quiet { color: #666; } td.limits { min-width: 150px; color: #7a5200; }
+  .quiet { color: #666; } td.limits { min-width: 150px; color: #7a5200; } tr.limits td { color: #7a5200; padding-top: 0; } #scans tbody tr:not(:last-child) td { border-bottom: none; }
   .warning { background: #fff6dd; border-left: 4px solid #f2b705; padding: 5px 10px; }
   .no { color: #1b7a3d; font-weight: bold; } .yes { color: #b3201d; font-weight: bold; } .marginal { color: #9a6b00; font-weight: bold; }
   ul { padding-left: 20px; }
@@ -29,7 +29,11 @@ PAGE = """<!DOCTYPE html>
   @media print {
     body { font-size: 10px; margin: 0; padding: 0; max-width: none; }
     h1 { font-size: 20px; } h2 { font-size: 15px; margin-top: 14px; } h3 { font-size: 12px; }
-    .scan, .appendix { break-before: page; } tr, img { break-inside: avoid; } h2, h3 { break-after: avoid; } thead { display: table-header-group; }
+    .appendix { break-before: page; } tr, img, .cleaning, .head, #scans tbody { break-inside: avoid; } h2, h3 { break-after: avoid; } thead { display: table-header-group; }
+    img { margin: 4px 0; } p, table, .figures { margin: 4px 0; } .figures { font-size: 8.5px; column-gap: 16px; }
+    .details { width: 88%; margin: 4px auto; } .cleaning h3 { clear: both; } .cleaning img { float: left; width: 38%; margin-right: 3%; } .cleaning table { width: 59%; font-size: 8px; }
+    #scans td.path { min-width: 0; overflow-wrap: break-word; }
+    .cleaning::after { content: ""; display: block; clear: both; }
     pre { font-size: 8.5px; } th, td { padding: 2px 4px; } th.n, td.n { white-space: normal; } td.path { min-width: 34mm; } .overview { font-size: 8.5px; width: 100%; }
   }
 </style>
@@ -37,7 +41,10 @@ PAGE = """<!DOCTYPE html>
 <body>
 <h1>{{ title }}</h1>
 <p class="quiet">mems_stiction {{ version }}, {{ date }}</p>
-<p>{{ summary }}</p>
+<p>{{ summary }}{% if measurements %} {{ measurements }}{% endif %}</p>
+
+<h2>{% if has_device %}The device{% else %}Materials and loads{% endif %}</h2>
+<div class="figures" id="device">{% for label, value in device %}<div><span>{{ label }}</span><span>{{ value }}</span></div>{% endfor %}</div>
 
 {% if parts %}<h2>Parts</h2>
 <div class="wide"><table class="overview" id="parts">
@@ -54,38 +61,38 @@ PAGE = """<!DOCTYPE html>
 {% endfor %}{% if lots.has_more %}<p class="quiet">Of the maps the first {{ lots.maps | length }}; compare_lots --maps draws all.</p>{% endif %}</div>{% endif %}
 
 <h2>Scans</h2>
-<div class="wide"><table class="overview">
-<thead><tr><th class="n">number</th><th>scan</th><th>state</th>{% if has_device %}<th>verdict</th><th class="n">{{ judged_by }}</th>{% endif %}<th class="n">pull-off force</th>{% if has_half_space %}<th class="n">of the half-space</th>{% endif %}<th class="n">contact fraction</th><th class="n">contacts</th><th class="n">elastic / mixed / plastic</th><th class="n">rms height</th>{% if limited %}<th>outside the model's range; warnings</th>{% endif %}</tr></thead>
-<tbody>
-{% for row in table %}<tr><td class="n">{% if row.anchor %}<a href="#scan{{ row.number }}">{{ row.number }}</a>{% else %}{{ row.number }}{% endif %}</td><td class="path">{{ row.name }}</td>
-{%- if row.reason %}<td colspan="{{ (8 if has_device else 6) + (1 if has_half_space else 0) + (1 if limited else 0) }}">not predicted: {{ row.reason }}</td>
-{%- else %}<td>{{ row.status }}</td>{% if has_device %}<td class="{{ row.sticks }}">{{ row.releases }}</td><td class="n">{{ row.ratio }}</td>{% endif %}<td class="n">{{ row.pull_off }}</td>{% if has_half_space %}<td class="n">{{ row.half_space }}</td>{% endif %}<td class="n">{{ row.contact }}</td><td class="n">{{ row.contacts }}</td><td class="n">{{ row.regimes }}</td><td class="n">{{ row.rms }}</td>{% if limited %}<td class="limits">{{ row.limits }}</td>{% endif %}{% endif %}</tr>
-{% endfor %}</tbody>
-</table></div>
+{% set columns = (8 if has_device else 6) + (1 if has_half_space else 0) + (1 if has_measurements else 0) %}<div class="wide"><table class="overview" id="scans">
+<thead><tr><th class="n">number</th><th>scan</th>{% if has_measurements %}<th>measured</th>{% endif %}<th>state</th>{% if has_device %}<th>verdict</th><th class="n">{{ judged_by }}</th>{% endif %}<th class="n">pull-off force</th>{% if has_half_space %}<th class="n">of the half-space</th>{% endif %}<th class="n">contact fraction</th><th class="n">contacts</th><th class="n">elastic / mixed / plastic</th><th class="n">rms height</th></tr></thead>
+{% for row in table %}<tbody><tr><td class="n">{% if row.anchor %}<a href="#scan{{ row.number }}">{{ row.number }}</a>{% else %}{{ row.number }}{% endif %}</td><td class="path">{{ row.name }}</td>{% if has_measurements %}<td>{{ row.measured }}</td>{% endif %}
+{%- if row.reason %}<td colspan="{{ columns - (1 if has_measurements else 0) }}">not predicted: {{ row.reason }}</td></tr>
+{%- else %}<td>{{ row.status }}</td>{% if has_device %}<td class="{{ row.sticks }}">{{ row.releases }}</td><td class="n">{{ row.ratio }}</td>{% endif %}<td class="n">{{ row.pull_off }}</td>{% if has_half_space %}<td class="n">{{ row.half_space }}</td>{% endif %}<td class="n">{{ row.contact }}</td><td class="n">{{ row.contacts }}</td><td class="n">{{ row.regimes }}</td><td class="n">{{ row.rms }}</td></tr>
+{%- if row.limits %}<tr class="limits"><td></td><td colspan="{{ columns + 1 }}">{{ row.limits }}</td></tr>{% endif %}{% endif %}</tbody>
+{% endfor %}</table></div>
 {% if bounded %}<p class="quiet">&ge; marks lower bounds: the search ended before the contacts stopped growing.</p>{% endif %}
 
 {% if has_half_space %}<p class="quiet">Of the half-space: the whole surface solved as one elastic half-space; in brackets, how many times as large the prediction is.{% if has_device %} It has judged where the verdict says so.{% endif %}</p>{% endif %}
 
 {% if trends %}<h2>Trends</h2>
-<img class="tall" alt="Trends over the scans" src="{{ trends }}">{% endif %}
+<img alt="Trends over the scans" src="{{ trends }}">{% endif %}
 
 {% for scan in scans %}<div class="scan" id="scan{{ scan.number }}">
-<h2>{{ scan.number }}: {{ scan.name }}</h2>
+<div class="head"><h2>{{ scan.number }}: {{ scan.name }}</h2>
 {% if scan.origin %}<p class="origin">{{ scan.origin }}</p>{% endif %}
+{% if scan.measurement %}<p class="origin">{% for label, value in scan.measurement %}{{ label }} {{ value }}{% if not loop.last %}, {% endif %}{% endfor %}</p>{% endif %}
 {% for warning in scan.warnings %}<p class="warning">{{ warning }}</p>{% endfor %}
 {% if scan.verdict %}<p><span class="{{ scan.sticks }}">{{ scan.releases[0] | upper }}{{ scan.releases[1:] }}.</span> {{ scan.verdict }}</p>{% endif %}
 {% if scan.flags %}<p class="warning">Outside the model's range: {{ scan.flags }}.</p>{% endif %}
-<img alt="Heights, contact map and cross-section" src="{{ scan.maps }}">
+<img alt="Heights, contact map and cross-section" src="{{ scan.maps }}"></div>
 <div class="figures">{% for label, value in scan.figures %}<div><span>{{ label }}</span><span>{{ value }}</span></div>{% endfor %}</div>
-<img class="tall" alt="Energy or force on the approach, forces, loads, plasticity" src="{{ scan.details }}">
+<img class="details" alt="Energy or force on the approach, forces, loads, plasticity" src="{{ scan.details }}">
 <h3>The surface after cleaning, by ISO 25178-2</h3>
 <img alt="Histogram of the heights, material ratio curve, spectrum" src="{{ scan.surface }}">
 <div class="figures">{% for label, value in scan.surface_figures %}<div><span>{{ label }}</span><span>{{ value }}</span></div>{% endfor %}</div>
-{% if scan.cleaning %}<h3>What each cleaning step did</h3>
+{% if scan.cleaning %}<div class="cleaning"><h3>What each cleaning step did</h3>
 <img alt="The surface after each cleaning step, and what the step changed" style="max-width: {{ scan.cleaning.width }}px" src="{{ scan.cleaning.image }}">
 <table><tr><th></th><th class="n">rms height</th><th class="n">rms of the change</th><th class="n">pixels changed</th><th class="n">not measured</th><th class="n">pull-off force on this surface</th></tr>
 {% for row in scan.cleaning.rows %}<tr><td>{{ row.words }}</td><td class="n">{{ row.rms }}</td><td class="n">{{ row.change }}</td><td class="n">{{ row.changed }}</td><td class="n">{{ row.missing }}</td><td class="n">{{ row.pull_off }}</td></tr>
-{% endfor %}</table>{% endif %}
+{% endfor %}</table></div>{% endif %}
 {% if scan.why_no_cleaning %}<p class="quiet">What each cleaning step did is not shown: {{ scan.why_no_cleaning }}</p>{% endif %}
 {% if scan.half_space %}<h3>The whole surface as one elastic half-space</h3>
 <p>{{ scan.half_space.words }}</p>

@@ -58,7 +58,7 @@ def profile_spectrum(heights, pitch):
 def surface_figure(heights, pitch_x, pitch_y, tip_limit=None):
     """A PNG as bytes of the three panels."""
     figure, axes = plt.subplots(1, 3, figsize=(15, 4.3), dpi=100)
-    figure.subplots_adjust(left=0.05, right=0.985, top=0.9, bottom=0.14, wspace=0.27)
+    figure.subplots_adjust(left=0.066, right=0.985, top=0.9, bottom=0.14, wspace=0.27)
     curve = MaterialRatioCurve(heights)
     scale, unit = length_scale(float(curve.heights[0] - curve.heights[-1]))
     low, high = np.quantile(curve.heights, [SHOWN_SHARE, 1 - SHOWN_SHARE])

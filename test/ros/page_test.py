@@ -109,7 +109,7 @@ class PageTest(unittest.TestCase):
         prediction, device = self.live_device(smooth)
         self.assertEqual((prediction.sticks, device.sticks), (StictionPrediction.STICKS_NO, StictionPrediction.STICKS_NO))
         self.assertEqual(self.page.text("#word"), "RELEASES")
-        self.assertEqual(self.page.value("document.querySelector('#verdict').className"), "releases")
+        self.assertEqual(self.page.value("document.querySelector('#verdict').dataset.level"), "releases")
         self.assertEqual(self.page.text("#ratio-value"), ratio_text(device.margin))
         self.assertEqual(self.page.text("#ratio-interval"), "95 %%: %s to %s" % (
             ratio_text(device.margin_lower), ratio_text(device.margin_upper)))
@@ -130,7 +130,7 @@ class PageTest(unittest.TestCase):
         self.settings.update_configuration(dict(spring_stiffness=1e-4))
         self.live_device(smooth)
         self.assertEqual(self.page.text("#word"), "STICKS")
-        self.assertEqual(self.page.value("document.querySelector('#verdict').className"), "sticks")
+        self.assertEqual(self.page.value("document.querySelector('#verdict').dataset.level"), "sticks")
         self.settings.update_configuration(DEVICE)
 
     def test_4_maps_and_curve_are_of_the_scan(self):
@@ -140,7 +140,7 @@ class PageTest(unittest.TestCase):
         for name in ("height", "contacts", "relief"):
             self.page.wait("document.querySelector('#%s').naturalWidth === %d" % (name, surface.shape[1]))
         self.page.wait("document.querySelector('#height-of').textContent === 'of scan ' + state.scan.number")
-        self.assertIn("640 nm x 480 nm", self.page.text("#height-legend"))
+        self.page.wait("document.querySelector('#height-legend').textContent.includes('640 nm x 480 nm')")  # by its scan_info, which may come later
         self.assertEqual(self.page.value("Math.round(100 * document.querySelector('.map').clientWidth / document.querySelector('.map').clientHeight)"), 133)
         self.page.wait("state.height_range && state.height_range[1] > 0")
         small = self.page.value("state.rings.length")
@@ -218,7 +218,7 @@ class PageTest(unittest.TestCase):
         self.assertEqual(self.page.value("state.runs.cycles.points.map((point) => point.force)"), [one.pull_off_force for one in cycles])
         self.assertIn("From contact 1 to contact 3", self.page.text("#cycles-words"))
         self.assertNotIn("running", self.page.text("#sweep-age"))
-        self.assertGreater(self.page.value("document.querySelectorAll('#sweep-chart circle').length"), 2)
+        self.assertGreater(self.page.value("document.querySelectorAll('#sweep-area circle').length"), 2)
 
     def test_7b_labels_of_axes_are_whole_on_every_screen(self):
         for width, height in ((1024, 768), (768, 1024), (1280, 500)):
