@@ -6,7 +6,7 @@ Each function returns what JSON can have: numbers are SI, None where there is no
 import math
 
 from mems_stiction import quantities
-from mems_stiction.prediction_text import STATUS_NAMES, bound_of, flag_names, flag_words
+from mems_stiction.prediction_text import STATUS_NAMES, bound_of, flag_names, flag_words, judge_words
 from mems_stiction.quantities import percent, ratio, typeset
 
 NO_EQUILIBRIUM = 2  # StictionPrediction.status
@@ -101,11 +101,6 @@ def part_name(message):
     return ", ".join("%s %s" % (label, text) for label, text in (("part", message.part_id), ("serial number", message.serial_id)) if text)
 
 
-def judge_word(verdict_by):
-    """ "half_space" is "the half-space"."""
-    return " and ".join("the " + word.replace("_", "-") for word in verdict_by.split(" and ")) if verdict_by else ""
-
-
 def part_of(part):
     """What a PartVerdict says: verdict, ratio, how many scans, which is the worst, and what speaks against it."""
     name = judged_by(part)
@@ -118,7 +113,7 @@ def part_of(part):
         counted = "%d scan%s" % (part.counted_scans, " says" if part.counted_scans == 1 else "s say")
         shown, reason = None, "%s nothing of the %s yet. %s" % (counted, shown["label"], reason)
     return {"name": part_name(part), "part": part.part_id, "serial": part.serial_id, "level": level, "word": word, "reason": reason, "ratio": shown,
-            "verdict_by": judge_word(part.verdict_by), "settings_hash": part.settings_hash,
+            "verdict_by": judge_words(part.verdict_by), "settings_hash": part.settings_hash,
             "scans": "%d scan%s" % (part.scan_count, "" if part.scan_count == 1 else "s")
                      + ("" if part.counted_scans == part.scan_count else ", %d count" % part.counted_scans),
             "worst": None if math.isnan(worst) or part.counted_scans < 2 else "lowest %s of %s" % (ratio_text(worst), getattr(part, "worst_%s_scan" % name)),
@@ -183,7 +178,7 @@ def half_space_verdict(solution):
     if not solution.verdict_by or ratio_of(solution) is None:
         return None
     level, word = VERDICTS.get(solution.sticks, VERDICTS[3])
-    return {"level": level, "word": word, "by": judge_word(solution.verdict_by), "ratio": ratio_of(solution), "reason": sentence(solution.verdict_reason)}
+    return {"level": level, "word": word, "by": judge_words(solution.verdict_by), "ratio": ratio_of(solution), "reason": sentence(solution.verdict_reason)}
 
 
 def half_space_of(solution):

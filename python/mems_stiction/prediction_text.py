@@ -53,6 +53,12 @@ def contact_area_of(result):
     return result.contact_area if math.isnan(result.contact_area_jkr) else result.contact_area_jkr
 
 
+def judge_words(verdict_by):
+    """Who has judged, in words: "half_space" is "the half-space"; of a part, scans may differ in that."""
+    judges = ["the " + judge.replace("_", "-") for judge in verdict_by.split(" and ") if judge]
+    return " and ".join(judge + scans for judge, scans in zip(judges, (" of some scans", " of others"))) if len(judges) > 1 else "".join(judges)
+
+
 def digits_of(result):
     """How many digits of forces and ratios are worth showing, by the interval of the pull-off force, the margin or the peel number; three
     where none is known."""

@@ -24,7 +24,7 @@ from mems_stiction.cleaning_steps import cleaning_figure, rows_of
 from mems_stiction.csv_text import csv_cell
 from mems_stiction.half_space_figure import half_space_figure, half_space_words, pull_off_ratio
 from mems_stiction.plots import ScanPicture, save_picture, with_unit
-from mems_stiction.prediction_text import digits_of, flag_words
+from mems_stiction.prediction_text import digits_of, flag_words, judge_words
 from mems_stiction.quantities import percent, ratio, typeset, unbroken, with_interval
 from mems_stiction.report_device import area, device_lines, measurement_of, measurements_of
 from mems_stiction.report_figures import is_lower_bound, number, scan_figure, trend_figure
@@ -295,7 +295,7 @@ def part_row(part, judge):
     """What the page shows of one part: a row of stiction_batch --parts."""
     spread = number(part[judge + "_spread"])
     worst = number(part["worst_" + judge])
-    by = {"": "", "prediction": ""}.get(part["verdict_by"], " (%s)" % part["verdict_by"].replace("_", "-"))
+    by = "" if part["verdict_by"] in ("", "prediction") else " (by %s)" % judge_words(part["verdict_by"])
     return {"part": part["part_id"], "serial": part["serial_id"], "sticks": part["sticks"], "releases": verdict_word(part["sticks"]) + by,
             "ratio": _ratio_with_interval(part, judge), "spread": "" if math.isnan(spread) else "%.2g" % spread,
             "worst": "" if math.isnan(worst) else "%s of %s" % (ratio(worst), part["worst_%s_scan" % judge]),

@@ -130,6 +130,11 @@ class NotebookTest(unittest.TestCase):
             shown = [output for cell in notebook.cells for output in cell.get("outputs", []) if "text/html" in output.get("data", {})]
             self.assertGreater(len(shown), 0)
 
+    def test_between_them_they_show_the_doors_of_the_module(self):
+        text = "".join(path.read_text(encoding="utf-8") for path in (REPOSITORY / "doc" / "notebooks").glob("*.ipynb"))
+        for door in ("predict(", "predict_device(", "calibrate(", "clean("):
+            self.assertIn("mems_stiction." + door, text)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -305,6 +305,11 @@ class WordsTest(unittest.TestCase):
         bare = part_of(part_message(margin=NAN, worst_margin=NAN, counted_scans=0, sticks=3, reason="the device is not stated: it needs", verdict_by=""))
         self.assertEqual((bare["word"], bare["ratio"], bare["worst"]), ("NO VERDICT", None, None))
 
+    def test_a_part_that_two_have_judged_says_so_in_words(self):
+        shown = part_of(part_message(verdict_by="prediction and half_space"))
+        self.assertEqual(shown["verdict_by"], "the prediction of some scans and the half-space of others")
+        self.assertEqual(part_of(part_message(verdict_by=""))["verdict_by"], "")
+
     def test_two_scans_that_say_nothing_of_a_part_show_no_number(self):
         shown = part_of(part_message(scan_count=2, counted_scans=2, margin=6.18, margin_lower=9.57e-11, margin_upper=2.07e12, sticks=1, reason="why"))
         self.assertEqual((shown["word"], shown["ratio"]), ("MARGINAL", None))

@@ -14,7 +14,8 @@ import rospy
 import rostest
 from mems_stiction.msg import (CycleContactAction, CycleContactGoal, DeviceAdhesion, HalfSpaceSolution, PartVerdict, StictionPrediction,
                                SweepLoadAction, SweepLoadGoal)
-from mems_stiction.page_words import VERDICTS, flags_of, judge_word, ratio_text, with_unit
+from mems_stiction.page_words import VERDICTS, flags_of, ratio_text, with_unit
+from mems_stiction.prediction_text import judge_words
 from mems_stiction.provenance import provenance_words
 from mems_stiction.quantities import percent, typeset, with_interval
 from roslib.packages import find_node
@@ -192,7 +193,7 @@ class PageTest(unittest.TestCase):
                        "the part's verdict with that of the device")
             part = parts.messages[-1]
             self.page.wait("state.part.ratio.interval === %s && state.part.verdict_by === %s" % (
-                json.dumps("95 %%: %s to %s" % (ratio_text(part.margin_lower), ratio_text(part.margin_upper))), json.dumps(judge_word(part.verdict_by))))
+                json.dumps("95 %%: %s to %s" % (ratio_text(part.margin_lower), ratio_text(part.margin_upper))), json.dumps(judge_words(part.verdict_by))))
             self.assertEqual(self.page.text("#part-word"), {0: "RELEASES", 1: "MARGINAL", 2: "STICKS", 3: "NOT KNOWN"}[part.sticks])
             self.assertIn("margin %s (95 %%: %s to %s)" % tuple(ratio_text(value) for value in (part.margin, part.margin_lower, part.margin_upper)),
                           self.page.text("#part-ratio"))
