@@ -313,7 +313,7 @@ def page(title, rows, sections, settings_text, configuration_path, parts=(), dat
     versions = [("mems_stiction", settings["version"]), ("OpenCV", settings["opencv_version"]),
                 ("Python", platform.python_version()), ("Matplotlib", matplotlib.__version__),
                 ("Jinja", jinja2.__version__)]
-    environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined, finalize=_kept_together)
+    environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined, finalize=_with_units)
     return environment.from_string(PAGE).render(
         title=title, version=settings["version"], summary=summary(rows, drawn),
         date=date or datetime.datetime.now().strftime("%Y-%m-%d %H:%M"), lots=lots_section(rows, embedded),
@@ -332,7 +332,7 @@ class Verbatim(str):
     """A text that stays as it is, to be copied."""
 
 
-def _kept_together(value):
+def _with_units(value):
     """What the page writes: no line ends between a number and its unit."""
     return unbroken(value) if isinstance(value, str) and not isinstance(value, Verbatim) and not value.startswith("data:") else value
 

@@ -60,7 +60,7 @@ function limitsOf(values, mayBeLogarithmic) {
 
 /**
  * Draws into an svg element. chart: {x: {label, unit, low, high, whole}, y: {label, unit, low, high, log},
- * areas: [{points: [[x, low, high]], colour}], whiskers: [[x, low, high]], marks: [{x, y, colour, radius, shape}], rings: [{x, y, colour}], bands: [x],
+ * areas: [{points: [[x, low, high]], colour}], whiskers: [[x, low, high]], marks: [{x, y, colour, radius}], rings: [{x, y, colour}], bands: [x],
  * levels: [{y, colour}], uprights: [{x, colour, dash}], numbers: [{x, y, text, isNumber: true}], texts: [{x, y, text}]}. A point whose y is null breaks a line.
  */
 function drawChart(svg, whole) {

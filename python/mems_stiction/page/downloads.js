@@ -103,7 +103,7 @@ function drawTexts(paper, panel, box) {
   const range = document.createRange();
   paper.textBaseline = "middle";
   for (let node = walker.nextNode(); node; node = walker.nextNode()) {
-    if (node.parentElement.closest("svg, button, a") || !node.parentElement.checkVisibility()) continue;
+    if (node.parentElement.closest("svg, button, a")) continue;
     const style = getComputedStyle(node.parentElement);
     paper.font = `${style.fontWeight} ${style.fontSize} ${style.fontFamily}`;
     paper.fillStyle = style.color;
