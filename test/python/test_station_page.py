@@ -506,7 +506,7 @@ class ProgramTest(unittest.TestCase):
                 self.assertNotIn("Traceback", done.stderr)
 
     def test_it_starts_without_a_master_and_ends_when_told(self):
-        process = subprocess.Popen([STATION_PAGE, "--port", "0"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True,
+        process = subprocess.Popen([STATION_PAGE, "--port", "0", "--stale", "auto"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True,
                                    env=dict(os.environ, ROS_MASTER_URI="http://127.0.0.1:9"))
         line = process.stdout.readline()
         self.assertRegex(line, r"http://127.0.0.1:\d+ shows it to this machine alone")
