@@ -682,6 +682,15 @@ class BatchTest(unittest.TestCase):
         self.assertIn("must end in .html", done.stderr)
 
 
+class OriginTest(unittest.TestCase):
+    def test_a_report_says_of_a_scan_what_is_stated_and_nothing_else(self):
+        row = {"part_id": "die 4", "serial_id": "", "wafer_id": "W3", "site_x": -5e-3, "site_y": 0.0, "acquisition_time": "2026-03-01T14:05:00",
+               "instrument": "AFM 2", "operator_name": "ann", "checksum": "sha256:00", "settings_hash": "00ff", "version": "1.2.3"}
+        self.assertEqual(report.origin_of(row), "part die 4, wafer W3, site -5.00 mm, 0 m, measured 2026-03-01T14:05:00, with AFM 2, by ann, "
+                                                "file sha256:00, settings 00ff, version 1.2.3")
+        self.assertEqual(report.origin_of({"site_x": None, "site_y": None, "part_id": "", "version": "1.2.3"}), "version 1.2.3")
+
+
 class TableRowTest(unittest.TestCase):
     def test_a_beam_without_a_spring_is_judged_by_its_peel_number(self):
         beam = {"margin": None, "peel_number": 3.21, "peel_number_lower": 1.234, "peel_number_upper": 1234.5}

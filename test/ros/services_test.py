@@ -178,10 +178,18 @@ class ServicesTest(unittest.TestCase):
     def test_3d_what_was_scanned_and_slips_of_units_are_in_the_answer(self):
         info = info_message(rospy.Time(4))
         info.scan_name, info.part_id, info.serial_id = "place 2", "lot 3", "0012"
+        info.lot_id, info.wafer_id, info.site_y, info.operator_name = "L7", "W3", -5e-3, "ann"
         answer = self.predict(image_message(rough_surface(4), info.header.stamp), info, 0.0, LOAD)
         self.assertEqual(answer.message, "")
         prediction = answer.prediction
         self.assertEqual((prediction.scan_name, prediction.part_id, prediction.serial_id), ("place 2", "lot 3", "0012"))
+        self.assertEqual((prediction.lot_id, prediction.wafer_id, prediction.site_x, prediction.site_y, prediction.operator_name),
+                         ("L7", "W3", 0.0, -5e-3, "ann"))
+        info.site_x = math.nan
+        refused = self.predict(image_message(rough_surface(4), info.header.stamp), info, 0.0, LOAD)
+        self.assertFalse(refused.success)
+        self.assertIn("scan_info.site_y: -0.005 is stated without site_x", refused.message)
+        info.site_x = 0.0
         counts = (np.arange(48 * 64) % 251).astype(np.uint8).reshape(48, 64)  # counts that pass for metres
         answer = self.predict(image_message(counts, info.header.stamp, "mono8"), info, 0.0, LOAD)
         self.assertTrue(answer.success)
