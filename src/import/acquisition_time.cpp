@@ -61,14 +61,13 @@ bool readDate(const std::string& word, Reading& reading) {
 
 /// "15:48", "15:48:33.25", with "Z" or "+01:00" behind it
 bool readTime(const std::string& word, Reading& reading) {
-  static const std::regex pattern(R"((\d{1,2}):(\d{2})(:\d{2}([.,]\d+)?)?(Z|[-+]\d{2}:?\d{2})?)");
+  static const std::regex pattern(R"((\d{1,2}):(\d{2})(:\d{2}(\.\d+)?)?(Z|[-+]\d{2}:?\d{2})?)");
   std::smatch match;
   if (reading.has_time || !std::regex_match(word, match, pattern)) return false;
   reading.has_time = true;
   reading.hour = std::stoi(match[1]);
   reading.minute = std::stoi(match[2]);
   reading.seconds = match[3];
-  std::replace(reading.seconds.begin(), reading.seconds.end(), ',', '.');
   reading.zone = match[5];
   if (reading.zone.size() == 5) reading.zone.insert(3, ":");
   return true;
