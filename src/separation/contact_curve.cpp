@@ -4,31 +4,12 @@
 #include <cmath>
 
 #include "numeric/constants.hpp"
+#include "separation/real_area.hpp"
 
 #include "chosen_constants.hpp"
 
 namespace mems_stiction {
 namespace {
-
-/// Real area of a patch that overlaps over `area`: half of it while it is elastic (Hertz), more where adhesion widens
-/// the contact (JKR), all of it when what it carries is all that flow allows. The load that widens it is P (DMT) to
-/// JKR's P1 of what presses beside the contact's own rim, as far as Tabor's parameter has come from one to the other.
-/// The half-space knows no smaller contact than a cell.
-double realArea(const PatchLoad& load, double area, double rim_force, double prefactor, double hardness,
-                double cell_area) {
-  const double fullness = std::isfinite(hardness) ? std::min(1.0, load.carried / (hardness * area)) : 0.0;
-  double widening = 1.0;
-  if (!std::isfinite(rim_force)) {  // a plateau without depth: no paraboloid, and it touches everywhere
-    widening = 2.0;
-  } else if (load.carried > 0.0) {
-    const double outer = std::max(load.carried - rim_force, 0.0);  // rim_force is DMT's 2 pi Gamma R
-    const double jkr_load = outer + 1.5 * rim_force + std::sqrt(3.0 * rim_force * outer + 2.25 * rim_force * rim_force);
-    const double jkr_share = 2.0 * (2.0 - prefactor);
-    const double root = std::cbrt(1.0 + jkr_share * std::max(jkr_load / load.carried - 1.0, 0.0));
-    widening = root * root;
-  }
-  return std::max(cell_area, area * std::max(0.5 * std::min(widening, 2.0), fullness));
-}
 
 Regime regimeOf(const PatchLoad& load, double area, double hardness) {
   if (load.elasticShare() >= chosen::kRegimeShare) return Regime::kElastic;
@@ -74,9 +55,9 @@ void ContactCurve::takeContacts() {
     contact.load = loads_[i];
     const double radius = patch.radius(rest.approach, cell_area_);
     contact.composite_radius = radius;
-    contact.area =
-        realArea(contact.load, area, 2.0 * kPi * frame_.law().workOfAdhesion() * radius / std::sqrt(patch.summits),
-                 forces.pullOffPrefactor(radius / patch.summits), forces.hardness(), cell_area_);
+    const double rim_force = 2.0 * kPi * frame_.law().workOfAdhesion() * radius / std::sqrt(patch.summits);
+    contact.area = cell_area_ * realCells({contact.load, static_cast<double>(patch.cells), rim_force,
+                                           forces.pullOffPrefactor(radius / patch.summits), forces.hardness() * area});
     contact.regime = regimeOf(contact.load, area, forces.hardness());
     by_contacts_.contact_area += contact.area;
     const double area_share = std::max(0.5, contact.load.carried / (forces.hardness() * area));

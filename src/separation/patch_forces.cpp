@@ -20,6 +20,8 @@ constexpr double kGrowthOfCone = 2.0;
 const double kMaugisPerTabor = std::cbrt(9.0 / (2.0 * kPi)) * 64.0 / 9.0 * (1.0 / 5.0 - 2.0 / 11.0 + 1.0 / 17.0);
 /// Overlap of a patch that round-off has left none [m].
 constexpr double kLeastDepth = std::numeric_limits<double>::min();
+/// Pressure of patches that round-off has left none [Pa].
+constexpr double kLeastPressure = std::numeric_limits<double>::min();
 /// lambda^1.4 of lambda^3
 constexpr double kPowerOfCube = 1.4 / 3.0;
 
@@ -101,8 +103,11 @@ MEMS_STICTION_INLINE PatchForces::Loads PatchForces::loadsOf(const Lanes& cells,
   const Lanes load_term = merged_term + volumeTerm(cells, gap_sum, approach);
   // round-off may leave no depth
   const Lanes depth = greater(approach - gap_sum / cells, Lanes(kLeastDepth));
+  const Lanes pressure = greater(load_factor_ * load_term / area, Lanes(kLeastPressure));
+  const Lanes shared = law_.pressureInSeries(pressure, depth);
   Loads loads;
-  loads.elastic = area * law_.pressureInSeries(load_factor_ * load_term / area, depth);
+  loads.layer_share = 1.0 - shared / pressure;
+  loads.elastic = area * shared;
   loads.carried = loads.elastic;
   const Lanes capacity = hardness_ * area;
   const Lanes fullness = loads.elastic / capacity;
@@ -121,10 +126,13 @@ MEMS_STICTION_VECTORIZED void PatchForces::loadsOf(const OverlapSweep& contacts,
   for (std::size_t place = 0; place < count; place += PatchBlock::kMost) {
     block.gather(contacts, place);
     for (std::size_t i = 0; i < block.count; i += Lanes::kCount) {
-      const Loads found = loadsOf(Lanes::load(block.cells + i), Lanes::load(block.gap_sum + i),
-                                  Lanes::load(block.merged_term + i), approach);
+      const Lanes cells = Lanes::load(block.cells + i);
+      const Lanes gap_sum = Lanes::load(block.gap_sum + i);
+      const Loads found = loadsOf(cells, gap_sum, Lanes::load(block.merged_term + i), approach);
+      const Lanes depth = greater(approach - gap_sum / cells, Lanes(kLeastDepth));
+      const Lanes flatness = flatnessOf(cells, approach - Lanes::load(block.first_gap + i), depth);
       for (std::size_t lane = 0; lane < Lanes::kCount && place + i + lane < count; ++lane) {
-        loads[place + i + lane] = {found.elastic[lane], found.carried[lane]};
+        loads[place + i + lane] = {found.elastic[lane], found.carried[lane], found.layer_share[lane], flatness[lane]};
       }
     }
   }

@@ -18,6 +18,9 @@ namespace mems_stiction {
 struct PatchLoad {
   double elastic = 0.0;  ///< without flow [N]
   double carried = 0.0;  ///< with it [N]
+  /// What the layer of the law takes of the overlap, (S6) [-]; the bodies take the rest.
+  double layer_share = 0.0;
+  double flatness = 0.0;  ///< 1 - m of its profile, (S8c), from a paraboloid (0) to a punch (1) [-]
   /// What flow has left of the overlap [-]: 1 elastic.
   double elasticShare() const { return elastic > 0.0 ? carried / elastic : 1.0; }
 };
@@ -48,6 +51,7 @@ class PatchForces {
   struct Loads {
     Lanes elastic;
     Lanes carried;
+    Lanes layer_share;
   };
   /// By number of cells, sum of their gaps [m] and P0 [m].
   Loads loadsOf(const Lanes& cells, const Lanes& gap_sum, const Lanes& merged_term, double approach) const;
