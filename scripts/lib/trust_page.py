@@ -4,6 +4,7 @@
 usage: trust_page.py PREDICTIONS.jsonl PAGE.md FIGURE.png
 """
 
+import fractions
 import json
 import math
 import pathlib
@@ -27,10 +28,10 @@ COLOURS = {CONFORMING: "#d1322f", DOUBTED: "#f2b705", SPARSE: "#2f7fd1"}
 NORMAL_95 = 1.96
 OF_THE_MAP = ("rms heights of 0.03 to 12 nm, correlation lengths of 10 to 300 nm, contact moduli of 0.1 to 100 GPa, works of adhesion of 5 to 150 mJ/m^2, "
               "Hamaker constants of 65 and 200 zJ.")
-SETS = ("**Three sets.** Rules and the flag were set on the frames of seeds 5, 6, 8 and 9 and looked at on those of 7, 168 of each; this page, of seed 10, judges: "
-        "rules and flag stood when these frames were drawn. `scripts/trust --kinds --seed N` draws others.")
+SETS = ("**Three sets.** Rules, flag and interval were set on the frames of seeds 5, 6, 8 and 9 and looked at on those of 7, 168 of each; this page, of seed 11, judges: "
+        "nobody had seen what the curve says of these frames before. `scripts/trust --kinds --seed N` draws others; by seed 10 earlier rules were judged.")
 CONSTANTS = pathlib.Path(__file__).resolve().parents[2] / "src" / "separation" / "chosen_constants.hpp"
-ERRORS = {(SPARSE, False): "Sure", (CONFORMING, False): "SureBonded", (SPARSE, True): "Doubt", (CONFORMING, True): "DoubtBonded"}
+ERRORS = {False: "Sure", True: "Doubt"}
 OF_PROCESSES = ["in equal shares as processes make them (`scripts/lib/trust_kinds.py`): " + ", ".join(trust_kinds.KINDS),
                 "rms heights of 0.1 to 10 nm, lateral scales of 15 to 200 nm, contact moduli of 2 to 200 GPa, works of adhesion of 10 to 120 mJ/m^2, Hamaker "
                 "constants of 40 to 150 zJ."]
@@ -46,20 +47,21 @@ def regime(frame):
     return CONFORMING if frame["separation_curve"]["is_conforming"] else SPARSE
 
 
-def group_of(frame):
-    """Whose error the curve states."""
-    return CONFORMING if frame["separation_curve"]["is_conforming"] else SPARSE, is_doubted(frame)
-
-
-def group_title(group):
-    return group[0] + (", doubted" if group[1] else "")
+def group_title(is_of_doubt):
+    return "with a doubt" if is_of_doubt else "without"
 
 
 def errors_of_code():
-    """Deviations of force and work that the curve states: of contacts and of bonded surfaces, without a doubt and with one."""
+    """Deviations of force and work that the curve states of surfaces that conform, without a doubt and with one."""
     source = CONSTANTS.read_text(encoding="utf-8")
-    found = {name: re.search(r"ModelError k%sError\{(0\.\d+), (0\.\d+)\};" % word, source) for name, word in ERRORS.items()}
-    return {name: tuple(map(float, match.groups())) for name, match in found.items()}
+    found = {doubt: re.search(r"ModelError k%sError\{(0\.\d+), (0\.\d+)\};" % word, source) for doubt, word in ERRORS.items()}
+    return {doubt: tuple(map(float, match.groups())) for doubt, match in found.items()}
+
+
+def error_power():
+    """Of the flattening ratio: how fast these fall where it is above 1."""
+    above, below = re.search(r"kErrorPower = (\d\.\d) / (\d\.\d);", CONSTANTS.read_text(encoding="utf-8")).groups()
+    return float(above) / float(below)
 
 
 def flags_of(frame):
@@ -120,21 +122,24 @@ def kind_rows(frames, kinds):
 
 def coverage_rows(frames):
     """How many of the frames the deviations of the code cover: by the flag, and in each third of the frames by flattening ratio."""
-    stated = errors_of_code()
+    stated, power = errors_of_code(), error_power()
+
+    def reach_of(frame, i):
+        return NORMAL_95 * stated[is_doubted(frame)][i] * max(1.0, frame["separation_curve"]["flattening_ratio"]) ** -power
 
     def covered(some):
         cells = []
         for i, quantity in enumerate((pull_off, work)):
             logs = ratios(some, quantity("separation_curve"), quantity("half_space"))
-            reach = np.array([NORMAL_95 * stated[group_of(frame)][i] for frame in some])
+            reach = np.array([reach_of(frame, i) for frame in some])
             known = np.isfinite(logs)
             cells.append("%.0f %%" % (100 * np.mean(np.abs(logs[known]) <= reach[known])) if known.any() else "")
         return tuple(cells)
 
     lines = ["| frames | number | pull-off force | work | covered, pull-off force | covered, work |", "|---|---|---|---|---|---|"]
-    for group in ERRORS:
-        some = [frame for frame in frames if group_of(frame) == group]
-        lines.append("| %s | %d | %.2f | %.2f | %s | %s |" % ((group_title(group), len(some)) + stated[group] + covered(some)))
+    for is_of_doubt in ERRORS:
+        some = [frame for frame in frames if is_doubted(frame) == is_of_doubt]
+        lines.append("| %s | %d | %.3g | %.3g | %s | %s |" % ((group_title(is_of_doubt), len(some)) + stated[is_of_doubt] + covered(some)))
     ordered = sorted(frames, key=lambda frame: frame["separation_curve"]["flattening_ratio"])
     for i, name in enumerate(("lowest flattening ratios", "middle third", "highest")):
         some = ordered[i * len(ordered) // 3:(i + 1) * len(ordered) // 3]
@@ -216,9 +221,10 @@ def page(lines, figure):
              "show what the lattice does to the half-space, not how far the curve is off.", ""]
     text += [
              "## The interval of the margin", "",
-             "The margin's interval contains the error of the model beside that of the constants (`uncertainty/...`): a standard deviation of the logarithm, of contacts and of "
-             "surfaces that conform, without a doubt and with one. It was set on [other kinds](trust_kinds.md) of the seeds 5 to 9, so that 95 % of each lie within 1.96 times it. On the map, whose frames are easier, it "
-             "is wide. *Covered* is the share of this page's frames of which the model's part of the 95 % interval covers the deviation by itself.", ""]
+             "The margin's interval contains the error of the model beside that of the constants (`uncertainty/...`): a standard deviation of the logarithm, without a doubt and with one. It holds for "
+             "flattening ratios up to 1; above, it falls with the power %s of that ratio. It was set on [other kinds](trust_kinds.md), so that 95 %% of each third of them lie within 1.96 times it. On the map, whose "
+             "frames are easier, it is wide. *Covered* is the share of this page's frames of which the model's part of the 95 %% interval covers the deviation by itself."
+             % fractions.Fraction(error_power()).limit_denominator(100), ""]
     text += coverage_rows(resolved)
     return "\n".join(text + ([SETS, ""] if is_of_processes else []))
 

@@ -1,5 +1,7 @@
 #include "separation/curve_statement.hpp"
 
+#include <cmath>
+
 #include "mems_stiction/contact/contact_settings.hpp"
 #include "separation/chosen_constants.hpp"
 
@@ -24,10 +26,11 @@ ModelStatement CurveStatement::of(const ContactSolution& solution, double work_o
   statement.knows_every_load = true;
   statement.assumes_jkr = false;
   statement.doubt = solution.model.doubt;
-  if (statement.doubt == nullptr) {
-    statement.error = solution.is_conforming ? chosen::kSureBondedError : chosen::kSureError;
-  } else {
-    statement.error = solution.is_conforming ? chosen::kDoubtBondedError : chosen::kDoubtError;
+  statement.error = statement.doubt == nullptr ? chosen::kSureError : chosen::kDoubtError;
+  const double flattening_ratio = solution.flattening_energy / work_of_adhesion;
+  if (flattening_ratio > 1.0 && std::isfinite(flattening_ratio)) {
+    const double share = std::pow(flattening_ratio, -chosen::kErrorPower);
+    statement.error = {share * statement.error.pull_off, share * statement.error.work};
   }
   if (bends && solution.flattening_energy < chosen::kBentTogether * work_of_adhesion) {
     statement.doubt = "the bodies are thin and bend from contact to contact";

@@ -60,6 +60,7 @@ TEST(SeparationOfFreshFrames, lieWithinTenPercentOfTheHalfSpace) {
                         {false, 0.05e-9, 80e-9, 50e9, 0.05, 0}, {false, 4e-9, 80e-9, 100e9, 0.02, 0},
                         {true, 0.2e-9, 30e-9, 60e9, 0.05, 0}};
   int seed = 100;
+  int near_areas = 0;
   for (const Case& one : cases) {
     const int pixels = 64;
     const double pitch = one.is_gaussian ? one.length / 10.0 : one.length / 20.0;
@@ -90,7 +91,11 @@ TEST(SeparationOfFreshFrames, lieWithinTenPercentOfTheHalfSpace) {
     const double ratio = prediction.pull_off_force / solved.pull_off_force;
     SCOPED_TRACE(testing::Message() << "seed " << seed << ", ratio " << ratio);
     EXPECT_LT(std::abs(std::log(ratio)), std::log(1.1));
+    const double area_ratio = prediction.contact_area / solved.contact_area;
+    EXPECT_LT(std::abs(std::log(area_ratio)), std::log(1.5)) << "contact area at rest " << area_ratio;
+    if (std::abs(std::log(area_ratio)) < std::log(1.3)) ++near_areas;
   }
+  EXPECT_GE(near_areas, 13) << "contact areas at rest within 1.3, of 15";
 }
 
 TEST(SeparationOfFreshFrames, stiffSurfacesThatHardlyTouchAtRestDoNotHoldAsBondedOnes) {

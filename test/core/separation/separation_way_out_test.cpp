@@ -106,7 +106,7 @@ TEST(SoftTips, holdAsInTheHalfSpace) {
 }
 
 TEST(Shoulders, thatAContactHasOpenedDoNotAttract) {
-  // a stiff tip with shoulders: attracted by all of the undeformed gap it would touch on 1.25 times the area
+  // a stiff tip with shoulders: attracted by all of the undeformed gap it would touch on a quarter more
   const Ratios ratios = againstHalfSpace(summit(1.3, 6e-9, 40e-9, 128, 1e-9), elastic(20e9));
   EXPECT_NEAR(ratios.area, 1.0, 0.12);
   EXPECT_NEAR(ratios.pull_off, 1.0, 0.08);
