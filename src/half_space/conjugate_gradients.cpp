@@ -22,7 +22,7 @@ constexpr double kCoarsestForcing = 0.3;
 constexpr double kShiftShare = 0.3;
 constexpr double kSmallestShift = 0.1;
 /// Contacts are large where that shift is more than this times the smallest stiffness.
-constexpr double kLargeContacts = 1.0;
+constexpr double kLargeContacts = 0.3;
 /// Shift for large contacts, of the smallest stiffness, and y, of the largest.
 constexpr double kFreeShift = 0.5;
 constexpr double kYielding = 0.12;

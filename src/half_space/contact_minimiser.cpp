@@ -14,8 +14,6 @@
 namespace mems_stiction {
 namespace {
 
-/// A cell moves no farther than this in one Newton step, of z0: t' changes over such a distance.
-constexpr double kLongestMove = 1.0;
 /// Halvings of a Newton step before the search gives up.
 constexpr int kMostHalvings = 20;
 /// Share of the decrease that the slope promises which a step must give (Armijo).
@@ -140,6 +138,12 @@ void ContactMinimiser::moveRow(int row, float share) {
 }
 
 void ContactMinimiser::takeBack() {
+  takeBackForPart();
+  std::swap(change_, last_change_);
+  std::swap(change_traction_, last_change_traction_);
+}
+
+void ContactMinimiser::takeBackForPart() {
   forEachRow(grid_.rows, settings_.threads, [&](int row) {
     const std::size_t first = grid_.offset(row);
     const std::size_t end = first + static_cast<std::size_t>(grid_.cols);
@@ -149,8 +153,6 @@ void ContactMinimiser::takeBack() {
     if (change_traction_.empty()) return;
     for (std::size_t i = first; i < end; ++i) elastic_traction_[i] -= static_cast<double>(change_traction_[i]);
   });
-  std::swap(change_, last_change_);
-  std::swap(change_traction_, last_change_traction_);
   staleness_ = std::numeric_limits<double>::infinity();  // K u may have been worked out afresh since
 }
 
@@ -348,7 +350,7 @@ bool ContactMinimiser::relaxContacts(double height, Evaluation& now) {
   return now.residual_norm < kWorthwhile * before.residual_norm;
 }
 
-ContactState ContactMinimiser::solve(double height) {
+ContactState ContactMinimiser::solve(double height, double longest_move) {
   ContactState state;
   state.height = height;
   const int products_before = products();
@@ -387,7 +389,7 @@ ContactState ContactMinimiser::solve(double height) {
     ConjugateGradients::System system;
     system.mean_residual = now.mean_residual;
     system.mean_slope = now.mean_slope;
-    system.longest_move = kLongestMove * law_.range();
+    system.longest_move = longest_move * law_.range();
     system.useful_residual = allowed / now.largest_residual;
     const ConjugateGradients::Direction direction = gradients_.find(system);
     if (!(direction.decrease > 0.0)) break;

@@ -28,6 +28,19 @@ constexpr double kKinkShare = 0.1;
 constexpr double kSummitKinkShare = 0.5;
 /// The smallest step that misses more than this goes over a jump.
 constexpr double kJumpSag = 0.06;
+/// Bodies are pressed heavily where they carry more than this many times the largest attraction so far: a jump of as much
+/// attraction would be less than kJumpSag there.
+constexpr double kHeavyLoad = 1.0 / kJumpSag;
+/// Sags there, wanted and largest. The parabola's error grows with the fourth power of the step: where the force grows by
+/// the factor of 5.5 that gives the largest one, it is 0.4 % of the force.
+constexpr double kWantedHeavySag = 0.3;
+constexpr double kLargestHeavySag = 0.6;
+/// The largest step there, of the usual one.
+constexpr double kLargestHeavyStep = 128.0;
+/// What a cell may move in one Newton step there, of z0: attraction hardly shapes the way, and the line search bounds it.
+constexpr double kLongestHeavyMove = 30.0;
+/// On the way out, sags with which heights of the way in are taken up again.
+constexpr double kPlannedSag = 0.015;
 /// Steps are compared with limits but for rounding.
 constexpr double kStepTolerance = 1.001;
 /// Usual step for which they apply, of z0.
@@ -95,6 +108,8 @@ double ContactPath::largestLoad() const {
   return load;
 }
 
+bool ContactPath::isHeavy(double force) const { return std::max(present_.force, force) < -kHeavyLoad * strongest_; }
+
 double ContactPath::forceScale() const { return std::max(std::abs(present_.force), strongest_); }
 
 double ContactPath::sagOf(const ForcePoint& next) const {
@@ -115,9 +130,9 @@ double ContactPath::kinkOf(const ForcePoint& next) const {
 PathStatus ContactPath::attempt(double height, ForcePoint& next, ContactState& state) {
   const double move = height - present_.height;
   const double share =
-      last_move_ != 0.0 ? std::clamp(move / last_move_, -kLongestContinuation, kLongestContinuation) : 0.0;
+      changing_move_ != 0.0 ? std::clamp(move / changing_move_, -kLongestContinuation, kLongestContinuation) : 0.0;
   minimiser_.moveOn(share);
-  state = minimiser_.solve(height);
+  state = isHeavy(present_.force) ? minimiser_.solve(height, kLongestHeavyMove) : minimiser_.solve(height);
   ++states_;
   newton_steps_ += state.newton_steps;
   products_ += state.products;
@@ -155,7 +170,7 @@ void ContactPath::accept(const ForcePoint& next, bool is_jump, ForceCurve& curve
     const double usual = settings_.step * minimiser_.law().range();
     const int pieces = static_cast<int>(std::ceil(std::abs(move) / (kPointDistance * usual)));
     // energies that do not belong to the forces tell of several branches, not of a parabola
-    const bool is_smooth = sagOf(next) <= kJumpSag;
+    const bool is_smooth = isHeavy(next.force) || sagOf(next) <= kJumpSag;
     std::vector<double> shares;  // of the step, where points are
     for (int piece = 1; is_smooth && piece < pieces; ++piece) shares.push_back(static_cast<double>(piece) / pieces);
     const double vertex = is_smooth && parabola.bend() < 0.0 ? -0.5 * parabola.slope() / parabola.bend() : -1.0;
@@ -165,7 +180,8 @@ void ContactPath::accept(const ForcePoint& next, bool is_jump, ForceCurve& curve
       between.height += x * move;
       between.force = parabola.at(x);
       between.energy += parabola.workTo(x) * move;
-      between.contact_area += x * (next.contact_area - present_.contact_area);
+      const double share = isHeavy(next.force) ? (between.force - present_.force) / (next.force - present_.force) : x;
+      between.contact_area += share * (next.contact_area - present_.contact_area);
       between.mean_gap += x * (next.mean_gap - present_.mean_gap);
       between.is_solved = false;
       curve.add(between);
@@ -173,7 +189,7 @@ void ContactPath::accept(const ForcePoint& next, bool is_jump, ForceCurve& curve
   }
   curve.add(next);
   present_ = next;
-  last_move_ = is_jump ? 0.0 : move;
+  last_move_ = changing_move_ = is_jump ? 0.0 : move;
   last_parabola_ = parabola;
   strongest_ = std::max(strongest_, next.force);
   present_.energy -= minimiser_.acceptFlow(next.height);
@@ -186,12 +202,25 @@ double ContactPath::stepTo(double force) const {
   return (last_parabola_.crossing(force, 1.0, 1.0 + tried) - 1.0) * std::abs(last_move_);
 }
 
+void ContactPath::planStep() {
+  if (present_.force >= 0.0) return;
+  const double smallest = kSmallestStep * settings_.step * minimiser_.law().range();
+  for (auto point = approach_.points.rbegin(); point != approach_.points.rend() && point->force < 0.0; ++point) {
+    if (!point->is_solved || point->height < present_.height + smallest) continue;
+    const double sag = sagOf(*point) * kUsualStep / settings_.step;
+    if (sag > (isHeavy(point->force) ? kLargestHeavySag : kPlannedSag)) break;
+    step_ = point->height - present_.height;
+  }
+}
+
 PathStatus ContactPath::advance(double direction, double farthest, double least_force, ForceCurve& curve) {
   const double usual = settings_.step * minimiser_.law().range();
   const double smallest = kSmallestStep * usual;
+  bool is_aimed = false;  // step_ leads to least_force as far as is known
+  if (direction > 0.0) planStep();
   while (true) {
     if (states_ >= settings_.max_states) return PathStatus::kTooManyStates;
-    double step = std::min(std::max(stepTo(least_force), kRestStep * usual), farthest);
+    double step = std::min(std::max(is_aimed ? step_ : stepTo(least_force), kRestStep * usual), farthest);
     const double to_jump = is_before_jump_ ? direction * (jump_height_ - present_.height) : 0.0;
     if (is_before_jump_) step = std::min(step, to_jump <= kStepTolerance * finest_ ? to_jump : 0.5 * to_jump);
     const double move = direction * step;
@@ -210,34 +239,44 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
     const double kink = (may_miss ? kSummitKinkShare : kKinkShare) * kinkOf(next);
     // finer usual steps are to miss less, too
     const double sag = std::max(sagOf(next), kink) * kUsualStep / settings_.step;
+    const bool is_heavy = isHeavy(next.force);
+    const double wanted_sag = is_heavy ? kWantedHeavySag : kWantedSag;
+    const double largest_sag = is_heavy ? kLargestHeavySag : kLargestSag;
     // a jump loses energy: the mean of both forces does more work than the energies tell
     const StepParabola parabola(present_, next);
     const bool loses = (0.5 * (parabola.begin + parabola.end) - parabola.mean) * direction > 0.0;
-    const bool is_jump = loses && sagOf(next) > kJumpSag;
+    const bool is_jump = loses && !is_heavy && sagOf(next) > kJumpSag;
     // the force of pressed surfaces rises steeply, but a jump is none the less one in steps that are finer
     const bool is_pressed = std::min(present_.force, next.force) < 0.0;
     const double finest = may_miss || (is_pressed && !is_jump) ? kFinestStep * usual : smallest;
-    if (sag > kLargestSag && step > kStepTolerance * finest) {
+    if (sag > largest_sag && step > kStepTolerance * finest) {
       minimiser_.takeBack();
       if (is_jump) {
         is_before_jump_ = true;
         jump_height_ = present_.height + move;
         finest_ = finest;
       }
-      step_ = std::max(finest, step * std::clamp(std::sqrt(kWantedSag / sag), 0.25, 0.5));
+      step_ = std::max(finest, step * std::clamp(std::sqrt(wanted_sag / sag), 0.25, 0.5));
       continue;
     }
     if (next.force < least_force - kRestForce * std::max(forceScale(), -least_force) && step > kRestStep * usual) {
-      minimiser_.takeBack();
-      step_ = step * std::clamp(StepParabola(present_, next).crossing(least_force, 0.0, 1.0), 0.05, 0.95);
+      if (is_heavy) {  // the state there tells best how to begin this side of it
+        minimiser_.takeBackForPart();
+        changing_move_ = move;
+      } else {
+        minimiser_.takeBack();
+      }
+      const double farthest_share = is_heavy ? 1.0 - kRestStep : 0.95;
+      step_ = step * std::clamp(StepParabola(present_, next).crossing(least_force, 0.0, 1.0), 0.05, farthest_share);
       farthest = step;
+      is_aimed = true;
       continue;
     }
     accept(next, is_jump, curve);
     is_before_jump_ = is_before_jump_ && direction * (jump_height_ - present_.height) > kSameHeight * usual;
-    double change = std::clamp(std::sqrt(kWantedSag / std::max(sag, 1e-12)), 1.0 / kLargestChange, kLargestChange);
-    if (state.newton_steps > kManyNewtonSteps) change = std::min(change, 1.0);
-    step_ = std::clamp(step * change, smallest, kLargestStep * usual);
+    double change = std::clamp(std::sqrt(wanted_sag / std::max(sag, 1e-12)), 1.0 / kLargestChange, kLargestChange);
+    if (state.newton_steps > kManyNewtonSteps && !is_heavy) change = std::min(change, 1.0);
+    step_ = std::clamp(step * change, smallest, (is_heavy ? kLargestHeavyStep : kLargestStep) * usual);
     return PathStatus::kDone;
   }
 }
@@ -246,7 +285,7 @@ PathStatus ContactPath::begin(double height) {
   while (true) {
     ForcePoint first;
     ContactState state;
-    last_move_ = 0.0;
+    last_move_ = changing_move_ = 0.0;
     present_.height = height;
     const PathStatus status = attempt(height, first, state);
     if (status != PathStatus::kDone) return status;
@@ -280,7 +319,7 @@ PathStatus ContactPath::approach(double load) {
 
 PathStatus ContactPath::change(const TractionLaw& law) {
   minimiser_.setLaw(law);
-  last_move_ = 0.0;
+  last_move_ = changing_move_ = 0.0;
   ForcePoint relaxed;
   ContactState state;
   const PathStatus status = attempt(present_.height, relaxed, state);
@@ -297,7 +336,7 @@ PathStatus ContactPath::retractFrom(Place&& place, ForceCurve& curve) {
   minimiser_.setLaw(place.law);
   present_ = place.present;
   strongest_ = place.strongest;
-  last_move_ = 0.0;
+  last_move_ = changing_move_ = 0.0;
   return retract(curve);
 }
 

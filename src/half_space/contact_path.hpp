@@ -11,6 +11,10 @@
 /// the curve is straight, steps grow. Between two states without a jump the force is the parabola through both with the
 /// mean that the energies give.
 ///
+/// Pressed bodies bear many times what attraction can. A jump is then no longer told from the bend of the curve, and
+/// parabolas follow that bend over long steps: the force may grow fivefold from one state to the next. The way out takes
+/// heights of the way in as long as they are as far apart.
+///
 /// What a voltage adds to the traction goes at rest, at constant height, before the bodies are drawn apart: the device opens
 /// when its loads have gone. From there to no force the way out takes the load that the voltage was, and then the
 /// mechanical one.
@@ -110,10 +114,14 @@ class ContactPath {
   PathStatus begin(double height);
   /// The step to be tried next, but no farther than where the force seems to fall below `force`.
   double stepTo(double force) const;
+  /// On the way out of pressed bodies: the farthest height of the way in from where its curve is smooth enough to here.
+  void planStep();
   /// One step in a direction (-1 down, +1 up), no farther than `farthest` [m] and not beyond where the force falls to
   /// `least_force` [N].
   PathStatus advance(double direction, double farthest, double least_force, ForceCurve& curve);
   double forceScale() const;
+  /// Whether the present state and another one with `force` [N] are pressed so much that attraction hardly counts.
+  bool isHeavy(double force) const;
   double sagOf(const ForcePoint& next) const;
   /// How far the slope at the begin of the step to `next` lies from that at the end of the last one, over the step and
   /// of the force; 0 where there is none to go on from.
@@ -126,6 +134,7 @@ class ContactPath {
   ForcePoint present_;
   StepParabola last_parabola_;
   double last_move_ = 0.0;       ///< of Z to the present state [m]; 0: there is none to go on from
+  double changing_move_ = 0.0;   ///< of Z to the state by whose change the next one begins [m]; 0: none
   double step_ = 0.0;            ///< to be tried next [m]
   bool is_before_jump_ = false;  ///< the present branch is known to end before jump_height_
   double jump_height_ = 0.0;     ///< [m]
