@@ -57,6 +57,8 @@ class HalfSpaceFigures:
     """[s] wall time of the solution"""
     pull_off_force_under_voltage: float
     """[N] largest attraction if the voltage stays on instead"""
+    contact_stiffness: float
+    """[N/m] by which the force changes with the height as the bodies leave rest"""
     message: str
     """the status in a sentence"""
     pull_off_uncertainty: float

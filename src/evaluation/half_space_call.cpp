@@ -39,6 +39,7 @@ std::string tooLong(std::int64_t pixels, const HalfSpaceOptions& options) {
 /// Why there is no use in asking; empty if there may be.
 std::string objectionTo(const HalfSpaceProblem& problem, const HalfSpaceOptions& options) {
   const HeightMap& frame = problem.surfaces.lower;
+  if (options.path == HalfSpacePath::kRest) return kRestAlone;
   if (pixelsOf(frame) > options.max_flagged_pixels) return tooLarge(frame, options.max_flagged_pixels);
   try {
     return isResolved(problem, options) ? "" : kPixelsTooLarge;

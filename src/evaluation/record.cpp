@@ -105,6 +105,7 @@ void addRecord(const std::string& file, const HeightMap& scan, const Prediction&
   if (extras.half_space) {
     fields.map("half_space", [&](Fields& half_space) {
       visitHalfSpaceFields(*extras.half_space, half_space);
+      visitHalfSpaceStiffness(*extras.half_space, half_space);
       add_list(half_space, "curve", curveOf(*extras.half_space), kVisitCurvePoint);
     });
   }

@@ -182,7 +182,7 @@ double ContactMinimiser::largestLoad() const {
 }
 
 double ContactMinimiser::acceptFlow(double height) {
-  if (!law_.flows() || !(lowest_gap_ < law_.closestGap())) return 0.0;
+  if (!hasFlow()) return 0.0;
   const auto cols = static_cast<std::size_t>(grid_.frame_cols);
   if (flowed_.empty()) flowed_.resize(relief_.size(), 0.0F);
   const double pressure = -law_.at(law_.closestGap()).traction;
@@ -350,12 +350,12 @@ bool ContactMinimiser::relaxContacts(double height, Evaluation& now) {
   return now.residual_norm < kWorthwhile * before.residual_norm;
 }
 
-ContactState ContactMinimiser::solve(double height, double longest_move) {
+ContactState ContactMinimiser::solve(double height, const Search& search) {
   ContactState state;
   state.height = height;
   const int products_before = products();
   const float share = std::exchange(pending_share_, 0.0F);
-  const double allowed = settings_.tolerance * law_.stress();
+  const double allowed = search.tolerance * settings_.tolerance * law_.stress();
   Evaluation now;
   if (staleness_ <= kStaleShare * allowed) {
     now = moveAndEvaluate(height, share);
@@ -389,7 +389,7 @@ ContactState ContactMinimiser::solve(double height, double longest_move) {
     ConjugateGradients::System system;
     system.mean_residual = now.mean_residual;
     system.mean_slope = now.mean_slope;
-    system.longest_move = longest_move * law_.range();
+    system.longest_move = search.longest_move * law_.range();
     system.useful_residual = allowed / now.largest_residual;
     const ConjugateGradients::Direction direction = gradients_.find(system);
     if (!(direction.decrease > 0.0)) break;

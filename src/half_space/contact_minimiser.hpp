@@ -73,13 +73,17 @@ class ContactMinimiser {
   /// False if it was cancelled while it set itself up: then only what follows from the frame may be asked for.
   bool isSetUp() const { return is_set_up_; }
 
-  /// What a cell moves in one Newton step at most, of z0: t' changes over such a distance.
-  static constexpr double kLongestMove = 1.0;
+  /// How one equilibrium is searched for.
+  struct Search {
+    /// What a cell moves in one Newton step at most, of z0: t' changes over such a distance. The more, the fewer steps, and
+    /// the farther the equilibrium may be where surfaces attract each other.
+    double longest_move = 1.0;
+    double tolerance = 1.0;  ///< of that of the settings
+  };
 
   /// The equilibrium next to the present displacement; what came before is left in place if cancelled.
-  /// - @p longest_move of a cell in one Newton step, of z0: the longer, the fewer steps, and the farther the equilibrium
-  ///   may be where surfaces attract each other
-  ContactState solve(double height, double longest_move = kLongestMove);
+  ContactState solve(double height, const Search& search);
+  ContactState solve(double height) { return solve(height, Search()); }
 
   /// Begins a new state: what solve() changes from here on can be taken back. The displacement first moves on by
   /// `share` of how it changed from the state before to this one.
@@ -88,6 +92,8 @@ class ContactMinimiser {
   void takeBack();
   /// The same, but the next share is of the change that was taken back.
   void takeBackForPart();
+  /// Whether something flowed in the state just solved.
+  bool hasFlow() const { return law_.flows() && lowest_gap_ < law_.closestGap(); }
   /// What flowed in the state just solved stays: cells closer than the closest gap lose the excess of their height.
   /// @return the work that the flow took [J]
   double acceptFlow(double height);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace mems_stiction {
@@ -28,17 +29,22 @@ constexpr double kKinkShare = 0.1;
 constexpr double kSummitKinkShare = 0.5;
 /// The smallest step that misses more than this goes over a jump.
 constexpr double kJumpSag = 0.06;
-/// Bodies are pressed heavily where they carry more than this many times the largest attraction so far: a jump of as much
-/// attraction would be less than kJumpSag there.
+/// Bodies are pressed heavily where they carry more than this many times the largest attraction so far, as a jump of as
+/// much attraction would be less than kJumpSag there, and where their contacts bear more on average than the law attracts.
 constexpr double kHeavyLoad = 1.0 / kJumpSag;
-/// Sags there, wanted and largest. The parabola's error grows with the fourth power of the step: where the force grows by
-/// the factor of 5.5 that gives the largest one, it is 0.4 % of the force.
+/// Sags there, wanted and largest: that of a force which grows by the factor of 5.5.
 constexpr double kWantedHeavySag = 0.3;
 constexpr double kLargestHeavySag = 0.6;
 /// The largest step there, of the usual one.
 constexpr double kLargestHeavyStep = 128.0;
 /// What a cell may move in one Newton step there, of z0: attraction hardly shapes the way, and the line search bounds it.
 constexpr double kLongestHeavyMove = 30.0;
+/// Residuals there of states that are only on the way to others, of the tolerance.
+constexpr double kRoughTolerance = 100.0;
+/// How often a force is aimed at, and how far from there at once, of the step that missed it.
+constexpr int kMostAims = 5;
+constexpr double kShortestAim = 0.05;
+constexpr double kLongestAim = 2.0;
 /// On the way out, sags with which heights of the way in are taken up again.
 constexpr double kPlannedSag = 0.015;
 /// Steps are compared with limits but for rounding.
@@ -67,6 +73,35 @@ double attractingShare(const StepParabola& parabola) {
   if (parabola.begin > 0.0) return parabola.end > 0.0 ? 1.0 : parabola.crossing(0.0, 0.0, 1.0);
   return parabola.end > 0.0 ? 1.0 - parabola.crossing(0.0, 1.0, 0.0) : 0.0;
 }
+
+/// The same of pressed bodies, whose force grows like a power of the height: its logarithm is a parabola.
+class PressedStep {
+ public:
+  explicit PressedStep(const StepParabola& parabola)
+      : begin_(std::log(-parabola.begin)), rise_(std::log(-parabola.end) - begin_) {
+    double low = -kSteepest;
+    double high = kSteepest;
+    for (int halvings = 0; halvings < kCrossingHalvings; ++halvings) {
+      bend_ = 0.5 * (low + high);
+      (workTo(1.0) < parabola.mean ? high : low) = bend_;  // the more bend, the more pressure
+    }
+  }
+
+  double at(double x) const { return -std::exp(begin_ + x * (rise_ + (1.0 - x) * bend_)); }
+  /// By Simpson's rule.
+  double workTo(double x) const {
+    double sum = at(0.0) + at(x);
+    for (int i = 1; i < kPieces; ++i) sum += (i % 2 == 0 ? 2.0 : 4.0) * at(x * i / kPieces);
+    return sum * x / (3.0 * kPieces);
+  }
+
+ private:
+  static constexpr double kSteepest = 4.0;
+  static constexpr int kPieces = 16;
+  double begin_;
+  double rise_;
+  double bend_ = 0.0;
+};
 
 }  // namespace
 
@@ -108,7 +143,11 @@ double ContactPath::largestLoad() const {
   return load;
 }
 
-bool ContactPath::isHeavy(double force) const { return std::max(present_.force, force) < -kHeavyLoad * strongest_; }
+bool ContactPath::isHeavy(const ForcePoint& point) const {
+  // without attraction nothing jumps
+  const double contact = strongest_ > 0.0 ? minimiser_.law().stress() * point.contact_area : 0.0;
+  return point.force < -std::max(kHeavyLoad * strongest_, contact);
+}
 
 double ContactPath::forceScale() const { return std::max(std::abs(present_.force), strongest_); }
 
@@ -127,19 +166,26 @@ double ContactPath::kinkOf(const ForcePoint& next) const {
   return std::abs(StepParabola(present_, next).slope() - begun * move) / std::max(scale, std::abs(next.force));
 }
 
-PathStatus ContactPath::attempt(double height, ForcePoint& next, ContactState& state) {
+PathStatus ContactPath::attempt(double height, double tolerance, ForcePoint& next, ContactState& state) {
   const double move = height - present_.height;
   const double share =
       changing_move_ != 0.0 ? std::clamp(move / changing_move_, -kLongestContinuation, kLongestContinuation) : 0.0;
   minimiser_.moveOn(share);
-  state = isHeavy(present_.force) ? minimiser_.solve(height, kLongestHeavyMove) : minimiser_.solve(height);
+  return settle(height, tolerance, next, state);
+}
+
+PathStatus ContactPath::settle(double height, double tolerance, ForcePoint& next, ContactState& state) {
+  ContactMinimiser::Search search;
+  if (isHeavy(present_)) search.longest_move = kLongestHeavyMove;
+  search.tolerance = tolerance;
+  state = minimiser_.solve(height, search);
   ++states_;
   newton_steps_ += state.newton_steps;
   products_ += state.products;
   if (minimiser_.isCancelled()) return PathStatus::kCancelled;
   if (!state.is_converged) return PathStatus::kNotConverged;
   next = {height, state.force, state.energy, state.contact_area, state.mean_gap, true};
-  largest_residual_ = std::max(largest_residual_, state.residual);
+  if (tolerance == 1.0) largest_residual_ = std::max(largest_residual_, state.residual);
   return PathStatus::kDone;
 }
 
@@ -169,18 +215,21 @@ void ContactPath::accept(const ForcePoint& next, bool is_jump, ForceCurve& curve
     if (parabola.begin <= 0.0) curve.attracting_work += (parabola.mean - parabola.workTo(1.0 - attracting)) * move;
     const double usual = settings_.step * minimiser_.law().range();
     const int pieces = static_cast<int>(std::ceil(std::abs(move) / (kPointDistance * usual)));
+    const bool is_heavy = isHeavy(present_) && isHeavy(next);
+    const std::optional<PressedStep> pressed = is_heavy ? std::make_optional<PressedStep>(parabola) : std::nullopt;
     // energies that do not belong to the forces tell of several branches, not of a parabola
-    const bool is_smooth = isHeavy(next.force) || sagOf(next) <= kJumpSag;
+    const bool is_smooth = is_heavy || sagOf(next) <= kJumpSag;
     std::vector<double> shares;  // of the step, where points are
     for (int piece = 1; is_smooth && piece < pieces; ++piece) shares.push_back(static_cast<double>(piece) / pieces);
-    const double vertex = is_smooth && parabola.bend() < 0.0 ? -0.5 * parabola.slope() / parabola.bend() : -1.0;
+    const double vertex =
+        is_smooth && !is_heavy && parabola.bend() < 0.0 ? -0.5 * parabola.slope() / parabola.bend() : -1.0;
     if (vertex > 0.0 && vertex < 1.0) shares.insert(std::upper_bound(shares.begin(), shares.end(), vertex), vertex);
     for (const double x : shares) {
       ForcePoint between = present_;
       between.height += x * move;
-      between.force = parabola.at(x);
-      between.energy += parabola.workTo(x) * move;
-      const double share = isHeavy(next.force) ? (between.force - present_.force) / (next.force - present_.force) : x;
+      between.force = pressed ? pressed->at(x) : parabola.at(x);
+      between.energy += (pressed ? pressed->workTo(x) : parabola.workTo(x)) * move;
+      const double share = is_heavy ? (between.force - present_.force) / (next.force - present_.force) : x;
       between.contact_area += share * (next.contact_area - present_.contact_area);
       between.mean_gap += x * (next.mean_gap - present_.mean_gap);
       between.is_solved = false;
@@ -203,30 +252,50 @@ double ContactPath::stepTo(double force) const {
 }
 
 void ContactPath::planStep() {
-  if (present_.force >= 0.0) return;
+  if (!isHeavy(present_)) return;
   const double smallest = kSmallestStep * settings_.step * minimiser_.law().range();
   for (auto point = approach_.points.rbegin(); point != approach_.points.rend() && point->force < 0.0; ++point) {
     if (!point->is_solved || point->height < present_.height + smallest) continue;
     const double sag = sagOf(*point) * kUsualStep / settings_.step;
-    if (sag > (isHeavy(point->force) ? kLargestHeavySag : kPlannedSag)) break;
+    if (sag > (isHeavy(present_) && isHeavy(*point) ? kLargestHeavySag : kPlannedSag)) break;
     step_ = point->height - present_.height;
   }
+}
+
+void ContactPath::takeBackAndAim(const ForcePoint& missed, double force) {
+  minimiser_.takeBackForPart();
+  changing_move_ = missed.height - present_.height;
+  const double share = StepParabola(present_, missed).crossing(force, 0.0, kLongestAim);
+  step_ = std::abs(changing_move_) * std::max(share, kShortestAim);
 }
 
 PathStatus ContactPath::advance(double direction, double farthest, double least_force, ForceCurve& curve) {
   const double usual = settings_.step * minimiser_.law().range();
   const double smallest = kSmallestStep * usual;
-  bool is_aimed = false;  // step_ leads to least_force as far as is known
-  if (direction > 0.0) planStep();
+  bool is_aimed = false;  // the step leads to least_force as far as is known
+  int aims = 0;
+  if (direction > 0.0 && curve.points.size() > 1) planStep();
   while (true) {
     if (states_ >= settings_.max_states) return PathStatus::kTooManyStates;
-    double step = std::min(std::max(is_aimed ? step_ : stepTo(least_force), kRestStep * usual), farthest);
+    const double wanted = is_aimed ? step_ : stepTo(least_force);
+    is_aimed = is_aimed || wanted < step_;
+    double step = std::min(std::max(wanted, kRestStep * usual), farthest);
     const double to_jump = is_before_jump_ ? direction * (jump_height_ - present_.height) : 0.0;
     if (is_before_jump_) step = std::min(step, to_jump <= kStepTolerance * finest_ ? to_jump : 0.5 * to_jump);
     const double move = direction * step;
     ForcePoint next;
     ContactState state;
-    const PathStatus status = attempt(present_.height + move, next, state);
+    // a way to somewhere else, or a force that is to be another one
+    const bool is_rough = isHeavy(present_) && (is_aimed || !settings_.samples_curve);
+    PathStatus status = attempt(present_.height + move, is_rough ? kRoughTolerance : 1.0, next, state);
+    if (is_rough && status == PathStatus::kDone) {
+      if (is_aimed && aims < kMostAims && std::abs(next.force - least_force) > kRestForce * -least_force) {
+        ++aims;
+        takeBackAndAim(next, least_force);
+        continue;
+      }
+      if (is_aimed || minimiser_.hasFlow()) status = settle(present_.height + move, 1.0, next, state);
+    }
     if (status == PathStatus::kCancelled) return status;
     if (status == PathStatus::kNotConverged) {
       if (step <= kFinestStep * usual) return status;
@@ -239,9 +308,10 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
     const double kink = (may_miss ? kSummitKinkShare : kKinkShare) * kinkOf(next);
     // finer usual steps are to miss less, too
     const double sag = std::max(sagOf(next), kink) * kUsualStep / settings_.step;
-    const bool is_heavy = isHeavy(next.force);
-    const double wanted_sag = is_heavy ? kWantedHeavySag : kWantedSag;
-    const double largest_sag = is_heavy ? kLargestHeavySag : kLargestSag;
+    const bool is_heavy = isHeavy(present_) && isHeavy(next);
+    const bool is_coarse = is_heavy || !settings_.samples_curve;
+    const double wanted_sag = is_coarse ? kWantedHeavySag : kWantedSag;
+    const double largest_sag = is_coarse ? kLargestHeavySag : kLargestSag;
     // a jump loses energy: the mean of both forces does more work than the energies tell
     const StepParabola parabola(present_, next);
     const bool loses = (0.5 * (parabola.begin + parabola.end) - parabola.mean) * direction > 0.0;
@@ -257,17 +327,12 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
         finest_ = finest;
       }
       step_ = std::max(finest, step * std::clamp(std::sqrt(wanted_sag / sag), 0.25, 0.5));
+      is_aimed = false;
       continue;
     }
     if (next.force < least_force - kRestForce * std::max(forceScale(), -least_force) && step > kRestStep * usual) {
-      if (is_heavy) {  // the state there tells best how to begin this side of it
-        minimiser_.takeBackForPart();
-        changing_move_ = move;
-      } else {
-        minimiser_.takeBack();
-      }
-      const double farthest_share = is_heavy ? 1.0 - kRestStep : 0.95;
-      step_ = step * std::clamp(StepParabola(present_, next).crossing(least_force, 0.0, 1.0), 0.05, farthest_share);
+      minimiser_.takeBack();
+      step_ = step * std::clamp(StepParabola(present_, next).crossing(least_force, 0.0, 1.0), 0.05, 0.95);
       farthest = step;
       is_aimed = true;
       continue;
@@ -287,7 +352,7 @@ PathStatus ContactPath::begin(double height) {
     ContactState state;
     last_move_ = changing_move_ = 0.0;
     present_.height = height;
-    const PathStatus status = attempt(height, first, state);
+    const PathStatus status = attempt(height, 1.0, first, state);
     if (status != PathStatus::kDone) return status;
     if (first.contact_area == 0.0) {
       present_ = first;
@@ -322,7 +387,7 @@ PathStatus ContactPath::change(const TractionLaw& law) {
   last_move_ = changing_move_ = 0.0;
   ForcePoint relaxed;
   ContactState state;
-  const PathStatus status = attempt(present_.height, relaxed, state);
+  const PathStatus status = attempt(present_.height, 1.0, relaxed, state);
   if (status != PathStatus::kDone) return status;
   changed_energy_ += relaxed.energy - present_.energy;
   present_ = relaxed;
@@ -340,16 +405,26 @@ PathStatus ContactPath::retractFrom(Place&& place, ForceCurve& curve) {
   return retract(curve);
 }
 
-PathStatus ContactPath::retract(ForceCurve& curve) {
-  const double end = approach_.points.front().height;
+PathStatus ContactPath::goOut(ForceCurve& curve) {
+  const double left = approach_.points.front().height - present_.height;
+  return advance(1.0, left > 0.0 ? left : kLargestStep * step_, -std::numeric_limits<double>::infinity(), curve);
+}
+
+PathStatus ContactPath::leaveRest() { return leaveRest(retraction_); }
+
+PathStatus ContactPath::leaveRest(ForceCurve& curve) {
   curve.add(present_);
   step_ = settings_.step * minimiser_.law().range();
   is_before_jump_ = false;
-  PathStatus status = PathStatus::kDone;
-  while (status == PathStatus::kDone && (present_.height < end || present_.contact_area > 0.0)) {
-    const double left = end - present_.height;
-    status = advance(1.0, left > 0.0 ? left : kLargestStep * step_, -std::numeric_limits<double>::infinity(), curve);
-  }
+  const PathStatus status = goOut(curve);
+  if (last_move_ != 0.0) stiffness_ = last_parabola_.slope() / last_move_;
+  return status;
+}
+
+PathStatus ContactPath::retract(ForceCurve& curve) {
+  const double end = approach_.points.front().height;
+  PathStatus status = leaveRest(curve);
+  while (status == PathStatus::kDone && (present_.height < end || present_.contact_area > 0.0)) status = goOut(curve);
   curve.missed_force = std::max(0.0, curve.missed_force - curve.largest_force);
   return status;
 }

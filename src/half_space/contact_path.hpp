@@ -11,15 +11,16 @@
 /// the curve is straight, steps grow. Between two states without a jump the force is the parabola through both with the
 /// mean that the energies give.
 ///
-/// Pressed bodies bear many times what attraction can. A jump is then no longer told from the bend of the curve, and
-/// parabolas follow that bend over long steps: the force may grow fivefold from one state to the next. The way out takes
-/// heights of the way in as long as they are as far apart.
+/// Where bodies bear many times the largest attraction, and their contacts more than the law attracts, a jump is no longer told from the bend of the curve, and
+/// the force may grow fivefold from one state to the next: between them its logarithm is the parabola. The way out takes
+/// heights of the way in. A load is aimed at by states with a rough residual, until one has its force.
 ///
 /// What a voltage adds to the traction goes at rest, at constant height, before the bodies are drawn apart: the device opens
 /// when its loads have gone. From there to no force the way out takes the load that the voltage was, and then the
 /// mechanical one.
 
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "half_space/contact_minimiser.hpp"
@@ -63,7 +64,9 @@ enum class PathStatus { kDone, kCancelled, kNotConverged, kLoadNotReached, kTooM
 
 /// How the path is followed.
 struct PathSettings {
-  double step = 0.4;                                ///< usual change of Z, of z0
+  double step = 0.4;  ///< usual change of Z, of z0
+  /// false: only where it leads matters, not the curve
+  bool samples_curve = true;
   int max_states = 2000;                            ///< solved in all
   std::function<void(const ForcePoint&)> on_state;  ///< after each; may be empty
 };
@@ -79,6 +82,11 @@ class ContactPath {
   PathStatus change(const TractionLaw& law);
   /// From there until they are apart.
   PathStatus retract() { return retract(retraction_); }
+
+  /// The first step of that.
+  PathStatus leaveRest();
+  /// dF/dZ where they left rest; NaN where they jumped [N/m].
+  double stiffness() const { return stiffness_; }
 
   /// A state to come back to.
   struct Place {
@@ -105,9 +113,16 @@ class ContactPath {
 
  private:
   PathStatus retract(ForceCurve& curve);
+  PathStatus leaveRest(ForceCurve& curve);
+  PathStatus goOut(ForceCurve& curve);
   double startHeight() const;
   /// Solves at a height next to the present state, which must be taken back or accepted then.
-  PathStatus attempt(double height, ForcePoint& next, ContactState& state);
+  /// - @p tolerance of the residual, of that of the settings
+  PathStatus attempt(double height, double tolerance, ForcePoint& next, ContactState& state);
+  /// The same from where the last attempt ended.
+  PathStatus settle(double height, double tolerance, ForcePoint& next, ContactState& state);
+  /// Takes back a step that has missed a force; the next one begins with a part of its change.
+  void takeBackAndAim(const ForcePoint& missed, double force);
   void accept(const ForcePoint& next, bool is_jump, ForceCurve& curve);
   /// The largest force of the present branch over a further change of height, if it went on as it came [N].
   double continued(double move) const;
@@ -120,8 +135,8 @@ class ContactPath {
   /// `least_force` [N].
   PathStatus advance(double direction, double farthest, double least_force, ForceCurve& curve);
   double forceScale() const;
-  /// Whether the present state and another one with `force` [N] are pressed so much that attraction hardly counts.
-  bool isHeavy(double force) const;
+  /// Whether the bodies are pressed so much that attraction hardly counts.
+  bool isHeavy(const ForcePoint& point) const;
   double sagOf(const ForcePoint& next) const;
   /// How far the slope at the begin of the step to `next` lies from that at the end of the last one, over the step and
   /// of the force; 0 where there is none to go on from.
@@ -141,6 +156,7 @@ class ContactPath {
   double finest_ = 0.0;          ///< how close to the jump the branch is to be followed [m]
   double strongest_ = 0.0;       ///< largest attraction so far under the present law [N]
   double changed_energy_ = 0.0;  ///< [J]
+  double stiffness_ = std::numeric_limits<double>::quiet_NaN();
   double largest_residual_ = 0.0;
   int states_ = 0;
   int newton_steps_ = 0;

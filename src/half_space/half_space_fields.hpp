@@ -70,6 +70,13 @@ void visitHalfSpaceFields(const SolvedHalfSpace& solution, Visitor&& visit) {
         solution.pull_off_force_under_voltage);
 }
 
+/// One of records, rows and Python that the message does not have.
+template <typename Visitor>
+void visitHalfSpaceStiffness(const SolvedHalfSpace& solution, Visitor&& visit) {
+  visit({"contact_stiffness", "N/m", "by which the force changes with the height as the bodies leave rest"},
+        solution.contact_stiffness);
+}
+
 /// The others, of message and Python.
 template <typename Visitor>
 void visitHalfSpaceDetails(const SolvedHalfSpace& solution, Visitor&& visit) {

@@ -8,6 +8,9 @@ void HalfSpaceOptions::describe(OptionVisitor& visitor) {
       {{"false", HalfSpaceUse::kNever}, {"flagged", HalfSpaceUse::kFlagged}, {"true", HalfSpaceUse::kAlways}},
       "which scans are solved so, and their device judged by it: none; where a device is stated those whose flags say "
       "that the model's force may be far out; every one (the node: the newest)");
+  visitor.enumeration("half_space/path", path, {{"whole", HalfSpacePath::kWhole}, {"rest", HalfSpacePath::kRest}},
+                      "what is solved: down to rest and apart again; or the rest alone, which knows contact area, gap, "
+                      "pressure and stiffness, but no pull-off force");
   visitor.number("half_space/range", range, "m", Range::nonNegative(),
                  "z0, the gap at which the traction between the surfaces changes sign; 0 = from "
                  "interface/work_of_adhesion and interface/hamaker_constant");

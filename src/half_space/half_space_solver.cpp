@@ -113,7 +113,8 @@ std::string sentenceOf(PathStatus status, const HalfSpaceProblem& problem, const
   const std::string where = "at height " + numberText(path.present().height) + " m";
   switch (status) {
     case PathStatus::kDone:
-      return "came to rest and came apart";
+      return options.path == HalfSpacePath::kRest ? "came to rest: half_space/path rest knows no pull-off force"
+                                                  : "came to rest and came apart";
     case PathStatus::kLoadNotReached:
       return "load/mechanical_load of " + numberText(problem.load.mechanical_load) +
              " N is not reached: the surfaces carry no more than " + numberText(path.largestLoad()) + " N";
@@ -187,6 +188,7 @@ PathStatus partFromRest(ContactPath& path, const ContactMinimiser& minimiser, Tr
     status = path.change(TractionLaw(law));
   }
   if (status == PathStatus::kDone) status = path.retract();
+  solution.contact_stiffness = path.stiffness();
   flowed = minimiser.flowed();
   if (status != PathStatus::kDone) return status;
   takePath(path, minimiser.grid().frameArea(), solution);
@@ -198,11 +200,23 @@ PathStatus partFromRest(ContactPath& path, const ContactMinimiser& minimiser, Tr
   return status;
 }
 
+/// The first step of the way out, for the stiffness at rest.
+PathStatus leaveRest(ContactPath& path, const ContactMinimiser& minimiser, LargePageVector<float>& flowed,
+                     SolvedHalfSpace& solution) {
+  const PathStatus status = path.leaveRest();
+  flowed = minimiser.flowed();
+  solution.contact_stiffness = path.stiffness();
+  solution.is_converged = status == PathStatus::kDone;
+  return status;
+}
+
 /// Every state that was solved, and what it took.
-void takeRecord(const ContactPath& path, SolvedHalfSpace& solution) {
+void takeRecord(const ContactPath& path, HalfSpacePath asked, SolvedHalfSpace& solution) {
   solution.approach = path.approachCurve().points;
-  solution.retraction = path.retractionCurve().points;
-  solution.jumps = path.approachCurve().jumps + path.retractionCurve().jumps;
+  if (asked == HalfSpacePath::kWhole) {
+    solution.retraction = path.retractionCurve().points;
+    solution.jumps = path.approachCurve().jumps + path.retractionCurve().jumps;
+  }
   solution.residual = path.largestResidual();
   solution.state_count = path.stateCount();
   solution.newton_steps = path.newtonSteps();
@@ -265,6 +279,7 @@ SolvedHalfSpace HalfSpaceSolver::solve(const HalfSpaceProblem& problem, const Ha
   minimiser_settings.give_way = control.give_way;
   PathSettings path_settings;
   path_settings.step = options_.step;
+  path_settings.samples_curve = options_.path == HalfSpacePath::kWhole;
   path_settings.max_states = options_.max_states;
   path_settings.on_state = control.on_state;
 
@@ -279,11 +294,12 @@ SolvedHalfSpace HalfSpaceSolver::solve(const HalfSpaceProblem& problem, const Ha
     PathStatus status = minimiser.isSetUp() ? path.approach(problem.load.mechanical_load) : PathStatus::kCancelled;
     if (status == PathStatus::kDone) {
       takeRest(path, minimiser, solution);
-      status = partFromRest(path, minimiser, law_options, flowed, solution);
+      status = options_.path == HalfSpacePath::kRest ? leaveRest(path, minimiser, flowed, solution)
+                                                     : partFromRest(path, minimiser, law_options, flowed, solution);
     }
     solution.status = statusOf(status);
     solution.message = sentenceOf(status, problem, options_, path);
-    takeRecord(path, solution);
+    takeRecord(path, options_.path, solution);
   }  // its memory is not needed for the surfaces
   if (solution.status == HalfSpaceStatus::kSolved) takeSurfaces(problem, flowed, solution);
   solution.processing_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

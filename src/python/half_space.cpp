@@ -54,6 +54,7 @@ Solved solve(const PreparedScan& prepared, const Configuration& configuration) {
 template <typename Visitor>
 void visitFigures(const SolvedHalfSpace& solution, Visitor&& visit) {
   visitHalfSpaceFields(solution, visit);
+  visitHalfSpaceStiffness(solution, visit);
   visitHalfSpaceDetails(solution, visit);
 }
 

@@ -220,6 +220,7 @@ std::optional<py::dict> halfSpaceOfScan(const PredictedScan& predicted) {
   if (!predicted.extras.half_space) return std::nullopt;
   DictionaryFields fields;
   visitHalfSpaceFields(*predicted.extras.half_space, fields);
+  visitHalfSpaceStiffness(*predicted.extras.half_space, fields);
   return fields.dictionary;
 }
 

@@ -13,9 +13,11 @@ const char* const kWallTime = "processing_time";
 
 template <typename Visitor>
 void visitFigures(const SolvedHalfSpace& solution, Visitor&& visit) {
-  visitHalfSpaceFields(solution, [&](const Figure& figure, const auto& value) {
+  const auto visitOne = [&](const Figure& figure, const auto& value) {
     if (std::strcmp(figure.name, kWallTime) != 0) visit(kPrefix + figure.name, value, figure.unit);
-  });
+  };
+  visitHalfSpaceFields(solution, visitOne);
+  visitHalfSpaceStiffness(solution, visitOne);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ from roslib.packages import find_node
 
 CONFIG = "scan: {pitch_x: 2.0e-9, pitch_y: 2.0e-9}\n"
 FIGURES = ("status", "pull_off_force", "contact_area", "contact_fraction", "mean_gap", "apparent_work_of_adhesion",
-           "adhesion_hysteresis", "is_converged", "is_resolved", "iterations")
+           "adhesion_hysteresis", "is_converged", "is_resolved", "iterations", "contact_stiffness")
 
 
 def program(name):

@@ -175,6 +175,18 @@ class WarningTest(unittest.TestCase):
 class VerdictTest(unittest.TestCase):
     """A frame whose pixels are far smaller than the cohesive length (2.7 nm), as the half-space wants them, and one whose are not."""
 
+    def test_rest_alone_has_its_figures_and_no_others(self):
+        heights = rough(48, 48, 3e-10, length=12)
+        settings = {"load": {"mechanical_load": 1e-6}}
+        whole = mems_stiction.half_space(heights, 5e-9, settings)
+        rest = mems_stiction.half_space(heights, 5e-9, settings, half_space={"path": "rest"})
+        self.assertEqual(rest.status, "SOLVED")
+        for name, delta in (("contact_area", 5e-3), ("mean_gap", 5e-3), ("contact_stiffness", 0.03)):
+            self.assertAlmostEqual(getattr(rest, name) / getattr(whole, name), 1.0, delta=delta, msg=name)
+        self.assertLess(rest.iterations, whole.iterations)
+        self.assertTrue(np.isnan(rest.pull_off_force) and np.isnan(rest.apparent_work_of_adhesion))
+        self.assertEqual({point[2] for point in rest.curve.tolist()}, {0})  # the approach
+
     def test_a_half_space_that_can_judge_does(self):
         heights, pitch = rough(32, 32, 3e-10, length=8), 1e-10
         settings = {"lower": {"youngs_modulus": 1e10}, "upper": {"youngs_modulus": 1e10}, "device_force": {"enabled": False},

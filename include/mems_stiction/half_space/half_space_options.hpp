@@ -17,9 +17,16 @@ enum class HalfSpaceUse {
   kAlways,
 };
 
+/// How much of the path is solved.
+enum class HalfSpacePath {
+  kWhole,  ///< down to rest and apart again
+  kRest,   ///< down to rest, in longer steps
+};
+
 /// Settings of HalfSpaceSolver; keys half_space/...
 struct HalfSpaceOptions {
   HalfSpaceUse enabled = HalfSpaceUse::kFlagged;
+  HalfSpacePath path = HalfSpacePath::kWhole;
   double range = 0.0;  ///< z0 of the traction law [m], >= 0; 0 derives it from work of adhesion and Hamaker constant
   bool attraction = true;  ///< false: surfaces only repel each other, closer than z0
   bool flow = true;        ///< false: no pressure is too high

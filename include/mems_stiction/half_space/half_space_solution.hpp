@@ -16,7 +16,7 @@
 namespace mems_stiction {
 
 enum class HalfSpaceStatus : std::uint8_t {
-  kSolved,          ///< came to rest and came apart: all figures are known
+  kSolved,          ///< came to rest and, unless half_space/path is rest, came apart: all figures of that are known
   kLoadNotReached,  ///< the surfaces are flat against each other and still carry less than the mechanical load
   kNotConverged,    ///< one state found no equilibrium within max_newton_steps
   kTooManyStates,   ///< max_states did not suffice
@@ -42,6 +42,7 @@ struct SolvedHalfSpace {
   double contact_fraction = kNone;      ///< the same over the area of the valid cells [-]
   int contact_count = 0;                ///< at rest, connected groups of them
   double mean_gap = kNone;              ///< at rest, of the valid cells [m]
+  double contact_stiffness = kNone;     ///< by which the force changes with the height as the bodies leave rest [N/m]
   double flowed_volume = kNone;         ///< that both surfaces have lost [m^3]
   double range = kNone;                 ///< z0 [m]
   double cohesive_length = kNone;       ///< E z0^2/Gamma: over which contacts part [m]

@@ -73,6 +73,9 @@ DeviceEvidence scaled(DeviceEvidence device, double force_factor, double work_fa
 /// - @p reason why, in a sentence
 SolvedHalfSpace unsolvedHalfSpace(const std::string& reason);
 
+/// Why a half-space of which only rest was solved cannot judge.
+inline constexpr const char* kRestAlone = "half_space/path is rest, which knows no pull-off force";
+
 /// What a half-space that cannot judge for its pixels asks for.
 inline constexpr const char* kPixelsTooLarge =
     "its pixels are too large for the edges of the contacts: scan a smaller area with finer pixels";

@@ -126,6 +126,16 @@ TEST(HalfSpaceCall, LargeFramesAreNotSolvedForTheirFlags) {
   EXPECT_EQ(Case(settings, kSmooth).answer().status, HalfSpaceStatus::kSolved);
 }
 
+TEST(HalfSpaceCall, RestAloneIsNotBegunForFlagsAsItCouldNotJudge) {
+  Configuration settings = withDevice();
+  settings.half_space.path = HalfSpacePath::kRest;
+  EXPECT_NE(Case(settings, kSmooth).call().objection.find("half_space/path is rest"), std::string::npos);
+  SolvedHalfSpace rest;
+  rest.status = HalfSpaceStatus::kSolved;
+  rest.is_converged = rest.is_resolved = true;
+  EXPECT_EQ(whyNotJudging(rest), kRestAlone);
+}
+
 TEST(HalfSpaceCall, WhatCouldNotJudgeIsNotBegun) {
   Configuration soft = withDevice();
   soft.model.lower.youngs_modulus = soft.model.upper.youngs_modulus = 1e9;

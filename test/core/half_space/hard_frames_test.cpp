@@ -1,13 +1,31 @@
 /// Frames that took too many steps: soft ones, whose contacts close pixel by pixel, and those near bonding. Products are
 /// counted, not timed: they are the same on every machine.
 
+#include <cmath>
+#include <cstddef>
+
 #include <gtest/gtest.h>
+#include <opencv2/core.hpp>
 
 #include "mems_stiction/half_space/half_space_solver.hpp"
 #include "surface/gaussian_surface.hpp"
 
 namespace mems_stiction {
 namespace {
+
+/// Micrometres of rough silicon that touch in dozens of places, pressed on average with `pressure` [Pa].
+HalfSpaceProblem pressed(double pressure) {
+  GaussianSurfaceOptions surface;
+  surface.rows = surface.cols = 256;
+  surface.pitch_x = surface.pitch_y = 10e-9;
+  surface.correlation_length_x = surface.correlation_length_y = 120e-9;
+  surface.rms_height = 5e-9;
+  surface.seed = 1;
+  HalfSpaceProblem problem;
+  problem.surfaces.lower = gaussianSurface(surface);
+  problem.load.mechanical_load = pressure * 256.0 * 256.0 * 1e-16;
+  return problem;
+}
 
 HalfSpaceProblem gaussian(int size, double correlation_length, double rms_height, int seed = 1) {
   GaussianSurfaceOptions surface;
@@ -44,6 +62,59 @@ TEST(HardFrames, LargerFramesTakeNoMoreProductsForTheirContacts) {
   ASSERT_EQ(solution.status, HalfSpaceStatus::kSolved) << solution.message;
   // 76 for five times the contacts of the frame above; 459 by Newton's method on the whole frame
   EXPECT_LT(solution.products, 95);
+}
+
+TEST(HardFrames, PressedBodiesAreFollowedInLongStepsToTheSameAnswers) {
+  const HalfSpaceProblem problem = pressed(100e6);
+  const SolvedHalfSpace solution = HalfSpaceSolver(HalfSpaceOptions()).solve(problem);
+  ASSERT_EQ(solution.status, HalfSpaceStatus::kSolved) << solution.message;
+  EXPECT_LT(solution.products, 750);  // 564; 1519 in steps as for bodies that nothing presses
+  EXPECT_TRUE(solution.is_step_converged);
+  HalfSpaceOptions fine;
+  fine.step = 0.1;
+  const SolvedHalfSpace reference = HalfSpaceSolver(fine).solve(problem);
+  ASSERT_EQ(reference.status, HalfSpaceStatus::kSolved) << reference.message;
+  EXPECT_NEAR(solution.contact_area / reference.contact_area, 1.0, 5e-3);
+  EXPECT_NEAR(solution.mean_gap / reference.mean_gap, 1.0, 1e-3);
+  EXPECT_NEAR(solution.pull_off_force / reference.pull_off_force, 1.0, 5e-3);
+  EXPECT_NEAR(solution.work_of_adhesion / reference.work_of_adhesion, 1.0, 1e-2);
+  EXPECT_NEAR(solution.contact_stiffness / reference.contact_stiffness, 1.0, 5e-3);
+  // between states far apart, too, the curve is that of small steps: the forces of both at the same heights
+  std::size_t i = 0;
+  for (const ForcePoint& point : solution.approach) {
+    while (i + 1 < reference.approach.size() && reference.approach[i].height > point.height) ++i;
+    if (i == 0 || point.force > -1e-2 * problem.load.mechanical_load) continue;
+    const ForcePoint& above = reference.approach[i - 1];
+    const ForcePoint& below = reference.approach[i];
+    if (below.height > point.height) continue;
+    const double share = (above.height - point.height) / (above.height - below.height);
+    EXPECT_NEAR(point.force / (above.force + share * (below.force - above.force)), 1.0, 0.02) << point.height;
+  }
+}
+
+TEST(HardFrames, RestAloneIsTheRestOfTheWholePathForLess) {
+  const HalfSpaceProblem problem = pressed(100e6);
+  HalfSpaceOptions options;
+  const SolvedHalfSpace whole = HalfSpaceSolver(options).solve(problem);
+  options.path = HalfSpacePath::kRest;
+  const SolvedHalfSpace rest = HalfSpaceSolver(options).solve(problem);
+  ASSERT_EQ(rest.status, HalfSpaceStatus::kSolved) << rest.message;
+  EXPECT_NE(rest.message.find("half_space/path"), std::string::npos) << rest.message;
+  EXPECT_TRUE(rest.is_converged);
+  EXPECT_LT(rest.residual, options.tolerance);
+  EXPECT_LT(rest.products, 2 * whole.products / 3);  // 303 of 564
+  EXPECT_NEAR(rest.contact_area / whole.contact_area, 1.0, 2e-3);
+  EXPECT_NEAR(rest.mean_gap / whole.mean_gap, 1.0, 1e-3);
+  EXPECT_NEAR(rest.rest_force / whole.rest_force, 1.0, 2e-3);
+  EXPECT_NEAR(rest.contact_stiffness / whole.contact_stiffness, 1.0, 5e-3);
+  EXPECT_FALSE(rest.pressure.empty());
+  EXPECT_LT(cv::norm(rest.gap, whole.gap, cv::NORM_INF), 0.02 * whole.range);
+  for (const double figure : {rest.pull_off_force, rest.work_of_adhesion, rest.hysteresis, rest.pull_off_uncertainty}) {
+    EXPECT_TRUE(std::isnan(figure)) << figure;
+  }
+  EXPECT_FALSE(rest.is_step_converged);
+  EXPECT_TRUE(rest.retraction.empty());
+  EXPECT_FALSE(rest.approach.empty());
 }
 
 TEST(HardFrames, NearBondingTakesFewProducts) {

@@ -78,6 +78,7 @@ TEST_F(PredictScanHalfSpace, RecordHasTheLibrarysSolution) {
   EXPECT_EQ(half_space["mean_gap"].get<double>(), expected.mean_gap);
   EXPECT_EQ(half_space["apparent_work_of_adhesion"].get<double>(), expected.work_of_adhesion);
   EXPECT_EQ(half_space["adhesion_hysteresis"].get<double>(), expected.hysteresis);
+  EXPECT_EQ(half_space["contact_stiffness"].get<double>(), expected.contact_stiffness);
   EXPECT_EQ(half_space["is_converged"].get<bool>(), expected.is_converged);
   EXPECT_EQ(half_space["is_resolved"].get<bool>(), expected.is_resolved);
   EXPECT_EQ(half_space["iterations"].get<int>(), expected.newton_steps);
