@@ -121,7 +121,8 @@ class Predictor {
       predictor_.preparer().setMeasuredCounterSurface(counter_surface.value_or(HeightMap()));
       PreparedScan prepared = predictor_.preparer().prepare(scan);
       prepared.warnings.insert(prepared.warnings.begin(), notes.begin(), notes.end());
-      Predicted predicted = predictedScan(scan, prepared, predictor_.predict(prepared), identity, configuration_, cancel);
+      Predicted predicted =
+          predictedScan(scan, prepared, predictor_.predict(prepared), identity, configuration_, cancel);
       predictor_.preparer().setMeasuredCounterSurface({});
       return predicted;
     });

@@ -75,9 +75,11 @@ ScanFileOptions fileOptions(double pitch_x, double pitch_y, const std::string& c
   return options;
 }
 
-std::tuple<HeightMap, std::string, std::vector<std::string>, ScanIdentity> readScan(
-    const std::string& path, const Configuration& configuration, double pitch_x, double pitch_y,
-    const std::string& channel, bool ignore_mask) {
+std::tuple<HeightMap, std::string, std::vector<std::string>, ScanIdentity> readScan(const std::string& path,
+                                                                                    const Configuration& configuration,
+                                                                                    double pitch_x, double pitch_y,
+                                                                                    const std::string& channel,
+                                                                                    bool ignore_mask) {
   ScanFile file;
   const ScanFileOptions options = fileOptions(pitch_x, pitch_y, channel, ignore_mask);
   {

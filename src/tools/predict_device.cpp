@@ -165,7 +165,8 @@ void predictDevice(const Arguments& arguments, const Configuration& configuratio
     }
   };
   for (const InputScan& input : inputs) {
-    take(input, [&](const ScanFile& file) { return predictor.add(input.path, file.surface, file.notes, file.identity); });
+    take(input,
+         [&](const ScanFile& file) { return predictor.add(input.path, file.surface, file.notes, file.identity); });
   }
   for (const InputScan& input : counter_inputs) {
     take(input,
