@@ -114,10 +114,18 @@ class Browser:
         return self.value("document.querySelector(%s).innerText" % json.dumps(selector))
 
     def place(self, selector, across=0.5, down=0.5):
-        """Of a point of the element, which is scrolled to as a person would; shares of its width and height."""
-        return self.value("(() => { const found = document.querySelector(%s); found.scrollIntoView({block: 'nearest'});"
-                          "const box = found.getBoundingClientRect();"
-                          "return [box.x + %r * box.width, box.y + %r * box.height]; })()" % (json.dumps(selector), across, down))
+        """Of a point of the element, which is scrolled to as a person would, once it stands still; shares of its width and height."""
+        return self.value("""(async () => {
+          const found = document.querySelector(%s);
+          found.scrollIntoView({block: 'nearest'});
+          for (let before = null;;) {
+            const box = found.getBoundingClientRect();
+            if (before && ['x', 'y', 'width', 'height'].every((side) => before[side] === box[side]))
+              return [box.x + %r * box.width, box.y + %r * box.height];
+            before = box;
+            await new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn)));
+          }
+        })()""" % (json.dumps(selector), across, down))
 
     def mouse(self, kind, place, **more):
         self._call("Input.dispatchMouseEvent", type=kind, x=place[0], y=place[1], **more)

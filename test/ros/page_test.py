@@ -48,7 +48,7 @@ class PageTest(unittest.TestCase):
         cls.devices = Collector("device_force", DeviceAdhesion).connect()
         cls.station = Station()
         cls.settings = dynamic_reconfigure.client.Client("stiction_node", timeout=TIMEOUT)
-        process, cls.address = started("--stale", "10")
+        process, cls.address = started("--stale", "40")  # longer than a busy machine takes from a scan to what is asked of it
         cls.addClassCleanup(process.communicate)
         cls.addClassCleanup(process.terminate)
         cls.page = browser.Browser(1024, 768)
