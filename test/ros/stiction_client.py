@@ -245,7 +245,7 @@ def predict_scan(heights, load, voltage=0.0, counter=None, arguments=(), setting
         given += [] if voltage is None else ["--voltage", repr(voltage)]
         done = subprocess.run([program, "--json", "--config", folder / "config.yaml", "--pitch", repr(PITCH), *given, *arguments,
                                folder / "scan.txt"], check=True, timeout=TIMEOUT, stdout=subprocess.PIPE)
-    return json.loads(done.stdout)
+    return dict(json.loads(done.stdout), checksum="")  # heights of a message come from no file
 
 
 def unlike(message, record, leaving_out=()):
