@@ -28,7 +28,7 @@ class FullDiskTest(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
         self.disk = self.folder / "disk"
         self.disk.mkdir()
-        mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=64k", "tmpfs", str(self.disk)], stderr=subprocess.PIPE,
+        mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=128k", "tmpfs", str(self.disk)], stderr=subprocess.PIPE,
                                  universal_newlines=True)
         if mounted.returncode:
             self.skipTest("no small disk: " + mounted.stderr.strip())
