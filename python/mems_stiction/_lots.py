@@ -93,10 +93,10 @@ class LotComparison(ReadOnly):
 
     def maps(self) -> Iterator[Tuple[str, str, Any]]:
         """lot_id, wafer_id and the figure of each wafer with sites, drawn when its turn comes. The caller saves it."""
-        from mems_stiction.lots_maps import map_figure
+        from mems_stiction.lots_maps import has_map, map_figure
 
         for (lot, wafer), places in by_wafer(self._lots.chosen).items():
-            if any(place.has_site() for place in places):
+            if has_map((self.figure, self._lots.force), places):
                 trends = [trend for trend in self.trends if (trend.lot_id, trend.wafer_id) == (lot, wafer)]
                 yield lot, wafer, map_figure((self.figure, self._lots.force), places, missing_sites(places, self._lots.chosen), self._lots.chosen,
                                              [bad for bad in self.bad_places if (bad.lot_id, bad.wafer_id) == (lot, wafer)],

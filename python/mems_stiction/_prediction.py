@@ -211,7 +211,7 @@ class Prediction(_core.PredictionFigures, ReadOnly):
         curves = {"curve": self.curve, "curve_over_height": self.curve_over_height, "energy_curve": self.energy_curve, "contacts": self.asperities}
         origin = self._origin()
         map_file.save(path, maps + map_file.maps_after_contact(self), curves, self.pitch, self._is_transposed,
-                      {name: origin[name] for name in FIELDS if origin.get(name)}, self.json())
+                      {name: origin[name] for name in FIELDS if origin.get(name) not in (None, "")}, self.json())
 
     def __getstate__(self) -> Dict[str, Any]:
         """With copies of all arrays: for another process."""

@@ -95,7 +95,7 @@ def write_points(messages, path, result):
     known = {name: getattr(result, name) for name in PROVENANCE}
     origin = {name: None if isinstance(value, float) and math.isnan(value) else value for name, value in known.items()}
     rows = [dict({name: getattr(message, name) for name in names}, **origin) for message in messages]
-    units = units_of(type(messages[0])) if messages else {}
+    units = dict(units_of(type(messages[0])) if messages else {}, site_x="m", site_y="m")
     write_rows(path, list(names) + list(PROVENANCE), rows, units, origin)
 
 

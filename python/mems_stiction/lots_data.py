@@ -118,8 +118,10 @@ def lots_of(rows: Any, figure: Optional[str] = None, against: Optional[str] = No
     column = _against(against, names, listed)
     force = chosen if chosen in FORCES else next((name for name in FORCES if any(_number(row, name) > 0.0 for row in listed)), FORCES[-1])
     places = tuple(_place(row, chosen, force, column) for row in listed)
-    if column and any(math.isnan(place.at) for place in places):
-        raise OptionsError("%s: some of the rows have no number there; leave them out" % column)
+    if column:
+        if any(place.is_known() and math.isnan(place.at) for place in places):
+            raise OptionsError("%s: some of the rows have no number there; leave them out" % column)
+        places = tuple(place for place in places if not math.isnan(place.at))  # a scan that was not predicted states no condition
     counts = {at: sum(place.is_known() for place in places if place.at == at) for at in sorted({place.at for place in places})}
     at = max(counts, key=lambda condition: (counts[condition], -condition))
     return Lots(chosen, force, column, places, tuple(place for place in places if place.at == at), at)

@@ -27,7 +27,7 @@ def map_figure(figures, places, missing, others, bad, trend):
     figures: what is compared, and the column of the forces; places: of one wafer; missing: (x, y) of sites where others have one;
     others: places of all wafers, for one range of colours; bad: records of bad places; trend: its record or None."""
     figure = figures[0]
-    panels = [(name, values) for name, values in _panels(figures, places) if np.isfinite(values).any()]
+    panels = [(name, values) for name, values in _panels(figures, places) if _on_the_map(values, places)]
     drawn = plt.figure(figsize=(max(4.6 * len(panels), 7.0), 5.2))
     grid = drawn.add_gridspec(1, len(panels), left=0.07, right=0.96, top=0.82, bottom=0.2, wspace=0.42)
     ranges = dict(_panels(figures, others))
@@ -35,7 +35,7 @@ def map_figure(figures, places, missing, others, bad, trend):
     scale, unit = length_scale(float(np.ptp(sites, axis=0).max()) or 1e-3)
     for number, (name, values) in enumerate(panels):
         axes = drawn.add_subplot(grid[0, number])
-        shown = [place for place, value in enumerate(values) if math.isfinite(value) and places[place].has_site()]
+        shown = _on_the_map(values, places)
         _draw_sites(drawn, axes, name, sites * scale, np.array([(places[place].x, places[place].y) for place in shown]) * scale,
                     values[shown], ranges[name])
         drawn_at = {(places[place].x, places[place].y) for place in shown}
@@ -56,6 +56,15 @@ def map_figure(figures, places, missing, others, bad, trend):
     drawn.legend(handles=_legend(bad, missing, places, trend), loc="lower center", ncol=3, fontsize=9, frameon=False, bbox_to_anchor=(0.5, 0.02))
     sign(drawn, {"version": version()})
     return drawn
+
+
+def has_map(figures, places):
+    """Whether a place of the wafer has a site and a value."""
+    return any(_on_the_map(values, places) for _, values in _panels(figures, places))
+
+
+def _on_the_map(values, places):
+    return [number for number, value in enumerate(values) if math.isfinite(value) and places[number].has_site()]
 
 
 def _panels(figures, places):

@@ -108,6 +108,8 @@ def trend_of(places: Sequence[Place]) -> Optional[Trend]:
     logs = np.log([place.value for place in known])
     solution = np.linalg.lstsq(design, logs, rcond=None)[0]
     free = len(known) - 3
+    if float(np.ptp(logs)) < LEAST_SPREAD:
+        return None
     variance = float(((logs - design @ solution) ** 2).sum()) / free
     covariance = np.linalg.inv(design.T @ design)[1:, 1:] * variance / size ** 2
     slopes = solution[1:] / size

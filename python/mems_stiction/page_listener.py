@@ -12,7 +12,7 @@ from sensor_msgs.msg import Image
 
 LOOK_PERIOD = 1.0  # [s]
 MAPS = ("height", "contacts")
-MAP_BUFFER = 2**26  # bytes: the newest map alone is kept
+MAP_BUFFER = 2**28  # bytes: the newest map alone is kept
 
 
 class PageListener:

@@ -26,7 +26,7 @@ from mems_stiction.half_space_figure import half_space_figure, half_space_words,
 from mems_stiction.plots import ScanPicture, save_picture, with_unit
 from mems_stiction.prediction_text import digits_of, flag_words, judge_words
 from mems_stiction.quantities import percent, ratio, typeset, unbroken, with_interval
-from mems_stiction.report_device import area, device_lines, measurement_of, measurements_of
+from mems_stiction.report_device import area, device_lines, measurements_of
 from mems_stiction.report_figures import is_lower_bound, number, scan_figure, trend_figure
 from mems_stiction.report_lots import lots_section
 from mems_stiction.report_template import PAGE
@@ -165,7 +165,7 @@ def scan_section(row, folder, stages=(), why_no_stages=""):
             "why_no_cleaning": _sentence(why_no_stages),
             "surface": embedded(surface_figure(heights, result["pitch_x"], result["pitch_y"], result.get("tip_limit"))),
             "surface_figures": _figures(result, SURFACE_FIGURES) + surface_figures_of(heights),
-            "origin": origin_of(result), "measurement": measurement_of(row), "warnings": [row["warnings"]] if row["warnings"] else [], "sticks": result.get("sticks"),
+            "origin": origin_of(result), "warnings": [row["warnings"]] if row["warnings"] else [], "sticks": result.get("sticks"),
             "releases": verdict_word(result.get("sticks")),
             "verdict": _sentence(result.get("verdict_reason", "")), "flags": _flags(result)}
 
@@ -251,9 +251,12 @@ def _sentence(text):
     return text[:1].upper() + text[1:] + ("" if not text or text.endswith(".") else ".")
 
 
+TOLD_OF_SCANS = ("acquisition_time", "operator_name")  # in the table, where a scan states one
+
+
 def table_row(row, drawn, judge):
     entry = {"number": row["number"], "name": scan_name(row), "reason": row["reason"], "anchor": row["number"] in drawn,
-             "measured": ", ".join(str(row[name]) for name in ("acquisition_time", "operator") if row.get(name))}
+             "measured": ", ".join(str(row[name]) for name in TOLD_OF_SCANS if row.get(name))}
     if not row["reason"]:
         bound = "≥ " if is_lower_bound(row) else ""
         entry.update(status=STATES[row["status"]][1], pull_off=bound + text_of(row["pull_off_force"], "N", digits_of_row(row)),
@@ -323,7 +326,7 @@ def page(title, rows, sections, settings_text, configuration_path, parts=(), dat
         parts=[part_row(part, judged_by(predicted)) for part in parts] if any("sticks" in row for row in predicted) else [],
         bounded=any(is_lower_bound(row) for row in predicted),
         trends=embedded(trend_figure(predicted)) if len(predicted) > 1 else "", scans=sections,
-        device=device_lines(settings["configuration"]), measurements=measurements_of(rows), has_measurements=any(measurement_of(row) for row in rows),
+        device=device_lines(settings["configuration"]), measurements=measurements_of(rows), has_measurements=any(row.get(name) for row in rows for name in TOLD_OF_SCANS),
         inputs=settings["inputs"], versions=versions, sources=SOURCES, configuration_file=Verbatim(given),
         configuration_name=str(configuration_path or ""), configuration=Verbatim(re.sub(r"(?m)^  ", "", configuration)))
 

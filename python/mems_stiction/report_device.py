@@ -15,7 +15,7 @@ STATED = (("device/spring_stiffness", "stiffness of the suspension", "N/m"), ("d
           ("interface/relative_humidity", "relative humidity", ""), ("load/voltage", "voltage", "V"), ("load/mechanical_load", "mechanical load on the scan", "N"),
           ("load/pressure", "pressure", "Pa"), ("load/device_force", "force on the device", "N"))
 NOT_STATED = (0, "", "none", "guided")  # values that say nothing of the device
-MEASURED = (("acquisition_time", "measured"), ("operator", "operator"), ("instrument", "instrument"), ("checksum", "checksum"))  # of a scan, where its file says so
+MEASURED = (("acquisition_time", "measured"), ("operator_name", "operator"), ("instrument", "instrument"), ("checksum", "checksum"))  # of a scan, where its file says so
 
 
 def area(value):
@@ -44,11 +44,6 @@ def device_lines(configuration):
         place = next(number for number, (label, _) in enumerate(lines) if label == "travel to contact")
         lines.insert(place + 1, ("restoring force", typeset(with_unit(spring, "N"))))
     return lines
-
-
-def measurement_of(row):
-    """(label, text) of what the record of a scan says of its measurement."""
-    return [(label, str(row[name])) for name, label in MEASURED if row.get(name)]
 
 
 def measurements_of(rows):

@@ -78,7 +78,6 @@ PAGE = """<!DOCTYPE html>
 {% for scan in scans %}<div class="scan" id="scan{{ scan.number }}">
 <div class="head"><h2>{{ scan.number }}: {{ scan.name }}</h2>
 {% if scan.origin %}<p class="origin">{{ scan.origin }}</p>{% endif %}
-{% if scan.measurement %}<p class="origin">{% for label, value in scan.measurement %}{{ label }} {{ value }}{% if not loop.last %}, {% endif %}{% endfor %}</p>{% endif %}
 {% for warning in scan.warnings %}<p class="warning">{{ warning }}</p>{% endfor %}
 {% if scan.verdict %}<p><span class="{{ scan.sticks }}">{{ scan.releases[0] | upper }}{{ scan.releases[1:] }}.</span> {{ scan.verdict }}</p>{% endif %}
 {% if scan.flags %}<p class="warning">Outside the model's range: {{ scan.flags }}.</p>{% endif %}

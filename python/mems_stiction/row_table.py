@@ -130,8 +130,10 @@ def converted(path, units, kinds, is_text):
 
     of_word = {"float": pyarrow.float64(), "int": pyarrow.int64(), "bool": pyarrow.bool_(), "str": pyarrow.string()}
     is_csv = str(path).endswith(".csv")
-    with open(str(path), encoding="utf-8", newline="") as stream:
-        names = next(csv.reader(stream), []) if is_csv else list(json.loads(stream.readline() or "{}"))
+    with open(str(path), encoding="utf-8-sig", newline="") as stream:
+        names = next(csv.reader(stream), []) if is_csv else json.loads(stream.readline() or "{}")
+    if not isinstance(names, (list, dict)) or isinstance(names, list) != is_csv:
+        raise ValueError("the first line is no record")
     declared = {name: pyarrow.string() for name in names if name == STAMP or is_text(name)}
     declared.update({name: pyarrow.float64() for name in names if name in units})
     declared.update({name: of_word[kinds[name]] for name in names if name in kinds})

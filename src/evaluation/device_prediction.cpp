@@ -36,11 +36,12 @@ auto named(const std::string& name, Work&& work) {
   }
 }
 
-/// Of one scan all that it states.
-ScanIdentity identityOfAll(const std::vector<ScanIdentity>& identities) {
-  if (identities.empty()) return {};
-  ScanIdentity all = identities.front();
-  for (std::size_t i = 1; i < identities.size(); ++i) all = commonIdentity(all, identities[i]);
+/// What all scans state alike, each with the settings' part where it names none.
+Provenance provenanceOfAll(const std::vector<ScanIdentity>& identities, const Configuration& stated) {
+  Provenance all = provenanceOf(identities.empty() ? ScanIdentity() : identities.front(), stated);
+  for (std::size_t i = 1; i < identities.size(); ++i) {
+    static_cast<ScanIdentity&>(all) = commonIdentity(all, provenanceOf(identities[i], stated));
+  }
   return all;
 }
 
@@ -90,7 +91,7 @@ std::vector<std::string> DevicePredictor::addCounterSurface(const std::string& n
 
 DevicePrediction DevicePredictor::predict(const std::function<void(double)>& on_progress) {
   DevicePrediction prediction = prediction_;
-  prediction.provenance = provenanceOf(identityOfAll(prediction.identities), stated_);
+  prediction.provenance = provenanceOfAll(prediction.identities, stated_);
   prediction.settings_warnings = settingsWarnings(configuration_);
   prediction.force = scans_.force(on_progress);
   const DeviceOptions& device = configuration_.device;

@@ -229,7 +229,8 @@ void ContactPath::accept(const ForcePoint& next, bool is_jump, ForceCurve& curve
       between.height += x * move;
       between.force = pressed ? pressed->at(x) : parabola.at(x);
       between.energy += (pressed ? pressed->workTo(x) : parabola.workTo(x)) * move;
-      const double share = is_heavy ? (between.force - present_.force) / (next.force - present_.force) : x;
+      const double grown = next.force - present_.force;
+      const double share = is_heavy && grown != 0.0 ? (between.force - present_.force) / grown : x;
       between.contact_area += share * (next.contact_area - present_.contact_area);
       between.mean_gap += x * (next.mean_gap - present_.mean_gap);
       between.is_solved = false;

@@ -213,9 +213,10 @@ PathStatus leaveRest(ContactPath& path, const ContactMinimiser& minimiser, Large
 /// Every state that was solved, and what it took.
 void takeRecord(const ContactPath& path, HalfSpacePath asked, SolvedHalfSpace& solution) {
   solution.approach = path.approachCurve().points;
+  solution.jumps = path.approachCurve().jumps;
   if (asked == HalfSpacePath::kWhole) {
     solution.retraction = path.retractionCurve().points;
-    solution.jumps = path.approachCurve().jumps + path.retractionCurve().jumps;
+    solution.jumps += path.retractionCurve().jumps;
   }
   solution.residual = path.largestResidual();
   solution.state_count = path.stateCount();

@@ -68,7 +68,7 @@ bool readTime(const std::string& word, Reading& reading) {
   reading.hour = std::stoi(match[1]);
   reading.minute = std::stoi(match[2]);
   reading.seconds = match[3];
-  reading.zone = match[5];
+  if (match[5].length() > 0) reading.zone = match[5];
   if (reading.zone.size() == 5) reading.zone.insert(3, ":");
   return true;
 }
@@ -111,7 +111,7 @@ bool setHour(Reading& reading) {
     if (!reading.has_time || reading.hour < 1 || reading.hour > 12) return false;
     reading.hour = reading.hour % 12 + (reading.half == "pm" ? 12 : 0);
   }
-  return reading.hour < 24 && reading.minute < 60 && (reading.seconds.size() < 3 || reading.seconds[1] <= '6');
+  return reading.hour < 24 && reading.minute < 60 && (reading.seconds.size() < 3 || reading.seconds[1] < '6');
 }
 
 std::vector<std::string> wordsOf(const std::string& text) {

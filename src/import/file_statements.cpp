@@ -69,8 +69,9 @@ std::string joined(const std::string& first, const char* between, const std::str
 std::string timeOf(const Statements& said) {
   const std::string day = said.first(
       {"acquisitiondatetime", "acquisitiontime", "acquisitiondate", "measurementdate", "scandate", "datetime", "date"});
-  const bool has_time = day.find(':') != std::string::npos;
-  return acquisitionTime(has_time ? day : joined(day, " ", day.empty() ? "" : said.first({"scantime", "time"})));
+  const std::string time = said.first({"scantime", "time"});
+  const bool is_whole = day.empty() || day.find(':') != std::string::npos || time.find(':') == std::string::npos;
+  return acquisitionTime(is_whole ? day : joined(day, " ", time));  // a time without a colon is a duration
 }
 
 std::string instrumentOf(const Statements& said) {

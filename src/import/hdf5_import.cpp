@@ -30,6 +30,7 @@ try:
 except ImportError:
     sys.exit(3)
 LENGTHS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "\u00b5m": 1e-6, "\u03bcm": 1e-6, "nm": 1e-9, "pm": 1e-12, "A": 1e-10, "\u00c5": 1e-10}
+PACKED = ("scale_factor", "add_offset")  # attributes of CF: the numbers are not the heights
 
 
 def text(value):
@@ -96,18 +97,24 @@ def surface_topography(file):
 
 def coordinates(file):
     """Maps of NetCDF-4 over evenly spaced x and y with units of length, by the conventions of CF: what save_maps() of ours writes."""
-    for name in sorted(name for name in file if isinstance(file[name], h5py.Dataset) and file[name].ndim == 2):
+    for name in sorted(name for name in file if isinstance(file.get(name), h5py.Dataset) and file[name].ndim == 2):
         data = file[name]
         scales = [dict(dimension.items()) for dimension in data.dims]
         axes = [scale[axis] for scale, axis in zip(scales, ("y", "x")) if axis in scale]
         factors = [LENGTHS.get(text(axis.attrs.get("units", "")), 0.0) for axis in axes]
-        if len(axes) != 2 or min(factors) == 0.0 or min(data.shape) < 2 or data.dtype.kind not in "fiu":
+        if len(axes) != 2 or min(factors) == 0.0 or min(data.shape) < 2 or data.dtype.kind != "f":
+            continue
+        if any(axis.shape != (count,) for axis, count in zip(axes, data.shape)) or any(packed in data.attrs for packed in PACKED):
             continue
         sides = []
         for axis, factor, count in zip(axes, factors, data.shape):
             steps = numpy.diff(numpy.asarray(axis, dtype=float)) * factor
-            sides.append(steps.mean() * count if numpy.allclose(steps, steps.mean(), rtol=1e-6, atol=0.0) else 0.0)
+            sides.append(abs(steps.mean()) * count if numpy.allclose(steps, steps.mean(), rtol=1e-6, atol=0.0) else 0.0)
         values, unit = numpy.asarray(data, dtype=float), text(data.attrs.get("units", ""))
+        values = numpy.flip(values, [place for place, axis in enumerate(axes) if axis[-1] < axis[0]])
+        for fill in ("_FillValue", "missing_value"):
+            if fill in data.attrs:
+                values = numpy.where(values == numpy.ravel(data.attrs[fill])[0], numpy.nan, values)
         if unit in LENGTHS:
             values, unit = values * LENGTHS[unit], "m"
         yield name, values, sides[1], sides[0], unit, ""

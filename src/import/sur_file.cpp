@@ -117,6 +117,9 @@ double unitOf(const std::string& text, const char* axis) {
   return *unit;
 }
 
+/// Gwyddion writes the same two words into every file.
+bool isGwyddions(const Header& header) { return header.name == "SCRATCH" && header.operator_name == "csm"; }
+
 /// The next object of the file.
 FileChannel readObject(ByteCursor& file, const Header& header) {
   file.take(static_cast<std::size_t>(header.comment) + static_cast<std::size_t>(header.hidden));
@@ -129,7 +132,8 @@ FileChannel readObject(ByteCursor& file, const Header& header) {
   const double scale = header.step_z * unit_z.value_or(1.0) * (is_turned ? -1.0 : 1.0);
   FileChannel channel;
   channel.title = header.title;
-  channel.identity = identityFrom({{"Date", header.date}, {"Operator", header.operator_name}});
+  channel.identity =
+      identityFrom({{"Date", header.date}, {"Operator", isGwyddions(header) ? "" : header.operator_name}});
   channel.unit_xy = "m";
   channel.unit_z = unit_z ? "m" : header.unit_z;
   channel.width = header.step_x * unitOf(header.unit_x, "x") * header.cols;
@@ -152,7 +156,7 @@ FileChannel readObject(ByteCursor& file, const Header& header) {
 /// Gwyddion calls the surfaces that it writes profiles.
 bool isSurface(const Header& header) {
   return header.kind == kSurface || header.kind == kSurfaceSeries || header.kind == kColourSurface ||
-         (header.kind == kProfile && header.rows > 1 && header.name == "SCRATCH" && header.operator_name == "csm");
+         (header.kind == kProfile && header.rows > 1 && isGwyddions(header));
 }
 
 }  // namespace

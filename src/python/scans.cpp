@@ -56,8 +56,9 @@ void endGwyddions() {
 std::shared_ptr<WaitingGwyddions> waitingGwyddions() {
   const char* variable = std::getenv("PATH");
   const std::string path = variable == nullptr ? "" : variable;
-  if (own_gwyddions == nullptr || own_gwyddions->process != getpid())
+  if (own_gwyddions == nullptr || own_gwyddions->process != getpid()) {
     own_gwyddions = new OwnGwyddions{getpid(), path, 0, nullptr};
+  }
   if (own_gwyddions->path != path) *own_gwyddions = OwnGwyddions{getpid(), path, 0, nullptr};
   if (++own_gwyddions->reads == 2) {
     own_gwyddions->waiting = std::make_shared<WaitingGwyddions>(ImportOptions().program);

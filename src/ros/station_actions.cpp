@@ -61,7 +61,7 @@ void StationActions::stop() {
 }
 
 bool StationActions::sweep(const SweepLoadGoal& goal, SweepLoadResult& result) {
-  result.pull_in_voltage = std::numeric_limits<double>::quiet_NaN();
+  result.pull_in_voltage = result.site_x = result.site_y = std::numeric_limits<double>::quiet_NaN();
   if (sweep_.cancel()) return false;
   const StationCase station_case = find_case_(goal.height, goal.scan_info);
   result.header = station_case.header;
@@ -87,6 +87,7 @@ bool StationActions::sweep(const SweepLoadGoal& goal, SweepLoadResult& result) {
 }
 
 bool StationActions::cycle(const CycleContactGoal& goal, CycleContactResult& result) {
+  result.site_x = result.site_y = std::numeric_limits<double>::quiet_NaN();
   if (cycle_.cancel()) return false;
   const StationCase station_case = find_case_(goal.height, goal.scan_info);
   result.header = station_case.header;

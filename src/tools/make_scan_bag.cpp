@@ -123,7 +123,7 @@ class ScanBag {
     calibration.pitch_x = surface.pitchX();
     calibration.pitch_y = surface.pitchY();
     ScanInfo info = scanInfoMessage(calibration, header);
-    fillIdentity(withGiven(stated), info);
+    fillIdentity(withGiven(stated, frame), info);
     guarded(partial_->path(), [&] {
       bag_->write(absolute(kHeightTopic), header.stamp, *exactHeightImage(surface.heights(), header));
       bag_->write(absolute(kScanInfoTopic), header.stamp, info);
@@ -139,8 +139,8 @@ class ScanBag {
   std::uint32_t count() const { return count_; }
 
  private:
-  ScanIdentity withGiven(ScanIdentity identity) const {
-    identity.scan_name.clear();  // the image's frame_id is its name
+  ScanIdentity withGiven(ScanIdentity identity, const std::string& frame) const {
+    if (identity.scan_name == frame) identity.scan_name.clear();  // the image says it
     for (std::string ScanIdentity::*name :
          {&ScanIdentity::part_id, &ScanIdentity::serial_id, &ScanIdentity::lot_id, &ScanIdentity::wafer_id}) {
       if (!(given_.*name).empty()) identity.*name = given_.*name;

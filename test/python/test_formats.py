@@ -119,7 +119,7 @@ class ParquetTest(InFolder):
         self.assertTrue(math.isnan(height[0]) and height[1] is None)
 
     def test_what_holds_no_rows_is_refused_in_one_sentence(self):
-        for name, text in (("torn.jsonl", '{"number":1,"fi'), ("ragged.csv", "a,b\n1,2,3\n"), ("empty.csv", ""), ("empty.jsonl", "")):
+        for name, text in (("torn.jsonl", '{"number":1,"fi'), ("ragged.csv", "a,b\n1,2,3\n"), ("empty.csv", ""), ("empty.jsonl", ""), ("number.jsonl", "5\n"), ("dates.csv", "stamp\n2026-01-01\n")):
             (self.folder / name).write_text(text)
             self.refused("%s: holds no rows" % name, "rows_to_parquet", "-o", self.folder / "a.parquet", self.folder / name)
         (self.folder / "bytes.csv").write_bytes(bytes(range(256)))
@@ -178,6 +178,7 @@ class ParquetTest(InFolder):
         self.assertEqual((self.unit(table, "voltage"), self.unit(table, "pull_off_force")), ("V", "N"))
         self.assertEqual(table["serial_id"].to_pylist(), ["7", "7"])
         self.assertEqual(table["site_x"].to_pylist(), [None, None])  # not stated
+        self.assertEqual((str(table.schema.field("site_x").type), self.unit(table, "site_x")), ("double", "m"))
         self.assertEqual(table.schema.metadata[b"mems_stiction.settings_hash"], b"abc")
 
     def test_a_design_keeps_the_units_of_its_axes(self):

@@ -1,6 +1,7 @@
 """compare_lots: known variances and shares come back, a wafer shows its trend and its bad places, and what rows cannot tell is said."""
 
 import csv
+import importlib.util
 import json
 import math
 import pathlib
@@ -180,6 +181,8 @@ class SharesTest(unittest.TestCase):
         self.assertLess(found.shares.share[1], 0.1)
         self.assertGreater(found.shares.share[2], 0.9)
         self.assertTrue(any(text.startswith("at voltage 20.0 V expected to stick: ") for text in found.statements), found.statements)
+        failed = {name: value for name, value in rows[0].items() if name not in ("voltage", "margin")}  # of a scan that was not predicted
+        self.assertEqual(list(mems_stiction.compare_lots(rows + [failed]).shares["at"]), [0.0, 20.0, 40.0])
         timed = mems_stiction.compare_lots([dict(one, hold_time=one["voltage"] + 1.0) for one in rows], against="hold_time")
         self.assertEqual(list(timed.shares["at"]), [1.0, 21.0, 41.0])
         with self.assertRaisesRegex(mems_stiction.OptionsError, "no column 'time'; the model knows no ageing"):
@@ -261,10 +264,12 @@ class WaferTest(unittest.TestCase):
         records = np.array([tuple(map(one.get, names)) for one in self.rows], dtype=[(name, object) for name in names])
         for form in (self.table, str(self.table), [self.table], lines, records):
             self.assertEqual(mems_stiction.compare_lots(form).json(), expected)
-        try:
-            import pandas
-        except ImportError:
-            return
+
+    @unittest.skipUnless(importlib.util.find_spec("pandas"), "pandas is not installed")
+    def test_a_table_of_pandas_gives_the_same(self):
+        import pandas
+
+        expected = mems_stiction.compare_lots(self.rows).json()
         self.assertEqual(mems_stiction.compare_lots(pandas.read_csv(str(self.table), float_precision="round_trip")).json(), expected)
 
     def test_the_program_prints_and_draws(self):

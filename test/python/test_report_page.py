@@ -10,7 +10,7 @@ import unittest
 
 from mems_stiction import report
 from mems_stiction.quantities import unbroken
-from mems_stiction.report_device import device_lines, measurement_of, measurements_of
+from mems_stiction.report_device import device_lines, measurements_of
 from roslib.packages import find_node
 
 AFM_SCAN = pathlib.Path(__file__).resolve().parents[2] / "scripts/examples/make_afm_scan"
@@ -42,9 +42,8 @@ class WordsTest(unittest.TestCase):
         self.assertEqual((beam["beam"], beam["length of the beam"]), ("doubly clamped", "100 µm"))
 
     def test_who_measured_and_when_is_what_the_record_says(self):
-        row = {"acquisition_time": "2021-03-04T05:06:07", "operator": "A. Nother", "instrument": "", "checksum": "00ff"}
-        self.assertEqual(measurement_of(row), [("measured", "2021-03-04T05:06:07"), ("operator", "A. Nother"), ("checksum", "00ff")])
-        self.assertEqual((measurement_of({}), measurements_of([{}, {}])), ([], ""))
+        row = {"acquisition_time": "2021-03-04T05:06:07", "operator_name": "A. Nother", "instrument": "", "checksum": "00ff"}
+        self.assertEqual(measurements_of([{}, {}]), "")
         self.assertEqual(measurements_of([row, dict(row, acquisition_time="2020-01-02"), {}]),
                          "Measured from 2020-01-02 to 2021-03-04T05:06:07; operator: A. Nother; 1 of 3 scans state no date.")
         self.assertEqual(measurements_of([dict(row, acquisition_time="", instrument="Icon")]), "Operator: A. Nother; instrument: Icon.")
@@ -99,15 +98,16 @@ class PageTest(unittest.TestCase):
     def test_date_and_operator_stand_in_table_and_section(self):
         rows = json.loads((self.folder / "r.json").read_text())["scans"]
         for row in rows[:2]:
-            row.update(acquisition_time="2021-03-04T05:06:07", operator="A. Nother")
+            row.update(acquisition_time="2021-03-04T05:06:07", operator_name="A. Nother")
         settings = "version: 1\nopencv_version: 2\ninputs: []\nconfiguration:\n  load: {voltage: 0}\n"
-        section = dict.fromkeys(("maps", "details", "surface", "sticks", "releases", "verdict", "flags", "half_space", "cleaning", "why_no_cleaning", "origin"), "")
-        section.update(number=1, name="one", figures=[], surface_figures=[], warnings=[], measurement=measurement_of(rows[0]))
+        section = dict.fromkeys(("maps", "details", "surface", "sticks", "releases", "verdict", "flags", "half_space", "cleaning", "why_no_cleaning"), "")
+        section.update(number=1, name="one", figures=[], surface_figures=[], warnings=[], origin=report.origin_of(rows[0]))
         text = plain(report.page("A report", rows, [section], settings, None))
         self.assertIn("2021-03-04T05:06:07, A. Nother", text)
         self.assertIn("Measured 2021-03-04T05:06:07; operator: A. Nother; %d of %d scans state no date." % (SCANS - 2, SCANS), text)
-        self.assertRegex(text, r"measured 2021-03-04T05:06:07,\s+operator A\. Nother")
+        self.assertRegex(text, r"measured 2021-03-04T05:06:07,\s+by A\. Nother")
         self.assertNotIn("state no date", plain(self.text))
+        self.assertNotIn("<th>measured</th>", self.text)
 
 
 if __name__ == "__main__":
