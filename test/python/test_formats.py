@@ -218,6 +218,26 @@ class MapFileTest(InFolder):
             self.assertEqual(json.loads(file["record"][()].decode()), self.prediction.to_dict())
             self.assertEqual((file.attrs["version"], file.attrs["settings_hash"]), (self.prediction.version, self.prediction.settings_hash))
 
+    def test_axes_that_fall_and_marks_of_what_is_missing_are_read_as_they_are_meant(self):
+        import h5py
+
+        heights = np.array([[1.0, 2.0, 3.0, 4.0], [5.0, -999.0, 7.0, 8.5]])
+        for y in ([0.0, 2.0], [2.0, 0.0]):
+            with h5py.File(str(self.folder / "map.nc"), "w") as file:
+                for name, values in (("y", y), ("x", [0.0, 1.0, 2.0, 3.0])):
+                    file[name] = np.array(values)
+                    file[name].attrs["units"] = "um"
+                    file[name].make_scale(name)
+                file["z"] = heights
+                file["z"].attrs.update(units="nm", _FillValue=-999.0)
+                file["gone"] = h5py.SoftLink("/nowhere")
+                for place, name in enumerate(("y", "x")):
+                    file["z"].dims[place].attach_scale(file[name])
+            scan = mems_stiction.read(self.folder / "map.nc")
+            expected = np.where(heights == -999.0, np.nan, 1e-9 * heights)
+            np.testing.assert_allclose(scan.heights, expected if y[0] == 0.0 else expected[::-1], rtol=1e-12)
+            np.testing.assert_allclose(scan.pitch, (1e-6, 2e-6), rtol=1e-12)
+
     @needs("xarray", "h5netcdf")
     def test_xarray_reads_it_as_netcdf(self):
         import xarray
