@@ -17,7 +17,7 @@ constexpr std::size_t kLongestStatement = 200;  // [bytes]
 
 /// "General Info::Acquisition time" is "acquisitiontime".
 std::string plainName(const std::string& name) {
-  const std::size_t section = name.find_last_of("/");
+  const std::size_t section = name.rfind('/');
   const std::size_t scope = name.rfind("::");
   std::size_t begin = section == std::string::npos ? 0 : section + 1;
   if (scope != std::string::npos) begin = std::max(begin, scope + 2);
@@ -30,7 +30,7 @@ std::string plainName(const std::string& name) {
 
 /// One line of UTF-8, not too long; empty where it says that nothing is known.
 std::string statement(const std::string& value) {
-  const std::string text = oneLine(trimmed(toUtf8(value), " \t\r\n"));
+  std::string text = oneLine(trimmed(toUtf8(value), " \t\r\n"));
   const std::string word = lowered(text);
   if (isMissingWord(text) || word == "not available" || word == "unknown" || word == "not specified") return "";
   if (text.size() <= kLongestStatement) return text;

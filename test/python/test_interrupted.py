@@ -60,6 +60,10 @@ def program(name):
 
 class InterruptedTest(unittest.TestCase):
     @classmethod
+    def tearDownClass(cls):
+        cls.doClassCleanups()  # nose knows nothing of them
+
+    @classmethod
     def setUpClass(cls):
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)

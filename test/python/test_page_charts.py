@@ -21,6 +21,10 @@ SOLVED = "{is_solved: true, status: 'solved', text: '2 µN', number: 3, notes: [
 @unittest.skipUnless(browser.program(), "no browser is installed: apt-get install chromium-headless-shell (scripts/setup does), or chromium")
 class ChartTest(unittest.TestCase):
     @classmethod
+    def tearDownClass(cls):
+        cls.doClassCleanups()  # nose knows nothing of them
+
+    @classmethod
     def setUpClass(cls):
         cls.page = browser.Browser(1024, 768)
         cls.addClassCleanup(cls.page.close)

@@ -104,6 +104,10 @@ def contacts_message(rows, columns):
 @unittest.skipUnless(browser.program(), "no browser is installed: apt-get install chromium-headless-shell (scripts/setup does), or chromium")
 class ViewTest(unittest.TestCase):
     @classmethod
+    def tearDownClass(cls):
+        cls.doClassCleanups()  # nose knows nothing of them
+
+    @classmethod
     def setUpClass(cls):
         cls.state = PageState()
         cls.state.set_link("ok", "Connected to the node.")

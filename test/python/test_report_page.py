@@ -51,6 +51,10 @@ class WordsTest(unittest.TestCase):
 
 class PageTest(unittest.TestCase):
     @classmethod
+    def tearDownClass(cls):
+        cls.doClassCleanups()  # nose knows nothing of them
+
+    @classmethod
     def setUpClass(cls):
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
