@@ -40,6 +40,7 @@ setup(name=PACKAGE.findtext("name"), version=PACKAGE.findtext("version"),
       maintainer=PACKAGE.findtext("maintainer"), maintainer_email=PACKAGE.find("maintainer").get("email"),
       packages=["mems_stiction"], package_dir={"": "python"}, package_data={"mems_stiction": ["*.pyi", "py.typed", "page/*"]},
       python_requires=">=3.8", install_requires=["numpy"],
-      extras_require={"formats": ["h5py", "pyarrow"], "pictures": ["matplotlib"], "report": ["matplotlib", "jinja2", "pyyaml"]},
+      extras_require={"formats": ["h5py", "pyarrow"], "pictures": ["matplotlib"], "process": ["matplotlib", "pyyaml", "scipy", "statsmodels"],
+                      "report": ["matplotlib", "jinja2", "pyyaml", "scipy"]},
       entry_points={} if IS_CATKIN else {"console_scripts": ["stiction_batch = mems_stiction.archive:main"]},
       ext_modules=[] if IS_CATKIN else [Extension("mems_stiction._core", [])], cmdclass={"build_ext": CmakeBuild})

@@ -36,6 +36,7 @@ class HalfSpace(_core.HalfSpaceFigures, ReadOnly):
         self.name: str
         self.pitch: Tuple[float, float]
         self._is_transposed = surface.is_transposed
+        self._origin = core.origin
         #: force over height, both ways: height [m] over first touch, force [N], direction (0 approach, 1 retraction)
         self.curve: np.recarray
         #: between the surfaces at rest [Pa], repulsion positive; None if there is no rest, as the maps below
@@ -60,8 +61,7 @@ class HalfSpace(_core.HalfSpaceFigures, ReadOnly):
         maps = [map_file.Map("gap", self.gap, "m", "gap at rest")] + map_file.maps_after_contact(self)
         figures = {name: getattr(self, name) for name in _core.figures["HalfSpaceFigures"]}
         map_file.save(path, maps, {"curve": self.curve}, self.pitch, self._is_transposed,
-                      {"version": _core.version(), "scan_name": self.name, "status": self.status},
-                      json.dumps({name: plain_value(value) for name, value in figures.items()}))
+                      dict({"scan_name": self.name}, **self._origin, status=self.status), json.dumps({name: plain_value(value) for name, value in figures.items()}))
 
     def save_picture(self, path: Union[str, "os.PathLike[str]"]) -> None:
         """PNG: pressure at rest, and force over height."""
@@ -102,4 +102,4 @@ def half_space(heights: Any, pitch: Optional[Pitch] = None, config: Optional[Con
     frame without a valid pixel, or with more than half_space/max_pixels.
     """
     checked, surface, prepared = inputs_of(heights, pitch, config, upper, settings)
-    return HalfSpace(_core.half_space(prepared, checked._configuration), surface)
+    return HalfSpace(_core.half_space(prepared, surface.identity, checked._configuration), surface)

@@ -11,13 +11,13 @@ from typing import Any, Dict, Iterator, List, Optional, Sequence, Tuple, Union
 import numpy as np
 
 from mems_stiction._arrays import ReadOnly, plain_value
-from mems_stiction.lots_data import RELEASING, WORDS, Lots, Place, by_wafer, lots_of
+from mems_stiction.lots_data import RELEASING, RMS_HEIGHT, WORDS, Lots, Place, by_wafer, lots_of
 from mems_stiction.lots_variance import Components, components_of, hierarchy_of
 from mems_stiction.lots_wafer import BadPlace, Trend, bad_places, missing_sites, trend_of
 from mems_stiction.lots_words import of_bad_places, of_components, of_rows, of_shares, of_trends, text_of
 from mems_stiction.lots_yield import Share, share_of
+from mems_stiction.other_packages import require_package
 
-RMS = "rms_height"
 UNITS_SHOWN = 60  # of one level, in the text
 FILE_LETTERS = "-_.abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
 
@@ -34,7 +34,7 @@ class LotComparison(ReadOnly):
     sticking (places).
     shares: a record for each condition: at, places, sticking, share, lower, upper: expected to stick with its 95 % interval; method: normal,
     counted or bound; tail: what a normal distribution says, NaN where the figures have another; worth: as many independent places; lost: rows
-    without the figure.
+    without the figure; without_interval: places whose margins come without an interval, for which that of the others is taken.
     trends: a record of each wafer: gradient_x, gradient_y [1/m] of the logarithm with ..._lower, ..._upper; factor, ...: from end to end over extent
     [m] in direction [rad from x]; chance: that a wafer without a trend shows as much.
     bad_places: a record of each: lot_id, wafer_id, part, site_x, site_y [m], name, figure, value, expected, deviations, limit.
@@ -135,7 +135,7 @@ def compare_lots(rows: Any, *, figure: Optional[str] = None, against: Optional[s
         found.save_picture("lots.png")
         found.save_maps("maps")
 
-    rows: of stiction_batch: the path of a .csv or .jsonl file, several paths, dictionaries, or a table of pandas; with lot_id, wafer_id, part_id,
+    rows: of stiction_batch: the path of a .csv, .jsonl or .parquet file, several paths, dictionaries, or a table of pandas; with lot_id, wafer_id, part_id,
     serial_id, site_x, site_y [m] as far as they are known.
     figure: what is compared; the first of margin, peel_number, device_pull_off_force and pull_off_force that the rows have.
     against: the column of a condition under which the share that sticks is asked. Without it the voltage, where rows of several are there.
@@ -144,6 +144,7 @@ def compare_lots(rows: Any, *, figure: Optional[str] = None, against: Optional[s
     Variances between lots, wafers, parts and places are those of random effects of the logarithm (statsmodels), the share that sticks is that of a
     normal distribution where the rows have one, else it is counted (doc/process.md). Raises OptionsError and FileError.
     """
+    require_package("scipy", "compare_lots")
     lots = lots_of(rows, figure, against)
     finite = [place for place in lots.chosen if place.is_known() and math.isfinite(place.value)]
     bad = _bad_places(lots)
@@ -169,7 +170,7 @@ def _bad_places(lots: Lots) -> List[BadPlace]:
     found: List[BadPlace] = []
     for places in by_wafer(lots.chosen).values():
         values = {lots.figure: [place.value for place in places], lots.force: [place.force for place in places],
-                  RMS: [place.rms_height for place in places]}
+                  RMS_HEIGHT: [place.rms_height for place in places]}
         for figure in values:
             found += bad_places(places, figure, values[figure])
     return found

@@ -16,7 +16,7 @@ from mems_stiction import _core, plots
 from mems_stiction.curve import DIRECTIONS, Curve
 from mems_stiction.curve_figure import draw_curves
 from mems_stiction.prediction_text import flag_words
-from mems_stiction.quantities import area, length_scale, percent, ratio
+from mems_stiction.quantities import area, length_scale, literal, percent, ratio
 
 if TYPE_CHECKING:
     from mems_stiction._half_space import HalfSpace
@@ -107,7 +107,7 @@ def save_half_space(solution: HalfSpace, path: str) -> None:
     """As the notebook shows it, on a page of its own."""
     figure = _half_space_figure(solution)
     figure.set_dpi(2 * DPI)
-    figure.suptitle("%s: %s, pull-off force %s" % (solution.name or "half-space", solution.status.lower().replace("_", " "),
+    figure.suptitle("%s: %s, pull-off force %s" % (literal(solution.name) or "half-space", solution.status.lower().replace("_", " "),
                                                    plots.with_unit(solution.pull_off_force, "N")), y=0.99, fontsize=12)
     plots.save(figure, path)
 

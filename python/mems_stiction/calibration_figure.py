@@ -10,7 +10,7 @@ import numpy as np
 from mems_stiction.calibration_words import UNITS
 from mems_stiction.plots import plt, save
 from mems_stiction.provenance import sign
-from mems_stiction.quantities import prefix_for, typeset, with_interval
+from mems_stiction.quantities import literal, prefix_for, typeset, with_interval
 
 COLOURS = {"pull_off_force": "#0b4f9e", "apparent_work_of_adhesion": "#1b7f4d", "detachment_length": "#d17a00", "crack_length": "#7a3ea1"}
 OUTLIER = "#b3261e"
@@ -32,7 +32,7 @@ def save_calibration(record, path):
         _draw_kind(figure.add_subplot(grid[0, place]), kind, [row for row in record["measurements"] if row["kind"] == kind])
     _draw_deviations(figure.add_subplot(grid[1, :]), record["measurements"])
     figure.suptitle(_title(record), fontsize=13, y=1.0 - 0.25 / height)
-    figure.text(0.09, (0.3 + LINE * len(lines)) / height, "\n".join(typeset(line) for line in lines), fontsize=9, va="top", color="#333333")
+    figure.text(0.09, (0.3 + LINE * len(lines)) / height, "\n".join(literal(typeset(line)) for line in lines), fontsize=9, va="top", color="#333333")
     sign(figure, {})
     save(figure, path)
 
@@ -84,7 +84,7 @@ def _draw_deviations(axes, rows):
     axes.set_ylim(-most, most)
     if len(rows) <= MOST_NAMES:
         axes.set_xticks(places)
-        axes.set_xticklabels([textwrap.shorten(row["name"], 22, placeholder="…") for row in rows], rotation=30 if len(rows) > 6 else 0,
+        axes.set_xticklabels([literal(textwrap.shorten(row["name"], 22, placeholder="…")) for row in rows], rotation=30 if len(rows) > 6 else 0,
                              ha="right" if len(rows) > 6 else "center", fontsize=8.5)
     else:
         axes.set_xlabel("number of the measurement")

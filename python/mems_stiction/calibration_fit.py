@@ -15,8 +15,13 @@ from dataclasses import dataclass
 from typing import Callable, Dict, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
-import scipy.optimize
-import scipy.stats
+
+from mems_stiction.other_packages import require_package
+
+require_package("scipy", "calibrate")
+
+import scipy.optimize  # noqa: E402
+import scipy.stats  # noqa: E402
 
 QUANTILE_95 = float(scipy.stats.chi2.ppf(0.95, 1))
 FEWEST_FOR_SCATTER = 4  # fewer measurements do not tell how much surfaces scatter

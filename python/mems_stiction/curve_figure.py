@@ -4,7 +4,7 @@ import numpy as np
 
 from mems_stiction.plots import plt, with_unit
 from mems_stiction.provenance import FIELDS, sign
-from mems_stiction.quantities import prefix_for
+from mems_stiction.quantities import literal, prefix_for
 
 COLOURS = ("#0b4f9e", "#d1322f", "#3d8c40", "#8e5bb5", "#b86a00", "#4f4f4f")
 PRESSED_SHARE = 1.5  # of the largest attraction: deeper repulsion leaves the picture
@@ -14,7 +14,7 @@ def curve_picture(curves, title):
     """A figure of all curves over each other."""
     figure, axes = plt.subplots(figsize=(9, 5.8), dpi=110)
     figure.subplots_adjust(left=0.1, right=0.975, top=0.92, bottom=0.135)
-    axes.set_title(title, fontsize=12, loc="left", fontweight="bold")
+    axes.set_title(literal(title), fontsize=12, loc="left", fontweight="bold")
     draw_curves(axes, curves)
     sign(figure, origin_of(curves))
     return figure

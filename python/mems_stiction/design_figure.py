@@ -16,7 +16,7 @@ from mems_stiction.design_axes import BY_RATIO, Axis
 from mems_stiction.design_words import crossings, safe_text, text_of
 from mems_stiction.plots import plt, save
 from mems_stiction.provenance import sign
-from mems_stiction.quantities import ratio, typeset
+from mems_stiction.quantities import literal, ratio, typeset
 
 BAND, LINE, ONE = "#9bb8d9", "#0b4f9e", "#b3261e"
 MOST_DECADES = 3.0  # of the margin that colours tell apart, to either side of 1
@@ -41,7 +41,7 @@ def save_design(record, path):
     else:
         _draw_map(axes, spans, margins)
     figure.suptitle("Margin of the device: what pulls it open over what holds it", fontsize=13, y=1.0 - 0.15 / height)
-    figure.text(0.05, (0.3 + HEIGHT * len(lines)) / height, "\n".join(lines), fontsize=9, va="top", color="#333333")
+    figure.text(0.05, (0.3 + HEIGHT * len(lines)) / height, literal("\n".join(lines)), fontsize=9, va="top", color="#333333")
     sign(figure, {"version": record["version"]})
     save(figure, path)
 

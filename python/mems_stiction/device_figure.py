@@ -10,7 +10,7 @@ import textwrap
 from mems_stiction.input_file import UnfitFile, is_open_pipe, require_file
 from mems_stiction.plots import plt, save, with_unit
 from mems_stiction.provenance import sign
-from mems_stiction.quantities import length_scale, ratio, typeset
+from mems_stiction.quantities import length_scale, literal, ratio, typeset
 
 import numpy as np
 from matplotlib.ticker import FuncFormatter, LogLocator
@@ -89,14 +89,14 @@ def device_picture(record, heights=None):
     if heights is not None:
         _draw_surface(figure.add_subplot(grid[:, 2]), *heights)
     _draw_force(figure.add_subplot(grid[:, -1]), record)
-    figure.text(0.3 / width, 0.25 / height, "\n".join(lines), fontsize=9, va="bottom", ha="left", color="#7a1f1a", linespacing=1.25)
+    figure.text(0.3 / width, 0.25 / height, literal("\n".join(lines)), fontsize=9, va="bottom", ha="left", color="#7a1f1a", linespacing=1.25)
     sign(figure, record)
     return figure
 
 
 def _title(record):
     scans = record.get("scans") or ()
-    by = "%d scan%s" % (len(scans), "" if len(scans) == 1 else "s") if len(scans) != 1 else scans[0].rpartition("/")[2]
+    by = "%d scan%s" % (len(scans), "" if len(scans) == 1 else "s") if len(scans) != 1 else literal(scans[0].rpartition("/")[2])
     return "Device of %s, by %s" % (_area_text(record["area"]), by)
 
 

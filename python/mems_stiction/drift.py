@@ -68,6 +68,10 @@ class DriftChart:
         self._limits = None
         self._sigma = self._average = self._reach = self._reach_of_one = math.nan
 
+    def begun(self):
+        """The state before the first value."""
+        return DriftState(math.nan, 0, self._size)
+
     def add(self, value):
         """The state after this value, which is > 0 and finite; None for another, which is passed over."""
         if not 0.0 < value < math.inf:

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import array
 import csv
 import json
 import math
 import os
 import pathlib
-from typing import Any, Dict, Iterable, List, Mapping, NamedTuple, Optional, Sequence, Tuple
+import sys
+from typing import IO, Any, Dict, Iterable, Iterator, List, Mapping, NamedTuple, Optional, Set, Tuple
 
 import numpy as np
 
 from mems_stiction._settings import FileError, OptionsError
 from mems_stiction.input_file import UnfitFile, require_file
+from mems_stiction.row_table import PARQUET
 
 RELEASING = ("margin", "peel_number")  # the device sticks below 1
 FORCES = ("device_pull_off_force", "pull_off_force")
@@ -22,7 +25,10 @@ WORDS = {"margin": "margin", "peel_number": "peel number", "device_pull_off_forc
          "rms_height": "rms height", "voltage": "voltage", "load/voltage": "voltage"}
 UNITS = {"margin": "", "peel_number": "", "device_pull_off_force": "N", "pull_off_force": "N", "rms_height": "m", "voltage": "V", "load/voltage": "V"}
 MOST_BYTES = 4 << 30
-ENDINGS = (".csv", ".jsonl", ".ndjson")
+ENDINGS = (".csv", ".jsonl", ".ndjson", PARQUET)
+RMS_HEIGHT = "rms_height"
+TEXTS = ("lot_id", "wafer_id", "part_id", "serial_id", "settings_hash", "scan_name", "name", "file")
+NUMBERS = FIGURES + tuple(figure + end for figure in FIGURES for end in ("_lower", "_upper")) + VOLTAGES + ("site_x", "site_y", RMS_HEIGHT)
 
 
 class Place(NamedTuple):
@@ -66,58 +72,116 @@ class Lots(NamedTuple):
         return [place for place in self.places if place.at == at]
 
 
-def rows_of(rows: Any) -> List[Mapping[str, Any]]:
-    """Dictionaries from a path, several, a table of pandas, records of NumPy, or dictionaries. Raises OptionsError, FileError."""
+class _Table:
+    """What is needed of all rows, by columns: a row of stiction_batch has some hundred cells, and there may be millions of rows."""
+
+    def __init__(self, against: Optional[str]) -> None:
+        self.count = 0
+        self.has_against = False
+        self._against = against
+        self._texts: Dict[str, List[str]] = {name: [] for name in TEXTS}
+        self._numbers = {name: array.array("d") for name in NUMBERS + ((against,) if against else ())}
+        self.columns = {*self._texts, *self._numbers}
+
+    def add(self, row: Mapping[str, Any]) -> None:
+        self.count += 1
+        self.has_against = self.has_against or self._against in row
+        for name, texts in self._texts.items():
+            texts.append(sys.intern(_text(row.get(name, ""))))
+        for name, numbers in self._numbers.items():
+            numbers.append(_number(row.get(name, math.nan)))
+
+    def texts(self, name: str) -> List[str]:
+        return self._texts[name]
+
+    def numbers(self, name: str) -> np.ndarray:
+        return np.frombuffer(self._numbers[name]) if self.count else np.zeros(0)
+
+    def has(self, figure: str) -> bool:
+        """Whether a row has a value of it."""
+        return bool((self.numbers(figure) > 0.0).any())
+
+
+def _rows_of(rows: Any, columns: Set[str]) -> Iterator[Mapping[str, Any]]:
+    """Dictionaries from a path, several, a table of pandas, records of NumPy, or dictionaries; of files and tables with these columns alone. Raises
+    OptionsError, FileError."""
     if isinstance(rows, (str, os.PathLike)):
-        return _read(pathlib.Path(os.fspath(rows)))
-    if callable(getattr(rows, "to_dict", None)) and hasattr(rows, "columns"):
-        return list(rows.to_dict("records"))
-    if isinstance(rows, np.ndarray) and rows.dtype.names:
-        return [dict(zip(rows.dtype.names, row)) for row in rows.tolist()]
-    if isinstance(rows, Mapping) or not isinstance(rows, Iterable):
+        yield from _read(pathlib.Path(os.fspath(rows)), columns)
+    elif callable(getattr(rows, "to_dict", None)) and hasattr(rows, "columns"):
+        names = [name for name in rows.columns if name in columns]
+        yield from (dict(zip(names, cells)) for cells in zip(*(rows[name].tolist() for name in names)))
+    elif isinstance(rows, np.ndarray) and rows.dtype.names:
+        yield from (dict(zip(rows.dtype.names, row)) for row in rows.tolist())
+    elif isinstance(rows, Mapping) or not isinstance(rows, Iterable):
         raise OptionsError("rows: %s is not allowed, must be the path of rows of stiction_batch, a list of dictionaries, or a table of pandas" % (
             type(rows).__name__,))
-    found: List[Mapping[str, Any]] = []
-    for row in rows:
-        if isinstance(row, Mapping):
-            found.append(row)
-        elif isinstance(row, (str, os.PathLike)):
-            found += _read(pathlib.Path(os.fspath(row)))
-        else:
-            raise OptionsError("rows: an item is %r, must be a dictionary or the path of a file" % (row,))
-    return found
+    else:
+        for row in rows:
+            if isinstance(row, Mapping):
+                yield row
+            elif isinstance(row, (str, os.PathLike)):
+                yield from _read(pathlib.Path(os.fspath(row)), columns)
+            else:
+                raise OptionsError("rows: an item is %r, must be a dictionary or the path of a file" % (row,))
 
 
-def _read(path: pathlib.Path) -> List[Mapping[str, Any]]:
+def _read(path: pathlib.Path, columns: Set[str]) -> Iterator[Mapping[str, Any]]:
     if path.suffix not in ENDINGS:
         raise OptionsError("rows: '%s' is not allowed, must end in %s or %s" % (path, ", ".join(ENDINGS[:-1]), ENDINGS[-1]))
     try:
         require_file(path, "rows of stiction_batch", MOST_BYTES)
+        if path.suffix == PARQUET:
+            yield from _parquet_rows(path, columns)
+            return
         with open(str(path), encoding="utf-8-sig", newline="") as stream:
-            if path.suffix == ".csv":
-                return [dict(row) for row in csv.DictReader(stream)]
-            rows = [json.loads(line) for line in stream if line.strip()]
+            yield from _csv_rows(stream, columns) if path.suffix == ".csv" else _json_rows(stream)
     except (UnfitFile, OSError) as error:
         raise FileError("%s: %s" % (path, getattr(error, "strerror", None) or error)) from None
     except (ValueError, csv.Error) as error:
         raise FileError("%s: holds no rows: %s" % (path, error)) from None
-    if not all(isinstance(row, dict) for row in rows):
-        raise FileError("%s: holds no rows: a line is no record" % path)
-    return rows
+
+
+def _csv_rows(stream: IO[str], columns: Set[str]) -> Iterator[Mapping[str, Any]]:
+    reader = csv.reader(stream)
+    chosen = [(place, name) for place, name in enumerate(next(reader, [])) if name in columns]
+    for cells in reader:
+        if cells:
+            yield {name: cells[place] for place, name in chosen if place < len(cells)}
+
+
+def _json_rows(stream: IO[str]) -> Iterator[Mapping[str, Any]]:
+    for line in stream:
+        if line.strip():
+            row = json.loads(line)
+            if not isinstance(row, dict):
+                raise ValueError("a line is no record")
+            yield row
+
+
+def _parquet_rows(path: pathlib.Path, columns: Set[str]) -> Iterator[Mapping[str, Any]]:
+    try:
+        import pyarrow.parquet
+    except ImportError:
+        raise OptionsError("rows: '%s' needs the Python package pyarrow (pip install pyarrow)" % path) from None
+    with open(str(path), "rb") as stream:
+        file = pyarrow.parquet.ParquetFile(stream)
+        for batch in file.iter_batches(columns=[name for name in file.schema_arrow.names if name in columns]):
+            yield from batch.to_pylist()
 
 
 def lots_of(rows: Any, figure: Optional[str] = None, against: Optional[str] = None) -> Lots:
     """Raises OptionsError where nothing can be compared, FileError."""
-    listed = rows_of(rows)
-    names = {name for row in listed for name in row}
     if figure is not None and figure not in FIGURES:
         raise OptionsError("figure: %r is not allowed, must be one of: %s" % (figure, ", ".join(FIGURES)))
-    chosen = next((name for name in ((figure,) if figure else FIGURES) if any(_number(row, name) > 0.0 for row in listed)), None)
+    table = _Table(against)
+    for row in _rows_of(rows, table.columns):
+        table.add(row)
+    chosen = next((name for name in ((figure,) if figure else FIGURES) if table.has(name)), None)
     if chosen is None:
-        raise OptionsError("rows: none of %d has a %s > 0" % (len(listed), " or a ".join((figure,) if figure else FIGURES)))
-    column = _against(against, names, listed)
-    force = chosen if chosen in FORCES else next((name for name in FORCES if any(_number(row, name) > 0.0 for row in listed)), FORCES[-1])
-    places = tuple(_place(row, chosen, force, column) for row in listed)
+        raise OptionsError("rows: none of %d has a %s > 0" % (table.count, " or a ".join((figure,) if figure else FIGURES)))
+    column = _against(against, table)
+    force = chosen if chosen in FORCES else next((name for name in FORCES if table.has(name)), FORCES[-1])
+    places = _places(table, chosen, force, column)
     if column:
         if any(place.is_known() and math.isnan(place.at) for place in places):
             raise OptionsError("%s: some of the rows have no number there; leave them out" % column)
@@ -127,26 +191,29 @@ def lots_of(rows: Any, figure: Optional[str] = None, against: Optional[str] = No
     return Lots(chosen, force, column, places, tuple(place for place in places if place.at == at), at)
 
 
-def _against(asked: Optional[str], names: Iterable[str], rows: Sequence[Mapping[str, Any]]) -> str:
+def _against(asked: Optional[str], table: _Table) -> str:
     """The column of the condition."""
     if asked is not None:
-        if asked not in names:
+        if not table.has_against:
             raise OptionsError("against: the rows have no column '%s'; the model knows no ageing, so what depends on time must be measured and its "
                                "column added" % asked)
         return asked
-    return next((name for name in VOLTAGES if len({_number(row, name) for row in rows if math.isfinite(_number(row, name))}) > 1), "")
+    return next((name for name in VOLTAGES if np.unique(_finite(table.numbers(name))).size > 1), "")
 
 
-def _number(row: Mapping[str, Any], name: str) -> float:
+def _finite(values: np.ndarray) -> np.ndarray:
+    return values[np.isfinite(values)]
+
+
+def _number(value: Any) -> float:
     try:
-        return float(row.get(name, math.nan))  # type: ignore[arg-type]
+        return float(value)
     except (TypeError, ValueError):
         return math.nan
 
 
-def _text(row: Mapping[str, Any], name: str) -> str:
+def _text(value: Any) -> str:
     """An identifier as people write it, whatever a table has made of it: 7.0 is 7, a missing one is empty."""
-    value = row.get(name, "")
     value = value.item() if hasattr(value, "item") else value
     if value is None or isinstance(value, float) and math.isnan(value):
         return ""
@@ -156,17 +223,18 @@ def _text(row: Mapping[str, Any], name: str) -> str:
     return text[1:] if text.startswith("'") and text[1:2] in ("=", "+", "-", "@", "\t") else text  # as csv_text writes it
 
 
-def _place(row: Mapping[str, Any], figure: str, force: str, against: str) -> Place:
-    part, serial = _text(row, "part_id"), _text(row, "serial_id")
-    value = _number(row, figure)
-    lower, upper = (_number(row, figure + end) for end in ("_lower", "_upper"))
-    if value == math.inf:
-        lower = upper = math.inf
-    is_interval = 0.0 < lower <= value <= upper
-    return Place(_text(row, "lot_id"), _text(row, "wafer_id"), "%s no. %s" % (part, serial) if part and serial else part or serial,
-                 _number(row, "site_x"), _number(row, "site_y"), value if value > 0.0 else math.nan, lower if is_interval else math.nan,
-                 upper if is_interval else math.nan, _number(row, force), _number(row, "rms_height"), _number(row, against) if against else 0.0,
-                 _text(row, "settings_hash"), _text(row, "scan_name") or _text(row, "name") or _text(row, "file"))
+def _places(table: _Table, figure: str, force: str, against: str) -> Tuple[Place, ...]:
+    values, lower, upper = (table.numbers(figure + end) for end in ("", "_lower", "_upper"))
+    ends = [np.where(values == math.inf, math.inf, end) for end in (lower, upper)]
+    is_interval = (ends[0] > 0.0) & (ends[0] <= values) & (values <= ends[1])
+    parts = ["%s no. %s" % (part, serial) if part and serial else part or serial for part, serial in zip(table.texts("part_id"), table.texts("serial_id"))]
+    names = [name or other or file for name, other, file in zip(*map(table.texts, ("scan_name", "name", "file")))]
+    numbers = [column.tolist() for column in (
+        table.numbers("site_x"), table.numbers("site_y"), np.where(values > 0.0, values, math.nan), np.where(is_interval, ends[0], math.nan),
+        np.where(is_interval, ends[1], math.nan), table.numbers(force), table.numbers(RMS_HEIGHT),
+        table.numbers(against) if against else np.zeros(table.count))]
+    return tuple(Place._make((lot, wafer, part) + of_row + (settings, name)) for lot, wafer, part, of_row, settings, name in zip(
+        table.texts("lot_id"), table.texts("wafer_id"), parts, zip(*numbers), table.texts("settings_hash"), names))
 
 
 def word_of(place: Place) -> str:

@@ -11,7 +11,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from mems_stiction.lots_data import RELEASING, UNITS, WORDS
 from mems_stiction.plots import plt, save
 from mems_stiction.provenance import sign
-from mems_stiction.quantities import prefix_for, ratio, typeset
+from mems_stiction.quantities import literal, prefix_for, ratio, typeset
 
 COLOURS = ("#0b4f9e", "#d17a00", "#1b7f4d", "#7a3ea1", "#8a6d3b", "#2a9d9d")  # of lots or wafers, in turn
 ONE = "#b3261e"
@@ -42,7 +42,7 @@ def comparison_figure(record, has_statements=True):
     _draw_shares(figure.add_subplot(grid[0, 1]), record)
     _draw_units(figure.add_subplot(grid[1, :]), record)
     figure.suptitle("Lots, wafers and parts by their %s" % WORDS[record["figure"]], fontsize=13, y=1.0 - 0.2 / height)
-    figure.text(0.04, (0.3 + LINE * len(lines)) / height, "\n".join(lines), fontsize=9, va="top", color="#333333")
+    figure.text(0.04, (0.3 + LINE * len(lines)) / height, literal("\n".join(lines)), fontsize=9, va="top", color="#333333")
     sign(figure, {"version": record["version"]})
     return figure
 
@@ -126,7 +126,7 @@ def _draw_shares(axes, record):
 
 def _label(column):
     unit = UNITS.get(column, "")
-    return "%s%s" % (WORDS.get(column, column), " [%s]" % unit if unit else "")
+    return "%s%s" % (literal(WORDS.get(column, column)), " [%s]" % unit if unit else "")
 
 
 def _draw_units(axes, record):
@@ -146,7 +146,7 @@ def _draw_units(axes, record):
         value, lower, upper = (scale * np.array([rows[place]["value" if rows[place][key] is None else key] for place in own])
                                for key in ("value", "lower", "upper"))
         axes.errorbar(own, value, yerr=[value - lower, upper - value], fmt="o", markersize=5, color=COLOURS[number % len(COLOURS)], capsize=3,
-                      label=group if len(groups) <= 2 * len(COLOURS) else None)
+                      label=literal(group) if len(groups) <= 2 * len(COLOURS) else None)
     values = [scale * row[key] for row in rows for key in ("value", "lower", "upper") if row[key] is not None]
     if record["figure"] in RELEASING:
         axes.axhline(1.0, color=ONE, linewidth=1.4, linestyle="--", label="1: sticks below")
@@ -162,7 +162,7 @@ def _draw_units(axes, record):
     axes.set_xlim(-0.6, len(rows) - 0.4)
     if len(rows) <= MOST_NAMES:
         axes.set_xticks(range(len(rows)))
-        axes.set_xticklabels([textwrap.shorten(_name(row), 22, placeholder="…") for row in rows], rotation=30 if len(rows) > 8 else 0,
+        axes.set_xticklabels([literal(textwrap.shorten(_name(row), 22, placeholder="…")) for row in rows], rotation=30 if len(rows) > 8 else 0,
                              ha="right" if len(rows) > 8 else "center", fontsize=9)
     else:
         axes.set_xticks([])

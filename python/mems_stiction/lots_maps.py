@@ -11,7 +11,7 @@ from mems_stiction.lots_wafer import is_steep
 from mems_stiction.lots_words import text_of
 from mems_stiction.plots import plt
 from mems_stiction.provenance import sign
-from mems_stiction.quantities import length_scale, prefix_for, ratio, typeset
+from mems_stiction.quantities import length_scale, literal, prefix_for, ratio, typeset
 from mems_stiction.version import version
 
 BAD = "#e0007a"
@@ -120,7 +120,7 @@ def _head(drawn, figure, places, missing, bad, trend):
     title = wafer_word(places[0].lot, places[0].wafer) or "wafer without a name"
     absent = len({(place.x, place.y) for place in places if not place.is_known()} | set(missing))
     worst = list({(row.site_x, row.site_y): row for row in reversed(bad)}.values())[::-1]
-    drawn.suptitle("%s: %d places%s, %d bad" % (title[0].upper() + title[1:], known, ", %d missing" % absent if absent else "", len(worst)),
+    drawn.suptitle("%s: %d places%s, %d bad" % (literal(title[0].upper() + title[1:]), known, ", %d missing" % absent if absent else "", len(worst)),
                    fontsize=13, y=0.985)
     lines = ["bad at (%.4g, %.4g) mm: %s %s, expected %s" % (
         1e3 * row.site_x, 1e3 * row.site_y, WORDS[row.figure], text_of(row.value, row.figure), text_of(row.expected, row.figure)) for row in worst[:2]]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Dict, List, Sequence
 
-from mems_stiction.lots_data import RELEASING, UNITS, WORDS, Lots, wafer_word, word_of
+from mems_stiction.lots_data import RELEASING, UNITS, VOLTAGES, WORDS, Lots, wafer_word, word_of
 from mems_stiction.lots_variance import Components, Hierarchy
 from mems_stiction.lots_wafer import CHANCE, BadPlace, Trend, is_steep
 from mems_stiction.lots_yield import BOUND, COUNTED, NORMAL, Share
@@ -149,10 +149,16 @@ def of_shares(shares: Sequence[Share], lots: Lots, hierarchy: Hierarchy) -> List
         where = condition_text(share.at, lots.against)
         text = "%sexpected to stick: %s" % ("at %s " % where if where else "", share_words(share))
         said.append(text + ", " + _method(share))
-    if any(not share.has_interval for share in shares):
+    lacking, places = (sum(getattr(share, name) for share in shares) for name in ("without_interval", "places"))
+    if lacking == places:
         said.append("margins come without intervals: the error of constants and model, which all rows share, is not in the share that sticks")
+    elif lacking:
+        said.append("%d of %d margins come without an interval: that of the others, as it is in the middle of them, is taken for it" % (lacking, places))
     if hierarchy.single:
         said.append("that share is for more places of the same %s" % hierarchy.single[-1].rstrip("s"))
+    if lots.against in ("",) + VOLTAGES:
+        said.append("how that share grows with the time stuck down is not told by these rows: the model has no creep and no ageing. Margins that were "
+                    "measured after several times tell it, with a column of the times (against)")
     return said
 
 

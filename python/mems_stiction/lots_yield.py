@@ -39,7 +39,7 @@ class Share(NamedTuple):
     tail: float  # what a normal distribution would say; NaN where the margins have another
     worth: float  # as many independent places
     lost: int  # rows without a margin
-    has_interval: bool  # of the margins by themselves
+    without_interval: int  # of the places: their margins come without an interval
 
 
 def share_of(places: Sequence[Place], hierarchy: Hierarchy, at: float) -> Share:
@@ -47,16 +47,15 @@ def share_of(places: Sequence[Place], hierarchy: Hierarchy, at: float) -> Share:
     known = [place for place in places if place.is_known()]
     values = np.log([place.value for place in known])
     ends = np.log([[place.lower, place.upper] for place in known])
-    has_interval = not bool(np.isnan(ends).any())
-    if not has_interval:
-        ends = np.stack([values, values], axis=1)
+    lacking = np.isnan(ends).any(axis=1)
+    ends[lacking] = values[lacking, None] + (_usual_reach(values[~lacking], ends[~lacking]) if not lacking.all() else 0.0)
     is_finite = bool(np.isfinite(values).all())
     components = components_of(values, hierarchy, False) if is_finite and len(known) > 1 else None
     sticking = int((values < 0.0).sum())
     worth = _worth(len(known), hierarchy, components)
     bounds = _counted(int((ends[:, 1] < 0.0).sum()), sticking, int((ends[:, 0] < 0.0).sum()), len(known), worth)
     counted = Share(at, len(known), sticking, sticking / len(known), bounds[0], bounds[1], BOUND if sticking in (0, len(known)) else COUNTED, math.nan,
-                    worth, len(places) - len(known), has_interval)
+                    worth, len(places) - len(known), int(lacking.sum()))
     if components is None or not _is_normal(values, hierarchy):
         return counted
     tail = _tail(components.mean, components.total())
@@ -64,6 +63,12 @@ def share_of(places: Sequence[Place], hierarchy: Hierarchy, at: float) -> Share:
         return counted._replace(tail=tail)
     lower, upper = _normal_interval(components, values, ends)
     return counted._replace(share=tail, lower=min(lower, tail), upper=max(upper, tail), method=NORMAL, tail=tail)
+
+
+def _usual_reach(values: np.ndarray, ends: np.ndarray) -> np.ndarray:
+    """The ends of an interval, from its value: medians. What nothing holds has none."""
+    finite = np.isfinite(values)
+    return np.median(ends[finite] - values[finite, None], axis=0) if finite.any() else np.zeros(2)
 
 
 def _tail(mean: float, variance: float) -> float:

@@ -9,6 +9,7 @@ from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple, Union
 import numpy as np
 
 from mems_stiction._settings import Error
+from mems_stiction.other_packages import require_package
 from mems_stiction.whole_file import whole
 
 ENDINGS = (".h5", ".hdf5", ".nc")
@@ -58,10 +59,9 @@ def save(path: Union[str, "os.PathLike[str]"], maps: Sequence[Map], curves: Dict
     path = pathlib.Path(os.fspath(path))
     if path.suffix not in ENDINGS:
         raise Error("path: '%s' is not allowed, must end in %s or %s" % (path, ", ".join(ENDINGS[:-1]), ENDINGS[-1]))
-    try:
-        import h5py
-    except ImportError:
-        raise Error("path: HDF5 needs the Python package h5py (apt install python3-h5py, or pip install h5py)") from None
+    require_package("h5py", "path: HDF5")
+    import h5py
+
     # In memory: HDF5 goes on over a disk that is full, and then has much to say of it.
     with h5py.File(path.name, "w", driver="core", backing_store=False) as file:
         file.attrs["Conventions"] = "CF-1.8"

@@ -21,7 +21,7 @@ from mpl_toolkits.axes_grid1 import make_axes_locatable  # noqa: E402
 from mems_stiction.prediction_text import STATUS_NAMES, bound_of, digits_of, flag_names, flag_words  # noqa: E402
 from mems_stiction import quantities  # noqa: E402
 from mems_stiction.provenance import sign  # noqa: E402
-from mems_stiction.quantities import length_scale, percent  # noqa: E402
+from mems_stiction.quantities import length_scale, literal, percent  # noqa: E402
 from mems_stiction.whole_file import whole  # noqa: E402
 
 # Elastic, elasto-plastic, fully plastic: told apart without red-green vision too.
@@ -101,7 +101,7 @@ def save_picture(picture, path):
     caption = _caption(picture)
     top = min(0.80, 0.925 - CAPTION_LINE * (caption.count("\n") + 1) - 0.055)  # below the caption there is a line of titles
     grid = figure.add_gridspec(1, 3, width_ratios=(1.0, 1.0, 1.15), left=0.045, right=0.985, top=top, bottom=0.17, wspace=0.3)
-    figure.suptitle(picture.name, x=0.045, y=0.965, ha="left", fontsize=14, fontweight="bold")
+    figure.suptitle(literal(picture.name), x=0.045, y=0.965, ha="left", fontsize=14, fontweight="bold")
     figure.text(0.045, 0.925, caption, fontsize=10.5, color="#333333", va="top")
     draw_heights(figure, figure.add_subplot(grid[0]), picture)
     contact_axes = figure.add_subplot(grid[1])

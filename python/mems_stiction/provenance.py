@@ -1,5 +1,7 @@
 """Where a result comes from, in one line: scan, part, serial number, lot, wafer, settings, version."""
 
+from mems_stiction.quantities import literal
+
 # of every result, as the messages name them
 FIELDS = ("version", "settings_hash", "scan_name", "part_id", "serial_id", "lot_id", "wafer_id", "site_x", "site_y", "acquisition_time",
           "instrument", "operator_name", "checksum")
@@ -20,5 +22,5 @@ def sign(figure, source, colour="#666666", leave_out=()):
     """Writes it into the lower right corner of a picture of matplotlib. Returns whether there was anything to write."""
     text = provenance_words(source, leave_out)
     if text:
-        figure.text(1 - 0.05 / figure.get_figwidth(), 0.04 / figure.get_figheight(), text, ha="right", va="bottom", fontsize=7.5, color=colour)
+        figure.text(1 - 0.05 / figure.get_figwidth(), 0.04 / figure.get_figheight(), literal(text), ha="right", va="bottom", fontsize=7.5, color=colour)
     return bool(text)

@@ -75,6 +75,11 @@ def typeset(text):
     return re.sub(r"(?<=\d )u(?=\w)", "µ", text).replace("^2", "²")
 
 
+def literal(text):
+    """A text that came from outside, as it stands, for a picture of matplotlib, which takes what is between two dollar signs for a formula."""
+    return text.replace("$", r"\$")
+
+
 _UNITS = r"(?:[afpnuµmkMG]?(?:m|N|V|J|Pa|s|Hz|K)(?:\^?[2²3³])?(?:/(?:m|s)(?:\^?[2²3³])?)?|%)"
 
 

@@ -6,7 +6,7 @@ import textwrap
 from mems_stiction.plots import plt, save, widen, with_unit
 from mems_stiction.prediction_text import contact_area_of
 from mems_stiction.provenance import sign
-from mems_stiction.quantities import prefix_for, typeset
+from mems_stiction.quantities import literal, prefix_for, typeset
 from mems_stiction.station_text import area_label, safe_voltage_words
 from mems_stiction.sweep_jumps import UP, jumps_of, ways_of
 
@@ -43,7 +43,7 @@ def save_sweep(result, path):
             each.axvline(result.pull_in_voltage, color="#666666", linewidth=1, linestyle="-.")
     _number_jumps(axes[0], result, jumps)
     lines = "Jumps:\n" + "\n".join(texts) if texts else ""
-    figure.text(0.3 / width, 0.25 / height, lines, fontsize=9, va="bottom", ha="left", color="#333333", linespacing=1.25)
+    figure.text(0.3 / width, 0.25 / height, literal(lines), fontsize=9, va="bottom", ha="left", color="#333333", linespacing=1.25)
     figure.legend(handles=keys, loc="lower center", ncol=columns, fontsize=9.5, frameon=False,
                   bbox_to_anchor=(0.5, (0.27 + LINE * (len(texts) + (1 if texts else 0))) / height))
     sign(figure, result)

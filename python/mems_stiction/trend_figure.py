@@ -6,7 +6,7 @@ from mems_stiction.control_chart import control_limits, of_newest_settings
 from mems_stiction.plots import plt, with_unit
 from mems_stiction.prediction_text import bound_of, digits_of, flag_names, limits_of
 from mems_stiction.provenance import sign
-from mems_stiction.quantities import prefix_for
+from mems_stiction.quantities import literal, prefix_for
 
 import numpy as np
 from matplotlib.ticker import FuncFormatter, MaxNLocator
@@ -205,5 +205,5 @@ def _headline(figure, number, text, verdict, detail, limits=""):
 
 
 def _line_of_text(figure, height, text, colour, size, longest):
-    figure.text(0.1, height, text if len(text) <= longest else text[:longest - 3] + "...", ha="left", va="center",
+    figure.text(0.1, height, literal(text if len(text) <= longest else text[:longest - 3] + "..."), ha="left", va="center",
                 fontsize=size, color=colour)

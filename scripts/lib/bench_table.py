@@ -128,7 +128,7 @@ def print_half_space(rows):
     print("The half-space; a pair is one forward and one inverse real transform of the frame in the same run")
     for row in rows:
         held = "" if row["limit"] is None else verdict(row["figure"], row["limit"], row["at_least"])
-        print("%-62s %10.2f %-6s %s" % (row["work"], row["figure"], row["unit"], held))
+        print("%-68s %10.2f %-6s %s" % (row["work"], row["figure"], row["unit"], held))
 
 
 def print_device(path):

@@ -34,17 +34,17 @@ class TooLong(Exception):
 
 @contextlib.contextmanager
 def time_limit(seconds):
-    """Raises TooLong after so many seconds; Ctrl-C goes the same way."""
+    """Raises TooLong after so many seconds of processor time; Ctrl-C goes the same way."""
     def stop(*_):
         raise TooLong
 
-    before = signal.signal(signal.SIGALRM, stop)
-    signal.setitimer(signal.ITIMER_REAL, seconds)
+    before = signal.signal(signal.SIGPROF, stop)
+    signal.setitimer(signal.ITIMER_PROF, seconds)
     try:
         yield
     finally:
-        signal.setitimer(signal.ITIMER_REAL, 0)
-        signal.signal(signal.SIGALRM, before)
+        signal.setitimer(signal.ITIMER_PROF, 0)
+        signal.signal(signal.SIGPROF, before)
 
 
 def settings_of(frame, formulation):
@@ -109,7 +109,7 @@ def main():
     parser.add_argument("--pixels", type=int, default=128)
     parser.add_argument("--seed", type=int, help="of the frames; another one draws frames that no rule was set on")
     parser.add_argument("--scans", help="folder of imported scans")
-    parser.add_argument("--limit", type=float, default=90.0, help="seconds that one half-space may take")
+    parser.add_argument("--limit", type=float, default=90.0, help="seconds of processor time that one half-space may take")
     arguments = parser.parse_args()
     if arguments.seed is None:
         arguments.seed = trust_kinds.SEED if arguments.kinds else trust_frames.SEED

@@ -4,8 +4,6 @@
 /// The order in which cells come into contact: by gap, and of equal gaps as they stand in the frame, row by row. No two
 /// cells are equal then. Of its neighbours, those to the left and above stand before a cell, the others after it.
 
-#include <cstdint>
-
 namespace mems_stiction {
 
 /// A side of a cell, or of a box of cells; the order of everything that is kept by side.

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "prediction/contact_solvers.hpp"
+#include "settings/option_values.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -73,40 +74,21 @@ bool isMeant(const std::string& pattern, const std::string& key) {
 }
 
 /// Every setting as text.
-class SettingTexts : public OptionVisitor {
- public:
-  explicit SettingTexts(const Configuration& configuration) { describeConst(configuration, *this); }
-
-  void number(const std::string& key, double& value, const std::string&, const Range&, const std::string&) override {
-    texts_[key] = numberText(value);
-  }
-  void integer(const std::string& key, int& value, const Range&, const std::string&) override {
-    texts_[key] = std::to_string(value);
-  }
-  void flag(const std::string& key, bool& value, const std::string&) override {
-    texts_[key] = value ? "true" : "false";
-  }
-  void text(const std::string& key, std::string& value, const std::string&) override { texts_[key] = value; }
-  void choice(const std::string& key, std::string& value, const std::vector<std::string>&,
-              const std::string&) override {
-    texts_[key] = value;
-  }
-
-  const std::map<std::string, std::string>& all() const { return texts_; }
-
- private:
-  std::map<std::string, std::string> texts_;
-};
+std::map<std::string, std::string> textsOf(const Configuration& configuration) {
+  std::map<std::string, std::string> texts;
+  visitValues(configuration, [&texts](const std::string& key, const auto& value) { texts[key] = valueText(value); });
+  return texts;
+}
 
 }  // namespace
 
 std::vector<std::string> idleSettings(const Configuration& configuration) {
-  static const SettingTexts defaults{Configuration()};
-  const SettingTexts texts(configuration);
+  static const std::map<std::string, std::string> defaults = textsOf(Configuration());
+  const std::map<std::string, std::string> texts = textsOf(configuration);
   std::vector<std::string> lines;
   const auto addAll = [&](const std::string& pattern, const std::string& why) {
-    for (const auto& [key, text] : texts.all()) {
-      if (!isMeant(pattern, key) || text == defaults.all().at(key)) continue;
+    for (const auto& [key, text] : texts) {
+      if (!isMeant(pattern, key) || text == defaults.at(key)) continue;
       lines.push_back(key + (" " + text) + " has no effect: " + why);
     }
   };

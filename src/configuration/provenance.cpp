@@ -4,49 +4,17 @@
 #include <cstdio>
 
 #include "mems_stiction/configuration/configuration.hpp"
+#include "settings/option_values.hpp"
 
 namespace mems_stiction {
 namespace {
 
-/// FNV-1a over "key=value" of each setting that counts.
-class SettingsDigest : public OptionVisitor {
- public:
-  void number(const std::string& key, double& value, const std::string&, const Range&, const std::string&) override {
-    add(key, numberText(value));
+bool counts(const std::string& key) {
+  for (const char* without : {"part/", "limits/", "output/", "half_space/threads"}) {
+    if (key.rfind(without, 0) == 0) return false;
   }
-  void integer(const std::string& key, int& value, const Range&, const std::string&) override {
-    add(key, std::to_string(value));
-  }
-  void flag(const std::string& key, bool& value, const std::string&) override { add(key, value ? "true" : "false"); }
-  void text(const std::string& key, std::string& value, const std::string&) override { add(key, value); }
-  void choice(const std::string& key, std::string& value, const std::vector<std::string>&,
-              const std::string&) override {
-    add(key, value);
-  }
-
-  std::string text() const {
-    char digits[17];
-    std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(state_));
-    return digits;
-  }
-
- private:
-  static bool counts(const std::string& key) {
-    for (const char* without : {"part/", "limits/", "output/", "half_space/threads"}) {
-      if (key.rfind(without, 0) == 0) return false;
-    }
-    return true;
-  }
-
-  void add(const std::string& key, const std::string& value) {
-    if (!counts(key)) return;
-    for (const char character : key + "=" + value + "\n") {
-      state_ = (state_ ^ static_cast<unsigned char>(character)) * 0x100000001b3ULL;
-    }
-  }
-
-  std::uint64_t state_ = 0xcbf29ce484222325ULL;
-};
+  return true;
+}
 
 }  // namespace
 
@@ -60,9 +28,16 @@ void PartOptions::describe(OptionVisitor& visitor) {
 const char* packageVersion() { return MEMS_STICTION_VERSION; }
 
 std::string settingsHash(const Configuration& configuration) {
-  SettingsDigest digest;
-  describeConst(configuration, digest);
-  return digest.text();
+  std::uint64_t state = 0xcbf29ce484222325ULL;  // FNV-1a over "key=value" of each setting that counts
+  visitValues(configuration, [&state](const std::string& key, const auto& value) {
+    if (!counts(key)) return;
+    for (const char character : key + "=" + valueText(value) + "\n") {
+      state = (state ^ static_cast<unsigned char>(character)) * 0x100000001b3ULL;
+    }
+  });
+  char digits[17];
+  std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(state));
+  return digits;
 }
 
 Provenance provenanceOf(const ScanIdentity& identity, const Configuration& configuration) {

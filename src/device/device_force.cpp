@@ -6,7 +6,6 @@
 #include <map>
 #include <optional>
 #include <random>
-#include <utility>
 
 #include "device/area_load.hpp"
 #include "device/device_area.hpp"
@@ -17,7 +16,6 @@
 #include "device/scan_shortcomings.hpp"
 #include "device/surface_law.hpp"
 #include "errors/short_number.hpp"
-#include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
 #include "mems_stiction/verdict/margin_uncertainty.hpp"
 #include "numeric/constants.hpp"

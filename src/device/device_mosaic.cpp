@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 
 #include "device/device_area.hpp"
 #include "device/device_surface.hpp"

@@ -8,8 +8,6 @@
 /// 1/K = 1/K_body - 2/(E q); k = -(dF/dD)/A at rest of a made surface as large as that wave is long, with stiff bodies. A larger
 /// one has a smaller k, but K falls with the fourth power of the length: found by going from short lengths to longer ones.
 
-#include <vector>
-
 #include "mems_stiction/device/device_force.hpp"
 
 namespace mems_stiction {

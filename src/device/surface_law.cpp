@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "device/scan_list.hpp"
-#include "mems_stiction/errors/errors.hpp"
 #include "preprocess/level.hpp"
 
 namespace mems_stiction {

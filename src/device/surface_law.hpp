@@ -59,9 +59,4 @@ class SurfaceStudy {
   std::unique_ptr<const Findings> findings_;
 };
 
-/// The law that scans say.
-inline SurfaceLaw surfaceLawOf(const std::vector<HeightMap>& scans, TailForm form = TailForm::kExponential) {
-  return SurfaceStudy(scans).law(form);
-}
-
 }  // namespace mems_stiction

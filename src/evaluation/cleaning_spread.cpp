@@ -8,6 +8,7 @@
 #include "errors/short_number.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/evaluation/scan_predictor.hpp"
+#include "prediction/asked_output.hpp"
 #include "prediction/prediction_fields.hpp"
 #include "preprocess/tilt.hpp"
 
@@ -83,9 +84,8 @@ void include(double value, double configured, FactorRange& range) {
 std::vector<CleaningRow> cleaningSpread(const HeightMap& scan, const Configuration& configuration,
                                         const std::optional<DeviceScale>& scale) {
   Configuration changed = configuration;
-  OutputOptions& output = changed.model.output;
-  output.deformed_surfaces = output.contact_map = output.energy_curve = false;
-  output.roughness = output.asperities = true;
+  changed.model.output = figuresAlone();
+  changed.model.output.roughness = true;
   changed.check();
   std::vector<CleaningRow> rows = {rowOf("as configured", scan, changed, scale)};
   for (const bool without_spikes : {false, true}) {

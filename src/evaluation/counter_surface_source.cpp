@@ -18,10 +18,6 @@ constexpr double kUsualShare = 0.9;  // of the scan under its counter-surface: w
 
 constexpr double kCopy = 0.01;  // of the rms height: less between two surfaces, and one was drawn from the other
 
-bool haveSameGrid(const HeightMap& a, const HeightMap& b) {
-  return a.rows() == b.rows() && a.cols() == b.cols() && a.pitchX() == b.pitchX() && a.pitchY() == b.pitchY();
-}
-
 /// What looks wrong in a counter-surface as it was measured.
 std::vector<std::string> warningsAbout(const std::string& name, const HeightMap& measured) {
   std::vector<std::string> lines = scanWarnings(measured);

@@ -6,15 +6,14 @@
 #include "evaluation/frame_load.hpp"
 #include "evaluation/plausibility.hpp"
 #include "mems_stiction/errors/errors.hpp"
+#include "prediction/asked_output.hpp"
 
 namespace mems_stiction {
 namespace {
 
 /// What the verdict needs of the prediction of a scan.
 Configuration forVerdict(Configuration configuration) {
-  OutputOptions& output = configuration.model.output;
-  output.deformed_surfaces = output.contact_map = output.energy_curve = output.roughness = false;
-  output.asperities = true;
+  configuration.model.output = figuresAlone();
   configuration.spatial_roughness.enabled = false;
   configuration.device_force.enabled = true;  // who asks for it wants it
   configuration.check();

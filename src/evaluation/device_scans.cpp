@@ -7,13 +7,10 @@
 #include "evaluation/frame_load.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
+#include "surface/alignment.hpp"
 
 namespace mems_stiction {
 namespace {
-
-bool haveSameGrid(const HeightMap& a, const HeightMap& b) {
-  return a.rows() == b.rows() && a.cols() == b.cols() && a.pitchX() == b.pitchX() && a.pitchY() == b.pitchY();
-}
 
 double pixelOf(const NamedScan& scan) { return std::max(scan.surface.pitchX(), scan.surface.pitchY()); }
 

@@ -5,6 +5,7 @@
 #include "evaluation/block_maxima.hpp"
 #include "mems_stiction/evaluation/scan_predictor.hpp"
 #include "mems_stiction/mechanics/regime.hpp"
+#include "prediction/asked_output.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -30,9 +31,7 @@ Verdict halfSpaceVerdict(const SolvedHalfSpace& solved, const PreparedScan& prep
   Configuration asked = configuration;
   asked.model = options;
   asked.counter_surface = {};  // the prepared scan has it
-  OutputOptions& output = asked.model.output;
-  output.deformed_surfaces = output.contact_map = output.energy_curve = false;
-  output.asperities = true;
+  asked.model.output = figuresAlone();
   ScanPredictor predictor(asked);
   const Prediction prediction = predictor.predict(prepared);
   Evidence evidence = beside;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "surface/alignment.hpp"
+
 namespace mems_stiction {
 namespace {
 
@@ -29,18 +31,13 @@ PreparedScan surfacesAlone(const PreparedScan& scan) {
   return alone;
 }
 
-bool areOneGrid(const HeightMap& left, const HeightMap& right) {
-  return left.rows() == right.rows() && left.cols() == right.cols() && left.pitchX() == right.pitchX() &&
-         left.pitchY() == right.pitchY();
-}
-
 /// The oldest of those that share the commonest grid.
 std::vector<ScannedSurface>::iterator mostSpareable(std::vector<ScannedSurface>& scans) {
   auto found = scans.begin();
   std::ptrdiff_t most = 0;
   for (auto scan = scans.begin(); scan != scans.end(); ++scan) {
     const std::ptrdiff_t alike = std::count_if(scans.begin(), scans.end(), [&](const ScannedSurface& other) {
-      return areOneGrid(scan->scan.surfaces.lower, other.scan.surfaces.lower);
+      return haveSameGrid(scan->scan.surfaces.lower, other.scan.surfaces.lower);
     });
     if (alike <= most) continue;
     most = alike;

@@ -1,13 +1,16 @@
 #include "mems_stiction/evaluation/scan_predictor.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
+
+#include <opencv2/imgproc.hpp>
 
 #include "evaluation/block_maxima.hpp"
 #include "evaluation/frame_load.hpp"
-#include "evaluation/region_border.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/verdict/resolution.hpp"
+#include "numeric/constants.hpp"
 #include "settings/time_limit.hpp"
 
 namespace mems_stiction {
@@ -53,6 +56,30 @@ void bringToScan(const PreparedScan& prepared, Prediction& prediction) {
     prediction.deformed_lower = after.lower.heights();
     prediction.deformed_upper = after.upper.heights();
   }
+}
+
+/// Contacts that reach pixels outside the region count as those at the frame's border: their summits may lie there.
+/// Pixels outside are no missing ones: invalid_fraction is that of the region.
+/// - @p prepared with a region
+void countRegionAlone(const PreparedScan& prepared, Prediction& prediction) {
+  const HeightMap& scan = prepared.surfaces.lower;
+  const double pixels = static_cast<double>(prepared.outside.total());
+  const double left_out = cv::countNonZero(prepared.outside);
+  prediction.invalid_fraction = std::max(0.0, (prediction.invalid_fraction * pixels - left_out) / (pixels - left_out));
+
+  // From the middle of each pixel to that of the nearest one outside, in pixels: exact along rows and columns.
+  cv::Mat distance;
+  cv::distanceTransform(prepared.outside == 0, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+  const double pitch = std::max(scan.pitchX(), scan.pitchY());
+  const auto mark = [&](Asperity& asperity) {
+    const int col = std::clamp(static_cast<int>(std::lround(asperity.x / scan.pitchX())), 0, scan.cols() - 1);
+    const int row = std::clamp(static_cast<int>(std::lround(asperity.y / scan.pitchY())), 0, scan.rows() - 1);
+    const double radius = std::sqrt(asperity.area / kPi);
+    // A contact ends half a pixel before the middle of the first one outside.
+    if ((static_cast<double>(distance.at<float>(row, col)) - 1.0) * pitch <= radius) asperity.is_at_border = true;
+  };
+  std::for_each(prediction.asperities.begin(), prediction.asperities.end(), mark);
+  std::for_each(prediction.pull_off_contacts.begin(), prediction.pull_off_contacts.end(), mark);
 }
 
 SurfacePair decimated(const SurfacePair& surfaces, int factor) {

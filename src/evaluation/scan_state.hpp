@@ -4,6 +4,8 @@
 /// Which state of which files a row is of, so that a row is not kept for a file that was measured anew under its name.
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "files/input_file.hpp"
 #include "mems_stiction/configuration/configuration.hpp"
@@ -17,6 +19,9 @@ struct ScanState {
   std::string sidecar_checksum;        ///< of the settings beside a scan
   std::string settings_file_checksum;  ///< settingsFilesChecksum()
 };
+
+/// Key and path of each setting whose name ends in "file", and that is set: it names one that is read.
+std::vector<std::pair<std::string, std::string>> filesNamedBy(const Configuration& configuration);
 
 /// Of what the settings name: counter_surface/file with its sidecar, masks and polygons of regions. Empty if they name
 /// none.

@@ -3,7 +3,6 @@
 /// @file
 /// Files that a person names are read without waiting for anybody and without end: none too large, no device.
 
-#include <cstddef>
 #include <cstdint>
 #include <string>
 

@@ -20,21 +20,10 @@ namespace {
   throw FileError(path + ": cannot be written: " + std::strerror(errno));
 }
 
-/// @return 0, or -1 with errno set
-int writeAll(int descriptor, const std::string& bytes) {
-  for (std::size_t done = 0; done < bytes.size();) {
-    const ssize_t count = ::write(descriptor, bytes.data() + done, bytes.size() - done);
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) return -1;
-    done += static_cast<std::size_t>(count);
-  }
-  return 0;
-}
-
 void writeDirectly(const std::string& path, const std::string& bytes) {
   const int descriptor = open(path.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC);
   if (descriptor < 0) fail(path);
-  int state = writeAll(descriptor, bytes);
+  int state = writeAll(descriptor, bytes) ? 0 : -1;
   const int cause = errno;
   if (close(descriptor) != 0 && state == 0) fail(path);
   errno = cause;
@@ -42,6 +31,16 @@ void writeDirectly(const std::string& path, const std::string& bytes) {
 }
 
 }  // namespace
+
+bool writeAll(int descriptor, const std::string& bytes) {
+  for (std::size_t done = 0; done < bytes.size();) {
+    const ssize_t count = ::write(descriptor, bytes.data() + done, bytes.size() - done);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return false;
+    done += static_cast<std::size_t>(count);
+  }
+  return true;
+}
 
 bool isLonelyPipe(const std::string& path) {
   struct stat status {};
@@ -72,7 +71,7 @@ void writeFile(const std::string& path, const std::string& bytes, OutputSafety s
     return name;
   });
   const std::string& partial = scratch.path();
-  int state = writeAll(descriptor, bytes);
+  int state = writeAll(descriptor, bytes) ? 0 : -1;
   if (state == 0 && exists) state = fchmod(descriptor, status.st_mode & 07777);
   if (state == 0 && safety == OutputSafety::kOnDisk) state = fsync(descriptor);
   int cause = errno;

@@ -12,6 +12,9 @@ enum class OutputSafety {
   kOnDisk,  ///< the disk has it when writeFile() returns
 };
 
+/// Hands all of the bytes to the system. @return false, with errno set, if it does not take them
+bool writeAll(int descriptor, const std::string& bytes);
+
 /// A pipe by a name of its own, which would wait for somebody who reads it, or a socket; not what isOpenStream().
 bool isLonelyPipe(const std::string& path);
 /// What is wrong with it.

@@ -157,6 +157,7 @@ ConjugateGradients::Direction ConjugateGradients::find(const System& system) {
   overRows(grid_, threads_, [&](std::size_t i) {
     return conjugate_rows::finish(cols, slope_.data() + i, step_.data() + i, residual_.data() + i, first_.data() + i);
   });
+  direction.mean_residual = mean;
   return direction;
 }
 

@@ -42,8 +42,9 @@ class ConjugateGradients {
   };
   /// A step along which the energy falls.
   struct Direction {
-    double decrease = 0.0;  ///< minus the derivative of the energy along it, at its begin [J]
-    double longest = 0.0;   ///< largest |s| [m]
+    double decrease = 0.0;       ///< minus the derivative of the energy along it, at its begin [J]
+    double longest = 0.0;        ///< largest |s| [m]
+    double mean_residual = 0.0;  ///< what K cannot resist of r - t' s [Pa]
     bool is_unstable = false;
   };
 

@@ -235,7 +235,8 @@ evaluation_rows::Sums ContactMinimiser::evaluateRow(int row, double height, cons
                                       step.traction + col,
                                       gradients_.residual() + cell,
                                       with_slopes ? gradients_.slope() + cell : nullptr,
-                                      nullptr};
+                                      nullptr,
+                                      mean_traction_};
   };
   if (row >= grid_.frame_rows) return evaluation_rows::evaluateFree(grid_.cols, step.length, arraysFrom(0));
   const std::size_t in_frame = static_cast<std::size_t>(row) * static_cast<std::size_t>(grid_.frame_cols);
@@ -397,6 +398,7 @@ ContactState ContactMinimiser::solve(double height, const Search& search) {
     const Evaluation before = now;
     bool is_lower = false;
     for (int halvings = 0; halvings <= kMostHalvings; ++halvings, length *= 0.5) {
+      mean_traction_ = before.mean_residual + length * (direction.mean_residual - before.mean_residual);
       now = evaluateAlong(height, length);
       is_lower = isNearer(now, before, length * direction.decrease);
       if (is_lower) break;
@@ -411,6 +413,7 @@ ContactState ContactMinimiser::solve(double height, const Search& search) {
     takeStep(length);
     staleness_ = std::numeric_limits<double>::infinity();  // conjugate gradients add up what rounding leaves
   }
+  mean_traction_ = now.mean_residual;
   state.force = now.force;
   state.energy = now.energy;
   state.residual = now.largest_residual / law_.stress();

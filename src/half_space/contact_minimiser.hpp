@@ -189,6 +189,7 @@ class ContactMinimiser {
   std::unique_ptr<ContactWindows> windows_;  ///< none in a window
   float pending_share_ = 0.0F;               ///< of the last change, by which u is still to go on
   double lowest_gap_ = 0.0;                  ///< in the state just solved [m]
+  double mean_traction_ = 0.0;               ///< that K does not resist, as far as it is known [Pa]
   int exact_products_ = 0;                   ///< of K u
   int window_products_ = 0;
   bool is_set_up_ = false;

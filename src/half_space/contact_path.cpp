@@ -59,6 +59,10 @@ constexpr int kManyNewtonSteps = 12;
 constexpr double kSameHeight = 1e-6;
 /// The present change is continued over no more than this many times its length.
 constexpr double kLongestContinuation = 4.0;
+/// By how much the mean gap of a periodic frame falls in one step, of its distance to the narrowest gap: in full contact
+/// the pressure grows sixfold over the second.
+constexpr double kLeastClosing = 0.1;
+constexpr double kMostClosing = 0.5;
 /// Force that may be left at rest, of the force.
 constexpr double kRestForce = 1e-3;
 /// A state beyond rest counts as rest when it is no farther from the last one than this, of the usual step.
@@ -252,6 +256,21 @@ double ContactPath::stepTo(double force) const {
   return (last_parabola_.crossing(force, 1.0, 1.0 + tried) - 1.0) * std::abs(last_move_);
 }
 
+double ContactPath::gapLeft() const {
+  const double left = present_.mean_gap - minimiser_.law().narrowestGap();
+  const bool is_free = minimiser_.grid().boundary == HalfSpaceBoundary::kFree;
+  return !is_free && left > 0.0 ? left : std::numeric_limits<double>::infinity();
+}
+
+double ContactPath::closingStep(double force) const {
+  const TractionLaw& law = minimiser_.law();
+  const double left = gapLeft();
+  if (!std::isfinite(left)) return left;
+  // the law repels the more steeply the narrower a gap is: the mean pressure is at least that of the mean gap
+  const double to_force = present_.mean_gap - law.gapUnder(-force / minimiser_.validArea());
+  return std::clamp(to_force, kLeastClosing * left, kMostClosing * left);
+}
+
 void ContactPath::planStep() {
   if (!isHeavy(present_)) return;
   const double smallest = kSmallestStep * settings_.step * minimiser_.law().range();
@@ -281,13 +300,15 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
     const double wanted = is_aimed ? step_ : stepTo(least_force);
     is_aimed = is_aimed || wanted < step_;
     double step = std::min(std::max(wanted, kRestStep * usual), farthest);
+    if (direction < 0.0) step = std::min(step, closingStep(least_force));
     const double to_jump = is_before_jump_ ? direction * (jump_height_ - present_.height) : 0.0;
     if (is_before_jump_) step = std::min(step, to_jump <= kStepTolerance * finest_ ? to_jump : 0.5 * to_jump);
     const double move = direction * step;
     ForcePoint next;
     ContactState state;
     // a way to somewhere else, or a force that is to be another one
-    const bool is_rough = isHeavy(present_) && (is_aimed || !settings_.samples_curve);
+    const bool is_passed = direction < 0.0 && !settings_.samples_curve;
+    const bool is_rough = isHeavy(present_) && (is_aimed || is_passed);
     PathStatus status = attempt(present_.height + move, is_rough ? kRoughTolerance : 1.0, next, state);
     if (is_rough && status == PathStatus::kDone) {
       if (is_aimed && aims < kMostAims && std::abs(next.force - least_force) > kRestForce * -least_force) {
@@ -305,8 +326,8 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
       continue;
     }
     const double at_most = std::max({curve.largest_force, next.force, 0.0});
-    const bool may_miss = direction > 0.0 && continued(move) > (1.0 + kNegligibleMiss) * at_most;
-    const double kink = (may_miss ? kSummitKinkShare : kKinkShare) * kinkOf(next);
+    const bool may_exceed = direction > 0.0 && continued(move) > (1.0 + kNegligibleMiss) * at_most;
+    const double kink = (may_exceed ? kSummitKinkShare : kKinkShare) * kinkOf(next);
     // finer usual steps are to miss less, too
     const double sag = std::max(sagOf(next), kink) * kUsualStep / settings_.step;
     const bool is_heavy = isHeavy(present_) && isHeavy(next);
@@ -317,6 +338,8 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
     const StepParabola parabola(present_, next);
     const bool loses = (0.5 * (parabola.begin + parabola.end) - parabola.mean) * direction > 0.0;
     const bool is_jump = loses && !is_heavy && sagOf(next) > kJumpSag;
+    // how steeply a branch rises that begins here is not known: its end may be the largest force of all
+    const bool may_miss = may_exceed || (direction > 0.0 && last_move_ == 0.0);
     // the force of pressed surfaces rises steeply, but a jump is none the less one in steps that are finer
     const bool is_pressed = std::min(present_.force, next.force) < 0.0;
     const double finest = may_miss || (is_pressed && !is_jump) ? kFinestStep * usual : smallest;
@@ -415,10 +438,11 @@ PathStatus ContactPath::leaveRest() { return leaveRest(retraction_); }
 
 PathStatus ContactPath::leaveRest(ForceCurve& curve) {
   curve.add(present_);
-  step_ = settings_.step * minimiser_.law().range();
+  step_ = std::min(settings_.step * minimiser_.law().range(), kLeastClosing * gapLeft());
+  last_move_ = 0.0;  // the other way
   is_before_jump_ = false;
   const PathStatus status = goOut(curve);
-  if (last_move_ != 0.0) stiffness_ = last_parabola_.slope() / last_move_;
+  if (status == PathStatus::kDone && last_move_ != 0.0) stiffness_ = last_parabola_.slope() / last_move_;
   return status;
 }
 

@@ -129,6 +129,11 @@ class ContactPath {
   PathStatus begin(double height);
   /// The step to be tried next, but no farther than where the force seems to fall below `force`.
   double stepTo(double force) const;
+  /// By how much the mean gap of a periodic frame, which follows the height, may fall at most; infinity with free edges,
+  /// whose mean displacement follows instead [m].
+  double gapLeft() const;
+  /// How far the bodies may close at once on their way to `force` [m].
+  double closingStep(double force) const;
   /// On the way out of pressed bodies: the farthest height of the way in from where its curve is smooth enough to here.
   void planStep();
   /// One step in a direction (-1 down, +1 up), no farther than `farthest` [m] and not beyond where the force falls to

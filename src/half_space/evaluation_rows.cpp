@@ -65,14 +65,19 @@ void addFixed(int count, const float* fixed, const double* displacement, Tile& t
 MEMS_STICTION_VECTORIZED void addTile(int count, double length, const RowArrays& arrays, Tile& tile, Sums& sums) {
   alignas(64) double displacement[kTile];
   alignas(64) double elastic[kTile];
+  alignas(64) double work[kTile];
   for (int i = 0; i < count; ++i) {
-    displacement[i] = arrays.displacement[i] + length * static_cast<double>(arrays.step[i]);
-    elastic[i] = arrays.elastic_traction[i] + length * static_cast<double>(arrays.step_traction[i]);
+    const double move = length * static_cast<double>(arrays.step[i]);
+    const double further = length * static_cast<double>(arrays.step_traction[i]);
+    displacement[i] = arrays.displacement[i] + move;
+    elastic[i] = arrays.elastic_traction[i] + further;
+    // with s K u for u K s: else what rounding leaves in K s would be weighed with all of u
+    work[i] = arrays.displacement[i] * arrays.elastic_traction[i] + move * (arrays.elastic_traction[i] + elastic[i]);
   }
   if (arrays.fixed != nullptr) addFixed(count, arrays.fixed, displacement, tile);
   int end = count;
   for (; end % kLanes != 0; ++end) {
-    displacement[end] = tile.slope[end] = tile.energy[end] = 0.0;
+    work[end] = tile.slope[end] = tile.energy[end] = 0.0;
     tile.traction[end] = tile.traction[count - 1];
     elastic[end] = elastic[count - 1];
   }
@@ -84,7 +89,7 @@ MEMS_STICTION_VECTORIZED void addTile(int count, double length, const RowArrays&
     const Lanes dt = Lanes::load(tile.slope + i);
     const Lanes ku = Lanes::load(elastic + i);
     const Lanes r = t - ku;
-    elastic_energy += Lanes::load(displacement + i) * ku;
+    elastic_energy += Lanes::load(work + i);
     energy += Lanes::load(tile.energy + i);
     positive += select(dt > 0.0, dt, 0.0);
     highest = select(r > highest, r, highest);
@@ -121,7 +126,8 @@ void useSecants(const TractionLaw& law, int count, double length, const RowArray
   for (int i = 0; i < count; ++i) {
     if (!(tile.gaps[i] < law.contactGap())) continue;
     const double fixed = arrays.fixed != nullptr ? static_cast<double>(arrays.fixed[i]) : 0.0;
-    const double elastic = fixed + arrays.elastic_traction[i] + length * static_cast<double>(arrays.step_traction[i]);
+    const double elastic =
+        arrays.mean + fixed + arrays.elastic_traction[i] + length * static_cast<double>(arrays.step_traction[i]);
     const double wanted = std::min(elastic, 0.0);
     if (std::abs(wanted - tile.traction[i]) < least) continue;
     const double secant = law.secant(tile.gaps[i], tile.traction[i], wanted);
@@ -136,7 +142,8 @@ RowArrays shifted(const RowArrays& arrays, int cells) {
           arrays.step_traction + cells,
           arrays.residual + cells,
           arrays.slope == nullptr ? nullptr : arrays.slope + cells,
-          arrays.fixed == nullptr ? nullptr : arrays.fixed + cells};
+          arrays.fixed == nullptr ? nullptr : arrays.fixed + cells,
+          arrays.mean};
 }
 
 }  // namespace

@@ -36,6 +36,7 @@ struct RowArrays {
   float* residual;
   float* slope;        ///< null where nobody asks for it
   const float* fixed;  ///< a further elastic traction that does not change with u; null for none
+  double mean;         ///< traction that K does not resist, as far as it is known [Pa]
 };
 
 /// Cells of the frame, with relief and a traction.

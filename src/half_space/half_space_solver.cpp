@@ -200,14 +200,14 @@ PathStatus partFromRest(ContactPath& path, const ContactMinimiser& minimiser, Tr
   return status;
 }
 
-/// The first step of the way out, for the stiffness at rest.
+/// The first step of the way out, for the stiffness at rest; rest is solved whether it has one or not.
 PathStatus leaveRest(ContactPath& path, const ContactMinimiser& minimiser, LargePageVector<float>& flowed,
                      SolvedHalfSpace& solution) {
   const PathStatus status = path.leaveRest();
   flowed = minimiser.flowed();
   solution.contact_stiffness = path.stiffness();
-  solution.is_converged = status == PathStatus::kDone;
-  return status;
+  solution.is_converged = status != PathStatus::kCancelled;
+  return solution.is_converged ? PathStatus::kDone : status;
 }
 
 /// Every state that was solved, and what it took.

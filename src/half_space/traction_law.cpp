@@ -54,11 +54,13 @@ TractionLaw::TractionLaw(const TractionLawOptions& options)
   const Point closest = at(closest_gap_);
   const double narrowest = closest_gap_;
   slope_of_line_ = closest.slope;
+  closest_traction_ = closest.traction;
   contact_gap_ = gapOfPressure(0.0, narrowest);
   if (-closest.traction <= options.hardness) return;
   flows_ = true;
   slope_of_line_ = 0.0;
   closest_gap_ = gapOfPressure(options.hardness, narrowest);
+  closest_traction_ = at(closest_gap_).traction;
 }
 
 double TractionLaw::gapOfPressure(double pressure, double narrow) const {
@@ -71,15 +73,30 @@ double TractionLaw::gapOfPressure(double pressure, double narrow) const {
   }
 }
 
+double TractionLaw::gapUnder(double pressure) const {
+  // y = (z0/g)^3 solves y^3 - y = p/stress; from above Newton's method does not turn back
+  const double share = pressure / stress();
+  double y = std::cbrt(share) + 1.0;
+  for (int i = 0; i < kSecantIterations; ++i) y -= (y * y * y - y - share) / (3.0 * y * y - 1.0);
+  return std::max(range() / std::cbrt(y), narrowestGap());
+}
+
+double TractionLaw::narrowestGap() const { return kClosestGap * range(); }
+
 double TractionLaw::reach() const { return range() * (water_.isOn() ? 1.0 + kWaterFront : 1.0) + water_.gapLimit(); }
 
 double TractionLaw::secant(double gap, double traction, double other_traction) const {
-  // y = (z0/g)^3 solves y^3 - y = -t/stress; from above Newton's method does not turn back
-  const double pressure = std::max(0.0, -other_traction / stress());
-  double y = std::cbrt(pressure) + 1.0;
-  for (int i = 0; i < kSecantIterations; ++i) y -= (y * y * y - y - pressure) / (3.0 * y * y - 1.0);
-  const double other_gap = std::max(range() / std::cbrt(y), closest_gap_);
-  return (other_traction - traction) / (other_gap - gap);
+  double other = other_traction;
+  double other_gap = gapUnder(std::max(0.0, -other_traction));
+  if (other_gap <= closest_gap_) {
+    other_gap = closest_gap_;
+    if (flows_) {
+      other = closest_traction_;
+    } else {  // the law goes on as a line
+      other_gap -= std::max(0.0, closest_traction_ - other) / slope_of_line_;
+    }
+  }
+  return (other - traction) / (other_gap - gap);
 }
 
 TractionLaw::Point TractionLaw::at(double gap) const {

@@ -71,6 +71,10 @@ class TractionLaw {
   bool flows() const { return flows_; }               ///< whether a hardness limits the repulsion
   double closestGap() const { return closest_gap_; }  ///< where t = -Ha; narrower gaps flow [m]
   double contactGap() const { return contact_gap_; }  ///< narrower gaps repel [m]; z0 but for field and water
+  /// The gap at which the surfaces repel each other with a pressure, >= 0, without flow; no less than the narrowest [m].
+  double gapUnder(double pressure) const;
+  /// The narrowest gap for which the law is more than a line [m].
+  double narrowestGap() const;
   /// The widest gap at which something has an edge: beyond it there are tails only [m].
   double reach() const;
 
@@ -86,7 +90,8 @@ class TractionLaw {
   bool flows_ = false;
   double closest_gap_;
   double contact_gap_;
-  double slope_of_line_ = 0.0;  ///< of t for narrower gaps [Pa/m]
+  double closest_traction_ = 0.0;  ///< t there [Pa]
+  double slope_of_line_ = 0.0;     ///< of t for narrower gaps [Pa/m]
   FieldLaw field_;
   WaterLaw water_;
 };

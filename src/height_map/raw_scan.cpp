@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <string>
 
 #include "height_map/pitch.hpp"
 #include "mems_stiction/errors/errors.hpp"

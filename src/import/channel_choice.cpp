@@ -11,6 +11,7 @@
 #include "errors/short_number.hpp"
 #include "height_map/unmeasured.hpp"
 #include "mems_stiction/errors/errors.hpp"
+#include "numeric/words.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -135,10 +136,7 @@ Likelihood likelihood(const FileChannel& channel) {
 }
 
 bool isBackward(const FileChannel& channel) {
-  const std::string title = channel.title;
-  const std::string kRhkLeft = " [Left]";  // RHK names the way that the tip went; it begins to the right
-  if (title.size() > kRhkLeft.size() && title.compare(title.size() - kRhkLeft.size(), kRhkLeft.size(), kRhkLeft) == 0)
-    return true;
+  if (endsWith(channel.title, " [Left]")) return true;  // RHK names the way that the tip went; it begins to the right
   if (channel.title.find("<-") != std::string::npos || channel.title.find("\xE2\x86\x90") != std::string::npos) {
     return true;
   }

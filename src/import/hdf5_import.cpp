@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include "files/child_process.hpp"
 #include "files/interruption.hpp"
@@ -32,15 +31,12 @@ except ImportError:
 LENGTHS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "\u00b5m": 1e-6, "\u03bcm": 1e-6, "nm": 1e-9, "pm": 1e-12, "A": 1e-10, "\u00c5": 1e-10}
 PACKED = ("scale_factor", "add_offset")  # attributes of CF: the numbers are not the heights
 
-
 def text(value):
     value = value.item() if hasattr(value, "item") else value
     return value.decode("utf-8", "replace") if isinstance(value, bytes) else str(value)
 
-
 def number(value):
     return float(numpy.asarray(value).reshape(-1)[0])
-
 
 def jpk(file):
     for measurement in sorted(name for name in file if name.startswith("Measurement_")):
@@ -67,7 +63,6 @@ def jpk(file):
             note = "the first of %d frames" % frames if frames > 1 else ""
             yield title + " " + way, numpy.flipud(values.reshape(rows, columns)), width, height, unit, note
 
-
 def topostats(file):
     if "pixel_to_nm_scaling" not in file:
         return
@@ -76,7 +71,6 @@ def topostats(file):
         if name in file and isinstance(file[name], h5py.Dataset) and file[name].ndim == 2:
             values = 1e-9 * numpy.asarray(file[name], dtype=float)
             yield title, values, pitch * values.shape[1], pitch * values.shape[0], "m", ""
-
 
 def surface_topography(file):
     if "heights" not in file or file["heights"].ndim != 2:
@@ -93,7 +87,6 @@ def surface_topography(file):
     if unit in LENGTHS:
         values, unit = values * LENGTHS[unit], "m"
     yield "heights", values.T, sides[0], sides[1], unit, ""
-
 
 def coordinates(file):
     """Maps of NetCDF-4 over evenly spaced x and y with units of length, by the conventions of CF: what save_maps() of ours writes."""
@@ -119,7 +112,6 @@ def coordinates(file):
             values, unit = values * LENGTHS[unit], "m"
         yield name, values, sides[1], sides[0], unit, ""
 
-
 def main(path, folder):
     try:
         file = h5py.File(path, "r")
@@ -137,7 +129,6 @@ def main(path, folder):
         sys.exit(4)
     with open(folder + "/channels", "w", encoding="utf-8") as stream:
         stream.writelines(lines)
-
 
 main(sys.argv[1], sys.argv[2])
 )";

@@ -1,7 +1,6 @@
 #include "import/header_lines.hpp"
 
 #include <algorithm>
-#include <cctype>
 
 #include "import/plain_number.hpp"
 #include "mems_stiction/errors/errors.hpp"

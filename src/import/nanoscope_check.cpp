@@ -11,6 +11,7 @@
 #include "import/plain_number.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/settings/option_visitor.hpp"
+#include "numeric/words.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -38,10 +39,6 @@ std::vector<List> listsOf(const std::string& bytes) {
     at = next == std::string::npos ? next : next + 1;
   }
   return lists;
-}
-
-bool endsWith(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
 bool isImage(const List& list) {

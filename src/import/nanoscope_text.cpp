@@ -2,7 +2,6 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>

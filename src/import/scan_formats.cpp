@@ -1,7 +1,6 @@
 
 #include <algorithm>
 
-#include <cctype>
 #include <filesystem>
 
 #include "files/interruption.hpp"

@@ -1,7 +1,6 @@
 #include "import/text_cells.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <limits>
 

@@ -26,9 +26,8 @@ double sinhLess(double x) {
 
 LayerCompliance::LayerCompliance(const Material& material)
     : plane_compliance_((1.0 - material.poisson_ratio * material.poisson_ratio) / material.youngs_modulus),
-      thickness_(material.thickness),
-      is_free_(material.backing == Backing::kFree) {
-  if (is_free_) {
+      thickness_(material.thickness) {
+  if (material.backing == Backing::kFree) {
     a_ = b_ = 1.0;
     one_less_a_ = one_less_b_ = one_less_ab_ = 0.0;
     b_and_ab_ = 2.0;

@@ -39,8 +39,6 @@ class LayerCompliance {
   double ratio(double wave_number) const;
   /// Whether X is 1 for every wave.
   bool isThick() const { return thickness_ == 0.0; }
-  /// Whether it is a plate that nothing holds from behind: long waves bend it.
-  bool isFree() const { return !isThick() && is_free_; }
   double thickness() const { return thickness_; }  ///< [m]; 0: thick
   /// (1 - nu^2)/E: 1/K of the thick body is this times 2/q [1/Pa].
   double planeCompliance() const { return plane_compliance_; }
@@ -48,7 +46,6 @@ class LayerCompliance {
  private:
   double plane_compliance_;
   double thickness_;
-  bool is_free_;
   // a, b and what would cancel if it were made from them
   double a_ = 0.0;
   double b_ = 0.0;

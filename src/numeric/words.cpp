@@ -40,6 +40,10 @@ std::string trimmed(const std::string& text, const std::string& around) {
   return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(around) - begin + 1);
 }
 
+bool endsWith(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
 std::string lastPart(const std::string& key) { return key.substr(key.rfind('/') + 1); }
 
 std::string suggestion(const std::string& unknown, const std::vector<std::string>& known) {

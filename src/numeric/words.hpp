@@ -14,6 +14,9 @@ std::string lowered(std::string text);
 /// Without the characters of `around` at both ends.
 std::string trimmed(const std::string& text, const std::string& around);
 
+/// Whether these are its last letters.
+bool endsWith(const std::string& text, const std::string& end);
+
 /// What is behind the last slash.
 std::string lastPart(const std::string& key);
 

@@ -1,7 +1,6 @@
 #include "prediction/area_adhesion.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "approach/cell_islands.hpp"

@@ -1,6 +1,5 @@
 #include "mems_stiction/prediction/options.hpp"
 
-#include <initializer_list>
 #include <utility>
 
 #include "mems_stiction/errors/errors.hpp"

@@ -1,7 +1,5 @@
 #include "preprocess/line_alignment.hpp"
 
-#include <cmath>
-#include <limits>
 #include <vector>
 
 #include "height_map/validity.hpp"

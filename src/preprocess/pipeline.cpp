@@ -18,44 +18,26 @@
 #include "preprocess/tilt.hpp"
 #include "preprocess/tip_correction.hpp"
 #include "preprocess/working_surface.hpp"
+#include "settings/option_values.hpp"
 #include "settings/time_limit.hpp"
 
 namespace mems_stiction {
 namespace {
 
-/// Writes the described parameters of one step as "threshold=6 window=5", without the keys' common prefix.
-class ParameterText : public OptionVisitor {
- public:
-  explicit ParameterText(const std::string& step) : prefix_("preprocessing/" + step) {}
-
-  void number(const std::string& key, double& value, const std::string&, const Range&, const std::string&) override {
-    add(key, numberText(value));
-  }
-  void integer(const std::string& key, int& value, const Range&, const std::string&) override {
-    add(key, std::to_string(value));
-  }
-  void flag(const std::string& key, bool& value, const std::string&) override {
-    if (key != prefix_ + "/enabled") add(key, value ? "true" : "false");
-  }
-  void text(const std::string& key, std::string& value, const std::string&) override { add(key, value); }
-  void choice(const std::string& key, std::string& value, const std::vector<std::string>&,
-              const std::string&) override {
-    add(key, value);
-  }
-
-  const std::string& text() const { return text_; }
-
- private:
-  void add(const std::string& key, const std::string& value) {
-    std::string name = key.substr(prefix_.size());
+/// The parameters of one step as "threshold=6 window=5", without the keys' common prefix.
+template <typename StepOptions>
+std::string parametersOf(const std::string& step, const StepOptions& options) {
+  const std::string prefix = "preprocessing/" + step;
+  std::string text;
+  visitValues(options, [&](const std::string& key, const auto& value) {
+    if (key == prefix + "/enabled") return;
+    std::string name = key.substr(prefix.size());
     if (name.empty()) name = "shape";
     while (!name.empty() && (name.front() == '/' || name.front() == '_')) name.erase(name.begin());
-    text_ += (text_.empty() ? "" : " ") + name + "=" + value;
-  }
-
-  std::string prefix_;
-  std::string text_;
-};
+    text += (text.empty() ? "" : " ") + name + "=" + valueText(value);
+  });
+  return text;
+}
 
 bool isWanted(const RegionOptions& options) { return options.isStated(); }
 bool isWanted(const StageOffsetOptions& options) { return options.enabled; }
@@ -68,13 +50,11 @@ bool isWanted(const LowPassOptions& options) { return options.cutoff_wavelength 
 bool isWanted(const RefineOptions& options) { return options.factor > 1; }
 
 template <typename StepOptions>
-void addStep(const char* name, StepOptions& options, std::vector<PreprocessStep>& steps) {
+void addStep(const char* name, const StepOptions& options, std::vector<PreprocessStep>& steps) {
   if (!isWanted(options)) return;
-  ParameterText parameters(name);
-  options.describe(parameters);
   PreprocessStep step;
   step.name = name;
-  step.parameters = parameters.text();
+  step.parameters = parametersOf(name, options);
   steps.push_back(step);
 }
 

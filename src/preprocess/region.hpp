@@ -7,7 +7,6 @@
 /// Places are in metres from the scan's upper left corner, x along columns and y along rows; a pixel lies inside when
 /// its middle does.
 
-#include <string>
 #include <vector>
 
 #include <opencv2/core.hpp>

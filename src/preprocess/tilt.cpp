@@ -1,6 +1,5 @@
 #include "preprocess/tilt.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

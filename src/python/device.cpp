@@ -41,9 +41,7 @@ Predicted predictDevice(const std::vector<DeviceScan>& scans, const std::vector<
 }
 
 py::dict figuresOf(const DevicePrediction& predicted) {
-  DictionaryFields fields;
-  visitDeviceForceFields(predicted.force, fields);
-  return fields.dictionary;
+  return dictionaryOf([&](auto& fields) { visitDeviceForceFields(predicted.force, fields); });
 }
 
 std::optional<py::dict> verdictOfDevice(const DevicePrediction& predicted) {

@@ -7,7 +7,6 @@
 #include <pybind11/pybind11.h>
 
 #include <string>
-#include <type_traits>
 
 #include "evaluation/record.hpp"
 #include "half_space/half_space_fields.hpp"
@@ -28,13 +27,19 @@ class DictionaryFields {
   pybind11::dict dictionary;
 };
 
+/// What `visit` shows to the visitor that it is called with.
+template <typename Visit>
+pybind11::dict dictionaryOf(const Visit& visit) {
+  DictionaryFields fields;
+  visit(fields);
+  return fields.dictionary;
+}
+
 /// A dictionary for each step of the cleaning that ran.
 inline pybind11::list stepsOf(const PreprocessRecord& record) {
   pybind11::list steps;
   for (const PreprocessStep& step : record.steps) {
-    DictionaryFields fields;
-    visitStepFields(step, fields);
-    steps.append(fields.dictionary);
+    steps.append(dictionaryOf([&](auto& fields) { visitStepFields(step, fields); }));
   }
   return steps;
 }
@@ -79,9 +84,7 @@ void visitJudgedFields(const Verdict& verdict, Visitor&& visit) {
 }
 
 inline pybind11::dict verdictFigures(const Verdict& verdict) {
-  DictionaryFields fields;
-  visitJudgedFields(verdict, fields);
-  return fields.dictionary;
+  return dictionaryOf([&](auto& fields) { visitJudgedFields(verdict, fields); });
 }
 
 }  // namespace python

@@ -4,7 +4,6 @@
 
 #include <memory>
 #include <optional>
-#include <string>
 
 #include "bindings.hpp"
 #include "evaluation/device_scans.hpp"
@@ -12,6 +11,7 @@
 #include "figures.hpp"
 #include "interruptible.hpp"
 #include "memory.hpp"
+#include "mems_stiction/configuration/provenance.hpp"
 #include "mems_stiction/evaluation/half_space_scan.hpp"
 #include "mems_stiction/evaluation/prepared_scan.hpp"
 #include "mems_stiction/half_space/half_space_solver.hpp"
@@ -29,17 +29,19 @@ struct SolvedScan {
   std::optional<Verdict> verdict;
   std::vector<CurvePoint> curve;
   cv::Mat contact_map;
+  Provenance provenance;
 };
 
 using Solved = std::shared_ptr<SolvedScan>;
 
-Solved solve(const PreparedScan& prepared, const Configuration& configuration) {
+Solved solve(const PreparedScan& prepared, const ScanIdentity& identity, const Configuration& configuration) {
   return interruptible([&](const std::atomic<bool>& cancel) {
     const Options options = onFrame(configuration.model, configuration.device, prepared.surfaces);
     const HalfSpaceProblem problem = halfSpaceProblem(prepared, options);
     HalfSpaceControl control;
     control.cancel = &cancel;
     auto solved = std::make_shared<SolvedScan>();
+    solved->provenance = provenanceOf(identity, configuration);
     solved->solution = HalfSpaceSolver(configuration.half_space).solve(problem, control);
     solved->curve = curveOf(solved->solution);
     solved->contact_map = halfSpaceContactMap(solved->solution, problem, configuration.half_space, prepared.refinement);
@@ -59,14 +61,18 @@ void visitFigures(const SolvedHalfSpace& solution, Visitor&& visit) {
 }
 
 py::dict figuresOf(const SolvedScan& solved) {
-  DictionaryFields fields;
-  visitFigures(solved.solution, fields);
-  return fields.dictionary;
+  return dictionaryOf([&](auto& fields) { visitFigures(solved.solution, fields); });
 }
 
 std::optional<py::dict> verdictOfScan(const SolvedScan& solved) {
   if (!solved.verdict) return std::nullopt;
   return verdictFigures(*solved.verdict);
+}
+
+py::dict originOf(const SolvedScan& solved) {
+  DictionaryFields fields;
+  visitStatedProvenance(solved.provenance, fields);
+  return fields.dictionary;
 }
 
 Records curveOfScan(const Solved& solved) {
@@ -84,13 +90,14 @@ void bindHalfSpace(py::module& module) {
   py::class_<SolvedScan, Solved>(module, "SolvedScan")
       .def_property_readonly("figures", &figuresOf)
       .def_property_readonly("verdict", &verdictOfScan)
+      .def_property_readonly("origin", &originOf)
       .def_property_readonly("curve", &curveOfScan)
       .def_property_readonly("pressure", [](const SolvedScan& solved) { return memoryOf(solved.solution.pressure); })
       .def_property_readonly("gap", [](const SolvedScan& solved) { return memoryOf(solved.solution.gap); })
       .def_property_readonly("contact_map", [](const SolvedScan& solved) { return memoryOf(solved.contact_map); })
       .def_property_readonly("deformed_lower", [](const SolvedScan& solved) { return solved.solution.deformed_lower; })
       .def_property_readonly("deformed_upper", [](const SolvedScan& solved) { return solved.solution.deformed_upper; });
-  module.def("half_space", &solve, "prepared"_a, "configuration"_a);
+  module.def("half_space", &solve, "prepared"_a, "identity"_a, "configuration"_a);
 }
 
 }  // namespace python

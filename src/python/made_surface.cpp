@@ -15,7 +15,6 @@
 #include "device_scan.hpp"
 #include "interruptible.hpp"
 #include "memory.hpp"
-#include "mems_stiction/errors/errors.hpp"
 #include "settings/time_limit.hpp"
 
 namespace mems_stiction {

@@ -200,9 +200,7 @@ void visitFigures(const PredictedScan& predicted, Visitor&& visit) {
 }
 
 py::dict figuresOf(const PredictedScan& predicted) {
-  DictionaryFields fields;
-  visitFigures(predicted, fields);
-  return fields.dictionary;
+  return dictionaryOf([&](auto& fields) { visitFigures(predicted, fields); });
 }
 
 std::optional<py::dict> verdictOfScan(const PredictedScan& predicted) {
@@ -212,24 +210,22 @@ std::optional<py::dict> verdictOfScan(const PredictedScan& predicted) {
 
 std::optional<py::dict> deviceForceOfScan(const PredictedScan& predicted) {
   if (!predicted.extras.device_force) return std::nullopt;
-  DictionaryFields fields;
-  visitDeviceForceFields(*predicted.extras.device_force, fields);
-  return fields.dictionary;
+  return dictionaryOf([&](auto& fields) { visitDeviceForceFields(*predicted.extras.device_force, fields); });
 }
 
 std::optional<py::dict> halfSpaceOfScan(const PredictedScan& predicted) {
   if (!predicted.extras.half_space) return std::nullopt;
-  DictionaryFields fields;
-  visitHalfSpaceFields(*predicted.extras.half_space, fields);
-  visitHalfSpaceStiffness(*predicted.extras.half_space, fields);
-  return fields.dictionary;
+  return dictionaryOf([&](auto& fields) {
+    visitHalfSpaceFields(*predicted.extras.half_space, fields);
+    visitHalfSpaceStiffness(*predicted.extras.half_space, fields);
+  });
 }
 
 py::dict roughnessOfScan(const PredictedScan& predicted) {
-  DictionaryFields fields;
-  visitRoughnessFields(predicted.prediction.roughness, fields);
-  visitSpatialRoughnessFields(predicted.prediction.spatial_roughness, fields);
-  return fields.dictionary;
+  return dictionaryOf([&](auto& fields) {
+    visitRoughnessFields(predicted.prediction.roughness, fields);
+    visitSpatialRoughnessFields(predicted.prediction.spatial_roughness, fields);
+  });
 }
 
 Records asperitiesOf(const Predicted& predicted) {

@@ -127,10 +127,10 @@ py::dict roughnessOf(const HeightMap& scan, const Configuration& configuration, 
     areal = arealParameters(scan);
     if (is_spatial) spatial = spatialRoughness(scan, configuration.spatial_roughness);
   }
-  DictionaryFields fields;
-  visitRoughnessFields(areal, fields);
-  visitSpatialRoughnessFields(spatial, fields);
-  return fields.dictionary;
+  return dictionaryOf([&](auto& fields) {
+    visitRoughnessFields(areal, fields);
+    visitSpatialRoughnessFields(spatial, fields);
+  });
 }
 
 /// A generated surface as a probe would see it, asperities up.
@@ -155,9 +155,7 @@ PreparedScan prepared(const HeightMap& scan, const std::optional<HeightMap>& cou
 }
 
 py::dict identityFigures(const ScanIdentity& identity) {
-  DictionaryFields fields;
-  visitScanIdentityFields(identity, fields);
-  return fields.dictionary;
+  return dictionaryOf([&](auto& fields) { visitScanIdentityFields(identity, fields); });
 }
 
 ScanIdentity identityFromFigures(const py::dict& figures) {

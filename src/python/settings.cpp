@@ -5,7 +5,6 @@
 
 #include <opencv2/core.hpp>
 
-#include <cmath>
 #include <string>
 #include <utility>
 

@@ -3,8 +3,7 @@
 #include "device/device_force_fields.hpp"
 #include "errors/one_line.hpp"
 #include "ros/message_fields.hpp"
-#include "ros/message_text.hpp"
-#include "ros/verdict_conversion.hpp"
+#include "ros/message_parts.hpp"
 
 namespace mems_stiction {
 

@@ -6,11 +6,10 @@
 #include <diagnostic_msgs/DiagnosticStatus.h>
 
 #include "device/device_evidence.hpp"
-#include "errors/one_line.hpp"
 #include "errors/short_number.hpp"
 #include "evaluation/frame_load.hpp"
 #include "ros/background_thread.hpp"
-#include "ros/provenance_conversion.hpp"
+#include "ros/message_parts.hpp"
 #include "ros/topic_names.hpp"
 #include "settings/time_limit.hpp"
 

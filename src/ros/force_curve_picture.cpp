@@ -2,23 +2,10 @@
 
 #include <string>
 
-#include "errors/short_number.hpp"
 #include "ros/picture_drawing.hpp"
 #include "verdict/regime_flags.hpp"
 
 namespace mems_stiction {
-namespace {
-
-std::string figuresOf(const PredictedScan& scan) {
-  const Prediction& prediction = scan.prediction;
-  return "pull-off " + quantity(prediction.pull_off_force, "N") + ", apparent work " +
-         quantity(prediction.apparent_work_of_adhesion, "J/m^2") + ", " +
-         shortNumber(100.0 * prediction.contact_fraction) + " % in " + std::to_string(prediction.asperity_count) +
-         (prediction.asperity_count == 1 ? " contact" : " contacts");
-}
-
-}  // namespace
-
 DrawnCurve drawnCurve(const PredictedScan& scan) {
   DrawnCurve curve;
   curve.name = scan.formulation;
@@ -41,10 +28,14 @@ sensor_msgs::ImagePtr forceCurvePicture(const PredictedScan& scan, const std_msg
                  width, kQuietColour);
     return imageOf(picture, header);
   }
-  int top = writeWrapped(picture, figuresOf(scan), {20, 32}, width, kTextColour);
+  const Prediction& prediction = scan.prediction;
+  int top = writeWrapped(picture,
+                         figuresText(prediction.pull_off_force, prediction.apparent_work_of_adhesion,
+                                     prediction.contact_fraction, prediction.asperity_count),
+                         {20, 32}, width, kTextColour);
   write(picture,
-        scan.formulation + ", load " + quantity(scan.prediction.mechanical_load, "N") + ", " +
-            quantity(scan.prediction.voltage, "V"),
+        scan.formulation + ", load " + quantity(prediction.mechanical_load, "N") + ", " +
+            quantity(prediction.voltage, "V"),
         {20, top}, kQuietColour);
   const std::string flags = regimeFlagNames(scan.verdict.regime_flags);
   if (!flags.empty()) top = writeWrapped(picture, flags, {20, top + 30}, width, kWarningColour) - 30;

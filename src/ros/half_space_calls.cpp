@@ -11,9 +11,8 @@
 #include "mems_stiction/evaluation/half_space_scan.hpp"
 #include "ros/background_thread.hpp"
 #include "ros/half_space_conversion.hpp"
-#include "ros/provenance_conversion.hpp"
+#include "ros/message_parts.hpp"
 #include "ros/topic_names.hpp"
-#include "ros/verdict_conversion.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -7,8 +7,7 @@
 #include "errors/one_line.hpp"
 #include "half_space/half_space_fields.hpp"
 #include "ros/message_fields.hpp"
-#include "ros/message_text.hpp"
-#include "ros/verdict_conversion.hpp"
+#include "ros/message_parts.hpp"
 
 namespace mems_stiction {
 namespace {

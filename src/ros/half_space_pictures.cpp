@@ -6,10 +6,9 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "errors/short_number.hpp"
 #include "evaluation/block_maxima.hpp"
+#include "ros/message_parts.hpp"
 #include "ros/picture_drawing.hpp"
-#include "ros/provenance_conversion.hpp"
 #include "ros/regime_colour.hpp"
 
 namespace mems_stiction {
@@ -29,9 +28,8 @@ DrawnCurve drawnCurve(const HalfSpaceSolution& solution) {
 
 std::string figuresOf(const HalfSpaceSolution& solution) {
   if (std::isnan(solution.pull_off_force)) return "no pull-off force: " + solution.message;
-  return "pull-off " + quantity(solution.pull_off_force, "N") + ", apparent work " +
-         quantity(solution.apparent_work_of_adhesion, "J/m^2") + ", " + shortNumber(100.0 * solution.contact_fraction) +
-         " % in " + std::to_string(solution.contact_count) + (solution.contact_count == 1 ? " contact" : " contacts");
+  return figuresText(solution.pull_off_force, solution.apparent_work_of_adhesion, solution.contact_fraction,
+                     solution.contact_count);
 }
 
 /// A contact map in the colours of its regimes, as large as fits, in the middle of `place`. Where pixels are fewer than

@@ -4,13 +4,16 @@
 #include <utility>
 
 #include <diagnostic_msgs/DiagnosticStatus.h>
+#include <sensor_msgs/Image.h>
 
 #include "evaluation/frame_load.hpp"
 #include "mems_stiction/evaluation/half_space_scan.hpp"
 #include "ros/background_thread.hpp"
 #include "ros/half_space_conversion.hpp"
-#include "ros/provenance_conversion.hpp"
-#include "ros/verdict_conversion.hpp"
+#include "ros/half_space_pictures.hpp"
+#include "ros/image_conversion.hpp"
+#include "ros/message_parts.hpp"
+#include "ros/topic_names.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -24,11 +27,17 @@ HalfSpaceStream::HalfSpaceStream(const ros::NodeHandle& handle, const HalfSpaceO
                                  Warn warn, Judged judged, Solved solved, Beside beside)
     : solver_(options),
       pause_(pause),
-      publisher_(handle),
+      transport_(handle),
       warn_(std::move(warn)),
       judged_(std::move(judged)),
       solved_(std::move(solved)),
-      beside_(std::move(beside)) {}
+      beside_(std::move(beside)) {
+  ros::NodeHandle node(handle);
+  solution_publisher_ = node.advertise<HalfSpaceSolution>(kHalfSpaceTopic, kPredictionQueue);
+  contact_map_publisher_ = transport_.advertise(kHalfSpaceContactMapTopic, kMapQueue);
+  contact_maps_publisher_ = node.advertise<sensor_msgs::Image>(kContactMapsTopic, kDisplayQueue);
+  curve_publisher_ = node.advertise<sensor_msgs::Image>(kHalfSpaceCurveTopic, kDisplayQueue);
+}
 
 void HalfSpaceStream::start() {
   thread_ = std::thread([this] { loop(); });
@@ -115,7 +124,7 @@ void HalfSpaceStream::solve(const Task& task) {
   if (stopping_) return;
   fillProvenance(task.scan.provenance, message);
   const bool is_solved = message.status == HalfSpaceSolution::SOLVED;
-  publisher_.publish(message, task.model_map, map, task.model_curve);
+  publish(message, task, map);
   if (verdict) {
     judged_(task.scan, *verdict);
     solved_(scan, solved, task.call.why);
@@ -127,6 +136,19 @@ void HalfSpaceStream::solve(const Task& task) {
     if (!is_solved) last_failure_ = message.message;
   }
   if (!is_solved) warn_(scan.header, "half-space: " + message.message);
+}
+
+void HalfSpaceStream::publish(const HalfSpaceSolution& solution, const Task& task,
+                              const cv::Mat& half_space_map) const {
+  if (!half_space_map.empty() && contact_map_publisher_.getNumSubscribers() > 0) {
+    contact_map_publisher_.publish(contactMapImage(half_space_map, solution.header));
+  }
+  if (isModelMapWanted()) {
+    contact_maps_publisher_.publish(contactMapsPicture(task.model_map, half_space_map, solution));
+  }
+  if (curve_publisher_.getNumSubscribers() > 0) curve_publisher_.publish(curvePicture(solution, task.model_curve));
+  // Last, so that whoever waits for the solution finds the maps sent.
+  solution_publisher_.publish(solution);
 }
 
 void HalfSpaceStream::report(diagnostic_updater::DiagnosticStatusWrapper& status) {

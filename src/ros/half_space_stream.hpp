@@ -11,19 +11,20 @@
 #include <cstdint>
 #include <functional>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include <diagnostic_updater/DiagnosticStatusWrapper.h>
+#include <image_transport/image_transport.h>
 #include <ros/node_handle.h>
 #include <opencv2/core.hpp>
 
 #include "evaluation/half_space_call.hpp"
 #include "half_space/solution_pause.hpp"
+#include "mems_stiction/HalfSpaceSolution.h"
 #include "mems_stiction/half_space/half_space_solver.hpp"
-#include "ros/half_space_publisher.hpp"
+#include "ros/curve_drawing.hpp"
 #include "ros/live_predictor.hpp"
 
 namespace mems_stiction {
@@ -55,7 +56,7 @@ class HalfSpaceStream {
   void stop();
 
   /// Whether offer() wants the model's contact map.
-  bool isModelMapWanted() const { return publisher_.areBothMapsWanted(); }
+  bool isModelMapWanted() const { return contact_maps_publisher_.getNumSubscribers() > 0; }
 
   /// Takes the place of a scan that waits, unless flags ask for that one. Copies no pixels but the map's.
   /// - @p call that is made
@@ -86,10 +87,16 @@ class HalfSpaceStream {
 
   void loop();
   void solve(const Task& task);
+  /// The message always, maps and pictures while somebody listens.
+  void publish(const HalfSpaceSolution& solution, const Task& task, const cv::Mat& half_space_map) const;
 
   const HalfSpaceSolver solver_;
   SolutionPause& pause_;
-  HalfSpacePublisher publisher_;
+  image_transport::ImageTransport transport_;
+  ros::Publisher solution_publisher_;
+  image_transport::Publisher contact_map_publisher_;
+  ros::Publisher contact_maps_publisher_;
+  ros::Publisher curve_publisher_;
   Warn warn_;
   Judged judged_;
   Solved solved_;

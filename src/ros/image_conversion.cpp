@@ -12,7 +12,7 @@
 #include "height_map/scan_sanity.hpp"
 #include "height_map/unmeasured.hpp"
 #include "mems_stiction/errors/errors.hpp"
-#include "ros/provenance_conversion.hpp"
+#include "ros/message_parts.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -5,7 +5,7 @@
 #include "device/device_evidence.hpp"
 #include "evaluation/plausibility.hpp"
 #include "mems_stiction/errors/errors.hpp"
-#include "prediction/deformed_surfaces.hpp"
+#include "prediction/asked_output.hpp"
 #include "prediction/force_curve.hpp"
 #include "surface/wear.hpp"
 
@@ -16,16 +16,6 @@ namespace {
 Configuration withRoughness(Configuration configuration) {
   configuration.model.output.roughness = true;
   return configuration;
-}
-
-/// What the figures and the verdict need.
-OutputOptions figuresOnly() {
-  OutputOptions output;
-  output.deformed_surfaces = false;
-  output.contact_map = false;
-  output.asperities = true;  // the verdict samples them
-  output.energy_curve = false;
-  return output;
 }
 
 LoadFigures figuresOf(const Prediction& prediction) {
@@ -150,7 +140,7 @@ std::optional<PredictedScan> LivePredictor::predictLastScan() {
   if (!last_) return std::nullopt;
   const SettingsOwner::Snapshot settings = settings_.snapshot();
   Options options = settings->model;
-  options.output = figuresOnly();
+  options.output = figuresAlone();
   predictor_.setOptions(options);
   PredictedScan predicted = judged(lastPrepared(), *settings, last_->received.identity, kHalfSpaceOnTopic);
   predicted.scan_id = last_->part.id;
@@ -167,7 +157,7 @@ std::optional<LoadFigures> LivePredictor::lastFigures() {
 PredictedScan LivePredictor::predictOnce(const ReceivedScan& scan, double voltage, double mechanical_load) {
   const SettingsOwner::Snapshot settings = settings_.snapshot();
   Options options = settings->model;
-  options.output = figuresOnly();
+  options.output = figuresAlone();
   options.load.voltage = voltage;
   options.load.setMechanicalLoad(mechanical_load);
   predictor_.setOptions(options);  // refuses before the scan is touched

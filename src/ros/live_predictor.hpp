@@ -10,8 +10,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "configuration/running_settings.hpp"
 #include "evaluation/part_scans.hpp"

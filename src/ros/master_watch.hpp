@@ -14,7 +14,6 @@
 #include <memory>
 #include <mutex>
 #include <set>
-#include <string>
 #include <thread>
 
 #include <diagnostic_updater/DiagnosticStatusWrapper.h>

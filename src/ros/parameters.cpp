@@ -16,6 +16,7 @@
 #include "mems_stiction/errors/errors.hpp"
 #include "ros/master_calls.hpp"
 #include "ros/topic_names.hpp"
+#include "settings/option_values.hpp"
 #include "settings/option_yaml.hpp"
 #include "surface/counter_surface.hpp"
 
@@ -136,32 +137,6 @@ std::vector<std::string> leftOvers(const YAML::Node& ours, const std::string& ta
   return lines.size() == now.size() ? std::vector<std::string>() : lines;
 }
 
-/// Sets those parameters that are among the keys, with the types of the settings.
-class ParameterWriter : public OptionVisitor {
- public:
-  ParameterWriter(const ros::NodeHandle& handle, const std::vector<std::string>& keys) : handle_(handle), keys_(keys) {}
-
-  void number(const std::string& key, double& value, const std::string&, const Range&, const std::string&) override {
-    set(key, value);
-  }
-  void integer(const std::string& key, int& value, const Range&, const std::string&) override { set(key, value); }
-  void flag(const std::string& key, bool& value, const std::string&) override { set(key, value); }
-  void text(const std::string& key, std::string& value, const std::string&) override { set(key, value); }
-  void choice(const std::string& key, std::string& value, const std::vector<std::string>&,
-              const std::string&) override {
-    set(key, value);
-  }
-
- private:
-  template <typename Value>
-  void set(const std::string& key, const Value& value) {
-    if (std::find(keys_.begin(), keys_.end(), key) != keys_.end()) setParameterAtStart(handle_.resolveName(key), value);
-  }
-
-  const ros::NodeHandle& handle_;
-  const std::vector<std::string>& keys_;
-};
-
 }  // namespace
 
 void DisplayOptions::describe(OptionVisitor& visitor) {
@@ -274,8 +249,6 @@ StatedConfiguration statedConfiguration(const YAML::Node& tree) {
   return stated;
 }
 
-NodeConfiguration nodeConfigurationFromYaml(const YAML::Node& tree) { return statedConfiguration(tree).configuration; }
-
 namespace {
 
 /// The node's first line: a launch file's argument that is misspelt, or forgotten, leaves the default in its place.
@@ -304,8 +277,11 @@ NodeConfiguration readParameters(const ros::NodeHandle& private_handle) {
   if (!stated.taken.empty()) {
     setParameterAtStart(private_handle.resolveName(kTakenParameters), stated.taken);
   }
-  ParameterWriter writer(private_handle, stated.from_files);
-  describeConst(stated.configuration, writer);
+  visitValues(stated.configuration, [&](const std::string& key, const auto& value) {  // with the types of the settings
+    const bool is_from_file =
+        std::find(stated.from_files.begin(), stated.from_files.end(), key) != stated.from_files.end();
+    if (is_from_file) setParameterAtStart(private_handle.resolveName(key), value);
+  });
   if (!stated.overrides.empty()) {
     std::string keys;
     for (const std::string& key : stated.overrides) keys += " " + key;

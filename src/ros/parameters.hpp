@@ -99,9 +99,6 @@ struct StatedConfiguration {
 ///        about a file name it.
 StatedConfiguration statedConfiguration(const YAML::Node& tree);
 
-/// The configuration alone.
-NodeConfiguration nodeConfigurationFromYaml(const YAML::Node& tree);
-
 /// Reads the private namespace, and puts what files state beside their texts, where scripts look for it.
 /// @throw OptionsError as above.
 NodeConfiguration readParameters(const ros::NodeHandle& private_handle);

@@ -87,6 +87,13 @@ std::string quantity(double value, const char* unit) {
   return shortNumber(value / prefix.factor) + " " + prefix.letter + unit;
 }
 
+std::string figuresText(double pull_off_force, double apparent_work_of_adhesion, double contact_fraction,
+                        long contacts) {
+  return "pull-off " + quantity(pull_off_force, "N") + ", apparent work " +
+         quantity(apparent_work_of_adhesion, "J/m^2") + ", " + shortNumber(100.0 * contact_fraction) + " % in " +
+         std::to_string(contacts) + (contacts == 1 ? " contact" : " contacts");
+}
+
 sensor_msgs::ImagePtr imageOf(const cv::Mat& picture, const std_msgs::Header& header) {
   return cv_bridge::CvImage(header, sensor_msgs::image_encodings::BGR8, picture).toImageMsg();
 }

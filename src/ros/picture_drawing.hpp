@@ -44,6 +44,10 @@ Prefix prefixOf(double largest);
 /// "0.123 uN"
 std::string quantity(double value, const char* unit);
 
+/// "pull-off 1.2 uN, apparent work 3 mJ/m^2, 0.5 % in 12 contacts"
+std::string figuresText(double pull_off_force, double apparent_work_of_adhesion, double contact_fraction,
+                        long contacts);
+
 /// bgr8
 sensor_msgs::ImagePtr imageOf(const cv::Mat& picture, const std_msgs::Header& header);
 

@@ -14,7 +14,6 @@
 #include "evaluation/half_space_call.hpp"
 #include "mems_stiction/configuration/provenance.hpp"
 #include "mems_stiction/prediction/prediction.hpp"
-#include "mems_stiction/preprocess/pipeline.hpp"
 #include "mems_stiction/verdict/verdict.hpp"
 #include "verdict/part_verdict.hpp"
 

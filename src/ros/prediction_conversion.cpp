@@ -4,8 +4,8 @@
 #include "errors/short_number.hpp"
 #include "prediction/prediction_fields.hpp"
 #include "ros/message_fields.hpp"
-#include "ros/message_text.hpp"
-#include "ros/provenance_conversion.hpp"
+#include "ros/message_parts.hpp"
+#include "verdict/part_verdict_fields.hpp"
 #include "verdict/regime_flags.hpp"
 #include "verdict/verdict_fields.hpp"
 
@@ -98,6 +98,23 @@ std::string summaryOf(const PredictedScan& scan) {
   for (const std::string& flag : regimeFlagList(verdict.regime_flags)) line += "; " + flag;
   for (const std::string& warning : scan.warnings) line += "; warning: " + warning;
   return oneLine(line);
+}
+
+PartVerdict partVerdictMessage(const PooledVerdict& part, const ScanOfPart& last) {
+  PartVerdict message;
+  message.header = last.header;
+  message.version = last.provenance.version;
+  message.settings_hash = last.pool_settings_hash;
+  message.scan_name = last.provenance.scan_name;
+  message.part_id = last.provenance.part_id;
+  message.serial_id = last.provenance.serial_id;
+  MessageFields fields;
+  visitPartVerdictFields(part, fields);
+  fields.fill(message);
+  message.reason = withoutCommas(part.reason);
+  message.flags = regimeFlagList(part.regime_flags);
+  message.warnings = withoutCommas(part.warnings);
+  return message;
 }
 
 AsperityArray asperitiesMessage(const Prediction& prediction, const std_msgs::Header& header) {

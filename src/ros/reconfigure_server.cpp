@@ -1,22 +1,77 @@
 #include "ros/reconfigure_server.hpp"
 
+#include <algorithm>
 #include <future>
 #include <sstream>
 #include <string>
+#include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "errors/one_line.hpp"
 #include "mems_stiction/errors/errors.hpp"
+#include "numeric/words.hpp"
 #include "ros/own_log.hpp"
-#include "ros/reconfigure_conversion.hpp"
 #include "ros/topic_names.hpp"
+#include "settings/option_values.hpp"
 
 namespace mems_stiction {
 namespace {
 
+// dynamic_reconfigure's names are the keys without their section (`voltage` for `load/voltage`): lastPart().
+
+/// A message's entries for values of this type.
+template <typename Value, typename Message>
+auto& entriesOf(Message& message) {
+  if constexpr (std::is_same_v<Value, double>) {
+    return message.doubles;
+  } else if constexpr (std::is_same_v<Value, int>) {
+    return message.ints;
+  } else if constexpr (std::is_same_v<Value, bool>) {
+    return message.bools;
+  } else {
+    return message.strs;
+  }
+}
+
+/// Checks the names of choices, and nothing else.
+template <typename Take>
+class Reader : public ValueVisitor<Take> {
+ public:
+  explicit Reader(Take take) : ValueVisitor<Take>(std::move(take)) {}
+
+  void choice(const std::string& key, std::string& value, const std::vector<std::string>& names,
+              const std::string& meaning) override {
+    ValueVisitor<Take>::choice(key, value, names, meaning);
+    if (std::find(names.begin(), names.end(), value) != names.end()) return;
+    std::string line = key + ": '" + value + "' is not allowed, must be one of";
+    for (const std::string& name : names) line += " " + name;
+    violations.push_back(line);
+  }
+
+  std::vector<std::string> violations;
+};
+
+/// The settings that the message has are taken over. @throw OptionsError for a choice that is none.
+RunningSettings changedBy(const dynamic_reconfigure::Config& message, RunningSettings settings) {
+  Reader reader([&message](const std::string& key, auto& value) {
+    for (const auto& entry : entriesOf<std::decay_t<decltype(value)>>(message)) {
+      if (entry.name == lastPart(key)) value = entry.value;
+    }
+  });
+  settings.describe(reader);
+  if (!reader.violations.empty()) throw OptionsError(std::move(reader.violations));
+  return settings;
+}
+
 ShownConfig configOf(const RunningSettings& settings) {
   ShownConfig config(StictionConfig::__getDefault__());
-  dynamic_reconfigure::Config message = reconfigureMessage(settings);
+  dynamic_reconfigure::Config message;
+  visitValues(settings, [&message](const std::string& key, const auto& value) {
+    auto& entry = entriesOf<std::decay_t<decltype(value)>>(message).emplace_back();
+    entry.name = lastPart(key);
+    entry.value = value;
+  });
   config.__fromMessage__(message);
   return config;
 }
@@ -115,9 +170,7 @@ void ReconfigureServer::take(ShownConfig& config) {
   try {
     dynamic_reconfigure::Config message;
     config.__toMessage__(message);
-    RunningSettings changed = settings_.current();
-    applyReconfigure(message, changed);
-    change_(changed);
+    change_(changedBy(message, settings_.current()));
     forgetLost();
     changed_();
   } catch (const OptionsError& error) {

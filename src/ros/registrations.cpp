@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <initializer_list>
 #include <utility>
-#include <vector>
 
 #include <ros/connection_manager.h>
 #include <ros/master.h>
@@ -11,7 +10,8 @@
 #include <ros/ros.h>
 #include <ros/service_manager.h>
 #include <ros/xmlrpc_manager.h>
-#include <xmlrpcpp/XmlRpcValue.h>
+
+#include "ros/topic_names.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -127,6 +127,20 @@ bool Registrations::repeatServices(const MasterCalls& calls) const {
     if (service != last && !isRegistered(service)) return false;
   }
   return isRegistered(last);
+}
+
+RememberedParameters::RememberedParameters(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle) {
+  std::vector<std::string> names = {private_handle.getNamespace()};
+  for (const char* topic : kImageTopics) names.push_back(handle.resolveName(topic) + "/disable_pub_plugins");
+  for (const std::string& name : names) {
+    XmlRpc::XmlRpcValue value;
+    if (handle.getParam(name, value)) parameters_.emplace_back(name, value);
+  }
+}
+
+bool RememberedParameters::putBack(const MasterCalls& calls) const {
+  return std::all_of(parameters_.begin(), parameters_.end(),
+                     [&calls](const auto& parameter) { return calls.setParameter(parameter.first, parameter.second); });
 }
 
 }  // namespace mems_stiction

@@ -5,10 +5,16 @@
 ///
 /// A master keeps what was registered in memory alone, and roscpp registers once. After a restart of the master, connections
 /// that were made before go on, but nobody finds the node any more. Here everything that the process still offers is
-/// registered anew under its old addresses, so that no connection, no scan that waits and no setting is lost on the way.
+/// registered anew under its old addresses, so that no connection, no scan that waits and no setting is lost on the way. What
+/// its parameter server said of a node is remembered and put back.
 
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
+
+#include <ros/node_handle.h>
+#include <xmlrpcpp/XmlRpcValue.h>
 
 #include "ros/master_calls.hpp"
 
@@ -37,6 +43,19 @@ class Registrations {
   bool repeatServices(const MasterCalls& calls) const;
 
   std::set<std::string> services_;  ///< names, as noted
+};
+
+/// The private namespace, and which plugins may publish the topics with heights, as they are when it is made. The node reads them at
+/// its start alone, so they are what it goes by.
+class RememberedParameters {
+ public:
+  RememberedParameters(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
+
+  /// Whatever stands there goes. @return false: no answer from the master.
+  bool putBack(const MasterCalls& calls) const;
+
+ private:
+  std::vector<std::pair<std::string, XmlRpc::XmlRpcValue>> parameters_;  ///< those that were set, full names
 };
 
 }  // namespace mems_stiction

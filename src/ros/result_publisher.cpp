@@ -6,7 +6,6 @@
 
 #include "ros/display_conversion.hpp"
 #include "ros/force_curve_picture.hpp"
-#include "ros/part_verdict_conversion.hpp"
 #include "ros/prediction_conversion.hpp"
 #include "ros/topic_names.hpp"
 

@@ -7,42 +7,18 @@
 #include <utility>
 
 #include "errors/one_line.hpp"
+#include "evaluation/scan_state.hpp"
 #include "mems_stiction/errors/errors.hpp"
-#include "mems_stiction/settings/option_visitor.hpp"
 
 namespace mems_stiction {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// The settings that name a file: those whose key ends with "file".
-class FileSettings : public OptionVisitor {
- public:
-  using KeyAndPath = std::pair<std::string, std::string>;
-
-  void number(const std::string&, double&, const std::string&, const Range&, const std::string&) override {}
-  void integer(const std::string&, int&, const Range&, const std::string&) override {}
-  void flag(const std::string&, bool&, const std::string&) override {}
-  void text(const std::string& key, std::string& value, const std::string&) override {
-    constexpr char kEnd[] = "file";
-    constexpr std::size_t kLength = sizeof kEnd - 1;
-    const bool is_file = key.size() >= kLength && key.compare(key.size() - kLength, kLength, kEnd) == 0;
-    if (is_file && !value.empty()) found_.emplace_back(key, value);
-  }
-  void choice(const std::string&, std::string&, const std::vector<std::string>&, const std::string&) override {}
-
-  const std::vector<KeyAndPath>& found() const { return found_; }
-
- private:
-  std::vector<KeyAndPath> found_;
-};
-
-std::vector<FileSettings::KeyAndPath> filesOf(const Configuration& configuration) {
-  Configuration used = configuration;
+/// Of those that are used.
+std::vector<std::pair<std::string, std::string>> filesOf(Configuration used) {
   if (used.counter_surface.type != CounterSurfaceType::kFile) used.counter_surface.file.clear();
-  FileSettings settings;
-  used.describe(settings);
-  return settings.found();
+  return filesNamedBy(used);
 }
 
 bool isBelow(const fs::path& path, const fs::path& folder) {
@@ -94,7 +70,7 @@ std::vector<std::string> filesElsewhere(const Configuration& configuration, cons
 LivePredictor predictorFromFolders(const Configuration& configuration, bool accumulate_deformation) {
   std::vector<std::string> lines = filesElsewhere(configuration, scanFolders());
   if (!lines.empty()) throw OptionsError(std::move(lines));
-  const std::vector<FileSettings::KeyAndPath> files = filesOf(configuration);
+  const std::vector<std::pair<std::string, std::string>> files = filesOf(configuration);
   try {
     return LivePredictor(configuration, accumulate_deformation);
   } catch (const std::bad_alloc&) {

@@ -6,7 +6,7 @@
 
 #include "evaluation/device_scans.hpp"
 #include "evaluation/frame_load.hpp"
-#include "ros/provenance_conversion.hpp"
+#include "ros/message_parts.hpp"
 #include "ros/station_conversion.hpp"
 #include "ros/topic_names.hpp"
 #include "settings/time_limit.hpp"

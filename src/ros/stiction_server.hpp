@@ -36,7 +36,7 @@
 #include "ros/live_predictor.hpp"
 #include "ros/master_watch.hpp"
 #include "ros/reconfigure_server.hpp"
-#include "ros/remembered_parameters.hpp"
+#include "ros/registrations.hpp"
 #include "ros/result_publisher.hpp"
 #include "ros/scan_accounting.hpp"
 #include "ros/scan_pairer.hpp"

@@ -42,6 +42,20 @@ std::string loadChange(const LoadOptions& before, const LoadOptions& after) {
   return text;
 }
 
+/// Does the work of a service; what it throws is the answer.
+template <typename Response, typename Work>
+void answer(Response& response, Work&& work) {
+  try {
+    work();
+    return;
+  } catch (const std::future_error&) {
+    response.message = kShuttingDown;
+  } catch (const std::exception& error) {
+    response.message = oneLine(reasonOf(error));
+  }
+  response.success = false;
+}
+
 std::string figure(double value, const char* unit) { return shortNumber(value) + " " + unit; }
 
 /// What another load has done to the same scan.
@@ -88,7 +102,7 @@ template <typename Response>
 void StictionServer::changeLoad(const std::function<void(LoadOptions&)>& set, Response& response) {
   // What is returned when there is no prediction: NO_EQUILIBRIUM and zeros.
   response.prediction = predictionMessage(PredictedScan(), std_msgs::Header());
-  try {
+  answer(response, [&] {
     const boost::recursive_mutex::scoped_lock lock(reconfigure_.mutex());
     RunningSettings settings = predictor_.settings().current();
     const LoadOptions before = settings.load;
@@ -113,13 +127,7 @@ void StictionServer::changeLoad(const std::function<void(LoadOptions&)>& set, Re
       }
     });
     reconfigure_.show();
-  } catch (const std::future_error&) {
-    response.success = false;
-    response.message = kShuttingDown;
-  } catch (const std::exception& error) {
-    response.success = false;
-    response.message = oneLine(reasonOf(error));
-  }
+  });
 }
 
 std::optional<PredictedScan> StictionServer::lastScanOrNothing() {
@@ -151,24 +159,20 @@ bool StictionServer::getLoad(GetLoad::Request& /*request*/, GetLoad::Response& r
 
 bool StictionServer::getPrediction(GetPrediction::Request& /*request*/, GetPrediction::Response& response) {
   response.prediction = predictionMessage(PredictedScan(), std_msgs::Header());
-  try {
+  answer(response, [&] {
     worker_.call([&] {
       const std::optional<PredictedScan> predicted = predictor_.predictLastScan();
       response.success = predicted.has_value();
       if (predicted) response.prediction = predictionMessage(*predicted, predictor_.lastScan()->header);
     });
     if (!response.success) response.message = "no scan yet";
-  } catch (const std::future_error&) {
-    response.message = kShuttingDown;
-  } catch (const std::exception& error) {
-    response.message = oneLine(reasonOf(error));
-  }
+  });
   return true;
 }
 
 bool StictionServer::predict(Predict::Request& request, Predict::Response& response) {
   response.prediction = predictionMessage(PredictedScan(), request.height.header);
-  try {
+  answer(response, [&] {
     const ReceivedScan scan = receiveByCall(std::move(request.height), request.scan_info);
     worker_.call([&] {
       const PredictedScan predicted = predictor_.predictOnce(scan, request.voltage, request.mechanical_load);
@@ -178,23 +182,17 @@ bool StictionServer::predict(Predict::Request& request, Predict::Response& respo
       }
     });
     response.success = true;
-  } catch (const std::future_error&) {
-    response.message = kShuttingDown;
-  } catch (const std::exception& error) {
-    response.message = oneLine(reasonOf(error));
-  }
+  });
   return true;
 }
 
 bool StictionServer::resetSurface(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
-  try {
+  answer(response, [&] {
     worker_.call([this] { predictor_.resetSurface(); });
     response.success = true;
     response.message = options_.accumulate_deformation ? "the next scan is taken as it was made"
                                                        : "nothing to forget: accumulate_deformation is false";
-  } catch (const std::future_error&) {
-    response.message = kShuttingDown;
-  }
+  });
   return true;
 }
 

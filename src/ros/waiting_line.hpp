@@ -7,7 +7,6 @@
 /// are pressed against it. The newest scan and the newest counter-surface stay.
 
 #include <algorithm>
-#include <cstdint>
 #include <deque>
 #include <utility>
 #include <vector>

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 
 #include "height_map/validity.hpp"
 #include "mems_stiction/errors/errors.hpp"

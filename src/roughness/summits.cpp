@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "numeric/constants.hpp"
 #include "numeric/vectorized.hpp"
 #include "preprocess/working_surface.hpp"
 

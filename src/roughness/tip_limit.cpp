@@ -1,6 +1,5 @@
 #include "roughness/tip_limit.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

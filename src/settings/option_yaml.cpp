@@ -8,10 +8,8 @@
 #include <limits>
 #include <locale>
 #include <map>
-#include <numeric>
 #include <sstream>
 
-#include "mems_stiction/errors/errors.hpp"
 #include "numeric/words.hpp"
 
 namespace mems_stiction {
@@ -334,11 +332,6 @@ std::vector<std::string> keysOf(const YAML::Node& tree) {
   keys.reserve(leaves.size());
   for (const Leaf& leaf : leaves) keys.push_back(leaf.key);
   return keys;
-}
-
-void applyYaml(const YAML::Node& tree, const DescribeFunction& describe) {
-  std::vector<std::string> violations = readYaml(tree, describe);
-  if (!violations.empty()) throw OptionsError(std::move(violations));
 }
 
 std::string toYaml(const DescribeFunction& describe) {

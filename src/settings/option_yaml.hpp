@@ -7,7 +7,7 @@
 /// same. Every key supplied must belong to exactly one described field, so that a typing error is an error and not a
 /// default. A key that one map has twice is an error that names both lines. Numbers may be quoted: PyYAML and rosparam hand over `1e-9` as a string.
 ///
-///     applyYaml(YAML::Load(text), [&](OptionVisitor& visitor) {
+///     readYaml(YAML::Load(text), [&](OptionVisitor& visitor) {
 ///       configuration.describe(visitor);
 ///       visitor.integer("queue_size", queue_size, Range::within(1, 1000), "scans that may wait");
 ///     });
@@ -36,10 +36,7 @@ std::vector<std::string> readYaml(const YAML::Node& tree, const DescribeFunction
 /// The keys that the tree states, nested ones with slashes, in its order.
 std::vector<std::string> keysOf(const YAML::Node& tree);
 
-/// The same as readYaml(). @throw OptionsError with the lines of readYaml(), if there are any.
-void applyYaml(const YAML::Node& tree, const DescribeFunction& describe);
-
-/// Every described field as nested YAML, its unit, range and meaning beside it as a comment. Reads back by applyYaml().
+/// Every described field as nested YAML, its unit, range and meaning beside it as a comment. Reads back by readYaml().
 std::string toYaml(const DescribeFunction& describe);
 
 /// A number as YAML 1.1 and 1.2 both take for a number: "2.0e-09", ".nan", "-.inf".

@@ -1,6 +1,5 @@
 #include "settings/time_limit.hpp"
 
-#include <string>
 #include <utility>
 
 #include "mems_stiction/settings/option_visitor.hpp"

@@ -5,7 +5,7 @@
 
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
-#include "prediction/deformed_surfaces.hpp"
+#include "prediction/asked_output.hpp"
 #include "surface/wear.hpp"
 
 namespace mems_stiction {

@@ -26,7 +26,6 @@
 ///     const LoadSweepResult result = sweepLoads(options, scan, request, device, uncertainty, RunControl());
 
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>

@@ -8,7 +8,7 @@
 #include "mechanics/jkr.hpp"
 #include "mems_stiction/mechanics/plasticity.hpp"
 #include "numeric/constants.hpp"
-#include "prediction/deformed_surfaces.hpp"
+#include "prediction/asked_output.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -105,6 +105,10 @@ void SurfacePose::describe(OptionVisitor& visitor, const std::string& prefix) {
                  "tilt of the counter-surface; positive lifts its side of larger rows");
 }
 
+bool haveSameGrid(const HeightMap& a, const HeightMap& b) {
+  return a.rows() == b.rows() && a.cols() == b.cols() && a.pitchX() == b.pitchX() && a.pitchY() == b.pitchY();
+}
+
 HeightMap alignedTo(const HeightMap& scan, const HeightMap& counter_surface, const SurfacePose& pose, Beyond beyond) {
   check(pose);
   const Sampler sampler(counter_surface, beyond);

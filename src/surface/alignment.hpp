@@ -27,6 +27,9 @@ enum class Beyond {
   kPeriodic,  ///< the same surface again, for synthetic ones that wrap around
 };
 
+/// Pixels of the same number and size.
+bool haveSameGrid(const HeightMap& a, const HeightMap& b);
+
 /// The counter-surface on the scan's grid: the scan's rows, cols and pitches, CV_64FC1, metres. A cell is invalid when
 /// its nearest pixel of the counter-surface is, or lies beyond it; beside invalid pixels heights are
 /// linear between the valid ones.

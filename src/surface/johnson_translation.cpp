@@ -1,12 +1,10 @@
 #include "surface/johnson_translation.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/settings/option_visitor.hpp"
-#include "numeric/constants.hpp"
 
 namespace mems_stiction {
 namespace {

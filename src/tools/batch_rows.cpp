@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <map>
@@ -17,6 +16,7 @@
 #include "files/input_file.hpp"
 #include "files/output_file.hpp"
 #include "mems_stiction/errors/errors.hpp"
+#include "numeric/words.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -26,10 +26,6 @@ constexpr auto kReplaceBadBytes = nlohmann::json::error_handler_t::replace;
 constexpr std::string_view kJsonStart = "{\"number\":";
 constexpr InputKind kRows = {"a table of rows", std::uint64_t{4} << 30};
 constexpr InputKind kSettings = {"the settings of rows", std::uint64_t{1} << 28};
-
-bool endsWith(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
 
 std::string jsonText(const nlohmann::json& value) { return value.dump(-1, ' ', false, kReplaceBadBytes); }
 
@@ -80,16 +76,6 @@ std::string rowsFrom(const std::string& path, RowFormat format, const std::strin
   throw FileError(path + ": " + std::strerror(errno));
 }
 
-void writeAll(int descriptor, const std::string& text, const std::string& path) {
-  std::size_t written = 0;
-  while (written < text.size()) {
-    const ssize_t count = ::write(descriptor, text.data() + written, text.size() - written);
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) failWithSystemsReason(path);
-    written += static_cast<std::size_t>(count);
-  }
-}
-
 }  // namespace
 
 RowFormat rowFormatOf(const std::string& path, const std::string& option) {
@@ -132,7 +118,7 @@ RowFile::RowFile(const std::string& path, RowFormat format, const std::string& h
       failWithSystemsReason(path);
     }
     if (lines.empty()) {
-      writeAll(descriptor_, heading, path_);
+      write(heading);
     } else if (!heading.empty()) {
       lines.erase(lines.begin());
     }
@@ -171,13 +157,17 @@ void RowFile::takeUp(std::vector<std::string> lines, const std::vector<std::size
   done_ = earlier_.size();
 }
 
+void RowFile::write(const std::string& text) const {
+  if (!writeAll(descriptor_, text)) failWithSystemsReason(path_);
+}
+
 void RowFile::append(const std::string& line) {
-  writeAll(descriptor_, line, path_);
+  write(line);
   ++done_;
 }
 
 void RowFile::replace(std::size_t place, const std::string& line) {
-  writeAll(descriptor_, line, path_);
+  write(line);
   earlier_[place] = line.substr(0, line.size() - 1);
   is_replaced_ = true;
 }

@@ -53,6 +53,7 @@ class RowFile {
 
  private:
   void openLocked();
+  void write(const std::string& text) const;
   void takeUp(std::vector<std::string> lines, const std::vector<std::size_t>& numbers);
 
   std::string path_;

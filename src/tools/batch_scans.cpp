@@ -4,18 +4,12 @@
 #include <utility>
 
 #include "errors/error_text.hpp"
+#include "numeric/words.hpp"
 
 namespace mems_stiction {
 namespace {
 
-bool isBag(const std::string& path) {
-  for (const char* end : {".bag", ".bag.active"}) {
-    const std::string suffix = end;
-    if (path.size() > suffix.size() && path.compare(path.size() - suffix.size(), suffix.size(), suffix) == 0)
-      return true;
-  }
-  return false;
-}
+bool isBag(const std::string& path) { return endsWith(path, ".bag") || endsWith(path, ".bag.active"); }
 
 }  // namespace
 

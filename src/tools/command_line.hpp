@@ -118,12 +118,9 @@ int runProgram(const std::string& program, int argc, char** argv, Describe&& des
 /// -u and -l, into `voltage` and `load` of the arguments: std::optional<double>.
 template <typename Arguments>
 void addLoadOptions(CLI::App& app, Arguments& arguments) {
-  app.add_option_function<double>(
-         "-u,--voltage", [&arguments](const double& value) { arguments.voltage = value; },
-         "voltage between the surfaces [V]")
-      ->type_name("V");
-  app.add_option_function<double>(
-         "-l,--load", [&arguments](const double& value) { arguments.load = value; },
+  app.add_option("-u,--voltage", arguments.voltage, "voltage between the surfaces [V]")->type_name("V");
+  app.add_option(
+         "-l,--load", arguments.load,
          "external force pressing the scanned area together [N]; goes before load/pressure and load/device_force")
       ->type_name("N");
 }

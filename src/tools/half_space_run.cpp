@@ -1,21 +1,16 @@
 #include "half_space_run.hpp"
 
 #include <atomic>
-#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <string>
 
 #include "import/scan_writer.hpp"
 #include "mems_stiction/errors/errors.hpp"
-#include "status_line.hpp"
+#include "waiting_line.hpp"
 
 namespace mems_stiction {
 namespace {
-
-/// How long a solution takes before it says how far it is, and between two such lines [s].
-constexpr double kPatience = 2.0;
-constexpr double kPeriod = 0.1;
 
 std::atomic<bool> is_interrupted{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler writes to it");
@@ -48,35 +43,6 @@ class Interruption {
   sigset_t mask_before_{};
 };
 
-/// From two seconds on, in place on the terminal: also while one height takes minutes.
-class Progress {
- public:
-  void show(const ForcePoint& point) {
-    doing_ = text_.next(point);
-    tick();
-  }
-  /// Called many times a second.
-  void tick() {
-    const auto now = Clock::now();
-    const double passed = seconds(now - begin_);
-    if (passed < kPatience || seconds(now - shown_) < kPeriod) return;
-    shown_ = now;
-    char time[32];
-    std::snprintf(time, sizeof time, ", %.0f s", passed);
-    line_.show(doing_ + time);
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  static double seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
-
-  StatusLine line_;
-  HalfSpaceText text_;
-  std::string doing_ = "half-space: the first height";
-  Clock::time_point begin_ = Clock::now();
-  Clock::time_point shown_{};
-};
-
 void writeMap(const std::string& path, const cv::Mat& map, const SolvedHalfSpace& solution) {
   if (path.empty()) return;
   if (map.empty()) throw FileError(path + ": not written: half-space: " + solution.message);
@@ -97,11 +63,11 @@ std::string HalfSpaceText::next(const ForcePoint& point) {
 
 SolvedHalfSpace withHalfSpaceProgress(const std::function<SolvedHalfSpace(const HalfSpaceControl&)>& solve) {
   const Interruption interruption;  // outlives the line on the terminal, which is gone when the program ends
-  Progress progress;
+  WaitingLine line("half-space: the first height");
+  HalfSpaceText text;
   HalfSpaceControl control;
   control.cancel = &is_interrupted;
-  control.on_state = [&progress](const ForcePoint& point) { progress.show(point); };
-  control.give_way = [&progress] { progress.tick(); };
+  control.on_state = [&](const ForcePoint& point) { line.say(text.next(point)); };
   return solve(control);
 }
 

@@ -10,6 +10,7 @@
 #include "evaluation/frame_load.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/import/scan_file.hpp"
+#include "prediction/asked_output.hpp"
 #include "verdict/regime_flags.hpp"
 
 namespace mems_stiction {
@@ -17,9 +18,7 @@ namespace {
 
 /// What the verdict needs of the prediction of a scan.
 Configuration forVerdict(Configuration configuration) {
-  OutputOptions& output = configuration.model.output;
-  output = OutputOptions();
-  output.deformed_surfaces = output.contact_map = output.energy_curve = output.roughness = false;
+  configuration.model.output = figuresAlone();
   configuration.spatial_roughness.enabled = false;
   return configuration;
 }

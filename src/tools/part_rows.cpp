@@ -10,7 +10,6 @@
 #include "errors/one_line.hpp"
 #include "evaluation/part_scans.hpp"
 #include "files/output_file.hpp"
-#include "mems_stiction/errors/errors.hpp"
 #include "row_texts.hpp"
 #include "verdict/part_verdict_fields.hpp"
 #include "verdict/regime_flags.hpp"

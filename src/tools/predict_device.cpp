@@ -8,7 +8,6 @@
 
 #include "command_line.hpp"
 #include "device_picture.hpp"
-#include "device_run.hpp"
 #include "evaluation/device_prediction.hpp"
 #include "evaluation/plausibility.hpp"
 #include "mems_stiction/configuration/configuration_yaml.hpp"
@@ -37,13 +36,6 @@ struct Arguments {
   std::vector<std::string> scans;
 };
 
-template <typename Value>
-CLI::Option* addOptional(CLI::App& app, const std::string& names, std::optional<Value>& value,
-                         const std::string& text) {
-  return app.add_option_function<Value>(
-      names, [&value](const Value& given) { value = given; }, text);
-}
-
 void describe(CLI::App& app, Arguments& arguments) {
   app.description(
       "Predicts the force that holds a whole device, from all scans of its surfaces: of any pitch, size and "
@@ -58,17 +50,16 @@ void describe(CLI::App& app, Arguments& arguments) {
   app.add_option("-c,--config", arguments.configuration,
                  "materials, interface, loads, device, ...; every key is explained in config/stiction.yaml")
       ->type_name("FILE.yaml");
-  addOptional(app, "-a,--area", arguments.area,
-              "nominal area of all contacts of the device together [m^2]; goes before device/contact_area")
+  app.add_option("-a,--area", arguments.area,
+                 "nominal area of all contacts of the device together [m^2]; goes before device/contact_area")
       ->type_name("M2");
-  addOptional(app, "--contacts", arguments.contacts,
-              "separate contacts that share the area; goes before device/contacts")
+  app.add_option("--contacts", arguments.contacts, "separate contacts that share the area; goes before device/contacts")
       ->type_name("N");
-  addOptional(app, "--realisations", arguments.realisations,
-              "surfaces of the device's size that are made; goes before device_force/realisations")
+  app.add_option("--realisations", arguments.realisations,
+                 "surfaces of the device's size that are made; goes before device_force/realisations")
       ->type_name("N");
-  addOptional(app, "--max-cells", arguments.max_cells,
-              "pixels of one made surface at most; goes before device_force/max_cells")
+  app.add_option("--max-cells", arguments.max_cells,
+                 "pixels of one made surface at most; goes before device_force/max_cells")
       ->type_name("N");
   app.add_option("-p,--pitch", arguments.pitches,
                  "distance of neighbouring pixels [m]; MX,MY where columns and rows differ. Once for all scans, or as "
@@ -174,7 +165,7 @@ void predictDevice(const Arguments& arguments, const Configuration& configuratio
   }
   const std::string what = std::to_string(inputs.size()) + (inputs.size() == 1 ? " scan" : " scans");
   const DevicePrediction prediction =
-      withProgress(what, [&](const auto& on_progress) { return predictor.predict(on_progress); });
+      whileSayingShare(what, [&](const auto& on_progress) { return predictor.predict(on_progress); });
   for (const std::string& line : prediction.force.warnings) warn("predict_device", line);
   const std::string json = deviceJsonRecord(prediction);
   if (arguments.json) {

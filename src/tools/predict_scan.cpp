@@ -1,7 +1,6 @@
 /// predict_scan: will the surface in this file stick? No ROS master needed; the prediction is the node's to the last
 /// line.
 
-#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <optional>
@@ -12,7 +11,6 @@
 #include "command_line.hpp"
 #include "curve_file.hpp"
 #include "device/device_evidence.hpp"
-#include "device_run.hpp"
 #include "evaluation/device_scans.hpp"
 #include "evaluation/frame_load.hpp"
 #include "evaluation/half_space_call.hpp"
@@ -26,7 +24,7 @@
 #include "mems_stiction/evaluation/half_space_scan.hpp"
 #include "mems_stiction/evaluation/scan_predictor.hpp"
 #include "mems_stiction/import/scan_file.hpp"
-#include "prediction/deformed_surfaces.hpp"
+#include "prediction/asked_output.hpp"
 #include "prediction/force_curve.hpp"
 #include "waiting_line.hpp"
 
@@ -72,9 +70,7 @@ void describe(CLI::App& app, Arguments& arguments) {
                  "distance of neighbouring pixels [m]; MX,MY where columns and rows differ. Goes before what files say")
       ->type_name("M");
   addLoadOptions(app, arguments);
-  app.add_option_function<double>(
-         "-s,--step", [&arguments](const double& value) { arguments.step = value; },
-         "approach per step of paper and printed [m], paper/step; 0 = automatic")
+  app.add_option("-s,--step", arguments.step, "approach per step of paper and printed [m], paper/step; 0 = automatic")
       ->type_name("M");
   addChannelOption(app, arguments.channel);
   addMaskOption(app, arguments.ignore_mask);
@@ -237,8 +233,8 @@ void predictScan(const std::string& path, const Arguments& arguments, const Scan
     std::optional<DeviceScale> scale;
     if (wantsDeviceForce(configuration.device, configuration.device_force)) {
       DeviceForce& force = extras.device_force.emplace();
-      evidence =
-          withProgress(path, [&](const auto& tell) { return evidenceOfScan(prepared, configuration, tell, &force); });
+      evidence = whileSayingShare(
+          path, [&](const auto& tell) { return evidenceOfScan(prepared, configuration, tell, &force); });
       warnAll(force.warnings);
       extras.warnings.insert(extras.warnings.end(), force.warnings.begin(), force.warnings.end());
       if (evidence.device) {

@@ -1,8 +1,6 @@
 #include "row_maker.hpp"
 
-#include <cstdio>
 #include <exception>
-#include <filesystem>
 #include <iomanip>
 #include <sstream>
 #include <utility>
@@ -16,6 +14,7 @@
 #include "half_space_run.hpp"
 #include "mems_stiction/evaluation/half_space_scan.hpp"
 #include "prediction/force_curve.hpp"
+#include "waiting_line.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -24,12 +23,6 @@ constexpr const char* kRowsOfScans =
     "rows are of scans; --parts finds it for each part and --device-force for each scan";
 
 constexpr const char* kNotFlagged = "no flag asks for it";
-
-std::string deviceText(double share) {
-  char text[64];
-  std::snprintf(text, sizeof text, "the force of the device, %.0f %%", 100.0 * share);
-  return text;
-}
 
 void append(const RowFields& more, RowFields& fields) { fields.insert(fields.end(), more.begin(), more.end()); }
 

@@ -1,7 +1,5 @@
 #include "row_states.hpp"
 
-#include <utility>
-
 #include "mems_stiction/errors/errors.hpp"
 
 namespace mems_stiction {

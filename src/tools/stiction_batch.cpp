@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <iostream>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <opencv2/core/utils/logger.hpp>
@@ -15,7 +14,6 @@
 #include "batch_scans.hpp"
 #include "batch_settings.hpp"
 #include "command_line.hpp"
-#include "device_run.hpp"
 #include "evaluation/half_space_call.hpp"
 #include "evaluation/plausibility.hpp"
 #include "files/output_file.hpp"
@@ -27,6 +25,7 @@
 #include "progress_bar.hpp"
 #include "row_queue.hpp"
 #include "row_states.hpp"
+#include "waiting_line.hpp"
 
 namespace {
 
@@ -59,8 +58,8 @@ void pool(const BatchArguments& arguments, const std::vector<std::string>& input
   if (arguments.parts.empty()) return;
   PartDevices devices(arguments, inputs, configuration);
   const auto device = [&](const std::vector<RowOfPart>& rows) {
-    return withProgress("a part of " + std::to_string(rows.size()) + " scans",
-                        [&](const auto& on_progress) { return devices.device(rows, on_progress); });
+    return whileSayingShare("a part of " + std::to_string(rows.size()) + " scans",
+                            [&](const auto& on_progress) { return devices.device(rows, on_progress); });
   };
   const std::size_t count = writeParts(arguments.output, arguments.parts, device);
   std::cout << oneLine(arguments.parts) << ": " << count << " parts\n";

@@ -33,6 +33,12 @@ class WaitingLine {
   WaitingLine(const WaitingLine&) = delete;
   WaitingLine& operator=(const WaitingLine&) = delete;
 
+  /// What it is at now; any thread may call.
+  void say(std::string doing) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    doing_ = std::move(doing);
+  }
+
  private:
   void tick() {
     constexpr std::chrono::seconds kPatience{2};
@@ -60,6 +66,21 @@ template <typename Work>
 auto whileSaying(const std::string& doing, Work&& work) {
   const WaitingLine line(doing);
   return work();
+}
+
+/// "the force of the device, 45 %"
+inline std::string deviceText(double share) {
+  char text[64];
+  std::snprintf(text, sizeof text, "the force of the device, %.0f %%", 100.0 * share);
+  return text;
+}
+
+/// The same for work(on_progress), which finds the force of a device and reports the share that is done.
+/// - @p what as in "scan.tiff"
+template <typename Work>
+auto whileSayingShare(const std::string& what, Work&& work) {
+  WaitingLine line(what + ": " + deviceText(0.0));
+  return work([&](double share) { line.say(what + ": " + deviceText(share)); });
 }
 
 }  // namespace mems_stiction

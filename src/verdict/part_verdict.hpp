@@ -54,7 +54,6 @@
 ///     const PooledVerdict part = pooledVerdictOf(scans);
 
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <vector>
 

@@ -1,10 +1,11 @@
 /// How fast is the half-space? Times in pairs, one forward and one inverse real transform of the frame in double
 /// precision by FFTW in the same run on the same core, so that the figures do not depend on the machine.
 ///
-///     half_space_bench [SEED [FILE.json]]
+///     half_space_bench [SEED [FILE.json [FRAME.f64]]]
 ///
 /// prints one row per piece of work, with the limit that it must keep, and writes the rows to the file; the exit status
-/// is 1 when one does not keep it.
+/// is 1 when one does not keep it. The heights of the frame that is pressed go to the second file, row by row in doubles [m]:
+/// scripts/lib/bench_tamaas.py has it solved by another program.
 
 #include <algorithm>
 #include <chrono>
@@ -60,6 +61,11 @@ constexpr double kPitch = 5e-9;
 constexpr int kFrames = 5;
 /// Turns of one thread and two.
 constexpr int kTurns = 5;
+/// The same of a frame that is pressed.
+constexpr int kPressedTurns = 3;
+/// Of tamaas' time for the state at rest, at most: the whole path, and rest alone.
+constexpr double kWholeOfTamaas = 1.0;
+constexpr double kRestOfTamaas = 1.0 / 3.0;
 
 HalfSpaceProblem silicon(int size, double correlation_length, double rms_height, int seed, double pitch = kPitch) {
   GaussianSurfaceOptions surface;
@@ -84,6 +90,10 @@ HalfSpaceProblem onHalfThePixels(HalfSpaceProblem problem) {
   return problem;
 }
 
+bool sameBits(const SolvedHalfSpace& a, const SolvedHalfSpace& b) {
+  return a.pull_off_force == b.pull_off_force && cv::norm(a.gap, b.gap, cv::NORM_INF) == 0.0;
+}
+
 struct Run {
   double seconds;         ///< passed
   double worked_seconds;  ///< of all threads
@@ -91,9 +101,7 @@ struct Run {
   SolvedHalfSpace solution;
 };
 
-Run run(const HalfSpaceProblem& problem, int threads) {
-  HalfSpaceOptions options;
-  options.threads = threads;
+Run run(const HalfSpaceProblem& problem, const HalfSpaceOptions& options) {
   const double pair_before = pairTime(problem.surfaces.lower.rows());
   const double begin = now();
   const double begin_worked = worked();
@@ -106,6 +114,35 @@ Run run(const HalfSpaceProblem& problem, int threads) {
               solution.newton_steps, solution.products, solution.jumps, 1e3 * pair);
   return {seconds, worked_seconds, worked_seconds / pair, std::move(solution)};
 }
+
+Run run(const HalfSpaceProblem& problem, int threads) {
+  HalfSpaceOptions options;
+  options.threads = threads;
+  return run(problem, options);
+}
+
+/// One thread and two in turns, the fastest of each: whoever else runs on this machine takes from both.
+class TwoThreads {
+ public:
+  TwoThreads(const HalfSpaceProblem& problem, HalfSpaceOptions options, const Run& one, int turns)
+      : seconds_of_one_(one.seconds) {
+    for (int turn = 0; turn < turns; ++turn) {
+      options.threads = 2;
+      const Run two = run(problem, options);
+      options.threads = 1;
+      seconds_of_two_ = std::min(seconds_of_two_, two.seconds);
+      seconds_of_one_ = std::min(seconds_of_one_, run(problem, options).seconds);
+      has_same_bits_ = has_same_bits_ && sameBits(one.solution, two.solution);
+    }
+  }
+  double gain() const { return seconds_of_one_ / seconds_of_two_; }
+  bool hasSameBits() const { return has_same_bits_; }
+
+ private:
+  double seconds_of_one_;
+  double seconds_of_two_ = std::numeric_limits<double>::infinity();
+  bool has_same_bits_ = true;
+};
 
 /// What frames of two sizes took in sum.
 struct Sizes {
@@ -140,11 +177,75 @@ void addFigure(const std::string& work, double figure, const std::string& unit, 
   std::printf("%-62s %8.2f %-6s\n", work.c_str(), figure, unit.c_str());
 }
 
-bool sameBits(const SolvedHalfSpace& a, const SolvedHalfSpace& b) {
-  return a.pull_off_force == b.pull_off_force && cv::norm(a.gap, b.gap, cv::NORM_INF) == 0.0;
+/// A megapixel of which much touches.
+HalfSpaceProblem pressedFrame(int seed) { return silicon(1024, 120e-9, 5e-9, seed, 10e-9); }
+
+/// Work on the pressed frame. Nothing flows at these pressures, but what cannot flow is a steeper wall on the way.
+struct PressedWork {
+  const char* name;
+  double pressure;  ///< [Pa]
+  bool attraction;
+  bool flow;
+  HalfSpacePath path;
+};
+
+constexpr PressedWork kPressedWork[] = {
+    {"1024 x 1024 under 10 MPa, whole path", 10e6, true, true, HalfSpacePath::kWhole},
+    {"1024 x 1024 under 100 MPa, whole path", 100e6, true, true, HalfSpacePath::kWhole},
+    {"1024 x 1024 under 10 MPa, rest alone", 10e6, true, true, HalfSpacePath::kRest},
+    {"1024 x 1024 under 100 MPa, rest alone", 100e6, true, true, HalfSpacePath::kRest},
+    {"1024 x 1024 under 10 MPa, without attraction, whole path", 10e6, false, true, HalfSpacePath::kWhole},
+    {"1024 x 1024 under 100 MPa, without attraction, whole path", 100e6, false, true, HalfSpacePath::kWhole},
+    {"1024 x 1024 under 10 MPa, elastic, whole path", 10e6, true, false, HalfSpacePath::kWhole},
+    {"1024 x 1024 under 100 MPa, elastic, whole path", 100e6, true, false, HalfSpacePath::kWhole},
+    {"1024 x 1024 under 10 MPa, elastic, rest alone", 10e6, true, false, HalfSpacePath::kRest},
+    {"1024 x 1024 under 100 MPa, elastic, rest alone", 100e6, true, false, HalfSpacePath::kRest},
+};
+
+/// Adds a row for each piece of work, with what bench_tamaas.py compares. @return whether two threads keep their limit
+bool measurePressed(int seed, nlohmann::json& rows) {
+  bool holds = true;
+  HalfSpaceProblem problem = pressedFrame(seed);
+  const HeightMap& frame = problem.surfaces.lower;
+  const double area = frame.pitchX() * frame.cols() * frame.pitchY() * frame.rows();
+  HalfSpaceOptions options;
+  for (const PressedWork& work : kPressedWork) {
+    problem.load.setMechanicalLoad(work.pressure * area);
+    options.attraction = work.attraction;
+    options.flow = work.flow;
+    options.path = work.path;
+    const Run done = run(problem, options);
+    addFigure(work.name, done.pairs, "pairs", rows);
+    rows.back().update({{"seconds", done.worked_seconds},
+                        {"pressure", work.pressure},
+                        {"contact_fraction", done.solution.contact_fraction},
+                        {"limit_of_tamaas", work.path == HalfSpacePath::kRest ? kRestOfTamaas : kWholeOfTamaas}});
+    if (&work == kPressedWork) {
+      const double gain = TwoThreads(problem, options, done, kPressedTurns).gain();
+      holds = addRow("the same with two threads", gain, "times", 1.5, false, rows);
+    }
+  }
+  return holds;
 }
 
-int measure(int seed, const std::string& file) {
+/// @return whether the file took it
+bool write(const std::string& file, const char* bytes, std::size_t count) {
+  std::ofstream stream(file, std::ios::binary);
+  stream.write(bytes, static_cast<std::streamsize>(count));
+  stream.close();
+  if (!stream) std::fprintf(stderr, "half_space_bench: cannot write '%s'\n", file.c_str());
+  return static_cast<bool>(stream);
+}
+
+bool writeHeights(const HeightMap& map, const std::string& file) {
+  std::vector<double> heights;
+  for (int row = 0; row < map.rows(); ++row) {
+    for (int col = 0; col < map.cols(); ++col) heights.push_back(map.height(row, col));
+  }
+  return write(file, reinterpret_cast<const char*>(heights.data()), heights.size() * sizeof(double));
+}
+
+int measure(int seed, const std::string& file, const std::string& heights_file) {
   nlohmann::json rows = nlohmann::json::array();
   bool holds = true;
   const auto atMost = [&](const char* work, double figure, const char* unit, double limit) {
@@ -156,18 +257,9 @@ int measure(int seed, const std::string& file) {
   const HalfSpaceProblem rough = silicon(512, 100e-9, 3e-9, seed);
   const Run one = run(rough, 1);
   atMost("512 x 512, l 100 nm, sigma 3 nm, whole path", one.pairs, "pairs", 500.0);
-  // in turns, the fastest of each: whoever else runs on this machine takes from both
-  double seconds_of_one = one.seconds;
-  double seconds_of_two = std::numeric_limits<double>::infinity();
-  bool has_same_bits = true;
-  for (int turn = 0; turn < kTurns; ++turn) {
-    const Run two = run(rough, 2);
-    seconds_of_two = std::min(seconds_of_two, two.seconds);
-    seconds_of_one = std::min(seconds_of_one, run(rough, 1).seconds);
-    has_same_bits = has_same_bits && sameBits(one.solution, two.solution);
-  }
-  atLeast("the same with two threads", seconds_of_one / seconds_of_two, "times", 1.5);
-  atLeast("the same bits with two threads", has_same_bits ? 1.0 : 0.0, "", 1.0);
+  const TwoThreads rough_by_two(rough, HalfSpaceOptions(), one, kTurns);
+  atLeast("the same with two threads", rough_by_two.gain(), "times", 1.5);
+  atLeast("the same bits with two threads", rough_by_two.hasSameBits() ? 1.0 : 0.0, "", 1.0);
   Sizes same_surface;
   Sizes same_pitch;
   for (int frame = seed; frame < seed + kFrames; ++frame) {
@@ -181,15 +273,10 @@ int measure(int seed, const std::string& file) {
   addFigure("  Newton steps of the same", same_pitch.stepRatio(), "times", rows);
   const Run smooth = run(silicon(512, 300e-9, 1e-9, seed), 1);
   atMost("512 x 512, l 300 nm, sigma 1 nm, near bonding", smooth.pairs, "pairs", 6000.0);
-  if (!file.empty()) {
-    std::ofstream stream(file);
-    stream << rows.dump(2) << "\n";
-    stream.close();
-    if (!stream) {
-      std::fprintf(stderr, "half_space_bench: cannot write '%s'\n", file.c_str());
-      return 2;
-    }
-  }
+  holds &= measurePressed(seed, rows);
+  const std::string text = rows.dump(2) + "\n";
+  if (!file.empty() && !write(file, text.data(), text.size())) return 2;
+  if (!heights_file.empty() && !writeHeights(pressedFrame(seed).surfaces.lower, heights_file)) return 2;
   return holds ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 
@@ -197,5 +284,5 @@ int measure(int seed, const std::string& file) {
 }  // namespace mems_stiction
 
 int main(int argc, char** argv) {
-  return mems_stiction::measure(argc > 1 ? std::atoi(argv[1]) : 1, argc > 2 ? argv[2] : "");
+  return mems_stiction::measure(argc > 1 ? std::atoi(argv[1]) : 1, argc > 2 ? argv[2] : "", argc > 3 ? argv[3] : "");
 }

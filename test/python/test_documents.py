@@ -72,7 +72,7 @@ class RosApiTest(unittest.TestCase):
         listed = dict(rows("Subscribed"))
         listed.update(rows("Published"))
         self.assertEqual(set(self.names("Topic")), {name for name in listed if not name.startswith("/")})
-        publisher = source("src/ros/result_publisher.cpp") + source("src/ros/half_space_publisher.cpp")
+        publisher = source("src/ros/result_publisher.cpp") + source("src/ros/half_space_stream.cpp")
         constants = dict(re.findall(r'(k\w+Topic)\[\] = "([^"]+)"', source("src/ros/topic_names.hpp")))
         advertised = re.findall(r"(?:advertise<([\w:]+)>|transport_\.(advertise))\(\s*(k\w+)", publisher)
         self.assertGreaterEqual(len(advertised), 12)

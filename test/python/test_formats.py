@@ -1,6 +1,7 @@
 """What others read: rows as Parquet, maps as HDF5 and NetCDF-4, recordings as MCAP with ROS 2 messages; read back by the libraries of those."""
 
 import csv
+import hashlib
 import json
 import math
 import os
@@ -19,6 +20,7 @@ import roslib.message
 import rospy
 from mems_stiction.long_run import write_points
 from mems_stiction.msg import DeviceAdhesion, SeparationPoint, StictionPrediction, SweepLoadResult, SweepPoint
+from mems_stiction.provenance import FIELDS
 from mems_stiction.ros2_messages import as_ros2, schema_name, schema_of
 from mems_stiction.row_table import Stamp, units_of
 from roslib.packages import find_node
@@ -282,6 +284,22 @@ class MapFileTest(InFolder):
             self.assertEqual((file["pressure"].attrs["units"], file["curve/height"].attrs["units"]), ("Pa", "m"))
             np.testing.assert_array_equal(file["curve/direction"][()], solved.curve.direction)
             self.assertEqual(json.loads(file["record"][()].decode())["pull_off_force"], solved.pull_off_force)
+            self.assertEqual(file.attrs["status"], solved.status)
+
+    def test_maps_of_a_half_space_say_what_was_scanned_as_those_of_a_prediction_do(self):
+        import h5py
+
+        path = self.folder / "scan.csv"
+        np.savetxt(str(path), np.random.RandomState(3).normal(size=(32, 32)) * 1e-9, delimiter=",")
+        (self.folder / "scan.csv.yaml").write_text("part_id: lever\nlot_id: lot 3\nwafer_id: '7'\nsite_x: 1.0e-2\nsite_y: 0.0\n")
+        origins = []
+        for run in (mems_stiction.half_space, mems_stiction.predict):
+            run(path, 1e-8, SETTINGS).save_maps(self.folder / "maps.h5")
+            with h5py.File(str(self.folder / "maps.h5"), "r") as file:
+                origins.append({name: file.attrs[name] for name in FIELDS if name in file.attrs and name != "scan_name"})
+        self.assertEqual(origins[0], origins[1])
+        self.assertEqual((origins[0]["lot_id"], origins[0]["wafer_id"], origins[0]["site_x"]), ("lot 3", "7", 1e-2))
+        self.assertEqual(origins[0]["checksum"], "sha256:" + hashlib.sha256(path.read_bytes()).hexdigest())
 
     def test_what_cannot_be_written_is_an_error_and_no_file(self):
         with self.assertRaisesRegex(mems_stiction.Error, r"must end in \.h5"):

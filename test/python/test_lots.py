@@ -22,7 +22,7 @@ except ImportError:
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
 from mems_stiction import archive, lots_variance  # noqa: E402
-from mems_stiction.lots_data import Place, lots_of  # noqa: E402
+from mems_stiction.lots_data import NUMBERS, TEXTS, Place, _Table, lots_of  # noqa: E402
 from mems_stiction.lots_variance import components_of, hierarchy_of  # noqa: E402
 from mems_stiction.lots_wafer import bad_places, trend_of  # noqa: E402
 from mems_stiction.lots_yield import share_of  # noqa: E402
@@ -171,6 +171,17 @@ class SharesTest(unittest.TestCase):
         self.assertGreater(wide.shares.upper[0], 0.5)
         self.assertLess(plain.shares.upper[0], 0.2)
 
+    def test_a_row_without_an_interval_does_not_take_those_of_the_others_away(self):
+        values = 2.0 * np.exp(0.3 * np.random.RandomState(2).standard_normal(49))
+        rows = [row(site=site, margin=value, margin_lower=value / 3.0, margin_upper=3.0 * value) for site, value in zip(SITES, values)]
+        whole = mems_stiction.compare_lots(rows)
+        self.assertEqual(whole.shares.without_interval[0], 0)
+        lacking = mems_stiction.compare_lots([dict(rows[0], margin_lower="", margin_upper="nan")] + rows[1:])
+        self.assertEqual(lacking.shares.without_interval[0], 1)
+        self.assertTrue(any(text.startswith("1 of 49 margins come without an interval") for text in lacking.statements), lacking.statements)
+        for end in ("share", "lower", "upper"):
+            self.assertAlmostEqual(getattr(lacking.shares, end)[0], getattr(whole.shares, end)[0], places=9)
+
     def test_against_voltage_and_against_times_that_were_measured(self):
         random = np.random.RandomState(5)
         rows = [row(site=site, voltage=volts, hold_time=60.0, margin=4.0 * math.exp(-0.05 * volts + 0.2 * random.standard_normal()))
@@ -181,10 +192,13 @@ class SharesTest(unittest.TestCase):
         self.assertLess(found.shares.share[1], 0.1)
         self.assertGreater(found.shares.share[2], 0.9)
         self.assertTrue(any(text.startswith("at voltage 20.0 V expected to stick: ") for text in found.statements), found.statements)
+        unknown = "how that share grows with the time stuck down is not told by these rows"
+        self.assertTrue(any(text.startswith(unknown) for text in found.statements))
         failed = {name: value for name, value in rows[0].items() if name not in ("voltage", "margin")}  # of a scan that was not predicted
         self.assertEqual(list(mems_stiction.compare_lots(rows + [failed]).shares["at"]), [0.0, 20.0, 40.0])
         timed = mems_stiction.compare_lots([dict(one, hold_time=one["voltage"] + 1.0) for one in rows], against="hold_time")
         self.assertEqual(list(timed.shares["at"]), [1.0, 21.0, 41.0])
+        self.assertFalse(any(text.startswith(unknown) for text in timed.statements))
         with self.assertRaisesRegex(mems_stiction.OptionsError, "no column 'time'; the model knows no ageing"):
             mems_stiction.compare_lots(rows, against="time")
 
@@ -264,6 +278,42 @@ class WaferTest(unittest.TestCase):
         records = np.array([tuple(map(one.get, names)) for one in self.rows], dtype=[(name, object) for name in names])
         for form in (self.table, str(self.table), [self.table], lines, records):
             self.assertEqual(mems_stiction.compare_lots(form).json(), expected)
+
+    @unittest.skipUnless(importlib.util.find_spec("pyarrow"), "pyarrow is not installed")
+    def test_a_table_in_parquet_gives_the_same(self):
+        from mems_stiction.row_table import write_rows
+
+        table = self.path / "rows.parquet"
+        write_rows(table, list(max(self.rows, key=len)), self.rows, {})
+        self.assertEqual(mems_stiction.compare_lots(table).json(), mems_stiction.compare_lots(self.rows).json())
+        (self.path / "none.parquet").write_text("no rows")
+        with self.assertRaisesRegex(mems_stiction.FileError, "none.parquet: holds no rows"):
+            mems_stiction.compare_lots(self.path / "none.parquet")
+
+    def test_of_many_columns_those_in_need_are_kept(self):
+        wide = [dict(one, **{"column_%d" % number: 0.5 for number in range(200)}) for one in self.rows]
+        table = _Table("column_7")
+        for one in wide:
+            table.add(one)
+        self.assertEqual(table.columns.intersection(wide[0]), {name for name in self.rows[0] if name in TEXTS + NUMBERS} | {"column_7"})
+        self.assertEqual(mems_stiction.compare_lots(wide).json(), mems_stiction.compare_lots(self.rows).json())
+
+    def test_names_with_dollars_are_drawn_as_they_stand(self):
+        """matplotlib takes what is between two dollar signs for a formula, and a formula that is none ends the picture."""
+        rows = [dict(one, lot_id="$lot_{$", wafer_id="a$b$", part_id="p$%d$" % place) for place, one in enumerate(self.rows[:20])]
+        from matplotlib import cbook, text
+        from mems_stiction import plots
+
+        with mock.patch.object(plots, "save", autospec=True, side_effect=plots.save) as save, \
+                mock.patch("mems_stiction.lots_figure.save", save):
+            found = mems_stiction.compare_lots(rows)
+            found.save_maps(self.path / "dollars")
+            found.save_picture(self.path / "dollars.png")
+        for call in save.call_args_list:
+            texts = [drawn.get_text() for drawn in call[0][0].findobj(text.Text)]
+            named = [drawn for drawn in texts if "$" in drawn and "mathdefault" not in drawn]
+            self.assertTrue(named)
+            self.assertFalse([drawn for drawn in named if cbook.is_math_text(drawn)])
 
     @unittest.skipUnless(importlib.util.find_spec("pandas"), "pandas is not installed")
     def test_a_table_of_pandas_gives_the_same(self):

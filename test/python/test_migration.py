@@ -14,12 +14,15 @@ import genpy.dynamic
 import numpy as np
 import rosbag
 import rospy
-from mems_stiction.msg import HalfSpacePoint, HalfSpaceSolution, ScanInfo, SeparationPoint, StictionPrediction
+from genpy.message import get_message_class
+from mems_stiction.msg import (CycleContactActionResult, CyclePoint, HalfSpacePoint, HalfSpaceSolution, ScanInfo, SeparationPoint, StictionPrediction,
+                               SweepLoadActionGoal, SweepLoadActionResult, SweepPoint, SweepSummary)
 from roslib.packages import find_node
 from rosbag.migration import MessageMigrator, MessageUpdateRule, checkbag, fixbag2
 from sensor_msgs.msg import Image
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
+BETWEEN = "=" * 80 + "\n"  # the messages of a definition
 
 
 def rule_files():
@@ -37,6 +40,19 @@ def old_classes():
         found += [value for value in names.values() if isinstance(value, type) and issubclass(value, MessageUpdateRule)
                   and value is not MessageUpdateRule]
     return [genpy.dynamic.generate_dynamic(rule.old_type, rule.old_full_text)[rule.old_type] for rule in found]
+
+
+def action_before(action, part):
+    """The message of an action's topic, "Goal" or "Result", as it was before it named lot, wafer and who measured: what it has in it is the newest that the
+    rules take."""
+    name = "mems_stiction/%sAction%s" % (action, part)
+    changed = "mems_stiction/%sResult" % action if part == "Result" else "mems_stiction/ScanInfo"
+    old = [kind for kind in old_classes() if kind._type == changed][-1]._full_text.strip().split(BETWEEN)[0]
+    first, *others = get_message_class(name)._full_text.split(BETWEEN)
+    texts = [first] + ["MSG: %s\n%s\n" % (changed, old) if text.startswith("MSG: %s\n" % changed) else text for text in others]
+    kind = genpy.dynamic.generate_dynamic(name, BETWEEN.join(texts))[name]
+    assert kind._md5sum != get_message_class(name)._md5sum
+    return kind
 
 
 def old_predictions():
@@ -99,6 +115,49 @@ class MigrationTest(unittest.TestCase):
             else:
                 self.assertEqual((message.formulation, message.warnings, message.curve), ("", [], []))
                 self.assertTrue(math.isnan(message.flattening_ratio) and math.isnan(message.contact_stiffness))
+
+    def of_today(self, *messages):
+        """What becomes of recorded (topic, message) pairs."""
+        with rosbag.Bag(self.bag, "w") as bag:
+            for topic, message in messages:
+                bag.write(topic, message, rospy.Time(12, 50))
+        with contextlib.redirect_stdout(io.StringIO()):
+            self.assertEqual(fixbag2(self.migrator(), self.bag, self.fixed), [])
+        with rosbag.Bag(self.fixed) as bag:
+            return [message for _, message, _ in bag.read_messages()]
+
+    def test_results_of_sweeps_and_cycles_keep_what_they_had(self):
+        points = dict(scan_name="place 3", part_id="lot 3", message="ended early")
+        sweep, cycles = action_before("SweepLoad", "Result")(), action_before("CycleContact", "Result")()
+        for recorded in (sweep, cycles):
+            recorded.status.goal_id.id = "goal 1"
+            recorded.result.header.stamp = rospy.Time(12, 34)
+            for name, value in points.items():
+                setattr(recorded.result, name, value)
+        sweep.result.points = [SweepPoint(voltage=20.0, margin=1.5, pull_off_force_upper=3e-7), SweepPoint(direction=SweepPoint.DOWN)]
+        sweep.result.summaries = [SweepSummary(mechanical_load=1e-6, highest_safe_voltage=20.0)]
+        cycles.result.cycles = [CyclePoint(cycle=1, pull_off_force=2e-7), CyclePoint(cycle=2, sticks=2)]
+        cycles.result.first_sticking_cycle = 2
+        new_sweep, new_cycles = self.of_today(("sweep_load/result", sweep), ("cycle_contact/result", cycles))
+        self.assertEqual((new_sweep._md5sum, new_cycles._md5sum), (SweepLoadActionResult._md5sum, CycleContactActionResult._md5sum))
+        for new in (new_sweep, new_cycles):
+            self.assertEqual((new.status.goal_id.id, new.result.header.stamp), ("goal 1", rospy.Time(12, 34)))
+            self.assertEqual({name: getattr(new.result, name) for name in points}, points)
+            self.assert_no_site_and_nobody(new.result)
+        self.assertEqual([(point.voltage, point.margin, point.pull_off_force_upper, point.direction) for point in new_sweep.result.points],
+                         [(20.0, 1.5, 3e-7, SweepPoint.UP), (0.0, 0.0, 0.0, SweepPoint.DOWN)])
+        self.assertEqual([(one.mechanical_load, one.highest_safe_voltage) for one in new_sweep.result.summaries], [(1e-6, 20.0)])
+        self.assertEqual([(one.cycle, one.pull_off_force, one.sticks) for one in new_cycles.result.cycles], [(1, 2e-7, 0), (2, 0.0, 2)])
+        self.assertEqual(new_cycles.result.first_sticking_cycle, 2)
+
+    def test_the_scan_of_a_recorded_goal_keeps_its_calibration(self):
+        goal = action_before("SweepLoad", "Goal")()
+        goal.goal.voltages = [0.0, 20.0]
+        goal.goal.scan_info.pitch_x, goal.goal.scan_info.part_id = 1e-8, "lot 3"
+        new, = self.of_today(("sweep_load/goal", goal))
+        self.assertEqual(new._md5sum, SweepLoadActionGoal._md5sum)
+        self.assertEqual((list(new.goal.voltages), new.goal.scan_info.pitch_x, new.goal.scan_info.part_id), ([0.0, 20.0], 1e-8, "lot 3"))
+        self.assert_no_site_and_nobody(new.goal.scan_info)
 
     def test_the_calibration_of_an_earlier_scan_stays(self):
         old = [kind for kind in old_classes() if kind._type == "mems_stiction/ScanInfo"]

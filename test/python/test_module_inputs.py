@@ -307,7 +307,7 @@ class WithoutOtherPackagesTest(unittest.TestCase):
 
     CODE = """
 import sys
-for name in ("matplotlib", "yaml", "cv2", "jinja2"):
+for name in ("matplotlib", "yaml", "cv2", "jinja2", "scipy", "h5py"):
     sys.modules[name] = None  # cannot be imported
 import copy, pickle
 import mems_stiction, numpy
@@ -318,6 +318,11 @@ assert pickle.loads(pickle.dumps(settings)).yaml() == settings.yaml()
 assert pickle.loads(pickle.dumps(mems_stiction.Predictor(settings))).predict(heights, 2e-8).pull_off_force == prediction.pull_off_force
 assert prediction._repr_html_() is None and "pull-off force" in repr(copy.deepcopy(prediction))
 print(mems_stiction.cycle_contact(heights, 2e-8, 2), mems_stiction.sweep_loads(heights, 2e-8), mems_stiction.roughness(heights, 2e-8))
+for needed in (lambda: mems_stiction.compare_lots([{"margin": 2.0}]), lambda: mems_stiction.calibrate([]), lambda: prediction.save_maps("maps.h5")):
+    try:
+        needed()
+    except mems_stiction.Error as missing:
+        print(missing)
 try:
     prediction.save_picture("picture.png")
 except ImportError as missing:
@@ -327,7 +332,10 @@ except ImportError as missing:
     def test_all_but_pictures_work(self):
         done = subprocess.run([sys.executable, "-c", self.CODE], stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True, timeout=300)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
-        self.assertIn("matplotlib", done.stdout.splitlines()[-1])
+        lines = done.stdout.splitlines()
+        self.assertIn("matplotlib", lines[-1])
+        for line, words in zip(lines[-4:-1], ("compare_lots needs the Python package scipy", "calibrate needs the Python package scipy", "HDF5 needs the Python package h5py")):
+            self.assertIn(words, line)
 
 
 class BenchTest(unittest.TestCase):

@@ -14,7 +14,8 @@ REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 LIBRARY = REPOSITORY / "scripts" / "lib"
 sys.path.insert(0, str(LIBRARY))
 
-import trust_frames  # noqa: E402  (the path comes first)
+import half_space_steps  # noqa: E402  (the path comes first)
+import trust_frames  # noqa: E402
 import trust_page  # noqa: E402
 
 COUNT = 6
@@ -60,6 +61,34 @@ class TrustTest(unittest.TestCase):
             if line["half_space"]["status"] == "SOLVED" and line["half_space"]["is_resolved"]:
                 ratio = line["separation_curve"]["pull_off_force"] / line["half_space"]["pull_off_force"]
                 self.assertTrue(0.5 < ratio < 2, (line["frame"], ratio))  # what the map has at worst
+
+    def test_both_steps_are_compared_and_the_run_goes_on(self):
+        page = self.folder / "page.md"
+        shipped = (REPOSITORY / "doc" / "half_space.md").read_text(encoding="utf-8")
+        page.write_text(shipped, encoding="utf-8")
+        for count in (2, 4):
+            done = run(sys.executable, LIBRARY / "half_space_steps.py", self.folder, count, "--pixels", "48", "--page", page)
+            self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertNotIn("solved 2 of", done.stderr)
+        self.assertIn("solved 3 of 4", done.stderr)
+        written = page.read_text(encoding="utf-8")
+        self.assertEqual(headings(written), headings(shipped))
+        self.assertIn("| all | 4 |", written)
+        for text in (self.folder / "steps.jsonl").read_text().splitlines():
+            line = json.loads(text)
+            self.assertGreater(line["fine"]["state_count"], line["usual"]["state_count"])
+            for name in half_space_steps.COMPARED:
+                self.assertLess(abs(half_space_steps.deviation(line, name)), 0.2, line["frame"])
+
+    def test_jumps_of_a_curve_within_a_step(self):
+        heights = np.linspace(0.0, 10.0, 101)
+        saw = half_space_steps.Way(np.column_stack([heights, np.where(heights < 5.02, heights, 1.0)]))
+        none = half_space_steps.Way(np.empty((0, 2)))
+        for shift, met in ((0.0, 1), (0.3, 1), (-0.3, 1), (1.0, 0), (-1.0, 0)):
+            moved = half_space_steps.Way(np.column_stack([heights + shift, saw.forces]))
+            self.assertEqual(half_space_steps.jumps_of((none, moved), (none, saw), 5.0, 0.4), (1, met), shift)
+        straight = half_space_steps.Way(np.column_stack([heights, 0.1 * heights]))
+        self.assertEqual(half_space_steps.jumps_of((none, saw), (none, straight), 1.0, 0.4), (0, 0))
 
     def test_frames_are_the_same_in_every_run(self):
         none = trust_frames.Scans(None)

@@ -89,8 +89,14 @@ class DriftTest(unittest.TestCase):
         self.assertEqual(self.send(1e-7, settings="b").count, 1)
         wait_until(lambda: self.level() == DiagnosticStatus.OK, "the end of the warning")
         self.send(1e-7, settings="b")
+        count = len(self.drifts.messages)
         answer = rospy.ServiceProxy("/watch_drift/reset", Trigger)()
         self.assertEqual((answer.success, answer.message), (True, "the next 20 scans are the baseline"))
+        anew = "baseline of pull-off force: 0 of 20 scans"
+        self.assertEqual(self.drifts.wait(count + 1)[-1].message, anew)
+        latched, = Collector("drift", Drift).connect().wait(1)  # whoever joins late hears of no alarm of before
+        self.assertEqual((latched.message, latched.count, latched.is_alarm, latched.settings_hash), (anew, 0, False, "b"))
+        wait_until(lambda: self.statuses["watch_drift: drift"].message == anew, "the status")
         self.assertEqual(self.send(1e-7, settings="b").count, 1)
 
     def test_6_another_figure_and_other_alarms(self):

@@ -11,8 +11,7 @@
 #include "half_space/half_space_fields.hpp"
 #include "ros/half_space_conversion.hpp"
 #include "ros/half_space_pictures.hpp"
-#include "ros/provenance_conversion.hpp"
-#include "ros/verdict_conversion.hpp"
+#include "ros/message_parts.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -12,6 +12,8 @@
 namespace mems_stiction {
 namespace {
 
+NodeConfiguration nodeConfigurationFromYaml(const YAML::Node& tree) { return statedConfiguration(tree).configuration; }
+
 NodeConfiguration fromText(const std::string& text) { return nodeConfigurationFromYaml(YAML::Load(text)); }
 
 std::string violations(const std::string& text) {

@@ -14,7 +14,6 @@
 #include "prediction/prediction_fields.hpp"
 #include "ros/half_space_conversion.hpp"
 #include "ros/message_fields.hpp"
-#include "ros/part_verdict_conversion.hpp"
 #include "ros/prediction_conversion.hpp"
 #include "ros/station_conversion.hpp"
 #include "station/station_fields.hpp"

@@ -42,15 +42,17 @@ struct SolvedHalfSpace {
   double contact_fraction = kNone;      ///< the same over the area of the valid cells [-]
   int contact_count = 0;                ///< at rest, connected groups of them
   double mean_gap = kNone;              ///< at rest, of the valid cells [m]
-  double contact_stiffness = kNone;     ///< by which the force changes with the height as the bodies leave rest [N/m]
-  double flowed_volume = kNone;         ///< that both surfaces have lost [m^3]
-  double range = kNone;                 ///< z0 [m]
-  double cohesive_length = kNone;       ///< E z0^2/Gamma: over which contacts part [m]
-  bool is_converged = false;            ///< every state is an equilibrium to half_space/tolerance
-  bool is_resolved = false;             ///< pixels are small enough for the cohesive length
-  bool is_step_converged = false;       ///< finer steps change the pull-off force by less than 2 %
-  double residual = kNone;              ///< the largest of all states [-]
-  int state_count = 0;                  ///< solved
+  /// By which the force changes with the height as the bodies leave rest; NaN where the first step from there jumps or
+  /// finds no equilibrium, too [N/m].
+  double contact_stiffness = kNone;
+  double flowed_volume = kNone;    ///< that both surfaces have lost [m^3]
+  double range = kNone;            ///< z0 [m]
+  double cohesive_length = kNone;  ///< E z0^2/Gamma: over which contacts part [m]
+  bool is_converged = false;       ///< every state is an equilibrium to half_space/tolerance
+  bool is_resolved = false;        ///< pixels are small enough for the cohesive length
+  bool is_step_converged = false;  ///< finer steps change the pull-off force by less than 2 %
+  double residual = kNone;         ///< the largest of all states [-]
+  int state_count = 0;             ///< solved
   int newton_steps = 0;
   int products = 0;                ///< pairs of Fourier transforms
   int jumps = 0;                   ///< places where the curve is not continuous, both ways

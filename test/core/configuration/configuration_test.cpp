@@ -241,11 +241,11 @@ TEST(Configuration, OtherTablesUseTheSameReader) {
     configuration.describe(visitor);
     visitor.integer("queue_size", queue_size, Range::within(1, 100), "scans that may wait");
   };
-  applyYaml(YAML::Load("{queue_size: 5, lower: {hardness: 1e9}}"), describe);
+  EXPECT_TRUE(readYaml(YAML::Load("{queue_size: 5, lower: {hardness: 1e9}}"), describe).empty());
   EXPECT_EQ(queue_size, 5);
   EXPECT_EQ(configuration.model.lower.hardness, 1e9);
-  EXPECT_THROW(applyYaml(YAML::Load("queue_sice: 5"), describe), OptionsError);
-  EXPECT_THROW(applyYaml(YAML::Load("queue_size: 0"), describe), OptionsError);
+  EXPECT_EQ(readYaml(YAML::Load("queue_sice: 5"), describe).size(), 1U);
+  EXPECT_EQ(readYaml(YAML::Load("queue_size: 0"), describe).size(), 1U);
 }
 
 TEST(Configuration, PrintedConfigurationReadsBackTheSame) {

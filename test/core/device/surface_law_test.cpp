@@ -37,6 +37,8 @@ std::vector<HeightMap> partsOf(const cv::Mat& heights, int side) {
   return parts;
 }
 
+SurfaceLaw surfaceLawOf(const std::vector<HeightMap>& scans) { return SurfaceStudy(scans).law(); }
+
 double skewnessOf(const cv::Mat& values) {
   cv::Scalar mean;
   cv::Scalar deviation;

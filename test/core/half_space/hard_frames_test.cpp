@@ -117,6 +117,67 @@ TEST(HardFrames, RestAloneIsTheRestOfTheWholePathForLess) {
   EXPECT_FALSE(rest.approach.empty());
 }
 
+TEST(HardFrames, RestIsSolvedWhereTheStepBehindItIsNot) {
+  const HalfSpaceProblem problem = pressed(100e6);
+  HalfSpaceOptions options;
+  options.path = HalfSpacePath::kRest;
+  const SolvedHalfSpace whole = HalfSpaceSolver(options).solve(problem);
+  ASSERT_EQ(whole.status, HalfSpaceStatus::kSolved) << whole.message;
+  options.max_states = whole.state_count - 1;
+  const SolvedHalfSpace rest = HalfSpaceSolver(options).solve(problem);
+  EXPECT_EQ(rest.status, HalfSpaceStatus::kSolved) << rest.message;
+  EXPECT_TRUE(rest.is_converged);
+  EXPECT_TRUE(std::isnan(rest.contact_stiffness)) << rest.contact_stiffness;
+  EXPECT_EQ(rest.contact_area, whole.contact_area);
+  EXPECT_EQ(rest.rest_force, whole.rest_force);
+}
+
+/// A frame of 640 nm whose bodies are pressed until nearly all of it or all touches.
+HalfSpaceProblem closed(double pressure) {
+  HalfSpaceProblem problem = gaussian(128, 100e-9, 5e-9);
+  problem.load.mechanical_load = pressure * problem.surfaces.lower.cellArea() * 128.0 * 128.0;
+  return problem;
+}
+
+void expectTheAnswersOfSmallSteps(const HalfSpaceProblem& problem, HalfSpaceOptions options,
+                                  const SolvedHalfSpace& solution) {
+  options.step = 0.1;
+  const SolvedHalfSpace fine = HalfSpaceSolver(options).solve(problem);
+  ASSERT_EQ(fine.status, HalfSpaceStatus::kSolved) << fine.message;
+  EXPECT_NEAR(solution.contact_area / fine.contact_area, 1.0, 5e-3);
+  EXPECT_NEAR(solution.pull_off_force / fine.pull_off_force, 1.0, 5e-3);
+  EXPECT_NEAR(solution.work_of_adhesion / fine.work_of_adhesion, 1.0, 1e-2);
+  EXPECT_NEAR(solution.contact_stiffness / fine.contact_stiffness, 1.0, 3e-2);
+}
+
+TEST(HardFrames, FullContactIsSolvedInAboutTheProductsOfHalfContact) {
+  HalfSpaceOptions options;
+  options.flow = false;
+  const SolvedHalfSpace half = HalfSpaceSolver(options).solve(closed(3e9));
+  ASSERT_EQ(half.status, HalfSpaceStatus::kSolved) << half.message;
+  EXPECT_NEAR(half.contact_fraction, 0.53, 0.03);
+  const HalfSpaceProblem problem = closed(20e9);
+  const SolvedHalfSpace full = HalfSpaceSolver(options).solve(problem);
+  ASSERT_EQ(full.status, HalfSpaceStatus::kSolved) << full.message;
+  EXPECT_EQ(full.contact_fraction, 1.0);
+  EXPECT_LT(full.products, 2.5 * half.products);
+  // all cells are one spring then: dp/dg of the law at the mean gap
+  const double pressure = 20e9;
+  const double stiffness = 9.0 * pressure / full.mean_gap * problem.load.mechanical_load / pressure;
+  EXPECT_NEAR(full.contact_stiffness / stiffness, 1.0, 0.05);
+  expectTheAnswersOfSmallSteps(problem, options, full);
+}
+
+TEST(HardFrames, NearlyClosedFramesThatFlowAreSolvedInFewProducts) {
+  const HalfSpaceProblem problem = closed(5e9);
+  const SolvedHalfSpace solution = HalfSpaceSolver(HalfSpaceOptions()).solve(problem);
+  ASSERT_EQ(solution.status, HalfSpaceStatus::kSolved) << solution.message;
+  EXPECT_GT(solution.flowed_volume, 0.0);
+  EXPECT_NEAR(solution.contact_fraction, 0.76, 0.02);
+  EXPECT_LT(solution.products, 3000);  // some 2000; no equilibrium after 3291 Newton steps with tangents of the law
+  expectTheAnswersOfSmallSteps(problem, HalfSpaceOptions(), solution);
+}
+
 TEST(HardFrames, NearBondingTakesFewProducts) {
   const SolvedHalfSpace solution = HalfSpaceSolver(HalfSpaceOptions()).solve(gaussian(256, 300e-9, 1e-9));
   ASSERT_EQ(solution.status, HalfSpaceStatus::kSolved) << solution.message;

@@ -140,6 +140,35 @@ TEST(TractionLaw, SecantEndsWhereTheOtherTractionIs) {
   EXPECT_NEAR(law.secant(gap, law.at(gap).traction, law.at(other).traction) / expected, 1.0, 1e-3);
 }
 
+TEST(TractionLaw, SecantsGoOnAlongTheLineBehindTheNarrowestGap) {
+  const TractionLaw law{TractionLawOptions()};
+  const double begin = law.at(law.narrowestGap()).slope;
+  const double gap = 0.3 * law.range();
+  const double other = 0.1 * law.range();
+  EXPECT_NEAR(law.secant(gap, law.at(gap).traction, law.at(other).traction) / begin, 1.0, 1e-9);
+  const double wide = 0.6 * law.range();
+  const double expected = (law.at(other).traction - law.at(wide).traction) / (other - wide);
+  EXPECT_NEAR(law.secant(wide, law.at(wide).traction, law.at(other).traction) / expected, 1.0, 1e-3);
+}
+
+TEST(TractionLaw, SecantsEndWhereTheSurfacesFlow) {
+  TractionLawOptions options;
+  options.hardness = 5e9;
+  const TractionLaw law(options);
+  const double gap = 1.01 * law.closestGap();
+  const double expected = (-5e9 - law.at(gap).traction) / (law.closestGap() - gap);
+  EXPECT_NEAR(law.secant(gap, law.at(gap).traction, -9e9) / expected, 1.0, 1e-6);
+  const double flowing = 0.9 * law.closestGap();
+  EXPECT_EQ(law.secant(flowing, law.at(flowing).traction, -9e9), 0.0);
+}
+
+TEST(TractionLaw, TheGapUnderAPressureHasIt) {
+  const TractionLaw law{TractionLawOptions()};
+  EXPECT_NEAR(law.gapUnder(0.0) / law.range(), 1.0, 1e-9);
+  EXPECT_NEAR(-law.at(law.gapUnder(20e9)).traction / 20e9, 1.0, 1e-3);
+  EXPECT_EQ(law.gapUnder(1e14), law.narrowestGap());
+}
+
 TEST(TractionLaw, ImpossibleInterfacesAreNamed) {
   TractionLawOptions options;
   EXPECT_TRUE(options.validate().empty());

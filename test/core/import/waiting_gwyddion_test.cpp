@@ -4,10 +4,14 @@
 #include "import/format_readers.hpp"
 
 #include <gtest/gtest.h>
+#include <signal.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <thread>
 #include <vector>
 
@@ -51,6 +55,23 @@ TEST_F(WaitingGwyddion, ReadsOneFileAfterTheOther) {
   EXPECT_NEAR(largestOf("b.stp", image("5 um")), 5e-6, 1e-17) << "nothing of the file before";
   EXPECT_TRUE(std::isnan(largestOf("c.di", "\\*File list\r\n")));
   EXPECT_NEAR(largestOf("a.stp", image()), 5e-9, 1e-20);
+}
+
+/// Processes whose parent is this one.
+std::vector<pid_t> childrenOf(pid_t parent) {
+  std::ifstream list("/proc/" + std::to_string(parent) + "/task/" + std::to_string(parent) + "/children");
+  return {std::istream_iterator<pid_t>(list), {}};
+}
+
+TEST_F(WaitingGwyddion, ACopyThatEndsBetweenTwoFilesIsFollowedByAnother) {
+  EXPECT_NEAR(largestOf("a.stp", image()), 5e-9, 1e-20);
+  const std::vector<pid_t> waiting = childrenOf(getpid());
+  ASSERT_EQ(waiting.size(), 1u);
+  const std::vector<pid_t> copies = childrenOf(waiting.front());
+  ASSERT_EQ(copies.size(), 1u) << "the one that has read waits for more";
+  ASSERT_EQ(kill(copies.front(), SIGKILL), 0);
+  EXPECT_NEAR(largestOf("b.stp", image("5 um")), 5e-6, 1e-17);
+  EXPECT_NEAR(largestOf("a.stp", image()), 5e-9, 1e-20) << "each answer belongs to its request";
 }
 
 TEST_F(WaitingGwyddion, ServesSeveralThreads) {

@@ -10,7 +10,7 @@
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
 #include "mems_stiction/verdict/verdict.hpp"
-#include "prediction/deformed_surfaces.hpp"
+#include "prediction/asked_output.hpp"
 #include "prediction/prediction_fields.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/sphere_contact.hpp"

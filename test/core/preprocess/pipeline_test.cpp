@@ -135,10 +135,11 @@ TEST(Pipeline, recordsWhatEachStepDidInTheOrderOfTheTable) {
 TEST(Pipeline, optionsReadFromYamlAndNameWhatIsWrong) {
   PipelineOptions options;
   const auto describe = [&](OptionVisitor& visitor) { options.describe(visitor); };
-  applyYaml(
+  const std::vector<std::string> lines = readYaml(
       YAML::Load("preprocessing: {level: polynomial, level_robust: true, fill: {enabled: true, max_fraction: 0.2},"
                  " tip/radius: 15e-9, lines: {method: median_difference}}"),
       describe);
+  EXPECT_TRUE(lines.empty());
   EXPECT_EQ(options.level.shape, LevelShape::kPolynomial);
   EXPECT_TRUE(options.level.robust);
   EXPECT_TRUE(options.fill.enabled);

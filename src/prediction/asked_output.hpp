@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// For whoever goes on with the surfaces after contact.
+/// What of a prediction is asked for: figures and verdict alone, or the surfaces after contact, too.
 
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/prediction/options.hpp"
@@ -9,13 +9,17 @@
 
 namespace mems_stiction {
 
+/// What figures and verdict need: the contacts.
+inline OutputOptions figuresAlone() {
+  OutputOptions output;
+  output.deformed_surfaces = output.contact_map = output.roughness = output.energy_curve = false;
+  return output;
+}
+
 /// The same, with what goes on and no more: the surfaces, and the contacts for the verdict.
 inline Options withDeformedSurfaces(Options options) {
+  options.output = figuresAlone();
   options.output.deformed_surfaces = true;
-  options.output.asperities = true;
-  options.output.contact_map = false;
-  options.output.roughness = false;
-  options.output.energy_curve = false;
   return options;
 }
 
