@@ -5,7 +5,9 @@ A program imports this before all that is slow to import. While it loads, Ctrl-C
 printed as a traceback by whoever is being loaded. When main() begins, it calls raise_from_here_on().
 
 Python drops a KeyboardInterrupt that falls into a finalizer or a callback of a weak reference, and prints its traceback. Here it comes once
-more a moment later. A library that turns it into an error of its own (an import that failed) is told apart by the error's context.
+more a moment later. A library that turns it into an error of its own (an import that failed) is told apart by the error's context; for one
+that excepts everything and says nothing there is raise_if_swallowed(). In the last moments of a process, when Python takes its modules apart
+and neither hook of this one is left, Ctrl-C ends it without a word.
 """
 
 import atexit
@@ -22,6 +24,20 @@ ENDINGS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGALRM)
 
 _show = sys.excepthook
 _show_dropped = sys.unraisablehook
+_has_come = False  # an interruption, whoever heard of it
+
+
+def _raise(*_):
+    """The handler of a program whose main() has begun."""
+    global _has_come
+    _has_come = True
+    raise KeyboardInterrupt
+
+
+def raise_if_swallowed():
+    """For a program between two steps of its own, since rospy, which closes a connection, excepts whatever falls into that, and goes on."""
+    if _has_come:
+        raise KeyboardInterrupt
 
 
 def _is_interrupted(error):
@@ -47,7 +63,7 @@ def _raise_again(dropped):
     if not issubclass(dropped.exc_type, KeyboardInterrupt):
         _show_dropped(dropped)
         return
-    signal.signal(signal.SIGALRM, signal.default_int_handler)
+    signal.signal(signal.SIGALRM, _raise)
     signal.setitimer(signal.ITIMER_REAL, AGAIN_AFTER)
 
 
@@ -55,7 +71,7 @@ def raise_from_here_on():
     """Each of them is a KeyboardInterrupt from now on, so that what was begun can be put away."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         if signal.getsignal(number) == signal.SIG_DFL:
-            signal.signal(number, signal.default_int_handler)
+            signal.signal(number, _raise)
 
 
 def ignore_from_here_on():
@@ -71,7 +87,7 @@ class _Waiting:
         self._has_come = False
         self._before = {}
         for number in ENDINGS:
-            if signal.getsignal(number) == signal.default_int_handler:
+            if signal.getsignal(number) == _raise:
                 self._before[number] = signal.signal(number, self._note)
 
     def _note(self, *_):
@@ -104,6 +120,17 @@ def temporary_folder(prefix):
         waiting.end()
 
 
+def _end_at_once_from_here_on():
+    """The last of what Python calls before it takes itself apart. What an interruption that was dropped is to raise again ends the process."""
+    signal.setitimer(signal.ITIMER_REAL, 0.0)
+    ours = [number for number in ENDINGS if signal.getsignal(number) == _raise]
+    for number in ours:
+        signal.signal(number, signal.SIG_DFL)
+    if signal.SIGALRM in ours:
+        os.kill(os.getpid(), signal.SIGINT)
+
+
+atexit.register(_end_at_once_from_here_on)  # the first that is registered is the last that is called
 sys.excepthook = _say
 sys.unraisablehook = _raise_again
 if signal.getsignal(signal.SIGINT) == signal.default_int_handler:

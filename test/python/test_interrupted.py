@@ -40,6 +40,18 @@ try:
 except KeyboardInterrupt:
     raise ImportError("not loaded")
 """
+SWALLOWS_IT = """
+from mems_stiction import interrupted
+import time
+interrupted.raise_from_here_on()
+try:
+    print("closing", flush=True)
+    time.sleep(60)
+except:
+    pass
+interrupted.raise_if_swallowed()
+time.sleep(60)
+"""
 # An interruption of each moment in which a folder is made or removed
 LEAVES_NO_FOLDER = """
 from mems_stiction import interrupted
@@ -199,8 +211,8 @@ class InterruptedTest(unittest.TestCase):
         if errors:
             self.assertEqual(errors.splitlines()[-1], "stiction_report: interrupted")
 
-    def test_an_interruption_that_python_drops_or_a_library_hides(self):
-        for text in (DROPS_IT, HIDES_IT):
+    def test_an_interruption_that_python_drops_or_a_library_hides_or_swallows(self):
+        for text in (DROPS_IT, HIDES_IT, SWALLOWS_IT):
             process = subprocess.Popen([sys.executable, "-c", text], stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True,
                                        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))
             process.stdout.readline()
