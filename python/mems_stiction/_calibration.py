@@ -62,9 +62,12 @@ class Calibration(ReadOnly):
     measurements: np.recarray
     statements: Tuple[str, ...]
     settings: Settings
+    version: str
 
     def __init__(self, figures: Dict[str, Any], fingerprints: Sequence[str]) -> None:
-        self.__dict__.update(figures)
+        from mems_stiction.version import version
+
+        self.__dict__.update(figures, version=version())
         self._fingerprints = tuple(fingerprints)
 
     def to_dict(self) -> Dict[str, Any]:
@@ -89,9 +92,7 @@ class Calibration(ReadOnly):
         return "".join("# %s\n" % line for line in self._provenance()) + self.settings.yaml()
 
     def _provenance(self) -> List[str]:
-        from mems_stiction.version import version
-
-        lines = ["Calibrated by mems_stiction %s: work of adhesion %s" % (version(), self._work_text())]
+        lines = ["Calibrated by mems_stiction %s: work of adhesion %s" % (self.version, self._work_text())]
         lines += list(self.statements)
         lines.append("measurement, kind, value, standard uncertainty, fitted, deviation, scans (SHA-256 of their heights)")
         for row, fingerprint in zip(self.measurements, self._fingerprints):

@@ -50,8 +50,8 @@ class HalfSpace(_core.HalfSpaceFigures, ReadOnly):
         #: the same of the upper surface; None if it is flat and harder
         self.deformed_upper: Optional[np.ndarray]
         self.__dict__.update(
-            verdict=None if verdict is None else Verdict(verdict), name=surface.name, pitch=surface.core.pitch, curve=records_of(core.curve), pressure=view(core.pressure),
-            gap=view(core.gap), contact_map=view(core.contact_map), deformed_lower=view(core.deformed_lower.pixels),
+            verdict=None if verdict is None else Verdict(verdict), name=surface.name, pitch=surface.core.pitch, curve=records_of(core.curve),
+            pressure=view(core.pressure), gap=view(core.gap), contact_map=view(core.contact_map), deformed_lower=view(core.deformed_lower.pixels),
             deformed_upper=view(core.deformed_upper.pixels))
 
     def save_maps(self, path: Union[str, "os.PathLike[str]"]) -> None:

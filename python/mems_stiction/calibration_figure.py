@@ -8,7 +8,7 @@ import textwrap
 import numpy as np
 
 from mems_stiction.calibration_words import UNITS
-from mems_stiction.plots import plt, save
+from mems_stiction.plots import name_ticks, plt, save
 from mems_stiction.provenance import sign
 from mems_stiction.quantities import literal, prefix_for, typeset, with_interval
 
@@ -33,7 +33,7 @@ def save_calibration(record, path):
     _draw_deviations(figure.add_subplot(grid[1, :]), record["measurements"])
     figure.suptitle(_title(record), fontsize=13, y=1.0 - 0.25 / height)
     figure.text(0.09, (0.3 + LINE * len(lines)) / height, "\n".join(literal(typeset(line)) for line in lines), fontsize=9, va="top", color="#333333")
-    sign(figure, {})
+    sign(figure, {"version": record["version"]})
     save(figure, path)
 
 
@@ -83,8 +83,6 @@ def _draw_deviations(axes, rows):
     most = max(3.0, max(abs(row["deviation"]) for row in rows) * 1.15)
     axes.set_ylim(-most, most)
     if len(rows) <= MOST_NAMES:
-        axes.set_xticks(places)
-        axes.set_xticklabels([literal(textwrap.shorten(row["name"], 22, placeholder="…")) for row in rows], rotation=30 if len(rows) > 6 else 0,
-                             ha="right" if len(rows) > 6 else "center", fontsize=8.5)
+        name_ticks(axes, [row["name"] for row in rows], 6, fontsize=8.5)
     else:
         axes.set_xlabel("number of the measurement")

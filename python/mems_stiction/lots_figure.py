@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from mems_stiction.lots_data import RELEASING, UNITS, WORDS
-from mems_stiction.plots import plt, save
+from mems_stiction.plots import name_ticks, plt, save
 from mems_stiction.provenance import sign
 from mems_stiction.quantities import literal, prefix_for, ratio, typeset
 
@@ -161,9 +161,7 @@ def _draw_units(axes, record):
     axes.set_title("%s side by side: geometric mean and 95 %% interval" % fitting[-1].capitalize(), fontsize=11)
     axes.set_xlim(-0.6, len(rows) - 0.4)
     if len(rows) <= MOST_NAMES:
-        axes.set_xticks(range(len(rows)))
-        axes.set_xticklabels([literal(textwrap.shorten(_name(row), 22, placeholder="…")) for row in rows], rotation=30 if len(rows) > 8 else 0,
-                             ha="right" if len(rows) > 8 else "center", fontsize=9)
+        name_ticks(axes, [_name(row) for row in rows], 8, fontsize=9)
     else:
         axes.set_xticks([])
     axes.grid(axis="y", color="#dddddd", linewidth=0.6)

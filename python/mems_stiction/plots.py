@@ -52,6 +52,14 @@ def widen(axes, values, share=LEAST_SPAN):
         axes.set_ylim(middle - 0.5 * least, middle + 0.5 * least)
 
 
+def name_ticks(axes, names, most_upright, **style):
+    """Names below the places 0, 1, ... of the axis, shortened; aslant where there are more than so many."""
+    is_slant = len(names) > most_upright
+    axes.set_xticks(range(len(names)))
+    axes.set_xticklabels([literal(textwrap.shorten(name, 22, placeholder="…")) for name in names], rotation=30 if is_slant else 0,
+                         ha="right" if is_slant else "center", **style)
+
+
 class ScanPicture:
     """What one picture shows.
 

@@ -212,6 +212,7 @@ class FacesTest(unittest.TestCase):
         self.assertEqual((run.returncode, run.stderr), (0, ""))
         record = json.loads(run.stdout)
         self.assertAlmostEqual(record["work_of_adhesion"] / TRUTH, 1.0, delta=0.02)
+        self.assertEqual(record["version"], mems_stiction.__version__)
         values = values_of(mems_stiction.Settings(calibrated_yaml))
         self.assertEqual(values["interface/work_of_adhesion"], record["work_of_adhesion"])
         # lognormal with this relative deviation: the interval comes back
