@@ -29,16 +29,19 @@ Function nextFunction(const char* name) {
   return reinterpret_cast<Function>(dlsym(RTLD_NEXT, name));
 }
 
+/// @param flags MSG_PEEK: it stays in the queue, for another process if this one ends now
 /// @return false if there will be none
-bool nextRequest(int socket) {
+bool nextRequest(int socket, int flags = 0) {
   ssize_t size = -1;
   do {
-    size = recv(socket, request, kLongestRequest - 2, 0);
+    size = recv(socket, request, kLongestRequest - 2, flags);
   } while (size < 0 && errno == EINTR);
   if (size <= 0) return false;
   request[size] = request[size + 1] = '\0';
   return true;
 }
+
+void dropRequest(int socket) { recv(socket, nullptr, 0, MSG_DONTWAIT); }
 
 bool answer(int socket, int status) { return send(socket, &status, sizeof status, MSG_NOSIGNAL) == sizeof status; }
 
@@ -99,17 +102,18 @@ void* readFiles(const Converter& converter, int mode, void** error, volatile boo
   const int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC);
   if (socket < 0 || nothing < 0) _exit(127);
   dup2(nothing, STDIN_FILENO);
-  do {
-    is_owed = true;
+  is_owed = true;
+  for (;;) {
     const char* path = beginRequest();
     if (path == nullptr) _exit(127);
     void* data = converter.load(path, mode, error);
     if (data == nullptr) return nullptr;
     if (!converter.write(data, mode)) _exit(1);
     is_owed = false;
-    if (!answer(socket, 0) || mostMemory() > kLargestCopy) break;
-  } while (nextRequest(socket));
-  _exit(0);
+    if (!answer(socket, 0) || mostMemory() > kLargestCopy || !nextRequest(socket, MSG_PEEK)) _exit(0);
+    is_owed = true;
+    dropRequest(socket);
+  }
 }
 
 }  // namespace
@@ -127,7 +131,9 @@ extern "C" void* gwy_file_load(const char*, int mode, void** error) {
     int status = 127 << 8;
     while (copy > 0 && waitpid(copy, &status, 0) < 0 && errno == EINTR) {
     }
-    if (*is_owed && !answer(STDIN_FILENO, status)) break;
+    if (!*is_owed) continue;
+    dropRequest(STDIN_FILENO);  // where the copy ended before it did
+    if (!answer(STDIN_FILENO, status)) break;
   }
   _exit(0);
 }
