@@ -18,7 +18,7 @@ from tqdm import tqdm
 import measured_cases as cases
 import trust_run
 
-UNITS = {"work": (1e6, " uJ/m^2"), "pressure": (1e-3, " kPa"), "ratio": (1.0, "")}
+UNITS = {"work": (1e6, " uJ/m^2"), "pressure": (1e-3, " kPa"), "ratio": (1.0, ""), "force ratio": (1.0, "")}
 CHECKED_RMS = (1e-9, 2e-9, 5e-9, 10e-9)
 
 
@@ -43,8 +43,9 @@ class Study:
         rows = [self.records(case, variation, rms_height) for rms_height in case.rms_heights]
         if case.quantity == "pressure":
             return [[record["pull_off_force"] / record["nominal_area"] for record in row] for row in rows]
-        works = [[record["apparent_work_of_adhesion"] for record in row] for row in rows]
-        return works if case.quantity == "work" else [[first / second for first, second in zip(*works)]]
+        figure = "pull_off_force" if case.quantity == "force ratio" else "apparent_work_of_adhesion"
+        found = [[record[figure] for record in row] for row in rows]
+        return found if case.quantity == "work" else [[first / second for first, second in zip(*found)]]
 
 
 def number(value):
@@ -53,7 +54,7 @@ def number(value):
 
 
 def rms_text(case, place):
-    heights = case.rms_heights if case.quantity == "ratio" else case.rms_heights[place:place + 1]
+    heights = case.rms_heights if "ratio" in case.quantity else case.rms_heights[place:place + 1]
     return " over ".join("%g nm" % round(height * 1e9, 3) for height in heights)
 
 
@@ -91,15 +92,18 @@ def separation_rows(study):
             median([work / plane for work, plane in zip(works, planes)]))
 
 
-def device(study, rms_height, area):
-    """The force of a whole plate, by predict_device() from some frames of its surface."""
-    case = next(case for case in cases.CASES if case.key == "plates")
+def case_of(key):
+    return next(case for case in cases.CASES if case.key == key)
+
+
+def device(study, case, rms_height, area, **settings):
+    """What a whole area holds, by predict_device() from some frames of its surface."""
     pixels = min(case.pixels, 96) if study.is_quick else case.pixels
     made = [cases.surface(case, cases.AS_ASSUMED, rms_height, seed, pixels) for seed in range(1, cases.PLATE_SCANS + 1)]
     options = {"realisations": 3, "max_cells": 1e4} if study.is_quick else {}
     frame = made[0][0]
     return mems_stiction.predict_device([heights for _, heights in made], area, frame["pitch"], config=trust_run.settings_of(frame, "separation_curve"),
-                                        device_force=options)
+                                        device_force=options, **settings)
 
 
 def micro(value):
@@ -108,10 +112,9 @@ def micro(value):
 
 def device_section(study):
     """What a plate holds as a whole, and how that goes with its area."""
-    case = next(case for case in cases.CASES if case.key == "plates")
-    plates = {(rms_height, 1.0): device(study, rms_height, cases.PLATE_AREA) for rms_height in case.rms_heights}
-    for share in cases.AREA_SHARES[:-1]:
-        plates[cases.AREA_RMS, share] = device(study, cases.AREA_RMS, share * cases.PLATE_AREA)
+    case = case_of("plates")
+    plates = {(rms_height, share): device(study, case, rms_height, share * cases.PLATE_AREA)
+              for rms_height in case.rms_heights for share in cases.AREA_SHARES}
     text = ["## The plates as a whole", "",
             "A frame of 12.8 um is an eighth of such a plate. [The force of the device](device.md) is that of its whole area: one plate that comes to rest on its "
             "highest summits. From %d frames each, beside what the frames' force by area would say:" % cases.PLATE_SCANS, "",
@@ -121,8 +124,6 @@ def device_section(study):
         text.append("| %g nm | %s (read) | %s | %s ... %s | %s | %s |" % (
             round(rms_height * 1e9, 3), number(cases.PLATE_FORCE * 1e6), micro(found.pull_off_force), micro(found.pull_off_force_lower),
             micro(found.pull_off_force_upper), micro(found.linear_pull_off_force), number(found.pull_off_force / cases.PLATE_FORCE)))
-    shares = [plates[cases.AREA_RMS, share] for share in cases.AREA_SHARES]
-    power = math.log(shares[-1].pull_off_force / shares[0].pull_off_force) / math.log(cases.AREA_SHARES[-1] / cases.AREA_SHARES[0])
     inside = [rms_height for rms_height in case.rms_heights
               if plates[rms_height, 1.0].pull_off_force_lower <= cases.PLATE_FORCE <= plates[rms_height, 1.0].pull_off_force_upper]
     text += ["",
@@ -132,9 +133,45 @@ def device_section(study):
                  "of the rms heights that were tried, the measured force lies within the 95 %% interval of the whole plate at %s alone"
                  % " and ".join("%g nm" % round(rms_height * 1e9, 3) for rms_height in inside) if inside else
                  "the measured force lies outside of the 95 % interval of the whole plate for each of these rms heights"), "",
-             "Force over area, at %g nm: %s uN on %s of the area. The force goes with the area to the power of %.2f." % (
-                 round(cases.AREA_RMS * 1e9, 3), ", ".join(micro(found.pull_off_force) for found in shares), ", ".join("%g" % share for share in cases.AREA_SHARES), power), ""]
+             "## Force over area", "",
+             "%s: %s (%s). Predicted, for plates as above:" % (sentence(cases.CLAMPED_BEAMS.name), within_sentence(cases.CLAMPED_BEAMS.says), cases.CLAMPED_BEAMS.where), "",
+             "| rms height | %s | goes with the area to the power of |" % " | ".join("%g of the area [uN]" % share for share in cases.AREA_SHARES),
+             "|---|%s---|" % ("---|" * len(cases.AREA_SHARES))]
+    for rms_height in case.rms_heights:
+        forces = [plates[rms_height, share].pull_off_force for share in cases.AREA_SHARES]
+        power = math.log(forces[-1] / forces[0]) / math.log(cases.AREA_SHARES[-1] / cases.AREA_SHARES[0])
+        text.append("| %g nm | %s | %.2f |" % (round(rms_height * 1e9, 3), " | ".join(micro(force) for force in forces), power))
+    text += ["", "Force by area would be a power of 1. No number of the measured scaling was to be had, so that it is the trend that can be compared.", ""]
     return text
+
+
+def sentence(text):
+    return text[0].upper() + text[1:]
+
+
+def within_sentence(text):
+    return text[0].lower() + text[1:]
+
+
+def beams_section(study, results):
+    """The work with which a beam holds, of the whole area that rests beside that of a frame, and the crack length that follows."""
+    case = case_of("beams")
+    beam = cases.BEAM
+    text = ["## The beams as a whole", "",
+            "What is measured on a beam is the work of the area that rests, by the length that stands free. Assumed: a cantilever %g um thick, %g um above the "
+            "ground, of %g GPa, of which %g um^2 rest. From %d frames each:" % (
+                beam["beam_thickness"] * 1e6, beam["beam_gap"] * 1e6, beam["beam_modulus"] * 1e-9, cases.BEAM_AREA * 1e12, cases.PLATE_SCANS), "",
+            "| rms height | measured [uJ/m^2] | the area that rests [uJ/m^2] | 95 % interval | a frame [uJ/m^2] | factor | crack length [um] |",
+            "|---|---|---|---|---|---|---|"]
+    frames = results[case.key, cases.AS_ASSUMED.name]
+    for rms_height, measured, values in zip(case.rms_heights, case.measured, frames):
+        found = device(study, case, rms_height, cases.BEAM_AREA, device=beam)
+        text.append("| %g nm | %s (%s) | %s | %s ... %s | %s | %s | %s |" % (
+            round(rms_height * 1e9, 3), micro(measured), case.known, micro(found.apparent_work_of_adhesion), micro(found.apparent_work_of_adhesion_lower),
+            micro(found.apparent_work_of_adhesion_upper), micro(statistics.median(values)), number(found.apparent_work_of_adhesion / measured),
+            "%.0f" % (found.to_dict()["unstuck_length"] * 1e6)))
+    return text + ["", "A larger area rests on higher summits, so that its work is below that of a frame. A beam that is thin enough to follow the ground lies "
+                   "closer, and holds more.", ""]
 
 
 def exponent(rows):
@@ -162,13 +199,13 @@ def page(study):
     text += ["", "| case | source | says | assumed |", "|---|---|---|---|"]
     text += ["| %s | %s (%s) | %s | %s |" % (case.key, case.source.name, case.source.where, case.source.says, case.assumed) for case in cases.CASES]
     text += ["",
-             "A ratio is that of the apparent works of two rough planes. It stands for the forces of a large sphere: the force between a sphere and a "
+             "A ratio is that of the apparent works of two rough planes, but for the flat tips, where it is that of their pull-off forces. It stands for the forces of a large sphere: the force between a sphere and a "
              "plane is 2 pi R times the energy per area of planes at the same separation (Derjaguin). So the sphere's pull-off force is 2 pi R times "
              "the work of the planes from rest on.", "",
              "A plate that springs tear off does not stay parallel. It peels, and the largest force is not that of all its area at once: for such a "
              "plate the prediction is an upper bound. Where the measured force is larger still, the plates were smoother, wet or charged, or fitted "
              "each other; the source does not say.", ""]
-    text += device_section(study)
+    text += device_section(study) + beams_section(study, results)
     text += ["## The separation law", "",
              "One statement of the polysilicon measurements was read that needs no constant but the Hamaker constant. At small roughness the work is "
              "that of planes at the average separation, H/(12 pi D_ave^2); at large roughness contacts take over. Predicted, for the beams' settings:", "",

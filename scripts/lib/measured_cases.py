@@ -30,12 +30,20 @@ JACOBS_2013 = Source(
     "Jacobs, Ryan, Keating, Grierson, Lefever, Turner, Harrison, Carpick, Tribology Letters 50 (2013) 81", "abstract, beginning",
     "Diamond-like carbon and nanocrystalline diamond tips on diamond: rms 0.18 to 1.58 nm lowers the effective work of adhesion by more than a factor of ten")
 
+FLAT_TIPS_2012 = Source(
+    "adhesion measured with a flat AFM tip, Applied Surface Science 258 (2012) 6938", "abstract",
+    "Flat tips of 2 um diameter on smooth and on chemically etched Si(100), over humidity: the roughness of the etched one reduces the force by more than an "
+    "order of magnitude, by how much depends on the humidity")
+CLAMPED_BEAMS = Source(
+    "adhesion of polysilicon by a double-clamped beam that electrodes pull down", "abstract",
+    "The adhesion force scales weakly with the apparent contact area, which dimples define")
+
 
 class Case:
     """A measured quantity and surfaces to predict it from.
 
-    quantity: "work" [J/m^2], "pressure" (pull-off force over nominal area [Pa]) or "ratio" (work at the first over that
-    at the second rms height). measured: one value for each rms height, or the ratio.
+    quantity: "work" [J/m^2], "pressure" (pull-off force over nominal area [Pa]), "ratio" (work at the first over that at the
+    second rms height) or "force ratio" (the same of the pull-off force). measured: one value for each rms height, or the ratio.
     """
 
     def __init__(self, key, source, known, quantity, measured, rms_heights, length, pixels, settings, assumed):
@@ -65,6 +73,9 @@ CASES = (
     Case("tips", JACOBS_2013, READ, "ratio", (10.0,), (0.18e-9, 1.58e-9), 2e-9, 64, DIAMOND,
          "constants of hard carbon (recalled; work of adhesion as diamond on ruby has, Thimons et al. 2021, abstract); correlation length 2 nm; frames of "
          "16 nm. The measured value is a lower bound"),
+    Case("flat tips", FLAT_TIPS_2012, READ, "force ratio", (10.0,), (0.3e-9, 3e-9), 50e-9, 288, polysilicon(),
+         "config/polysilicon_oxide.yaml as it is, dry; both rms heights, correlation length 50 nm; frames of 1.8 um, which are the whole tip's area; no tilt of "
+         "the tip. The measured value is a lower bound"),
 )
 
 # The plates as they were: the whole area, of which a frame is one part in eight.
@@ -72,7 +83,10 @@ PLATE_AREA = 1.256e-9
 PLATE_FORCE = 13.3e-6
 PLATE_SCANS = 3
 AREA_SHARES = (1 / 16, 1 / 4, 1.0)
-AREA_RMS = 5e-9
+
+# A cantilever as such beams are, and the part of it that rests: assumed, since no source was to be had that gives them.
+BEAM = {"beam_type": "cantilever", "beam_length": 1e-3, "beam_thickness": 2.5e-6, "beam_gap": 2e-6, "beam_modulus": 160e9}
+BEAM_AREA = 20e-6 * 100e-6
 
 # rms, length, pixels and settings are factors on the case's own.
 Variation = collections.namedtuple("Variation", "name rms length pixels settings is_self_affine")
