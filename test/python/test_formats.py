@@ -382,7 +382,8 @@ class McapTest(InFolder):
 
     def test_every_message_of_the_package_reads_back(self):
         source = random.Random(5)
-        names = messages_of_package() + ["sensor_msgs/Image", "sensor_msgs/CameraInfo", "diagnostic_msgs/DiagnosticArray", "tf2_msgs/TFMessage", "std_msgs/Empty", "std_msgs/Byte", "std_msgs/Char", "std_msgs/Duration"]
+        names = messages_of_package() + ["sensor_msgs/Image", "sensor_msgs/CameraInfo", "diagnostic_msgs/DiagnosticArray", "tf2_msgs/TFMessage",
+                                         "std_msgs/Empty", "std_msgs/Byte", "std_msgs/Char", "std_msgs/Duration"]
         written = []
         with rosbag.Bag(str(self.folder / "all.bag"), "w") as bag:
             for number, name in enumerate(names * 3):
