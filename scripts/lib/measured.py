@@ -171,7 +171,7 @@ def beams_section(study, results):
             micro(found.apparent_work_of_adhesion_upper), micro(statistics.median(values)), number(found.apparent_work_of_adhesion / measured),
             "%.0f" % (found.to_dict()["unstuck_length"] * 1e6)))
     return text + ["", "A larger area rests on higher summits, so that its work is below that of a frame. A beam that is thin enough to follow the ground lies "
-                   "closer, and holds more.", ""]
+                   "closer, and holds more. One that is shorter than its crack length comes off.", ""]
 
 
 def exponent(rows):
