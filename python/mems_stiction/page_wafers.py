@@ -1,0 +1,181 @@
+"""Wafers and parts on the station's page: the newest prediction of each place, within bounds, and what a map of them shows. No ROS here."""
+
+import math
+
+import numpy as np
+
+from mems_stiction._settings import OptionsError
+from mems_stiction.lots_data import FIGURES, RMS_HEIGHT, UNITS, WORDS, by_wafer, lots_of, wafer_word, word_of
+from mems_stiction.lots_wafer import bad_places, colour_range, figures_of, missing_sites
+from mems_stiction.lots_words import text_of
+from mems_stiction.page_words import NO_EQUILIBRIUM, VERDICTS, all_finite, sentence
+from mems_stiction.quantities import typeset
+
+MOST_WAFERS = 12
+MOST_PLACES = 500  # of each wafer
+MOST_PARTS = 40  # side by side
+NAMES = ("lot_id", "wafer_id", "part_id", "serial_id")
+TEXTS = NAMES + ("settings_hash", "scan_name")
+WHAT_TO_STATE = ("State site_x and site_y [m] with wafer_id, and lot_id and part_id as far as they are known, in scan_info or in the sidecar of the scan's "
+                 "file (import_scan writes one).")
+
+
+class Wafers:
+    """The newest prediction of each place. Where there are too many, those heard of last are kept, and it is said how many went."""
+
+    def __init__(self):
+        self.version = 0
+        self._wafers = {}  # (lot, wafer) -> {place: row}; what was heard of last comes last in both
+        self._lost_wafers, self._lost_places, self._nameless = 0, 0, 0
+        self._kept = None
+
+    def add(self, stamp, prediction):
+        """stamp: of the scan [ns]. One that names no place, wafer or part is counted alone."""
+        row = {name: getattr(prediction, name) for name in TEXTS + FIGURES + ("site_x", "site_y", RMS_HEIGHT)}
+        if prediction.status == NO_EQUILIBRIUM:  # its forces are not to be used
+            row.update(dict.fromkeys(FIGURES, math.nan))
+        row.update(stamp=stamp, level=VERDICTS.get(prediction.sticks, VERDICTS[3])[0] if prediction.status != NO_EQUILIBRIUM else "unknown")
+        self._change()
+        has_site = math.isfinite(row["site_x"]) and math.isfinite(row["site_y"])
+        if not has_site and not any(row[name] for name in NAMES):
+            self._nameless += 1
+            return
+        key = row["lot_id"], row["wafer_id"]
+        places = self._wafers[key] = self._wafers.pop(key, {})
+        # a site of a wafer is one place whoever lies there; one of a part without a wafer is the part's
+        place = ("" if row["wafer_id"] else (row["part_id"], row["serial_id"]), (row["site_x"], row["site_y"]) if has_site else stamp)
+        places.pop(place, None)
+        places[place] = row
+        if len(places) > MOST_PLACES:
+            del places[next(iter(places))]
+            self._lost_places += 1
+        if len(self._wafers) > MOST_WAFERS:
+            del self._wafers[next(iter(self._wafers))]
+            self._lost_wafers += 1
+
+    def judge(self, stamp, device):
+        """The scan of this stamp [ns] is judged by the force of the whole device."""
+        for places in self._wafers.values():
+            for place, row in places.items():
+                if row["stamp"] == stamp:
+                    places[place] = dict(row, device_pull_off_force=device.pull_off_force, margin=device.margin, peel_number=device.peel_number,
+                                         level=VERDICTS.get(device.sticks, VERDICTS[3])[0])
+                    self._change()
+
+    def _change(self):
+        self.version += 1
+        self._kept = None
+
+    def kept(self):
+        """What `told` takes; the same object until something changes."""
+        if self._kept is None:
+            rows = tuple(row for places in self._wafers.values() for row in places.values())
+            self._kept = (rows, {"version": self.version, "wafers": self._lost_wafers, "places": self._lost_places, "nameless": self._nameless})
+        return self._kept
+
+
+def told(kept):
+    """What the page shows, as JSON can have it; numbers are SI.
+
+    figures: what places may be coloured by; wafers, heard of last first: name, missing sites where others have one, and what is said of bad places by figure;
+    parts: name, part, serial, and of each figure median and middle half in words; places: wafer and part by their numbers (None: none), site, values
+    (None: missing or infinite) and texts (None: missing) by figure, and by which they are bad; notes: what is not shown, and what to state.
+    """
+    rows, counts = kept
+    shown = {"version": counts["version"], "figures": [], "wafers": [], "parts": [], "places": [], "notes": []}
+    try:
+        lots = lots_of(rows)
+    except OptionsError:
+        shown["notes"] = _notes(rows, counts) + (["No prediction of these places has a margin or a force > 0."] if rows else [])
+        return shown
+    values = {name: np.where(np.array(listed) > 0.0, listed, math.nan) for name, listed in figures_of(lots.figure, lots.force, lots.places).items()}
+    shown["figures"] = [_figure(name, listed) for name, listed in values.items() if np.isfinite(listed).any()]
+    names = [figure["name"] for figure in shown["figures"]]
+    wafers = [key for key, places in reversed(list(by_wafer(lots.places).items())) if any(place.has_site() for place in places)]
+    parts = list(dict.fromkeys(_part_of(place) for place in reversed(lots.places) if any(_part_of(place))))
+    bad = {}
+    for key in wafers:
+        places = [place for place in lots.places if (place.lot, place.wafer) == key]
+        sites = [place for place in places if place.has_site()]
+        found = {name: bad_places(sites, name, figures_of(lots.figure, lots.force, sites)[name]) for name in names}
+        bad.update({(id(one.place), name): one for name in names for one in found[name]})
+        own = {(place.x, place.y) for place in sites}
+        shown["wafers"].append({"name": _capital(wafer_word(*key) or "wafer without a name"), "missing": [site for site in missing_sites(sites, lots.places) if site not in own],
+                                "bad": {name: [_bad_words(one) for one in found[name]] for name in names}})
+    shown["places"] = [
+        {"wafer": _index(wafers, (place.lot, place.wafer)) if place.has_site() else None, "part": _index(parts[:MOST_PARTS], _part_of(place)), "x": place.x, "y": place.y,
+         "name": ", ".join(text for text in (word_of(place), place.part and "part " + place.part) if text), "level": row["level"],
+         "values": {name: float(values[name][number]) for name in names},
+         "texts": {name: typeset(text_of(values[name][number], name)) if values[name][number] > 0.0 else None for name in names},
+         "bad": [name for name in names if (id(place), name) in bad]}
+        for number, (row, place) in enumerate(zip(rows, lots.places))]
+    shown["parts"] = [_part(part, [number for number, place in enumerate(lots.places) if _part_of(place) == part], rows, values, names)
+                      for part in parts[:MOST_PARTS]]
+    shown["notes"] = _notes(rows, counts) + (["Of %d parts the %d heard of last stand side by side." % (len(parts), MOST_PARTS)] if len(parts) > MOST_PARTS else [])
+    return all_finite(shown)
+
+
+def _figure(name, values):
+    low, high, is_by_ratio = colour_range(values[np.isfinite(values)])
+    return {"name": name, "label": WORDS[name], "unit": UNITS[name], "low": low, "high": high, "is_by_ratio": is_by_ratio}
+
+
+def _part_of(place):
+    """A part by its name; what names none, by its wafer."""
+    return place.lot, place.wafer, place.part
+
+
+def _index(keys, key):
+    return keys.index(key) if key in keys else None
+
+
+def _capital(text):
+    return text[:1].upper() + text[1:]
+
+
+def _bad_words(bad):
+    return typeset("%s: %s, expected %s" % (" ".join(("(%.4g, %.4g) mm" % (1e3 * bad.place.x + 0.0, 1e3 * bad.place.y + 0.0), bad.place.part)).strip(),
+                                            text_of(bad.value, bad.figure), text_of(bad.expected, bad.figure)))
+
+
+def _part(part, numbers, rows, values, names):
+    lot, wafer, name = part
+    word = ", ".join(text for text in (name and "part " + name, wafer_word(lot, wafer)) if text)
+    levels = [rows[number]["level"] for number in numbers]
+    spread = {}
+    for figure in names:
+        known = values[figure][numbers]
+        known = known[~np.isnan(known)]
+        low, median, high = _quartiles(known)
+        spread[figure] = {"count": int(known.size), "median": float(median), "low": float(low), "high": float(high),
+                          "text": typeset(text_of(median, figure)) if known.size else "no value",
+                          "spread": typeset("%s to %s" % (text_of(low, figure), text_of(high, figure))) if known.size > 1 else ""}
+    return {"name": _capital(word), "part": rows[numbers[0]]["part_id"], "serial": rows[numbers[0]]["serial_id"], "places": len(numbers), "figures": spread,
+            "levels": {level: levels.count(level) for level, _ in VERDICTS.values() if level in levels}}
+
+
+def _quartiles(values):
+    """Where some are infinite, of the values themselves: nothing lies between."""
+    if not values.size:
+        return (math.nan,) * 3
+    shares = np.array([0.25, 0.5, 0.75])
+    return np.sort(values)[np.rint(shares * (values.size - 1)).astype(int)] if np.isinf(values).any() else np.percentile(values, 100 * shares)
+
+
+def _notes(rows, counts):
+    """What is not shown and why; what mixes."""
+    notes = []
+    sited = [row for row in rows if math.isfinite(row["site_x"]) and math.isfinite(row["site_y"])]
+    if not sited:
+        notes.append("%s %s" % ("No scan has stated where on a wafer it was taken." if rows or counts["nameless"] else "No scan yet.", WHAT_TO_STATE))
+    elif len(sited) < len(rows) or counts["nameless"]:
+        notes.append("%d scans state no site_x and site_y: they are on no map." % (len(rows) - len(sited) + counts["nameless"]))
+    if any(not row["wafer_id"] for row in sited):
+        notes.append("Sites without a wafer_id lie on one map for each lot: state wafer_id in scan_info or in the sidecar of the scan's file.")
+    settings = {row["settings_hash"] for row in rows if row["settings_hash"]}
+    if len(settings) > 1:
+        notes.append("The places were predicted with %d different settings: what these change is taken for a difference of the places." % len(settings))
+    for name, kept in (("wafers", "the %d wafers heard of last are" % MOST_WAFERS), ("places", "the %d newest places of each wafer are" % MOST_PLACES)):
+        if counts[name]:
+            notes.append("Dropped: %d %s; %s kept." % (counts[name], name if counts[name] > 1 else name[:-1], kept))
+    return [sentence(note) for note in notes]
