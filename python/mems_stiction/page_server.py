@@ -18,7 +18,6 @@ import tornado.web
 import tornado.websocket
 
 from mems_stiction.page_maps import LONGEST, LONGEST_ZOOMED, contact_png, height_png, height_range, measured_at, rings
-from mems_stiction.page_wafers import told
 from mems_stiction.row_table import write_csv
 
 FOLDER = pathlib.Path(__file__).resolve().parent / "page"
@@ -101,8 +100,13 @@ class _Measured(_InTime, tornado.web.RequestHandler):
 class _Wafers(_InTime, tornado.web.RequestHandler):
     """/wafers: maps of the wafers, and their parts. The state says by a number whether they have changed; most browsers do not look at them."""
 
-    def get(self):
-        self.write(self.application.settings["drawn"].get("wafers", None, self.application.settings["state"].wafers(), told))
+    async def get(self):
+        try:
+            from mems_stiction.page_wafers import told  # loads the core, which nothing else of the page needs
+        except ImportError:
+            raise tornado.web.HTTPError(501)
+        settings = self.application.settings
+        self.write(await asyncio.get_running_loop().run_in_executor(None, settings["drawn"].get, "wafers", None, settings["state"].wafers(), told))
 
 
 class _Rows(_InTime, tornado.web.RequestHandler):

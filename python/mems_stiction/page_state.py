@@ -10,9 +10,9 @@ import threading
 import time
 
 from mems_stiction.control_chart import control_limits, of_newest_settings
+from mems_stiction.page_places import Wafers
 from mems_stiction.page_words import (NO_EQUILIBRIUM, curve_of, device_of, all_finite, diagnostics_of, figures_of, finite, flags_of, half_space_of, judged_by, part_of,
                                       ratio_of, sentence, trace_of, verdict_of, with_unit)
-from mems_stiction.page_wafers import Wafers
 from mems_stiction.provenance import provenance_words
 from mems_stiction.message_rows import flattened
 from mems_stiction.prediction_text import contact_area_of

@@ -1,77 +1,20 @@
-"""Wafers and parts on the station's page: the newest prediction of each place, within bounds, and what a map of them shows. No ROS here."""
+"""Maps of the wafers on the station's page, and their parts side by side. No ROS here; it loads the core."""
 
 import math
 
 import numpy as np
 
 from mems_stiction._settings import OptionsError
-from mems_stiction.lots_data import FIGURES, RMS_HEIGHT, UNITS, WORDS, by_wafer, lots_of, wafer_word, word_of
+from mems_stiction.lots_data import UNITS, WORDS, by_wafer, lots_of, wafer_word, word_of
 from mems_stiction.lots_wafer import bad_places, colour_range, figures_of, missing_sites
 from mems_stiction.lots_words import text_of
-from mems_stiction.page_words import NO_EQUILIBRIUM, VERDICTS, all_finite, sentence
+from mems_stiction.page_places import MOST_PLACES, MOST_WAFERS, has_site
+from mems_stiction.page_words import VERDICTS, all_finite, sentence
 from mems_stiction.quantities import typeset
 
-MOST_WAFERS = 12
-MOST_PLACES = 500  # of each wafer
 MOST_PARTS = 40  # side by side
-NAMES = ("lot_id", "wafer_id", "part_id", "serial_id")
-TEXTS = NAMES + ("settings_hash", "scan_name")
 WHAT_TO_STATE = ("State site_x and site_y [m] with wafer_id, and lot_id and part_id as far as they are known, in scan_info or in the sidecar of the scan's "
                  "file (import_scan writes one).")
-
-
-class Wafers:
-    """The newest prediction of each place. Where there are too many, those heard of last are kept, and it is said how many went."""
-
-    def __init__(self):
-        self.version = 0
-        self._wafers = {}  # (lot, wafer) -> {place: row}; what was heard of last comes last in both
-        self._lost_wafers, self._lost_places, self._nameless = 0, 0, 0
-        self._kept = None
-
-    def add(self, stamp, prediction):
-        """stamp: of the scan [ns]. One that names no place, wafer or part is counted alone."""
-        row = {name: getattr(prediction, name) for name in TEXTS + FIGURES + ("site_x", "site_y", RMS_HEIGHT)}
-        if prediction.status == NO_EQUILIBRIUM:  # its forces are not to be used
-            row.update(dict.fromkeys(FIGURES, math.nan))
-        row.update(stamp=stamp, level=VERDICTS.get(prediction.sticks, VERDICTS[3])[0] if prediction.status != NO_EQUILIBRIUM else "unknown")
-        self._change()
-        has_site = math.isfinite(row["site_x"]) and math.isfinite(row["site_y"])
-        if not has_site and not any(row[name] for name in NAMES):
-            self._nameless += 1
-            return
-        key = row["lot_id"], row["wafer_id"]
-        places = self._wafers[key] = self._wafers.pop(key, {})
-        # a site of a wafer is one place whoever lies there; one of a part without a wafer is the part's
-        place = ("" if row["wafer_id"] else (row["part_id"], row["serial_id"]), (row["site_x"], row["site_y"]) if has_site else stamp)
-        places.pop(place, None)
-        places[place] = row
-        if len(places) > MOST_PLACES:
-            del places[next(iter(places))]
-            self._lost_places += 1
-        if len(self._wafers) > MOST_WAFERS:
-            del self._wafers[next(iter(self._wafers))]
-            self._lost_wafers += 1
-
-    def judge(self, stamp, device):
-        """The scan of this stamp [ns] is judged by the force of the whole device."""
-        for places in self._wafers.values():
-            for place, row in places.items():
-                if row["stamp"] == stamp:
-                    places[place] = dict(row, device_pull_off_force=device.pull_off_force, margin=device.margin, peel_number=device.peel_number,
-                                         level=VERDICTS.get(device.sticks, VERDICTS[3])[0])
-                    self._change()
-
-    def _change(self):
-        self.version += 1
-        self._kept = None
-
-    def kept(self):
-        """What `told` takes; the same object until something changes."""
-        if self._kept is None:
-            rows = tuple(row for places in self._wafers.values() for row in places.values())
-            self._kept = (rows, {"version": self.version, "wafers": self._lost_wafers, "places": self._lost_places, "nameless": self._nameless})
-        return self._kept
 
 
 def told(kept):
@@ -165,7 +108,7 @@ def _quartiles(values):
 def _notes(rows, counts):
     """What is not shown and why; what mixes."""
     notes = []
-    sited = [row for row in rows if math.isfinite(row["site_x"]) and math.isfinite(row["site_y"])]
+    sited = [row for row in rows if has_site(row)]
     if not sited:
         notes.append("%s %s" % ("No scan has stated where on a wafer it was taken." if rows or counts["nameless"] else "No scan yet.", WHAT_TO_STATE))
     elif len(sited) < len(rows) or counts["nameless"]:
