@@ -10,7 +10,7 @@ from mems_stiction.lots_wafer import bad_places, colour_range, figures_of, missi
 from mems_stiction.lots_words import text_of
 from mems_stiction.page_places import MOST_PLACES, MOST_WAFERS, has_site
 from mems_stiction.page_words import VERDICTS, all_finite, sentence
-from mems_stiction.quantities import typeset
+from mems_stiction.quantities import typeset, with_interval
 
 MOST_PARTS = 40  # side by side
 WHAT_TO_STATE = ("State site_x and site_y [m] with wafer_id, and lot_id and part_id as far as they are known, in scan_info or in the sidecar of the scan's "
@@ -83,7 +83,7 @@ def _bad_words(bad):
 
 def _part(part, numbers, rows, values, names):
     lot, wafer, name = part
-    word = ", ".join(text for text in (name and "part " + name, wafer_word(lot, wafer)) if text)
+    word = ", ".join(text for text in (name, wafer_word(lot, wafer)) if text)
     levels = [rows[number]["level"] for number in numbers]
     spread = {}
     for figure in names:
@@ -91,9 +91,9 @@ def _part(part, numbers, rows, values, names):
         known = known[~np.isnan(known)]
         low, median, high = _quartiles(known)
         spread[figure] = {"count": int(known.size), "median": float(median), "low": float(low), "high": float(high),
-                          "text": typeset(text_of(median, figure)) if known.size else "no value",
-                          "spread": typeset("%s to %s" % (text_of(low, figure), text_of(high, figure))) if known.size > 1 else ""}
-    return {"name": _capital(word), "part": rows[numbers[0]]["part_id"], "serial": rows[numbers[0]]["serial_id"], "places": len(numbers), "figures": spread,
+                          "text": "no value" if not known.size else typeset(text_of(median, figure) if known.size == 1 or math.isinf(high) else
+                                                                            with_interval(median, low, high, UNITS[figure]))}
+    return {"name": word, "part": rows[numbers[0]]["part_id"], "serial": rows[numbers[0]]["serial_id"], "places": len(numbers), "figures": spread,
             "levels": {level: levels.count(level) for level, _ in VERDICTS.values() if level in levels}}
 
 

@@ -9,6 +9,7 @@ let wafers = null;        // as /wafers tells
 let wafersAsked = 0;      // when [ms]
 let isAsking = false;
 let waferFigure = null;   // its name
+let drawnWafers = null;   // what they were drawn by
 let chosenPlace = null;   // [number of the wafer's name, x, y]
 
 function showWafers() {
@@ -29,6 +30,9 @@ async function askForWafers() {
 
 function drawWafers() {
   const figure = wafers.figures.find((one) => one.name === waferFigure) || wafers.figures[0];
+  const looks = JSON.stringify([wafers.version, figure, chosenPlace, window.innerWidth, window.innerHeight, state.parts.map((part) => [part.part, part.serial, part.word])]);
+  if (looks === drawnWafers) return;  // what is pressed now stays where it is
+  drawnWafers = looks;
   fillFigureButtons(figure);
   fillList("wafer-notes", wafers.notes);
   const hasMaps = Boolean(figure) && wafers.wafers.length > 0;
@@ -180,12 +184,12 @@ function drawUnits(figure) {
   say("parts-of", `by ${figure.label}`);
   const numbered = wafers.parts.map((part, number) => Object.assign({number}, part)).sort(unitOrder);
   const ofUnits = wafers.places.filter((place) => place.part !== null && place.values[figure.name] !== null);
-  const isReleasing = !figure.unit;
+  const isReleasing = !figure.unit;  // a margin or a peel number
   const limits = limitsOf(ofUnits.map((place) => place.values[figure.name]).concat(isReleasing ? [1] : []), true);
   const rows = numbered.map((part) => {
     const of = part.figures[figure.name];
     const row = document.createElement("tr");
-    for (const text of [part.name, of.count === part.places ? String(of.count) : `${of.count} of ${part.places}`, of.text, of.spread]) row.insertCell().textContent = text;
+    for (const text of [part.name, of.count === part.places ? String(of.count) : `${of.count} of ${part.places}`, of.text]) row.insertCell().textContent = text;
     const strip = element("svg", {class: "strip"});
     row.insertCell().append(strip);
     const [level, text] = verdictOf(part);
@@ -196,8 +200,8 @@ function drawUnits(figure) {
   });
   byId("units").replaceChildren(...rows.map(([row]) => row));
   for (const [, draw] of rows) draw();
-  fillKeys("unit-keys", [["#7fb2ff", "solid", "a place"], ["#f2f2f2", "solid", "median"]], isReleasing ? [["#ff5a4f", "dashed", "1: sticks below"]] : [],
-           [["transparent", "solid", `axis from ${ofFigure(limits.low, figure)} to ${ofFigure(limits.high, figure)}${limits.log ? ", by ratios" : ""}`]]);
+  say("unit-keys", `Dots are places, the upright is their median${isReleasing ? ", the dashed line 1: sticks below" : ""}; from ${ofFigure(limits.low, figure)} to ${
+      ofFigure(limits.high, figure)}${limits.log ? ", by ratios" : ""}.`);
 }
 
 function ofFigure(value, figure) {
