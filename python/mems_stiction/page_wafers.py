@@ -49,7 +49,7 @@ def told(kept):
         {"wafer": _index(wafers, (place.lot, place.wafer)) if place.has_site() else None, "part": _index(parts[:MOST_PARTS], _part_of(place)), "x": place.x, "y": place.y,
          "name": ", ".join(text for text in (word_of(place), place.part and "part " + place.part) if text), "level": row["level"],
          "values": {name: float(values[name][number]) for name in names},
-         "texts": {name: typeset(text_of(values[name][number], name)) if values[name][number] > 0.0 else None for name in names},
+         "texts": {name: _text(values[name][number], name) if values[name][number] > 0.0 else None for name in names},
          "bad": [name for name in names if (id(place), name) in bad]}
         for number, (row, place) in enumerate(zip(rows, lots.places))]
     shown["parts"] = [_part(part, [number for number, place in enumerate(lots.places) if _part_of(place) == part], rows, values, names)
@@ -76,9 +76,13 @@ def _capital(text):
     return text[:1].upper() + text[1:]
 
 
+def _text(value, figure):
+    return "infinite" if math.isinf(value) else typeset(text_of(value, figure))
+
+
 def _bad_words(bad):
-    return typeset("%s: %s, expected %s" % (" ".join(("(%.4g, %.4g) mm" % (1e3 * bad.place.x + 0.0, 1e3 * bad.place.y + 0.0), bad.place.part)).strip(),
-                                            text_of(bad.value, bad.figure), text_of(bad.expected, bad.figure)))
+    where = "(%.4g, %.4g) mm %s" % (1e3 * bad.place.x + 0.0, 1e3 * bad.place.y + 0.0, bad.place.part)
+    return "%s: %s, expected %s" % (where.strip(), _text(bad.value, bad.figure), _text(bad.expected, bad.figure))
 
 
 def _part(part, numbers, rows, values, names):
@@ -91,8 +95,8 @@ def _part(part, numbers, rows, values, names):
         known = known[~np.isnan(known)]
         low, median, high = _quartiles(known)
         spread[figure] = {"count": int(known.size), "median": float(median), "low": float(low), "high": float(high),
-                          "text": "no value" if not known.size else typeset(text_of(median, figure) if known.size == 1 or math.isinf(high) else
-                                                                            with_interval(median, low, high, UNITS[figure]))}
+                          "text": "no value" if not known.size else _text(median, figure) if known.size == 1 or math.isinf(high)
+                          else typeset(with_interval(median, low, high, UNITS[figure]))}
     return {"name": word, "part": rows[numbers[0]]["part_id"], "serial": rows[numbers[0]]["serial_id"], "places": len(numbers), "figures": spread,
             "levels": {level: levels.count(level) for level, _ in VERDICTS.values() if level in levels}}
 
@@ -112,7 +116,8 @@ def _notes(rows, counts):
     if not sited:
         notes.append("%s %s" % ("No scan has stated where on a wafer it was taken." if rows or counts["nameless"] else "No scan yet.", WHAT_TO_STATE))
     elif len(sited) < len(rows) or counts["nameless"]:
-        notes.append("%d scans state no site_x and site_y: they are on no map." % (len(rows) - len(sited) + counts["nameless"]))
+        lost = len(rows) - len(sited) + counts["nameless"]
+        notes.append("%d scan%s no site_x and site_y: %s on no map." % ((lost,) + ((" states", "it is") if lost == 1 else ("s state", "they are"))))
     if any(not row["wafer_id"] for row in sited):
         notes.append("Sites without a wafer_id lie on one map for each lot: state wafer_id in scan_info or in the sidecar of the scan's file.")
     settings = {row["settings_hash"] for row in rows if row["settings_hash"]}

@@ -149,7 +149,7 @@ const chosenOf = (places) => chosenPlace && places.find((place) => place.wafer !
 function showChosenPlace(figure) {
   const place = chosenOf(wafers.places);
   const value = (one) => `${one.label} ${place.texts[one.name] === null ? "missing" : place.texts[one.name]}`;
-  say("wafer-place", place ? `${place.name}: ${wafers.figures.map(value).join(", ")}` : figure && wafers.wafers.length ? "A click on a place tells its values." : "");
+  say("wafer-place", place ? `${place.name[0].toUpperCase()}${place.name.slice(1)}: ${wafers.figures.map(value).join(", ")}` : figure && wafers.wafers.length ? "A click on a place tells its values." : "");
 }
 
 function drawWaferBar(figure) {
