@@ -11,9 +11,9 @@ from typing import Any, Dict, Iterator, List, Optional, Sequence, Tuple, Union
 import numpy as np
 
 from mems_stiction._arrays import ReadOnly, plain_value
-from mems_stiction.lots_data import RELEASING, RMS_HEIGHT, WORDS, Lots, Place, by_wafer, lots_of
+from mems_stiction.lots_data import RELEASING, WORDS, Lots, Place, by_wafer, lots_of
 from mems_stiction.lots_variance import Components, components_of, hierarchy_of
-from mems_stiction.lots_wafer import BadPlace, Trend, bad_places, missing_sites, trend_of
+from mems_stiction.lots_wafer import BadPlace, Trend, bad_places, figures_of, missing_sites, trend_of
 from mems_stiction.lots_words import of_bad_places, of_components, of_rows, of_shares, of_trends, text_of
 from mems_stiction.lots_yield import Share, share_of
 from mems_stiction.other_packages import require_package
@@ -169,10 +169,8 @@ def compare_lots(rows: Any, *, figure: Optional[str] = None, against: Optional[s
 def _bad_places(lots: Lots) -> List[BadPlace]:
     found: List[BadPlace] = []
     for places in by_wafer(lots.chosen).values():
-        values = {lots.figure: [place.value for place in places], lots.force: [place.force for place in places],
-                  RMS_HEIGHT: [place.rms_height for place in places]}
-        for figure in values:
-            found += bad_places(places, figure, values[figure])
+        for figure, values in figures_of(lots.figure, lots.force, places).items():
+            found += bad_places(places, figure, values)
     return found
 
 

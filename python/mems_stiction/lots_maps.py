@@ -7,7 +7,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from mems_stiction.lots_data import UNITS, WORDS, wafer_word
-from mems_stiction.lots_wafer import is_steep
+from mems_stiction.lots_wafer import colour_range, figures_of, is_steep
 from mems_stiction.lots_words import text_of
 from mems_stiction.plots import plt
 from mems_stiction.provenance import sign
@@ -15,9 +15,6 @@ from mems_stiction.quantities import length_scale, literal, prefix_for, ratio, t
 from mems_stiction.version import version
 
 BAD = "#e0007a"
-LEAST_SPAN = 0.05  # of a colour bar, as a share of its values
-MOST_RATIO = 30.0  # of values on a linear colour bar
-MIDDLE = (2.5, 97.5)  # percent of the values that colours tell apart: what is far off would take all of them
 EXTENDED = {(False, False): "neither", (True, False): "min", (False, True): "max", (True, True): "both"}
 
 
@@ -68,9 +65,7 @@ def _on_the_map(values, places):
 
 
 def _panels(figures, places):
-    values = {figures[0]: [place.value for place in places], figures[1]: [place.force for place in places],
-              "rms_height": [place.rms_height for place in places]}
-    return [(name, np.where(np.array(listed) > 0.0, listed, math.nan)) for name, listed in values.items()]
+    return [(name, np.where(np.array(listed) > 0.0, listed, math.nan)) for name, listed in figures_of(*figures, places).items()]
 
 
 def _size(sites):
@@ -80,11 +75,8 @@ def _size(sites):
 
 def _draw_sites(drawn, axes, name, all_sites, sites, values, everywhere):
     finite = everywhere[np.isfinite(everywhere)]
-    low, high = (float(end) for end in np.percentile(finite, MIDDLE))
+    low, high, is_by_ratio = colour_range(finite)
     is_cut = finite.min() < low, finite.max() > high
-    if high - low < LEAST_SPAN * high:
-        low, high = low - 0.5 * LEAST_SPAN * high, high + 0.5 * LEAST_SPAN * high
-    is_by_ratio = low > 0.0 and high > MOST_RATIO * low
     exponent, prefix = prefix_for(float(np.median(finite))) if UNITS[name] else (0, "")
     factor = 10.0 ** -exponent
     shown = np.log10(values * factor) if is_by_ratio else values * factor

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from typing import List, NamedTuple, Optional, Sequence, Tuple
+from typing import Dict, List, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 
-from mems_stiction.lots_data import Place
+from mems_stiction.lots_data import RMS_HEIGHT, Place
 
 FEWEST_SITES = 6  # for a trend: three constants, and what is left
 ROUNDS = 30  # of weights
@@ -16,6 +16,9 @@ MAD_TO_SIGMA = 1.4826
 EFFICIENCY = 0.37  # of the median deviation: as uncertain as the standard deviation of so many fewer values
 CHANCE = 0.05  # that one of the places of a sound wafer is taken for bad, or that it is said to have a trend
 LEAST_SPREAD = 1e-6  # of logarithms: below is round-off
+LEAST_SPAN = 0.05  # of the colours of a map, as a share of its values
+MOST_RATIO = 30.0  # of values whose colours are linear
+MIDDLE = (2.5, 97.5)  # percent of the values that colours tell apart: what is far off would take all of them
 
 
 class Trend(NamedTuple):
@@ -57,6 +60,11 @@ def design_of(places: Sequence[Place]) -> np.ndarray:
     sites = np.array([(place.x, place.y) for place in places])
     centred = (sites - sites.mean(axis=0)) / max(float(np.ptp(sites)), 1e-300)
     return np.hstack([constant, centred]) if np.linalg.matrix_rank(centred, tol=1e-3) == 2 else constant
+
+
+def figures_of(figure: str, force: str, places: Sequence[Place]) -> Dict[str, List[float]]:
+    """What a wafer is looked at by: what is compared, the force (once, if that is it) and the rms height, with their values."""
+    return {figure: [place.value for place in places], force: [place.force for place in places], RMS_HEIGHT: [place.rms_height for place in places]}
 
 
 def bad_places(places: Sequence[Place], figure: str, values: Sequence[float]) -> List[BadPlace]:
@@ -127,6 +135,14 @@ def trend_of(places: Sequence[Place]) -> Optional[Trend]:
 
 def is_steep(trend: Trend) -> bool:
     return trend.chance < CHANCE
+
+
+def colour_range(values: np.ndarray) -> Tuple[float, float, bool]:
+    """From which to which value > 0 the colours of a map go, and whether by ratios."""
+    low, high = (float(end) for end in np.percentile(values, MIDDLE))
+    if high - low < LEAST_SPAN * high:
+        low, high = low - 0.5 * LEAST_SPAN * high, high + 0.5 * LEAST_SPAN * high
+    return low, high, low > 0.0 and high > MOST_RATIO * low
 
 
 def missing_sites(own: Sequence[Place], others: Sequence[Place]) -> List[Tuple[float, float]]:

@@ -97,6 +97,18 @@ class _Measured(_InTime, tornado.web.RequestHandler):
         self.write(measured_at(found[1], state.size_of("height"), places))
 
 
+class _Wafers(_InTime, tornado.web.RequestHandler):
+    """/wafers: maps of the wafers, and their parts. The state says by a number whether they have changed; most browsers do not look at them."""
+
+    async def get(self):
+        try:
+            from mems_stiction.page_wafers import told  # loads the core, which nothing else of the page needs
+        except ImportError:
+            raise tornado.web.HTTPError(501)
+        settings = self.application.settings
+        self.write(await asyncio.get_running_loop().run_in_executor(None, settings["drawn"].get, "wafers", None, settings["state"].wafers(), told))
+
+
 class _Rows(_InTime, tornado.web.RequestHandler):
     """/scan.csv, /parts.csv: the newest prediction, and the newest verdict on each part."""
 
@@ -115,7 +127,7 @@ class _Rows(_InTime, tornado.web.RequestHandler):
 
 
 class _Drawn:
-    """The last thing that was made of each image."""
+    """The last thing that was made of each image, and of the wafers."""
 
     def __init__(self):
         self._cached = {}
@@ -156,7 +168,7 @@ def application(state, is_local, stale_after, patience=PATIENCE):
     return tornado.web.Application(
         [(r"/state", _StateSocket), (r"/map/(height|contacts)\.png", _Picture),
          (r"/()", _PageFile, {"path": str(FOLDER), "default_filename": "index.html"}),
-         (r"/measure", _Measured), (r"/(scan|parts)\.csv", _Rows),
+         (r"/measure", _Measured), (r"/wafers", _Wafers), (r"/(scan|parts)\.csv", _Rows),
          (r"/([a-z]+\.(?:html|css|js))", _PageFile, {"path": str(FOLDER)})],
         state=state, is_local=is_local, stale_after=stale_after, patience=patience, drawn=_Drawn(), websocket_ping_interval=10.0,
         websocket_max_message_size=LONGEST_REQUEST)

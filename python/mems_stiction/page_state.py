@@ -10,6 +10,7 @@ import threading
 import time
 
 from mems_stiction.control_chart import control_limits, of_newest_settings
+from mems_stiction.page_places import Wafers
 from mems_stiction.page_words import (NO_EQUILIBRIUM, curve_of, device_of, all_finite, diagnostics_of, figures_of, finite, flags_of, half_space_of, judged_by, part_of,
                                       ratio_of, sentence, trace_of, verdict_of, with_unit)
 from mems_stiction.provenance import provenance_words
@@ -64,6 +65,7 @@ class PageState:
         self._device = None
         self._part = None
         self._parts = {}  # newest last: (part, serial number) -> (what the page shows, message, when)
+        self._wafers = Wafers()
         self._maps = {}
         self._diagnostics = {}
         self._runs = {}
@@ -90,6 +92,7 @@ class PageState:
                 "lower": finite(getattr(prediction, name + "_lower")), "upper": finite(getattr(prediction, name + "_upper")),
                 "level": verdict_of(prediction)["level"], "settings": prediction.settings_hash,
                 "is_usable": prediction.status != NO_EQUILIBRIUM})
+            self._wafers.add(stamp, prediction)
             self._latest = (self._count, stamp, prediction)
             self._loss_is_newest = False
             if self._heard is not None:
@@ -132,6 +135,7 @@ class PageState:
             if not self._is_earlier(stamp, self._device):
                 self._device = shown
             if shown["is_found"]:
+                self._wafers.judge(stamp, device)
                 ratio = shown["ratio"] or dict.fromkeys(("value", "lower", "upper"))
                 for row in self._trend:
                     if row.get("stamp") == stamp:
@@ -160,6 +164,11 @@ class PageState:
         """The newest verdict on each part as a row, with the names of PartVerdict; the part that was heard of last comes last."""
         with self._lock:
             return [flattened(message) for _, message, _ in self._parts.values()]
+
+    def wafers(self):
+        """What page_wafers.told takes; the same object until a place changes."""
+        with self._lock:
+            return self._wafers.kept()
 
     def stale_after(self):
         """For how long nothing may come before what is shown is old [s]: three times as long as it usually takes."""
@@ -226,7 +235,7 @@ class PageState:
                     "part": self._shown_part(), "parts": [dict(shown, number=self._number_of(shown["stamp"]), age=now - heard)
                                                           for shown, _, heard in self._parts.values()],
                     "stale_after": self.stale_after(), "half_space": self._with_number(self._half_space),
-                    "device": self._with_number(self._device), "maps": self._shown_maps(),
+                    "device": self._with_number(self._device), "maps": self._shown_maps(), "wafers": self._wafers.version,
                     "diagnostics": [dict(entry, age=now - heard) for _, (entry, heard) in sorted(self._diagnostics.items())],
                     "runs": {kind: self._run(run, now) for kind, run in self._runs.items()}})
 

@@ -23,12 +23,13 @@ import browser  # noqa: E402  (the path comes first)
 
 SECOND = 10**9
 NAN = math.nan
+BAD_SITES = {(1, 2), (5, 5)}  # columns and rows of a wafer
 SCREENS = {"desk": (1280, 800), "landscape": (1024, 768), "tablet": (768, 1024)}
-TABS = ("overview", "maps", "curve", "runs", "parts", "node")
+TABS = ("overview", "maps", "curve", "runs", "parts", "wafers", "node")
 # Texts of charts that lie on each other, or are not wholly inside: a hidden one has no box.
 BAD_TEXTS = """(() => {
   const found = [];
-  for (const svg of document.querySelectorAll('svg.chart, #height-bar')) {
+  for (const svg of document.querySelectorAll('svg.chart, #height-bar, #wafer-bar, svg.wafer-map')) {
     const outer = svg.getBoundingClientRect();
     const texts = [...svg.querySelectorAll('text')].map((text) => [text.textContent, text.getBoundingClientRect()]).filter(([, box]) => box.width);
     for (const [text, box] of texts) if (box.left < outer.left - 1 || box.right > outer.right + 1 || box.top < outer.top - 1 || box.bottom > outer.bottom + 1) found.push(`${svg.id}: ${text} is cut`);
@@ -59,7 +60,7 @@ def prediction(number, **changes):
     message = StictionPrediction(pull_off_force=3.7e-6 * (1 + 0.05 * (number % 3)), sticks=StictionPrediction.STICKS_NO, reason="the whole interval lies above 1, " * 8, margin=3.0, margin_lower=2.0,
                                  margin_upper=4.0, restoring_force=1e-5, peel_number=NAN, peel_number_lower=NAN, peel_number_upper=NAN, device_pull_off_force=3.3e-6,
                                  contact_area_jkr=NAN, rms_height=1e-9, asperity_count=3, settings_hash="00ff", scan_name="place %d" % number, curve=points,
-                                 formulation="separation_curve", regime_flags=16 + 32 + 128, version="1.2.3", warnings=["=HYPERLINK(1)"])
+                                 formulation="separation_curve", regime_flags=16 + 32 + 128, version="1.2.3", warnings=["=HYPERLINK(1)"], site_x=NAN, site_y=NAN)
     for name, value in changes.items():
         setattr(message, name, value)
     return message
@@ -126,6 +127,7 @@ class ViewTest(unittest.TestCase):
         for number in range(1, 13):
             cls.state.add_prediction(number * SECOND, prediction(number))
         cls.number = 12
+        cls.add_wafers()
         for serial, margin, sticks in (("0010", 3.0, 0), ("0009", 0.4, 2), ("0011", 1.2, 1)):
             cls.state.add_part(12 * SECOND, part(serial, margin, sticks))
         cls.state.add_part(12 * SECOND, part("0012", 6.18, 1, scan_count=2, counted_scans=2, margin_lower=9.57e-11, margin_upper=2.07e12))
@@ -139,6 +141,18 @@ class ViewTest(unittest.TestCase):
         cls.page.download_to(cls.folder)
         cls.page.open("http://127.0.0.1:%d" % cls.server.port)
         cls.page.wait("state && state.count === 12")
+
+    @classmethod
+    def add_wafers(cls):
+        """7 x 7 sites, a gradient along x, two bad places; of the second wafer five rows are there, and one site without a margin. They are no scans of
+        the tests' own count."""
+        for wafer, rows in (("7", 7), ("8", 5)):
+            for place in range(7 * rows):
+                x, y = place % 7, place // 7
+                is_bad = wafer == "7" and (x, y) in BAD_SITES
+                margin = NAN if wafer == "8" and place == 3 else 2 * math.exp(0.1 * x + 0.02 * math.sin(7 * place)) * (0.3 if is_bad else 1)
+                cls.state._wafers.add(place, prediction(place, margin=margin, sticks=2 if is_bad else 0, device_pull_off_force=1e-6, lot_id="A",
+                                                        wafer_id=wafer, part_id="row %d" % y, site_x=0.01 * x, site_y=0.01 * y))
 
     def setUp(self):
         self.page.resize(*SCREENS["desk"])
@@ -323,6 +337,46 @@ class ViewTest(unittest.TestCase):
         self.assertEqual(sorted(row["serial_id"] for row in rows), ["0009", "0010", "0011", "0012"])
         self.assertEqual([float(row["margin"]) for row in rows if row["serial_id"] == "0009"], [0.4])
 
+    def show_wafers(self):
+        self.open_tab("wafers")
+        self.page.wait("wafers && wafers.version === state.wafers && document.querySelectorAll('.wafer-map .site').length")
+        self.page.click("button[data-figure=margin]")
+
+    def marked(self, number, kind):
+        """Middles of marks of one map, in pixels of the screen."""
+        return self.page.value("[...document.querySelectorAll('.wafer-map')[%d].querySelectorAll('.%s')].map((mark) => { const box = mark.getBoundingClientRect(); "
+                               "return [box.x + box.width / 2, box.y + box.height / 2]; })" % (number, kind))
+
+    def test_maps_of_wafers_mark_what_is_bad_and_what_is_missing(self):
+        self.show_wafers()
+        for screen in ("desk", "tablet"):
+            self.page.resize(*SCREENS[screen])
+            self.page.wait("drawnWafers.includes('%d,%d')" % SCREENS[screen])
+            self.page.place("#wafers")  # stands still
+            self.assertEqual(self.page.value("[...document.querySelectorAll('#wafers h3')].map((heading) => heading.textContent)"), ["Wafer 8 of lot A", "Wafer 7 of lot A"])
+            sites, bad = self.marked(1, "site"), self.marked(1, "bad-site")
+            self.assertEqual((len(sites), len(bad)), (49, len(BAD_SITES)), screen)
+            columns, rows = (sorted({round(site[axis]) for site in sites}) for axis in (0, 1))
+            self.assertEqual({(min(range(7), key=lambda place: abs(columns[place] - x)), 6 - min(range(7), key=lambda place: abs(rows[place] - y))) for x, y in bad}, BAD_SITES)
+            self.assertEqual((len(self.marked(0, "site")), len(self.marked(0, "missing-site")), len(self.marked(0, "bad-site"))), (34, 15, 0))
+            fills = self.page.value("new Set([...document.querySelectorAll('.wafer-map')[1].querySelectorAll('.site')].map((site) => site.getAttribute('fill'))).size")
+            self.assertGreater(fills, 10)
+            strips = self.page.value("[...document.querySelectorAll('#units .strip')].map((strip) => strip.getBoundingClientRect()).map((box) => [box.x, box.width])")
+            self.assertEqual((len(strips), len({tuple(strip) for strip in strips})), (12, 1))  # all on one axis
+            self.assertIn("1 stick, 6 release", self.page.text("#units"))
+
+    def test_wafers_are_coloured_by_the_figure_that_is_chosen_and_a_click_tells_a_place(self):
+        self.show_wafers()
+        self.page.click("button[data-figure=rms_height]")
+        self.page.wait("byId('wafers-of').textContent === 'by rms height'")
+        self.assertEqual((len(self.marked(1, "bad-site")), self.page.value("document.querySelector('#wafer-bar .label').textContent")), (0, "nm"))
+        self.page.click("#wafers > div:nth-child(2) .site")
+        self.page.wait("document.querySelectorAll('.chosen-site').length === 1")
+        self.assertRegex(self.page.text("#wafer-place"), r"^Wafer 7 of lot A at \(0, 0\) mm, part row 0: margin 2, pull-off force of the device 1.00 µN, rms height 1.00 nm$")
+        self.page.click("button[data-figure=margin]")
+        self.page.wait("document.querySelectorAll('.bad-site').length > 1")
+        self.assertEqual(self.page.errors, [])
+
     def test_row_and_pictures_are_saved(self):
         self.show_scan(64, 96, (9.6e-7, 6.4e-7))
         self.open_tab("overview")
@@ -332,7 +386,7 @@ class ViewTest(unittest.TestCase):
                          (prediction(self.number).pull_off_force, "place %d" % self.number, "00ff"))
         self.assertEqual(row["warnings"], "'=HYPERLINK(1)")  # no formula
         from PIL import Image as Picture
-        for tab, name in (("overview", "trend"), ("overview", "figures"), ("maps", "heights"), ("maps", "contacts"), ("curve", "force_curve"), ("runs", "sweep"), ("runs", "cycles")):
+        for tab, name in (("overview", "trend"), ("overview", "figures"), ("maps", "heights"), ("maps", "contacts"), ("curve", "force_curve"), ("runs", "sweep"), ("runs", "cycles"), ("wafers", "wafers"), ("wafers", "parts_side_by_side")):
             self.open_tab(tab)
             self.page.click(".panel[data-picture=%s] .picture" % name)
             with Picture.open(io.BytesIO(self.saved("%s_scan_%d.png" % (name, self.number)))) as picture:

@@ -25,6 +25,7 @@ from mems_stiction.msg import (CycleContactResult, CyclePoint, DeviceAdhesion, H
                                StictionPrediction, SweepLoadResult, SweepPoint, SweepSummary)
 from mems_stiction.control_chart import control_limits
 from mems_stiction.page_maps import contact_png, height_png, height_range, rings, severest
+from mems_stiction.page_places import MOST_PLACES, MOST_WAFERS
 from mems_stiction.page_server import FOLDER, CannotServe, PageServer
 from mems_stiction.page_state import MOST_PARTS, MOST_SCANS, PageState, stamp_of_reason
 from mems_stiction.page_words import curve_of, half_space_of, part_of, ratio_of, trace_of, verdict_of
@@ -36,6 +37,14 @@ from sensor_msgs.msg import Image
 STATION_PAGE = pathlib.Path(__file__).resolve().parents[2] / "scripts/station_page"
 SECOND = 10**9
 NAN = math.nan
+
+
+def has_core():
+    try:
+        from mems_stiction import _core  # noqa: F401
+    except ImportError:
+        return False
+    return True
 
 
 def prediction(margin=NAN, sticks=StictionPrediction.STICKS_UNKNOWN, **changes):
@@ -97,6 +106,23 @@ def emptied(message, value):
 def map_message(array):
     array = np.asarray(array, np.uint8)
     return Image(height=array.shape[0], width=array.shape[1], step=array.shape[1], encoding="mono8", data=array.tobytes())
+
+
+def on_wafer(x, y, margin=3.0, wafer="7", **changes):
+    """A prediction of the site in column x and row y."""
+    changes = dict(dict(lot_id="A", part_id="row %d" % y, pull_off_force=3e-7 / margin, rms_height=1e-9, settings_hash="00ff"), **changes)
+    return prediction(margin, StictionPrediction.STICKS_YES if margin < 1 else StictionPrediction.STICKS_NO, wafer_id=wafer, site_x=1e-2 * x, site_y=1e-2 * y, **changes)
+
+
+BAD_SITES = {(1, 2), (5, 5)}
+
+
+def wafer_of_49(add, wafer="7"):
+    """7 x 7 sites whose margins grow along x by a tenth from one to the next, but at two, with some scatter."""
+    scatter = np.random.RandomState(1).normal(0.0, 0.02, 49)
+    for number, noise in enumerate(scatter):
+        x, y = number % 7, number // 7
+        add((number + 1) * SECOND, on_wafer(x, y, 2.0 * math.exp(0.1 * x + noise) * (0.3 if (x, y) in BAD_SITES else 1.0), wafer))
 
 
 class StateTest(unittest.TestCase):
@@ -278,6 +304,96 @@ class StateTest(unittest.TestCase):
         shown = state.snapshot()["runs"]["cycles"]
         self.assertNotIn("progress", shown)
         self.assertEqual(shown["message"], "cancelled")
+
+
+@unittest.skipUnless(has_core(), "the compiled part of the Python module is not built")
+class WafersTest(unittest.TestCase):
+    def setUp(self):
+        self.state = PageState()
+
+    def told(self):
+        from mems_stiction.page_wafers import told
+
+        return json.loads(json.dumps(told(self.state.wafers()), allow_nan=False))
+
+    def bad_sites(self, shown, figure):
+        return {(round(100 * place["x"]), round(100 * place["y"])) for place in shown["places"] if figure in place["bad"]}
+
+    def test_two_bad_places_of_a_wafer_with_a_trend_are_marked_and_no_other(self):
+        wafer_of_49(self.state.add_prediction)
+        shown = self.told()
+        self.assertEqual([figure["name"] for figure in shown["figures"]], ["margin", "pull_off_force", "rms_height"])
+        self.assertEqual((len(shown["wafers"]), len(shown["places"]), shown["wafers"][0]["name"]), (1, 49, "Wafer 7 of lot A"))
+        for figure, bad in (("margin", BAD_SITES), ("pull_off_force", BAD_SITES), ("rms_height", set())):
+            self.assertEqual(self.bad_sites(shown, figure), bad)
+            self.assertEqual(len(shown["wafers"][0]["bad"][figure]), len(bad))
+        self.assertRegex(" ".join(shown["wafers"][0]["bad"]["margin"]), r"\(10, 20\) mm row 2: 0\.\d+, expected 2\.\d+")
+        self.assertEqual(shown["notes"], [])
+
+    def test_the_newest_prediction_of_a_site_counts(self):
+        wafer_of_49(self.state.add_prediction)
+        before = self.state.wafers()
+        self.assertIs(self.state.wafers(), before)  # drawn once for all browsers
+        for number, (x, y) in enumerate(BAD_SITES):
+            self.state.add_prediction((100 + number) * SECOND, on_wafer(x, y, 2.0 * math.exp(0.1 * x)))
+        shown = self.told()
+        self.assertEqual((self.bad_sites(shown, "margin"), len(shown["places"])), (set(), 49))
+
+    def test_what_has_no_value_is_missing_and_so_is_a_site_that_another_wafer_has(self):
+        wafer_of_49(self.state.add_prediction)
+        self.state.add_prediction(60 * SECOND, on_wafer(0, 0, 3.0, "8"))
+        self.state.add_prediction(61 * SECOND, on_wafer(1, 0, 3.0, "8", status=StictionPrediction.NO_EQUILIBRIUM))
+        self.state.add_prediction(62 * SECOND, on_wafer(2, 0, math.inf, "8", pull_off_force=1e-9))
+        shown = self.told()
+        self.assertEqual([wafer["name"] for wafer in shown["wafers"]], ["Wafer 8 of lot A", "Wafer 7 of lot A"])  # heard of last first
+        self.assertEqual([len(wafer["missing"]) for wafer in shown["wafers"]], [46, 0])
+        self.assertEqual([(place["texts"]["margin"], place["texts"]["rms_height"], place["values"]["margin"]) for place in shown["places"] if place["wafer"] == 0],
+                         [("3", "1.00 nm", 3.0), (None, "1.00 nm", None), ("infinite", "1.00 nm", None)])
+
+    def test_parts_stand_side_by_side_with_median_middle_half_and_verdicts(self):
+        wafer_of_49(self.state.add_prediction)
+        shown = self.told()
+        parts = {part["part"]: part for part in shown["parts"]}
+        self.assertEqual(sorted(parts), ["row %d" % row for row in range(7)])
+        for number, part in enumerate(shown["parts"]):
+            margins = [place["values"]["margin"] for place in shown["places"] if place["part"] == number]
+            self.assertEqual((part["places"], len(margins)), (7, 7))
+            self.assertEqual([part["figures"]["margin"][name] for name in ("median", "low", "high")], [np.percentile(margins, share) for share in (50, 25, 75)])
+        self.assertEqual(parts["row 2"]["levels"], {"sticks": 1, "releases": 6})
+        self.assertEqual(parts["row 1"]["levels"], {"releases": 7})
+
+    def test_wafers_and_places_are_bounded_and_it_is_said_what_went(self):
+        for wafer in range(MOST_WAFERS + 2):
+            self.state.add_prediction(wafer + 1, on_wafer(0, 0, wafer=str(wafer)))
+        for number in range(MOST_PLACES + 3):
+            self.state.add_prediction(1000 + number, on_wafer(number, 1, wafer="large"))
+        shown = self.told()
+        self.assertEqual((len(shown["wafers"]), shown["wafers"][0]["name"]), (MOST_WAFERS, "Wafer large of lot A"))
+        self.assertEqual(len([place for place in shown["places"] if place["wafer"] == 0]), MOST_PLACES)
+        self.assertIn("Dropped: 3 wafers; the %d wafers heard of last are kept." % MOST_WAFERS, shown["notes"])
+        self.assertIn("Dropped: 3 places; the %d newest places of each wafer are kept." % MOST_PLACES, shown["notes"])
+
+    def test_without_sites_it_says_what_to_state(self):
+        self.assertRegex(self.told()["notes"][0], "^No scan yet. State site_x and site_y .* wafer_id.* scan_info .* sidecar")
+        self.state.add_prediction(1, prediction(2.0, 0, site_x=NAN, site_y=NAN))
+        self.assertRegex(self.told()["notes"][0], "^No scan has stated where on a wafer it was taken. State site_x and site_y")
+        self.state.add_prediction(2, prediction(2.0, 0, site_x=0.0, site_y=0.0))
+        notes = self.told()["notes"]
+        self.assertEqual(notes[0], "1 scan states no site_x and site_y: it is on no map.")
+        self.assertIn("state wafer_id", notes[1])
+
+    def test_the_force_of_the_whole_device_judges_the_place_of_its_scan(self):
+        for x in (0, 1):
+            self.state.add_prediction((x + 1) * SECOND, on_wafer(x, 0, NAN, pull_off_force=1e-7))
+        self.state.add_device(2 * SECOND, device_message())
+        shown = self.told()
+        self.assertEqual([place["values"].get("margin") for place in shown["places"]], [None, 5.0])
+        self.assertEqual([place["values"].get("device_pull_off_force") for place in shown["places"]], [None, 2e-7])
+
+    def test_numbers_that_are_not_finite_are_no_trouble(self):
+        for number, value in enumerate((NAN, math.inf, -math.inf)):
+            self.state.add_prediction(number, emptied(on_wafer(0, 0), value))
+            self.told()
 
 
 class WordsTest(unittest.TestCase):

@@ -88,7 +88,7 @@ function showAge() {
 
 // ---------------------------------------------------------------- tabs
 
-const TABS = {overview: showOverview, maps: showMaps, curve: showCurve, runs: showRuns, parts: showParts, node: showNode};
+const TABS = {overview: showOverview, maps: showMaps, curve: showCurve, runs: showRuns, parts: showParts, wafers: showWafers, node: showNode};
 
 function chosenTab() {
   const name = location.hash.slice(1);
