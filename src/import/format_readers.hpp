@@ -110,6 +110,7 @@ FileChannel parseSurferGrid(const std::string& bytes);
 struct Hdf5Channels {
   std::vector<FileChannel> channels;
   bool is_library_missing = false;  ///< there is no python3, or it has no h5py
+  std::string arrays;               ///< of two dimensions, in words: what there is where no layout is known
 };
 
 /// HDF5 by h5py, in a python3 of its own, since there is no reader that a damaged file cannot crash: Bruker's `.h5-jpk` (the

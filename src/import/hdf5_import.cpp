@@ -16,10 +16,12 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kList = "channels";
+constexpr const char* kArrays = "arrays";
 constexpr int kNoLibrary = 3;
 constexpr int kOtherLayout = 4;
 
-/// Writes each channel as N.npy, and a line "title, width, height, unit, note" between tabs. Lengths are in metres.
+/// Writes each channel as N.npy, and a line "title, width, height, unit, note" between tabs. Lengths are in metres. Where there
+/// is none, it writes which arrays of two dimensions there are, a line for each.
 constexpr const char* kScript = R"(
 import sys
 sys.path = [folder for folder in sys.path if folder]
@@ -112,6 +114,9 @@ def coordinates(file):
             values, unit = values * LENGTHS[unit], "m"
         yield name, values, sides[1], sides[0], unit, ""
 
+def is_map(item):
+    return isinstance(item, h5py.Dataset) and item.ndim == 2 and item.dtype.kind in "fiu" and min(item.shape) > 1
+
 def main(path, folder):
     try:
         file = h5py.File(path, "r")
@@ -126,6 +131,12 @@ def main(path, folder):
             words = [title.replace("\t", " ").replace("\n", " "), repr(width), repr(height), unit, note]
             lines.append("\t".join(words) + "\n")
     if not lines:
+        arrays = []
+        file.visititems(lambda name, item: arrays.append(name) if is_map(item) else None)
+        with open(folder + "/arrays", "w", encoding="utf-8") as stream:
+            for name in arrays[:8]:
+                stream.write("'%s' (%d x %d)\n" % (" ".join(name.split()), *file[name].shape[::-1]))
+            stream.write("and %d more\n" % (len(arrays) - 8) if len(arrays) > 8 else "")
         sys.exit(4)
     with open(folder + "/channels", "w", encoding="utf-8") as stream:
         stream.writelines(lines)
@@ -178,6 +189,10 @@ Hdf5Channels channelsByH5py(const std::string& path, double timeout) {
   if (result.timed_out) throw FileError("h5py did not finish within " + numberText(timeout) + " s and was stopped");
   if (result.signal != 0) throw FileError("h5py crashed on this file: it is damaged");
   read.is_library_missing = !result.started || result.exit_code == kNoLibrary;
+  if (result.exit_code == kOtherLayout) {
+    std::ifstream arrays(target + "/" + kArrays);
+    for (std::string line; std::getline(arrays, line);) read.arrays += (read.arrays.empty() ? "" : ", ") + line;
+  }
   if (read.is_library_missing || result.exit_code == kOtherLayout) return read;
   std::ifstream list(target + "/" + kList);
   if (result.exit_code != 0 || !list) throw FileError("its layout is known, but what it should have is not there");

@@ -125,7 +125,8 @@ Channels readHdf5(const std::string& path, const std::string& bytes, const Impor
             ? "h5py, which reads .h5-jpk, .topostats and NetCDF-4, is not installed (Debian package: "
               "python3-h5py); else "
             : "";
-    throw FileError(std::string(error.what()) + " (an HDF5 file: " + library +
+    const std::string arrays = read.arrays.empty() ? "" : "its arrays are " + read.arrays + "; ";
+    throw FileError(std::string(error.what()) + " (an HDF5 file: " + library + arrays +
                     "write its array of heights as .npy and give --pitch)");
   }
 }

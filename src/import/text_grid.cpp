@@ -26,6 +26,7 @@ constexpr int kLeastIndices = 3;      // fewer are in equal steps by chance
 constexpr int kLeastSteady = 5;       // the same for steps of any size
 constexpr double kEqualStep = 0.05;   // of the step: printed coordinates are rounded
 constexpr double kExactStep = 0.001;  // of the step: few numbers must fit better
+constexpr const char* kAreaNeeded = ": export a scan of an area, as a matrix or as a list of x, y and z";
 
 /// Numbers from `first` on in equal steps that are not zero.
 bool isSteady(const cv::Mat& line, int first, double tolerance) {
@@ -186,7 +187,7 @@ bool readPoints(const TextHeader& header, YAxis y_axis, const cv::Mat& cells, Fi
   try {
     if (cells.cols != 3) {
       throw FileError(std::to_string(cells.cols) + " columns of " + std::to_string(cells.rows) +
-                      " lines are a profile or a list, not a surface");
+                      " lines are a profile or a list, not a surface" + kAreaNeeded);
     }
     grid = gridOfPoints(cells);
   } catch (const FileError&) {
@@ -217,6 +218,41 @@ bool readPoints(const TextHeader& header, YAxis y_axis, const cv::Mat& cells, Fi
   return true;
 }
 
+/// Positions and heights along one line, perhaps behind an index, and columns without any number. - @p cells CV_64FC1
+bool isProfile(const cv::Mat& cells) {
+  std::vector<int> filled;
+  for (int col = 0; col < cells.cols; ++col) {
+    const cv::Mat numbers = cells.col(col) == cells.col(col);
+    if (cv::countNonZero(numbers) > 0) filled.push_back(col);
+  }
+  if (cells.rows <= kListLines * static_cast<int>(filled.size())) return false;
+  return filled.size() == 2 || (filled.size() == 3 && looksLikeIndices(cells.col(filled[0]).t(), 0) &&
+                                isSteady(cells.col(filled[1]).t(), 0, kEqualStep));
+}
+
+/// @return the columns of a profile in words; empty if the data are none, or cannot be read
+std::string profileIn(const TextLines& text, const TextStyle& style) {
+  try {
+    TextCells cells = textCells(text.data, style);
+    const cv::Mat grid(static_cast<int>(cells.rows), static_cast<int>(cells.cols), CV_64FC1, cells.values.data());
+    if (!isProfile(grid)) return "";
+    return std::to_string(grid.cols) + " columns of " + std::to_string(grid.rows) + " lines";
+  } catch (const FileError&) {
+    return "";
+  }
+}
+
+/// A heading that is not known does not matter to a profile, which nothing stated above it makes a surface.
+TextHeader headerOf(const TextLines& text, const TextStyle& style, char hint) {
+  try {
+    return textHeader(text.heading, hint, style.decimal);
+  } catch (const FileError&) {
+    const std::string profile = text.data.empty() ? "" : profileIn(text, style);
+    if (profile.empty()) throw;
+    throw FileError(profile + " are a profile, not a surface" + kAreaNeeded);
+  }
+}
+
 char signOf(DecimalMark mark) { return mark == DecimalMark::kAuto ? '\0' : mark == DecimalMark::kPoint ? '.' : ','; }
 
 }  // namespace
@@ -229,7 +265,7 @@ FileChannel parseTextGrid(const std::string& bytes, const TextOptions& options) 
   const char hint = stated != '\0' ? stated : headingMark(text.heading);
   joinThousands(text.data);
   const TextStyle style = text.data.empty() ? TextStyle() : textStyle(text.data, stated, hint);
-  const TextHeader header = textHeader(text.heading, hint, style.decimal);
+  const TextHeader header = headerOf(text, style, hint);
   channel.title = header.title;
   channel.notes = header.notes;
   if (!style.guess.empty()) {
@@ -253,7 +289,7 @@ FileChannel parseTextGrid(const std::string& bytes, const TextOptions& options) 
   checkListColumns(grid);
   checkBlocks(text);
   if (grid.rows == 2 && grid.cols >= kProfileNumbers) {
-    throw FileError("2 lines of " + std::to_string(grid.cols) + " numbers are a profile, not a surface");
+    throw FileError("2 lines of " + std::to_string(grid.cols) + " numbers are a profile, not a surface" + kAreaNeeded);
   }
   checkStatedSize(header, grid);
   checkIndices(text, grid);

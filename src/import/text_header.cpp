@@ -285,6 +285,22 @@ TextHeader keyenceHeader(const std::vector<TextLine>& heading) {
 /// The unit of "Z Amplitude: 25 nm", WSxM's: that of its numbers.
 std::string unitOfAmplitude(const std::string& value) { return bare(value.substr(markedNumberEnd(value))); }
 
+constexpr char kFactor[] = "height conversion factor (->";
+
+/// "height conversion factor (-> m)=6.3e-8": what makes lengths of numbers in another unit, as radians of a phase.
+void readFactor(const std::string& key, const std::string& value, const Marks& marks, TextHeader& header) {
+  const std::string unit = trimmed(key.substr(sizeof kFactor - 1), " \t)");
+  if (!lengthUnit(unit)) throw FileError("'" + shownPiece(unit) + "' is not a unit of length");
+  const std::size_t end = markedNumberEnd(value);
+  const std::string number = value.substr(0, end);
+  const double factor = plainNumber(withPlainMarks(number, decimalMarkOf(number, marks)) + value.substr(end));
+  if (!(factor > 0.0) || !std::isfinite(factor)) {
+    throw FileError("the height conversion factor '" + shownPiece(value) + "' is not a number > 0");
+  }
+  state(header.factor, factor, "height conversion factor");
+  stateText(header.unit_of_factor, unit, "unit of the height conversion factor");
+}
+
 /// @return true if the key is known
 bool readEntry(const std::string& key, const std::string& value, const Marks& marks, TextHeader& header) {
   const auto count = [&value] { return countOf(value); };
@@ -292,8 +308,10 @@ bool readEntry(const std::string& key, const std::string& value, const Marks& ma
     readLength(value, "width", marks, header.width, header);
   } else if (isOneOf(key, {"height", "y-length", "y amplitude", "höhe", "hauteur", "altura", "altezza"})) {
     readLength(value, "height", marks, header.height, header);
-  } else if (isOneOf(key, {"value units", "value unit", "z-unit", "zunit", "unit data", "einheiten", "unités"})) {
+  } else if (isOneOf(key, {"value units", "value unit", "data unit", "z-unit", "zunit", "unit data", "einheiten", "unités"})) {
     stateText(header.unit_z, value, "unit of the heights");
+  } else if (key.compare(0, sizeof kFactor - 1, kFactor) == 0) {
+    readFactor(key, value, marks, header);
   } else if (key == "z amplitude") {
     stateText(header.unit_z, unitOfAmplitude(value), "unit of the heights");
   } else if (key == "lateral units") {  // Gwyddion's lists: x and y are those of its images
@@ -392,6 +410,10 @@ TextHeader textHeader(const std::vector<TextLine>& heading, char decimal, char o
       mentioned =
           where + "'" + shownPiece(unit) + "' is not understood there; \"# Value units: " + unit + "\" would be";
     }
+  }
+  if (header.factor > 0.0) {  // the unit of the numbers is that before it
+    header.scale = header.factor;
+    header.unit_z = header.unit_of_factor;
   }
   if (header.unit_z.empty() && !mentioned.empty()) header.notes.push_back(mentioned);
   return header;

@@ -18,6 +18,8 @@ struct TextHeader {
   double width = 0.0, height = 0.0;     ///< "Width: 1 µm" [m]; 0 = not stated
   double pitch_x = 0.0, pitch_y = 0.0;  ///< "cellsize", "Scale X" [m]; 0 = not stated
   double scale = 1.0;                   ///< of the numbers, in unit_z
+  double factor = 0.0;                  ///< "height conversion factor (-> m)", before scale and unit_z; 0 = not stated
+  std::string unit_of_factor;           ///< what the factor makes of the numbers, as it is spelt
   std::string unit_z;                   ///< "Value units: nm", as it is spelt; empty = not stated
   double unit_of_points = 0.0;          ///< of x and y in a heading "x [nm] y [nm] z [nm]" [m]; 0 = not stated
   std::size_t cols = 0, rows = 0;       ///< 0 = not stated

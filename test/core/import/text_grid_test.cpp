@@ -97,6 +97,46 @@ TEST(TextGrid, HoldsTheSizesOfTheseHeadingsAgainstTheNumbers) {
       mentions(refusal("\"XY Calibration\",\"7\",\"um\"\n\"Horizontal\",\"9\"\n" + written(",")), "states 9 x 0"));
 }
 
+TEST(TextGrid, ConvertsNumbersByTheFactorThatTheHeadingStates) {
+  const std::string size = "h=5 w=4\npixel size=2.5e-007 m\n";
+  const std::string factor = "height conversion factor (-> m)=6.25e-008\n";
+  const FileChannel channel = parseTextGrid(size + "data unit=rad\n" + factor + written(" "));
+  expectNumbers(channel, 6.25e-8);
+  EXPECT_EQ(channel.unit_z, "m");
+  EXPECT_DOUBLE_EQ(channel.width, 4 * 2.5e-7);
+  EXPECT_DOUBLE_EQ(channel.height, 5 * 2.5e-7);
+  EXPECT_TRUE(channel.notes.empty());
+  expectNumbers(parseTextGrid(size + "data unit=rad\nheight conversion factor (-> um)=0.5\n" + written(" ")), 0.5e-6);
+  expectNumbers(parseTextGrid(size + "data unit=nm\n" + written(" ")), 1e-9);
+  EXPECT_EQ(parseTextGrid(size + "data unit=rad\n" + written(" ")).unit_z, "rad");  // the choice of a channel refuses it
+  for (const std::string wrong : {"0", "-1.5", "six", "nan"}) {
+    const std::string text = size + "height conversion factor (-> m)=" + wrong + "\n" + written(" ");
+    EXPECT_TRUE(mentions(refusal(text), "line 3: the height conversion factor '" + wrong + "' is not a number > 0"));
+  }
+  EXPECT_TRUE(mentions(refusal("height conversion factor (-> V)=2.5\n" + written(" ")), "'v' is not a unit of length"));
+  EXPECT_TRUE(mentions(refusal(factor + "height conversion factor (-> m)=2.5\n" + written(" ")), "factor twice"));
+}
+
+TEST(TextGrid, SaysOfProfilesThatTheyAreNone) {
+  std::string two = "X_(microns),y1\n";
+  std::string indexed = "index,x in um,y in um\n";
+  std::string stylus = "Scan Parameters\nStylus,Radius: 2.5 um\nLateral um,Raw Micrometer,\n";
+  std::string three = "a,b,c\n";
+  for (int i = 0; i < 12; ++i) {
+    const std::string x = std::to_string(0.25 * i);
+    const std::string z = std::to_string(std::sin(i));
+    two += x + "," + z + "\n";
+    indexed += std::to_string(i) + "," + x + "," + z + "\n";
+    stylus += x + "," + z + ",,\n";
+    three += z + "," + std::to_string(std::cos(3.0 * i)) + "," + std::to_string(std::cos(5.0 * i)) + "\n";
+  }
+  const std::string advice = " columns of 12 lines are a profile, not a surface: export a scan of an area";
+  EXPECT_TRUE(mentions(refusal(two), "2" + advice));
+  EXPECT_TRUE(mentions(refusal(indexed), "3" + advice));
+  EXPECT_TRUE(mentions(refusal(stylus), "4" + advice));
+  EXPECT_TRUE(mentions(refusal(three), "line 1: 'a' is not a number, column 1, and begins no known heading"));
+}
+
 TEST(TextGrid, EveryWordForNoNumberIsOne) {
   for (const std::string word : {"NA", "N/A", "null", "---", "BAD", "No Data", "#N/A", "nan", "-inf"}) {
     for (const std::string separator : {",", ";", "\t"}) {
