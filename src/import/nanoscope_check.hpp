@@ -13,9 +13,10 @@ namespace mems_stiction {
 
 /// What a NanoScope header states beside the images.
 struct NanoscopeStatements {
-  ScanIdentity identity;           ///< who measured it, when and with what
-  double reach = 0.0;              ///< what the piezo can move in z [m]: no height spans more; 0 = not stated
-  std::vector<std::string> notes;  ///< what the user should know, a line each: images of another size than that of the scan
+  ScanIdentity identity;  ///< who measured it, when and with what
+  double reach = 0.0;     ///< what the piezo can move in z [m]: no height spans more; 0 = not stated
+  std::vector<std::string>
+      notes;  ///< what the user should know, a line each: images of another size than that of the scan
 };
 
 /// Nothing for other files.

@@ -111,7 +111,9 @@ file["words"] = numpy.array([[b"a", b"b"], [b"c", b"d"]])
     openScanFile(several, {}, options);
     FAIL();
   } catch (const FileError& error) {
-    EXPECT_NE(std::string(error.what()).find("its arrays are 'first' (5 x 4), 'group/second' (2 x 3); write"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("its arrays are 'first' (5 x 4), 'group/second' (2 x 3); write"),
+              std::string::npos)
+        << error.what();
   }
   const std::string damaged = folder_.write("damaged.h5", "\x89HDF\r\n\x1a\n");
   const Hdf5Channels read = channelsByH5py(damaged, 60.0);
