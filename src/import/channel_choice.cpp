@@ -182,19 +182,19 @@ std::size_t chooseHeightChannel(const std::vector<FileChannel>& channels, const 
     }
     throw FileError("there is no channel '" + wanted + "'; there are: " + list(channels));
   }
-  std::vector<Rank> ranks;
-  ranks.reserve(channels.size());
-  for (const FileChannel& channel : channels) {
-    ranks.emplace_back(channels.size() > 1 && isSteep(channel), likelihood(channel), isBackward(channel));
-  }
   std::size_t best = channels.size();
   std::size_t equals = 0;
+  Rank rank_of_best;
   for (std::size_t i = 0; i < channels.size(); ++i) {
-    if (!isLength(channels[i]) || !isImage(channels[i]) || std::get<Likelihood>(ranks[i]) == kOtherSignal) continue;
-    if (best == channels.size() || ranks[i] < ranks[best]) {
+    const FileChannel& channel = channels[i];
+    const Likelihood kind = likelihood(channel);
+    if (!isLength(channel) || !isImage(channel) || kind == kOtherSignal) continue;
+    const Rank rank(channels.size() > 1 && isSteep(channel), kind, isBackward(channel));
+    if (best == channels.size() || rank < rank_of_best) {
       best = i;
+      rank_of_best = rank;
       equals = 1;
-    } else if (ranks[i] == ranks[best]) {
+    } else if (rank == rank_of_best) {
       ++equals;
     }
   }

@@ -105,11 +105,7 @@ bool isNanoscope(const std::string& bytes) {
   return bytes.compare(0, 11, "\\*File list") == 0 || bytes.compare(0, 17, "\\*Force file list") == 0;
 }
 
-}  // namespace
-
-void checkNanoscope(const std::string& bytes) {
-  if (!isNanoscope(bytes)) return;
-  const std::vector<List> lists = listsOf(bytes);
+void checkParts(const std::vector<List>& lists, std::size_t size) {
   const std::string version = lists.front().lines.value("Version");
   const std::uint64_t bytes_each = std::strtoull(version.c_str(), nullptr, 16) >= kWideVersion ? 4 : 2;
   std::vector<std::pair<std::uint64_t, std::uint64_t>> parts;
@@ -128,13 +124,12 @@ void checkNanoscope(const std::string& bytes) {
                       " begin inside of those before, which end at " + std::to_string(parts[i - 1].second));
     }
   }
-  demandLength("NanoScope", bytes.size(), parts.back().second);
+  demandLength("NanoScope", size, parts.back().second);
 }
 
-ScanIdentity nanoscopeIdentity(const std::string& bytes) {
-  if (!isNanoscope(bytes)) return {};
+ScanIdentity identityOf(const std::vector<List>& lists) {
   FileStatements statements;
-  for (const List& list : listsOf(bytes)) {
+  for (const List& list : lists) {
     for (const char* key : {"Date", "Microscope", "Scanner type", "Head Type", "Serial Number", "Operator"}) {
       if (list.lines.has(key)) statements.emplace(key, list.lines.value(key));
     }
@@ -142,9 +137,7 @@ ScanIdentity nanoscopeIdentity(const std::string& bytes) {
   return identityFrom(statements);
 }
 
-std::optional<double> nanoscopeReach(const std::string& bytes) {
-  if (!isNanoscope(bytes)) return std::nullopt;
-  const std::vector<List> lists = listsOf(bytes);
+double reachOf(const std::vector<List>& lists) {
   std::string limit;
   for (const List& list : lists) {
     for (const char* key : {"@1:Z limit", "@1:ZLimit"}) {
@@ -153,19 +146,18 @@ std::optional<double> nanoscopeReach(const std::string& bytes) {
   }
   const std::size_t begin = limit.find('[');
   const std::size_t end = limit.find(']');
-  if (begin == std::string::npos || end == std::string::npos || end < begin) return std::nullopt;
+  if (begin == std::string::npos || end == std::string::npos || end < begin) return 0.0;
   const std::string scale = "@" + limit.substr(begin + 1, end - begin - 1);
   for (const List& list : lists) {
     const double reach = volts(limit) * metresPerVolt(list.lines.value(scale));
     if (reach > 0.0) return reach;
   }
-  return std::nullopt;
+  return 0.0;
 }
 
-std::vector<std::string> nanoscopeNotes(const std::string& bytes) {
-  if (!isNanoscope(bytes)) return {};
+std::vector<std::string> notesOf(const std::vector<List>& lists) {
   Size whole;
-  for (const List& list : listsOf(bytes)) {
+  for (const List& list : lists) {
     const Size size = scanSize(list.lines);
     if (!isImage(list) && endsWith(list.name, "scan list") && size.x > 0.0) whole = size;
     if (!isImage(list) || !(whole.x > 0.0) || !(size.x > 0.0) || !differ(size.x, whole.x)) continue;
@@ -173,6 +165,15 @@ std::vector<std::string> nanoscopeNotes(const std::string& bytes) {
             " m for its image, which is taken"};
   }
   return {};
+}
+
+}  // namespace
+
+NanoscopeStatements checkedNanoscope(const std::string& bytes) {
+  if (!isNanoscope(bytes)) return {};
+  const std::vector<List> lists = listsOf(bytes);
+  checkParts(lists, bytes.size());
+  return {identityOf(lists), reachOf(lists), notesOf(lists)};
 }
 
 }  // namespace mems_stiction

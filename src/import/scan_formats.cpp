@@ -98,17 +98,14 @@ Channels readRewritten(const std::string& path, const std::string& bytes, const 
 /// What gwyddion reads, after the file's own statements have been held against each other and against its bytes.
 Channels readByGwyddion(const std::string& path, const std::string& bytes, const ImportOptions& options) {
   if (beginsWithOneOf(bytes, {"PK\3\4"})) checkX3pFolder(checkZip(bytes));
-  checkNanoscope(bytes);
+  const NanoscopeStatements stated = checkedNanoscope(bytes);
   if (const auto whole = withWholeCreatecHeader(bytes)) return readRewritten(path, *whole, options);
   checkStatedLength(bytes);
   Channels channels = channelsByGwyddion(path, bytes, options);
-  const std::vector<std::string> notes = nanoscopeNotes(bytes);
-  const ScanIdentity identity = nanoscopeIdentity(bytes);
-  const double reach = nanoscopeReach(bytes).value_or(0.0);
   for (FileChannel& channel : channels) {
-    channel.reach = reach;
-    channel.identity = completed(identity, channel.identity);
-    channel.notes.insert(channel.notes.end(), notes.begin(), notes.end());
+    channel.reach = stated.reach;
+    channel.identity = completed(stated.identity, channel.identity);
+    channel.notes.insert(channel.notes.end(), stated.notes.begin(), stated.notes.end());
   }
   return channels;
 }

@@ -308,7 +308,8 @@ bool readEntry(const std::string& key, const std::string& value, const Marks& ma
     readLength(value, "width", marks, header.width, header);
   } else if (isOneOf(key, {"height", "y-length", "y amplitude", "höhe", "hauteur", "altura", "altezza"})) {
     readLength(value, "height", marks, header.height, header);
-  } else if (isOneOf(key, {"value units", "value unit", "data unit", "z-unit", "zunit", "unit data", "einheiten", "unités"})) {
+  } else if (isOneOf(key, {"value units", "value unit", "data unit", "z-unit", "zunit", "unit data", "einheiten",
+                           "unités"})) {
     stateText(header.unit_z, value, "unit of the heights");
   } else if (key.compare(0, sizeof kFactor - 1, kFactor) == 0) {
     readFactor(key, value, marks, header);

@@ -70,10 +70,10 @@ TEST(FileStatements, OfNanoscopeAreThoseOfItsFirstList) {
   const std::string header =
       "\\*File list\r\n\\Date: 01:33:51 PM Mon Dec 15 2014\r\n\\*Equipment list\r\n\\Microscope: Dimension V\r\n"
       "\\Serial Number: Hybrid 306  \r\n\\*Ciao image list\r\n\\Date: 01:33:51 PM Mon Dec 15 2015\r\n\x1a";
-  const ScanIdentity identity = nanoscopeIdentity(header);
+  const ScanIdentity identity = checkedNanoscope(header).identity;
   EXPECT_EQ(identity.acquisition_time, "2014-12-15T13:33:51");
   EXPECT_EQ(identity.instrument, "Dimension V, serial number Hybrid 306");
-  EXPECT_EQ(nanoscopeIdentity("\\Date: 01:33:51 PM Mon Dec 15 2014").acquisition_time, "") << "another file";
+  EXPECT_EQ(checkedNanoscope("\\Date: 01:33:51 PM Mon Dec 15 2014").identity.acquisition_time, "") << "another file";
 }
 
 }  // namespace

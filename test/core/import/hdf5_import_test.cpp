@@ -97,6 +97,24 @@ for axis, length in (("x", 6.0), ("y", 2.0)):
 TEST_F(Hdf5, OtherLayoutsAndDamagedFilesHaveNoChannels) {
   EXPECT_TRUE(
       channelsByH5py(writtenBy(folder_, "other.h5", "file['force'] = numpy.ones((4, 4))\n"), 60.0).channels.empty());
+  const std::string several = writtenBy(folder_, "several.h5", R"(
+file["first"] = numpy.ones((4, 5))
+file["group/second"] = numpy.ones((3, 2), dtype="i2")
+file["curve"] = numpy.ones(7)
+file["cube"] = numpy.ones((2, 2, 2))
+file["words"] = numpy.array([[b"a", b"b"], [b"c", b"d"]])
+)");
+  EXPECT_EQ(channelsByH5py(several, 60.0).arrays, "'first' (5 x 4), 'group/second' (2 x 3)");
+  ScanFileOptions options;
+  options.import.program = "false";
+  try {
+    openScanFile(several, {}, options);
+    FAIL();
+  } catch (const FileError& error) {
+    EXPECT_NE(std::string(error.what()).find("its arrays are 'first' (5 x 4), 'group/second' (2 x 3); write"),
+              std::string::npos)
+        << error.what();
+  }
   const std::string damaged = folder_.write("damaged.h5", "\x89HDF\r\n\x1a\n");
   const Hdf5Channels read = channelsByH5py(damaged, 60.0);
   EXPECT_TRUE(read.channels.empty());

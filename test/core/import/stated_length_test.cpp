@@ -118,51 +118,51 @@ TEST(StatedLength, SurfstandTextHasTheHeightsThatItStates) {
 // ---- NanoScope
 
 TEST(Nanoscope, ASoundFileIsTaken) {
-  EXPECT_EQ(complaint(checkNanoscope, nanoscope({{}, {}})), "");
-  EXPECT_TRUE(nanoscopeNotes(nanoscope({{}, {}})).empty());
+  EXPECT_EQ(complaint(checkedNanoscope, nanoscope({{}, {}})), "");
+  EXPECT_TRUE(checkedNanoscope(nanoscope({{}, {}})).notes.empty());
 }
 
 TEST(Nanoscope, AFileOfAnotherLengthIsRefused) {
   const std::string bytes = nanoscope({{}, {}});
-  EXPECT_TRUE(mentions(complaint(checkNanoscope, bytes + "x"), "has 4353 bytes, its header states 4352"));
-  EXPECT_TRUE(mentions(complaint(checkNanoscope, bytes.substr(0, 4300)), "cut off"));
-  EXPECT_NE(complaint(checkNanoscope, everywhere(bytes, "\n", "\r\n")), "");
-  EXPECT_NE(complaint(checkNanoscope, everywhere(bytes, "\r\n", "\n")), "");
+  EXPECT_TRUE(mentions(complaint(checkedNanoscope, bytes + "x"), "has 4353 bytes, its header states 4352"));
+  EXPECT_TRUE(mentions(complaint(checkedNanoscope, bytes.substr(0, 4300)), "cut off"));
+  EXPECT_NE(complaint(checkedNanoscope, everywhere(bytes, "\n", "\r\n")), "");
+  EXPECT_NE(complaint(checkedNanoscope, everywhere(bytes, "\r\n", "\n")), "");
 }
 
 TEST(Nanoscope, EachImageIsAsLongAsItsSamplesAndLines) {
   for (const std::string key : {"Samps/line: 8\r\n\\Number", "Number of lines: 8"}) {
     const std::string other = replaced(nanoscope({{}, {}}), key, everywhere(key, "8", "4"));
-    EXPECT_TRUE(mentions(complaint(checkNanoscope, other), "contradicts itself")) << key;
+    EXPECT_TRUE(mentions(complaint(checkedNanoscope, other), "contradicts itself")) << key;
   }
   NanoscopeImage wide;
   wide.data += "ab";
-  EXPECT_TRUE(mentions(complaint(checkNanoscope, nanoscope({{}, wide})), "are not the 130 bytes"));
+  EXPECT_TRUE(mentions(complaint(checkedNanoscope, nanoscope({{}, wide})), "are not the 130 bytes"));
 }
 
 TEST(Nanoscope, PixelsAreSquareWhereTheHeaderSaysSo) {
   NanoscopeImage image;
   image.cols = 16;
   image.rows = 4;
-  EXPECT_TRUE(mentions(complaint(checkNanoscope, nanoscope({image})), "aspect ratio 1:1"));
+  EXPECT_TRUE(mentions(complaint(checkedNanoscope, nanoscope({image})), "aspect ratio 1:1"));
   image.size = "1 0.25 ~m";
-  EXPECT_EQ(complaint(checkNanoscope, nanoscope({image})), "");
+  EXPECT_EQ(complaint(checkedNanoscope, nanoscope({image})), "");
 }
 
 TEST(Nanoscope, ImagesDoNotOverlap) {
   const std::string bytes = replaced(nanoscope({{}, {}}), "Data offset: 4224", "Data offset: 4222");
-  EXPECT_TRUE(mentions(complaint(checkNanoscope, bytes), "begin inside"));
+  EXPECT_TRUE(mentions(complaint(checkedNanoscope, bytes), "begin inside"));
 }
 
 TEST(Nanoscope, AnotherSizeOfTheScanIsSaid) {
-  const auto notes = nanoscopeNotes(nanoscope({{}}, "2000 nm"));
+  const auto notes = checkedNanoscope(nanoscope({{}}, "2000 nm")).notes;
   ASSERT_EQ(notes.size(), 1u);
   EXPECT_TRUE(mentions(notes[0], "scan size"));
 }
 
 TEST(Nanoscope, ThePiezoReachesItsVoltageTimesItsSensitivity) {
-  EXPECT_NEAR(nanoscopeReach(nanoscope({{}})).value_or(0.0), 1e-6, 1e-15);
-  EXPECT_FALSE(nanoscopeReach("another file"));
+  EXPECT_NEAR(checkedNanoscope(nanoscope({{}})).reach, 1e-6, 1e-15);
+  EXPECT_EQ(checkedNanoscope("another file").reach, 0.0);
 }
 
 // ---- any format

@@ -108,7 +108,8 @@ TEST(TextGrid, ConvertsNumbersByTheFactorThatTheHeadingStates) {
   EXPECT_TRUE(channel.notes.empty());
   expectNumbers(parseTextGrid(size + "data unit=rad\nheight conversion factor (-> um)=0.5\n" + written(" ")), 0.5e-6);
   expectNumbers(parseTextGrid(size + "data unit=nm\n" + written(" ")), 1e-9);
-  EXPECT_EQ(parseTextGrid(size + "data unit=rad\n" + written(" ")).unit_z, "rad");  // the choice of a channel refuses it
+  EXPECT_EQ(parseTextGrid(size + "data unit=rad\n" + written(" ")).unit_z,
+            "rad");  // the choice of a channel refuses it
   for (const std::string wrong : {"0", "-1.5", "six", "nan"}) {
     const std::string text = size + "height conversion factor (-> m)=" + wrong + "\n" + written(" ");
     EXPECT_TRUE(mentions(refusal(text), "line 3: the height conversion factor '" + wrong + "' is not a number > 0"));
