@@ -22,7 +22,7 @@ class Wafers:
         self.version = 0
         self._wafers = {}  # (lot, wafer) -> {place: row}; what was heard of last comes last in both
         self._lost_wafers, self._lost_places, self._nameless = 0, 0, 0
-        self._kept = None
+        self._told = None
 
     def add(self, stamp, prediction):
         """stamp: of the scan [ns]. One that names no place, wafer or part is counted alone."""
@@ -58,11 +58,11 @@ class Wafers:
 
     def _change(self):
         self.version += 1
-        self._kept = None
+        self._told = None
 
-    def kept(self):
+    def rows_and_counts(self):
         """What page_wafers.told takes; the same object until something changes."""
-        if self._kept is None:
+        if self._told is None:
             rows = tuple(row for places in self._wafers.values() for row in places.values())
-            self._kept = (rows, {"version": self.version, "wafers": self._lost_wafers, "places": self._lost_places, "nameless": self._nameless})
-        return self._kept
+            self._told = (rows, {"version": self.version, "wafers": self._lost_wafers, "places": self._lost_places, "nameless": self._nameless})
+        return self._told

@@ -168,7 +168,7 @@ class PageState:
     def wafers(self):
         """What page_wafers.told takes; the same object until a place changes."""
         with self._lock:
-            return self._wafers.kept()
+            return self._wafers.rows_and_counts()
 
     def stale_after(self):
         """For how long nothing may come before what is shown is old [s]: three times as long as it usually takes."""

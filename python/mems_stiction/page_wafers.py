@@ -17,14 +17,14 @@ WHAT_TO_STATE = ("State site_x and site_y [m] with wafer_id, and lot_id and part
                  "file (import_scan writes one).")
 
 
-def told(kept):
+def told(rows_and_counts):
     """What the page shows, as JSON can have it; numbers are SI.
 
     figures: what places may be coloured by; wafers, heard of last first: name, missing sites where others have one, and what is said of bad places by figure;
     parts: name, part, serial, and of each figure median and middle half in words; places: wafer and part by their numbers (None: none), site, values
     (None: missing or infinite) and texts (None: missing) by figure, and by which they are bad; notes: what is not shown, and what to state.
     """
-    rows, counts = kept
+    rows, counts = rows_and_counts
     shown = {"version": counts["version"], "figures": [], "wafers": [], "parts": [], "places": [], "notes": []}
     try:
         lots = lots_of(rows)
@@ -123,7 +123,7 @@ def _notes(rows, counts):
     settings = {row["settings_hash"] for row in rows if row["settings_hash"]}
     if len(settings) > 1:
         notes.append("The places were predicted with %d different settings: what these change is taken for a difference of the places." % len(settings))
-    for name, kept in (("wafers", "the %d wafers heard of last are" % MOST_WAFERS), ("places", "the %d newest places of each wafer are" % MOST_PLACES)):
+    for name, left in (("wafers", "the %d wafers heard of last are" % MOST_WAFERS), ("places", "the %d newest places of each wafer are" % MOST_PLACES)):
         if counts[name]:
-            notes.append("Dropped: %d %s; %s kept." % (counts[name], name if counts[name] > 1 else name[:-1], kept))
+            notes.append("Dropped: %d %s; %s kept." % (counts[name], name if counts[name] > 1 else name[:-1], left))
     return [sentence(note) for note in notes]
