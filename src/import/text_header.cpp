@@ -292,8 +292,8 @@ void readFactor(const std::string& key, const std::string& value, const Marks& m
   const std::string unit = trimmed(key.substr(sizeof kFactor - 1), " \t)");
   if (!lengthUnit(unit)) throw FileError("'" + shownPiece(unit) + "' is not a unit of length");
   const std::size_t end = markedNumberEnd(value);
-  const std::string number = value.substr(0, end);
-  const double factor = plainNumber(withPlainMarks(number, decimalMarkOf(number, marks)) + value.substr(end));
+  double factor = 0.0;
+  if (end > 0 && end == value.size()) factor = plainNumber(withPlainMarks(value, decimalMarkOf(value, marks)));
   if (!(factor > 0.0) || !std::isfinite(factor)) {
     throw FileError("the height conversion factor '" + shownPiece(value) + "' is not a number > 0");
   }
