@@ -14,6 +14,9 @@
 namespace mems_stiction {
 namespace {
 
+/// Pressure up to which the law is steep at first, of 8 Gamma/(3 z0), and later, of the largest there is.
+constexpr double kFirstWall = 10.0;
+constexpr double kWallReserve = 2.0;
 /// Halvings of a Newton step before the search gives up.
 constexpr int kMostHalvings = 20;
 /// Share of the decrease that the slope promises which a step must give (Armijo).
@@ -73,6 +76,8 @@ ContactMinimiser::ContactMinimiser(const HalfSpaceGrid& grid, const TractionLaw&
                                    LargePageVector<double> relief, const MinimiserSettings& settings)
     : ContactMinimiser(grid, law, response, std::move(relief), {}, settings) {
   windows_ = std::make_unique<ContactWindows>(grid, law, response, settings);
+  wall_pressure_ = kFirstWall * law.stress();
+  setLaw(law);
 }
 
 void ContactMinimiser::takeRelief(LargePageVector<double> relief) {
@@ -99,6 +104,7 @@ ContactMinimiser::ContactMinimiser(const HalfSpaceGrid& grid, const TractionLaw&
                                    const MinimiserSettings& settings)
     : grid_(grid),
       law_(law),
+      wall_(law),
       settings_(settings),
       stiffness_(grid, response, settings.threads, spectrum_, settings.cancel),
       exact_stiffness_(grid, response, settings.threads, spectrum_, settings.cancel),
@@ -158,7 +164,17 @@ void ContactMinimiser::takeBackForPart() {
 
 void ContactMinimiser::setLaw(const TractionLaw& law) {
   law_ = law;
-  if (windows_ != nullptr) windows_->setLaw(law);
+  wall_ = law_.steepUpTo(wall_pressure_);
+  if (windows_ != nullptr) windows_->setLaw(wall_);
+}
+
+bool ContactMinimiser::isBeyondWall(const Evaluation& now) const {
+  return wall_.closestGap() > law_.closestGap() && now.lowest_gap < wall_.closestGap();
+}
+
+void ContactMinimiser::raiseWall(const Evaluation& now) {
+  wall_pressure_ = -kWallReserve * wall_.at(now.lowest_gap).traction;
+  setLaw(TractionLaw(law_));
 }
 
 void ContactMinimiser::goTo(Place&& place) {
@@ -242,7 +258,8 @@ evaluation_rows::Sums ContactMinimiser::evaluateRow(int row, double height, cons
   const std::size_t in_frame = static_cast<std::size_t>(row) * static_cast<std::size_t>(grid_.frame_cols);
   evaluation_rows::RowArrays arrays = arraysFrom(0);
   if (!fixed_.empty()) arrays.fixed = fixed_.data() + in_frame;
-  auto sums = evaluation_rows::evaluate(law_, grid_.frame_cols, height, relief_.data() + in_frame, step.length, arrays);
+  auto sums =
+      evaluation_rows::evaluate(wall_, grid_.frame_cols, height, relief_.data() + in_frame, step.length, arrays);
   if (grid_.cols > grid_.frame_cols) {
     sums += evaluation_rows::evaluateFree(grid_.cols - grid_.frame_cols, step.length, arraysFrom(grid_.frame_cols));
   }
@@ -367,6 +384,11 @@ ContactState ContactMinimiser::solve(double height, const Search& search) {
   }
   int failures = 0;  // of windows
   while (!isCancelled()) {
+    if (now.largest_residual <= allowed && isBeyondWall(now)) {
+      raiseWall(now);
+      now = evaluate(height);
+      continue;
+    }
     if (now.largest_residual <= allowed) {
       if (staleness_ <= kStaleShare * allowed) {
         state.is_converged = true;

@@ -13,8 +13,13 @@
 /// afresh before Newton's method takes over, after it, and when the steps since then may have left a tenth of the residual
 /// that an equilibrium may have.
 /// Starting from the state before, it goes downhill into the nearest minimum: a stable state.
+///
+/// Repulsion rises like (z0/g)^9, and Newton's steps run into that wall. So beyond twice the pressure that was there so far
+/// it rises on its tangent, and no equilibrium counts in which something is pressed harder: then the wall grows, and the
+/// search goes on.
 
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -135,6 +140,10 @@ class ContactMinimiser {
 
  private:
   struct Evaluation;
+  /// Whether something is pressed harder than the wall knows.
+  bool isBeyondWall(const Evaluation& now) const;
+  /// The wall reaches up to twice the pressure there is.
+  void raiseWall(const Evaluation& now);
   /// What follows from the relief.
   void takeRelief(LargePageVector<double> relief);
   /// A step of one row.
@@ -169,6 +178,9 @@ class ContactMinimiser {
 
   HalfSpaceGrid grid_;
   TractionLaw law_;
+  /// Up to which the law is followed on the way to an equilibrium [Pa]; a window has the frame's wall for its law.
+  double wall_pressure_ = std::numeric_limits<double>::infinity();
+  TractionLaw wall_;  ///< the law that is
   MinimiserSettings settings_;
   SpectrumMemory spectrum_;
   StiffnessOperator<float> stiffness_;

@@ -13,6 +13,9 @@ namespace {
 /// step.
 constexpr double kSmallestStep = 0.25;
 constexpr double kFinestStep = 0.03125;
+/// Smallest step before a jump by which the largest force ends, of the usual one: from a stiff rest the force may rise by a
+/// tenth over the finest one.
+constexpr double kSummitStep = 0.001;
 constexpr double kLargestStep = 8.0;
 /// Distance of the curve's points, those between solved states included, of the usual step.
 constexpr double kPointDistance = 0.25;
@@ -24,9 +27,13 @@ constexpr double kWantedSag = 0.01;
 constexpr double kLargestSag = 0.03;
 /// A change of slope from one step to the next, over the step and of the force, counts as a sag of this share:
 /// a step over a jump may by chance have the mean of its ends, but not the slope with which it began. The second where
-/// the branch was on its way to the largest force of all.
+/// the branch was on its way to the largest force of all, the third where it is near.
 constexpr double kKinkShare = 0.1;
-constexpr double kSummitKinkShare = 0.5;
+constexpr double kRisingKinkShare = 0.5;
+constexpr double kSummitKinkShare = 1.5;
+/// Near is a step that begins with more than this share of the largest force; its sag counts so many times.
+constexpr double kSummitForce = 0.9;
+constexpr double kSummitSagShare = 2.0;
 /// The smallest step that misses more than this goes over a jump.
 constexpr double kJumpSag = 0.06;
 /// Bodies are pressed heavily where they carry more than this many times the largest attraction so far, as a jump of as
@@ -35,8 +42,15 @@ constexpr double kHeavyLoad = 1.0 / kJumpSag;
 /// Sags there, wanted and largest: that of a force which grows by the factor of 5.5.
 constexpr double kWantedHeavySag = 0.3;
 constexpr double kLargestHeavySag = 0.6;
+/// By which factor the force is to grow over a step there, where it can be foreseen.
+constexpr double kHeavyGrowth = 4.5;
+/// A force that is farther than this factor is not aimed at: the step before leads to this share of it.
+constexpr double kAimedGrowth = 1.3;
+constexpr double kShareBefore = 0.93;
 /// The largest step there, of the usual one.
 constexpr double kLargestHeavyStep = 128.0;
+/// The first step from there where the stiffness is all that is asked for, of the usual one.
+constexpr double kStiffnessStep = 0.125;
 /// What a cell may move in one Newton step there, of z0: attraction hardly shapes the way, and the line search bounds it.
 constexpr double kLongestHeavyMove = 30.0;
 /// Residuals there of states that are only on the way to others, of the tolerance.
@@ -67,45 +81,9 @@ constexpr double kMostClosing = 0.5;
 constexpr double kRestForce = 1e-3;
 /// A state beyond rest counts as rest when it is no farther from the last one than this, of the usual step.
 constexpr double kRestStep = 1e-5;
-constexpr int kCrossingHalvings = 30;
 /// Height at which the approach begins, of z0, at least, and over that at which a flat of the frame's size would jump.
 constexpr double kStartHeight = 4.0;
 constexpr double kStartMargin = 1.25;
-
-/// Share of a step over which the bodies attract each other.
-double attractingShare(const StepParabola& parabola) {
-  if (parabola.begin > 0.0) return parabola.end > 0.0 ? 1.0 : parabola.crossing(0.0, 0.0, 1.0);
-  return parabola.end > 0.0 ? 1.0 - parabola.crossing(0.0, 1.0, 0.0) : 0.0;
-}
-
-/// The same of pressed bodies, whose force grows like a power of the height: its logarithm is a parabola.
-class PressedStep {
- public:
-  explicit PressedStep(const StepParabola& parabola)
-      : begin_(std::log(-parabola.begin)), rise_(std::log(-parabola.end) - begin_) {
-    double low = -kSteepest;
-    double high = kSteepest;
-    for (int halvings = 0; halvings < kCrossingHalvings; ++halvings) {
-      bend_ = 0.5 * (low + high);
-      (workTo(1.0) < parabola.mean ? high : low) = bend_;  // the more bend, the more pressure
-    }
-  }
-
-  double at(double x) const { return -std::exp(begin_ + x * (rise_ + (1.0 - x) * bend_)); }
-  /// By Simpson's rule.
-  double workTo(double x) const {
-    double sum = at(0.0) + at(x);
-    for (int i = 1; i < kPieces; ++i) sum += (i % 2 == 0 ? 2.0 : 4.0) * at(x * i / kPieces);
-    return sum * x / (3.0 * kPieces);
-  }
-
- private:
-  static constexpr double kSteepest = 4.0;
-  static constexpr int kPieces = 16;
-  double begin_;
-  double rise_;
-  double bend_ = 0.0;
-};
 
 }  // namespace
 
@@ -115,17 +93,6 @@ void ForceCurve::add(const ForcePoint& point) {
     largest_height = point.height;
   }
   points.push_back(point);
-}
-
-StepParabola::StepParabola(const ForcePoint& from, const ForcePoint& to)
-    : begin(from.force), end(to.force), mean((to.energy - from.energy) / (to.height - from.height)) {}
-
-double StepParabola::crossing(double force, double from, double to) const {
-  for (int halvings = 0; halvings < kCrossingHalvings; ++halvings) {
-    const double middle = 0.5 * (from + to);
-    (at(middle) > force ? from : to) = middle;
-  }
-  return 0.5 * (from + to);
 }
 
 ContactPath::ContactPath(ContactMinimiser& minimiser, const PathSettings& settings)
@@ -207,7 +174,7 @@ double ContactPath::continued(double move) const {
 void ContactPath::accept(const ForcePoint& next, bool is_jump, ForceCurve& curve) {
   const double move = next.height - present_.height;
   const StepParabola parabola(present_, next);
-  const double attracting = attractingShare(parabola);
+  const double attracting = parabola.attractingShare();
   if (is_jump) {
     ++curve.jumps;
     curve.work += 0.5 * (parabola.begin + parabola.end) * move;
@@ -250,10 +217,26 @@ void ContactPath::accept(const ForcePoint& next, bool is_jump, ForceCurve& curve
   if (settings_.on_state) settings_.on_state(next);
 }
 
+double ContactPath::crossingOf(const StepParabola& parabola, double force, double from, double to) const {
+  if (isHeavy(present_) && PressedStep::fits(parabola) && force < 0.0) {
+    return crossing(PressedStep(parabola), force, from, to);
+  }
+  return crossing(parabola, force, from, to);
+}
+
+bool ContactPath::mayExceed(double direction, double step, double force) const {
+  return direction > 0.0 && continued(step) > (1.0 + kNegligibleMiss) * force;
+}
+
+double ContactPath::forceWithin(double force) const {
+  if (!isHeavy(present_) || force > kAimedGrowth * present_.force) return force;
+  return std::max(kShareBefore * force, kHeavyGrowth * present_.force);
+}
+
 double ContactPath::stepTo(double force) const {
-  const double tried = step_ / std::abs(last_move_);
-  if (last_move_ == 0.0 || !(last_parabola_.at(1.0 + tried) < force)) return step_;
-  return (last_parabola_.crossing(force, 1.0, 1.0 + tried) - 1.0) * std::abs(last_move_);
+  if (last_move_ == 0.0) return step_;
+  const double farthest = 1.0 + step_ / std::abs(last_move_);
+  return (crossingOf(last_parabola_, force, 1.0, farthest) - 1.0) * std::abs(last_move_);
 }
 
 double ContactPath::gapLeft() const {
@@ -285,7 +268,7 @@ void ContactPath::planStep() {
 void ContactPath::takeBackAndAim(const ForcePoint& missed, double force) {
   minimiser_.takeBackForPart();
   changing_move_ = missed.height - present_.height;
-  const double share = StepParabola(present_, missed).crossing(force, 0.0, kLongestAim);
+  const double share = crossingOf(StepParabola(present_, missed), force, 0.0, kLongestAim);
   step_ = std::abs(changing_move_) * std::max(share, kShortestAim);
 }
 
@@ -297,12 +280,16 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
   if (direction > 0.0 && curve.points.size() > 1) planStep();
   while (true) {
     if (states_ >= settings_.max_states) return PathStatus::kTooManyStates;
-    const double wanted = is_aimed ? step_ : stepTo(least_force);
-    is_aimed = is_aimed || wanted < step_;
+    const double next_force = forceWithin(least_force);
+    const double wanted = is_aimed ? step_ : stepTo(next_force);
+    is_aimed = is_aimed || (wanted < step_ && next_force == least_force);
     double step = std::min(std::max(wanted, kRestStep * usual), farthest);
     if (direction < 0.0) step = std::min(step, closingStep(least_force));
     const double to_jump = is_before_jump_ ? direction * (jump_height_ - present_.height) : 0.0;
-    if (is_before_jump_) step = std::min(step, to_jump <= kStepTolerance * finest_ ? to_jump : 0.5 * to_jump);
+    if (is_before_jump_) {
+      const bool is_near = to_jump <= kStepTolerance * finest_ || !mayExceed(direction, to_jump, curve.largest_force);
+      step = std::min(step, is_near && to_jump <= kStepTolerance * smallest ? to_jump : 0.5 * to_jump);
+    }
     const double move = direction * step;
     ForcePoint next;
     ContactState state;
@@ -326,10 +313,12 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
       continue;
     }
     const double at_most = std::max({curve.largest_force, next.force, 0.0});
-    const bool may_exceed = direction > 0.0 && continued(move) > (1.0 + kNegligibleMiss) * at_most;
-    const double kink = (may_exceed ? kSummitKinkShare : kKinkShare) * kinkOf(next);
+    const bool may_exceed = mayExceed(direction, step, at_most);
+    const bool is_at_summit = direction > 0.0 && settings_.samples_curve && present_.force > kSummitForce * at_most;
+    const double kink_share = is_at_summit ? kSummitKinkShare : may_exceed ? kRisingKinkShare : kKinkShare;
+    const double sag_share = is_at_summit ? kSummitSagShare : 1.0;
     // finer usual steps are to miss less, too
-    const double sag = std::max(sagOf(next), kink) * kUsualStep / settings_.step;
+    const double sag = std::max(sag_share * sagOf(next), kink_share * kinkOf(next)) * kUsualStep / settings_.step;
     const bool is_heavy = isHeavy(present_) && isHeavy(next);
     const bool is_coarse = is_heavy || !settings_.samples_curve;
     const double wanted_sag = is_coarse ? kWantedHeavySag : kWantedSag;
@@ -342,7 +331,8 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
     const bool may_miss = may_exceed || (direction > 0.0 && last_move_ == 0.0);
     // the force of pressed surfaces rises steeply, but a jump is none the less one in steps that are finer
     const bool is_pressed = std::min(present_.force, next.force) < 0.0;
-    const double finest = may_miss || (is_pressed && !is_jump) ? kFinestStep * usual : smallest;
+    const bool is_fine = may_miss || (is_pressed && !is_jump);
+    const double finest = is_jump && may_exceed ? kSummitStep * usual : is_fine ? kFinestStep * usual : smallest;
     if (sag > largest_sag && step > kStepTolerance * finest) {
       minimiser_.takeBack();
       if (is_jump) {
@@ -356,7 +346,7 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
     }
     if (next.force < least_force - kRestForce * std::max(forceScale(), -least_force) && step > kRestStep * usual) {
       minimiser_.takeBack();
-      step_ = step * std::clamp(StepParabola(present_, next).crossing(least_force, 0.0, 1.0), 0.05, 0.95);
+      step_ = step * std::clamp(crossing(StepParabola(present_, next), least_force, 0.0, 1.0), 0.05, 0.95);
       farthest = step;
       is_aimed = true;
       continue;
@@ -438,7 +428,8 @@ PathStatus ContactPath::leaveRest() { return leaveRest(retraction_); }
 
 PathStatus ContactPath::leaveRest(ForceCurve& curve) {
   curve.add(present_);
-  step_ = std::min(settings_.step * minimiser_.law().range(), kLeastClosing * gapLeft());
+  const double share = settings_.samples_curve ? 1.0 : kStiffnessStep;
+  step_ = std::min(share * settings_.step * minimiser_.law().range(), kLeastClosing * gapLeft());
   last_move_ = 0.0;  // the other way
   is_before_jump_ = false;
   const PathStatus status = goOut(curve);

@@ -24,6 +24,7 @@
 #include <vector>
 
 #include "half_space/contact_minimiser.hpp"
+#include "half_space/force_step.hpp"
 #include "mems_stiction/half_space/force_point.hpp"
 
 namespace mems_stiction {
@@ -39,25 +40,6 @@ struct ForceCurve {
   double largest_height = 0.0;   ///< where [m]
   double missed_force = 0.0;     ///< what finer steps may find beyond largest_force [N]
   int jumps = 0;                 ///< steps over which the force cannot be continuous
-};
-
-/// The force over a step: the parabola through both ends that has the mean that the energies give.
-struct StepParabola {
-  StepParabola() = default;
-  StepParabola(const ForcePoint& from, const ForcePoint& to);
-
-  /// @param x 0 at the begin, 1 at the end of the step
-  double at(double x) const { return begin + x * (slope() + x * bend()); }
-  /// Its integral from 0 to x.
-  double workTo(double x) const { return x * (begin + x * (slope() / 2.0 + x * bend() / 3.0)); }
-  /// x between `from`, where it is above `force`, and `to`, where it is below.
-  double crossing(double force, double from, double to) const;
-  double slope() const { return 6.0 * mean - 4.0 * begin - 2.0 * end; }
-  double bend() const { return 3.0 * (begin + end) - 6.0 * mean; }
-
-  double begin = 0.0;  ///< [N]
-  double end = 0.0;    ///< [N]
-  double mean = 0.0;   ///< [N]
 };
 
 enum class PathStatus { kDone, kCancelled, kNotConverged, kLoadNotReached, kTooManyStates };
@@ -126,7 +108,13 @@ class ContactPath {
   void accept(const ForcePoint& next, bool is_jump, ForceCurve& curve);
   /// The largest force of the present branch over a further change of height, if it went on as it came [N].
   double continued(double move) const;
+  /// Whether the present branch, on the way out, may lead over this force within a step.
+  bool mayExceed(double direction, double step, double force) const;
   PathStatus begin(double height);
+  /// Where a step's curve falls below `force`, of the step, between `from`, where it is above, and `to` at most.
+  double crossingOf(const StepParabola& parabola, double force, double from, double to) const;
+  /// `force`, or as much of it as a step of pressed bodies may lead to.
+  double forceWithin(double force) const;
   /// The step to be tried next, but no farther than where the force seems to fall below `force`.
   double stepTo(double force) const;
   /// By how much the mean gap of a periodic frame, which follows the height, may fall at most; infinity with free edges,

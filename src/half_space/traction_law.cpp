@@ -63,6 +63,16 @@ TractionLaw::TractionLaw(const TractionLawOptions& options)
   closest_traction_ = at(closest_gap_).traction;
 }
 
+TractionLaw TractionLaw::steepUpTo(double pressure) const {
+  TractionLaw law(*this);
+  if (flows_ || -closest_traction_ <= pressure) return law;
+  law.closest_gap_ = gapOfPressure(pressure, closest_gap_);
+  const Point closest = at(law.closest_gap_);
+  law.closest_traction_ = closest.traction;
+  law.slope_of_line_ = closest.slope;
+  return law;
+}
+
 double TractionLaw::gapOfPressure(double pressure, double narrow) const {
   // t rises without a turn as far as z0: bisection to the last bit
   double wide = range();

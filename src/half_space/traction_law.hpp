@@ -58,6 +58,10 @@ class TractionLaw {
   /// @param options fit for use: validate() is empty
   explicit TractionLaw(const TractionLawOptions& options);
 
+  /// The same law, but that it repels with more than `pressure`, > 0, on a straight line: where nothing is pressed so hard both
+  /// are one. A law that flows, or whose own line begins before, stays as it is.
+  TractionLaw steepUpTo(double pressure) const;
+
   Point at(double gap) const;
   /// The same of `count` gaps [m]; infinite ones have no traction.
   void atRow(int count, const double* gaps, double* traction, double* slope, double* energy) const;
