@@ -13,8 +13,8 @@ namespace {
 /// step.
 constexpr double kSmallestStep = 0.25;
 constexpr double kFinestStep = 0.03125;
-/// Smallest step before a jump by which the largest force ends, of the usual one: from a stiff rest the force may rise by a
-/// tenth over the finest one.
+/// Smallest step where the branch rises beyond the largest force, of the usual one: from a stiff rest the force may rise by
+/// a tenth over the finest one, and end by a jump.
 constexpr double kSummitStep = 0.001;
 constexpr double kLargestStep = 8.0;
 /// Distance of the curve's points, those between solved states included, of the usual step.
@@ -332,7 +332,8 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
     // the force of pressed surfaces rises steeply, but a jump is none the less one in steps that are finer
     const bool is_pressed = std::min(present_.force, next.force) < 0.0;
     const bool is_fine = may_miss || (is_pressed && !is_jump);
-    const double finest = is_jump && may_exceed ? kSummitStep * usual : is_fine ? kFinestStep * usual : smallest;
+    const bool is_finest = may_exceed || (may_miss && is_jump);
+    const double finest = is_finest ? kSummitStep * usual : is_fine ? kFinestStep * usual : smallest;
     if (sag > largest_sag && step > kStepTolerance * finest) {
       minimiser_.takeBack();
       if (is_jump) {

@@ -97,6 +97,28 @@ TEST(TractionLaw, RepelsNoHarderThanTheHardness) {
   EXPECT_EQ(law.at(0.1 * law.range()).slope, 0.0);
 }
 
+TEST(TractionLaw, UpToAPressureItIsTheSameAndBeyondItsTangent) {
+  const TractionLaw law{TractionLawOptions()};
+  const double pressure = 7e9;
+  const TractionLaw wall = law.steepUpTo(pressure);
+  const double edge = law.gapUnder(pressure);
+  EXPECT_NEAR(wall.closestGap() / edge, 1.0, 1e-8);  // gapUnder() takes four of Newton's steps
+  EXPECT_FALSE(wall.flows());
+  for (const double share : {1.001, 1.2, 3.0}) {
+    EXPECT_EQ(wall.at(share * edge).traction, law.at(share * edge).traction);
+    EXPECT_EQ(wall.at(share * edge).energy, law.at(share * edge).energy);
+  }
+  const double inside = 0.9 * edge;
+  const double slope = law.at(edge).slope;
+  EXPECT_NEAR(wall.at(inside).traction / (-pressure - slope * (edge - inside)), 1.0, 1e-7);
+  EXPECT_NEAR(wall.at(inside).slope / slope, 1.0, 1e-6);
+  EXPECT_GT(wall.at(inside).traction, law.at(inside).traction);
+  EXPECT_EQ(wall.steepUpTo(1e30).closestGap(), wall.closestGap());  // its own line begins before
+  TractionLawOptions flowing;
+  flowing.hardness = 5e9;
+  EXPECT_EQ(TractionLaw(flowing).steepUpTo(1e9).at(inside).traction, TractionLaw(flowing).at(inside).traction);
+}
+
 TEST(TractionLaw, WithoutAttractionActsBelowItsRangeOnly) {
   TractionLawOptions options;
   options.attracts = false;
