@@ -28,13 +28,13 @@ constexpr double kLargestSag = 0.03;
 /// A change of slope from one step to the next, over the step and of the force, counts as a sag of this share:
 /// a step over a jump may by chance have the mean of its ends, but not the slope with which it began. The second where
 /// the branch was on its way to the largest force of all, the third where it is near.
-constexpr double kKinkShare = 0.1;
+constexpr double kKinkShare = 0.2;
 constexpr double kRisingKinkShare = 0.5;
 constexpr double kSummitKinkShare = 1.5;
 /// Near is a step that begins with more than this share of the largest force; its sag counts so many times.
 constexpr double kSummitForce = 0.9;
 constexpr double kSummitSagShare = 2.0;
-/// The smallest step that misses more than this goes over a jump.
+/// The smallest step that misses more than this goes over a jump; on the way out, whose work counts, what is taken back at all.
 constexpr double kJumpSag = 0.06;
 /// Bodies are pressed heavily where they carry more than this many times the largest attraction so far, as a jump of as
 /// much attraction would be less than kJumpSag there, and where their contacts bear more on average than the law attracts.
@@ -199,6 +199,7 @@ void ContactPath::accept(const ForcePoint& next, bool is_jump, ForceCurve& curve
       ForcePoint between = present_;
       between.height += x * move;
       between.force = pressed ? pressed->at(x) : parabola.at(x);
+      if (!minimiser_.law().attracts()) between.force = std::min(between.force, 0.0);
       between.energy += (pressed ? pressed->workTo(x) : parabola.workTo(x)) * move;
       const double grown = next.force - present_.force;
       const double share = is_heavy && grown != 0.0 ? (between.force - present_.force) / grown : x;
@@ -314,7 +315,9 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
     }
     const double at_most = std::max({curve.largest_force, next.force, 0.0});
     const bool may_exceed = mayExceed(direction, step, at_most);
-    const bool is_at_summit = direction > 0.0 && settings_.samples_curve && present_.force > kSummitForce * at_most;
+    const bool is_way_out = direction > 0.0 && settings_.samples_curve;
+    const bool is_at_summit = is_way_out && present_.force > kSummitForce * at_most;
+    const bool touches_summit = is_at_summit || (is_way_out && next.force > kSummitForce * at_most);
     const double kink_share = is_at_summit ? kSummitKinkShare : may_exceed ? kRisingKinkShare : kKinkShare;
     const double sag_share = is_at_summit ? kSummitSagShare : 1.0;
     // finer usual steps are to miss less, too
@@ -326,12 +329,12 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
     // a jump loses energy: the mean of both forces does more work than the energies tell
     const StepParabola parabola(present_, next);
     const bool loses = (0.5 * (parabola.begin + parabola.end) - parabola.mean) * direction > 0.0;
-    const bool is_jump = loses && !is_heavy && sagOf(next) > kJumpSag;
+    const bool is_jump = loses && !is_heavy && sagOf(next) > (is_way_out ? kLargestSag : kJumpSag);
     // how steeply a branch rises that begins here is not known: its end may be the largest force of all
     const bool may_miss = may_exceed || (direction > 0.0 && last_move_ == 0.0);
     // the force of pressed surfaces rises steeply, but a jump is none the less one in steps that are finer
     const bool is_pressed = std::min(present_.force, next.force) < 0.0;
-    const bool is_fine = may_miss || (is_pressed && !is_jump);
+    const bool is_fine = may_miss || touches_summit || (is_pressed && !is_jump);
     const bool is_finest = may_exceed || (may_miss && is_jump);
     const double finest = is_finest ? kSummitStep * usual : is_fine ? kFinestStep * usual : smallest;
     if (sag > largest_sag && step > kStepTolerance * finest) {

@@ -70,8 +70,9 @@ class TractionLaw {
   /// first part of the law [Pa/m].
   double secant(double gap, double traction, double other_traction) const;
 
-  double range() const { return law_.range(); }       ///< z0 [m]
-  double stress() const { return law_.stress(); }     ///< 8 Gamma/(3 z0) [Pa]
+  double range() const { return law_.range(); }                                  ///< z0 [m]
+  double stress() const { return law_.stress(); }                                ///< 8 Gamma/(3 z0) [Pa]
+  bool attracts() const { return attracts_ || field_.isOn() || water_.isOn(); }  ///< at some gap
   bool flows() const { return flows_; }               ///< whether a hardness limits the repulsion
   double closestGap() const { return closest_gap_; }  ///< where t = -Ha; narrower gaps flow [m]
   double contactGap() const { return contact_gap_; }  ///< narrower gaps repel [m]; z0 but for field and water

@@ -212,6 +212,15 @@ TEST(HardFrames, SoftSurfacesHoldInUsualStepsWhatTheyDoInFineOnes) {
   }
 }
 
+TEST(HardFrames, WhatDoesNotAttractHoldsNothing) {
+  HalfSpaceOptions options;
+  options.attraction = false;
+  const SolvedHalfSpace solution = HalfSpaceSolver(options).solve(pressed(10e6));
+  ASSERT_EQ(solution.status, HalfSpaceStatus::kSolved) << solution.message;
+  EXPECT_EQ(solution.pull_off_force, 0.0);  // 2 nN where the curve between two states was a parabola that turned
+  for (const ForcePoint& point : solution.retraction) EXPECT_LE(point.force, 0.0) << point.height;
+}
+
 TEST(HardFrames, WhatCannotFlowTakesHardlyMoreProductsThanWhatCould) {
   const HalfSpaceProblem problem = pressed(10e6);
   HalfSpaceOptions options;
