@@ -8,6 +8,7 @@ import pathlib
 import resource
 import subprocess
 import time
+import typing
 
 import numpy as np
 import tamaas
@@ -24,10 +25,30 @@ PITCH = 5e-9
 MODULUS = 88.8e9  # contact modulus [Pa]
 WORK = 0.05  # Gamma [J/m^2]
 RANGE = 1.608e-10  # z0 [m]
-STRESS = 8 * WORK / (3 * RANGE)
-TOLERANCE = 1e-4  # largest residual, of STRESS: half_space/tolerance
+TOLERANCE = 1e-4  # largest residual, of 8 Gamma/(3 z0): half_space/tolerance
 STEP = 0.2  # between two heights, of z0
 WALL = 1e-11  # z0 where nothing attracts [m]
+
+# The surface of the contact-mechanics challenge (Mueser, Dapp et al., Tribol. Lett. 65 (2017) 118): Hurst exponent, longest and shortest wave [m], rms slope
+# of all of them, contact modulus [Pa], work of adhesion [J/m^2] and range [m]. ContactEngineering's example takes 30 times that range on a coarse map.
+CHALLENGE_HURST, CHALLENGE_SIDE, CHALLENGE_ROLL_OFF, CHALLENGE_SHORTEST, CHALLENGE_SLOPE = 0.8, 100e-6, 20e-6, 0.1e-6, 1.0
+CHALLENGE_RANGE_FACTOR = 30
+
+
+class Pair(typing.NamedTuple):
+    """What a frame of SIZE x SIZE pixels consists of."""
+
+    pitch: float = PITCH
+    modulus: float = MODULUS
+    work: float = WORK
+    range: float = RANGE
+
+    @property
+    def stress(self):
+        return 8 * self.work / (3 * self.range)
+
+
+CHALLENGE = Pair(CHALLENGE_SIDE / SIZE, 25e6, 0.05, CHALLENGE_RANGE_FACTOR * 2.071e-9)
 
 SETTINGS = """
 lower: {{youngs_modulus: {modulus}, poisson_ratio: {poisson}, thickness: {thickness}, backing: bonded}}
@@ -57,20 +78,35 @@ def rough_frame(rms_height, correlation_length, seed):
     return (heights - heights.max()).astype(np.float32).astype(float)  # what a float32 TIFF keeps
 
 
+def challenge_frame(seed):
+    """Heights [m] with the spectrum of the contact-mechanics challenge, as far as the pixels of a coarse map show it."""
+    lowest, highest = 2 * np.pi / CHALLENGE_ROLL_OFF, 2 * np.pi / CHALLENGE_SHORTEST
+    q = 2 * np.pi * np.fft.fftfreq(SIZE, CHALLENGE.pitch)
+    q = np.hypot(q[:, None], q[None, :])
+    # C(q) = C0 max(q, q_r)^(-2 - 2 H): mean square slope = integral of q^3 C/(2 pi) dq, the flat part and the rest
+    flat = lowest ** (-2 - 2 * CHALLENGE_HURST) * (lowest ** 4 - (2 * np.pi / CHALLENGE_SIDE) ** 4) / 4
+    falling = (highest ** (2 - 2 * CHALLENGE_HURST) - lowest ** (2 - 2 * CHALLENGE_HURST)) / (2 - 2 * CHALLENGE_HURST)
+    density = 2 * np.pi * CHALLENGE_SLOPE ** 2 / (flat + falling) * np.maximum(q, lowest) ** (-2 - 2 * CHALLENGE_HURST)
+    density[(q == 0) | (q > highest)] = 0
+    white = np.fft.fft2(np.random.default_rng(seed).standard_normal((SIZE, SIZE)))
+    heights = np.fft.ifft2(white * np.sqrt(density) / CHALLENGE.pitch).real
+    return (heights - heights.max()).astype(np.float32).astype(float)
+
+
 class Ours:
     """predict_scan --half-space."""
 
     def __init__(self, program, folder):
         self.program, self.folder = program, folder
 
-    def solve(self, heights, load=0.0, attraction=True, thickness=0.0, poisson=0.0):
+    def solve(self, heights, load=0.0, attraction=True, thickness=0.0, poisson=0.0, pair=Pair()):
         scan = self.folder / "frame.tiff"
         settings = self.folder / "frame_settings.yaml"
         curve = self.folder / "curve.csv"
         tifffile.imwrite(scan, heights.astype(np.float32))
-        settings.write_text(SETTINGS.format(modulus=MODULUS, work=WORK, range=RANGE if attraction else WALL, step=STEP if attraction else 2.0,
+        settings.write_text(SETTINGS.format(modulus=pair.modulus, work=pair.work, range=pair.range if attraction else WALL, step=STEP if attraction else 2.0,
                                             attraction=str(attraction).lower(), tolerance=TOLERANCE, thickness=thickness, poisson=poisson))
-        self.command = [self.program, "--json", "--config", settings, "--pitch", str(PITCH), "--load", str(load), scan]
+        self.command = [self.program, "--json", "--config", settings, "--pitch", repr(pair.pitch), "--load", str(load), scan]
         command = [*self.command, "--half-space", "--curve", curve]
         record = json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)["half_space"]
         with open(curve, newline="", encoding="utf-8") as file:
@@ -110,18 +146,18 @@ def contact_mechanics_area(heights, load, **film):
     return np.count_nonzero(system.contact_zone) * PITCH ** 2
 
 
-def adhesion_curve(heights, lowest, highest):
-    """Adhesion with the same law and L-BFGS-B, lengths in z0 and pressures in STRESS.
+def adhesion_curve(heights, lowest, highest, pair):
+    """Adhesion with the same law and L-BFGS-B, lengths in z0 and pressures in 8 Gamma/(3 z0).
 
     @return (Z [m], F [N]) of the way down from `highest` to `lowest` [m] and of that back, and seconds. Its mean
     displacement has a stiffness of its own, so that Z = -offset + mean displacement is the height of predict_scan.
     """
-    unit = PITCH / RANGE
-    substrate = PeriodicFFTElasticHalfSpace((SIZE, SIZE), MODULUS / STRESS, (SIZE * unit, SIZE * unit))
+    unit = pair.pitch / pair.range
+    substrate = PeriodicFFTElasticHalfSpace((SIZE, SIZE), pair.modulus / pair.stress, (SIZE * unit, SIZE * unit))
     interaction = VDW82(c_sr=1 / 8, hamaker=6 * np.pi)  # -1/(2 r^2) + 1/(8 r^8): t = r^-3 - r^-9
-    system = make_adhesive_system(surface=Topography(heights / RANGE, (SIZE * unit, SIZE * unit)), interaction=interaction,
+    system = make_adhesive_system(surface=Topography(heights / pair.range, (SIZE * unit, SIZE * unit)), interaction=interaction,
                                   substrate=substrate, system_class=SmoothContactSystem)
-    offsets = np.arange(-highest / RANGE, -lowest / RANGE, STEP)
+    offsets = np.arange(-highest / pair.range, -lowest / pair.range, STEP)
     displacement = np.zeros((SIZE, SIZE))
     branches = []
     begin = time.process_time()
@@ -129,24 +165,24 @@ def adhesion_curve(heights, lowest, highest):
         points = []
         for offset in way:
             # its first guess must not lie beyond the surface
-            gap = displacement - heights / RANGE - offset
+            gap = displacement - heights / pair.range - offset
             displacement = displacement + np.maximum(0.0, 0.6 - gap)
             result = system.minimize_proxy(offset=offset, initial_displacements=displacement, method="L-BFGS-B", tol=None,
-                                           lbounds=heights / RANGE + offset + 0.5,
+                                           lbounds=heights / pair.range + offset + 0.5,
                                            options={"gtol": TOLERANCE * unit ** 2, "ftol": 0, "maxcor": 10, "maxiter": 20000,
                                                     "maxfun": 40000})
             displacement = np.asarray(result.x).reshape(SIZE, SIZE)
-            force = -float(system.compute_normal_force()) * STRESS * RANGE ** 2
-            points.append(((-offset + displacement.mean()) * RANGE, force, np.abs(result.jac).max() / unit ** 2))
+            force = -float(system.compute_normal_force()) * pair.stress * pair.range ** 2
+            points.append(((-offset + displacement.mean()) * pair.range, force, np.abs(result.jac).max() / unit ** 2))
         branches.append(points)
     return branches, time.process_time() - begin
 
 
-def largest(points):
-    """Largest force [N], on the parabola through the largest of the points and its neighbours."""
+def largest(points, unit):
+    """Largest force [N] over heights of this unit, on the parabola through the largest of the points and its neighbours."""
     heights, forces = np.array([p[0] for p in points]), np.array([p[1] for p in points])
     i = int(np.clip(forces.argmax(), 1, len(forces) - 2))
-    a, b, c = np.polyfit(heights[i - 1:i + 2] / RANGE, forces[i - 1:i + 2], 2)
+    a, b, c = np.polyfit(heights[i - 1:i + 2] / unit, forces[i - 1:i + 2], 2)
     return max(forces.max(), c - b * b / (4 * a) if a < 0 else 0.0)
 
 
@@ -172,14 +208,14 @@ def film_rows(ours):
 
 
 def adhesion_rows(ours):
-    for name, rms_height, length in (("l 60 nm, sigma 1 nm", 1e-9, 60e-9), ("l 100 nm, sigma 3 nm", 3e-9, 100e-9)):
-        heights = rough_frame(rms_height, length, 1)
-        found = ours.solve(heights)
+    for name, heights, pair in (("l 60 nm, sigma 1 nm", rough_frame(1e-9, 60e-9, 1), Pair()), ("l 100 nm, sigma 3 nm", rough_frame(3e-9, 100e-9, 1), Pair()),
+                                ("the challenge's statistics, range 30 rho", challenge_frame(1), CHALLENGE)):
+        found = ours.solve(heights, pair=pair)
         curve = found["curve"]
         lowest = min(height for height, _, _ in curve)
         highest = max(height for height, _, _ in curve)
-        branches, seconds = adhesion_curve(heights, lowest, highest)
-        pull_off = largest(branches[1])
+        branches, seconds = adhesion_curve(heights, lowest, highest, pair)
+        pull_off = largest(branches[1], pair.range)
         yield (f"pull-off force, {name}, Adhesion", "N", found["pull_off_force"], pull_off, 0.02, "2 %: steps of 0.2 z0")
         worst = 0.0
         for direction, points in zip(("APPROACH", "RETRACTION"), branches):
