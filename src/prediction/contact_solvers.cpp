@@ -7,6 +7,7 @@
 #include "mems_stiction/settings/option_visitor.hpp"
 #include "paper/asperity_solver.hpp"
 #include "separation/separation_solver.hpp"
+#include "settings/option_values.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -16,6 +17,7 @@ struct Entry {
   std::unique_ptr<ContactSolver> (*make)();
   std::vector<UnusedSetting> (*unused)(const ContactSettings&);  ///< that have no meaning for it
   bool bends_bodies;                                             ///< whether it asks how thick they are
+  bool is_of_paper;                                              ///< whether paper/... are its settings
 };
 
 template <typename Solver, auto... Arguments>
@@ -27,9 +29,9 @@ std::vector<UnusedSetting> usesAll(const ContactSettings&) { return {}; }
 
 /// A line per solver, the default first.
 constexpr Entry kSolvers[] = {
-    {"separation_curve", make<SeparationSolver>, CurveStatement::unusedSettings, true},
-    {"paper", make<AsperitySolver, Formulation::kPaper>, usesAll, false},
-    {"printed", make<AsperitySolver, Formulation::kPrinted>, usesAll, false},
+    {"separation_curve", make<SeparationSolver>, CurveStatement::unusedSettings, true, false},
+    {"paper", make<AsperitySolver, Formulation::kPaper>, usesAll, false, true},
+    {"printed", make<AsperitySolver, Formulation::kPrinted>, usesAll, false, true},
 };
 
 /// What only condensed water needs.
@@ -92,10 +94,12 @@ std::vector<IgnoredSetting> ignoredSettings(const std::string& formulation, cons
   std::vector<IgnoredSetting> ignored;
   for (const Entry& entry : kSolvers) {
     if (formulation != entry.formulation) continue;
+    const std::string has_no_use = "approach/formulation " + formulation + " does not use it";
+    if (!entry.is_of_paper) {
+      visitValues(settings.paper, [&](const std::string& key, const auto&) { ignored.push_back({key, has_no_use}); });
+    }
     for (const UnusedSetting& unused : entry.unused(settings)) {
-      ignored.push_back({unused.key, unused.why != nullptr
-                                         ? std::string(unused.why)
-                                         : "approach/formulation " + formulation + " does not use it"});
+      ignored.push_back({unused.key, unused.why != nullptr ? unused.why : has_no_use});
     }
     addOfOtherSide(settings.lower, "lower", entry.bends_bodies, ignored);
     addOfOtherSide(settings.upper, "upper", entry.bends_bodies, ignored);
