@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "numeric/words.hpp"
 #include "prediction/contact_solvers.hpp"
 #include "settings/option_values.hpp"
 
@@ -70,7 +71,7 @@ constexpr Idle kIdle[] = {
 
 bool isMeant(const std::string& pattern, const std::string& key) {
   const bool is_group = pattern.back() == '/' || pattern.back() == '_';
-  return is_group ? key.compare(0, pattern.size(), pattern) == 0 : key == pattern;
+  return is_group ? startsWith(key, pattern) : key == pattern;
 }
 
 /// Every setting as text.
