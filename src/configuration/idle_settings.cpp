@@ -53,7 +53,7 @@ constexpr Idle kIdle[] = {
     {"counter_surface/self_affine/", isNotOfType<CounterSurfaceType::kSelfAffine>, kNotSelfAffine},
     {"output/hurst_", [](const Configuration& all) { return !all.spatial_roughness.enabled; },
      "output/spatial_roughness is false"},
-    {"device/guidance", [](const Configuration& all) { return all.model.formulation != kDefaultFormulation; },
+    {"device/guidance", [](const Configuration& all) { return !skillsOf(all.model.formulation).tilts_plates; },
      "the separation curve alone lets a part tilt"},
     {"device/contacts", [](const Configuration& all) { return all.device.contact_area == 0.0; },
      "device/contact_area is 0"},
