@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "numeric/words.hpp"
 #include "prediction/contact_solvers.hpp"
 #include "settings/option_values.hpp"
 
@@ -52,7 +53,7 @@ constexpr Idle kIdle[] = {
     {"counter_surface/self_affine/", isNotOfType<CounterSurfaceType::kSelfAffine>, kNotSelfAffine},
     {"output/hurst_", [](const Configuration& all) { return !all.spatial_roughness.enabled; },
      "output/spatial_roughness is false"},
-    {"device/guidance", [](const Configuration& all) { return all.model.formulation != kDefaultFormulation; },
+    {"device/guidance", [](const Configuration& all) { return !skillsOf(all.model.formulation).tilts_plates; },
      "the separation curve alone lets a part tilt"},
     {"device/contacts", [](const Configuration& all) { return all.device.contact_area == 0.0; },
      "device/contact_area is 0"},
@@ -70,7 +71,7 @@ constexpr Idle kIdle[] = {
 
 bool isMeant(const std::string& pattern, const std::string& key) {
   const bool is_group = pattern.back() == '/' || pattern.back() == '_';
-  return is_group ? key.compare(0, pattern.size(), pattern) == 0 : key == pattern;
+  return is_group ? startsWith(key, pattern) : key == pattern;
 }
 
 /// Every setting as text.

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "mems_stiction/configuration/configuration.hpp"
+#include "numeric/words.hpp"
 #include "settings/option_values.hpp"
 
 namespace mems_stiction {
@@ -11,7 +12,7 @@ namespace {
 
 bool counts(const std::string& key) {
   for (const char* without : {"part/", "limits/", "output/", "half_space/threads"}) {
-    if (key.rfind(without, 0) == 0) return false;
+    if (startsWith(key, without)) return false;
   }
   return true;
 }

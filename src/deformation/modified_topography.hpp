@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// The surfaces after contact (section 2.3 of the paper).
+/// The surfaces after contact (doc/theory.md, section 7).
 ///
 /// Only cells in interference change, by w = z1 - z2 > 0 there, and only outside the elastic regime:
 ///

@@ -6,6 +6,7 @@
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/evaluation/half_space_scan.hpp"
 #include "mems_stiction/verdict/evidence.hpp"
+#include "prediction/contact_solvers.hpp"
 #include "verdict/regime_flags.hpp"
 
 namespace mems_stiction {
@@ -78,7 +79,7 @@ bool mayCallHalfSpace(const Configuration& configuration) {
     case HalfSpaceUse::kNever:
       return false;
     case HalfSpaceUse::kFlagged:
-      return isJudged(configuration.device) && configuration.model.formulation == kDefaultFormulation;
+      return isJudged(configuration.device) && skillsOf(configuration.model.formulation).calls_half_space;
     case HalfSpaceUse::kAlways:
       break;
   }

@@ -23,8 +23,8 @@
 
 namespace mems_stiction {
 
-/// Whether a scan with these settings may be solved, so that tables have columns for it. The flags of `paper` and
-/// `printed` ask for nothing: these are asked for what was published.
+/// Whether a scan with these settings may be solved, so that tables have columns for it. The flags of some
+/// formulations ask for nothing (SolverSkills): these are asked for what was published.
 bool mayCallHalfSpace(const Configuration& configuration);
 
 /// Whether one scan is solved.

@@ -13,6 +13,7 @@
 
 #include "files/content_hash.hpp"
 #include "mems_stiction/errors/errors.hpp"
+#include "numeric/words.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -100,7 +101,7 @@ class OpenFile {
 }  // namespace
 
 bool isOpenStream(const std::string& path) {
-  const auto begins = [&path](const char* start) { return path.rfind(start, 0) == 0; };
+  const auto begins = [&path](const char* start) { return startsWith(path, start); };
   return begins("/dev/std") || begins("/dev/fd/") || begins("/proc/self/fd/");
 }
 

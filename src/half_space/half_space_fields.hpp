@@ -18,19 +18,8 @@ namespace mems_stiction {
 
 /// "SOLVED", "LOAD_NOT_REACHED", "NOT_CONVERGED", "TOO_MANY_STATES", "CANCELLED"
 inline const char* word(HalfSpaceStatus status) {
-  switch (status) {
-    case HalfSpaceStatus::kSolved:
-      return "SOLVED";
-    case HalfSpaceStatus::kLoadNotReached:
-      return "LOAD_NOT_REACHED";
-    case HalfSpaceStatus::kNotConverged:
-      return "NOT_CONVERGED";
-    case HalfSpaceStatus::kTooManyStates:
-      return "TOO_MANY_STATES";
-    case HalfSpaceStatus::kCancelled:
-      break;
-  }
-  return "CANCELLED";
+  constexpr const char* kWords[] = {"SOLVED", "LOAD_NOT_REACHED", "NOT_CONVERGED", "TOO_MANY_STATES", "CANCELLED"};
+  return kWords[static_cast<int>(status)];
 }
 
 /// The points of both ways in the order in which they were met; the one at rest is there twice.

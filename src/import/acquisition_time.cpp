@@ -114,22 +114,16 @@ bool setHour(Reading& reading) {
   return reading.hour < 24 && reading.minute < 60 && (reading.seconds.size() < 3 || reading.seconds[1] < '6');
 }
 
-std::vector<std::string> wordsOf(const std::string& text) {
+/// The date, the time and their parts.
+std::vector<std::string> partsOf(const std::string& text) {
   static const std::regex between("[T_](?=\\d{2}:)|[\\s,;]+|(\\d)\\s*(?=[AaPp][Mm]\\b)");
-  const std::string spaced = std::regex_replace(text, between, "$1 ");
-  std::vector<std::string> words;
-  for (std::size_t at = spaced.find_first_not_of(' '); at != std::string::npos;) {
-    const std::size_t end = std::min(spaced.find(' ', at), spaced.size());
-    words.push_back(spaced.substr(at, end - at));
-    at = spaced.find_first_not_of(' ', end);
-  }
-  return words;
+  return wordsOf(std::regex_replace(text, between, "$1 "));
 }
 
 /// None where it is no date, or might be two.
 std::optional<Reading> readingOf(const std::string& text) {
   Reading reading;
-  for (const std::string& word : wordsOf(text)) {
+  for (const std::string& word : partsOf(text)) {
     if (!readWord(word, reading)) return std::nullopt;
   }
   if (!isDate(reading) || !setHour(reading)) return std::nullopt;

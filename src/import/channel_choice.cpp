@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <iterator>
-#include <locale>
-#include <sstream>
 #include <tuple>
 
 #include "errors/short_number.hpp"
@@ -40,12 +37,6 @@ std::string lettersOf(const std::string& title) {
   }
   if (!text.empty() && text.back() == ' ') text.pop_back();
   return text;
-}
-
-Words wordsOf(const std::string& letters) {
-  std::istringstream stream(letters);
-  stream.imbue(std::locale::classic());
-  return Words(std::istream_iterator<std::string>(stream), {});
 }
 
 /// Pixels of one number each, or (height, quality).

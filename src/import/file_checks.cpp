@@ -159,12 +159,12 @@ void checkCreatec(const std::string& bytes) {
   const std::uint64_t rows = count("Num.Y");
   checkPixelCount(cols, rows);
   const std::uint64_t pixels = cols * rows * count("Channels");
-  if (bytes.compare(0, 11, "[Paramco32]") == 0) {
+  if (startsWith(bytes, "[Paramco32]")) {
     const std::uint64_t needed = 4 + 4 * pixels;
     demandLength("unpacked Createc", unpackedCreatec(bytes, kCreatecHeader, needed), needed);
     return;
   }
-  const std::uint64_t bytes_each = bytes.compare(0, 11, "[Paramet32]") == 0 ? 4 : 2;
+  const std::uint64_t bytes_each = startsWith(bytes, "[Paramet32]") ? 4 : 2;
   const std::uint64_t end = kCreatecHeader + bytes_each * (pixels + 1);
   const bool is_filled = bytes.size() > end && bytes.size() - end <= kMostFiller &&
                          bytes.find_first_not_of('\0', static_cast<std::size_t>(end)) == std::string::npos;
@@ -329,13 +329,13 @@ void checkStatedLength(const std::string& bytes) {
       {"[DataSet]\r\n", checkNanosurf},      {std::string("\1\0Directory\0", 12), checkWyko},
   };
   for (const Format& format : kFormats) {
-    if (bytes.compare(0, format.start.size(), format.start) == 0) return format.check(bytes);
+    if (startsWith(bytes, format.start)) return format.check(bytes);
   }
 }
 
 std::optional<std::string> withWholeCreatecHeader(const std::string& bytes) {
   const std::string mark = "DATA";
-  if (bytes.compare(0, 11, "[Paramco32]") != 0) return std::nullopt;
+  if (!startsWith(bytes, "[Paramco32]")) return std::nullopt;
   for (std::size_t at = bytes.find(mark); at < kCreatecHeader - mark.size(); at = bytes.find(mark, at + 1)) {
     const std::size_t data = at + mark.size();
     if (data + 1 >= bytes.size()) break;
@@ -347,11 +347,11 @@ std::optional<std::string> withWholeCreatecHeader(const std::string& bytes) {
 }
 
 void checkTransfer(const std::string& bytes) {
-  if (bytes.compare(0, 24, "version https://git-lfs.") == 0) {
+  if (startsWith(bytes, "version https://git-lfs.")) {
     throw FileError("is a pointer of Git LFS, not the file itself: get it by 'git lfs pull'");
   }
   const std::string start = lowered(bytes.substr(0, 15));
-  if (start.compare(0, 14, "<!doctype html") == 0 || start.compare(0, 5, "<html") == 0) {
+  if (startsWith(start, "<!doctype html") || startsWith(start, "<html")) {
     throw FileError("is a web page, not a scan: what it was loaded from did not give the file itself");
   }
   const std::size_t binary = bytes.find('\0');

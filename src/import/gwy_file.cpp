@@ -10,6 +10,7 @@
 #include "import/file_bytes.hpp"
 #include "import/file_statements.hpp"
 #include "mems_stiction/errors/errors.hpp"
+#include "numeric/words.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -158,7 +159,7 @@ int invalidateMasked(FileChannel& channel, const cv::Mat& mask) {
 
 std::vector<FileChannel> parseGwy(const std::string& bytes, bool ignore_mask) {
   ByteCursor file(bytes.data(), bytes.size(), kWhat);
-  if (bytes.compare(0, 4, "GWYP") != 0) throw FileError("not a .gwy container: it does not begin with GWYP");
+  if (!startsWith(bytes, "GWYP")) throw FileError("not a .gwy container: it does not begin with GWYP");
   file.take(4);
   if (file.text() != "GwyContainer") throw FileError("the .gwy file does not hold a GwyContainer");
   const std::uint32_t size = file.number<std::uint32_t>();

@@ -12,6 +12,7 @@
 #include "import/waiting_gwyddion.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/settings/option_visitor.hpp"
+#include "numeric/words.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -27,10 +28,10 @@ std::string complaint(const fs::path& log, const std::string& scan_path) {
   std::string remark;
   for (std::string line; std::getline(stream, line);) {
     for (const std::string& name : {scan_path + ": ", kWaitingFileName + std::string(": ")}) {
-      if (line.compare(0, name.size(), name) == 0) return line.substr(name.size());
+      if (startsWith(line, name)) return line.substr(name.size());
     }
     const bool is_of_library = line.find("-CRITICAL **") != std::string::npos ||
-                               line.find("-WARNING **") != std::string::npos || line.compare(0, 9, "(process:") == 0;
+                               line.find("-WARNING **") != std::string::npos || startsWith(line, "(process:");
     if (!line.empty() && !is_of_library) return line;
     if (remark.empty()) remark = line;
   }

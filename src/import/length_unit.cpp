@@ -10,12 +10,6 @@ namespace {
 
 std::string bare(const std::string& text) { return trimmed(text, " \t\r\n[]()\"'"); }
 
-void replaceAll(std::string& text, const std::string& what, const std::string& with) {
-  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size())) {
-    text.replace(at, what.size(), with);
-  }
-}
-
 bool isUtf8(const std::string& text) {
   for (std::size_t at = 0; at < text.size();) {
     const auto lead = static_cast<unsigned char>(text[at]);
@@ -38,9 +32,9 @@ bool isUtf8(const std::string& text) {
 std::optional<double> lengthUnit(const std::string& text) {
   std::string unit = bare(text);
   for (const char* micro : {"\xC2\xB5", "\xCE\xBC", "\\u00B5", "\\u00b5", "&#181;", "&micro;"}) {
-    replaceAll(unit, micro, "u");
+    unit = replaced(unit, micro, "u");
   }
-  for (const char* angstrom : {"\xC3\x85", "\xE2\x84\xAB"}) replaceAll(unit, angstrom, "A");
+  for (const char* angstrom : {"\xC3\x85", "\xE2\x84\xAB"}) unit = replaced(unit, angstrom, "A");
   static const std::map<std::string, double> kUnits = {
       {"m", 1.0},           {"meter", 1.0},        {"meters", 1.0},      {"metre", 1.0},        {"metres", 1.0},
       {"cm", 1e-2},         {"mm", 1e-3},          {"millimeter", 1e-3}, {"millimeters", 1e-3}, {"millimetre", 1e-3},

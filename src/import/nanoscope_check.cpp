@@ -93,7 +93,7 @@ double volts(const std::string& text) {
 /// "V 34.55678 nm/V" [m/V]; 0 = not stated
 double metresPerVolt(const std::string& text) {
   const std::size_t end = text.find("/V");
-  if (end == std::string::npos || text.compare(0, 2, "V ") != 0) return 0.0;
+  if (end == std::string::npos || !startsWith(text, "V ")) return 0.0;
   std::string length = text.substr(2, end - 2);
   std::replace(length.begin(), length.end(), '~', 'u');
   const auto stated = statedLength(length);
@@ -102,7 +102,7 @@ double metresPerVolt(const std::string& text) {
 }
 
 bool isNanoscope(const std::string& bytes) {
-  return bytes.compare(0, 11, "\\*File list") == 0 || bytes.compare(0, 17, "\\*Force file list") == 0;
+  return startsWith(bytes, "\\*File list") || startsWith(bytes, "\\*Force file list");
 }
 
 void checkParts(const std::vector<List>& lists, std::size_t size) {

@@ -31,16 +31,15 @@ struct Heading {
 
 std::string bare(const std::string& text) { return trimmed(text, " \t\r\""); }
 
-std::vector<std::string> wordsOf(const std::string& text) {
-  std::istringstream stream(text);
-  std::vector<std::string> words;
-  for (std::string word; stream >> word;) words.push_back(bare(word));
+std::vector<std::string> bareWords(const std::string& text) {
+  std::vector<std::string> words = wordsOf(text);
+  for (std::string& word : words) word = bare(word);
   return words;
 }
 
 /// "500 nm", "500 250 nm": one or two sides and their unit.
 void readSize(const std::string& value, Heading& heading) {
-  const std::vector<std::string> words = wordsOf(value);
+  const std::vector<std::string> words = bareWords(value);
   if (words.size() < 2 || words.size() > 3) return;
   const auto unit = lengthUnit(words.back() == "~m" ? "um" : words.back());
   if (!unit) throw FileError("the scan size '" + shownPiece(value) + "' is no length");
@@ -103,7 +102,7 @@ std::vector<FileChannel> parseNanoscopeText(const std::string& bytes) {
       readEntry(text, heading);
       continue;
     }
-    const std::vector<std::string> words = wordsOf(text);
+    const std::vector<std::string> words = bareWords(text);
     if (words.size() > kMostColumns || !std::all_of(words.begin(), words.end(), isColumnName)) {
       throw FileError("line " + std::to_string(number) + ": '" + shownPiece(text) +
                       "' does not name the columns: export with the channels' names and units");
@@ -122,7 +121,7 @@ std::vector<FileChannel> parseNanoscopeText(const std::string& bytes) {
   std::size_t pixel = 0;
   while (std::getline(stream, line)) {
     ++number;
-    const std::vector<std::string> words = wordsOf(line);
+    const std::vector<std::string> words = bareWords(line);
     if (words.empty()) continue;
     const std::string where = "line " + std::to_string(number) + ": ";
     if (words.size() != channels.size()) {

@@ -7,6 +7,7 @@
 #include "import/file_bytes.hpp"
 #include "import/plain_number.hpp"
 #include "mems_stiction/errors/errors.hpp"
+#include "numeric/words.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -78,7 +79,7 @@ FileChannel parseNpy(const std::string& bytes) {
   std::size_t size = 0;
   ByteOrder order = ByteOrder::kLittle;
   const Reader read = readerOf(entry(header, "descr"), size, order);
-  const bool is_transposed = entry(header, "fortran_order").compare(0, 4, "True") == 0;
+  const bool is_transposed = startsWith(entry(header, "fortran_order"), "True");
   if (cursor.size() != rows * cols * size) {
     throw FileError("the .npy file has " + std::to_string(cursor.size()) + " bytes of numbers, its header states " +
                     std::to_string(rows * cols * size));

@@ -160,10 +160,7 @@ std::string withPlainMarks(const std::string& number, char decimal) {
 }
 
 void plainSigns(std::string& text) {
-  const std::string minus = "\xE2\x88\x92";
-  for (std::size_t at = text.find(minus); at != std::string::npos; at = text.find(minus, at)) {
-    text.replace(at, minus.size(), "-");
-  }
+  text = replaced(text, "\xE2\x88\x92", "-");  // a minus that is no hyphen
   struct Mark {
     const char* sign;
     const char* not_before;

@@ -14,6 +14,7 @@
 #include "import/file_bytes.hpp"
 #include "import/format_readers.hpp"
 #include "mems_stiction/errors/errors.hpp"
+#include "numeric/words.hpp"
 #include "settings/option_yaml.hpp"
 
 namespace mems_stiction {
@@ -170,7 +171,7 @@ auto naming(const std::string& path, Function&& function) {
     return function();
   } catch (const FileError& error) {
     const std::string text = error.what();
-    throw FileError(text.compare(0, path.size(), path) == 0 ? text : path + ": " + text);
+    throw FileError(startsWith(text, path) ? text : path + ": " + text);
   } catch (const SurfaceError& error) {
     throw FileError(path + ": " + error.what());
   }

@@ -24,7 +24,7 @@ using Channels = std::vector<FileChannel>;
 
 bool beginsWithOneOf(const std::string& bytes, std::initializer_list<std::string> starts) {
   return std::any_of(starts.begin(), starts.end(),
-                     [&bytes](const std::string& start) { return bytes.compare(0, start.size(), start) == 0; });
+                     [&bytes](const std::string& start) { return startsWith(bytes, start); });
 }
 
 /// Some instruments write a picture of the scan, with the heights in tags of their own.
@@ -91,7 +91,7 @@ Channels readRewritten(const std::string& path, const std::string& bytes, const 
     return channelsByGwyddion(copy, bytes, options);
   } catch (const FileError& error) {
     const std::string text = error.what();
-    throw FileError(text.compare(0, copy.size(), copy) == 0 ? path + text.substr(copy.size()) : text);
+    throw FileError(startsWith(text, copy) ? path + text.substr(copy.size()) : text);
   }
 }
 

@@ -23,11 +23,7 @@ std::string bare(const std::string& text) { return trimmed(text, " \t\"'"); }
 /// Without the signs of a comment; blanks that do not break lines become plain ones.
 std::string content(const std::string& line) {
   std::string text = line.substr(std::min(line.find_first_not_of("#% \t"), line.size()));
-  for (const char* blank : {"\xC2\xA0", "\xE2\x80\xAF", "\xE2\x80\x89"}) {
-    for (std::size_t at = text.find(blank); at != std::string::npos; at = text.find(blank)) {
-      text.replace(at, std::char_traits<char>::length(blank), " ");
-    }
-  }
+  for (const char* blank : {"\xC2\xA0", "\xE2\x80\xAF", "\xE2\x80\x89"}) text = replaced(text, blank, " ");
   return bare(text);
 }
 
@@ -165,7 +161,7 @@ std::optional<PointHeading> pointHeading(const std::string& text) {
   for (const PointColumn& column : columns) axes += column.axis;
   const auto is_axis = [&axes](char axis) { return axes.find(axis) < 3; };
   if (!is_axis('x') || !is_axis('y') || !is_axis('z')) return std::nullopt;
-  if (axes.compare(0, 3, "xyz") != 0) throw FileError("the columns of a list must be x, y and z, in this order");
+  if (!startsWith(axes, "xyz")) throw FileError("the columns of a list must be x, y and z, in this order");
   const std::string& unit_z = columns[2].unit;
   if (columns[0].unit.empty() && columns[1].unit.empty() && unit_z.empty()) return PointHeading();
   const auto unit = lengthUnit(columns[0].unit);
@@ -187,8 +183,8 @@ bool readPointHeading(const std::string& text, bool is_comment, TextHeader& head
 
 /// WSxM writes two lines before its texts, "WSxM file copyright UAM" and "WSxM ASCII XYZ file" or "WSxM ASCII Matrix file".
 bool readWsxmLine(const std::string& text, TextHeader& header) {
-  if (text.compare(0, 19, "WSxM file copyright") == 0 || text.compare(0, 17, "WSxM ASCII Matrix") == 0) return true;
-  if (text.compare(0, 14, "WSxM ASCII XYZ") != 0) return false;
+  if (startsWith(text, "WSxM file copyright") || startsWith(text, "WSxM ASCII Matrix")) return true;
+  if (!startsWith(text, "WSxM ASCII XYZ")) return false;
   header.is_y_up = true;
   return true;
 }
@@ -259,7 +255,7 @@ TextHeader wykoHeader(const std::vector<TextLine>& heading) {
 
 bool isKeyence(const std::vector<TextLine>& heading) {
   return std::any_of(heading.begin(), heading.end(),
-                     [](const TextLine& line) { return line.text.compare(0, 16, "\"XY Calibration\"") == 0; });
+                     [](const TextLine& line) { return startsWith(line.text, "\"XY Calibration\""); });
 }
 
 /// Keyence's tables: "key","value","unit", of which pitch, numbers of pixels and unit of the heights count.
@@ -311,7 +307,7 @@ bool readEntry(const std::string& key, const std::string& value, const Marks& ma
   } else if (isOneOf(key, {"value units", "value unit", "data unit", "z-unit", "zunit", "unit data", "einheiten",
                            "unités"})) {
     stateText(header.unit_z, value, "unit of the heights");
-  } else if (key.compare(0, sizeof kFactor - 1, kFactor) == 0) {
+  } else if (startsWith(key, kFactor)) {
     readFactor(key, value, marks, header);
   } else if (key == "z amplitude") {
     stateText(header.unit_z, unitOfAmplitude(value), "unit of the heights");
@@ -381,7 +377,7 @@ char headingMark(const std::vector<TextLine>& heading) {
 }
 
 TextHeader textHeader(const std::vector<TextLine>& heading, char decimal, char of_data) {
-  if (!heading.empty() && heading.front().text.compare(0, sizeof kWyko - 1, kWyko) == 0) return wykoHeader(heading);
+  if (!heading.empty() && startsWith(heading.front().text, kWyko)) return wykoHeader(heading);
   if (isKeyence(heading)) return keyenceHeader(heading);
   const Marks marks{decimal, of_data};
   TextHeader header;

@@ -11,6 +11,7 @@
 #include "import/plain_number.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/settings/option_visitor.hpp"
+#include "numeric/words.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -188,7 +189,7 @@ bool hasInstrumentTags(const std::string& bytes) {
 void applyTiffNotes(const TiffNotes& notes, int pages, FileChannel& channel) {
   if (channel.values.channels() != 1) return;
   applyGdal(notes, channel);
-  if (notes.description.compare(0, 6, "ImageJ") == 0) {
+  if (startsWith(notes.description, "ImageJ")) {
     applyImageJ(notes, pages, channel);
   } else if (notes.description.find("<OME") != std::string::npos) {
     applyOme(notes.description, channel);

@@ -91,7 +91,7 @@ void checkExtreme(const std::map<std::string, std::string>& header, const std::s
 
 bool isWsxmImage(const std::string& start) {
   const std::size_t line = start.find('\n');
-  return start.compare(0, 19, "WSxM file copyright") == 0 && line != std::string::npos &&
+  return startsWith(start, "WSxM file copyright") && line != std::string::npos &&
          start.compare(line + 1, 14, "SxM Image file") == 0;
 }
 

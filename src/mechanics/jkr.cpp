@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "mechanics/hertz.hpp"
 #include "numeric/constants.hpp"
 
 namespace mems_stiction {
@@ -15,39 +14,15 @@ double apparentLoad(double load, double work_of_adhesion, double radius) {
 }
 
 double contactRadius(double apparent_load, double radius, double contact_modulus) {
-  return hertz::contactRadius(apparent_load, radius, contact_modulus);
+  return apparent_load < 0.0 ? 0.0 : std::cbrt(0.75 * apparent_load * radius / contact_modulus);
 }
 
 double apparentLoadOfContact(double contact_radius, double radius, double contact_modulus) {
-  return hertz::loadOfContact(contact_radius, radius, contact_modulus);
+  return 4.0 / 3.0 * contact_modulus * contact_radius * contact_radius * contact_radius / radius;
 }
 
 double equilibriumContactRadius(double load, double work_of_adhesion, double radius, double contact_modulus) {
   return contactRadius(apparentLoad(load, work_of_adhesion, radius), radius, contact_modulus);
-}
-
-double load(double contact_radius, double work_of_adhesion, double radius, double contact_modulus) {
-  const double apparent_load = apparentLoadOfContact(contact_radius, radius, contact_modulus);
-  return apparent_load - std::sqrt(6.0 * kPi * work_of_adhesion * radius * apparent_load);
-}
-
-double approach(double contact_radius, double work_of_adhesion, double radius, double contact_modulus) {
-  return contact_radius * contact_radius / radius -
-         std::sqrt(2.0 * kPi * work_of_adhesion * contact_radius / contact_modulus);  // 8/(3K) = 2/E
-}
-
-double pullOffForce(double work_of_adhesion, double radius) { return 1.5 * kPi * work_of_adhesion * radius; }
-
-double pullOffContactRadius(double work_of_adhesion, double radius, double contact_modulus) {
-  return contactRadius(1.5 * kPi * work_of_adhesion * radius, radius, contact_modulus);
-}
-
-double fixedGripsPullOffForce(double work_of_adhesion, double radius) {
-  return 5.0 / 6.0 * kPi * work_of_adhesion * radius;
-}
-
-double fixedGripsPullOffContactRadius(double work_of_adhesion, double radius, double contact_modulus) {
-  return contactRadius(kPi * work_of_adhesion * radius / 6.0, radius, contact_modulus);
 }
 
 double energy(double contact_radius, double work_of_adhesion, double radius, double contact_modulus) {

@@ -13,16 +13,6 @@ double vanDerWaalsPressure(double gap, double hamaker_constant) {
   return hamaker_constant / (6.0 * kPi * gap * gap * gap);
 }
 
-double vanDerWaalsEnergy(double gap, double hamaker_constant) { return hamaker_constant / (12.0 * kPi * gap * gap); }
-
-double vanDerWaalsSphereForce(double gap, double hamaker_constant, double radius) {
-  return hamaker_constant * radius / (6.0 * gap * gap);
-}
-
-double vanDerWaalsSphereEnergy(double gap, double hamaker_constant, double radius) {
-  return hamaker_constant * radius / (6.0 * gap);
-}
-
 double gapField(double gap, double voltage, double insulator_thickness, double insulator_relative_permittivity) {
   return FieldLaw(voltage, insulator_thickness, insulator_relative_permittivity).field(std::max(gap, 0.0));
 }

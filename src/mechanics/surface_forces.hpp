@@ -4,14 +4,12 @@
 /// What pulls two surfaces together across a gap: van der Waals attraction and the field of a voltage; and when does a
 /// spring-held plate give way to the field?
 ///
-///     van der Waals, plates:   p = H/(6 pi d^3),  u = H/(12 pi d^2)          (2)
-///     van der Waals, sphere:   F = H R/(6 d^2),   U = H R/(6 d)
+///     van der Waals, plates:   p = H/(6 pi d^3)                              (2)
 ///     electrostatic, plates:   p = eps0 U^2/(2 (d + t/eps_r)^2)              (3); in contact d = 0
 ///     pull-in:                 U = sqrt(8 k (g + t/eps_r)^3/(27 eps0 A))
 ///
 /// Assumptions: smooth parallel plates much wider than their gap (no fringes); no retardation, so gaps below some 10 nm
-/// for van der Waals and an overestimate beyond; the sphere by Derjaguin's approximation, d << R; an insulator without
-/// charge in it; for pull-in a linear spring and a travel of more than a third of (g + t/eps_r).
+/// for van der Waals and an overestimate beyond; an insulator without charge in it; for pull-in a linear spring and a travel of more than a third of (g + t/eps_r).
 /// Outside: all diverge as the gap closes without an insulator. The caller keeps van der Waals gaps at an interatomic
 /// cut-off (about 0.165 nm) or more; a field gap of 0 without insulator is a short circuit and gives infinity.
 /// Sources: Israelachvili, Intermolecular and Surface Forces (3rd ed., 2011), chapter 13; Deladi et al. 2002, (2) and
@@ -19,8 +17,7 @@
 ///
 ///     const double pull = cell_area * surface_forces::vanDerWaalsPressure(gap, hamaker_constant);
 ///
-/// Forces and pressures are published positive when they attract; energies are what separation to infinity costs.
-/// Arguments throughout: gap d [m], > 0; hamaker_constant H [J]; radius R [m]; voltage U [V];
+/// Pressures are published positive when they attract. Arguments throughout: gap d [m], > 0; hamaker_constant H [J]; voltage U [V];
 /// insulator_thickness t [m], >= 0; insulator_relative_permittivity eps_r [-], >= 1.
 
 namespace mems_stiction {
@@ -28,15 +25,6 @@ namespace surface_forces {
 
 /// p of parallel plates [Pa].
 double vanDerWaalsPressure(double gap, double hamaker_constant);
-
-/// u of parallel plates per area [J/m^2].
-double vanDerWaalsEnergy(double gap, double hamaker_constant);
-
-/// F of a sphere before a plate [N].
-double vanDerWaalsSphereForce(double gap, double hamaker_constant, double radius);
-
-/// U of a sphere before a plate [J].
-double vanDerWaalsSphereEnergy(double gap, double hamaker_constant, double radius);
 
 /// U/(d + t/eps_r), the field in the gap of such electrodes [V/m]; in the insulator it is 1/eps_r of that, so that in
 /// contact the whole voltage lies over it.

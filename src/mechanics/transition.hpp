@@ -11,8 +11,7 @@
 /// Assumptions: paraboloid on a half-space, elastic; Maugis lets a constant stress s0 act in a ring around the contact
 /// until the gap reaches w/s0 (Dugdale's crack tip). The prefactor p falls from 2 (DMT, mu < 0.1) to 1.5 (JKR, mu > 5).
 /// The fit applies to all lambda, within 1.7 % of the exact value (the worst is near lambda = 0.25).
-/// maugis::pullOffPrefactor() is that exact value by a numerical search: a few microseconds a call, for judging the fit
-/// and for few asperities. Plastic flow, roughness on the asperity and neighbours are in neither.
+/// Plastic flow, roughness on the asperity and neighbours are in neither.
 /// Sources: Tabor, J. Colloid Interface Sci. 58 (1977) 2; Maugis, J. Colloid Interface Sci. 150 (1992) 243; Carpick,
 /// Ogletree and Salmeron, J. Colloid Interface Sci. 211 (1999) 395.
 ///
@@ -37,9 +36,6 @@ namespace maugis {
 /// lambda of Tabor's parameter [-].
 double transitionParameter(double tabor);
 
-/// lambda of an adhesive stress s0 [Pa] that acts until the gap reaches w/s0 [-].
-double transitionParameter(double adhesive_stress, double radius, double work_of_adhesion, double contact_modulus);
-
 /// Pull-off force in units of pi w R by Carpick, Ogletree and Salmeron's fit [-].
 /// @param transition_parameter lambda [-], >= 0
 double fittedPullOffPrefactor(double transition_parameter);
@@ -50,24 +46,6 @@ Real fittedPullOffPrefactorOfPower(const Real& transition_parameter_to_1_4) {
   // (x - 1)/(x + 1) as 1 - 2/(x + 1), which is also true at x = infinity
   return 1.5 + 0.5 / (4.04 * transition_parameter_to_1_4 + 1.0);
 }
-
-/// Pull-off force in units of pi w R [-], exact for Maugis' model.
-/// @param transition_parameter lambda [-], >= 0
-double pullOffPrefactor(double transition_parameter);
-
-/// One state of Maugis' model in his units: length (pi w R^2/K)^(1/3), force pi w R, approach (pi^2 w^2 R/K^2)^(1/3).
-struct State {
-  double contact_radius;   ///< a [-]
-  double cohesive_radius;  ///< c, outer radius of the ring in which the stress acts [-]
-  double load;             ///< F [-], pressing positive
-  double approach;         ///< delta [-]
-};
-
-/// The state at which the ring reaches out to c = a sqrt(1 + s^2): s -> 0 is a large contact, s -> infinity a vanishing
-/// one.
-/// @param transition_parameter lambda [-], > 0
-/// @param ring_extent s = sqrt(c^2/a^2 - 1) [-], > 0
-State stateOfRing(double transition_parameter, double ring_extent);
 
 }  // namespace maugis
 }  // namespace mems_stiction

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
+#include <iterator>
+#include <locale>
 #include <numeric>
+#include <sstream>
 
 namespace mems_stiction {
 namespace {
@@ -40,8 +43,23 @@ std::string trimmed(const std::string& text, const std::string& around) {
   return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(around) - begin + 1);
 }
 
-bool endsWith(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+bool startsWith(std::string_view text, std::string_view start) { return text.substr(0, start.size()) == start; }
+
+bool endsWith(std::string_view text, std::string_view end) {
+  return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& with) {
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size())) {
+    text.replace(at, what.size(), with);
+  }
+  return text;
+}
+
+std::vector<std::string> wordsOf(const std::string& text) {
+  std::istringstream stream(text);
+  stream.imbue(std::locale::classic());
+  return {std::istream_iterator<std::string>(stream), {}};
 }
 
 std::string lastPart(const std::string& key) { return key.substr(key.rfind('/') + 1); }

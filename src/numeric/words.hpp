@@ -4,6 +4,7 @@
 /// Words as people write them: letters of either case, blanks around them, slips.
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace mems_stiction {
@@ -14,8 +15,17 @@ std::string lowered(std::string text);
 /// Without the characters of `around` at both ends.
 std::string trimmed(const std::string& text, const std::string& around);
 
+/// Whether these are its first letters.
+bool startsWith(std::string_view text, std::string_view start);
+
 /// Whether these are its last letters.
-bool endsWith(const std::string& text, const std::string& end);
+bool endsWith(std::string_view text, std::string_view end);
+
+/// With `with` for every `what`.
+std::string replaced(std::string text, const std::string& what, const std::string& with);
+
+/// What stands between blanks and line ends.
+std::vector<std::string> wordsOf(const std::string& text);
 
 /// What is behind the last slash.
 std::string lastPart(const std::string& key);

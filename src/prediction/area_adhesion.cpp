@@ -8,6 +8,7 @@
 #include "mechanics/transition.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "numeric/median.hpp"
+#include "prediction/contact_solvers.hpp"
 #include "separation/contact_curve.hpp"
 
 namespace mems_stiction {
@@ -97,9 +98,9 @@ std::optional<AreaAdhesion> followCells(const AreaCells& cells, std::int64_t buc
 
 AreaAdhesion areaAdhesion(const AreaCells& cells, const Options& options) {
   options.check();
-  if (options.formulation != kDefaultFormulation) {
-    throw OptionsError({"approach/formulation: an area is followed by " + std::string(kDefaultFormulation) +
-                        " alone, not by '" + options.formulation + "'"});
+  if (!skillsOf(options.formulation).follows_areas) {
+    throw OptionsError(
+        {"approach/formulation: an area is followed by separation_curve alone, not by '" + options.formulation + "'"});
   }
   if (options.load.isPerArea()) {
     throw OptionsError(

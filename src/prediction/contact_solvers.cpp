@@ -7,6 +7,7 @@
 #include "mems_stiction/settings/option_visitor.hpp"
 #include "paper/asperity_solver.hpp"
 #include "separation/separation_solver.hpp"
+#include "settings/option_values.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -15,7 +16,8 @@ struct Entry {
   const char* formulation;
   std::unique_ptr<ContactSolver> (*make)();
   std::vector<UnusedSetting> (*unused)(const ContactSettings&);  ///< that have no meaning for it
-  bool bends_bodies;                                             ///< whether it asks how thick they are
+  SolverSkills skills;
+  bool is_of_paper;  ///< whether paper/... are its settings
 };
 
 template <typename Solver, auto... Arguments>
@@ -25,11 +27,13 @@ std::unique_ptr<ContactSolver> make() {
 
 std::vector<UnusedSetting> usesAll(const ContactSettings&) { return {}; }
 
+constexpr SolverSkills kAllSkills = {true, true, true, true};
+
 /// A line per solver, the default first.
 constexpr Entry kSolvers[] = {
-    {"separation_curve", make<SeparationSolver>, CurveStatement::unusedSettings, true},
-    {"paper", make<AsperitySolver, Formulation::kPaper>, usesAll, false},
-    {"printed", make<AsperitySolver, Formulation::kPrinted>, usesAll, false},
+    {"separation_curve", make<SeparationSolver>, CurveStatement::unusedSettings, kAllSkills, false},
+    {"paper", make<AsperitySolver, Formulation::kPaper>, usesAll, {}, true},
+    {"printed", make<AsperitySolver, Formulation::kPrinted>, usesAll, {}, true},
 };
 
 /// What only condensed water needs.
@@ -88,17 +92,26 @@ std::string retirement(const std::string& formulation) {
   return "";
 }
 
+SolverSkills skillsOf(const std::string& formulation) {
+  for (const Entry& entry : kSolvers) {
+    if (formulation == entry.formulation) return entry.skills;
+  }
+  return {};
+}
+
 std::vector<IgnoredSetting> ignoredSettings(const std::string& formulation, const ContactSettings& settings) {
   std::vector<IgnoredSetting> ignored;
   for (const Entry& entry : kSolvers) {
     if (formulation != entry.formulation) continue;
-    for (const UnusedSetting& unused : entry.unused(settings)) {
-      ignored.push_back({unused.key, unused.why != nullptr
-                                         ? std::string(unused.why)
-                                         : "approach/formulation " + formulation + " does not use it"});
+    const std::string has_no_use = "approach/formulation " + formulation + " does not use it";
+    if (!entry.is_of_paper) {
+      visitValues(settings.paper, [&](const std::string& key, const auto&) { ignored.push_back({key, has_no_use}); });
     }
-    addOfOtherSide(settings.lower, "lower", entry.bends_bodies, ignored);
-    addOfOtherSide(settings.upper, "upper", entry.bends_bodies, ignored);
+    for (const UnusedSetting& unused : entry.unused(settings)) {
+      ignored.push_back({unused.key, unused.why != nullptr ? unused.why : has_no_use});
+    }
+    addOfOtherSide(settings.lower, "lower", entry.skills.bends_bodies, ignored);
+    addOfOtherSide(settings.upper, "upper", entry.skills.bends_bodies, ignored);
     if (settings.capillary.relative_humidity > 0.0) continue;
     for (const char* key : kOfWater) ignored.push_back({key, "interface/relative_humidity is 0"});
   }

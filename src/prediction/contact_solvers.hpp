@@ -18,6 +18,17 @@ namespace mems_stiction {
 /// other name.
 std::string retirement(const std::string& formulation);
 
+/// What a solver does that not every one does.
+struct SolverSkills {
+  bool bends_bodies = false;      ///< asks how thick bodies are
+  bool tilts_plates = false;      ///< device/guidance free
+  bool follows_areas = false;     ///< that come in tiles (area_adhesion.hpp)
+  bool calls_half_space = false;  ///< flags of its predictions may ask for one (evaluation/half_space_call.hpp)
+};
+
+/// Of a formulation; none of those if there is no such one.
+SolverSkills skillsOf(const std::string& formulation);
+
 /// A setting without effect, and why.
 struct IgnoredSetting {
   std::string key;

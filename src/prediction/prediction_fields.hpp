@@ -15,60 +15,26 @@ namespace mems_stiction {
 
 /// "EQUILIBRIUM", "BONDED", "NO_EQUILIBRIUM"
 inline const char* word(Status status) {
-  switch (status) {
-    case Status::kEquilibrium:
-      return "EQUILIBRIUM";
-    case Status::kBonded:
-      return "BONDED";
-    case Status::kNoEquilibrium:
-      break;
-  }
-  return "NO_EQUILIBRIUM";
+  constexpr const char* kWords[] = {"EQUILIBRIUM", "BONDED", "NO_EQUILIBRIUM"};
+  return kWords[static_cast<int>(status)];
 }
 
 /// "APART", "ELASTIC", "ELASTO_PLASTIC", "PLASTIC"
 inline const char* word(Regime regime) {
-  switch (regime) {
-    case Regime::kApart:
-      return "APART";
-    case Regime::kElastic:
-      return "ELASTIC";
-    case Regime::kElastoPlastic:
-      return "ELASTO_PLASTIC";
-    case Regime::kPlastic:
-      break;
-  }
-  return "PLASTIC";
+  constexpr const char* kWords[] = {"APART", "ELASTIC", "ELASTO_PLASTIC", "PLASTIC"};
+  return kWords[static_cast<int>(regime)];
 }
 
 /// "BONDING", "ADHERENCE", "NON_BONDING", "UNKNOWN"
 inline const char* word(BondingRegime regime) {
-  switch (regime) {
-    case BondingRegime::kBonding:
-      return "BONDING";
-    case BondingRegime::kAdherence:
-      return "ADHERENCE";
-    case BondingRegime::kNonBonding:
-      return "NON_BONDING";
-    case BondingRegime::kUnknown:
-      break;
-  }
-  return "UNKNOWN";
+  constexpr const char* kWords[] = {"BONDING", "ADHERENCE", "NON_BONDING", "UNKNOWN"};
+  return kWords[static_cast<int>(regime)];
 }
 
 /// "DMT", "TRANSITION", "JKR", "UNKNOWN"
 inline const char* word(ContactTheory theory) {
-  switch (theory) {
-    case ContactTheory::kDmt:
-      return "DMT";
-    case ContactTheory::kTransition:
-      return "TRANSITION";
-    case ContactTheory::kJkr:
-      return "JKR";
-    case ContactTheory::kUnknown:
-      break;
-  }
-  return "UNKNOWN";
+  constexpr const char* kWords[] = {"DMT", "TRANSITION", "JKR", "UNKNOWN"};
+  return kWords[static_cast<int>(theory)];
 }
 
 /// @param roughness ArealParameters, const or not

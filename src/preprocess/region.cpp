@@ -10,12 +10,13 @@
 #include "height_map/validity.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/import/scan_file.hpp"
+#include "numeric/words.hpp"
 
 namespace mems_stiction {
 namespace {
 
 [[noreturn]] void refuse(const char* key, const std::string& path, const std::string& why) {
-  const bool is_named = why.compare(0, path.size() + 1, path + ":") == 0;
+  const bool is_named = startsWith(why, path + ":");
   throw OptionsError({std::string("preprocessing/region/") + key + ": " + (is_named ? why : path + ": " + why)});
 }
 

@@ -1,4 +1,5 @@
 #include "ros/message_fields.hpp"
+#include "numeric/words.hpp"
 
 #include <sstream>
 
@@ -7,7 +8,7 @@ namespace mems_stiction {
 std::vector<std::string> fieldNames(const std::string& definition) {
   std::vector<std::string> names;
   std::istringstream lines(definition);
-  for (std::string line; std::getline(lines, line) && line.compare(0, 2, "==") != 0;) {
+  for (std::string line; std::getline(lines, line) && !startsWith(line, "==");) {
     std::istringstream words(line.substr(0, line.find('#')));
     std::string type, name, sign;
     words >> type >> name >> sign;

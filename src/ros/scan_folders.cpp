@@ -9,6 +9,7 @@
 #include "errors/one_line.hpp"
 #include "evaluation/scan_state.hpp"
 #include "mems_stiction/errors/errors.hpp"
+#include "numeric/words.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -79,8 +80,8 @@ LivePredictor predictorFromFolders(const Configuration& configuration, bool accu
     if (files.empty()) throw;
     // The setting that it begins with, or, of a sidecar and the like, all of them.
     const std::string text = error.what();
-    const auto named = std::find_if(files.begin(), files.end(),
-                                    [&](const auto& file) { return text.rfind(file.first + ":", 0) == 0; });
+    const auto named =
+        std::find_if(files.begin(), files.end(), [&](const auto& file) { return startsWith(text, file.first + ":"); });
     if (named != files.end()) throw OptionsError({unusable(named->first, named->second)});
     for (const auto& [key, path] : files) lines.push_back(unusable(key, path));
     throw OptionsError(std::move(lines));

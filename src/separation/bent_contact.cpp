@@ -3,20 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "chosen_constants.hpp"
+#include "separation/chosen_constants.hpp"
 
 namespace mems_stiction {
 namespace {
 
-/// Bending below this share of the law's range changes nothing.
-constexpr double kLeastBending = 0.02;
-/// Where a way begins and ends, in ranges of the law before first touch.
-constexpr double kApart = 3.0;
-/// The way in has no figure but its end: so many times as long as the others are its steps.
-constexpr double kStepsIn = 3.0;
 constexpr int kMostTrials = 12;
-/// Where bodies jump while the force is largest, steps become so many times shorter.
-constexpr double kShortestStep = 0.1;
 
 /// The next step of a way [m].
 /// - @p length of it so far: bodies that are soft are drawn out far
@@ -54,7 +46,7 @@ void BentContact::settleBetween(double above, double below) {
 void BentContact::comeToRest() {
   const double load = settings_->load.mechanical_load;
   const double range = curve_.frame().law().range();
-  double height = field_->meanGap() + kApart * range;
+  double height = field_->meanGap() + chosen::kApart * range;
   way_in_.states.clear();
   cv::Mat1d before;
   double above = height;
@@ -71,7 +63,7 @@ void BentContact::comeToRest() {
     }
     if (state.contact_count >= plate_.frame().contactLimit()) break;
     above = height;
-    height -= kStepsIn * stepFrom(state, 0.0, range);
+    height -= chosen::kStepsIn * stepFrom(state, 0.0, range);
   }
   at_rest_ = plate_.blocks();
   energy_at_rest_ = plate_.energy();
@@ -121,14 +113,14 @@ void BentContact::part() {
   double work = 0.0;
   double rise = 0.0;
   double longest = stepFrom(state, height - height_at_rest_, range);
-  while (state.approach > -kApart * range) {
+  while (state.approach > -chosen::kApart * range) {
     plate_.shape().copyTo(before);
     double step = longest;
     SeparationState next = plate_.settle(height + step, {height_at_rest_, way.longest_hold});
     // where bodies jump out of a valley in which the force would have become the largest, how far the valley goes
     const bool falls = next.partingForce() < state.partingForce();
     if (falls && state.partingForce() + rise * step > parting_.force &&
-        step > kShortestStep * stepFrom(state, height - height_at_rest_, range)) {
+        step > chosen::kShortestStep * stepFrom(state, height - height_at_rest_, range)) {
       plate_.takeBack(before);
       longest = 0.5 * step;
       continue;
@@ -150,7 +142,7 @@ bool BentContact::staysStraight() {
   plate_.start(bending_, *field_, *settings_);
   const double level = field_->meanGap();
   const double rest = level - curve_.rest().approach;
-  const double least = kLeastBending * curve_.frame().law().range();
+  const double least = chosen::kLeastBending * curve_.frame().law().range();
   return plate_.firstMove(rest, {rest, 0.0}) < least &&
          plate_.firstMove(level - curve_.wayOut().pull_off_approach, {rest, curve_.wayOut().way.longest_hold}) < least;
 }

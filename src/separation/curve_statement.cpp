@@ -8,11 +8,8 @@
 namespace mems_stiction {
 
 std::vector<UnusedSetting> CurveStatement::unusedSettings(const ContactSettings& settings) {
-  std::vector<UnusedSetting> unused = {{"paper/step"},
-                                       {"paper/cutoff_distance"},
-                                       {"output/energy_curve"},
-                                       {"uncertainty/hardness"},
-                                       {"uncertainty/cutoff_distance"}};
+  std::vector<UnusedSetting> unused = {
+      {"output/energy_curve"}, {"uncertainty/hardness"}, {"uncertainty/cutoff_distance"}};
   if (settings.interface.work_of_adhesion > 0.0 && settings.interface.hamaker_constant > 0.0) {
     unused.push_back(
         {"interface/equilibrium_distance", "work of adhesion and Hamaker constant tell the range of forces"});

@@ -8,12 +8,10 @@
 #include <opencv2/imgproc.hpp>
 
 #include "numeric/constants.hpp"
+#include "separation/chosen_constants.hpp"
 
 namespace mems_stiction {
 namespace {
-
-/// Blocks of the relief are so many times shorter than the thinner body: shorter waves do not reach through it.
-constexpr double kBlocksPerThickness = 4.0;
 
 double thinner(const WaveStiffness& stiffness) {
   double thickness = std::numeric_limits<double>::infinity();
@@ -60,7 +58,7 @@ void PlateBending::start(const GapField& field, const WaveStiffness& stiffness) 
   const double height = field.rows() * field.pitchY();
   const double shortest = kPi * std::hypot(1.0 / field.pitchX(), 1.0 / field.pitchY());
   compliance_ = ExtraCompliance(stiffness, 0.5 * kPi / std::max(width, height), 2.0 * shortest);
-  const double longest_block = thinner(stiffness) / kBlocksPerThickness;
+  const double longest_block = thinner(stiffness) / chosen::kBlocksPerThickness;
   relief_.take(field, longest_block, true);
   if (!relief_.repeats()) {
     std::vector<double> line;

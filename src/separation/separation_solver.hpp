@@ -9,7 +9,7 @@
 /// changed surfaces, and surfaces whose flattening costs less than adhesion gives along that of conforming ones
 /// (conforming_contact.hpp). Equations, derivation, limits: doc/separation_curve.md.
 ///
-/// Forces (1.5 pi Gamma R) and areas of the paper's asperities by JKR are NaN; contacts have what the patches have: real
+/// Forces (1.5 pi Gamma R) and areas of asperities by JKR are NaN; contacts have what the patches have: real
 /// area, radius, load, regime by flow, Tabor's parameter, but no tilt.
 ///
 ///     SeparationSolver solver;
@@ -29,7 +29,7 @@
 
 namespace mems_stiction {
 
-/// Knows everything of a ContactSolution but the paper's sums by JKR and the pressure.
+/// Knows everything of a ContactSolution but the sums by JKR and the pressure.
 class SeparationSolver : public ContactSolver {
  public:
   void solve(const ContactProblem& problem, ContactSolution& solution) override;

@@ -191,9 +191,8 @@ class YamlReader : public OptionVisitor {
     for (const Leaf& leaf : leaves_) {
       const std::string section = leaf.key + "/";
       const bool empty_section =
-          leaf.node.IsNull() && std::any_of(known_.begin(), known_.end(), [&](const std::string& key) {
-            return key.compare(0, section.size(), section) == 0;
-          });
+          leaf.node.IsNull() &&
+          std::any_of(known_.begin(), known_.end(), [&](const std::string& key) { return startsWith(key, section); });
       if (leaf.uses == 0 && !empty_section) {
         if (++unknown_count > kMostUnknown) continue;
         const auto former = former_names_.find(leaf.key);

@@ -41,7 +41,7 @@ std::string csvCell(const nlohmann::json& value) {
 
 /// The number that a row begins with; 0 if it does not.
 std::size_t numberOf(const std::string& line, RowFormat format) {
-  if (format == RowFormat::kJsonLines && line.compare(0, kJsonStart.size(), kJsonStart) != 0) return 0;
+  if (format == RowFormat::kJsonLines && !startsWith(line, kJsonStart)) return 0;
   const char* start = line.c_str() + (format == RowFormat::kJsonLines ? kJsonStart.size() : 0);
   return std::strtoull(start, nullptr, 10);
 }
@@ -63,7 +63,7 @@ std::string rowsFrom(const std::string& path, RowFormat format, const std::strin
   const bool is_json = format == RowFormat::kJsonLines;
   const std::string begin(is_json ? kJsonStart : heading);
   const std::string found = readInputStart(path, kRows, begin.size());
-  if (begin.compare(0, found.size(), found) != 0) {
+  if (!startsWith(begin, found)) {
     throw FileError(path +
                     (is_json ? ": line 1 is no row"
                              : ": line 1 has other columns than this run writes: rows of another version or with other "

@@ -88,9 +88,9 @@ std::string parseFailure(const CLI::App& app, const CLI::Error& error) {
   }
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {  // "The following argument was not expected: --piych"
     const std::string first = after(what, ": ");
-    const std::size_t start = first.rfind("--", 0) == 0 ? 0 : first.find(" --") + 1;  // CLI11 names its value before it
+    const std::size_t start = startsWith(first, "--") ? 0 : first.find(" --") + 1;  // CLI11 names its value before it
     const std::string option = first.substr(start, first.find_first_of(" =", start) - start);
-    if (option.rfind("--", 0) == 0) {
+    if (startsWith(option, "--")) {
       return option + ": there is no such option" + suggestion(option, namesOf(app)) + kHelp;
     }
     return first + ": is not expected here" + kHelp;

@@ -12,6 +12,7 @@
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/settings/option_visitor.hpp"
 #include "npy_file.hpp"
+#include "numeric/words.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -37,7 +38,7 @@ std::string complaint(const fs::path& log) {
     if (!line.empty()) last = line;
   }
   const std::string own = std::string(kScript) + ": ";
-  return last.compare(0, own.size(), own) == 0 ? last.substr(own.size()) : last;
+  return startsWith(last, own) ? last.substr(own.size()) : last;
 }
 
 }  // namespace

@@ -5,9 +5,9 @@
 #include <cstdio>
 #include <string>
 
+#include "busy_line.hpp"
 #include "import/scan_writer.hpp"
 #include "mems_stiction/errors/errors.hpp"
-#include "waiting_line.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -63,7 +63,7 @@ std::string HalfSpaceText::next(const ForcePoint& point) {
 
 SolvedHalfSpace withHalfSpaceProgress(const std::function<SolvedHalfSpace(const HalfSpaceControl&)>& solve) {
   const Interruption interruption;  // outlives the line on the terminal, which is gone when the program ends
-  WaitingLine line("half-space: the first height");
+  BusyLine line("half-space: the first height");
   HalfSpaceText text;
   HalfSpaceControl control;
   control.cancel = &is_interrupted;

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "busy_line.hpp"
 #include "command_line.hpp"
 #include "height_map/scan_sanity.hpp"
 #include "height_map/validity.hpp"
@@ -18,7 +19,6 @@
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 #include "scans_ahead.hpp"
-#include "waiting_line.hpp"
 
 namespace {
 

@@ -17,6 +17,7 @@
 #include <rosbag/bag.h>
 #include <opencv2/core/utils/logger.hpp>
 
+#include "busy_line.hpp"
 #include "command_line.hpp"
 #include "files/interruption.hpp"
 #include "height_map/scan_sanity.hpp"
@@ -25,7 +26,6 @@
 #include "ros/image_conversion.hpp"
 #include "ros/topic_names.hpp"
 #include "surface/gaussian_surface.hpp"
-#include "waiting_line.hpp"
 
 namespace {
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "busy_line.hpp"
 #include "command_line.hpp"
 #include "device_picture.hpp"
 #include "evaluation/device_prediction.hpp"
@@ -13,7 +14,6 @@
 #include "mems_stiction/configuration/configuration_yaml.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/import/scan_file.hpp"
-#include "waiting_line.hpp"
 
 namespace {
 

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "busy_line.hpp"
 #include "command_line.hpp"
 #include "curve_file.hpp"
 #include "device/device_evidence.hpp"
@@ -26,7 +27,6 @@
 #include "mems_stiction/import/scan_file.hpp"
 #include "prediction/asked_output.hpp"
 #include "prediction/force_curve.hpp"
-#include "waiting_line.hpp"
 
 namespace {
 

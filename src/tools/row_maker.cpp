@@ -5,6 +5,7 @@
 #include <sstream>
 #include <utility>
 
+#include "busy_line.hpp"
 #include "device/device_evidence.hpp"
 #include "errors/error_text.hpp"
 #include "evaluation/device_scans.hpp"
@@ -14,7 +15,6 @@
 #include "half_space_run.hpp"
 #include "mems_stiction/evaluation/half_space_scan.hpp"
 #include "prediction/force_curve.hpp"
-#include "waiting_line.hpp"
 
 namespace mems_stiction {
 namespace {

@@ -15,6 +15,7 @@
 #include "files/child_process.hpp"
 #include "files/input_file.hpp"
 #include "mems_stiction/errors/errors.hpp"
+#include "numeric/words.hpp"
 #include "ros/scan_pairer.hpp"
 #include "ros/topic_names.hpp"
 
@@ -30,7 +31,7 @@ constexpr double kMendingTimeout = 3600.0;
 
 constexpr InputKind kBag = {"a bag", std::numeric_limits<std::uint64_t>::max()};
 
-std::string withoutSlash(const std::string& topic) { return topic.rfind('/', 0) == 0 ? topic.substr(1) : topic; }
+std::string withoutSlash(const std::string& topic) { return startsWith(topic, "/") ? topic.substr(1) : topic; }
 
 /// The topic called `name` in the namespace of `topic`.
 std::string sibling(const std::string& topic, const char* name) {

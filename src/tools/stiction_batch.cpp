@@ -13,6 +13,7 @@
 #include "batch_rows.hpp"
 #include "batch_scans.hpp"
 #include "batch_settings.hpp"
+#include "busy_line.hpp"
 #include "command_line.hpp"
 #include "evaluation/half_space_call.hpp"
 #include "evaluation/plausibility.hpp"
@@ -25,7 +26,6 @@
 #include "progress_bar.hpp"
 #include "row_queue.hpp"
 #include "row_states.hpp"
-#include "waiting_line.hpp"
 
 namespace {
 

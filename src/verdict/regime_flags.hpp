@@ -33,7 +33,7 @@ inline constexpr int kFewestContactsForStatement = 3;
 inline constexpr int kFewestContacts = 10;
 
 /// Shares are of the sum of composite radii, which the adhesion is proportional to; without a list of contacts
-/// (output/asperities off, paper's formulations) they are of the number of contacts, and the mean contact stands for
+/// (output/asperities off, or a formulation that lists none) they are of the number of contacts, and the mean contact stands for
 /// all.
 /// - @p cell_area of the scan [m^2], > 0
 std::uint32_t regimeFlags(const Prediction& prediction, double cell_area);

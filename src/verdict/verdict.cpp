@@ -215,17 +215,8 @@ Verdict verdictBy(const Prediction& prediction, const DeviceOptions& device, con
 const char* judgeText(Judge judge) { return judge == Judge::kHalfSpace ? "half_space" : "prediction"; }
 
 const char* sticksText(Sticks sticks) {
-  switch (sticks) {
-    case Sticks::kNo:
-      return "no";
-    case Sticks::kMarginal:
-      return "marginal";
-    case Sticks::kYes:
-      return "yes";
-    case Sticks::kUnknown:
-      break;
-  }
-  return "unknown";
+  constexpr const char* kWords[] = {"no", "marginal", "yes", "unknown"};
+  return kWords[static_cast<int>(sticks)];
 }
 
 Verdict verdictOf(const Prediction& prediction, const DeviceOptions& device, const UncertaintyOptions& uncertainty,

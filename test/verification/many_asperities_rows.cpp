@@ -5,9 +5,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "mechanics/hertz.hpp"
 #include "mechanics/jkr.hpp"
 #include "numeric/constants.hpp"
+#include "support/reference_contacts.hpp"
 #include "verification/closed_forms.hpp"
 #include "verification/sections.hpp"
 

@@ -4,12 +4,11 @@
 #include <cmath>
 #include <cstdio>
 
-#include "mechanics/dmt.hpp"
-#include "mechanics/hertz.hpp"
 #include "mechanics/jkr.hpp"
 #include "mechanics/transition.hpp"
 #include "mems_stiction/mechanics/material.hpp"
 #include "numeric/constants.hpp"
+#include "support/reference_contacts.hpp"
 #include "verification/closed_forms.hpp"
 #include "verification/sections.hpp"
 

@@ -5,6 +5,7 @@
 #include "mechanics/surface_forces.hpp"
 #include "mems_stiction/contact/contact_settings.hpp"
 #include "paper/cell_forces.hpp"
+#include "support/reference_contacts.hpp"
 #include "verification/closed_forms.hpp"
 #include "verification/sections.hpp"
 

@@ -9,13 +9,13 @@
 
 #include <gtest/gtest.h>
 
-#include "mechanics/hertz.hpp"
 #include "mechanics/wave_stiffness.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/half_space/half_space_solver.hpp"
 #include "numeric/constants.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/half_space_cases.hpp"
+#include "support/reference_contacts.hpp"
 
 namespace mems_stiction {
 namespace {

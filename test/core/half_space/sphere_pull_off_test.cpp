@@ -10,6 +10,7 @@
 #include "numeric/constants.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/half_space_cases.hpp"
+#include "support/reference_contacts.hpp"
 
 namespace mems_stiction {
 namespace {

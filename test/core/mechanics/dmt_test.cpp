@@ -1,10 +1,9 @@
-#include "mechanics/dmt.hpp"
+#include "support/reference_contacts.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "mechanics/hertz.hpp"
 #include "mechanics/jkr.hpp"
 #include "numeric/constants.hpp"
 

@@ -1,4 +1,4 @@
-#include "mechanics/hertz.hpp"
+#include "support/reference_contacts.hpp"
 
 #include <cmath>
 

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "mechanics/hertz.hpp"
 #include "numeric/constants.hpp"
+#include "support/reference_contacts.hpp"
 
 namespace mems_stiction {
 namespace {

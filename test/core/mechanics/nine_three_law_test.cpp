@@ -8,6 +8,7 @@
 #include "mechanics/traction_law.hpp"
 #include "numeric/constants.hpp"
 #include "numeric/lanes.hpp"
+#include "support/reference_contacts.hpp"
 
 namespace mems_stiction {
 namespace {

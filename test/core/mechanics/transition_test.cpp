@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "numeric/constants.hpp"
+#include "support/reference_contacts.hpp"
 
 namespace mems_stiction {
 namespace {

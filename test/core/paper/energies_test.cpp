@@ -7,6 +7,7 @@
 #include "mechanics/jkr.hpp"
 #include "numeric/constants.hpp"
 #include "paper/force_balance.hpp"
+#include "support/reference_contacts.hpp"
 
 namespace mems_stiction {
 namespace {

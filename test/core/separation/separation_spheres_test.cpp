@@ -4,13 +4,13 @@
 
 #include <gtest/gtest.h>
 
-#include "mechanics/hertz.hpp"
 #include "mechanics/surface_forces.hpp"
 #include "mechanics/traction_law.hpp"
 #include "mechanics/transition.hpp"
 #include "numeric/constants.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/pinned_surface.hpp"
+#include "support/reference_contacts.hpp"
 #include "support/separation_cases.hpp"
 
 namespace mems_stiction {

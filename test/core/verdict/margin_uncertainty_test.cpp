@@ -10,6 +10,7 @@
 #include "numeric/constants.hpp"
 #include "paper/contact_growth.hpp"
 #include "support/paper_options.hpp"
+#include "support/reference_contacts.hpp"
 #include "surface/gaussian_surface.hpp"
 
 namespace mems_stiction {

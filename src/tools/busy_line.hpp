@@ -16,13 +16,13 @@
 namespace mems_stiction {
 
 /// Lives as long as the work takes. Nothing else may be written to the terminal meanwhile.
-class WaitingLine {
+class BusyLine {
  public:
   /// - @p doing as in "scan.tiff: predicting"
-  explicit WaitingLine(std::string doing) : doing_(std::move(doing)) {
+  explicit BusyLine(std::string doing) : doing_(std::move(doing)) {
     if (line_.onTerminal()) ticker_ = std::thread([this] { tick(); });
   }
-  ~WaitingLine() {
+  ~BusyLine() {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       is_done_ = true;
@@ -30,8 +30,8 @@ class WaitingLine {
     done_.notify_all();
     if (ticker_.joinable()) ticker_.join();
   }
-  WaitingLine(const WaitingLine&) = delete;
-  WaitingLine& operator=(const WaitingLine&) = delete;
+  BusyLine(const BusyLine&) = delete;
+  BusyLine& operator=(const BusyLine&) = delete;
 
   /// What it is at now; any thread may call.
   void say(std::string doing) {
@@ -64,7 +64,7 @@ class WaitingLine {
 /// The result of the work, with the line while it takes longer than two seconds.
 template <typename Work>
 auto whileSaying(const std::string& doing, Work&& work) {
-  const WaitingLine line(doing);
+  const BusyLine line(doing);
   return work();
 }
 
@@ -79,7 +79,7 @@ inline std::string deviceText(double share) {
 /// - @p what as in "scan.tiff"
 template <typename Work>
 auto whileSayingShare(const std::string& what, Work&& work) {
-  WaitingLine line(what + ": " + deviceText(0.0));
+  BusyLine line(what + ": " + deviceText(0.0));
   return work([&](double share) { line.say(what + ": " + deviceText(share)); });
 }
 
