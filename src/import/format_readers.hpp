@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/import/file_channel.hpp"
 
 namespace mems_stiction {
@@ -118,11 +119,24 @@ struct Hdf5Channels {
 /// @throw FileError crashed, timed out, damaged.
 Hdf5Channels channelsByH5py(const std::string& path, double timeout);
 
+/// What the Python packages SurfaceTopography and AFMReader make of a file that neither this project nor gwyddion reads; both are
+/// optional. Formats without a signature are left out: they would be guessed.
+/// @return every channel of an area, with a note that names the package and its version; none if they read none or are not
+/// installed.
+/// @throw FileError crashed, timed out.
+std::vector<FileChannel> channelsByPackages(const std::string& path, double timeout);
+
+/// The file is of no format that gwyddion knows, or gwyddion is not installed.
+class NoFormatOfGwyddion : public FileError {
+ public:
+  using FileError::FileError;
+};
+
 /// Instrument makers' files, read by the program gwyddion as a child process: a damaged file that crashes the reader
 /// ends that process and nothing else. gwyddion is optional; the project neither links nor ships it.
 /// - @p bytes the file's content, by which a conversion is cached and found again if ImportOptions say so
 /// @return every image channel of the file, whatever its unit.
-/// @throw FileError in one line with the file and the cause: not installed, crashed, failed, timed out, unreadable.
+/// @throw NoFormatOfGwyddion; FileError in one line with the file and the cause: crashed, failed, timed out, unreadable.
 std::vector<FileChannel> channelsByGwyddion(const std::string& path, const std::string& bytes,
                                             const ImportOptions& options);
 
