@@ -102,6 +102,12 @@ FileChannel parseTextGrid(const std::string& bytes, const TextOptions& options =
 /// @throw FileError cut off, without number of points or names.
 std::vector<FileChannel> parseNanoscopeText(const std::string& bytes);
 
+/// NanoScope's images of versions 4.3 and later, binary: each image with its scale over a sensitivity of the scanner.
+/// @return a channel for each image, in metres where its sensitivity is a length per volt; none where one image states its
+/// scale in another way, which is left to gwyddion.
+/// @throw FileError counts that are none, too many pixels.
+std::vector<FileChannel> parseNanoscope(const std::string& bytes);
+
 /// Surfer's text grids (DSAA): numbers of nodes, limits of x, y and z, then rows from the lowest y on. Blank nodes are NaN.
 /// @return a channel that takes settings; x and y are in the unit of z.
 /// @throw FileError cut off, more numbers than stated, ranges that do not grow.

@@ -112,7 +112,8 @@ Channels readByGwyddion(const std::string& path, const std::string& bytes, const
   const NanoscopeStatements stated = checkedNanoscope(bytes);
   if (const auto whole = withWholeCreatecHeader(bytes)) return readRewritten(path, *whole, options);
   checkStatedLength(bytes);
-  Channels channels = channelsByOthers(path, bytes, options);
+  Channels channels = parseNanoscope(bytes);
+  if (channels.empty()) channels = channelsByOthers(path, bytes, options);
   for (FileChannel& channel : channels) {
     channel.reach = stated.reach;
     channel.identity = completed(stated.identity, channel.identity);
