@@ -63,8 +63,9 @@ std::optional<Scale> scaleOf(const List& image, const std::vector<List>& lists) 
   const std::string sensitivity = onlyValue(lists, "@" + soft);
   if (sensitivity.empty()) return std::nullopt;
   const double metres = metresPerVolt(sensitivity);
-  if (metres > 0.0) return unit == "V" ? std::optional<Scale>({range * metres, "m"}) : std::nullopt;
-  return unit == "mV" ? Scale{1e-3 * range, "V"} : Scale{range, unit};
+  const double volts = unit == "V" ? range : unit == "mV" ? 1e-3 * range : 0.0;
+  if (metres > 0.0) return volts > 0.0 ? std::optional<Scale>({volts * metres, "m"}) : std::nullopt;
+  return volts > 0.0 ? Scale{volts, "V"} : Scale{range, unit};
 }
 
 /// Rows from the bottom, little-endian.

@@ -75,6 +75,10 @@ TEST(NanoscopeFile, MillivoltsAreVolts) {
   ASSERT_EQ(channels.size(), 1u);
   EXPECT_EQ(channels[0].unit_z, "V");
   EXPECT_NEAR(channels[0].values.at<double>(1, 1), 20 * 24.5756e-3 / 65536.0, 1e-18);
+  const std::vector<FileChannel> heights = parseNanoscope(with(nanoscope({image(2)}), "24.57563 V", "24.5756 mV"));
+  ASSERT_EQ(heights.size(), 1u);
+  EXPECT_EQ(heights[0].unit_z, "m");
+  EXPECT_NEAR(heights[0].values.at<double>(1, 1), 20 * 24.5756e-3 * 10e-9 / 65536.0, 1e-25);
 }
 
 TEST(NanoscopeFile, WhatIsSaidInAnotherWayIsLeftToGwyddion) {
@@ -86,7 +90,8 @@ TEST(NanoscopeFile, WhatIsSaidInAnotherWayIsLeftToGwyddion) {
                                                         {"Ciao image list", "Ciao force list"},
                                                         {"Bytes/pixel: 2", "Bytes/pixel: 4"},
                                                         {"3750000 V/LSB", "3750000 V/XXX"},
-                                                        {"24.57563 V", "24.57563mV"},
+                                                        {"24.57563 V", "24.57563V "},
+                                                        {"24.57563 V", "24.57563 A"},
                                                         {"S [Height]", "S  Height "},
                                                         {"3 2 ~m", "3 2 ~V"},
                                                         {"*File list", "*Fool list"}}) {
