@@ -29,6 +29,7 @@ class Surface(NamedTuple):
     channel: str = ""
     notes: Tuple[str, ...] = ()  # what to know of how the file was read
     identity: _core.ScanIdentity = _core.ScanIdentity()  # of what it is, and who measured it
+    is_periodic: bool = False  # the last column goes on in the first, the last row in the first row
 
     def back(self, array: np.ndarray) -> np.ndarray:
         """A map of the core in the index order of the heights that came in."""
@@ -86,7 +87,8 @@ def _of_topography(topography: Any, pitch: Optional[Pitch], settings: Settings, 
     pixels = pixels_of(heights.T, what)
     if factor != 1.0:
         pixels = pixels * factor
-    return Surface(_core.height_map(pixels, pitches[0], pitches[1], settings._configuration), "", True)
+    return Surface(_core.height_map(pixels, pitches[0], pitches[1], settings._configuration), "", True,
+                   is_periodic=getattr(topography, "is_periodic", False) is True)
 
 
 def _pitch_of_sizes(sizes: Any, shape: Sequence[int], factor: float) -> Tuple[float, float]:
@@ -133,10 +135,10 @@ def pixels_of(heights: Any, what: str = "heights") -> np.ndarray:
         raise SurfaceError("%s: an array of type float16 is not allowed, its steps are 60 nm where they are finest; must be float32 or float64" % what)
     if array.dtype.kind not in "fiu":
         raise SurfaceError("%s: an array of type %s is not allowed, must be real numbers [m]" % (what, array.dtype))
-    if array.ndim != 2:
-        raise SurfaceError(_shape_text(array, what))
-    if array.size == 0:
+    if array.ndim == 2 and array.size == 0:
         raise SurfaceError("%s: an array of shape %s has no pixel" % (what, array.shape))
+    if array.ndim != 2 or 1 in array.shape:
+        raise SurfaceError(_shape_text(array, what))
     if isinstance(array, np.ma.MaskedArray):
         array = np.ma.filled(array if array.dtype.kind == "f" else array.astype(float), np.nan)
     if array.dtype.name not in AS_IT_IS or not array.dtype.isnative:

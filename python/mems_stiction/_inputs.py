@@ -8,7 +8,7 @@ from typing import Any, Dict, Iterable, List, Optional, Tuple
 
 from mems_stiction import _core
 from mems_stiction._arrays import Pitch, Surface, pixels_of, surface_of
-from mems_stiction._settings import Config, Settings
+from mems_stiction._settings import Config, Settings, values_of
 from mems_stiction._warnings import ScanWarning, warn
 
 
@@ -53,12 +53,21 @@ def counter_of(upper: Any, surface: Surface, settings: Settings) -> Optional[_co
     return surface_of(surface.back(pixels_of(upper, "upper")), surface.core.pitch, settings, "upper").core
 
 
+def boundary_of(surface: Surface, settings: Settings) -> Settings:
+    """What a topography says of itself goes before the settings: a periodic one has copies of it beyond its frame."""
+    if not surface.is_periodic or values_of(settings)["half_space/boundary"] == "periodic":
+        return settings
+    warn_about(surface, ["the topography is periodic: half_space/boundary free does not count"])
+    return Settings(settings, **{"half_space/boundary": "periodic"})
+
+
 def inputs_of(heights: Any, pitch: Optional[Pitch], config: Optional[Config], upper: Any,
               settings: Dict[str, Any]) -> Tuple[Settings, Surface, _core.PreparedScan]:
     """Settings, the scan, and it with its counter-surface, ready for the model. Warns about what does not look like a scan."""
     upper = section_or_surface(upper, settings)
     checked = Settings(config, **settings)
     surface = surface_of(heights, pitch, checked)
+    checked = boundary_of(surface, checked)
     prepared = _core.prepare(surface.core, counter_of(upper, surface, checked), checked._configuration)
     warn_about(surface, list(surface.notes) + prepared.warnings)
     return checked, surface, prepared

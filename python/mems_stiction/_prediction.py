@@ -15,7 +15,7 @@ import numpy as np
 
 from mems_stiction import _core
 from mems_stiction._arrays import Pitch, ReadOnly, Surface, array_of, explained, records_of, surface_of
-from mems_stiction._inputs import brings_pitch, counter_of, section_or_surface, warn_about
+from mems_stiction._inputs import boundary_of, brings_pitch, counter_of, section_or_surface, warn_about
 from mems_stiction._scans import Roughness
 from mems_stiction._settings import Config, Error, OptionsError, Settings
 from mems_stiction.provenance import FIELDS
@@ -259,7 +259,9 @@ class Predictor:
     def predict(self, heights: Any, pitch: Optional[Pitch] = None, upper: Any = None) -> Prediction:
         """As the function predict()."""
         surface = surface_of(heights, pitch, self.settings)
-        predicted = self._core.predict(surface.core, counter_of(upper, surface, self.settings), surface.notes, surface.identity)
+        settings = boundary_of(surface, self.settings)
+        core = self._core if settings is self.settings else _core.Predictor(settings._configuration)
+        predicted = core.predict(surface.core, counter_of(upper, surface, settings), surface.notes, surface.identity)
         warn_about(surface, predicted.scan_warnings)
         return Prediction(predicted, surface)
 
@@ -312,9 +314,10 @@ def _predictions_under(heights: Any, pitch: Optional[Pitch], configs: Iterator[S
     for settings in configs:
         if scan is None:
             surface = surface_of(heights, pitch, settings)
+            settings = boundary_of(surface, settings)
             scan = _core.OneScan(surface.core, counter_of(upper, surface, settings), settings._configuration, surface.notes, surface.identity)
             warn_about(surface, scan.scan_warnings)
-        yield Prediction(scan.predict(settings._configuration), surface)
+        yield Prediction(scan.predict(boundary_of(surface, settings)._configuration), surface)
 
 
 def predict_many(frames: Iterable[Any], pitch: Optional[Pitch] = None, config: Optional[Config] = None, *,

@@ -62,7 +62,8 @@ class Scan(_core.ScanIdentityFigures):
 
         heights = array_of(self._surface.core.pixels)
         assert heights is not None
-        return Topography(np.ma.masked_invalid(heights.T) if np.isnan(heights).any() else heights.T, self.physical_sizes, unit="m")
+        return Topography(np.ma.masked_invalid(heights.T) if np.isnan(heights).any() else heights.T, self.physical_sizes,
+                          periodic=self._surface.is_periodic, unit="m")
 
     def __array__(self, dtype: Any = None, copy: Optional[bool] = None) -> np.ndarray:
         return np.array(self.heights, dtype=dtype) if copy else np.asarray(self.heights, dtype=dtype)
@@ -176,15 +177,19 @@ def decimate(heights: Any, pitch: Optional[Pitch] = None, *, factor: int) -> Sca
     if not isinstance(factor, (int, np.integer)) or factor < 1:
         raise SurfaceError("factor: %r is not allowed, must be an integer >= 1" % (factor,))
     surface = scan_of(heights, pitch, Settings())
-    return Scan(surface._replace(core=_core.decimate(surface.core, int(factor))), surface.channel)
+    core = _core.decimate(surface.core, int(factor))
+    is_whole = all(count % factor == 0 for count in np.asarray(surface.core.pixels).shape)
+    return Scan(surface._replace(core=core, is_periodic=surface.is_periodic and is_whole), surface.channel)
 
 
 def roughness(heights: Any, pitch: Optional[Pitch] = None, config: Optional[Config] = None, *, spatial: bool = True,
               **settings: Any) -> Roughness:
     """Figures of ISO 25178-2, spectrum and summits of a surface as it is given.
 
-    spatial: also those that reach sideways (sal to hurst), which take twice as long as a prediction.
+    spatial: also those that reach sideways (sal to hurst), which take twice as long as a prediction. They wrap around a
+    topography that is_periodic.
     Raises SurfaceError without a valid pixel.
     """
     checked = Settings(config, **settings)
-    return Roughness(_core.roughness(scan_of(heights, pitch, checked).core, checked._configuration, spatial))
+    surface = scan_of(heights, pitch, checked)
+    return Roughness(_core.roughness(surface.core, checked._configuration, spatial, surface.is_periodic))

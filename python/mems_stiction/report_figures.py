@@ -299,8 +299,12 @@ def trend_figure(rows):
             drawn = np.concatenate([drawn, _draw_control(axes, numbers, values, ~lost)])
         if name in RATIOS:  # the line that they are judged by is seen too
             drawn = np.append(drawn, 1.0)
-        _scale_trend(axes, np.append(values, 1.0) if name in RATIOS else values, drawn[np.isfinite(drawn)])
+        is_logarithmic = _scale_trend(axes, np.append(values, 1.0) if name in RATIOS else values, drawn[np.isfinite(drawn)])
         axes.set_title(label[0].upper() + label[1:], fontsize=11)
+        if is_logarithmic and unit not in ("", "%"):  # over many decades one prefix does not do
+            step = max(number(row.get(name)) for row in rows if number(row.get(name)) > 0) / np.nanmax(values)
+            axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _, step=step, unit=unit: with_unit(value * step, unit, 1)))
+            shown_unit = unit
         axes.set_ylabel("%s [%s]" % (label.split(":")[0], shown_unit or "-"))
         axes.set_xlabel("number of the scan")
         axes.set_xlim(numbers[0] - 0.5, numbers[-1] + 0.5)  # of all panels, however few scans a figure is known of
@@ -327,13 +331,14 @@ def _draw_control(axes, numbers, values, use):
 
 
 def _scale_trend(axes, values, drawn):
-    """Logarithmic where the values span more than a factor of thirty; with room for the legend above all that is drawn."""
+    """Logarithmic where the values span more than a factor of thirty, and whether it is; with room for the legend above all that is drawn."""
     finite = values[np.isfinite(values)]
     if not drawn.size:
-        return
+        return False
     if finite.size and finite.min() > 0 and finite.max() > 30 * finite.min() and drawn.min() > 0:
         axes.set_yscale("log")
         axes.set_ylim(drawn.min() / 1.5, drawn.max() * (drawn.max() / drawn.min())**0.25)
         axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: "%g" % value))
-    else:
-        axes.set_ylim(0, 1.3 * drawn.max() if drawn.max() > 0 else 1.0)
+        return True
+    axes.set_ylim(0, 1.3 * drawn.max() if drawn.max() > 0 else 1.0)
+    return False

@@ -34,7 +34,7 @@ PAGE = """<!DOCTYPE html>
     .details { width: 88%; margin: 4px auto; } .cleaning h3 { clear: both; } .cleaning img { float: left; width: 38%; margin-right: 3%; } .cleaning table { width: 59%; font-size: 8px; }
     #scans td.path { min-width: 0; overflow-wrap: break-word; }
     .cleaning::after { content: ""; display: block; clear: both; }
-    pre { font-size: 8.5px; } th, td { padding: 2px 4px; } th.n, td.n { white-space: normal; } td.path { min-width: 34mm; } .overview { font-size: 8.5px; width: 100%; }
+    pre { font-size: 7.5px; } th, td { padding: 2px 4px; } th.n, td.n { white-space: normal; } td.path { min-width: 34mm; } .overview { font-size: 8.5px; width: 100%; }
   }
 </style>
 </head>

@@ -17,6 +17,12 @@ program=scripts/$(basename "$0")
 
 say() { printf '%s\n' "$*"; }
 
+# Whichever script it is that sources this.
+if [ "${1:-}" = --version ]; then
+  say "$(basename "$0") of mems_stiction $(sed -n 's|.*<version>\(.*\)</version>.*|\1|p' "$repository/package.xml")"
+  exit 0
+fi
+
 # fail MESSAGE [ADVICE...]: one line with the cause, then what to do, then exit 1.
 fail() {
   printf '%s: %s\n' "$program" "$1" >&2

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/import/file_channel.hpp"
 
 namespace mems_stiction {
@@ -101,6 +102,12 @@ FileChannel parseTextGrid(const std::string& bytes, const TextOptions& options =
 /// @throw FileError cut off, without number of points or names.
 std::vector<FileChannel> parseNanoscopeText(const std::string& bytes);
 
+/// NanoScope's images of versions 4.3 and later, binary: each image with its scale over a sensitivity of the scanner.
+/// @return a channel for each image, in metres where its sensitivity is a length per volt; none where one image states its
+/// scale in another way, which is left to gwyddion.
+/// @throw FileError counts that are none, too many pixels.
+std::vector<FileChannel> parseNanoscope(const std::string& bytes);
+
 /// Surfer's text grids (DSAA): numbers of nodes, limits of x, y and z, then rows from the lowest y on. Blank nodes are NaN.
 /// @return a channel that takes settings; x and y are in the unit of z.
 /// @throw FileError cut off, more numbers than stated, ranges that do not grow.
@@ -118,11 +125,24 @@ struct Hdf5Channels {
 /// @throw FileError crashed, timed out, damaged.
 Hdf5Channels channelsByH5py(const std::string& path, double timeout);
 
+/// What the Python packages SurfaceTopography and AFMReader make of a file that neither this project nor gwyddion reads; both are
+/// optional. Formats without a signature are left out: they would be guessed.
+/// @return every channel of an area, with a note that names the package and its version; none if they read none or are not
+/// installed.
+/// @throw FileError crashed, timed out.
+std::vector<FileChannel> channelsByPackages(const std::string& path, double timeout);
+
+/// The file is of no format that gwyddion knows, or gwyddion is not installed.
+class NoFormatOfGwyddion : public FileError {
+ public:
+  using FileError::FileError;
+};
+
 /// Instrument makers' files, read by the program gwyddion as a child process: a damaged file that crashes the reader
 /// ends that process and nothing else. gwyddion is optional; the project neither links nor ships it.
 /// - @p bytes the file's content, by which a conversion is cached and found again if ImportOptions say so
 /// @return every image channel of the file, whatever its unit.
-/// @throw FileError in one line with the file and the cause: not installed, crashed, failed, timed out, unreadable.
+/// @throw NoFormatOfGwyddion; FileError in one line with the file and the cause: crashed, failed, timed out, unreadable.
 std::vector<FileChannel> channelsByGwyddion(const std::string& path, const std::string& bytes,
                                             const ImportOptions& options);
 

@@ -54,8 +54,8 @@ std::string converted(const std::string& path, const ImportOptions& options) {
   const ChildResult result = runGwyddion(folder.path(), scan_path, options);
   const fs::path target = folder.path() / kTarget;
   if (!result.started) {
-    throw FileError(path + ": needs the program " + options.program +
-                    " to be read, which is not installed (Debian package: gwyddion)");
+    throw NoFormatOfGwyddion(path + ": needs the program " + options.program +
+                             " to be read, which is not installed (Debian package: gwyddion)");
   }
   if (result.timed_out) {
     throw FileError(path + ": gwyddion did not finish within " + numberText(options.timeout) + " s and was stopped");
@@ -68,8 +68,10 @@ std::string converted(const std::string& path, const ImportOptions& options) {
     if (cause.find("failed to report error") != std::string::npos) {
       cause = "it is of a known format, but cut off, damaged, or without an image; gwyddion does not say which";
     }
-    throw FileError(path + ": gwyddion cannot read it: " +
-                    (cause.empty() ? "exit status " + std::to_string(result.exit_code) : cause));
+    const std::string text = path + ": gwyddion cannot read it: " +
+                             (cause.empty() ? "exit status " + std::to_string(result.exit_code) : cause);
+    if (cause.find("No module can load this file type") != std::string::npos) throw NoFormatOfGwyddion(text);
+    throw FileError(text);
   }
   return readFileBytes(target.string());
 }

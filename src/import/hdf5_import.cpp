@@ -1,27 +1,12 @@
-#include <algorithm>
-#include <filesystem>
-#include <fstream>
+#include <utility>
 
-#include "files/child_process.hpp"
-#include "files/interruption.hpp"
-#include "import/file_bytes.hpp"
 #include "import/format_readers.hpp"
-#include "import/plain_number.hpp"
-#include "mems_stiction/errors/errors.hpp"
-#include "mems_stiction/settings/option_visitor.hpp"
+#include "import/python_reader.hpp"
 
 namespace mems_stiction {
 namespace {
 
-namespace fs = std::filesystem;
-
-constexpr const char* kList = "channels";
-constexpr const char* kArrays = "arrays";
-constexpr int kNoLibrary = 3;
-constexpr int kOtherLayout = 4;
-
-/// Writes each channel as N.npy, and a line "title, width, height, unit, note" between tabs. Lengths are in metres. Where there
-/// is none, it writes which arrays of two dimensions there are, a line for each.
+/// As channelsByPython() wants it. Where it reads no channel, it says which arrays of two dimensions there are, a line for each.
 constexpr const char* kScript = R"(
 import sys
 sys.path = [folder for folder in sys.path if folder]
@@ -133,7 +118,7 @@ def main(path, folder):
     if not lines:
         arrays = []
         file.visititems(lambda name, item: arrays.append(name) if is_map(item) else None)
-        with open(folder + "/arrays", "w", encoding="utf-8") as stream:
+        with open(folder + "/remark", "w", encoding="utf-8") as stream:
             for name in arrays[:8]:
                 stream.write("'%s' (%d x %d)\n" % (" ".join(name.split()), *file[name].shape[::-1]))
             stream.write("and %d more\n" % (len(arrays) - 8) if len(arrays) > 8 else "")
@@ -144,63 +129,11 @@ def main(path, folder):
 main(sys.argv[1], sys.argv[2])
 )";
 
-ChildResult runReader(const std::string& python, const std::string& path, const std::string& folder, double timeout) {
-  return runChild({python, "-c", kScript, path, folder}, environmentWithout({}, {"PYTHONIOENCODING=utf-8"}),
-                  folder + "/log", timeout);
-}
-
-/// The python3 of the PATH may lack the library that the system's has.
-ChildResult readerResult(const std::string& path, const std::string& folder, double timeout) {
-  const ChildResult result = runReader("python3", path, folder, timeout);
-  if (result.started && result.exit_code != kNoLibrary) return result;
-  const ChildResult other = runReader("/usr/bin/python3", path, folder, timeout);
-  return other.started ? other : result;
-}
-
-FileChannel channelOf(const std::string& line, const std::string& npy, int id) {
-  std::vector<std::string> words(1);
-  for (const char c : line) {
-    if (c == '\t') {
-      words.emplace_back();
-    } else {
-      words.back() += c;
-    }
-  }
-  if (words.size() != 5) throw FileError("damaged");
-  FileChannel channel = parseNpy(npy);
-  channel.takes_settings = false;
-  channel.id = id;
-  channel.title = words[0];
-  channel.width = plainNumber(words[1]);
-  channel.height = plainNumber(words[2]);
-  if (channel.width > 0.0 && channel.height > 0.0) channel.unit_xy = "m";
-  channel.unit_z = words[3];
-  if (!words[4].empty()) channel.notes.push_back(words[4]);
-  return channel;
-}
-
 }  // namespace
 
 Hdf5Channels channelsByH5py(const std::string& path, double timeout) {
-  const PrivateFolder folder;
-  const std::string target = folder.path().string();
-  const ChildResult result = readerResult(fs::absolute(path).string(), target, timeout);
-  Hdf5Channels read;
-  if (result.timed_out) throw FileError("h5py did not finish within " + numberText(timeout) + " s and was stopped");
-  if (result.signal != 0) throw FileError("h5py crashed on this file: it is damaged");
-  read.is_library_missing = !result.started || result.exit_code == kNoLibrary;
-  if (result.exit_code == kOtherLayout) {
-    std::ifstream arrays(target + "/" + kArrays);
-    for (std::string line; std::getline(arrays, line);) read.arrays += (read.arrays.empty() ? "" : ", ") + line;
-  }
-  if (read.is_library_missing || result.exit_code == kOtherLayout) return read;
-  std::ifstream list(target + "/" + kList);
-  if (result.exit_code != 0 || !list) throw FileError("its layout is known, but what it should have is not there");
-  int id = 0;
-  for (std::string line; std::getline(list, line); ++id) {
-    read.channels.push_back(channelOf(line, readFileBytes(target + "/" + std::to_string(id) + ".npy"), id));
-  }
-  return read;
+  PythonReading read = channelsByPython(kScript, "h5py", path, timeout);
+  return {std::move(read.channels), read.is_library_missing, std::move(read.remark)};
 }
 
 }  // namespace mems_stiction

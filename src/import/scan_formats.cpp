@@ -95,13 +95,25 @@ Channels readRewritten(const std::string& path, const std::string& bytes, const 
   }
 }
 
+/// By gwyddion, and what it has no reader for by packages of Python.
+Channels channelsByOthers(const std::string& path, const std::string& bytes, const ImportOptions& options) {
+  try {
+    return channelsByGwyddion(path, bytes, options);
+  } catch (const NoFormatOfGwyddion& error) {
+    Channels channels = channelsByPackages(path, options.timeout);
+    if (channels.empty()) throw FileError(error.what());
+    return channels;
+  }
+}
+
 /// What gwyddion reads, after the file's own statements have been held against each other and against its bytes.
 Channels readByGwyddion(const std::string& path, const std::string& bytes, const ImportOptions& options) {
   if (beginsWithOneOf(bytes, {"PK\3\4"})) checkX3pFolder(checkZip(bytes));
   const NanoscopeStatements stated = checkedNanoscope(bytes);
   if (const auto whole = withWholeCreatecHeader(bytes)) return readRewritten(path, *whole, options);
   checkStatedLength(bytes);
-  Channels channels = channelsByGwyddion(path, bytes, options);
+  Channels channels = parseNanoscope(bytes);
+  if (channels.empty()) channels = channelsByOthers(path, bytes, options);
   for (FileChannel& channel : channels) {
     channel.reach = stated.reach;
     channel.identity = completed(stated.identity, channel.identity);

@@ -25,7 +25,7 @@
 #include "mems_stiction/import/scan_file.hpp"
 #include "mems_stiction/preprocess/pipeline.hpp"
 #include "mems_stiction/roughness/areal_parameters.hpp"
-#include "mems_stiction/roughness/spatial_roughness.hpp"
+#include "roughness/framed_roughness.hpp"
 #include "surface/counter_surface.hpp"
 #include "without_lock.hpp"
 
@@ -119,13 +119,16 @@ std::tuple<HeightMap, py::list> cleaned(const HeightMap& scan, const Configurati
   return {result.surface, stepsOf(result.record)};
 }
 
-py::dict roughnessOf(const HeightMap& scan, const Configuration& configuration, bool is_spatial) {
+py::dict roughnessOf(const HeightMap& scan, const Configuration& configuration, bool is_spatial, bool is_periodic) {
   ArealParameters areal;
   SpatialRoughness spatial;
   {
     const WithoutLock unlocked;
     areal = arealParameters(scan);
-    if (is_spatial) spatial = spatialRoughness(scan, configuration.spatial_roughness);
+    if (is_spatial) {
+      spatial = spatialRoughness(scan, configuration.spatial_roughness,
+                                 is_periodic ? FrameBoundary::kPeriodic : FrameBoundary::kOpen);
+    }
   }
   return dictionaryOf([&](auto& fields) {
     visitRoughnessFields(areal, fields);
@@ -198,7 +201,7 @@ void bindScans(py::module& module) {
   module.def("read", &readScan, "path"_a, "configuration"_a, "pitch_x"_a, "pitch_y"_a, "channel"_a, "ignore_mask"_a);
   module.def("channels", &channelsOf, "path"_a, "configuration"_a);
   module.def("clean", &cleaned, "scan"_a, "configuration"_a);
-  module.def("roughness", &roughnessOf, "scan"_a, "configuration"_a, "is_spatial"_a);
+  module.def("roughness", &roughnessOf, "scan"_a, "configuration"_a, "is_spatial"_a, "is_periodic"_a);
   module.def("generate", &generated, "rows"_a, "cols"_a, "pitch_x"_a, "pitch_y"_a, "configuration"_a);
   module.def(
       "decimate", [](const HeightMap& scan, int factor) { return decimated(scan, factor); }, "scan"_a, "factor"_a);

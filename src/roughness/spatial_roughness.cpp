@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
+#include <opencv2/core.hpp>
+
 #include "mems_stiction/errors/errors.hpp"
-#include "roughness/autocorrelation.hpp"
+#include "roughness/framed_roughness.hpp"
 #include "roughness/power_spectrum.hpp"
 #include "roughness/summits.hpp"
 
@@ -30,6 +32,14 @@ double hurstExponent(const HeightMap& surface, const PowerSpectrum& spectrum, co
   }
 }
 
+/// Every pixel of a frame that wraps around has eight neighbours.
+HeightMap withNeighbours(const HeightMap& surface, FrameBoundary boundary) {
+  if (boundary == FrameBoundary::kOpen) return surface;
+  cv::Mat heights;
+  cv::copyMakeBorder(surface.heights(), heights, 1, 1, 1, 1, cv::BORDER_WRAP);
+  return {heights, surface.pitchX(), surface.pitchY()};
+}
+
 }  // namespace
 
 void SpatialRoughnessOptions::describe(OptionVisitor& visitor) {
@@ -42,15 +52,21 @@ void SpatialRoughnessOptions::describe(OptionVisitor& visitor) {
 }
 
 SpatialRoughness spatialRoughness(const HeightMap& surface, const SpatialRoughnessOptions& options) {
+  return spatialRoughness(surface, options, FrameBoundary::kOpen);
+}
+
+SpatialRoughness spatialRoughness(const HeightMap& surface, const SpatialRoughnessOptions& options,
+                                  FrameBoundary boundary) {
   SpatialRoughness roughness;
-  const SpatialParameters spatial = spatialParameters(surface);
+  const SpatialParameters spatial = spatialParameters(surface, boundary);
   roughness.sal = spatial.sal;
   roughness.str = spatial.str;
-  const SummitParameters summits = summitParameters(surface);
+  const SummitParameters summits = summitParameters(withNeighbours(surface, boundary));
   roughness.summit_density = summits.density;
   roughness.mean_summit_radius = summits.mean_radius;
   if (std::min(surface.rows(), surface.cols()) < kSmallestSpectrumSide) return roughness;
-  const PowerSpectrum spectrum = powerSpectrum(surface, SpectrumWindow::kHann);
+  const PowerSpectrum spectrum =
+      powerSpectrum(surface, boundary == FrameBoundary::kPeriodic ? SpectrumWindow::kNone : SpectrumWindow::kHann);
   roughness.m0 = spectrum.moments.m0;
   roughness.m2 = spectrum.moments.m2;
   roughness.m4 = spectrum.moments.m4;

@@ -1,13 +1,17 @@
 /// import_scan: instrument makers' files, and every other scan that can be read, into TIFF + YAML that need no
 /// gwyddion any more.
 
+#include <sys/stat.h>
+
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "busy_line.hpp"
@@ -87,11 +91,28 @@ void printChannels(const std::string& path, const ScanFileOptions& options) {
   std::cout << std::flush;
 }
 
+using FileNumber = std::pair<dev_t, ino_t>;  ///< the same for all names and links of a file
+
+/// @return none if there is no such file
+std::optional<FileNumber> fileOf(const std::string& path) {
+  struct stat status {};
+  if (stat(path.c_str(), &status) != 0) return std::nullopt;
+  return FileNumber{status.st_dev, status.st_ino};
+}
+
+std::set<FileNumber> filesOf(const std::vector<std::string>& paths) {
+  std::set<FileNumber> files;
+  for (const std::string& path : paths) {
+    if (const auto file = fileOf(path)) files.insert(*file);
+  }
+  return files;
+}
+
 /// Keeps track of what was written, so that no two scans of a call end in one file and no input is overwritten.
 class Importer {
  public:
   Importer(const Arguments& arguments, const ScanFileOptions& options)
-      : arguments_(arguments), ahead_({}, options, "", 1) {
+      : arguments_(arguments), ahead_({}, options, std::nullopt, 1), inputs_(filesOf(arguments.scans)) {
     ahead_.expect(arguments.scans);
   }
 
@@ -105,11 +126,9 @@ class Importer {
     if (!written_.insert(target.string()).second) {
       throw FileError(path + ": " + target.string() + " was written for another scan of this call; import it alone");
     }
-    for (const std::string& input : arguments_.scans) {
-      std::error_code error;
-      if (fs::equivalent(input, target, error)) {
-        throw FileError(path + ": " + target.string() + " is a scan of this call; choose another --output");
-      }
+    const auto there = fileOf(target.string());
+    if (there && inputs_.count(*there) > 0) {
+      throw FileError(path + ": " + target.string() + " is a scan of this call; choose another --output");
     }
     if (!isAsWritten(target.string())) {
       throw FileError(
@@ -144,6 +163,7 @@ class Importer {
   const Arguments& arguments_;
   std::set<std::string> written_;
   ScansAhead ahead_;  ///< while one is written others are read
+  std::set<FileNumber> inputs_;
 };
 
 int run(const Arguments& arguments) {

@@ -5,8 +5,8 @@
 
 namespace mems_stiction {
 
-ScansAhead::ScansAhead(const ScanOptions& scan, const ScanFileOptions& options, std::string settings_file_checksum,
-                       unsigned takers)
+ScansAhead::ScansAhead(const ScanOptions& scan, const ScanFileOptions& options,
+                       std::optional<std::string> settings_file_checksum, unsigned takers)
     : scan_(scan),
       options_(options),
       settings_file_checksum_(std::move(settings_file_checksum)),
@@ -20,7 +20,7 @@ void ScansAhead::expect(std::vector<std::string> paths) {
 
 ScanAhead ScansAhead::read(const std::string& path) const {
   ScanAhead ahead;
-  ahead.state = scanState(path, true, settings_file_checksum_);
+  if (settings_file_checksum_) ahead.state = scanState(path, true, *settings_file_checksum_);
   try {
     ahead.scan = openScanFile(path, scan_, options_);
   } catch (...) {

@@ -6,6 +6,7 @@
 #include <exception>
 #include <future>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,7 +18,7 @@ namespace mems_stiction {
 
 /// A file as it was when it was read.
 struct ScanAhead {
-  ScanState state;
+  ScanState state;  ///< empty where none is asked for
   ScanFile scan;
   std::exception_ptr failure;  ///< what openScanFile() has thrown; else null
 };
@@ -26,9 +27,9 @@ struct ScanAhead {
 /// may take them.
 class ScansAhead {
  public:
-  /// - @p settings_file_checksum goes into the state of each scan
+  /// - @p settings_file_checksum goes into the state of each scan; none: states are left out, for which each file is read once more
   /// - @p takers threads that will take files
-  ScansAhead(const ScanOptions& scan, const ScanFileOptions& options, std::string settings_file_checksum,
+  ScansAhead(const ScanOptions& scan, const ScanFileOptions& options, std::optional<std::string> settings_file_checksum,
              unsigned takers);
 
   /// The files that will be taken, in this order.
@@ -43,7 +44,7 @@ class ScansAhead {
 
   ScanOptions scan_;
   ScanFileOptions options_;
-  std::string settings_file_checksum_;
+  std::optional<std::string> settings_file_checksum_;
   std::size_t at_a_time_;
   std::mutex mutex_;
   std::vector<std::string> paths_;

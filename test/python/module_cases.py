@@ -49,8 +49,8 @@ def without_times(record):
 class Topography:
     """What is used of SurfaceTopography's class, for machines that do not have it: the first index is x."""
 
-    def __init__(self, heights, physical_sizes, unit=None):
-        self._heights, self.physical_sizes, self.unit = heights, physical_sizes, unit
+    def __init__(self, heights, physical_sizes, unit=None, periodic=False):
+        self._heights, self.physical_sizes, self.is_periodic, self.unit = heights, physical_sizes, periodic, unit
 
     def heights(self):
         return self._heights

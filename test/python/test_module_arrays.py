@@ -13,7 +13,7 @@ except ImportError:
     raise unittest.SkipTest("the Python module is not built: MEMS_STICTION_WITH_PYTHON is off")
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from module_cases import DEVICE, PITCH, frames, rough, topographies, without_times  # noqa: E402  (the path comes first)
+from module_cases import DEVICE, PITCH, Topography, frames, rough, topographies, without_times  # noqa: E402  (the path comes first)
 
 
 class ArrayTest(unittest.TestCase):
@@ -80,6 +80,43 @@ class ArrayTest(unittest.TestCase):
                 self.assertTrue(np.array_equal(in_metres.contact_map, expected.contact_map.T))
                 self.assertTrue(np.array_equal(in_metres.asperities.x, expected.asperities.x))
                 self.assertIn("<img", in_metres._repr_html_())
+
+    def test_a_periodic_topography_looks_the_same_wherever_its_frame_begins(self):
+        made = mems_stiction.generate((64, 64), PITCH, counter_surface={"type": "gaussian", "gaussian": {"rms_height": 2e-9}}).heights.copy()
+        made[0, 0] = 8e-9  # a summit that only a frame that goes on can tell
+        rolled = np.roll(made, (20, 11), (0, 1))
+        figures = ("sal", "str", "m0", "m2", "m4", "summit_density", "mean_summit_radius", "hurst")
+        for name, kind in topographies():
+            with self.subTest(topography=name):
+                one, other = (mems_stiction.roughness(kind(heights.T, (64 * PITCH, 64 * PITCH), periodic=True, unit="m")) for heights in (made, rolled))
+                for figure in figures:
+                    self.assertAlmostEqual(getattr(one, figure) / getattr(other, figure), 1.0, delta=1e-9, msg=figure)  # sums in another order
+                cut = mems_stiction.roughness(kind(made.T, (64 * PITCH, 64 * PITCH), unit="m"))
+                self.assertNotAlmostEqual(cut.m0 / one.m0, 1.0, delta=1e-3)  # a window
+                self.assertAlmostEqual(one.m0 / np.var(made), 1.0, delta=1e-9)  # Parseval
+
+    def test_a_periodic_topography_is_a_periodic_half_space_whatever_the_settings_say(self):
+        heights = mems_stiction.generate((24, 24), PITCH, counter_surface={"type": "gaussian", "gaussian": {"rms_height": 1e-9}}).heights
+        settings = {"half_space": {"path": "rest"}, "load": {"mechanical_load": 1e-7}}
+        expected = mems_stiction.half_space(heights, PITCH, settings)
+        free = mems_stiction.half_space(heights, PITCH, settings, **{"half_space/boundary": "free"})
+        self.assertNotEqual(free.mean_gap, expected.mean_gap)
+        for name, kind in topographies():
+            with self.subTest(topography=name):
+                topography = kind(heights.T, (24 * PITCH, 24 * PITCH), periodic=True, unit="m")
+                with self.assertWarnsRegex(mems_stiction.ScanWarning, "the topography is periodic: half_space/boundary free does not count"):
+                    found = mems_stiction.half_space(topography, None, settings, **{"half_space/boundary": "free"})
+                self.assertEqual((found.mean_gap, found.contact_count), (expected.mean_gap, expected.contact_count))
+                with self.assertWarns(mems_stiction.ScanWarning):
+                    predicted = mems_stiction.predict(topography, None, settings, half_space={"enabled": True, "boundary": "free"})
+                self.assertEqual(predicted.half_space["mean_gap"], expected.mean_gap)
+
+    def test_what_comes_of_a_periodic_topography_is_one_as_long_as_its_frame_is_whole(self):
+        topography = Topography(rough(64, 48).T, (48 * PITCH, 64 * PITCH), periodic=True, unit="m")
+        figures = {factor: mems_stiction.roughness(mems_stiction.decimate(topography, factor=factor)).m0 for factor in (2, 5)}
+        for factor, m0 in figures.items():
+            variance = np.var(mems_stiction.decimate(topography, factor=factor).heights)
+            (self.assertAlmostEqual if factor == 2 else self.assertNotAlmostEqual)(m0 / variance, 1.0, delta=1e-6)
 
     def test_a_scan_goes_to_surface_topography_and_back(self):
         if len(topographies()) < 2:

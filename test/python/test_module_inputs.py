@@ -73,6 +73,8 @@ class SlipTest(unittest.TestCase):
 
     def test_a_line_scan_is_no_surface(self):
         self.named(mems_stiction.SurfaceError, "two dimensions", mems_stiction.predict, Topography(rough(1, 30)[0], (1e-6,), "m"))
+        for line in (rough(1, 30), rough(30, 1), rough(1, 30)[0]):
+            self.named(mems_stiction.SurfaceError, "of a surface of grooves, repeat the line as the rows", mems_stiction.predict, line, PITCH)
 
     def test_pitch_of_the_settings_serves(self):
         heights = rough(20, 30)

@@ -130,6 +130,16 @@ class PictureTest(unittest.TestCase):
         self.assertLess(margin.get_ylim()[0], 1.0)
         self.assertEqual(figure.axes[1].get_ylabel(), "contact fraction [%]")
 
+    def test_ticks_over_many_decades_have_prefixes_of_their_own(self):
+        rows = self.rows()
+        for place, row in enumerate(rows):
+            row.update(pull_off_force=1e-11 * 1e3**place, rms_height=2e-10 * 30.0**place)
+        figure = self.drawn(report_figures, lambda: report_figures.trend_figure(rows))
+        self.assertEqual((figure.axes[0].get_ylabel(), figure.axes[2].get_ylabel()), ("pull-off force [N]", "rms height [m]"))
+        ticks = [figure.axes[place].yaxis.get_major_formatter()(value) for place, value in ((0, 1e-6), (0, 1e-3), (0, 1.0), (2, 1.0), (2, 100.0))]
+        self.assertEqual(ticks, ["1 pN", "1 nN", "1 µN", "1 nm", "100 nm"])
+        self.assertEqual(collisions(figure), [])
+
     def test_trends_stand_below_each_other_however_few_scans_a_figure_is_known_of(self):
         rows = self.rows()
         for row in rows[1:]:

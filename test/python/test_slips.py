@@ -118,6 +118,15 @@ class SlipTest(unittest.TestCase):
             self.assertEqual((done.returncode, done.stderr), (0, ""), name)
             self.assertRegex(done.stdout, r"^%s of mems_stiction \d+\.\d+\.\d+\n$" % name)
 
+    def test_every_script_says_its_version(self):
+        folder = pathlib.Path(__file__).resolve().parents[2] / "scripts"
+        scripts = [script for script in folder.iterdir() if script.is_file() and script.read_bytes().startswith(b"#!/usr/bin/env bash")]
+        self.assertGreater(len(scripts), 10)
+        for script in scripts:
+            done = subprocess.run([str(script), "--version"], capture_output=True, text=True, timeout=60)
+            self.assertEqual((done.returncode, done.stderr), (0, ""), script.name)
+            self.assertRegex(done.stdout, r"^%s of mems_stiction \d+\.\d+\.\d+\n$" % script.name)
+
     def test_bags_are_written_to_bags_alone_and_not_without_a_scan(self):
         before = (self.folder / "scan.npy").read_bytes()
         self.assert_refused("must end in .bag", "make_scan_bag", "-o", "scan.npy", "scan.npy")

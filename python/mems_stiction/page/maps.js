@@ -45,7 +45,7 @@ const addressOf = (name, map) => `map/${name}.png?${view.zoom > 1 && Math.max(ma
 /** As large as the tab and the window allow, in the scan's own aspect: beside each other or, if it is wide, below each other. */
 function fitMaps(aspect) {
   const tab = byId("tab-maps");
-  const isStacked = aspect > WIDE || tab.clientWidth < 700;
+  const isStacked = aspect > WIDE || tab.clientWidth < 700 || window.matchMedia("(orientation: portrait)").matches; // as the style sheet has it
   tab.classList.toggle("stacked", isStacked);
   // one that stands below another, or is upright, may fill the window
   const room = Math.max(240, window.innerHeight - BELOW - (isStacked || aspect < 1 ? 40 : tab.getBoundingClientRect().top + window.scrollY));
