@@ -18,6 +18,12 @@ double stiffnessOf(double flattening_energy, double rms_height) {
                                                      : std::numeric_limits<double>::infinity();
 }
 
+/// Of a work that is nearly what flattening, which goes with the modulus, leaves of the work of adhesion.
+Exponents flatteningExponents(double flattening_energy, double work) {
+  const double share = flattening_energy / work;
+  return {1.0 + share, -share, 0.0};
+}
+
 }  // namespace
 
 void ConformingContact::start(const GapField& field, const ContactTraction& law, double contact_modulus,
@@ -33,8 +39,7 @@ void ConformingContact::start(const GapField& field, const ContactTraction& law,
   branch_.clear();
 }
 
-const std::vector<SpringState>& ConformingContact::branch() {
-  if (!branch_.empty()) return branch_;
+std::vector<SpringState> ConformingContact::springsOf(double flattening_energy) {
   ReliefClasses depths(0.0, field_->largestGap());
   line_.resize(static_cast<std::size_t>(field_->cols()));
   for (int row = 0; row < field_->rows(); ++row) {
@@ -43,11 +48,39 @@ const std::vector<SpringState>& ConformingContact::branch() {
       if (gap <= field_->largestGap()) depths.add(gap);
     }
   }
-  branch_ = springBranch(depths.classes(), *law_, stiffnessOf(bodies_.flattening_energy, bodies_.rms_height));
+  return springBranch(depths.classes(), *law_, stiffnessOf(flattening_energy, bodies_.rms_height));
+}
+
+const std::vector<SpringState>& ConformingContact::branch() {
+  if (branch_.empty()) branch_ = springsOf(bodies_.flattening_energy);
   return branch_;
 }
 
 double ConformingContact::work() { return std::max(0.0, -restOf(branch(), 0.0)->energy - bent_.energy); }
+
+double ConformingContact::flatteningByWaves() {
+  fine_relief_.take(*field_, 0.0);
+  fine_waves_.splitHeights(fine_relief_, {field_->cols(), field_->rows()}, bodies_.contact_modulus,
+                           std::max(fine_relief_.blockWidth(), fine_relief_.blockHeight()));
+  // what is short against the blocks has no direction
+  return fine_waves_.energy() + flattening_.of(*field_, fine_waves_.longHeights(), bodies_.contact_modulus);
+}
+
+void ConformingContact::takeWork(const WayOut& by_contacts, WayOut& way_out) {
+  if (bent_.compliance != nullptr) return;
+  const double flattening = flatteningByWaves();
+  const std::vector<SpringState> springs = springsOf(flattening);
+  const double gained = std::max(0.0, -restOf(springs, 0.0)->energy);
+  // the surfaces rest in the state of the least energy, and contacts jump in either
+  const double work = std::min(gained + by_contacts.lost, bodies_.work_of_adhesion);
+  if (by_contacts.work > work) {
+    way_out.work = by_contacts.work;
+    way_out.work_exponents = by_contacts.work_exponents;
+  } else {
+    way_out.work = work;
+    way_out.work_exponents = flatteningExponents(flattening, work);
+  }
+}
 
 ReliefSpectrum& ConformingContact::relief() {
   if (!has_relief_) relief_.take(*field_, ReliefWaves::blockLength(bodies_.cohesiveLength()));
@@ -154,9 +187,7 @@ WayOut ConformingContact::upTo(double strength, double pressure) {
   WayOut way_out;
   way_out.work = work();
   way_out.contact_area = rest->contact_fraction * area();
-  // nearly what flattening, which goes with the modulus, leaves of the work of adhesion
-  const double flattening = bodies_.flattening_energy / way_out.work;
-  way_out.work_exponents = {1.0 + flattening, -flattening, 0.0};
+  way_out.work_exponents = flatteningExponents(bodies_.flattening_energy, way_out.work);
   for (auto state = rest; state != branch_.end(); ++state) {
     const double force = area() * std::min(state->traction, strength);
     way_out.curve.push_back({law_->range() - state->height, force, true});

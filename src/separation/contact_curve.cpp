@@ -97,6 +97,7 @@ void ContactCurve::part() {
   by_contacts_.force_exponents = exponents.pull_off;
   by_contacts_.work = curve.work / frame_.area();
   by_contacts_.work_exponents = exponents.work;
+  by_contacts_.lost = has_flowed_ ? 0.0 : 0.5 * std::max(0.0, curve.work - way_in_.work) / frame_.area();
   by_contacts_.doubt = doubtOf(curve);
   by_contacts_.curve.clear();
   const bool has_edges = curve.states[curve.strongest].edge_share < 1.0 - chosen::kAccuracy;

@@ -25,6 +25,9 @@ class ReliefSpectrum {
   /// images behind. Valid until the next call.
   template <typename Weigh>
   const cv::Mat1d& weighed(const Weigh& weigh);
+  /// Sum over the waves of |h_q|^2, each times weigh(q).
+  template <typename Weigh>
+  double meanSquare(const Weigh& weigh) const;
   /// The same of an image of weighedSize(), in place of the relief.
   template <typename Weigh>
   const cv::Mat1d& weighed(const cv::Mat1d& image, const Weigh& weigh);
@@ -77,6 +80,19 @@ cv::Mat1d ReliefSpectrum::filterOf(const Weigh& weigh) const {
     }
   }
   return weights;
+}
+
+template <typename Weigh>
+double ReliefSpectrum::meanSquare(const Weigh& weigh) const {
+  double sum = 0.0;
+  for (int row = 0; row < spectrum_.rows; ++row) {
+    for (int col = 0; col < spectrum_.cols; ++col) {
+      const cv::Vec2d& wave = spectrum_(row, col);
+      sum += (wave[0] * wave[0] + wave[1] * wave[1]) * weigh(wave_numbers_(row, col));
+    }
+  }
+  const auto cells = static_cast<double>(spectrum_.total());
+  return sum / (cells * cells);
 }
 
 template <typename Weigh>

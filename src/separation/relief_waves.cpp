@@ -12,6 +12,20 @@ int unmirrored(int block, int count) { return block < count ? block : 2 * count 
 
 }  // namespace
 
+template <typename LongPart>
+void ReliefWaves::takeLong(ReliefSpectrum& relief, cv::Size cells, double contact_modulus, const LongPart& long_part) {
+  energy_ = relief.meanSquare([&](double q) {
+    const double left = 1.0 - long_part(q);
+    return 0.25 * contact_modulus * q * (1.0 - left * left);
+  });
+  cv::resize(relief.weighed(long_part)(cv::Rect({0, 0}, relief.blocks())), long_heights_, cells, 0.0, 0.0,
+             cv::INTER_LINEAR);
+}
+
+void ReliefWaves::splitHeights(ReliefSpectrum& relief, cv::Size cells, double contact_modulus, double length) {
+  takeLong(relief, cells, contact_modulus, [=](double q) { return 1.0 / (1.0 + length * q * length * q); });
+}
+
 void ReliefWaves::split(ReliefSpectrum& relief, cv::Size cells, double contact_modulus, double cohesive_length,
                         const ExtraCompliance* bending) {
   // of bodies that bend a wave is long by its stiffness, against that of the wave which is as long as the cohesive length
@@ -28,8 +42,7 @@ void ReliefWaves::split(ReliefSpectrum& relief, cv::Size cells, double contact_m
   const cv::Size blocks = relief.blocks();
   weakest_place_ = {(unmirrored(weakest.x, blocks.width) + 0.5) * cells.width / blocks.width,
                     (unmirrored(weakest.y, blocks.height) + 0.5) * cells.height / blocks.height};
-  cv::resize(relief.weighed(long_part)(cv::Rect({0, 0}, relief.blocks())), long_heights_, cells, 0.0, 0.0,
-             cv::INTER_LINEAR);
+  takeLong(relief, cells, contact_modulus, long_part);
 }
 
 }  // namespace mems_stiction

@@ -31,6 +31,9 @@ class ReliefWaves {
   void split(ReliefSpectrum& relief, cv::Size cells, double contact_modulus, double cohesive_length,
              const ExtraCompliance* bending = nullptr);
 
+  /// energy() and longHeights() alone, with another length in place of l [m], > 0.
+  void splitHeights(ReliefSpectrum& relief, cv::Size cells, double contact_modulus, double length);
+
   /// Blocks that resolve what is long against a cohesive length [m].
   static double blockLength(double cohesive_length) { return 0.5 * cohesive_length; }
 
@@ -38,11 +41,17 @@ class ReliefWaves {
   double largestTension() const { return largest_tension_; }
   /// Where it pulls, in columns and rows of the frame from its corner; cell (i, j) lies at (i + 1/2, j + 1/2).
   cv::Point2d weakestPlace() const { return weakest_place_; }
+  /// What flattening the relief takes more than flattening what the long waves leave of it, per area [J/m^2].
+  double energy() const { return energy_; }
   /// Height of the long waves at each cell [m].
   const cv::Mat1d& longHeights() const { return long_heights_; }
 
  private:
+  template <typename LongPart>
+  void takeLong(ReliefSpectrum& relief, cv::Size cells, double contact_modulus, const LongPart& long_part);
+
   double largest_tension_ = 0.0;
+  double energy_ = 0.0;
   cv::Point2d weakest_place_;
   cv::Mat1d long_heights_;
 };

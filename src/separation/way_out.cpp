@@ -13,9 +13,12 @@ std::optional<WayOut> conformingWayOut(const WayOut& by_contacts, double joined_
   // bonded by its energy is not yet bonded by its way: tall summits keep the rest apart
   const bool comes_near = joined_share > chosen::kJoinedShare;
   if (!comes_near || !(flattening_ratio < chosen::kConformingRatio) || !(bonded.work() > 0.0)) return std::nullopt;
-  if (bonded.hasOpenValleys(pressure)) return bonded.fromOpenValleys(pressure);
   // contacts with the work of bonded surfaces would hold the force in proportion
-  return bonded.asAWhole(pressure, by_contacts.force * std::max(1.0, bonded.work() / by_contacts.work));
+  WayOut way_out = bonded.hasOpenValleys(pressure)
+                       ? bonded.fromOpenValleys(pressure)
+                       : bonded.asAWhole(pressure, by_contacts.force * std::max(1.0, bonded.work() / by_contacts.work));
+  bonded.takeWork(by_contacts, way_out);
+  return way_out;
 }
 
 }  // namespace mems_stiction

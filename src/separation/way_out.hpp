@@ -23,6 +23,7 @@ struct WayOut {
   Parting parting = Parting::kByContacts;
   double force = 0.0;         ///< largest [N]
   double work = 0.0;          ///< per area [J/m^2]
+  double lost = 0.0;          ///< of the work: what jumps lose of the energy of the state at rest, per area [J/m^2]
   double contact_area = 0.0;  ///< at rest [m^2]
   Exponents force_exponents;
   Exponents work_exponents;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "numeric/constants.hpp"
+#include "separation/conforming_contact.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/separation_cases.hpp"
 
@@ -64,6 +65,39 @@ TEST(ConformingContact, shortWavesBreakAsAWhole) {
   const Prediction prediction = AdhesionModel(options).predict(waves);
   ASSERT_TRUE(prediction.is_conforming);
   EXPECT_NEAR(prediction.pull_off_force / solved.pull_off_force, 1.0, 0.1);
+}
+
+TEST(ConformingContact, flatteningGroovesCostsTheSameInEachDirection) {
+  // (E/4) q <h^2>; lines along rows and columns alone tell 0.79 of it along one of them, 1.11 between
+  const double modulus = 10e9;
+  const Options options = elastic(modulus);
+  const double pitch = 2e-9;
+  const double amplitude = 0.1e-9;
+  for (const cv::Point waves : {cv::Point(2, 0), cv::Point(0, 2), cv::Point(2, 2), cv::Point(5, 2)}) {
+    SCOPED_TRACE(testing::Message() << waves);
+    GapField field;
+    field.compute(analytic::sine(64, 64, pitch, pitch, amplitude, waves.x, waves.y));
+    const ContactTraction law(options.interface);
+    ConformingContact bonded;
+    bonded.start(field, law, modulus, 0.01 * kWork);
+    const double wave_number = 2.0 * kPi * std::hypot(waves.x, waves.y) / (64 * pitch);
+    const double exact = 0.25 * modulus * wave_number * 0.5 * amplitude * amplitude;
+    EXPECT_NEAR(bonded.flatteningByWaves() / exact, 1.0, 0.03);
+  }
+}
+
+TEST(ConformingContact, groovesTakeTheHalfSpacesWork) {
+  // along rows, flattened for half of what adhesion gives: by lines it would be 0.61 Gamma
+  const double modulus = 10e9;
+  const Options options = elastic(modulus);
+  const double amplitude = std::sqrt(0.5 * kWork * 4.0 * 128e-9 / (kPi * modulus));
+  const HeightMap grooves = analytic::sine(64, 64, 2e-9, 2e-9, amplitude, 1, 0);
+  const SolvedHalfSpace solved = halfSpaceOf(grooves, options);
+  ASSERT_EQ(solved.status, HalfSpaceStatus::kSolved) << solved.message;
+  const Prediction prediction = AdhesionModel(options).predict(grooves);
+  ASSERT_TRUE(prediction.is_conforming);
+  EXPECT_NEAR(prediction.apparent_work_of_adhesion / solved.work_of_adhesion, 1.0,
+              0.17);  // of springs, which are all equal
 }
 
 TEST(ConformingContact, aLoadChangesTheRestButNotTheWork) {
