@@ -13,6 +13,7 @@ from mems_stiction._arrays import ReadOnly, plain_value
 from mems_stiction._settings import Config, OptionsError, Settings, values_of
 from mems_stiction.calibration_data import Measurement, measurements_of
 from mems_stiction.calibration_fit import Fit, Interval, Likelihood
+from mems_stiction.calibration_grid import between_nodes
 from mems_stiction.calibration_words import UNITS
 from mems_stiction.quantities import ratio, with_interval, with_unit
 
@@ -163,20 +164,17 @@ class _Surrogate:
         self.interpolation: Any = None
 
     def take(self, nodes: List[np.ndarray]) -> None:
-        from scipy.interpolate import PchipInterpolator, RegularGridInterpolator
+        from scipy.interpolate import PchipInterpolator
 
         self.nodes = nodes
         grid = np.stack(np.meshgrid(*nodes, indexing="ij"), axis=-1)
         values = np.array([self._at(tuple(parameters)) for parameters in grid.reshape(-1, len(nodes))])
         values = values.reshape(grid.shape[:-1] + (len(self.measurements),))
-        if len(nodes) == 1:
-            self.interpolation = PchipInterpolator(nodes[0], values, axis=0)
-        else:
-            self.interpolation = RegularGridInterpolator(nodes, values, method="pchip" if len(nodes[0]) > 3 else "linear")
+        self.interpolation = PchipInterpolator(nodes[0], values, axis=0) if len(nodes) == 1 else between_nodes(nodes[0], nodes[1], values)
 
     def expected(self, parameters: np.ndarray) -> np.ndarray:
-        inside = [np.clip(value, nodes[0], nodes[-1]) for value, nodes in zip(parameters, self.nodes)]
-        return np.exp(np.ravel(self.interpolation(inside[0] if len(inside) == 1 else np.array([inside]))))
+        inside = [min(max(value, nodes[0]), nodes[-1]) for value, nodes in zip(parameters, self.nodes)]
+        return np.exp(np.ravel(self.interpolation(inside[0] if len(inside) == 1 else [inside])))
 
     def bounds(self) -> List[Tuple[float, float]]:
         return [(float(nodes[0]), float(nodes[-1])) for nodes in self.nodes]

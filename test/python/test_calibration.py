@@ -24,6 +24,7 @@ from mems_stiction._calibration import WORK, _Axis, _Search  # noqa: E402
 from mems_stiction._settings import values_of  # noqa: E402
 from mems_stiction.calibration_data import measurements_of  # noqa: E402
 from mems_stiction.calibration_fit import Likelihood  # noqa: E402
+from mems_stiction.calibration_grid import between_nodes  # noqa: E402
 from module_cases import REPOSITORY, rough  # noqa: E402  (the path comes first)
 
 PITCH = 10e-9
@@ -128,6 +129,32 @@ class MadeDataTest(unittest.TestCase):
         found = calibrated([datum], **few)
         self.assertTrue(math.isnan(found.work_of_adhesion))
         self.assertRegex(found.statements[0], "tell the work of adhesion: ")
+
+
+class GridTest(unittest.TestCase):
+    """Between the nodes of two constants: what one monotone cubic after the other gives, without a jump."""
+
+    X, Y = np.array([0.0, 0.4, 1.1, 1.5, 2.6, 4.0]), np.array([-1.0, -0.2, 0.1, 1.0, 2.2])
+
+    def setUp(self):
+        x, y = self.X[:, None, None], self.Y[None, :, None]
+        self.values = np.exp(-x / 3.0) * np.tanh(y) * np.array([1.0, 2.0]) + 0.1 * x
+        self.between = between_nodes(self.X, self.Y, self.values)
+
+    def test_nodes_and_lines_through_them_are_those_of_one_cubic(self):
+        from scipy.interpolate import PchipInterpolator
+
+        for place, x in enumerate(self.X):
+            np.testing.assert_allclose(self.between([[x, y] for y in self.Y]), self.values[place], atol=1e-14)
+            np.testing.assert_allclose(self.between([[x, 0.7]])[0], PchipInterpolator(self.Y, self.values[place])(0.7), atol=1e-14)
+        for place, y in enumerate(self.Y):
+            np.testing.assert_allclose(self.between([[0.9, y]])[0], PchipInterpolator(self.X, self.values[:, place])(0.9), atol=1e-14)
+
+    def test_neither_it_nor_its_slope_jumps(self):
+        step = 1e-6
+        for x in self.X[1:-1]:
+            below, here, above = self.between([[x + shift, 0.7] for shift in (-step, 0.0, step)])
+            np.testing.assert_allclose(above - here, here - below, atol=20.0 * step ** 2)
 
 
 class KindsTest(unittest.TestCase):
