@@ -26,7 +26,10 @@ REACH_AROUND = 2.0  # of ln work of adhesion, where a second constant is sought,
 MOST_REFINEMENTS = 3
 STEP_FOR_SLOPES = 1.15
 TELLING = 2.0  # ends of an interval over the value: wider ones tell nothing
-TELLING_WORK = 6.0  # the same of a work of adhesion
+TELLING_WORK = 5.0  # the same of a work of adhesion: uncertainty/work_of_adhesion takes 5.1 at most
+DEPENDING = 2.0  # factor between what both ends of the range of a constant give: less hardly depends on it
+FAR_OFF = 3.0  # factor from a measured value to the nearest one that the constants give
+MOST_ASKED = 3  # values that are asked for their unit
 TELLING_COSINE = 0.6  # width of an interval of the angle's cosine
 NORMAL_95 = 1.959964
 
@@ -361,7 +364,7 @@ def _calibration(data: List[Measurement], base: Settings, values: Dict[str, Any]
             constants["uncertainty/" + word] = _relative(interval)
     statements = _of_outliers(data, found) + _of_misfit(found) + statements
     if not found.axes[0].tells(found.intervals[0]):
-        statements.insert(0, _open_end(found.intervals[0], found.axes[0]))
+        statements[:0] = [_open_end(found)] + _of_units(data, found)
         figures.update(work_of_adhesion=math.nan, work_of_adhesion_lower=math.nan, work_of_adhesion_upper=math.nan)
         constants = {}
     rows = [(datum.name, datum.kind, datum.value, datum.uncertainty, float(value), float(deviation), place in found.outliers)
@@ -388,18 +391,30 @@ def _of_outliers(data: List[Measurement], found: _Found) -> List[str]:
         with_unit(with_all, "J/m^2")) for place in found.outliers]
 
 
-def _open_end(interval: Interval, axis: _Axis) -> str:
+def _open_end(found: _Found) -> str:
     """What is still said of a work of adhesion that has no interval."""
+    interval, axis = found.intervals[0], found.axes[0]
+    low, high = (with_unit(axis.value(end), "J/m^2") for end in (interval.lower, interval.upper))
     if interval.is_closed:
-        return "these surfaces hardly tell the work of adhesion: it lies between %s and %s" % (
-            with_unit(axis.value(interval.lower), "J/m^2"), with_unit(axis.value(interval.upper), "J/m^2"))
+        return "these measurements hardly tell the work of adhesion: it lies between %s and %s" % (low, high)
     if interval.has_lower:
-        return "these surfaces do not tell the work of adhesion: it is at least %s, and may be anything above" % with_unit(
-            axis.value(interval.lower), "J/m^2")
+        return "these measurements do not tell the work of adhesion: it is at least %s, and may be anything above" % low
     if interval.has_upper:
-        return "these surfaces do not tell the work of adhesion: it is at most %s, and may be anything below" % with_unit(
-            axis.value(interval.upper), "J/m^2")
+        return "these measurements do not tell the work of adhesion: it is at most %s, and may be anything below" % high
+    ends = [np.concatenate([[bound], found.fit.parameters[1:]]) for bound in axis.bounds]
+    if np.abs(np.log(found.whole.model(ends[1]) / found.whole.model(ends[0]))).max() > math.log(DEPENDING):
+        return "these measurements do not tell the work of adhesion: their uncertainties leave it open from %s to %s" % (low, high)
     return "these surfaces do not tell the work of adhesion: what holds them hardly depends on it (rough, stiff, or far apart)"
+
+
+def _of_units(data: List[Measurement], found: _Found) -> List[str]:
+    """Of values far from all that the range of the constants gives: mostly another unit, or another area."""
+    said = []
+    for datum, nearest in zip(data, found.whole.model(found.fit.parameters)):
+        if abs(math.log(datum.value / nearest)) > math.log(FAR_OFF):
+            said.append("%s: %s was measured, and the nearest that any work of adhesion gives is %s: is it in SI units, and of these surfaces and this area?" % (
+                datum.name, with_unit(datum.value, UNITS[datum.kind]), with_unit(float(nearest), UNITS[datum.kind])))
+    return said[:MOST_ASKED]
 
 
 def _of_misfit(found: _Found) -> List[str]:

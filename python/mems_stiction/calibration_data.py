@@ -5,11 +5,12 @@ A measurement is a dictionary. The tables below have its keys; doc/process.md ex
 
 from __future__ import annotations
 
+import contextlib
 import math
 import os
 import warnings
 from collections.abc import Mapping
-from typing import Any, Callable, Dict, List, NamedTuple, Optional, Tuple
+from typing import Any, Callable, Dict, Iterator, List, NamedTuple, Optional, Tuple
 
 import numpy as np
 
@@ -30,6 +31,7 @@ NO_CLEANING = {"preprocessing": {
     "region": {"left": 0.0, "top": 0.0, "width": 0.0, "height": 0.0, "polygon_file": "", "mask_file": ""}, "offset": {"enabled": False},
     "lines": {"method": "none"}, "spikes": {"enabled": False}, "fill": {"enabled": False}, "tip": {"radius": 0.0, "half_angle": 0.0},
     "level": "none", "level_robust": False, "low_pass": {"cutoff_wavelength": 0.0}, "refine": {"factor": 1}}}
+MOST_CONTACTS = 1000000  # as device/contacts has it
 POSITIVE = ("value", "uncertainty", "area", "radius", "thickness", "gap", "modulus")
 
 PROBE_PIXELS = 256
@@ -49,8 +51,9 @@ class Measurement(NamedTuple):
     beam: Tuple[Any, ...]
 
     def expected(self, constants: Dict[str, float]) -> float:
-        """The value by these constants [its unit]."""
-        figures = self.place.figures(constants)
+        """The value by these constants [its unit]. Raises OptionsError and SurfaceError, which name the measurement."""
+        with _named(self.name):
+            figures = self.place.figures(constants)
         if self.kind == "pull_off_force":
             return figures.force
         return BEAMS[self.kind](*self.beam, figures.work) if self.beam else figures.work
@@ -178,8 +181,8 @@ def _measurement(datum: Any, what: str, base: Settings, places: Dict[Any, Place]
     if not isinstance(datum, Mapping):
         raise OptionsError("%s: %r is not allowed, must be a dictionary" % (what, datum))
     kind = datum.get("kind")
-    if kind not in UNITS:
-        raise OptionsError("%s/kind: %r is not allowed, must be one of %s" % (what, kind, ", ".join(UNITS)))
+    if not isinstance(kind, str) or kind not in UNITS:
+        raise OptionsError("%s/kind: %s, must be one of %s" % (what, "is missing" if kind is None else "%r is not allowed" % (kind,), ", ".join(UNITS)))
     allowed = COMMON + (OF_FORCES if kind == "pull_off_force" else OF_BEAMS if kind in BEAMS else ())
     for key in datum:
         if key not in allowed:
@@ -196,6 +199,8 @@ def _measurement(datum: Any, what: str, base: Settings, places: Dict[Any, Place]
 
 def _number(value: Any, what: str, key: str) -> float:
     try:
+        if isinstance(value, (bool, np.bool_)):
+            raise TypeError
         number = float(value)
     except (TypeError, ValueError):
         raise OptionsError("%s: %r is not allowed, must be a number" % (what, value)) from None
@@ -222,22 +227,40 @@ def _place(datum: Mapping, numbers: Dict[str, float], what: str, base: Settings,
         raise OptionsError("%s/scans: are missing, must be scans of the surface that it was measured on" % what)
     if radius is not None and (numbers.get("area") is not None or upper is not None):
         raise OptionsError("%s/radius: is not allowed with area or upper: the probe is the counter-surface" % what)
-    contacts = datum.get("contacts")
+    contacts = _contacts(datum, "%s/contacts" % what)
     key = (_identity(scans), _identity(upper), _identity(pitch), numbers.get("area"), contacts, radius,
            numbers.get("relative_humidity"), numbers.get("mechanical_load"))
     if key not in places:
         stated = {"interface/relative_humidity": numbers.get("relative_humidity"), "load/mechanical_load": numbers.get("mechanical_load"),
                   "counter_surface/facing": "down" if radius is not None and scans is not None else None}
-        try:
+        with _named(str(datum.get("name") or what)):
             settings = settings_with(base, {}, {name: value for name, value in stated.items() if value is not None})
-            surfaces = [] if scans is None else _surfaces_of(scans, pitch, settings, "%s/scans" % what)
-            above = None if upper is None else _surfaces_of(upper, pitch, settings, "%s/upper" % what)
-        except OptionsError as error:
-            raise OptionsError("%s: %s" % (what, error)) from None
+            surfaces = [] if scans is None else _surfaces_of(scans, pitch, settings, "scans")
+            above = None if upper is None else _surfaces_of(upper, pitch, settings, "upper")
         if above is not None and numbers.get("area") is None:
             above = above[0]
         places[key] = Place(surfaces, above, numbers.get("area"), contacts, radius, settings)
     return places[key]
+
+
+@contextlib.contextmanager
+def _named(name: str) -> Iterator[None]:
+    """What is wrong with its scans or settings begins with the measurement's name."""
+    try:
+        yield
+    except mems_stiction.Error as error:
+        raise type(error)("%s: %s" % (name, error)) from None
+
+
+def _contacts(datum: Mapping, what: str) -> Optional[int]:
+    given = datum.get("contacts")
+    if given is None:
+        return None
+    if datum.get("area") is None:
+        raise OptionsError("%s: is not allowed without area, which they share" % what)
+    if isinstance(given, bool) or not isinstance(given, (int, np.integer)) or not 1 <= given <= MOST_CONTACTS:
+        raise OptionsError("%s: %r is not allowed, must be an integer in [1, %d]" % (what, given, MOST_CONTACTS))
+    return int(given)
 
 
 def _identity(given: Any) -> Any:

@@ -122,6 +122,17 @@ class MadeDataTest(unittest.TestCase):
         with self.assertRaisesRegex(mems_stiction.OptionsError, "nothing to configure"):
             found.yaml()
 
+    def test_values_that_no_work_of_adhesion_gives_are_asked_for_their_unit(self):
+        nanonewtons = 20.0
+        found = calibrated([measured(nanonewtons, SURFACES[0], name="tip 1")])
+        self.assertRegex(found.statements[1], "^tip 1: 20.0 N was measured, and the nearest that any work of adhesion gives is [0-9.]+ [un]N: "
+                         "is it in SI units, and of these surfaces and this area")
+
+    def test_uncertainties_that_leave_all_open_are_told_from_surfaces_that_do(self):
+        found = calibrated([measured(2e-8, SURFACES[0], 20.0)])
+        self.assertTrue(math.isnan(found.work_of_adhesion))
+        self.assertEqual(found.statements[0], "these measurements do not tell the work of adhesion: their uncertainties leave it open from 100 uJ/m^2 to 2.00 J/m^2")
+
     def test_works_of_large_surfaces_that_far_forces_hold_end_in_a_sentence(self):
         """A few of their summits touch: it is Hamaker's constant that gives most of the work."""
         few = {"device_force": {"realisations": 3, "max_cells": 1e4}}
@@ -263,6 +274,9 @@ class FacesTest(unittest.TestCase):
         self.assertRegex(run.stderr, r"^calibrate: .*none\.yaml: [^\n]*\n$")
         (self.path / "text.yaml").write_text("kind: pull_off_force\n")
         self.assertRegex(self.run_program(self.path / "text.yaml").stderr, r"^calibrate: .*text\.yaml: must be a list")
+        (self.path / "twice.yaml").write_text("- kind: pull_off_force\n  value: 2e-8\n  value: 9e-8\n")
+        self.assertRegex(self.run_program(self.path / "twice.yaml").stderr,
+                         r"^calibrate: .*twice\.yaml: value: given in line 3 and before in line 2, must be given once\n$")
 
     def test_each_wrong_measurement_is_named(self):
         good = measured(1e-7, SURFACES[0])
@@ -273,9 +287,20 @@ class FacesTest(unittest.TestCase):
                                ({"thickness": 1e-6}, r"measurements\[0\]/thickness: there is no such key for pull_off_force"),
                                ({"scans": None}, r"measurements\[0\]/scans: are missing"),
                                ({"radius": 1e-6, "area": 1e-12}, r"measurements\[0\]/radius: is not allowed with area"),
-                               ({"relative_humidity": 1.5}, r"measurements\[0\]: interface/relative_humidity")):
+                               ({"relative_humidity": 1.5}, r"measurements\[0\]: interface/relative_humidity"),
+                               ({"kind": ["force"]}, r"measurements\[0\]/kind: \['force'\] is not allowed, must be one of pull_off_force"),
+                               ({"value": True}, r"measurements\[0\]/value: True is not allowed, must be a number"),
+                               ({"contacts": 4}, r"measurements\[0\]/contacts: is not allowed without area"),
+                               ({"area": 1e-12, "contacts": -2}, r"measurements\[0\]/contacts: -2 is not allowed, must be an integer in \[1, "),
+                               ({"area": 1e-12, "contacts": "many"}, r"measurements\[0\]/contacts: 'many' is not allowed, must be an integer")):
             with self.assertRaisesRegex(mems_stiction.OptionsError, words):
                 calibrated([dict(good, **changed)])
+        for changed, words in (({"pitch": "10 nm"}, r"^tip 3: pitch: '10 nm' is not allowed"), ({"scans": np.full((9, 9), np.nan)}, "^tip 3: .*no valid pixel"),
+                               ({"scans": "none.gwy"}, "^tip 3: none.gwy: there is no such file")):
+            with self.assertRaisesRegex(mems_stiction.Error, words):
+                calibrated([dict(good, name="tip 3", **changed)])
+        with self.assertRaisesRegex(mems_stiction.OptionsError, r"measurements\[0\]/kind: is missing, must be one of pull_off_force"):
+            calibrated([{name: value for name, value in good.items() if name != "kind"}])
         with self.assertRaisesRegex(mems_stiction.OptionsError, "an empty list"):
             calibrated([])
         with self.assertRaisesRegex(mems_stiction.OptionsError, "must be a list of dictionaries"):
