@@ -24,7 +24,7 @@ COARSE_NODES = 13
 FINE_NODES = 9
 REACH_AROUND = 2.0  # of ln work of adhesion, where a second constant is sought, too
 MOST_REFINEMENTS = 3
-STEP_FOR_SLOPES = 1.15
+STEPS_FOR_SLOPES = (1.0 / 1.15, 1.15)
 TELLING = 2.0  # ends of an interval over the value: wider ones tell nothing
 TELLING_WORK = 5.0  # the same of a work of adhesion: uncertainty/work_of_adhesion takes 5.1 at most
 DEPENDING = 2.0  # factor between what both ends of the range of a constant give: less hardly depends on it
@@ -171,6 +171,7 @@ class _Surrogate:
 
         self.nodes = nodes
         grid = np.stack(np.meshgrid(*nodes, indexing="ij"), axis=-1)
+        self._prepare([tuple(parameters) for parameters in grid.reshape(-1, len(nodes))])
         values = np.array([self._at(tuple(parameters)) for parameters in grid.reshape(-1, len(nodes))])
         values = values.reshape(grid.shape[:-1] + (len(self.measurements),))
         self.interpolation = PchipInterpolator(nodes[0], values, axis=0) if len(nodes) == 1 else between_nodes(nodes[0], nodes[1], values)
@@ -182,16 +183,25 @@ class _Surrogate:
     def bounds(self) -> List[Tuple[float, float]]:
         return [(float(nodes[0]), float(nodes[-1])) for nodes in self.nodes]
 
+    def _constants(self, parameters: Tuple[float, ...]) -> Dict[str, float]:
+        return {axis.name: axis.value(value) for axis, value in zip(self.axes, parameters)}
+
+    def _prepare(self, nodes: List[Tuple[float, ...]]) -> None:
+        """All that is missing of one place after the other."""
+        missing = [self._constants(parameters) for parameters in nodes if parameters not in self.known]
+        for measurement in {id(measurement.place): measurement for measurement in self.measurements}.values() if missing else ():
+            measurement.prepare(missing)
+            self.on_step()
+
     def _at(self, parameters: Tuple[float, ...]) -> np.ndarray:
         if parameters not in self.known:
-            constants = {axis.name: axis.value(value) for axis, value in zip(self.axes, parameters)}
+            constants = self._constants(parameters)
             values = [measurement.expected(constants) for measurement in self.measurements]
             for measurement, value in zip(self.measurements, values):
                 if not np.isfinite(value):
                     raise OptionsError("%s: what is expected of it is not known (%r) with %s; are its scans and settings those that it was measured with?" % (
                         measurement.name, value, ", ".join("%s = %.3g" % item for item in constants.items())))
             self.known[parameters] = np.log(np.maximum(values, [1e-12 * measurement.value for measurement in self.measurements]))
-            self.on_step()
         return self.known[parameters]
 
 
@@ -283,13 +293,14 @@ def calibrate(measurements: Sequence[Any], config: Optional[Config] = None, *, o
     base = Settings(config, **settings)
     data = measurements_of(measurements, base, {})
     values = values_of(base)
-    progress = _Progress(on_progress)
+    progress = _Progress(on_progress, len({id(datum.place) for datum in data}))
     found = _Search(data, [_Axis(WORK, values)], progress.step).run()
     second, statements = _second_axis(data, values, found)
     if second is not None:
         both = _Search(data, found.axes + [second], progress.step).run(found.fit.parameters[0])
         if second.tells(both.intervals[1]):
             found = both
+            statements.append(_told(second, both))
         else:
             statements.append(_not_told(second))
     progress.end()
@@ -299,13 +310,13 @@ def calibrate(measurements: Sequence[Any], config: Optional[Config] = None, *, o
 class _Progress:
     """A share that only grows, of work whose end is not known before."""
 
-    def __init__(self, on_progress: Optional[OnProgress]) -> None:
-        self.on_progress, self.steps = on_progress, 0
+    def __init__(self, on_progress: Optional[OnProgress], places: int) -> None:
+        self.on_progress, self.places, self.steps = on_progress, places, 0
 
     def step(self) -> None:
         self.steps += 1
         if self.on_progress is not None:
-            self.on_progress(1.0 - 1.0 / (1.0 + self.steps / 15.0))
+            self.on_progress(1.0 - 1.0 / (1.0 + self.steps / self.places))  # a half after the first look at all of them
 
     def end(self) -> None:
         if self.on_progress is not None:
@@ -321,6 +332,8 @@ def _second_axis(data: List[Measurement], values: Dict[str, Any], found: _Found)
         return None, [_not_told(_Axis(HAMAKER, values))] if float(values[HAMAKER]) > 0.0 else []
     axis = _Axis(HAMAKER, values)
     here = {WORK: found.axes[0].value(found.fit.parameters[0]), HAMAKER: axis.configured}
+    for datum in data:
+        datum.prepare([dict(here, **{name: factor * here[name]}) for name in (WORK, HAMAKER) for factor in STEPS_FOR_SLOPES])
     slopes = np.array([[_slope(datum, here, name) for name in (WORK, HAMAKER)] for datum in data])
     weights = 1.0 / np.maximum(found.whole.deviations(found.whole.model(found.fit.parameters), found.fit.scatter)[1], 1e-12)
     information = (slopes * weights[:, None]).T @ slopes
@@ -333,12 +346,19 @@ def _second_axis(data: List[Measurement], values: Dict[str, Any], found: _Found)
 def _slope(datum: Measurement, here: Dict[str, float], name: str) -> float:
     """d ln value/d ln constant."""
     ends = []
-    for factor in (1.0 / STEP_FOR_SLOPES, STEP_FOR_SLOPES):
+    for factor in STEPS_FOR_SLOPES:
         value = datum.expected(dict(here, **{name: factor * here[name]}))
         if not 0.0 < value < math.inf:
             return 0.0
         ends.append(math.log(value))
-    return (ends[1] - ends[0]) / (2.0 * math.log(STEP_FOR_SLOPES))
+    return (ends[1] - ends[0]) / math.log(STEPS_FOR_SLOPES[1] / STEPS_FOR_SLOPES[0])
+
+
+def _told(axis: _Axis, found: _Found) -> str:
+    best, low, high = (axis.value(value) for value in (found.fit.parameters[1], found.intervals[1].lower, found.intervals[1].upper))
+    if axis.is_cosine:
+        return "the liquid's angle of contact is %s rad (%s to %s)" % (ratio(best), ratio(min(low, high)), ratio(max(low, high)))
+    return "the measurements tell the Hamaker constant, too: %s" % with_interval(best, low, high, "J")
 
 
 def _not_told(axis: _Axis) -> str:

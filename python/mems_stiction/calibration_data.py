@@ -10,14 +10,14 @@ import math
 import os
 import warnings
 from collections.abc import Mapping
-from typing import Any, Callable, Dict, Iterator, List, NamedTuple, Optional, Tuple
+from typing import Any, Callable, Dict, Iterator, List, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 
 import mems_stiction
 from mems_stiction import _core
 from mems_stiction._arrays import surface_of
-from mems_stiction._device import _listed, _pitches_of
+from mems_stiction._device import _listed, _pitches_of, predict_device_under
 from mems_stiction._settings import OptionsError, Settings, settings_with, values_of
 from mems_stiction._warnings import ScanWarning, SettingsWarning
 from mems_stiction.calibration_words import UNITS
@@ -58,9 +58,14 @@ class Measurement(NamedTuple):
             return figures.force
         return BEAMS[self.kind](*self.beam, figures.work) if self.beam else figures.work
 
+    def prepare(self, constants: Sequence[Dict[str, float]]) -> None:
+        """What expected() will be asked for. Raises as it does."""
+        with _named(self.name):
+            self.place.figures_of(constants)
+
     def scatter(self, constants: Dict[str, float]) -> float:
         """Standard deviation of ln value from one place of the surfaces to another [-]."""
-        figures = self.place.figures(constants)
+        figures = self.place.figures_near(constants)
         if self.kind == "pull_off_force":
             return figures.force_scatter
         return figures.work_scatter / (4.0 if self.beam else 1.0)  # lengths go with the fourth root
@@ -83,22 +88,31 @@ class Place:
         self._clean_scans: Optional[List[Any]] = None
 
     @property
-    def is_device(self) -> bool:
-        return self.area is not None
-
-    @property
     def humidity(self) -> float:
         return float(values_of(self.settings)["interface/relative_humidity"])
 
     def figures(self, constants: Dict[str, float]) -> Figures:
-        key = tuple(sorted(constants.items()))
-        if key not in self._known:
+        return self.figures_of([constants])[0]
+
+    def figures_of(self, constants: Sequence[Dict[str, float]]) -> List[Figures]:
+        """Of each of several constants: together they take little longer than one, where surfaces are made."""
+        keys = [tuple(sorted(one.items())) for one in constants]
+        missing = {key: one for key, one in zip(keys, constants) if key not in self._known}
+        if missing:
             with warnings.catch_warnings():
                 if self._known:  # scans and area are the same each time
                     warnings.simplefilter("ignore", ScanWarning)
                 warnings.simplefilter("ignore", SettingsWarning)
-                self._known[key] = self._find(Settings(self.settings, **constants))
-        return self._known[key]
+                found = self._find([Settings(self.settings, **one) for one in missing.values()])
+            self._known.update(zip(missing, found))
+        return [self._known[key] for key in keys]
+
+    def figures_near(self, constants: Dict[str, float]) -> Figures:
+        """For what hardly goes with the constants: of made surfaces those of the nearest that are known."""
+        near = [key for key in self._known if {name for name, _ in key} == set(constants)]
+        if self.area is None or not near:
+            return self.figures(constants)
+        return self._known[min(near, key=lambda key: sum(abs(value - constants[name]) / (abs(value) + abs(constants[name]) or 1.0) for name, value in key))]
 
     def fingerprint(self) -> str:
         """SHA-256 of the heights [m] as they are predicted, one after the other."""
@@ -110,12 +124,14 @@ class Place:
             digest.update(np.array(scan.pitch, dtype=np.float64).tobytes())
         return digest.hexdigest()
 
-    def _find(self, settings: Settings) -> Figures:
-        if self.is_device:
-            found = mems_stiction.predict_device(self.scans, self.area, None, self.contacts, settings, upper=self.upper)
-            made = found.realisations
-            return Figures(found.pull_off_force, found.apparent_work_of_adhesion, _scatter(made.pull_off_force),
-                           _scatter(made.apparent_work_of_adhesion))
+    def _find(self, settings: List[Settings]) -> List[Figures]:
+        if self.area is None:
+            return [self._of_frame(one) for one in settings]
+        return [Figures(found.pull_off_force, found.apparent_work_of_adhesion, _scatter(found.realisations.pull_off_force),
+                        _scatter(found.realisations.apparent_work_of_adhesion))
+                for found in predict_device_under(self.scans, self.area, self.contacts, settings, self.upper)]
+
+    def _of_frame(self, settings: Settings) -> Figures:
         if self.radius is None:
             predictor = mems_stiction.Predictor(settings, **FRAME_ALONE)
             return _of_several([predictor.predict(scan, None, self.upper) for scan in self.scans])

@@ -8,6 +8,7 @@ import sys
 import tempfile
 import unittest
 import warnings
+from unittest import mock
 
 import mems_stiction
 import numpy as np
@@ -20,6 +21,7 @@ except ImportError:
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
+from mems_stiction import calibration_data  # noqa: E402
 from mems_stiction._calibration import WORK, _Axis, _Search  # noqa: E402
 from mems_stiction._settings import values_of  # noqa: E402
 from mems_stiction.calibration_data import measurements_of  # noqa: E402
@@ -104,6 +106,7 @@ class MadeDataTest(unittest.TestCase):
         self.assertAlmostEqual(found.hamaker_constant / 3e-20, 1.0, delta=0.05)
         self.assertLess(found.hamaker_constant_lower, 3e-20)
         self.assertGreater(found.hamaker_constant_upper, 3e-20)
+        self.assertRegex(found.statements[-1], r"^the measurements tell the Hamaker constant, too: (29|30|31)[0-9.]* zJ \([0-9.]+ to [0-9.]+\)$")
         self.assertAlmostEqual(found.work_of_adhesion / TRUTH, 1.0, delta=0.05)
 
     def test_the_part_of_humidity_where_several_were_measured(self):
@@ -113,6 +116,7 @@ class MadeDataTest(unittest.TestCase):
         self.assertAlmostEqual(found.contact_angle, 0.7, delta=0.05)
         self.assertLess(found.contact_angle_lower, 0.7)
         self.assertGreater(found.contact_angle_upper, 0.7)
+        self.assertRegex(found.statements[-1], r"^the liquid's angle of contact is 0\.[67][0-9]* rad \(0\.[0-9]+ to [0-9.]+\)$")
         self.assertAlmostEqual(found.work_of_adhesion / TRUTH, 1.0, delta=0.1)
 
     def test_forces_that_no_work_of_adhesion_explains_end_in_a_sentence(self):
@@ -210,6 +214,23 @@ class KindsTest(unittest.TestCase):
         datum = measured(device.pull_off_force, SURFACES, 0.01, area=4e-12)
         found = calibrated([datum], **few)
         self.assertAlmostEqual(found.measurements.fitted[0] / device.pull_off_force, 1.0, delta=0.05)
+
+    def test_several_constants_have_the_forces_of_each_and_their_surfaces_are_made_once(self):
+        few = {"device_force": {"realisations": 3, "max_cells": 1e4}}
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", mems_stiction.SettingsWarning)
+            data = measurements_of([measured(1e-7, SURFACES, area=4e-12)], None, few)
+        constants = [{WORK: 0.01}, {WORK: 0.08}]
+        calls = []
+        under = calibration_data.predict_device_under
+        with mock.patch.object(calibration_data, "predict_device_under", side_effect=lambda *given: calls.append(len(given[3])) or under(*given)), \
+                warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            data[0].prepare(constants)
+            expected = [data[0].expected(one) for one in constants]
+            alone = [mems_stiction.predict_device(SURFACES, 4e-12, PITCH, config=mems_stiction.Settings(few, **one)) for one in constants]
+        self.assertEqual(calls, [2])
+        self.assertEqual(expected, [one.pull_off_force for one in alone])
 
 
 class DocumentTest(unittest.TestCase):
