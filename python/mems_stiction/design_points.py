@@ -105,6 +105,10 @@ def _values(name: str, given: Any, whole: bool) -> Tuple[float, ...]:
         is_by_ratio = first > 0 and last >= BY_RATIO * first
         filled = np.geomspace(first, last, count) if is_by_ratio else np.linspace(first, last, count)
         numbers = [first, *(float("%.12g" % value) for value in filled[1:-1]), last]
+    elif whole:
+        for number in numbers:
+            if number != round(number):
+                raise OptionsError("axes: %s: %g is not allowed, must be whole numbers" % (name, number))
     if len(numbers) > MOST_VALUES:
         raise OptionsError("axes: %s: %d values are not allowed, at most %d" % (name, len(numbers), MOST_VALUES))
     return tuple(sorted({float(round(number)) if whole else number for number in numbers}))

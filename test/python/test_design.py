@@ -223,7 +223,7 @@ class AxesTest(unittest.TestCase):
         for axes, words in (({}, "must be a dictionary with one or two names"), ({"a": 1, "b": 2, "c": 3}, "a dictionary of 3 is not allowed"),
                             ({"device/spring": [1]}, "there is no setting 'device/spring'"), ({"device/guidance": [1]}, "device/guidance is no number"),
                             ({STIFFNESS: "1"}, "must be numbers"), ({STIFFNESS: []}, "must be numbers"), ({STIFFNESS: (3, 1, 5)}, "with from < to"),
-                            ({STIFFNESS: [0.0]}, "device/spring_stiffness: 0 is not allowed, must be > 0"),
+                            ({"device/contacts": [1.5, 3]}, "device/contacts: 1.5 is not allowed, must be whole numbers"), ({STIFFNESS: [0.0]}, "device/spring_stiffness: 0 is not allowed, must be > 0"),
                             ({"interface/relative_humidity": [0.5, 1.5]}, "interface/relative_humidity"),
                             ({"roughness/scale": [0.0]}, "roughness/scale: 0 is not allowed"), ({ETCH: [2.0]}, "etch_wavelength: None is not allowed")):
             with self.assertRaisesRegex(mems_stiction.OptionsError, re.escape(words)):
