@@ -428,12 +428,15 @@ def _open_end(found: _Found) -> str:
 
 
 def _of_units(data: List[Measurement], found: _Found) -> List[str]:
-    """Of values far from all that the range of the constants gives: mostly another unit, or another area."""
+    """Of values far from all that the range of the work of adhesion gives: mostly another unit, or another area."""
+    works = np.linspace(*found.axes[0].bounds, COARSE_NODES)
+    given = np.array([found.whole.model(np.concatenate([[work], found.fit.parameters[1:]])) for work in works])
     said = []
-    for datum, nearest in zip(data, found.whole.model(found.fit.parameters)):
+    for datum, low, high in zip(data, given.min(axis=0), given.max(axis=0)):
+        nearest = float(min(max(datum.value, low), high))
         if abs(math.log(datum.value / nearest)) > math.log(FAR_OFF):
             said.append("%s: %s was measured, and the nearest that any work of adhesion gives is %s: is it in SI units, and of these surfaces and this area?" % (
-                datum.name, with_unit(datum.value, UNITS[datum.kind]), with_unit(float(nearest), UNITS[datum.kind])))
+                datum.name, with_unit(datum.value, UNITS[datum.kind]), with_unit(nearest, UNITS[datum.kind])))
     return said[:MOST_ASKED]
 
 
