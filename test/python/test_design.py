@@ -4,6 +4,7 @@ import concurrent.futures
 import contextlib
 import json
 import math
+import multiprocessing
 import os
 import pathlib
 import re
@@ -11,6 +12,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import unittest
 import warnings
@@ -207,6 +209,24 @@ class RowsTest(unittest.TestCase):
         self.assertEqual(swept(axes, workers=2).json(), alone)
         with concurrent.futures.ThreadPoolExecutor(1) as executor:
             self.assertEqual(swept(axes, executor=executor).json(), alone)
+
+
+    def test_no_thread_waits_for_what_an_interruption_left_locked(self):
+        threads = []
+        swept({WORK: [0.02, 0.04, 0.06, 0.08]}, workers=2, on_progress=lambda share: threads.append(threading.active_count()))
+        self.assertEqual(threads, [threading.active_count()] * 5)
+
+    def test_an_error_or_the_end_of_a_process_ends_the_sweep(self):
+        with self.assertRaisesRegex(mems_stiction.SurfaceError, "no valid pixel"):
+            swept({WORK: [0.02, 0.08]}, np.full((64, 64), np.nan), workers=2)
+
+        def kill(share):
+            for process in multiprocessing.active_children():
+                process.kill()
+
+        with self.assertRaisesRegex(mems_stiction.Error, "a worker process has ended"):
+            swept({WORK: [0.01 * place for place in range(1, 9)]}, workers=2, on_progress=kill)
+        self.assertEqual(multiprocessing.active_children(), [])
 
 
 class AxesTest(unittest.TestCase):
