@@ -251,7 +251,11 @@ class _Search:
         """- constants: those at which surfaces scatter from place to place as they do"""
         return Likelihood([m.value for m in self.measurements], [m.uncertainty for m in self.measurements],
                           [m.scatter(constants) for m in self.measurements], [m.kind for m in self.measurements],
-                          self.surrogate.expected, self.surrogate.bounds())
+                          self.surrogate.expected, self.surrogate.bounds(), [m.common(constants) for m in self.measurements], self._surfaces())
+
+    def _surfaces(self) -> List[int]:
+        known: Dict[Any, int] = {}
+        return [known.setdefault(measurement.place.surfaces, len(known)) for measurement in self.measurements]
 
 
 def _refined(nodes: np.ndarray, interval: Interval) -> np.ndarray:

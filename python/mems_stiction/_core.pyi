@@ -341,6 +341,7 @@ class DevicePrediction:
     realisations: Records
     parts_of_scans: Records
     spectrum: Records
+    work_deviation: float
     made_surface: HeightMap
     def json(self) -> str: ...
 

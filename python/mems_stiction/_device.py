@@ -47,6 +47,7 @@ class DeviceForce(_core.DeviceForceFigures, ReadOnly):
         surface = core.made_surface
         self._made_surface = None if surface.pixels is None else (np.array(array_of(surface.pixels)), surface.pitch[0])
         self._json = core.json()
+        self._work_deviation = core.work_deviation  # as force_deviation; of ln work
 
     def json(self) -> str:
         """The record that predict_device --json prints, one line."""

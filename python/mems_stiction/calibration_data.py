@@ -66,24 +66,35 @@ class Measurement(NamedTuple):
     def scatter(self, constants: Dict[str, float]) -> float:
         """Standard deviation of ln value from one place of the surfaces to another [-]."""
         figures = self.place.figures_near(constants)
+        return self._of_value(figures.force_scatter, figures.work_scatter)
+
+    def common(self, constants: Dict[str, float]) -> float:
+        """Standard deviation of ln value that is the same at all places of the surfaces: their scans are a sample [-]."""
+        figures = self.place.figures_near(constants)
+        return self._of_value(figures.force_common, figures.work_common)
+
+    def _of_value(self, of_force: float, of_work: float) -> float:
         if self.kind == "pull_off_force":
-            return figures.force_scatter
-        return figures.work_scatter / (4.0 if self.beam else 1.0)  # lengths go with the fourth root
+            return of_force
+        return of_work / (4.0 if self.beam else 1.0)  # lengths go with the fourth root
 
 
 class Figures(NamedTuple):
     force: float  # [N]
     work: float  # per area [J/m^2]
-    force_scatter: float  # of ln force [-]
+    force_scatter: float  # of ln force, from place to place [-]
     work_scatter: float
+    force_common: float = 0.0  # of ln force, at all places: other scans of the surfaces would give another [-]
+    work_common: float = 0.0
 
 
 class Place:
     """Surfaces that one or more measurements were made on, and what holds them by the constants of the interface."""
 
     def __init__(self, scans: List[Any], upper: Any, area: Optional[float], contacts: Optional[int], radius: Optional[float],
-                 settings: Settings) -> None:
+                 settings: Settings, surfaces: Any = None) -> None:
         self.scans, self.upper, self.area, self.contacts, self.radius, self.settings = scans, upper, area, contacts, radius, settings
+        self.surfaces = surfaces  # the same for the same scans
         self._known: Dict[Tuple[Tuple[str, float], ...], Figures] = {}
         self._clean_scans: Optional[List[Any]] = None
 
@@ -127,9 +138,7 @@ class Place:
     def _find(self, settings: List[Settings]) -> List[Figures]:
         if self.area is None:
             return [self._of_frame(one) for one in settings]
-        return [Figures(found.pull_off_force, found.apparent_work_of_adhesion, _scatter(found.realisations.pull_off_force),
-                        _scatter(found.realisations.apparent_work_of_adhesion))
-                for found in predict_device_under(self.scans, self.area, self.contacts, settings, self.upper)]
+        return [_of_device(found) for found in predict_device_under(self.scans, self.area, self.contacts, settings, self.upper)]
 
     def _of_frame(self, settings: Settings) -> Figures:
         if self.radius is None:
@@ -153,6 +162,13 @@ def _scatter(values: Any) -> float:
     if len(positive) < 2:
         return 0.0
     return float(np.std(np.log(positive), ddof=1) * math.sqrt(1.0 + 1.0 / len(positive)))
+
+
+def _of_device(found: Any) -> Figures:
+    """What the deviations of the device have beyond those of its realisations is common to all places."""
+    force, work = _scatter(found.realisations.pull_off_force), _scatter(found.realisations.apparent_work_of_adhesion)
+    return Figures(found.pull_off_force, found.apparent_work_of_adhesion, force, work, math.sqrt(max(found.force_deviation ** 2 - force ** 2, 0.0)),
+                   math.sqrt(max(found._work_deviation ** 2 - work ** 2, 0.0)))
 
 
 def _of_several(predictions: List[Any]) -> Figures:
@@ -255,7 +271,7 @@ def _place(datum: Mapping, numbers: Dict[str, float], what: str, base: Settings,
             above = None if upper is None else _surfaces_of(upper, pitch, settings, "upper")
         if above is not None and numbers.get("area") is None:
             above = above[0]
-        places[key] = Place(surfaces, above, numbers.get("area"), contacts, radius, settings)
+        places[key] = Place(surfaces, above, numbers.get("area"), contacts, radius, settings, key[:3])
     return places[key]
 
 

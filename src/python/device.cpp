@@ -123,6 +123,7 @@ void bindDevice(py::module& module) {
       .def_property_readonly("realisations", &realisationsOf)
       .def_property_readonly("parts_of_scans", &partsOf)
       .def_property_readonly("spectrum", &spectrumOf)
+      .def_property_readonly("work_deviation", [](const DevicePrediction& one) { return one.force.work_deviation; })
       .def_property_readonly("made_surface", [](const DevicePrediction& one) { return one.force.made_surface; })
       .def("json", &deviceJsonRecord);
   module.def("predict_device", &predictDevice, "scans"_a, "counter_surface"_a, "configuration"_a);

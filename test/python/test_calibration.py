@@ -25,7 +25,7 @@ from mems_stiction import calibration_data  # noqa: E402
 from mems_stiction._calibration import WORK, _Axis, _Search  # noqa: E402
 from mems_stiction._settings import values_of  # noqa: E402
 from mems_stiction.calibration_data import measurements_of  # noqa: E402
-from mems_stiction.calibration_fit import Likelihood  # noqa: E402
+from mems_stiction.calibration_fit import Likelihood, _of_common  # noqa: E402
 from mems_stiction.calibration_grid import between_nodes  # noqa: E402
 from module_cases import REPOSITORY, rough  # noqa: E402  (the path comes first)
 
@@ -91,6 +91,26 @@ class MadeDataTest(unittest.TestCase):
             self.assertGreaterEqual(covered, 51)
             self.assertGreater(np.median(widths), lowest)
             self.assertLess(np.median(widths), highest)
+
+    def test_what_scans_leave_open_is_common_to_all_that_rest_on_them(self):
+        """Three parts scatter by a tenth, and lie together wherever the surfaces are that the scans stand for."""
+        model = lambda parameters: np.full(3, math.exp(parameters[0]))  # noqa: E731
+        covered = {0.0: 0, 0.3: 0}
+        for draw in range(40):
+            random = np.random.RandomState(draw)
+            values = np.exp(0.3 * random.standard_normal() + 0.1 * random.standard_normal(3))
+            for common in covered:
+                likelihood = Likelihood(values, 1e-3 * values, np.full(3, 0.1), ["force"] * 3, model, [(-3.0, 3.0)], np.full(3, common), np.zeros(3, int))
+                interval = likelihood.interval(likelihood.fit(), 0)
+                covered[common] += interval.lower < 0.0 < interval.upper
+        self.assertLess(covered[0.0], 20)
+        self.assertGreaterEqual(covered[0.3], 35)
+
+    def test_the_error_of_shared_surfaces_is_that_of_their_covariance(self):
+        deviations, over = np.array([0.7, -1.2, 0.4]), np.array([0.5, 1.5, 1.0])
+        covariance = np.eye(3) + np.outer(over, over)
+        expected = deviations @ np.linalg.solve(covariance, deviations) + math.log(np.linalg.det(covariance)) - deviations @ deviations
+        self.assertAlmostEqual(_of_common(deviations, over), expected, places=12)
 
     def test_one_of_ten_that_does_not_belong_is_named_and_left_out(self):
         data = exact()
@@ -214,6 +234,13 @@ class KindsTest(unittest.TestCase):
         datum = measured(device.pull_off_force, SURFACES, 0.01, area=4e-12)
         found = calibrated([datum], **few)
         self.assertAlmostEqual(found.measurements.fitted[0] / device.pull_off_force, 1.0, delta=0.05)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            measurement, = measurements_of([datum], None, few)
+            measurement.prepare([{WORK: TRUTH}])
+        together = math.hypot(measurement.scatter({WORK: TRUTH}), measurement.common({WORK: TRUTH}))
+        self.assertAlmostEqual(together, device.force_deviation, places=12)
+        self.assertGreater(measurement.common({WORK: TRUTH}), 0.1)  # the law's own error
 
     def test_several_constants_have_the_forces_of_each_and_their_surfaces_are_made_once(self):
         few = {"device_force": {"realisations": 3, "max_cells": 1e4}}
