@@ -322,9 +322,10 @@ class FacesTest(unittest.TestCase):
         self.assertRegex(run.stderr, r"^calibrate: .*none\.yaml: [^\n]*\n$")
         (self.path / "text.yaml").write_text("kind: pull_off_force\n")
         self.assertRegex(self.run_program(self.path / "text.yaml").stderr, r"^calibrate: .*text\.yaml: must be a list")
-        (self.path / "twice.yaml").write_text("- kind: pull_off_force\n  value: 2e-8\n  value: 9e-8\n")
-        self.assertRegex(self.run_program(self.path / "twice.yaml").stderr,
-                         r"^calibrate: .*twice\.yaml: value: given in line 3 and before in line 2, must be given once\n$")
+        for text, lines in (("- kind: pull_off_force\n  value: 2e-8\n  value: 9e-8\n", (3, 2)), ("- {value: 2e-8, value: 9e-8}\n", (1, 1))):
+            (self.path / "twice.yaml").write_text(text)
+            self.assertRegex(self.run_program(self.path / "twice.yaml").stderr,
+                             r"^calibrate: .*twice\.yaml: value: given in line %d and before in line %d, must be given once\n$" % lines)
 
     def test_each_wrong_measurement_is_named(self):
         good = measured(1e-7, SURFACES[0])
