@@ -38,7 +38,8 @@ def answers_of_processes(holding: Holding, points: List[Dict[str, float]], count
                 ours.send(point)
             under_way[ours] = point
         while under_way:
-            for ready in connection.wait(list(under_way)):
+            answered: List[Any] = connection.wait(list(under_way))
+            for ready in answered:
                 point = under_way.pop(ready)
                 with _named_end():
                     answer = ready.recv()
