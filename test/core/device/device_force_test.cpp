@@ -313,9 +313,8 @@ TEST_F(DeviceForceTest, aBlockIsAsGoodAsThickAndSaysSo) {
 }
 
 TEST_F(DeviceForceTest, severalModelsHaveTheForcesOfEach) {
-  std::vector<Options> models(3, model_);
-  models[1].interface.work_of_adhesion *= 0.1;
-  models[2].interface.work_of_adhesion *= 20.0;
+  std::vector<Options> models(2, model_);
+  models[1].interface.work_of_adhesion *= 20.0;
   for (const double side : {200.0, 300.0}) {  // parts of the scans, made surfaces
     const DeviceArea area{areaOfPixels(side), 1};
     const std::vector<DeviceForce> together = deviceForces(surfaces_, area, models, uncertainty_, options_);
@@ -329,7 +328,7 @@ TEST_F(DeviceForceTest, severalModelsHaveTheForcesOfEach) {
       EXPECT_EQ(together[i].realisations.size(), alone.realisations.size());
       EXPECT_EQ(together[i].made_surface.rows(), alone.made_surface.rows());
     }
-    EXPECT_LT(together[1].pull_off_force, together[2].pull_off_force);
+    EXPECT_LT(together[0].pull_off_force, together[1].pull_off_force);
   }
 }
 
