@@ -13,6 +13,7 @@ from mems_stiction._arrays import ReadOnly, plain_value
 from mems_stiction._settings import Config, OptionsError, Settings, values_of
 from mems_stiction.calibration_data import Measurement, measurements_of
 from mems_stiction.calibration_fit import Fit, Interval, Likelihood
+from mems_stiction.calibration_grid import between_nodes
 from mems_stiction.calibration_words import UNITS
 from mems_stiction.quantities import ratio, with_interval, with_unit
 
@@ -23,9 +24,12 @@ COARSE_NODES = 13
 FINE_NODES = 9
 REACH_AROUND = 2.0  # of ln work of adhesion, where a second constant is sought, too
 MOST_REFINEMENTS = 3
-STEP_FOR_SLOPES = 1.15
+STEPS_FOR_SLOPES = (1.0 / 1.15, 1.15)
 TELLING = 2.0  # ends of an interval over the value: wider ones tell nothing
-TELLING_WORK = 6.0  # the same of a work of adhesion
+TELLING_WORK = 5.0  # the same of a work of adhesion: uncertainty/work_of_adhesion takes 5.1 at most
+DEPENDING = 2.0  # factor between what both ends of the range of a constant give: less hardly depends on it
+FAR_OFF = 3.0  # factor from a measured value to the nearest one that the constants give
+MOST_ASKED = 3  # values that are asked for their unit
 TELLING_COSINE = 0.6  # width of an interval of the angle's cosine
 NORMAL_95 = 1.959964
 
@@ -163,34 +167,41 @@ class _Surrogate:
         self.interpolation: Any = None
 
     def take(self, nodes: List[np.ndarray]) -> None:
-        from scipy.interpolate import PchipInterpolator, RegularGridInterpolator
+        from scipy.interpolate import PchipInterpolator
 
         self.nodes = nodes
         grid = np.stack(np.meshgrid(*nodes, indexing="ij"), axis=-1)
+        self._prepare([tuple(parameters) for parameters in grid.reshape(-1, len(nodes))])
         values = np.array([self._at(tuple(parameters)) for parameters in grid.reshape(-1, len(nodes))])
         values = values.reshape(grid.shape[:-1] + (len(self.measurements),))
-        if len(nodes) == 1:
-            self.interpolation = PchipInterpolator(nodes[0], values, axis=0)
-        else:
-            self.interpolation = RegularGridInterpolator(nodes, values, method="pchip" if len(nodes[0]) > 3 else "linear")
+        self.interpolation = PchipInterpolator(nodes[0], values, axis=0) if len(nodes) == 1 else between_nodes(nodes[0], nodes[1], values)
 
     def expected(self, parameters: np.ndarray) -> np.ndarray:
-        inside = [np.clip(value, nodes[0], nodes[-1]) for value, nodes in zip(parameters, self.nodes)]
-        return np.exp(np.ravel(self.interpolation(inside[0] if len(inside) == 1 else np.array([inside]))))
+        inside = [min(max(value, nodes[0]), nodes[-1]) for value, nodes in zip(parameters, self.nodes)]
+        return np.exp(np.ravel(self.interpolation(inside[0] if len(inside) == 1 else [inside])))
 
     def bounds(self) -> List[Tuple[float, float]]:
         return [(float(nodes[0]), float(nodes[-1])) for nodes in self.nodes]
 
+    def _constants(self, parameters: Tuple[float, ...]) -> Dict[str, float]:
+        return {axis.name: axis.value(value) for axis, value in zip(self.axes, parameters)}
+
+    def _prepare(self, nodes: List[Tuple[float, ...]]) -> None:
+        """All that is missing of one place after the other."""
+        missing = [self._constants(parameters) for parameters in nodes if parameters not in self.known]
+        for measurement in {id(measurement.place): measurement for measurement in self.measurements}.values() if missing else ():
+            measurement.prepare(missing)
+            self.on_step()
+
     def _at(self, parameters: Tuple[float, ...]) -> np.ndarray:
         if parameters not in self.known:
-            constants = {axis.name: axis.value(value) for axis, value in zip(self.axes, parameters)}
+            constants = self._constants(parameters)
             values = [measurement.expected(constants) for measurement in self.measurements]
             for measurement, value in zip(self.measurements, values):
                 if not np.isfinite(value):
                     raise OptionsError("%s: what is expected of it is not known (%r) with %s; are its scans and settings those that it was measured with?" % (
                         measurement.name, value, ", ".join("%s = %.3g" % item for item in constants.items())))
             self.known[parameters] = np.log(np.maximum(values, [1e-12 * measurement.value for measurement in self.measurements]))
-            self.on_step()
         return self.known[parameters]
 
 
@@ -240,7 +251,11 @@ class _Search:
         """- constants: those at which surfaces scatter from place to place as they do"""
         return Likelihood([m.value for m in self.measurements], [m.uncertainty for m in self.measurements],
                           [m.scatter(constants) for m in self.measurements], [m.kind for m in self.measurements],
-                          self.surrogate.expected, self.surrogate.bounds())
+                          self.surrogate.expected, self.surrogate.bounds(), [m.common(constants) for m in self.measurements], self._surfaces())
+
+    def _surfaces(self) -> List[int]:
+        known: Dict[Any, int] = {}
+        return [known.setdefault(measurement.place.surfaces, len(known)) for measurement in self.measurements]
 
 
 def _refined(nodes: np.ndarray, interval: Interval) -> np.ndarray:
@@ -282,13 +297,14 @@ def calibrate(measurements: Sequence[Any], config: Optional[Config] = None, *, o
     base = Settings(config, **settings)
     data = measurements_of(measurements, base, {})
     values = values_of(base)
-    progress = _Progress(on_progress)
+    progress = _Progress(on_progress, len({id(datum.place) for datum in data}))
     found = _Search(data, [_Axis(WORK, values)], progress.step).run()
     second, statements = _second_axis(data, values, found)
     if second is not None:
         both = _Search(data, found.axes + [second], progress.step).run(found.fit.parameters[0])
         if second.tells(both.intervals[1]):
             found = both
+            statements.append(_told(second, both))
         else:
             statements.append(_not_told(second))
     progress.end()
@@ -298,13 +314,13 @@ def calibrate(measurements: Sequence[Any], config: Optional[Config] = None, *, o
 class _Progress:
     """A share that only grows, of work whose end is not known before."""
 
-    def __init__(self, on_progress: Optional[OnProgress]) -> None:
-        self.on_progress, self.steps = on_progress, 0
+    def __init__(self, on_progress: Optional[OnProgress], places: int) -> None:
+        self.on_progress, self.places, self.steps = on_progress, places, 0
 
     def step(self) -> None:
         self.steps += 1
         if self.on_progress is not None:
-            self.on_progress(1.0 - 1.0 / (1.0 + self.steps / 15.0))
+            self.on_progress(1.0 - 1.0 / (1.0 + self.steps / self.places))  # a half after the first look at all of them
 
     def end(self) -> None:
         if self.on_progress is not None:
@@ -320,6 +336,8 @@ def _second_axis(data: List[Measurement], values: Dict[str, Any], found: _Found)
         return None, [_not_told(_Axis(HAMAKER, values))] if float(values[HAMAKER]) > 0.0 else []
     axis = _Axis(HAMAKER, values)
     here = {WORK: found.axes[0].value(found.fit.parameters[0]), HAMAKER: axis.configured}
+    for datum in data:
+        datum.prepare([dict(here, **{name: factor * here[name]}) for name in (WORK, HAMAKER) for factor in STEPS_FOR_SLOPES])
     slopes = np.array([[_slope(datum, here, name) for name in (WORK, HAMAKER)] for datum in data])
     weights = 1.0 / np.maximum(found.whole.deviations(found.whole.model(found.fit.parameters), found.fit.scatter)[1], 1e-12)
     information = (slopes * weights[:, None]).T @ slopes
@@ -332,12 +350,19 @@ def _second_axis(data: List[Measurement], values: Dict[str, Any], found: _Found)
 def _slope(datum: Measurement, here: Dict[str, float], name: str) -> float:
     """d ln value/d ln constant."""
     ends = []
-    for factor in (1.0 / STEP_FOR_SLOPES, STEP_FOR_SLOPES):
+    for factor in STEPS_FOR_SLOPES:
         value = datum.expected(dict(here, **{name: factor * here[name]}))
         if not 0.0 < value < math.inf:
             return 0.0
         ends.append(math.log(value))
-    return (ends[1] - ends[0]) / (2.0 * math.log(STEP_FOR_SLOPES))
+    return (ends[1] - ends[0]) / math.log(STEPS_FOR_SLOPES[1] / STEPS_FOR_SLOPES[0])
+
+
+def _told(axis: _Axis, found: _Found) -> str:
+    best, low, high = (axis.value(value) for value in (found.fit.parameters[1], found.intervals[1].lower, found.intervals[1].upper))
+    if axis.is_cosine:
+        return "the liquid's angle of contact is %s rad (%s to %s)" % (ratio(best), ratio(min(low, high)), ratio(max(low, high)))
+    return "the measurements tell the Hamaker constant, too: %s" % with_interval(best, low, high, "J")
 
 
 def _not_told(axis: _Axis) -> str:
@@ -363,7 +388,7 @@ def _calibration(data: List[Measurement], base: Settings, values: Dict[str, Any]
             constants["uncertainty/" + word] = _relative(interval)
     statements = _of_outliers(data, found) + _of_misfit(found) + statements
     if not found.axes[0].tells(found.intervals[0]):
-        statements.insert(0, _open_end(found.intervals[0], found.axes[0]))
+        statements[:0] = [_open_end(found)] + _of_units(data, found)
         figures.update(work_of_adhesion=math.nan, work_of_adhesion_lower=math.nan, work_of_adhesion_upper=math.nan)
         constants = {}
     rows = [(datum.name, datum.kind, datum.value, datum.uncertainty, float(value), float(deviation), place in found.outliers)
@@ -390,18 +415,33 @@ def _of_outliers(data: List[Measurement], found: _Found) -> List[str]:
         with_unit(with_all, "J/m^2")) for place in found.outliers]
 
 
-def _open_end(interval: Interval, axis: _Axis) -> str:
+def _open_end(found: _Found) -> str:
     """What is still said of a work of adhesion that has no interval."""
+    interval, axis = found.intervals[0], found.axes[0]
+    low, high = (with_unit(axis.value(end), "J/m^2") for end in (interval.lower, interval.upper))
     if interval.is_closed:
-        return "these surfaces hardly tell the work of adhesion: it lies between %s and %s" % (
-            with_unit(axis.value(interval.lower), "J/m^2"), with_unit(axis.value(interval.upper), "J/m^2"))
+        return "these measurements hardly tell the work of adhesion: it lies between %s and %s" % (low, high)
     if interval.has_lower:
-        return "these surfaces do not tell the work of adhesion: it is at least %s, and may be anything above" % with_unit(
-            axis.value(interval.lower), "J/m^2")
+        return "these measurements do not tell the work of adhesion: it is at least %s, and may be anything above" % low
     if interval.has_upper:
-        return "these surfaces do not tell the work of adhesion: it is at most %s, and may be anything below" % with_unit(
-            axis.value(interval.upper), "J/m^2")
+        return "these measurements do not tell the work of adhesion: it is at most %s, and may be anything below" % high
+    ends = [np.concatenate([[bound], found.fit.parameters[1:]]) for bound in axis.bounds]
+    if np.abs(np.log(found.whole.model(ends[1]) / found.whole.model(ends[0]))).max() > math.log(DEPENDING):
+        return "these measurements do not tell the work of adhesion: their uncertainties leave it open from %s to %s" % (low, high)
     return "these surfaces do not tell the work of adhesion: what holds them hardly depends on it (rough, stiff, or far apart)"
+
+
+def _of_units(data: List[Measurement], found: _Found) -> List[str]:
+    """Of values far from all that the range of the work of adhesion gives: mostly another unit, or another area."""
+    works = np.linspace(*found.axes[0].bounds, COARSE_NODES)
+    given = np.array([found.whole.model(np.concatenate([[work], found.fit.parameters[1:]])) for work in works])
+    said = []
+    for datum, low, high in zip(data, given.min(axis=0), given.max(axis=0)):
+        nearest = float(min(max(datum.value, low), high))
+        if abs(math.log(datum.value / nearest)) > math.log(FAR_OFF):
+            said.append("%s: %s was measured, and the nearest that any work of adhesion gives is %s: is it in SI units, and of these surfaces and this area?" % (
+                datum.name, with_unit(datum.value, UNITS[datum.kind]), with_unit(nearest, UNITS[datum.kind])))
+    return said[:MOST_ASKED]
 
 
 def _of_misfit(found: _Found) -> List[str]:

@@ -6,22 +6,21 @@ import contextlib
 import itertools
 import json
 import math
-import multiprocessing
 import os
-from concurrent.futures import Executor, ProcessPoolExecutor, as_completed
-from concurrent.futures.process import BrokenProcessPool
-from typing import Any, Callable, Dict, Generator, List, Mapping, Optional, Tuple, Union
+from concurrent.futures import Executor, as_completed
+from typing import Any, Callable, Dict, List, Mapping, Optional, Tuple, Union
 
 import numpy as np
 
 from mems_stiction._arrays import ReadOnly, plain_value
 from mems_stiction._device import Pitches, scans_of_device
-from mems_stiction._settings import Config, Error, OptionsError, values_of
+from mems_stiction._settings import Config, OptionsError, values_of
 from mems_stiction._warnings import ScanWarning, warn
 from mems_stiction.design_axes import AREA, ETCH, OF_THE_SPRING, Axis
-from mems_stiction.design_points import Found, Holding, axes_of, find, start_worker
+from mems_stiction.design_points import Holding, axes_of
 from mems_stiction.design_rows import FIGURES, Rows
 from mems_stiction.design_words import statements_of, told_once
+from mems_stiction.design_workers import Answers, answers_of_processes
 
 OnProgress = Callable[[float], None]
 
@@ -156,9 +155,6 @@ def _fixed(axes: List[Axis], values: Dict[str, Any]) -> Dict[str, float]:
     return {name: float(values[name]) for name in OF_THE_SPRING if name not in swept}
 
 
-Answers = Generator[Tuple[Dict[str, float], Found], None, None]
-
-
 def _found_by(executor: Executor, holding: Holding, points: List[Dict[str, float]]) -> Answers:
     """The same by whoever has the processors. What is not begun when it ends is not begun any more."""
     futures = {executor.submit(holding.at, point): point for point in points}
@@ -172,22 +168,8 @@ def _found_by(executor: Executor, holding: Holding, points: List[Dict[str, float
 
 def _found(holding: Holding, points: List[Dict[str, float]], count: int) -> Answers:
     """Each point with what holds there, in the order in which they end."""
-    if count <= 1:
-        for point in points:
-            yield point, holding.at(point)
+    if count > 1:
+        yield from answers_of_processes(holding, points, count)
         return
-    # Not forked: the core's threads and locks would be copied as they stand.
-    pool = ProcessPoolExecutor(count, multiprocessing.get_context("spawn"), start_worker, (holding,))
-    try:
-        futures = {pool.submit(find, point): point for point in points}
-        for future in as_completed(futures):
-            yield futures[future], future.result()
-    except BrokenProcessPool:
-        raise Error("a worker process has ended: memory may be short, or a program that calls design_sweep() lacks "
-                    "`if __name__ == \"__main__\":`; workers=1 does without other processes") from None
-    except BaseException:
-        for process in list((getattr(pool, "_processes", None) or {}).values()):
-            process.terminate()
-        raise
-    finally:
-        pool.shutdown()
+    for point in points:
+        yield point, holding.at(point)

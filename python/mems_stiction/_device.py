@@ -47,6 +47,7 @@ class DeviceForce(_core.DeviceForceFigures, ReadOnly):
         surface = core.made_surface
         self._made_surface = None if surface.pixels is None else (np.array(array_of(surface.pixels)), surface.pitch[0])
         self._json = core.json()
+        self._work_deviation = core.work_deviation  # as force_deviation; of ln work
 
     def json(self) -> str:
         """The record that predict_device --json prints, one line."""
@@ -150,6 +151,15 @@ def scans_of_device(scans: Any, area: Optional[float], pitch: Optional[Pitches],
 
 def core_scans(surfaces: List[Surface]) -> List[_core.DeviceScan]:
     return [_core.DeviceScan(surface.name, surface.core, list(surface.notes), surface.identity) for surface in surfaces]
+
+
+def predict_device_under(scans: Any, area: float, contacts: Optional[int], settings: List[Settings], upper: Any = None) -> List[DeviceForce]:
+    """What predict_device() says under each of several settings that differ in their constants alone, without verdicts: force, work and
+    realisations are the same to the last bit. The surfaces are made once, which is most of the work. Other arguments as there."""
+    lower, above, checked = scans_of_device(scans, area, None, contacts, settings[0], upper, {}, {})
+    predicted = _core.predict_device_under(core_scans(lower), core_scans(above), checked._configuration, [one._configuration for one in settings])
+    warn(list(predicted[0].scan_warnings) + list(predicted[0].force_warnings), ScanWarning)
+    return [DeviceForce(one) for one in predicted]
 
 
 def predict_device(scans: Any, area: Optional[float] = None, pitch: Optional[Pitches] = None, contacts: Optional[int] = None,

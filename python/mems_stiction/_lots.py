@@ -11,7 +11,7 @@ from typing import Any, Dict, Iterator, List, Optional, Sequence, Tuple, Union
 import numpy as np
 
 from mems_stiction._arrays import ReadOnly, plain_value
-from mems_stiction.lots_data import RELEASING, WORDS, Lots, Place, by_wafer, lots_of
+from mems_stiction.lots_data import RELEASING, RMS_HEIGHT, WORDS, Lots, Place, by_wafer, lots_of
 from mems_stiction.lots_variance import Components, components_of, hierarchy_of
 from mems_stiction.lots_wafer import BadPlace, Trend, bad_places, figures_of, missing_sites, trend_of
 from mems_stiction.lots_words import of_bad_places, of_components, of_rows, of_shares, of_trends, text_of
@@ -160,10 +160,17 @@ def compare_lots(rows: Any, *, figure: Optional[str] = None, against: Optional[s
         statements += of_components(components, hierarchy, len(outlying))
     else:
         statements.append("one row does not tell how far places differ")
-    statements += of_trends(trends, lots.figure)
+    statements += of_trends(trends, lots.figure, _trends_of_heights(lots, bad))
     return LotComparison(lots, {
         "components": _components_table(components), "units": _units_table(finite, lots.figure), "shares": _table(Share, shares),
         "trends": _trends_table(trends), "bad_places": _bad_table(bad), "statements": tuple(statements)})
+
+
+def _trends_of_heights(lots: Lots, bad: Sequence[BadPlace]) -> List[Trend]:
+    """Of the rms height, over the places that are none of its bad ones."""
+    outlying = {id(found.place) for found in bad if found.figure == RMS_HEIGHT}
+    heights = [place._replace(value=place.rms_height) for place in lots.chosen if place.rms_height > 0.0 and id(place) not in outlying]
+    return [trend for trend in map(trend_of, by_wafer(heights).values()) if trend is not None]
 
 
 def _bad_places(lots: Lots) -> List[BadPlace]:

@@ -5,18 +5,19 @@ A measurement is a dictionary. The tables below have its keys; doc/process.md ex
 
 from __future__ import annotations
 
+import contextlib
 import math
 import os
 import warnings
 from collections.abc import Mapping
-from typing import Any, Callable, Dict, List, NamedTuple, Optional, Tuple
+from typing import Any, Callable, Dict, Iterator, List, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 
 import mems_stiction
 from mems_stiction import _core
 from mems_stiction._arrays import surface_of
-from mems_stiction._device import _listed, _pitches_of
+from mems_stiction._device import _listed, _pitches_of, predict_device_under
 from mems_stiction._settings import OptionsError, Settings, settings_with, values_of
 from mems_stiction._warnings import ScanWarning, SettingsWarning
 from mems_stiction.calibration_words import UNITS
@@ -30,6 +31,7 @@ NO_CLEANING = {"preprocessing": {
     "region": {"left": 0.0, "top": 0.0, "width": 0.0, "height": 0.0, "polygon_file": "", "mask_file": ""}, "offset": {"enabled": False},
     "lines": {"method": "none"}, "spikes": {"enabled": False}, "fill": {"enabled": False}, "tip": {"radius": 0.0, "half_angle": 0.0},
     "level": "none", "level_robust": False, "low_pass": {"cutoff_wavelength": 0.0}, "refine": {"factor": 1}}}
+MOST_CONTACTS = 1000000  # as device/contacts has it
 POSITIVE = ("value", "uncertainty", "area", "radius", "thickness", "gap", "modulus")
 
 PROBE_PIXELS = 256
@@ -49,53 +51,79 @@ class Measurement(NamedTuple):
     beam: Tuple[Any, ...]
 
     def expected(self, constants: Dict[str, float]) -> float:
-        """The value by these constants [its unit]."""
-        figures = self.place.figures(constants)
+        """The value by these constants [its unit]. Raises OptionsError and SurfaceError, which name the measurement."""
+        with _named(self.name):
+            figures = self.place.figures(constants)
         if self.kind == "pull_off_force":
             return figures.force
         return BEAMS[self.kind](*self.beam, figures.work) if self.beam else figures.work
 
+    def prepare(self, constants: Sequence[Dict[str, float]]) -> None:
+        """What expected() will be asked for. Raises as it does."""
+        with _named(self.name):
+            self.place.figures_of(constants)
+
     def scatter(self, constants: Dict[str, float]) -> float:
         """Standard deviation of ln value from one place of the surfaces to another [-]."""
-        figures = self.place.figures(constants)
+        figures = self.place.figures_near(constants)
+        return self._of_value(figures.force_scatter, figures.work_scatter)
+
+    def common(self, constants: Dict[str, float]) -> float:
+        """Standard deviation of ln value that is the same at all places of the surfaces: their scans are a sample [-]."""
+        figures = self.place.figures_near(constants)
+        return self._of_value(figures.force_common, figures.work_common)
+
+    def _of_value(self, of_force: float, of_work: float) -> float:
         if self.kind == "pull_off_force":
-            return figures.force_scatter
-        return figures.work_scatter / (4.0 if self.beam else 1.0)  # lengths go with the fourth root
+            return of_force
+        return of_work / (4.0 if self.beam else 1.0)  # lengths go with the fourth root
 
 
 class Figures(NamedTuple):
     force: float  # [N]
     work: float  # per area [J/m^2]
-    force_scatter: float  # of ln force [-]
+    force_scatter: float  # of ln force, from place to place [-]
     work_scatter: float
+    force_common: float = 0.0  # of ln force, at all places: other scans of the surfaces would give another [-]
+    work_common: float = 0.0
 
 
 class Place:
     """Surfaces that one or more measurements were made on, and what holds them by the constants of the interface."""
 
     def __init__(self, scans: List[Any], upper: Any, area: Optional[float], contacts: Optional[int], radius: Optional[float],
-                 settings: Settings) -> None:
+                 settings: Settings, surfaces: Any = None) -> None:
         self.scans, self.upper, self.area, self.contacts, self.radius, self.settings = scans, upper, area, contacts, radius, settings
+        self.surfaces = surfaces  # the same for the same scans
         self._known: Dict[Tuple[Tuple[str, float], ...], Figures] = {}
         self._clean_scans: Optional[List[Any]] = None
-
-    @property
-    def is_device(self) -> bool:
-        return self.area is not None
 
     @property
     def humidity(self) -> float:
         return float(values_of(self.settings)["interface/relative_humidity"])
 
     def figures(self, constants: Dict[str, float]) -> Figures:
-        key = tuple(sorted(constants.items()))
-        if key not in self._known:
+        return self.figures_of([constants])[0]
+
+    def figures_of(self, constants: Sequence[Dict[str, float]]) -> List[Figures]:
+        """Of each of several constants: together they take little longer than one, where surfaces are made."""
+        keys = [tuple(sorted(one.items())) for one in constants]
+        missing = {key: one for key, one in zip(keys, constants) if key not in self._known}
+        if missing:
             with warnings.catch_warnings():
                 if self._known:  # scans and area are the same each time
                     warnings.simplefilter("ignore", ScanWarning)
                 warnings.simplefilter("ignore", SettingsWarning)
-                self._known[key] = self._find(Settings(self.settings, **constants))
-        return self._known[key]
+                found = self._find([Settings(self.settings, **one) for one in missing.values()])
+            self._known.update(zip(missing, found))
+        return [self._known[key] for key in keys]
+
+    def figures_near(self, constants: Dict[str, float]) -> Figures:
+        """For what hardly goes with the constants: of made surfaces those of the nearest that are known."""
+        near = [key for key in self._known if {name for name, _ in key} == set(constants)]
+        if self.area is None or not near:
+            return self.figures(constants)
+        return self._known[min(near, key=lambda key: sum(abs(value - constants[name]) / (abs(value) + abs(constants[name]) or 1.0) for name, value in key))]
 
     def fingerprint(self) -> str:
         """SHA-256 of the heights [m] as they are predicted, one after the other."""
@@ -107,12 +135,12 @@ class Place:
             digest.update(np.array(scan.pitch, dtype=np.float64).tobytes())
         return digest.hexdigest()
 
-    def _find(self, settings: Settings) -> Figures:
-        if self.is_device:
-            found = mems_stiction.predict_device(self.scans, self.area, None, self.contacts, settings, upper=self.upper)
-            made = found.realisations
-            return Figures(found.pull_off_force, found.apparent_work_of_adhesion, _scatter(made.pull_off_force),
-                           _scatter(made.apparent_work_of_adhesion))
+    def _find(self, settings: List[Settings]) -> List[Figures]:
+        if self.area is None:
+            return [self._of_frame(one) for one in settings]
+        return [_of_device(found) for found in predict_device_under(self.scans, self.area, self.contacts, settings, self.upper)]
+
+    def _of_frame(self, settings: Settings) -> Figures:
         if self.radius is None:
             predictor = mems_stiction.Predictor(settings, **FRAME_ALONE)
             return _of_several([predictor.predict(scan, None, self.upper) for scan in self.scans])
@@ -134,6 +162,13 @@ def _scatter(values: Any) -> float:
     if len(positive) < 2:
         return 0.0
     return float(np.std(np.log(positive), ddof=1) * math.sqrt(1.0 + 1.0 / len(positive)))
+
+
+def _of_device(found: Any) -> Figures:
+    """What the deviations of the device have beyond those of its realisations is common to all places."""
+    force, work = _scatter(found.realisations.pull_off_force), _scatter(found.realisations.apparent_work_of_adhesion)
+    return Figures(found.pull_off_force, found.apparent_work_of_adhesion, force, work, math.sqrt(max(found.force_deviation ** 2 - force ** 2, 0.0)),
+                   math.sqrt(max(found._work_deviation ** 2 - work ** 2, 0.0)))
 
 
 def _of_several(predictions: List[Any]) -> Figures:
@@ -178,8 +213,8 @@ def _measurement(datum: Any, what: str, base: Settings, places: Dict[Any, Place]
     if not isinstance(datum, Mapping):
         raise OptionsError("%s: %r is not allowed, must be a dictionary" % (what, datum))
     kind = datum.get("kind")
-    if kind not in UNITS:
-        raise OptionsError("%s/kind: %r is not allowed, must be one of %s" % (what, kind, ", ".join(UNITS)))
+    if not isinstance(kind, str) or kind not in UNITS:
+        raise OptionsError("%s/kind: %s, must be one of %s" % (what, "is missing" if kind is None else "%r is not allowed" % (kind,), ", ".join(UNITS)))
     allowed = COMMON + (OF_FORCES if kind == "pull_off_force" else OF_BEAMS if kind in BEAMS else ())
     for key in datum:
         if key not in allowed:
@@ -196,6 +231,8 @@ def _measurement(datum: Any, what: str, base: Settings, places: Dict[Any, Place]
 
 def _number(value: Any, what: str, key: str) -> float:
     try:
+        if isinstance(value, (bool, np.bool_)):
+            raise TypeError
         number = float(value)
     except (TypeError, ValueError):
         raise OptionsError("%s: %r is not allowed, must be a number" % (what, value)) from None
@@ -222,22 +259,40 @@ def _place(datum: Mapping, numbers: Dict[str, float], what: str, base: Settings,
         raise OptionsError("%s/scans: are missing, must be scans of the surface that it was measured on" % what)
     if radius is not None and (numbers.get("area") is not None or upper is not None):
         raise OptionsError("%s/radius: is not allowed with area or upper: the probe is the counter-surface" % what)
-    contacts = datum.get("contacts")
+    contacts = _contacts(datum, "%s/contacts" % what)
     key = (_identity(scans), _identity(upper), _identity(pitch), numbers.get("area"), contacts, radius,
            numbers.get("relative_humidity"), numbers.get("mechanical_load"))
     if key not in places:
         stated = {"interface/relative_humidity": numbers.get("relative_humidity"), "load/mechanical_load": numbers.get("mechanical_load"),
                   "counter_surface/facing": "down" if radius is not None and scans is not None else None}
-        try:
+        with _named(str(datum.get("name") or what)):
             settings = settings_with(base, {}, {name: value for name, value in stated.items() if value is not None})
-            surfaces = [] if scans is None else _surfaces_of(scans, pitch, settings, "%s/scans" % what)
-            above = None if upper is None else _surfaces_of(upper, pitch, settings, "%s/upper" % what)
-        except OptionsError as error:
-            raise OptionsError("%s: %s" % (what, error)) from None
+            surfaces = [] if scans is None else _surfaces_of(scans, pitch, settings, "scans")
+            above = None if upper is None else _surfaces_of(upper, pitch, settings, "upper")
         if above is not None and numbers.get("area") is None:
             above = above[0]
-        places[key] = Place(surfaces, above, numbers.get("area"), contacts, radius, settings)
+        places[key] = Place(surfaces, above, numbers.get("area"), contacts, radius, settings, key[:3])
     return places[key]
+
+
+@contextlib.contextmanager
+def _named(name: str) -> Iterator[None]:
+    """What is wrong with its scans or settings begins with the measurement's name."""
+    try:
+        yield
+    except mems_stiction.Error as error:
+        raise type(error)("%s: %s" % (name, error)) from None
+
+
+def _contacts(datum: Mapping, what: str) -> Optional[int]:
+    given = datum.get("contacts")
+    if given is None:
+        return None
+    if datum.get("area") is None:
+        raise OptionsError("%s: is not allowed without area, which they share" % what)
+    if isinstance(given, bool) or not isinstance(given, (int, np.integer)) or not 1 <= given <= MOST_CONTACTS:
+        raise OptionsError("%s: %r is not allowed, must be an integer in [1, %d]" % (what, given, MOST_CONTACTS))
+    return int(given)
 
 
 def _identity(given: Any) -> Any:

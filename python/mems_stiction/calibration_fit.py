@@ -11,8 +11,9 @@ Intervals are those of the profile likelihood (Venzon and Moolgavkar, Appl. Stat
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
-from typing import Callable, Dict, List, Optional, Sequence, Tuple, Union
+from typing import Callable, Dict, Iterator, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -80,17 +81,20 @@ class Likelihood:
     values, uncertainties: measured, in the same unit. places: standard deviation of ln value from one place of the surfaces to
     another, which the measurements may show in full or in part; 0 where the very place is known.
     groups: a word for each measurement: those of one group are of one kind and unit.
+    common: standard deviation of ln value that all with the same surfaces share, since the scans are a sample of these; surfaces: which those are.
     model: parameters -> values; bounds: of each parameter.
     """
 
     def __init__(self, values: Sequence[float], uncertainties: Sequence[float], places: Sequence[float], groups: Sequence[str],
-                 model: Model, bounds: Sequence[Tuple[float, float]]) -> None:
+                 model: Model, bounds: Sequence[Tuple[float, float]], common: Sequence[float] = (), surfaces: Sequence[int] = ()) -> None:
         self.values = np.asarray(values, float)
         self.uncertainties = np.asarray(uncertainties, float)
         self.places = np.asarray(places, float)
         self.groups = list(groups)
         self.model = model
         self.bounds = list(bounds)
+        self.common = np.asarray(common, float) if len(common) else np.zeros(len(self.values))
+        self.surfaces = np.asarray(surfaces, int) if len(surfaces) else np.zeros(len(self.values), int)
         self.shares = _shares(self.values, self.uncertainties, self.groups)
         self.has_scatter = np.count_nonzero(self.places > 0) >= FEWEST_FOR_SCATTER
 
@@ -98,7 +102,7 @@ class Likelihood:
         """Of some of the measurements."""
         chosen = np.array(members, dtype=int)
         return Likelihood(self.values[chosen], self.uncertainties[chosen], self.places[chosen], [self.groups[i] for i in chosen],
-                          lambda parameters: self.model(parameters)[chosen], self.bounds)
+                          lambda parameters: self.model(parameters)[chosen], self.bounds, self.common[chosen], self.surfaces[chosen])
 
     def deviations(self, fitted: np.ndarray, scatter: float) -> Tuple[np.ndarray, np.ndarray]:
         """Standardised deviations of the measurements from what a model gives, and the variances of ln value about it."""
@@ -116,7 +120,14 @@ class Likelihood:
         normal = deviations ** 2 + np.where(self.places > 0, np.log(variances), 0.0)
         of_shares = 2.0 * (over - 1.0 - np.log(over)) / variances
         found = float(np.sum(np.where((self.places > 0) | np.isnan(self.shares), normal, of_shares)))
+        found += sum(_of_common(*parts) for parts in self._shared(deviations, variances))
         return found if np.isfinite(found) else 1e300
+
+    def _shared(self, deviations: np.ndarray, variances: np.ndarray) -> Iterator[Tuple[np.ndarray, np.ndarray]]:
+        """Of each surfaces' measurements: standardised deviations, and what is common over what is each one's own."""
+        for surface in np.unique(self.surfaces[self.common > 0]):
+            members = (self.surfaces == surface) & (self.common > 0)
+            yield deviations[members], self.common[members] / np.sqrt(variances[members])
 
     def fit(self) -> Fit:
         starts = self._starts({})
@@ -224,6 +235,12 @@ class Likelihood:
                     break
         unknowns = self._unknowns(low + np.clip(shares, 0.0, 1.0) * widths, fixed)
         return unknowns, self.deviance(unknowns)
+
+
+def _of_common(deviations: np.ndarray, over: np.ndarray) -> float:
+    """What an error that deviations share adds to their sum of squares and ln determinant (Sherman and Morrison)."""
+    determinant = 1.0 + float(over @ over)
+    return math.log(determinant) - float(over @ deviations) ** 2 / determinant
 
 
 def _simplex(shares: np.ndarray) -> np.ndarray:

@@ -8,13 +8,8 @@ from __future__ import annotations
 
 import hashlib
 import math
-import multiprocessing
-import os
-import signal
-import threading
 import warnings
 from collections.abc import Mapping
-from multiprocessing import connection
 from typing import Any, Dict, List, NamedTuple, Optional, Tuple
 
 import numpy as np
@@ -105,6 +100,10 @@ def _values(name: str, given: Any, whole: bool) -> Tuple[float, ...]:
         is_by_ratio = first > 0 and last >= BY_RATIO * first
         filled = np.geomspace(first, last, count) if is_by_ratio else np.linspace(first, last, count)
         numbers = [first, *(float("%.12g" % value) for value in filled[1:-1]), last]
+    elif whole:
+        for number in numbers:
+            if number != round(number):
+                raise OptionsError("axes: %s: %g is not allowed, must be whole numbers" % (name, number))
     if len(numbers) > MOST_VALUES:
         raise OptionsError("axes: %s: %d values are not allowed, at most %d" % (name, len(numbers), MOST_VALUES))
     return tuple(sorted({float(round(number)) if whole else number for number in numbers}))
@@ -191,27 +190,3 @@ class Holding:
             heights = heights + (etch - 1.0) * (heights - smooth)
         pixels = np.array(scale * heights, dtype=np.float64, order="C")
         return mems_stiction.Scan(scan._surface._replace(core=_core.height_map(pixels, scan.pitch[0], scan.pitch[1], _core.Configuration())))
-
-
-_holding: Optional[Holding] = None
-
-
-def start_worker(holding: Holding) -> None:
-    """In each process: Ctrl-C is the parent's, and nobody goes on without it."""
-    global _holding
-    _holding = holding
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    parent = multiprocessing.parent_process()
-    if parent is not None:
-        threading.Thread(target=_end_with, args=(parent.sentinel,), daemon=True).start()
-
-
-def _end_with(sentinel: Any) -> None:
-    connection.wait([sentinel])
-    os._exit(1)
-
-
-def find(point: Dict[str, float]) -> Found:
-    """A task of a process."""
-    assert _holding is not None
-    return _holding.at(point)

@@ -27,8 +27,9 @@ UNITS = {"margin": "", "peel_number": "", "device_pull_off_force": "N", "pull_of
 MOST_BYTES = 4 << 30
 ENDINGS = (".csv", ".jsonl", ".ndjson", PARQUET)
 RMS_HEIGHT = "rms_height"
+SITES = ("site_x", "site_y")
 TEXTS = ("lot_id", "wafer_id", "part_id", "serial_id", "settings_hash", "scan_name", "name", "file")
-NUMBERS = FIGURES + tuple(figure + end for figure in FIGURES for end in ("_lower", "_upper")) + VOLTAGES + ("site_x", "site_y", RMS_HEIGHT)
+NUMBERS = FIGURES + tuple(figure + end for figure in FIGURES for end in ("_lower", "_upper")) + VOLTAGES + SITES + (RMS_HEIGHT,)
 
 
 class Place(NamedTuple):
@@ -89,7 +90,7 @@ class _Table:
         for name, texts in self._texts.items():
             texts.append(sys.intern(_text(row.get(name, ""))))
         for name, numbers in self._numbers.items():
-            numbers.append(_number(row.get(name, math.nan)))
+            numbers.append(_site(row.get(name), name, self.count) if name in SITES else _number(row.get(name, math.nan)))
 
     def texts(self, name: str) -> List[str]:
         return self._texts[name]
@@ -177,6 +178,8 @@ def lots_of(rows: Any, figure: Optional[str] = None, against: Optional[str] = No
     for row in _rows_of(rows, table.columns):
         table.add(row)
     chosen = next((name for name in ((figure,) if figure else FIGURES) if table.has(name)), None)
+    if not table.count:
+        raise OptionsError("rows: there is none, must hold one row at least")
     if chosen is None:
         raise OptionsError("rows: none of %d has a %s > 0" % (table.count, " or a ".join((figure,) if figure else FIGURES)))
     column = _against(against, table)
@@ -203,6 +206,14 @@ def _against(asked: Optional[str], table: _Table) -> str:
 
 def _finite(values: np.ndarray) -> np.ndarray:
     return values[np.isfinite(values)]
+
+
+def _site(value: Any, name: str, row: int) -> float:
+    """[m]; NaN where the row does not say."""
+    number = _number(value)
+    if math.isnan(number) and isinstance(value, str) and value.strip().lower() not in ("", "nan"):
+        raise OptionsError("%s: %r in row %d is not allowed, must be a number in metres, or empty" % (name, value, row))
+    return number
 
 
 def _number(value: Any) -> float:

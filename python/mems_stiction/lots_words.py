@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Dict, List, Sequence
 
-from mems_stiction.lots_data import RELEASING, UNITS, VOLTAGES, WORDS, Lots, wafer_word, word_of
+from mems_stiction.lots_data import RELEASING, RMS_HEIGHT, UNITS, VOLTAGES, WORDS, Lots, wafer_word, word_of
 from mems_stiction.lots_variance import Components, Hierarchy
 from mems_stiction.lots_wafer import CHANCE, BadPlace, Trend, is_steep
 from mems_stiction.lots_yield import BOUND, COUNTED, NORMAL, Share
@@ -15,6 +15,7 @@ FEW = 4  # degrees of freedom: below, an interval is wider than a factor of thre
 MANY_WAFERS = 20  # of which one has a bad place by chance
 MOST_NAMED = 6
 LEAST_TOLD = 1e-6  # of a share, as share_text() says
+LARGEST_WAFER = 0.5  # [m]; wafers have 0.3 m, some 0.45 m
 MOST_FACTOR = 1000  # that is told
 SMALL = 1e-12  # of a variance over all of them
 
@@ -51,6 +52,10 @@ def of_rows(lots: Lots) -> List[str]:
     settings = {place.settings for place in lots.chosen if place.settings}
     if len(settings) > 1:
         said.append("the rows were made with %d different settings: what these change is taken for a difference of the places" % len(settings))
+    sites = [(place.x, place.y) for place in lots.places if place.has_site()]
+    if sites and max(max(axis) - min(axis) for axis in zip(*sites)) > LARGEST_WAFER:
+        said.append("sites lie up to %s apart: site_x and site_y are taken for metres" % with_unit(
+            max(max(axis) - min(axis) for axis in zip(*sites)), "m"))
     stated = [word for word, given in (("lot_id", any(place.lot for place in lots.places)), ("wafer_id", any(place.wafer for place in lots.places)),
                                        ("site_x, site_y", any(place.has_site() for place in lots.places))) if not given]
     if stated:
@@ -104,8 +109,19 @@ def of_components(components: Components, hierarchy: Hierarchy, left_out: int) -
     return said
 
 
-def of_trends(trends: Sequence[Trend], figure: str) -> List[str]:
-    """Those that are there, the steepest first; one sentence for the others."""
+def of_trends(trends: Sequence[Trend], figure: str, of_heights: Sequence[Trend]) -> List[str]:
+    """Those that are there, the steepest first; one sentence for the others. Then those of the rms height, which may be a cause."""
+    said = _of_steep(trends, figure)
+    flat = [wafer_word(trend.lot, trend.wafer) or "the wafer" for trend in trends if not is_steep(trend)]
+    if flat:
+        said.append("no trend of the %s is seen over %s" % (WORDS[figure], _some(flat)))
+    said += _of_steep(of_heights, RMS_HEIGHT)
+    if len(trends) >= MANY_WAFERS:
+        said.append("by chance alone some %.0f of %d wafers show a trend, and as many a bad place" % (CHANCE * len(trends), len(trends)))
+    return said
+
+
+def _of_steep(trends: Sequence[Trend], figure: str) -> List[str]:
     steep = sorted((trend for trend in trends if is_steep(trend)), key=lambda trend: -trend.factor)
     said = []
     for trend in steep[:MOST_NAMED]:
@@ -114,12 +130,7 @@ def of_trends(trends: Sequence[Trend], figure: str) -> List[str]:
             wafer_word(trend.lot, trend.wafer) or "the wafer", WORDS[figure], ratio(trend.factor), ratio(low), ratio(high), with_unit(trend.extent, "m"),
             math.degrees(trend.direction)))
     if len(steep) > MOST_NAMED:
-        said.append("%d more wafers have a trend, too" % (len(steep) - MOST_NAMED))
-    flat = [wafer_word(trend.lot, trend.wafer) or "the wafer" for trend in trends if not is_steep(trend)]
-    if flat:
-        said.append("no trend is seen over %s" % _some(flat))
-    if len(trends) >= MANY_WAFERS:
-        said.append("by chance alone some %.0f of %d wafers show a trend, and as many a bad place" % (CHANCE * len(trends), len(trends)))
+        said.append("%d more wafers have a trend of the %s, too" % (len(steep) - MOST_NAMED, WORDS[figure]))
     return said
 
 
@@ -154,7 +165,7 @@ def of_shares(shares: Sequence[Share], lots: Lots, hierarchy: Hierarchy) -> List
         said.append("margins come without intervals: the error of constants and model, which all rows share, is not in the share that sticks")
     elif lacking:
         said.append("%d of %d margins come without an interval: that of the others, as it is in the middle of them, is taken for it" % (lacking, places))
-    if hierarchy.single:
+    if hierarchy.single and len(lots.places) > 1:
         said.append("that share is for more places of the same %s" % hierarchy.single[-1].rstrip("s"))
     if lots.against in ("",) + VOLTAGES:
         said.append("how that share grows with the time stuck down is not told by these rows: the model has no creep and no ageing. Margins that were "

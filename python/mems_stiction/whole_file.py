@@ -67,7 +67,8 @@ def whole(path):
 
 
 def check_writable(path):
-    """Raises OSError if a file cannot be written there by whole()."""
+    """Raises OSError if a file cannot be written there by whole(); CannotWrite where the place beside it, which nobody has named, is why."""
+    asked = path
     path = pathlib.Path(os.path.realpath(str(path)))
     refuse_pipe(path)
     if path.exists():
@@ -76,6 +77,9 @@ def check_writable(path):
         if not path.is_file():
             return
     part = part_of(path)
-    with open(str(part), "wb"):
-        pass
-    part.unlink()
+    try:
+        with open(str(part), "wb"):
+            pass
+        part.unlink()
+    except OSError as error:
+        raise CannotWrite(asked, error) from error

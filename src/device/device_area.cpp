@@ -153,51 +153,65 @@ void DeviceAreaSolver::warnOnce(const std::string& warning) {
   if (std::find(warnings_.begin(), warnings_.end(), warning) == warnings_.end()) warnings_.push_back(warning);
 }
 
-Realisation DeviceAreaSolver::realise(DeviceSurface& surface) {
+Realisation DeviceAreaSolver::realise(DeviceSurface& surface) { return realise({this}, surface).front(); }
+
+std::vector<Realisation> DeviceAreaSolver::realise(const std::vector<DeviceAreaSolver*>& solvers,
+                                                   DeviceSurface& surface) {
+  const DevicePieces& pieces = solvers.front()->pieces_;
   std::optional<ShownSurface> shown;
-  if (made_surface_.empty()) shown.emplace(pieces_.size);
-  if (tilts()) {
+  if (solvers.front()->made_surface_.empty()) shown.emplace(pieces.size);
+  std::vector<Realisation> found;
+  if (std::all_of(solvers.begin(), solvers.end(), [](const auto* solver) { return solver->tilts(); })) {
     const cv::Mat frame = frameOf(surface);
-    if (shown) {
-      shown->add(0, 0, frame);
-      made_surface_ = shown->surface();
+    if (shown) shown->add(0, 0, frame);
+    for (DeviceAreaSolver* solver : solvers) found.push_back(solver->followFrame(frame));
+  } else {
+    Gatherer gatherer(pieces);
+    surface.visitTiles(0, surface.rows(), [&](int piece, std::int64_t row, std::int64_t col, const cv::Mat& tile) {
+      gatherer.add(piece, row, col, tile);
+      if (shown && piece == 0) shown->add(row, col, tile);
+    });
+    for (DeviceAreaSolver* solver : solvers) {
+      found.push_back(solver->follow(gatherer.cells(), gatherer.quarters(), [&] { return frameOf(surface); }));
     }
-    return followFrame(frame);
   }
-  Gatherer gatherer(pieces_);
-  surface.visitTiles(0, surface.rows(), [&](int piece, std::int64_t row, std::int64_t col, const cv::Mat& tile) {
-    gatherer.add(piece, row, col, tile);
-    if (shown && piece == 0) shown->add(row, col, tile);
-  });
-  if (shown) made_surface_ = shown->surface();
-  return follow(gatherer.cells(), gatherer.quarters(), [&] { return frameOf(surface); });
+  if (shown) {
+    for (DeviceAreaSolver* solver : solvers) solver->made_surface_ = shown->surface();
+  }
+  return found;
 }
 
 Realisation DeviceAreaSolver::realise(const AreaCells& cells, DeviceSurface& surface) {
   return follow(cells, {}, [&] { return frameOf(surface); });
 }
 
-Realisation DeviceAreaSolver::realise(const std::vector<HeightMap>& lower, const std::vector<HeightMap>& upper,
-                                      std::uint64_t seed) {
+std::vector<Realisation> DeviceAreaSolver::realise(const std::vector<DeviceAreaSolver*>& solvers,
+                                                   const std::vector<HeightMap>& lower,
+                                                   const std::vector<HeightMap>& upper, std::uint64_t seed) {
+  const DevicePieces& pieces = solvers.front()->pieces_;
   std::mt19937_64 engine(seed);
   const auto partOf = [&](const std::vector<HeightMap>& scans) {
     const HeightMap& scan = scans[std::uniform_int_distribution<std::size_t>(0, scans.size() - 1)(engine)];
-    const int rows = static_cast<int>(pieces_.size.rows);
-    const int cols = static_cast<int>(pieces_.size.cols);
+    const int rows = static_cast<int>(pieces.size.rows);
+    const int cols = static_cast<int>(pieces.size.cols);
     const cv::Rect part(std::uniform_int_distribution<int>(0, scan.cols() - cols)(engine),
                         std::uniform_int_distribution<int>(0, scan.rows() - rows)(engine), cols, rows);
     cv::Mat heights;
     scan.heights()(part).convertTo(heights, CV_64F);
     return heights;
   };
-  Gatherer gatherer(pieces_);
+  Gatherer gatherer(pieces);
   cv::Mat relief;
-  for (int piece = 0; piece < pieces_.count; ++piece) {
+  for (int piece = 0; piece < pieces.count; ++piece) {
     relief = partOf(lower);
     if (!upper.empty()) relief -= partOf(upper);
     gatherer.add(piece, 0, 0, relief);
   }
-  return follow(gatherer.cells(), gatherer.quarters(), [&] { return relief; });
+  std::vector<Realisation> found;
+  for (DeviceAreaSolver* solver : solvers) {
+    found.push_back(solver->follow(gatherer.cells(), gatherer.quarters(), [&] { return relief; }));
+  }
+  return found;
 }
 
 Realisation DeviceAreaSolver::follow(const AreaCells& cells, const std::vector<AreaCells>& quarters,

@@ -41,8 +41,12 @@ class DeviceAreaSolver {
 
   /// On a surface that is made.
   Realisation realise(DeviceSurface& surface);
-  /// On parts of scans that are chosen at random.
-  Realisation realise(const std::vector<HeightMap>& lower, const std::vector<HeightMap>& upper, std::uint64_t seed);
+  /// Each of them on one surface, which is made once. They differ in their models alone; there is one at least.
+  static std::vector<Realisation> realise(const std::vector<DeviceAreaSolver*>& solvers, DeviceSurface& surface);
+  /// The same on parts of scans that are chosen at random.
+  static std::vector<Realisation> realise(const std::vector<DeviceAreaSolver*>& solvers,
+                                          const std::vector<HeightMap>& lower, const std::vector<HeightMap>& upper,
+                                          std::uint64_t seed);
 
   /// On a surface whose cells have been collected, all of them. Where too many are in reach, a frame of it is made.
   /// @throw SurfaceError if they do not reach deep enough

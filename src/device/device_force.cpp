@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <random>
+#include <utility>
 
 #include "device/area_load.hpp"
 #include "device/device_area.hpp"
@@ -227,6 +228,54 @@ void takeMisfit(const LawCheck& check, DeviceForce& force) {
       " times as large for that, and the interval holds what of it may not go for the device");
 }
 
+/// What one model makes of the scans, and of the surfaces that are made after them.
+struct ModelRun {
+  Options level;  ///< of scans, which are parts of a plate
+  DeviceForce force;
+  std::vector<Prediction> predictions;  ///< of the scans that show summits
+  Logs stated;                          ///< by the law of the scans, or by parts of them
+  Logs others;                          ///< by what other scans of the same surfaces would give
+  std::vector<double> counts;
+  std::vector<double> gaps;
+  std::optional<LawCheck> check;
+  std::optional<DeviceAreaSolver> solver;
+
+  bool isConforming() const {
+    const auto conforming = std::count_if(predictions.begin(), predictions.end(),
+                                          [](const Prediction& prediction) { return prediction.is_conforming; });
+    return 2 * conforming > static_cast<std::ptrdiff_t>(predictions.size());
+  }
+
+  void add(const Realisation& realisation) {
+    force.realisations.push_back(realisation);
+    stated.add(realisation);
+    counts.push_back(realisation.contacts);
+    gaps.push_back(realisation.separation_at_rest);
+  }
+};
+
+/// The scans as frames, each under what lies over it.
+ModelRun predictedScans(const DeviceSurfaces& surfaces, const DeviceArea& area, const Options& model) {
+  ModelRun run;
+  run.level = stiffModel(model);
+  run.force.area = area.area;
+  AdhesionModel adhesion(run.level);
+  const double finest = finestPitch(mapsOf(surfaces.scans));
+  const std::vector<HeightMap> counter_surface = mapsOf(surfaces.counter_surface);
+  const double loaded_area = areaOf(surfaces.scans.front().surface);
+  double force_per_area = 0.0;
+  for (const NamedScan& scan : surfaces.scans) {
+    if (!showsSummits(scan.surface, finest)) continue;
+    adhesion.setOptions(loadedOn(run.level, loaded_area, areaOf(scan.surface)));
+    run.predictions.push_back(adhesion.predict(underCounterSurface(scan.surface, counter_surface)));
+    const Prediction& prediction = run.predictions.back();
+    force_per_area += prediction.pull_off_force / prediction.nominal_area;
+    run.force.parts_of_scans.push_back({prediction.nominal_area, prediction.pull_off_force});
+  }
+  run.force.linear_pull_off_force = force_per_area / static_cast<double>(run.predictions.size()) * area.area;
+  return run;
+}
+
 /// The surfaces bond all over: force and work go with area.
 void takeConforming(const std::vector<Prediction>& predictions, const Options& model,
                     const UncertaintyOptions& uncertainty, DeviceForce& force) {
@@ -256,6 +305,94 @@ void takeConforming(const std::vector<Prediction>& predictions, const Options& m
   force.warnings.emplace_back("the scans' surfaces conform and bond all over: force and work go with area");
 }
 
+/// Medians and intervals of all realisations.
+void takeRealisations(const UncertaintyOptions& uncertainty, int realisations, ModelRun& run) {
+  DeviceForce& force = run.force;
+  const AreaGrowth growth = run.solver->growth();
+  for (Realisation& realisation : force.realisations) {
+    realisation.pull_off_force *= growth.force;
+    realisation.apparent_work_of_adhesion *= growth.work;
+  }
+  force.pull_off_force = std::exp(medianOf(run.stated.force)) * growth.force;
+  force.apparent_work_of_adhesion = std::exp(medianOf(run.stated.work)) * growth.work;
+  force.contacts = medianOf(run.counts);
+  force.separation_at_rest = medianOf(run.gaps);
+  const double once_more = std::sqrt(1.0 + 1.0 / realisations);
+  const auto scatter = [&](const std::vector<double>& of_stated, const std::vector<double>& of_others) {
+    return once_more * std::hypot(std::max(deviationOf(of_stated), deviationOf(of_others)), kOwnError);
+  };
+  force.force_deviation = scatter(run.stated.force, run.others.force);
+  force.work_deviation = scatter(run.stated.work, run.others.work);
+  if (run.check) takeMisfit(*run.check, force);
+
+  UncertaintyOptions constants = uncertainty;
+  constants.scan_sampling = uncertainty.scan_sampling && !run.check;  // few scans have few contacts
+  Prediction like = run.predictions.back();
+  like.pull_off_exponents = run.solver->lastForceExponents();
+  like.work_exponents = run.solver->lastWorkExponents();
+  takeIntervals(like, run.level, constants, studentQuantile(realisations - 1), force);
+  force.made_surface = run.solver->madeSurface();
+  for (const std::string& warning : run.solver->warnings()) force.warnings.push_back(warning);
+}
+
+/// Of all models, the surfaces of which are made once.
+void followAll(const DeviceSurfaces& surfaces, const DeviceArea& area, const std::vector<ModelRun*>& runs,
+               const std::vector<Guidance>& guidances, const UncertaintyOptions& uncertainty,
+               const DeviceForceOptions& options, const std::function<void(double)>& progress) {
+  const DevicePieces pieces = piecesOf(area, madePitch(surfaces, options), options.max_cells);
+  const double loaded_area = areaOf(surfaces.scans.front().surface);
+  const std::vector<HeightMap> parts_lower = fineMapsOf(surfaces.scans);
+  const std::vector<HeightMap> parts_upper = fineMapsOf(surfaces.counter_surface);
+  const bool has_parts =
+      options.pitch == 0.0 && haveRoom(parts_lower, pieces) && (parts_upper.empty() || haveRoom(parts_upper, pieces));
+  Surfaces known(surfaces, pieces.side(), options);
+  std::vector<std::string> warnings;
+  if (!has_parts) warnings = missingLongWaves(surfaces, known.laws(0), std::sqrt(area.area / area.contacts));
+  for (const std::string& warning : contradictions(surfaces)) warnings.push_back(warning);
+
+  std::vector<DeviceAreaSolver*> solvers;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    ModelRun& run = *runs[i];
+    showSpectrum(known.laws(0).lower, pieces.side(), run.force);
+    run.force.warnings = warnings;
+    Options of_plate = run.level;
+    if (guidances[i] != Guidance::kGuided) {
+      const std::string why_level = whyLevel(pieces);
+      if (why_level.empty()) {
+        of_plate.guidance = guidances[i];
+      } else {
+        run.force.warnings.push_back(why_level);
+      }
+    }
+    solvers.push_back(&run.solver.emplace(of_plate, loaded_area, pieces));
+    if (!has_parts) run.check.emplace(run.level, known.lower(), known.upper());
+  }
+  StatedSurfaces made(known, pieces);
+  const auto addOthers = [&](const std::vector<Realisation>& found) {
+    for (std::size_t i = 0; i < runs.size(); ++i) runs[i]->others.add(found[i]);
+  };
+  for (int number = 0; number < options.realisations; ++number) {
+    const std::uint64_t seed = realisationSeed(options, number);
+    const std::vector<Realisation> found = has_parts
+                                               ? DeviceAreaSolver::realise(solvers, parts_lower, parts_upper, seed)
+                                               : DeviceAreaSolver::realise(solvers, made.surface(number, seed));
+    progress((number + 0.5) / options.realisations);
+    for (std::size_t i = 0; i < runs.size(); ++i) runs[i]->add(found[i]);
+    if (has_parts) {
+      addOthers(DeviceAreaSolver::realise(solvers, drawnAgain(parts_lower, seed + 1), drawnAgain(parts_upper, seed + 2),
+                                          seed + 3));
+    } else {
+      const Surfaces::MadeScans scans = known.scansAgain(number, seed + 1);
+      for (ModelRun* run : runs) run->check->add(scans.lower, scans.upper);
+      const DeviceLaws again = known.lawsAgain(number, scans);
+      DeviceSurface surface(again, pieces, seed + 2);
+      addOthers(DeviceAreaSolver::realise(solvers, surface));
+    }
+    progress((number + 1.0) / options.realisations);
+  }
+  for (ModelRun* run : runs) takeRealisations(uncertainty, options.realisations, *run);
+}
+
 /// Of a part whose bodies are thin.
 DeviceForce forceOfThinBodies(const DeviceSurfaces& surfaces, const DeviceArea& area, const Options& model,
                               const UncertaintyOptions& uncertainty, const DeviceForceOptions& options,
@@ -282,118 +419,48 @@ DeviceForce forceOfThinBodies(const DeviceSurfaces& surfaces, const DeviceArea& 
 DeviceForce deviceForce(const DeviceSurfaces& surfaces, const DeviceArea& area, const Options& model,
                         const UncertaintyOptions& uncertainty, const DeviceForceOptions& options,
                         const std::function<void(double)>& on_progress) {
+  return std::move(deviceForces(surfaces, area, {model}, uncertainty, options, on_progress).front());
+}
+
+std::vector<DeviceForce> deviceForces(const DeviceSurfaces& surfaces, const DeviceArea& area,
+                                      const std::vector<Options>& models, const UncertaintyOptions& uncertainty,
+                                      const DeviceForceOptions& options,
+                                      const std::function<void(double)>& on_progress) {
   checkDevice(surfaces, area, options);
-  if (model.lower.thickness > 0.0 || model.upper.thickness > 0.0) {
-    return forceOfThinBodies(surfaces, area, model, uncertainty, options, on_progress);
-  }
-  const Options level = stiffModel(model);  // of scans, which are parts of a plate
-  DeviceForce force;
-  force.area = area.area;
   const auto progress = [&](double share) {
     if (on_progress) on_progress(share);
   };
-  progress(0.0);
-
-  AdhesionModel adhesion(level);
-  const double finest = finestPitch(mapsOf(surfaces.scans));
-  const std::vector<HeightMap> counter_surface = mapsOf(surfaces.counter_surface);
-  const double loaded_area = areaOf(surfaces.scans.front().surface);
-  std::vector<Prediction> predictions;
-  double force_per_area = 0.0;
-  for (const NamedScan& scan : surfaces.scans) {
-    if (!showsSummits(scan.surface, finest)) continue;
-    adhesion.setOptions(loadedOn(level, loaded_area, areaOf(scan.surface)));
-    predictions.push_back(adhesion.predict(underCounterSurface(scan.surface, counter_surface)));
-    const Prediction& prediction = predictions.back();
-    force_per_area += prediction.pull_off_force / prediction.nominal_area;
-    force.parts_of_scans.push_back({prediction.nominal_area, prediction.pull_off_force});
+  std::vector<DeviceForce> forces(models.size());
+  std::vector<ModelRun> runs;
+  std::vector<std::size_t> places;  // of the runs among the models
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    const Options& model = models[i];
+    if (model.lower.thickness > 0.0 || model.upper.thickness > 0.0) {
+      // each has a mosaic of its own
+      const double count = static_cast<double>(models.size());
+      forces[i] = forceOfThinBodies(surfaces, area, model, uncertainty, options,
+                                    [&](double share) { progress((static_cast<double>(i) + share) / count); });
+      continue;
+    }
+    if (runs.empty()) progress(0.0);
+    runs.push_back(predictedScans(surfaces, area, model));
+    runs.back().force.pitch = madePitch(surfaces, options);
+    places.push_back(i);
   }
-  force.linear_pull_off_force = force_per_area / static_cast<double>(predictions.size()) * area.area;
-  const auto conforming = std::count_if(predictions.begin(), predictions.end(),
-                                        [](const Prediction& prediction) { return prediction.is_conforming; });
-  force.pitch = madePitch(surfaces, options);
-
-  if (2 * conforming > static_cast<std::ptrdiff_t>(predictions.size())) {
-    takeConforming(predictions, model, uncertainty, force);
-    return force;
-  }
-
-  const DevicePieces pieces = piecesOf(area, force.pitch, options.max_cells);
-  const std::vector<HeightMap> parts_lower = fineMapsOf(surfaces.scans);
-  const std::vector<HeightMap> parts_upper = fineMapsOf(surfaces.counter_surface);
-  const bool has_parts =
-      options.pitch == 0.0 && haveRoom(parts_lower, pieces) && (parts_upper.empty() || haveRoom(parts_upper, pieces));
-  Surfaces known(surfaces, pieces.side(), options);
-  showSpectrum(known.laws(0).lower, pieces.side(), force);
-  if (!has_parts) {
-    const double side = std::sqrt(area.area / area.contacts);
-    force.warnings = missingLongWaves(surfaces, known.laws(0), side);
-  }
-  for (const std::string& warning : contradictions(surfaces)) force.warnings.push_back(warning);
-
-  Logs stated;  // by the law of the scans, or by parts of them
-  Logs others;  // by what other scans of the same surfaces would give
-  std::vector<double> counts;
-  std::vector<double> gaps;
-  Options of_plate = level;
-  if (model.guidance != Guidance::kGuided) {
-    const std::string why_level = whyLevel(pieces);
-    if (why_level.empty()) {
-      of_plate.guidance = model.guidance;
+  std::vector<ModelRun*> open;
+  std::vector<Guidance> guidances;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const Options& model = models[places[i]];
+    if (runs[i].isConforming()) {
+      takeConforming(runs[i].predictions, model, uncertainty, runs[i].force);
     } else {
-      force.warnings.push_back(why_level);
+      open.push_back(&runs[i]);
+      guidances.push_back(model.guidance);
     }
   }
-  DeviceAreaSolver solver(of_plate, loaded_area, pieces);
-  StatedSurfaces made(known, pieces);
-  std::optional<LawCheck> check;
-  if (!has_parts) check.emplace(level, known.lower(), known.upper());
-  for (int i = 0; i < options.realisations; ++i) {
-    const std::uint64_t seed = realisationSeed(options, i);
-    const Realisation realisation =
-        has_parts ? solver.realise(parts_lower, parts_upper, seed) : solver.realise(made.surface(i, seed));
-    progress((i + 0.5) / options.realisations);
-    force.realisations.push_back(realisation);
-    stated.add(realisation);
-    counts.push_back(realisation.contacts);
-    gaps.push_back(realisation.separation_at_rest);
-    if (has_parts) {
-      others.add(solver.realise(drawnAgain(parts_lower, seed + 1), drawnAgain(parts_upper, seed + 2), seed + 3));
-    } else {
-      const Surfaces::MadeScans scans = known.scansAgain(i, seed + 1);
-      check->add(scans.lower, scans.upper);
-      const DeviceLaws again = known.lawsAgain(i, scans);
-      DeviceSurface surface(again, pieces, seed + 2);
-      others.add(solver.realise(surface));
-    }
-    progress((i + 1.0) / options.realisations);
-  }
-  const AreaGrowth growth = solver.growth();
-  for (Realisation& realisation : force.realisations) {
-    realisation.pull_off_force *= growth.force;
-    realisation.apparent_work_of_adhesion *= growth.work;
-  }
-  force.pull_off_force = std::exp(medianOf(stated.force)) * growth.force;
-  force.apparent_work_of_adhesion = std::exp(medianOf(stated.work)) * growth.work;
-  force.contacts = medianOf(counts);
-  force.separation_at_rest = medianOf(gaps);
-  const double once_more = std::sqrt(1.0 + 1.0 / options.realisations);
-  const auto scatter = [&](const std::vector<double>& of_stated, const std::vector<double>& of_others) {
-    return once_more * std::hypot(std::max(deviationOf(of_stated), deviationOf(of_others)), kOwnError);
-  };
-  force.force_deviation = scatter(stated.force, others.force);
-  force.work_deviation = scatter(stated.work, others.work);
-  if (check) takeMisfit(*check, force);
-
-  UncertaintyOptions constants = uncertainty;
-  constants.scan_sampling = uncertainty.scan_sampling && has_parts;  // few scans have few contacts
-  Prediction like = predictions.back();
-  like.pull_off_exponents = solver.lastForceExponents();
-  like.work_exponents = solver.lastWorkExponents();
-  takeIntervals(like, model, constants, studentQuantile(options.realisations - 1), force);
-  force.made_surface = solver.madeSurface();
-  for (const std::string& warning : solver.warnings()) force.warnings.push_back(warning);
-  return force;
+  if (!open.empty()) followAll(surfaces, area, open, guidances, uncertainty, options, progress);
+  for (std::size_t i = 0; i < runs.size(); ++i) forces[places[i]] = std::move(runs[i].force);
+  return forces;
 }
 
 }  // namespace mems_stiction

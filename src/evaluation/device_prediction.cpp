@@ -106,4 +106,11 @@ DevicePrediction DevicePredictor::predict(const std::function<void(double)>& on_
   return prediction;
 }
 
+std::vector<DeviceForce> DevicePredictor::forces(const std::vector<Options>& models,
+                                                 const std::function<void(double)>& on_progress) const {
+  std::vector<Options> plain = models;
+  for (Options& model : plain) model.output = figuresAlone();
+  return scans_.forces(plain, on_progress);
+}
+
 }  // namespace mems_stiction

@@ -63,6 +63,11 @@ class DevicePredictor {
   /// @throw as deviceForce()
   DevicePrediction predict(const std::function<void(double)>& on_progress = {});
 
+  /// The forces alone, by each of several models: the surfaces are made once.
+  /// @throw as deviceForces()
+  std::vector<DeviceForce> forces(const std::vector<Options>& models,
+                                  const std::function<void(double)>& on_progress = {}) const;
+
  private:
   std::vector<std::string> noted(const std::string& name, std::vector<std::string> lines);
 

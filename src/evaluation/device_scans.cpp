@@ -54,16 +54,23 @@ std::size_t DeviceScans::finest() const {
   return static_cast<std::size_t>(found - surfaces_.scans.begin());
 }
 
-Options DeviceScans::loaded() const {
-  return surfaces_.scans.empty() ? configuration_.model : onFrame(configuration_.model, configuration_.device, first_);
+Options DeviceScans::loaded(const Options& model) const {
+  return surfaces_.scans.empty() ? model : onFrame(model, configuration_.device, first_);
 }
 
 DividedSurface DeviceScans::surface(int number, std::optional<double> depth) const {
-  return {surfaces_, area(), loaded(), configuration_.device_force, number, depth};
+  return {surfaces_, area(), loaded(configuration_.model), configuration_.device_force, number, depth};
 }
 
 DeviceForce DeviceScans::force(const std::function<void(double)>& on_progress) const {
-  return deviceForce(surfaces_, area(), loaded(), configuration_.uncertainty, configuration_.device_force, on_progress);
+  return std::move(forces({configuration_.model}, on_progress).front());
+}
+
+std::vector<DeviceForce> DeviceScans::forces(const std::vector<Options>& models,
+                                             const std::function<void(double)>& on_progress) const {
+  std::vector<Options> all;
+  for (const Options& model : models) all.push_back(loaded(model));
+  return deviceForces(surfaces_, area(), all, configuration_.uncertainty, configuration_.device_force, on_progress);
 }
 
 Evidence evidenceOfScan(const PreparedScan& prepared, const Configuration& configuration,

@@ -45,11 +45,14 @@ class DeviceScans {
   /// Of device/contact_area and device/contacts. A load on the scanned area counts as one on the first scan.
   /// @throw as deviceForce()
   DeviceForce force(const std::function<void(double)>& on_progress = {}) const;
+  /// The same by each of several models.
+  std::vector<DeviceForce> forces(const std::vector<Options>& models,
+                                  const std::function<void(double)>& on_progress = {}) const;
 
  private:
   DeviceArea area() const { return {configuration_.device.contact_area, configuration_.device.contacts}; }
   /// With the load on the first scan.
-  Options loaded() const;
+  Options loaded(const Options& model) const;
 
   Configuration configuration_;
   DeviceSurfaces surfaces_;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bindings.hpp"
@@ -37,6 +38,27 @@ Predicted predictDevice(const std::vector<DeviceScan>& scans, const std::vector<
     DevicePredictor predictor(configuration);
     addScans(scans, counter_surface, check, predictor);
     return std::make_shared<DevicePrediction>(predictor.predict(check));
+  });
+}
+
+/// Figures and realisations alone, one for each model.
+std::vector<Predicted> predictDeviceUnder(const std::vector<DeviceScan>& scans,
+                                          const std::vector<DeviceScan>& counter_surface,
+                                          const Configuration& configuration,
+                                          const std::vector<Configuration>& models) {
+  return interruptible([&](const std::atomic<bool>& cancel) {
+    const Cancellation check(cancel);
+    DevicePredictor predictor(configuration);
+    addScans(scans, counter_surface, check, predictor);
+    std::vector<Options> options;
+    for (const Configuration& model : models) options.push_back(model.model);
+    std::vector<Predicted> predicted;
+    for (DeviceForce& force : predictor.forces(options, check)) {
+      predicted.push_back(std::make_shared<DevicePrediction>());
+      predicted.back()->force = std::move(force);
+      predicted.back()->scan_warnings = predictor.scanWarnings();
+    }
+    return predicted;
   });
 }
 
@@ -101,9 +123,12 @@ void bindDevice(py::module& module) {
       .def_property_readonly("realisations", &realisationsOf)
       .def_property_readonly("parts_of_scans", &partsOf)
       .def_property_readonly("spectrum", &spectrumOf)
+      .def_property_readonly("work_deviation", [](const DevicePrediction& one) { return one.force.work_deviation; })
       .def_property_readonly("made_surface", [](const DevicePrediction& one) { return one.force.made_surface; })
       .def("json", &deviceJsonRecord);
   module.def("predict_device", &predictDevice, "scans"_a, "counter_surface"_a, "configuration"_a);
+  module.def("predict_device_under", &predictDeviceUnder, "scans"_a, "counter_surface"_a, "configuration"_a,
+             "models"_a);
 }
 
 }  // namespace python

@@ -8,6 +8,7 @@ import sys
 import tempfile
 import unittest
 import warnings
+from unittest import mock
 
 import mems_stiction
 import numpy as np
@@ -20,10 +21,12 @@ except ImportError:
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
+from mems_stiction import calibration_data  # noqa: E402
 from mems_stiction._calibration import WORK, _Axis, _Search  # noqa: E402
 from mems_stiction._settings import values_of  # noqa: E402
 from mems_stiction.calibration_data import measurements_of  # noqa: E402
-from mems_stiction.calibration_fit import Likelihood  # noqa: E402
+from mems_stiction.calibration_fit import Likelihood, _of_common  # noqa: E402
+from mems_stiction.calibration_grid import between_nodes  # noqa: E402
 from module_cases import REPOSITORY, rough  # noqa: E402  (the path comes first)
 
 PITCH = 10e-9
@@ -89,6 +92,26 @@ class MadeDataTest(unittest.TestCase):
             self.assertGreater(np.median(widths), lowest)
             self.assertLess(np.median(widths), highest)
 
+    def test_what_scans_leave_open_is_common_to_all_that_rest_on_them(self):
+        """Three parts scatter by a tenth, and lie together wherever the surfaces are that the scans stand for."""
+        model = lambda parameters: np.full(3, math.exp(parameters[0]))  # noqa: E731
+        covered = {0.0: 0, 0.3: 0}
+        for draw in range(40):
+            random = np.random.RandomState(draw)
+            values = np.exp(0.3 * random.standard_normal() + 0.1 * random.standard_normal(3))
+            for common in covered:
+                likelihood = Likelihood(values, 1e-3 * values, np.full(3, 0.1), ["force"] * 3, model, [(-3.0, 3.0)], np.full(3, common), np.zeros(3, int))
+                interval = likelihood.interval(likelihood.fit(), 0)
+                covered[common] += interval.lower < 0.0 < interval.upper
+        self.assertLess(covered[0.0], 20)
+        self.assertGreaterEqual(covered[0.3], 35)
+
+    def test_the_error_of_shared_surfaces_is_that_of_their_covariance(self):
+        deviations, over = np.array([0.7, -1.2, 0.4]), np.array([0.5, 1.5, 1.0])
+        covariance = np.eye(3) + np.outer(over, over)
+        expected = deviations @ np.linalg.solve(covariance, deviations) + math.log(np.linalg.det(covariance)) - deviations @ deviations
+        self.assertAlmostEqual(_of_common(deviations, over), expected, places=12)
+
     def test_one_of_ten_that_does_not_belong_is_named_and_left_out(self):
         data = exact()
         data[4].update(value=2.5 * data[4]["value"], uncertainty=2.5 * data[4]["uncertainty"])
@@ -103,6 +126,7 @@ class MadeDataTest(unittest.TestCase):
         self.assertAlmostEqual(found.hamaker_constant / 3e-20, 1.0, delta=0.05)
         self.assertLess(found.hamaker_constant_lower, 3e-20)
         self.assertGreater(found.hamaker_constant_upper, 3e-20)
+        self.assertRegex(found.statements[-1], r"^the measurements tell the Hamaker constant, too: (29|30|31)[0-9.]* zJ \([0-9.]+ to [0-9.]+\)$")
         self.assertAlmostEqual(found.work_of_adhesion / TRUTH, 1.0, delta=0.05)
 
     def test_the_part_of_humidity_where_several_were_measured(self):
@@ -112,6 +136,7 @@ class MadeDataTest(unittest.TestCase):
         self.assertAlmostEqual(found.contact_angle, 0.7, delta=0.05)
         self.assertLess(found.contact_angle_lower, 0.7)
         self.assertGreater(found.contact_angle_upper, 0.7)
+        self.assertRegex(found.statements[-1], r"^the liquid's angle of contact is 0\.[67][0-9]* rad \(0\.[0-9]+ to [0-9.]+\)$")
         self.assertAlmostEqual(found.work_of_adhesion / TRUTH, 1.0, delta=0.1)
 
     def test_forces_that_no_work_of_adhesion_explains_end_in_a_sentence(self):
@@ -121,6 +146,17 @@ class MadeDataTest(unittest.TestCase):
         with self.assertRaisesRegex(mems_stiction.OptionsError, "nothing to configure"):
             found.yaml()
 
+    def test_values_that_no_work_of_adhesion_gives_are_asked_for_their_unit(self):
+        nanonewtons = 20.0
+        found = calibrated([measured(nanonewtons, SURFACES[0], name="tip 1")])
+        self.assertRegex(found.statements[1], "^tip 1: 20.0 N was measured, and the nearest that any work of adhesion gives is [0-9.]+ [un]N: "
+                         "is it in SI units, and of these surfaces and this area")
+
+    def test_uncertainties_that_leave_all_open_are_told_from_surfaces_that_do(self):
+        found = calibrated([measured(2e-8, SURFACES[0], 20.0)])
+        self.assertTrue(math.isnan(found.work_of_adhesion))
+        self.assertEqual(found.statements[0], "these measurements do not tell the work of adhesion: their uncertainties leave it open from 100 uJ/m^2 to 2.00 J/m^2")
+
     def test_works_of_large_surfaces_that_far_forces_hold_end_in_a_sentence(self):
         """A few of their summits touch: it is Hamaker's constant that gives most of the work."""
         few = {"device_force": {"realisations": 3, "max_cells": 1e4}}
@@ -128,6 +164,32 @@ class MadeDataTest(unittest.TestCase):
         found = calibrated([datum], **few)
         self.assertTrue(math.isnan(found.work_of_adhesion))
         self.assertRegex(found.statements[0], "tell the work of adhesion: ")
+
+
+class GridTest(unittest.TestCase):
+    """Between the nodes of two constants: what one monotone cubic after the other gives, without a jump."""
+
+    X, Y = np.array([0.0, 0.4, 1.1, 1.5, 2.6, 4.0]), np.array([-1.0, -0.2, 0.1, 1.0, 2.2])
+
+    def setUp(self):
+        x, y = self.X[:, None, None], self.Y[None, :, None]
+        self.values = np.exp(-x / 3.0) * np.tanh(y) * np.array([1.0, 2.0]) + 0.1 * x
+        self.between = between_nodes(self.X, self.Y, self.values)
+
+    def test_nodes_and_lines_through_them_are_those_of_one_cubic(self):
+        from scipy.interpolate import PchipInterpolator
+
+        for place, x in enumerate(self.X):
+            np.testing.assert_allclose(self.between([[x, y] for y in self.Y]), self.values[place], atol=1e-14)
+            np.testing.assert_allclose(self.between([[x, 0.7]])[0], PchipInterpolator(self.Y, self.values[place])(0.7), atol=1e-14)
+        for place, y in enumerate(self.Y):
+            np.testing.assert_allclose(self.between([[0.9, y]])[0], PchipInterpolator(self.X, self.values[:, place])(0.9), atol=1e-14)
+
+    def test_neither_it_nor_its_slope_jumps(self):
+        step = 1e-6
+        for x in self.X[1:-1]:
+            below, here, above = self.between([[x + shift, 0.7] for shift in (-step, 0.0, step)])
+            np.testing.assert_allclose(above - here, here - below, atol=20.0 * step ** 2)
 
 
 class KindsTest(unittest.TestCase):
@@ -172,6 +234,30 @@ class KindsTest(unittest.TestCase):
         datum = measured(device.pull_off_force, SURFACES, 0.01, area=4e-12)
         found = calibrated([datum], **few)
         self.assertAlmostEqual(found.measurements.fitted[0] / device.pull_off_force, 1.0, delta=0.05)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            measurement, = measurements_of([datum], None, few)
+            measurement.prepare([{WORK: TRUTH}])
+        together = math.hypot(measurement.scatter({WORK: TRUTH}), measurement.common({WORK: TRUTH}))
+        self.assertAlmostEqual(together, device.force_deviation, places=12)
+        self.assertGreater(measurement.common({WORK: TRUTH}), 0.1)  # the law's own error
+
+    def test_several_constants_have_the_forces_of_each_and_their_surfaces_are_made_once(self):
+        few = {"device_force": {"realisations": 3, "max_cells": 1e4}}
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", mems_stiction.SettingsWarning)
+            data = measurements_of([measured(1e-7, SURFACES, area=4e-12)], None, few)
+        constants = [{WORK: 0.01}, {WORK: 0.08}]
+        calls = []
+        under = calibration_data.predict_device_under
+        with mock.patch.object(calibration_data, "predict_device_under", side_effect=lambda *given: calls.append(len(given[3])) or under(*given)), \
+                warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            data[0].prepare(constants)
+            expected = [data[0].expected(one) for one in constants]
+            alone = [mems_stiction.predict_device(SURFACES, 4e-12, PITCH, config=mems_stiction.Settings(few, **one)) for one in constants]
+        self.assertEqual(calls, [2])
+        self.assertEqual(expected, [one.pull_off_force for one in alone])
 
 
 class DocumentTest(unittest.TestCase):
@@ -236,6 +322,10 @@ class FacesTest(unittest.TestCase):
         self.assertRegex(run.stderr, r"^calibrate: .*none\.yaml: [^\n]*\n$")
         (self.path / "text.yaml").write_text("kind: pull_off_force\n")
         self.assertRegex(self.run_program(self.path / "text.yaml").stderr, r"^calibrate: .*text\.yaml: must be a list")
+        for text, lines in (("- kind: pull_off_force\n  value: 2e-8\n  value: 9e-8\n", (3, 2)), ("- {value: 2e-8, value: 9e-8}\n", (1, 1))):
+            (self.path / "twice.yaml").write_text(text)
+            self.assertRegex(self.run_program(self.path / "twice.yaml").stderr,
+                             r"^calibrate: .*twice\.yaml: value: given in line %d and before in line %d, must be given once\n$" % lines)
 
     def test_each_wrong_measurement_is_named(self):
         good = measured(1e-7, SURFACES[0])
@@ -246,9 +336,20 @@ class FacesTest(unittest.TestCase):
                                ({"thickness": 1e-6}, r"measurements\[0\]/thickness: there is no such key for pull_off_force"),
                                ({"scans": None}, r"measurements\[0\]/scans: are missing"),
                                ({"radius": 1e-6, "area": 1e-12}, r"measurements\[0\]/radius: is not allowed with area"),
-                               ({"relative_humidity": 1.5}, r"measurements\[0\]: interface/relative_humidity")):
+                               ({"relative_humidity": 1.5}, r"measurements\[0\]: interface/relative_humidity"),
+                               ({"kind": ["force"]}, r"measurements\[0\]/kind: \['force'\] is not allowed, must be one of pull_off_force"),
+                               ({"value": True}, r"measurements\[0\]/value: True is not allowed, must be a number"),
+                               ({"contacts": 4}, r"measurements\[0\]/contacts: is not allowed without area"),
+                               ({"area": 1e-12, "contacts": -2}, r"measurements\[0\]/contacts: -2 is not allowed, must be an integer in \[1, "),
+                               ({"area": 1e-12, "contacts": "many"}, r"measurements\[0\]/contacts: 'many' is not allowed, must be an integer")):
             with self.assertRaisesRegex(mems_stiction.OptionsError, words):
                 calibrated([dict(good, **changed)])
+        for changed, words in (({"pitch": "10 nm"}, r"^tip 3: pitch: '10 nm' is not allowed"), ({"scans": np.full((9, 9), np.nan)}, "^tip 3: .*no valid pixel"),
+                               ({"scans": "none.gwy"}, "^tip 3: none.gwy: there is no such file")):
+            with self.assertRaisesRegex(mems_stiction.Error, words):
+                calibrated([dict(good, name="tip 3", **changed)])
+        with self.assertRaisesRegex(mems_stiction.OptionsError, r"measurements\[0\]/kind: is missing, must be one of pull_off_force"):
+            calibrated([{name: value for name, value in good.items() if name != "kind"}])
         with self.assertRaisesRegex(mems_stiction.OptionsError, "an empty list"):
             calibrated([])
         with self.assertRaisesRegex(mems_stiction.OptionsError, "must be a list of dictionaries"):

@@ -4,6 +4,7 @@ import concurrent.futures
 import contextlib
 import json
 import math
+import multiprocessing
 import os
 import pathlib
 import re
@@ -11,6 +12,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import unittest
 import warnings
@@ -209,6 +211,24 @@ class RowsTest(unittest.TestCase):
             self.assertEqual(swept(axes, executor=executor).json(), alone)
 
 
+    def test_no_thread_waits_for_what_an_interruption_left_locked(self):
+        threads = []
+        swept({WORK: [0.02, 0.04, 0.06, 0.08]}, workers=2, on_progress=lambda share: threads.append(threading.active_count()))
+        self.assertEqual(threads, [threading.active_count()] * 5)
+
+    def test_an_error_or_the_end_of_a_process_ends_the_sweep(self):
+        with self.assertRaisesRegex(mems_stiction.SurfaceError, "no valid pixel"):
+            swept({WORK: [0.02, 0.08]}, np.full((64, 64), np.nan), workers=2)
+
+        def kill(share):
+            for process in multiprocessing.active_children():
+                process.kill()
+
+        with self.assertRaisesRegex(mems_stiction.Error, "a worker process has ended"):
+            swept({WORK: [0.01 * place for place in range(1, 9)]}, workers=2, on_progress=kill)
+        self.assertEqual(multiprocessing.active_children(), [])
+
+
 class AxesTest(unittest.TestCase):
     def test_ranges_are_filled_evenly_or_by_ratio(self):
         settings = mems_stiction.Settings(PART)
@@ -223,7 +243,7 @@ class AxesTest(unittest.TestCase):
         for axes, words in (({}, "must be a dictionary with one or two names"), ({"a": 1, "b": 2, "c": 3}, "a dictionary of 3 is not allowed"),
                             ({"device/spring": [1]}, "there is no setting 'device/spring'"), ({"device/guidance": [1]}, "device/guidance is no number"),
                             ({STIFFNESS: "1"}, "must be numbers"), ({STIFFNESS: []}, "must be numbers"), ({STIFFNESS: (3, 1, 5)}, "with from < to"),
-                            ({STIFFNESS: [0.0]}, "device/spring_stiffness: 0 is not allowed, must be > 0"),
+                            ({"device/contacts": [1.5, 3]}, "device/contacts: 1.5 is not allowed, must be whole numbers"), ({STIFFNESS: [0.0]}, "device/spring_stiffness: 0 is not allowed, must be > 0"),
                             ({"interface/relative_humidity": [0.5, 1.5]}, "interface/relative_humidity"),
                             ({"roughness/scale": [0.0]}, "roughness/scale: 0 is not allowed"), ({ETCH: [2.0]}, "etch_wavelength: None is not allowed")):
             with self.assertRaisesRegex(mems_stiction.OptionsError, re.escape(words)):

@@ -370,7 +370,8 @@ class WaferTest(unittest.TestCase):
                                  ((self.path / "part.yaml",), r"must end in \.csv"),
                                  (("--against", "time", self.table), r"^compare_lots: against: the rows have no column 'time'"),
                                  (("--figure", "peel_number", self.table), r"^compare_lots: rows: none of 49 has a peel_number > 0\n$"),
-                                 (("--picture", self.path / "none" / "a.png", self.table), r"^compare_lots: [^\n]*none[^\n]*\n$")):
+                                 (("--picture", self.path / "none" / "a.png", self.table),
+                                  r"^compare_lots: [^\n]*/none/a\.png: cannot be written: No such file or directory\n$")):
             run = self.run_program(*arguments)
             self.assertEqual((run.returncode, run.stdout), (2, ""), arguments)
             self.assertRegex(run.stderr, words)
@@ -400,7 +401,7 @@ class SentencesTest(unittest.TestCase):
         found = mems_stiction.compare_lots([row(wafer=wafer, site=site, margin=3.0 * math.exp(0.2 * random.standard_normal()))
                                             for wafer in ("1", "2") for site in SITES])
         self.assertTrue(any(text.startswith("2 wafers cannot tell how far wafers differ: ") for text in found.statements), found.statements)
-        self.assertIn("no trend is seen over wafer 1 of lot A, wafer 2 of lot A", found.statements)
+        self.assertIn("no trend of the margin is seen over wafer 1 of lot A, wafer 2 of lot A", found.statements)
 
     def test_of_many_wafers_some_show_something_by_chance(self):
         random = np.random.RandomState(1)
@@ -415,6 +416,29 @@ class SentencesTest(unittest.TestCase):
         self.assertTrue(any("no row has lot_id, wafer_id, site_x, site_y" in text for text in found.statements))
         self.assertEqual(len(found.units), 0)
         self.assertIn("Comparison of 10 rows", repr(found))
+
+    def test_a_gradient_of_the_rms_height_is_told_where_the_margin_has_none(self):
+        random = np.random.RandomState(1)
+        rows = [row(site=site, margin=3.0 * math.exp(0.2 * random.standard_normal()), rms_height=2e-9 * math.exp(9.0 * site[1])) for site in SITES]
+        rows[7]["rms_height"] = 50e-9
+        said = mems_stiction.compare_lots(rows).statements
+        self.assertIn("no trend of the margin is seen over wafer 1 of lot A", said)
+        # exp(9 x 0.08 m)
+        self.assertIn("wafer 1 of lot A: rms height grows by a factor of 2.05 (2.05 to 2.05) over 80.0 mm, towards 90 deg from x", said)
+
+    def test_sites_are_numbers_in_metres(self):
+        rows = [row(site=site) for site in SITES]
+        with self.assertRaisesRegex(mems_stiction.OptionsError, "^site_x: '12 mm' in row 2 is not allowed, must be a number in metres, or empty$"):
+            mems_stiction.compare_lots([rows[0], dict(rows[1], site_x="12 mm")] + rows[2:])
+        for unknown in ("", " ", "nan", None):
+            mems_stiction.compare_lots([dict(rows[0], site_x=unknown, site_y=unknown)] + rows[1:])
+        said = mems_stiction.compare_lots([dict(one, site_x=1e3 * one["site_x"], site_y=1e3 * one["site_y"]) for one in rows]).statements
+        self.assertIn("sites lie up to 80.0 m apart: site_x and site_y are taken for metres", said)
+
+    def test_one_row_and_none(self):
+        self.assertFalse([text for text in mems_stiction.compare_lots([row(part_id="a")]).statements if text.startswith("that share is for")])
+        with self.assertRaisesRegex(mems_stiction.OptionsError, "^rows: there is none, must hold one row at least$"):
+            mems_stiction.compare_lots([])
 
     def test_equal_values(self):
         found = mems_stiction.compare_lots([row(site=site, wafer=wafer) for site in SITES for wafer in "12"])
@@ -456,7 +480,7 @@ class SentencesTest(unittest.TestCase):
             self.assertEqual(mems_stiction.compare_lots([{"margin": 2.0}]).save_maps(pathlib.Path(folder) / "maps"), [])
 
     def test_what_is_no_rows(self):
-        for rows, words in ((3, "int is not allowed"), ([3], "an item is 3"), ([], "none of 0"), ([{"margin": "x"}], "none of 1 has a margin")):
+        for rows, words in ((3, "int is not allowed"), ([3], "an item is 3"), ([], "there is none"), ([{"margin": "x"}], "none of 1 has a margin")):
             with self.assertRaisesRegex(mems_stiction.OptionsError, words):
                 mems_stiction.compare_lots(rows)
         with self.assertRaisesRegex(mems_stiction.OptionsError, "figure: 'sq' is not allowed"):

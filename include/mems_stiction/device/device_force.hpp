@@ -102,4 +102,11 @@ DeviceForce deviceForce(const DeviceSurfaces& surfaces, const DeviceArea& area, 
                         const UncertaintyOptions& uncertainty, const DeviceForceOptions& options,
                         const std::function<void(double)>& on_progress = {});
 
+/// The same by several models, as by constants that are sought: the surfaces are made once, which is most of the work. Each force is
+/// that of deviceForce() to the last bit.
+std::vector<DeviceForce> deviceForces(const DeviceSurfaces& surfaces, const DeviceArea& area,
+                                      const std::vector<Options>& models, const UncertaintyOptions& uncertainty,
+                                      const DeviceForceOptions& options,
+                                      const std::function<void(double)>& on_progress = {});
+
 }  // namespace mems_stiction

@@ -312,5 +312,25 @@ TEST_F(DeviceForceTest, aBlockIsAsGoodAsThickAndSaysSo) {
   EXPECT_EQ(block.warnings.size(), thick.warnings.size() + 1);
 }
 
+TEST_F(DeviceForceTest, severalModelsHaveTheForcesOfEach) {
+  std::vector<Options> models(2, model_);
+  models[1].interface.work_of_adhesion *= 20.0;
+  for (const double side : {200.0, 300.0}) {  // parts of the scans, made surfaces
+    const DeviceArea area{areaOfPixels(side), 1};
+    const std::vector<DeviceForce> together = deviceForces(surfaces_, area, models, uncertainty_, options_);
+    ASSERT_EQ(together.size(), models.size());
+    for (std::size_t i = 0; i < models.size(); ++i) {
+      const DeviceForce alone = deviceForce(surfaces_, area, models[i], uncertainty_, options_);
+      EXPECT_EQ(together[i].pull_off_force, alone.pull_off_force) << side << " " << i;
+      EXPECT_EQ(together[i].pull_off_force_lower, alone.pull_off_force_lower);
+      EXPECT_EQ(together[i].apparent_work_of_adhesion_upper, alone.apparent_work_of_adhesion_upper);
+      EXPECT_EQ(together[i].warnings, alone.warnings);
+      EXPECT_EQ(together[i].realisations.size(), alone.realisations.size());
+      EXPECT_EQ(together[i].made_surface.rows(), alone.made_surface.rows());
+    }
+    EXPECT_LT(together[0].pull_off_force, together[1].pull_off_force);
+  }
+}
+
 }  // namespace
 }  // namespace mems_stiction
