@@ -80,7 +80,7 @@ def ignore_from_here_on():
         signal.signal(number, signal.SIG_IGN)
 
 
-class _Waiting:
+class Waiting:
     """Interruptions wait from here on, to end(). A mask of the process would not do: Python notes signals that other threads get."""
 
     def __init__(self):
@@ -103,7 +103,7 @@ class _Waiting:
 @contextlib.contextmanager
 def temporary_folder(prefix):
     """A folder that goes afterwards, wherever an interruption falls: one that comes while it is made or removed waits."""
-    waiting = _Waiting()
+    waiting = Waiting()
     try:
         folder = pathlib.Path(tempfile.mkdtemp(prefix=prefix))
     except OSError:
@@ -114,7 +114,7 @@ def temporary_folder(prefix):
         yield folder
     finally:
         try:
-            waiting = _Waiting()
+            waiting = Waiting()
         finally:
             shutil.rmtree(str(folder), ignore_errors=True)
         waiting.end()

@@ -9,6 +9,7 @@ import time
 import actionlib
 import rospy
 from actionlib import CommState, TerminalState
+from mems_stiction.interrupted import Waiting
 from mems_stiction.provenance import FIELDS as PROVENANCE
 from mems_stiction.row_table import units_of, write_rows
 from mems_stiction.station_node import CannotRun, no_node
@@ -35,8 +36,14 @@ def run(action, kind, goal, timeout):
             bar.total = feedback.total
             bar.update(feedback.done - bar.n)
 
-        handle = client.send_goal(goal, feedback_cb=show)
+        waiting = Waiting()  # the node may be at work before send_goal() has said which goal is to be cancelled
         try:
+            handle = client.send_goal(goal, feedback_cb=show)
+        except Exception:
+            waiting.end()
+            raise
+        try:
+            waiting.end()
             _wait(client, handle, action)
         except KeyboardInterrupt:
             handle.cancel()

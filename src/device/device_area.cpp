@@ -208,6 +208,7 @@ std::vector<Realisation> DeviceAreaSolver::realise(const std::vector<DeviceAreaS
     gatherer.add(piece, 0, 0, relief);
   }
   std::vector<Realisation> found;
+  found.reserve(solvers.size());
   for (DeviceAreaSolver* solver : solvers) {
     found.push_back(solver->follow(gatherer.cells(), gatherer.quarters(), [&] { return relief; }));
   }

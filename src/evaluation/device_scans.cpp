@@ -69,6 +69,7 @@ DeviceForce DeviceScans::force(const std::function<void(double)>& on_progress) c
 std::vector<DeviceForce> DeviceScans::forces(const std::vector<Options>& models,
                                              const std::function<void(double)>& on_progress) const {
   std::vector<Options> all;
+  all.reserve(models.size());
   for (const Options& model : models) all.push_back(loaded(model));
   return deviceForces(surfaces_, area(), all, configuration_.uncertainty, configuration_.device_force, on_progress);
 }

@@ -51,6 +51,7 @@ std::vector<Predicted> predictDeviceUnder(const std::vector<DeviceScan>& scans,
     DevicePredictor predictor(configuration);
     addScans(scans, counter_surface, check, predictor);
     std::vector<Options> options;
+    options.reserve(models.size());
     for (const Configuration& model : models) options.push_back(model.model);
     std::vector<Predicted> predicted;
     for (DeviceForce& force : predictor.forces(options, check)) {
