@@ -34,6 +34,7 @@ STARTS = 25
 MOST_ROUNDS = 6
 SIMPLEX = 0.03  # of the range
 STEPS_TO_AN_END = 64
+STEP_FOR_SLOPES = 1e-3  # of the range
 
 Model = Callable[[np.ndarray], np.ndarray]
 
@@ -168,12 +169,37 @@ class Likelihood:
         return found
 
     def _distance(self, place: int, others: List[int]) -> float:
-        """Of a measurement from what others expect [standard deviations]."""
+        """Of a measurement from what others expect [standard deviations of this difference]."""
         likelihood = self.part(others)
         fit = likelihood.fit()
         # surfaces may scatter as stated, whatever a few of them show
-        deviation = self.deviations(self.model(fit.parameters), 1.0)[0][place]
-        return float(abs(deviation) / np.sqrt(1.0 + 1.0 / len(others)) / fit.widening)
+        deviations, variances = self.deviations(self.model(fit.parameters), 1.0)
+        return float(abs(deviations[place]) / self._spread(place, others, fit.parameters, np.sqrt(variances)) / fit.widening)
+
+    def _spread(self, place: int, others: List[int], parameters: np.ndarray, own: np.ndarray) -> float:
+        """Standard deviation of a measurement about what others expect, over its own: they know the parameters by generalised least squares.
+
+        A force among lengths has few that it can be told from, however many there are. What others leave open of a parameter
+        ends with its range. own: standard deviations of ln value.
+        """
+        slopes, over = self._slopes(parameters) / own[:, None], self.common / own
+        covariance = np.eye(len(own)) + np.where(self.surfaces[:, None] == self.surfaces, np.outer(over, over), 0.0)
+        weighted = np.linalg.solve(covariance[np.ix_(others, others)], slopes[others])
+        of_ranges = np.array([12.0 / (high - low) ** 2 for low, high in self.bounds])
+        pulls = np.linalg.solve(slopes[others].T @ weighted + np.diag(of_ranges), slopes[place])
+        contrast = np.zeros(len(own))
+        contrast[place], contrast[others] = 1.0, -weighted @ pulls
+        return float(np.sqrt(contrast @ covariance @ contrast + pulls ** 2 @ of_ranges))
+
+    def _slopes(self, parameters: np.ndarray) -> np.ndarray:
+        """d ln value/d parameter, of each measurement."""
+        slopes = []
+        for index, (low, high) in enumerate(self.bounds):
+            ends = [np.array(parameters), np.array(parameters)]
+            ends[0][index] = max(parameters[index] - STEP_FOR_SLOPES * (high - low), low)
+            ends[1][index] = min(parameters[index] + STEP_FOR_SLOPES * (high - low), high)
+            slopes.append(np.log(self.model(ends[1]) / self.model(ends[0])) / (ends[1][index] - ends[0][index]))
+        return np.stack(slopes, axis=1)
 
     def _end(self, fit: Fit, index: int, limit: float, bound: float) -> Tuple[float, bool]:
         """Where the profile reaches the limit on the way to the bound; whether it does."""

@@ -112,6 +112,20 @@ class MadeDataTest(unittest.TestCase):
         expected = deviations @ np.linalg.solve(covariance, deviations) + math.log(np.linalg.det(covariance)) - deviations @ deviations
         self.assertAlmostEqual(_of_common(deviations, over), expected, places=12)
 
+    def test_distances_of_a_measurement_count_how_well_the_others_know_it(self):
+        """A force among lengths that hardly go with the constant has only the other force to be told from; one on surfaces of its own has their error, too."""
+        among_lengths = np.repeat([1.0, 0.1], (2, 8)), np.repeat([0.04, 0.02], (2, 8)), 0.0, 0.0, np.zeros(10, int)
+        on_others = np.ones(4), np.full(4, 0.02), 0.03, 0.06, np.array([0, 1, 1, 1])
+        for slopes, shares, place, common, surfaces in (among_lengths, on_others):
+            count, distances = len(slopes), []
+            for draw in range(150):
+                random = np.random.RandomState(draw)
+                values = (1.0 + shares * random.standard_normal(count)) * np.exp(place * random.standard_normal(count) + common * random.standard_normal(2)[surfaces])
+                likelihood = Likelihood(values, shares * values, np.full(count, place), ["%g" % slope for slope in slopes],
+                                        lambda parameters: np.exp(slopes * parameters[0]), [(-2.0, 2.0)], np.full(count, common), surfaces)
+                distances.append(likelihood._distance(0, list(range(1, count))))
+            self.assertAlmostEqual(float(np.sqrt(np.mean(np.square(distances)))), 1.0, delta=0.15, msg="common error %g" % common)
+
     def test_one_of_ten_that_does_not_belong_is_named_and_left_out(self):
         data = exact()
         data[4].update(value=2.5 * data[4]["value"], uncertainty=2.5 * data[4]["uncertainty"])
