@@ -98,8 +98,9 @@ class ArrayTest(unittest.TestCase):
     def test_a_periodic_topography_is_a_periodic_half_space_whatever_the_settings_say(self):
         heights = mems_stiction.generate((24, 24), PITCH, counter_surface={"type": "gaussian", "gaussian": {"rms_height": 1e-9}}).heights
         settings = {"half_space": {"path": "rest"}, "load": {"mechanical_load": 1e-7}}
-        expected = mems_stiction.half_space(heights, PITCH, settings)
-        free = mems_stiction.half_space(heights, PITCH, settings, **{"half_space/boundary": "free"})
+        pitch = 24 * PITCH / 24  # as a topography has it, to the bit
+        expected = mems_stiction.half_space(heights, pitch, settings)
+        free = mems_stiction.half_space(heights, pitch, settings, **{"half_space/boundary": "free"})
         self.assertNotEqual(free.mean_gap, expected.mean_gap)
         for name, kind in topographies():
             with self.subTest(topography=name):
