@@ -29,6 +29,7 @@ bool isImage(const List& list);
 /// By the version in the first list. @return 2 or 4
 std::uint64_t bytesOfNumber(const std::vector<List>& lists);
 
+/// Of the scanned area.
 struct Size {
   double x = 0.0, y = 0.0;  ///< [m]; 0 = not stated
 };
