@@ -384,12 +384,12 @@ ContactState ContactMinimiser::solve(double height, const Search& search) {
   }
   int failures = 0;  // of windows
   while (!isCancelled()) {
-    if (now.largest_residual <= allowed && isBeyondWall(now)) {
-      raiseWall(now);
-      now = evaluate(height);
-      continue;
-    }
     if (now.largest_residual <= allowed) {
+      if (isBeyondWall(now)) {
+        raiseWall(now);
+        now = evaluate(height);
+        continue;
+      }
       if (staleness_ <= kStaleShare * allowed) {
         state.is_converged = true;
         break;

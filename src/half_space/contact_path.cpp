@@ -288,8 +288,8 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
     if (direction < 0.0) step = std::min(step, closingStep(least_force));
     const double to_jump = is_before_jump_ ? direction * (jump_height_ - present_.height) : 0.0;
     if (is_before_jump_) {
-      const bool is_near = to_jump <= kStepTolerance * finest_ || !mayExceed(direction, to_jump, curve.largest_force);
-      step = std::min(step, is_near && to_jump <= kStepTolerance * smallest ? to_jump : 0.5 * to_jump);
+      const double nearest = mayExceed(direction, to_jump, curve.largest_force) ? finest_ : smallest;
+      step = std::min(step, to_jump <= kStepTolerance * nearest ? to_jump : 0.5 * to_jump);
     }
     const double move = direction * step;
     ForcePoint next;
