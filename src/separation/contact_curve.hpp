@@ -33,6 +33,8 @@ class ContactCurve {
   /// Field, settings and gaps must outlive the object's use.
   /// - @p far as in FrameSums
   void comeToRest(const GapField& field, const ContactSettings& settings, const FarGaps* far = nullptr);
+  /// Whether the surfaces may as well come to a rest farther on: part() then says what that means. Between both, if at all.
+  void lookBeyondRest(const ContactSettings& settings);
   /// From then on frame() is that of the surfaces as flow has changed them.
   void part();
 
@@ -77,6 +79,7 @@ class ContactCurve {
   std::vector<Contact> contacts_;
   std::vector<PatchLoad> loads_;  ///< in the same order
   double mean_gap_ = 0.0;
+  double force_from_next_rest_ = 0.0;  ///< 0: none that is as likely [N]
   bool has_flowed_ = false;
   SeparationCurve way_out_;  ///< where it is another than the way in
   bool has_way_out_ = false;

@@ -13,6 +13,9 @@ namespace {
 /// JKR's displacement at the pull-off over mu z0, 0.77 [-].
 const double kHoldPerTabor = std::cbrt(9.0 * kPi / 8.0 * (9.0 * kPi / 8.0)) / 3.0;
 
+/// 95 % of what the curve says without a doubt lie this near to the half-space, of it [-].
+constexpr double kError = 1.96 * chosen::kSureError.pull_off;
+
 /// b of summits with this Tabor parameter, (S8a) [m].
 double holdOf(double tabor_parameter, double range) {
   if (!(tabor_parameter > chosen::kStiffTabor)) return 0.0;  // nor if it is not known
@@ -117,6 +120,12 @@ double approachAfter(int steps, double range) {
   return range * (std::pow(1.0 + chosen::kStep, steps) - 1.0);
 }
 
+/// The approach of a step of the way in, which ends at the contact limit.
+double wayInAfter(FrameSums& frame, int step) {
+  const double approach = approachAfter(step, frame.law().range());
+  return approach < frame.approachBeforeLimit() ? approach : std::min(approach, frame.limitApproach());
+}
+
 /// Where the force of the last two states comes down to -load if it goes on as it does: it falls ever more steeply. 0 while it
 /// does not fall.
 double expectedRest(const std::vector<SeparationState>& states, double load) {
@@ -144,6 +153,7 @@ void settle(FrameSums& frame, double load, SeparationCurve& curve) {
   stateAt(frame, above.approach, curve.way);
   frame.mark();
   SeparationState found = below;
+  curve.beyond_rest = below;
   const double narrow = chosen::kAccuracy * (below.approach - above.approach);
   for (int search = 0; below.approach - above.approach > narrow; ++search) {
     // every third time the middle: where one side is a wall, the line hardly moves the other
@@ -197,8 +207,7 @@ void followCurve(FrameSums& frame, const ContactSettings& settings, SeparationCu
   const double work_apart = frame.energy(curve.states.front().approach);
   curve.status = Status::kNoEquilibrium;
   for (int step = 0; step < settings.approach.max_steps; ++step) {
-    double approach = approachAfter(step, range);
-    if (approach >= frame.approachBeforeLimit()) approach = std::min(approach, frame.limitApproach());
+    const double approach = wayInAfter(frame, step);
     curve.states.push_back(stateAt(frame, approach, curve.way, expectedRest(curve.states, load)));
     const SeparationState& state = curve.states.back();
     if (state.force() + load < 0.0) {
@@ -212,6 +221,24 @@ void followCurve(FrameSums& frame, const ContactSettings& settings, SeparationCu
   }
   if (curve.status == Status::kEquilibrium) settle(frame, load, curve);
   takeFigures(frame, work_apart, curve);
+}
+
+double forceFromNextRest(FrameSums& frame, const ContactSettings& settings, const SeparationCurve& curve) {
+  if (curve.status != Status::kEquilibrium) return 0.0;
+  const auto isHeldBack = [&](const SeparationState& state) {
+    return -(state.force() + settings.load.mechanical_load) > kError * state.carried;
+  };
+  double largest = 0.0;
+  bool is_past = false;  // what keeps the surfaces from coming nearer
+  SeparationState state = curve.beyond_rest;
+  for (int step = static_cast<int>(curve.states.size()) - stepsApart(); step < settings.approach.max_steps; ++step) {
+    is_past = is_past || state.force() + settings.load.mechanical_load > 0.0;
+    if (is_past) largest = std::max(largest, state.partingForce());
+    const double approach = wayInAfter(frame, step);
+    if (isHeldBack(state) || !(approach > state.approach)) break;
+    state = stateAt(frame, approach, curve.way);
+  }
+  return largest;
 }
 
 Way wayOutOf(const SeparationCurve& way_in, double range) {

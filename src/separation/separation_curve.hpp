@@ -50,6 +50,8 @@ struct Way {
 struct SeparationCurve {
   Way way;
   std::vector<SeparationState> states;  ///< by ascending approach; the last one is at rest
+  /// Of a way in that has found its rest: the next step, pushed back from there.
+  SeparationState beyond_rest;
   Status status = Status::kNoEquilibrium;
   double pull_off_force = 0.0;     ///< largest parting force on the way [N]
   double pull_off_approach = 0.0;  ///< where [m]
@@ -74,6 +76,11 @@ SeparationState stateAt(FrameSums& frame, double approach, const Way& way, doubl
 /// F + F_m >= 0. Bonded, when they have not until the contact fraction reaches its limit; without equilibrium, when
 /// approach/max_steps end first.
 void followCurve(FrameSums& frame, const ContactSettings& settings, SeparationCurve& curve);
+
+/// The largest parting force on the way from a rest farther on [N]; 0 where there is none, or where what keeps the surfaces from it
+/// is more than the error with which the curve knows what the contacts carry.
+/// - @p curve as followCurve() has found it
+double forceFromNextRest(FrameSums& frame, const ContactSettings& settings, const SeparationCurve& curve);
 
 /// The way out from the rest of a way in: summits that were soft there hold on.
 Way wayOutOf(const SeparationCurve& way_in, double range);

@@ -1,5 +1,7 @@
 /// Where surfaces come to rest that could rest in more than one place.
 
+#include <string>
+
 #include <gtest/gtest.h>
 
 #include "support/separation_cases.hpp"
@@ -14,12 +16,12 @@ constexpr int kBump = 3;
 /// A stiff bump that holds a plain off, though the plain would hold fast once it came near: the bump carries 5 nN for
 /// each 0.016 nm, the plain attracts with 36 nN at first touch, with 90 % of what the bump carries at 0.25 nm past it,
 /// and with twice that at 0.7 nm. Beside the plain there is a pit, so that the surfaces cannot conform.
-Prediction predictAt(double load) {
+Prediction predictAt(double load, double contact_modulus = 100e9) {
   cv::Mat1d heights(kSide, 2 * kSide, -50e-9);
   heights.colRange(0, kSide) = -1e-9;
   heights(cv::Rect(kSide / 2, kSide / 2, kBump, kBump)) = 0.0;
   const HeightMap surface(heights, kPitch, kPitch);
-  return AdhesionModel(separation_cases::elastic(100e9, load)).predict(surface);
+  return AdhesionModel(separation_cases::elastic(contact_modulus, load)).predict(surface);
 }
 
 TEST(SeparationRest, surfacesThatComeNearSlowlyStopAtTheFirstPlaceOfRest) {
@@ -33,6 +35,21 @@ TEST(SeparationRest, aLoadTakesThemPastIt) {
   const Prediction prediction = predictAt(1e-7);
   EXPECT_GT(prediction.approach, 0.95e-9);  // the plain lies as near as the law lets it
   EXPECT_GT(prediction.pull_off_force, 10.0 * predictAt(0.0).pull_off_force);
+}
+
+TEST(SeparationRest, isDoubtedWhereHardlyAnythingKeepsTheSurfacesFromOneThatHoldsMore) {
+  const Prediction held = predictAt(0.0);  // by a tenth of what the bump carries
+  ASSERT_NE(held.model.doubt, nullptr);
+  EXPECT_NE(std::string(held.model.doubt).find("nearer rest"), std::string::npos) << held.model.doubt;
+  // the law's peak that is left: a bump twice as stiff carries twice as much there
+  const Prediction stiff = predictAt(0.0, 200e9);
+  EXPECT_EQ(stiff.status, Status::kEquilibrium);
+  EXPECT_EQ(stiff.model.doubt, nullptr);
+  // beyond it there is no other
+  const Prediction pressed = predictAt(1e-7);
+  EXPECT_TRUE(pressed.model.doubt == nullptr ||
+              std::string(pressed.model.doubt).find("nearer rest") == std::string::npos)
+      << pressed.model.doubt;
 }
 
 TEST(SeparationRest, forcesBalanceThereThoughOneSideIsAWall) {
