@@ -212,6 +212,7 @@ PathStatus leaveRest(ContactPath& path, const ContactMinimiser& minimiser, Large
 
 /// Every state that was solved, and what it took.
 void takeRecord(const ContactPath& path, HalfSpacePath asked, SolvedHalfSpace& solution) {
+  solution.path = asked;
   solution.approach = path.approachCurve().points;
   solution.jumps = path.approachCurve().jumps;
   if (asked == HalfSpacePath::kWhole) {

@@ -11,6 +11,7 @@
 #include <opencv2/core.hpp>
 
 #include "mems_stiction/half_space/force_point.hpp"
+#include "mems_stiction/half_space/half_space_options.hpp"
 #include "mems_stiction/height_map/height_map.hpp"
 
 namespace mems_stiction {
@@ -29,7 +30,8 @@ struct SolvedHalfSpace {
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
   HalfSpaceStatus status = HalfSpaceStatus::kCancelled;
-  std::string message;  ///< the status in a sentence
+  std::string message;                         ///< the status in a sentence
+  HalfSpacePath path = HalfSpacePath::kWhole;  ///< that was asked for: of the rest alone no force is known
 
   double pull_off_force = kNone;        ///< largest force of the retraction, without voltage and load [N]
   double pull_off_uncertainty = kNone;  ///< by which finer steps may exceed it [N]

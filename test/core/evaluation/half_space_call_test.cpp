@@ -132,6 +132,7 @@ TEST(HalfSpaceCall, RestAloneIsNotBegunForFlagsAsItCouldNotJudge) {
   EXPECT_NE(Case(settings, kSmooth).call().objection.find("half_space/path is rest"), std::string::npos);
   SolvedHalfSpace rest;
   rest.status = HalfSpaceStatus::kSolved;
+  rest.path = HalfSpacePath::kRest;
   rest.is_converged = rest.is_resolved = true;
   EXPECT_EQ(whyNotJudging(rest), kRestAlone);
 }
