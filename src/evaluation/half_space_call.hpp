@@ -16,7 +16,6 @@
 
 #include "mems_stiction/configuration/configuration.hpp"
 #include "mems_stiction/evaluation/prepared_scan.hpp"
-#include "mems_stiction/half_space/half_space_problem.hpp"
 #include "mems_stiction/half_space/half_space_solution.hpp"
 #include "mems_stiction/half_space/half_space_solver.hpp"
 #include "mems_stiction/prediction/prediction.hpp"

@@ -4,7 +4,7 @@
 
 #include "evaluation/block_maxima.hpp"
 #include "mems_stiction/evaluation/scan_predictor.hpp"
-#include "mems_stiction/mechanics/regime.hpp"
+#include "mems_stiction/mechanics/plasticity.hpp"
 #include "prediction/asked_output.hpp"
 
 namespace mems_stiction {

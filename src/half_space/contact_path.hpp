@@ -25,7 +25,7 @@
 
 #include "half_space/contact_minimiser.hpp"
 #include "half_space/force_step.hpp"
-#include "mems_stiction/half_space/force_point.hpp"
+#include "mems_stiction/half_space/half_space_solution.hpp"
 
 namespace mems_stiction {
 

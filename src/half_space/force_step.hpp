@@ -10,7 +10,7 @@
 ///     const StepParabola parabola(before, after);
 ///     const double share = crossing(parabola, 0.0, 0.0, 1.0);  // where the force vanishes, of the step
 
-#include "mems_stiction/half_space/force_point.hpp"
+#include "mems_stiction/half_space/half_space_solution.hpp"
 
 namespace mems_stiction {
 

@@ -19,7 +19,7 @@
 /// The load that it can carry is chi P1 + (1 - chi) min(P1, Ha pi rc^2).
 
 #include "mems_stiction/mechanics/material.hpp"
-#include "mems_stiction/mechanics/regime.hpp"
+#include "mems_stiction/mechanics/plasticity.hpp"
 #include "paper/cap_couple.hpp"
 #include "paper/formulation.hpp"
 

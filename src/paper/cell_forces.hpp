@@ -11,8 +11,8 @@
 
 #include "approach/gap_pyramid.hpp"
 #include "mechanics/traction_law.hpp"
+#include "mems_stiction/contact/contact_solution.hpp"
 #include "mems_stiction/loads/interface.hpp"
-#include "mems_stiction/loads/normal_load.hpp"
 
 namespace mems_stiction {
 

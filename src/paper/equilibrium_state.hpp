@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "mems_stiction/contact/contact_solution.hpp"
-#include "mems_stiction/loads/normal_load.hpp"
 #include "paper/force_balance.hpp"
 
 namespace mems_stiction {

@@ -8,7 +8,7 @@
 /// and with (13), where the softer body takes all, in every regime.
 
 #include "deformation/modified_topography.hpp"
-#include "mems_stiction/mechanics/regime.hpp"
+#include "mems_stiction/mechanics/plasticity.hpp"
 #include "paper/formulation.hpp"
 
 namespace mems_stiction {

@@ -14,7 +14,7 @@
 #include "approach/gap_field.hpp"
 #include "approach/gap_order.hpp"
 #include "approach/joined_dales.hpp"
-#include "mems_stiction/approach/approach_options.hpp"
+#include "mems_stiction/contact/contact_settings.hpp"
 #include "paper/cell_surroundings.hpp"
 #include "paper/contact_patch.hpp"
 

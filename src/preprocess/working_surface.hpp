@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "mems_stiction/height_map/height_map.hpp"
-#include "mems_stiction/preprocess/preprocess_record.hpp"
+#include "mems_stiction/preprocess/pipeline.hpp"
 #include "numeric/median.hpp"
 #include "preprocess/height_lines.hpp"
 #include "preprocess/window_median.hpp"

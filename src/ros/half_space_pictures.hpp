@@ -18,7 +18,7 @@ namespace mems_stiction {
 sensor_msgs::ImagePtr curvePicture(const HalfSpaceSolution& solution, const DrawnCurve& beside = {});
 
 /// Both contact maps of one scan side by side, in the colours of the regimes.
-/// - @p model_map, @p half_space_map CV_8UC1 with the values of mechanics/regime.hpp, or empty
+/// - @p model_map, @p half_space_map CV_8UC1 with the values of Regime, or empty
 /// - @p solution of that scan
 sensor_msgs::ImagePtr contactMapsPicture(const cv::Mat& model_map, const cv::Mat& half_space_map,
                                          const HalfSpaceSolution& solution);

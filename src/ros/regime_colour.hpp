@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "mems_stiction/mechanics/regime.hpp"
+#include "mems_stiction/mechanics/plasticity.hpp"
 
 namespace mems_stiction {
 

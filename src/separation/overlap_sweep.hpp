@@ -12,7 +12,7 @@
 #include "approach/gap_field.hpp"
 #include "approach/gap_order.hpp"
 #include "approach/joined_dales.hpp"
-#include "mems_stiction/approach/approach_options.hpp"
+#include "mems_stiction/contact/contact_settings.hpp"
 #include "separation/overlap_patch.hpp"
 
 namespace mems_stiction {

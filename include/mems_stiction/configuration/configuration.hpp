@@ -3,13 +3,14 @@
 /// @file
 /// One configuration file or parameter tree: the model's options and how scans are read and prepared.
 
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "mems_stiction/configuration/provenance.hpp"
-#include "mems_stiction/configuration/scan_limits.hpp"
 #include "mems_stiction/device/device_force_options.hpp"
 #include "mems_stiction/half_space/half_space_options.hpp"
+#include "mems_stiction/height_map/height_map.hpp"
 #include "mems_stiction/height_map/raw_scan.hpp"
 #include "mems_stiction/prediction/options.hpp"
 #include "mems_stiction/preprocess/pipeline_options.hpp"
@@ -21,6 +22,22 @@
 #include "mems_stiction/verdict/uncertainty_options.hpp"
 
 namespace mems_stiction {
+
+/// Scans beyond are refused with a sentence.
+struct ScanLimits {
+  static constexpr const char* kMaxTime = "limits/max_time";
+
+  int max_pixels = 67108864;  ///< after refinement [-], >= 1
+  double max_time = 60.0;     ///< of preparation and prediction together [s], >= 0; 0 = none
+
+  void describe(OptionVisitor& visitor);
+
+  /// @throw SurfaceError if the scan, refined, has more than max_pixels.
+  void checkSize(const HeightMap& scan, int refinement) const;
+
+  /// For TimeLimit [s]: infinity without a limit.
+  double longestTime() const { return max_time > 0.0 ? max_time : std::numeric_limits<double>::infinity(); }
+};
 
 /// Everything that a configuration file may set.
 struct Configuration {

@@ -3,13 +3,24 @@
 /// @file
 /// What a contact of two surfaces depends on beside the surfaces.
 
-#include "mems_stiction/approach/approach_options.hpp"
 #include "mems_stiction/loads/capillary.hpp"
 #include "mems_stiction/loads/interface.hpp"
 #include "mems_stiction/mechanics/material.hpp"
-#include "mems_stiction/mechanics/regime.hpp"
+#include "mems_stiction/mechanics/plasticity.hpp"
+#include "mems_stiction/settings/option_visitor.hpp"
 
 namespace mems_stiction {
+
+enum class Connectivity { kFour, kEight };
+
+/// Settings of the approach; keys approach/...
+struct ApproachOptions {
+  int max_steps = 100000;             ///< the search range ends after so many steps
+  double max_contact_fraction = 0.5;  ///< beyond it the surfaces count as bonded, in (0, 1]
+  Connectivity connectivity = Connectivity::kFour;
+
+  void describe(OptionVisitor& visitor);
+};
 
 /// What predict() returns beside the figures; each costs time.
 struct OutputOptions {

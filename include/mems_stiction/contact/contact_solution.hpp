@@ -13,10 +13,19 @@
 #include <opencv2/core.hpp>
 
 #include "mems_stiction/contact/model_statement.hpp"
-#include "mems_stiction/loads/normal_load.hpp"
-#include "mems_stiction/mechanics/regime.hpp"
+#include "mems_stiction/mechanics/plasticity.hpp"
 
 namespace mems_stiction {
+
+/// The total normal load on the contacts, as a sum with named parts (section 2.1 of the paper).
+struct NormalLoad {
+  double van_der_waals = 0.0;  ///< F_w [N]
+  double electrostatic = 0.0;  ///< F_e [N]
+  double mechanical = 0.0;     ///< F_m [N]
+  double capillary = 0.0;      ///< F_c, of condensed water; 0 unless interface/relative_humidity is set [N]
+
+  double total() const { return van_der_waals + electrostatic + mechanical + capillary; }
+};
 
 /// How the search for the place of rest ended.
 enum class Status : std::uint8_t {

@@ -13,8 +13,8 @@
 #include "mems_stiction/configuration/configuration.hpp"
 #include "mems_stiction/evaluation/prepared_scan.hpp"
 #include "mems_stiction/half_space/half_space_options.hpp"
-#include "mems_stiction/half_space/half_space_problem.hpp"
 #include "mems_stiction/half_space/half_space_solution.hpp"
+#include "mems_stiction/half_space/half_space_solver.hpp"
 #include "mems_stiction/prediction/options.hpp"
 #include "mems_stiction/verdict/verdict.hpp"
 
@@ -30,7 +30,7 @@ HalfSpaceProblem halfSpaceProblem(const PreparedScan& prepared, const Options& o
 Verdict halfSpaceVerdict(const SolvedHalfSpace& solved, const PreparedScan& prepared, const Options& options,
                          const Configuration& configuration, const Evidence& beside = {});
 
-/// Where the surfaces repel each other at rest, with the values of the model's contact map (mechanics/regime.hpp): apart,
+/// Where the surfaces repel each other at rest, with the values of the model's contact map (Regime): apart,
 /// elastic, or plastic where the pressure is the hardness of the softer body. CV_8UC1 of the scan's own size: of a
 /// refined scan the severest within each pixel. Empty if there is no rest.
 /// - @p refinement of the prepared scan

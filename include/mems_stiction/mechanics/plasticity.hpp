@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace mems_stiction {
 
@@ -24,6 +25,18 @@ namespace mems_stiction {
 inline constexpr double kElasticLimit = 0.6;
 /// Plasticity indices above it are fully plastic [-].
 inline constexpr double kPlasticLimit = 1.1;
+
+/// The values are those of the contact map.
+enum class Regime : std::uint8_t { kApart = 0, kElastic = 1, kElastoPlastic = 2, kPlastic = 3 };
+
+/// Whether hardness plays a part. kElastic keeps every contact elastic.
+enum class Deformation { kThreeRegimes, kElastic };
+
+/// That of one asperity.
+inline Regime regimeOf(double plasticity_index) {
+  if (plasticity_index <= kElasticLimit) return Regime::kElastic;
+  return plasticity_index < kPlasticLimit ? Regime::kElastoPlastic : Regime::kPlastic;
+}
 
 /// phi of (9) [-].
 /// @param contact_modulus E [Pa], > 0

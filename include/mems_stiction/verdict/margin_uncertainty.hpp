@@ -4,7 +4,7 @@
 /// How far may the predicted pull-off force be off, given how well the constants are known?
 ///
 /// Each sample draws one factor per uncertain constant, lognormal with median 1. The figures move with them as the solver
-/// says (contact_response.hpp), or with the prediction's exponents, force and work each with their own; the model's own
+/// says (ContactResponse), or with the prediction's exponents, force and work each with their own; the model's own
 /// error (ModelStatement) is a further factor then.
 /// Where a half-space judges, its error takes the place of that (evidence.hpp). The choice of cleaning is a further
 /// factor: normal in the logarithm, whose 2.5 % and 97.5 % quantiles are the lowest and the highest of the cleanings. What

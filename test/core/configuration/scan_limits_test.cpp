@@ -1,6 +1,6 @@
 /// What one scan may take of the machine.
 
-#include "mems_stiction/configuration/scan_limits.hpp"
+#include "mems_stiction/configuration/configuration.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "mems_stiction/half_space/half_space_solver.hpp"
-#include "mems_stiction/mechanics/regime.hpp"
+#include "mems_stiction/mechanics/plasticity.hpp"
 #include "surface/gaussian_surface.hpp"
 
 namespace mems_stiction {
