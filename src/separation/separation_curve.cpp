@@ -225,7 +225,7 @@ void followCurve(FrameSums& frame, const ContactSettings& settings, SeparationCu
 
 double forceFromNextRest(FrameSums& frame, const ContactSettings& settings, const SeparationCurve& curve) {
   if (curve.status != Status::kEquilibrium) return 0.0;
-  const auto isHeldBack = [&](const SeparationState& state) {
+  const auto isPushedBack = [&](const SeparationState& state) {
     return -(state.force() + settings.load.mechanical_load) > kError * state.carried;
   };
   double largest = 0.0;
@@ -235,7 +235,7 @@ double forceFromNextRest(FrameSums& frame, const ContactSettings& settings, cons
     is_past = is_past || state.force() + settings.load.mechanical_load > 0.0;
     if (is_past) largest = std::max(largest, state.partingForce());
     const double approach = wayInAfter(frame, step);
-    if (isHeldBack(state) || !(approach > state.approach)) break;
+    if (isPushedBack(state) || !(approach > state.approach)) break;
     state = stateAt(frame, approach, curve.way);
   }
   return largest;
