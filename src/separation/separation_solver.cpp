@@ -25,7 +25,7 @@ void SeparationSolver::solve(const ContactProblem& problem, ContactSolution& sol
   const ContactProblem standing = {problem.surfaces, at_rest, problem.composite_rms_height, settings};
 
   comeToRest(standing, solution);
-  if (is_thick) curve_.lookBeyondRest(settings);
+  if (is_thick || bent_.isStiff()) curve_.lookBeyondRest(settings);
   const double joined_share = curve_.joinedShare();
   const double contact_modulus = curve_.frame().patchForces().contactModulus();
   const GapField& left_to_close = closed ? *closed->gap : at_rest;
