@@ -20,8 +20,7 @@ Regime regimeOf(const PatchLoad& load, double area, double hardness) {
 constexpr double kDoubtedFactor = 1.3;
 
 /// Where the patches' approximations weigh most: contacts wider than a0, which part by their edges, and a force that is the small
-/// difference of large ones. Or where the surfaces
-/// may have come to another rest.
+/// difference of large ones. Or where the surfaces may have come to another rest.
 const char* doubtOf(const SeparationCurve& curve, double force_from_next_rest) {
   if (force_from_next_rest > kDoubtedFactor * curve.pull_off_force) {
     return "hardly anything keeps the surfaces from a nearer rest, from which they part with a larger force";
@@ -44,11 +43,6 @@ void ContactCurve::comeToRest(const GapField& field, const ContactSettings& sett
   frame_.start(field, settings, far);
   followCurve(frame_, settings, way_in_);
   takeContacts();
-  force_from_next_rest_ = 0.0;
-}
-
-void ContactCurve::lookBeyondRest(const ContactSettings& settings) {
-  force_from_next_rest_ = forceFromNextRest(frame_, settings, way_in_);
 }
 
 void ContactCurve::takeContacts() {
@@ -98,7 +92,7 @@ void ContactCurve::appendWayIn(std::vector<SeparationCurvePoint>& points) const 
   for (const SeparationState& state : way_in_.states) points.push_back({state.approach, state.force(), false});
 }
 
-void ContactCurve::part() {
+void ContactCurve::part(double force_from_next_rest) {
   const Way way = wayOutOf(way_in_, frame_.law().range());
   has_way_out_ = has_flowed_ || way.longest_hold > 0.0;
   regime_of_dale_.clear();
@@ -110,7 +104,7 @@ void ContactCurve::part() {
   by_contacts_.work = curve.work / frame_.area();
   by_contacts_.work_exponents = exponents.work;
   by_contacts_.lost = has_flowed_ ? 0.0 : 0.5 * std::max(0.0, curve.work - way_in_.work) / frame_.area();
-  by_contacts_.doubt = doubtOf(curve, force_from_next_rest_);
+  by_contacts_.doubt = doubtOf(curve, force_from_next_rest);
   by_contacts_.curve.clear();
   const bool has_edges = curve.states[curve.strongest].edge_share < 1.0 - chosen::kAccuracy;
   if (!has_way_out_ && !has_voltage_ && !has_edges) return;

@@ -33,10 +33,13 @@ class ContactCurve {
   /// Field, settings and gaps must outlive the object's use.
   /// - @p far as in FrameSums
   void comeToRest(const GapField& field, const ContactSettings& settings, const FarGaps* far = nullptr);
-  /// Whether the surfaces may as well come to a rest farther on: part() then says what that means. Between both, if at all.
-  void lookBeyondRest(const ContactSettings& settings);
+  /// Of the surfaces at rest: forceFromNextRest() of separation_curve.hpp [N].
+  double forceFromNextRest(const ContactSettings& settings) {
+    return mems_stiction::forceFromNextRest(frame_, settings, way_in_);
+  }
   /// From then on frame() is that of the surfaces as flow has changed them.
-  void part();
+  /// - @p force_from_next_rest 0: they are not asked for another rest [N]
+  void part(double force_from_next_rest = 0.0);
 
   FrameSums& frame() { return frame_; }
   const FrameSums& frame() const { return frame_; }
@@ -79,7 +82,6 @@ class ContactCurve {
   std::vector<Contact> contacts_;
   std::vector<PatchLoad> loads_;  ///< in the same order
   double mean_gap_ = 0.0;
-  double force_from_next_rest_ = 0.0;  ///< 0: none that is as likely [N]
   bool has_flowed_ = false;
   SeparationCurve way_out_;  ///< where it is another than the way in
   bool has_way_out_ = false;

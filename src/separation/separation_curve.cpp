@@ -225,17 +225,15 @@ void followCurve(FrameSums& frame, const ContactSettings& settings, SeparationCu
 
 double forceFromNextRest(FrameSums& frame, const ContactSettings& settings, const SeparationCurve& curve) {
   if (curve.status != Status::kEquilibrium) return 0.0;
-  const auto isPushedBack = [&](const SeparationState& state) {
-    return -(state.force() + settings.load.mechanical_load) > kError * state.carried;
-  };
   double largest = 0.0;
   bool is_past = false;  // what keeps the surfaces from coming nearer
   SeparationState state = curve.beyond_rest;
   for (int step = static_cast<int>(curve.states.size()) - stepsApart(); step < settings.approach.max_steps; ++step) {
-    is_past = is_past || state.force() + settings.load.mechanical_load > 0.0;
+    const double excess = state.force() + settings.load.mechanical_load;
+    is_past = is_past || excess > 0.0;
     if (is_past) largest = std::max(largest, state.partingForce());
     const double approach = wayInAfter(frame, step);
-    if (isPushedBack(state) || !(approach > state.approach)) break;
+    if (-excess > kError * state.carried || !(approach > state.approach)) break;
     state = stateAt(frame, approach, curve.way);
   }
   return largest;

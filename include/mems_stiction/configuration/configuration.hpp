@@ -23,7 +23,7 @@
 
 namespace mems_stiction {
 
-/// Scans beyond are refused with a sentence.
+/// What one scan may take of the machine, so that no scan stops the ones behind it. Scans beyond are refused with a sentence.
 struct ScanLimits {
   static constexpr const char* kMaxTime = "limits/max_time";
 
