@@ -33,12 +33,8 @@ class ContactCurve {
   /// Field, settings and gaps must outlive the object's use.
   /// - @p far as in FrameSums
   void comeToRest(const GapField& field, const ContactSettings& settings, const FarGaps* far = nullptr);
-  /// Of the surfaces at rest: forceFromNextRest() of separation_curve.hpp [N].
-  double forceFromNextRest(const ContactSettings& settings) {
-    return mems_stiction::forceFromNextRest(frame_, settings, way_in_);
-  }
   /// From then on frame() is that of the surfaces as flow has changed them.
-  /// - @p force_from_next_rest 0: they are not asked for another rest [N]
+  /// - @p force_from_next_rest forceFromNextRest() of the way in; 0 where they are not asked for another rest [N]
   void part(double force_from_next_rest = 0.0);
 
   FrameSums& frame() { return frame_; }

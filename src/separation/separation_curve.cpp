@@ -223,18 +223,23 @@ void followCurve(FrameSums& frame, const ContactSettings& settings, SeparationCu
   takeFigures(frame, work_apart, curve);
 }
 
-double forceFromNextRest(FrameSums& frame, const ContactSettings& settings, const SeparationCurve& curve) {
-  if (curve.status != Status::kEquilibrium) return 0.0;
+double forceFromNextRest(const GapField& field, const ContactSettings& settings, const SeparationCurve& way_in) {
+  const auto excess = [&](const SeparationState& state) { return state.force() + settings.load.mechanical_load; };
+  const auto isPushedBack = [&](const SeparationState& state) { return -excess(state) > kError * state.carried; };
+  if (way_in.status != Status::kEquilibrium || isPushedBack(way_in.beyond_rest)) return 0.0;
+  FrameSums frame;  // of its own: how many cells are in order shows in the last digits of sums
+  frame.start(field, settings);
   double largest = 0.0;
   bool is_past = false;  // what keeps the surfaces from coming nearer
-  SeparationState state = curve.beyond_rest;
-  for (int step = static_cast<int>(curve.states.size()) - stepsApart(); step < settings.approach.max_steps; ++step) {
-    const double excess = state.force() + settings.load.mechanical_load;
-    is_past = is_past || excess > 0.0;
-    if (is_past) largest = std::max(largest, state.partingForce());
+  double before = way_in.beyond_rest.approach;
+  for (int step = static_cast<int>(way_in.states.size()) - stepsApart(); step < settings.approach.max_steps; ++step) {
     const double approach = wayInAfter(frame, step);
-    if (-excess > kError * state.carried || !(approach > state.approach)) break;
-    state = stateAt(frame, approach, curve.way);
+    if (!(approach > before)) break;
+    const SeparationState state = stateAt(frame, approach, way_in.way);
+    is_past = is_past || excess(state) > 0.0;
+    if (is_past) largest = std::max(largest, state.partingForce());
+    if (isPushedBack(state)) break;
+    before = approach;
   }
   return largest;
 }

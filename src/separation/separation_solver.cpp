@@ -25,7 +25,6 @@ void SeparationSolver::solve(const ContactProblem& problem, ContactSolution& sol
   const ContactProblem standing = {problem.surfaces, at_rest, problem.composite_rms_height, settings};
 
   comeToRest(standing, solution);
-  const double force_from_next_rest = is_thick || bent_.isStiff() ? curve_.forceFromNextRest(settings) : 0.0;
   const double joined_share = curve_.joinedShare();
   const double contact_modulus = curve_.frame().patchForces().contactModulus();
   const GapField& left_to_close = closed ? *closed->gap : at_rest;
@@ -33,7 +32,8 @@ void SeparationSolver::solve(const ContactProblem& problem, ContactSolution& sol
   solution.flattening_energy = flattening_energy + (closed ? closed->bodies.energy : 0.0);
   const bool bends = closed && solution.flattening_energy < chosen::kBends * flattening_.of(settled, contact_modulus);
 
-  curve_.part(force_from_next_rest);
+  const bool stays_straight = is_thick || bent_.isStiff();
+  curve_.part(stays_straight ? forceFromNextRest(at_rest, settings, curve_.wayIn()) : 0.0);
   conforming_.start(left_to_close, curve_.frame().law(), contact_modulus, flattening_energy,
                     closed ? &closed->bodies : nullptr);
   const std::optional<WayOut> conforming =
@@ -41,7 +41,7 @@ void SeparationSolver::solve(const ContactProblem& problem, ContactSolution& sol
                        solution.flattening_energy / curve_.frame().law().workOfAdhesion(),
                        settings.load.mechanical_load / curve_.frame().area());
   takeDecision(conforming.has_value(), solution);
-  if (conforming || is_thick || bent_.isStiff()) {
+  if (conforming || stays_straight) {
     takeWayOut(conforming ? *conforming : curve_.byContacts(), solution);
     listPullOffContacts(standing, solution);
   } else {

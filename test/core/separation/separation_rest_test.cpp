@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "separation/contact_curve.hpp"
 #include "support/separation_cases.hpp"
+#include "surface/gaussian_surface.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -50,6 +52,28 @@ TEST(SeparationRest, isDoubtedWhereHardlyAnythingKeepsTheSurfacesFromOneThatHold
   EXPECT_TRUE(pressed.model.doubt == nullptr ||
               std::string(pressed.model.doubt).find("nearer rest") == std::string::npos)
       << pressed.model.doubt;
+}
+
+TEST(SeparationRest, figuresAreThoseOfACurveThatWasNotAskedForAnother) {
+  GaussianSurfaceOptions of_surface;
+  of_surface.rows = of_surface.cols = 64;
+  of_surface.pitch_x = of_surface.pitch_y = 4e-9;
+  of_surface.rms_height = 0.6e-9;
+  of_surface.correlation_length_x = of_surface.correlation_length_y = 30e-9;
+  of_surface.seed = 97;
+  const HeightMap surface = gaussianSurface(of_surface);
+  const Options options = separation_cases::elastic(10e9);  // soft: what follows rest is another way out
+  const Prediction prediction = AdhesionModel(options).predict(surface);
+  ASSERT_NE(prediction.model.doubt, nullptr);
+  ASSERT_NE(std::string(prediction.model.doubt).find("nearer rest"), std::string::npos) << prediction.model.doubt;
+  GapField field;
+  field.compute(surface);
+  ContactCurve curve;
+  curve.comeToRest(field, options);
+  curve.part();
+  EXPECT_EQ(prediction.pull_off_force, curve.byContacts().force);
+  EXPECT_EQ(prediction.apparent_work_of_adhesion, curve.byContacts().work);
+  EXPECT_EQ(prediction.work_exponents.hamaker, curve.byContacts().work_exponents.hamaker);
 }
 
 TEST(SeparationRest, forcesBalanceThereThoughOneSideIsAWall) {
