@@ -108,7 +108,7 @@ void FrameSums::extend(double fraction) {
 
 void FrameSums::orderUpTo(double approach, double expected) {
   if (far_ != nullptr && approach > far_->first()) throw CellsMissing(approach);
-  while (approach >= order_.groupLowerEnd(order_.groupCount()) && ordered_fraction_ < 1.0) {
+  while (!isOrderedUpTo(approach)) {
     const double more = std::max(kMoreCells * ordered_fraction_, order_.cellsBelow(expected) / field_->validCount());
     // the curve ends at the limit of contact, but for the step that passes it
     extend(ordered_fraction_ < most_fraction_ ? std::min(more, most_fraction_) : std::min(more, 1.0));

@@ -86,6 +86,9 @@ class FrameSums {
   double approachBeforeLimit() const { return approach_before_limit_; }
   /// Where it is reached [m].
   double limitApproach();
+  /// Whether the sums at an approach, without a hold, take no more cells in order than there are. Which there are shows in the last
+  /// digits of all sums.
+  bool hasInOrder(double approach) const { return isOrderedUpTo(approach + law().range()); }
 
  private:
   struct Attraction {
@@ -96,6 +99,9 @@ class FrameSums {
   void startSweeps();
   /// Forward, or back and forward.
   void sweepTo(double approach, OverlapSweep& sweep, const OverlapSweep& marked, const OverlapSweep* ahead);
+  bool isOrderedUpTo(double gap) const {
+    return gap < order_.groupLowerEnd(order_.groupCount()) || ordered_fraction_ >= 1.0;
+  }
   /// Brings enough cells into order for this approach, and for the expected one.
   void orderUpTo(double approach, double expected);
   void extend(double fraction);

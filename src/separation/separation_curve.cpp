@@ -223,19 +223,23 @@ void followCurve(FrameSums& frame, const ContactSettings& settings, SeparationCu
   takeFigures(frame, work_apart, curve);
 }
 
-double forceFromNextRest(const GapField& field, const ContactSettings& settings, const SeparationCurve& way_in) {
+double forceFromNextRest(FrameSums& frame, const ContactSettings& settings, const SeparationCurve& way_in) {
   const auto excess = [&](const SeparationState& state) { return state.force() + settings.load.mechanical_load; };
   const auto isPushedBack = [&](const SeparationState& state) { return -excess(state) > kError * state.carried; };
   if (way_in.status != Status::kEquilibrium || isPushedBack(way_in.beyond_rest)) return 0.0;
-  FrameSums frame;  // of its own: how many cells are in order shows in the last digits of sums
-  frame.start(field, settings);
+  FrameSums farther;  // for more cells than the frame has in order
+  FrameSums* sums = &frame;
   double largest = 0.0;
   bool is_past = false;  // what keeps the surfaces from coming nearer
   double before = way_in.beyond_rest.approach;
   for (int step = static_cast<int>(way_in.states.size()) - stepsApart(); step < settings.approach.max_steps; ++step) {
-    const double approach = wayInAfter(frame, step);
+    if (sums == &frame && !frame.hasInOrder(approachAfter(step, frame.law().range()))) {
+      farther.start(frame.field(), settings);
+      sums = &farther;
+    }
+    const double approach = wayInAfter(*sums, step);
     if (!(approach > before)) break;
-    const SeparationState state = stateAt(frame, approach, way_in.way);
+    const SeparationState state = stateAt(*sums, approach, way_in.way);
     is_past = is_past || excess(state) > 0.0;
     if (is_past) largest = std::max(largest, state.partingForce());
     if (isPushedBack(state)) break;

@@ -79,8 +79,8 @@ void followCurve(FrameSums& frame, const ContactSettings& settings, SeparationCu
 
 /// The largest parting force on the way from a rest farther on [N]; 0 where there is none, or where what keeps the surfaces from it
 /// is more than the error with which the curve knows what the contacts carry.
-/// - @p way_in of these, all of whose cells are in the field
-double forceFromNextRest(const GapField& field, const ContactSettings& settings, const SeparationCurve& way_in);
+/// - @p frame whose curve it is, all of whose cells are in its field; its sums stay as they are
+double forceFromNextRest(FrameSums& frame, const ContactSettings& settings, const SeparationCurve& way_in);
 
 /// The way out from the rest of a way in: summits that were soft there hold on.
 Way wayOutOf(const SeparationCurve& way_in, double range);

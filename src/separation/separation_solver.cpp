@@ -33,7 +33,7 @@ void SeparationSolver::solve(const ContactProblem& problem, ContactSolution& sol
   const bool bends = closed && solution.flattening_energy < chosen::kBends * flattening_.of(settled, contact_modulus);
 
   const bool stays_straight = is_thick || bent_.isStiff();
-  curve_.part(stays_straight ? forceFromNextRest(at_rest, settings, curve_.wayIn()) : 0.0);
+  curve_.part(stays_straight ? forceFromNextRest(curve_.frame(), settings, curve_.wayIn()) : 0.0);
   conforming_.start(left_to_close, curve_.frame().law(), contact_modulus, flattening_energy,
                     closed ? &closed->bodies : nullptr);
   const std::optional<WayOut> conforming =
