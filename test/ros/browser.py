@@ -131,11 +131,24 @@ class Browser:
         self._call("Input.dispatchMouseEvent", type=kind, x=place[0], y=place[1], **more)
 
     def click(self, selector, across=0.5, down=0.5, count=1):
-        """With the mouse, in the middle of the element or elsewhere on it; count: 2 for a double click."""
-        place = self.place(selector, across, down)
-        for number in range(1, count + 1):
-            for kind in ("mousePressed", "mouseReleased"):
-                self.mouse(kind, place, button="left", clickCount=number)
+        """With the mouse, in the middle of the element or elsewhere on it; count: 2 for a double click. Once more where the page moved meanwhile."""
+        end = time.monotonic() + TIMEOUT
+        while True:
+            self.value("""(() => {
+              window.clicked = [];
+              window.wanted = %s;
+              window.noteClick ||= (event) => clicked.push({hit: event.target.closest(wanted) !== null, on: event.target.outerHTML.slice(0, 200)});
+              window.addEventListener('click', noteClick, {capture: true});
+            })()""" % json.dumps(selector))
+            place = self.place(selector, across, down)
+            for number in range(1, count + 1):
+                for kind in ("mousePressed", "mouseReleased"):
+                    self.mouse(kind, place, button="left", clickCount=number)
+            clicked = self.value("clicked")
+            if sum(click["hit"] for click in clicked) == count:
+                return
+            if time.monotonic() > end:
+                raise AssertionError("clicks on %s at %s do not reach it, but %s" % (selector, place, [click["on"] for click in clicked]))
 
     def drag(self, selector, start, end):
         """With the mouse, from one point of the element to another."""

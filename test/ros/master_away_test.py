@@ -178,13 +178,15 @@ class MasterAwayTest(unittest.TestCase):
         get_load = node.proxy("get_load", GetLoad)
         reset = node.proxy("reset_surface", Trigger)
         set_voltage = node.proxy("set_voltage", SetVoltage)
-        get_load(), reset()
+        get_load_too = node.proxy("get_load", GetLoad)
+        get_load(), get_load_too(), reset()
         surface = rough_surface(1)
         threads = thread_count(node.process)
         waiting = [Background(node.proxy("predict", Predict), image_message(surface, rospy.Time(5)), info_message(rospy.Time(5)), 0.0, LOAD)
                    for _ in range(40)]
         wait_until(lambda: thread_count(node.process) >= threads + len(waiting) - IDLE, "a thread of the node for each call")
-        others = [Background(call) for call in (get_load, reset, lambda: set_voltage(3.0), get_load)]
+        # each by its own connection: two threads on one would take each other's answers
+        others = [Background(call) for call in (get_load, reset, lambda: set_voltage(3.0), get_load_too)]
         for call in others:
             call.join(TIMEOUT)
         for call in waiting:
