@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "contact/guidance_setting.hpp"
+#include "prediction/contact_solvers.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -20,7 +21,7 @@ RunningSettings::RunningSettings(const Configuration& configuration)
       load(configuration.model.load),
       device(configuration.device),
       guidance(configuration.model.guidance),
-      paper(configuration.model.paper) {}
+      solver(configuration.model.solver) {}
 
 void RunningSettings::describe(OptionVisitor& visitor) {
   interface.describe(visitor);
@@ -28,7 +29,7 @@ void RunningSettings::describe(OptionVisitor& visitor) {
   load.describe(visitor);
   device.describe(visitor);
   describeGuidance(visitor, guidance);
-  paper.describe(visitor);
+  describeOwnSettings(solver, visitor);
 }
 
 SettingsOwner::SettingsOwner(const Configuration& configuration) : configuration_(checked(configuration)) {}
@@ -46,7 +47,7 @@ void SettingsOwner::change(const RunningSettings& settings) {
   configuration.model.load = settings.load;
   configuration.device = settings.device;
   configuration.model.guidance = settings.guidance;
-  configuration.model.paper = settings.paper;
+  configuration.model.solver = settings.solver;
   configuration_ = checked(std::move(configuration));
 }
 

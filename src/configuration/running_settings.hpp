@@ -20,8 +20,8 @@ struct RunningSettings {
   CapillaryOptions capillary;
   LoadOptions load;
   DeviceOptions device;
-  Guidance guidance;  ///< of the section device, too
-  PaperOptions paper;
+  Guidance guidance;      ///< of the section device, too
+  SolverSettings solver;  ///< what single solvers ask for beside
 
   explicit RunningSettings(const Configuration& configuration);
 

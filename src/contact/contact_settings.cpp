@@ -12,15 +12,6 @@ void ApproachOptions::describe(OptionVisitor& visitor) {
                       "neighbours that join cells into one patch");
 }
 
-void PaperOptions::describe(OptionVisitor& visitor) {
-  visitor.formerName("approach/step", "paper/step");
-  visitor.number("paper/step", step, "m", Range::nonNegative(),
-                 "approach per step; 0 = a fiftieth of the composite rms height");
-  visitor.formerName("interface/cutoff_distance", "paper/cutoff_distance");
-  visitor.number("paper/cutoff_distance", cutoff_distance, "m", Range::positive(),
-                 "interatomic cut-off: smaller gaps count as this in van der Waals sums");
-}
-
 void OutputOptions::describe(OptionVisitor& visitor) {
   visitor.flag("output/deformed_surfaces", deformed_surfaces, "compute both surfaces after contact");
   visitor.flag("output/contact_map", contact_map, "compute the map of deformation regimes");

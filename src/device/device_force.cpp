@@ -18,10 +18,10 @@
 #include "device/surface_law.hpp"
 #include "errors/short_number.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
-#include "mems_stiction/verdict/margin_uncertainty.hpp"
 #include "numeric/constants.hpp"
 #include "numeric/mean.hpp"
 #include "numeric/median.hpp"
+#include "verdict/margin_uncertainty.hpp"
 #include "verdict/part_verdict.hpp"
 
 namespace mems_stiction {

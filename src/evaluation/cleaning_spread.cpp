@@ -11,6 +11,7 @@
 #include "prediction/asked_output.hpp"
 #include "prediction/prediction_fields.hpp"
 #include "preprocess/tilt.hpp"
+#include "verdict/margin_uncertainty.hpp"
 
 namespace mems_stiction {
 namespace {

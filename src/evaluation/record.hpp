@@ -18,6 +18,7 @@
 #include "mems_stiction/preprocess/pipeline.hpp"
 #include "mems_stiction/settings/figure.hpp"
 #include "mems_stiction/verdict/verdict.hpp"
+#include "verdict/margin_uncertainty.hpp"
 
 namespace mems_stiction {
 

@@ -16,6 +16,7 @@
 
 #include "mems_stiction/contact/contact_settings.hpp"
 #include "mems_stiction/loads/capillary.hpp"
+#include "mems_stiction/paper/paper_options.hpp"
 #include "paper/cap_couple.hpp"
 #include "paper/cell_forces.hpp"
 #include "paper/equilibrium_state.hpp"

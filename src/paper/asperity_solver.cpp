@@ -23,8 +23,9 @@ double meanGapApart(const EquilibriumState& state, const GapField& field, const 
 
 void AsperitySolver::solve(const ContactProblem& problem, ContactSolution& solution) {
   const ContactSettings& settings = problem.settings;
-  const double cutoff = settings.paper.cutoff_distance;
-  const double step = approachStep(settings.paper, problem.composite_rms_height);
+  const auto& own = settings.solver.of<PaperOptions>();
+  const double cutoff = own.cutoff_distance;
+  const double step = approachStep(own, problem.composite_rms_height);
   order_.build(problem.gap, settings.approach.max_contact_fraction, step);
 
   const ContactPair pair(settings.lower, settings.upper);

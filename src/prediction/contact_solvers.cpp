@@ -1,9 +1,11 @@
 #include "prediction/contact_solvers.hpp"
 
+#include <algorithm>
 #include <initializer_list>
 #include <utility>
 
 #include "mems_stiction/errors/errors.hpp"
+#include "mems_stiction/paper/paper_options.hpp"
 #include "mems_stiction/settings/option_visitor.hpp"
 #include "paper/asperity_solver.hpp"
 #include "separation/separation_solver.hpp"
@@ -12,17 +14,24 @@
 namespace mems_stiction {
 namespace {
 
+using DescribeOwn = void (*)(SolverSettings&, OptionVisitor&);
+
 struct Entry {
   const char* formulation;
   std::unique_ptr<ContactSolver> (*make)();
   std::vector<UnusedSetting> (*unused)(const ContactSettings&);  ///< that have no meaning for it
   SolverSkills skills;
-  bool is_of_paper;  ///< whether paper/... are its settings
+  DescribeOwn describe_own;  ///< shows the settings that not every solver asks for; nullptr: it has none
 };
 
 template <typename Solver, auto... Arguments>
 std::unique_ptr<ContactSolver> make() {
   return std::make_unique<Solver>(Arguments...);
+}
+
+template <typename Own>
+void describeOwn(SolverSettings& settings, OptionVisitor& visitor) {
+  settings.of<Own>().describe(visitor);
 }
 
 std::vector<UnusedSetting> usesAll(const ContactSettings&) { return {}; }
@@ -31,9 +40,9 @@ constexpr SolverSkills kAllSkills = {true, true, true, true};
 
 /// A line per solver, the default first.
 constexpr Entry kSolvers[] = {
-    {"separation_curve", make<SeparationSolver>, CurveStatement::unusedSettings, kAllSkills, false},
-    {"paper", make<AsperitySolver, Formulation::kPaper>, usesAll, {}, true},
-    {"printed", make<AsperitySolver, Formulation::kPrinted>, usesAll, {}, true},
+    {"separation_curve", make<SeparationSolver>, CurveStatement::unusedSettings, kAllSkills, nullptr},
+    {"paper", make<AsperitySolver, Formulation::kPaper>, usesAll, {}, describeOwn<PaperOptions>},
+    {"printed", make<AsperitySolver, Formulation::kPrinted>, usesAll, {}, describeOwn<PaperOptions>},
 };
 
 /// What only condensed water needs.
@@ -70,6 +79,21 @@ constexpr Retired kRetired[] = {
     {"corrected", "`separation_curve` is the default, `paper` is nearest to what it was"},
 };
 
+/// The own settings of all solvers, those that several share once; without those that one of them describes.
+struct OwnSettings {
+  SolverSettings& settings;
+  DescribeOwn without = nullptr;
+
+  void describe(OptionVisitor& visitor) {
+    std::vector<DescribeOwn> shown = {nullptr, without};
+    for (const Entry& entry : kSolvers) {
+      if (std::find(shown.begin(), shown.end(), entry.describe_own) != shown.end()) continue;
+      shown.push_back(entry.describe_own);
+      entry.describe_own(settings, visitor);
+    }
+  }
+};
+
 }  // namespace
 
 const char* const kDefaultFormulation = kSolvers[0].formulation;
@@ -92,6 +116,8 @@ std::string retirement(const std::string& formulation) {
   return "";
 }
 
+void describeOwnSettings(SolverSettings& settings, OptionVisitor& visitor) { OwnSettings{settings}.describe(visitor); }
+
 SolverSkills skillsOf(const std::string& formulation) {
   for (const Entry& entry : kSolvers) {
     if (formulation == entry.formulation) return entry.skills;
@@ -104,9 +130,10 @@ std::vector<IgnoredSetting> ignoredSettings(const std::string& formulation, cons
   for (const Entry& entry : kSolvers) {
     if (formulation != entry.formulation) continue;
     const std::string has_no_use = "approach/formulation " + formulation + " does not use it";
-    if (!entry.is_of_paper) {
-      visitValues(settings.paper, [&](const std::string& key, const auto&) { ignored.push_back({key, has_no_use}); });
-    }
+    SolverSettings own = settings.solver;
+    visitValues(OwnSettings{own, entry.describe_own}, [&](const std::string& key, const auto&) {
+      ignored.push_back({key, has_no_use});
+    });
     for (const UnusedSetting& unused : entry.unused(settings)) {
       ignored.push_back({unused.key, unused.why != nullptr ? unused.why : has_no_use});
     }

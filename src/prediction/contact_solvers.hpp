@@ -18,6 +18,9 @@ namespace mems_stiction {
 /// other name.
 std::string retirement(const std::string& formulation);
 
+/// Shows what single solvers ask for beside the settings of all.
+void describeOwnSettings(SolverSettings& settings, OptionVisitor& visitor);
+
 /// What a solver does that not every one does.
 struct SolverSkills {
   bool bends_bodies = false;      ///< asks how thick bodies are

@@ -20,7 +20,7 @@ void Options::describe(OptionVisitor& visitor) {
   visitor.enumeration("approach/deformation", deformation,
                       {{"three_regimes", Deformation::kThreeRegimes}, {"elastic", Deformation::kElastic}},
                       "elastic, elasto-plastic and plastic asperities, or all of them elastic");
-  paper.describe(visitor);
+  describeOwnSettings(solver, visitor);
   output.describe(visitor);
 }
 

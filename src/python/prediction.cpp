@@ -28,6 +28,7 @@
 #include "mems_stiction/evaluation/half_space_scan.hpp"
 #include "mems_stiction/evaluation/scan_predictor.hpp"
 #include "prediction/force_curve.hpp"
+#include "verdict/margin_uncertainty.hpp"
 #include "verdict/regime_flags.hpp"
 #include "without_lock.hpp"
 

@@ -1,7 +1,6 @@
 #include "ros/half_space_conversion.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "errors/one_line.hpp"
@@ -18,8 +17,6 @@ static_assert(static_cast<int>(HalfSpaceStatus::kLoadNotReached) == HalfSpaceSol
 static_assert(static_cast<int>(HalfSpaceStatus::kNotConverged) == HalfSpaceSolution::NOT_CONVERGED, "status");
 static_assert(static_cast<int>(HalfSpaceStatus::kTooManyStates) == HalfSpaceSolution::TOO_MANY_STATES, "status");
 static_assert(static_cast<int>(HalfSpaceStatus::kCancelled) == HalfSpaceSolution::CANCELLED, "status");
-
-constexpr std::int32_t kUnknownCount = -1;
 
 void addPoints(const std::vector<ForcePoint>& points, std::uint8_t direction, std::vector<HalfSpacePoint>& curve) {
   if (points.empty()) return;
@@ -52,7 +49,6 @@ HalfSpaceSolution halfSpaceMessage(const SolvedHalfSpace& solved, const LoadOpti
   message.message = withoutCommas(oneLine(solved.message));
   message.voltage = load.voltage;
   message.mechanical_load = load.mechanical_load;
-  if (std::isnan(solved.contact_area)) message.contact_count = kUnknownCount;
   message.states = static_cast<std::uint32_t>(solved.state_count);
 
   addPoints(solved.approach, HalfSpacePoint::APPROACH, message.curve);

@@ -33,6 +33,7 @@
 #include "mems_stiction/surface/surface_pair.hpp"
 #include "mems_stiction/verdict/verdict.hpp"
 #include "station/run_control.hpp"
+#include "verdict/margin_uncertainty.hpp"
 
 namespace mems_stiction {
 

@@ -25,8 +25,10 @@
 #include "mems_stiction/evaluation/half_space_scan.hpp"
 #include "mems_stiction/evaluation/scan_predictor.hpp"
 #include "mems_stiction/import/scan_file.hpp"
+#include "mems_stiction/paper/paper_options.hpp"
 #include "prediction/asked_output.hpp"
 #include "prediction/force_curve.hpp"
+#include "verdict/margin_uncertainty.hpp"
 
 namespace {
 
@@ -162,7 +164,7 @@ Configuration configurationOf(const Arguments& arguments) {
   Configuration configuration;
   if (!arguments.configuration.empty()) configuration = loadConfiguration(arguments.configuration);
   applyLoads(arguments, configuration.model.load);
-  if (arguments.step) configuration.model.paper.step = *arguments.step;
+  if (arguments.step) configuration.model.solver.of<PaperOptions>().step = *arguments.step;
   if (arguments.half_space) configuration.half_space.enabled = HalfSpaceUse::kAlways;
   configuration.check();
   for (const auto& [option, path] :

@@ -1,4 +1,4 @@
-#include "mems_stiction/verdict/margin_uncertainty.hpp"
+#include "verdict/margin_uncertainty.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -7,6 +7,7 @@
 #include "errors/short_number.hpp"
 #include "verdict/contact_size.hpp"
 #include "verdict/finding.hpp"
+#include "verdict/margin_uncertainty.hpp"
 #include "verdict/regime_flags.hpp"
 
 namespace mems_stiction {

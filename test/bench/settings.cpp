@@ -1,6 +1,7 @@
 #include "bench/settings.hpp"
 
 #include "approach/gap_order.hpp"
+#include "mems_stiction/paper/paper_options.hpp"
 
 namespace mems_stiction {
 namespace bench {
@@ -28,7 +29,7 @@ Options optionsFor(const Case& setting, const std::string& formulation, Pressing
     options.interface.insulator_thickness = 100e-9;
   }
   options.approach.max_contact_fraction = kContactFraction;
-  options.paper.step = fullApproach(frameOf(setting.frame, setting.size)) / setting.steps;
+  options.solver.of<PaperOptions>().step = fullApproach(frameOf(setting.frame, setting.size)) / setting.steps;
   options.output = {all_outputs, all_outputs, all_outputs, false, false};
   return options;
 }

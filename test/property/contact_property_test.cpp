@@ -8,6 +8,7 @@
 #include "approach/gap_field.hpp"
 #include "mems_stiction/evaluation/scan_predictor.hpp"
 #include "mems_stiction/mechanics/plasticity.hpp"
+#include "mems_stiction/paper/paper_options.hpp"
 #include "numeric/constants.hpp"
 #include "property/rough_pairs.hpp"
 #include "support/frame_gaps.hpp"
@@ -151,7 +152,7 @@ RC_GTEST_PROP(Loads, areTheSumsOverCells, (const PairCase& pair_case, const Sett
     if (!isValid(field, cell)) continue;
     const bool touches = found.contact_map.at<std::uint8_t>(cell / field.cols(), cell % field.cols()) != 0;
     const double gap = touches ? 0.0 : field.gap(cell) - found.approach;
-    const double distance = std::max(gap, options.paper.cutoff_distance);
+    const double distance = std::max(gap, options.solver.of<PaperOptions>().cutoff_distance);
     if (!touches) van_der_waals += options.interface.hamaker_constant * area / (6.0 * kPi * std::pow(distance, 3));
     electrostatic += field_factor / ((gap + insulator) * (gap + insulator));
   }

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "mems_stiction/paper/paper_options.hpp"
 #include "property/rough_pairs.hpp"
 
 namespace mems_stiction {
@@ -83,7 +84,7 @@ RC_GTEST_PROP(Scaling, lengthsByCAndStiffnessBySScaleForcesBySCSquared,
   options.upper.hardness *= s;
   options.interface.work_of_adhesion *= s * c;
   options.interface.hamaker_constant *= s * c * c * c;
-  options.paper.cutoff_distance *= c;
+  options.solver.of<PaperOptions>().cutoff_distance *= c;
   options.interface.equilibrium_distance *= c;
   options.interface.insulator_thickness *= c;
   options.load.mechanical_load *= s * c * c;
@@ -177,7 +178,8 @@ RC_GTEST_PROP(Tiles, twoOfAScanHaveTwiceItsForce, (PairCase pair_case, SettingCa
   setting.hamaker = setting.voltage = 0;
   pair_case.has_counter_surface = false;
   Options options = optionsOf(setting);
-  options.paper.step = 2e-12 * pair_case.rms_height;  // sigma/50; two tiles have the same but for round-off
+  options.solver.of<PaperOptions>().step =
+      2e-12 * pair_case.rms_height;  // sigma/50; two tiles have the same but for round-off
   options.output.asperities = false;
   const HeightMap tile = withLowBorder(pairOf(pair_case).lower);
   const bool is_beside = *rc::gen::arbitrary<bool>();

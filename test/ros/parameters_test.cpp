@@ -7,6 +7,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include "mems_stiction/errors/errors.hpp"
+#include "mems_stiction/paper/paper_options.hpp"
 #include "settings/option_yaml.hpp"
 
 namespace mems_stiction {
@@ -166,7 +167,7 @@ TEST(Parameters, TheParameterServersTypesArriveUnchanged) {
   const NodeConfiguration configuration = nodeConfigurationFromYaml(yamlFromParameters(tree));
   EXPECT_EQ(configuration.core.model.lower.youngs_modulus, 1.0 / 3.0);
   EXPECT_EQ(configuration.core.model.load.max_voltage, 7.0);
-  EXPECT_EQ(configuration.core.model.paper.cutoff_distance, 1e-9);
+  EXPECT_EQ(configuration.core.model.solver.of<PaperOptions>().cutoff_distance, 1e-9);
   EXPECT_TRUE(std::isnan(configuration.core.scan.invalid_value));
   EXPECT_TRUE(configuration.node.accumulate_deformation);
 }

@@ -6,6 +6,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "mems_stiction/paper/paper_options.hpp"
 #include "paper/approach_search.hpp"
 #include "paper/asperity_summary.hpp"
 #include "paper/cap_couple.hpp"
@@ -87,10 +88,11 @@ State stateAt(const Problem& problem, double approach, Touch touch) {
     const auto label = static_cast<int>(state.caps.size()) + 1;
     const bool is_inside = state.labelling.labels.at<int>(centre.cell.row, centre.cell.col) == label;
     if (!is_inside) centre = deepestCentre(patch, problem.field);
-    state.caps.push_back(capCouple(patch, problem.field, centre, problem.options.paper.cutoff_distance));
+    state.caps.push_back(
+        capCouple(patch, problem.field, centre, problem.options.solver.of<PaperOptions>().cutoff_distance));
     state.responses.emplace_back(state.caps.back(), problem.law);
   }
-  const CellForces forces(problem.options.interface, problem.options.paper.cutoff_distance,
+  const CellForces forces(problem.options.interface, problem.options.solver.of<PaperOptions>().cutoff_distance,
                           problem.options.load.voltage, problem.field.cellArea());
   state.load = sumLoads(problem.field, approach, touch, forces, problem.options.load.mechanical_load);
   state.balance = forceBalance(state.responses, state.load.total(), problem.law);
@@ -262,7 +264,7 @@ Prediction predict(const Options& options, const SurfacePair& surfaces) {
   prediction.invalid_fraction = 1.0 - static_cast<double>(problem.field.validCount()) / problem.field.cellCount();
 
   const double limit_gap = limitGap(problem.field, options.approach.max_contact_fraction);
-  const double step = approachStep(options.paper, prediction.composite_rms_height);
+  const double step = approachStep(options.solver.of<PaperOptions>(), prediction.composite_rms_height);
   State state;
   bool has_ended = false;
   while (!has_ended && prediction.steps < options.approach.max_steps) {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "mems_stiction/mechanics/plasticity.hpp"
+#include "mems_stiction/paper/paper_options.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
 #include "numeric/constants.hpp"
 #include "paper/force_balance.hpp"
@@ -127,7 +128,7 @@ Section plasticitySection() {
   const auto predict = [=](double pixels, double step, const Phase& phase) {
     Options options = contactOnly(load, work);
     options.lower.hardness = hardness;
-    options.paper.step = step;
+    options.solver.of<PaperOptions>().step = step;
     return AdhesionModel(options).predict(sphereOn({"", 4, 4, 0, 1.0, phase.x, phase.y}, radius, a, pixels));
   };
   const std::vector<Row> area_row =

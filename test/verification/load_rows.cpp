@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "mems_stiction/paper/paper_options.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
 #include "paper/cell_forces.hpp"
 #include "support/analytic_surfaces.hpp"

@@ -4,6 +4,7 @@
 
 #include "mechanics/surface_forces.hpp"
 #include "mems_stiction/contact/contact_settings.hpp"
+#include "mems_stiction/paper/paper_options.hpp"
 #include "paper/cell_forces.hpp"
 #include "support/reference_contacts.hpp"
 #include "verification/closed_forms.hpp"

@@ -3,6 +3,10 @@
 /// @file
 /// What a contact of two surfaces depends on beside the surfaces.
 
+#include <any>
+#include <map>
+#include <typeindex>
+
 #include "mems_stiction/loads/capillary.hpp"
 #include "mems_stiction/loads/interface.hpp"
 #include "mems_stiction/mechanics/material.hpp"
@@ -33,12 +37,24 @@ struct OutputOptions {
   void describe(OptionVisitor& visitor);
 };
 
-/// Settings that the paper's formulations use alone; keys paper/...
-struct PaperOptions {
-  double step = 0.0;                  ///< delta of (1) [m]; 0 = composite rms height / 50
-  double cutoff_distance = 0.165e-9;  ///< D0: gaps are not taken smaller in van der Waals sums [m], > 0
+/// Settings that single solvers ask for beside those of all: a struct of each such solver, by its type.
+class SolverSettings {
+ public:
+  /// As set, or as by default.
+  template <typename Own>
+  const Own& of() const {
+    static const Own as_by_default;
+    const auto found = all_.find(typeid(Own));
+    return found == all_.end() ? as_by_default : std::any_cast<const Own&>(found->second);
+  }
+  /// To be changed.
+  template <typename Own>
+  Own& of() {
+    return std::any_cast<Own&>(all_.try_emplace(typeid(Own), Own()).first->second);
+  }
 
-  void describe(OptionVisitor& visitor);
+ private:
+  std::map<std::type_index, std::any> all_;
 };
 
 /// How the part is led while it touches.
@@ -57,7 +73,7 @@ struct ContactSettings {
   ApproachOptions approach;
   Deformation deformation = Deformation::kThreeRegimes;
   Guidance guidance = Guidance::kGuided;
-  PaperOptions paper;
+  SolverSettings solver;
   OutputOptions output;
 };
 

@@ -51,7 +51,7 @@ struct SolvedHalfSpace {
   double rest_force = kNone;            ///< there; minus the mechanical load [N]
   double contact_area = kNone;          ///< at rest, cells that repel each other [m^2]
   double contact_fraction = kNone;      ///< the same over the area of the valid cells [-]
-  int contact_count = 0;                ///< at rest, connected groups of them
+  int contact_count = -1;               ///< at rest, connected groups of them; -1: not known
   double mean_gap = kNone;              ///< at rest, of the valid cells [m]
   /// By which the force changes with the height as the bodies leave rest; NaN where the first step from there jumps or
   /// finds no equilibrium, too [N/m].

@@ -47,7 +47,7 @@
 #include "mems_stiction/prediction/prediction.hpp"
 #include "mems_stiction/verdict/device_options.hpp"
 #include "mems_stiction/verdict/evidence.hpp"
-#include "mems_stiction/verdict/margin_uncertainty.hpp"
+#include "mems_stiction/verdict/uncertainty_options.hpp"
 
 namespace mems_stiction {
 

@@ -11,6 +11,7 @@
 #include "mems_stiction/configuration/configuration_yaml.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/evaluation/scan_predictor.hpp"
+#include "mems_stiction/paper/paper_options.hpp"
 #include "settings/option_yaml.hpp"
 #include "support/scratch_folder.hpp"
 
@@ -84,7 +85,7 @@ TEST(Configuration, GivenDefaultsAreKept) {
   defaults.model.load.mechanical_load = 1e-6;
   const Configuration configuration = configurationFromYaml(YAML::Load("paper/step: 1e-10"), defaults);
   EXPECT_EQ(configuration.model.load.mechanical_load, 1e-6);
-  EXPECT_EQ(configuration.model.paper.step, 1e-10);
+  EXPECT_EQ(configuration.model.solver.of<PaperOptions>().step, 1e-10);
 }
 
 TEST(Configuration, FormerNamesAreRefusedWithThoseOfNow) {

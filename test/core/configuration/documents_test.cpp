@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "mems_stiction/configuration/configuration.hpp"
+#include "mems_stiction/paper/paper_options.hpp"
 #include "paper/approach_search.hpp"
 
 namespace mems_stiction {

@@ -8,6 +8,7 @@
 
 #include "mems_stiction/configuration/configuration_yaml.hpp"
 #include "mems_stiction/errors/errors.hpp"
+#include "mems_stiction/paper/paper_options.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -27,13 +28,13 @@ TEST(SettingsOwner, ChangesTheRunningSettingsAndNoOthers) {
   settings.interface.work_of_adhesion = 0.1;
   settings.capillary.relative_humidity = 0.4;
   settings.device.spring_stiffness = 2.0;
-  settings.paper.cutoff_distance = 0.2e-9;
+  settings.solver.of<PaperOptions>().cutoff_distance = 0.2e-9;
   owner.change(settings);
   configuration.model.load.voltage = 3.0;
   configuration.model.interface.work_of_adhesion = 0.1;
   configuration.model.capillary.relative_humidity = 0.4;
   configuration.device.spring_stiffness = 2.0;
-  configuration.model.paper.cutoff_distance = 0.2e-9;
+  configuration.model.solver.of<PaperOptions>().cutoff_distance = 0.2e-9;
   EXPECT_EQ(toYaml(*owner.snapshot()), toYaml(configuration));
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "mems_stiction/evaluation/scan_predictor.hpp"
+#include "mems_stiction/paper/paper_options.hpp"
 #include "settings/time_limit.hpp"
 
 namespace mems_stiction {
@@ -50,7 +51,7 @@ TEST(ScanLimits, PixelsAreThoseAfterRefinement) {
 TEST(ScanLimits, AScanThatTakesLongerIsGivenUpAndTheNextOneIsPredicted) {
   Configuration configuration;
   configuration.model.formulation = "paper";
-  configuration.model.paper.step = 1e-21;  // so many steps take seconds
+  configuration.model.solver.of<PaperOptions>().step = 1e-21;  // so many steps take seconds
   configuration.model.approach.max_steps = 10000000;
   configuration.model.load.mechanical_load = 1e-3;
   configuration.limits.max_time = 0.1;
@@ -60,7 +61,7 @@ TEST(ScanLimits, AScanThatTakesLongerIsGivenUpAndTheNextOneIsPredicted) {
   // a step takes milliseconds at most; a hundred times the limit leaves room for a busy machine
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
 
-  configuration.model.paper.step = 0.0;
+  configuration.model.solver.of<PaperOptions>().step = 0.0;
   predictor.setOptions(configuration.model);
   configuration.limits.max_time = 0.0;
   ScanPredictor unlimited(configuration);

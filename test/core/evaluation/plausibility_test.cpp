@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "mems_stiction/configuration/configuration_yaml.hpp"
+#include "mems_stiction/paper/paper_options.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -35,7 +36,7 @@ TEST(Plausibility, ASlipOfAUnitIsNamedWithTheUnitThatWasMeant) {
   EXPECT_NE(onlyWarning(configuration).find("probably 100 nm; write 1e-07"), std::string::npos);
   configuration = Configuration();
   configuration.model.formulation = "paper";
-  configuration.model.paper.step = 0.1;
+  configuration.model.solver.of<PaperOptions>().step = 0.1;
   EXPECT_NE(onlyWarning(configuration).find("paper/step 0.1 m is outside the usual"), std::string::npos);
   configuration = Configuration();
   configuration.model.capillary.relative_humidity = 0.4;
@@ -70,13 +71,13 @@ TEST(Plausibility, AreasInSquareMicrometresAreNamed) {
 
 TEST(Plausibility, ASettingThatTheSolverDoesNotUseIsNamed) {
   Configuration configuration;
-  configuration.model.paper.step = 1e-9;
+  configuration.model.solver.of<PaperOptions>().step = 1e-9;
   EXPECT_EQ(onlyWarning(configuration), "paper/step 1e-09 has no effect: approach/formulation " +
                                             std::string(kDefaultFormulation) + " does not use it");
   configuration.model.formulation = "paper";
   EXPECT_TRUE(settingsWarnings(configuration).empty());
   configuration = Configuration();
-  configuration.model.paper.cutoff_distance = 0.2e-9;
+  configuration.model.solver.of<PaperOptions>().cutoff_distance = 0.2e-9;
   configuration.model.output.energy_curve = true;
   configuration.uncertainty.hardness = 0.3;
   configuration.uncertainty.cutoff_distance = 0.3;

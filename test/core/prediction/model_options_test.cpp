@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "mems_stiction/errors/errors.hpp"
+#include "mems_stiction/paper/paper_options.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
 #include "prediction/contact_solvers.hpp"
 
@@ -48,7 +49,7 @@ TEST(ModelOptions, nameWhatIsWrongItsValueAndWhatIsAllowed) {
   options.interface.work_of_adhesion = -0.01;
   expectViolation(options, "interface/work_of_adhesion", "-0.01", ">= 0");
   options = Options();
-  options.paper.cutoff_distance = 0.0;
+  options.solver.of<PaperOptions>().cutoff_distance = 0.0;
   expectViolation(options, "paper/cutoff_distance", "0", "> 0");
   options = Options();
   options.interface.hardness_ratio_limit = 1.0;
@@ -63,7 +64,7 @@ TEST(ModelOptions, nameWhatIsWrongItsValueAndWhatIsAllowed) {
   options.approach.max_steps = 0;
   expectViolation(options, "approach/max_steps", "0", "[1,");
   options = Options();
-  options.paper.step = std::numeric_limits<double>::infinity();
+  options.solver.of<PaperOptions>().step = std::numeric_limits<double>::infinity();
   expectViolation(options, "paper/step", "inf", ">= 0");
 }
 

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "mems_stiction/paper/paper_options.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
 #include "numeric/constants.hpp"
 #include "support/paper_options.hpp"
@@ -137,7 +138,7 @@ TEST_P(RoughSurface, hardlyDependsOnTheStep) {
   Options options = optionsOf(Deformation::kThreeRegimes, 5e-6);
   const Prediction automatic = AdhesionModel(options).predict(surface);
   for (const double divisor : {20.0, 100.0, 500.0}) {
-    options.paper.step = 1.5 * kNm / divisor;
+    options.solver.of<PaperOptions>().step = 1.5 * kNm / divisor;
     const Prediction prediction = AdhesionModel(options).predict(surface);
     EXPECT_EQ(prediction.status, automatic.status);
     EXPECT_NEAR(prediction.contact_area, automatic.contact_area, 0.05 * automatic.contact_area) << divisor;

@@ -10,6 +10,7 @@
 #include "support/program_run.hpp"
 #include "support/scratch_folder.hpp"
 #include "surface/translated_gaussian_surface.hpp"
+#include "verdict/margin_uncertainty.hpp"
 
 namespace mems_stiction {
 namespace {

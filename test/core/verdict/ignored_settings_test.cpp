@@ -11,9 +11,9 @@
 #include <gtest/gtest.h>
 
 #include "mems_stiction/prediction/adhesion_model.hpp"
-#include "mems_stiction/verdict/margin_uncertainty.hpp"
 #include "prediction/prediction_fields.hpp"
 #include "support/sample_frames.hpp"
+#include "verdict/margin_uncertainty.hpp"
 
 namespace mems_stiction {
 namespace {

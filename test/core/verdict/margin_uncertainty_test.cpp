@@ -1,4 +1,5 @@
-#include "mems_stiction/verdict/margin_uncertainty.hpp"
+#include "verdict/margin_uncertainty.hpp"
+#include "mems_stiction/paper/paper_options.hpp"
 
 #include <chrono>
 #include <cmath>
@@ -189,7 +190,9 @@ class SearchedAgain {
     };
     return {power([](Options& options, double&, double factor) { options.interface.work_of_adhesion *= factor; }),
             power(ofHardness), power(ofModulus), power([](Options&, double& pitch, double factor) { pitch = factor; }),
-            power([](Options& options, double&, double factor) { options.paper.cutoff_distance *= factor; })};
+            power([](Options& options, double&, double factor) {
+              options.solver.of<PaperOptions>().cutoff_distance *= factor;
+            })};
   }
 
  private:

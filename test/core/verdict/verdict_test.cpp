@@ -10,6 +10,7 @@
 #include "numeric/constants.hpp"
 #include "support/analytic_surfaces.hpp"
 #include "support/paper_options.hpp"
+#include "verdict/margin_uncertainty.hpp"
 #include "verdict/regime_flags.hpp"
 #include "verdict/verdict_fields.hpp"
 

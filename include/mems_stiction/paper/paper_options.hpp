@@ -1,0 +1,19 @@
+#pragma once
+
+/// @file
+/// Settings that the formulations `paper` and `printed` use alone; keys paper/...
+///
+///     options.solver.of<PaperOptions>().step = 0.1e-9;
+
+#include "mems_stiction/settings/option_visitor.hpp"
+
+namespace mems_stiction {
+
+struct PaperOptions {
+  double step = 0.0;                  ///< delta of (1) [m]; 0 = composite rms height / 50
+  double cutoff_distance = 0.165e-9;  ///< D0: gaps are not taken smaller in van der Waals sums [m], > 0
+
+  void describe(OptionVisitor& visitor);
+};
+
+}  // namespace mems_stiction
