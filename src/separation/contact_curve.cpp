@@ -43,6 +43,32 @@ void ContactCurve::comeToRest(const GapField& field, const ContactSettings& sett
   frame_.start(field, settings, far);
   followCurve(frame_, settings, way_in_);
   takeContacts();
+  if (way_in_.status == Status::kBonded && settings.load.mechanical_load > way_in_.rest().carried && far == nullptr) {
+    by_contacts_.contact_area = std::max(by_contacts_.contact_area, areaUnderLoad(field, settings));
+  }
+}
+
+double ContactCurve::areaUnderLoad(const GapField& field, ContactSettings settings) const {
+  settings.approach.max_contact_fraction = 1.0;
+  FrameSums whole;
+  whole.start(field, settings);
+  const double approach = restFrom(whole, settings, way_in_);
+  std::vector<PatchLoad> loads;
+  const OverlapSweep& sweep = whole.contactsAt(approach);
+  whole.patchForces().loadsOf(sweep, approach, loads);
+  double area = 0.0;
+  for (std::size_t i = 0; i < loads.size(); ++i) area += realArea(whole, sweep.patches()[i], loads[i], approach);
+  return area;
+}
+
+double ContactCurve::realArea(const FrameSums& frame, const OverlapPatch& patch, const PatchLoad& load,
+                              double approach) const {
+  const PatchForces& forces = frame.patchForces();
+  const double radius = patch.radius(approach, cell_area_);
+  const double rim_force = 2.0 * kPi * frame.law().workOfAdhesion() * radius / std::sqrt(patch.summits);
+  return cell_area_ * realCells({load, static_cast<double>(patch.cells), rim_force,
+                                 forces.pullOffPrefactor(radius / patch.summits),
+                                 forces.hardness() * patch.cells * cell_area_});
 }
 
 void ContactCurve::takeContacts() {
@@ -59,11 +85,8 @@ void ContactCurve::takeContacts() {
     Contact& contact = contacts_[i];
     const double area = patch.cells * cell_area_;
     contact.load = loads_[i];
-    const double radius = patch.radius(rest.approach, cell_area_);
-    contact.composite_radius = radius;
-    const double rim_force = 2.0 * kPi * frame_.law().workOfAdhesion() * radius / std::sqrt(patch.summits);
-    contact.area = cell_area_ * realCells({contact.load, static_cast<double>(patch.cells), rim_force,
-                                           forces.pullOffPrefactor(radius / patch.summits), forces.hardness() * area});
+    contact.composite_radius = patch.radius(rest.approach, cell_area_);
+    contact.area = realArea(frame_, patch, contact.load, rest.approach);
     contact.regime = regimeOf(contact.load, area, forces.hardness());
     by_contacts_.contact_area += contact.area;
     const double area_share = std::max(0.5, contact.load.carried / (forces.hardness() * area));
