@@ -66,9 +66,9 @@ double ContactCurve::realArea(const FrameSums& frame, const OverlapPatch& patch,
   const PatchForces& forces = frame.patchForces();
   const double radius = patch.radius(approach, cell_area_);
   const double rim_force = 2.0 * kPi * frame.law().workOfAdhesion() * radius / std::sqrt(patch.summits);
-  return cell_area_ * realCells({load, static_cast<double>(patch.cells), rim_force,
-                                 forces.pullOffPrefactor(radius / patch.summits),
-                                 forces.hardness() * patch.cells * cell_area_});
+  return cell_area_ *
+         realCells({load, static_cast<double>(patch.cells), rim_force, forces.pullOffPrefactor(radius / patch.summits),
+                    forces.hardness() * patch.cells * cell_area_});
 }
 
 void ContactCurve::takeContacts() {

@@ -4,8 +4,7 @@
 /// What a contact of two surfaces depends on beside the surfaces.
 
 #include <any>
-#include <map>
-#include <typeindex>
+#include <vector>
 
 #include "mems_stiction/loads/capillary.hpp"
 #include "mems_stiction/loads/interface.hpp"
@@ -44,17 +43,22 @@ class SolverSettings {
   template <typename Own>
   const Own& of() const {
     static const Own as_by_default;
-    const auto found = all_.find(typeid(Own));
-    return found == all_.end() ? as_by_default : std::any_cast<const Own&>(found->second);
+    for (const std::any& one : all_) {
+      if (const auto* const own = std::any_cast<Own>(&one)) return *own;
+    }
+    return as_by_default;
   }
   /// To be changed.
   template <typename Own>
   Own& of() {
-    return std::any_cast<Own&>(all_.try_emplace(typeid(Own), Own()).first->second);
+    for (std::any& one : all_) {
+      if (auto* const own = std::any_cast<Own>(&one)) return *own;
+    }
+    return all_.emplace_back().emplace<Own>();
   }
 
  private:
-  std::map<std::type_index, std::any> all_;
+  std::vector<std::any> all_;
 };
 
 /// How the part is led while it touches.
