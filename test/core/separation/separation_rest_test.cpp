@@ -76,6 +76,31 @@ TEST(SeparationRest, figuresAreThoseOfACurveThatWasNotAskedForAnother) {
   EXPECT_EQ(prediction.work_exponents.hamaker, curve.byContacts().work_exponents.hamaker);
 }
 
+TEST(SeparationRest, contactsGrowUnderALoadThatPressesBeyondTheSearch) {
+  GaussianSurfaceOptions of_surface;
+  of_surface.rows = of_surface.cols = 64;
+  of_surface.pitch_x = of_surface.pitch_y = 4e-9;
+  of_surface.rms_height = 2e-9;
+  of_surface.correlation_length_x = of_surface.correlation_length_y = 30e-9;
+  const HeightMap surface = gaussianSurface(of_surface);
+  const auto predict = [&](double load, double max_contact_fraction) {
+    Options options = separation_cases::elastic(50e9, load);
+    options.approach.max_contact_fraction = max_contact_fraction;
+    return AdhesionModel(options).predict(surface);
+  };
+  const double load = 5e-5;  // 0.76 GPa
+  const Prediction whole = predict(load, 1.0);
+  ASSERT_EQ(whole.status, Status::kEquilibrium);
+  double before = predict(0.5 * load, 0.3).contact_area;
+  for (const double share : {0.3, 0.5}) {
+    const Prediction ended = predict(load, share);
+    ASSERT_EQ(ended.status, Status::kBonded) << share;
+    ASSERT_LT(ended.approach, 0.9 * whole.approach) << share;
+    EXPECT_NEAR(ended.contact_area, whole.contact_area, 0.02 * whole.contact_area) << share;
+    EXPECT_GT(ended.contact_area, 1.2 * before) << share;
+  }
+}
+
 TEST(SeparationRest, forcesBalanceThereThoughOneSideIsAWall) {
   const double load = 1e-7;
   const Prediction prediction = predictAt(load);
