@@ -5,6 +5,7 @@
 #include <iostream>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -25,9 +26,9 @@
 #include "mems_stiction/evaluation/half_space_scan.hpp"
 #include "mems_stiction/evaluation/scan_predictor.hpp"
 #include "mems_stiction/import/scan_file.hpp"
-#include "mems_stiction/paper/paper_options.hpp"
 #include "prediction/asked_output.hpp"
 #include "prediction/force_curve.hpp"
+#include "settings/option_values.hpp"
 #include "verdict/margin_uncertainty.hpp"
 
 namespace {
@@ -158,13 +159,23 @@ void requireOutputs(const Arguments& arguments) {
   for (const auto& [option, path] : arguments.half_space_maps.wanted()) requireTiff(option, path);
 }
 
+/// One of the settings, by its key.
+void setNumber(Options& options, const std::string& key, double number) {
+  ValueVisitor visitor([&](const std::string& name, auto& value) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>) {
+      if (name == key) value = number;
+    }
+  });
+  options.describe(visitor);
+}
+
 /// The configuration file with the command line's values in it.
 /// @throw OptionsError, FileError
 Configuration configurationOf(const Arguments& arguments) {
   Configuration configuration;
   if (!arguments.configuration.empty()) configuration = loadConfiguration(arguments.configuration);
   applyLoads(arguments, configuration.model.load);
-  if (arguments.step) configuration.model.solver.of<PaperOptions>().step = *arguments.step;
+  if (arguments.step) setNumber(configuration.model, "paper/step", *arguments.step);
   if (arguments.half_space) configuration.half_space.enabled = HalfSpaceUse::kAlways;
   configuration.check();
   for (const auto& [option, path] :
