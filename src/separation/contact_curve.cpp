@@ -43,22 +43,35 @@ void ContactCurve::comeToRest(const GapField& field, const ContactSettings& sett
   frame_.start(field, settings, far);
   followCurve(frame_, settings, way_in_);
   takeContacts();
-  if (way_in_.status == Status::kBonded && settings.load.mechanical_load > way_in_.rest().carried && far == nullptr) {
-    by_contacts_.contact_area = std::max(by_contacts_.contact_area, areaUnderLoad(field, settings));
-  }
+  if (way_in_.status == Status::kBonded && far == nullptr) growTo(settings.load.mechanical_load);
 }
 
-double ContactCurve::areaUnderLoad(const GapField& field, ContactSettings settings) const {
-  settings.approach.max_contact_fraction = 1.0;
-  FrameSums whole;
-  whole.start(field, settings);
-  const double approach = restFrom(whole, settings, way_in_);
-  std::vector<PatchLoad> loads;
-  const OverlapSweep& sweep = whole.contactsAt(approach);
-  whole.patchForces().loadsOf(sweep, approach, loads);
-  double area = 0.0;
-  for (std::size_t i = 0; i < loads.size(); ++i) area += realArea(whole, sweep.patches()[i], loads[i], approach);
-  return area;
+// (S13d)
+void ContactCurve::growTo(double load) {
+  const SeparationState& rest = way_in_.rest();
+  if (!(load > rest.carried)) return;
+  double gaps = 0.0;
+  for (const OverlapPatch& patch : frame_.contactsAt(rest.approach).patches()) gaps += patch.gap_sum;
+  const double cells_at_rest = static_cast<double>(rest.contact_count);
+  double approach = rest.approach;
+  double cells = cells_at_rest;
+  double volume = cells * approach - gaps;
+  double carried = rest.carried;
+  if (!(volume > 0.0)) return;
+  const double unit = carried * std::sqrt(cells) / volume;
+  while (carried < load && cells < static_cast<double>(frame_.validCount())) {
+    const double step = chosen::kStep * (frame_.law().range() + approach);
+    const double cells_before = cells;
+    const double carried_before = carried;
+    approach += step;
+    cells = frame_.cellsBelow(approach);
+    volume += 0.5 * (cells_before + cells) * step;
+    carried = unit * volume / std::sqrt(cells);
+    if (carried > load) {
+      cells = cells_before + (cells - cells_before) * (load - carried_before) / (carried - carried_before);
+    }
+  }
+  by_contacts_.contact_area = std::min(frame_.area(), by_contacts_.contact_area * cells / cells_at_rest);
 }
 
 double ContactCurve::realArea(const FrameSums& frame, const OverlapPatch& patch, const PatchLoad& load,

@@ -70,8 +70,9 @@ class ContactCurve {
   void takeContacts();
   /// Of a patch at an approach, (S13) [m^2].
   double realArea(const FrameSums& frame, const OverlapPatch& patch, const PatchLoad& load, double approach) const;
-  /// Where the load presses the surfaces together farther than the search goes [m^2].
-  double areaUnderLoad(const GapField& field, ContactSettings settings) const;
+  /// Lets the contact area grow where a load is more than the contacts carry at the end of the search: all of them as one
+  /// patch, whose overlap is that of the heights.
+  void growTo(double load);
   /// Where the way out is another than the way in: of surfaces that have flowed, or with soft summits, which hold on.
   void followChanged(const Way& way);
 

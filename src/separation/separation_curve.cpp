@@ -223,19 +223,6 @@ void followCurve(FrameSums& frame, const ContactSettings& settings, SeparationCu
   takeFigures(frame, work_apart, curve);
 }
 
-double restFrom(FrameSums& frame, const ContactSettings& settings, const SeparationCurve& way_in) {
-  const double load = settings.load.mechanical_load;
-  SeparationState above = way_in.rest();
-  for (int step = static_cast<int>(way_in.states.size()) - stepsApart(); step < settings.approach.max_steps; ++step) {
-    const double approach = wayInAfter(frame, step);
-    if (!(approach > above.approach)) break;
-    const SeparationState state = stateAt(frame, approach, way_in.way);
-    if (state.force() + load < 0.0) return crossing(above, state, load);
-    above = state;
-  }
-  return above.approach;
-}
-
 double forceFromNextRest(FrameSums& frame, const ContactSettings& settings, const SeparationCurve& way_in) {
   const auto excess = [&](const SeparationState& state) { return state.force() + settings.load.mechanical_load; };
   const auto isPushedBack = [&](const SeparationState& state) { return -excess(state) > kError * state.carried; };

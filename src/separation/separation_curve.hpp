@@ -77,10 +77,6 @@ SeparationState stateAt(FrameSums& frame, double approach, const Way& way, doubl
 /// approach/max_steps end first.
 void followCurve(FrameSums& frame, const ContactSettings& settings, SeparationCurve& curve);
 
-/// Where the surfaces come to rest that are still drawn together at the end of a way in: the approach at which the contacts
-/// carry the load, or at which all cells overlap [m].
-double restFrom(FrameSums& frame, const ContactSettings& settings, const SeparationCurve& way_in);
-
 /// The largest parting force on the way from a rest farther on [N]; 0 where there is none, or where what keeps the surfaces from it
 /// is more than the error with which the curve knows what the contacts carry.
 /// - @p frame whose curve it is, all of whose cells are in its field; its sums stay as they are

@@ -96,7 +96,7 @@ TEST(SeparationRest, contactsGrowUnderALoadThatPressesBeyondTheSearch) {
     const Prediction ended = predict(load, share);
     ASSERT_EQ(ended.status, Status::kBonded) << share;
     ASSERT_LT(ended.approach, 0.9 * whole.approach) << share;
-    EXPECT_NEAR(ended.contact_area, whole.contact_area, 0.02 * whole.contact_area) << share;
+    EXPECT_NEAR(ended.contact_area, whole.contact_area, 0.15 * whole.contact_area) << share;
     EXPECT_GT(ended.contact_area, 1.2 * before) << share;
   }
 }
