@@ -42,16 +42,14 @@ void ContactCurve::comeToRest(const GapField& field, const ContactSettings& sett
   has_way_out_ = false;
   frame_.start(field, settings, far);
   followCurve(frame_, settings, way_in_);
-  takeContacts();
-  if (way_in_.status == Status::kBonded && far == nullptr) growTo(settings.load.mechanical_load);
+  const double gaps = takeContacts();
+  if (way_in_.status == Status::kBonded && far == nullptr) growTo(settings.load.mechanical_load, gaps);
 }
 
 // (S13d)
-void ContactCurve::growTo(double load) {
+void ContactCurve::growTo(double load, double gaps) {
   const SeparationState& rest = way_in_.rest();
   if (!(load > rest.carried)) return;
-  double gaps = 0.0;
-  for (const OverlapPatch& patch : frame_.contactsAt(rest.approach).patches()) gaps += patch.gap_sum;
   const double cells_at_rest = static_cast<double>(rest.contact_count);
   double approach = rest.approach;
   double cells = cells_at_rest;
@@ -71,20 +69,10 @@ void ContactCurve::growTo(double load) {
       cells = cells_before + (cells - cells_before) * (load - carried_before) / (carried - carried_before);
     }
   }
-  by_contacts_.contact_area = std::min(frame_.area(), by_contacts_.contact_area * cells / cells_at_rest);
+  by_contacts_.contact_area *= cells / cells_at_rest;
 }
 
-double ContactCurve::realArea(const FrameSums& frame, const OverlapPatch& patch, const PatchLoad& load,
-                              double approach) const {
-  const PatchForces& forces = frame.patchForces();
-  const double radius = patch.radius(approach, cell_area_);
-  const double rim_force = 2.0 * kPi * frame.law().workOfAdhesion() * radius / std::sqrt(patch.summits);
-  return cell_area_ *
-         realCells({load, static_cast<double>(patch.cells), rim_force, forces.pullOffPrefactor(radius / patch.summits),
-                    forces.hardness() * patch.cells * cell_area_});
-}
-
-void ContactCurve::takeContacts() {
+double ContactCurve::takeContacts() {
   const SeparationState& rest = way_in_.rest();
   const OverlapSweep& sweep = frame_.contactsAt(rest.approach);
   const PatchForces& forces = frame_.patchForces();
@@ -98,8 +86,11 @@ void ContactCurve::takeContacts() {
     Contact& contact = contacts_[i];
     const double area = patch.cells * cell_area_;
     contact.load = loads_[i];
-    contact.composite_radius = patch.radius(rest.approach, cell_area_);
-    contact.area = realArea(frame_, patch, contact.load, rest.approach);
+    const double radius = patch.radius(rest.approach, cell_area_);
+    contact.composite_radius = radius;
+    const double rim_force = 2.0 * kPi * frame_.law().workOfAdhesion() * radius / std::sqrt(patch.summits);
+    contact.area = cell_area_ * realCells({contact.load, static_cast<double>(patch.cells), rim_force,
+                                           forces.pullOffPrefactor(radius / patch.summits), forces.hardness() * area});
     contact.regime = regimeOf(contact.load, area, forces.hardness());
     by_contacts_.contact_area += contact.area;
     const double area_share = std::max(0.5, contact.load.carried / (forces.hardness() * area));
@@ -110,6 +101,7 @@ void ContactCurve::takeContacts() {
   }
   const std::int64_t apart = frame_.validCount() - rest.contact_count;
   mean_gap_ = apart > 0 ? (frame_.gapSum() - touching) / static_cast<double>(apart) - rest.approach : 0.0;
+  return touching;
 }
 
 double ContactCurve::stiffness() const {

@@ -67,12 +67,12 @@ class ContactCurve {
   const std::vector<Regime>& regimeOfDale() const { return regime_of_dale_; }
 
  private:
-  void takeContacts();
-  /// Of a patch at an approach, (S13) [m^2].
-  double realArea(const FrameSums& frame, const OverlapPatch& patch, const PatchLoad& load, double approach) const;
+  /// @return sum of the gaps of the cells in contact [m]
+  double takeContacts();
   /// Lets the contact area grow where a load is more than the contacts carry at the end of the search: all of them as one
   /// patch, whose overlap is that of the heights.
-  void growTo(double load);
+  /// - @p gaps that takeContacts() has summed
+  void growTo(double load, double gaps);
   /// Where the way out is another than the way in: of surfaces that have flowed, or with soft summits, which hold on.
   void followChanged(const Way& way);
 

@@ -80,12 +80,12 @@ class FrameSums {
   double area() const { return static_cast<double>(validCount()) * field_->cellArea(); }
   /// Sum of the gaps of the valid cells at first touch [m].
   double gapSum() const { return field_->meanGap() * field_->validCount() + (far_ != nullptr ? far_->gapSum() : 0.0); }
+  /// Number of cells with a smaller gap, in order or not, of the field alone.
+  double cellsBelow(double approach) const { return order_.cellsBelow(approach); }
   /// Number of cells in contact at which approach/max_contact_fraction is reached.
   std::int64_t contactLimit() const;
   /// An approach that is no larger than where it is reached, and nearly there [m]: costs nothing.
   double approachBeforeLimit() const { return approach_before_limit_; }
-  /// Number of cells with a smaller gap, in order or not, of the field alone.
-  double cellsBelow(double approach) const { return order_.cellsBelow(approach); }
   /// Where it is reached [m].
   double limitApproach();
   /// Whether the sums at an approach, without a hold, take no more cells in order than there are. Which there are shows in the last

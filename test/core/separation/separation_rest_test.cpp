@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "separation/contact_curve.hpp"
+#include "support/sample_frames.hpp"
 #include "support/separation_cases.hpp"
-#include "surface/gaussian_surface.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -55,13 +55,7 @@ TEST(SeparationRest, isDoubtedWhereHardlyAnythingKeepsTheSurfacesFromOneThatHold
 }
 
 TEST(SeparationRest, figuresAreThoseOfACurveThatWasNotAskedForAnother) {
-  GaussianSurfaceOptions of_surface;
-  of_surface.rows = of_surface.cols = 64;
-  of_surface.pitch_x = of_surface.pitch_y = 4e-9;
-  of_surface.rms_height = 0.6e-9;
-  of_surface.correlation_length_x = of_surface.correlation_length_y = 30e-9;
-  of_surface.seed = 97;
-  const HeightMap surface = gaussianSurface(of_surface);
+  const HeightMap surface = samples::gaussian(64, 64, 4e-9, 4e-9, 0.6e-9, 30e-9, 97);
   const Options options = separation_cases::elastic(10e9);  // soft: what follows rest is another way out
   const Prediction prediction = AdhesionModel(options).predict(surface);
   ASSERT_NE(prediction.model.doubt, nullptr);
@@ -77,12 +71,7 @@ TEST(SeparationRest, figuresAreThoseOfACurveThatWasNotAskedForAnother) {
 }
 
 TEST(SeparationRest, contactsGrowUnderALoadThatPressesBeyondTheSearch) {
-  GaussianSurfaceOptions of_surface;
-  of_surface.rows = of_surface.cols = 64;
-  of_surface.pitch_x = of_surface.pitch_y = 4e-9;
-  of_surface.rms_height = 2e-9;
-  of_surface.correlation_length_x = of_surface.correlation_length_y = 30e-9;
-  const HeightMap surface = gaussianSurface(of_surface);
+  const HeightMap surface = samples::gaussian(64, 64, 4e-9, 4e-9, 2e-9, 30e-9, 1);
   const auto predict = [&](double load, double max_contact_fraction) {
     Options options = separation_cases::elastic(50e9, load);
     options.approach.max_contact_fraction = max_contact_fraction;
@@ -91,7 +80,7 @@ TEST(SeparationRest, contactsGrowUnderALoadThatPressesBeyondTheSearch) {
   const double load = 5e-5;  // 0.76 GPa
   const Prediction whole = predict(load, 1.0);
   ASSERT_EQ(whole.status, Status::kEquilibrium);
-  double before = predict(0.5 * load, 0.3).contact_area;
+  const double before = predict(0.5 * load, 0.3).contact_area;
   for (const double share : {0.3, 0.5}) {
     const Prediction ended = predict(load, share);
     ASSERT_EQ(ended.status, Status::kBonded) << share;
