@@ -31,6 +31,8 @@ constexpr double kStaleShare = 0.1;
 /// Windows that leave more than this share of the residual have failed; so many times in one state.
 constexpr double kWorthwhile = 0.5;
 constexpr int kMostFailures = 2;
+/// In how many states after one in which they failed windows are not tried: one, and up to so many if they fail again.
+constexpr int kLongestPause = 7;
 
 /// values + share of the last change, which is the first part of this one.
 MEMS_STICTION_VECTORIZED void goOn(std::size_t count, float share, const float* last_change, double* values,
@@ -299,7 +301,7 @@ ContactMinimiser::Evaluation ContactMinimiser::evaluateAlong(double height, doub
 }
 
 ContactMinimiser::Evaluation ContactMinimiser::moveAndEvaluate(double height, float share) {
-  const bool with_slopes = windows_ == nullptr;
+  const bool with_slopes = !usesWindows();
   if (with_slopes) gradients_.allocate();
   std::vector<evaluation_rows::Sums> row_sums;
   const auto sums = sumOverRows(row_sums, grid_.rows, settings_.threads, [&](int row) {
@@ -368,14 +370,30 @@ bool ContactMinimiser::relaxContacts(double height, Evaluation& now) {
   return now.residual_norm < kWorthwhile * before.residual_norm;
 }
 
+void ContactMinimiser::noteWindows(int failures) {
+  if (windows_pause_ > 0) {
+    --windows_pause_;
+  } else {
+    last_pause_ = failures < kMostFailures ? 0 : std::min(2 * last_pause_ + 1, kLongestPause);
+    windows_pause_ = last_pause_;
+  }
+}
+
 ContactState ContactMinimiser::solve(double height, const Search& search) {
   ContactState state;
   state.height = height;
   const int products_before = products();
   const float share = std::exchange(pending_share_, 0.0F);
   const double allowed = search.tolerance * settings_.tolerance * law_.stress();
+  const double exact = settings_.tolerance * law_.stress();
+  const double stale = kStaleShare * std::min(allowed, std::max(exact, search.residual_norm));
+  // how many times what is allowed is left
+  const auto excessOf = [&](const Evaluation& of) {
+    return std::min(of.largest_residual / std::min(allowed, exact),
+                    std::max(of.largest_residual / allowed, of.residual_norm / search.residual_norm));
+  };
   Evaluation now;
-  if (staleness_ <= kStaleShare * allowed) {
+  if (staleness_ <= stale) {
     now = moveAndEvaluate(height, share);
   } else {
     forEachRow(grid_.rows, settings_.threads, [&](int row) { moveRow(row, share); });
@@ -384,13 +402,13 @@ ContactState ContactMinimiser::solve(double height, const Search& search) {
   }
   int failures = 0;  // of windows
   while (!isCancelled()) {
-    if (now.largest_residual <= allowed) {
+    if (excessOf(now) <= 1.0) {
       if (isBeyondWall(now)) {
         raiseWall(now);
         now = evaluate(height);
         continue;
       }
-      if (staleness_ <= kStaleShare * allowed) {
+      if (staleness_ <= stale) {
         state.is_converged = true;
         break;
       }
@@ -400,10 +418,10 @@ ContactState ContactMinimiser::solve(double height, const Search& search) {
     }
     if (state.newton_steps == settings_.max_newton_steps) break;
     ++state.newton_steps;
-    if (windows_ != nullptr && failures < kMostFailures) {
+    if (usesWindows() && failures < kMostFailures) {
       if (relaxContacts(height, now)) continue;
       ++failures;
-      if (now.largest_residual <= allowed) continue;
+      if (excessOf(now) <= 1.0) continue;
     }
     if (!now.has_slopes) {  // the first of Newton's steps in a row
       if (std::isfinite(staleness_)) refreshElasticTraction();
@@ -413,7 +431,7 @@ ContactState ContactMinimiser::solve(double height, const Search& search) {
     system.mean_residual = now.mean_residual;
     system.mean_slope = now.mean_slope;
     system.longest_move = search.longest_move * law_.range();
-    system.useful_residual = allowed / now.largest_residual;
+    system.useful_residual = 1.0 / excessOf(now);
     const ConjugateGradients::Direction direction = gradients_.find(system);
     if (!(direction.decrease > 0.0)) break;
     double length = std::min(1.0, system.longest_move / direction.longest);
@@ -435,6 +453,7 @@ ContactState ContactMinimiser::solve(double height, const Search& search) {
     takeStep(length);
     staleness_ = std::numeric_limits<double>::infinity();  // conjugate gradients add up what rounding leaves
   }
+  noteWindows(failures);
   mean_traction_ = now.mean_residual;
   state.force = now.force;
   state.energy = now.energy;

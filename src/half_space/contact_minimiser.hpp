@@ -84,6 +84,8 @@ class ContactMinimiser {
     /// the farther the equilibrium may be where surfaces attract each other.
     double longest_move = 1.0;
     double tolerance = 1.0;  ///< of that of the settings
+    /// Root of the mean square that may be left of the residual [Pa].
+    double residual_norm = std::numeric_limits<double>::infinity();
   };
 
   /// The equilibrium next to the present displacement; what came before is left in place if cancelled.
@@ -99,6 +101,8 @@ class ContactMinimiser {
   void takeBackForPart();
   /// Whether something flowed in the state just solved.
   bool hasFlow() const { return law_.flows() && lowest_gap_ < law_.closestGap(); }
+  /// Whether something flowed, or may have with a smaller residual.
+  bool isNearFlow() const { return law_.flows() && lowest_gap_ < kNearFlow * law_.closestGap(); }
   /// What flowed in the state just solved stays: cells closer than the closest gap lose the excess of their height.
   /// @return the work that the flow took [J]
   double acceptFlow(double height);
@@ -139,6 +143,8 @@ class ContactMinimiser {
   double smallestStiffness() const { return stiffness_.smallest(); }
 
  private:
+  /// Gaps over the closest one, where two thirds of the hardness are borne.
+  static constexpr double kNearFlow = 1.05;
   struct Evaluation;
   /// Whether something is pressed harder than the wall knows.
   bool isBeyondWall(const Evaluation& now) const;
@@ -169,6 +175,9 @@ class ContactMinimiser {
   static bool isNearer(const Evaluation& now, const Evaluation& before, double promised);
   /// Relaxes the contacts and goes there if that is nearer to equilibrium. @return whether it is worth doing again
   bool relaxContacts(double height, Evaluation& now);
+  bool usesWindows() const { return windows_ != nullptr && windows_pause_ == 0; }
+  /// How often windows failed in the present state decides whether they are tried in the next ones.
+  void noteWindows(int failures);
   /// u + length s for one row, or its continuation by `share` of the last change; K u and what has changed with it.
   void stepRow(int row, const Step& step);
   void moveRow(int row, float share);
@@ -199,10 +208,12 @@ class ContactMinimiser {
   LargePageVector<float> flowed_;
   LargePageVector<float> fixed_;             ///< traction of another displacement [Pa]; none but in a window
   std::unique_ptr<ContactWindows> windows_;  ///< none in a window
-  float pending_share_ = 0.0F;               ///< of the last change, by which u is still to go on
-  double lowest_gap_ = 0.0;                  ///< in the state just solved [m]
-  double mean_traction_ = 0.0;               ///< that K does not resist, as far as it is known [Pa]
-  int exact_products_ = 0;                   ///< of K u
+  int windows_pause_ = 0;                    ///< in so many states they are not tried
+  int last_pause_ = 0;
+  float pending_share_ = 0.0F;  ///< of the last change, by which u is still to go on
+  double lowest_gap_ = 0.0;     ///< in the state just solved [m]
+  double mean_traction_ = 0.0;  ///< that K does not resist, as far as it is known [Pa]
+  int exact_products_ = 0;      ///< of K u
   int window_products_ = 0;
   bool is_set_up_ = false;
 };

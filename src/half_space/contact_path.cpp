@@ -11,7 +11,7 @@ namespace {
 
 /// Smallest step, of the usual one, and smallest where the largest force of the retraction may depend on it. The largest
 /// step.
-constexpr double kSmallestStep = 0.25;
+constexpr double kSmallestStep = 0.125;
 constexpr double kFinestStep = 0.03125;
 /// Smallest step where the branch rises beyond the largest force, of the usual one: from a stiff rest the force may rise by
 /// a tenth over the finest one, and end by a jump.
@@ -55,6 +55,11 @@ constexpr double kStiffnessStep = 0.125;
 constexpr double kLongestHeavyMove = 30.0;
 /// Residuals there of states that are only on the way to others, of the tolerance.
 constexpr double kRoughTolerance = 100.0;
+/// Residuals of other states of the way in, but rest and those that flow, of the tolerance, and the root of their mean square, of the largest force over the frame.
+/// Set, as the smallest step and kSameForce and kSameEnergy are, on `scripts/trust --half-space-steps` of seeds 32 and 34:
+/// exact states there take a seventh more time, and are no nearer to finer steps.
+constexpr double kPassingTolerance = 30.0;
+constexpr double kPassingForce = 0.01;
 /// How often a force is aimed at, and how far from there at once, of the step that missed it.
 constexpr int kMostAims = 5;
 constexpr double kShortestAim = 0.05;
@@ -71,6 +76,12 @@ constexpr double kLargestChange = 2.0;
 constexpr int kManyNewtonSteps = 12;
 /// Heights that differ by less, of the usual step, are the same but for rounding.
 constexpr double kSameHeight = 1e-6;
+/// States at one height whose forces differ by less than this, of the force, and their energies by less than that, of the
+/// force times z0, are the same: states of the way in are as near as their residuals are small.
+constexpr double kSameForce = 5e-3;
+constexpr double kSameEnergy = 1e-4;
+/// States of the way in that a leap from rest must save.
+constexpr int kFewestLeapt = 3;
 /// The present change is continued over no more than this many times its length.
 constexpr double kLongestContinuation = 4.0;
 /// By how much the mean gap of a periodic frame falls in one step, of its distance to the narrowest gap: in full contact
@@ -149,6 +160,9 @@ PathStatus ContactPath::settle(double height, double tolerance, ForcePoint& next
   ContactMinimiser::Search search;
   if (isHeavy(present_)) search.longest_move = kLongestHeavyMove;
   search.tolerance = tolerance;
+  if (tolerance > 1.0 && !isHeavy(present_)) {
+    search.residual_norm = kPassingForce * forceScale() / minimiser_.grid().frameArea();
+  }
   state = minimiser_.solve(height, search);
   ++states_;
   newton_steps_ += state.newton_steps;
@@ -171,7 +185,7 @@ double ContactPath::continued(double move) const {
   return present_.force + std::max(0.0, further * (rise + bend * further));
 }
 
-void ContactPath::accept(const ForcePoint& next, bool is_jump, ForceCurve& curve) {
+void ContactPath::record(const ForcePoint& next, bool is_jump, ForceCurve& curve) {
   const double move = next.height - present_.height;
   const StepParabola parabola(present_, next);
   const double attracting = parabola.attractingShare();
@@ -214,6 +228,10 @@ void ContactPath::accept(const ForcePoint& next, bool is_jump, ForceCurve& curve
   last_move_ = changing_move_ = is_jump ? 0.0 : move;
   last_parabola_ = parabola;
   strongest_ = std::max(strongest_, next.force);
+}
+
+void ContactPath::accept(const ForcePoint& next, bool is_jump, ForceCurve& curve) {
+  record(next, is_jump, curve);
   present_.energy -= minimiser_.acceptFlow(next.height);
   if (settings_.on_state) settings_.on_state(next);
 }
@@ -266,9 +284,13 @@ void ContactPath::planStep() {
   }
 }
 
-void ContactPath::takeBackAndAim(const ForcePoint& missed, double force) {
+void ContactPath::takeBackForPart(const ForcePoint& missed) {
   minimiser_.takeBackForPart();
   changing_move_ = missed.height - present_.height;
+}
+
+void ContactPath::takeBackAndAim(const ForcePoint& missed, double force) {
+  takeBackForPart(missed);
   const double share = crossingOf(StepParabola(present_, missed), force, 0.0, kLongestAim);
   step_ = std::abs(changing_move_) * std::max(share, kShortestAim);
 }
@@ -297,14 +319,21 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
     // a way to somewhere else, or a force that is to be another one
     const bool is_passed = direction < 0.0 && !settings_.samples_curve;
     const bool is_rough = isHeavy(present_) && (is_aimed || is_passed);
-    PathStatus status = attempt(present_.height + move, is_rough ? kRoughTolerance : 1.0, next, state);
-    if (is_rough && status == PathStatus::kDone) {
-      if (is_aimed && aims < kMostAims && std::abs(next.force - least_force) > kRestForce * -least_force) {
-        ++aims;
-        takeBackAndAim(next, least_force);
-        continue;
+    const double tolerance = is_rough                                ? kRoughTolerance
+                             : direction < 0.0 && !isHeavy(present_) ? kPassingTolerance
+                                                                     : 1.0;
+    PathStatus status = attempt(present_.height + move, tolerance, next, state);
+    if (is_rough && status == PathStatus::kDone && is_aimed && aims < kMostAims &&
+        std::abs(next.force - least_force) > kRestForce * -least_force) {
+      ++aims;
+      takeBackAndAim(next, least_force);
+      continue;
+    }
+    if (tolerance > 1.0 && status == PathStatus::kDone) {
+      const double left = kRestForce * std::max(forceScale(), std::max(0.0, -least_force));
+      if ((is_rough && is_aimed) || next.force < least_force + left || minimiser_.isNearFlow()) {
+        status = settle(present_.height + move, 1.0, next, state);
       }
-      if (is_aimed || minimiser_.hasFlow()) status = settle(present_.height + move, 1.0, next, state);
     }
     if (status == PathStatus::kCancelled) return status;
     if (status == PathStatus::kNotConverged) {
@@ -349,7 +378,11 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
       continue;
     }
     if (next.force < least_force - kRestForce * std::max(forceScale(), -least_force) && step > kRestStep * usual) {
-      minimiser_.takeBack();
+      if (is_heavy) {
+        minimiser_.takeBack();
+      } else {
+        takeBackForPart(next);
+      }
       step_ = step * std::clamp(crossing(StepParabola(present_, next), least_force, 0.0, 1.0), 0.05, 0.95);
       farthest = step;
       is_aimed = true;
@@ -402,6 +435,7 @@ PathStatus ContactPath::approach(double load) {
 
 PathStatus ContactPath::change(const TractionLaw& law) {
   minimiser_.setLaw(law);
+  is_on_approach_ = false;
   last_move_ = changing_move_ = 0.0;
   ForcePoint relaxed;
   ContactState state;
@@ -419,8 +453,65 @@ PathStatus ContactPath::retractFrom(Place&& place, ForceCurve& curve) {
   minimiser_.setLaw(place.law);
   present_ = place.present;
   strongest_ = place.strongest;
+  is_on_approach_ = place.is_on_approach;
   last_move_ = changing_move_ = 0.0;
   return retract(curve);
+}
+
+bool ContactPath::mayGoBack() const { return is_on_approach_ && minimiser_.flowed().empty() && approach_.jumps == 0; }
+
+std::vector<ForcePoint> ContactPath::wayBack() const {
+  std::vector<ForcePoint> way;
+  if (!mayGoBack()) return way;
+  const double smallest = kSmallestStep * settings_.step * minimiser_.law().range();
+  for (auto point = approach_.points.rbegin(); point != approach_.points.rend(); ++point) {
+    if (point->is_solved && point->height >= present_.height + smallest) way.push_back(*point);
+  }
+  return way;
+}
+
+bool ContactPath::isSame(const ForcePoint& one, const ForcePoint& other) const {
+  const double force = forceScale();
+  return std::abs(one.height - other.height) <= kSameHeight * settings_.step * minimiser_.law().range() &&
+         std::abs(one.force - other.force) <= kSameForce * force &&
+         std::abs(one.energy - other.energy) <= kSameEnergy * force * minimiser_.law().range();
+}
+
+bool ContactPath::leap(const ForcePoint& target) {
+  ForcePoint leapt;
+  ContactState state;
+  if (attempt(target.height, 1.0, leapt, state) == PathStatus::kDone && isSame(leapt, target)) return true;
+  minimiser_.takeBack();
+  is_on_approach_ = false;
+  return false;
+}
+
+void ContactPath::leapTowardsSummit(ForceCurve& curve) {
+  const std::vector<ForcePoint> way = wayBack();
+  const auto isWeaker = [](const ForcePoint& one, const ForcePoint& other) { return one.force < other.force; };
+  const auto summit = std::max_element(way.begin(), way.end(), isWeaker);
+  if (summit - way.begin() < kFewestLeapt) return;
+  const bool is_rest = curve.points.size() == 1;  // whose stiffness the first step is to tell
+  if ((is_rest && way.front().height > present_.height + kStepTolerance * step_) || !leap(*(summit - 1))) return;
+  const double from = present_.height;
+  for (auto point = way.begin(); point != summit; ++point) {
+    record(*point, false, curve);
+    if (is_rest && point == way.begin()) noteStiffness();
+  }
+  changing_move_ = present_.height - from;
+  step_ = summit->height - present_.height;
+  if (settings_.on_state) settings_.on_state(present_);
+}
+
+bool ContactPath::leapBehindSummit(ForceCurve& curve) {
+  if (last_parabola_.end >= last_parabola_.begin) return false;
+  const std::vector<ForcePoint> way = wayBack();
+  const auto isHigher = [&](const ForcePoint& point) { return point.force > curve.largest_force; };
+  const auto isBehind = [&](const ForcePoint& point) { return point.force < kSummitForce * curve.largest_force; };
+  const auto behind = std::find_if(way.begin(), way.end(), isBehind);
+  if (behind == way.end() || std::any_of(way.begin(), way.end(), isHigher) || !leap(*behind)) return false;
+  for (const ForcePoint& point : way) record(point, false, curve);
+  return true;
 }
 
 PathStatus ContactPath::goOut(ForceCurve& curve) {
@@ -436,15 +527,26 @@ PathStatus ContactPath::leaveRest(ForceCurve& curve) {
   step_ = std::min(share * settings_.step * minimiser_.law().range(), kLeastClosing * gapLeft());
   last_move_ = 0.0;  // the other way
   is_before_jump_ = false;
+  if (settings_.samples_curve) leapTowardsSummit(curve);
+  if (curve.points.size() > 1) return PathStatus::kDone;
   const PathStatus status = goOut(curve);
-  if (status == PathStatus::kDone && last_move_ != 0.0) stiffness_ = last_parabola_.slope() / last_move_;
+  if (status != PathStatus::kDone) return status;
+  noteStiffness();
+  if (settings_.samples_curve) leapTowardsSummit(curve);
   return status;
+}
+
+void ContactPath::noteStiffness() {
+  if (last_move_ != 0.0) stiffness_ = last_parabola_.slope() / last_move_;
 }
 
 PathStatus ContactPath::retract(ForceCurve& curve) {
   const double end = approach_.points.front().height;
   PathStatus status = leaveRest(curve);
-  while (status == PathStatus::kDone && (present_.height < end || present_.contact_area > 0.0)) status = goOut(curve);
+  while (status == PathStatus::kDone && (present_.height < end || present_.contact_area > 0.0)) {
+    if (leapBehindSummit(curve)) break;
+    status = goOut(curve);
+  }
   curve.missed_force = std::max(0.0, curve.missed_force - curve.largest_force);
   return status;
 }

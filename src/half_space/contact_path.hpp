@@ -15,6 +15,11 @@
 /// the force may grow fivefold from one state to the next: between them its logarithm is the parabola. The way out takes
 /// heights of the way in. A load is aimed at by states with a rough residual, until one has its force.
 ///
+/// A way in without a jump is one branch of minima, which the way out follows back: it then leaps from rest to the state
+/// before the largest force, follows the branch over that by steps of its own, and leaps to the state behind. Both leaps
+/// must end in the states that the way in had there, or the way out goes on in steps. What has flowed, and another law,
+/// make it another branch. States of the way in, but rest, have rough residuals.
+///
 /// What a voltage adds to the traction goes at rest, at constant height, before the bodies are drawn apart: the device opens
 /// when its loads have gone. From there to no force the way out takes the load that the voltage was, and then the
 /// mechanical one.
@@ -76,8 +81,9 @@ class ContactPath {
     TractionLaw law;
     ForcePoint present;
     double strongest;
+    bool is_on_approach;  ///< under the law of the way in
   };
-  Place place() const { return {minimiser_.place(), minimiser_.law(), present_, strongest_}; }
+  Place place() const { return {minimiser_.place(), minimiser_.law(), present_, strongest_, is_on_approach_}; }
   /// Once more until they are apart, from another state.
   PathStatus retractFrom(Place&& place, ForceCurve& curve);
 
@@ -97,15 +103,33 @@ class ContactPath {
   PathStatus retract(ForceCurve& curve);
   PathStatus leaveRest(ForceCurve& curve);
   PathStatus goOut(ForceCurve& curve);
+  /// Whether the way out may be that of the way in from here: its law, no jump, and nothing has flowed.
+  bool mayGoBack() const;
+  /// The states of the way in from here outwards, but the nearest; empty where the way out may be another one.
+  std::vector<ForcePoint> wayBack() const;
+  /// Whether two states are one.
+  bool isSame(const ForcePoint& one, const ForcePoint& other) const;
+  /// Solves at the height of a state of the way in. @return whether it is the state that is found there from here
+  bool leap(const ForcePoint& target);
+  /// From rest to the last state of the way in before its largest force.
+  void leapTowardsSummit(ForceCurve& curve);
+  /// From behind the largest force to the end. @return whether both ways are one there
+  bool leapBehindSummit(ForceCurve& curve);
+  /// Takes the stiffness from the first step out.
+  void noteStiffness();
   double startHeight() const;
   /// Solves at a height next to the present state, which must be taken back or accepted then.
   /// - @p tolerance of the residual, of that of the settings
   PathStatus attempt(double height, double tolerance, ForcePoint& next, ContactState& state);
   /// The same from where the last attempt ended.
   PathStatus settle(double height, double tolerance, ForcePoint& next, ContactState& state);
-  /// Takes back a step that has missed a force; the next one begins with a part of its change.
+  /// Takes back a step to begin the next one with a part of its change.
+  void takeBackForPart(const ForcePoint& missed);
+  /// The same of one that has missed a force, which the next one leads to.
   void takeBackAndAim(const ForcePoint& missed, double force);
   void accept(const ForcePoint& next, bool is_jump, ForceCurve& curve);
+  /// The part of it that takes a step into the curve.
+  void record(const ForcePoint& next, bool is_jump, ForceCurve& curve);
   /// The largest force of the present branch over a further change of height, if it went on as it came [N].
   double continued(double move) const;
   /// Whether the present branch, on the way out, may lead over this force within a step.
@@ -148,6 +172,7 @@ class ContactPath {
   double jump_height_ = 0.0;     ///< [m]
   double finest_ = 0.0;          ///< how close to the jump the branch is to be followed [m]
   double strongest_ = 0.0;       ///< largest attraction so far under the present law [N]
+  bool is_on_approach_ = true;   ///< the present branch is that of the way in, as far as is known
   double changed_energy_ = 0.0;  ///< [J]
   double stiffness_ = std::numeric_limits<double>::quiet_NaN();
   double largest_residual_ = 0.0;

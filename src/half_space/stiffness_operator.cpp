@@ -299,7 +299,8 @@ void StiffnessOperator<Scalar>::apply(const Scalar* from, const Multiplier& mult
           std::memcpy(block + k * column_size + 2 * row, first + row * row_size + 2 * k, 2 * sizeof(Scalar));
         }
       }
-      for (std::size_t k = 0; k < kBlock; ++k) {
+      const std::size_t used = std::min(kBlock, cols / 2 + 1 - first_column);
+      for (std::size_t k = 0; k < used; ++k) {
         Scalar* const column = block + k * column_size;
         transforms_->columns.forward(column, spectrum);
         scaleColumn(rows, stiffness_.data() + (first_column + k) * rows, multiplier, spectrum);
