@@ -9,9 +9,10 @@
 namespace mems_stiction {
 namespace {
 
-/// Smallest step, of the usual one, and smallest where the largest force of the retraction may depend on it. The largest
-/// step.
+/// Smallest step, of the usual one, on the way out, whose jumps tell force and work, and on the way in; smallest where the
+/// largest force of the retraction may depend on it. The largest step.
 constexpr double kSmallestStep = 0.125;
+constexpr double kSmallestStepIn = 0.25;
 constexpr double kFinestStep = 0.03125;
 /// Smallest step where the branch rises beyond the largest force, of the usual one: from a stiff rest the force may rise by
 /// a tenth over the finest one, and end by a jump.
@@ -297,7 +298,7 @@ void ContactPath::takeBackAndAim(const ForcePoint& missed, double force) {
 
 PathStatus ContactPath::advance(double direction, double farthest, double least_force, ForceCurve& curve) {
   const double usual = settings_.step * minimiser_.law().range();
-  const double smallest = kSmallestStep * usual;
+  const double smallest = (direction > 0.0 ? kSmallestStep : kSmallestStepIn) * usual;
   bool is_aimed = false;  // the step leads to least_force as far as is known
   int aims = 0;
   if (direction > 0.0 && curve.points.size() > 1) planStep();
@@ -319,9 +320,8 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
     // a way to somewhere else, or a force that is to be another one
     const bool is_passed = direction < 0.0 && !settings_.samples_curve;
     const bool is_rough = isHeavy(present_) && (is_aimed || is_passed);
-    const double tolerance = is_rough                                ? kRoughTolerance
-                             : direction < 0.0 && !isHeavy(present_) ? kPassingTolerance
-                                                                     : 1.0;
+    const bool is_passing = direction < 0.0 && minimiser_.flowed().empty();
+    const double tolerance = is_rough ? kRoughTolerance : is_passing ? kPassingTolerance : 1.0;
     PathStatus status = attempt(present_.height + move, tolerance, next, state);
     if (is_rough && status == PathStatus::kDone && is_aimed && aims < kMostAims &&
         std::abs(next.force - least_force) > kRestForce * -least_force) {
@@ -331,7 +331,8 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
     }
     if (tolerance > 1.0 && status == PathStatus::kDone) {
       const double left = kRestForce * std::max(forceScale(), std::max(0.0, -least_force));
-      if ((is_rough && is_aimed) || next.force < least_force + left || minimiser_.isNearFlow()) {
+      const bool may_flow = is_rough ? minimiser_.hasFlow() : minimiser_.isNearFlow();
+      if ((is_rough && is_aimed) || next.force < least_force + left || may_flow) {
         status = settle(present_.height + move, 1.0, next, state);
       }
     }
