@@ -19,19 +19,19 @@ Regime regimeOf(const PatchLoad& load, double area, double hardness) {
 /// What ModelStatement::doubt is about.
 constexpr double kDoubtedFactor = 1.3;
 
-/// Where the patches' approximations weigh most: contacts wider than a0, which part by their edges, and a force that is the small
-/// difference of large ones. Or where the surfaces may have come to another rest.
-const char* doubtOf(const SeparationCurve& curve, double force_from_next_rest) {
+/// Where the patches' approximations weigh most: contacts as wide as a0, which part by their edges, and a force that is the
+/// difference of larger ones, so that what is out in these weighs more in it. Or where the surfaces may have come to another rest.
+/// - @p exponent of the force with the work of adhesion: 1 where nothing is subtracted
+const char* doubtOf(const SeparationCurve& curve, double exponent, double force_from_next_rest) {
   if (force_from_next_rest > kDoubtedFactor * curve.pull_off_force) {
     return "hardly anything keeps the surfaces from a nearer rest, from which they part with a larger force";
   }
   const SeparationState& strongest = curve.states[curve.strongest];
   if (!(strongest.adhesion > 0.0)) return nullptr;
-  if (strongest.width > 1.0) return "contacts that hold are so wide that they part by cracks from their edges";
-  if (strongest.carried > curve.pull_off_force) {
-    return "where the force is largest the contacts press with more than that: it is a difference of larger forces";
-  }
-  return nullptr;
+  const double excess = std::max(0.0, exponent - 1.0);
+  if (!(strongest.width + excess > chosen::kDoubtedContacts)) return nullptr;
+  return strongest.width > excess ? "contacts that hold are so wide that they part by cracks from their edges"
+                                  : "where the force is largest it is a difference of larger forces";
 }
 
 }  // namespace
@@ -132,7 +132,7 @@ void ContactCurve::part(double force_from_next_rest) {
   by_contacts_.work = curve.work / frame_.area();
   by_contacts_.work_exponents = exponents.work;
   by_contacts_.lost = has_flowed_ ? 0.0 : 0.5 * std::max(0.0, curve.work - way_in_.work) / frame_.area();
-  by_contacts_.doubt = doubtOf(curve, force_from_next_rest);
+  by_contacts_.doubt = doubtOf(curve, exponents.pull_off.adhesion, force_from_next_rest);
   by_contacts_.curve.clear();
   const bool has_edges = curve.states[curve.strongest].edge_share < 1.0 - chosen::kAccuracy;
   if (!has_way_out_ && !has_voltage_ && !has_edges) return;

@@ -42,7 +42,7 @@ double realCells(const PatchAtRest& patch) {
   // what the layer takes of the overlap bends nothing: there all of it touches
   const double elastic = of_bodies + patch.load.layer_share * (1.0 - of_bodies);
   const double flowing = std::min(1.0, patch.load.carried / patch.capacity);
-  return std::max(1.0, patch.cells * std::max(elastic, flowing));
+  return 1.0 + (patch.cells - 1.0) * std::max(elastic, flowing);
 }
 
 }  // namespace mems_stiction
