@@ -9,15 +9,13 @@
 namespace mems_stiction {
 namespace {
 
-/// Smallest step, of the usual one, on the way out, whose jumps tell force and work, and on the way in; smallest where the
-/// largest force of the retraction may depend on it. The largest step.
-constexpr double kSmallestStep = 0.125;
+/// Smallest steps, of the usual one, beside kSmallestStep: on the way in, and where the largest force of the retraction may
+/// depend on it.
 constexpr double kSmallestStepIn = 0.25;
 constexpr double kFinestStep = 0.03125;
 /// Smallest step where the branch rises beyond the largest force, of the usual one: from a stiff rest the force may rise by
 /// a tenth over the finest one, and end by a jump.
 constexpr double kSummitStep = 0.001;
-constexpr double kLargestStep = 8.0;
 /// Distance of the curve's points, those between solved states included, of the usual step.
 constexpr double kPointDistance = 0.25;
 /// Share of the largest force that steps over a jump may miss before they become finer.
@@ -32,8 +30,7 @@ constexpr double kLargestSag = 0.03;
 constexpr double kKinkShare = 0.2;
 constexpr double kRisingKinkShare = 0.5;
 constexpr double kSummitKinkShare = 1.5;
-/// Near is a step that begins with more than this share of the largest force; its sag counts so many times.
-constexpr double kSummitForce = 0.9;
+/// So many times a sag counts there.
 constexpr double kSummitSagShare = 2.0;
 /// The smallest step that misses more than this goes over a jump; on the way out, whose work counts, what is taken back at all.
 constexpr double kJumpSag = 0.06;
@@ -50,8 +47,6 @@ constexpr double kAimedGrowth = 1.3;
 constexpr double kShareBefore = 0.93;
 /// The largest step there, of the usual one.
 constexpr double kLargestHeavyStep = 128.0;
-/// The first step from there where the stiffness is all that is asked for, of the usual one.
-constexpr double kStiffnessStep = 0.125;
 /// What a cell may move in one Newton step there, of z0: attraction hardly shapes the way, and the line search bounds it.
 constexpr double kLongestHeavyMove = 30.0;
 /// Residuals there of states that are only on the way to others, of the tolerance.
@@ -67,27 +62,15 @@ constexpr double kShortestAim = 0.05;
 constexpr double kLongestAim = 2.0;
 /// On the way out, sags with which heights of the way in are taken up again.
 constexpr double kPlannedSag = 0.015;
-/// Steps are compared with limits but for rounding.
-constexpr double kStepTolerance = 1.001;
 /// Usual step for which they apply, of z0.
 constexpr double kUsualStep = 0.4;
 /// Steps grow and shrink by no more than this at once.
 constexpr double kLargestChange = 2.0;
 /// Newton steps of a state that does not follow smoothly: the next step is no longer.
 constexpr int kManyNewtonSteps = 12;
-/// Heights that differ by less, of the usual step, are the same but for rounding.
-constexpr double kSameHeight = 1e-6;
-/// States at one height whose forces differ by less than this, of the force, and their energies by less than that, of the
-/// force times z0, are the same: states of the way in are as near as their residuals are small.
-constexpr double kSameForce = 5e-3;
-constexpr double kSameEnergy = 1e-4;
-/// States of the way in that a leap from rest must save.
-constexpr int kFewestLeapt = 3;
 /// The present change is continued over no more than this many times its length.
 constexpr double kLongestContinuation = 4.0;
-/// By how much the mean gap of a periodic frame falls in one step, of its distance to the narrowest gap: in full contact
-/// the pressure grows sixfold over the second.
-constexpr double kLeastClosing = 0.1;
+/// By how much the mean gap falls in one step at most, beside kLeastClosing: the pressure in full contact grows sixfold.
 constexpr double kMostClosing = 0.5;
 /// Force that may be left at rest, of the force.
 constexpr double kRestForce = 1e-3;
@@ -431,124 +414,6 @@ PathStatus ContactPath::approach(double load) {
     status = advance(-1.0, std::max(present_.height - lowest, step_), -load, approach_);
     if (present_.force + load <= kRestForce * std::max(forceScale(), load)) break;
   }
-  return status;
-}
-
-PathStatus ContactPath::change(const TractionLaw& law) {
-  minimiser_.setLaw(law);
-  is_on_approach_ = false;
-  last_move_ = changing_move_ = 0.0;
-  ForcePoint relaxed;
-  ContactState state;
-  const PathStatus status = attempt(present_.height, 1.0, relaxed, state);
-  if (status != PathStatus::kDone) return status;
-  changed_energy_ += relaxed.energy - present_.energy;
-  present_ = relaxed;
-  present_.energy -= minimiser_.acceptFlow(present_.height);
-  strongest_ = std::max(0.0, present_.force);
-  return PathStatus::kDone;
-}
-
-PathStatus ContactPath::retractFrom(Place&& place, ForceCurve& curve) {
-  minimiser_.goTo(std::move(place.contact));
-  minimiser_.setLaw(place.law);
-  present_ = place.present;
-  strongest_ = place.strongest;
-  is_on_approach_ = place.is_on_approach;
-  last_move_ = changing_move_ = 0.0;
-  return retract(curve);
-}
-
-bool ContactPath::mayGoBack() const { return is_on_approach_ && minimiser_.flowed().empty() && approach_.jumps == 0; }
-
-std::vector<ForcePoint> ContactPath::wayBack() const {
-  std::vector<ForcePoint> way;
-  if (!mayGoBack()) return way;
-  const double smallest = kSmallestStep * settings_.step * minimiser_.law().range();
-  for (auto point = approach_.points.rbegin(); point != approach_.points.rend(); ++point) {
-    if (point->is_solved && point->height >= present_.height + smallest) way.push_back(*point);
-  }
-  return way;
-}
-
-bool ContactPath::isSame(const ForcePoint& one, const ForcePoint& other) const {
-  const double force = forceScale();
-  return std::abs(one.height - other.height) <= kSameHeight * settings_.step * minimiser_.law().range() &&
-         std::abs(one.force - other.force) <= kSameForce * force &&
-         std::abs(one.energy - other.energy) <= kSameEnergy * force * minimiser_.law().range();
-}
-
-bool ContactPath::leap(const ForcePoint& target) {
-  ForcePoint leapt;
-  ContactState state;
-  if (attempt(target.height, 1.0, leapt, state) == PathStatus::kDone && isSame(leapt, target)) return true;
-  minimiser_.takeBack();
-  is_on_approach_ = false;
-  return false;
-}
-
-void ContactPath::leapTowardsSummit(ForceCurve& curve) {
-  const std::vector<ForcePoint> way = wayBack();
-  const auto isWeaker = [](const ForcePoint& one, const ForcePoint& other) { return one.force < other.force; };
-  const auto summit = std::max_element(way.begin(), way.end(), isWeaker);
-  if (summit - way.begin() < kFewestLeapt) return;
-  const bool is_rest = curve.points.size() == 1;  // whose stiffness the first step is to tell
-  if ((is_rest && way.front().height > present_.height + kStepTolerance * step_) || !leap(*(summit - 1))) return;
-  const double from = present_.height;
-  for (auto point = way.begin(); point != summit; ++point) {
-    record(*point, false, curve);
-    if (is_rest && point == way.begin()) noteStiffness();
-  }
-  changing_move_ = present_.height - from;
-  step_ = summit->height - present_.height;
-  if (settings_.on_state) settings_.on_state(present_);
-}
-
-bool ContactPath::leapBehindSummit(ForceCurve& curve) {
-  if (last_parabola_.end >= last_parabola_.begin) return false;
-  const std::vector<ForcePoint> way = wayBack();
-  const auto isHigher = [&](const ForcePoint& point) { return point.force > curve.largest_force; };
-  const auto isBehind = [&](const ForcePoint& point) { return point.force < kSummitForce * curve.largest_force; };
-  const auto behind = std::find_if(way.begin(), way.end(), isBehind);
-  if (behind == way.end() || std::any_of(way.begin(), way.end(), isHigher) || !leap(*behind)) return false;
-  for (const ForcePoint& point : way) record(point, false, curve);
-  return true;
-}
-
-PathStatus ContactPath::goOut(ForceCurve& curve) {
-  const double left = approach_.points.front().height - present_.height;
-  return advance(1.0, left > 0.0 ? left : kLargestStep * step_, -std::numeric_limits<double>::infinity(), curve);
-}
-
-PathStatus ContactPath::leaveRest() { return leaveRest(retraction_); }
-
-PathStatus ContactPath::leaveRest(ForceCurve& curve) {
-  curve.add(present_);
-  const double share = settings_.samples_curve ? 1.0 : kStiffnessStep;
-  step_ = std::min(share * settings_.step * minimiser_.law().range(), kLeastClosing * gapLeft());
-  last_move_ = 0.0;  // the other way
-  is_before_jump_ = false;
-  if (settings_.samples_curve) leapTowardsSummit(curve);
-  if (curve.points.size() > 1) return PathStatus::kDone;
-  const PathStatus status = goOut(curve);
-  if (status != PathStatus::kDone) return status;
-  noteStiffness();
-  if (settings_.samples_curve) leapTowardsSummit(curve);
-  return status;
-}
-
-void ContactPath::noteStiffness() {
-  if (last_move_ != 0.0) stiffness_ = last_parabola_.slope() / last_move_;
-}
-
-PathStatus ContactPath::retract(ForceCurve& curve) {
-  const double end = approach_.points.front().height;
-  PathStatus status = leaveRest(curve);
-  while (status == PathStatus::kDone && (present_.height < end || present_.contact_area > 0.0)) {
-    if (leapBehindSummit(curve)) break;
-    status = goOut(curve);
-  }
-  curve.missed_force = std::max(0.0, curve.missed_force - curve.largest_force);
   return status;
 }
 

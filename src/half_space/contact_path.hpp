@@ -100,6 +100,17 @@ class ContactPath {
   int products() const { return products_; }
 
  private:
+  /// Smallest step of the way out, whose jumps tell force and work, and largest step, of the usual one.
+  static constexpr double kSmallestStep = 0.125;
+  static constexpr double kLargestStep = 8.0;
+  /// Near the largest force is more than this share of it.
+  static constexpr double kSummitForce = 0.9;
+  /// Heights that differ by less, of the usual step, are the same but for rounding; steps are compared with limits like that.
+  static constexpr double kSameHeight = 1e-6;
+  static constexpr double kStepTolerance = 1.001;
+  /// By how much the mean gap of a periodic frame may fall in any step, of its distance to the narrowest gap.
+  static constexpr double kLeastClosing = 0.1;
+
   PathStatus retract(ForceCurve& curve);
   PathStatus leaveRest(ForceCurve& curve);
   PathStatus goOut(ForceCurve& curve);

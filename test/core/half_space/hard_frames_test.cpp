@@ -1,6 +1,7 @@
 /// Frames that took too many steps: soft ones, whose contacts close pixel by pixel, and those near bonding. Products are
 /// counted, not timed: they are the same on every machine.
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -65,12 +66,51 @@ TEST(HardFrames, LargerFramesTakeNoMoreProductsForTheirContacts) {
   EXPECT_LT(solution.products, 95);
 }
 
+TEST(HardFrames, AWayInWithoutAJumpIsTheWayOut) {
+  const HalfSpaceProblem problem = gaussian(256, 100e-9, 3e-9);
+  const SolvedHalfSpace solution = HalfSpaceSolver(HalfSpaceOptions()).solve(problem);
+  ASSERT_EQ(solution.status, HalfSpaceStatus::kSolved) << solution.message;
+  ASSERT_EQ(solution.jumps, 0);
+  const auto isSolved = [](const ForcePoint& point) { return point.is_solved; };
+  const auto way_in = std::count_if(solution.approach.begin(), solution.approach.end(), isSolved);
+  EXPECT_LT(solution.state_count, 25);  // 21; 29 with a way out of its own
+  EXPECT_EQ(solution.approach.front().height, solution.retraction.back().height);
+  int shared = 0;
+  for (const ForcePoint& point : solution.approach) {
+    const auto isSame = [&](const ForcePoint& other) {
+      return other.height == point.height && other.force == point.force;
+    };
+    if (point.is_solved && std::any_of(solution.retraction.begin(), solution.retraction.end(), isSame)) ++shared;
+  }
+  EXPECT_GT(shared, way_in / 2);
+  EXPECT_NEAR(solution.hysteresis / solution.work_of_adhesion, 0.0, 1e-9);
+  HalfSpaceOptions fine;
+  fine.step = 0.1;
+  const SolvedHalfSpace reference = HalfSpaceSolver(fine).solve(problem);
+  ASSERT_EQ(reference.status, HalfSpaceStatus::kSolved) << reference.message;
+  EXPECT_NEAR(solution.pull_off_force / reference.pull_off_force, 1.0, 5e-3);
+  EXPECT_NEAR(solution.work_of_adhesion / reference.work_of_adhesion, 1.0, 5e-3);
+  EXPECT_NEAR(solution.contact_stiffness / reference.contact_stiffness, 1.0, 2e-2);
+}
+
+TEST(HardFrames, WhatFlowsHasAWayOutOfItsOwn) {
+  HalfSpaceProblem problem = gaussian(256, 100e-9, 3e-9);
+  problem.load.mechanical_load = 1e6 * problem.surfaces.lower.cellArea() * 256.0 * 256.0;
+  problem.lower_material.hardness = problem.upper_material.hardness = 2e9;
+  const SolvedHalfSpace solution = HalfSpaceSolver(HalfSpaceOptions()).solve(problem);
+  ASSERT_EQ(solution.status, HalfSpaceStatus::kSolved) << solution.message;
+  ASSERT_GT(solution.flowed_volume, 0.0);
+  const auto isStronger = [](const ForcePoint& one, const ForcePoint& other) { return one.force < other.force; };
+  const double way_in = std::max_element(solution.approach.begin(), solution.approach.end(), isStronger)->force;
+  EXPECT_GT(std::abs(solution.pull_off_force / way_in - 1.0), 0.01);
+}
+
 TEST(HardFrames, PressedBodiesAreFollowedInLongStepsToTheSameAnswers) {
   const HalfSpaceProblem problem = pressed(100e6);
   const SolvedHalfSpace solution = HalfSpaceSolver(HalfSpaceOptions()).solve(problem);
   ASSERT_EQ(solution.status, HalfSpaceStatus::kSolved) << solution.message;
   EXPECT_LT(solution.products,
-            500);  // 402; 564 with a way out of its own, 1519 in steps as for bodies that nothing presses
+            500);  // 418; 564 with a way out of its own, 1519 in steps as for bodies that nothing presses
   EXPECT_TRUE(solution.is_step_converged);
   HalfSpaceOptions fine;
   fine.step = 0.1;
@@ -104,7 +144,7 @@ TEST(HardFrames, RestAloneIsTheRestOfTheWholePathForLess) {
   EXPECT_NE(rest.message.find("half_space/path"), std::string::npos) << rest.message;
   EXPECT_TRUE(rest.is_converged);
   EXPECT_LT(rest.residual, options.tolerance);
-  EXPECT_LT(rest.products, 3 * whole.products / 4);  // 273 of 402
+  EXPECT_LT(rest.products, 3 * whole.products / 4);  // 273 of 418
   EXPECT_NEAR(rest.contact_area / whole.contact_area, 1.0, 2e-3);
   EXPECT_NEAR(rest.mean_gap / whole.mean_gap, 1.0, 1e-3);
   EXPECT_NEAR(rest.rest_force / whole.rest_force, 1.0, 2e-3);
@@ -182,7 +222,7 @@ TEST(HardFrames, NearlyClosedFramesThatFlowAreSolvedInFewProducts) {
 TEST(HardFrames, NearBondingTakesFewProducts) {
   const SolvedHalfSpace solution = HalfSpaceSolver(HalfSpaceOptions()).solve(gaussian(256, 300e-9, 1e-9));
   ASSERT_EQ(solution.status, HalfSpaceStatus::kSolved) << solution.message;
-  EXPECT_LT(solution.products, 3300);  // 2924; 4641 with (K + shift)^-1 alone
+  EXPECT_LT(solution.products, 3600);  // 3199; 4641 with (K + shift)^-1 alone
   EXPECT_TRUE(solution.is_step_converged);
 }
 

@@ -1,0 +1,143 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "half_space/contact_path.hpp"
+
+// The way out from rest; contact_path.cpp has the steps of both ways.
+
+namespace mems_stiction {
+namespace {
+
+/// States at one height whose forces differ by less than this, of the force, and their energies by less than that, of the
+/// force times z0, are the same: states of the way in are as near as their residuals are small.
+constexpr double kSameForce = 5e-3;
+constexpr double kSameEnergy = 1e-4;
+/// States of the way in that a leap from rest must save.
+constexpr int kFewestLeapt = 3;
+/// The first step from rest where the stiffness is all that is asked for, of the usual one.
+constexpr double kStiffnessStep = 0.125;
+
+}  // namespace
+
+PathStatus ContactPath::change(const TractionLaw& law) {
+  minimiser_.setLaw(law);
+  is_on_approach_ = false;
+  last_move_ = changing_move_ = 0.0;
+  ForcePoint relaxed;
+  ContactState state;
+  const PathStatus status = attempt(present_.height, 1.0, relaxed, state);
+  if (status != PathStatus::kDone) return status;
+  changed_energy_ += relaxed.energy - present_.energy;
+  present_ = relaxed;
+  present_.energy -= minimiser_.acceptFlow(present_.height);
+  strongest_ = std::max(0.0, present_.force);
+  return PathStatus::kDone;
+}
+
+PathStatus ContactPath::retractFrom(Place&& place, ForceCurve& curve) {
+  minimiser_.goTo(std::move(place.contact));
+  minimiser_.setLaw(place.law);
+  present_ = place.present;
+  strongest_ = place.strongest;
+  is_on_approach_ = place.is_on_approach;
+  last_move_ = changing_move_ = 0.0;
+  return retract(curve);
+}
+
+bool ContactPath::mayGoBack() const { return is_on_approach_ && minimiser_.flowed().empty() && approach_.jumps == 0; }
+
+std::vector<ForcePoint> ContactPath::wayBack() const {
+  std::vector<ForcePoint> way;
+  if (!mayGoBack()) return way;
+  const double smallest = kSmallestStep * settings_.step * minimiser_.law().range();
+  for (auto point = approach_.points.rbegin(); point != approach_.points.rend(); ++point) {
+    if (point->is_solved && point->height >= present_.height + smallest) way.push_back(*point);
+  }
+  return way;
+}
+
+bool ContactPath::isSame(const ForcePoint& one, const ForcePoint& other) const {
+  const double force = forceScale();
+  return std::abs(one.height - other.height) <= kSameHeight * settings_.step * minimiser_.law().range() &&
+         std::abs(one.force - other.force) <= kSameForce * force &&
+         std::abs(one.energy - other.energy) <= kSameEnergy * force * minimiser_.law().range();
+}
+
+bool ContactPath::leap(const ForcePoint& target) {
+  ForcePoint leapt;
+  ContactState state;
+  if (attempt(target.height, 1.0, leapt, state) == PathStatus::kDone && isSame(leapt, target)) return true;
+  minimiser_.takeBack();
+  is_on_approach_ = false;
+  return false;
+}
+
+void ContactPath::leapTowardsSummit(ForceCurve& curve) {
+  const std::vector<ForcePoint> way = wayBack();
+  const auto isWeaker = [](const ForcePoint& one, const ForcePoint& other) { return one.force < other.force; };
+  const auto summit = std::max_element(way.begin(), way.end(), isWeaker);
+  if (summit - way.begin() < kFewestLeapt) return;
+  const bool is_rest = curve.points.size() == 1;  // whose stiffness the first step is to tell
+  if ((is_rest && way.front().height > present_.height + kStepTolerance * step_) || !leap(*(summit - 1))) return;
+  const double from = present_.height;
+  for (auto point = way.begin(); point != summit; ++point) {
+    record(*point, false, curve);
+    if (is_rest && point == way.begin()) noteStiffness();
+  }
+  changing_move_ = present_.height - from;
+  step_ = summit->height - present_.height;
+  if (settings_.on_state) settings_.on_state(present_);
+}
+
+bool ContactPath::leapBehindSummit(ForceCurve& curve) {
+  if (last_parabola_.end >= last_parabola_.begin) return false;
+  const std::vector<ForcePoint> way = wayBack();
+  const auto isHigher = [&](const ForcePoint& point) { return point.force > curve.largest_force; };
+  const auto isBehind = [&](const ForcePoint& point) { return point.force < kSummitForce * curve.largest_force; };
+  const auto behind = std::find_if(way.begin(), way.end(), isBehind);
+  if (behind == way.end() || std::any_of(way.begin(), way.end(), isHigher) || !leap(*behind)) return false;
+  for (const ForcePoint& point : way) record(point, false, curve);
+  return true;
+}
+
+PathStatus ContactPath::goOut(ForceCurve& curve) {
+  const double left = approach_.points.front().height - present_.height;
+  return advance(1.0, left > 0.0 ? left : kLargestStep * step_, -std::numeric_limits<double>::infinity(), curve);
+}
+
+PathStatus ContactPath::leaveRest() { return leaveRest(retraction_); }
+
+PathStatus ContactPath::leaveRest(ForceCurve& curve) {
+  curve.add(present_);
+  const double share = settings_.samples_curve ? 1.0 : kStiffnessStep;
+  step_ = std::min(share * settings_.step * minimiser_.law().range(), kLeastClosing * gapLeft());
+  last_move_ = 0.0;  // the other way
+  is_before_jump_ = false;
+  if (settings_.samples_curve) leapTowardsSummit(curve);
+  if (curve.points.size() > 1) return PathStatus::kDone;
+  const PathStatus status = goOut(curve);
+  if (status != PathStatus::kDone) return status;
+  noteStiffness();
+  if (settings_.samples_curve) leapTowardsSummit(curve);
+  return status;
+}
+
+void ContactPath::noteStiffness() {
+  if (last_move_ != 0.0) stiffness_ = last_parabola_.slope() / last_move_;
+}
+
+PathStatus ContactPath::retract(ForceCurve& curve) {
+  const double end = approach_.points.front().height;
+  PathStatus status = leaveRest(curve);
+  while (status == PathStatus::kDone && (present_.height < end || present_.contact_area > 0.0)) {
+    if (leapBehindSummit(curve)) break;
+    status = goOut(curve);
+  }
+  curve.missed_force = std::max(0.0, curve.missed_force - curve.largest_force);
+  return status;
+}
+
+}  // namespace mems_stiction
