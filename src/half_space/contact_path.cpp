@@ -21,9 +21,11 @@ constexpr double kPointDistance = 0.25;
 /// Share of the largest force that steps over a jump may miss before they become finer.
 constexpr double kNegligibleMiss = 0.005;
 /// How far the mean force of a step may lie from the mean of its ends, of the force: wanted, and more than that is taken
-/// back. A parabola with that sag errs by a quarter of it where the curve is smooth.
+/// back, on the way in and on the way out. A parabola with that sag errs by a quarter of it where the curve is smooth. A jump that passes
+/// for a smooth step adds up to its sag to the work that is lost, and frames have chains of them.
 constexpr double kWantedSag = 0.01;
 constexpr double kLargestSag = 0.03;
+constexpr double kLargestSagOut = 0.015;
 /// A change of slope from one step to the next, over the step and of the force, counts as a sag of this share:
 /// a step over a jump may by chance have the mean of its ends, but not the slope with which it began. The second where
 /// the branch was on its way to the largest force of all, the third where it is near.
@@ -338,11 +340,11 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
     const bool is_heavy = isHeavy(present_) && isHeavy(next);
     const bool is_coarse = is_heavy || !settings_.samples_curve;
     const double wanted_sag = is_coarse ? kWantedHeavySag : kWantedSag;
-    const double largest_sag = is_coarse ? kLargestHeavySag : kLargestSag;
+    const double largest_sag = is_coarse ? kLargestHeavySag : is_way_out ? kLargestSagOut : kLargestSag;
     // a jump loses energy: the mean of both forces does more work than the energies tell
     const StepParabola parabola(present_, next);
     const bool loses = (0.5 * (parabola.begin + parabola.end) - parabola.mean) * direction > 0.0;
-    const bool is_jump = loses && !is_heavy && sagOf(next) > (is_way_out ? kLargestSag : kJumpSag);
+    const bool is_jump = loses && !is_heavy && sagOf(next) > (is_way_out ? kLargestSagOut : kJumpSag);
     // how steeply a branch rises that begins here is not known: its end may be the largest force of all
     const bool may_miss = may_exceed || (direction > 0.0 && last_move_ == 0.0);
     // the force of pressed surfaces rises steeply, but a jump is none the less one in steps that are finer

@@ -23,8 +23,11 @@ ModelStatement CurveStatement::of(const ContactSolution& solution, double work_o
   statement.knows_every_load = true;
   statement.assumes_jkr = false;
   statement.doubt = solution.model.doubt;
-  statement.error = statement.doubt == nullptr ? chosen::kSureError : chosen::kDoubtError;
   const double flattening_ratio = solution.flattening_energy / work_of_adhesion;
+  if (statement.doubt == nullptr && !solution.is_conforming && flattening_ratio < 1.0) {
+    statement.doubt = "bonded surfaces have less energy than the contacts that were found on the way to them";
+  }
+  statement.error = statement.doubt == nullptr ? chosen::kSureError : chosen::kDoubtError;
   if (flattening_ratio > 1.0 && std::isfinite(flattening_ratio)) {
     const double share = std::pow(flattening_ratio, -chosen::kErrorPower);
     statement.error = {share * statement.error.pull_off, share * statement.error.work};

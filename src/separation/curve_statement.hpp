@@ -15,7 +15,7 @@ class CurveStatement {
  public:
   static std::vector<UnusedSetting> unusedSettings(const ContactSettings& settings);
 
-  /// - @p solution whose model already has the doubt of the way out
+  /// - @p solution whose model already has the doubt of the way out; it is doubted, too, where bonded surfaces have less energy
   /// - @p work_of_adhesion Gamma [J/m^2]
   /// - @p bends whether the bodies bend under the long waves of their relief
   static ModelStatement of(const ContactSolution& solution, double work_of_adhesion, bool bends = false);
