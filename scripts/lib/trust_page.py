@@ -125,7 +125,7 @@ def kind_rows(frames, kinds):
         lines.append("| %s | %d | %s | %s | %s | %s | %.0f %% | %s | %s |" % (
             kind or "all", len(of_kind), share_within(force, 1.15), share_within(force, 1.3), share_within(of_work, 1.2), share_within(of_area, 1.3), 100 * np.mean(is_solved),
             share_within(force[~is_solved], 1.3), " | ".join(map(share_within, judged, (1.3, 1.2, 1.3)))))
-    return lines + ["*Judged*: as a device is, by `half_space/enabled: flagged`: doubted frames are solved as half-spaces.", ""]
+    return lines + ["", "*Judged*: as a device is, by `half_space/enabled: flagged`: doubted frames are solved as half-spaces.", ""]
 
 
 def coverage_rows(frames):
