@@ -74,8 +74,8 @@ constexpr int kManyNewtonSteps = 12;
 constexpr double kLongestContinuation = 4.0;
 /// By how much the mean gap falls in one step at most, beside kLeastClosing: the pressure in full contact grows sixfold.
 constexpr double kMostClosing = 0.5;
-/// Force that may be left at rest, of the force.
-constexpr double kRestForce = 1e-3;
+/// Force that may be left at rest, of the force: the area of bonded surfaces grows steeply there.
+constexpr double kRestForce = 3e-4;
 /// A state beyond rest counts as rest when it is no farther from the last one than this, of the usual step.
 constexpr double kRestStep = 1e-5;
 /// Height at which the approach begins, of z0, at least, and over that at which a flat of the frame's size would jump.
@@ -283,7 +283,9 @@ void ContactPath::takeBackAndAim(const ForcePoint& missed, double force) {
 
 PathStatus ContactPath::advance(double direction, double farthest, double least_force, ForceCurve& curve) {
   const double usual = settings_.step * minimiser_.law().range();
-  const double smallest = (direction > 0.0 ? kSmallestStep : kSmallestStepIn) * usual;
+  const double smallest_out = settings_.is_resolved ? kSmallestStep : kSmallestStepIn;
+  const double smallest = (direction > 0.0 ? smallest_out : kSmallestStepIn) * usual;
+  const double largest_sag_out = settings_.is_resolved ? kLargestSagOut : kLargestSag;
   bool is_aimed = false;  // the step leads to least_force as far as is known
   int aims = 0;
   if (direction > 0.0 && curve.points.size() > 1) planStep();
@@ -340,11 +342,11 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
     const bool is_heavy = isHeavy(present_) && isHeavy(next);
     const bool is_coarse = is_heavy || !settings_.samples_curve;
     const double wanted_sag = is_coarse ? kWantedHeavySag : kWantedSag;
-    const double largest_sag = is_coarse ? kLargestHeavySag : is_way_out ? kLargestSagOut : kLargestSag;
+    const double largest_sag = is_coarse ? kLargestHeavySag : is_way_out ? largest_sag_out : kLargestSag;
     // a jump loses energy: the mean of both forces does more work than the energies tell
     const StepParabola parabola(present_, next);
     const bool loses = (0.5 * (parabola.begin + parabola.end) - parabola.mean) * direction > 0.0;
-    const bool is_jump = loses && !is_heavy && sagOf(next) > (is_way_out ? kLargestSagOut : kJumpSag);
+    const bool is_jump = loses && !is_heavy && sagOf(next) > (is_way_out ? largest_sag_out : kJumpSag);
     // how steeply a branch rises that begins here is not known: its end may be the largest force of all
     const bool may_miss = may_exceed || (direction > 0.0 && last_move_ == 0.0);
     // the force of pressed surfaces rises steeply, but a jump is none the less one in steps that are finer

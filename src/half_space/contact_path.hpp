@@ -54,6 +54,8 @@ struct PathSettings {
   double step = 0.4;  ///< usual change of Z, of z0
   /// false: only where it leads matters, not the curve
   bool samples_curve = true;
+  /// false: jumps are of the lattice, from pixel to pixel, and need not be met in small steps
+  bool is_resolved = true;
   int max_states = 2000;                            ///< solved in all
   std::function<void(const ForcePoint&)> on_state;  ///< after each; may be empty
 };

@@ -289,6 +289,7 @@ SolvedHalfSpace HalfSpaceSolver::solve(const HalfSpaceProblem& problem, const Ha
   solution.range = law.range();
   solution.cohesive_length = cohesiveLength(problem, law);
   solution.is_resolved = solution.cohesive_length >= kPixelsPerCohesiveLength * std::max(grid.pitch_x, grid.pitch_y);
+  path_settings.is_resolved = solution.is_resolved;
   LargePageVector<float> flowed;
   {
     ContactMinimiser minimiser(grid, law, response, reliefOf(problem.surfaces, options_.threads), minimiser_settings);
