@@ -64,7 +64,9 @@ constexpr double kShortestAim = 0.05;
 constexpr double kLongestAim = 2.0;
 /// On the way out, sags with which heights of the way in are taken up again.
 constexpr double kPlannedSag = 0.015;
-/// Usual step for which they apply, of z0.
+/// Steps are compared with limits but for rounding.
+constexpr double kStepTolerance = 1.001;
+/// Usual step for which the sags apply, of z0.
 constexpr double kUsualStep = 0.4;
 /// Steps grow and shrink by no more than this at once.
 constexpr double kLargestChange = 2.0;

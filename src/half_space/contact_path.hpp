@@ -107,9 +107,8 @@ class ContactPath {
   static constexpr double kLargestStep = 8.0;
   /// Near the largest force is more than this share of it.
   static constexpr double kSummitForce = 0.9;
-  /// Heights that differ by less, of the usual step, are the same but for rounding; steps are compared with limits like that.
+  /// Heights that differ by less, of the usual step, are the same but for rounding.
   static constexpr double kSameHeight = 1e-6;
-  static constexpr double kStepTolerance = 1.001;
   /// By how much the mean gap of a periodic frame may fall in any step, of its distance to the narrowest gap.
   static constexpr double kLeastClosing = 0.1;
 

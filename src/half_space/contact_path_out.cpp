@@ -15,8 +15,10 @@ namespace {
 /// force times z0, are the same: states of the way in are as near as their residuals are small.
 constexpr double kSameForce = 5e-3;
 constexpr double kSameEnergy = 1e-4;
-/// States of the way in that a leap from rest must save.
-constexpr int kFewestLeapt = 3;
+/// States of the way in that a leap from rest must pass.
+constexpr int kFewestLeapt = 2;
+/// The nearest of them tells the stiffness if it is no farther than so many first steps.
+constexpr double kLongestFirstStep = 1.5;
 /// The first step from rest where the stiffness is all that is asked for, of the usual one.
 constexpr double kStiffnessStep = 0.125;
 
@@ -81,7 +83,7 @@ void ContactPath::leapTowardsSummit(ForceCurve& curve) {
   const auto summit = std::max_element(way.begin(), way.end(), isWeaker);
   if (summit - way.begin() < kFewestLeapt) return;
   const bool is_rest = curve.points.size() == 1;  // whose stiffness the first step is to tell
-  if ((is_rest && way.front().height > present_.height + kStepTolerance * step_) || !leap(*(summit - 1))) return;
+  if ((is_rest && way.front().height > present_.height + kLongestFirstStep * step_) || !leap(*(summit - 1))) return;
   const double from = present_.height;
   for (auto point = way.begin(); point != summit; ++point) {
     record(*point, false, curve);
