@@ -384,12 +384,12 @@ ContactState ContactMinimiser::solve(double height, const Search& search) {
   state.height = height;
   const int products_before = products();
   const float share = std::exchange(pending_share_, 0.0F);
-  const double allowed = search.tolerance * settings_.tolerance * law_.stress();
   const double exact = settings_.tolerance * law_.stress();
+  const double allowed = search.tolerance * exact;
   const double stale = kStaleShare * std::min(allowed, std::max(exact, search.residual_norm));
-  // how many times what is allowed is left
+  // how many times what is allowed is left; an exact state needs no norm
   const auto excessOf = [&](const Evaluation& of) {
-    return std::min(of.largest_residual / std::min(allowed, exact),
+    return std::min(of.largest_residual / exact,
                     std::max(of.largest_residual / allowed, of.residual_norm / search.residual_norm));
   };
   Evaluation now;

@@ -83,7 +83,7 @@ class ContactMinimiser {
     /// What a cell moves in one Newton step at most, of z0: t' changes over such a distance. The more, the fewer steps, and
     /// the farther the equilibrium may be where surfaces attract each other.
     double longest_move = 1.0;
-    double tolerance = 1.0;  ///< of that of the settings
+    double tolerance = 1.0;  ///< of that of the settings, >= 1
     /// Root of the mean square that may be left of the residual [Pa].
     double residual_norm = std::numeric_limits<double>::infinity();
   };
@@ -209,11 +209,11 @@ class ContactMinimiser {
   LargePageVector<float> fixed_;             ///< traction of another displacement [Pa]; none but in a window
   std::unique_ptr<ContactWindows> windows_;  ///< none in a window
   int windows_pause_ = 0;                    ///< in so many states they are not tried
-  int last_pause_ = 0;
-  float pending_share_ = 0.0F;  ///< of the last change, by which u is still to go on
-  double lowest_gap_ = 0.0;     ///< in the state just solved [m]
-  double mean_traction_ = 0.0;  ///< that K does not resist, as far as it is known [Pa]
-  int exact_products_ = 0;      ///< of K u
+  int last_pause_ = 0;                       ///< how long the last one was
+  float pending_share_ = 0.0F;               ///< of the last change, by which u is still to go on
+  double lowest_gap_ = 0.0;                  ///< in the state just solved [m]
+  double mean_traction_ = 0.0;               ///< that K does not resist, as far as it is known [Pa]
+  int exact_products_ = 0;                   ///< of K u
   int window_products_ = 0;
   bool is_set_up_ = false;
 };

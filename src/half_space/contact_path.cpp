@@ -21,8 +21,8 @@ constexpr double kPointDistance = 0.25;
 /// Share of the largest force that steps over a jump may miss before they become finer.
 constexpr double kNegligibleMiss = 0.005;
 /// How far the mean force of a step may lie from the mean of its ends, of the force: wanted, and more than that is taken
-/// back, on the way in and on the way out. A parabola with that sag errs by a quarter of it where the curve is smooth. A jump that passes
-/// for a smooth step adds up to its sag to the work that is lost, and frames have chains of them.
+/// back, on the way in and on the way out. A parabola with that sag errs by a quarter of it where the curve is smooth. A
+/// jump that passes for a smooth step adds up to its sag to the work that is lost, and frames have chains of them.
 constexpr double kWantedSag = 0.01;
 constexpr double kLargestSag = 0.03;
 constexpr double kLargestSagOut = 0.015;
@@ -32,7 +32,7 @@ constexpr double kLargestSagOut = 0.015;
 constexpr double kKinkShare = 0.2;
 constexpr double kRisingKinkShare = 0.5;
 constexpr double kSummitKinkShare = 1.5;
-/// So many times a sag counts there.
+/// So many times a sag counts near the largest force.
 constexpr double kSummitSagShare = 2.0;
 /// The smallest step that misses more than this goes over a jump; on the way out, whose work counts, what is taken back at all.
 constexpr double kJumpSag = 0.06;
@@ -53,9 +53,10 @@ constexpr double kLargestHeavyStep = 128.0;
 constexpr double kLongestHeavyMove = 30.0;
 /// Residuals there of states that are only on the way to others, of the tolerance.
 constexpr double kRoughTolerance = 100.0;
-/// Residuals of other states of the way in, but rest and those that flow, of the tolerance, and the root of their mean square, of the largest force over the frame.
-/// Set, as the smallest step and kSameForce and kSameEnergy are, on `scripts/trust --half-space-steps` of seeds 32 and 34:
-/// exact states there take a seventh more time, and are no nearer to finer steps.
+/// Residuals of other states of the way in, but rest and those that flow, of the tolerance, and the root of their mean
+/// square, of the largest force over the frame. Set, as the smallest step and kSameForce and kSameEnergy are, on
+/// `scripts/trust --half-space-steps` of seeds 32 and 34: exact states there take a seventh more time, and are no nearer
+/// to finer steps.
 constexpr double kPassingTolerance = 30.0;
 constexpr double kPassingForce = 0.01;
 /// How often a force is aimed at, and how far from there at once, of the step that missed it.
@@ -72,6 +73,8 @@ constexpr double kUsualStep = 0.4;
 constexpr double kLargestChange = 2.0;
 /// Newton steps of a state that does not follow smoothly: the next step is no longer.
 constexpr int kManyNewtonSteps = 12;
+/// Heights that differ by less, of the usual step, are the same but for rounding.
+constexpr double kSameHeight = 1e-6;
 /// The present change is continued over no more than this many times its length.
 constexpr double kLongestContinuation = 4.0;
 /// By how much the mean gap falls in one step at most, beside kLeastClosing: the pressure in full contact grows sixfold.
@@ -120,6 +123,8 @@ bool ContactPath::isHeavy(const ForcePoint& point) const {
 }
 
 double ContactPath::forceScale() const { return std::max(std::abs(present_.force), strongest_); }
+
+double ContactPath::leftAtRest(double load) const { return kRestForce * std::max(forceScale(), load); }
 
 double ContactPath::sagOf(const ForcePoint& next) const {
   const StepParabola parabola(present_, next);
@@ -285,8 +290,7 @@ void ContactPath::takeBackAndAim(const ForcePoint& missed, double force) {
 
 PathStatus ContactPath::advance(double direction, double farthest, double least_force, ForceCurve& curve) {
   const double usual = settings_.step * minimiser_.law().range();
-  const double smallest_out = settings_.is_resolved ? kSmallestStep : kSmallestStepIn;
-  const double smallest = (direction > 0.0 ? smallest_out : kSmallestStepIn) * usual;
+  const double smallest = (direction > 0.0 && settings_.is_resolved ? kSmallestStep : kSmallestStepIn) * usual;
   const double largest_sag_out = settings_.is_resolved ? kLargestSagOut : kLargestSag;
   bool is_aimed = false;  // the step leads to least_force as far as is known
   int aims = 0;
@@ -319,9 +323,8 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
       continue;
     }
     if (tolerance > 1.0 && status == PathStatus::kDone) {
-      const double left = kRestForce * std::max(forceScale(), std::max(0.0, -least_force));
       const bool may_flow = is_rough ? minimiser_.hasFlow() : minimiser_.isNearFlow();
-      if ((is_rough && is_aimed) || next.force < least_force + left || may_flow) {
+      if ((is_rough && is_aimed) || next.force < least_force + leftAtRest(-least_force) || may_flow) {
         status = settle(present_.height + move, 1.0, next, state);
       }
     }
@@ -367,7 +370,7 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
       is_aimed = false;
       continue;
     }
-    if (next.force < least_force - kRestForce * std::max(forceScale(), -least_force) && step > kRestStep * usual) {
+    if (next.force < least_force - leftAtRest(-least_force) && step > kRestStep * usual) {
       if (is_heavy) {
         minimiser_.takeBack();
       } else {
@@ -418,7 +421,7 @@ PathStatus ContactPath::approach(double load) {
   while (status == PathStatus::kDone) {
     if (present_.height <= lowest) return PathStatus::kLoadNotReached;
     status = advance(-1.0, std::max(present_.height - lowest, step_), -load, approach_);
-    if (present_.force + load <= kRestForce * std::max(forceScale(), load)) break;
+    if (present_.force + load <= leftAtRest(load)) break;
   }
   return status;
 }

@@ -107,20 +107,15 @@ class ContactPath {
   static constexpr double kLargestStep = 8.0;
   /// Near the largest force is more than this share of it.
   static constexpr double kSummitForce = 0.9;
-  /// Heights that differ by less, of the usual step, are the same but for rounding.
-  static constexpr double kSameHeight = 1e-6;
   /// By how much the mean gap of a periodic frame may fall in any step, of its distance to the narrowest gap.
   static constexpr double kLeastClosing = 0.1;
 
   PathStatus retract(ForceCurve& curve);
   PathStatus leaveRest(ForceCurve& curve);
   PathStatus goOut(ForceCurve& curve);
-  /// Whether the way out may be that of the way in from here: its law, no jump, and nothing has flowed.
-  bool mayGoBack() const;
-  /// The states of the way in from here outwards, but the nearest; empty where the way out may be another one.
+  /// The states of the way in from here outwards, but the nearest; empty where the way out may be another one: after a jump or
+  /// flow, under another law, or from another state.
   std::vector<ForcePoint> wayBack() const;
-  /// Whether two states are one.
-  bool isSame(const ForcePoint& one, const ForcePoint& other) const;
   /// Solves at the height of a state of the way in. @return whether it is the state that is found there from here
   bool leap(const ForcePoint& target);
   /// From rest to the last state of the way in before its largest force.
@@ -164,6 +159,8 @@ class ContactPath {
   /// `least_force` [N].
   PathStatus advance(double direction, double farthest, double least_force, ForceCurve& curve);
   double forceScale() const;
+  /// Force that may be left at rest under `load` [N].
+  double leftAtRest(double load) const;
   /// Whether the bodies are pressed so much that attraction hardly counts.
   bool isHeavy(const ForcePoint& point) const;
   double sagOf(const ForcePoint& next) const;

@@ -49,11 +49,10 @@ PathStatus ContactPath::retractFrom(Place&& place, ForceCurve& curve) {
   return retract(curve);
 }
 
-bool ContactPath::mayGoBack() const { return is_on_approach_ && minimiser_.flowed().empty() && approach_.jumps == 0; }
-
 std::vector<ForcePoint> ContactPath::wayBack() const {
   std::vector<ForcePoint> way;
-  if (!mayGoBack()) return way;
+  const bool is_one_branch = is_on_approach_ && minimiser_.flowed().empty() && approach_.jumps == 0;
+  if (!settings_.samples_curve || !is_one_branch) return way;
   const double smallest = kSmallestStep * settings_.step * minimiser_.law().range();
   for (auto point = approach_.points.rbegin(); point != approach_.points.rend(); ++point) {
     if (point->is_solved && point->height >= present_.height + smallest) way.push_back(*point);
@@ -61,17 +60,16 @@ std::vector<ForcePoint> ContactPath::wayBack() const {
   return way;
 }
 
-bool ContactPath::isSame(const ForcePoint& one, const ForcePoint& other) const {
-  const double force = forceScale();
-  return std::abs(one.height - other.height) <= kSameHeight * settings_.step * minimiser_.law().range() &&
-         std::abs(one.force - other.force) <= kSameForce * force &&
-         std::abs(one.energy - other.energy) <= kSameEnergy * force * minimiser_.law().range();
-}
-
 bool ContactPath::leap(const ForcePoint& target) {
   ForcePoint leapt;
   ContactState state;
-  if (attempt(target.height, 1.0, leapt, state) == PathStatus::kDone && isSame(leapt, target)) return true;
+  const double force = forceScale();
+  if (attempt(target.height, 1.0, leapt, state) == PathStatus::kDone &&
+      std::abs(leapt.force - target.force) <= kSameForce * force &&
+      std::abs(leapt.energy - target.energy) <= kSameEnergy * force * minimiser_.law().range()) {
+    if (settings_.on_state) settings_.on_state(leapt);
+    return true;
+  }
   minimiser_.takeBack();
   is_on_approach_ = false;
   return false;
@@ -91,7 +89,6 @@ void ContactPath::leapTowardsSummit(ForceCurve& curve) {
   }
   changing_move_ = present_.height - from;
   step_ = summit->height - present_.height;
-  if (settings_.on_state) settings_.on_state(present_);
 }
 
 bool ContactPath::leapBehindSummit(ForceCurve& curve) {
@@ -118,12 +115,12 @@ PathStatus ContactPath::leaveRest(ForceCurve& curve) {
   step_ = std::min(share * settings_.step * minimiser_.law().range(), kLeastClosing * gapLeft());
   last_move_ = 0.0;  // the other way
   is_before_jump_ = false;
-  if (settings_.samples_curve) leapTowardsSummit(curve);
+  leapTowardsSummit(curve);
   if (curve.points.size() > 1) return PathStatus::kDone;
   const PathStatus status = goOut(curve);
   if (status != PathStatus::kDone) return status;
   noteStiffness();
-  if (settings_.samples_curve) leapTowardsSummit(curve);
+  leapTowardsSummit(curve);
   return status;
 }
 

@@ -66,6 +66,13 @@ TEST(HardFrames, LargerFramesTakeNoMoreProductsForTheirContacts) {
   EXPECT_LT(solution.products, 95);
 }
 
+SolvedHalfSpace inSmallSteps(const HalfSpaceProblem& problem, HalfSpaceOptions options = {}) {
+  options.step = 0.1;
+  SolvedHalfSpace solution = HalfSpaceSolver(options).solve(problem);
+  EXPECT_EQ(solution.status, HalfSpaceStatus::kSolved) << solution.message;
+  return solution;
+}
+
 TEST(HardFrames, AWayInWithoutAJumpIsTheWayOut) {
   const HalfSpaceProblem problem = gaussian(256, 100e-9, 3e-9);
   const SolvedHalfSpace solution = HalfSpaceSolver(HalfSpaceOptions()).solve(problem);
@@ -84,10 +91,7 @@ TEST(HardFrames, AWayInWithoutAJumpIsTheWayOut) {
   }
   EXPECT_GT(shared, way_in / 2);
   EXPECT_NEAR(solution.hysteresis / solution.work_of_adhesion, 0.0, 1e-9);
-  HalfSpaceOptions fine;
-  fine.step = 0.1;
-  const SolvedHalfSpace reference = HalfSpaceSolver(fine).solve(problem);
-  ASSERT_EQ(reference.status, HalfSpaceStatus::kSolved) << reference.message;
+  const SolvedHalfSpace reference = inSmallSteps(problem);
   EXPECT_NEAR(solution.pull_off_force / reference.pull_off_force, 1.0, 5e-3);
   EXPECT_NEAR(solution.work_of_adhesion / reference.work_of_adhesion, 1.0, 5e-3);
   EXPECT_NEAR(solution.contact_stiffness / reference.contact_stiffness, 1.0, 2e-2);
@@ -112,10 +116,7 @@ TEST(HardFrames, PressedBodiesAreFollowedInLongStepsToTheSameAnswers) {
   EXPECT_LT(solution.products,
             500);  // 418; 564 with a way out of its own, 1519 in steps as for bodies that nothing presses
   EXPECT_TRUE(solution.is_step_converged);
-  HalfSpaceOptions fine;
-  fine.step = 0.1;
-  const SolvedHalfSpace reference = HalfSpaceSolver(fine).solve(problem);
-  ASSERT_EQ(reference.status, HalfSpaceStatus::kSolved) << reference.message;
+  const SolvedHalfSpace reference = inSmallSteps(problem);
   EXPECT_NEAR(solution.contact_area / reference.contact_area, 1.0, 5e-3);
   EXPECT_NEAR(solution.mean_gap / reference.mean_gap, 1.0, 1e-3);
   EXPECT_NEAR(solution.pull_off_force / reference.pull_off_force, 1.0, 5e-3);
@@ -181,11 +182,9 @@ HalfSpaceProblem closed(double pressure) {
   return problem;
 }
 
-void expectTheAnswersOfSmallSteps(const HalfSpaceProblem& problem, HalfSpaceOptions options,
+void expectTheAnswersOfSmallSteps(const HalfSpaceProblem& problem, const HalfSpaceOptions& options,
                                   const SolvedHalfSpace& solution) {
-  options.step = 0.1;
-  const SolvedHalfSpace fine = HalfSpaceSolver(options).solve(problem);
-  ASSERT_EQ(fine.status, HalfSpaceStatus::kSolved) << fine.message;
+  const SolvedHalfSpace fine = inSmallSteps(problem, options);
   EXPECT_NEAR(solution.contact_area / fine.contact_area, 1.0, 5e-3);
   EXPECT_NEAR(solution.pull_off_force / fine.pull_off_force, 1.0, 5e-3);
   EXPECT_NEAR(solution.work_of_adhesion / fine.work_of_adhesion, 1.0, 1e-2);
