@@ -9,9 +9,10 @@
 namespace mems_stiction {
 namespace {
 
-/// Smallest steps, of the usual one, beside kSmallestStep: on the way in, and where the largest force of the retraction may
-/// depend on it.
+/// Smallest steps, of the usual one, beside kSmallestStep: on the way in, which may be the way out, and behind its first
+/// jump; and where the largest force of the retraction may depend on it.
 constexpr double kSmallestStepIn = 0.25;
+constexpr double kSmallestStepBehindJump = 1.0;
 constexpr double kFinestStep = 0.03125;
 /// Smallest step where the branch rises beyond the largest force, of the usual one: from a stiff rest the force may rise by
 /// a tenth over the finest one, and end by a jump.
@@ -53,10 +54,10 @@ constexpr double kLargestHeavyStep = 128.0;
 constexpr double kLongestHeavyMove = 30.0;
 /// Residuals there of states that are only on the way to others, of the tolerance.
 constexpr double kRoughTolerance = 100.0;
-/// Residuals of other states of the way in, but rest and those that flow, of the tolerance, and the root of their mean
-/// square, of the largest force over the frame. Set, as the smallest step and kSameForce and kSameEnergy are, on
-/// `scripts/trust --half-space-steps` of seeds 32 and 34: exact states there take a seventh more time, and are no nearer
-/// to finer steps.
+/// Residuals of other states, of the tolerance, and the root of their mean square, of the largest force over the frame: on
+/// the way in, but rest and those that flow, and on the way out, far from the largest force. Set, as the smallest steps and
+/// kSameForce and kSameEnergy are, on `scripts/trust --half-space-steps` of seeds 32 and 34: exact states take a seventh
+/// more time on the way in, a tenth on the way out of frames that jump, and are no nearer to finer steps.
 constexpr double kPassingTolerance = 30.0;
 constexpr double kPassingForce = 0.01;
 /// How often a force is aimed at, and how far from there at once, of the step that missed it.
@@ -290,7 +291,9 @@ void ContactPath::takeBackAndAim(const ForcePoint& missed, double force) {
 
 PathStatus ContactPath::advance(double direction, double farthest, double least_force, ForceCurve& curve) {
   const double usual = settings_.step * minimiser_.law().range();
-  const double smallest = (direction > 0.0 && settings_.is_resolved ? kSmallestStep : kSmallestStepIn) * usual;
+  const bool is_in = direction < 0.0;
+  const double planned = (is_in || !settings_.is_resolved ? kSmallestStepIn : kSmallestStep) * usual;
+  const double smallest = is_in && !curve.isOneBranch() ? kSmallestStepBehindJump * usual : planned;
   const double largest_sag_out = settings_.is_resolved ? kLargestSagOut : kLargestSag;
   bool is_aimed = false;  // the step leads to least_force as far as is known
   int aims = 0;
@@ -301,7 +304,7 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
     const double wanted = is_aimed ? step_ : stepTo(next_force);
     is_aimed = is_aimed || (wanted < step_ && next_force == least_force);
     double step = std::min(std::max(wanted, kRestStep * usual), farthest);
-    if (direction < 0.0) step = std::min(step, closingStep(least_force));
+    if (is_in) step = std::min(step, closingStep(least_force));
     const double to_jump = is_before_jump_ ? direction * (jump_height_ - present_.height) : 0.0;
     if (is_before_jump_) {
       const double nearest = mayExceed(direction, to_jump, curve.largest_force) ? finest_ : smallest;
@@ -311,9 +314,12 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
     ForcePoint next;
     ContactState state;
     // a way to somewhere else, or a force that is to be another one
-    const bool is_passed = direction < 0.0 && !settings_.samples_curve;
+    const bool is_passed = is_in && !settings_.samples_curve;
     const bool is_rough = isHeavy(present_) && (is_aimed || is_passed);
-    const bool is_passing = direction < 0.0 && minimiser_.flowed().empty();
+    // the first step out tells the stiffness
+    const bool is_far = is_in || (settings_.samples_curve && last_move_ != 0.0 &&
+                                  std::max(present_.force, continued(step)) < kSummitForce * curve.largest_force);
+    const bool is_passing = is_far && minimiser_.flowed().empty();
     const double tolerance = is_rough ? kRoughTolerance : is_passing ? kPassingTolerance : 1.0;
     PathStatus status = attempt(present_.height + move, tolerance, next, state);
     if (is_rough && status == PathStatus::kDone && is_aimed && aims < kMostAims &&
@@ -324,7 +330,10 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
     }
     if (tolerance > 1.0 && status == PathStatus::kDone) {
       const bool may_flow = is_rough ? minimiser_.hasFlow() : minimiser_.isNearFlow();
-      if ((is_rough && is_aimed) || next.force < least_force + leftAtRest(-least_force) || may_flow) {
+      const double near = std::max(leftAtRest(-least_force), kPassingForce * forceScale());
+      const bool counts =
+          next.force < least_force + near || (!is_in && next.force > kSummitForce * curve.largest_force);
+      if ((is_rough && is_aimed) || counts || may_flow) {
         status = settle(present_.height + move, 1.0, next, state);
       }
     }
@@ -381,11 +390,12 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
       is_aimed = true;
       continue;
     }
+    curve.is_smooth = curve.is_smooth && sag <= largest_sag;
     accept(next, is_jump, curve);
     is_before_jump_ = is_before_jump_ && direction * (jump_height_ - present_.height) > kSameHeight * usual;
     double change = std::clamp(std::sqrt(wanted_sag / std::max(sag, 1e-12)), 1.0 / kLargestChange, kLargestChange);
     if (state.newton_steps > kManyNewtonSteps && !is_heavy) change = std::min(change, 1.0);
-    step_ = std::clamp(step * change, smallest, (is_heavy ? kLargestHeavyStep : kLargestStep) * usual);
+    step_ = std::clamp(step * change, std::min(planned, step), (is_heavy ? kLargestHeavyStep : kLargestStep) * usual);
     return PathStatus::kDone;
   }
 }

@@ -18,7 +18,8 @@
 /// A way in without a jump is one branch of minima, which the way out follows back: it then leaps from rest to the state
 /// before the largest force, follows the branch over that by steps of its own, and leaps to the state behind. Both leaps
 /// must end in the states that the way in had there, or the way out goes on in steps. What has flowed, and another law,
-/// make it another branch. States of the way in, but rest, have rough residuals.
+/// make it another branch. States of the way in, but rest, and of the way out far from the largest force have rough residuals.
+/// Behind the first jump of the way in only where it leads to counts: its jumps are met in steps of the usual size.
 ///
 /// What a voltage adds to the traction goes at rest, at constant height, before the bodies are drawn apart: the device opens
 /// when its loads have gone. From there to no force the way out takes the load that the voltage was, and then the
@@ -37,6 +38,8 @@ namespace mems_stiction {
 /// The curve in one direction.
 struct ForceCurve {
   void add(const ForcePoint& point);
+  /// Whether its states are minima that go over into each other.
+  bool isOneBranch() const { return jumps == 0 && is_smooth; }
 
   std::vector<ForcePoint> points;
   double work = 0.0;             ///< integral of F dZ over the points, signed as Z went [J]
@@ -45,6 +48,7 @@ struct ForceCurve {
   double largest_height = 0.0;   ///< where [m]
   double missed_force = 0.0;     ///< what finer steps may find beyond largest_force [N]
   int jumps = 0;                 ///< steps over which the force cannot be continuous
+  bool is_smooth = true;         ///< no step has missed so much that there may be a small jump in it
 };
 
 enum class PathStatus { kDone, kCancelled, kNotConverged, kLoadNotReached, kTooManyStates };

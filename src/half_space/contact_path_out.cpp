@@ -51,7 +51,7 @@ PathStatus ContactPath::retractFrom(Place&& place, ForceCurve& curve) {
 
 std::vector<ForcePoint> ContactPath::wayBack() const {
   std::vector<ForcePoint> way;
-  const bool is_one_branch = is_on_approach_ && minimiser_.flowed().empty() && approach_.jumps == 0;
+  const bool is_one_branch = is_on_approach_ && minimiser_.flowed().empty() && approach_.isOneBranch();
   if (!settings_.samples_curve || !is_one_branch) return way;
   const double smallest = kSmallestStep * settings_.step * minimiser_.law().range();
   for (auto point = approach_.points.rbegin(); point != approach_.points.rend(); ++point) {
@@ -78,7 +78,12 @@ bool ContactPath::leap(const ForcePoint& target) {
 void ContactPath::leapTowardsSummit(ForceCurve& curve) {
   const std::vector<ForcePoint> way = wayBack();
   const auto isWeaker = [](const ForcePoint& one, const ForcePoint& other) { return one.force < other.force; };
-  const auto summit = std::max_element(way.begin(), way.end(), isWeaker);
+  const auto highest = std::max_element(way.begin(), way.end(), isWeaker);
+  if (highest == way.end()) return;
+  // the first of several, as behind each the way out may be another branch for a while
+  auto summit = std::find_if(way.begin(), highest,
+                             [&](const ForcePoint& point) { return point.force > kSummitForce * highest->force; });
+  while (summit != highest && summit->force < (summit + 1)->force) ++summit;
   if (summit - way.begin() < kFewestLeapt) return;
   const bool is_rest = curve.points.size() == 1;  // whose stiffness the first step is to tell
   if ((is_rest && way.front().height > present_.height + kLongestFirstStep * step_) || !leap(*(summit - 1))) return;
@@ -94,10 +99,13 @@ void ContactPath::leapTowardsSummit(ForceCurve& curve) {
 bool ContactPath::leapBehindSummit(ForceCurve& curve) {
   if (last_parabola_.end >= last_parabola_.begin) return false;
   const std::vector<ForcePoint> way = wayBack();
-  const auto isHigher = [&](const ForcePoint& point) { return point.force > curve.largest_force; };
   const auto isBehind = [&](const ForcePoint& point) { return point.force < kSummitForce * curve.largest_force; };
+  const auto isStronger = [](const ForcePoint& one, const ForcePoint& other) { return one.force > other.force; };
   const auto behind = std::find_if(way.begin(), way.end(), isBehind);
-  if (behind == way.end() || std::any_of(way.begin(), way.end(), isHigher) || !leap(*behind)) return false;
+  if (behind == way.end() || isStronger(way.front(), present_)) return false;
+  const bool is_last_summit =
+      std::is_sorted(way.begin(), behind, isStronger) && std::all_of(behind, way.end(), isBehind);
+  if (!is_last_summit || !leap(*behind)) return false;
   for (const ForcePoint& point : way) record(point, false, curve);
   return true;
 }

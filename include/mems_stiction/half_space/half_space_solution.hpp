@@ -59,10 +59,10 @@ struct SolvedHalfSpace {
   double flowed_volume = kNone;    ///< that both surfaces have lost [m^3]
   double range = kNone;            ///< z0 [m]
   double cohesive_length = kNone;  ///< E z0^2/Gamma: over which contacts part [m]
-  bool is_converged = false;       ///< every state is an equilibrium to half_space/tolerance
+  bool is_converged = false;       ///< every state is an equilibrium, to half_space/tolerance where it counts
   bool is_resolved = false;        ///< pixels are small enough for the cohesive length
   bool is_step_converged = false;  ///< finer steps change the pull-off force by less than 2 %
-  double residual = kNone;         ///< the largest of all states [-]
+  double residual = kNone;         ///< the largest of rest and of states near the largest force; others pass with more [-]
   int state_count = 0;             ///< solved
   int newton_steps = 0;
   int products = 0;                ///< pairs of Fourier transforms
