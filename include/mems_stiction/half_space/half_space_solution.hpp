@@ -62,7 +62,7 @@ struct SolvedHalfSpace {
   bool is_converged = false;       ///< every state is an equilibrium, to half_space/tolerance where it counts
   bool is_resolved = false;        ///< pixels are small enough for the cohesive length
   bool is_step_converged = false;  ///< finer steps change the pull-off force by less than 2 %
-  double residual = kNone;         ///< the largest of rest and of states near the largest force; others pass with more [-]
+  double residual = kNone;         ///< the largest at rest and near the largest force [-]
   int state_count = 0;             ///< solved
   int newton_steps = 0;
   int products = 0;                ///< pairs of Fourier transforms
