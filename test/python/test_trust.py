@@ -74,9 +74,11 @@ class TrustTest(unittest.TestCase):
         written = page.read_text(encoding="utf-8")
         self.assertEqual(headings(written), headings(shipped))
         self.assertIn("| all | 4 |", written)
-        for text in (self.folder / "steps.jsonl").read_text().splitlines():
-            line = json.loads(text)
-            self.assertGreater(line["fine"]["state_count"], line["usual"]["state_count"])
+        lines = [json.loads(text) for text in (self.folder / "steps.jsonl").read_text().splitlines()]
+        # of one frame either way out may follow the way in, which takes half the states
+        usual, fine = (sum(line[steps]["state_count"] for line in lines) for steps in ("usual", "fine"))
+        self.assertGreater(fine, 1.3 * usual)
+        for line in lines:
             for name in half_space_steps.COMPARED:
                 self.assertLess(abs(half_space_steps.deviation(line, name)), 0.2, line["frame"])
 
