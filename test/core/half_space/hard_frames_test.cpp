@@ -235,6 +235,8 @@ TEST(HardFrames, NoStepGoesOverTheJumpThatEndsTheBranchOfTheLargestForce) {
 TEST(HardFrames, SoftSurfacesHoldInUsualStepsWhatTheyDoInFineOnes) {
   // from a stiff rest the force rises to its largest within a few hundredths of z0 and ends by a jump: the usual steps before
   // went over both, and lost up to a fifth of it
+  int usual_newton_steps = 0;
+  int fine_newton_steps = 0;
   for (const double modulus : {8e9, 12e9}) {
     for (int seed = 1; seed <= 6; ++seed) {
       HalfSpaceProblem problem =
@@ -247,9 +249,11 @@ TEST(HardFrames, SoftSurfacesHoldInUsualStepsWhatTheyDoInFineOnes) {
       const SolvedHalfSpace fine = HalfSpaceSolver(options).solve(problem);
       ASSERT_EQ(fine.status, HalfSpaceStatus::kSolved) << fine.message;
       EXPECT_NEAR(usual.pull_off_force / fine.pull_off_force, 1.0, 5e-3) << modulus << " Pa, seed " << seed;
-      EXPECT_LT(usual.newton_steps, fine.newton_steps) << modulus << " Pa, seed " << seed;
+      usual_newton_steps += usual.newton_steps;
+      fine_newton_steps += fine.newton_steps;
     }
   }
+  EXPECT_LT(1.2 * usual_newton_steps, fine_newton_steps);
 }
 
 TEST(HardFrames, WhatDoesNotAttractHoldsNothing) {
