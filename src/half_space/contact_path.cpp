@@ -292,12 +292,13 @@ void ContactPath::takeBackAndAim(const ForcePoint& missed, double force) {
 PathStatus ContactPath::advance(double direction, double farthest, double least_force, ForceCurve& curve) {
   const double usual = settings_.step * minimiser_.law().range();
   const bool is_in = direction < 0.0;
+  const bool is_way_out = !is_in && settings_.samples_curve;
   const double planned = (is_in || !settings_.is_resolved ? kSmallestStepIn : kSmallestStep) * usual;
-  const double smallest = is_in && !curve.isOneBranch() ? kSmallestStepBehindJump * usual : planned;
+  const double smallest = is_in && !curve.is_one_branch ? kSmallestStepBehindJump * usual : planned;
   const double largest_sag_out = settings_.is_resolved ? kLargestSagOut : kLargestSag;
   bool is_aimed = false;  // the step leads to least_force as far as is known
   int aims = 0;
-  if (direction > 0.0 && curve.points.size() > 1) planStep();
+  if (!is_in && curve.points.size() > 1) planStep();
   while (true) {
     if (states_ >= settings_.max_states) return PathStatus::kTooManyStates;
     const double next_force = forceWithin(least_force);
@@ -316,9 +317,10 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
     // a way to somewhere else, or a force that is to be another one
     const bool is_passed = is_in && !settings_.samples_curve;
     const bool is_rough = isHeavy(present_) && (is_aimed || is_passed);
+    const double summit = kSummitForce * curve.largest_force;
     // the first step out tells the stiffness
-    const bool is_far = is_in || (settings_.samples_curve && last_move_ != 0.0 &&
-                                  std::max(present_.force, continued(step)) < kSummitForce * curve.largest_force);
+    const bool is_far =
+        is_in || (is_way_out && last_move_ != 0.0 && std::max(present_.force, continued(step)) < summit);
     const bool is_passing = is_far && minimiser_.flowed().empty();
     const double tolerance = is_rough ? kRoughTolerance : is_passing ? kPassingTolerance : 1.0;
     PathStatus status = attempt(present_.height + move, tolerance, next, state);
@@ -331,8 +333,7 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
     if (tolerance > 1.0 && status == PathStatus::kDone) {
       const bool may_flow = is_rough ? minimiser_.hasFlow() : minimiser_.isNearFlow();
       const double near = std::max(leftAtRest(-least_force), kPassingForce * forceScale());
-      const bool counts =
-          next.force < least_force + near || (!is_in && next.force > kSummitForce * curve.largest_force);
+      const bool counts = next.force < least_force + near || (is_way_out && next.force > summit);
       if ((is_rough && is_aimed) || counts || may_flow) {
         status = settle(present_.height + move, 1.0, next, state);
       }
@@ -346,7 +347,6 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
     }
     const double at_most = std::max({curve.largest_force, next.force, 0.0});
     const bool may_exceed = mayExceed(direction, step, at_most);
-    const bool is_way_out = direction > 0.0 && settings_.samples_curve;
     const bool is_at_summit = is_way_out && present_.force > kSummitForce * at_most;
     const bool touches_summit = is_at_summit || (is_way_out && next.force > kSummitForce * at_most);
     const double kink_share = is_at_summit ? kSummitKinkShare : may_exceed ? kRisingKinkShare : kKinkShare;
@@ -362,7 +362,7 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
     const bool loses = (0.5 * (parabola.begin + parabola.end) - parabola.mean) * direction > 0.0;
     const bool is_jump = loses && !is_heavy && sagOf(next) > (is_way_out ? largest_sag_out : kJumpSag);
     // how steeply a branch rises that begins here is not known: its end may be the largest force of all
-    const bool may_miss = may_exceed || (direction > 0.0 && last_move_ == 0.0);
+    const bool may_miss = may_exceed || (!is_in && last_move_ == 0.0);
     // the force of pressed surfaces rises steeply, but a jump is none the less one in steps that are finer
     const bool is_pressed = std::min(present_.force, next.force) < 0.0;
     const bool is_fine = may_miss || touches_summit || (is_pressed && !is_jump);
@@ -390,7 +390,7 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
       is_aimed = true;
       continue;
     }
-    curve.is_smooth = curve.is_smooth && sag <= largest_sag;
+    curve.is_one_branch = curve.is_one_branch && !is_jump && sag <= largest_sag;
     accept(next, is_jump, curve);
     is_before_jump_ = is_before_jump_ && direction * (jump_height_ - present_.height) > kSameHeight * usual;
     double change = std::clamp(std::sqrt(wanted_sag / std::max(sag, 1e-12)), 1.0 / kLargestChange, kLargestChange);

@@ -38,8 +38,6 @@ namespace mems_stiction {
 /// The curve in one direction.
 struct ForceCurve {
   void add(const ForcePoint& point);
-  /// Whether its states are minima that go over into each other.
-  bool isOneBranch() const { return jumps == 0 && is_smooth; }
 
   std::vector<ForcePoint> points;
   double work = 0.0;             ///< integral of F dZ over the points, signed as Z went [J]
@@ -48,7 +46,7 @@ struct ForceCurve {
   double largest_height = 0.0;   ///< where [m]
   double missed_force = 0.0;     ///< what finer steps may find beyond largest_force [N]
   int jumps = 0;                 ///< steps over which the force cannot be continuous
-  bool is_smooth = true;         ///< no step has missed so much that there may be a small jump in it
+  bool is_one_branch = true;     ///< no step is a jump, or has missed so much that there may be a small one in it
 };
 
 enum class PathStatus { kDone, kCancelled, kNotConverged, kLoadNotReached, kTooManyStates };

@@ -51,7 +51,7 @@ PathStatus ContactPath::retractFrom(Place&& place, ForceCurve& curve) {
 
 std::vector<ForcePoint> ContactPath::wayBack() const {
   std::vector<ForcePoint> way;
-  const bool is_one_branch = is_on_approach_ && minimiser_.flowed().empty() && approach_.isOneBranch();
+  const bool is_one_branch = is_on_approach_ && minimiser_.flowed().empty() && approach_.is_one_branch;
   if (!settings_.samples_curve || !is_one_branch) return way;
   const double smallest = kSmallestStep * settings_.step * minimiser_.law().range();
   for (auto point = approach_.points.rbegin(); point != approach_.points.rend(); ++point) {
