@@ -4,6 +4,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -97,6 +98,7 @@ void ContactMinimiser::restart(LargePageVector<double> relief, LargePageVector<f
   takeRelief(std::move(relief));
   fixed_ = std::move(fixed);
   settings_.tolerance = tolerance;
+  pending_share_ = 0.0F;
   for (auto* const array : {&displacement_, &elastic_traction_}) std::fill(array->begin(), array->end(), 0.0);
   staleness_ = 0.0;
 }
@@ -300,12 +302,12 @@ ContactMinimiser::Evaluation ContactMinimiser::evaluateAlong(double height, doub
   return evaluationOf(sums, true);
 }
 
-ContactMinimiser::Evaluation ContactMinimiser::moveAndEvaluate(double height, float share) {
+ContactMinimiser::Evaluation ContactMinimiser::moveAndEvaluate(double height, std::optional<float> share) {
   const bool with_slopes = !usesWindows();
   if (with_slopes) gradients_.allocate();
   std::vector<evaluation_rows::Sums> row_sums;
   const auto sums = sumOverRows(row_sums, grid_.rows, settings_.threads, [&](int row) {
-    moveRow(row, share);
+    if (share) moveRow(row, *share);
     const float* const any = gradients_.residual() + grid_.offset(row);  // no step is taken
     return evaluateRow(row, height, {0.0, any, any}, with_slopes);
   });
@@ -383,7 +385,7 @@ ContactState ContactMinimiser::solve(double height, const Search& search) {
   ContactState state;
   state.height = height;
   const int products_before = products();
-  const float share = std::exchange(pending_share_, 0.0F);
+  const std::optional<float> share = std::exchange(pending_share_, std::nullopt);
   const double exact = settings_.tolerance * law_.stress();
   const double allowed = search.tolerance * exact;
   const double stale = kStaleShare * std::min(allowed, std::max(exact, search.residual_norm));
@@ -396,7 +398,7 @@ ContactState ContactMinimiser::solve(double height, const Search& search) {
   if (staleness_ <= stale) {
     now = moveAndEvaluate(height, share);
   } else {
-    forEachRow(grid_.rows, settings_.threads, [&](int row) { moveRow(row, share); });
+    if (share) forEachRow(grid_.rows, settings_.threads, [&](int row) { moveRow(row, *share); });
     refreshElasticTraction();
     now = evaluate(height);
   }

@@ -21,6 +21,7 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -165,8 +166,8 @@ class ContactMinimiser {
   /// At u, and at u + length s, along the step of the conjugate gradients.
   Evaluation evaluate(double height);
   Evaluation evaluateAlong(double height, double length);
-  /// At u, which goes on by `share` of the last change first.
-  Evaluation moveAndEvaluate(double height, float share);
+  /// At u, which goes on by `share` of the last change first, if there is one.
+  Evaluation moveAndEvaluate(double height, std::optional<float> share);
   /// At u, which goes by `length` (1, or -1 for back again) times the displacement that answers a change of traction.
   Evaluation answerAndEvaluate(double height, double length);
   /// Gaps of a row of the frame [m].
@@ -210,7 +211,9 @@ class ContactMinimiser {
   std::unique_ptr<ContactWindows> windows_;  ///< none in a window
   int windows_pause_ = 0;                    ///< in so many states they are not tried
   int last_pause_ = 0;                       ///< how long the last one was
-  float pending_share_ = 0.0F;               ///< of the last change, by which u is still to go on
+  /// Of the last change, by which u is still to go on; none once it has: a state may be solved in several searches, and what all
+  /// of them changed is taken back.
+  std::optional<float> pending_share_ = 0.0F;
   double lowest_gap_ = 0.0;                  ///< in the state just solved [m]
   double mean_traction_ = 0.0;               ///< that K does not resist, as far as it is known [Pa]
   int exact_products_ = 0;                   ///< of K u
