@@ -22,16 +22,19 @@ constexpr double kCoarsestForcing = 0.3;
 constexpr double kShiftShare = 0.3;
 constexpr double kSmallestShift = 0.1;
 /// Contacts are large where that shift is more than this times the smallest stiffness.
-constexpr double kLargeContacts = 0.3;
-/// Shift for large contacts, of the smallest stiffness, and y, of the largest.
+constexpr double kLargeContacts = 0.05;
+/// Shift for large contacts, of the smallest stiffness; y and z, of the largest, and z where C is P of all cells.
 constexpr double kFreeShift = 0.5;
 constexpr double kYielding = 0.12;
+constexpr double kRough = 0.7;
+constexpr double kRoughOfAll = 1.0;
 
 }  // namespace
 
 struct ConjugateGradients::Preconditioner {
   float shift;     ///< [Pa/m]
   float yielding;  ///< y [Pa/m]; 0: P alone
+  float rough;     ///< z [Pa/m]
 };
 
 struct ConjugateGradients::Product {
@@ -39,9 +42,15 @@ struct ConjugateGradients::Product {
   double mean;
 };
 
-ConjugateGradients::ConjugateGradients(const HalfSpaceGrid& grid, StiffnessOperator<float>& stiffness, int threads,
-                                       const std::atomic<bool>* cancel, std::function<void()> give_way)
-    : grid_(grid), stiffness_(stiffness), threads_(threads), cancel_(cancel), give_way_(std::move(give_way)) {}
+ConjugateGradients::ConjugateGradients(const HalfSpaceGrid& grid, StiffnessOperator<float>& stiffness,
+                                       CoarseAnswer* coarse, int threads, const std::atomic<bool>* cancel,
+                                       std::function<void()> give_way)
+    : grid_(grid),
+      stiffness_(stiffness),
+      coarse_(coarse),
+      threads_(threads),
+      cancel_(cancel),
+      give_way_(std::move(give_way)) {}
 
 void ConjugateGradients::allocateShared() {
   for (auto* const array : {&residual_, &first_}) {
@@ -60,9 +69,11 @@ ConjugateGradients::Preconditioner ConjugateGradients::preconditionerOf(const Sy
   const double smallest = stiffness_.smallest();
   const double shift = kShiftShare * system.mean_slope;
   if (shift > kLargeContacts * smallest) {
-    return {static_cast<float>(kFreeShift * smallest), static_cast<float>(kYielding * stiffness_.largest())};
+    const double rough = coarse_ != nullptr ? kRough : kRoughOfAll;
+    return {static_cast<float>(kFreeShift * smallest), static_cast<float>(kYielding * stiffness_.largest()),
+            static_cast<float>(rough * stiffness_.largest())};
   }
-  return {static_cast<float>(std::max(shift, kSmallestShift * smallest)), 0.0F};
+  return {static_cast<float>(std::max(shift, kSmallestShift * smallest)), 0.0F, 0.0F};
 }
 
 /// The sums of work(first cell of the row) over the rows.
@@ -73,10 +84,10 @@ static conjugate_rows::Sums overRows(const HalfSpaceGrid& grid, int threads, con
 }
 
 ConjugateGradients::Product ConjugateGradients::smooth(const Preconditioner& preconditioner, double mean) {
-  ++products_;
+  const auto shift = static_cast<double>(preconditioner.shift);
   if (preconditioner.yielding == 0.0F) {
-    return {stiffness_.precondition(static_cast<double>(preconditioner.shift), residual_.data(), smoothed_.data()),
-            0.0};
+    ++products_;
+    return {stiffness_.precondition(shift, residual_.data(), smoothed_.data()), 0.0};
   }
   const auto cols = static_cast<std::size_t>(grid_.cols);
   const auto level = static_cast<float>(mean);
@@ -84,10 +95,18 @@ ConjugateGradients::Product ConjugateGradients::smooth(const Preconditioner& pre
     return conjugate_rows::weigh(cols, preconditioner.yielding, level, residual_.data() + i, slope_.data() + i,
                                  smoothed_.data() + i);
   });
-  stiffness_.precondition(static_cast<double>(preconditioner.shift), smoothed_.data(), smoothed_.data());
-  const auto sums = overRows(grid_, threads_, [&](std::size_t i) {
-    return conjugate_rows::combine(cols, preconditioner.yielding, level, residual_.data() + i, slope_.data() + i,
-                                   smoothed_.data() + i);
+  if (coarse_ != nullptr) {
+    coarse_->find(shift, smoothed_.data());
+  } else {
+    ++products_;
+    stiffness_.precondition(shift, smoothed_.data(), smoothed_.data());
+  }
+  std::vector<conjugate_rows::Sums> row_sums;
+  const auto sums = sumOverRows(row_sums, grid_.rows, threads_, [&](int row) {
+    const std::size_t i = grid_.offset(row);
+    if (coarse_ != nullptr) coarse_->row(row, smoothed_.data() + i);
+    return conjugate_rows::combine(cols, preconditioner.yielding, preconditioner.rough, level, residual_.data() + i,
+                                   slope_.data() + i, smoothed_.data() + i);
   });
   return {sums.product, stiffness_.resistsMean() ? 0.0 : sums.sum / grid_.cellCount()};
 }

@@ -8,9 +8,10 @@
 /// by conjugate gradients in single precision, left at negative curvature, where s is longer than t' is known for, and
 /// where r is known better than the law is straight over s. With P = (K + shift)^-1 the preconditioner is
 ///
-///     P                                  small contacts: it also gives K of its result, one product an iteration
-///     S P S + (1 - S)/(y + t'),          large ones: cells that their contact holds answer by themselves, the others as
-///     S = y/(y + t'), t' > 0 only        a body between them; two products an iteration, far fewer iterations
+///     P                           small contacts: it also gives K of its result, one product an iteration
+///     S C S + 1/(z + t'),         large ones: cells that their contact holds answer by themselves, the others as a body
+///     S = y/(y + t'), t' > 0 only between them. C is P of every second cell of every second row (coarse_answer.hpp), whose
+///                                 work hardly counts; what varies from cell to cell is answered by z alone
 ///
 /// Sources: Dembo, Eisenstat and Steihaug, SIAM J. Numer. Anal. 19 (1982) 400 for how exactly each system is solved;
 /// Steinbach and Wendland, Adv. Comput. Math. 9 (1998) 191 for K^-1 of the whole plane as preconditioner of a part of it.
@@ -24,6 +25,7 @@
 #include <cstddef>
 #include <functional>
 
+#include "half_space/coarse_answer.hpp"
 #include "half_space/half_space_grid.hpp"
 #include "half_space/stiffness_operator.hpp"
 #include "numeric/large_pages.hpp"
@@ -49,9 +51,10 @@ class ConjugateGradients {
   };
 
   /// - @p stiffness must outlive this
+  /// - @p coarse likewise; null: all cells in place of every second one
   /// - @p cancel looked at after each product; may be null
   /// - @p give_way called before each iteration; may be empty
-  ConjugateGradients(const HalfSpaceGrid& grid, StiffnessOperator<float>& stiffness, int threads,
+  ConjugateGradients(const HalfSpaceGrid& grid, StiffnessOperator<float>& stiffness, CoarseAnswer* coarse, int threads,
                      const std::atomic<bool>* cancel, std::function<void()> give_way);
 
   /// Makes residual and stepTraction, of zeros: those that the owner uses without find() too.
@@ -64,7 +67,7 @@ class ConjugateGradients {
   const float* step() const { return step_.data(); }  ///< s [m]
   float* stepTraction() { return first_.data(); }     ///< K s [Pa]
   const float* stepTraction() const { return first_.data(); }
-  /// Applications of the preconditioner or of K so far: one pair of transforms each.
+  /// Applications of P or of K on all cells so far: one pair of transforms each.
   int products() const { return products_; }
 
   /// Sets step and its traction.
@@ -82,6 +85,7 @@ class ConjugateGradients {
 
   HalfSpaceGrid grid_;
   StiffnessOperator<float>& stiffness_;
+  CoarseAnswer* coarse_;
   int threads_;
   const std::atomic<bool>* cancel_;
   std::function<void()> give_way_;

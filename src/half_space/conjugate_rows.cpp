@@ -76,7 +76,7 @@ MEMS_STICTION_VECTORIZED Sums weigh(std::size_t count, float yielding, float mea
   return {};
 }
 
-MEMS_STICTION_VECTORIZED Sums combine(std::size_t count, float yielding, float mean, const float* residual,
+MEMS_STICTION_VECTORIZED Sums combine(std::size_t count, float yielding, float rough, float mean, const float* residual,
                                       const float* slope, float* smoothed) {
   Lanes products{};
   Lanes sums{};
@@ -86,9 +86,8 @@ MEMS_STICTION_VECTORIZED Sums combine(std::size_t count, float yielding, float m
     take(smoothed + i, rest, z);
     take(residual + i, rest, r, mean);  // lanes beyond the row add nothing to the sums
     take(slope + i, rest, d);
-    const Lanes weight = 1.0F / (yielding + (d > 0.0F ? d : 0.0F));
-    const Lanes share = yielding * weight;
-    z = share * z + (1.0F - share) * weight * (r - mean);
+    const Lanes held = d > 0.0F ? d : 0.0F;
+    z = yielding / (yielding + held) * z + (r - mean) / (rough + held);
     products += z * (r - mean);
     sums += z;
     put(z, rest, smoothed + i);

@@ -33,9 +33,10 @@ Sums turn(std::size_t count, float ratio, float shift, float mean, const float* 
 
 /// smoothed = S (residual - mean), S = yielding/(yielding + positive t'): what a contact does not hold by itself.
 Sums weigh(std::size_t count, float yielding, float mean, const float* residual, const float* slope, float* smoothed);
-/// smoothed = S smoothed + (1 - S)/(yielding + positive t') (residual - mean).
+/// smoothed = S smoothed + (residual - mean)/(rough + positive t').
 /// @return product: smoothed times (residual - mean); sum: of smoothed
-Sums combine(std::size_t count, float yielding, float mean, const float* residual, const float* slope, float* smoothed);
+Sums combine(std::size_t count, float yielding, float rough, float mean, const float* residual, const float* slope,
+             float* smoothed);
 /// search = (smoothed - smoothed_mean) + ratio search.
 Sums follow(std::size_t count, float ratio, float smoothed_mean, const float* smoothed, float* search);
 /// @return as turn() does, of a search whose elastic traction is known

@@ -25,8 +25,9 @@ constexpr double kSufficientDecrease = 1e-4;
 /// Energies that differ by less than this share of their parts are equal but for what single precision adds to K u.
 constexpr double kEnergyNoise = 1e-9;
 /// What single precision leaves in K u for each step, of the residual that it takes away, and for going on from one state
-/// to the next, of 8 Gamma/(3 z0). Measured: a tenth of it to as much.
+/// to the next, of 8 Gamma/(3 z0); and for a step of the conjugate gradients. Measured: a tenth of it to as much.
 constexpr double kSinglePrecision = 3e-7;
+constexpr double kGradientsPrecision = 1e-6;
 /// Share of the allowed residual that may come from it.
 constexpr double kStaleShare = 0.1;
 /// Windows that leave more than this share of the residual have failed; so many times in one state.
@@ -112,7 +113,10 @@ ContactMinimiser::ContactMinimiser(const HalfSpaceGrid& grid, const TractionLaw&
       settings_(settings),
       stiffness_(grid, response, settings.threads, spectrum_, settings.cancel),
       exact_stiffness_(grid, response, settings.threads, spectrum_, settings.cancel),
-      gradients_(grid, stiffness_, settings.threads, settings.cancel, settings.give_way),
+      coarse_(response.influence == nullptr && CoarseAnswer::fits(grid)
+                  ? std::make_unique<CoarseAnswer>(grid, response, settings.threads, spectrum_, settings.cancel)
+                  : nullptr),
+      gradients_(grid, stiffness_, coarse_.get(), settings.threads, settings.cancel, settings.give_way),
       fixed_(std::move(fixed)) {
   takeRelief(std::move(relief));
   for (auto* const array : {&displacement_, &elastic_traction_}) {
@@ -134,8 +138,9 @@ void ContactMinimiser::moveOn(double share) {
   std::swap(change_, last_change_);
   std::swap(change_traction_, last_change_traction_);
   pending_share_ = static_cast<float>(share);
+  change_staleness_ = staleness_;
   if (share == 0.0) return;
-  staleness_ += change_traction_.empty() ? std::numeric_limits<double>::infinity() : kSinglePrecision * law_.stress();
+  addStaleness(change_traction_.empty() ? std::numeric_limits<double>::infinity() : kSinglePrecision * law_.stress());
 }
 
 void ContactMinimiser::moveRow(int row, float share) {
@@ -163,7 +168,7 @@ void ContactMinimiser::takeBackForPart() {
     if (change_traction_.empty()) return;
     for (std::size_t i = first; i < end; ++i) elastic_traction_[i] -= static_cast<double>(change_traction_[i]);
   });
-  staleness_ = std::numeric_limits<double>::infinity();  // K u may have been worked out afresh since
+  staleness_ = change_traction_.empty() ? std::numeric_limits<double>::infinity() : change_staleness_;
 }
 
 void ContactMinimiser::setLaw(const TractionLaw& law) {
@@ -237,6 +242,11 @@ void ContactMinimiser::maps(double height, cv::Mat& gaps, cv::Mat& pressures) co
       pressures.ptr<float>(row)[col] = is_valid ? static_cast<float>(-tractions[col]) : kNone;
     }
   }
+}
+
+void ContactMinimiser::addStaleness(double traction) {
+  staleness_ += traction;
+  change_staleness_ += traction;
 }
 
 void ContactMinimiser::refreshElasticTraction() {
@@ -363,7 +373,7 @@ bool ContactMinimiser::relaxContacts(double height, Evaluation& now) {
   if (!windows_->relax(frame, exact_stiffness_, gradients_.stepTraction())) return false;
   if (settings_.give_way) settings_.give_way();
   const Evaluation before = now;
-  staleness_ += kSinglePrecision * before.largest_residual;
+  addStaleness(kSinglePrecision * before.largest_residual);
   now = answerAndEvaluate(height, 1.0);
   if (!isNearer(now, before, 0.0)) {
     now = answerAndEvaluate(height, -1.0);
@@ -426,7 +436,6 @@ ContactState ContactMinimiser::solve(double height, const Search& search) {
       if (excessOf(now) <= 1.0) continue;
     }
     if (!now.has_slopes) {  // the first of Newton's steps in a row
-      if (std::isfinite(staleness_)) refreshElasticTraction();
       now = evaluate(height);
     }
     ConjugateGradients::System system;
@@ -453,7 +462,7 @@ ContactState ContactMinimiser::solve(double height, const Search& search) {
       continue;
     }
     takeStep(length);
-    staleness_ = std::numeric_limits<double>::infinity();  // conjugate gradients add up what rounding leaves
+    addStaleness(kGradientsPrecision * before.largest_residual);
   }
   noteWindows(failures);
   mean_traction_ = now.mean_residual;

@@ -10,8 +10,7 @@
 /// Contacts are brought into equilibrium one by one (contact_windows.hpp) as long as that helps. What is left, or all where
 /// contacts fill much of the frame, is Newton's method's: (K + t') s = t - K u as far as it is of use
 /// (conjugate_gradients.hpp), and a step along s that lowers E. What is kept, u and K u, is double; K u is worked out
-/// afresh before Newton's method takes over, after it, and when the steps since then may have left a tenth of the residual
-/// that an equilibrium may have.
+/// afresh when the steps since then may have left a tenth of the residual that an equilibrium may have.
 /// Starting from the state before, it goes downhill into the nearest minimum: a stable state.
 ///
 /// Repulsion rises like (z0/g)^9, and Newton's steps run into that wall. So beyond twice the pressure that was there so far
@@ -27,6 +26,7 @@
 
 #include <opencv2/core.hpp>
 
+#include "half_space/coarse_answer.hpp"
 #include "half_space/conjugate_gradients.hpp"
 #include "half_space/contact_windows.hpp"
 #include "half_space/half_space_grid.hpp"
@@ -183,6 +183,8 @@ class ContactMinimiser {
   void stepRow(int row, const Step& step);
   void moveRow(int row, float share);
   void takeStep(double length);
+  /// What a step may have added to the error of K u [Pa].
+  void addStaleness(double traction);
   void refreshElasticTraction();
   int products() const { return exact_products_ + window_products_ + gradients_.products(); }
 
@@ -195,6 +197,7 @@ class ContactMinimiser {
   SpectrumMemory spectrum_;
   StiffnessOperator<float> stiffness_;
   StiffnessOperator<double> exact_stiffness_;
+  std::unique_ptr<CoarseAnswer> coarse_;  ///< none in a window, nor where there are too few cells
   ConjugateGradients gradients_;
   LargePageVector<double> relief_;
   double largest_relief_ = 0.0;
@@ -202,6 +205,7 @@ class ContactMinimiser {
   LargePageVector<double> displacement_;      ///< u [m]
   LargePageVector<double> elastic_traction_;  ///< K u [Pa]
   double staleness_ = 0.0;                    ///< by which elastic_traction_ may have left K u [Pa]
+  double change_staleness_ = 0.0;             ///< the same had it not been worked out afresh since moveOn() [Pa]
   LargePageVector<float> change_;             ///< of u since moveOn() [m]
   LargePageVector<float> change_traction_;    ///< K of it [Pa]; none with free edges, to save memory
   LargePageVector<float> last_change_;        ///< the one before [m]
@@ -214,9 +218,9 @@ class ContactMinimiser {
   /// Of the last change, by which u is still to go on; none once it has: a state may be solved in several searches, and what all
   /// of them changed is taken back.
   std::optional<float> pending_share_ = 0.0F;
-  double lowest_gap_ = 0.0;                  ///< in the state just solved [m]
-  double mean_traction_ = 0.0;               ///< that K does not resist, as far as it is known [Pa]
-  int exact_products_ = 0;                   ///< of K u
+  double lowest_gap_ = 0.0;     ///< in the state just solved [m]
+  double mean_traction_ = 0.0;  ///< that K does not resist, as far as it is known [Pa]
+  int exact_products_ = 0;      ///< of K u
   int window_products_ = 0;
   bool is_set_up_ = false;
 };

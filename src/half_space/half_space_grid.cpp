@@ -19,6 +19,8 @@ int fastLength(int least) {
   }
 }
 
+int strideOf(int cols) { return (cols + kRowMultiple - 1) / kRowMultiple * kRowMultiple; }
+
 int transformedLength(int length, HalfSpaceBoundary boundary) {
   return boundary == HalfSpaceBoundary::kPeriodic ? length : fastLength(2 * length - 1);
 }
@@ -34,6 +36,17 @@ HalfSpaceGrid::HalfSpaceGrid(int frame_rows_in, int frame_cols_in, double pitch_
       boundary(boundary_in),
       rows(transformedLength(frame_rows, boundary)),
       cols(transformedLength(frame_cols, boundary)),
-      stride((cols + kRowMultiple - 1) / kRowMultiple * kRowMultiple) {}
+      stride(strideOf(cols)) {}
+
+HalfSpaceGrid HalfSpaceGrid::everySecond() const {
+  HalfSpaceGrid coarse(*this);
+  for (int* const length : {&coarse.rows, &coarse.cols, &coarse.frame_rows, &coarse.frame_cols}) {
+    *length = (*length + 1) / 2;
+  }
+  coarse.pitch_x *= 2.0;
+  coarse.pitch_y *= 2.0;
+  coarse.stride = strideOf(coarse.cols);
+  return coarse;
+}
 
 }  // namespace mems_stiction

@@ -17,6 +17,9 @@ struct HalfSpaceGrid {
   /// - @p pitch_x, @p pitch_y [m], > 0
   HalfSpaceGrid(int frame_rows, int frame_cols, double pitch_x, double pitch_y, HalfSpaceBoundary boundary);
 
+  /// Every second cell of every second row of it, the first ones included, round the ring; its frame is of no use.
+  HalfSpaceGrid everySecond() const;
+
   std::size_t size() const { return static_cast<std::size_t>(rows) * static_cast<std::size_t>(stride); }
   std::size_t offset(int row) const { return static_cast<std::size_t>(row) * static_cast<std::size_t>(stride); }
   /// Cells that are transformed.
