@@ -21,10 +21,8 @@ constexpr double kSummitStep = 0.001;
 constexpr double kPointDistance = 0.25;
 /// Share of the largest force that steps over a jump may miss before they become finer.
 constexpr double kNegligibleMiss = 0.005;
-/// How far the mean force of a step may lie from the mean of its ends, of the force: wanted, and more than that is taken
-/// back, on the way in and on the way out. A parabola with that sag errs by a quarter of it where the curve is smooth. A
+/// Sags, as kWantedSag, that are taken back, on the way in and on the way out. A parabola with that sag errs by a quarter of it where the curve is smooth. A
 /// jump that passes for a smooth step adds up to its sag to the work that is lost, and frames have chains of them.
-constexpr double kWantedSag = 0.01;
 constexpr double kLargestSag = 0.03;
 constexpr double kLargestSagOut = 0.015;
 /// A change of slope from one step to the next, over the step and of the force, counts as a sag of this share:
@@ -33,8 +31,6 @@ constexpr double kLargestSagOut = 0.015;
 constexpr double kKinkShare = 0.2;
 constexpr double kRisingKinkShare = 0.5;
 constexpr double kSummitKinkShare = 1.5;
-/// So many times a sag counts near the largest force.
-constexpr double kSummitSagShare = 2.0;
 /// The smallest step that misses more than this goes over a jump; on the way out, whose work counts, what is taken back at all.
 constexpr double kJumpSag = 0.06;
 /// Bodies are pressed heavily where they carry more than this many times the largest attraction so far, as a jump of as
@@ -52,14 +48,6 @@ constexpr double kShareBefore = 0.93;
 constexpr double kLargestHeavyStep = 128.0;
 /// What a cell may move in one Newton step there, of z0: attraction hardly shapes the way, and the line search bounds it.
 constexpr double kLongestHeavyMove = 30.0;
-/// Residuals there of states that are only on the way to others, of the tolerance.
-constexpr double kRoughTolerance = 100.0;
-/// Residuals of other states, of the tolerance, and the root of their mean square, of the largest force over the frame: on
-/// the way in, but rest and those that flow, and on the way out, far from the largest force. Set, as the smallest steps and
-/// kSameForce and kSameEnergy are, on `scripts/trust --half-space-steps` of seeds 32 and 34: exact states take a seventh
-/// more time on the way in, a tenth on the way out of frames that jump, and are no nearer to finer steps.
-constexpr double kPassingTolerance = 30.0;
-constexpr double kPassingForce = 0.01;
 /// How often a force is aimed at, and how far from there at once, of the step that missed it.
 constexpr int kMostAims = 5;
 constexpr double kShortestAim = 0.05;
@@ -68,10 +56,11 @@ constexpr double kLongestAim = 2.0;
 constexpr double kPlannedSag = 0.015;
 /// Steps are compared with limits but for rounding.
 constexpr double kStepTolerance = 1.001;
-/// Usual step for which the sags apply, of z0.
-constexpr double kUsualStep = 0.4;
 /// Steps grow and shrink by no more than this at once.
 constexpr double kLargestChange = 2.0;
+/// On the way in, where most states are, a step also changes by the ratio of the last two sags to this power, by no more than that.
+constexpr double kTrendPower = 0.2;
+constexpr double kLargestTrend = 1.4;
 /// Newton steps of a state that does not follow smoothly: the next step is no longer.
 constexpr int kManyNewtonSteps = 12;
 /// Heights that differ by less, of the usual step, are the same but for rounding.
@@ -142,21 +131,30 @@ double ContactPath::kinkOf(const ForcePoint& next) const {
   return std::abs(StepParabola(present_, next).slope() - begun * move) / std::max(scale, std::abs(next.force));
 }
 
-PathStatus ContactPath::attempt(double height, double tolerance, ForcePoint& next, ContactState& state) {
+PathStatus ContactPath::attempt(double height, const Accuracy& accuracy, ForcePoint& next, ContactState& state) {
   const double move = height - present_.height;
   const double share =
       changing_move_ != 0.0 ? std::clamp(move / changing_move_, -kLongestContinuation, kLongestContinuation) : 0.0;
   minimiser_.moveOn(share);
-  return settle(height, tolerance, next, state);
+  return settle(height, accuracy, next, state);
 }
 
-PathStatus ContactPath::settle(double height, double tolerance, ForcePoint& next, ContactState& state) {
+ContactPath::Accuracy ContactPath::summitAccuracy() const { return isWayBack() ? kSummit : kExact; }
+
+ContactPath::Accuracy ContactPath::accuracyOf(bool is_in, double step, const ForceCurve& curve) const {
+  if (!minimiser_.flowed().empty()) return kExact;
+  if (is_in) return kPassingIn;
+  // the first step out tells the stiffness
+  if (!settings_.samples_curve || last_move_ == 0.0) return kExact;
+  const bool is_far = std::max(present_.force, continued(step)) < kSummitForce * curve.largest_force;
+  return is_far ? kPassingOut : summitAccuracy();
+}
+
+PathStatus ContactPath::settle(double height, const Accuracy& accuracy, ForcePoint& next, ContactState& state) {
   ContactMinimiser::Search search;
   if (isHeavy(present_)) search.longest_move = kLongestHeavyMove;
-  search.tolerance = tolerance;
-  if (tolerance > 1.0 && !isHeavy(present_)) {
-    search.residual_norm = kPassingForce * forceScale() / minimiser_.grid().frameArea();
-  }
+  search.tolerance = accuracy.residual;
+  search.residual_norm = accuracy.force * forceScale() / minimiser_.grid().frameArea();
   state = minimiser_.solve(height, search);
   ++states_;
   newton_steps_ += state.newton_steps;
@@ -164,7 +162,7 @@ PathStatus ContactPath::settle(double height, double tolerance, ForcePoint& next
   if (minimiser_.isCancelled()) return PathStatus::kCancelled;
   if (!state.is_converged) return PathStatus::kNotConverged;
   next = {height, state.force, state.energy, state.contact_area, state.mean_gap, true};
-  if (tolerance == 1.0) largest_residual_ = std::max(largest_residual_, state.residual);
+  if (accuracy.residual == 1.0) largest_residual_ = std::max(largest_residual_, state.residual);
   return PathStatus::kDone;
 }
 
@@ -317,25 +315,23 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
     // a way to somewhere else, or a force that is to be another one
     const bool is_passed = is_in && !settings_.samples_curve;
     const bool is_rough = isHeavy(present_) && (is_aimed || is_passed);
-    const double summit = kSummitForce * curve.largest_force;
-    // the first step out tells the stiffness
-    const bool is_far =
-        is_in || (is_way_out && last_move_ != 0.0 && std::max(present_.force, continued(step)) < summit);
-    const bool is_passing = is_far && minimiser_.flowed().empty();
-    const double tolerance = is_rough ? kRoughTolerance : is_passing ? kPassingTolerance : 1.0;
-    PathStatus status = attempt(present_.height + move, tolerance, next, state);
+    const Accuracy accuracy = is_rough ? kRough : accuracyOf(is_in, step, curve);
+    PathStatus status = attempt(present_.height + move, accuracy, next, state);
     if (is_rough && status == PathStatus::kDone && is_aimed && aims < kMostAims &&
         std::abs(next.force - least_force) > kRestForce * -least_force) {
       ++aims;
       takeBackAndAim(next, least_force);
       continue;
     }
-    if (tolerance > 1.0 && status == PathStatus::kDone) {
+    if (accuracy.residual > 1.0 && status == PathStatus::kDone) {
       const bool may_flow = is_rough ? minimiser_.hasFlow() : minimiser_.isNearFlow();
-      const double near = std::max(leftAtRest(-least_force), kPassingForce * forceScale());
-      const bool counts = next.force < least_force + near || (is_way_out && next.force > summit);
-      if ((is_rough && is_aimed) || counts || may_flow) {
-        status = settle(present_.height + move, 1.0, next, state);
+      const double near = std::max(leftAtRest(-least_force), kPassingIn.force * forceScale());
+      const double beyond = least_force - next.force;
+      const bool is_rest = beyond > -near && (beyond < near || step <= kRestStep * usual);
+      if ((is_rough && is_aimed) || is_rest || may_flow) {
+        status = settle(present_.height + move, kExact, next, state);
+      } else if (is_way_out && accuracy.force > kSummit.force && next.force > kSummitForce * curve.largest_force) {
+        status = settle(present_.height + move, summitAccuracy(), next, state);
       }
     }
     if (status == PathStatus::kCancelled) return status;
@@ -385,7 +381,7 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
       } else {
         takeBackForPart(next);
       }
-      step_ = step * std::clamp(crossing(StepParabola(present_, next), least_force, 0.0, 1.0), 0.05, 0.95);
+      step_ = step * std::clamp(crossing(StepParabola(present_, next), least_force, 0.0, 1.0), 0.05, 0.999);
       farthest = step;
       is_aimed = true;
       continue;
@@ -395,6 +391,13 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
     is_before_jump_ = is_before_jump_ && direction * (jump_height_ - present_.height) > kSameHeight * usual;
     double change = std::clamp(std::sqrt(wanted_sag / std::max(sag, 1e-12)), 1.0 / kLargestChange, kLargestChange);
     if (state.newton_steps > kManyNewtonSteps && !is_heavy) change = std::min(change, 1.0);
+    // steps that grow worse are shortened before they are too long (Gustafsson, ACM TOMS 17 (1991) 533)
+    if (is_in && !is_heavy && last_sag_ > 0.0) {
+      const double trend = std::pow(last_sag_ / std::max(sag, 1e-12), kTrendPower);
+      change *= std::clamp(trend, 1.0 / kLargestTrend, kLargestTrend);
+      change = std::clamp(change, 1.0 / kLargestChange, kLargestChange);
+    }
+    last_sag_ = sag;
     step_ = std::clamp(step * change, std::min(planned, step), (is_heavy ? kLargestHeavyStep : kLargestStep) * usual);
     return PathStatus::kDone;
   }
@@ -406,7 +409,7 @@ PathStatus ContactPath::begin(double height) {
     ContactState state;
     last_move_ = changing_move_ = 0.0;
     present_.height = height;
-    const PathStatus status = attempt(height, 1.0, first, state);
+    const PathStatus status = attempt(height, kExact, first, state);
     if (status != PathStatus::kDone) return status;
     if (first.contact_area == 0.0) {
       present_ = first;

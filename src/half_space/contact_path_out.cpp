@@ -30,7 +30,7 @@ PathStatus ContactPath::change(const TractionLaw& law) {
   last_move_ = changing_move_ = 0.0;
   ForcePoint relaxed;
   ContactState state;
-  const PathStatus status = attempt(present_.height, 1.0, relaxed, state);
+  const PathStatus status = attempt(present_.height, kExact, relaxed, state);
   if (status != PathStatus::kDone) return status;
   changed_energy_ += relaxed.energy - present_.energy;
   present_ = relaxed;
@@ -49,10 +49,13 @@ PathStatus ContactPath::retractFrom(Place&& place, ForceCurve& curve) {
   return retract(curve);
 }
 
+bool ContactPath::isWayBack() const {
+  return settings_.samples_curve && is_on_approach_ && minimiser_.flowed().empty() && approach_.is_one_branch;
+}
+
 std::vector<ForcePoint> ContactPath::wayBack() const {
   std::vector<ForcePoint> way;
-  const bool is_one_branch = is_on_approach_ && minimiser_.flowed().empty() && approach_.is_one_branch;
-  if (!settings_.samples_curve || !is_one_branch) return way;
+  if (!isWayBack()) return way;
   const double smallest = kSmallestStep * settings_.step * minimiser_.law().range();
   for (auto point = approach_.points.rbegin(); point != approach_.points.rend(); ++point) {
     if (point->is_solved && point->height >= present_.height + smallest) way.push_back(*point);
@@ -64,7 +67,9 @@ bool ContactPath::leap(const ForcePoint& target) {
   ForcePoint leapt;
   ContactState state;
   const double force = forceScale();
-  if (attempt(target.height, 1.0, leapt, state) == PathStatus::kDone &&
+  const double largest = std::max(strongest_, target.force);
+  const Accuracy accuracy{kSummit.residual, kSummit.force * largest / force};
+  if (attempt(target.height, accuracy, leapt, state) == PathStatus::kDone &&
       std::abs(leapt.force - target.force) <= kSameForce * force &&
       std::abs(leapt.energy - target.energy) <= kSameEnergy * force * minimiser_.law().range()) {
     if (settings_.on_state) settings_.on_state(leapt);
@@ -94,6 +99,9 @@ void ContactPath::leapTowardsSummit(ForceCurve& curve) {
   }
   changing_move_ = present_.height - from;
   step_ = summit->height - present_.height;
+  // the way in has told how the curve bends there
+  const double sag = kSummitSagShare * sagOf(*summit) * kUsualStep / settings_.step;
+  if (sag > kWantedSag) step_ *= std::sqrt(kWantedSag / sag);
 }
 
 bool ContactPath::leapBehindSummit(ForceCurve& curve) {
