@@ -71,6 +71,11 @@ constexpr double kLongestContinuation = 4.0;
 constexpr double kMostClosing = 0.5;
 /// Force that may be left at rest, of the force: the area of bonded surfaces grows steeply there.
 constexpr double kRestForce = 3e-4;
+/// A step beyond rest becomes as long as its parabola says, but no shorter than this share of it. Where it leads over a jump the
+/// parabola may say the same again and again: after so many attempts it is halved at least.
+constexpr double kLeastOfStep = 0.05;
+constexpr int kMostShortened = 2;
+constexpr double kShareBeyondRest = 0.5;
 /// A state beyond rest counts as rest when it is no farther from the last one than this, of the usual step.
 constexpr double kRestStep = 1e-5;
 /// Height at which the approach begins, of z0, at least, and over that at which a flat of the frame's size would jump.
@@ -296,6 +301,7 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
   const double largest_sag_out = settings_.is_resolved ? kLargestSagOut : kLargestSag;
   bool is_aimed = false;  // the step leads to least_force as far as is known
   int aims = 0;
+  int shortened = 0;
   if (!is_in && curve.points.size() > 1) planStep();
   while (true) {
     if (states_ >= settings_.max_states) return PathStatus::kTooManyStates;
@@ -381,7 +387,8 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
       } else {
         takeBackForPart(next);
       }
-      step_ = step * std::clamp(crossing(StepParabola(present_, next), least_force, 0.0, 1.0), 0.05, 0.999);
+      const double most = ++shortened > kMostShortened ? kShareBeyondRest : 1.0 - kRestForce;
+      step_ = step * std::clamp(crossing(StepParabola(present_, next), least_force, 0.0, 1.0), kLeastOfStep, most);
       farthest = step;
       is_aimed = true;
       continue;
