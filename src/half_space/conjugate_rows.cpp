@@ -86,8 +86,8 @@ MEMS_STICTION_VECTORIZED Sums combine(std::size_t count, float yielding, float r
     take(smoothed + i, rest, z);
     take(residual + i, rest, r, mean);  // lanes beyond the row add nothing to the sums
     take(slope + i, rest, d);
-    const Lanes held = d > 0.0F ? d : 0.0F;
-    z = yielding / (yielding + held) * z + (r - mean) / (rough + held);
+    const Lanes contact_slope = d > 0.0F ? d : 0.0F;
+    z = yielding / (yielding + contact_slope) * z + (r - mean) / (rough + contact_slope);
     products += z * (r - mean);
     sums += z;
     put(z, rest, smoothed + i);
