@@ -17,11 +17,6 @@ MEMS_STICTION_VECTORIZED void addHalves(std::size_t count, const float* a, const
   for (std::size_t i = 0; i < count; ++i) to[i] = a[i] + 0.5F * (b[i] + c[i]);
 }
 
-/// (a + b)/2.
-MEMS_STICTION_VECTORIZED void mean(std::size_t count, const float* a, const float* b, float* to) {
-  for (std::size_t i = 0; i < count; ++i) to[i] = 0.5F * (a[i] + b[i]);
-}
-
 /// A quarter of each second value and of half of its neighbours; those of the first one and the last one lie before and behind.
 MEMS_STICTION_VECTORIZED void gather(std::size_t count, const float* from, float* to) {
   for (std::size_t i = 0; i < count; ++i) {
@@ -29,12 +24,11 @@ MEMS_STICTION_VECTORIZED void gather(std::size_t count, const float* from, float
   }
 }
 
-/// Each value and, behind it, the mean of it and the next one.
-MEMS_STICTION_VECTORIZED void spread(std::size_t count, const float* from, float* to) {
-  for (std::size_t i = 0; i < count; ++i) {
-    to[2 * i] = from[i];
-    to[2 * i + 1] = 0.5F * (from[i] + from[i + 1]);
-  }
+/// The mean of two rows at each of their cells and, behind it, that of it and the next one; `next` follows the last.
+MEMS_STICTION_VECTORIZED void spread(std::size_t count, const float* a, const float* b, float next, float* to) {
+  for (std::size_t i = 0; i < count; ++i) to[2 * i] = 0.5F * (a[i] + b[i]);
+  for (std::size_t i = 0; i + 1 < count; ++i) to[2 * i + 1] = 0.5F * (to[2 * i] + to[2 * i + 2]);
+  if (count > 0) to[2 * count - 1] = 0.5F * (to[2 * count - 2] + next);
 }
 
 }  // namespace
@@ -52,18 +46,17 @@ bool CoarseAnswer::fits(const HalfSpaceGrid& grid) { return std::min(grid.rows, 
 void CoarseAnswer::find(double shift, const float* traction) {
   const auto cols = static_cast<std::size_t>(grid_.cols);
   const auto coarse_cols = static_cast<std::size_t>(coarse_.cols);
+  const bool is_odd = grid_.rows % 2 != 0;
+  const std::vector<float> none(is_odd ? cols : 0, 0.0F);
+  // the last row of an odd number is the first one's neighbour, and no row lies between
+  const auto between = [&](int row) {
+    if (is_odd && (row < 0 || row == grid_.rows)) return none.data();
+    return traction + grid_.offset((row + grid_.rows) % grid_.rows);
+  };
   forEachRow(coarse_.rows, threads_, [&](int coarse_row) {
     std::vector<float> line(cols + 2);  // a value before and one behind
     const int row = 2 * coarse_row;
-    const float* const here = traction + grid_.offset(row);
-    // the last row of an odd number is the first one's neighbour, and no row lies between
-    const std::vector<float> none(row == 0 || row + 1 >= grid_.rows ? cols : 0, 0.0F);
-    const bool is_odd = grid_.rows % 2 != 0;
-    const float* const above = row > 0  ? traction + grid_.offset(row - 1)
-                               : is_odd ? none.data()
-                                        : traction + grid_.offset(grid_.rows - 1);
-    const float* const below = row + 1 < grid_.rows ? traction + grid_.offset(row + 1) : none.data();
-    addHalves(cols, here, above, below, line.data() + 1);
+    addHalves(cols, traction + grid_.offset(row), between(row - 1), between(row + 1), line.data() + 1);
     line.front() = cols % 2 != 0 ? 0.0F : line[cols];
     gather(coarse_cols, line.data() + 1, field_.data() + coarse_.offset(coarse_row));
   });
@@ -71,18 +64,14 @@ void CoarseAnswer::find(double shift, const float* traction) {
 }
 
 void CoarseAnswer::row(int row, float* displacement) const {
-  const auto coarse_cols = static_cast<std::size_t>(coarse_.cols);
-  std::vector<float> line(coarse_cols + 1);
-  const float* const first = field_.data() + coarse_.offset(row / 2);
-  if (row % 2 == 0) {
-    std::copy_n(first, coarse_cols, line.begin());
-  } else {
-    mean(coarse_cols, first, field_.data() + coarse_.offset((row / 2 + 1) % coarse_.rows), line.data());
-  }
-  line.back() = line.front();
-  const std::size_t pairs = static_cast<std::size_t>(grid_.cols) / 2;
-  spread(pairs, line.data(), displacement);
-  if (grid_.cols % 2 != 0) displacement[2 * pairs] = line[pairs];
+  const float* const one = field_.data() + coarse_.offset(row / 2);
+  const float* const other = row % 2 == 0 ? one : field_.data() + coarse_.offset((row / 2 + 1) % coarse_.rows);
+  const auto cols = static_cast<std::size_t>(grid_.cols);
+  const std::size_t pairs = cols / 2;
+  const std::size_t next = pairs % static_cast<std::size_t>(coarse_.cols);
+  const float behind = 0.5F * (one[next] + other[next]);
+  spread(pairs, one, other, behind, displacement);
+  if (cols % 2 != 0) displacement[cols - 1] = behind;
 }
 
 }  // namespace mems_stiction

@@ -25,7 +25,8 @@ constexpr double kSufficientDecrease = 1e-4;
 /// Energies that differ by less than this share of their parts are equal but for what single precision adds to K u.
 constexpr double kEnergyNoise = 1e-9;
 /// What single precision leaves in K u for each step, of the residual that it takes away, and for going on from one state
-/// to the next, of 8 Gamma/(3 z0); and for a step of the conjugate gradients. Measured: a tenth of it to as much.
+/// to the next, of 8 Gamma/(3 z0); and for a step of the conjugate gradients. Measured: a tenth of it to as much, and five times it
+/// after jumps that were taken back, less than an equilibrium's residual still.
 constexpr double kSinglePrecision = 3e-7;
 constexpr double kGradientsPrecision = 1e-6;
 /// Share of the allowed residual that may come from it.

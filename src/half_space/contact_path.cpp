@@ -21,8 +21,9 @@ constexpr double kSummitStep = 0.001;
 constexpr double kPointDistance = 0.25;
 /// Share of the largest force that steps over a jump may miss before they become finer.
 constexpr double kNegligibleMiss = 0.005;
-/// Sags, as kWantedSag, that are taken back, on the way in and on the way out. A parabola with that sag errs by a quarter of it where the curve is smooth. A
-/// jump that passes for a smooth step adds up to its sag to the work that is lost, and frames have chains of them.
+/// Sags, as kWantedSag, that are taken back, on the way in and on the way out. A parabola with that sag errs by a quarter of
+/// it where the curve is smooth. A jump that passes for a smooth step adds up to its sag to the work that is lost, and frames
+/// have chains of them.
 constexpr double kLargestSag = 0.03;
 constexpr double kLargestSagOut = 0.015;
 /// A change of slope from one step to the next, over the step and of the force, counts as a sag of this share:

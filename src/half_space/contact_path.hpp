@@ -116,7 +116,7 @@ class ContactPath {
   /// On the way in, but rest and what flows; on the way out, far from the largest force; and near it, where the way out is the
   /// way in. Set, as the smallest steps and kSameForce and kSameEnergy are, on `scripts/trust --half-space-steps` of seeds 32
   /// and 34, the first and the last one on 32 and 35: exact states take a seventh more time on the way in and a tenth on the way
-  /// out of frames that jump, and are no nearer to finer steps; 100 on the way out puts 1 % more of the works out, and states
+  /// out of frames that jump, and are no nearer to finer steps; 100 on the way out puts 1 to 2 % more of the works out, and states
   /// like kSummit over the small steps that meet a jump 8 % of the forces.
   static constexpr Accuracy kPassingIn{100.0, 0.01};
   static constexpr Accuracy kPassingOut{30.0, 0.01};
@@ -204,7 +204,7 @@ class ContactPath {
   double last_move_ = 0.0;       ///< of Z to the present state [m]; 0: there is none to go on from
   double changing_move_ = 0.0;   ///< of Z to the state by whose change the next one begins [m]; 0: none
   double step_ = 0.0;            ///< to be tried next [m]
-  double last_sag_ = 0.0;        ///< of the step to the present state; 0: there is none
+  double last_sag_ = 0.0;        ///< of the last step that was accepted; 0: there was none
   bool is_before_jump_ = false;  ///< the present branch is known to end before jump_height_
   double jump_height_ = 0.0;     ///< [m]
   double finest_ = 0.0;          ///< how close to the jump the branch is to be followed [m]

@@ -67,7 +67,7 @@ bool ContactPath::leap(const ForcePoint& target) {
   ForcePoint leapt;
   ContactState state;
   const double force = forceScale();
-  const double largest = std::max(strongest_, target.force);
+  const double largest = std::max(strongest_, target.force);  // not what presses the bodies at rest
   const Accuracy accuracy{kSummit.residual, kSummit.force * largest / force};
   if (attempt(target.height, accuracy, leapt, state) == PathStatus::kDone &&
       std::abs(leapt.force - target.force) <= kSameForce * force &&

@@ -65,7 +65,7 @@ struct SolvedHalfSpace {
   double residual = kNone;         ///< the largest at rest and near the largest force [-]
   int state_count = 0;             ///< solved
   int newton_steps = 0;
-  int products = 0;                ///< pairs of Fourier transforms
+  int products = 0;                ///< pairs of Fourier transforms of the whole grid
   int jumps = 0;                   ///< places where the curve is not continuous, both ways
   double processing_time = kNone;  ///< that the solution took [s]
   /// Largest force of a second retraction from the same rest, on which the voltage stays on; pull_off_force without one
