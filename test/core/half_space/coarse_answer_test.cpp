@@ -30,19 +30,20 @@ const Frame kFrames[] = {{"even", 32, 48, HalfSpaceBoundary::kPeriodic},
 class BothAnswers {
  public:
   explicit BothAnswers(const Frame& frame, int threads = 1)
-      : grid(frame.rows, frame.cols, 5e-9, 4e-9, frame.boundary),
-        stiffness(grid, kModulus, threads, memory_),
-        coarse_(grid, ElasticResponse{kModulus}, threads, memory_, nullptr) {}
+      : grid_(frame.rows, frame.cols, 5e-9, 4e-9, frame.boundary),
+        stiffness_(grid_, kModulus, threads, memory_),
+        coarse_(grid_, ElasticResponse{kModulus}, threads, memory_, nullptr) {}
 
+  const HalfSpaceGrid& grid() const { return grid_; }
   std::vector<float> fine(const std::vector<float>& traction) {
-    std::vector<float> displacement(grid.size(), 0.0F);
-    stiffness.precondition(shift(), traction.data(), displacement.data());
+    std::vector<float> displacement(grid_.size(), 0.0F);
+    stiffness_.precondition(shift(), traction.data(), displacement.data());
     return displacement;
   }
   std::vector<float> coarse(const std::vector<float>& traction) {
-    std::vector<float> displacement(grid.size(), 0.0F);
+    std::vector<float> displacement(grid_.size(), 0.0F);
     coarse_.find(shift(), traction.data());
-    for (int row = 0; row < grid.rows; ++row) coarse_.row(row, displacement.data() + grid.offset(row));
+    for (int row = 0; row < grid_.rows; ++row) coarse_.row(row, displacement.data() + grid_.offset(row));
     return displacement;
   }
   std::vector<float> noise(unsigned seed) const {
@@ -53,7 +54,7 @@ class BothAnswers {
   std::vector<float> wave(int along, int down) const {
     return field([&](int row, int col) {
       return std::cos(2.0 * kPi *
-                      (static_cast<double>(along * col) / grid.cols + static_cast<double>(down * row) / grid.rows));
+                      (static_cast<double>(along * col) / grid_.cols + static_cast<double>(down * row) / grid_.rows));
     });
   }
   double product(const std::vector<float>& a, const std::vector<float>& b) const {
@@ -63,28 +64,21 @@ class BothAnswers {
   }
 
  private:
-  double shift() const { return 0.5 * stiffness.smallest(); }
+  double shift() const { return 0.5 * stiffness_.smallest(); }
   template <typename At>
   std::vector<float> field(const At& at) const {
-    std::vector<float> values(grid.size(), 0.0F);
-    for (int row = 0; row < grid.rows; ++row) {
-      for (int col = 0; col < grid.cols; ++col) {
-        values[grid.offset(row) + static_cast<std::size_t>(col)] = static_cast<float>(at(row, col));
+    std::vector<float> values(grid_.size(), 0.0F);
+    for (int row = 0; row < grid_.rows; ++row) {
+      for (int col = 0; col < grid_.cols; ++col) {
+        values[grid_.offset(row) + static_cast<std::size_t>(col)] = static_cast<float>(at(row, col));
       }
     }
     return values;
   }
 
- public:
-  HalfSpaceGrid grid;
-
- private:
+  HalfSpaceGrid grid_;
   SpectrumMemory memory_;
-
- public:
-  StiffnessOperator<float> stiffness;
-
- private:
+  StiffnessOperator<float> stiffness_;
   CoarseAnswer coarse_;
 };
 
@@ -106,7 +100,7 @@ TEST_P(CoarseAnswerOfFrame, LongWavesAreAnsweredAsByAllCells) {
 
 TEST_P(CoarseAnswerOfFrame, WhatVariesFromCellToCellIsNotAnswered) {
   BothAnswers answers(GetParam());
-  const HalfSpaceGrid& grid = answers.grid;
+  const HalfSpaceGrid& grid = answers.grid();
   const std::vector<float> traction = answers.wave(grid.cols / 2, grid.rows / 2);
   const std::vector<float> fine = answers.fine(traction);
   EXPECT_LT(answers.product(answers.coarse(traction), traction), 0.1 * answers.product(fine, traction));

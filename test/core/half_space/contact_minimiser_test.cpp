@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "half_space/contact_minimiser.hpp"
-#include "surface/gaussian_surface.hpp"
+#include "support/rough_relief.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -23,11 +23,7 @@ LargePageVector<double> rough() {
   options.correlation_length_x = options.correlation_length_y = 30e-9;
   options.rms_height = 0.6e-9;
   options.seed = 4;
-  const cv::Mat1d heights = gaussianSurface(options).heights();
-  LargePageVector<double> relief(heights.begin(), heights.end());
-  const double summit = *std::max_element(relief.begin(), relief.end());
-  for (double& gap : relief) gap = summit - gap;
-  return relief;
+  return roughRelief(options);
 }
 
 class ContactMinimiserOf : public testing::TestWithParam<HalfSpaceBoundary> {

@@ -9,7 +9,7 @@
 
 #include "half_space/contact_minimiser.hpp"
 #include "half_space/contact_windows.hpp"
-#include "surface/gaussian_surface.hpp"
+#include "support/rough_relief.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -28,11 +28,7 @@ LargePageVector<double> rough(int rows, int cols, double rms_height) {
   options.correlation_length_x = options.correlation_length_y = 60e-9;
   options.rms_height = rms_height;
   options.seed = 3;
-  const cv::Mat1d heights = gaussianSurface(options).heights();
-  LargePageVector<double> relief(heights.begin(), heights.end());
-  const double summit = *std::max_element(relief.begin(), relief.end());
-  for (double& gap : relief) gap = summit - gap;
-  return relief;
+  return roughRelief(options);
 }
 
 /// A frame whose surfaces have not answered yet: u = 0.
