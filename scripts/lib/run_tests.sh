@@ -52,12 +52,13 @@ runGoogleTests() {
 
 googleTestsDone() { echo "$(find "$results/google" -name '*.xml' | wc -l) of ${#google_tests[@]} programs"; }
 
-# runRosTest NAME: its results go to a folder of their own, since the variants of a rostest write to the same files.
+# runRosTest NAME: its results go to a folder of their own, since the variants of a rostest write to the same files. Python's
+# cases are named as they begin, so the log of one that hangs ends with its name.
 runRosTest() {
   local name=$1 status=0 counted
   local log=$results/logs/$name.txt folder=$results/ros/$name
   rm -rf "$build_folder/test_results"
-  ctest --output-on-failure --timeout "${ros_test_timeout:-1800}" -R "^$name\$" >"$log" 2>&1 || status=$?
+  NOSE_VERBOSE=2 ctest --output-on-failure --timeout "${ros_test_timeout:-900}" -R "^$name\$" >"$log" 2>&1 || status=$?
   mkdir -p "$folder"
   if [ -d "$build_folder/test_results" ]; then mv "$build_folder/test_results" "$folder"; fi
   counted=$(python3 "$count_results" "$folder")
