@@ -53,10 +53,11 @@ stopAllGroups() {
   groups=()
 }
 
-# watchGroup LABEL STATE-COMMAND: waits for the last started group and returns its status. Meanwhile prints what
-# STATE-COMMAND says: in place on a terminal, every half minute elsewhere.
+# watchGroup LABEL STATE-COMMAND: waits for the group that $group names, which is the last started one unless the caller has
+# set it back to an earlier one, and returns its status. Meanwhile prints what STATE-COMMAND says: in place on a terminal,
+# every half minute elsewhere.
 watchGroup() {
-  local label=$1 state_command=$2 pid=$group started=$SECONDS last_line=$SECONDS status=0 text
+  local label=$1 state_command=$2 pid=$group started=$SECONDS last_line=$SECONDS status=0 text other others=()
   while anyAlive "$pid"; do
     sleep 0.3
     text="$label $($state_command 2>/dev/null || true) ($(clock $((SECONDS - started))))"
@@ -69,7 +70,8 @@ watchGroup() {
   done
   if [ -t 1 ]; then printf '\r\033[K'; fi
   wait "$pid" || status=$?
-  unset 'groups[-1]'
+  for other in "${groups[@]}"; do [ "$other" = "$pid" ] || others+=("$other"); done
+  groups=(${others[@]+"${others[@]}"})
   return "$status"
 }
 

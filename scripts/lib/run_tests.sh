@@ -52,13 +52,32 @@ runGoogleTests() {
 
 googleTestsDone() { echo "$(find "$results/google" -name '*.xml' | wc -l) of ${#google_tests[@]} programs"; }
 
-# runRosTest NAME: its results go to a folder of their own, since the variants of a rostest write to the same files. Python's
-# cases are named as they begin, so the log of one that hangs ends with its name.
+pythonResult() { echo "$build_folder/test_results/mems_stiction/${1#_ctest_mems_stiction_}.xml" | sed 's/nosetests_/nosetests-/'; }
+
+# All of ros_tests=(NAME...), which are files of Python's tests, as many at once as there are processors. Their cases are named
+# as they begin, so the output of one that hangs ends with its name.
+runPythonTests() {
+  local name log=$results/logs/python.txt failed=Testing/Temporary/LastTestsFailed.log
+  rm -rf "$build_folder/test_results" "$failed"
+  NOSE_VERBOSE=2 ctest -j "$(nproc)" --output-on-failure --timeout "${ros_test_timeout:-900}" -R '^_ctest_.*_nosetests_' >"$log" 2>&1 || true
+  for name in "${ros_tests[@]}"; do
+    # It ended before its results, or failed without a failed case.
+    if [ ! -f "$(pythonResult "$name")" ] || { grep -qs ":$name\$" "$failed" && ! grep -qE '<(failure|error)' "$(pythonResult "$name")"; }; then
+      grep -F -A 40 "$name" "$log" | tail -n 40 >"$results/logs/$name.txt.end" || true
+      record failed "$name" "$results/logs/$name.txt.end"
+    fi
+  done
+  mv "$build_folder/test_results" "$results/python"
+}
+
+pythonTestsDone() { echo "$(find "$build_folder/test_results" -name 'nosetests-*.xml' | wc -l) of ${#ros_tests[@]} programs"; }
+
+# runRosTest NAME: its results go to a folder of their own, since the variants of a rostest write to the same files.
 runRosTest() {
   local name=$1 status=0 counted
   local log=$results/logs/$name.txt folder=$results/ros/$name
   rm -rf "$build_folder/test_results"
-  NOSE_VERBOSE=2 ctest --output-on-failure --timeout "${ros_test_timeout:-900}" -R "^$name\$" >"$log" 2>&1 || status=$?
+  ctest --output-on-failure --timeout "${ros_test_timeout:-900}" -R "^$name\$" >"$log" 2>&1 || status=$?
   mkdir -p "$folder"
   if [ -d "$build_folder/test_results" ]; then mv "$build_folder/test_results" "$folder"; fi
   counted=$(python3 "$count_results" "$folder")

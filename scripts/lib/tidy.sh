@@ -1,0 +1,9 @@
+# clang-tidy over the sources of a build, whose generated headers must be there; source after common.sh and build.sh.
+
+# What tidy.py finds goes to standard output, its progress to a file. It gives way to whatever else runs.
+tidySources() {
+  mkdir -p "$build_folder/tidy"
+  nice -n 19 python3 "$repository/scripts/lib/tidy.py" --progress "$build_folder/tidy/progress.txt" "$build_folder"
+}
+
+sourcesTidied() { tail -n 1 "$build_folder/tidy/progress.txt"; }
