@@ -121,17 +121,25 @@ MEMS_STICTION_VECTORIZED void addTile(int count, double length, const RowArrays&
 
 /// Where repulsion and elastic traction differ, the slope of the line between both: the tangent of (z0/g)^9 would take
 /// a step for each factor of three in the traction.
-void useSecants(const TractionLaw& law, int count, double length, const RowArrays& arrays, Tile& tile) {
+MEMS_STICTION_VECTORIZED void useSecants(const TractionLaw& law, int count, double length, const RowArrays& arrays,
+                                         Tile& tile) {
   const double least = kSecantShare * law.stress();
-  for (int i = 0; i < count; ++i) {
-    if (!(tile.gaps[i] < law.contactGap())) continue;
-    const double fixed = arrays.fixed != nullptr ? static_cast<double>(arrays.fixed[i]) : 0.0;
-    const double elastic =
-        arrays.mean + fixed + arrays.elastic_traction[i] + length * static_cast<double>(arrays.step_traction[i]);
-    const double wanted = std::min(elastic, 0.0);
-    if (std::abs(wanted - tile.traction[i]) < least) continue;
-    const double secant = law.secant(tile.gaps[i], tile.traction[i], wanted);
-    if (secant > 0.0) tile.slope[i] = secant;
+  for (int i = 0; i < count; i += kLanes) {
+    const Lanes gap = Lanes::load(tile.gaps + i);  // filled up with what is infinite
+    const LaneMask repels = gap < law.contactGap();
+    if (repels.count() == 0) continue;
+    const auto left = static_cast<std::size_t>(std::min(count - i, kLanes));
+    const Lanes traction = Lanes::loadFirst(tile.traction + i, left, 0.0);
+    const Lanes slope = Lanes::loadFirst(tile.slope + i, left, 0.0);
+    const Lanes fixed = arrays.fixed != nullptr ? Lanes::loadFirst(arrays.fixed + i, left, 0.0) : Lanes();
+    const Lanes elastic = arrays.mean + fixed + Lanes::loadFirst(arrays.elastic_traction + i, left, 0.0) +
+                          length * Lanes::loadFirst(arrays.step_traction + i, left, 0.0);
+    const Lanes wanted = select(elastic < 0.0, elastic, Lanes());
+    const Lanes missed = select(wanted < traction, traction - wanted, wanted - traction);
+    const LaneMask is_missed = select(repels, missed, Lanes()) > least;
+    if (is_missed.count() == 0) continue;
+    const Lanes secant = law.secant(gap, traction, wanted);
+    select(select(is_missed, secant, Lanes()) > 0.0, secant, slope).storeFirst(left, tile.slope + i);
   }
 }
 

@@ -10,7 +10,6 @@ namespace {
 
 /// Closest gap of a law without a hardness, of z0: there it repels with 1300 times 8 Gamma/(3 z0).
 constexpr double kClosestGap = 0.45;
-constexpr int kSecantIterations = 4;
 /// Width over which the water's pressure sets in, of z0.
 constexpr double kWaterFront = 0.25;
 
@@ -83,31 +82,9 @@ double TractionLaw::gapOfPressure(double pressure, double narrow) const {
   }
 }
 
-double TractionLaw::gapUnder(double pressure) const {
-  // y = (z0/g)^3 solves y^3 - y = p/stress; from above Newton's method does not turn back
-  const double share = pressure / stress();
-  double y = std::cbrt(share) + 1.0;
-  for (int i = 0; i < kSecantIterations; ++i) y -= (y * y * y - y - share) / (3.0 * y * y - 1.0);
-  return std::max(range() / std::cbrt(y), narrowestGap());
-}
-
 double TractionLaw::narrowestGap() const { return kClosestGap * range(); }
 
 double TractionLaw::reach() const { return range() * (water_.isOn() ? 1.0 + kWaterFront : 1.0) + water_.gapLimit(); }
-
-double TractionLaw::secant(double gap, double traction, double other_traction) const {
-  double other = other_traction;
-  double other_gap = gapUnder(std::max(0.0, -other_traction));
-  if (other_gap <= closest_gap_) {
-    other_gap = closest_gap_;
-    if (flows_) {
-      other = closest_traction_;
-    } else {  // the law goes on as a line
-      other_gap -= std::max(0.0, closest_traction_ - other) / slope_of_line_;
-    }
-  }
-  return (other - traction) / (other_gap - gap);
-}
 
 TractionLaw::Point TractionLaw::at(double gap) const {
   Point point{};

@@ -26,6 +26,7 @@
 
 #include "mechanics/traction_law.hpp"
 #include "mems_stiction/loads/capillary.hpp"
+#include "numeric/lane_functions.hpp"
 
 namespace mems_stiction {
 
@@ -67,8 +68,19 @@ class TractionLaw {
   void atRow(int count, const double* gaps, double* traction, double* slope, double* energy) const;
 
   /// Slope of the line from a gap with its traction to where the surfaces repel each other with -other_traction, by the
-  /// first part of the law [Pa/m].
-  double secant(double gap, double traction, double other_traction) const;
+  /// first part of the law; of one gap or several (Lanes) [Pa/m].
+  template <typename Real>
+  MEMS_STICTION_INLINE Real secant(const Real& gap, const Real& traction, const Real& other_traction) const {
+    const Real gap_there = gapUnder(select(other_traction < 0.0, Real(0.0 - other_traction), Real(0.0)));
+    const auto is_law = gap_there > closest_gap_;
+    if (flows_)
+      return (select(is_law, other_traction, Real(closest_traction_)) - traction) /
+             (select(is_law, gap_there, Real(closest_gap_)) - gap);
+    // narrower, the law goes on as a line
+    const Real excess = select(other_traction < closest_traction_, Real(closest_traction_ - other_traction), Real(0.0));
+    return (other_traction - traction) /
+           (select(is_law, gap_there, Real(closest_gap_ - excess / slope_of_line_)) - gap);
+  }
 
   double range() const { return law_.range(); }                                  ///< z0 [m]
   double stress() const { return law_.stress(); }                                ///< 8 Gamma/(3 z0) [Pa]
@@ -77,13 +89,30 @@ class TractionLaw {
   double closestGap() const { return closest_gap_; }  ///< where t = -Ha; narrower gaps flow [m]
   double contactGap() const { return contact_gap_; }  ///< narrower gaps repel [m]; z0 but for field and water
   /// The gap at which the surfaces repel each other with a pressure, >= 0, without flow; no less than the narrowest [m].
-  double gapUnder(double pressure) const;
+  template <typename Real>
+  MEMS_STICTION_INLINE Real gapUnder(const Real& pressure) const {
+    // x = z0/g solves x^9 - x^3 = p; Halley's method from a tenth beside it
+    const Real share = pressure / stress();
+    Real x = squareRoot(squareRoot(squareRoot(1.0 + share)));
+    for (int i = 0; i < kGapIterations; ++i) {
+      const Real square = x * x;
+      const Real cube = square * x;
+      const Real sixth = cube * cube;
+      const Real left = (sixth - 1.0) * cube - share;
+      const Real slope = (9.0 * sixth - 3.0) * square;
+      const Real bend = (72.0 * sixth - 6.0) * x;
+      x = x - 2.0 * left * slope / (2.0 * slope * slope - left * bend);
+    }
+    const Real gap = range() / x;
+    return select(gap > narrowestGap(), gap, Real(narrowestGap()));
+  }
   /// The narrowest gap for which the law is more than a line [m].
   double narrowestGap() const;
   /// The widest gap at which something has an edge: beyond it there are tails only [m].
   double reach() const;
 
  private:
+  static constexpr int kGapIterations = 3;
   /// The first part of t, no closer than the closest gap; returns the smallest gap, or the closest if that is smaller.
   double nineThree(int count, const double* gaps, double* traction, double* slope, double* energy) const;
   /// Where t falls to -pressure, between a narrow gap that repels more and z0 [m].

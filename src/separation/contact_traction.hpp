@@ -19,8 +19,8 @@
 
 #include "mechanics/traction_law.hpp"
 #include "mems_stiction/loads/interface.hpp"
+#include "numeric/lane_functions.hpp"
 #include "numeric/lanes.hpp"
-#include "separation/lane_functions.hpp"
 
 namespace mems_stiction {
 

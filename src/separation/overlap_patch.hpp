@@ -15,7 +15,7 @@
 
 #include <cstdint>
 
-#include "separation/lane_functions.hpp"
+#include "numeric/lane_functions.hpp"
 
 namespace mems_stiction {
 

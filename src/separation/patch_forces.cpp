@@ -6,8 +6,8 @@
 
 #include "mechanics/transition.hpp"
 #include "numeric/constants.hpp"
+#include "numeric/lane_functions.hpp"
 #include "numeric/lanes.hpp"
-#include "separation/lane_functions.hpp"
 
 namespace mems_stiction {
 namespace {

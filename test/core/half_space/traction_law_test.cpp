@@ -102,7 +102,7 @@ TEST(TractionLaw, UpToAPressureItIsTheSameAndBeyondItsTangent) {
   const double pressure = 7e9;
   const TractionLaw wall = law.steepUpTo(pressure);
   const double edge = law.gapUnder(pressure);
-  EXPECT_NEAR(wall.closestGap() / edge, 1.0, 1e-8);  // gapUnder() takes four of Newton's steps
+  EXPECT_NEAR(wall.closestGap() / edge, 1.0, 1e-8);
   EXPECT_FALSE(wall.flows());
   for (const double share : {1.001, 1.2, 3.0}) {
     EXPECT_EQ(wall.at(share * edge).traction, law.at(share * edge).traction);
@@ -187,8 +187,22 @@ TEST(TractionLaw, SecantsEndWhereTheSurfacesFlow) {
 TEST(TractionLaw, TheGapUnderAPressureHasIt) {
   const TractionLaw law{TractionLawOptions()};
   EXPECT_NEAR(law.gapUnder(0.0) / law.range(), 1.0, 1e-9);
-  EXPECT_NEAR(-law.at(law.gapUnder(20e9)).traction / 20e9, 1.0, 1e-3);
+  for (const double pressure : {1e7, 1e9, 20e9, 200e9}) {
+    EXPECT_NEAR(-law.at(law.gapUnder(pressure)).traction / pressure, 1.0, 1e-9) << pressure;
+  }
   EXPECT_EQ(law.gapUnder(1e14), law.narrowestGap());
+}
+
+TEST(TractionLaw, SecantsOfSeveralGapsAreThoseOfEach) {
+  const TractionLaw law{TractionLawOptions()};
+  const double gaps[] = {0.4 * law.range(), 0.6 * law.range(), 0.9 * law.range(), 0.97 * law.range()};
+  const double tractions[] = {law.at(gaps[0]).traction, law.at(gaps[1]).traction, law.at(gaps[2]).traction,
+                              law.at(gaps[3]).traction};
+  const double others[] = {-3e9, -1e14, 0.0, -2e8};
+  const Lanes secants = law.secant(Lanes::load(gaps), Lanes::load(tractions), Lanes::load(others));
+  for (std::size_t i = 0; i < Lanes::kCount; ++i) {
+    EXPECT_DOUBLE_EQ(secants[i], law.secant(gaps[i], tractions[i], others[i])) << i;
+  }
 }
 
 TEST(TractionLaw, ImpossibleInterfacesAreNamed) {

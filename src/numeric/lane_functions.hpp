@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// What sums over patches need of four numbers at once, where std::pow would be the most of their time.
+/// What sums over patches and cells need of four numbers at once, where std::pow would be the most of their time.
 
 #include <cmath>
 #include <cstdint>

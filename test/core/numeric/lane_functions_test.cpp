@@ -1,4 +1,4 @@
-#include "separation/lane_functions.hpp"
+#include "numeric/lane_functions.hpp"
 
 #include <cmath>
 
