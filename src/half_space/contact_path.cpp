@@ -21,11 +21,9 @@ constexpr double kSummitStep = 0.001;
 constexpr double kPointDistance = 0.25;
 /// Share of the largest force that steps over a jump may miss before they become finer.
 constexpr double kNegligibleMiss = 0.005;
-/// Sags, as kWantedSag, that are taken back, on the way in and on the way out. A parabola with that sag errs by a quarter of
-/// it where the curve is smooth. A jump that passes for a smooth step adds up to its sag to the work that is lost, and frames
-/// have chains of them.
+/// The sag, as kWantedSag, that is taken back on the way in. A parabola with a sag errs by a quarter of it where the curve is
+/// smooth. A jump that passes for a smooth step adds up to its sag to the work that is lost, and frames have chains of them.
 constexpr double kLargestSag = 0.03;
-constexpr double kLargestSagOut = 0.015;
 /// A change of slope from one step to the next, over the step and of the force, counts as a sag of this share:
 /// a step over a jump may by chance have the mean of its ends, but not the slope with which it began. The second where
 /// the branch was on its way to the largest force of all, the third where it is near.
@@ -49,6 +47,11 @@ constexpr double kShareBefore = 0.93;
 constexpr double kLargestHeavyStep = 128.0;
 /// What a cell may move in one Newton step there, of z0: attraction hardly shapes the way, and the line search bounds it.
 constexpr double kLongestHeavyMove = 30.0;
+/// Behind the summit, states with less than this share of the force lead to rest: the first step out, whose slope is the
+/// stiffness, may end in one of them.
+constexpr double kTowardsRest = 0.75;
+/// Force beside that of rest from which on a state is exact, of the largest force: it may be rest.
+constexpr double kMaybeRest = 0.01;
 /// How often a force is aimed at, and how far from there at once, of the step that missed it.
 constexpr int kMostAims = 5;
 constexpr double kShortestAim = 0.05;
@@ -126,7 +129,7 @@ double ContactPath::sagOf(const ForcePoint& next) const {
   const StepParabola parabola(present_, next);
   // of the smaller one: a step from a large load to none must not miss the attraction
   const double scale = std::max({strongest_, next.force, std::min(std::abs(present_.force), std::abs(next.force))});
-  return scale > 0.0 ? std::abs(parabola.mean - 0.5 * (parabola.begin + parabola.end)) / scale : 0.0;
+  return scale > 0.0 ? parabola.sag() / scale : 0.0;
 }
 
 double ContactPath::kinkOf(const ForcePoint& next) const {
@@ -149,7 +152,9 @@ ContactPath::Accuracy ContactPath::summitAccuracy() const { return isWayBack() ?
 
 ContactPath::Accuracy ContactPath::accuracyOf(bool is_in, double step, const ForceCurve& curve) const {
   if (!minimiser_.flowed().empty()) return kExact;
-  if (is_in) return kPassingIn;
+  const bool is_falling = last_move_ != 0.0 && last_parabola_.end < last_parabola_.begin;
+  const bool leads_to_rest = is_falling && present_.force < kTowardsRest * strongest_;
+  if (is_in) return curve.is_one_branch && !is_before_jump_ && !leads_to_rest ? kPassingIn : kPassing;
   // the first step out tells the stiffness
   if (!settings_.samples_curve || last_move_ == 0.0) return kExact;
   const bool is_far = std::max(present_.force, continued(step)) < kSummitForce * curve.largest_force;
@@ -204,9 +209,8 @@ void ContactPath::record(const ForcePoint& next, bool is_jump, ForceCurve& curve
     const bool is_smooth = is_heavy || sagOf(next) <= kJumpSag;
     std::vector<double> shares;  // of the step, where points are
     for (int piece = 1; is_smooth && piece < pieces; ++piece) shares.push_back(static_cast<double>(piece) / pieces);
-    const double vertex =
-        is_smooth && !is_heavy && parabola.bend() < 0.0 ? -0.5 * parabola.slope() / parabola.bend() : -1.0;
-    if (vertex > 0.0 && vertex < 1.0) shares.insert(std::upper_bound(shares.begin(), shares.end(), vertex), vertex);
+    const double summit = is_smooth && !is_heavy ? parabola.summit() : 0.0;
+    if (summit > 0.0 && summit < 1.0) shares.insert(std::upper_bound(shares.begin(), shares.end(), summit), summit);
     for (const double x : shares) {
       ForcePoint between = present_;
       between.height += x * move;
@@ -332,7 +336,7 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
     }
     if (accuracy.residual > 1.0 && status == PathStatus::kDone) {
       const bool may_flow = is_rough ? minimiser_.hasFlow() : minimiser_.isNearFlow();
-      const double near = std::max(leftAtRest(-least_force), kPassingIn.force * forceScale());
+      const double near = std::max(leftAtRest(-least_force), kMaybeRest * forceScale());
       const double beyond = least_force - next.force;
       const bool is_rest = beyond > -near && (beyond < near || step <= kRestStep * usual);
       if ((is_rough && is_aimed) || is_rest || may_flow) {

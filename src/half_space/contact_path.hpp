@@ -15,11 +15,11 @@
 /// the force may grow fivefold from one state to the next: between them its logarithm is the parabola. The way out takes
 /// heights of the way in. A load is aimed at by states with a rough residual, until one has its force.
 ///
-/// A way in without a jump is one branch of minima, which the way out follows back: it then leaps from rest to the state
-/// before the largest force, follows the branch over that by steps of its own, and leaps to the state behind. Both leaps
-/// must end in the states that the way in had there, or the way out goes on in steps. What has flowed, and another law,
-/// make it another branch. States of the way in, but rest, and of the way out far from the largest force have rough residuals;
-/// near the largest force where the way out is the way in, too: residuals that hardly move the force.
+/// A way in without a jump is one branch of minima, which the way out follows back: it then leaps from rest to where the curve
+/// of the way in is highest, solves the few states that the largest force takes, and leaps to the state behind. All of them must
+/// be what the way in had there, or the way out goes on in steps. What has flowed, and another law, make it another branch. States
+/// of the way in, but rest, and of the way out far from the largest force have rough residuals; near the largest force where the
+/// way out is the way in, too.
 /// Behind the first jump of the way in only where it leads to counts: its jumps are met in steps of the usual size.
 ///
 /// What a voltage adds to the traction goes at rest, at constant height, before the bodies are drawn apart: the device opens
@@ -28,6 +28,7 @@
 
 #include <functional>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "half_space/contact_minimiser.hpp"
@@ -66,6 +67,9 @@ struct PathSettings {
 /// Follows the states of a minimiser.
 class ContactPath {
  public:
+  /// Usual step for which sags apply, of z0. Finer ones are to miss less, and their states must be as much more exact.
+  static constexpr double kUsualStep = 0.4;
+
   ContactPath(ContactMinimiser& minimiser, const PathSettings& settings);
 
   /// From apart until the bodies press each other with `load` [N], >= 0, without further force.
@@ -112,13 +116,16 @@ class ContactPath {
   };
   static constexpr Accuracy kExact{1.0, std::numeric_limits<double>::infinity()};
   /// On the way to other states of heavily pressed bodies.
-  static constexpr Accuracy kRough{100.0, std::numeric_limits<double>::infinity()};
-  /// On the way in, but rest and what flows; on the way out, far from the largest force; and near it, where the way out is the
-  /// way in. Set, as the smallest steps and kSameForce and kSameEnergy are, on `scripts/trust --half-space-steps` of seeds 32
-  /// and 34, the first and the last one on 32 and 35: exact states take a seventh more time on the way in and a tenth on the way
-  /// out of frames that jump, and are no nearer to finer steps; 100 on the way out puts 1 to 2 % more of the works out, and states
-  /// like kSummit over the small steps that meet a jump 8 % of the forces.
-  static constexpr Accuracy kPassingIn{100.0, 0.01};
+  static constexpr Accuracy kRough{300.0, std::numeric_limits<double>::infinity()};
+  /// On the way in until something jumps or rest is near, and behind; on the way out, far from the largest force; and near it,
+  /// where the way out is the way in. But for rest and what flows. Set, as the smallest steps and kSameForce and kSameEnergy are,
+  /// on `scripts/trust --half-space-steps` of seeds 32 and 34, the last one on 32 and 35, the first one on 60 frames of each page
+  /// of kinds and on seeds 38 and 39. Exact states take a seventh more time on the way in and a tenth on the way out of frames that
+  /// jump, and are no nearer to finer steps; kPassing all the way in takes a tenth more on frames that do not jump; 1000 in place
+  /// of 300, or 300 behind jumps, puts 1 % of the areas and forces out, and near rest stiffnesses by up to 13 %; 100 on the way
+  /// out 1 to 2 % of the works, and states like kSummit over the small steps that meet a jump 8 % of the forces.
+  static constexpr Accuracy kPassingIn{300.0, 0.05};
+  static constexpr Accuracy kPassing{100.0, 0.01};
   static constexpr Accuracy kPassingOut{30.0, 0.01};
   static constexpr Accuracy kSummit{100.0, 1e-3};
   /// Smallest step of the way out, whose jumps tell force and work, and largest step, of the usual one.
@@ -127,10 +134,11 @@ class ContactPath {
   /// Near the largest force is more than this share of it.
   static constexpr double kSummitForce = 0.9;
   /// How far the mean force of a step may lie from the mean of its ends, of the force: wanted; and so many times it counts near
-  /// the largest force. Usual step for which sags apply, of z0.
+  /// the largest force.
   static constexpr double kWantedSag = 0.01;
   static constexpr double kSummitSagShare = 2.0;
-  static constexpr double kUsualStep = 0.4;
+  /// The sag that is taken back on the way out.
+  static constexpr double kLargestSagOut = 0.015;
   /// By how much the mean gap of a periodic frame may fall in any step, of its distance to the narrowest gap.
   static constexpr double kLeastClosing = 0.1;
 
@@ -139,11 +147,23 @@ class ContactPath {
   PathStatus goOut(ForceCurve& curve);
   /// Whether the way out is the way in; it may be another one after a jump or flow, under another law, or from another state.
   bool isWayBack() const;
-  /// The states of the way in from here outwards, but the nearest; empty where the way out may be another one.
-  std::vector<ForcePoint> wayBack() const;
-  /// Solves at the height of a state of the way in. @return whether it is the state that is found there from here
+  /// The states of the way in from here outwards, but the nearest; empty where the way out may be another one, or where its first
+  /// step could not tell the stiffness of the rest with which `curve` begins.
+  std::vector<ForcePoint> wayBack(const ForceCurve& curve) const;
+  /// Points of the way in into the curve.
+  void recordWay(const std::vector<ForcePoint>& way, double end, ForceCurve& curve);
+  /// Solves at the height of a point of the way in. @return the state, if it has the same force, and the same energy but for this share
+  std::optional<ForcePoint> solveAt(const ForcePoint& target, double same_energy);
+  /// The same of a state of the way in. @return whether it is the state that is found there from here
   bool leap(const ForcePoint& target);
-  /// From rest to the last state of the way in before its largest force.
+  /// From rest along the way in, as far as its largest force or before it. @return whether the curve has got further
+  bool leapFromRest(ForceCurve& curve);
+  /// To the largest force where the way in has one summit.
+  void leapToSummit(ForceCurve& curve);
+  /// Where a state is to be solved next to know the largest force of a way whose highest solved state is `top`; nothing if it is known.
+  std::optional<ForcePoint> nextOnSummit(const std::vector<ForcePoint>& way,
+                                         const std::optional<ForcePoint>& top) const;
+  /// To the last state of the way in before its first summit.
   void leapTowardsSummit(ForceCurve& curve);
   /// From behind the largest force to the end. @return whether both ways are one there
   bool leapBehindSummit(ForceCurve& curve);
@@ -209,6 +229,7 @@ class ContactPath {
   double jump_height_ = 0.0;     ///< [m]
   double finest_ = 0.0;          ///< how close to the jump the branch is to be followed [m]
   double strongest_ = 0.0;       ///< largest attraction so far under the present law [N]
+  bool is_over_summit_ = false;  ///< the way out has the largest force
   bool is_on_approach_ = true;   ///< the present branch is that of the way in, as far as is known
   double changed_energy_ = 0.0;  ///< [J]
   double stiffness_ = std::numeric_limits<double>::quiet_NaN();

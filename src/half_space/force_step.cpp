@@ -1,5 +1,6 @@
 #include "half_space/force_step.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace mems_stiction {
@@ -15,6 +16,11 @@ constexpr int kPieces = 16;
 
 StepParabola::StepParabola(const ForcePoint& from, const ForcePoint& to)
     : begin(from.force), end(to.force), mean((to.energy - from.energy) / (to.height - from.height)) {}
+
+double StepParabola::summit() const {
+  if (bend() < 0.0) return std::clamp(-0.5 * slope() / bend(), 0.0, 1.0);
+  return end > begin ? 1.0 : 0.0;
+}
 
 double StepParabola::attractingShare() const {
   if (begin > 0.0) return end > 0.0 ? 1.0 : crossing(*this, 0.0, 0.0, 1.0);

@@ -10,6 +10,8 @@
 ///     const StepParabola parabola(before, after);
 ///     const double share = crossing(parabola, 0.0, 0.0, 1.0);  // where the force vanishes, of the step
 
+#include <cmath>
+
 #include "mems_stiction/half_space/half_space_solution.hpp"
 
 namespace mems_stiction {
@@ -24,6 +26,10 @@ struct StepParabola {
   double workTo(double x) const { return x * (begin + x * (slope() / 2.0 + x * bend() / 3.0)); }
   double slope() const { return 6.0 * mean - 4.0 * begin - 2.0 * end; }
   double bend() const { return 3.0 * (begin + end) - 6.0 * mean; }
+  /// Where it is highest, 0 to 1.
+  double summit() const;
+  /// How far the mean lies from that of both ends [N].
+  double sag() const { return std::abs(mean - 0.5 * (begin + end)); }
   /// Share of the step over which the bodies attract each other.
   double attractingShare() const;
 

@@ -27,6 +27,14 @@ namespace {
 constexpr double kPixelsPerCohesiveLength = 2.0;
 /// Pull-off forces that finer steps change by less than this are converged in the step.
 constexpr double kStepConvergence = 0.02;
+/// What half_space/tolerance may be at least.
+constexpr double kFinestTolerance = 1e-6;
+
+/// That of an equilibrium: finer steps differ by less force, which residuals must not hide.
+double toleranceOf(const HalfSpaceOptions& options) {
+  const double share = options.step / ContactPath::kUsualStep;
+  return std::min(options.tolerance, std::max(kFinestTolerance, share * options.tolerance));
+}
 
 /// What a frame with free edges cannot have on its other side.
 void checkBacking(const Material& body, const std::string& name, const HeightMap& frame,
@@ -274,7 +282,7 @@ SolvedHalfSpace HalfSpaceSolver::solve(const HalfSpaceProblem& problem, const Ha
   const TractionLaw law(law_options);
   const HalfSpaceGrid grid(lower.rows(), lower.cols(), lower.pitchX(), lower.pitchY(), options_.boundary);
   MinimiserSettings minimiser_settings;
-  minimiser_settings.tolerance = options_.tolerance;
+  minimiser_settings.tolerance = toleranceOf(options_);
   minimiser_settings.max_newton_steps = options_.max_newton_steps;
   minimiser_settings.threads = options_.threads;
   minimiser_settings.cancel = control.cancel;
