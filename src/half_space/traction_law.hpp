@@ -73,9 +73,10 @@ class TractionLaw {
   MEMS_STICTION_INLINE Real secant(const Real& gap, const Real& traction, const Real& other_traction) const {
     const Real gap_there = gapUnder(select(other_traction < 0.0, Real(0.0 - other_traction), Real(0.0)));
     const auto is_law = gap_there > closest_gap_;
-    if (flows_)
-      return (select(is_law, other_traction, Real(closest_traction_)) - traction) /
-             (select(is_law, gap_there, Real(closest_gap_)) - gap);
+    if (flows_) {
+      const Real there = select(is_law, other_traction, Real(closest_traction_));
+      return (there - traction) / (select(is_law, gap_there, Real(closest_gap_)) - gap);
+    }
     // narrower, the law goes on as a line
     const Real excess = select(other_traction < closest_traction_, Real(closest_traction_ - other_traction), Real(0.0));
     return (other_traction - traction) /
