@@ -52,17 +52,16 @@ runGoogleTests() {
 
 googleTestsDone() { echo "$(find "$results/google" -name '*.xml' | wc -l) of ${#google_tests[@]} programs"; }
 
-pythonResult() { echo "$build_folder/test_results/mems_stiction/${1#_ctest_mems_stiction_}.xml" | sed 's/nosetests_/nosetests-/'; }
-
 # All of ros_tests=(NAME...), which are files of Python's tests, as many at once as there are processors. Their cases are named
 # as they begin, so the output of one that hangs ends with its name.
 runPythonTests() {
-  local name log=$results/logs/python.txt failed=Testing/Temporary/LastTestsFailed.log
+  local name result log=$results/logs/python.txt failed=Testing/Temporary/LastTestsFailed.log
   rm -rf "$build_folder/test_results" "$failed"
   NOSE_VERBOSE=2 ctest -j "$(nproc)" --output-on-failure --timeout "${ros_test_timeout:-900}" -R '^_ctest_.*_nosetests_' >"$log" 2>&1 || true
   for name in "${ros_tests[@]}"; do
     # It ended before its results, or failed without a failed case.
-    if [ ! -f "$(pythonResult "$name")" ] || { grep -qs ":$name\$" "$failed" && ! grep -qE '<(failure|error)' "$(pythonResult "$name")"; }; then
+    result=$build_folder/test_results/mems_stiction/${name/#_ctest_mems_stiction_nosetests_/nosetests-}.xml
+    if [ ! -f "$result" ] || { grep -qs ":$name\$" "$failed" && ! grep -qE '<(failure|error)' "$result"; }; then
       grep -F -A 40 "$name" "$log" | tail -n 40 >"$results/logs/$name.txt.end" || true
       record failed "$name" "$results/logs/$name.txt.end"
     fi

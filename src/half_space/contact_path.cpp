@@ -152,9 +152,11 @@ ContactPath::Accuracy ContactPath::summitAccuracy() const { return isWayBack() ?
 
 ContactPath::Accuracy ContactPath::accuracyOf(bool is_in, double step, const ForceCurve& curve) const {
   if (!minimiser_.flowed().empty()) return kExact;
-  const bool is_falling = last_move_ != 0.0 && last_parabola_.end < last_parabola_.begin;
-  const bool leads_to_rest = is_falling && present_.force < kTowardsRest * strongest_;
-  if (is_in) return curve.is_one_branch && !is_before_jump_ && !leads_to_rest ? kPassingIn : kPassing;
+  if (is_in) {
+    const bool is_falling = last_move_ != 0.0 && last_parabola_.end < last_parabola_.begin;
+    const bool leads_to_rest = is_falling && present_.force < kTowardsRest * strongest_;
+    return curve.is_one_branch && !is_before_jump_ && !leads_to_rest ? kPassingIn : kPassing;
+  }
   // the first step out tells the stiffness
   if (!settings_.samples_curve || last_move_ == 0.0) return kExact;
   const bool is_far = std::max(present_.force, continued(step)) < kSummitForce * curve.largest_force;

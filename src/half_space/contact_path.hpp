@@ -159,12 +159,12 @@ class ContactPath {
   /// From rest along the way in, as far as its largest force or before it. @return whether the curve has got further
   bool leapFromRest(ForceCurve& curve);
   /// To the largest force where the way in has one summit.
-  void leapToSummit(ForceCurve& curve);
+  bool leapToSummit(ForceCurve& curve);
   /// Where a state is to be solved next to know the largest force of a way whose highest solved state is `top`; nothing if it is known.
   std::optional<ForcePoint> nextOnSummit(const std::vector<ForcePoint>& way,
                                          const std::optional<ForcePoint>& top) const;
   /// To the last state of the way in before its first summit.
-  void leapTowardsSummit(ForceCurve& curve);
+  bool leapTowardsSummit(ForceCurve& curve);
   /// From behind the largest force to the end. @return whether both ways are one there
   bool leapBehindSummit(ForceCurve& curve);
   /// Takes the stiffness from the first step out.

@@ -95,12 +95,7 @@ bool ContactPath::leap(const ForcePoint& target) {
   return is_on_approach_;
 }
 
-bool ContactPath::leapFromRest(ForceCurve& curve) {
-  const std::size_t before = curve.points.size();
-  leapToSummit(curve);
-  if (curve.points.size() == before) leapTowardsSummit(curve);
-  return curve.points.size() > before;
-}
+bool ContactPath::leapFromRest(ForceCurve& curve) { return leapToSummit(curve) || leapTowardsSummit(curve); }
 
 std::optional<ForcePoint> ContactPath::nextOnSummit(const std::vector<ForcePoint>& way,
                                                     const std::optional<ForcePoint>& top) const {
@@ -120,16 +115,16 @@ std::optional<ForcePoint> ContactPath::nextOnSummit(const std::vector<ForcePoint
   return std::nullopt;
 }
 
-void ContactPath::leapToSummit(ForceCurve& curve) {
+bool ContactPath::leapToSummit(ForceCurve& curve) {
   std::vector<ForcePoint> way = wayBack(curve);
   const auto highest = std::max_element(way.begin(), way.end(), isWeaker);
-  if (highest - way.begin() < kFewestLeapt) return;
+  if (highest - way.begin() < kFewestLeapt) return false;
   const auto isHigh = [&](const ForcePoint& point) { return point.force > kSummitForce * highest->force; };
   const auto first = std::find_if(way.begin(), highest, isHigh);
   const auto end = std::find_if_not(highest, way.end(), isHigh);
   const bool is_only_summit = std::is_sorted(first, highest, isWeaker) && std::is_sorted(highest, end, isStronger) &&
                               std::none_of(end, way.end(), isHigh);
-  if (!is_only_summit || end == way.end()) return;
+  if (!is_only_summit || end == way.end()) return false;
   const ForcePoint rest = present_;
   std::optional<ForcePoint> top;  // the highest state that was solved
   auto target = nextOnSummit(way, top);
@@ -142,24 +137,25 @@ void ContactPath::leapToSummit(ForceCurve& curve) {
     changing_move_ = present_.height - rest.height;
     target = nextOnSummit(way, top);
   }
-  if (!top) return;
+  if (!top) return false;
   is_over_summit_ = !target;
   const double reached = std::max(present_.height, top->height);
   present_ = rest;
   recordWay(way, reached, curve);
   changing_move_ = present_.height - rest.height;
   step_ = kSmallestStep * settings_.step * minimiser_.law().range();
+  return true;
 }
 
-void ContactPath::leapTowardsSummit(ForceCurve& curve) {
+bool ContactPath::leapTowardsSummit(ForceCurve& curve) {
   const std::vector<ForcePoint> way = wayBack(curve);
   const auto highest = std::max_element(way.begin(), way.end(), isWeaker);
-  if (highest == way.end()) return;
+  if (highest == way.end()) return false;
   // the first of several, as behind each the way out may be another branch for a while
   auto summit = std::find_if(way.begin(), highest,
                              [&](const ForcePoint& point) { return point.force > kSummitForce * highest->force; });
   while (summit != highest && summit->force < (summit + 1)->force) ++summit;
-  if (summit - way.begin() < kFewestLeapt || !leap(*(summit - 1))) return;
+  if (summit - way.begin() < kFewestLeapt || !leap(*(summit - 1))) return false;
   const double from = present_.height;
   recordWay(way, (summit - 1)->height, curve);
   changing_move_ = present_.height - from;
@@ -167,6 +163,7 @@ void ContactPath::leapTowardsSummit(ForceCurve& curve) {
   // the way in has told how the curve bends there
   const double sag = kSummitSagShare * sagOf(*summit) * kUsualStep / settings_.step;
   if (sag > kWantedSag) step_ *= std::sqrt(kWantedSag / sag);
+  return true;
 }
 
 bool ContactPath::leapBehindSummit(ForceCurve& curve) {

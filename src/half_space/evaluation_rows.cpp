@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "numeric/lane_functions.hpp"
 #include "numeric/lanes.hpp"
 
 namespace mems_stiction {
@@ -127,17 +128,20 @@ MEMS_STICTION_VECTORIZED void useSecants(const TractionLaw& law, int count, doub
   for (int i = 0; i < count; i += kLanes) {
     const Lanes gap = Lanes::load(tile.gaps + i);  // filled up with what is infinite
     const LaneMask repels = gap < law.contactGap();
-    if (repels.count() == 0) continue;
+    if (!isAnywhere(repels)) continue;
     const auto left = static_cast<std::size_t>(std::min(count - i, kLanes));
-    const Lanes traction = Lanes::loadFirst(tile.traction + i, left, 0.0);
-    const Lanes slope = Lanes::loadFirst(tile.slope + i, left, 0.0);
-    const Lanes fixed = arrays.fixed != nullptr ? Lanes::loadFirst(arrays.fixed + i, left, 0.0) : Lanes();
-    const Lanes elastic = arrays.mean + fixed + Lanes::loadFirst(arrays.elastic_traction + i, left, 0.0) +
-                          length * Lanes::loadFirst(arrays.step_traction + i, left, 0.0);
+    const auto take = [&](const auto* from) __attribute__((always_inline)) {
+      return left == Lanes::kCount ? Lanes::load(from) : Lanes::loadFirst(from, left, 0.0);
+    };
+    const Lanes traction = take(tile.traction + i);
+    const Lanes slope = take(tile.slope + i);
+    const Lanes fixed = arrays.fixed != nullptr ? take(arrays.fixed + i) : Lanes();
+    const Lanes elastic =
+        arrays.mean + fixed + take(arrays.elastic_traction + i) + length * take(arrays.step_traction + i);
     const Lanes wanted = select(elastic < 0.0, elastic, Lanes());
-    const Lanes missed = select(wanted < traction, traction - wanted, wanted - traction);
-    const LaneMask is_missed = select(repels, missed, Lanes()) > least;
-    if (is_missed.count() == 0) continue;
+    const Lanes missed = select(repels, greater(traction - wanted, wanted - traction), Lanes());
+    const LaneMask is_missed = missed > least;
+    if (!isAnywhere(is_missed)) continue;
     const Lanes secant = law.secant(gap, traction, wanted);
     select(select(is_missed, secant, Lanes()) > 0.0, secant, slope).storeFirst(left, tile.slope + i);
   }

@@ -21,7 +21,7 @@ void HalfSpaceOptions::describe(OptionVisitor& visitor) {
                       "what lies beyond the frame: copies of it, or nothing that touches");
   visitor.number("half_space/step", step, "", Range::within(0.01, 2.0),
                  "usual change of the height between two states, over z0; it adapts to the curve");
-  visitor.number("half_space/tolerance", tolerance, "", Range::within(1e-6, 1e-3),
+  visitor.number("half_space/tolerance", tolerance, "", Range::within(kFinestTolerance, 1e-3),
                  "largest traction out of balance in an equilibrium, over 8 Gamma/(3 z0)");
   visitor.integer("half_space/max_states", max_states, Range::within(10, 1000000),
                   "states on the path before it is given up");

@@ -27,13 +27,11 @@ namespace {
 constexpr double kPixelsPerCohesiveLength = 2.0;
 /// Pull-off forces that finer steps change by less than this are converged in the step.
 constexpr double kStepConvergence = 0.02;
-/// What half_space/tolerance may be at least.
-constexpr double kFinestTolerance = 1e-6;
 
 /// That of an equilibrium: finer steps differ by less force, which residuals must not hide.
 double toleranceOf(const HalfSpaceOptions& options) {
   const double share = options.step / ContactPath::kUsualStep;
-  return std::min(options.tolerance, std::max(kFinestTolerance, share * options.tolerance));
+  return std::min(options.tolerance, std::max(HalfSpaceOptions::kFinestTolerance, share * options.tolerance));
 }
 
 /// What a frame with free edges cannot have on its other side.

@@ -71,14 +71,14 @@ class TractionLaw {
   /// first part of the law; of one gap or several (Lanes) [Pa/m].
   template <typename Real>
   MEMS_STICTION_INLINE Real secant(const Real& gap, const Real& traction, const Real& other_traction) const {
-    const Real gap_there = gapUnder(select(other_traction < 0.0, Real(0.0 - other_traction), Real(0.0)));
+    const Real gap_there = gapUnder(greater(Real(0.0 - other_traction), Real(0.0)));
     const auto is_law = gap_there > closest_gap_;
     if (flows_) {
       const Real there = select(is_law, other_traction, Real(closest_traction_));
       return (there - traction) / (select(is_law, gap_there, Real(closest_gap_)) - gap);
     }
     // narrower, the law goes on as a line
-    const Real excess = select(other_traction < closest_traction_, Real(closest_traction_ - other_traction), Real(0.0));
+    const Real excess = greater(Real(closest_traction_ - other_traction), Real(0.0));
     return (other_traction - traction) /
            (select(is_law, gap_there, Real(closest_gap_ - excess / slope_of_line_)) - gap);
   }
@@ -104,8 +104,7 @@ class TractionLaw {
       const Real bend = (72.0 * sixth - 6.0) * x;
       x = x - 2.0 * left * slope / (2.0 * slope * slope - left * bend);
     }
-    const Real gap = range() / x;
-    return select(gap > narrowestGap(), gap, Real(narrowestGap()));
+    return greater(Real(range() / x), Real(narrowestGap()));
   }
   /// The narrowest gap for which the law is more than a line [m].
   double narrowestGap() const;
@@ -113,7 +112,9 @@ class TractionLaw {
   double reach() const;
 
  private:
+  /// To 1e-9 of any pressure up to that at the narrowest gap.
   static constexpr int kGapIterations = 3;
+
   /// The first part of t, no closer than the closest gap; returns the smallest gap, or the closest if that is smaller.
   double nineThree(int count, const double* gaps, double* traction, double* slope, double* energy) const;
   /// Where t falls to -pressure, between a narrow gap that repels more and z0 [m].

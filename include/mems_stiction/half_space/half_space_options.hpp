@@ -25,6 +25,8 @@ enum class HalfSpacePath {
 
 /// Settings of HalfSpaceSolver; keys half_space/...
 struct HalfSpaceOptions {
+  static constexpr double kFinestTolerance = 1e-6;  ///< the least that a tolerance may be
+
   HalfSpaceUse enabled = HalfSpaceUse::kFlagged;
   HalfSpacePath path = HalfSpacePath::kWhole;
   double range = 0.0;  ///< z0 of the traction law [m], >= 0; 0 derives it from work of adhesion and Hamaker constant
