@@ -8,11 +8,13 @@ import tempfile
 import unittest
 
 import dynamic_reconfigure.client
+import rosbag
 import rosnode
 import rospy
 import rostest
 from mems_stiction.srv import GetLoad
 from roslib.packages import find_node
+from std_msgs.msg import String
 from stiction_client import TIMEOUT, make_bag
 
 PASS, FAIL, NOT_MADE = 0, 1, 2
@@ -63,14 +65,16 @@ class StationCheckTest(unittest.TestCase):
         settings = dynamic_reconfigure.client.Client("stiction_node", timeout=TIMEOUT)
         device = dict(spring_stiffness=160.0, travel=1e-6, contact_area=1.6e-12)
         smooth = os.path.join(self.folder.name, "smooth.bag")  # so smooth that more than ten contacts hold at the pull-off
-        make_bag(smooth, "--count", "2", "--rows", "128", "--cols", "128", "--rms-height", "5e-10")
+        make_bag(smooth, "--count", "5", "--rows", "128", "--cols", "128", "--rms-height", "5e-10")
         for change, status, line in ((device, PASS, "PASS"), (dict(spring_stiffness=1e-6), FAIL, "FAIL: sticks: yes, margin ")):
             settings.update_configuration(change)
             done = self.run_check("--verdict", bag=smooth)
             self.assertEqual(done.returncode, status, done.stdout + done.stderr)
             self.assertIn(line, done.stdout)
-            # neither scan states a part: each has a device of its own, and the last one once more under the voltage
-            self.assertEqual(done.stdout.count(", by 1 scan together  "), 3, done.stdout)
+            # No scan states a part: each has a device of its own, however long that takes, and the last one once more under the voltage.
+            self.assertEqual([text.split("  ")[0] for text in done.stdout.splitlines()[0:12:2]], ["scan %d" % number for number in range(1, 6)] + ["0 V"])
+            self.assertTrue(all(text.startswith("  the device ") and ", by 1 scan together  " in text for text in done.stdout.splitlines()[1:12:2]),
+                            done.stdout)
         settings.update_configuration(device)
         part = os.path.join(self.folder.name, "part.bag")
         make_bag(part, "--count", "3", "--rows", "128", "--cols", "128", "--rms-height", "5e-10", "--part-id", "lot 3", "--seed", "7")
@@ -94,8 +98,7 @@ class StationCheckTest(unittest.TestCase):
 
     def test_no_dead_node_stays_at_the_master_however_it_ends(self):
         def ours():
-            return [name for name in rosnode.get_node_names() if name.startswith(("/station_check", "/play"))
-                    and name != rospy.get_name()]
+            return [name for name in rosnode.get_node_names() if name.startswith("/station_check") and name != rospy.get_name()]
 
         long_bag = os.path.join(self.folder.name, "long.bag")
         make_bag(long_bag, "--count", "100", "--rows", "64", "--cols", "64")
@@ -112,7 +115,17 @@ class StationCheckTest(unittest.TestCase):
         self.assertEqual(ours(), [])
 
     def test_what_cannot_be_checked_neither_passes_nor_fails(self):
+        other, damaged = (os.path.join(self.folder.name, name) for name in ("other.bag", "damaged.bag"))
+        with rosbag.Bag(other, "w") as bag:
+            bag.write("height", String("no scan"))
+        with open(self.bag, "rb") as whole, open(damaged, "wb") as copy:
+            content = bytearray(whole.read())
+            second = content.rindex(b"op=\x02")  # of a message
+            content[second + 3] = 0x7f
+            copy.write(content)
         for arguments, changes, reason in [
+                (["--timeout", "1"], {"bag": other}, "nobody takes the topic /height of the bag, type std_msgs/String"),
+                ([], {"bag": damaged}, "damaged.bag cannot be read: "),
                 (["--voltages", "0,99"], {}, "99 V was refused"),
                 ([], {"bag": "/no/such.bag"}, "/no/such.bag cannot be read"),
                 (["--node", "nobody", "--timeout", "0.5"], {}, "no service nobody/set_load")]:
