@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -10,7 +9,6 @@
 
 #include "evaluation_rows.hpp"
 #include "half_space/row_work.hpp"
-#include "numeric/vectorized.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -36,29 +34,6 @@ constexpr double kWorthwhile = 0.5;
 constexpr int kMostFailures = 2;
 /// In how many states after one in which they failed windows are not tried: one, and up to so many if they fail again.
 constexpr int kLongestPause = 7;
-
-/// values + share of the last change, which is the first part of this one.
-MEMS_STICTION_VECTORIZED void goOn(std::size_t count, float share, const float* last_change, double* values,
-                                   float* change) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const float move = share * last_change[i];
-    change[i] = move;
-    values[i] += static_cast<double>(move);
-  }
-}
-
-/// values + length step, and the same of what has changed.
-MEMS_STICTION_VECTORIZED void addStep(std::size_t count, double length, const float* step, double* values,
-                                      float* change) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const double move = length * static_cast<double>(step[i]);
-    values[i] += move;
-    change[i] += static_cast<float>(move);
-  }
-}
-MEMS_STICTION_VECTORIZED void addStep(std::size_t count, double length, const float* step, double* values) {
-  for (std::size_t i = 0; i < count; ++i) values[i] += length * static_cast<double>(step[i]);
-}
 
 }  // namespace
 
@@ -100,9 +75,7 @@ void ContactMinimiser::restart(LargePageVector<double> relief, LargePageVector<f
   takeRelief(std::move(relief));
   fixed_ = std::move(fixed);
   settings_.tolerance = tolerance;
-  pending_share_ = 0.0F;
-  for (auto* const array : {&displacement_, &elastic_traction_}) std::fill(array->begin(), array->end(), 0.0);
-  staleness_ = 0.0;
+  displacement_.reset();
 }
 
 ContactMinimiser::ContactMinimiser(const HalfSpaceGrid& grid, const TractionLaw& law, const ElasticResponse& response,
@@ -118,59 +91,14 @@ ContactMinimiser::ContactMinimiser(const HalfSpaceGrid& grid, const TractionLaw&
                   ? std::make_unique<CoarseAnswer>(grid, response, settings.threads, spectrum_, settings.cancel)
                   : nullptr),
       gradients_(grid, stiffness_, coarse_.get(), settings.threads, settings.cancel, settings.give_way),
+      displacement_(grid, !stiffness_.resistsMean(), settings.threads, settings.cancel),
       fixed_(std::move(fixed)) {
   takeRelief(std::move(relief));
-  for (auto* const array : {&displacement_, &elastic_traction_}) {
-    if (!isCancelled()) array->assign(grid.size(), 0.0);
-  }
   if (!isCancelled()) gradients_.allocateShared();
-  for (auto* const array : {&change_, &last_change_}) {
-    if (!isCancelled()) array->assign(grid.size(), 0.0F);
-  }
-  if (isCancelled()) return;
-  if (!stiffness_.resistsMean()) {
-    change_traction_.assign(grid.size(), 0.0F);
-    last_change_traction_.assign(grid.size(), 0.0F);
-  }
-  is_set_up_ = true;
+  is_set_up_ = !isCancelled();
 }
 
-void ContactMinimiser::moveOn(double share) {
-  std::swap(change_, last_change_);
-  std::swap(change_traction_, last_change_traction_);
-  pending_share_ = static_cast<float>(share);
-  change_staleness_ = staleness_;
-  if (share == 0.0) return;
-  addStaleness(change_traction_.empty() ? std::numeric_limits<double>::infinity() : kSinglePrecision * law_.stress());
-}
-
-void ContactMinimiser::moveRow(int row, float share) {
-  const std::size_t first = grid_.offset(row);
-  const auto cols = static_cast<std::size_t>(grid_.cols);
-  goOn(cols, share, last_change_.data() + first, displacement_.data() + first, change_.data() + first);
-  if (change_traction_.empty()) return;
-  goOn(cols, share, last_change_traction_.data() + first, elastic_traction_.data() + first,
-       change_traction_.data() + first);
-}
-
-void ContactMinimiser::takeBack() {
-  takeBackForPart();
-  std::swap(change_, last_change_);
-  std::swap(change_traction_, last_change_traction_);
-}
-
-void ContactMinimiser::takeBackForPart() {
-  forEachRow(grid_.rows, settings_.threads, [&](int row) {
-    const std::size_t first = grid_.offset(row);
-    const std::size_t end = first + static_cast<std::size_t>(grid_.cols);
-    for (std::size_t i = first; i < end; ++i) {
-      displacement_[i] -= static_cast<double>(change_[i]);
-    }
-    if (change_traction_.empty()) return;
-    for (std::size_t i = first; i < end; ++i) elastic_traction_[i] -= static_cast<double>(change_traction_[i]);
-  });
-  staleness_ = change_traction_.empty() ? std::numeric_limits<double>::infinity() : change_staleness_;
-}
+void ContactMinimiser::moveOn(double share) { displacement_.begin(share, kSinglePrecision * law_.stress()); }
 
 void ContactMinimiser::setLaw(const TractionLaw& law) {
   law_ = law;
@@ -188,17 +116,15 @@ void ContactMinimiser::raiseWall(const Evaluation& now) {
 }
 
 void ContactMinimiser::goTo(Place&& place) {
-  displacement_ = std::move(place.displacement);
-  elastic_traction_ = std::move(place.elastic_traction);
+  displacement_.goTo(std::move(place.displacement));
   relief_ = std::move(place.relief);
   flowed_ = std::move(place.flowed);
-  staleness_ = place.staleness;
 }
 
 void ContactMinimiser::gapsOfRow(int row, double height, double* gaps) const {
   const double* const relief =
       relief_.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(grid_.frame_cols);
-  const double* const displacement = displacement_.data() + grid_.offset(row);
+  const double* const displacement = displacement_.values() + grid_.offset(row);
   for (int col = 0; col < grid_.frame_cols; ++col) gaps[col] = height + relief[col] - displacement[col];
 }
 
@@ -245,23 +171,18 @@ void ContactMinimiser::maps(double height, cv::Mat& gaps, cv::Mat& pressures) co
   }
 }
 
-void ContactMinimiser::addStaleness(double traction) {
-  staleness_ += traction;
-  change_staleness_ += traction;
-}
-
 void ContactMinimiser::refreshElasticTraction() {
-  if (staleness_ == 0.0) return;
-  exact_stiffness_.multiply(displacement_.data(), elastic_traction_.data());
-  staleness_ = 0.0;
+  if (displacement_.staleness() == 0.0) return;
+  exact_stiffness_.multiply(displacement_.values(), displacement_.traction());
+  displacement_.noteFresh();
   ++exact_products_;
 }
 
 evaluation_rows::Sums ContactMinimiser::evaluateRow(int row, double height, const Step& step, bool with_slopes) {
   const auto arraysFrom = [&](int col) {
     const std::size_t cell = grid_.offset(row) + static_cast<std::size_t>(col);
-    return evaluation_rows::RowArrays{displacement_.data() + cell,
-                                      elastic_traction_.data() + cell,
+    return evaluation_rows::RowArrays{displacement_.values() + cell,
+                                      displacement_.traction() + cell,
                                       step.step + col,
                                       step.traction + col,
                                       gradients_.residual() + cell,
@@ -318,7 +239,7 @@ ContactMinimiser::Evaluation ContactMinimiser::moveAndEvaluate(double height, st
   if (with_slopes) gradients_.allocate();
   std::vector<evaluation_rows::Sums> row_sums;
   const auto sums = sumOverRows(row_sums, grid_.rows, settings_.threads, [&](int row) {
-    if (share) moveRow(row, *share);
+    if (share) displacement_.goOn(row, *share);
     const float* const any = gradients_.residual() + grid_.offset(row);  // no step is taken
     return evaluateRow(row, height, {0.0, any, any}, with_slopes);
   });
@@ -330,7 +251,7 @@ ContactMinimiser::Evaluation ContactMinimiser::answerAndEvaluate(double height, 
   const float* const change = gradients_.stepTraction();
   stiffness_.displace(change, [&](int row, const float* displacement) {
     const Step step{length, displacement, change + grid_.offset(row)};
-    stepRow(row, step);
+    displacement_.step(row, step);
     row_sums[static_cast<std::size_t>(row)] = evaluateRow(row, height, {0.0, step.step, step.traction}, false);
   });
   ++window_products_;
@@ -339,22 +260,10 @@ ContactMinimiser::Evaluation ContactMinimiser::answerAndEvaluate(double height, 
   return evaluationOf(sums, false);
 }
 
-void ContactMinimiser::stepRow(int row, const Step& step) {
-  const std::size_t first = grid_.offset(row);
-  const auto cols = static_cast<std::size_t>(grid_.cols);
-  addStep(cols, step.length, step.step, displacement_.data() + first, change_.data() + first);
-  double* const elastic_traction = elastic_traction_.data() + first;
-  if (change_traction_.empty()) {
-    addStep(cols, step.length, step.traction, elastic_traction);
-  } else {
-    addStep(cols, step.length, step.traction, elastic_traction, change_traction_.data() + first);
-  }
-}
-
 void ContactMinimiser::takeStep(double length) {
   forEachRow(grid_.rows, settings_.threads, [&](int row) {
     const std::size_t first = grid_.offset(row);
-    stepRow(row, {length, gradients_.step() + first, gradients_.stepTraction() + first});
+    displacement_.step(row, {length, gradients_.step() + first, gradients_.stepTraction() + first});
   });
 }
 
@@ -366,15 +275,15 @@ bool ContactMinimiser::isNearer(const Evaluation& now, const Evaluation& before,
 bool ContactMinimiser::relaxContacts(double height, Evaluation& now) {
   const ContactWindows::Frame frame{height,
                                     relief_.data(),
-                                    displacement_.data(),
-                                    elastic_traction_.data(),
+                                    displacement_.values(),
+                                    displacement_.traction(),
                                     gradients_.residual(),
                                     now.mean_residual,
                                     now.largest_residual};
   if (!windows_->relax(frame, exact_stiffness_, gradients_.stepTraction())) return false;
   if (settings_.give_way) settings_.give_way();
   const Evaluation before = now;
-  addStaleness(kSinglePrecision * before.largest_residual);
+  displacement_.addStaleness(kSinglePrecision * before.largest_residual);
   now = answerAndEvaluate(height, 1.0);
   if (!isNearer(now, before, 0.0)) {
     now = answerAndEvaluate(height, -1.0);
@@ -396,7 +305,7 @@ ContactState ContactMinimiser::solve(double height, const Search& search) {
   ContactState state;
   state.height = height;
   const int products_before = products();
-  const std::optional<float> share = std::exchange(pending_share_, std::nullopt);
+  const std::optional<float> share = displacement_.takeShare();
   const double exact = settings_.tolerance * law_.stress();
   const double allowed = search.tolerance * exact;
   const double stale = kStaleShare * std::min(allowed, std::max(exact, search.residual_norm));
@@ -406,10 +315,10 @@ ContactState ContactMinimiser::solve(double height, const Search& search) {
                     std::max(of.largest_residual / allowed, of.residual_norm / search.residual_norm));
   };
   Evaluation now;
-  if (staleness_ <= stale) {
+  if (displacement_.staleness() <= stale) {
     now = moveAndEvaluate(height, share);
   } else {
-    if (share) forEachRow(grid_.rows, settings_.threads, [&](int row) { moveRow(row, *share); });
+    if (share) forEachRow(grid_.rows, settings_.threads, [&](int row) { displacement_.goOn(row, *share); });
     refreshElasticTraction();
     now = evaluate(height);
   }
@@ -421,7 +330,7 @@ ContactState ContactMinimiser::solve(double height, const Search& search) {
         now = evaluate(height);
         continue;
       }
-      if (staleness_ <= stale) {
+      if (displacement_.staleness() <= stale) {
         state.is_converged = true;
         break;
       }
@@ -457,13 +366,13 @@ ContactState ContactMinimiser::solve(double height, const Search& search) {
     }
     if (!is_lower) {
       now = evaluate(height);
-      if (staleness_ == 0.0) break;
+      if (displacement_.staleness() == 0.0) break;
       refreshElasticTraction();
       now = evaluate(height);
       continue;
     }
     takeStep(length);
-    addStaleness(kGradientsPrecision * before.largest_residual);
+    displacement_.addStaleness(kGradientsPrecision * before.largest_residual);
   }
   noteWindows(failures);
   mean_traction_ = now.mean_residual;

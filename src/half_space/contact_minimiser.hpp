@@ -31,6 +31,7 @@
 #include "half_space/contact_windows.hpp"
 #include "half_space/half_space_grid.hpp"
 #include "half_space/minimiser_settings.hpp"
+#include "half_space/revertible_displacement.hpp"
 #include "half_space/stiffness_operator.hpp"
 #include "half_space/traction_law.hpp"
 #include "numeric/large_pages.hpp"
@@ -97,9 +98,9 @@ class ContactMinimiser {
   /// `share` of how it changed from the state before to this one.
   void moveOn(double share);
   /// Takes back what changed since moveOn(); the next share is again of the change before.
-  void takeBack();
+  void takeBack() { displacement_.takeBack(); }
   /// The same, but the next share is of the change that was taken back.
-  void takeBackForPart();
+  void takeBackForPart() { displacement_.takeBackForPart(); }
   /// Whether something flowed in the state just solved.
   bool hasFlow() const { return law_.flows() && lowest_gap_ < law_.closestGap(); }
   /// Whether something flowed, or may have with a smaller residual.
@@ -113,17 +114,15 @@ class ContactMinimiser {
 
   /// A state to come back to.
   struct Place {
-    LargePageVector<double> displacement;
-    LargePageVector<double> elastic_traction;
+    RevertibleDisplacement::Place displacement;
     LargePageVector<double> relief;
     LargePageVector<float> flowed;
-    double staleness;
   };
-  Place place() const { return {displacement_, elastic_traction_, relief_, flowed_, staleness_}; }
+  Place place() const { return {displacement_.place(), relief_, flowed_}; }
   void goTo(Place&& place);
 
   /// K u, an array of the grid [Pa].
-  const double* elasticTraction() const { return elastic_traction_.data(); }
+  const double* elasticTraction() const { return displacement_.traction(); }
   /// Gap [m] and pressure [Pa], positive where the cells repel each other; frame_rows x frame_cols CV_32FC1; NaN where
   /// nothing was measured.
   void maps(double height, cv::Mat& gaps, cv::Mat& pressures) const;
@@ -153,12 +152,7 @@ class ContactMinimiser {
   void raiseWall(const Evaluation& now);
   /// What follows from the relief.
   void takeRelief(LargePageVector<double> relief);
-  /// A step of one row.
-  struct Step {
-    double length;
-    const float* step;      ///< s [m]
-    const float* traction;  ///< K s [Pa]
-  };
+  using Step = RevertibleDisplacement::Step;
   /// One row's share at u + length s.
   /// - @p with_slopes whether t' is kept for Newton's method
   evaluation_rows::Sums evaluateRow(int row, double height, const Step& step, bool with_slopes);
@@ -179,12 +173,7 @@ class ContactMinimiser {
   bool usesWindows() const { return windows_ != nullptr && windows_pause_ == 0; }
   /// How often windows failed in the present state decides whether they are tried in the next ones.
   void noteWindows(int failures);
-  /// u + length s for one row, or its continuation by `share` of the last change; K u and what has changed with it.
-  void stepRow(int row, const Step& step);
-  void moveRow(int row, float share);
   void takeStep(double length);
-  /// What a step may have added to the error of K u [Pa].
-  void addStaleness(double traction);
   void refreshElasticTraction();
   int products() const { return exact_products_ + window_products_ + gradients_.products(); }
 
@@ -202,25 +191,15 @@ class ContactMinimiser {
   LargePageVector<double> relief_;
   double largest_relief_ = 0.0;
   std::size_t valid_count_ = 0;
-  LargePageVector<double> displacement_;      ///< u [m]
-  LargePageVector<double> elastic_traction_;  ///< K u [Pa]
-  double staleness_ = 0.0;                    ///< by which elastic_traction_ may have left K u [Pa]
-  double change_staleness_ = 0.0;             ///< the same had it not been worked out afresh since moveOn() [Pa]
-  LargePageVector<float> change_;             ///< of u since moveOn() [m]
-  LargePageVector<float> change_traction_;    ///< K of it [Pa]; none with free edges, to save memory
-  LargePageVector<float> last_change_;        ///< the one before [m]
-  LargePageVector<float> last_change_traction_;
+  RevertibleDisplacement displacement_;
   LargePageVector<float> flowed_;
   LargePageVector<float> fixed_;             ///< traction of another displacement [Pa]; none but in a window
   std::unique_ptr<ContactWindows> windows_;  ///< none in a window
   int windows_pause_ = 0;                    ///< in so many states they are not tried
   int last_pause_ = 0;                       ///< how long the last one was
-  /// Of the last change, by which u is still to go on; none once it has: a state may be solved in several searches, and what all
-  /// of them changed is taken back.
-  std::optional<float> pending_share_ = 0.0F;
-  double lowest_gap_ = 0.0;     ///< in the state just solved [m]
-  double mean_traction_ = 0.0;  ///< that K does not resist, as far as it is known [Pa]
-  int exact_products_ = 0;      ///< of K u
+  double lowest_gap_ = 0.0;                  ///< in the state just solved [m]
+  double mean_traction_ = 0.0;               ///< that K does not resist, as far as it is known [Pa]
+  int exact_products_ = 0;                   ///< of K u
   int window_products_ = 0;
   bool is_set_up_ = false;
 };

@@ -47,7 +47,7 @@ class ContactMinimiserOf : public testing::TestWithParam<HalfSpaceBoundary> {
     minimiser_.solve(height(at), search);
   }
   /// Of all cells [m].
-  LargePageVector<double> displacement() const { return minimiser_.place().displacement; }
+  LargePageVector<double> displacement() const { return minimiser_.place().displacement.values; }
   /// Largest |one - other| [z0].
   double difference(const LargePageVector<double>& one, const LargePageVector<double>& other) const {
     double largest = 0.0;
@@ -102,12 +102,12 @@ TEST_P(ContactMinimiserOf, ElasticTractionFollowsOverManyStates) {
   const ContactMinimiser::Place place = minimiser_.place();
   SpectrumMemory memory;
   StiffnessOperator<double> stiffness(minimiser_.grid(), kModulus, 1, memory);
-  LargePageVector<double> exact(place.displacement.size(), 0.0);
-  stiffness.multiply(place.displacement.data(), exact.data());
+  LargePageVector<double> exact(place.displacement.values.size(), 0.0);
+  stiffness.multiply(place.displacement.values.data(), exact.data());
   double error = 0.0;
   for (std::size_t i = 0; i < exact.size(); ++i)
-    error = std::max(error, std::abs(place.elastic_traction[i] - exact[i]));
-  EXPECT_LE(error, place.staleness);
+    error = std::max(error, std::abs(place.displacement.traction[i] - exact[i]));
+  EXPECT_LE(error, place.displacement.staleness);
 }
 
 }  // namespace
