@@ -11,6 +11,7 @@
 #include "import/file_bytes.hpp"
 #include "import/file_statements.hpp"
 #include "import/format_readers.hpp"
+#include "import/header_lines.hpp"
 #include "import/length_unit.hpp"
 #include "import/plain_number.hpp"
 #include "mems_stiction/errors/errors.hpp"
@@ -52,7 +53,7 @@ void readEntry(const std::string& line, Heading& heading) {
   if (colon == std::string::npos) return;
   const std::string key = lowered(line.substr(1, colon - 1));
   const std::string value = bare(line.substr(colon + 2));
-  const auto count = [&value] { return static_cast<std::size_t>(std::max(0.0, plainNumber(value))); };
+  const auto count = [&value] { return static_cast<std::size_t>(countIn(value).value_or(0)); };
   heading.statements.emplace(key, value);
   if (key == "samps/line" && heading.cols == 0) heading.cols = count();
   if (key == "lines" && heading.rows == 0) heading.rows = count();

@@ -5,6 +5,7 @@
 
 #include "import/byte_cursor.hpp"
 #include "import/file_bytes.hpp"
+#include "import/header_lines.hpp"
 #include "import/plain_number.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "numeric/words.hpp"
@@ -29,8 +30,10 @@ void readShape(const std::string& shape, std::uint64_t& rows, std::uint64_t& col
   if (second == std::string::npos || shape.find(',', second) != std::string::npos) {
     throw FileError("an array of the shape " + shownPiece(shape) + ") is no scan: it must have two dimensions");
   }
-  const auto size = [](const std::string& digits) {
-    return static_cast<std::uint64_t>(plainNumber(digits.substr(0, digits.find_first_not_of("0123456789"))));
+  const auto size = [&shape](const std::string& digits) {
+    const auto count = countIn(digits);
+    if (!count) throw FileError("an array of the shape " + shownPiece(shape) + ") is no scan");
+    return *count;
   };
   rows = size(shape.substr(1));
   cols = size(shape.substr(second));

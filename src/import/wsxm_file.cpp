@@ -9,6 +9,7 @@
 #include "import/file_bytes.hpp"
 #include "import/file_checks.hpp"
 #include "import/file_statements.hpp"
+#include "import/header_lines.hpp"
 #include "import/length_unit.hpp"
 #include "import/plain_number.hpp"
 #include "mems_stiction/errors/errors.hpp"
@@ -106,7 +107,7 @@ FileChannel parseWsxm(const std::string& bytes) {
   const std::uint64_t needed = cols * rows * bytesOf(type);
   const auto stated_size = header.find("/Image header size");
   const std::size_t line_end = bytes.find('\n', header_end);
-  std::uint64_t begin = stated_size == header.end() ? 0 : static_cast<std::uint64_t>(plainNumber(stated_size->second));
+  std::uint64_t begin = stated_size == header.end() ? 0 : countIn(stated_size->second).value_or(0);
   if (begin < header_end) begin = line_end == std::string::npos ? bytes.size() : line_end + 1;  // not filled in
   demandLength("WSxM", bytes.size(), begin + needed);
 

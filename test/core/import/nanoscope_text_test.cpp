@@ -70,6 +70,9 @@ TEST(NanoscopeText, WhatIsCutOffOrOfAnotherKindIsRefused) {
   EXPECT_NE(refusal(exported(kPoints, "3 bars")).find("no length"), std::string::npos);
   EXPECT_NE(refusal("\\*File list\n\\Lines: 2\n1.5 2.5\n").find("does not name the columns"), std::string::npos);
   EXPECT_NE(refusal("\\*File list\nHeight(nm)\n1.5\n").find("no Samps/line"), std::string::npos);
+  std::string many = exported(kPoints);
+  many.replace(many.find("Lines: 2"), 8, "Lines: 9" + std::string(80, '0'));
+  EXPECT_NE(refusal(many).find("no Samps/line"), std::string::npos);
 }
 
 }  // namespace

@@ -65,6 +65,16 @@ TEST(WsxmFile, ASizeThatDoesNotMatchTheFileIsRefused) {
   EXPECT_TRUE(mentions(refusal([&] { parseWsxm(bytes); }), "its header states"));
 }
 
+TEST(WsxmFile, DataThatBeginBeforeTheFileAreRefused) {
+  std::string bytes = wsxm("double", "2 nm", "5 nm", wsxmDoubles());
+  bytes.replace(bytes.find("Number of rows: 2"), 17, "Number of rows: 99");  // 2376 bytes of numbers
+  const std::string key = "header size: ";
+  const std::size_t size = bytes.find(key) + key.size();
+  bytes.replace(size, bytes.find('\r', size) - size, "-0000");
+  bytes.replace(size, 5, std::to_string(static_cast<int>(bytes.size()) - 99 * 3 * 8));
+  EXPECT_TRUE(mentions(refusal([&] { parseWsxm(bytes); }), "its header states"));
+}
+
 TEST(WsxmFile, OneByteTooManyIsRefused) {
   EXPECT_TRUE(
       mentions(refusal([] { parseWsxm(wsxm("double", "2 nm", "5 nm", wsxmDoubles() + "x")); }), "its header states"));
@@ -268,6 +278,8 @@ TEST(NpyFile, WhatIsNoMatrixOfNumbersIsRefused) {
   EXPECT_TRUE(mentions(refusal([] { parseNpy(npy("|O", std::string(48, '\0'))); }), "integers or floating-point"));
   EXPECT_TRUE(mentions(refusal([] { parseNpy(npy("<f8", std::string(47, '\0'))); }), "47 bytes of numbers"));
   EXPECT_TRUE(mentions(refusal([] { parseNpy(npy("<f8", "", "(30000, 30000)")); }), "30000 x 30000 pixels are more"));
+  const std::string many(40, '9');
+  EXPECT_TRUE(mentions(refusal([&] { parseNpy(npy("<f8", "", "(2, " + many + ")")); }), "is no scan"));
 }
 
 // ---- Createc
