@@ -141,11 +141,13 @@ def clean(heights: Any, pitch: Optional[Pitch] = None, config: Optional[Config] 
 
         clean(heights, 20e-9, preprocessing={"level": "plane", "spikes/enabled": True}).heights
 
-    Raises OptionsError, SurfaceError.
+    Raises OptionsError, SurfaceError. Warns (ScanWarning) where the steps hardly did what was meant: tall features that pulled
+    the levelling aslant, a filter longer than the scan.
     """
     checked = Settings(config, **settings)
     surface = scan_of(heights, pitch, checked)
-    core, steps = _core.clean(surface.core, checked._configuration)
+    core, steps, oddities = _core.clean(surface.core, checked._configuration)
+    warn_about(surface, oddities)
     cleaned = Cleaned(surface._replace(core=core), surface.channel)
     cleaned.steps = steps
     return cleaned

@@ -10,6 +10,7 @@
 #include "evaluation/counter_surface_source.hpp"
 #include "height_map/scan_sanity.hpp"
 #include "mems_stiction/errors/errors.hpp"
+#include "preprocess/cleaning_warnings.hpp"
 #include "preprocess/recipe.hpp"
 #include "preprocess/refine.hpp"
 #include "preprocess/tilt.hpp"
@@ -62,32 +63,12 @@ CleanedScan cleanedOrWhyNot(ScanCleaner& cleaner, const HeightMap& scan) {
   }
 }
 
-double widthOf(const HeightMap& scan) { return std::max(scan.cols() * scan.pitchX(), scan.rows() * scan.pitchY()); }
-
-/// A filter that is longer than the scan leaves nothing.
-bool isSmoothedAway(const HeightMap& scan, const PipelineOptions& cleaning) {
-  return cleaning.low_pass.cutoff_wavelength >= widthOf(scan);
-}
-
-void addSmoothing(const HeightMap& scan, const PipelineOptions& cleaning, std::vector<std::string>& warnings) {
-  if (!isSmoothedAway(scan, cleaning)) return;
-  warnings.push_back("preprocessing/low_pass/cutoff_wavelength " + shortNumber(cleaning.low_pass.cutoff_wavelength) +
-                     " m is longer than the scan's width of " + shortNumber(widthOf(scan)) +
-                     " m: it leaves no roughness and such a surface bonds");
-}
-
-/// What is smoothed to nothing, or is too small, has no relief to compare a tilt with.
+/// The tilt of a scan that was not levelled. What is smoothed to nothing, or is too small, has no relief to compare it with.
 /// - @p is_as_measured no step has changed the scan
 void addTilt(const HeightMap& cleaned, const PipelineOptions& cleaning, bool is_as_measured,
              std::vector<std::string>& warnings) {
-  if (isSmoothedAway(cleaned, cleaning)) return;
+  if (cleaning.level.shape != LevelShape::kNone || isSmoothedAway(cleaned, cleaning)) return;
   if (std::min(cleaned.rows(), cleaned.cols()) < kFewestPixelsOfASide) return;
-  if (cleaning.level.shape != LevelShape::kNone) {
-    if (cleaning.level.robust) return;
-    const TiltLeft left = tiltLeft(cleaned, cleaning.level.shape == LevelShape::kPlane ? 1 : 2);
-    if (left.isLarge()) warnings.push_back(left.advice());
-    return;
-  }
   const Tilt tilt = tiltOf(cleaned);
   if (!tilt.isLarge()) return;
   warnings.push_back(tilt.advice());
@@ -172,7 +153,9 @@ PreparedScan ScanPreparer::prepare(const HeightMap& scan) {
   record.steps.insert(record.steps.end(), prepared.record.steps.begin(), prepared.record.steps.end());
   prepared.record = std::move(record);
   prepared.warnings = scanWarnings(scan);
-  addSmoothing(scan, cleaner_.options(), prepared.warnings);
+  for (const std::string& warning : cleaningWarnings(scan, cleaned.surface, cleaner_.options())) {
+    prepared.warnings.push_back(warning);
+  }
   addTilt(cleaned.surface, cleaner_.options(), prepared.record.steps.empty(), prepared.warnings);
   prepared.counter_warnings = counter_surface_->warnings(cleaned.surface);
   prepared.outside = cleaned.outside;

@@ -50,7 +50,8 @@ void visitHalfSpaceFields(const SolvedHalfSpace& solution, Visitor&& visit) {
         solution.work_of_adhesion);
   visit({"adhesion_hysteresis", "J/m^2", "what a whole cycle costs, by jumps and by flow, per area of the frame"},
         solution.hysteresis);
-  visit({"is_converged", "", "every state is an equilibrium to half_space/tolerance"}, solution.is_converged);
+  visit({"is_converged", "", "every state is an equilibrium, to half_space/tolerance where it counts"},
+        solution.is_converged);
   visit({"is_resolved", "", "pixels are small enough for the edge of a contact: at least two per cohesive_length"},
         solution.is_resolved);
   visit({"iterations", "", "Newton steps of all states"}, solution.newton_steps);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Dense>
@@ -219,9 +220,10 @@ Ground groundOf(std::vector<double>& residuals) {
 /// The rounds of a fit over one grid.
 class Rounds {
  public:
-  Rounds(const PixelGrid& grid, PolynomialSurface& fit, CleaningMemory& memory)
-      : grid_(grid), fit_(fit), memory_(memory) {
-    findPlaces(fit, grid.first_x, grid.pitch_x, grid.heights.cols, memory.places);
+  /// Holds the grid, whose pixels, fit and memory must outlive it.
+  Rounds(PixelGrid grid, PolynomialSurface& fit, CleaningMemory& memory)
+      : grid_(std::move(grid)), fit_(fit), memory_(memory) {
+    findPlaces(fit, grid_.first_x, grid_.pitch_x, grid_.heights.cols, memory.places);
   }
 
   void solve(Weighting weighting) {
@@ -296,7 +298,7 @@ class Rounds {
   bool isExact() const { return !(fit_.noise > 1e-13 * fit_.coefficients.cwiseAbs().maxCoeff()); }
   double yOf(int row) const { return grid_.first_y + row * grid_.pitch_y; }
 
-  const PixelGrid& grid_;
+  PixelGrid grid_;
   PolynomialSurface& fit_;
   CleaningMemory& memory_;
   double step_ = 0.0;

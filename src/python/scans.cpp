@@ -25,6 +25,7 @@
 #include "mems_stiction/import/scan_file.hpp"
 #include "mems_stiction/preprocess/pipeline.hpp"
 #include "mems_stiction/roughness/areal_parameters.hpp"
+#include "preprocess/cleaning_warnings.hpp"
 #include "roughness/framed_roughness.hpp"
 #include "surface/counter_surface.hpp"
 #include "without_lock.hpp"
@@ -110,13 +111,16 @@ py::list channelsOf(const std::string& path, const Configuration& configuration)
   return list;
 }
 
-std::tuple<HeightMap, py::list> cleaned(const HeightMap& scan, const Configuration& configuration) {
+std::tuple<HeightMap, py::list, std::vector<std::string>> cleaned(const HeightMap& scan,
+                                                                  const Configuration& configuration) {
   CleanedScan result;
+  std::vector<std::string> warnings;
   {
     const WithoutLock unlocked;
     result = cleanScan(scan, configuration.preprocessing);
+    warnings = cleaningWarnings(scan, result.surface, configuration.preprocessing);
   }
-  return {result.surface, stepsOf(result.record)};
+  return {result.surface, stepsOf(result.record), warnings};
 }
 
 py::dict roughnessOf(const HeightMap& scan, const Configuration& configuration, bool is_spatial, bool is_periodic) {

@@ -139,6 +139,19 @@ class WarningTest(unittest.TestCase):
             self.assertTrue(found)
             self.assertEqual({(one.category, one.filename) for one in found}, {(mems_stiction.ScanWarning, __file__)})
 
+    def test_steps_of_a_cleaning_that_hardly_do_what_is_meant_warn(self):
+        ridge = rough(64, 64)
+        ridge[:, 56:60] += 100e-9
+        for preprocessing, expected in (({"level": "plane"}, "tall features have pulled the levelling aslant: "),
+                                        ({"low_pass/cutoff_wavelength": 1.0}, "is longer than the scan's width")):
+            cleaned, found = self.caught(lambda: mems_stiction.clean(ridge, PITCH, preprocessing=preprocessing))
+            said = [str(one.message) for one in found if one.category is mems_stiction.ScanWarning and one.filename == __file__]
+            self.assertEqual(len(said), 1)
+            self.assertIn(expected, said[0])
+            prediction, _ = self.caught(lambda: mems_stiction.predict(ridge, PITCH, preprocessing=preprocessing))
+            self.assertIn(said[0], prediction.warnings)
+        for preprocessing in ({}, {"level": "plane", "level_robust": True}):
+            self.assertEqual(self.caught(lambda: mems_stiction.clean(ridge, PITCH, preprocessing=preprocessing))[1], [])
 
     def test_what_the_programs_say_of_a_file_is_said_where_it_is_read(self):
         with tempfile.TemporaryDirectory() as folder:
