@@ -299,13 +299,65 @@ void ContactPath::takeBackAndAim(const ForcePoint& missed, double force) {
   step_ = std::abs(changing_move_) * std::max(share, kShortestAim);
 }
 
+double ContactPath::smallestStep(bool is_in) const {
+  const double share = is_in || !settings_.is_resolved ? kSmallestStepIn : kSmallestStep;
+  return share * settings_.step * minimiser_.law().range();
+}
+
+double ContactPath::leastStep(bool is_in, const ForceCurve& curve) const {
+  const bool is_behind_jump = is_in && !curve.is_one_branch;
+  return is_behind_jump ? kSmallestStepBehindJump * settings_.step * minimiser_.law().range() : smallestStep(is_in);
+}
+
+ContactPath::Judgement ContactPath::judge(const ForcePoint& next, double direction, double step,
+                                          const ForceCurve& curve) const {
+  const double usual = settings_.step * minimiser_.law().range();
+  const bool is_in = direction < 0.0;
+  const bool is_way_out = !is_in && settings_.samples_curve;
+  const double largest_sag_out = settings_.is_resolved ? kLargestSagOut : kLargestSag;
+  const double at_most = std::max({curve.largest_force, next.force, 0.0});
+  const bool may_exceed = mayExceed(direction, step, at_most);
+  const bool is_at_summit = is_way_out && present_.force > kSummitForce * at_most;
+  const bool touches_summit = is_at_summit || (is_way_out && next.force > kSummitForce * at_most);
+  const double kink_share = is_at_summit ? kSummitKinkShare : may_exceed ? kRisingKinkShare : kKinkShare;
+  const double sag_share = is_at_summit ? kSummitSagShare : 1.0;
+  // finer usual steps are to miss less, too
+  const double sag = std::max(sag_share * sagOf(next), kink_share * kinkOf(next)) * kUsualStep / settings_.step;
+  const bool is_heavy = isHeavy(present_) && isHeavy(next);
+  const bool is_coarse = is_heavy || !settings_.samples_curve;
+  const double wanted_sag = is_coarse ? kWantedHeavySag : kWantedSag;
+  const double largest_sag = is_coarse ? kLargestHeavySag : is_way_out ? largest_sag_out : kLargestSag;
+  // a jump loses energy: the mean of both forces does more work than the energies tell
+  const StepParabola parabola(present_, next);
+  const bool loses = (0.5 * (parabola.begin + parabola.end) - parabola.mean) * direction > 0.0;
+  const bool is_jump = loses && !is_heavy && sagOf(next) > (is_way_out ? largest_sag_out : kJumpSag);
+  // how steeply a branch rises that begins here is not known: its end may be the largest force of all
+  const bool may_miss = may_exceed || (!is_in && last_move_ == 0.0);
+  // the force of pressed surfaces rises steeply, but a jump is none the less one in steps that are finer
+  const bool is_pressed = std::min(present_.force, next.force) < 0.0;
+  const bool is_fine = may_miss || touches_summit || (is_pressed && !is_jump);
+  const bool is_finest = may_exceed || (may_miss && is_jump);
+  const double smallest = leastStep(is_in, curve);
+  const double finest = is_finest ? kSummitStep * usual : is_fine ? kFinestStep * usual : smallest;
+  return {sag, wanted_sag, largest_sag, finest, is_jump, is_heavy};
+}
+
+double ContactPath::changeOfStep(const Judgement& judged, bool is_in, int newton_steps) const {
+  const auto within = [](double change, double most) { return std::clamp(change, 1.0 / most, most); };
+  double change = within(std::sqrt(judged.wanted_sag / std::max(judged.sag, 1e-12)), kLargestChange);
+  if (judged.is_heavy) return change;
+  if (newton_steps > kManyNewtonSteps) change = std::min(change, 1.0);
+  if (!is_in || last_sag_ == 0.0) return change;
+  // steps that grow worse are shortened before they are too long (Gustafsson, ACM TOMS 17 (1991) 533)
+  change *= within(std::pow(last_sag_ / std::max(judged.sag, 1e-12), kTrendPower), kLargestTrend);
+  return within(change, kLargestChange);
+}
+
 PathStatus ContactPath::advance(double direction, double farthest, double least_force, ForceCurve& curve) {
   const double usual = settings_.step * minimiser_.law().range();
   const bool is_in = direction < 0.0;
   const bool is_way_out = !is_in && settings_.samples_curve;
-  const double planned = (is_in || !settings_.is_resolved ? kSmallestStepIn : kSmallestStep) * usual;
-  const double smallest = is_in && !curve.is_one_branch ? kSmallestStepBehindJump * usual : planned;
-  const double largest_sag_out = settings_.is_resolved ? kLargestSagOut : kLargestSag;
+  const double smallest = leastStep(is_in, curve);
   bool is_aimed = false;  // the step leads to least_force as far as is known
   int aims = 0;
   int shortened = 0;
@@ -354,42 +406,20 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
       step_ = step / kLargestChange;
       continue;
     }
-    const double at_most = std::max({curve.largest_force, next.force, 0.0});
-    const bool may_exceed = mayExceed(direction, step, at_most);
-    const bool is_at_summit = is_way_out && present_.force > kSummitForce * at_most;
-    const bool touches_summit = is_at_summit || (is_way_out && next.force > kSummitForce * at_most);
-    const double kink_share = is_at_summit ? kSummitKinkShare : may_exceed ? kRisingKinkShare : kKinkShare;
-    const double sag_share = is_at_summit ? kSummitSagShare : 1.0;
-    // finer usual steps are to miss less, too
-    const double sag = std::max(sag_share * sagOf(next), kink_share * kinkOf(next)) * kUsualStep / settings_.step;
-    const bool is_heavy = isHeavy(present_) && isHeavy(next);
-    const bool is_coarse = is_heavy || !settings_.samples_curve;
-    const double wanted_sag = is_coarse ? kWantedHeavySag : kWantedSag;
-    const double largest_sag = is_coarse ? kLargestHeavySag : is_way_out ? largest_sag_out : kLargestSag;
-    // a jump loses energy: the mean of both forces does more work than the energies tell
-    const StepParabola parabola(present_, next);
-    const bool loses = (0.5 * (parabola.begin + parabola.end) - parabola.mean) * direction > 0.0;
-    const bool is_jump = loses && !is_heavy && sagOf(next) > (is_way_out ? largest_sag_out : kJumpSag);
-    // how steeply a branch rises that begins here is not known: its end may be the largest force of all
-    const bool may_miss = may_exceed || (!is_in && last_move_ == 0.0);
-    // the force of pressed surfaces rises steeply, but a jump is none the less one in steps that are finer
-    const bool is_pressed = std::min(present_.force, next.force) < 0.0;
-    const bool is_fine = may_miss || touches_summit || (is_pressed && !is_jump);
-    const bool is_finest = may_exceed || (may_miss && is_jump);
-    const double finest = is_finest ? kSummitStep * usual : is_fine ? kFinestStep * usual : smallest;
-    if (sag > largest_sag && step > kStepTolerance * finest) {
+    const Judgement judged = judge(next, direction, step, curve);
+    if (judged.sag > judged.largest_sag && step > kStepTolerance * judged.finest) {
       minimiser_.takeBack();
-      if (is_jump) {
+      if (judged.is_jump) {
         is_before_jump_ = true;
         jump_height_ = present_.height + move;
-        finest_ = finest;
+        finest_ = judged.finest;
       }
-      step_ = std::max(finest, step * std::clamp(std::sqrt(wanted_sag / sag), 0.25, 0.5));
+      step_ = std::max(judged.finest, step * std::clamp(std::sqrt(judged.wanted_sag / judged.sag), 0.25, 0.5));
       is_aimed = false;
       continue;
     }
     if (next.force < least_force - leftAtRest(-least_force) && step > kRestStep * usual) {
-      if (is_heavy) {
+      if (judged.is_heavy) {
         minimiser_.takeBack();
       } else {
         takeBackForPart(next);
@@ -400,19 +430,13 @@ PathStatus ContactPath::advance(double direction, double farthest, double least_
       is_aimed = true;
       continue;
     }
-    curve.is_one_branch = curve.is_one_branch && !is_jump && sag <= largest_sag;
-    accept(next, is_jump, curve);
+    curve.is_one_branch = curve.is_one_branch && !judged.is_jump && judged.sag <= judged.largest_sag;
+    accept(next, judged.is_jump, curve);
     is_before_jump_ = is_before_jump_ && direction * (jump_height_ - present_.height) > kSameHeight * usual;
-    double change = std::clamp(std::sqrt(wanted_sag / std::max(sag, 1e-12)), 1.0 / kLargestChange, kLargestChange);
-    if (state.newton_steps > kManyNewtonSteps && !is_heavy) change = std::min(change, 1.0);
-    // steps that grow worse are shortened before they are too long (Gustafsson, ACM TOMS 17 (1991) 533)
-    if (is_in && !is_heavy && last_sag_ > 0.0) {
-      const double trend = std::pow(last_sag_ / std::max(sag, 1e-12), kTrendPower);
-      change *= std::clamp(trend, 1.0 / kLargestTrend, kLargestTrend);
-      change = std::clamp(change, 1.0 / kLargestChange, kLargestChange);
-    }
-    last_sag_ = sag;
-    step_ = std::clamp(step * change, std::min(planned, step), (is_heavy ? kLargestHeavyStep : kLargestStep) * usual);
+    const double wanted_next = step * changeOfStep(judged, is_in, state.newton_steps);
+    const double longest = (judged.is_heavy ? kLargestHeavyStep : kLargestStep) * usual;
+    step_ = std::clamp(wanted_next, std::min(smallestStep(is_in), step), longest);
+    last_sag_ = judged.sag;
     return PathStatus::kDone;
   }
 }

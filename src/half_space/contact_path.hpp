@@ -142,6 +142,16 @@ class ContactPath {
   /// By how much the mean gap of a periodic frame may fall in any step, of its distance to the narrowest gap.
   static constexpr double kLeastClosing = 0.1;
 
+  /// What a step to a state says of the curve between.
+  struct Judgement {
+    double sag;          ///< with what its begin says
+    double wanted_sag;   ///< that steps are to have
+    double largest_sag;  ///< with which it is not taken back
+    double finest;       ///< step that is not taken back in any case [m]
+    bool is_jump;
+    bool is_heavy;  ///< bodies are pressed so much that attraction hardly counts
+  };
+
   PathStatus retract(ForceCurve& curve);
   PathStatus leaveRest(ForceCurve& curve);
   PathStatus goOut(ForceCurve& curve);
@@ -202,6 +212,12 @@ class ContactPath {
   double closingStep(double force) const;
   /// On the way out of pressed bodies: the farthest height of the way in from where its curve is smooth enough to here.
   void planStep();
+  /// Usual smallest step of a way; and of the present part of it [m].
+  double smallestStep(bool is_in) const;
+  double leastStep(bool is_in, const ForceCurve& curve) const;
+  Judgement judge(const ForcePoint& next, double direction, double step, const ForceCurve& curve) const;
+  /// By which factor the next step is to be longer than an accepted one.
+  double changeOfStep(const Judgement& judged, bool is_in, int newton_steps) const;
   /// One step in a direction (-1 down, +1 up), no farther than `farthest` [m] and not beyond where the force falls to
   /// `least_force` [N].
   PathStatus advance(double direction, double farthest, double least_force, ForceCurve& curve);
