@@ -12,6 +12,7 @@ import rosbag
 import rosnode
 import rospy
 import rostest
+from mems_stiction.msg import StictionPrediction
 from mems_stiction.srv import GetLoad
 from roslib.packages import find_node
 from std_msgs.msg import String
@@ -57,6 +58,17 @@ class StationCheckTest(unittest.TestCase):
         self.assertIn("FAIL: pull-off force above 1.00 pN", done.stdout)
         self.assertEqual(done.stdout.splitlines()[-1], "FAIL")
         self.assert_load_is_put_back()
+
+    def test_predictions_of_an_earlier_run_decide_nothing(self):
+        recorded = os.path.join(self.folder.name, "recorded.bag")
+        with rosbag.Bag(self.bag) as scans, rosbag.Bag(recorded, "w") as bag:
+            for topic, message, when in scans.read_messages():
+                bag.write(topic, message, when)
+                if topic == "/height":
+                    bag.write("/prediction", StictionPrediction(header=message.header, status=StictionPrediction.BONDED), when)
+        done = self.run_check("--max-pull-off-force", "1e-3", bag=recorded)
+        self.assertEqual(done.returncode, PASS, done.stdout + done.stderr)
+        self.assertNotIn("bond", done.stdout)
 
     def test_the_verdict_on_the_device_decides(self):
         done = self.run_check("--verdict")
