@@ -1,7 +1,9 @@
-"""Bags that a script is given: what is none, or was cut off, is said in one sentence."""
+"""Bags that a script is given: what is none, was cut off, or is damaged inside, is said in one sentence."""
 
 import contextlib
+import struct
 
+import genpy
 import rosbag
 from mems_stiction.input_file import UnfitFile, require_file
 
@@ -38,3 +40,16 @@ def opened_bag(path):
         raise BagError("%s cannot be read: is not a bag, or damaged" % path)
     except (OSError, rosbag.ROSBagException) as error:
         raise BagError("%s cannot be read: %s" % (path, error))
+
+
+def messages_of(bag, **options):
+    """bag.read_messages(). Raises BagError at the first message that is damaged."""
+    messages = bag.read_messages(**options)
+    while True:
+        try:
+            found = next(messages)
+        except StopIteration:
+            return
+        except (genpy.MessageException, rosbag.ROSBagException, struct.error, KeyError, ValueError) as error:
+            raise BagError("%s cannot be read: a message in it is damaged (%s)" % (bag.filename, error))
+        yield found

@@ -300,8 +300,8 @@ void ContactPath::takeBackAndAim(const ForcePoint& missed, double force) {
 }
 
 double ContactPath::smallestStep(bool is_in) const {
-  const double share = is_in || !settings_.is_resolved ? kSmallestStepIn : kSmallestStep;
-  return share * settings_.step * minimiser_.law().range();
+  const double usual = settings_.step * minimiser_.law().range();
+  return (is_in || !settings_.is_resolved ? kSmallestStepIn : kSmallestStep) * usual;
 }
 
 double ContactPath::leastStep(bool is_in, const ForceCurve& curve) const {

@@ -207,7 +207,11 @@ std::vector<std::string> cellsOf(const std::string& line, char separator) {
   return cells;
 }
 
-std::size_t countOf(const std::string& value) { return static_cast<std::size_t>(std::max(0.0, plainNumber(value))); }
+/// 0 = none is stated; more than any scan has stays more.
+std::size_t countOf(const std::string& value) {
+  const double number = plainNumber(value);
+  return number >= 1.0 ? static_cast<std::size_t>(std::min(number, 1e12)) : 0;
+}
 
 /// "h=650 w=650": rows and columns. @return false if the line is no such pair
 bool readCounts(const std::string& text, TextHeader& header) {

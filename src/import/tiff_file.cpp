@@ -210,15 +210,16 @@ cv::Mat pixelsOf(TIFF* tiff, const Layout& layout) {
   const int planes = layout.is_separate ? layout.samples : 1;
   for (int plane = 0; plane < planes; ++plane) {
     for (std::uint32_t y = 0; y < layout.rows; y += high) {
-      const std::uint32_t lines = is_tiled ? high : std::min(high, layout.rows - y);
+      const std::uint32_t lines = std::min(high, layout.rows - y);
       for (std::uint32_t x = 0; x < layout.cols; x += wide) {
         const auto sample = static_cast<std::uint16_t>(plane);
         const tmsize_t got = is_tiled
                                  ? TIFFReadTile(tiff, buffer.data(), x, y, 0, sample)
                                  : TIFFReadEncodedStrip(tiff, TIFFComputeStrip(tiff, y, sample), buffer.data(), size);
-        if (got < static_cast<tmsize_t>(lines) * line_bytes) throw FileError(damaged);
+        if (got < static_cast<tmsize_t>(is_tiled ? high : lines) * line_bytes) throw FileError(damaged);
+        const std::uint32_t columns = std::min(wide, layout.cols - x);  // a tile may reach over the page
         unpack(buffer.data(), static_cast<std::size_t>(line_bytes), layout,
-               {static_cast<int>(x), static_cast<int>(y), static_cast<int>(wide), static_cast<int>(lines)}, plane,
+               {static_cast<int>(x), static_cast<int>(y), static_cast<int>(columns), static_cast<int>(lines)}, plane,
                pixels);
       }
     }

@@ -70,6 +70,21 @@ class StationCheckTest(unittest.TestCase):
         self.assertEqual(done.returncode, PASS, done.stdout + done.stderr)
         self.assertNotIn("bond", done.stdout)
 
+    def test_scans_of_one_stamp_and_in_a_burst_are_scans_of_their_own(self):
+        odd = os.path.join(self.folder.name, "odd.bag")
+        with rosbag.Bag(self.bag) as scans, rosbag.Bag(odd, "w") as bag:
+            found = list(scans.read_messages())
+            for topic, message, when in found:  # all images, then all scan_info
+                bag.write(topic, message, when + rospy.Duration(5.0 if topic == "/scan_info" else 0.0))
+            for topic, message, when in found:
+                message.header.stamp = rospy.Time(0)
+                bag.write(topic, message, when + rospy.Duration(10.0))
+        done = self.run_check("--max-pull-off-force", "1e-3", bag=odd)
+        self.assertEqual(done.returncode, PASS, done.stdout + done.stderr)
+        forces = [line.split("force")[1].split("contact")[0] for line in done.stdout.splitlines()[:4]]
+        self.assertEqual(forces[:2], forces[2:], done.stdout)
+        self.assertNotEqual(forces[0], forces[1])
+
     def test_the_verdict_on_the_device_decides(self):
         done = self.run_check("--verdict")
         self.assertEqual(done.returncode, FAIL, done.stderr)
@@ -130,14 +145,19 @@ class StationCheckTest(unittest.TestCase):
         other, damaged = (os.path.join(self.folder.name, name) for name in ("other.bag", "damaged.bag"))
         with rosbag.Bag(other, "w") as bag:
             bag.write("height", String("no scan"))
-        with open(self.bag, "rb") as whole, open(damaged, "wb") as copy:
-            content = bytearray(whole.read())
-            second = content.rindex(b"op=\x02")  # of a message
-            content[second + 3] = 0x7f
-            copy.write(content)
+        long_text = os.path.join(self.folder.name, "long_text.bag")
+        with open(self.bag, "rb") as stream:
+            whole = stream.read()
+        with rosbag.Bag(self.bag) as bag:
+            encoding = next(message for _, message, _ in bag.read_messages(topics=["/height"])).encoding.encode()
+        for name, place, byte in ((damaged, whole.rindex(b"op=\x02") + 3, 0x7f),  # the kind of its last message
+                                  (long_text, whole.rindex(encoding) - 1, 0x7f)):  # a length of 2 GB
+            with open(name, "wb") as copy:
+                copy.write(whole[:place] + bytes([byte]) + whole[place + 1:])
         for arguments, changes, reason in [
                 (["--timeout", "1"], {"bag": other}, "nobody takes the topic /height of the bag, type std_msgs/String"),
                 ([], {"bag": damaged}, "damaged.bag cannot be read: "),
+                ([], {"bag": long_text}, "long_text.bag cannot be read: a message in it is damaged ("),
                 (["--voltages", "0,99"], {}, "99 V was refused"),
                 ([], {"bag": "/no/such.bag"}, "/no/such.bag cannot be read"),
                 (["--node", "nobody", "--timeout", "0.5"], {}, "no service nobody/set_load")]:

@@ -70,6 +70,11 @@ TEST(TextGrid, ReadsHeadingsOfWsxmWykoAndKeyence) {
   expectNumbers(channel, 632.8e-9 / 2.0);
   EXPECT_DOUBLE_EQ(channel.width, 8e-6);
   EXPECT_DOUBLE_EQ(channel.height, 10e-6);
+  for (const std::string many : {"1e300", "inf", "99999999999999999999999"}) {
+    std::string text = "Wyko ASCII Data File Format 0\t0\t1" + wyko + written("\t");
+    text.replace(text.find("X Size\t5") + 7, 1, many);
+    EXPECT_THROW(parseTextGrid(text), FileError) << many;
+  }
   std::string with_bad = "Wyko ASCII Data File Format 0\t1\t1" + wyko + written("\t");
   with_bad.replace(with_bad.find("0.437"), 5, "Bad");
   channel = parseTextGrid(with_bad);
