@@ -76,11 +76,12 @@ class HalfSpaceTest(unittest.TestCase):
         return self.action.get_state(), self.action.get_result(), feedback
 
     def live(self, surface):
-        """The scan's solution on the topic."""
+        """The scan's solution on the topic, once its prediction is there, too."""
         count = len(self.solutions.messages)
         stamp = self.station.send(surface)
         solution = self.solutions.wait(count + 1)[count]
         self.assertEqual(solution.header.stamp, stamp)
+        self.predictions.of(stamp)
         return solution
 
     def counts(self):
@@ -170,7 +171,7 @@ class HalfSpaceTest(unittest.TestCase):
             self.station.info.publish(info)
             solution = self.solutions.wait(solved + 1)[solved]
             before, after = parts.wait(count + 2)[count:]
-            prediction = [one for one in self.predictions.messages if one.header.stamp == stamp][-1]
+            prediction = self.predictions.of(stamp)
             for name in ("version", "settings_hash", "scan_name", "part_id", "serial_id"):
                 self.assertEqual(getattr(solution, name), getattr(prediction, name), name)
             self.assertEqual(solution.scan_name, "place %d" % place)

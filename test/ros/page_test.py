@@ -75,9 +75,8 @@ class PageTest(unittest.TestCase):
         """The prediction of the surface and the force of its device, once the page shows both."""
         prediction = self.live(surface)
         stamp = prediction.header.stamp
-        wait_until(lambda: any(device.header.stamp == stamp for device in self.devices.messages), "the device of the scan")
         self.page.wait("state.device && state.device.stamp === %d" % stamp.to_nsec())
-        return prediction, [device for device in self.devices.messages if device.header.stamp == stamp][-1]
+        return prediction, self.devices.of(stamp)
 
     def figure(self, name):
         """Text and exact value beside the verdict."""
@@ -153,8 +152,7 @@ class PageTest(unittest.TestCase):
         self.assertEqual(self.page.value("state.scan.curve.in.concat(state.scan.curve.out).length"), len(forces))
         self.assertEqual(self.page.value("state.scan.curve.peak[1]"), max(forces))
         stamp = prediction.header.stamp
-        wait_until(lambda: any(solution.header.stamp == stamp for solution in self.solutions.messages), "the half-space of the scan")
-        solution = [one for one in self.solutions.messages if one.header.stamp == stamp][-1]
+        solution = self.solutions.of(stamp)
         self.page.wait("state.half_space && state.half_space.stamp === %d" % stamp.to_nsec())
         self.assertIn("solved. Pull-off force %s." % with_unit(solution.pull_off_force, "N"), self.page.text("#half-space"))
 

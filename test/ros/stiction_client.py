@@ -135,6 +135,17 @@ class Collector:
         if not self.open[self._topic]:
             wait_until(lambda: rospy.get_name() not in listeners(self._topic), "the publisher of %s to hear of the end" % self._topic)
 
+    def of(self, stamp):
+        """The newest message of this stamp; topics do not wait for each other."""
+        found = []
+
+        def comes():
+            found[:] = [message for message in list(self.messages) if message.header.stamp == stamp]
+            return found
+
+        wait_until(comes, "a message of %s for the scan of stamp %s" % (self._topic, stamp))
+        return found[-1]
+
     def wait(self, count):
         wait_until(lambda: len(self.messages) >= count, "message %d of %s, got %d" % (count, self._topic, len(self.messages)))
         return self.messages
