@@ -1,12 +1,10 @@
 #include "mems_stiction/evaluation/prepared_scan.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <utility>
 
 #include <opencv2/imgproc.hpp>
 
-#include "errors/short_number.hpp"
 #include "evaluation/counter_surface_source.hpp"
 #include "height_map/scan_sanity.hpp"
 #include "mems_stiction/errors/errors.hpp"
@@ -63,12 +61,11 @@ CleanedScan cleanedOrWhyNot(ScanCleaner& cleaner, const HeightMap& scan) {
   }
 }
 
-/// The tilt of a scan that was not levelled. What is smoothed to nothing, or is too small, has no relief to compare it with.
+/// The tilt of a scan that was not levelled.
 /// - @p is_as_measured no step has changed the scan
 void addTilt(const HeightMap& cleaned, const PipelineOptions& cleaning, bool is_as_measured,
              std::vector<std::string>& warnings) {
-  if (cleaning.level.shape != LevelShape::kNone || isSmoothedAway(cleaned, cleaning)) return;
-  if (std::min(cleaned.rows(), cleaned.cols()) < kFewestPixelsOfASide) return;
+  if (cleaning.level.shape != LevelShape::kNone || !hasRelief(cleaned, cleaning)) return;
   const Tilt tilt = tiltOf(cleaned);
   if (!tilt.isLarge()) return;
   warnings.push_back(tilt.advice());

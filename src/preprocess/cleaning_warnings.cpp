@@ -12,8 +12,13 @@ static double widthOf(const HeightMap& scan) {
   return std::max(scan.cols() * scan.pitchX(), scan.rows() * scan.pitchY());
 }
 
-bool isSmoothedAway(const HeightMap& scan, const PipelineOptions& cleaning) {
+/// A filter that is longer than the scan leaves nothing.
+static bool isSmoothedAway(const HeightMap& scan, const PipelineOptions& cleaning) {
   return cleaning.low_pass.cutoff_wavelength >= widthOf(scan);
+}
+
+bool hasRelief(const HeightMap& cleaned, const PipelineOptions& cleaning) {
+  return !isSmoothedAway(cleaned, cleaning) && std::min(cleaned.rows(), cleaned.cols()) >= kFewestPixelsOfASide;
 }
 
 std::vector<std::string> cleaningWarnings(const HeightMap& scan, const HeightMap& cleaned,
@@ -25,9 +30,7 @@ std::vector<std::string> cleaningWarnings(const HeightMap& scan, const HeightMap
                        " m: it leaves no roughness and such a surface bonds");
   }
   const bool is_levelled_by_all = cleaning.level.shape != LevelShape::kNone && !cleaning.level.robust;
-  const bool has_relief =
-      !isSmoothedAway(cleaned, cleaning) && std::min(cleaned.rows(), cleaned.cols()) >= kFewestPixelsOfASide;
-  if (is_levelled_by_all && has_relief) {
+  if (is_levelled_by_all && hasRelief(cleaned, cleaning)) {
     const TiltLeft left = tiltLeft(cleaned, cleaning.level.shape == LevelShape::kPlane ? 1 : 2);
     if (left.isLarge()) warnings.push_back(left.advice());
   }

@@ -11,8 +11,8 @@
 
 namespace mems_stiction {
 
-/// Whether the low-pass is longer than the scan, so that it leaves nothing.
-bool isSmoothedAway(const HeightMap& scan, const PipelineOptions& cleaning);
+/// Whether there is a relief to compare a tilt with: not in what is smoothed to nothing, or too small.
+bool hasRelief(const HeightMap& cleaned, const PipelineOptions& cleaning);
 
 /// That all roughness has gone; that tall features have pulled the levelling aslant, which leaves their ground tilted.
 /// - @p scan as measured; @p cleaned what became of it by `cleaning`
