@@ -71,9 +71,9 @@ int reflected(int index, int count) {
 }
 
 bool fitsIn(const MadeSize& size, const OwnLongWaves& own) {
-  constexpr double kRounding = 0.999;
-  return own.heights.cols * own.pitch_x >= kRounding * size.sideX() &&
-         own.heights.rows * own.pitch_y >= kRounding * size.sideY();
+  constexpr double kWholeShare = 0.999;
+  return own.heights.cols * own.pitch_x >= kWholeShare * size.sideX() &&
+         own.heights.rows * own.pitch_y >= kWholeShare * size.sideY();
 }
 
 /// Large blocks are worth their kernel where many pixels are made of them.

@@ -14,7 +14,7 @@ namespace {
 /// chi^2 of skewness and kurtosis from which heights are not Gaussian beyond doubt.
 constexpr double kDecisive = 25.0;
 /// Two degrees of freedom are as large as this by chance in one of seven.
-constexpr double kByChance = 4.0;
+constexpr double kShareByChance = 4.0;
 /// Share of the variance that the widest scan must have to speak for all heights.
 constexpr double kMostVariance = 0.985;
 /// Waves along the side of the fine scans above which the short ones are looked at by themselves.
@@ -382,7 +382,7 @@ SurfaceStudy::SurfaceStudy(const std::vector<HeightMap>& surfaces) {
     findings->has_mean_pixels = areMeans(widest->map(widest->heights), waves[place], law.heights);
   }
   findings->candidate = decisiveCandidate(scans, widest, law.heights);
-  law.non_gaussian_share = std::max(0.0, 1.0 - kByChance / findings->candidate.chi_square);
+  law.non_gaussian_share = std::max(0.0, 1.0 - kShareByChance / findings->candidate.chi_square);
   if (findings->isTranslated()) {
     law.split_wave_number = findings->candidate.split;
     for (const Scan& scan : scans) findings->passed.push_back(highPassed(scan, law.split_wave_number));

@@ -15,7 +15,7 @@ namespace mems_stiction {
 namespace {
 
 /// Cells along a block.
-constexpr int kBlock = 8;
+constexpr int kLabelBlock = 8;
 /// A cell is out of equilibrium with this share of the largest residual.
 constexpr double kMarkedShare = 0.02;
 /// Windows are no wider than this share of the frame, and no larger in sum.
@@ -27,23 +27,23 @@ constexpr int kMostNewtonSteps = 30;
 /// Minimisers that are kept for the next windows of their shape: plans and arrays take as long to make as to use.
 constexpr std::size_t kMostIdle = 16;
 /// A change of traction beyond this, of 8 Gamma/(3 z0), is no answer: the law repels with 1300 times that at most.
-constexpr double kLargestChange = 1e5;
+constexpr double kLargestStressChange = 1e5;
 
 /// i on a ring of n.
 int onRing(int i, int n) { return (i % n + n) % n; }
 
 /// Blocks of a side; the last one is up to twice as long.
-int blockCount(int cells) { return std::max(1, cells / kBlock); }
+int blockCount(int cells) { return std::max(1, cells / kLabelBlock); }
 
 /// The first cell of a block, on a side that goes on beyond its ends.
 int firstCell(int block, int cells) {
   const int count = blockCount(cells);
   const int inside = onRing(block, count);
-  return (block - inside) / count * cells + inside * kBlock;
+  return (block - inside) / count * cells + inside * kLabelBlock;
 }
 
 /// Each value as large as that of |residual - mean| at least.
-MEMS_STICTION_VECTORIZED void raiseTo(const float* residual, float mean, std::vector<float>& values) {
+MEMS_STICTION_VECTORIZED void raiseResiduals(const float* residual, float mean, std::vector<float>& values) {
   float* const value = values.data();
   for (std::size_t i = 0; i < values.size(); ++i) {
     const float here = std::abs(residual[i] - mean);
@@ -74,7 +74,7 @@ cv::Mat1b ContactWindows::blocksOf(const Frame& frame) const {
   forEachRow(marked.rows, settings_.threads, [&](int block_row) {
     std::vector<float> largest(static_cast<std::size_t>(grid_.frame_cols), 0.0F);  // of each column in these rows
     for (int row = firstCell(block_row, grid_.frame_rows); row < firstCell(block_row + 1, grid_.frame_rows); ++row) {
-      raiseTo(frame.residual + grid_.offset(row), mean, largest);
+      raiseResiduals(frame.residual + grid_.offset(row), mean, largest);
     }
     for (int block = 0; block < marked.cols; ++block) {
       const auto first = largest.begin() + firstCell(block, grid_.frame_cols);
@@ -163,7 +163,8 @@ void ContactWindows::forEachCell(const cv::Rect& cells, const Work& work) const 
 }
 
 bool ContactWindows::owns(const Window& window, int row, int col) const {
-  return labels_(std::min(row / kBlock, labels_.rows - 1), std::min(col / kBlock, labels_.cols - 1)) == window.label;
+  return labels_(std::min(row / kLabelBlock, labels_.rows - 1), std::min(col / kLabelBlock, labels_.cols - 1)) ==
+         window.label;
 }
 
 std::unique_ptr<ContactMinimiser> ContactWindows::takeMinimiser(const HalfSpaceGrid& window) {
@@ -208,7 +209,7 @@ ContactWindows::Relaxed ContactWindows::relaxOne(const Frame& frame, const Windo
   if (!minimiser->isSetUp()) return relaxed;
   minimiser->restart(std::move(relief), std::move(fixed), kRelaxedShare * frame.largest_residual / law_.stress());
   minimiser->solve(frame.height);
-  const double limit = kLargestChange * law_.stress();
+  const double limit = kLargestStressChange * law_.stress();
   relaxed.is_sound = true;
   const double* const traction = minimiser->elasticTraction();
   forEachCell(cells, [&](std::size_t place, std::size_t cell, int row, int col) {

@@ -14,8 +14,8 @@ namespace {
 
 /// Cells that are worked on together: their intermediate values stay in the first cache.
 constexpr int kTile = 256;
-constexpr int kLanes = static_cast<int>(Lanes::kCount);
-static_assert(kTile % kLanes == 0, "tiles are whole lanes");
+constexpr int kPacket = static_cast<int>(Lanes::kCount);
+static_assert(kTile % kPacket == 0, "tiles are whole lanes");
 
 /// Residual from which on a secant is worth its while, of 8 Gamma/(3 z0).
 constexpr double kSecantShare = 0.05;
@@ -37,10 +37,10 @@ MEMS_STICTION_VECTORIZED void setGaps(int count, double level, const double* rel
 /// How far the surfaces are from each other. @return the lowest gap of the tile
 MEMS_STICTION_VECTORIZED double addGaps(int count, double contact_gap, Tile& tile, Sums& sums) {
   const double infinity = std::numeric_limits<double>::infinity();
-  for (int i = count; i % kLanes != 0; ++i) tile.gaps[i] = infinity;
+  for (int i = count; i % kPacket != 0; ++i) tile.gaps[i] = infinity;
   Lanes gap, contacts;
   Lanes lowest(infinity);
-  for (int i = 0; i < count; i += kLanes) {
+  for (int i = 0; i < count; i += kPacket) {
     const Lanes here = Lanes::load(tile.gaps + i);
     gap += select(here < infinity, here, 0.0);
     contacts += select(here < contact_gap, Lanes(1.0), 0.0);
@@ -77,7 +77,7 @@ MEMS_STICTION_VECTORIZED void addTile(int count, double length, const RowArrays&
   }
   if (arrays.fixed != nullptr) addFixed(count, arrays.fixed, displacement, tile);
   int end = count;
-  for (; end % kLanes != 0; ++end) {
+  for (; end % kPacket != 0; ++end) {
     work[end] = tile.slope[end] = tile.energy[end] = 0.0;
     tile.traction[end] = tile.traction[count - 1];
     elastic[end] = elastic[count - 1];
@@ -85,7 +85,7 @@ MEMS_STICTION_VECTORIZED void addTile(int count, double length, const RowArrays&
   Lanes traction, elastic_energy, energy, positive, residual, squared;
   Lanes highest(sums.highest);
   Lanes lowest(sums.lowest);
-  for (int i = 0; i < end; i += kLanes) {
+  for (int i = 0; i < end; i += kPacket) {
     Lanes t = Lanes::load(tile.traction + i);
     const Lanes dt = Lanes::load(tile.slope + i);
     const Lanes ku = Lanes::load(elastic + i);
@@ -97,7 +97,7 @@ MEMS_STICTION_VECTORIZED void addTile(int count, double length, const RowArrays&
     lowest = select(r < lowest, r, lowest);
     r.store(elastic + i);
     Lanes counted = r;
-    if (i + kLanes > count) {
+    if (i + kPacket > count) {
       const auto left = static_cast<std::size_t>(count - i);
       t = Lanes::loadFirst(tile.traction + i, left, 0.0);
       counted = Lanes::loadFirst(elastic + i, left, 0.0);
@@ -125,11 +125,11 @@ MEMS_STICTION_VECTORIZED void addTile(int count, double length, const RowArrays&
 MEMS_STICTION_VECTORIZED void useSecants(const TractionLaw& law, int count, double length, const RowArrays& arrays,
                                          Tile& tile) {
   const double least = kSecantShare * law.stress();
-  for (int i = 0; i < count; i += kLanes) {
+  for (int i = 0; i < count; i += kPacket) {
     const Lanes gap = Lanes::load(tile.gaps + i);  // filled up with what is infinite
     const LaneMask repels = gap < law.contactGap();
     if (!isAnywhere(repels)) continue;
-    const auto left = static_cast<std::size_t>(std::min(count - i, kLanes));
+    const auto left = static_cast<std::size_t>(std::min(count - i, kPacket));
     const auto take = [&](const auto* from) __attribute__((always_inline)) {
       return left == Lanes::kCount ? Lanes::load(from) : Lanes::loadFirst(from, left, 0.0);
     };

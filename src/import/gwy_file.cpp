@@ -15,14 +15,14 @@
 namespace mems_stiction {
 namespace {
 
-constexpr const char* kWhat = "the .gwy container";
+constexpr const char* kGwyContainer = "the .gwy container";
 
 /// One component: its content is not read until somebody asks for it.
 struct Component {
   std::string name;
   char type = '\0';
   std::string object_type;  ///< class name, for type 'o'
-  ByteCursor content{nullptr, 0, kWhat};
+  ByteCursor content{nullptr, 0, kGwyContainer};
 };
 
 Component readComponent(ByteCursor& cursor) {
@@ -90,7 +90,7 @@ FileChannel readField(ByteCursor field) {
   FileChannel channel;
   std::int64_t cols = 0;
   std::int64_t rows = 0;
-  ByteCursor data{nullptr, 0, kWhat};
+  ByteCursor data{nullptr, 0, kGwyContainer};
   std::int64_t data_count = -1;
   while (!field.atEnd()) {
     Component component = readComponent(field);
@@ -158,7 +158,7 @@ int invalidateMasked(FileChannel& channel, const cv::Mat& mask) {
 }  // namespace
 
 std::vector<FileChannel> parseGwy(const std::string& bytes, bool ignore_mask) {
-  ByteCursor file(bytes.data(), bytes.size(), kWhat);
+  ByteCursor file(bytes.data(), bytes.size(), kGwyContainer);
   if (!startsWith(bytes, "GWYP")) throw FileError("not a .gwy container: it does not begin with GWYP");
   file.take(4);
   if (file.text() != "GwyContainer") throw FileError("the .gwy file does not hold a GwyContainer");

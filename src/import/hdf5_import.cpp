@@ -7,7 +7,7 @@ namespace mems_stiction {
 namespace {
 
 /// As channelsByPython() wants it. Where it reads no channel, it says which arrays of two dimensions there are, a line for each.
-constexpr const char* kScript = R"(
+constexpr const char* kHdf5Script = R"(
 import sys
 sys.path = [folder for folder in sys.path if folder]
 try:
@@ -132,7 +132,7 @@ main(sys.argv[1], sys.argv[2])
 }  // namespace
 
 Hdf5Channels channelsByH5py(const std::string& path, double timeout) {
-  PythonReading read = channelsByPython(kScript, "h5py", path, timeout);
+  PythonReading read = channelsByPython(kHdf5Script, "h5py", path, timeout);
   return {std::move(read.channels), read.is_library_missing, std::move(read.remark)};
 }
 

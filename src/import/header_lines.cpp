@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kMostDigits = 12;
 
-std::string bare(const std::string& text) { return trimmed(text, std::string(" \t\r\0", 4)); }
+std::string withoutNul(const std::string& text) { return trimmed(text, std::string(" \t\r\0", 4)); }
 
 }  // namespace
 
@@ -25,11 +25,11 @@ std::optional<std::uint64_t> countIn(const std::string& text) {
 HeaderLines::HeaderLines(const std::string& text, const std::string& separator) {
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t stop = std::min(text.find('\n', at), text.size());
-    const std::string line = bare(text.substr(at, stop - at));
+    const std::string line = withoutNul(text.substr(at, stop - at));
     at = stop + 1;
     const std::size_t sign = line.find(separator);
     if (sign == std::string::npos) continue;
-    values_[lowered(bare(line.substr(0, sign)))].push_back(bare(line.substr(sign + separator.size())));
+    values_[lowered(withoutNul(line.substr(0, sign)))].push_back(withoutNul(line.substr(sign + separator.size())));
   }
 }
 

@@ -8,7 +8,7 @@
 namespace mems_stiction {
 namespace {
 
-std::string bare(const std::string& text) { return trimmed(text, " \t\r\n[]()\"'"); }
+std::string withoutBrackets(const std::string& text) { return trimmed(text, " \t\r\n[]()\"'"); }
 
 bool isUtf8(const std::string& text) {
   for (std::size_t at = 0; at < text.size();) {
@@ -30,7 +30,7 @@ bool isUtf8(const std::string& text) {
 }  // namespace
 
 std::optional<double> lengthUnit(const std::string& text) {
-  std::string unit = bare(text);
+  std::string unit = withoutBrackets(text);
   for (const char* micro : {"\xC2\xB5", "\xCE\xBC", "\\u00B5", "\\u00b5", "&#181;", "&micro;"}) {
     unit = replaced(unit, micro, "u");
   }
@@ -49,10 +49,10 @@ std::optional<double> lengthUnit(const std::string& text) {
 }
 
 std::optional<StatedLength> statedLength(const std::string& text) {
-  const std::string plain = bare(text);
+  const std::string plain = withoutBrackets(text);
   const std::size_t end = numberEnd(plain, 0);
   if (end == 0) return std::nullopt;
-  return StatedLength{plainNumber(plain.substr(0, end)), bare(plain.substr(end))};
+  return StatedLength{plainNumber(plain.substr(0, end)), withoutBrackets(plain.substr(end))};
 }
 
 std::string toUtf8(const std::string& text) {

@@ -30,11 +30,11 @@ struct Heading {
   FileStatements statements;
 };
 
-std::string bare(const std::string& text) { return trimmed(text, " \t\r\""); }
+std::string withoutQuotes(const std::string& text) { return trimmed(text, " \t\r\""); }
 
 std::vector<std::string> bareWords(const std::string& text) {
   std::vector<std::string> words = wordsOf(text);
-  for (std::string& word : words) word = bare(word);
+  for (std::string& word : words) word = withoutQuotes(word);
   return words;
 }
 
@@ -52,7 +52,7 @@ void readEntry(const std::string& line, Heading& heading) {
   const std::size_t colon = line.find(": ");
   if (colon == std::string::npos) return;
   const std::string key = lowered(line.substr(1, colon - 1));
-  const std::string value = bare(line.substr(colon + 2));
+  const std::string value = withoutQuotes(line.substr(colon + 2));
   const auto count = [&value] { return static_cast<std::size_t>(countIn(value).value_or(0)); };
   heading.statements.emplace(key, value);
   if (key == "samps/line" && heading.cols == 0) heading.cols = count();
@@ -97,7 +97,7 @@ std::vector<FileChannel> parseNanoscopeText(const std::string& bytes) {
   int number = 0;
   while (heading.names.empty() && std::getline(stream, line)) {
     ++number;
-    const std::string text = bare(line);
+    const std::string text = withoutQuotes(line);
     if (text.empty()) continue;
     if (text[0] == '\\') {
       readEntry(text, heading);

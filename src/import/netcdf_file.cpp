@@ -16,7 +16,7 @@
 namespace mems_stiction {
 namespace {
 
-constexpr const char* kWhat = "the NetCDF file";
+constexpr const char* kNetcdfFile = "the NetCDF file";
 constexpr std::uint32_t kMostEntries = 100'000;
 constexpr std::uint32_t kManyBytes = 0xFFFFFFFC;  // from here on the header does not say how many
 
@@ -62,7 +62,7 @@ struct Variable {
 class Netcdf {
  public:
   explicit Netcdf(const std::string& bytes) : bytes_(bytes) {
-    ByteCursor cursor(bytes.data(), bytes.size(), kWhat, ByteOrder::kBig);
+    ByteCursor cursor(bytes.data(), bytes.size(), kNetcdfFile, ByteOrder::kBig);
     cursor.take(3);
     const int version = cursor.number<std::uint8_t>();
     if (version != 1 && version != 2)
@@ -101,7 +101,7 @@ class Netcdf {
 
   /// Its numbers, the last dimension fastest. @throw FileError if they lie beyond the end of the file
   ByteCursor data(const Variable& variable, std::uint64_t numbers) const {
-    ByteCursor cursor(bytes_.data(), bytes_.size(), kWhat, ByteOrder::kBig);
+    ByteCursor cursor(bytes_.data(), bytes_.size(), kNetcdfFile, ByteOrder::kBig);
     if (variable.begin > bytes_.size()) throw FileError("the NetCDF file is cut off");
     cursor.take(static_cast<std::size_t>(variable.begin));
     const std::uint64_t needed = (numbers * sizeOf(variable.type) + 3) / 4 * 4;

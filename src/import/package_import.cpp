@@ -6,7 +6,7 @@ namespace {
 
 /// As channelsByPython() wants it. SurfaceTopography recognises some formats by nothing but that the file can be read so: those
 /// are left out, and so are those that are read here.
-constexpr const char* kScript = R"(
+constexpr const char* kPackageScript = R"(
 import sys
 sys.path = [folder for folder in sys.path if folder]
 path, folder = sys.argv[1:]
@@ -76,7 +76,7 @@ with open(folder + "/channels", "w", encoding="utf-8") as stream:
 }  // namespace
 
 std::vector<FileChannel> channelsByPackages(const std::string& path, double timeout) {
-  return channelsByPython(kScript, "SurfaceTopography or AFMReader", path, timeout).channels;
+  return channelsByPython(kPackageScript, "SurfaceTopography or AFMReader", path, timeout).channels;
 }
 
 }  // namespace mems_stiction

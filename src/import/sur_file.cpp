@@ -18,7 +18,7 @@
 namespace mems_stiction {
 namespace {
 
-constexpr const char* kWhat = "the .sur file";
+constexpr const char* kSurFile = "the .sur file";
 constexpr int kNotMeasured = -2;  // beyond the smallest value
 
 /// Kinds of object that begin with a surface.
@@ -139,7 +139,7 @@ FileChannel readObject(ByteCursor& file, const Header& header) {
   channel.width = header.step_x * unitOf(header.unit_x, "x") * header.cols;
   channel.height = header.step_y * unitOf(header.unit_y, "y") * header.rows;
   channel.values.create(header.rows, header.cols, CV_64FC1);
-  ByteCursor cursor(data.data(), data.size(), kWhat);
+  ByteCursor cursor(data.data(), data.size(), kSurFile);
   const std::int64_t missing = std::int64_t{header.smallest} + kNotMeasured;
   for (int i = 0; i < header.rows; ++i) {
     double* line = channel.values.ptr<double>(header.inversion == 3 ? header.rows - 1 - i : i);
@@ -162,7 +162,7 @@ bool isSurface(const Header& header) {
 }  // namespace
 
 std::vector<FileChannel> parseSur(const std::string& bytes) {
-  ByteCursor file(bytes.data(), bytes.size(), kWhat);
+  ByteCursor file(bytes.data(), bytes.size(), kSurFile);
   std::vector<FileChannel> channels;
   Header header = readHeader(file);
   if (!isSurface(header)) {

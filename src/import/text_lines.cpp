@@ -67,7 +67,7 @@ std::size_t commentStart(const std::string& text) {
 }
 
 /// Spaces alone: a tab at either end may stand for an empty cell.
-std::string trimmed(const std::string& text) {
+std::string withoutBlanks(const std::string& text) {
   std::size_t begin = 0;
   std::size_t end = text.size();
   while (end > begin && isBlank(text[end - 1]) && text[end - 1] != '\t') --end;
@@ -121,7 +121,7 @@ TextLines textLines(const std::string& bytes) {
       throw FileError("line " + std::to_string(number) + ": binary data where numbers are expected");
     }
     const std::size_t comment = commentStart(line);
-    std::string content = trimmed(line.substr(0, comment));
+    std::string content = withoutBlanks(line.substr(0, comment));
     if (hasSignsBeyondNumbers(content)) {
       content = toUtf8(content);
       plainSigns(content);

@@ -9,7 +9,7 @@
 namespace mems_stiction {
 namespace {
 
-bool isBlank(char c) { return c == ' ' || c == '\t'; }
+bool isSpaceOrTab(char c) { return c == ' ' || c == '\t'; }
 bool isQuote(char c) { return c == '"' || c == '\''; }
 
 const std::string kBlankAdvice =
@@ -40,11 +40,11 @@ void gather(const TextLine& line, Signs& signs) {
       if (i == 0 || i + 1 == text.size()) continue;
       if (is_digit(i - 1) && is_digit(i + 1)) {
         signs.tight_comma = &line;
-      } else if (isBlank(text[i - 1]) || isBlank(text[i + 1])) {
+      } else if (isSpaceOrTab(text[i - 1]) || isSpaceOrTab(text[i + 1])) {
         signs.loose_comma = &line;
       }
     }
-    if (isBlank(c)) {
+    if (isSpaceOrTab(c)) {
       const std::size_t next = text.find_first_not_of(" \t", i);
       const bool is_inside = i > 0 && next != std::string::npos;
       if (is_inside && text[i - 1] != ',' && text[i - 1] != ';' && text[next] != ',' && text[next] != ';') {
@@ -185,11 +185,12 @@ std::vector<TextPiece> piecesOf(const std::string& text, char separator) {
   for (std::size_t i = 0; i <= text.size(); ++i) {
     const bool is_end = i == text.size();
     if (!is_end && isQuote(text[i]) && (quote == '\0' || quote == text[i])) quote = quote == '\0' ? text[i] : '\0';
-    const bool separates = !is_end && quote == '\0' && (separator == ' ' ? isBlank(text[i]) : text[i] == separator);
+    const bool separates =
+        !is_end && quote == '\0' && (separator == ' ' ? isSpaceOrTab(text[i]) : text[i] == separator);
     if (!is_end && !separates) continue;
     piece.end = i;
-    while (piece.begin < piece.end && isBlank(text[piece.begin])) ++piece.begin;
-    while (piece.end > piece.begin && isBlank(text[piece.end - 1])) --piece.end;
+    while (piece.begin < piece.end && isSpaceOrTab(text[piece.begin])) ++piece.begin;
+    while (piece.end > piece.begin && isSpaceOrTab(text[piece.end - 1])) --piece.end;
     if (separator != ' ' || piece.end > piece.begin) pieces.push_back(piece);
     piece.begin = i + 1;
   }

@@ -116,7 +116,7 @@ MEMS_STICTION_VECTORIZED RowMoments rowMoments(const double* line, const double*
 }
 
 /// Median of all heights, whose rows follow each other or are one.
-double medianOf(const cv::Mat& heights, CleaningMemory& memory) {
+double medianHeight(const cv::Mat& heights, CleaningMemory& memory) {
   return memory.medians.median(heights.ptr<double>(), heights.total());
 }
 
@@ -311,7 +311,7 @@ Eigen::Vector3d slopesOf(const cv::Mat& differences, double pitch_x, double pitc
                          CleaningMemory& memory) {
   if (differences.empty() || cv::countNonZero(differences == differences) == 0) return Eigen::Vector3d::Zero();
   PolynomialSurface slopes = frameOf(differences, pitch_x, pitch_y, degree, memory);
-  slopes.origin = medianOf(differences, memory);
+  slopes.origin = medianHeight(differences, memory);
   Rounds rounds(allPixels(differences, pitch_x, pitch_y), slopes, memory);
   rounds.findNoise();
   rounds.reweight(kHuberRounds);
@@ -362,7 +362,7 @@ double PolynomialSurface::height(double x, double y) const {
 PolynomialSurface fitPolynomial(const cv::Mat& heights, double pitch_x, double pitch_y, int degree, FitWeights weights,
                                 CleaningMemory& memory) {
   PolynomialSurface fit = frameOf(heights, pitch_x, pitch_y, degree, memory);
-  fit.origin = medianOf(heights, memory);
+  fit.origin = medianHeight(heights, memory);
   const PixelGrid grid = allPixels(heights, pitch_x, pitch_y);
   Rounds rounds(grid, fit, memory);
   rounds.solve(Weighting::kAlike);
@@ -380,7 +380,7 @@ PolynomialSurface fitPolynomialBySamples(const cv::Mat& heights, double pitch_x,
   for (const int stride : kStrides) {
     const PixelGrid sample = sampleOf(heights, pitch_x, pitch_y, stride, memory.sample);
     if (!hasEnoughValid(memory.sample)) continue;
-    if (!is_started) fit.origin = medianOf(sample.heights, memory);
+    if (!is_started) fit.origin = medianHeight(sample.heights, memory);
     Rounds rounds(sample, fit, memory);
     if (!is_started) rounds.solve(Weighting::kAlike);
     rounds.findNoise();

@@ -24,15 +24,15 @@ namespace {
 namespace py = pybind11;
 using py::literals::operator""_a;
 
-using Predicted = std::shared_ptr<DevicePrediction>;
+using SharedDevice = std::shared_ptr<DevicePrediction>;
 
 /// Its file, or "scan 2".
 std::string nameOf(const std::vector<DeviceScan>& scans, std::size_t place, const std::string& kind) {
   return scans[place].name.empty() ? kind + " " + std::to_string(place + 1) : scans[place].name;
 }
 
-Predicted predictDevice(const std::vector<DeviceScan>& scans, const std::vector<DeviceScan>& counter_surface,
-                        const Configuration& configuration) {
+SharedDevice predictDevice(const std::vector<DeviceScan>& scans, const std::vector<DeviceScan>& counter_surface,
+                           const Configuration& configuration) {
   return interruptible([&](const std::atomic<bool>& cancel) {
     const Cancellation check(cancel);
     DevicePredictor predictor(configuration);
@@ -42,10 +42,10 @@ Predicted predictDevice(const std::vector<DeviceScan>& scans, const std::vector<
 }
 
 /// Figures and realisations alone, one for each model.
-std::vector<Predicted> predictDeviceUnder(const std::vector<DeviceScan>& scans,
-                                          const std::vector<DeviceScan>& counter_surface,
-                                          const Configuration& configuration,
-                                          const std::vector<Configuration>& models) {
+std::vector<SharedDevice> predictDeviceUnder(const std::vector<DeviceScan>& scans,
+                                             const std::vector<DeviceScan>& counter_surface,
+                                             const Configuration& configuration,
+                                             const std::vector<Configuration>& models) {
   return interruptible([&](const std::atomic<bool>& cancel) {
     const Cancellation check(cancel);
     DevicePredictor predictor(configuration);
@@ -53,7 +53,7 @@ std::vector<Predicted> predictDeviceUnder(const std::vector<DeviceScan>& scans,
     std::vector<Options> options;
     options.reserve(models.size());
     for (const Configuration& model : models) options.push_back(model.model);
-    std::vector<Predicted> predicted;
+    std::vector<SharedDevice> predicted;
     for (DeviceForce& force : predictor.forces(options, check)) {
       predicted.push_back(std::make_shared<DevicePrediction>());
       predicted.back()->force = std::move(force);
@@ -63,7 +63,7 @@ std::vector<Predicted> predictDeviceUnder(const std::vector<DeviceScan>& scans,
   });
 }
 
-py::dict figuresOf(const DevicePrediction& predicted) {
+py::dict figuresOfDevice(const DevicePrediction& predicted) {
   return dictionaryOf([&](auto& fields) { visitDeviceForceFields(predicted.force, fields); });
 }
 
@@ -72,17 +72,17 @@ std::optional<py::dict> verdictOfDevice(const DevicePrediction& predicted) {
   return verdictFigures(*predicted.verdict);
 }
 
-Records realisationsOf(const Predicted& predicted) {
+Records realisationsOf(const SharedDevice& predicted) {
   return recordsOf(predicted->force.realisations, predicted,
                    [](const auto& item, auto& fields) { visitRealisationFields(item, fields); });
 }
 
-Records partsOf(const Predicted& predicted) {
+Records partsOf(const SharedDevice& predicted) {
   return recordsOf(predicted->force.parts_of_scans, predicted,
                    [](const auto& item, auto& fields) { visitPartOfScanFields(item, fields); });
 }
 
-Records spectrumOf(const Predicted& predicted) {
+Records spectrumOf(const SharedDevice& predicted) {
   return recordsOf(predicted->force.spectrum, predicted,
                    [](const auto& item, auto& fields) { visitBandFields(item, fields); });
 }
@@ -114,8 +114,8 @@ void bindDevice(py::module& module) {
              return DeviceScan{name, scan, notes, identity};
            }),
            "name"_a, "scan"_a, "notes"_a, "identity"_a);
-  py::class_<DevicePrediction, Predicted>(module, "DevicePrediction")
-      .def_property_readonly("figures", &figuresOf)
+  py::class_<DevicePrediction, SharedDevice>(module, "DevicePrediction")
+      .def_property_readonly("figures", &figuresOfDevice)
       .def_property_readonly("verdict", &verdictOfDevice)
       .def_property_readonly("scans", [](const DevicePrediction& one) { return one.scans; })
       .def_property_readonly("scan_warnings", [](const DevicePrediction& one) { return one.scan_warnings; })

@@ -54,17 +54,17 @@ Solved solve(const PreparedScan& prepared, const ScanIdentity& identity, const C
 }
 
 template <typename Visitor>
-void visitFigures(const SolvedHalfSpace& solution, Visitor&& visit) {
+void visitSolutionFigures(const SolvedHalfSpace& solution, Visitor&& visit) {
   visitHalfSpaceFields(solution, visit);
   visitHalfSpaceStiffness(solution, visit);
   visitHalfSpaceDetails(solution, visit);
 }
 
-py::dict figuresOf(const SolvedScan& solved) {
-  return dictionaryOf([&](auto& fields) { visitFigures(solved.solution, fields); });
+py::dict figuresOfSolution(const SolvedScan& solved) {
+  return dictionaryOf([&](auto& fields) { visitSolutionFigures(solved.solution, fields); });
 }
 
-std::optional<py::dict> verdictOfScan(const SolvedScan& solved) {
+std::optional<py::dict> verdictOfSolution(const SolvedScan& solved) {
   if (!solved.verdict) return std::nullopt;
   return verdictFigures(*solved.verdict);
 }
@@ -84,12 +84,12 @@ Records curveOfScan(const Solved& solved) {
 
 void bindHalfSpace(py::module& module) {
   DeclaredFields declared;
-  visitFigures({}, declared);
+  visitSolutionFigures({}, declared);
   declared.addTo(module, "HalfSpaceFigures");
 
   py::class_<SolvedScan, Solved>(module, "SolvedScan")
-      .def_property_readonly("figures", &figuresOf)
-      .def_property_readonly("verdict", &verdictOfScan)
+      .def_property_readonly("figures", &figuresOfSolution)
+      .def_property_readonly("verdict", &verdictOfSolution)
       .def_property_readonly("origin", &originOf)
       .def_property_readonly("curve", &curveOfScan)
       .def_property_readonly("pressure", [](const SolvedScan& solved) { return memoryOf(solved.solution.pressure); })

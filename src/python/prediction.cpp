@@ -191,7 +191,7 @@ class OneScan {
 };
 
 template <typename Visitor>
-void visitFigures(const PredictedScan& predicted, Visitor&& visit) {
+void visitPredictionFigures(const PredictedScan& predicted, Visitor&& visit) {
   visitPredictionFields(predicted.prediction, visit);
   visit({"formulation", "", "whose answer it is"}, predicted.extras.formulation);
   visit({"regime_flags", "", "where the model leaves its range: bits, of which flags has the names (doc/validity.md)"},
@@ -200,8 +200,8 @@ void visitFigures(const PredictedScan& predicted, Visitor&& visit) {
   visitScanIdentityFields(provenance, visit);
 }
 
-py::dict figuresOf(const PredictedScan& predicted) {
-  return dictionaryOf([&](auto& fields) { visitFigures(predicted, fields); });
+py::dict figuresOfPrediction(const PredictedScan& predicted) {
+  return dictionaryOf([&](auto& fields) { visitPredictionFigures(predicted, fields); });
 }
 
 std::optional<py::dict> verdictOfScan(const PredictedScan& predicted) {
@@ -259,13 +259,13 @@ std::vector<double> spreadOf(const PredictedScan& predicted, const Configuration
 
 void bindPrediction(py::module& module) {
   DeclaredFields of_prediction, of_verdict;
-  visitFigures({}, of_prediction);
+  visitPredictionFigures({}, of_prediction);
   visitJudgedFields({}, of_verdict);
   of_prediction.addTo(module, "PredictionFigures");
   of_verdict.addTo(module, "VerdictFigures");
 
   py::class_<PredictedScan, Predicted>(module, "PredictedScan")
-      .def_property_readonly("figures", &figuresOf)
+      .def_property_readonly("figures", &figuresOfPrediction)
       .def_property_readonly("verdict", &verdictOfScan)
       .def_property_readonly("device_force", &deviceForceOfScan)
       .def_property_readonly("half_space", &halfSpaceOfScan)

@@ -19,7 +19,7 @@ namespace mems_stiction {
 namespace {
 
 /// Scans that wait as their flags ask for it; the one that has waited longest goes.
-constexpr std::size_t kMostWaiting = 8;
+constexpr std::size_t kMostCallsWaiting = 8;
 
 }  // namespace
 
@@ -55,7 +55,7 @@ void HalfSpaceStream::stop() {
 void HalfSpaceStream::offer(const HalfSpaceCall& call, const StationCase& predicted, const ScanOfPart& scan,
                             const cv::Mat& model_map, const DrawnCurve& model_curve) {
   Task task{call, predicted, scan, model_map.clone(), model_curve};  // the model uses its map's memory again
-  const std::size_t most = call.why.empty() ? 1 : kMostWaiting;
+  const std::size_t most = call.why.empty() ? 1 : kMostCallsWaiting;
   std::vector<Task> gone;
   {
     const std::lock_guard<std::mutex> lock(mutex_);

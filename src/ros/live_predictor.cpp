@@ -18,7 +18,7 @@ Configuration withRoughness(Configuration configuration) {
   return configuration;
 }
 
-LoadFigures figuresOf(const Prediction& prediction) {
+LoadFigures loadFiguresOf(const Prediction& prediction) {
   return {prediction.pull_off_force, prediction.contact_area, prediction.electrostatic_force};
 }
 
@@ -132,7 +132,7 @@ PredictedScan LivePredictor::predictScan(const ReceivedScan& scan, const OutputO
                    wear_};
   last_->prepared.preparation_time = 0.0;
   wear_ = std::move(wear);
-  figures_ = {settings, figuresOf(predicted.prediction)};
+  figures_ = {settings, loadFiguresOf(predicted.prediction)};
   return predicted;
 }
 
@@ -144,7 +144,7 @@ std::optional<PredictedScan> LivePredictor::predictLastScan() {
   predictor_.setOptions(options);
   PredictedScan predicted = judged(lastPrepared(), *settings, last_->received.identity, kHalfSpaceOnTopic);
   predicted.scan_id = last_->part.id;
-  figures_ = {settings, figuresOf(predicted.prediction)};
+  figures_ = {settings, loadFiguresOf(predicted.prediction)};
   return predicted;
 }
 

@@ -18,7 +18,7 @@ using XmlRpc::XmlRpcValue;
 using Clock = std::chrono::steady_clock;
 
 /// That a busy master may take for an answer.
-constexpr std::chrono::seconds kPatience{5};
+constexpr std::chrono::seconds kCallPatience{5};
 /// Between looks at whether to give up [s].
 constexpr double kLook = 0.05;
 
@@ -29,7 +29,7 @@ class EndingClient : public XmlRpc::XmlRpcClient {
 
   bool call(const char* method, const XmlRpcValue& request, XmlRpcValue& response, const std::atomic<int>& give_up) {
     if (!executeNonBlock(method, request)) return false;
-    const Clock::time_point end = Clock::now() + kPatience;
+    const Clock::time_point end = Clock::now() + kCallPatience;
     while (_connectionState != IDLE && !_disp._sources.empty()) {
       if (give_up > 0 || Clock::now() > end) return false;
       _disp.work(kLook);

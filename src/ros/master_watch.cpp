@@ -13,11 +13,11 @@
 namespace mems_stiction {
 namespace {
 
-constexpr std::chrono::seconds kPeriod{2};
+constexpr std::chrono::seconds kLookPeriod{2};
 /// After a look that a member's end has cut short.
 constexpr std::chrono::milliseconds kSoon{50};
 /// A master that takes the call and does not answer is as good as none after so many periods.
-constexpr double kPatience = 3.0 * kPeriod.count();
+constexpr double kPatience = 3.0 * kLookPeriod.count();
 
 const char* meaningOf(Registrations::State state) {
   switch (state) {
@@ -96,7 +96,7 @@ void MasterWatch::loop() {
   for (;;) {
     if (std::chrono::steady_clock::now() >= next_look) {
       const bool is_whole = look();
-      next_look = std::chrono::steady_clock::now() + (is_whole ? std::chrono::milliseconds(kPeriod) : kSoon);
+      next_look = std::chrono::steady_clock::now() + (is_whole ? std::chrono::milliseconds(kLookPeriod) : kSoon);
       if (is_whole) {
         const std::lock_guard<std::mutex> lock(mutex_);
         looks_made_ = asked;

@@ -11,7 +11,7 @@
 namespace mems_stiction {
 namespace {
 
-constexpr int kMostTrials = 60;
+constexpr int kMostTiltTrials = 60;
 /// Damping of the second moments, and the least of trusted heights, as a part of the reach.
 constexpr double kDamping = 1e-4;
 constexpr double kLeastTrust = 1e-6;
@@ -132,7 +132,7 @@ const GapField& PlateTilt::settle(const GapField& level, const ContactSettings& 
   Balance balance = balanceAt(level, slopes_, settings);
   double trust = balance.reach;
   bool is_here = true;  // the plate stands as it is known to be best
-  for (int trial = 0; trial < kMostTrials && balance.share() > chosen::kAccuracy; ++trial) {
+  for (int trial = 0; trial < kMostTiltTrials && balance.share() > chosen::kAccuracy; ++trial) {
     const double width = level.cols() * level.pitchX();
     const double height = level.rows() * level.pitchY();
     const double xx = balance.xx + kDamping * balance.stiffness * width * width;

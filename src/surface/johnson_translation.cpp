@@ -25,10 +25,10 @@ struct Quadrature {
   std::array<double, kPoints> weight{};
 
   Quadrature() {
-    constexpr double kEnd = 9.0;
+    constexpr double kLast = 9.0;
     double sum = 0.0;
     for (std::size_t index = 0; index < kPoints; ++index) {
-      g[index] = kEnd * (2.0 * static_cast<double>(index) / (kPoints - 1) - 1.0);
+      g[index] = kLast * (2.0 * static_cast<double>(index) / (kPoints - 1) - 1.0);
       weight[index] = std::exp(-0.5 * g[index] * g[index]);
       sum += weight[index];
     }

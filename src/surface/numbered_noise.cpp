@@ -12,10 +12,10 @@
 namespace mems_stiction {
 namespace {
 
-constexpr std::size_t kLanes = 4;
-using Doubles = double __attribute__((vector_size(kLanes * sizeof(double))));
-using Bits = std::uint64_t __attribute__((vector_size(kLanes * sizeof(std::uint64_t))));
-using ShortBits = std::uint32_t __attribute__((vector_size(kLanes * sizeof(std::uint32_t))));
+constexpr std::size_t kPacket = 4;
+using Doubles = double __attribute__((vector_size(kPacket * sizeof(double))));
+using Bits = std::uint64_t __attribute__((vector_size(kPacket * sizeof(std::uint64_t))));
+using ShortBits = std::uint32_t __attribute__((vector_size(kPacket * sizeof(std::uint32_t))));
 
 template <typename To, typename From>
 MEMS_STICTION_INLINE void copyBits(const From& from, To& to) {
@@ -88,7 +88,7 @@ MEMS_STICTION_INLINE void loadBits(const std::uint32_t* from, Bits& bits) {
 /// Two normal numbers, one beside the other, of each pair of a radius and an angle. `count` pairs, a multiple of 4.
 MEMS_STICTION_VECTORIZED void boxMuller(const std::uint32_t* radii, const std::uint32_t* angles, std::size_t count,
                                         float* values) {
-  for (std::size_t i = 0; i < count; i += kLanes) {
+  for (std::size_t i = 0; i < count; i += kPacket) {
     Bits k;
     Doubles squares;
     loadBits(radii + i, k);
@@ -97,10 +97,10 @@ MEMS_STICTION_VECTORIZED void boxMuller(const std::uint32_t* radii, const std::u
     Doubles sines;
     loadBits(angles + i, k);
     unitVectors(k, cosines, sines);
-    for (std::size_t lane = 0; lane < kLanes; ++lane) squares[lane] = std::sqrt(squares[lane]);
+    for (std::size_t lane = 0; lane < kPacket; ++lane) squares[lane] = std::sqrt(squares[lane]);
     cosines *= squares;
     sines *= squares;
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    for (std::size_t lane = 0; lane < kPacket; ++lane) {
       values[2 * (i + lane)] = static_cast<float>(cosines[lane]);
       values[2 * (i + lane) + 1] = static_cast<float>(sines[lane]);
     }

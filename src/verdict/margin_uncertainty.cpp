@@ -14,7 +14,7 @@ namespace mems_stiction {
 namespace {
 
 /// Standard deviations from the median to the 97.5 % quantile.
-constexpr double kToQuantile = 1.959964;
+constexpr double kMarginQuantile = 1.959964;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -123,8 +123,8 @@ void widen(std::vector<double>& samples, const FactorRange& range, NormalNumbers
   std::vector<double> normals(samples.size());
   for (double& normal : normals) normal = numbers.next();
   std::sort(normals.begin(), normals.end());
-  const double below = -std::log(range.lowest) / kToQuantile;
-  const double above = std::log(range.highest) / kToQuantile;
+  const double below = -std::log(range.lowest) / kMarginQuantile;
+  const double above = std::log(range.highest) / kMarginQuantile;
   const double median = quantile(samples, 0.5);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const double distance = std::log(samples[i] / median);
@@ -142,7 +142,7 @@ FactorRange factorsWithin(double reach) { return {std::exp(-reach), std::exp(rea
 /// What the formulation's samples leave out.
 void takeEvidence(const Evidence& evidence, NormalNumbers& numbers, AdhesionSpread& spread) {
   if (evidence.half_space != nullptr) {
-    const FactorRange range = factorsWithin(kToQuantile * halfSpaceError(*evidence.half_space));
+    const FactorRange range = factorsWithin(kMarginQuantile * halfSpaceError(*evidence.half_space));
     widen(spread.pull_off, range, numbers);
     widen(spread.apparent_work, range, numbers);
   }
