@@ -1,5 +1,6 @@
-"""Ctrl-C ends a program with one line at most, and a shell sees the status 130, as of every program that a signal ends. TERM and HUP
+"""Ctrl-C ends a program with one line at most, and a shell sees the status 130, as of every program that this signal ends. TERM and HUP
 (a closed terminal) end it in the same way: a process that they killed would leave its name at the ROS master, and the load that it set.
+Then the program exits with the status 130 itself, whoever started it: "killed by SIGINT" would be false, since nobody sent that signal.
 
 A program imports this before all that is slow to import. While it loads, Ctrl-C ends it at once: a KeyboardInterrupt would be
 printed as a traceback by whoever is being loaded. When main() begins, it calls raise_from_here_on().
@@ -20,18 +21,27 @@ import sys
 import tempfile
 
 AGAIN_AFTER = 0.02  # [s]
+STATUS = 130  # after TERM and HUP
+OTHERS = (signal.SIGTERM, signal.SIGHUP)
 ENDINGS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGALRM)
 
 _show = sys.excepthook
 _show_dropped = sys.unraisablehook
 _has_come = False  # an interruption, whoever heard of it
+_is_of_others = False  # it was TERM or HUP
 
 
-def _raise(*_):
+def _raise(number=signal.SIGINT, *_):
     """The handler of a program whose main() has begun."""
-    global _has_come
+    global _has_come, _is_of_others
     _has_come = True
+    _is_of_others = _is_of_others or number in OTHERS
     raise KeyboardInterrupt
+
+
+def _end_now(*_):
+    """The handler of TERM and HUP before main() begins."""
+    os._exit(STATUS)
 
 
 def raise_if_swallowed():
@@ -52,6 +62,12 @@ def _say(kind, error, trace):
         _show(kind, error, trace)
         return
     print("%s: interrupted" % os.path.basename(sys.argv[0]), file=sys.stderr)
+    if _is_of_others:
+        atexit._run_exitfuncs()
+        for stream in (sys.stdout, sys.stderr):
+            with contextlib.suppress(OSError, ValueError):  # a pipe that nobody reads any more
+                stream.flush()
+        os._exit(STATUS)
     if not issubclass(kind, KeyboardInterrupt):  # Python ends by the signal only for that
         atexit._run_exitfuncs()
         sys.stderr.flush()
@@ -69,8 +85,8 @@ def _raise_again(dropped):
 
 def raise_from_here_on():
     """Each of them is a KeyboardInterrupt from now on, so that what was begun can be put away."""
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-        if signal.getsignal(number) == signal.SIG_DFL:
+    for number in (signal.SIGINT,) + OTHERS:
+        if signal.getsignal(number) in (signal.SIG_DFL, _end_now):
             signal.signal(number, _raise)
 
 
@@ -84,20 +100,20 @@ class Waiting:
     """Interruptions wait from here on, to end(). A mask of the process would not do: Python notes signals that other threads get."""
 
     def __init__(self):
-        self._has_come = False
+        self._has_come = None  # the number of the signal
         self._before = {}
         for number in ENDINGS:
             if signal.getsignal(number) == _raise:
                 self._before[number] = signal.signal(number, self._note)
 
-    def _note(self, *_):
-        self._has_come = True
+    def _note(self, number, *_):
+        self._has_come = number
 
     def end(self):
         for number, handler in self._before.items():
             signal.signal(number, handler)
         if self._has_come:
-            raise KeyboardInterrupt
+            _raise(self._has_come)
 
 
 @contextlib.contextmanager
@@ -125,8 +141,10 @@ def _end_at_once_from_here_on():
     signal.setitimer(signal.ITIMER_REAL, 0.0)
     ours = [number for number in ENDINGS if signal.getsignal(number) == _raise]
     for number in ours:
-        signal.signal(number, signal.SIG_DFL)
+        signal.signal(number, signal.SIG_IGN if number in OTHERS else signal.SIG_DFL)  # what is done has its own status
     if signal.SIGALRM in ours:
+        if _is_of_others:
+            os._exit(STATUS)
         os.kill(os.getpid(), signal.SIGINT)
 
 
@@ -135,3 +153,6 @@ sys.excepthook = _say
 sys.unraisablehook = _raise_again
 if signal.getsignal(signal.SIGINT) == signal.default_int_handler:
     signal.signal(signal.SIGINT, signal.SIG_DFL)
+for _number in OTHERS:
+    if signal.getsignal(_number) == signal.SIG_DFL:  # nohup stays
+        signal.signal(_number, _end_now)

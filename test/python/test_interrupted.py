@@ -52,6 +52,12 @@ except:
 interrupted.raise_if_swallowed()
 time.sleep(60)
 """
+LOADS_IT = """
+from mems_stiction import interrupted
+import time
+print("loading", flush=True)
+time.sleep(60)
+"""
 # An interruption of each moment in which a folder is made or removed
 LEAVES_NO_FOLDER = """
 from mems_stiction import interrupted
@@ -219,6 +225,35 @@ class InterruptedTest(unittest.TestCase):
             process.send_signal(signal.SIGINT)
             _, errors = process.communicate(timeout=120)
             self.assertEqual((process.returncode, errors), (-signal.SIGINT, "-c: interrupted\n"))
+
+    def test_term_and_hup_always_end_in_the_status_130(self):
+        for number in (signal.SIGTERM, signal.SIGHUP):
+            for text, said in ((DROPS_IT, "-c: interrupted\n"), (HIDES_IT, "-c: interrupted\n"), (SWALLOWS_IT, "-c: interrupted\n"), (LOADS_IT, "")):
+                process = subprocess.Popen([sys.executable, "-c", text], stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
+                process.stdout.readline()
+                process.send_signal(number)
+                _, errors = process.communicate(timeout=120)
+                self.assertEqual((process.returncode, errors), (130, said), (number, text))
+
+    def test_a_calibration_that_is_told_to_end(self):
+        """At moments all over its run, from that on at which the first line of the project has been run."""
+        np.save(str(self.inputs / "part.npy"), np.load(str(self.scans[0]))[:256, :256])
+        measurements = self.folder / "measurements.yaml"
+        measurements.write_text("".join("- {kind: pull_off_force, value: %ge-7, uncertainty: 1.0e-8, scans: [%s]}\n" % (number + 1, self.inputs / "part.npy") for number in range(3)))
+        output = self.folder / "calibrated.yaml"
+        for number in (signal.SIGTERM, signal.SIGHUP):
+            for moment in np.linspace(0.0, 2.0, 6):
+                process = subprocess.Popen([str(SCRIPTS / "calibrate"), "-c", str(self.config), "-o", str(output), str(measurements)],
+                                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
+                caught = pathlib.Path("/proc/%d/status" % process.pid)
+                while process.poll() is None and not int(caught.read_text().split("SigCgt:")[1].split()[0], 16) >> (number - 1) & 1:
+                    time.sleep(0.001)
+                time.sleep(moment)
+                process.send_signal(number)
+                _, errors = process.communicate(timeout=300)
+                self.assertEqual(process.returncode, 130, errors)
+                self.assertNotIn("Traceback", errors)
+                self.assertFalse(output.exists())
 
     def test_a_folder_goes_whenever_the_interruption_comes(self):
         for delay in np.linspace(0.05, 0.06, 25):
