@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 """Counts test cases in JUnit XML files and tells about those that failed.
 
-usage: count_results.py [--total CHECKS.tsv] FOLDER...
+usage: count_results.py [--total CHECKS.tsv] [--ctest CTEST.xml] FOLDER...
 
 Cases of Google Test, nose and rostest are counted one by one. A rostest writes its test nodes' cases to rosunit-NAME.xml
 and one case per node to rostest-*.xml: the latter counts only where a node failed without a failing case of its own (it
 crashed, timed out or wrote nothing). CHECKS.tsv has one line per check: passed|failed|skipped, name, file with its output.
+CTEST.xml is what ctest says of the programs: one that failed without a failing case in its results (it crashed, ran out of
+time, or was not found) is a failed case, and the ten slowest cases of all results are shown.
 With --total the last line is "N passed, N failed, N skipped", and the exit status is 1 if any failed or nothing ran.
 """
 
@@ -18,8 +20,8 @@ LINES_SHOWN = 40
 
 
 class Case:
-    def __init__(self, name, verdict, text=""):
-        self.name, self.verdict, self.text = name, verdict, text
+    def __init__(self, name, verdict, text="", seconds=0.0):
+        self.name, self.verdict, self.text, self.seconds = name, verdict, text, seconds
 
 
 def local_name(tag):
@@ -39,14 +41,15 @@ def cases_of(path):
         problems = [child for child in element if local_name(child.tag) in ("failure", "error")]
         skipped = [child for child in element if local_name(child.tag) == "skipped"]
         name = ".".join(part for part in (element.get("classname"), element.get("name")) if part)
+        seconds = float(element.get("time") or 0.0)
         if problems:
             texts = [(child.text or child.get("message") or "").strip() for child in problems]
-            cases.append(Case(name, "failed", "\n".join(texts)))
+            cases.append(Case(name, "failed", "\n".join(texts), seconds))
         elif skipped or element.get("result") == "skipped" or element.get("status") in ("notrun", "skipped"):
             reason = (skipped[0].get("message") or skipped[0].text or "").strip() if skipped else "disabled"
             cases.append(Case(name, "skipped", reason))
         else:
-            cases.append(Case(name, "passed"))
+            cases.append(Case(name, "passed", seconds=seconds))
     cases.extend(case for suite in root.iter() if local_name(suite.tag) == "testsuite" for case in untold_failures(suite, path))
     return cases
 
@@ -75,6 +78,40 @@ def told_by_node(folder, case):
     node = node[len("test"):] if node.startswith("test") else node
     path = folder / ("rosunit-%s.xml" % node)
     return path.exists() and any(inner.verdict == "failed" for inner in cases_of(path))
+
+
+def results_of_program(name, folders):
+    """The result files of a test of ctest: NAME, or _ctest_PACKAGE_KIND_NAME by catkin, whose rostests have a folder each."""
+    for kind in ("gtest", "nosetests", "rostest"):
+        head, mark, rest = name.partition("_%s_" % kind)
+        if head.startswith("_ctest_") and mark:
+            break
+    else:
+        kind, rest = "gtest", name
+    rest = rest[:-len(".test")] if rest.endswith(".test") else rest
+    found = [path for folder in folders for path in pathlib.Path(folder).rglob("%s-%s.xml" % (kind, rest))]
+    return [inner for path in found for inner in (path.parent.glob("*.xml") if kind == "rostest" else [path])]
+
+
+def cases_of_ctest(path, folders):
+    """A failed case for each program that failed without a failing case in its results, with what it said last."""
+    cases = []
+    for element in ElementTree.parse(path).getroot().iter("testcase"):
+        name = element.get("name")
+        if element.get("status") == "run" or any(
+                inner.verdict == "failed" for file in results_of_program(name, folders) for inner in cases_of(file)):
+            continue
+        reason = " ".join(failure.get("message") or "" for failure in element.iter("failure")) or element.get("status")
+        output = (element.findtext("system-out") or "").strip().splitlines()
+        cases.append(Case(name, "failed", "\n".join([reason, *output[-20:]])))
+    return cases
+
+
+def show_slowest(cases):
+    slowest = sorted(cases, key=lambda case: -case.seconds)[:10]
+    print("the slowest cases:")
+    for case in slowest:
+        print("%7.1f s  %s" % (case.seconds, case.name))
 
 
 def cases_of_checks(path):
@@ -112,10 +149,14 @@ def show_skipped(cases):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--total", metavar="CHECKS.tsv")
+    parser.add_argument("--ctest", metavar="CTEST.xml")
     parser.add_argument("folders", nargs="*")
     arguments = parser.parse_args()
 
     cases = [case for folder in arguments.folders for case in cases_of_folder(folder)]
+    if arguments.ctest:
+        show_slowest(cases)
+        cases += cases_of_ctest(arguments.ctest, arguments.folders)
     if arguments.total:
         cases += cases_of_checks(arguments.total)
     count = {verdict: sum(case.verdict == verdict for case in cases) for verdict in ("passed", "failed", "skipped")}

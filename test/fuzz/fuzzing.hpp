@@ -1,7 +1,8 @@
 #pragma once
 
 /// What the programs of this folder share. Each has one input, which somebody else wrote, and asks the code that reads
-/// it: under clang's libFuzzer (scripts/fuzz) with inputs without end, in the tests with those of corpus/NAME.
+/// it: under clang's libFuzzer (scripts/fuzz) with inputs without end, in the tests with those of corpus.tar.gz, where CMake
+/// gives the function of each a name of its own.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,0 +1,1 @@
+/// The unit behind the precompiled header, which the tests share.
