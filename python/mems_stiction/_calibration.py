@@ -11,7 +11,7 @@ import numpy as np
 
 from mems_stiction._arrays import ReadOnly, plain_value
 from mems_stiction._settings import Config, OptionsError, Settings, values_of
-from mems_stiction.calibration_data import Measurement, measurements_of
+from mems_stiction.calibration_data import Measurement, measurements_of, pooled, shared_scans
 from mems_stiction.calibration_fit import Fit, Interval, Likelihood
 from mems_stiction.calibration_grid import between_nodes
 from mems_stiction.calibration_words import UNITS
@@ -21,7 +21,11 @@ WORK, HAMAKER, ANGLE = "interface/work_of_adhesion", "interface/hamaker_constant
 RANGE = {WORK: (1e-4, 2.0), HAMAKER: (1e-21, 1e-18)}  # that is searched [J/m^2, J]
 WIDEST_COSINES = (0.01, 1.0)
 COARSE_NODES = 13
+COARSE_NODES_MADE = 25  # more nodes at once cost less than surfaces that are made again
+COARSE_NODES_SECOND = 7  # of a second constant
 FINE_NODES = 9
+FINE_NODES_MADE = 4
+FINE_NODES_OF_TWO = 5  # where two constants are sought
 REACH_AROUND = 2.0  # of ln work of adhesion, where a second constant is sought, too
 MOST_REFINEMENTS = 3
 STEPS_FOR_SLOPES = (1.0 / 1.15, 1.15)
@@ -32,6 +36,7 @@ FAR_OFF = 3.0  # factor from a measured value to the nearest one that the consta
 MOST_ASKED = 3  # values that are asked for their unit
 TELLING_COSINE = 0.6  # width of an interval of the angle's cosine
 NORMAL_95 = 1.959964
+BETTER = 6.635  # of the deviance, by one constant more: chi^2 at 1 %
 
 OnProgress = Callable[[float], None]
 
@@ -217,7 +222,7 @@ class _Found(NamedTuple):
 
     def deviations(self) -> np.ndarray:
         """Of all measurements, standardised."""
-        return self.whole.deviations(self.whole.model(self.fit.parameters), self.fit.scatter)[0]
+        return self.whole.standardised(self.whole.model(self.fit.parameters), self.fit.scatter)
 
 
 class _Search:
@@ -226,10 +231,15 @@ class _Search:
     def __init__(self, measurements: List[Measurement], axes: List[_Axis], on_step: Callable[[], None]) -> None:
         self.measurements, self.axes = measurements, axes
         self.surrogate = _Surrogate(measurements, axes, on_step)
+        self.shared = shared_scans(measurements)
 
     def run(self, around: Optional[float] = None) -> "_Found":
         """- around: ln work of adhesion, as it is known from before"""
-        nodes = [np.linspace(axis.bounds[0], axis.bounds[1], COARSE_NODES) for axis in self.axes]
+        has_made = any(measurement.place.is_made for measurement in self.measurements)
+        fine = FINE_NODES_MADE if has_made else FINE_NODES_OF_TWO if len(self.axes) > 1 else FINE_NODES
+        first = COARSE_NODES_MADE if has_made and len(self.axes) == 1 else COARSE_NODES
+        nodes = [np.linspace(axis.bounds[0], axis.bounds[1], count)
+                 for axis, count in zip(self.axes, (first, COARSE_NODES_SECOND))]
         if around is not None:
             nodes[0] = nodes[0][np.abs(nodes[0] - around) < REACH_AROUND]
         constants = {axis.name: axis.configured for axis in self.axes}
@@ -241,7 +251,7 @@ class _Search:
             fit = likelihood.fit()
             intervals = [likelihood.interval(fit, index) for index in range(len(self.axes))]
             constants = {axis.name: axis.value(parameter) for axis, parameter in zip(self.axes, fit.parameters)}
-            finer = [_refined(axis, interval) for axis, interval in zip(nodes, intervals)]
+            finer = [_refined(axis, interval, fine) for axis, interval in zip(nodes, intervals)]
             if all(len(one) == len(other) for one, other in zip(finer, nodes)):
                 break
             nodes = finer
@@ -249,23 +259,22 @@ class _Search:
 
     def _likelihood(self, constants: Dict[str, float]) -> Likelihood:
         """- constants: those at which surfaces scatter from place to place as they do"""
-        return Likelihood([m.value for m in self.measurements], [m.uncertainty for m in self.measurements],
-                          [m.scatter(constants) for m in self.measurements], [m.kind for m in self.measurements],
-                          self.surrogate.expected, self.surrogate.bounds(), [m.common(constants) for m in self.measurements], self._surfaces())
+        data = self.measurements
+        return Likelihood([datum.value for datum in data], [datum.uncertainty for datum in data],
+                          pooled([datum.scatter(constants) for datum in data], data),
+                          [datum.kind for datum in data], self.surrogate.expected,
+                          self.surrogate.bounds(),
+                          pooled([datum.common(constants) for datum in data], data), self.shared)
 
-    def _surfaces(self) -> List[int]:
-        known: Dict[Any, int] = {}
-        return [known.setdefault(measurement.place.surfaces, len(known)) for measurement in self.measurements]
 
-
-def _refined(nodes: np.ndarray, interval: Interval) -> np.ndarray:
-    """With nodes where the interval lies, no further apart than an eighth of it, nor closer than a percent."""
+def _refined(nodes: np.ndarray, interval: Interval, count: int) -> np.ndarray:
+    """With so many nodes where the interval lies, unless most of them are there or within 1 %."""
     width = interval.upper - interval.lower
     low, high = max(interval.lower - 0.25 * width, nodes[0]), min(interval.upper + 0.25 * width, nodes[-1])
     inside = nodes[(nodes > low) & (nodes < high)]
-    if len(inside) >= FINE_NODES - 2 or high - low < 0.01 * FINE_NODES:
+    if len(inside) >= count - 2 or high - low < 0.01 * count:
         return nodes
-    return np.unique(np.concatenate([nodes, np.linspace(low, high, FINE_NODES)]))
+    return np.unique(np.concatenate([nodes, np.linspace(low, high, count)]))
 
 
 def calibrate(measurements: Sequence[Any], config: Optional[Config] = None, *, on_progress: Optional[OnProgress] = None,
@@ -301,14 +310,23 @@ def calibrate(measurements: Sequence[Any], config: Optional[Config] = None, *, o
     found = _Search(data, [_Axis(WORK, values)], progress.step).run()
     second, statements = _second_axis(data, values, found)
     if second is not None:
-        both = _Search(data, found.axes + [second], progress.step).run(found.fit.parameters[0])
-        if second.tells(both.intervals[1]):
+        around = float(found.fit.parameters[0]) if found.axes[0].tells(found.intervals[0]) else None
+        both = _Search(data, found.axes + [second], progress.step).run(around)
+        # a second constant must not cost the work of adhesion, unless its configured value is wrong
+        keeps_work = around is None or both.axes[0].tells(both.intervals[0])
+        if second.tells(both.intervals[1]) and (keeps_work or _fits_better(both, found)):
             found = both
             statements.append(_told(second, both))
         else:
             statements.append(_not_told(second))
     progress.end()
     return _calibration(data, base, values, found, statements)
+
+
+def _fits_better(both: _Found, found: _Found) -> bool:
+    """Whether measurements contradict the second constant as configured: a misfit, which it mends."""
+    is_misfit = found.fit.widening > 1.0 and both.outliers == found.outliers
+    return is_misfit and found.fit.deviance - both.fit.deviance > BETTER
 
 
 class _Progress:
@@ -336,13 +354,11 @@ def _second_axis(data: List[Measurement], values: Dict[str, Any], found: _Found)
         return None, [_not_told(_Axis(HAMAKER, values))] if float(values[HAMAKER]) > 0.0 else []
     axis = _Axis(HAMAKER, values)
     here = {WORK: found.axes[0].value(found.fit.parameters[0]), HAMAKER: axis.configured}
-    for datum in data:
-        datum.prepare([dict(here, **{name: factor * here[name]}) for name in (WORK, HAMAKER) for factor in STEPS_FOR_SLOPES])
     slopes = np.array([[_slope(datum, here, name) for name in (WORK, HAMAKER)] for datum in data])
-    weights = 1.0 / np.maximum(found.whole.deviations(found.whole.model(found.fit.parameters), found.fit.scatter)[1], 1e-12)
-    information = (slopes * weights[:, None]).T @ slopes
-    determinant = np.linalg.det(information)
-    if determinant <= 0.0 or math.sqrt(information[0, 0] / determinant) * NORMAL_95 > 1.5 * math.log(TELLING):
+    widths = np.array([math.log(RANGE[name][1] / RANGE[name][0]) for name in (WORK, HAMAKER)])
+    # what measurements leave open of the work ends with its range
+    information = found.whole.information(slopes, found.fit) + np.diag(12.0 / widths ** 2)
+    if math.sqrt(np.linalg.inv(information)[1, 1]) * NORMAL_95 > 1.5 * math.log(TELLING):
         return None, [_not_told(axis)]
     return axis, []
 
@@ -351,7 +367,7 @@ def _slope(datum: Measurement, here: Dict[str, float], name: str) -> float:
     """d ln value/d ln constant."""
     ends = []
     for factor in STEPS_FOR_SLOPES:
-        value = datum.expected(dict(here, **{name: factor * here[name]}))
+        value = datum.expected_of_scan(dict(here, **{name: factor * here[name]}))
         if not 0.0 < value < math.inf:
             return 0.0
         ends.append(math.log(value))
@@ -386,7 +402,7 @@ def _calibration(data: List[Measurement], base: Settings, values: Dict[str, Any]
         constants[axis.name] = axis.value(parameter)
         if not axis.is_cosine:
             constants["uncertainty/" + word] = _relative(interval)
-    statements = _of_outliers(data, found) + _of_misfit(found) + statements
+    statements = _of_other_places(data) + _of_outliers(data, found) + _of_misfit(found) + statements
     if not found.axes[0].tells(found.intervals[0]):
         statements[:0] = [_open_end(found)] + _of_units(data, found)
         figures.update(work_of_adhesion=math.nan, work_of_adhesion_lower=math.nan, work_of_adhesion_upper=math.nan)
@@ -403,6 +419,14 @@ def _calibration(data: List[Measurement], base: Settings, values: Dict[str, Any]
 def _relative(interval: Interval) -> float:
     """Relative standard deviation of a lognormal number with this 95 % interval of its logarithm, as uncertainty/... take it."""
     return min(math.sqrt(math.expm1(((interval.upper - interval.lower) / (2.0 * NORMAL_95)) ** 2)), 1.0)
+
+
+def _of_other_places(data: List[Measurement]) -> List[str]:
+    """Of values on one scan that are not of its place alone."""
+    if not any(datum.place.stands_for_others for datum in data):
+        return []
+    return ["values on one scan's area differ by more than their uncertainties say: they were taken "
+            "for other places of the surface"]
 
 
 def _of_outliers(data: List[Measurement], found: _Found) -> List[str]:

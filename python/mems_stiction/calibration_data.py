@@ -8,7 +8,6 @@ from __future__ import annotations
 import contextlib
 import math
 import os
-import warnings
 from collections.abc import Mapping
 from typing import Any, Callable, Dict, Iterator, List, NamedTuple, Optional, Sequence, Tuple
 
@@ -17,27 +16,21 @@ import numpy as np
 import mems_stiction
 from mems_stiction import _core
 from mems_stiction._arrays import surface_of
-from mems_stiction._device import _listed, _pitches_of, predict_device_under
+from mems_stiction._device import _listed, _pitches_of
 from mems_stiction._settings import OptionsError, Settings, settings_with, values_of
-from mems_stiction._warnings import ScanWarning, SettingsWarning
+from mems_stiction.calibration_places import Figures, Place, digest_of
 from mems_stiction.calibration_words import UNITS
 
 BEAMS: Dict[str, Callable[..., float]] = {"detachment_length": _core.detachment_length, "crack_length": _core.crack_length}
 COMMON = ("kind", "value", "uncertainty", "scans", "pitch", "upper", "area", "contacts", "relative_humidity", "mechanical_load", "name")
 OF_FORCES = ("radius",)
 OF_BEAMS = ("beam_type", "thickness", "gap", "modulus", "residual_stress")
-FRAME_ALONE = {"device_force": {"enabled": False}, "half_space": {"enabled": False}}  # neither is looked at
-NO_CLEANING = {"preprocessing": {
-    "region": {"left": 0.0, "top": 0.0, "width": 0.0, "height": 0.0, "polygon_file": "", "mask_file": ""}, "offset": {"enabled": False},
-    "lines": {"method": "none"}, "spikes": {"enabled": False}, "fill": {"enabled": False}, "tip": {"radius": 0.0, "half_angle": 0.0},
-    "level": "none", "level_robust": False, "low_pass": {"cutoff_wavelength": 0.0}, "refine": {"factor": 1}}}
 MOST_CONTACTS = 1000000  # as device/contacts has it
 POSITIVE = ("value", "uncertainty", "area", "radius", "thickness", "gap", "modulus")
 
-PROBE_PIXELS = 256
-PROBE_DEPTH = 12e-9  # of a smooth probe's edge below its summit [m]: what lies deeper attracts little
-PROBE_CONTACTS = 3.0  # half of a smooth probe's side over its contact radius by JKR, at least
-PROBE_PLACES = 3  # on a scan, along each of its sides
+OF_OTHERS = 8  # degrees of freedom of what other places say of a place's scatter
+FEWEST_REPEATED = 3  # values of one place, before it is asked whether it is one
+FALSE_OTHERS = 0.05  # probability that values of one place are taken for those of several
 
 
 class Measurement(NamedTuple):
@@ -53,7 +46,14 @@ class Measurement(NamedTuple):
     def expected(self, constants: Dict[str, float]) -> float:
         """The value by these constants [its unit]. Raises OptionsError and SurfaceError, which name the measurement."""
         with _named(self.name):
-            figures = self.place.figures(constants)
+            return self._value(self.place.figures(constants))
+
+    def expected_of_scan(self, constants: Dict[str, float]) -> float:
+        """As expected(), by the place's first scan alone where surfaces are made: for slopes."""
+        with _named(self.name):
+            return self._value(self.place.figures_of_scan(constants))
+
+    def _value(self, figures: Figures) -> float:
         if self.kind == "pull_off_force":
             return figures.force
         return BEAMS[self.kind](*self.beam, figures.work) if self.beam else figures.work
@@ -79,122 +79,43 @@ class Measurement(NamedTuple):
         return of_work / (4.0 if self.beam else 1.0)  # lengths go with the fourth root
 
 
-class Figures(NamedTuple):
-    force: float  # [N]
-    work: float  # per area [J/m^2]
-    force_scatter: float  # of ln force, from place to place [-]
-    work_scatter: float
-    force_common: float = 0.0  # of ln force, at all places: other scans of the surfaces would give another [-]
-    work_common: float = 0.0
+class _Reader:
+    """Scans that are read once, and places that measurements share."""
 
+    def __init__(self, base: Settings) -> None:
+        self.base = base
+        self.scans: Dict[Any, Any] = {}
+        self.digests: Dict[int, str] = {}
+        self.places: Dict[Any, Place] = {}
+        self.settings: Dict[Any, Tuple[Settings, Dict[str, Any]]] = {}
 
-class Place:
-    """Surfaces that one or more measurements were made on, and what holds them by the constants of the interface."""
+    def settings_with(self, stated: Dict[str, Any]) -> Tuple[Settings, Dict[str, Any]]:
+        """Settings, and their values by names."""
+        key = tuple(stated.items())
+        if key not in self.settings:
+            settings = settings_with(self.base, {}, stated)
+            self.settings[key] = settings, values_of(settings)
+        return self.settings[key]
 
-    def __init__(self, scans: List[Any], upper: Any, area: Optional[float], contacts: Optional[int], radius: Optional[float],
-                 settings: Settings, surfaces: Any = None) -> None:
-        self.scans, self.upper, self.area, self.contacts, self.radius, self.settings = scans, upper, area, contacts, radius, settings
-        self.surfaces = surfaces  # the same for the same scans
-        self._known: Dict[Tuple[Tuple[str, float], ...], Figures] = {}
-        self._clean_scans: Optional[List[Any]] = None
+    def surfaces(self, given: Any, pitch: Any, settings: Settings, what: str) -> List[Any]:
+        scans = _listed(given, what)
+        names = [what if len(scans) == 1 else "%s[%d]" % (what, place)
+                 for place in range(len(scans))]
+        return [self._scan(scan, own, settings, name)
+                for scan, own, name in zip(scans, _pitches_of(pitch, scans), names)]
 
-    @property
-    def humidity(self) -> float:
-        return float(values_of(self.settings)["interface/relative_humidity"])
+    def _scan(self, given: Any, pitch: Any, settings: Settings, name: str) -> Any:
+        key = _identity(given), _identity(pitch)
+        if key not in self.scans:
+            scan = mems_stiction.Scan(surface_of(given, pitch, settings, name))
+            self.scans[key] = scan, given  # which keeps its id
+        return self.scans[key][0]
 
-    def figures(self, constants: Dict[str, float]) -> Figures:
-        return self.figures_of([constants])[0]
-
-    def figures_of(self, constants: Sequence[Dict[str, float]]) -> List[Figures]:
-        """Of each of several constants: together they take little longer than one, where surfaces are made."""
-        keys = [tuple(sorted(one.items())) for one in constants]
-        missing = {key: one for key, one in zip(keys, constants) if key not in self._known}
-        if missing:
-            with warnings.catch_warnings():
-                if self._known:  # scans and area are the same each time
-                    warnings.simplefilter("ignore", ScanWarning)
-                warnings.simplefilter("ignore", SettingsWarning)
-                found = self._find([Settings(self.settings, **one) for one in missing.values()])
-            self._known.update(zip(missing, found))
-        return [self._known[key] for key in keys]
-
-    def figures_near(self, constants: Dict[str, float]) -> Figures:
-        """For what hardly goes with the constants: of made surfaces those of the nearest that are known."""
-        near = [key for key in self._known if {name for name, _ in key} == set(constants)]
-        if self.area is None or not near:
-            return self.figures(constants)
-        return self._known[min(near, key=lambda key: sum(abs(value - constants[name]) / (abs(value) + abs(constants[name]) or 1.0) for name, value in key))]
-
-    def fingerprint(self) -> str:
-        """SHA-256 of the heights [m] as they are predicted, one after the other."""
-        import hashlib
-
-        digest = hashlib.sha256()
-        for scan in self.scans:
-            digest.update(np.ascontiguousarray(scan.heights, dtype=np.float64).tobytes())
-            digest.update(np.array(scan.pitch, dtype=np.float64).tobytes())
-        return digest.hexdigest()
-
-    def _find(self, settings: List[Settings]) -> List[Figures]:
-        if self.area is None:
-            return [self._of_frame(one) for one in settings]
-        return [_of_device(found) for found in predict_device_under(self.scans, self.area, self.contacts, settings, self.upper)]
-
-    def _of_frame(self, settings: Settings) -> Figures:
-        if self.radius is None:
-            predictor = mems_stiction.Predictor(settings, **FRAME_ALONE)
-            return _of_several([predictor.predict(scan, None, self.upper) for scan in self.scans])
-        predictor = mems_stiction.Predictor(settings, **FRAME_ALONE, **NO_CLEANING)
-        if not self.scans:
-            heights, pitch = _probe_alone(self.radius, settings)
-            return _of_several([predictor.predict(heights, pitch)])
-        return _of_several([predictor.predict(scan, None, probe) for scan in self._cleaned() for probe in _probes_over(scan, self.radius)])
-
-    def _cleaned(self) -> List[Any]:
-        """The scans as their surface is predicted: cleaning would take a probe over them for its tilt and bow."""
-        if self._clean_scans is None:
-            self._clean_scans = [mems_stiction.clean(scan, None, self.settings) for scan in self.scans]
-        return self._clean_scans
-
-
-def _scatter(values: Any) -> float:
-    positive = np.asarray(values)[np.asarray(values) > 0]
-    if len(positive) < 2:
-        return 0.0
-    return float(np.std(np.log(positive), ddof=1) * math.sqrt(1.0 + 1.0 / len(positive)))
-
-
-def _of_device(found: Any) -> Figures:
-    """What the deviations of the device have beyond those of its realisations is common to all places."""
-    force, work = _scatter(found.realisations.pull_off_force), _scatter(found.realisations.apparent_work_of_adhesion)
-    return Figures(found.pull_off_force, found.apparent_work_of_adhesion, force, work, math.sqrt(max(found.force_deviation ** 2 - force ** 2, 0.0)),
-                   math.sqrt(max(found._work_deviation ** 2 - work ** 2, 0.0)))
-
-
-def _of_several(predictions: List[Any]) -> Figures:
-    """The median place, and how places differ."""
-    forces = np.array([prediction.pull_off_force for prediction in predictions])
-    works = np.array([prediction.apparent_work_of_adhesion for prediction in predictions])
-    return Figures(float(np.median(forces)), float(np.median(works)), _scatter(forces), _scatter(works))
-
-
-def _probe_alone(radius: float, settings: Settings) -> Tuple[np.ndarray, float]:
-    """A smooth paraboloid that meets a plane: heights [m], pitch [m]."""
-    stated = values_of(settings)
-    compliance = sum((1.0 - stated[body + "/poisson_ratio"] ** 2) / stated[body + "/youngs_modulus"] for body in ("lower", "upper"))
-    contact_radius = (6.0 * math.pi * stated["interface/work_of_adhesion"] * radius ** 2 * compliance) ** (1.0 / 3.0)
-    half = max(math.sqrt(2.0 * radius * PROBE_DEPTH), PROBE_CONTACTS * contact_radius)
-    x = (np.arange(PROBE_PIXELS) + 0.5) / PROBE_PIXELS * 2.0 * half - half
-    return -(x[:, None] ** 2 + x[None, :] ** 2) / (2.0 * radius), 2.0 * half / PROBE_PIXELS
-
-
-def _probes_over(scan: Any, radius: float) -> List[np.ndarray]:
-    """The probe, as it is mounted, over places of the scan: heights above its lowest point [m]."""
-    rows, cols = scan.heights.shape
-    places = (np.arange(PROBE_PLACES) + 1.0) / (PROBE_PLACES + 1.0)
-    y = (np.arange(rows)[:, None] - places[None, :] * rows) * scan.pitch[1]
-    x = (np.arange(cols)[:, None] - places[None, :] * cols) * scan.pitch[0]
-    return [(y[:, [i]] ** 2 + x[:, j][None, :] ** 2) / (2.0 * radius) for i in range(PROBE_PLACES) for j in range(PROBE_PLACES)]
+    def digest(self, scan: Any) -> str:
+        """Of a scan that surfaces() gave."""
+        if id(scan) not in self.digests:
+            self.digests[id(scan)] = digest_of(scan)
+        return self.digests[id(scan)]
 
 
 def measurements_of(given: Any, config: Any, settings: Dict[str, Any]) -> List[Measurement]:
@@ -204,12 +125,87 @@ def measurements_of(given: Any, config: Any, settings: Dict[str, Any]) -> List[M
     listed = list(given)
     if not listed:
         raise OptionsError("measurements: an empty list is not allowed, must hold one measurement at least")
-    base = Settings(config, **settings)
-    places: Dict[Any, Place] = {}
-    return [_measurement(datum, "measurements[%d]" % place, base, places) for place, datum in enumerate(listed)]
+    reader = _Reader(Settings(config, **settings))
+    data = [_measurement(datum, "measurements[%d]" % place, reader)
+            for place, datum in enumerate(listed)]
+    _settle(data)
+    return data
 
 
-def _measurement(datum: Any, what: str, base: Settings, places: Dict[Any, Place]) -> Measurement:
+def shared_scans(data: Sequence[Measurement]) -> np.ndarray:
+    """Correlation of what the scans leave open of each measurement's surfaces [-].
+
+    Scans that differ are independent, the same scan is common: |A and B|/sqrt(|A| |B|) of the sets.
+    """
+    sets = [set(datum.place.digests) for datum in data]
+    found = np.eye(len(data))
+    for row, one in enumerate(sets):
+        for col, other in enumerate(sets):
+            if one and other:
+                found[row, col] = len(one & other) / math.sqrt(len(one) * len(other))
+    return found
+
+
+def pooled(deviations: Sequence[float], data: Sequence[Measurement]) -> List[float]:
+    """Standard deviations of measurements, each with what those of the other places say of it.
+
+    Few realisations hardly tell how made surfaces scatter. All places where surfaces are made tell it
+    together: the variance of each is averaged with their mean, which counts as OF_OTHERS degrees of
+    freedom.
+    """
+    own: Dict[Any, List[float]] = {}
+    for deviation, datum in zip(deviations, data):
+        own.setdefault((datum.place.is_made, bool(datum.beam)), []).append(deviation ** 2)
+    found = []
+    for deviation, datum in zip(deviations, data):
+        if datum.place.is_made:
+            freedom = datum.place.realisations - 1
+            mean = float(np.mean(own[True, bool(datum.beam)]))
+            total = freedom * deviation ** 2 + OF_OTHERS * mean
+            deviation = math.sqrt(total / (freedom + OF_OTHERS))
+        found.append(deviation)
+    return found
+
+
+def _settle(data: Sequence[Measurement]) -> None:
+    """What a place depends on the other measurements for."""
+    if _differ_too_much(data):
+        for datum in data:
+            if datum.place.is_frame and datum.place.area is not None:
+                datum.place.stand_for_others()
+    places = list({id(datum.place): datum.place for datum in data}.values())
+    made = sum(place.is_made for place in places)
+    for place in places:
+        values = sum(bool(set(datum.place.digests) & set(place.digests)) for datum in data)
+        with _named(next(datum.name for datum in data if datum.place is place)):
+            place.settle(values > 1, made)
+
+
+def _differ_too_much(data: Sequence[Measurement]) -> bool:
+    """Whether values on one scan's area are of several places: they differ by too much.
+
+    The worst value of each place has no say, since one that does not belong is another matter. No
+    constant is needed for this: all values of one place have one expectation.
+    """
+    import scipy.stats
+
+    chi_square, freedom = 0.0, 0
+    for place, kind in {(id(datum.place), datum.kind) for datum in data}:
+        members = [datum for datum in data if (id(datum.place), datum.kind) == (place, kind)]
+        shared = members[0].place
+        if not shared.is_frame or shared.area is None or len(members) < FEWEST_REPEATED:
+            continue
+        logs = np.log([datum.value for datum in members])
+        shares = np.array([datum.uncertainty / datum.value for datum in members])
+        keep = np.argsort(np.abs(logs - np.median(logs)) / shares)[:-1]
+        weights = 1.0 / shares[keep] ** 2
+        mean = float(np.sum(weights * logs[keep]) / np.sum(weights))
+        chi_square += float(np.sum(weights * (logs[keep] - mean) ** 2))
+        freedom += len(keep) - 1
+    return freedom > 0 and float(scipy.stats.chi2.sf(chi_square, freedom)) < FALSE_OTHERS
+
+
+def _measurement(datum: Any, what: str, reader: _Reader) -> Measurement:
     if not isinstance(datum, Mapping):
         raise OptionsError("%s: %r is not allowed, must be a dictionary" % (what, datum))
     kind = datum.get("kind")
@@ -226,7 +222,7 @@ def _measurement(datum: Any, what: str, base: Settings, places: Dict[Any, Place]
         if key not in numbers:
             raise OptionsError("%s/%s: is missing, must be a number > 0" % (what, key))
     return Measurement(str(datum.get("name") or what), kind, numbers["value"], numbers["uncertainty"],
-                       _place(datum, numbers, what, base, places), _beam(datum, numbers, kind))
+                       _place(datum, numbers, what, reader), _beam(datum, numbers, kind))
 
 
 def _number(value: Any, what: str, key: str) -> float:
@@ -252,7 +248,7 @@ def _beam(datum: Mapping, numbers: Dict[str, float], kind: str) -> Tuple[Any, ..
     return beam
 
 
-def _place(datum: Mapping, numbers: Dict[str, float], what: str, base: Settings, places: Dict[Any, Place]) -> Place:
+def _place(datum: Mapping, numbers: Dict[str, float], what: str, reader: _Reader) -> Place:
     scans, upper, pitch = datum.get("scans"), datum.get("upper"), datum.get("pitch")
     radius = numbers.get("radius")
     if scans is None and radius is None:
@@ -260,19 +256,22 @@ def _place(datum: Mapping, numbers: Dict[str, float], what: str, base: Settings,
     if radius is not None and (numbers.get("area") is not None or upper is not None):
         raise OptionsError("%s/radius: is not allowed with area or upper: the probe is the counter-surface" % what)
     contacts = _contacts(datum, "%s/contacts" % what)
-    key = (_identity(scans), _identity(upper), _identity(pitch), numbers.get("area"), contacts, radius,
-           numbers.get("relative_humidity"), numbers.get("mechanical_load"))
-    if key not in places:
-        stated = {"interface/relative_humidity": numbers.get("relative_humidity"), "load/mechanical_load": numbers.get("mechanical_load"),
-                  "counter_surface/facing": "down" if radius is not None and scans is not None else None}
-        with _named(str(datum.get("name") or what)):
-            settings = settings_with(base, {}, {name: value for name, value in stated.items() if value is not None})
-            surfaces = [] if scans is None else _surfaces_of(scans, pitch, settings, "scans")
-            above = None if upper is None else _surfaces_of(upper, pitch, settings, "upper")
-        if above is not None and numbers.get("area") is None:
-            above = above[0]
-        places[key] = Place(surfaces, above, numbers.get("area"), contacts, radius, settings, key[:3])
-    return places[key]
+    stated = {"interface/relative_humidity": numbers.get("relative_humidity"),
+              "load/mechanical_load": numbers.get("mechanical_load"),
+              "counter_surface/facing": "down" if radius is not None and scans is not None else None}
+    area = numbers.get("area")
+    with _named(str(datum.get("name") or what)):
+        given = {name: value for name, value in stated.items() if value is not None}
+        settings, values = reader.settings_with(given)
+        surfaces = [] if scans is None else reader.surfaces(scans, pitch, settings, "scans")
+        above = None if upper is None else reader.surfaces(upper, pitch, settings, "upper")
+        digests = [reader.digest(scan) for scan in surfaces]
+        key = (tuple(digests), tuple(map(reader.digest, above or ())), area, contacts, radius,
+               tuple(given.items()))
+        if key not in reader.places:
+            reader.places[key] = Place(surfaces, above, area, contacts, radius, settings, values,
+                                       digests)
+    return reader.places[key]
 
 
 @contextlib.contextmanager
@@ -300,10 +299,3 @@ def _identity(given: Any) -> Any:
     if isinstance(given, (list, tuple)):
         return tuple(_identity(item) for item in given)
     return given if given is None or isinstance(given, (str, int, float)) else os.fspath(given) if isinstance(given, os.PathLike) else id(given)
-
-
-def _surfaces_of(given: Any, pitch: Any, settings: Settings, what: str) -> List[Any]:
-    """Each read once."""
-    scans = _listed(given, what)
-    names = [what if len(scans) == 1 else "%s[%d]" % (what, place) for place in range(len(scans))]
-    return [mems_stiction.Scan(surface_of(scan, own, settings, name)) for scan, own, name in zip(scans, _pitches_of(pitch, scans), names)]

@@ -21,11 +21,11 @@ except ImportError:
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
-from mems_stiction import calibration_data  # noqa: E402
+from mems_stiction import calibration_places  # noqa: E402
 from mems_stiction._calibration import WORK, _Axis, _Search  # noqa: E402
 from mems_stiction._settings import values_of  # noqa: E402
-from mems_stiction.calibration_data import measurements_of  # noqa: E402
-from mems_stiction.calibration_fit import Likelihood, _of_common  # noqa: E402
+from mems_stiction.calibration_data import measurements_of, pooled, shared_scans  # noqa: E402
+from mems_stiction.calibration_fit import Likelihood  # noqa: E402
 from mems_stiction.calibration_grid import between_nodes  # noqa: E402
 from module_cases import REPOSITORY, rough  # noqa: E402  (the path comes first)
 
@@ -100,17 +100,38 @@ class MadeDataTest(unittest.TestCase):
             random = np.random.RandomState(draw)
             values = np.exp(0.3 * random.standard_normal() + 0.1 * random.standard_normal(3))
             for common in covered:
-                likelihood = Likelihood(values, 1e-3 * values, np.full(3, 0.1), ["force"] * 3, model, [(-3.0, 3.0)], np.full(3, common), np.zeros(3, int))
+                likelihood = Likelihood(values, 1e-3 * values, np.full(3, 0.1), ["force"] * 3, model, [(-3.0, 3.0)], np.full(3, common), np.ones((3, 3)))
                 interval = likelihood.interval(likelihood.fit(), 0)
                 covered[common] += interval.lower < 0.0 < interval.upper
         self.assertLess(covered[0.0], 20)
         self.assertGreaterEqual(covered[0.3], 35)
 
-    def test_the_error_of_shared_surfaces_is_that_of_their_covariance(self):
-        deviations, over = np.array([0.7, -1.2, 0.4]), np.array([0.5, 1.5, 1.0])
-        covariance = np.eye(3) + np.outer(over, over)
-        expected = deviations @ np.linalg.solve(covariance, deviations) + math.log(np.linalg.det(covariance)) - deviations @ deviations
-        self.assertAlmostEqual(_of_common(deviations, over), expected, places=12)
+    def test_the_error_of_shared_scans_is_that_of_their_covariance(self):
+        """Of three measurements the first two rest on one scan, the third on another."""
+        values, common = np.array([0.9, 1.3, 0.7]), np.array([0.2, 0.3, 0.4])
+        shared = np.array([[1.0, 1.0, 0.0], [1.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
+        likelihood = Likelihood(values, 0.1 * values, np.zeros(3), ["force"] * 3, lambda parameters: np.full(3, math.exp(parameters[0])),
+                                [(-3.0, 3.0)], common, shared)
+        covariance = np.diag(np.full(3, 0.1 ** 2)) + shared * np.outer(common, common)
+        for parameter in (0.0, 0.4, -2.0):
+            logs = np.log(values) - parameter + 0.1 ** 2 / 2  # as measured with a normal error
+            expected = logs @ np.linalg.solve(covariance, logs) + math.log(np.linalg.det(covariance))
+            self.assertAlmostEqual(likelihood.deviance(np.array([parameter])), expected, places=9)
+
+    def test_scans_that_differ_leave_errors_of_their_own(self):
+        """Ten parts, each by its own scan, which tells the force of its surface to 40 %: no misfit, and no interval without an end."""
+        covered = 0
+        for draw in range(60):
+            random = np.random.RandomState(draw)
+            values = (1.0 + 0.1 * random.standard_normal(10)) * np.exp(0.4 * random.standard_normal(10))
+            likelihood = Likelihood(values, 0.1 * values, np.zeros(10), ["force"] * 10, lambda parameters: np.full(10, math.exp(parameters[0])),
+                                    [(-5.0, 5.0)], np.full(10, 0.4), np.eye(10))
+            fit = likelihood.fit()
+            interval = likelihood.interval(fit, 0)
+            self.assertLess(fit.chi_square, 30.0)
+            self.assertLess(interval.upper - interval.lower, 0.8)
+            covered += interval.lower < 0.0 < interval.upper
+        self.assertGreaterEqual(covered, 53)
 
     def test_distances_of_a_measurement_count_how_well_the_others_know_it(self):
         """A force among lengths that hardly go with the constant has only the other force to be told from; one on surfaces of its own has their error, too."""
@@ -122,7 +143,7 @@ class MadeDataTest(unittest.TestCase):
                 random = np.random.RandomState(draw)
                 values = (1.0 + shares * random.standard_normal(count)) * np.exp(place * random.standard_normal(count) + common * random.standard_normal(2)[surfaces])
                 likelihood = Likelihood(values, shares * values, np.full(count, place), ["%g" % slope for slope in slopes],
-                                        lambda parameters: np.exp(slopes * parameters[0]), [(-2.0, 2.0)], np.full(count, common), surfaces)
+                                        lambda parameters: np.exp(slopes * parameters[0]), [(-2.0, 2.0)], np.full(count, common), surfaces[:, None] == surfaces)
                 distances.append(likelihood._distance(0, list(range(1, count))))
             self.assertAlmostEqual(float(np.sqrt(np.mean(np.square(distances)))), 1.0, delta=0.15, msg="common error %g" % common)
 
@@ -241,37 +262,112 @@ class KindsTest(unittest.TestCase):
                 self.assertAlmostEqual(found / expected, 1.0, delta=0.25, msg=level)
 
     def test_an_area_is_judged_by_made_surfaces(self):
-        few = {"device_force": {"realisations": 3, "max_cells": 1e4}}
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", mems_stiction.ScanWarning)
-            device = mems_stiction.predict_device(SURFACES, 4e-12, PITCH, interface={"work_of_adhesion": TRUTH}, **few)
-        datum = measured(device.pull_off_force, SURFACES, 0.01, area=4e-12)
-        found = calibrated([datum], **few)
-        self.assertAlmostEqual(found.measurements.fitted[0] / device.pull_off_force, 1.0, delta=0.05)
+        """The mean logarithm of realisations; what the device's deviation has beyond their scatter is common to all such places."""
+        measurement, = checked([measured(1e-7, SURFACES, 0.01, area=4e-12)], FEW)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            measurement, = measurements_of([datum], None, few)
             measurement.prepare([{WORK: TRUTH}])
+            device, = mems_stiction._device.predict_device_under(measurement.place.scans, 4e-12, None, [mems_stiction.Settings(measurement.place._base, **{WORK: TRUTH})])
+        logs = np.log(device.realisations.pull_off_force)
+        self.assertEqual(len(logs), 3)
+        shift = math.log(device.pull_off_force) - np.median(logs)
+        self.assertAlmostEqual(math.log(measurement.expected({WORK: TRUTH})), np.mean(logs) + shift, places=9)
+        self.assertAlmostEqual(measurement.scatter({WORK: TRUTH}), np.std(logs, ddof=1), places=12)
         together = math.hypot(measurement.scatter({WORK: TRUTH}), measurement.common({WORK: TRUTH}))
         self.assertAlmostEqual(together, device.force_deviation, places=12)
         self.assertGreater(measurement.common({WORK: TRUTH}), 0.1)  # the law's own error
 
     def test_several_constants_have_the_forces_of_each_and_their_surfaces_are_made_once(self):
-        few = {"device_force": {"realisations": 3, "max_cells": 1e4}}
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", mems_stiction.SettingsWarning)
-            data = measurements_of([measured(1e-7, SURFACES, area=4e-12)], None, few)
+        data = checked([measured(1e-7, SURFACES, area=4e-12)], FEW)
         constants = [{WORK: 0.01}, {WORK: 0.08}]
         calls = []
-        under = calibration_data.predict_device_under
-        with mock.patch.object(calibration_data, "predict_device_under", side_effect=lambda *given: calls.append(len(given[3])) or under(*given)), \
+        under = calibration_places.predict_device_under
+        with mock.patch.object(calibration_places, "predict_device_under", side_effect=lambda *given: calls.append(len(given[3])) or under(*given)), \
                 warnings.catch_warnings():
             warnings.simplefilter("ignore")
             data[0].prepare(constants)
-            expected = [data[0].expected(one) for one in constants]
-            alone = [mems_stiction.predict_device(SURFACES, 4e-12, PITCH, config=mems_stiction.Settings(few, **one)) for one in constants]
-        self.assertEqual(calls, [2])
-        self.assertEqual(expected, [one.pull_off_force for one in alone])
+            together = [data[0].expected(one) for one in constants]
+            other, = checked([measured(1e-7, SURFACES, area=4e-12)], FEW)
+            alone = [other.expected(one) for one in constants]
+        self.assertEqual(calls, [2, 1, 1])
+        self.assertEqual(together, alone)
+
+
+FEW = {"device_force": {"realisations": 3, "max_cells": 1e4}}
+
+
+def checked(data, settings=None):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", mems_stiction.SettingsWarning)
+        return measurements_of(data, None, settings or {})
+
+
+class PlacesTest(unittest.TestCase):
+    """Which measurements share what, and where the scan is what was measured."""
+
+    SIDE = 96 * PITCH
+
+    def test_a_scan_of_the_measured_area_is_the_place_that_was_measured(self):
+        for area in (None, self.SIDE ** 2, 9.2e-13):  # as stated with two digits
+            place = checked([measured(1e-7, SURFACES[0], area=area)])[0].place
+            self.assertTrue(place.is_frame, msg=area)
+            self.assertEqual(place.figures({WORK: TRUTH}).force, force_of(SURFACES[0]))
+        cropped = {"preprocessing": {"region": {"left": 0.0, "top": 0.0, "width": self.SIDE / 2, "height": self.SIDE}}}
+        self.assertTrue(checked([measured(1e-7, SURFACES[0], area=self.SIDE ** 2 / 2)], cropped)[0].place.is_frame)
+        for others in ({"area": 4 * self.SIDE ** 2}, {"area": self.SIDE ** 2, "contacts": 4}, {"area": self.SIDE ** 2, "scans": SURFACES[:2]}):
+            self.assertTrue(checked([measured(1e-7, SURFACES[0], **others)])[0].place.is_made, msg=others)
+
+    def test_the_same_scan_is_common_and_others_are_independent(self):
+        """Known by its heights: another array or file of the same scan is the same one."""
+        again = np.array(SURFACES[0])
+        data = checked([measured(1e-7, scans, area=4e-12) for scans in (SURFACES[0], again, SURFACES[1], SURFACES[:2])])
+        np.testing.assert_allclose(shared_scans(data), [[1, 1, 0, 0.5 ** 0.5], [1, 1, 0, 0.5 ** 0.5], [0, 0, 1, 0.5 ** 0.5], [0.5 ** 0.5] * 3 + [1]])
+        self.assertIs(data[0].place, data[1].place)
+        self.assertEqual(len({datum.place._seed() for datum in data}), 3)  # chance is no error of all of them
+
+    def test_a_scan_that_several_measurements_rest_on_is_the_place_of_none(self):
+        own, = checked([measured(1e-7, SURFACES[0], area=4e-12)])
+        self.assertTrue(values_of(own.place._base)["device_force/own_long_waves"])
+        for datum in checked([measured(1e-7, SURFACES[0], area=area) for area in (4e-12, 8e-12)]):
+            self.assertFalse(values_of(datum.place._base)["device_force/own_long_waves"])
+
+    def test_values_of_one_scan_that_differ_by_more_than_their_uncertainties_are_of_other_places(self):
+        force = force_of(SURFACES[0])
+
+        def is_made(factors):
+            return checked([measured(factor * force, SURFACES[0], 0.1, area=self.SIDE ** 2) for factor in factors])[0].place.is_made
+
+        self.assertFalse(is_made((0.9, 1.0, 1.1, 0.95, 1.05)))
+        self.assertFalse(is_made((0.9, 1.0, 1.1, 0.95, 2.5)))  # one does not belong
+        self.assertTrue(is_made((0.5, 0.7, 1.0, 1.4, 2.0)))
+
+    def test_many_places_have_fewer_realisations_each_and_tell_their_scatter_together(self):
+        data = checked([measured(1e-7, rough(32, 32, 3e-9, seed), area=1e-12) for seed in range(10)])
+        self.assertEqual({datum.place.realisations for datum in data}, {4})
+        scatters = pooled([0.2] * 9 + [0.8], data)
+        mean = (9 * 0.2 ** 2 + 0.8 ** 2) / 10
+        self.assertAlmostEqual(scatters[9] ** 2, (3 * 0.8 ** 2 + 8 * mean) / 11)
+        self.assertEqual(checked([measured(1e-7, SURFACES[0], area=4e-12)])[0].place.realisations, 8)
+
+
+class OwnScansTest(unittest.TestCase):
+    """Ten forces, each of a frame with its own scan, whose area it is."""
+
+    def test_they_tell_the_work_of_adhesion(self):
+        covered, logs = 0, []
+        for draw in range(4):
+            random = np.random.RandomState(draw)
+            truth, rms_height = 0.02 * 7.5 ** random.uniform(), 1e-9 * 4.0 ** random.uniform()
+            data = []
+            for place in range(10):
+                heights = rough(128, 128, rms_height, 100 * draw + place)
+                value = force_of(heights, work_of_adhesion=truth) * (1.0 + 0.15 * random.standard_normal())
+                data.append(measured(value, heights, 0.15, area=(128 * PITCH) ** 2))
+            found = calibrated(data)
+            covered += found.work_of_adhesion_lower < truth < found.work_of_adhesion_upper
+            logs.append(math.log(found.work_of_adhesion / truth))
+        self.assertGreaterEqual(covered, 3)  # of 4: a sound interval misses two of them in 1.4 % of cases
+        self.assertAlmostEqual(float(np.mean(logs)), 0.0, delta=0.1)
 
 
 class DocumentTest(unittest.TestCase):
