@@ -94,11 +94,17 @@ class Calibration(ReadOnly):
     def yaml(self) -> str:
         """The settings with these constants, as every program takes them, with what they come from in comments.
 
-        Raises OptionsError where the measurements do not tell the work of adhesion.
+        What the measurements do not tell stays as configured. Raises OptionsError where they tell nothing.
         """
-        if math.isnan(self.work_of_adhesion):
+        if not self.is_told:
             raise OptionsError("calibration: %s; there is nothing to configure" % self.statements[0])
         return "".join("# %s\n" % line for line in self._provenance()) + self.settings.yaml()
+
+    @property
+    def is_told(self) -> bool:
+        """Whether the measurements tell one constant at least."""
+        lower_ends = self.work_of_adhesion_lower, self.hamaker_constant_lower, self.contact_angle_lower
+        return not all(math.isnan(end) for end in lower_ends)
 
     def _provenance(self) -> List[str]:
         lines = ["Calibrated by mems_stiction %s: work of adhesion %s" % (self.version, self._work_text())]
@@ -110,6 +116,8 @@ class Calibration(ReadOnly):
         return lines
 
     def _work_text(self) -> str:
+        if math.isnan(self.work_of_adhesion):
+            return "not known"
         return with_interval(self.work_of_adhesion, self.work_of_adhesion_lower, self.work_of_adhesion_upper, "J/m^2")
 
     def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
@@ -130,7 +138,7 @@ class Calibration(ReadOnly):
 
     def __repr__(self) -> str:
         lines = ["Calibration by %d measurements: work of adhesion %s" % (
-            len(self.measurements), "not known" if math.isnan(self.work_of_adhesion) else self._work_text())]
+            len(self.measurements), self._work_text())]
         lines += ["  " + statement for statement in self.statements]
         for row in self.measurements:
             lines.append("  %s: %s %s, fitted %s, %+.1f standard deviations%s" % (
@@ -406,7 +414,11 @@ def _calibration(data: List[Measurement], base: Settings, values: Dict[str, Any]
     if not found.axes[0].tells(found.intervals[0]):
         statements[:0] = [_open_end(found)] + _of_units(data, found)
         figures.update(work_of_adhesion=math.nan, work_of_adhesion_lower=math.nan, work_of_adhesion_upper=math.nan)
-        constants = {}
+        constants = {name: value for name, value in constants.items()
+                     if not name.endswith("/work_of_adhesion")}
+        if constants:
+            configured = with_unit(found.axes[0].configured, "J/m^2")
+            statements.insert(1, "the work of adhesion stays at %s as configured" % configured)
     rows = [(datum.name, datum.kind, datum.value, datum.uncertainty, float(value), float(deviation), place in found.outliers)
             for place, (datum, value, deviation) in enumerate(zip(data, found.whole.model(fit.parameters), found.deviations()))]
     table = np.rec.fromrecords(rows, dtype=[("name", object), ("kind", object), ("value", float), ("uncertainty", float), ("fitted", float),

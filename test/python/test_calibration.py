@@ -174,6 +174,25 @@ class MadeDataTest(unittest.TestCase):
         self.assertRegex(found.statements[-1], r"^the liquid's angle of contact is 0\.[67][0-9]* rad \(0\.[0-9]+ to [0-9.]+\)$")
         self.assertAlmostEqual(found.work_of_adhesion / TRUTH, 1.0, delta=0.1)
 
+    def test_the_hamaker_constant_alone(self):
+        """Works of rough surfaces that hardly stick go by it: it is told, and the work of adhesion stays as configured."""
+        surfaces = [rough(96, 96, 10e-9, seed) for seed in range(4)]
+        data = []
+        for heights in surfaces:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                work = mems_stiction.predict(heights, PITCH, interface={"work_of_adhesion": 1e-3, "hamaker_constant": 3e-20}).apparent_work_of_adhesion
+            data.append({"kind": "apparent_work_of_adhesion", "value": work, "uncertainty": 0.1 * work, "scans": heights, "pitch": PITCH})
+        found = calibrated(data)
+        self.assertTrue(math.isnan(found.work_of_adhesion))
+        self.assertAlmostEqual(found.hamaker_constant / 3e-20, 1.0, delta=0.1)
+        self.assertIn("the work of adhesion stays at 50.0 mJ/m^2 as configured", found.statements)
+        configured = values_of(found.settings)
+        self.assertEqual(configured["interface/hamaker_constant"], found.hamaker_constant)
+        self.assertLess(configured["uncertainty/hamaker_constant"], 0.5)
+        self.assertEqual(configured["interface/work_of_adhesion"], 0.05)
+        self.assertIn("work of adhesion not known", found.yaml())
+
     def test_forces_that_no_work_of_adhesion_explains_end_in_a_sentence(self):
         found = calibrated([measured(1e5 * force_of(SURFACES[0]), SURFACES[0])])
         self.assertTrue(math.isnan(found.work_of_adhesion))
