@@ -1,6 +1,8 @@
 #include "ros/counter_surface_frame.hpp"
 
 #include <cmath>
+#include <sstream>
+#include <stdexcept>
 #include <utility>
 
 #include <tf2/LinearMath/Matrix3x3.h>
@@ -49,12 +51,21 @@ SurfacePose CounterSurfaceFrame::poseAt(const std_msgs::Header& header) const {
   if (header.stamp.isZero()) {
     throw SurfaceError("the scan has no stamp, so there is no transform to counter_surface/frame " + frame_);
   }
+  const std::string missing = "no transform from the scan's frame '" + header.frame_id + "' to counter_surface/frame " +
+                              frame_ + " at the scan's stamp";
+  geometry_msgs::TransformStamped found;
   try {
-    return poseOf(buffer_.lookupTransform(header.frame_id, frame_, header.stamp).transform);
+    found = buffer_.lookupTransform(header.frame_id, frame_, header.stamp);
   } catch (const tf2::TransformException& error) {
-    throw NoTransform("no transform from the scan's frame '" + header.frame_id + "' to counter_surface/frame " +
-                      frame_ + " at the scan's stamp: " + error.what());
+    throw NoTransform(missing + ": " + error.what());
+  } catch (const std::runtime_error& error) {
+    // ros::Time refuses differences beyond 2^31 s and sums beyond 2^32 s.
+    std::ostringstream stamp;
+    stamp << header.stamp;
+    throw SurfaceError(missing + " " + stamp.str() +
+                       " s, which lies too far from those of the transforms: " + error.what());
   }
+  return poseOf(found.transform);
 }
 
 }  // namespace mems_stiction

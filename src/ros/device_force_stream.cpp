@@ -6,6 +6,7 @@
 #include <diagnostic_msgs/DiagnosticStatus.h>
 
 #include "device/device_evidence.hpp"
+#include "errors/error_text.hpp"
 #include "errors/short_number.hpp"
 #include "evaluation/frame_load.hpp"
 #include "ros/background_thread.hpp"
@@ -168,6 +169,8 @@ void DeviceForceStream::loop() {
       work(*task, *part);
     } catch (const Stopped&) {
       return;
+    } catch (const std::exception& error) {  // of the publisher: the next part must get its turn
+      warn_(task->scan.header, "device_force: " + reasonOf(error));
     }
   }
 }

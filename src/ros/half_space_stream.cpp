@@ -6,6 +6,7 @@
 #include <diagnostic_msgs/DiagnosticStatus.h>
 #include <sensor_msgs/Image.h>
 
+#include "errors/error_text.hpp"
 #include "evaluation/frame_load.hpp"
 #include "mems_stiction/evaluation/half_space_scan.hpp"
 #include "ros/background_thread.hpp"
@@ -92,7 +93,11 @@ void HalfSpaceStream::loop() {
       task = std::move(waiting_.back());
       waiting_.pop_back();
     }
-    solve(*task);
+    try {
+      solve(*task);
+    } catch (const std::exception& error) {  // of the publishers: the next scan must get its turn
+      warn_(task->predicted.header, "half-space: " + reasonOf(error));
+    }
   }
 }
 

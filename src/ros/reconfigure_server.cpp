@@ -1,6 +1,7 @@
 #include "ros/reconfigure_server.hpp"
 
 #include <algorithm>
+#include <exception>
 #include <future>
 #include <sstream>
 #include <string>
@@ -8,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "errors/error_text.hpp"
 #include "errors/one_line.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "numeric/words.hpp"
@@ -180,6 +182,9 @@ void ReconfigureServer::take(ShownConfig& config) {
     config = configOf(settings_.current());
   } catch (const std::future_error&) {
     config = configOf(settings_.current());  // the node is shutting down
+  } catch (const std::exception& error) {    // such as memory that is not to be had: show what is set
+    logSoon(ros::console::levels::Error, "reconfigure failed: " + oneLine(reasonOf(error)));
+    config = configOf(settings_.current());
   }
 }
 

@@ -133,7 +133,7 @@ void StictionServer::changeLoad(const std::function<void(LoadOptions&)>& set, Re
 std::optional<PredictedScan> StictionServer::lastScanOrNothing() {
   try {
     return predictor_.predictLastScan();
-  } catch (const Error&) {
+  } catch (const std::exception&) {  // memory that is not to be had, too: the settings are set all the same
     return std::nullopt;
   }
 }
@@ -141,7 +141,7 @@ std::optional<PredictedScan> StictionServer::lastScanOrNothing() {
 std::optional<LoadFigures> StictionServer::lastFiguresOrNothing() {
   try {
     return predictor_.lastFigures();
-  } catch (const Error&) {
+  } catch (const std::exception&) {
     return std::nullopt;
   }
 }

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "mems_stiction/errors/errors.hpp"
+#include "errors/error_text.hpp"
 #include "ros/counter_surface_frame.hpp"
 
 namespace mems_stiction {
@@ -36,8 +36,8 @@ void TransformGate::poll(ros::WallTime now) {
     } catch (const NoTransform& error) {
       if (now - first.since < timeout_) return;
       reason = error.what();
-    } catch (const SurfaceError& error) {
-      reason = error.what();
+    } catch (const std::exception& error) {  // whatever it is, the next in line must get its turn
+      reason = reasonOf(error);
     }
     const Waiting done = line_.pop();
     if (reason.empty()) {

@@ -18,7 +18,7 @@ namespace mems_stiction {
 /// Holds scans back, in order, until their transforms are there.
 class TransformGate {
  public:
-  /// @throw NoTransform while there is none, SurfaceError if there will be none.
+  /// @throw NoTransform while there is none; anything else if there will be none.
   using Lookup = std::function<SurfacePose(const std_msgs::Header&)>;
   using Accept = std::function<void(const SurfacePose&)>;
   using Reject = std::function<void(const std::string& reason)>;

@@ -4,13 +4,27 @@
 
 #include <algorithm>
 #include <chrono>
+#include <exception>
 #include <vector>
+
+#include "errors/error_text.hpp"
+#include "errors/one_line.hpp"
+#include "ros/own_log.hpp"
 
 namespace mems_stiction {
 namespace {
 
 /// The allocator keeps what was freed for later; worth asking back after so many bytes.
 constexpr std::size_t kLargeBacklog = 64 << 20;
+
+/// What a job throws must not end the process, nor the jobs behind it. Calls hand what they throw to their callers.
+void runGuarded(const std::function<void()>& run) {
+  try {
+    run();
+  } catch (const std::exception& error) {
+    logSoon(ros::console::levels::Error, "a job of the worker is given up: " + oneLine(reasonOf(error)));
+  }
+}
 
 }  // namespace
 
@@ -107,7 +121,7 @@ void WorkQueue::loop() {
       }
     }
     const Clock::time_point start = Clock::now();
-    run();
+    runGuarded(run);
     run = nullptr;  // and with it the scan
     giveMemoryBack();
     const Clock::duration taken = Clock::now() - start;

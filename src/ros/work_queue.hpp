@@ -37,7 +37,7 @@ class WorkQueue {
   void pushScan(std::function<void()> run, std::function<void()> drop, std::size_t bytes = 0);
   /// The same for a counter-surface, which goes only for a newer one, once no scan stands between the two.
   void pushCounterSurface(std::function<void()> run, std::function<void()> drop, std::size_t bytes);
-  /// Appends a job that is never dropped and keeps its place among the scans.
+  /// Appends a job that is never dropped and keeps its place among the scans. What a job throws goes to the log.
   void push(std::function<void()> run);
 
   /// Runs `function` on the worker before the scans that wait, once these have had as much time as the call before it,

@@ -1,4 +1,6 @@
 #include <cmath>
+#include <cstdint>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -70,11 +72,11 @@ class TransformGateTest : public testing::Test {
     std_msgs::Header header;
     header.stamp = ros::Time(stamp);
     gate_.add(
-        header, [this, stamp](const SurfacePose&) { log_.push_back("accept " + std::to_string(int(stamp))); },
+        header, [this, stamp](const SurfacePose&) { log_.push_back("accept " + std::to_string(std::int64_t(stamp))); },
         [this, stamp](const std::string& reason) {
-          log_.push_back("reject " + std::to_string(int(stamp)) + " " + reason);
+          log_.push_back("reject " + std::to_string(std::int64_t(stamp)) + " " + reason);
         },
-        dropping(std::to_string(int(stamp))), bytes, now_);
+        dropping(std::to_string(std::int64_t(stamp))), bytes, now_);
   }
   void addCounterSurface(const std::string& name, std::size_t bytes = 0) {
     gate_.addCounterSurface([this, name] { log_.push_back(name); }, dropping(name), bytes, now_);
@@ -87,12 +89,15 @@ class TransformGateTest : public testing::Test {
     gate_.poll(now_);
   }
 
+  static constexpr std::uint32_t kWild = 4294967295U;
+
   double known_until_ = 0.0;
   ros::WallTime now_{100.0};
   std::vector<std::string> log_;
   TransformGate gate_{ros::WallDuration(1.0),
                       [this](const std_msgs::Header& header) {
                         if (header.stamp.toSec() < 0.5) throw SurfaceError("never");
+                        if (header.stamp.sec == kWild) throw std::runtime_error("Duration is out of range");
                         if (header.stamp.toSec() > known_until_) throw NoTransform("not yet");
                         return SurfacePose();
                       },
@@ -145,6 +150,15 @@ TEST_F(TransformGateTest, OfCounterSurfacesWithoutAScanBetweenThemTheNewestIsEno
 TEST_F(TransformGateTest, WhatCanNeverPassIsRejectedAtOnce) {
   add(0.0);
   EXPECT_EQ(log_, (std::vector<std::string>{"reject 0 never"}));
+}
+
+TEST_F(TransformGateTest, WhateverTheLookupThrowsTheNextInLineGetsItsTurn) {
+  add(5.0);
+  add(kWild);
+  add(6.0);
+  known_until_ = 6.0;
+  wait(0.1);
+  EXPECT_EQ(log_, (std::vector<std::string>{"accept 5", "reject 4294967295 Duration is out of range", "accept 6"}));
 }
 
 }  // namespace

@@ -204,6 +204,37 @@ class TransformTest(unittest.TestCase):
                 self.assertEqual(unlike(prediction, predict_scan(surface, 1e-6, counter=counter), ["settings_hash"]), [])
             counts.wait(counter_surfaces=2, waiting_for_transform=0, received=3, predicted=3)
 
+    def test_8_a_wild_stamp_is_rejected_and_blocks_no_later_scan(self):
+        surface = rough_surface(10)
+        with OwnNode("wild", **{"counter_surface/type": "gaussian", "counter_surface/frame": "wild", "counter_surface/transform_timeout": 20.0}):
+            counts = Counts("wild/node")
+            self.wait_until_moved("/wild/node")
+            predictions = Collector("/wild/prediction", StictionPrediction).connect()
+            station = Station("/wild/")
+
+            def place(second):
+                self.moving.publish(TFMessage([transform("scan", "wild", rospy.Time(second), 0.0, 0.0, (0.0, 0.0, 0.0, 1.0))]))
+
+            for second in (5001, 5003):
+                place(second)
+            station.send(surface, rospy.Time(5002))
+            predictions.wait(1)
+            beyond = rospy.Time(5003 + 2**31)  # tf2 cannot subtract the two
+            station.send(surface, beyond)
+            station.send(surface, rospy.Time(5003))
+            self.assertEqual(predictions.wait(2)[1].header.stamp, rospy.Time(5003))
+            counts.wait(received=3, predicted=2, rejected=1, waiting_for_transform=0)
+            self.assertIn("too far from those of the transforms", counts["last_reason"])
+            called = rospy.ServiceProxy("/wild/node/predict", Predict)(image_message(surface, beyond), info_message(beyond), 0.0, 1e-6)
+            self.assertFalse(called.success)
+            self.assertIn("too far from those of the transforms", called.message)
+            # a clock that is as far off states transforms, too
+            for second in (2**32 - 5, 2**32 - 1):
+                place(second)
+            station.send(surface, rospy.Time(2**32 - 3))
+            station.send(surface, rospy.Time(5004))
+            counts.wait(received=5, predicted=2, rejected=3, waiting=0)  # the last once its time is up: tf has forgotten its place
+
 
 if __name__ == "__main__":
     rostest.rosrun("mems_stiction", "transform", TransformTest)

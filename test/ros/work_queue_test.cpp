@@ -6,6 +6,7 @@
 #include <fstream>
 #include <functional>
 #include <memory>
+#include <new>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -37,6 +38,17 @@ TEST(WorkQueue, RunsScansInOrderAndCallsBeforeThem) {
   ASSERT_FALSE(ran.empty());
   EXPECT_EQ(ran.front(), 100);
   for (std::size_t i = 1; i < ran.size(); ++i) EXPECT_EQ(ran[i], static_cast<int>(i) - 1);
+}
+
+TEST(WorkQueue, AJobThatThrowsEndsNeitherTheProcessNorTheJobsBehindIt) {
+  std::promise<void> all_done;
+  WorkQueue queue(0);
+  queue.push([] { throw std::runtime_error("a publisher failed"); });
+  queue.pushScan([] { throw std::bad_alloc(); }, [] {});
+  queue.push([&all_done] { all_done.set_value(); });
+  queue.start();
+  EXPECT_EQ(all_done.get_future().wait_for(std::chrono::seconds(60)), std::future_status::ready);
+  EXPECT_THROW(queue.call([]() -> int { throw std::runtime_error("for the caller"); }), std::runtime_error);
 }
 
 TEST(WorkQueue, DropsTheOldestScansAndNothingElse) {
