@@ -7,6 +7,9 @@ import subprocess
 import tempfile
 import unittest
 
+import roslaunch.config
+from roslaunch.node_args import create_local_process_args
+
 LAUNCH = pathlib.Path(__file__).resolve().parents[2] / "launch"
 
 
@@ -15,10 +18,17 @@ def nodes(path, *arguments):
                           universal_newlines=True, timeout=300)
 
 
+def command(file, node, *arguments):
+    """What roslaunch starts a node by, as a list of words."""
+    loaded = roslaunch.config.load_config_default([(str(LAUNCH / file), list(arguments))], None, verbose=False)
+    found = next(one for one in loaded.nodes if one.name == node)
+    return create_local_process_args(found, loaded.machines[found.machine_name or ""])
+
+
 class LaunchTest(unittest.TestCase):
     def test_a_misspelt_argument_is_refused_by_its_name(self):
         for path in sorted(LAUNCH.glob("*.launch")):
-            needed = ["bag:=scans.bag"] if path.name == "demo.launch" else []
+            needed = ["bag:=" + __file__] if path.name == "demo.launch" else []
             self.assertIn("/", nodes(path, *needed).stdout)
             done = nodes(path, "confg:=device.yaml", *needed)
             self.assertNotEqual(done.returncode, 0, path)
@@ -30,6 +40,26 @@ class LaunchTest(unittest.TestCase):
             declared = set(re.findall(r'<arg name="(\w+)"(?: default=| doc=)', text))
             (known,) = re.findall(r"name not in \(([^)]*)\)", text)
             self.assertEqual(set(re.findall(r"'(\w+)'", known)), declared, path)
+
+    def test_names_with_blanks_quotes_and_umlauts_reach_the_programs_whole(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for name in ("my scans.bag", "Jürgens 'Proben'.bag", 'a "b" c.bag', "back\\slash.bag"):
+                path = os.path.join(folder, name)
+                pathlib.Path(path).touch()
+                self.assertEqual(command("demo.launch", "replay", "bag:=" + path)[-2], path)
+                self.assertEqual(command("view.launch", "stiction_trend", "trend_file:=" + path)[3:5], ["--output", path])
+                self.assertEqual(command("view.launch", "stiction_view", "rviz_config:=" + path)[2], path)
+        self.assertNotIn("--output", command("view.launch", "stiction_trend"))
+
+    def test_a_bag_that_is_not_there_is_refused_at_once(self):
+        with tempfile.TemporaryDirectory() as folder:
+            done = nodes(LAUNCH / "demo.launch", "bag:=%s/no such.bag" % folder)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn("no such.bag", done.stdout + done.stderr)
+            pathlib.Path(folder, "there.bag").touch()
+            done = subprocess.run(["roslaunch", "--nodes", str(LAUNCH / "demo.launch"), "bag:=there.bag"], cwd=folder, timeout=300,
+                                  env=dict(os.environ, PWD=folder), stdout=subprocess.DEVNULL)
+            self.assertEqual(done.returncode, 0)
 
     def test_names_of_ros_itself_pass(self):
         self.assertIn("/afm/stiction_node", nodes(LAUNCH / "stiction.launch", "__ns:=afm").stdout)
