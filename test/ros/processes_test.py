@@ -186,6 +186,7 @@ class ProcessesTest(unittest.TestCase):
                                      env=dict(os.environ, ROS_NAMESPACE="/named"))
             try:
                 self.assertEqual(node.process.wait(timeout=TIMEOUT), 0)
+                rospy.wait_for_service("/named/node/get_load", TIMEOUT)
                 wait_until(lambda: rospy.ServiceProxy("/named/node/get_load", GetLoad)().mechanical_load == LOAD, "the other node")
             finally:
                 other.terminate()

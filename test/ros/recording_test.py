@@ -54,6 +54,7 @@ class RecordingTest(unittest.TestCase):
         rospy.sleep(1.5)  # diagnostics come once a second
         recorder.send_signal(signal.SIGINT)
         recorder.wait(TIMEOUT)
+        wait_until(path.exists, "the bag under its own name")  # the recorder behind rosbag closes it
         return predictions.messages
 
     @unittest.skipIf(importlib.util.find_spec("mcap_ros2") is None, "not installed: mcap_ros2")
