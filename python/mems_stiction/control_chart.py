@@ -10,9 +10,11 @@ drift widens them, and with few values they are themselves uncertain (by a fifth
 """
 
 import math
+import sys
 
 FACTOR = 3.0 / 1.128  # 3 sigma over d2, the mean range of two values of a normal distribution in sigmas
 ROUND_OFF = 1e-12  # of logarithm and exponential, with room
+LARGEST = math.log(sys.float_info.max)  # logarithm of a limit that is a number
 FEWEST = 8  # values: below, the moving range is known to a third at best
 
 
@@ -42,4 +44,4 @@ def control_limits(values):
     ranges = [abs(after - before) for before, after in zip(logarithms, logarithms[1:])]
     mean = sum(logarithms) / len(logarithms)
     reach = FACTOR * sum(ranges) / len(ranges)
-    return ControlLimits(math.exp(mean), math.exp(mean - reach), math.exp(mean + reach))
+    return ControlLimits(*(math.exp(min(logarithm, LARGEST)) for logarithm in (mean, mean - reach, mean + reach)))

@@ -12,6 +12,7 @@ from sensor_msgs.msg import Image
 
 LOOK_PERIOD = 1.0  # [s]
 MAPS = ("height", "contacts")
+SMALLEST_PITCH, LARGEST_PITCH = 1e-12, 1e-3  # of a size that is shown [m]
 MAP_BUFFER = 2**28  # bytes: the newest map alone is kept
 
 
@@ -95,7 +96,8 @@ class PageListener:
         pitch = self._infos.get(stamp, (0.0, 0.0))
         if min(pitch) <= 0:
             pitch = [rospy.get_param_cached(self._node + "/scan/pitch_" + axis, 0.0) for axis in "xy"]
-        return (image.width * pitch[0], image.height * pitch[1]) if min(pitch) > 0 else None
+        is_known = all(isinstance(one, (int, float)) and SMALLEST_PITCH <= one <= LARGEST_PITCH for one in pitch)
+        return (image.width * pitch[0], image.height * pitch[1]) if is_known else None
 
     def _on_device(self, device):
         self._state.add_device(device.header.stamp.to_nsec(), device)

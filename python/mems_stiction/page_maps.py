@@ -17,6 +17,13 @@ NOT_MEASURED = (0x6d, 0x4a, 0x6d)
 REGIME_COLOURS = ((0, 0, 0), (0x2f, 0x9b, 0xff), (0xff, 0xd2, 0x3f), (0xff, 0x4d, 0x4d))  # apart, elastic, elasto-plastic, plastic
 
 
+def require_map(name, message):
+    """Raises ValueError where an image message is no map of this name ("height", "contacts")."""
+    pixels(message)
+    if name == "contacts" and message.encoding not in ("mono8", "8UC1"):
+        raise ValueError("encoding '%s' is not allowed for contacts, must be mono8" % message.encoding)
+
+
 def png_of(shown, palette, transparent=None):
     """A PNG of indices into a palette of (red, green, blue)."""
     image = Image.fromarray(np.ascontiguousarray(shown, dtype=np.uint8), mode="P")
@@ -38,7 +45,9 @@ def height_range(message):
 
 def mean_height(message):
     """Of what was measured [m]; heights are told above it."""
-    return float(np.nanmean(pixels(message), dtype=float))
+    heights = pixels(message)
+    measured = heights[np.isfinite(heights)]
+    return float(np.mean(measured, dtype=float)) if measured.size else math.nan
 
 
 def height_png(message, longest=LONGEST, quarters=0):
@@ -50,6 +59,7 @@ def height_png(message, longest=LONGEST, quarters=0):
     heights = thinned(pixels(message), longest)
     is_measured = np.isfinite(heights)
     shares = (np.where(is_measured, heights, 0.0) - mean_height(message) - low) / ((high - low) or 1.0) if is_measured.any() else np.zeros(heights.shape)
+    shares = np.nan_to_num(shares)
     return png_of(np.rot90(np.where(is_measured, 1 + np.rint(254 * np.clip(shares, 0, 1)), 0), -quarters), [NOT_MEASURED] + colours)
 
 

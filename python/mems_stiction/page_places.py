@@ -6,13 +6,14 @@ from mems_stiction.page_words import NO_EQUILIBRIUM, VERDICTS
 
 MOST_WAFERS = 12
 MOST_PLACES = 500  # of each wafer
+LARGEST_WAFER = 10.0  # [m]: a site beyond is none
 NAMES = ("lot_id", "wafer_id", "part_id", "serial_id")
 FORCES = ("margin", "peel_number", "device_pull_off_force", "pull_off_force")
 COLUMNS = NAMES + FORCES + ("settings_hash", "scan_name", "site_x", "site_y", "rms_height")
 
 
 def has_site(row):
-    return math.isfinite(row["site_x"]) and math.isfinite(row["site_y"])
+    return abs(row["site_x"]) <= LARGEST_WAFER and abs(row["site_y"]) <= LARGEST_WAFER
 
 
 class Wafers:

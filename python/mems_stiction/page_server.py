@@ -9,6 +9,7 @@ import errno
 import io
 import ipaddress
 import json
+import logging
 import pathlib
 
 import tornado.httpserver
@@ -18,6 +19,7 @@ import tornado.web
 import tornado.websocket
 
 from mems_stiction.page_maps import LONGEST, LONGEST_ZOOMED, contact_png, height_png, height_range, measured_at, rings
+from mems_stiction.page_words import all_finite
 from mems_stiction.row_table import write_csv
 
 FOLDER = pathlib.Path(__file__).resolve().parent / "page"
@@ -76,8 +78,11 @@ class _Picture(_InTime, tornado.web.RequestHandler):
             raise tornado.web.HTTPError(404)
         longest = LONGEST_ZOOMED if "zoomed" in self.request.arguments else LONGEST
         quarters = 1 if "turned" in self.request.arguments else 0
+        picture = self.application.settings["drawn"].get("%s %d %d" % (name, longest, quarters), *found, lambda image: PICTURES[name](image, longest, quarters))
+        if picture is None:
+            raise tornado.web.HTTPError(404)
         self.set_header("Content-Type", "image/png")
-        self.write(self.application.settings["drawn"].get("%s %d %d" % (name, longest, quarters), *found, lambda image: PICTURES[name](image, longest, quarters)))
+        self.write(picture)
 
 
 class _Measured(_InTime, tornado.web.RequestHandler):
@@ -94,7 +99,7 @@ class _Measured(_InTime, tornado.web.RequestHandler):
         found = state.map_of("height")
         if found is None or str(found[0]) != self.get_argument("id", ""):  # a newer scan has come
             raise tornado.web.HTTPError(404)
-        self.write(measured_at(found[1], state.size_of("height"), places))
+        self.write(all_finite(measured_at(found[1], state.size_of("height"), places)))
 
 
 class _Wafers(_InTime, tornado.web.RequestHandler):
@@ -106,7 +111,10 @@ class _Wafers(_InTime, tornado.web.RequestHandler):
         except ImportError:
             raise tornado.web.HTTPError(501)
         settings = self.application.settings
-        self.write(await asyncio.get_running_loop().run_in_executor(None, settings["drawn"].get, "wafers", None, settings["state"].wafers(), told))
+        answer = await asyncio.get_running_loop().run_in_executor(None, settings["drawn"].get, "wafers", None, settings["state"].wafers(), told)
+        if answer is None:
+            raise tornado.web.HTTPError(500)
+        self.write(answer)
 
 
 class _Rows(_InTime, tornado.web.RequestHandler):
@@ -133,8 +141,14 @@ class _Drawn:
         self._cached = {}
 
     def get(self, name, stamp, image, make):
+        """None where it cannot be made, which is said once."""
         if self._cached.get(name, (None,))[0] is not image:
-            self._cached[name] = (image, make(image))
+            try:
+                made = make(image)
+            except Exception:
+                logging.getLogger("tornado.application").exception("%s cannot be drawn", name)
+                made = None
+            self._cached[name] = (image, made)
         return self._cached[name][1]
 
 
@@ -154,11 +168,11 @@ class _StateSocket(_Guarded, tornado.websocket.WebSocketHandler):
         self._seen = snapshot["version"]
         found = state.map_of("contacts")
         snapshot["stale_after"] = self.application.settings["stale_after"] or snapshot["stale_after"]
-        snapshot["rings"] = self.application.settings["drawn"].get("rings", *found, rings) if found else []
+        snapshot["rings"] = found and self.application.settings["drawn"].get("rings", *found, rings) or []
         found = state.map_of("height")
         snapshot["height_range"] = self.application.settings["drawn"].get("range", *found, height_range) if found else None
         try:
-            await self.write_message(json.dumps(snapshot, allow_nan=False))
+            await self.write_message(json.dumps(all_finite(snapshot), allow_nan=False))
         except (tornado.websocket.WebSocketClosedError, tornado.iostream.StreamClosedError):
             pass
 

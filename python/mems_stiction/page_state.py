@@ -10,9 +10,10 @@ import threading
 import time
 
 from mems_stiction.control_chart import control_limits, of_newest_settings
+from mems_stiction.page_maps import require_map
 from mems_stiction.page_places import Wafers
 from mems_stiction.page_words import (NO_EQUILIBRIUM, curve_of, device_of, all_finite, diagnostics_of, figures_of, finite, flags_of, half_space_of, judged_by, part_of,
-                                      ratio_of, sentence, trace_of, verdict_of, with_unit)
+                                      ratio_of, sentence, thinned_points, trace_of, verdict_of, with_unit)
 from mems_stiction.provenance import provenance_words
 from mems_stiction.message_rows import flattened
 from mems_stiction.prediction_text import contact_area_of
@@ -23,6 +24,8 @@ from mems_stiction.sweep_jumps import jumps_of
 MOST_SCANS = 300  # of the trend
 MOST_LOSSES = 50  # with their reasons
 MOST_PARTS = 100  # whose newest verdicts are kept, as many as the node keeps
+MOST_DIAGNOSTICS = 30  # statuses of the node, by their names
+MOST_POINTS = 20000  # of a sweep or of cycles: more are beyond any that was seen, and keep browsers busy
 MOST_PERIODS = 9  # between scans, by which their rate is known
 STALE_UNTIL_KNOWN = 30.0  # without a scan for so long, what is shown is old, while the scans' rate is not known [s]
 STALE_PERIODS, SHORTEST_STALE = 3.0, 5.0  # so many usual periods, and at least so long [s]
@@ -33,6 +36,18 @@ def stamp_of_reason(reason):
     """"rejected the scan of stamp 1001.500000000: ..." -> 1001500000000 [ns]; None where there is no stamp."""
     match = re.search(r"of stamp (\d+)\.(\d{9}):", reason)
     return int(match.group(1)) * 10**9 + int(match.group(2)) if match else None
+
+
+def count_of(text):
+    """A number of scans as diagnostics tell it; None for anything else."""
+    return int(text) if re.fullmatch(r"[0-9]{1,18}", text) else None
+
+
+def _told_of(prediction):
+    """What the page says of a prediction, whatever comes after it."""
+    return {"name": prediction.scan_name or prediction.header.frame_id, "verdict": verdict_of(prediction), "ratio": ratio_of(prediction),
+            "flags": flags_of(prediction), "warnings": list(prediction.warnings), "figures": figures_of(prediction), "trace": trace_of(prediction),
+            "origin": provenance_words(prediction), "curve": curve_of(prediction), "preprocessing": list(prediction.preprocessing)}
 
 
 def _jumps_of(result):
@@ -57,7 +72,8 @@ class PageState:
         self._node_losses = None  # as the node counts them
         self._trend = collections.deque(maxlen=MOST_SCANS)
         self._losses = collections.deque(maxlen=MOST_LOSSES)
-        self._latest = None  # (number, stamp, prediction)
+        self._latest = None  # (number, stamp, prediction, what the page says of it)
+        self._broken = {}  # part of the page: why it cannot be shown
         self._loss_is_newest = False
         self._heard = None  # when the last scan was predicted
         self._periods = collections.deque(maxlen=MOST_PERIODS)  # between predictions [s]
@@ -67,6 +83,7 @@ class PageState:
         self._parts = {}  # newest last: (part, serial number) -> (what the page shows, message, when)
         self._wafers = Wafers()
         self._maps = {}
+        self._map_notes = {}  # why the newest map of a name is not among them
         self._diagnostics = {}
         self._runs = {}
 
@@ -82,7 +99,7 @@ class PageState:
 
     def add_prediction(self, stamp, prediction):
         """stamp: of the scan [ns]."""
-        name = judged_by(prediction)
+        name, told = judged_by(prediction), _told_of(prediction)  # before anything changes: what cannot be told is not shown
         device_force = prediction.device_pull_off_force
         with self._lock:
             self._count += 1
@@ -90,10 +107,10 @@ class PageState:
                 "number": self._count, "stamp": stamp, "force": finite(prediction.pull_off_force), "device_force": finite(device_force),
                 "restoring_force": finite(prediction.restoring_force), "ratio": finite(getattr(prediction, name)),
                 "lower": finite(getattr(prediction, name + "_lower")), "upper": finite(getattr(prediction, name + "_upper")),
-                "level": verdict_of(prediction)["level"], "settings": prediction.settings_hash,
+                "level": told["verdict"]["level"], "settings": prediction.settings_hash,
                 "is_usable": prediction.status != NO_EQUILIBRIUM})
             self._wafers.add(stamp, prediction)
-            self._latest = (self._count, stamp, prediction)
+            self._latest = (self._count, stamp, prediction, told)
             self._loss_is_newest = False
             if self._heard is not None:
                 self._periods.append(self._clock() - self._heard)
@@ -105,9 +122,13 @@ class PageState:
         entry = diagnostics_of(status)
         values = dict(entry["values"])
         with self._lock:
+            self._diagnostics.pop(entry["name"], None)
             self._diagnostics[entry["name"]] = (entry, self._clock())
-            if "rejected" in values and "dropped" in values:
-                losses = int(values["rejected"]) + int(values["dropped"])
+            while len(self._diagnostics) > MOST_DIAGNOSTICS:
+                del self._diagnostics[next(iter(self._diagnostics))]
+            counts = [count_of(values.get(name, "")) for name in ("rejected", "dropped")]
+            if None not in counts:
+                losses = sum(counts)
                 before, self._node_losses = self._node_losses, losses
                 if before is not None:  # those before the first look were not ours; a node that restarts counts from 0
                     self._lose(losses - before if losses >= before else losses, values.get("last_reason", ""))
@@ -180,8 +201,17 @@ class PageState:
 
     def set_map(self, name, stamp, image, size=None):
         """An image message that is drawn when a browser asks for it. size: (width, height) of the scan [m], if known."""
+        try:
+            require_map(name, image)
+            note = None
+        except ValueError as error:
+            note = "The newest map of %s cannot be shown: %s." % (name, error)
         with self._lock:
-            self._maps[name] = (stamp, image, size)
+            self._map_notes.pop(name, None)
+            if note is None:
+                self._maps[name] = (stamp, image, size)
+            else:
+                self._map_notes[name] = note
             self._changed()
 
     def map_of(self, name):
@@ -204,21 +234,24 @@ class PageState:
                 self._changed()
 
     def add_sweep(self, goal, result):
+        del result.points[MOST_POINTS:]
         points = [{"way": "up" if point.direction == UP else "down", "load": point.mechanical_load,
                    "load_text": with_unit(point.mechanical_load, "N"), "voltage": point.voltage,
                    "margin": finite(point.margin), "lower": finite(point.margin_lower), "upper": finite(point.margin_upper),
                    "held": finite(point.holding_margin), "force": finite(point.pull_off_force), "force_lower": finite(point.pull_off_force_lower),
                    "force_upper": finite(point.pull_off_force_upper), "area": finite(contact_area_of(point)), "is_open": bool(point.is_open)}
-                  for point in result.points if math.isfinite(point.voltage)]
+                  for point in result.points if finite(point.voltage) is not None]
+        points = thinned_points(points)
         safe = [{"load": summary.mechanical_load, "load_text": with_unit(summary.mechanical_load, "N"), "voltage": finite(summary.highest_safe_voltage),
                  "words": typeset(safe_voltage_words(summary, result.points))} for summary in result.summaries]
         self._end("sweep", goal, points, sweep_sentences(result, width=None) if points else [], result.message, safe=safe,
                   jumps=_jumps_of(result) if points else [], area_label=area_label(result.points), pull_in=finite(result.pull_in_voltage))
 
     def add_cycles(self, goal, result):
+        del result.cycles[MOST_POINTS:]
         points = [{"cycle": cycle.cycle, "force": finite(cycle.pull_off_force), "margin": finite(cycle.margin),
                    "lower": finite(cycle.margin_lower), "plastic": cycle.plastic_count} for cycle in result.cycles]
-        self._end("cycles", goal, points, cycle_sentences(result), result.message)
+        self._end("cycles", goal, thinned_points(points), cycle_sentences(result), result.message)
 
     def _end(self, kind, goal, points, sentences, message, **more):
         with self._lock:
@@ -229,32 +262,40 @@ class PageState:
         """All of it, as JSON can have it; ages in seconds."""
         with self._lock:
             now = self._clock()
-            return all_finite({"version": self.version, "link": self._link, "age": None if self._heard is None else now - self._heard,
-                    "count": self._count, "lost": self._lost, "loss_is_newest": self._loss_is_newest,
-                    "losses": list(self._losses), "scan": self._scan(), "trend": list(self._trend), "control": self._control(),
-                    "part": self._shown_part(), "parts": [dict(shown, number=self._number_of(shown["stamp"]), age=now - heard)
-                                                          for shown, _, heard in self._parts.values()],
-                    "stale_after": self.stale_after(), "half_space": self._with_number(self._half_space),
-                    "device": self._with_number(self._device), "maps": self._shown_maps(), "wafers": self._wafers.version,
-                    "diagnostics": [dict(entry, age=now - heard) for _, (entry, heard) in sorted(self._diagnostics.items())],
-                    "runs": {kind: self._run(run, now) for kind, run in self._runs.items()}})
+            self._broken = {}
+            parts = {"losses": (lambda: list(self._losses), []), "scan": (self._scan, None), "trend": (lambda: list(self._trend), []),
+                     "control": (self._control, None), "part": (self._shown_part, None),
+                     "parts": (lambda: [dict(shown, number=self._number_of(shown["stamp"]), age=now - heard) for shown, _, heard in self._parts.values()], []),
+                     "half_space": (lambda: self._with_number(self._half_space), None), "device": (lambda: self._with_number(self._device), None),
+                     "maps": (self._shown_maps, {}),
+                     "diagnostics": (lambda: [dict(entry, age=now - heard) for _, (entry, heard) in sorted(self._diagnostics.items())], []),
+                     "runs": (lambda: {kind: self._run(run, now) for kind, run in self._runs.items()}, {})}
+            shown = {name: self._part_or_empty(name, make, empty) for name, (make, empty) in parts.items()}
+            return all_finite(dict(shown, version=self.version, link=self._link, age=None if self._heard is None else now - self._heard, count=self._count,
+                                   lost=self._lost, loss_is_newest=self._loss_is_newest, stale_after=self.stale_after(), wafers=self._wafers.version,
+                                   map_notes=list(self._map_notes.values()), broken=list(self._broken.values())))
+
+    def _part_or_empty(self, name, make, empty):
+        """One part of the page never hides the others."""
+        try:
+            return make()
+        except Exception as error:
+            self._broken[name] = "%s cannot be shown (%s: %s)" % (name, type(error).__name__, error)
+            return empty
 
     def _scan(self):
         if self._latest is None:
             return None
-        number, stamp, prediction = self._latest
-        verdict, ratio, warnings, figures = verdict_of(prediction), ratio_of(prediction), list(prediction.warnings), figures_of(prediction)
+        number, stamp, prediction, told = self._latest
+        verdict, ratio, warnings, figures = told["verdict"], told["ratio"], told["warnings"], told["figures"]
         device = self._device
         if device is not None and device["stamp"] == stamp and device["is_found"]:
             verdict, ratio = dict(device["verdict"]), device["ratio"]
             if device["settings_hash"] != prediction.settings_hash:
                 verdict["reason"] += " Judged again, under the settings of now."
-            warnings += device["warnings"]
+            warnings = warnings + device["warnings"]
             figures = [figure for figure in figures if figure["name"] != "device_pull_off_force"]
-        return {"number": number, "name": prediction.scan_name or prediction.header.frame_id, "stamp": "%.3f" % (stamp * 1e-9),
-                "verdict": verdict, "ratio": ratio, "flags": flags_of(prediction), "warnings": warnings, "figures": figures, "trace": trace_of(prediction),
-                "origin": provenance_words(prediction), "curve": curve_of(prediction),
-                "preprocessing": list(prediction.preprocessing)}
+        return dict(told, number=number, stamp="%.3f" % (stamp * 1e-9), verdict=verdict, ratio=ratio, warnings=warnings, figures=figures)
 
     def _control(self):
         """Control limits of the forces in the trend, as plot_trend draws them: of which figure, from the first to the last scan that they are of, and

@@ -15,21 +15,32 @@ VERDICTS = {0: ("releases", "RELEASES"), 1: ("marginal", "MARGINAL"), 2: ("stick
 LEVELS = ("ok", "warn", "error", "stale")  # diagnostic_msgs/DiagnosticStatus.level
 DEVICE_REFUSED = 2  # DeviceAdhesion.status
 WIDEST_INTERVAL = 1e4  # upper over lower end of a ratio that is shown as a number
+LARGEST = 1e30  # of a number that is drawn, as of settings
+MOST_ITEMS = 2000  # of a list, and
+MOST_LETTERS = 2000  # of a text of a message that browsers get
 HALF_SPACE_STATES = ("solved", "load not reached", "not converged", "too many states", "cancelled", "refused")
 
 
 def finite(value):
-    """JSON knows neither NaN nor infinity."""
-    return value if math.isfinite(value) else None
+    """JSON knows neither NaN nor infinity, and no axis reaches to 1e308."""
+    return value if abs(value) <= LARGEST else None
 
 
 def all_finite(value):
-    """A copy of lists, dictionaries, numbers and texts as JSON can have it."""
+    """A copy of lists, dictionaries, numbers and texts as JSON and a browser can have it: what a message has too much of is cut."""
     if isinstance(value, dict):
-        return {key: all_finite(item) for key, item in value.items()}
+        return {key: all_finite(item) for key, item in list(value.items())[:MOST_ITEMS]}
     if isinstance(value, (list, tuple)):
-        return [all_finite(item) for item in value]
+        return [all_finite(item) for item in value[:MOST_ITEMS]]
+    if isinstance(value, str):
+        return value if len(value) <= MOST_LETTERS else value[:MOST_LETTERS] + "\u2026"
     return finite(value) if isinstance(value, float) else value
+
+
+def thinned_points(points):
+    """Of many points so many that a browser can draw them, the first and the last among them."""
+    every = -(-len(points) // (MOST_ITEMS - 1))
+    return points if every <= 1 else points[::every] + points[-1:]
 
 
 def with_unit(value, unit):
@@ -112,7 +123,7 @@ def part_of(part):
     if shown and says_nothing(shown):
         counted = "%d scan%s" % (part.counted_scans, " says" if part.counted_scans == 1 else "s say")
         shown, reason = None, "%s nothing of the %s yet. %s" % (counted, shown["label"], reason)
-    return {"name": part_name(part), "part": part.part_id, "serial": part.serial_id, "level": level, "word": word, "reason": reason, "ratio": shown,
+    return {"name": part_name(part) or "part without a name", "part": part.part_id, "serial": part.serial_id, "level": level, "word": word, "reason": reason, "ratio": shown,
             "verdict_by": judge_words(part.verdict_by), "settings_hash": part.settings_hash,
             "scans": "%d scan%s" % (part.scan_count, "" if part.scan_count == 1 else "s")
                      + ("" if part.counted_scans == part.scan_count else ", %d count" % part.counted_scans),
@@ -162,13 +173,13 @@ def device_of(device):
 
 def curve_of(prediction):
     """Force over displacement past first touch: way in, way out where it is another; the pull-off force where it is largest."""
-    drawn = [point for point in prediction.curve if math.isfinite(point.displacement) and math.isfinite(point.force)]
+    drawn = [point for point in prediction.curve if finite(point.displacement) is not None and finite(point.force) is not None]
     way_in = [(point.displacement, point.force) for point in drawn if not point.is_separation]
     way_out = [(point.displacement, point.force) for point in drawn if point.is_separation]
     if not way_in and not way_out:
         return None
     place, force = max(way_out or way_in, key=lambda point: point[1])
-    return {"in": way_in, "out": way_out, "formulation": prediction.formulation, "peak": [place, force],
+    return {"in": thinned_points(way_in), "out": thinned_points(way_out), "formulation": prediction.formulation, "peak": [place, force],
             "pull_off_force": finite(prediction.pull_off_force),
             "text": bound_of(prediction, "≥ ") + with_unit(prediction.pull_off_force, "N")}
 
@@ -186,12 +197,12 @@ def half_space_of(solution):
     ways = {"in": [], "out": []}
     for point in solution.curve:
         displacement = solution.range - point.height
-        if math.isfinite(displacement) and math.isfinite(point.force):
+        if finite(displacement) is not None and finite(point.force) is not None:
             ways["out" if point.direction else "in"].append((displacement, point.force))
     is_solved = solution.status == 0
     return {"status": HALF_SPACE_STATES[solution.status] if solution.status < len(HALF_SPACE_STATES) else "?",
             "message": sentence(solution.message), "is_solved": is_solved, "pull_off_force": finite(solution.pull_off_force),
-            "text": with_unit(solution.pull_off_force, "N"), "verdict": half_space_verdict(solution), "in": ways["in"], "out": ways["out"],
+            "text": with_unit(solution.pull_off_force, "N"), "verdict": half_space_verdict(solution), "in": thinned_points(ways["in"]), "out": thinned_points(ways["out"]),
             "notes": [] if not is_solved else [text for text, is_so in (
                 ("pixels are too large for the edge of a contact: the force comes out too large as a rule", not solution.is_resolved),
                 ("a state is no equilibrium: there is no answer to rely on", not solution.is_converged)) if is_so]}

@@ -3,6 +3,7 @@
 import math
 import re
 
+BEYOND_PREFIXES = 1e15  # no figure here is so large: what is gets an exponent, in place of hundreds of digits
 SURE = 0.05  # of a value: what reaches further than this leaves two digits of it
 _PREFIXES = {-21: "z", -18: "a", -15: "f", -12: "p", -9: "n", -6: "u", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 
@@ -22,6 +23,8 @@ def with_unit(value, unit, digits=3):
         return "%s %s" % (value, unit)
     if value == 0:
         return "0 %s" % unit
+    if abs(value) >= BEYOND_PREFIXES:
+        return "%.*g %s" % (digits, value, unit)
     exponent, letter = prefix_for(float("%.*e" % (digits - 1, value)))
     scaled = float("%.*g" % (digits, value / 10.0**exponent))
     before_point = len("%d" % abs(scaled))
@@ -38,8 +41,8 @@ def length_scale(extent):
 def percent(fraction):
     """Three significant digits: "12.3 %", "0.0123 %"."""
     value = 100 * fraction
-    if not math.isfinite(value):
-        return "%s %%" % value
+    if not math.isfinite(value) or abs(value) >= BEYOND_PREFIXES:
+        return "%.3g %%" % value
     if value == 0:
         return "0 %"
     decimals = max(0, 2 - math.floor(math.log10(abs(value)))) if abs(value) < 100 else 0

@@ -4,6 +4,7 @@ import csv
 import io
 import math
 import pathlib
+import re
 import sys
 import tempfile
 import threading
@@ -407,6 +408,69 @@ class ViewTest(unittest.TestCase):
         self.page.wait(isWhole)
         self.page.click("#verdict")
         self.page.wait("!(%s)" % isWhole)
+
+
+@unittest.skipUnless(browser.program(), "no browser is installed")
+class OneMessageTest(unittest.TestCase):
+    """Nothing that one message does outlives it."""
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.doClassCleanups()
+
+    @classmethod
+    def setUpClass(cls):
+        cls.state = PageState()
+        cls.state.set_link("ok", "Connected to the node.")
+        started = threading.Event()
+
+        def serve():
+            cls.server = PageServer(cls.state, "127.0.0.1", 0, None)
+            started.set()
+            cls.server.run()
+
+        thread = threading.Thread(target=serve)
+        thread.start()
+        cls.addClassCleanup(thread.join, 120)
+        assert started.wait(120)
+        cls.addClassCleanup(cls.server.stop)
+        cls.page = browser.Browser(*SCREENS["desk"])
+        cls.addClassCleanup(cls.page.close)
+        cls.page.open("http://127.0.0.1:%d" % cls.server.port)
+
+    def hostile(self):
+        """What one message may bring, as functions that send it."""
+        state = self.state
+        floats = Image(height=2, width=2, step=8, encoding="32FC1", data=b"\0\0")
+        bytes_ = Image(height=0, width=0, step=0, encoding="mono8")
+        yield lambda stamp: state.add_part(stamp, PartVerdict())
+        yield lambda stamp: state.add_prediction(stamp, StictionPrediction())
+        yield lambda stamp: state.set_map("height", stamp, floats)
+        yield lambda stamp: state.set_map("contacts", stamp, bytes_)
+        yield lambda stamp: state.set_map("contacts", stamp, Image(height=2, width=2, step=6, encoding="rgb8", data=bytes(12)))
+        yield lambda stamp: state.set_map("height", stamp, heights_message(2, 5000), (1e308, 1e-308))
+        for value in (1e308, -1e308, 1.7e308, 5e-324, 1e29):
+            yield lambda stamp, value=value: state.add_prediction(stamp, prediction(stamp, pull_off_force=value, restoring_force=value, margin=value, margin_upper=value,
+                                                                                     device_pull_off_force=value, rms_height=value, curve=[
+                SeparationPoint(displacement=value, force=value), SeparationPoint(displacement=-1e-9, force=1e-6)]))
+            yield lambda stamp, value=value: state._wafers.add(stamp, prediction(stamp, site_x=value, site_y=value, pull_off_force=value, margin=value, wafer_id="9"))
+            yield lambda stamp, value=value: state.add_part(stamp, part("wild", value, 0))
+            yield lambda stamp, value=value: state.add_sweep("goal", SweepLoadResult(points=[SweepPoint(voltage=value, mechanical_load=value, pull_off_force=value, margin=value)] * 3,
+                                                                                     summaries=[SweepSummary(mechanical_load=value)], pull_in_voltage=value))
+            yield lambda stamp, value=value: state.add_cycles("goal", CycleContactResult(cycles=[CyclePoint(cycle=2**32 - 1, pull_off_force=value, margin=value)] * 3))
+
+    def test_each_leaves_the_page_alive_for_the_next(self):
+        for number, send in enumerate(self.hostile()):
+            send(2 * number * SECOND)
+            version = self.state.version
+            for tab in TABS:
+                self.page.value("location.hash = '%s'" % tab)
+                self.page.wait("state && state.version >= %d && chosenTab() === '%s'" % (version, tab))
+            good = 2 * number + 1
+            self.state.add_prediction(good * SECOND, prediction(good, scan_name="good %d" % number))
+            self.page.wait("document.querySelector('#scan-name').textContent.endsWith('good %d')" % number)
+            self.assertEqual(self.page.value("Object.values(broken).concat(state.broken)"), [], number)
+        self.assertEqual(sorted(set(re.sub(r":\d+", "", error) for error in self.page.errors)), [])
 
 
 if __name__ == "__main__":

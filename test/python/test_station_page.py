@@ -2,6 +2,7 @@
 
 import asyncio
 import contextlib
+import copy
 import io
 import json
 import math
@@ -10,12 +11,14 @@ import pathlib
 import re
 import socket
 import subprocess
+import sys
 import tempfile
 import threading
 import time
 import unittest
 import urllib.error
 import urllib.request
+import warnings
 from types import SimpleNamespace
 
 import numpy as np
@@ -24,11 +27,11 @@ from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 from mems_stiction.msg import (CycleContactResult, CyclePoint, DeviceAdhesion, HalfSpacePoint, HalfSpaceSolution, PartVerdict, SeparationPoint,
                                StictionPrediction, SweepLoadResult, SweepPoint, SweepSummary)
 from mems_stiction.control_chart import control_limits
-from mems_stiction.page_maps import contact_png, height_png, height_range, rings, severest
+from mems_stiction.page_maps import contact_png, height_png, height_range, measured_at, rings, severest
 from mems_stiction.page_places import MOST_PLACES, MOST_WAFERS
 from mems_stiction.page_server import FOLDER, CannotServe, PageServer
 from mems_stiction.page_state import MOST_PARTS, MOST_SCANS, PageState, stamp_of_reason
-from mems_stiction.page_words import curve_of, half_space_of, part_of, ratio_of, trace_of, verdict_of
+from mems_stiction.page_words import all_finite, curve_of, half_space_of, part_of, ratio_of, trace_of, verdict_of
 from mems_stiction.quantities import typeset
 from mems_stiction.station_text import sweep_sentences
 from PIL import Image as Picture
@@ -229,7 +232,7 @@ class StateTest(unittest.TestCase):
         self.assertNotIn("rms_height", [figure["name"] for figure in shown["scan"]["figures"]])
 
     def test_messages_without_one_finite_number_leave_the_page_alive(self):
-        for value in (NAN, math.inf, -math.inf):
+        for value in (NAN, math.inf, -math.inf, 1e308, -sys.float_info.max):
             state = PageState()
             state.add_prediction(SECOND, emptied(prediction(curve=[SeparationPoint(), SeparationPoint(is_separation=True)]), value))
             state.add_half_space(SECOND, emptied(HalfSpaceSolution(curve=[HalfSpacePoint(), HalfSpacePoint(direction=1)], verdict_by="half_space"), value))
@@ -240,6 +243,66 @@ class StateTest(unittest.TestCase):
             shown = json.loads(json.dumps(state.snapshot(), allow_nan=False))
             self.assertEqual((shown["runs"]["sweep"]["points"], len(shown["runs"]["cycles"]["points"])), ([], 2))
             self.assertIsNone(shown["scan"]["curve"])
+            self.assertEqual(shown["broken"], [])
+            self.assertLess(max(len(figure["text"]) for figure in shown["scan"]["figures"]), 60)
+
+    def test_messages_without_any_content_leave_the_page_alive(self):
+        state = PageState()
+        for _ in range(10):  # control limits need some
+            state.add_prediction(SECOND, StictionPrediction())
+        state.add_part(SECOND, PartVerdict())
+        state.add_device(SECOND, DeviceAdhesion())
+        state.add_half_space(SECOND, HalfSpaceSolution(status=200))
+        state.add_sweep("goal", SweepLoadResult())
+        state.add_cycles("goal", CycleContactResult())
+        state.add_diagnostics(DiagnosticStatus())
+        state.add_diagnostics(DiagnosticStatus(name="node", values=[KeyValue("rejected", "many"), KeyValue("dropped", "9" * 5000)]))
+        shown = json.loads(json.dumps(state.snapshot(), allow_nan=False))
+        self.assertEqual((shown["broken"], shown["part"]["name"], shown["lost"]), ([], "part without a name", 0))
+
+    def test_forces_of_every_size_have_control_limits(self):
+        state = PageState()
+        for number in range(20):
+            state.add_prediction(number * SECOND, prediction(pull_off_force=1e308 if number % 2 else 5e-324))
+        shown = json.loads(json.dumps(state.snapshot(), allow_nan=False))
+        self.assertEqual((shown["broken"], shown["count"]), ([], 20))
+
+    def test_long_messages_are_cut_for_browsers(self):
+        state = PageState()
+        points = [SeparationPoint(displacement=1e-12 * number, force=1e-9) for number in range(100000)]
+        long = "x" * 1000000
+        state.add_prediction(SECOND, prediction(curve=points, warnings=["w"] * 100000, scan_name=long, reason=long, preprocessing=[long] * 10))
+        state.add_part(SECOND, part_message(part_id=long, warnings=[long]))
+        state.add_cycles("goal", CycleContactResult(cycles=[CyclePoint(cycle=number) for number in range(100000)]))
+        result = jumping_sweep()
+        result.points = [SweepPoint(voltage=0.001 * number, mechanical_load=1e-6) for number in range(100000)]
+        state.add_sweep("goal", result)
+        for number in range(1000):
+            state.add_diagnostics(DiagnosticStatus(name="node: %d" % number))
+        text = json.dumps(state.snapshot(), allow_nan=False)
+        self.assertLess(len(text), 2000000)
+        shown = json.loads(text)
+        self.assertEqual((shown["scan"]["curve"]["in"][0][0], shown["scan"]["curve"]["in"][-1][0]), (0.0, points[-1].displacement))
+        self.assertEqual(shown["broken"], [])
+
+    def test_a_map_that_is_none_keeps_the_one_before_and_is_named(self):
+        state = PageState()
+        good = map_message([[0, 1], [2, 3]])
+        floats = Image(height=2, width=2, step=8, encoding="32FC1", data=np.zeros(4, np.float32).tobytes())
+        for name, first in (("contacts", good), ("height", floats)):
+            state.set_map(name, SECOND, first)
+            for changes, reason in ((dict(data=b"\0"), "data has 1 bytes, must have step"), (dict(encoding="rgb8"), "encoding 'rgb8' is not allowed"),
+                                    (dict(height=0, width=0, step=0, data=b""), "size 0 x 0"), (dict(step=1), "step 1"), (dict(height=2**31), "data has")):
+                damaged = copy.copy(first)
+                for field, value in changes.items():
+                    setattr(damaged, field, value)
+                state.set_map(name, 2 * SECOND, damaged)
+                self.assertIs(state.map_of(name)[1], first, reason)
+                self.assertIn(reason, state.snapshot()["map_notes"][-1])
+            state.set_map(name, 3 * SECOND, first)
+            self.assertEqual(state.snapshot()["map_notes"], [])
+        state.set_map("contacts", SECOND, floats)
+        self.assertIn("must be mono8", state.snapshot()["map_notes"][0])
 
     def test_one_point_that_is_not_finite_takes_no_other_with_it(self):
         state = PageState()
@@ -563,6 +626,16 @@ class ServerTest(unittest.TestCase):
         self.assertRaisesRegex(CannotServe, "port %d of 127.0.0.1 is taken" % self.server.port, PageServer, self.state, "127.0.0.1",
                                self.server.port, 30.0)
         self.assertRaisesRegex(CannotServe, "192.0.2.1 cannot be listened on", PageServer, self.state, "192.0.2.1", 0, 30.0)
+
+
+class OneMessageTest(unittest.TestCase):
+    def test_heights_that_are_no_numbers_or_too_large_for_one_have_a_range_and_a_picture(self):
+        for values in ([NAN] * 4, [math.inf, -math.inf, NAN, 1e-9], [1e308, -1e308, 1e308, 1e308], [0.0] * 4):
+            message = Image(height=2, width=2, step=16, encoding="64FC1", data=np.asarray(values).tobytes())
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                self.assertTrue(height_png(message))
+                json.dumps(all_finite([height_range(message), measured_at(message, None, [(0.5, 0.5), (0, 0)])]), allow_nan=False)
 
 
 class PatienceTest(unittest.TestCase):

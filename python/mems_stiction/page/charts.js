@@ -2,6 +2,8 @@
 "use strict";
 
 const PREFIXES = [[1e9, "G"], [1e6, "M"], [1e3, "k"], [1, ""], [1e-3, "m"], [1e-6, "µ"], [1e-9, "n"], [1e-12, "p"], [1e-15, "f"], [1e-18, "a"]];
+const LARGEST = 1e30;     // of a number that is drawn
+const MOST_TICKS = 100;
 const MARGIN = {left: 74, right: 14, top: 10, bottom: 44};
 const zooms = {};  // of the charts that show a piece of their x axis: [low, high] by the id of the svg
 
@@ -19,18 +21,23 @@ function element(name, attributes, text) {
   return made;
 }
 
+/** Whether an axis can reach from low to high. */
+const isDrawable = (low, high) => Math.abs(low) <= LARGEST && Math.abs(high) <= LARGEST && low < high;
+
 /** Round steps for about `count` ticks between low and high. */
 function ticksOf(low, high, count) {
   const rough = (high - low) / Math.max(1, count);
   const decade = Math.pow(10, Math.floor(Math.log10(rough)));
   const step = [1, 2, 5, 10].map((digit) => digit * decade).find((one) => one >= rough * 0.999);
   const ticks = [];
-  for (let place = Math.ceil(low / step - 1e-9); place * step <= high * (1 + 1e-9) + step * 1e-9; ++place) ticks.push(place * step);
+  if (!isDrawable(low, high) || !(step > 0)) return ticks;
+  for (let place = Math.ceil(low / step - 1e-9); ticks.length < MOST_TICKS && place * step <= high * (1 + 1e-9) + step * 1e-9; ++place) ticks.push(place * step);
   return ticks;
 }
 
 /** 1, 2, 5 of the decades where `count` ticks have room for them, else 1 alone, or of every so many decades. */
 function logTicksOf(low, high, count) {
+  if (!isDrawable(low, high) || !(low > 0)) return [];
   const decades = Math.log10(high / low);
   const digits = 3 * decades > count ? [1] : [1, 2, 5];
   const every = Math.ceil(decades / count);
@@ -48,10 +55,10 @@ function shortNumber(value) {
 
 /** Limits of an axis: from 0 where nothing is below, logarithmic where positive values span more than a factor of thirty. */
 function limitsOf(values, mayBeLogarithmic) {
-  const finite = values.filter((value) => value !== null && Number.isFinite(value));
+  const finite = values.filter((value) => value !== null && Math.abs(value) < LARGEST / 2);
   if (!finite.length) return {low: 0, high: 1, log: false};
-  const low = Math.min(...finite);
-  const high = Math.max(...finite);
+  const low = finite.reduce((least, value) => Math.min(least, value));
+  const high = finite.reduce((most, value) => Math.max(most, value));
   if (mayBeLogarithmic && low > 0 && high > 30 * low) return {low: low / 1.5, high: high * 1.5, log: true};
   const top = high > 0 ? high * 1.2 : 0;
   const bottom = low < 0 ? low * 1.12 : 0;
@@ -205,8 +212,8 @@ function clipped(svg, place) {
 function placesOf(chart, width, height) {
   const place = {left: MARGIN.left, right: width - MARGIN.right, top: MARGIN.top, bottom: height - MARGIN.bottom};
   const toY = chart.y.log ? Math.log : (value) => value;
-  const inside = (value) => Math.min(Math.max(value, -1e4), 1e4);
-  place.x = (value) => place.left + (value - chart.x.low) / (chart.x.high - chart.x.low) * (place.right - place.left);
+  const inside = (value) => Number.isNaN(value) ? -1e4 : Math.min(Math.max(value, -1e4), 1e4);
+  place.x = (value) => inside(place.left + (value - chart.x.low) / (chart.x.high - chart.x.low) * (place.right - place.left));
   place.y = (value) => inside(place.bottom - (toY(Math.max(value, chart.y.log ? chart.y.low * 1e-3 : value)) - toY(chart.y.low)) /
                               (toY(chart.y.high) - toY(chart.y.low)) * (place.bottom - place.top));
   return place;

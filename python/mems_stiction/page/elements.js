@@ -4,6 +4,8 @@
 const byId = (id) => document.getElementById(id);
 const say = (id, text) => { if (byId(id).textContent !== text) byId(id).textContent = text; };
 
+const capital = (text) => text.slice(0, 1).toUpperCase() + text.slice(1);
+
 function fillList(id, texts) {
   byId(id).replaceChildren(...texts.map((text) => { const item = document.createElement("li"); item.textContent = text; return item; }));
 }

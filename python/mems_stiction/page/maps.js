@@ -25,12 +25,12 @@ function showMaps() {
   const {height, contacts} = state.maps;
   const any = height || contacts;
   byId("map-tools").hidden = !any;
-  if (!any) { say("height-legend", "No map yet."); return; }
+  if (!any) { say("height-legend", ["No map yet."].concat(state.map_notes).join(" ")); return; }
   const [width, length] = any.size || [any.columns, any.rows];
   fitMaps(isTurned() ? length / width : width / length);
   say("height-of", height ? ofScan(height) : "");
   say("contacts-of", contacts ? ofScan(contacts) : "");
-  say("height-legend", "after contact, above the mean; mauve: not measured" + (any.size ? `; ${lengthText(width)} x ${lengthText(length)}` : "") + (isTurned() ? ", turned clockwise" : ""));
+  say("height-legend", "after contact, above the mean; mauve: not measured" + (any.size ? `; ${lengthText(width)} x ${lengthText(length)}` : "") + (isTurned() ? ", turned clockwise" : "") + state.map_notes.map((note) => ` ${note}`).join(""));
   if (height) for (const id of ["height", "relief"]) load(id, addressOf("height", height));
   if (contacts) load("contacts", addressOf("contacts", contacts));
   if (measured.id !== null && (!height || measured.id !== height.id)) clearMeasured();

@@ -9,6 +9,8 @@ const FRESH = 10;        // [s] a warning of the node's diagnostics is shown at 
 let state = null;
 let received = 0;        // when the state came [ms]
 
+const broken = {};       // parts of the page that cannot be shown: why
+
 const sinceState = () => (performance.now() - received) / 1000;
 
 function connect() {
@@ -17,14 +19,25 @@ function connect() {
   socket.onmessage = (message) => {
     state = JSON.parse(message.data);
     received = performance.now();
-    show();
-    socket.send("next");
+    try { show(); } finally { socket.send("next"); }
   };
   socket.onclose = () => { setTimeout(connect, RECONNECT); };
 }
 
+/** What one part of the page cannot show hides no other part, and no later state. */
+function attempt(name, part) {
+  try {
+    part();
+    delete broken[name];
+  } catch (error) {
+    broken[name] = `${name} cannot be shown (${error.message})`;
+    console.error(error);
+  }
+}
+
 function show() {
-  showVerdict();
+  attempt("verdict", showVerdict);
+  attempt("part", showPart);
   say("origin", state.scan ? state.scan.origin : "");
   say("counts", state.count ? `${state.count} scans` + (state.lost ? `, ${state.lost} not predicted` : "") : "");
   showDownloads();
@@ -34,8 +47,9 @@ function show() {
 function showLink() {
   const isGone = !state || performance.now() - received > SILENCE;
   const warned = !isGone && state.link.level === "ok" && state.diagnostics.find((status) => status.level !== "ok" && status.age < FRESH);
-  byId("link").className = isGone ? "error" : warned ? "warn" : state.link.level;
-  say("link-text", isGone ? "No answer from station_page: what is shown is old." : warned ? `Connected; the node warns: ${warned.message}` : state.link.text);
+  const faults = isGone ? [] : state.broken.concat(Object.values(broken));
+  byId("link").className = isGone ? "error" : warned || faults.length ? "warn" : state.link.level;
+  say("link-text", isGone ? "No answer from station_page: what is shown is old." : faults.length ? `Not all is shown: ${faults.join("; ")}.` : warned ? `Connected; the node warns: ${warned.message}` : state.link.text);
   return isGone || state.link.level === "error";
 }
 
@@ -58,7 +72,6 @@ function showVerdict() {
   const limits = scan && !isLost ? scan.flags.concat(scan.warnings.map((text) => `warning: ${text}`)) : [];
   say("limits-text", limits.join(" \u00b7 "));
   byId("limits").hidden = !limits.length;
-  showPart();
   showAge();
 }
 
@@ -66,11 +79,11 @@ function showPart() {
   const part = state.part;
   const box = byId("part");
   box.className = part ? (part.is_newest ? part.level : `${part.level} before`) : "";
-  say("part-name", part ? `${part.name[0].toUpperCase()}${part.name.slice(1)}` + (part.is_newest ? ":" : " (before the newest scan):") : "");
+  say("part-name", part ? capital(part.name) + (part.is_newest ? ":" : " (before the newest scan):") : "");
   say("part-word", part ? part.word : "");
   say("part-ratio", part && part.ratio ? `${part.ratio.label} ${part.ratio.text}` + (part.ratio.interval ? ` (${part.ratio.interval})` : "") : "");
   say("part-scans", part ? [part.scans, part.worst, part.verdict_by && `by ${part.verdict_by}`].filter(Boolean).join(", ") + "." : "");
-  const shown = part && part.is_newest ? state.scan.flags : [];  // above, of the newest scan
+  const shown = part && part.is_newest && state.scan ? state.scan.flags : [];  // above, of the newest scan
   const flags = part ? part.flags.filter((text) => !shown.includes(text)) : [];
   // that of a part that releases is its interval, which stands above
   const said = part ? (part.level === "releases" && part.ratio ? [] : [part.reason]).concat(part.warnings.map((text) => `Warning: ${text}.`)) : [];
@@ -100,7 +113,7 @@ function showTab() {
   for (const button of document.querySelectorAll("nav button")) button.classList.toggle("chosen", button.dataset.tab === chosen);
   document.body.classList.toggle("compact", chosen !== "overview");
   for (const tab of document.querySelectorAll(".tab")) tab.classList.toggle("chosen", tab.id === `tab-${chosen}`);
-  if (state) TABS[chosen]();
+  if (state) attempt(chosen, TABS[chosen]);
 }
 
 function showOverview() {

@@ -23,7 +23,8 @@ async function askForWafers() {
   try {
     const answer = await fetch("wafers");
     if (answer.ok) wafers = await answer.json();
-    else fillList("wafer-notes", ["Not to be had: the compiled part of the Python module is missing (MEMS_STICTION_WITH_PYTHON)."]);
+    else fillList("wafer-notes", [answer.status === 501 ? "Not to be had: the compiled part of the Python module is missing (MEMS_STICTION_WITH_PYTHON)."
+      : "The maps cannot be drawn: station_page has said why."]);
   } catch (error) { /* the line at the top says that the server is gone */ } finally { isAsking = false; }
   if (wafers && chosenTab() === "wafers") drawWafers();
 }
@@ -66,7 +67,8 @@ function fillFigureButtons(figure) {
 function shareOf(value, figure) {
   if (value === null) return 1;
   const of = figure.is_by_ratio ? Math.log : (number) => number;
-  return Math.min(Math.max((of(value) - of(figure.low)) / (of(figure.high) - of(figure.low)), 0), 1);
+  const share = (of(value) - of(figure.low)) / (of(figure.high) - of(figure.low));
+  return Number.isFinite(share) ? Math.min(Math.max(share, 0), 1) : 1;  // colours that span nothing, or too much
 }
 
 function colourAt(share) {
@@ -100,7 +102,7 @@ function drawWafer(svg, wafer, places, figure) {
   const sites = places.map((place) => [place.x, place.y]).concat(wafer.missing);
   const [low, high] = [Math.min, Math.max].map((end) => [0, 1].map((axis) => sites.reduce((found, site) => end(found, site[axis]), sites[0][axis])));
   const room = [width - 2 * MAP_EDGE, height - 24 - 2 * MAP_EDGE];
-  const scale = Math.min(...[0, 1].map((axis) => room[axis] / (high[axis] - low[axis] || 1e-9)));
+  const scale = Math.min(...[0, 1].map((axis) => room[axis] / Math.max(high[axis] - low[axis], 1e-9)));
   const at = ([x, y]) => [width / 2 + (x - 0.5 * (low[0] + high[0])) * scale, (height - 24) / 2 - (y - 0.5 * (low[1] + high[1])) * scale];
   const side = Math.max(3, Math.min(MOST_SITE, SITE_SHARE * leastStep(sites, low, high) * scale));
   for (const place of places) {
@@ -149,7 +151,7 @@ const chosenOf = (places) => chosenPlace && places.find((place) => place.wafer !
 function showChosenPlace(figure) {
   const place = chosenOf(wafers.places);
   const value = (one) => `${one.label} ${place.texts[one.name] === null ? "missing" : place.texts[one.name]}`;
-  say("wafer-place", place ? `${place.name[0].toUpperCase()}${place.name.slice(1)}: ${wafers.figures.map(value).join(", ")}` : figure && wafers.wafers.length ? "A click on a place tells its values." : "");
+  say("wafer-place", place ? `${capital(place.name)}: ${wafers.figures.map(value).join(", ")}` : figure && wafers.wafers.length ? "A click on a place tells its values." : "");
 }
 
 function drawWaferBar(figure) {
