@@ -20,7 +20,8 @@ Regime regimeOf(const PatchLoad& load, double area, double hardness) {
 constexpr double kDoubtedFactor = 1.3;
 
 /// Where the patches' approximations weigh most: contacts as wide as a0, which part by their edges, and a force that is the
-/// difference of larger ones, so that what is out in these weighs more in it. Or where the surfaces may have come to another rest.
+/// difference of larger ones, so that what is out in these weighs more in it. Or where the surfaces may have come to another rest,
+/// or what is out in the load of the contacts decides how near to it they part.
 /// - @p exponent of the force with the work of adhesion: 1 where nothing is subtracted
 const char* doubtOf(const SeparationCurve& curve, double exponent, double force_from_next_rest) {
   if (force_from_next_rest > kDoubtedFactor * curve.pull_off_force) {
@@ -29,9 +30,13 @@ const char* doubtOf(const SeparationCurve& curve, double exponent, double force_
   const SeparationState& strongest = curve.states[curve.strongest];
   if (!(strongest.adhesion > 0.0)) return nullptr;
   const double excess = std::max(0.0, exponent - 1.0);
-  if (!(strongest.width + excess > chosen::kDoubtedContacts)) return nullptr;
-  return strongest.width > excess ? "contacts that hold are so wide that they part by cracks from their edges"
-                                  : "where the force is largest it is a difference of larger forces";
+  if (strongest.width + excess > chosen::kDoubtedContacts) {
+    return strongest.width > excess ? "contacts that hold are so wide that they part by cracks from their edges"
+                                    : "where the force is largest it is a difference of larger forces";
+  }
+  return hangsOnWhatIsCarried(curve)
+             ? "a little less carried by the contacts would leave a larger force near their rest"
+             : nullptr;
 }
 
 }  // namespace

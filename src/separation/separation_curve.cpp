@@ -248,6 +248,12 @@ double forceFromNextRest(FrameSums& frame, const ContactSettings& settings, cons
   return largest;
 }
 
+bool hangsOnWhatIsCarried(const SeparationCurve& curve) {
+  return std::any_of(curve.states.begin(), curve.firstPushing(), [&](const SeparationState& state) {
+    return state.partingForce() + kError * state.carried > (1.0 + kError) * curve.pull_off_force;
+  });
+}
+
 Way wayOutOf(const SeparationCurve& way_in, double range) {
   double softest = 0.0;
   for (const SeparationState& state : way_in.states) softest = std::max(softest, state.tabor_parameter);

@@ -82,6 +82,10 @@ void followCurve(FrameSums& frame, const ContactSettings& settings, SeparationCu
 /// - @p frame whose curve it is, all of whose cells are in its field; its sums stay as they are
 double forceFromNextRest(FrameSums& frame, const ContactSettings& settings, const SeparationCurve& way_in);
 
+/// Whether the pull-off force would be larger by more than the error with which the curve knows what the contacts carry if they
+/// carried less by that error: on the way out, up to the rest without a load.
+bool hangsOnWhatIsCarried(const SeparationCurve& curve);
+
 /// The way out from the rest of a way in: summits that were soft there hold on.
 Way wayOutOf(const SeparationCurve& way_in, double range);
 /// Follows the curve outwards: states by ascending approach up to rest.

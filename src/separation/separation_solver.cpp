@@ -44,6 +44,7 @@ void SeparationSolver::solve(const ContactProblem& problem, ContactSolution& sol
   if (conforming || stays_straight) {
     takeWayOut(conforming ? *conforming : curve_.byContacts(), solution);
     listPullOffContacts(standing, solution);
+    if (stays_straight) doubtPlaces(at_rest, solution);
   } else {
     solution.energies.elastic += bent_.energyAtRest() * curve_.frame().area();
     const double contact_area = curve_.byContacts().contact_area;
@@ -95,6 +96,20 @@ void SeparationSolver::takeWayOut(const WayOut& way_out, ContactSolution& soluti
   solution.contact_area = std::min(way_out.contact_area, curve_.frame().area());
   solution.contact_fraction = solution.contact_area / curve_.frame().area();
   solution.curve.insert(solution.curve.end(), way_out.curve.begin(), way_out.curve.end());
+}
+
+void SeparationSolver::doubtPlaces(const GapField& field, ContactSolution& solution) {
+  if (solution.model.doubt != nullptr) return;
+  const FrameSums& frame = curve_.frame();
+  const double modulus = frame.patchForces().contactModulus();
+  if (solution.is_conforming) {
+    if (places_.largestEnergy(field, modulus) > chosen::kChangingTexture * solution.flattening_energy) {
+      solution.model.doubt = "the surfaces are bonded, and their texture changes from place to place";
+    }
+  } else if (places_.force(field, frame.law(), modulus, curve_.wayOut(),
+                           chosen::kHeldByPlaces * solution.pull_off_force) > 0.0) {
+    solution.model.doubt = "places smoother than the rest close by themselves, and hold more than the contacts";
+  }
 }
 
 void SeparationSolver::takeRest(const ContactProblem& problem, ContactSolution& solution) {

@@ -20,6 +20,7 @@
 
 #include "contact/contact_solver.hpp"
 #include "separation/bent_contact.hpp"
+#include "separation/closing_places.hpp"
 #include "separation/conforming_contact.hpp"
 #include "separation/contact_curve.hpp"
 #include "separation/curve_statement.hpp"
@@ -50,6 +51,8 @@ class SeparationSolver : public ContactSolver {
   /// - @p contact_area at rest [m^2]
   WayOut bentWayOut(const BentContact::Parting& parting, double contact_area) const;
   void takeWayOut(const WayOut& way_out, ContactSolution& solution) const;
+  /// The doubt of surfaces whose texture changes from place to place, where there is no other.
+  void doubtPlaces(const GapField& field, ContactSolution& solution);
   /// The contacts that hold at the pull-off: patches within reach of the attraction there.
   void listPullOffContacts(const ContactProblem& problem, ContactSolution& solution);
 
@@ -61,6 +64,7 @@ class SeparationSolver : public ContactSolver {
   std::vector<std::int32_t> columns_;
   FlatteningEnergy flattening_;
   ConformingContact conforming_;
+  ClosingPlaces places_;
 };
 
 }  // namespace mems_stiction

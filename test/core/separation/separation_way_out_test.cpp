@@ -211,6 +211,75 @@ TEST(Decision, candidatesMeetWhereItFalls) {
   }
 }
 
+/// Egg boxes of this amplitude [m] and wavelength [pixels], 64 x 64 of them, up to `rough_cols` columns and
+/// `rough_rows` rows; the rest is a hundredth of them, at another level [m].
+HeightMap roughBesideSmooth(double amplitude, double wave, int rough_rows, int rough_cols, double level, double pitch) {
+  cv::Mat1d heights(64, 64);
+  for (int row = 0; row < heights.rows; ++row) {
+    for (int col = 0; col < heights.cols; ++col) {
+      const double rough = amplitude * std::cos(2.0 * kPi * row / wave) * std::cos(2.0 * kPi * col / wave);
+      heights(row, col) = row < rough_rows && col < rough_cols ? rough : level + 0.01 * rough;
+    }
+  }
+  return HeightMap(heights, pitch, pitch);
+}
+
+TEST(ChangingTexture, aSmoothPlaceThatClosesByItselfIsDoubted) {
+  const Options options = elastic(40e9);
+  // as a whole far from bonding; the smooth part holds four times what the contacts of the rough one do
+  const HeightMap surface = roughBesideSmooth(1e-9, 12, 38, 64, 0.6e-9, 2e-9);
+  const Prediction prediction = AdhesionModel(options).predict(surface);
+  EXPECT_GT(prediction.flattening_ratio, 10.0);
+  EXPECT_LT(againstHalfSpace(surface, options).pull_off, 0.3);
+  EXPECT_NE(prediction.model.doubt, nullptr);
+}
+
+TEST(ChangingTexture, aForceThatHangsOnWhatContactsCarryIsDoubted) {
+  const Options options = elastic(40e9);
+  // the smooth part comes near, but does not close
+  const HeightMap surface = roughBesideSmooth(0.3e-9, 8, 38, 64, 0.0, 2e-9);
+  EXPECT_LT(againstHalfSpace(surface, options).pull_off, 0.6);
+  EXPECT_NE(AdhesionModel(options).predict(surface).model.doubt, nullptr);
+}
+
+TEST(ChangingTexture, aSmoothPlaceOutOfReachIsNot) {
+  const Options options = elastic(40e9);
+  const HeightMap surface = roughBesideSmooth(1e-9, 12, 38, 64, 0.0, 2e-9);
+  EXPECT_NEAR(againstHalfSpace(surface, options).pull_off, 1.0, 0.1);
+  EXPECT_EQ(AdhesionModel(options).predict(surface).model.doubt, nullptr);
+}
+
+TEST(ChangingTexture, bondedSurfacesAreDoubtedWhereAPartIsRougher) {
+  const Options options = elastic(20e9);
+  const HeightMap changing = roughBesideSmooth(0.6e-9, 16, 26, 26, 0.0, 3e-9);
+  const Prediction prediction = AdhesionModel(options).predict(changing);
+  EXPECT_TRUE(prediction.is_conforming);
+  EXPECT_GT(againstHalfSpace(changing, options).pull_off, 1.3);
+  EXPECT_NE(prediction.model.doubt, nullptr);
+  const Prediction alike = AdhesionModel(options).predict(roughBesideSmooth(0.15e-9, 16, 64, 64, 0.0, 1e-9));
+  EXPECT_TRUE(alike.is_conforming);
+  EXPECT_EQ(alike.model.doubt, nullptr);
+}
+
+TEST(ChangingTexture, framesOfAnyShapeAndWithHolesArePredicted) {
+  const Options options = elastic(40e9);
+  const double range = rangeOf(options);
+  for (const cv::Size size :
+       {cv::Size(1, 300), cv::Size(300, 1), cv::Size(9, 9), cv::Size(40, 300), cv::Size(64, 64)}) {
+    cv::Mat1d heights(size);
+    for (int row = 0; row < size.height; ++row) {
+      for (int col = 0; col < size.width; ++col) {
+        heights(row, col) = range * ((col < size.width / 2) ? 0.01 : 1.0) * std::sin(1.1 * row) * std::cos(0.7 * col);
+        if (size.height > 20 && size.width > 20 && row < size.height / 2 && col < size.width / 4) {
+          heights(row, col) = std::nan("");
+        }
+      }
+    }
+    const Prediction prediction = AdhesionModel(options).predict(HeightMap(heights, 2e-9, 1e-9));
+    EXPECT_GT(prediction.pull_off_force, 0.0) << size;
+  }
+}
+
 TEST(PlaceOfCusps, tearsAsInTheHalfSpace) {
   // spheres side by side: the cusps between them are the weakest places; as smooth waves they would hold 1.45 times as much
   const Options options = elastic(25e9);
