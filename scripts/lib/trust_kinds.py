@@ -125,10 +125,52 @@ def sawn(pixels, pitch, length, random):
     return lines * np.ones((1, pixels)) + random.uniform(0.1, 0.5) * gaussian(pixels, pitch, length, random)
 
 
+def places(pixels, pitch, length, random):
+    """1 in a part of the frame, 0 in the others, with edges of some pixels."""
+    share, form = random.uniform(0.05, 0.6), random.integers(3)
+    if form == 0:
+        field = gaussian(pixels, pitch, min(3 * length, pixels * pitch / 3), random)
+    elif form == 1:
+        field = np.hypot(*distances(pixels, random.uniform(0, pixels), random.uniform(0, pixels)))
+    else:
+        field = np.abs(distances(pixels, random.uniform(0, pixels), 0)[0]) * np.ones((1, pixels))
+    inside = (field < np.quantile(field, share)).astype(float)
+    return scipy.ndimage.gaussian_filter(inside, random.uniform(0.5, 5), mode="wrap")
+
+
+def smooth_places(pixels, pitch, length, random):
+    """A smooth part beside a rough one: at its mean height, or as high as some of its tops; or a rough part in a smooth surface."""
+    rough, inside = gaussian_or_affine(pixels, pitch, length, random), places(pixels, pitch, length, random)
+    if random.random() < 0.3:
+        inside = 1 - inside
+    level = 0.0 if random.random() < 0.5 else np.quantile(rough, random.uniform(0.5, 1))
+    smooth = log_uniform(random, 0.005, 0.3) * gaussian_or_affine(pixels, pitch, length, random)
+    return (1 - inside) * rough + inside * (level + smooth)
+
+
+def changing(pixels, pitch, length, random):
+    """Roughness whose height changes from place to place, over all lengths from the roughness's own to the frame's."""
+    change, wave = random.uniform(0.3, 1.0), pixels * pitch / 2
+    logarithm = np.zeros((pixels, pixels))
+    while wave > length:
+        logarithm += change * gaussian(pixels, pitch, wave, random)
+        wave /= 2
+    return np.exp(logarithm) * gaussian_or_affine(pixels, pitch, length, random)
+
+
 DRAWS = {"Gaussian, self-affine": gaussian_or_affine, "polished": polished, "lapped": lapped, "ground": ground, "islands": islands,
          "long-tailed": long_tailed, "scratched": scratched, "bumps": bumps, "grains": grains, "steps": steps, "pitted": pitted,
          "particles": with_particles, "two processes": two_processes, "sawn": sawn}
+ALIKE = tuple(DRAWS)  # of one texture everywhere
+ALIKE_COUNT = 504  # frames of these, before those whose texture changes from place to place
+CHANGING = {"smooth places": smooth_places, "changing": changing}
+DRAWS.update(CHANGING)
 KINDS = tuple(DRAWS)
+
+
+def kind_of(number):
+    """The kinds in turn: ALIKE_COUNT frames of one texture, and then those of changing texture."""
+    return ALIKE[number % len(ALIKE)] if number < ALIKE_COUNT else tuple(CHANGING)[number % len(CHANGING)]
 
 
 def surface(kind, pixels, pitch, length, random):
@@ -141,7 +183,7 @@ def surface(kind, pixels, pitch, length, random):
 def draw(number, pixels, seed=SEED):
     """As trust_frames.draw(): the kinds in turn."""
     random = np.random.default_rng([seed, number])
-    kind = KINDS[number % len(KINDS)]
+    kind = kind_of(number)
     while True:
         modulus, work = log_uniform(random, 2e9, 200e9), log_uniform(random, 0.01, 0.12)
         hamaker = log_uniform(random, 40e-21, 150e-21)

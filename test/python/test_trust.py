@@ -122,6 +122,19 @@ class TrustTest(unittest.TestCase):
             self.assertTrue(0.1e9 <= frame["modulus"] <= 100e9 and 0.005 <= frame["work"] <= 0.15, frame)
         self.assertEqual(kinds, {"gaussian", "skewed", "self-affine", "spheres"})
 
+    def test_kinds_whose_texture_changes_come_after_the_others(self):
+        of_alike = {trust_kinds.kind_of(number) for number in range(trust_kinds.ALIKE_COUNT)}
+        self.assertEqual(of_alike, set(trust_kinds.ALIKE))
+        for number in (trust_kinds.ALIKE_COUNT, trust_kinds.ALIKE_COUNT + 1):
+            frame, heights = trust_kinds.draw(number, 96)
+            again, same = trust_kinds.draw(number, 96)
+            self.assertEqual(frame, again)
+            self.assertTrue(np.array_equal(heights, same) and np.isfinite(heights).all())
+            self.assertIn(frame["kind"], trust_kinds.CHANGING)
+            # blocks of an eighth of the side differ far more than those of one texture
+            blocks = heights.reshape(8, 12, 8, 12).std(axis=(1, 3))
+            self.assertGreater(blocks.max(), 3 * blocks.min(), frame["kind"])
+
     def test_interval_of_the_pages_is_that_of_the_code(self):
         stated = trust_page.errors_of_code()
         for name in ("trust.md", "trust_kinds.md"):
