@@ -76,12 +76,6 @@ bool fitsIn(const MadeSize& size, const OwnLongWaves& own) {
          own.heights.rows * own.pitch_y >= kWholeShare * size.sideY();
 }
 
-/// Large blocks are worth their kernel where many pixels are made of them.
-BlockChoice blocksOf(const MadeSize& size) {
-  constexpr std::int64_t kFewPixels = 1 << 20;
-  return size.rows * size.cols > kFewPixels ? BlockChoice::kFast : BlockChoice::kSmall;
-}
-
 TiledSurface fieldOf(const SurfaceLaw& law, const SpectrumContinuation& continuation, const MadeSize& size,
                      double longest_wave, bool has_own, std::uint64_t seed, BlockChoice blocks) {
   const bool is_short = law.non_gaussian_share > 0.0 && law.split_wave_number > 0.0;
@@ -95,6 +89,11 @@ TiledSurface fieldOf(const SurfaceLaw& law, const SpectrumContinuation& continua
 }
 
 }  // namespace
+
+BlockChoice blocksOf(const MadeSize& size) {
+  constexpr std::int64_t kOneTransform = 1 << 20;
+  return size.rows * size.cols <= kOneTransform ? BlockChoice::kWhole : BlockChoice::kFast;
+}
 
 bool lacksLongWaves(const SurfaceLaw& law, double side) {
   constexpr double kLonger = 1.5;

@@ -46,6 +46,10 @@ struct MadeSize {
   }
 };
 
+/// How a surface of this size is made soonest: by one transform up to a million pixels, which costs two to three times as much
+/// for each pixel as blocks do and needs no kernel; else by blocks.
+BlockChoice blocksOf(const MadeSize& size);
+
 /// Heights by tile; one object serves one thread at a time.
 class MadeSurface {
  public:

@@ -92,7 +92,9 @@ int finerPixels(const cv::Mat& values) {
 }  // namespace
 
 double highPass(double wave_number, double split) {
-  return split == 0.0 ? 1.0 : -std::expm1(-std::pow(wave_number / split, 4));
+  if (!(wave_number < kHighPassEnd * split)) return 1.0;
+  const double square = wave_number / split * (wave_number / split);
+  return -std::expm1(-square * square);
 }
 
 bool areMeans(const HeightMap& scan, const ScanWaves& waves, const MergedSpectrum& spectrum) {

@@ -38,6 +38,8 @@ struct OwnLongWaves {
 
 /// Share of a wave's height that is above a split, as a filter.
 double highPass(double wave_number, double split);
+/// Over the split: from here on the filter passes all, to the last bit [-].
+constexpr double kHighPassEnd = 2.5;
 
 /// Whether the pixels of a scan are means over their area, by the likelihood of its shorter waves, from an eighth of its pixels
 /// along the side on.

@@ -99,11 +99,17 @@ SamplingVariance samplingVariance(const MergedSpectrum& spectrum, double split, 
   const double resolved = from * std::exp(static_cast<double>(reached) * step);
   const double pitch = std::max(kPi / resolved, 3.0 * 2.0 * kPi / longest / kSide);
   cv::Mat powers(kSide, kSide, CV_64FC1);
-  for (int row = 0; row < kSide; ++row) {
-    const double q_y = 2.0 * kPi * (row <= kSide / 2 ? row : row - kSide) / (kSide * pitch);
-    for (int col = 0; col < kSide; ++col) {
-      const double q_x = 2.0 * kPi * (col <= kSide / 2 ? col : col - kSide) / (kSide * pitch);
-      powers.at<double>(row, col) = densityAt(std::hypot(q_x, q_y));
+  // One eighth of the plane has all wave numbers.
+  const auto opposite = [](int place) { return (kSide - place) % kSide; };
+  for (int row = 0; row <= kSide / 2; ++row) {
+    for (int col = row; col <= kSide / 2; ++col) {
+      const double power = densityAt(2.0 * kPi * std::hypot(row, col) / (kSide * pitch));
+      for (const int one : {row, opposite(row)}) {
+        for (const int other : {col, opposite(col)}) {
+          powers.at<double>(one, other) = power;
+          powers.at<double>(other, one) = power;
+        }
+      }
     }
   }
   cv::Mat correlation;
@@ -134,7 +140,10 @@ cv::Mat highPassed(const Scan& scan, double split) {
     const double q_y = kPi * row / (waves.rows * scan.pitch_y);
     double* line = waves.ptr<double>(row);
     for (int col = 0; col < waves.cols; ++col) {
-      line[col] *= highPass(std::hypot(kPi * col / (waves.cols * scan.pitch_x), q_y), split);
+      const double q_x = kPi * col / (waves.cols * scan.pitch_x);
+      const double q = std::sqrt(q_x * q_x + q_y * q_y);
+      if (q > kHighPassEnd * split) break;  // and so do all shorter waves
+      line[col] *= highPass(q, split);
     }
   }
   cv::Mat passed;
@@ -253,9 +262,10 @@ std::vector<double> allOf(const cv::Mat& values) {
   return sample;
 }
 
-Candidate fineCandidate(const std::vector<Scan>& scans, const MergedSpectrum& spectrum, double waves, double side) {
+Candidate fineCandidate(const std::vector<Scan>& scans, const MergedSpectrum& spectrum, double split, double side) {
   Candidate candidate;
-  candidate.split = waves * 2.0 * kPi / side;
+  candidate.split = split;
+  const double waves = split * side / (2.0 * kPi);
   const double margin = waves > 0.0 ? 0.25 / waves : 0.0;  // the filter's edges
   double area = 0.0;
   for (const Scan& scan : scans) {
@@ -267,32 +277,41 @@ Candidate fineCandidate(const std::vector<Scan>& scans, const MergedSpectrum& sp
   return candidate;
 }
 
-Candidate decisiveCandidate(const std::vector<Scan>& scans, const Scan* widest, const MergedSpectrum& spectrum) {
+double fineSide(const std::vector<Scan>& scans) {
   double side = std::numeric_limits<double>::infinity();
   for (const Scan& scan : scans) {
     if (scan.is_fine) side = std::min(side, scan.longerSide());
   }
+  return side;
+}
+
+Candidate widestCandidate(const Scan& widest, const MergedSpectrum& spectrum) {
+  Candidate candidate;
+  candidate.is_widest = true;
+  candidate.sample = allOf(widest.heights);
+  candidate.take(samplingVariance(spectrum, 0.0, kFirstOfLevelled * 2.0 * kPi / widest.longerSide(), widest.area()));
+  return candidate;
+}
+
+Candidate decisiveCandidate(const std::vector<Scan>& scans, const Scan* widest, const MergedSpectrum& spectrum) {
+  const double side = fineSide(scans);
   std::optional<Candidate> first;
   const auto isDecisive = [&](const Candidate& candidate) {
     if (!first) first = candidate;
     return candidate.chi_square >= kDecisive;
   };
   if (widest != nullptr) {
-    Candidate candidate;
-    candidate.is_widest = true;
-    candidate.sample = allOf(widest->heights);
     const double total = spectrum.rootMean(0, 2.0 * kPi / widest->longerSide(), spectrum.largest_wave_number);
-    const double deviation = momentsOf(candidate.sample).deviation;
+    const double deviation = momentsOf(allOf(widest->heights)).deviation;
     if (deviation * deviation > kMostVariance * total * total) {
-      candidate.take(
-          samplingVariance(spectrum, 0.0, kFirstOfLevelled * 2.0 * kPi / widest->longerSide(), widest->area()));
+      Candidate candidate = widestCandidate(*widest, spectrum);
       if (isDecisive(candidate)) return candidate;
     }
   }
   Candidate fine = fineCandidate(scans, spectrum, 0.0, side);
   if (isDecisive(fine)) return fine;
   for (const double waves : kSplits) {
-    fine = fineCandidate(scans, spectrum, waves, side);
+    fine = fineCandidate(scans, spectrum, waves * 2.0 * kPi / side, side);
     if (isDecisive(fine)) return fine;
   }
   return *first;
@@ -364,7 +383,7 @@ void SurfaceStudy::Findings::translate(TailForm form, SurfaceLaw& translated) co
   translated.numbers = mergedSpectrum(waves, trustOf(waves), law.heights.stretch);
 }
 
-SurfaceStudy::SurfaceStudy(const std::vector<HeightMap>& surfaces) {
+SurfaceStudy::SurfaceStudy(const std::vector<HeightMap>& surfaces, const SurfaceStudy* like) {
   auto findings = std::make_unique<Findings>();
   findings->scans = scansOf(surfaces);
   const std::vector<Scan>& scans = findings->scans;
@@ -381,7 +400,14 @@ SurfaceStudy::SurfaceStudy(const std::vector<HeightMap>& surfaces) {
     const auto place = static_cast<std::size_t>(widest - scans.data());
     findings->has_mean_pixels = areMeans(widest->map(widest->heights), waves[place], law.heights);
   }
-  findings->candidate = decisiveCandidate(scans, widest, law.heights);
+  if (like == nullptr) {
+    findings->candidate = decisiveCandidate(scans, widest, law.heights);
+  } else {
+    const Candidate& known = like->findings_->candidate;
+    findings->candidate = known.is_widest && widest != nullptr
+                              ? widestCandidate(*widest, law.heights)
+                              : fineCandidate(scans, law.heights, known.split, fineSide(scans));
+  }
   law.non_gaussian_share = std::max(0.0, 1.0 - kShareByChance / findings->candidate.chi_square);
   if (findings->isTranslated()) {
     law.split_wave_number = findings->candidate.split;

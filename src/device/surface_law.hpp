@@ -44,8 +44,10 @@ struct SurfaceLaw {
 class SurfaceStudy {
  public:
   /// - @p scans levelled or not, at least one
+  /// - @p like a study of scans of the same sizes: heights are asked whether they are Gaussian where they told most there, and
+  ///   nowhere else, which takes most of the time
   /// @throw SurfaceError if they show no roughness
-  explicit SurfaceStudy(const std::vector<HeightMap>& scans);
+  explicit SurfaceStudy(const std::vector<HeightMap>& scans, const SurfaceStudy* like = nullptr);
   ~SurfaceStudy();
   SurfaceStudy(SurfaceStudy&& other) noexcept;
   SurfaceStudy& operator=(SurfaceStudy&& other) noexcept;

@@ -26,8 +26,9 @@ struct BlockSize {
 };
 
 enum class BlockChoice {
-  kFast,  ///< least time for each of many cells
-  kSmall  ///< least time where few cells are wanted
+  kFast,   ///< least time for each of many cells
+  kSmall,  ///< least time where few cells are wanted
+  kWhole   ///< no blocks: one transform of the whole surface (whole_frame.hpp), for TiledSurface alone
 };
 
 /// How a convolution may be laid out.

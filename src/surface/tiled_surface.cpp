@@ -13,6 +13,7 @@
 #include "surface/block_convolution.hpp"
 #include "surface/numbered_noise.hpp"
 #include "surface/spline_refinement.hpp"
+#include "surface/whole_frame.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -66,6 +67,33 @@ class RoundWaves {
   double xy_;
   double yy_;
   double unit_;
+};
+
+/// A function of |q'|, by a table: spectra are powers of powers, and a transform asks for a million of them.
+class RadialTable {
+ public:
+  /// - @p end of the table [rad/m]; 0 beyond
+  template <typename Function>
+  RadialTable(double end, const Function& function) : steps_per_wave_(kSteps / end), values_(kSteps + 2, 0.0F) {
+    for (std::size_t i = 0; i <= kSteps; ++i) {
+      values_[i] = static_cast<float>(function(std::max(static_cast<double>(i), 1e-3) / steps_per_wave_));
+    }
+  }
+
+  double operator()(double q) const {
+    const double place = q * steps_per_wave_;
+    if (!(place < kSteps)) return 0.0;
+    const auto below = static_cast<std::size_t>(place);
+    const double share = place - static_cast<double>(below);
+    return values_[below] + share * (static_cast<double>(values_[below + 1]) - values_[below]);
+  }
+
+ private:
+  /// A power law of exponent 2 that begins at 1/100 of the end is 3e-4 off at its begin, and 1e-7 at the end.
+  static constexpr std::size_t kSteps = 16384;
+
+  double steps_per_wave_;
+  std::vector<float> values_;
 };
 
 /// Share of the amplitude of a wave that the level `index` of 0 to `last` takes; their squares add up to 1.
@@ -203,17 +231,30 @@ class TiledSurface::Levels {
       : rows_(rows), cols_(cols), translation_(std::move(translation)) {
     check(spectrum, pitch_x, pitch_y);
     const RoundWaves waves(spectrum, pitch_x, pitch_y);
+    const double shortest = std::max(waves.roundWave(kPi, kPi), waves.roundWave(kPi, -kPi)) * 1.001;
+    if (finest == BlockChoice::kWhole) {
+      const double pixel_area = pitch_x * pitch_y;
+      const RadialTable power(shortest, [&](double q) { return spectrum.densityAt(q) / pixel_area; });
+      whole_.emplace([&](double wave_x, double wave_y) { return power(waves.roundWave(wave_x, wave_y)); },
+                     static_cast<int>(rows), static_cast<int>(cols));
+      variance_ = whole_->variance();
+      checkVariance(pitch_x, pitch_y);
+      reseed(seed);
+      return;
+    }
     const int last = std::max(0, static_cast<int>(std::ceil(waves.level(spectrum.wave_number.front()))));
     levels_.resize(static_cast<std::size_t>(last) + 1);
     for (int level = last; level >= 0; --level) {
       const double cell = std::ldexp(1.0, 2 * level);  // pixels
       const double cell_area = cell * pitch_x * cell * pitch_y;
       // white noise of variance 1 has the density of the cell's area
-      const WaveGain gain = [&](double wave_x, double wave_y) {
-        const double q = waves.roundWave(wave_x, wave_y) / cell;
-        if (q == 0.0) return 0.0;
+      const RadialTable gains(shortest / cell, [&](double q) {
         const double window = levelWindow(waves.level(q), level, last);
         return window == 0.0 ? 0.0 : window * std::sqrt(spectrum.densityAt(q) / cell_area);
+      });
+      const WaveGain gain = [&](double wave_x, double wave_y) {
+        const double q = waves.roundWave(wave_x, wave_y) / cell;
+        return q == 0.0 ? 0.0 : gains(q);
       };
       BlockLayout layout;
       layout.choice = level == 0 ? finest : BlockChoice::kSmall;
@@ -226,19 +267,19 @@ class TiledSurface::Levels {
                                                level == last ? nullptr : levels_[index + 1].get());
       variance_ += levels_[index]->variance();
     }
-    if (!(variance_ > 0.0)) {
-      throw OptionsError({"spectrum/wave_number: no wave of the spectrum is so long that pixels of " +
-                          numberText(pitch_x) + " m by " + numberText(pitch_y) +
-                          " m can hold it; must have one of two pixels or more"});
-    }
+    checkVariance(pitch_x, pitch_y);
   }
 
   std::int64_t rows() const { return rows_; }
   std::int64_t cols() const { return cols_; }
   double variance() const { return variance_; }
-  cv::Size tile() const { return {levels_.front()->block().cols, levels_.front()->block().rows}; }
+  cv::Size tile() const {
+    if (whole_) return {static_cast<int>(cols_), static_cast<int>(rows_)};
+    return {levels_.front()->block().cols, levels_.front()->block().rows};
+  }
 
   void reseed(std::uint64_t seed) {
+    if (whole_) whole_->make(noiseOf(seed, 0));
     for (std::size_t level = 0; level < levels_.size(); ++level) levels_[level]->setNoise(noiseOf(seed, level));
   }
 
@@ -254,6 +295,13 @@ class TiledSurface::Levels {
  private:
   static NumberedNoise noiseOf(std::uint64_t seed, std::size_t level) {
     return {seed, static_cast<std::uint32_t>(level)};
+  }
+
+  void checkVariance(double pitch_x, double pitch_y) const {
+    if (variance_ > 0.0) return;
+    throw OptionsError({"spectrum/wave_number: no wave of the spectrum is so long that pixels of " +
+                        numberText(pitch_x) + " m by " + numberText(pitch_y) +
+                        " m can hold it; must have one of two pixels or more"});
   }
 
   void check(const SurfaceSpectrum& spectrum, double pitch_x, double pitch_y) const {
@@ -299,23 +347,29 @@ class TiledSurface::Levels {
   template <typename Scalar>
   void fill(std::int64_t row, std::int64_t col, cv::Mat& tile) {
     const double per_deviation = 1.0 / std::sqrt(variance_);
-    levels_.front()->visit({row, col, tile.rows, tile.cols}, memory_,
-                           [&](const float* cells, std::int64_t tile_row, std::int64_t tile_col, std::size_t count) {
-                             Scalar* const line = tile.ptr<Scalar>(static_cast<int>(tile_row)) + tile_col;
-                             if (!translation_) {
-                               std::copy_n(cells, count, line);
-                               return;
-                             }
-                             for (std::size_t i = 0; i < count; ++i)
-                               line[i] = static_cast<Scalar>((*translation_)(cells[i] * per_deviation));
-                           });
+    const auto take = [&](const float* cells, std::int64_t tile_row, std::int64_t tile_col, std::size_t count) {
+      Scalar* const line = tile.ptr<Scalar>(static_cast<int>(tile_row)) + tile_col;
+      if (!translation_) {
+        std::copy_n(cells, count, line);
+        return;
+      }
+      for (std::size_t i = 0; i < count; ++i) line[i] = static_cast<Scalar>((*translation_)(cells[i] * per_deviation));
+    };
+    if (whole_) {
+      for (int i = 0; i < tile.rows; ++i) {
+        take(whole_->heights().ptr<float>(static_cast<int>(row) + i) + col, i, 0, static_cast<std::size_t>(tile.cols));
+      }
+      return;
+    }
+    levels_.front()->visit({row, col, tile.rows, tile.cols}, memory_, take);
   }
 
   std::int64_t rows_;
   std::int64_t cols_;
   std::optional<HeightTranslation> translation_;
   double variance_ = 0.0;
-  std::vector<std::unique_ptr<Level>> levels_;  ///< from the pixels to the longest waves
+  std::optional<WholeFrame> whole_;
+  std::vector<std::unique_ptr<Level>> levels_;  ///< from the pixels to the longest waves; none where whole_ is there
   ConvolutionMemory memory_;
 };
 

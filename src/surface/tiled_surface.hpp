@@ -48,7 +48,8 @@ class TiledSurface {
  public:
   /// - @p spectrum of the heights, or of the normal numbers that `translation` turns into heights: then its scale has no effect
   /// - @p rows, @p cols from 1 to 10^9
-  /// - @p blocks kSmall is made sooner where few pixels are wanted; heights then differ by rounding
+  /// - @p blocks kSmall is made sooner where few pixels are wanted; heights then differ by rounding. kWhole is made soonest
+  ///   where a surface is small: another surface of the same statistics, which is no corner of the endless one
   /// @throw OptionsError naming each value that is not allowed.
   TiledSurface(const SurfaceSpectrum& spectrum, std::int64_t rows, std::int64_t cols, double pitch_x, double pitch_y,
                std::uint64_t seed, std::optional<HeightTranslation> translation = std::nullopt,
