@@ -37,10 +37,12 @@ void describe(CLI::App& app, BatchArguments& arguments) {
       "columns half_space_... too: each scan as one elastic half-space, as half_space/enabled true does, "
       "seconds to minutes each, doc/half_space.md; half_space_reason says what has no solution, and why. Without "
       "it the columns are there where a device is stated, for scans whose flags ask for it");
-  app.add_flag(
+  auto* const own_force = app.add_flag(
       "--device-force", arguments.device_force,
-      "each row's verdict rests on the device's own force by that scan alone, seconds to minutes each; without it "
-      "a scan stands for contacts of its size alone. --parts finds the force by all scans of a part in any case");
+      "each row's verdict rests on the device's own force by that scan alone, as that of predict_scan does, seconds "
+      "each. It does so without --parts, which finds the force by all scans of a part");
+  app.add_flag("--no-device-force", arguments.no_device_force, "a scan stands for contacts of its size alone")
+      ->excludes(own_force);
   app.add_option("-s,--shard", arguments.shard, "part I of N parts of about the same number of scans")
       ->type_name("I/N")
       ->capture_default_str();

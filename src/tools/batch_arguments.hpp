@@ -26,11 +26,15 @@ struct BatchArguments {
   unsigned workers = 1;
   bool half_space = false;
   bool device_force = false;
+  bool no_device_force = false;
   bool merge = false;
   bool no_cache = false;
   bool clear_cache = false;
   bool ignore_mask = false;
   std::vector<std::string> inputs;
+
+  /// Whether each row finds the device's own force by its scan alone; with --parts the parts have it.
+  bool rowsHaveDeviceForce() const { return device_force || (parts.empty() && !no_device_force); }
 };
 
 void describe(CLI::App& app, BatchArguments& arguments);

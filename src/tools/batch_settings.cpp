@@ -24,7 +24,7 @@ std::string settingsText(std::size_t total, const std::vector<std::string>& inpu
   emitter << YAML::Key << "opencv_version" << YAML::Value << YAML::DoubleQuoted << CV_VERSION;
   emitter << YAML::Key << "total" << YAML::Value << total;
   emitter << YAML::Key << "topic" << YAML::Value << YAML::DoubleQuoted << arguments.topic;
-  if (arguments.device_force) emitter << YAML::Key << "device_force" << YAML::Value << true;
+  if (arguments.rowsHaveDeviceForce()) emitter << YAML::Key << "device_force" << YAML::Value << true;
   if (arguments.ignore_mask) emitter << YAML::Key << "ignore_mask" << YAML::Value << true;
   emitter << YAML::Key << "inputs" << YAML::Value << YAML::BeginSeq;
   for (const std::string& input : inputs) emitter << YAML::DoubleQuoted << input;

@@ -75,7 +75,7 @@ BatchRow RowMaker::row(const BatchScan& scan, const std::function<void(const std
     return row;
   }
   beside_ = Evidence();
-  if (arguments_.device_force) {
+  if (arguments_.rowsHaveDeviceForce()) {
     beside_ = evidenceOfScan(prepared_, configuration_, [&](double share) { tell(deviceText(share)); });
   } else if (wantsDeviceForce(configuration_.device, configuration_.device_force)) {
     beside_.why_no_device = kRowsOfScans;

@@ -556,14 +556,14 @@ class BatchTest(unittest.TestCase):
             self.assertEqual(part["worst_margin_scan"], "scan (%s)" % worst["number"])
             self.assertEqual(part["settings_hash"], of_part[0]["settings_hash"])
 
-    def test_a_row_finds_the_devices_own_force_if_it_is_asked_to(self):
+    def test_a_row_says_of_the_device_what_predict_scan_says(self):
         config = self.folder / "own.yaml"
         config.write_text(OWN_FORCE)
-        self.predict("plain.jsonl", "--config", config, inputs=[self.inputs / "b.bag"])
+        self.predict("plain.jsonl", "--config", config, "--no-device-force", inputs=[self.inputs / "b.bag"])
         plain = json.loads((self.folder / "plain.jsonl").read_text().splitlines()[0])
         self.assertEqual((plain["sticks"], plain["margin"]), ("unknown", None))
         self.assertIn("--device-force", plain["verdict_reason"])
-        self.predict("rows.jsonl", "--config", config, "--device-force", "--dump", self.folder / "dump", inputs=[self.inputs / "b.bag"])
+        self.predict("rows.jsonl", "--config", config, "--dump", self.folder / "dump", inputs=[self.inputs / "b.bag"])
         row = json.loads((self.folder / "rows.jsonl").read_text().splitlines()[0])
         np.savetxt(str(self.folder / "scan.txt"), np.load(str(self.folder / "dump/000001/heights.npy")), fmt="%.17g")
         done = run([program("predict_scan"), "--json", "--config", config, "--pitch", "10e-9", self.folder / "scan.txt"])
@@ -571,7 +571,7 @@ class BatchTest(unittest.TestCase):
         self.assertEqual(record["device_force"]["pull_off_force"], row["device_pull_off_force"])
         self.assertEqual([row[name] for name in ("margin", "margin_lower", "margin_upper", "sticks")],
                          [record[name] for name in ("margin", "margin_lower", "margin_upper", "sticks")])
-        again = run([self.batch, "-o", self.folder / "rows.jsonl", "--config", config, self.inputs / "b.bag"])
+        again = run([self.batch, "-o", self.folder / "rows.jsonl", "--config", config, "--no-device-force", self.inputs / "b.bag"])
         self.assertEqual(again.returncode, 2, "rows with and without it do not mix")
 
     def test_a_part_is_judged_by_the_devices_own_force_of_all_its_scans(self):
