@@ -1,7 +1,5 @@
 #include "device/device_evidence.hpp"
 
-#include <algorithm>
-
 namespace mems_stiction {
 
 bool wantsDeviceForce(const DeviceOptions& device, const DeviceForceOptions& options) {
@@ -11,10 +9,10 @@ bool wantsDeviceForce(const DeviceOptions& device, const DeviceForceOptions& opt
 DeviceEvidence deviceEvidence(const DeviceForce& force) {
   DeviceEvidence evidence;
   evidence.pull_off_force = force.pull_off_force;
-  evidence.force_deviation = force.force_deviation;
   evidence.apparent_work_of_adhesion = force.apparent_work_of_adhesion;
-  evidence.work_deviation = force.work_deviation;
-  evidence.freedom = std::max(1.0, static_cast<double>(force.realisations.size()) - 1.0);
+  evidence.force_factors = force.force_factors;
+  evidence.work_factors = force.work_factors;
+  if (force.is_cut_from_scans) evidence.contacts = force.contacts_of_scans;
   evidence.linear_pull_off_force = force.linear_pull_off_force;
   evidence.warnings = force.warnings;
   return evidence;

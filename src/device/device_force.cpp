@@ -46,15 +46,17 @@ std::vector<HeightMap> drawnAgain(const std::vector<HeightMap>& scans, std::uint
 class Surfaces {
  public:
   Surfaces(const DeviceSurfaces& scanned, double side, const DeviceForceOptions& options)
-      : lower_(mapsOf(scanned.scans)), upper_(mapsOf(scanned.counter_surface)), side_(side), options_(options) {
-    const SurfaceStudy lower(lower_);
-    std::optional<SurfaceStudy> upper;
-    if (!upper_.empty()) upper.emplace(upper_);
-    const bool has_tails = !lower.isGaussian() || (upper && !upper->isGaussian());
+      : lower_(mapsOf(scanned.scans)),
+        upper_(mapsOf(scanned.counter_surface)),
+        side_(side),
+        options_(options),
+        of_lower_(lower_) {
+    if (!upper_.empty()) of_upper_.emplace(upper_);
+    const bool has_tails = !of_lower_.isGaussian() || (of_upper_ && !of_upper_->isGaussian());
     for (const TailForm form : {TailForm::kExponential, TailForm::kPower}) {
       if (form == TailForm::kPower && !has_tails) break;
-      laws_.push_back({lawOf(lower, options, form), std::nullopt});
-      if (upper) laws_.back().upper = lawOf(*upper, options, form);
+      laws_.push_back({lawOf(of_lower_, options, form), std::nullopt});
+      if (of_upper_) laws_.back().upper = lawOf(*of_upper_, options, form);
     }
   }
 
@@ -77,8 +79,8 @@ class Surfaces {
   DeviceLaws lawsAgain(int realisation, const MadeScans& made) const {
     const TailForm form = realisation / 2 % 2 == 0 ? TailForm::kExponential : TailForm::kPower;
     DeviceLaws laws;
-    laws.lower = lawOf(SurfaceStudy(made.lower), options_, form);
-    if (!made.upper.empty()) laws.upper = lawOf(SurfaceStudy(made.upper), options_, form);
+    laws.lower = lawOf(SurfaceStudy(made.lower, &of_lower_), options_, form);
+    if (!made.upper.empty()) laws.upper = lawOf(SurfaceStudy(made.upper, &*of_upper_), options_, form);
     return laws;
   }
 
@@ -96,6 +98,8 @@ class Surfaces {
   std::vector<HeightMap> upper_;
   double side_;
   DeviceForceOptions options_;
+  SurfaceStudy of_lower_;
+  std::optional<SurfaceStudy> of_upper_;
   std::vector<DeviceLaws> laws_;
   std::map<const SurfaceLaw*, ScanMaker> makers_;
 };
@@ -133,26 +137,27 @@ struct Logs {
   }
 };
 
-/// The end of a 95 % interval over the median: constants and model by their samples, surfaces by Student's distribution.
-double endOf(const std::vector<double>& samples, double share, double of_surfaces) {
-  const double of_constants = samples.empty() ? 0.0 : std::log(quantile(samples, share));
-  return std::exp((share < 0.5 ? -1.0 : 1.0) * std::hypot(of_constants, of_surfaces));
+/// Samples of a figure over its median: constants and model as they are, surfaces by Student's distribution.
+/// @param of_surfaces reach of ln figure to either side, 95 % [-]
+std::vector<double> factorsOf(std::vector<double> of_constants, int samples, double of_surfaces) {
+  if (of_constants.empty()) of_constants.assign(static_cast<std::size_t>(samples), 1.0);  // none is uncertain
+  const double median = quantile(of_constants, 0.5);
+  for (double& factor : of_constants) factor /= median;
+  widen(of_constants, factorsWithin(of_surfaces));
+  return of_constants;
 }
 
 /// - @p like a prediction whose figures move with the constants as the device's do
 /// - @p student standard deviations of the surfaces to either side
 void takeIntervals(const Prediction& like, const Options& model, const UncertaintyOptions& constants, double student,
                    DeviceForce& force) {
-  const AdhesionSpread spread = adhesionSpread(like, model, constants);
-  const auto take = [&](const std::vector<double>& samples, double of_surfaces, double value, double& lower,
-                        double& upper) {
-    lower = value * endOf(samples, kLowerShare, student * of_surfaces);
-    upper = value * endOf(samples, kUpperShare, student * of_surfaces);
-  };
-  take(spread.pull_off, force.force_deviation, force.pull_off_force, force.pull_off_force_lower,
-       force.pull_off_force_upper);
-  take(spread.apparent_work, force.work_deviation, force.apparent_work_of_adhesion,
-       force.apparent_work_of_adhesion_lower, force.apparent_work_of_adhesion_upper);
+  AdhesionSpread spread = adhesionSpread(like, model, constants);
+  force.force_factors = factorsOf(std::move(spread.pull_off), constants.samples, student * force.force_deviation);
+  force.work_factors = factorsOf(std::move(spread.apparent_work), constants.samples, student * force.work_deviation);
+  force.pull_off_force_lower = force.pull_off_force * quantile(force.force_factors, kLowerShare);
+  force.pull_off_force_upper = force.pull_off_force * quantile(force.force_factors, kUpperShare);
+  force.apparent_work_of_adhesion_lower = force.apparent_work_of_adhesion * quantile(force.work_factors, kLowerShare);
+  force.apparent_work_of_adhesion_upper = force.apparent_work_of_adhesion * quantile(force.work_factors, kUpperShare);
 }
 
 /// What chi^2/freedom is not below, or above, in 2.5 % of cases (Wilson and Hilferty).
@@ -271,6 +276,7 @@ ModelRun predictedScans(const DeviceSurfaces& surfaces, const DeviceArea& area, 
     const Prediction& prediction = run.predictions.back();
     force_per_area += prediction.pull_off_force / prediction.nominal_area;
     run.force.parts_of_scans.push_back({prediction.nominal_area, prediction.pull_off_force});
+    run.force.contacts_of_scans += prediction.pull_off_contact_count;
   }
   run.force.linear_pull_off_force = force_per_area / static_cast<double>(run.predictions.size()) * area.area;
   return run;
@@ -354,6 +360,7 @@ void followAll(const DeviceSurfaces& surfaces, const DeviceArea& area, const std
   for (std::size_t i = 0; i < runs.size(); ++i) {
     ModelRun& run = *runs[i];
     showSpectrum(known.laws(0).lower, pieces.side(), run.force);
+    run.force.is_cut_from_scans = has_parts;
     run.force.warnings = warnings;
     Options of_plate = run.level;
     if (guidances[i] != Guidance::kGuided) {

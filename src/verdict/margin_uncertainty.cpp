@@ -77,6 +77,19 @@ double samplingDeviation(const std::vector<Asperity>& contacts) {
   return radius_sum > 0.0 ? std::sqrt(square_sum) / radius_sum : 0.0;
 }
 
+/// Standard normal number below which the share lies. @param share in (0, 1)
+double normalQuantile(double share) {
+  if (share > 0.5) return -normalQuantile(1.0 - share);
+  double normal = 0.0;  // from above: the share is convex there, so Newton's steps stay above the root
+  for (int i = 0; i < 100; ++i) {
+    const double density = std::exp(-0.5 * normal * normal) / std::sqrt(2.0 * kPi);
+    const double step = (0.5 * std::erfc(-normal / std::sqrt(2.0)) - share) / density;
+    normal -= step;
+    if (std::abs(step) < 1e-12) break;
+  }
+  return normal;
+}
+
 /// Samples of a prediction, in the order in which they are drawn.
 AdhesionSpread samplesOf(const Prediction& prediction, const Options& options, const UncertaintyOptions& uncertainty,
                          const ModelError& error) {
@@ -116,44 +129,16 @@ AdhesionSpread samplesOf(const Prediction& prediction, const Options& options, c
   return spread;
 }
 
-/// Moves sorted samples away from their median by a factor whose 2.5 % and 97.5 % quantiles are those of the range, in
-/// quadrature in the logarithm: quantile by quantile, so that no end comes nearer.
-void widen(std::vector<double>& samples, const FactorRange& range, NormalNumbers& numbers) {
-  if (samples.empty()) return;
-  std::vector<double> normals(samples.size());
-  for (double& normal : normals) normal = numbers.next();
-  std::sort(normals.begin(), normals.end());
-  const double below = -std::log(range.lowest) / kMarginQuantile;
-  const double above = std::log(range.highest) / kMarginQuantile;
-  const double median = quantile(samples, 0.5);
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const double distance = std::log(samples[i] / median);
-    if (samples[i] < median || (samples[i] == median && 2 * i < samples.size())) {
-      samples[i] = median * std::exp(-std::hypot(distance, below * std::min(normals[i], 0.0)));
-    } else {
-      samples[i] = median * std::exp(std::hypot(distance, above * std::max(normals[i], 0.0)));
-    }
-  }
-}
-
-/// Quantiles of a normal number in the logarithm. @param reach of one side, 95 % [-]
-FactorRange factorsWithin(double reach) { return {std::exp(-reach), std::exp(reach)}; }
-
-/// What the formulation's samples leave out.
-void takeEvidence(const Evidence& evidence, NormalNumbers& numbers, AdhesionSpread& spread) {
+/// What the samples leave out.
+void takeEvidence(const Evidence& evidence, AdhesionSpread& spread) {
   if (evidence.half_space != nullptr) {
     const FactorRange range = factorsWithin(kMarginQuantile * halfSpaceError(*evidence.half_space));
-    widen(spread.pull_off, range, numbers);
-    widen(spread.apparent_work, range, numbers);
-  }
-  if (evidence.device) {
-    const double student = studentQuantile(evidence.device->freedom);
-    widen(spread.pull_off, factorsWithin(student * evidence.device->force_deviation), numbers);
-    widen(spread.apparent_work, factorsWithin(student * evidence.device->work_deviation), numbers);
+    widen(spread.pull_off, range);
+    widen(spread.apparent_work, range);
   }
   if (evidence.cleaning) {
-    widen(spread.pull_off, evidence.cleaning->pull_off, numbers);
-    widen(spread.apparent_work, evidence.cleaning->apparent_work, numbers);
+    widen(spread.pull_off, evidence.cleaning->pull_off);
+    widen(spread.apparent_work, evidence.cleaning->apparent_work);
   }
 }
 
@@ -166,16 +151,37 @@ double apparentWorkOfAdhesion(const Prediction& prediction, const Options& optio
 
 AdhesionSpread adhesionSpread(const Prediction& prediction, const Options& options,
                               const UncertaintyOptions& uncertainty, const Evidence& evidence) {
-  const ModelError error = evidence.half_space != nullptr ? ModelError() : prediction.model.error;
-  UncertaintyOptions counted = uncertainty;
-  if (evidence.device) counted.scan_sampling = false;  // what the scan leaves open of the device is in its deviations
-  AdhesionSpread spread = samplesOf(prediction, options, counted, error);
-  NormalNumbers numbers(uncertainty.seed);
-  std::sort(spread.pull_off.begin(), spread.pull_off.end());
-  std::sort(spread.apparent_work.begin(), spread.apparent_work.end());
-  takeEvidence(evidence, numbers, spread);
+  AdhesionSpread spread;
+  if (evidence.device) {
+    spread.pull_off = evidence.device->force_factors;
+    spread.apparent_work = evidence.device->work_factors;
+  } else {
+    const ModelError error = evidence.half_space != nullptr ? ModelError() : prediction.model.error;
+    spread = samplesOf(prediction, options, uncertainty, error);
+    std::sort(spread.pull_off.begin(), spread.pull_off.end());
+    std::sort(spread.apparent_work.begin(), spread.apparent_work.end());
+  }
+  takeEvidence(evidence, spread);
   return spread;
 }
+
+void widen(std::vector<double>& samples, const FactorRange& range) {
+  if (samples.empty()) return;
+  const double below = -std::log(range.lowest) / kMarginQuantile;
+  const double above = std::log(range.highest) / kMarginQuantile;
+  const double median = quantile(samples, 0.5);
+  const auto count = static_cast<double>(samples.size());
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    // By the shares of quantile(), so that the ends are those of the range; the first and the last are finite.
+    const double share = static_cast<double>(i) / std::max(count - 1.0, 1.0);
+    const double normal = normalQuantile(std::clamp(share, 0.5 / count, 1.0 - 0.5 / count));
+    const double distance = std::log(samples[i] / median);
+    const double moved = normal < 0.0 ? -std::hypot(distance, below * normal) : std::hypot(distance, above * normal);
+    samples[i] = median * std::exp(moved);
+  }
+}
+
+FactorRange factorsWithin(double reach) { return {std::exp(-reach), std::exp(reach)}; }
 
 ForceInterval pullOffInterval(const Prediction& prediction, const Options& options,
                               const UncertaintyOptions& uncertainty) {

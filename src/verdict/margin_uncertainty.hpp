@@ -7,12 +7,12 @@
 /// says (ContactResponse), or with the prediction's exponents, force and work each with their own; the model's own
 /// error (ModelStatement) is a further factor then.
 /// Where a half-space judges, its error takes the place of that (evidence.hpp). The choice of cleaning is a further
-/// factor: normal in the logarithm, whose 2.5 % and 97.5 % quantiles are the lowest and the highest of the cleanings. What
-/// the scans leave open of a device's force is one more, Student's in the logarithm. All add in quadrature there, quantile
-/// by quantile.
+/// factor: normal in the logarithm, whose 2.5 % and 97.5 % quantiles are the lowest and the highest of the cleanings. Both
+/// add in quadrature there, quantile by quantile. A device's own force brings its samples with it (DeviceForce), so its
+/// margin has the interval of that force.
 ///
 /// With scan_sampling, a further factor has the variance sum R_i^2/(sum R_i)^2: a scan is one sample of the surface,
-/// and another place would have other contacts (Poisson). A device's force has this in its own deviation.
+/// and another place would have other contacts (Poisson). A device's force has this in its own samples.
 ///
 /// Cost: one pass over the contacts per sample, some 0.2 ms for 1000 contacts and 200 samples. Same seed, same samples.
 
@@ -51,6 +51,14 @@ double apparentWorkOfAdhesion(const Prediction& prediction, const Options& optio
 /// - @p evidence a half-space in it judges, whatever whyNotJudging() says
 AdhesionSpread adhesionSpread(const Prediction& prediction, const Options& options,
                               const UncertaintyOptions& uncertainty, const Evidence& evidence = {});
+
+/// A figure under the choices of a range is widened by it: sorted samples move away from their median by a factor whose
+/// 2.5 % and 97.5 % quantiles are those of the range, in quadrature in the logarithm, quantile by quantile.
+/// - @p samples ascending, > 0
+void widen(std::vector<double>& samples, const FactorRange& range);
+
+/// The range of a factor that is as often above 1 as below. @param reach of ln factor to either side, 95 % [-]
+FactorRange factorsWithin(double reach);
 
 /// 95 % of a force lie between these; NaN: not known.
 struct ForceInterval {

@@ -45,9 +45,12 @@ std::string areaFactor(int contacts) {
 
 /// Why a scan can carry no plain "no", and what to do, one thing after the other; empty if it can.
 /// - @p cell_area of the scan [m^2]
-/// - @p is_of_device surfaces of the device's size judge, whose contacts are not those of the scan
-std::string whatLacks(const Prediction& prediction, std::uint32_t flags, double cell_area, bool is_of_device) {
-  const bool has_few = prediction.has_asperities && prediction.pull_off_contact_count < kFewestContactsForStatement;
+/// - @p of_device surfaces of the device's size judge, whose contacts are not those of the scan; nullptr: the scan does
+std::string whatLacks(const Prediction& prediction, std::uint32_t flags, double cell_area,
+                      const DeviceEvidence* of_device) {
+  const bool is_of_device = of_device != nullptr;
+  const int contacts = is_of_device ? of_device->contacts : prediction.pull_off_contact_count;
+  const bool has_few = prediction.has_asperities && contacts < kFewestContactsForStatement;
   if ((flags & kOnePixelFlag) != 0) {
     const bool needs_places = !is_of_device && (has_few || (flags & kBorderFlag) != 0);
     return "the answer rests on contacts of one pixel: scan finer pixels" + std::string(needs_places ? " first" : "") +
@@ -57,16 +60,15 @@ std::string whatLacks(const Prediction& prediction, std::uint32_t flags, double 
                          : "") +
            "; or set preprocessing/refine";
   }
-  if (is_of_device) return "";
-  if ((flags & kBorderFlag) != 0) {
+  if (!is_of_device && (flags & kBorderFlag) != 0) {
     return "the answer rests on a contact at the border of the frame, whose summit may lie outside: scan another "
            "place, "
            "or a larger one";
   }
   if (has_few) {
-    return "the answer rests on " + std::to_string(prediction.pull_off_contact_count) +
-           (prediction.pull_off_contact_count == 1 ? " contact" : " contacts") + ": scan more places, or an area " +
-           areaFactor(prediction.pull_off_contact_count) + " as large, another may have higher summits";
+    return "the answer rests on " + std::to_string(contacts) + (contacts == 1 ? " contact" : " contacts") +
+           (is_of_device ? " in all scans" : "") + ": scan more places, or an area " + areaFactor(contacts) +
+           " as large, another may have higher summits";
   }
   return "";
 }
@@ -108,8 +110,10 @@ Finding springFinding(const Holding& holding, Verdict& verdict) {
   if (!holding.spread.isKnown()) return withoutContacts("the margin's interval", prediction);
   // the margin falls as the pull-off force grows
   const std::vector<double>& forces = holding.spread.pull_off;
-  verdict.margin_lower = verdict.margin / quantile(forces, kUpperShare);
-  verdict.margin_upper = verdict.margin / quantile(forces, kLowerShare);
+  verdict.device_pull_off_force_lower = verdict.device_pull_off_force * quantile(forces, kLowerShare);
+  verdict.device_pull_off_force_upper = verdict.device_pull_off_force * quantile(forces, kUpperShare);
+  verdict.margin_lower = verdict.restoring_force / verdict.device_pull_off_force_upper;
+  verdict.margin_upper = verdict.restoring_force / verdict.device_pull_off_force_lower;
   verdict.margin_uncertainty =
       0.5 * verdict.margin * (1.0 / quantile(forces, kStandardLower) - 1.0 / quantile(forces, kStandardUpper));
   const double lowest = std::min(verdict.margin_lower, verdict.margin_transition);
@@ -198,7 +202,7 @@ Verdict verdictBy(const Prediction& prediction, const DeviceOptions& device, con
   verdict.sticks = finding.sticks;
   verdict.reason = finding.reason;
   const std::string lack = finding.sticks == Sticks::kNo && prediction.pull_off_force > 0.0
-                               ? whatLacks(prediction, flags, cell_area, of_device != nullptr)
+                               ? whatLacks(prediction, flags, cell_area, of_device)
                                : "";
   if (!lack.empty()) {
     verdict.sticks = Sticks::kUnknown;
@@ -227,8 +231,8 @@ Verdict verdictOf(const Prediction& prediction, const DeviceOptions& device, con
   const std::string objection = is_asked ? whyNotJudging(*evidence.half_space) : "";
   const std::string& why = evidence.why_half_space;
   Evidence counted = evidence;
-  if (evidence.device &&
-      !(std::isfinite(evidence.device->pull_off_force) && std::isfinite(evidence.device->force_deviation))) {
+  if (evidence.device && !(std::isfinite(evidence.device->pull_off_force) && !evidence.device->force_factors.empty() &&
+                           std::isfinite(evidence.device->force_factors.back()))) {
     if (counted.why_no_device.empty() && !evidence.device->warnings.empty()) {
       counted.why_no_device = evidence.device->warnings.front();
     }

@@ -37,4 +37,13 @@ void visitVerdictFields(VerdictType& verdict, Visitor&& visit) {
   visit({"regime_flags", "", "where the model leaves its range: bits, 0 when all is well"}, verdict.regime_flags);
 }
 
+/// The force that the margin rests on; in records and Python, not in messages.
+template <typename VerdictType, typename Visitor>
+void visitVerdictForce(VerdictType& verdict, Visitor&& visit) {
+  visit({"device_pull_off_force_lower", "N", "2.5 % quantile of device_pull_off_force"},
+        verdict.device_pull_off_force_lower);
+  visit({"device_pull_off_force_upper", "N", "97.5 % quantile of device_pull_off_force"},
+        verdict.device_pull_off_force_upper);
+}
+
 }  // namespace mems_stiction

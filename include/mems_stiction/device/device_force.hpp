@@ -87,8 +87,14 @@ struct DeviceForce {
   double pitch = kUnknown;                            ///< of the made surfaces [m]
   double force_deviation = kUnknown;  ///< standard deviation of ln force but for constants and model [-]
   double work_deviation = kUnknown;   ///< the same of ln work [-]
+  /// The distributions whose 2.5 % and 97.5 % quantiles the intervals are: samples over the median, ascending [-]. A
+  /// verdict takes its margin from them.
+  std::vector<double> force_factors;
+  std::vector<double> work_factors;
   std::vector<Realisation> realisations;
   std::vector<PartOfScan> parts_of_scans;
+  int contacts_of_scans = 0;          ///< that hold at the pull-off in all scans together
+  bool is_cut_from_scans = false;     ///< the realisations are places of the scans: no surface was made
   std::vector<BandOfWaves> spectrum;  ///< by descending wavelength
   std::vector<std::string> warnings;  ///< in words
   HeightMap made_surface;  ///< the relief of the first one, to look at: pixels left out; empty where none was made

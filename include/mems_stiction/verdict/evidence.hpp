@@ -36,12 +36,15 @@ struct DeviceEvidence {
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
   double pull_off_force = kUnknown;             ///< of the whole device [N]
-  double force_deviation = kUnknown;            ///< standard deviation of ln force but for constants and model [-]
   double apparent_work_of_adhesion = kUnknown;  ///< per nominal area of the device [J/m^2]
-  double work_deviation = kUnknown;             ///< the same of ln work [-]
-  double freedom = std::numeric_limits<double>::infinity();  ///< degrees of freedom of both deviations, >= 1
-  double linear_pull_off_force = kUnknown;                   ///< the scans' force by area, for comparison [N]
-  std::vector<std::string> warnings;                         ///< about the scans, in words
+  /// Samples of force and work over the figures above, ascending [-]: constants, model, and what the scans leave open.
+  std::vector<double> force_factors;
+  std::vector<double> work_factors;
+  /// Contacts that the force rests on: those of the scans where the device's places are cut from them, as many as that
+  /// stands for where surfaces were made, whose scatter is in the samples.
+  int contacts = std::numeric_limits<int>::max();
+  double linear_pull_off_force = kUnknown;  ///< the scans' force by area, for comparison [N]
+  std::vector<std::string> warnings;        ///< about the scans, in words
 };
 
 /// Each may be missing.
@@ -65,7 +68,7 @@ struct DeviceScale {
   DeviceEvidence under(const Prediction& contact) const;
 };
 
-/// Force, work and linear rule times the given factors; deviations and warnings stay. A factor that is not a number > 0
+/// Force, work and linear rule times the given factors; samples and warnings stay. A factor that is not a number > 0
 /// leaves its figure as it is.
 DeviceEvidence scaled(DeviceEvidence device, double force_factor, double work_factor);
 

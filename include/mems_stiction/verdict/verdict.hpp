@@ -9,8 +9,8 @@
 ///     peel number     = what bending gives per what adhesion takes, of a beam (beam_adhesion.hpp): above 1 it comes off
 ///
 /// The margin is a ratio, so that 2 reads "twice the force needed" for every device, and beams and springs compare.
-/// Its 95 % interval is that of the uncertain constants and the model (margin_uncertainty.hpp), and in quadrature with it
-/// what the scans leave open of the device's surfaces. The word:
+/// Its 95 % interval is that of the force it rests on, quantile by quantile: the uncertain constants and the model
+/// (margin_uncertainty.hpp), and in quadrature with them what the scans leave open of the device's surfaces. The word:
 ///
 ///     no        the whole interval is above 1, also with the pull-off prefactors of the JKR-DMT transition
 ///     yes       the whole interval is below 1
@@ -22,7 +22,8 @@
 ///
 /// Where the device's own force has not been found, a scan stands for contacts of half to twice its area, each with the
 /// force per area of the scan. Then a "no" that rests on a contact at the frame's border, or on fewer than three, is
-/// unknown, too; surfaces of the device's size have their own contacts, whose scatter is in the interval.
+/// unknown, too. So is a "no" by places of the device that are cut from scans in which fewer than three contacts hold.
+/// Surfaces that are made for the device have their own contacts, whose scatter is in the interval.
 /// The reason says what margin the scan's force by area would give, where it differs by more than a factor of 1.5.
 ///
 /// A half-space of the same scan judges in the prediction's place if it is solved, converged, resolved and converged
@@ -71,21 +72,23 @@ struct Verdict {
   std::string reason;  ///< one sentence for people
   Judge judge = Judge::kPrediction;
 
-  double restoring_force = kNotStated;            ///< of the device [N]
-  double device_pull_off_force = kNotStated;      ///< of the whole device [N]
-  double margin = kNotStated;                     ///< restoring over pull-off force [-]; infinite without adhesion
-  double margin_lower = kNotStated;               ///< 2.5 % quantile [-]
-  double margin_upper = kNotStated;               ///< 97.5 % quantile [-]
-  double margin_uncertainty = kNotStated;         ///< half of the central 68 % interval [-]: one standard deviation
-  double margin_transition = kNotStated;          ///< with the prefactors of the JKR-DMT transition [-], <= margin
-  double apparent_work_of_adhesion = kNotStated;  ///< of the rough interface [J/m^2]
-  double peel_number = kNotStated;                ///< of the beam [-]
-  double peel_number_lower = kNotStated;          ///< 2.5 % quantile [-]
-  double peel_number_upper = kNotStated;          ///< 97.5 % quantile [-]
-  double detachment_length = kNotStated;          ///< longest beam that comes off by itself [m]
-  double unstuck_length = kNotStated;             ///< free arm of the beam while it is stuck [m]
-  double pull_in_voltage = kNotStated;            ///< at which the electrodes close [V]
-  std::uint32_t regime_flags = 0;                 ///< bits of RegimeFlag
+  double restoring_force = kNotStated;              ///< of the device [N]
+  double device_pull_off_force = kNotStated;        ///< of the whole device [N]
+  double device_pull_off_force_lower = kNotStated;  ///< 2.5 % quantile [N]; restoring force over it is margin_upper
+  double device_pull_off_force_upper = kNotStated;  ///< 97.5 % quantile [N]; restoring force over it is margin_lower
+  double margin = kNotStated;                       ///< restoring over pull-off force [-]; infinite without adhesion
+  double margin_lower = kNotStated;                 ///< 2.5 % quantile [-]
+  double margin_upper = kNotStated;                 ///< 97.5 % quantile [-]
+  double margin_uncertainty = kNotStated;           ///< half of the central 68 % interval [-]: one standard deviation
+  double margin_transition = kNotStated;            ///< with the prefactors of the JKR-DMT transition [-], <= margin
+  double apparent_work_of_adhesion = kNotStated;    ///< of the rough interface [J/m^2]
+  double peel_number = kNotStated;                  ///< of the beam [-]
+  double peel_number_lower = kNotStated;            ///< 2.5 % quantile [-]
+  double peel_number_upper = kNotStated;            ///< 97.5 % quantile [-]
+  double detachment_length = kNotStated;            ///< longest beam that comes off by itself [m]
+  double unstuck_length = kNotStated;               ///< free arm of the beam while it is stuck [m]
+  double pull_in_voltage = kNotStated;              ///< at which the electrodes close [V]
+  std::uint32_t regime_flags = 0;                   ///< bits of RegimeFlag
 
   /// What of the interval is of the place alone, for pooledVerdictOf(): standard deviation of ln margin [-]; 0
   /// where the device's own force judges. In no message.

@@ -142,6 +142,7 @@ TEST_F(DeviceForceTest, ScansThatContradictEachOtherAreNamed) {
 TEST_F(DeviceForceTest, SummitsThatNoLawHasAreToldAndWidenTheInterval) {
   large_ = domes();
   surfaces_.scans = {part("first", large_, 0, 0, 256), part("second", large_, 450, 380, 256)};
+  options_.realisations = 8;  // of three, chance decides whether a misfit shows
   const double truth = AdhesionModel(model_).predict(HeightMap(large_, kPitch, kPitch)).pull_off_force;
   const DeviceForce found = force(areaOfPixels(kSide));
   EXPECT_TRUE(isTold(found, "times as strongly as scans of the surfaces that were made"));

@@ -265,7 +265,7 @@ TEST(LoadSweep, aLargerDeviceFollowsItsFrame) {
   DeviceScale scale;
   scale.frame_pull_off_force = unknown.rows[0].pull_off_force;
   scale.device.pull_off_force = 5.0 * scale.frame_pull_off_force;
-  scale.device.force_deviation = 0.2;
+  scale.device.force_factors = {0.7, 1.0, 1.5};
   const LoadSweepResult result = sweepLoads(paperOptions(), scan, request, device, {}, {}, scale);
   ASSERT_GT(result.rows.back().pull_off_force, 1.5 * result.rows[0].pull_off_force);
   for (std::size_t i = 0; i < result.rows.size(); ++i) {

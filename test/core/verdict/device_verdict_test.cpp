@@ -1,11 +1,13 @@
 /// A device whose own force has been found is judged by that, whatever its area over that of the scan.
 
 #include <cmath>
+#include <random>
 
 #include <gtest/gtest.h>
 
 #include "device/device_evidence.hpp"
 #include "mems_stiction/verdict/verdict.hpp"
+#include "verdict/margin_uncertainty.hpp"
 #include "verdict/part_verdict.hpp"
 #include "verdict/regime_flags.hpp"
 
@@ -47,11 +49,12 @@ DeviceOptions springOf(double margin) {
 Evidence found(double freedom = 7.0) {
   DeviceForce force;
   force.pull_off_force = kOfDevice;
-  force.force_deviation = kDeviation;
   force.apparent_work_of_adhesion = 1e-4;
-  force.work_deviation = 0.5 * kDeviation;
   force.linear_pull_off_force = 100.0 * kPullOff;
-  force.realisations.resize(static_cast<std::size_t>(freedom) + 1);
+  force.force_factors.assign(20000, 1.0);
+  widen(force.force_factors, factorsWithin(studentQuantile(freedom) * kDeviation));
+  force.work_factors.assign(20000, 1.0);
+  widen(force.work_factors, factorsWithin(studentQuantile(freedom) * 0.5 * kDeviation));
   force.warnings = {"measure a field of at least 40 um", "another one"};
   Evidence evidence;
   evidence.device = deviceEvidence(force);
@@ -94,24 +97,74 @@ TEST(DeviceVerdict, exactConstantsLeaveStudentsInterval) {
   EXPECT_EQ(verdictWith(found(2.0), 2.5).sticks, Sticks::kMarginal);
 }
 
-TEST(DeviceVerdict, constantsAddInQuadratureAndTheScansContactsDoNot) {
-  UncertaintyOptions uncertainty = exact();
-  uncertainty.work_of_adhesion = 0.3;
-  uncertainty.scan_sampling = false;
-  const Verdict by_scan = verdictOf(
-      predicted(),
-      [] {
-        DeviceOptions device = springOf(5.0);
-        device.contact_area = kArea;
-        return device;
-      }(),
-      uncertainty, Options(), kCell);
-  const double constants = std::log(by_scan.margin / by_scan.margin_lower);
-  uncertainty.scan_sampling = true;
-  const Verdict verdict = verdictWith(found(), 5.0, uncertainty);
-  const double expected = std::hypot(constants, 2.364624 * kDeviation);
-  EXPECT_GT(constants, 0.4);
+TEST(DeviceVerdict, cleaningsAddInQuadrature) {
+  Evidence evidence = found();
+  evidence.cleaning = CleaningReach{{0.5, 2.0}, {1.0, 1.0}};
+  const Verdict verdict = verdictWith(evidence, 5.0);
+  const double expected = std::hypot(std::log(2.0), 2.364624 * kDeviation);
   EXPECT_NEAR(std::log(verdict.margin / verdict.margin_lower), expected, 0.03 * expected);
+  EXPECT_NEAR(std::log(verdict.margin_upper / verdict.margin), expected, 0.03 * expected);
+}
+
+/// Settings at random: margin and force are two faces of one distribution, whoever judges.
+TEST(DeviceVerdict, marginIsTheRestoringForceOverTheForceQuantileByQuantile) {
+  std::mt19937_64 engine(20021126);
+  const auto draw = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); };
+  const auto chance = [&] { return draw(0.0, 1.0) < 0.5; };
+  SolvedHalfSpace solution;
+  solution.status = HalfSpaceStatus::kSolved;
+  solution.is_converged = solution.is_resolved = solution.is_step_converged = true;
+  int plain = 0;
+  for (int i = 0; i < 300; ++i) {
+    SCOPED_TRACE(i);
+    UncertaintyOptions uncertainty;
+    uncertainty.work_of_adhesion = draw(0.0, 0.5);
+    uncertainty.pitch = draw(0.0, 0.1);
+    uncertainty.scan_sampling = chance();
+    uncertainty.seed = i;
+    Evidence evidence;
+    const bool has_own_force = chance();
+    if (has_own_force) evidence = found(draw(2.0, 20.0));
+    if (has_own_force && chance()) evidence.device->contacts = 1 + i % 4;
+    if (chance()) evidence.cleaning = CleaningReach{{draw(0.3, 1.0), draw(1.0, 3.0)}, {draw(0.3, 1.0), draw(1.0, 3.0)}};
+    solution.pull_off_force = draw(0.5, 2.0) * kPullOff;
+    solution.pull_off_uncertainty = draw(0.0, 0.2) * solution.pull_off_force;
+    solution.work_of_adhesion = 0.01;
+    if (chance()) evidence.half_space = &solution;
+    DeviceOptions device = springOf(std::exp(draw(-2.0, 3.0)));
+    if (!has_own_force) device.contact_area = draw(0.6, 1.8) * kArea;
+    const Verdict verdict = verdictOf(predicted(1 + i % 30), device, uncertainty, Options(), kCell, evidence);
+    ASSERT_TRUE(std::isfinite(verdict.margin)) << verdict.reason;
+    const double round_off = 1e-12;
+    EXPECT_NEAR(verdict.margin * verdict.device_pull_off_force / verdict.restoring_force, 1.0, round_off);
+    EXPECT_NEAR(verdict.margin_lower * verdict.device_pull_off_force_upper / verdict.restoring_force, 1.0, round_off);
+    EXPECT_NEAR(verdict.margin_upper * verdict.device_pull_off_force_lower / verdict.restoring_force, 1.0, round_off);
+    if (has_own_force) {
+      const double own_upper = evidence.device->pull_off_force * quantile(evidence.device->force_factors, kUpperShare);
+      const double moved = verdict.device_pull_off_force / evidence.device->pull_off_force;
+      EXPECT_GE(verdict.device_pull_off_force_upper, own_upper * moved * (1.0 - round_off)) << "surer than the force";
+    }
+    if (verdict.sticks == Sticks::kNo) {
+      EXPECT_LT(verdict.device_pull_off_force_upper, verdict.restoring_force);
+      EXPECT_GE(has_own_force ? evidence.device->contacts : 1 + i % 30, 3);
+      ++plain;
+    }
+    if (verdict.sticks == Sticks::kYes) {
+      EXPECT_GT(verdict.device_pull_off_force_lower, verdict.restoring_force);
+    }
+  }
+  EXPECT_GT(plain, 30);
+}
+
+TEST(DeviceVerdict, placesThatAreCutFromScansNeedThreeContactsForAPlainNo) {
+  Evidence evidence = found();
+  evidence.device->contacts = 2;
+  const Verdict verdict = verdictWith(evidence, 50.0);
+  EXPECT_EQ(verdict.sticks, Sticks::kUnknown);
+  EXPECT_TRUE(says(verdict, "the answer rests on 2 contacts in all scans")) << verdict.reason;
+  EXPECT_EQ(verdictWith(evidence, 0.05).sticks, Sticks::kYes);
+  evidence.device->contacts = 3;
+  EXPECT_EQ(verdictWith(evidence, 50.0).sticks, Sticks::kNo);
 }
 
 TEST(DeviceVerdict, fewContactsOfTheScanOrItsBorderDoNotObject) {
@@ -214,7 +267,7 @@ TEST(DeviceScale, followsTheFrame) {
   EXPECT_DOUBLE_EQ(under.pull_off_force, 3.0 * kOfDevice);
   EXPECT_DOUBLE_EQ(under.linear_pull_off_force, 300.0 * kPullOff);
   EXPECT_DOUBLE_EQ(under.apparent_work_of_adhesion, 2e-4);
-  EXPECT_DOUBLE_EQ(under.force_deviation, kDeviation);
+  EXPECT_EQ(under.force_factors, scale.device.force_factors);
   scale.frame_pull_off_force = 0.0;
   EXPECT_DOUBLE_EQ(scale.under(pressed).pull_off_force, kOfDevice) << "nothing to follow";
 }
