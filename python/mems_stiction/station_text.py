@@ -65,7 +65,7 @@ def sweep_sentences(result, width=WIDTH):
     else:
         sentences.append("Pull-in voltage: %s" % with_unit(result.pull_in_voltage, "V"))
     if all(math.isnan(point.margin) for point in result.points if not point.is_open):
-        sentences.append("No device is stated (device/...), so there is no margin.")
+        sentences.append("There is no margin: it needs device/spring_stiffness, travel and contact_area; a beam has a peel number in its place.")
     else:
         sentences.append("Margin: restoring force over pull-off force, once the load is gone; above 1 the device opens.")
         sentences.append("While held: restoring force over all that holds while the load acts.")
@@ -173,7 +173,7 @@ def cycle_sentences(result):
         sentences.append("From contact %d on nothing flows any more." % settled[0])
     judged = [cycle for cycle in result.cycles if not math.isnan(cycle.margin)]
     if not judged:
-        sentences.append("No device is stated (device/...), so there is no verdict.")
+        sentences.append("There is no margin: it needs device/spring_stiffness, travel and contact_area; a beam has a peel number in its place.")
     elif result.first_sticking_cycle:
         sticks_on = all(cycle.sticks == YES for cycle in result.cycles if cycle.cycle >= result.first_sticking_cycle)
         sentences.append(("The device fails: from contact %d on it sticks." if sticks_on else

@@ -4,6 +4,7 @@ import contextlib
 import errno
 import os
 import pathlib
+import secrets
 import shutil
 
 
@@ -28,9 +29,16 @@ def reason_of(error):
     return ("what is printed cannot be written: " if is_disk else "") + error.strerror
 
 
-def part_of(path):
-    """The place beside a file where it is written, with its ending, which says to others what is in it."""
-    return path.with_name(".%s.part%s" % (path.stem, path.suffix))
+def new_part_of(path):
+    """A new, empty file beside a file, with its ending, which says to others what is in it.
+
+    Nobody can guess the name, and what stands there already, as a link that somebody laid, is never written to.
+    """
+    while True:
+        part = path.with_name(".%s.part-%s%s" % (path.stem, secrets.token_hex(6), path.suffix))
+        with contextlib.suppress(FileExistsError):
+            os.close(os.open(str(part), os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_CLOEXEC", 0), 0o666))
+            return part
 
 
 def refuse_pipe(path):
@@ -49,7 +57,10 @@ def whole(path):
     path = pathlib.Path(os.path.realpath(str(path)))
     refuse_pipe(path)
     is_device = path.exists() and not path.is_file()
-    part = path if is_device else part_of(path)
+    try:
+        part = path if is_device else new_part_of(path)
+    except OSError as error:
+        raise CannotWrite(asked, error) from error
     try:
         yield part
         if is_device:
@@ -76,10 +87,7 @@ def check_writable(path):
             pass
         if not path.is_file():
             return
-    part = part_of(path)
     try:
-        with open(str(part), "wb"):
-            pass
-        part.unlink()
+        new_part_of(path).unlink()
     except OSError as error:
         raise CannotWrite(asked, error) from error

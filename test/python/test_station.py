@@ -126,7 +126,7 @@ class CycleTextTest(unittest.TestCase):
         self.assertEqual("The device releases after each of these contacts; the lowest margin is 1.33.", cycle_sentences(result)[-1])
         for one in result.cycles:
             one.margin = NAN
-        self.assertIn("No device is stated", "\n".join(cycle_sentences(result)))
+        self.assertIn("There is no margin: it needs device/spring_stiffness", "\n".join(cycle_sentences(result)))
 
 
 if __name__ == "__main__":
