@@ -154,7 +154,7 @@ def main():
     arguments = parser.parse_args()
 
     cases = [case for folder in arguments.folders for case in cases_of_folder(folder)]
-    if arguments.ctest:
+    if arguments.ctest and pathlib.Path(arguments.ctest).exists():  # else nothing was built that could be run
         show_slowest(cases)
         cases += cases_of_ctest(arguments.ctest, arguments.folders)
     if arguments.total:
