@@ -589,7 +589,7 @@ class BatchTest(unittest.TestCase):
             self.assertIn(count + " scans together", part["reason"])
         self.assertNotEqual(parts[0]["margin"], parts[1]["margin"])
         for index in (1, 2):
-            self.predict("shard%d.csv" % index, "--config", config, "--shard", "%d/2" % index, inputs=inputs)
+            self.predict("shard%d.csv" % index, "--config", config, "--no-device-force", "--shard", "%d/2" % index, inputs=inputs)
         done = run([self.batch, "--merge", "--parts", self.folder / "merged_parts.csv", "-o", self.folder / "merged.csv"]
                    + [self.folder / ("shard%d.csv" % index) for index in (1, 2)])
         self.assertEqual(done.returncode, 0, done.stderr)

@@ -81,7 +81,9 @@ class MarginTest(unittest.TestCase):
             row = found.rows[place]
             self.assertIsOf(row, verdict_of(**{STIFFNESS: row[STIFFNESS], TRAVEL: row[TRAVEL]}))
             words.add(row["sticks"])
-        self.assertEqual(words, {"yes", "marginal", "no"})
+        # the pad is cut from one scan in which two contacts hold: too few for a plain no, whatever the spring
+        self.assertEqual(words, {"yes", "marginal", "unknown"})
+        self.assertGreater(found.rows[5]["margin_lower"], 1.0)
 
     def test_the_surface_may_be_scaled_polished_and_etched(self):
         for axes, heights, settings in (({"roughness/scale": [1.5]}, 1.5 * SCAN, {}),
