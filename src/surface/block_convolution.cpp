@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 
 #include "numeric/constants.hpp"
 #include "numeric/vectorized.hpp"
@@ -78,20 +79,53 @@ std::vector<double> tapers(const LineWaves<double>& waves, int margin) {
   return window;
 }
 
-/// transform(line) of all columns of a frame.
+/// transform(line) of all columns of a frame whose transforms are real: two by two, as one complex line.
 template <typename Transform>
-void overColumns(std::vector<Complex<double>>& frame, std::size_t rows, std::size_t cols, Transform transform) {
-  constexpr std::size_t kTogether = 8;  // columns: they share the lines of the processor's memory
+void overRealColumns(std::vector<Complex<double>>& frame, std::size_t rows, std::size_t cols, Transform transform) {
+  constexpr std::size_t kTogether = 4;  // pairs of columns: they share the lines of the processor's memory
   std::vector<Complex<double>> lines(kTogether * rows);
-  for (std::size_t begin = 0; begin < cols; begin += kTogether) {
+  for (std::size_t begin = 0; begin < cols; begin += 2 * kTogether) {
     for (std::size_t row = 0; row < rows; ++row) {
-      for (std::size_t i = 0; i < kTogether; ++i) lines[i * rows + row] = frame[row * cols + begin + i];
+      const Complex<double>* const pairs = &frame[row * cols + begin];
+      for (std::size_t i = 0; i < kTogether; ++i) {
+        const Complex<double>& one = pairs[2 * i];
+        const Complex<double>& other = pairs[2 * i + 1];
+        lines[i * rows + row] = {one.re - other.im, one.im + other.re};
+      }
     }
     for (std::size_t i = 0; i < kTogether; ++i) transform(&lines[i * rows]);
     for (std::size_t row = 0; row < rows; ++row) {
-      for (std::size_t i = 0; i < kTogether; ++i) frame[row * cols + begin + i] = lines[i * rows + row];
+      Complex<double>* const pairs = &frame[row * cols + begin];
+      for (std::size_t i = 0; i < kTogether; ++i) {
+        pairs[2 * i] = {lines[i * rows + row].re, 0.0};
+        pairs[2 * i + 1] = {lines[i * rows + row].im, 0.0};
+      }
     }
   }
+}
+
+/// transform(line) of all rows of a real frame in which the row -r holds the reverse of row r: its waves are their conjugates.
+/// - @p numbers of the rows, in their order
+template <typename Transform>
+void overMirroredRows(std::vector<Complex<double>>& frame, const std::vector<std::size_t>& numbers,
+                      Transform transform) {
+  const std::size_t rows = numbers.size();
+  const std::size_t cols = frame.size() / rows;
+  std::vector<std::size_t> places(rows);
+  for (std::size_t row = 0; row < rows; ++row) places[numbers[row]] = row;
+  for (std::size_t number = 0; number <= rows / 2; ++number) {
+    Complex<double>* const line = &frame[places[number] * cols];
+    Complex<double>* const mirrored = &frame[places[(rows - number) % rows] * cols];
+    transform(line);
+    if (mirrored == line) continue;
+    for (std::size_t col = 0; col < cols; ++col) mirrored[col] = {line[col].re, -line[col].im};
+  }
+}
+
+std::vector<std::size_t> numbersUpTo(std::size_t count) {
+  std::vector<std::size_t> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), std::size_t{0});
+  return numbers;
 }
 
 /// Eight rows of noise, the halves of a block as real and imaginary part, transformed along the rows.
@@ -165,19 +199,21 @@ MEMS_STICTION_VECTORIZED void transformBack(const LineWaves<float>& waves, std::
 /// A kernel that has been cut off.
 struct BlockConvolution::Kernel {
   Kernel(const WaveGain& gain, const BlockLayout& layout) {
+    std::vector<BlockSize> margins;
     for (const int round_margin : kMargins) {
       const BlockSize next = {marginOf(round_margin, layout.reach_rows), marginOf(round_margin, layout.reach_cols)};
-      const BlockSize wanted = cheapestTransform(next, layout.choice);
-      if (wanted.rows == 0) break;  // the one before it must do
-      margin = next;
-      if (wanted.rows != size.rows || wanted.cols != size.cols) {
-        size = wanted;
-        sample(gain, layout.for_spline);
-      }
-      row_taper = tapers(rows, margin.rows);
-      col_taper = tapers(cols, margin.cols);
-      neglected = power > 0.0 ? beyondTaper() / power : 0.0;
-      if (neglected < kNeglected) break;
+      if (cheapestTransform(next, layout.choice).rows == 0) break;  // the one before it must do
+      margins.push_back(next);
+    }
+    // one small sample tells how far the kernel reaches
+    sample(gain, layout.for_spline, cheapestTransform(margins.back(), BlockChoice::kSmall));
+    for (const BlockSize& next : margins) {
+      if (takeMargin(next) < kNeglected) break;
+    }
+    const BlockSize wanted = cheapestTransform(margin, layout.choice);
+    if (wanted.rows != size.rows || wanted.cols != size.cols) {
+      sample(gain, layout.for_spline, wanted);
+      takeMargin(margin);
     }
     cutOff();
   }
@@ -194,7 +230,16 @@ struct BlockConvolution::Kernel {
   std::vector<double> col_taper;
 
  private:
-  void sample(const WaveGain& gain, bool for_spline) {
+  /// @return share of the power beyond it
+  double takeMargin(const BlockSize& next) {
+    margin = next;
+    row_taper = tapers(rows, margin.rows);
+    col_taper = tapers(cols, margin.cols);
+    return neglected = power > 0.0 ? beyondTaper() / power : 0.0;
+  }
+
+  void sample(const WaveGain& gain, bool for_spline, const BlockSize& transform) {
+    size = transform;
     const auto row_count = static_cast<std::size_t>(size.rows);
     const auto col_count = static_cast<std::size_t>(size.cols);
     rows = LineWaves<double>(row_count);
@@ -206,6 +251,13 @@ struct BlockConvolution::Kernel {
       return 2.0 * kPi * (2 * index > count ? number - length : number) / length;
     };
     const double cells = static_cast<double>(row_count * col_count);
+    const auto splineGains = [&](std::size_t count) {
+      std::vector<double> gains(count, 1.0);
+      for (std::size_t i = 0; for_spline && i < count; ++i) gains[i] = splineGain(wave(i, count));
+      return gains;
+    };
+    const std::vector<double> row_gains = splineGains(row_count);
+    const std::vector<double> col_gains = splineGains(col_count);
     variance = 0.0;
     power = 0.0;
     for (std::size_t row = 0; row <= row_count / 2; ++row) {
@@ -217,7 +269,7 @@ struct BlockConvolution::Kernel {
         if (opposite_row == row && opposite_col < col) continue;
         const double wave_x = wave(col, col_count);
         const double wanted = gain(wave_x, wave_y) / cells;
-        const double made = for_spline ? wanted / (splineGain(wave_x) * splineGain(wave_y)) : wanted;
+        const double made = wanted / (row_gains[row] * col_gains[col]);
         values[row * col_count + col].re = made;
         values[opposite_row * col_count + opposite_col].re = made;
         const double times = opposite_row == row && opposite_col == col ? cells : 2.0 * cells;
@@ -225,8 +277,8 @@ struct BlockConvolution::Kernel {
         power += times * made * made;
       }
     }
-    for (std::size_t row = 0; row < row_count; ++row) cols.forward(&values[row * col_count]);
-    overColumns(values, row_count, col_count, [this](Complex<double>* line) { rows.forward(line); });
+    overMirroredRows(values, numbersUpTo(row_count), [this](Complex<double>* line) { cols.forward(line); });
+    overRealColumns(values, row_count, col_count, [this](Complex<double>* line) { rows.forward(line); });
   }
 
   double beyondTaper() const {
@@ -251,8 +303,8 @@ struct BlockConvolution::Kernel {
     }
     const double scale = within > 0.0 ? std::sqrt(power / within) : 0.0;
     for (Complex<double>& value : values) value.re *= scale;
-    for (std::size_t row = 0; row < row_taper.size(); ++row) cols.backward(&values[row * col_taper.size()]);
-    overColumns(values, row_taper.size(), col_taper.size(), [this](Complex<double>* line) { rows.backward(line); });
+    overMirroredRows(values, rows.order(), [this](Complex<double>* line) { cols.backward(line); });
+    overRealColumns(values, row_taper.size(), col_taper.size(), [this](Complex<double>* line) { rows.backward(line); });
   }
 };
 
