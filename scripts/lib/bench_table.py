@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Prints what scripts/bench measured as tables.
 
-usage: bench_table.py FOLDER   with predict.json, in_flight.json, half_space.json, device.json and, where they were made, callgrind.txt
+usage: bench_table.py FOLDER   with predict.json, in_flight.json, half_space.json, device.json, transform_pair.json and, where they were made, callgrind.txt
                                and latency.json
 """
 
@@ -32,6 +32,9 @@ REQUIRED_TILES = {"self_affine": 4.0, "translated": 4.0}
 # From scans to the force of a surface of 10^8 pixels: CPU time [s] and memory [GB] of one process.
 REQUIRED_SECONDS = 20.0
 REQUIRED_GIGABYTES = 1.5
+# The whole answer for a device, in pairs of transforms of 4096 x 4096 by numpy.
+REQUIRED_ANSWERS = {"own area, 192 x 192": 0.3, "1e-10 m^2, 4 scans of 512 x 512": 0.6, "1e-9 m^2, 4 scans of 512 x 512": 3.0,
+                    "1e-8 m^2, 4 scans of 512 x 512": 6.0}
 
 
 def times_of(path, counter=None):
@@ -156,6 +159,22 @@ def print_device(path):
                 verdict(run["seconds"], REQUIRED_SECONDS, False), verdict(run["gigabytes"], REQUIRED_GIGABYTES, False)))
 
 
+def print_answers(path, pair):
+    least = {}
+    for run in json.loads(path.read_text())["benchmarks"]:
+        if run["name"].startswith("answer/") and run.get("run_type") != "aggregate":
+            name = next(name for name in REQUIRED_ANSWERS if name in run["name"])
+            if name not in least or run["seconds"] < least[name]["seconds"]:
+                least[name] = run
+    print("The force of a device with its interval; a pair is a transform of 4096 x 4096 and its inverse by numpy, %.2f s" % pair)
+    print("%-34s %8s %8s %8s  %s" % ("device", "s", "pairs", "GB", "required"))
+    for name, required in REQUIRED_ANSWERS.items():
+        if name in least:
+            seconds = least[name]["seconds"]
+            print("%-34s %8.2f %8.2f %8.2f  %s" % (name, seconds, seconds / pair, least[name]["gigabytes"],
+                                                  verdict(seconds / pair, required, False)))
+
+
 def print_latency(rows):
     print()
     print("Replay of 1024 x 1024 scans, from the arrival of a scan to that of its prediction at one listener [ms]")
@@ -184,6 +203,7 @@ def main():
     print_cleaning(core)
     print_half_space(json.loads((folder / "half_space.json").read_text()))
     print_device(folder / "device.json")
+    print_answers(folder / "device.json", json.loads((folder / "transform_pair.json").read_text())["seconds"])
     latency = folder / "latency.json"
     if latency.exists():
         print_latency(json.loads(latency.read_text()))

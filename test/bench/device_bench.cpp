@@ -1,6 +1,7 @@
 /// How long does a surface of the size of a device take? A few rows of tiles of one seed, beside the Fourier transform of a frame in
 /// the same run on the same core; both by pixel, so that the ratio depends neither on the machine nor on the size.
-/// And from scans to the force of one surface of 10^8 pixels, with its time and memory, in processes of their own.
+/// And from scans to the force of one surface of 10^8 pixels, and to the whole answer for devices of several areas, with time and
+/// memory, in processes of their own.
 /// scripts/bench makes the table of ratios from its JSON.
 
 #include <benchmark/benchmark.h>
@@ -95,16 +96,32 @@ void measureAlone(benchmark::State& state, const std::function<void()>& work) {
   }
 }
 
+DeviceSurfaces scansOfOneSurface(std::uint64_t count, int side, double pitch) {
+  DeviceSurfaces surfaces;
+  for (std::uint64_t seed = 1; seed <= count; ++seed) {
+    cv::Mat heights(side, side, CV_32FC1);
+    TiledSurface(selfAffine(), side, side, pitch, pitch, seed).heights(0, 0, heights);
+    surfaces.scans.push_back({"scan " + std::to_string(seed), HeightMap(heights, pitch, pitch)});
+  }
+  return surfaces;
+}
+
+/// What a user waits for: the force of a device with its interval.
+/// - @p area [m^2]; 0: a hundredth more than the scans' own, so that it is made and not cut from them
+void answer(benchmark::State& state, std::uint64_t scans, int side, double area) {
+  const DeviceSurfaces surfaces = scansOfOneSurface(scans, side, kPitch);
+  const double asked = area > 0.0 ? area : 1.01 * side * kPitch * side * kPitch;
+  measureAlone(state, [&] {
+    const DeviceForce found = deviceForce(surfaces, {asked, 1}, Options(), {}, {});
+    if (!(found.pull_off_force > 0.0) || found.is_conforming) std::_Exit(1);
+  });
+}
+
 /// Four scans, their law, a surface of 10^8 pixels by it, its highest cells, its force.
 void findForce(benchmark::State& state, double pitch) {
   constexpr int kScan = 512;
   constexpr double kPixels = 1e8;
-  DeviceSurfaces surfaces;
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    cv::Mat heights(kScan, kScan, CV_32FC1);
-    TiledSurface(selfAffine(), kScan, kScan, pitch, pitch, seed).heights(0, 0, heights);
-    surfaces.scans.push_back({"scan " + std::to_string(seed), HeightMap(heights, pitch, pitch)});
-  }
+  const DeviceSurfaces surfaces = scansOfOneSurface(4, kScan, pitch);
   measureAlone(state, [&] {
     const DevicePieces pieces = piecesOf({kPixels * pitch * pitch, 1}, pitch, kPixels);
     DeviceAreaSolver solver(Options(), kScan * kScan * pitch * pitch, pieces);
@@ -151,6 +168,10 @@ int main(int argc, char** argv) {
   benchmark::RegisterBenchmark("whole/transform", transformWhole)->Iterations(1)->Repetitions(1);
   benchmark::RegisterBenchmark("whole/1 mm at 100 nm", findForce, 100e-9)->Iterations(1)->Repetitions(1);
   benchmark::RegisterBenchmark("whole/100 um at 10 nm", findForce, 10e-9)->Iterations(1)->Repetitions(1);
+  benchmark::RegisterBenchmark("answer/own area, 192 x 192", answer, 1, 192, 0.0)->Iterations(1);
+  benchmark::RegisterBenchmark("answer/1e-10 m^2, 4 scans of 512 x 512", answer, 4, 512, 1e-10)->Iterations(1);
+  benchmark::RegisterBenchmark("answer/1e-9 m^2, 4 scans of 512 x 512", answer, 4, 512, 1e-9)->Iterations(1);
+  benchmark::RegisterBenchmark("answer/1e-8 m^2, 4 scans of 512 x 512", answer, 4, 512, 1e-8)->Iterations(1);
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
   return 0;
