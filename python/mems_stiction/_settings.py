@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from typing import Any, Dict, Optional, Union
+from typing import Any, Dict, List, Optional, Union
 
 from mems_stiction import _core
 from mems_stiction._warnings import SettingsWarning, warn
+from mems_stiction.yaml_text import MOST_LEVELS, MOST_VALUES
 
 Error = _core.Error
 FileError = _core.FileError
@@ -84,19 +85,31 @@ def _settings_of_text(text: str) -> Settings:
 
 
 def _plain(mapping: Mapping) -> Dict[str, Any]:
-    """What YAML would give: dictionaries, and Python's own numbers in place of NumPy's."""
-    return {str(key): _half_space_section(value) if key == "half_space" else _plain_value(value) for key, value in mapping.items()}
+    """What YAML would give: dictionaries, and Python's own numbers in place of NumPy's.
+
+    Raises OptionsError for a mapping that contains itself.
+    """
+    budget = [MOST_VALUES]
+    return {str(key): (_half_space_section if key == "half_space" else _plain_value)(value, 1, budget)
+            for key, value in mapping.items()}
 
 
-def _half_space_section(value: Any) -> Any:
+def _half_space_section(value: Any, level: int, budget: List[int]) -> Any:
     """half_space="auto" is short for its setting `enabled`."""
-    plain = _plain_value(value)
+    plain = _plain_value(value, level, budget)
     return {"enabled": "flagged" if plain == "auto" else plain} if isinstance(plain, (bool, str)) else plain
 
 
-def _plain_value(value: Any) -> Any:
+def _plain_value(value: Any, level: int, budget: List[int]) -> Any:
+    """level: maps and lists that the value stands in. budget: how many more values there may be."""
+    budget[0] -= 1
+    if level > MOST_LEVELS or budget[0] < 0:
+        raise OptionsError("settings: more than %d levels of dictionaries and lists, or %d values; "
+                           "do they contain themselves?" % (MOST_LEVELS, MOST_VALUES))
     if isinstance(value, Mapping):
-        return _plain(value)
+        return {str(key): _plain_value(inner, level + 1, budget) for key, inner in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_plain_value(inner, level + 1, budget) for inner in value]
     if isinstance(value, os.PathLike):
         return os.fspath(value)
     if type(value).__module__ == "numpy" and getattr(value, "ndim", None) == 0:

@@ -9,6 +9,7 @@
 #include "files/input_file.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "settings/option_yaml.hpp"
+#include "settings/yaml_text.hpp"
 
 namespace mems_stiction {
 
@@ -26,13 +27,7 @@ Configuration configurationFromYaml(const YAML::Node& tree, const Configuration&
 
 Configuration loadConfiguration(const std::string& path, const Configuration& defaults) {
   if (access(path.c_str(), R_OK) != 0) throw FileError(path + ": the configuration file cannot be opened");
-  const std::string text = readInput(path, kSettingsInput);
-  YAML::Node tree;
-  try {
-    tree = YAML::Load(text);
-  } catch (const YAML::Exception& error) {
-    throw FileError(path + ": " + yamlTrouble(text, error.what()));
-  }
+  const YAML::Node tree = parseYaml(readInput(path, kSettingsInput), path);
   try {
     return configurationFromYaml(tree, defaults);
   } catch (const OptionsError& error) {

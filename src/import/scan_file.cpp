@@ -16,6 +16,7 @@
 #include "mems_stiction/errors/errors.hpp"
 #include "numeric/words.hpp"
 #include "settings/option_yaml.hpp"
+#include "settings/yaml_text.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -41,9 +42,8 @@ Settings withSidecar(const std::string& path, const ScanOptions& given, const Sc
   if (sidecar.empty()) return settings;
   ScanOptions& options = settings.options;
   std::vector<std::string> lines;
-  const std::string text = readInput(sidecar, kSettingsInput);
+  const YAML::Node tree = parseYaml(readInput(sidecar, kSettingsInput), sidecar);
   try {
-    const YAML::Node tree = YAML::Load(text);
     YAML::Node scan(YAML::NodeType::Map);
     if (tree.IsMap()) {
       for (const auto& entry : tree) {
@@ -61,8 +61,8 @@ Settings withSidecar(const std::string& path, const ScanOptions& given, const Sc
       settings.options.describe(visitor);
       settings.identity.describe(visitor);
     });
-  } catch (const YAML::Exception& yaml_error) {
-    throw FileError(sidecar + ": " + yamlTrouble(text, yaml_error.what()));
+  } catch (const YAML::Exception& error) {
+    throw FileError(sidecar + ": not a file of settings: " + error.what());
   }
   if (options.height_scale == 0.0) lines.emplace_back("scan/height_scale: 0 is not allowed, must not be 0");
   for (std::string& line : identityComplaints(settings.identity, "scan/")) lines.push_back(std::move(line));

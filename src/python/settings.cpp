@@ -14,6 +14,7 @@
 #include "mems_stiction/configuration/provenance.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "settings/option_yaml.hpp"
+#include "settings/yaml_text.hpp"
 
 namespace mems_stiction {
 namespace python {
@@ -98,7 +99,7 @@ void bindSettings(py::module& module) {
       .def(
           "read",
           [](const Configuration& configuration, const std::string& text) {
-            return configurationFromYaml(YAML::Load(text), configuration);
+            return configurationFromYaml(parseYaml(text, "settings"), configuration);
           },
           "text"_a)
       .def_property_readonly("warnings", &settingsWarnings)

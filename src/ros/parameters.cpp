@@ -12,12 +12,14 @@
 #include <yaml-cpp/yaml.h>
 
 #include "errors/one_line.hpp"
+#include "files/input_file.hpp"
 #include "mems_stiction/configuration/provenance.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "ros/master_calls.hpp"
 #include "ros/topic_names.hpp"
 #include "settings/option_values.hpp"
 #include "settings/option_yaml.hpp"
+#include "settings/yaml_text.hpp"
 #include "surface/counter_surface.hpp"
 
 namespace mems_stiction {
@@ -98,32 +100,36 @@ struct FileText {
         (key == "file" ? name : text) = entry.second.Scalar();
       }
     }
+    if (text.size() > kSettingsInput.max_bytes) {
+      violations.push_back(name + ": has " + std::to_string(text.size()) + " bytes, more than the " +
+                           std::to_string(kSettingsInput.max_bytes) + " of " + kSettingsInput.name);
+      return;
+    }
     try {
-      tree = YAML::Load(text);
-    } catch (const YAML::Exception& error) {
-      violations.push_back(name + ": " + yamlTrouble(text, error.what()));
+      tree = parseYaml(text, name);
+    } catch (const FileError& error) {
+      violations.emplace_back(error.what());
     }
   }
 };
 
 /// Every key of a tree with its value as text.
-void collect(const YAML::Node& node, const std::string& key, std::map<std::string, std::string>& values) {
-  if (!node.IsMap()) {
-    values[key] = YAML::Dump(node);
-    return;
-  }
-  for (const auto& entry : node) {
-    collect(entry.second, (key.empty() ? "" : key + "/") + entry.first.Scalar(), values);
-  }
+std::map<std::string, std::string> valuesIn(const YAML::Node& tree) {
+  std::map<std::string, std::string> values;
+  for (const auto& [key, value] : statedIn(tree)) values[key] = YAML::Dump(value);
+  return values;
 }
 
 /// One line for each parameter that an earlier run has taken and that nobody has set since, while others were set:
 /// nothing tells whether it belongs to them. rosparam and launch files add to what lies there.
 std::vector<std::string> leftOvers(const YAML::Node& ours, const std::string& taken) {
-  std::map<std::string, std::string> now;
+  const std::map<std::string, std::string> now = valuesIn(ours);
   std::map<std::string, std::string> before;
-  collect(ours, "", now);
-  collect(YAML::Load(taken), "", before);
+  try {
+    before = valuesIn(parseYaml(taken, kTakenParameters));
+  } catch (const FileError& error) {
+    return {std::string(error.what()) + "; the node writes this parameter itself: delete it"};
+  }
   if (before.empty() || now == before) return {};
   std::vector<std::string> lines;
   for (const auto& [key, value] : now) {

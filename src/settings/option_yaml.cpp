@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "numeric/words.hpp"
+#include "settings/yaml_text.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -58,13 +59,33 @@ std::string placeOf(const YAML::Node& node) {
   return mark.is_null() ? "" : " in line " + std::to_string(mark.line + 1);
 }
 
+/// Of so many keys that nobody knows, or that are given twice, each is named: more are another file.
+constexpr std::size_t kMostUnknown = 100;
+
+/// More or longer keys, and more maps within one another, are no settings: perhaps a tree that contains itself.
+constexpr std::size_t kMostKeys = 100'000;
+constexpr std::size_t kLongestKey = 1000;
+
 /// YAML forbids a key that one map has twice; programs that take the first, or the last, or both, differ in what they then
-/// read.
-void flatten(const YAML::Node& node, const std::string& prefix, std::vector<Leaf>& leaves,
-             std::vector<std::string>& lines) {
+/// read. Beyond the limits nothing is added but a line that says so.
+/// - @p depth maps that the node stands in
+/// @return whether the tree is within the limits
+bool flatten(const YAML::Node& node, const std::string& prefix, std::vector<Leaf>& leaves,
+             std::vector<std::string>& lines, int depth = 0) {
   if (!node.IsMap()) {
     leaves.push_back({prefix, node});
-    return;
+    if (leaves.size() <= kMostKeys) return true;
+    lines.push_back("more than " + std::to_string(kMostKeys) + " keys are given");
+    return false;
+  }
+  if (depth >= kMaxYamlDepth) {
+    lines.push_back(prefix.substr(0, 100) + "...: more than " + std::to_string(kMaxYamlDepth) +
+                    " maps within one another are given; does the tree contain itself?");
+    return false;
+  }
+  if (prefix.size() > kLongestKey) {
+    lines.push_back(prefix.substr(0, 100) + "...: a key of " + std::to_string(prefix.size()) + " bytes is given");
+    return false;
   }
   std::map<std::string, YAML::Node> seen;
   for (const auto& entry : node) {
@@ -74,10 +95,13 @@ void flatten(const YAML::Node& node, const std::string& prefix, std::vector<Leaf
     if (!is_new) {
       lines.push_back(key + ": given" + placeOf(entry.first) + " and before" + placeOf(first->second) +
                       ", must be given once: put what belongs to it together");
-      continue;
+      if (lines.size() < kMostUnknown) continue;
+      lines.emplace_back("perhaps more keys are given twice");
+      return false;
     }
-    flatten(entry.second, key, leaves, lines);
+    if (!flatten(entry.second, key, leaves, lines, depth + 1)) return false;
   }
+  return true;
 }
 
 /// " (write 0.05: ...)" for 0,05; else empty.
@@ -107,9 +131,6 @@ std::string choiceOf(const std::string& text, const std::vector<std::string>& na
   const std::string flag = flagOf(text);
   return std::find(names.begin(), names.end(), flag) != names.end() ? flag : text;
 }
-
-/// Of so many keys that nobody knows each is named: more are another file.
-constexpr std::size_t kMostUnknown = 100;
 
 /// Takes each described field from the tree, if the tree names it, and checks its range by the common validator.
 class YamlReader : public OptionVisitor {
@@ -295,26 +316,6 @@ class YamlWriter : public OptionVisitor {
   std::string text_;
 };
 
-/// Number of the first line that begins with a tab, behind spaces or not; 0: none.
-std::size_t lineWithTab(const std::string& text) {
-  std::size_t number = 1;
-  for (std::size_t begin = 0; begin < text.size(); ++number) {
-    const std::size_t first = text.find_first_not_of(' ', begin);
-    if (first != std::string::npos && text[first] == '\t') return number;
-    const std::size_t end = text.find('\n', begin);
-    if (end == std::string::npos) break;
-    begin = end + 1;
-  }
-  return 0;
-}
-
-bool isBinary(const std::string& text) {
-  return std::any_of(text.begin(), text.end(), [](char letter) {
-    const auto code = static_cast<unsigned char>(letter);
-    return code < 0x20 && letter != '\t' && letter != '\n' && letter != '\r';
-  });
-}
-
 }  // namespace
 
 std::vector<std::string> readYaml(const YAML::Node& tree, const DescribeFunction& describe) {
@@ -323,13 +324,19 @@ std::vector<std::string> readYaml(const YAML::Node& tree, const DescribeFunction
   return reader.violations();
 }
 
-std::vector<std::string> keysOf(const YAML::Node& tree) {
+std::vector<std::pair<std::string, YAML::Node>> statedIn(const YAML::Node& tree) {
   std::vector<Leaf> leaves;
   std::vector<std::string> ignored;
   if (tree.IsDefined() && tree.IsMap()) flatten(tree, "", leaves, ignored);
+  std::vector<std::pair<std::string, YAML::Node>> stated;
+  stated.reserve(leaves.size());
+  for (const Leaf& leaf : leaves) stated.emplace_back(leaf.key, leaf.node);
+  return stated;
+}
+
+std::vector<std::string> keysOf(const YAML::Node& tree) {
   std::vector<std::string> keys;
-  keys.reserve(leaves.size());
-  for (const Leaf& leaf : leaves) keys.push_back(leaf.key);
+  for (const auto& [key, value] : statedIn(tree)) keys.push_back(key);
   return keys;
 }
 
@@ -346,13 +353,6 @@ std::string yamlNumber(double value) {
   const std::size_t exponent = text.find('e');
   if (exponent != std::string::npos && text.find('.') == std::string::npos) text.insert(exponent, ".0");
   return text;
-}
-
-std::string yamlTrouble(const std::string& text, const std::string& error) {
-  if (isBinary(text)) return "is not a text, so no file of settings";
-  const std::size_t line = lineWithTab(text);
-  if (line == 0) return "not valid YAML: " + error;
-  return "not valid YAML: line " + std::to_string(line) + " begins with a tab; must be spaces (" + error + ")";
 }
 
 }  // namespace mems_stiction

@@ -14,6 +14,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mems_stiction/settings/option_visitor.hpp"
@@ -33,7 +34,10 @@ using DescribeFunction = std::function<void(OptionVisitor&)>;
 /// well. A number out of range has been stored; after any violation the fields are not fit for use.
 std::vector<std::string> readYaml(const YAML::Node& tree, const DescribeFunction& describe);
 
-/// The keys that the tree states, nested ones with slashes, in its order.
+/// Keys and values that the tree states, nested ones with slashes, in its order; up to where readYaml() refuses it.
+std::vector<std::pair<std::string, YAML::Node>> statedIn(const YAML::Node& tree);
+
+/// The keys of statedIn().
 std::vector<std::string> keysOf(const YAML::Node& tree);
 
 /// Every described field as nested YAML, its unit, range and meaning beside it as a comment. Reads back by readYaml().
@@ -41,12 +45,5 @@ std::string toYaml(const DescribeFunction& describe);
 
 /// A number as YAML 1.1 and 1.2 both take for a number: "2.0e-09", ".nan", "-.inf".
 std::string yamlNumber(double value);
-
-/// What is wrong with a text that is no YAML, in words.
-/// - @p text that was read
-/// - @p error what the parser said
-/// @return "not valid YAML: ..." with the line that begins with a tab, which YAML does not allow and nobody sees; or that
-///         it is no text
-std::string yamlTrouble(const std::string& text, const std::string& error);
 
 }  // namespace mems_stiction

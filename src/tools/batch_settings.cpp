@@ -12,6 +12,7 @@
 #include "mems_stiction/configuration/configuration_yaml.hpp"
 #include "mems_stiction/configuration/provenance.hpp"
 #include "mems_stiction/errors/errors.hpp"
+#include "settings/yaml_text.hpp"
 
 namespace mems_stiction {
 
@@ -58,7 +59,7 @@ void checkSettings(const std::string& path, const std::string& settings) {
 
 Configuration madeOf(const std::string& path, const std::string& settings, BatchArguments& arguments) {
   try {
-    const YAML::Node tree = YAML::Load(settings);
+    const YAML::Node tree = parseYaml(settings, settingsPathOf(path));
     arguments.inputs = tree["inputs"].as<std::vector<std::string>>();
     arguments.topic = tree["topic"].as<std::string>();
     arguments.ignore_mask = tree["ignore_mask"].as<bool>(false);
@@ -70,7 +71,7 @@ Configuration madeOf(const std::string& path, const std::string& settings, Batch
 
 std::size_t totalOf(const std::string& path, const std::string& settings) {
   try {
-    return YAML::Load(settings)["total"].as<std::size_t>();
+    return parseYaml(settings, settingsPathOf(path))["total"].as<std::size_t>();
   } catch (const YAML::Exception& error) {
     throw FileError(settingsPathOf(path) + ": damaged, it does not say how many rows there are: " + error.what());
   }

@@ -449,6 +449,12 @@ class FacesTest(unittest.TestCase):
         run = self.run_program(self.path / "none.yaml")
         self.assertEqual(run.returncode, 2)
         self.assertRegex(run.stderr, r"^calibrate: .*none\.yaml: [^\n]*\n$")
+        bomb = "".join("- &a%d [%s]\n" % (level, ", ".join(["*a%d" % (level - 1)] * 10 if level else ["1"])) for level in range(10))
+        for text, words in (("scans: &s [*s]\n", "line 1: an alias stands inside what it names, so that the text contains itself"),
+                            ("- scans: &s\n  - *s\n", "line 2: an alias stands inside what it names"), (bomb, "line 5: the text holds more than 10000 values"),
+                            ("[" * 3000, "line 1: more than 32 levels"), ("- value: 2026-99-99\n", "has a value that cannot be read: month must be")):
+            (self.path / "loop.yaml").write_text(text)
+            self.assertRegex(self.run_program(self.path / "loop.yaml").stderr, r"^calibrate: [^\n]*loop\.yaml: %s[^\n]*\n$" % words)
         (self.path / "text.yaml").write_text("kind: pull_off_force\n")
         self.assertRegex(self.run_program(self.path / "text.yaml").stderr, r"^calibrate: .*text\.yaml: must be a list")
         for text, lines in (("- kind: pull_off_force\n  value: 2e-8\n  value: 9e-8\n", (3, 2)), ("- {value: 2e-8, value: 9e-8}\n", (1, 1))):

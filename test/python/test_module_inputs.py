@@ -50,6 +50,17 @@ class SlipTest(unittest.TestCase):
         for sizes in ((-1.0, 1.0), (1.0,), (1.0, 1.0, 1.0), "ab", 1.0):
             self.named(mems_stiction.SurfaceError, "^physical_sizes: .*two numbers > 0", mems_stiction.predict, Topography(good, sizes, "m"))
 
+    def test_settings_that_contain_themselves(self):
+        loop = {}
+        loop["lower"] = loop
+        endless = []
+        endless.append(endless)
+        bomb = {"hardness": 1e9}
+        for _ in range(12):
+            bomb = {"k%d" % i: bomb for i in range(10)}
+        for settings in (loop, {"lower": {"hardness": endless}}, bomb):
+            self.named(mems_stiction.OptionsError, "do they contain themselves", mems_stiction.Settings, settings)
+
     def test_a_scan_says_which_place_of_which_wafer_it_is(self):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "place.npy"

@@ -122,6 +122,25 @@ TEST(Parameters, WhatIsNoYamlIsNamedByItsFile) {
   }
 }
 
+TEST(Parameters, TextsThatContainThemselvesAreRefused) {
+  const auto refusal = [](const YAML::Node& tree) {
+    try {
+      statedConfiguration(tree);
+    } catch (const OptionsError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refusal(withFile("scan: &x {b: *x}")).find("part.yaml: line 1: an alias stands inside what it names"), 0u);
+  EXPECT_NE(refusal(withFile("# " + std::string(1000000, 'x'))).find("more than the 1000000 of"), std::string::npos);
+  YAML::Node taken;
+  taken["load"]["max_voltage"] = "5";
+  for (const char* text : {"&x {b: *x}", "a: [1"}) {
+    taken["taken_at_start"] = text;
+    EXPECT_EQ(refusal(taken).find("taken_at_start: "), 0u) << refusal(taken);
+  }
+}
+
 TEST(Parameters, ParametersBesideAFileGoBeforeItAndAreNamed) {
   YAML::Node tree = withFile("load: {mechanical_load: 1e-6, max_voltage: 20}\n");
   tree["load"]["mechanical_load"] = "2e-6";
