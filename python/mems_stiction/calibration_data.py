@@ -215,6 +215,9 @@ def _measurement(datum: Any, what: str, reader: _Reader) -> Measurement:
     for key in datum:
         if key not in allowed:
             raise OptionsError("%s/%s: there is no such key for %s, must be one of %s" % (what, key, kind, ", ".join(allowed)))
+    if not isinstance(datum.get("name") or "", str):
+        # YAML makes 15 of 0017
+        raise OptionsError("%s/name: %r is not allowed, must be a text: quote it" % (what, datum["name"]))
     numbers = {key: _number(datum[key], "%s/%s" % (what, key), key) for key in datum
                if key in POSITIVE + ("relative_humidity", "mechanical_load", "residual_stress") and datum[key] is not None}
     required = ("value", "uncertainty") + (("thickness", "gap", "modulus") if kind in BEAMS else ())

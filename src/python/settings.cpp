@@ -27,9 +27,10 @@ using py::literals::operator""_a;
 /// place in a configuration is the text that Python shows for it, so that the reader names it.
 YAML::Node nodeOf(const py::handle& value) {
   if (value.is_none()) return YAML::Node(YAML::NodeType::Null);
-  if (py::isinstance<py::bool_>(value)) return YAML::Node(std::string(py::cast<bool>(value) ? "true" : "false"));
+  if (py::isinstance<py::bool_>(value)) return typedNode(py::cast<bool>(value) ? "true" : "false", "bool");
   if (py::isinstance<py::str>(value)) return YAML::Node(py::cast<std::string>(value));
-  if (py::isinstance<py::float_>(value)) return YAML::Node(yamlNumber(py::cast<double>(value)));
+  if (py::isinstance<py::float_>(value)) return typedNode(yamlNumber(py::cast<double>(value)), "float");
+  if (py::isinstance<py::int_>(value)) return typedNode(std::string(py::str(value)), "int");
   if (py::isinstance<py::dict>(value)) {
     YAML::Node map(YAML::NodeType::Map);
     for (const auto& entry : py::reinterpret_borrow<py::dict>(value)) {

@@ -30,17 +30,24 @@ constexpr double kLongestDuration = 1e9;
 /// Timers go by them: shorter ones would keep a core busy with nothing else.
 const Range kPeriod = Range::within(0.01, kLongestDuration);
 
+/// roscpp keeps the quotes of _part/serial:="'0012'", without which it takes a number for one.
+std::string withoutQuotes(const std::string& text) {
+  const bool is_quoted =
+      text.size() >= 2 && text.front() == text.back() && (text.front() == '\'' || text.front() == '"');
+  return is_quoted && text.find(text.front(), 1) == text.size() - 1 ? text.substr(1, text.size() - 2) : text;
+}
+
 YAML::Node yamlOf(XmlRpc::XmlRpcValue& value, const std::string& key, std::vector<std::string>& violations) {
   using XmlRpc::XmlRpcValue;
   switch (value.getType()) {
     case XmlRpcValue::TypeBoolean:
-      return YAML::Node(static_cast<bool>(value) ? "true" : "false");
+      return typedNode(static_cast<bool>(value) ? "true" : "false", "bool");
     case XmlRpcValue::TypeInt:
-      return YAML::Node(std::to_string(static_cast<int>(value)));
+      return typedNode(std::to_string(static_cast<int>(value)), "int");
     case XmlRpcValue::TypeDouble:
-      return YAML::Node(yamlNumber(static_cast<double>(value)));
+      return typedNode(yamlNumber(static_cast<double>(value)), "float");
     case XmlRpcValue::TypeString:
-      return YAML::Node(static_cast<std::string>(value));
+      return YAML::Node(withoutQuotes(static_cast<std::string>(value)));
     case XmlRpcValue::TypeArray: {
       YAML::Node list(YAML::NodeType::Sequence);
       const int size = value.size();  // begin() and end() are those of a struct
@@ -116,7 +123,7 @@ struct FileText {
 /// Every key of a tree with its value as text.
 std::map<std::string, std::string> valuesIn(const YAML::Node& tree) {
   std::map<std::string, std::string> values;
-  for (const auto& [key, value] : statedIn(tree)) values[key] = YAML::Dump(value);
+  for (const auto& [key, value] : statedIn(tree)) values[key] = value.IsScalar() ? value.Scalar() : YAML::Dump(value);
   return values;
 }
 
@@ -234,7 +241,7 @@ StatedConfiguration statedConfiguration(const YAML::Node& tree) {
     for (std::string& line : leftOvers(ours, tree[kTakenParameters].Scalar())) violations.push_back(std::move(line));
   }
   if (!violations.empty()) throw OptionsError(std::move(violations));
-  if (in_files.empty()) stated.taken = YAML::Dump(ours);
+  if (in_files.empty()) stated.taken = YAML::Dump(YAML::Node(valuesIn(ours)));
 
   const std::vector<std::string> beside = keysOf(ours);
   const std::string before = toYaml(describe);

@@ -118,6 +118,16 @@ std::string shown(const YAML::Node& node) {
   return node.IsSequence() ? "a list" : "no value";
 }
 
+/// Of YAML's types.
+constexpr const char* kTypeTag = "tag:yaml.org,2002:";
+
+/// By a tag: that of typedNode(), or one that the text has ("!!int 17").
+bool isTyped(const YAML::Node& node) {
+  const std::string& tag = node.Tag();
+  return tag == std::string(kTypeTag) + "int" || tag == std::string(kTypeTag) + "float" ||
+         tag == std::string(kTypeTag) + "bool";
+}
+
 /// YAML's word for a flag; empty if it is none.
 std::string flagOf(const std::string& text) {
   const std::string word = lowered(text);
@@ -188,10 +198,13 @@ class YamlReader : public OptionVisitor {
   void text(const std::string& key, std::string& value, const std::string& /*meaning*/) override {
     const YAML::Node* node = take(key);
     if (node == nullptr) return;
-    if (node->IsScalar()) {
-      value = node->Scalar();
-    } else {
+    if (!node->IsScalar()) {
       wrongType(key, *node, "a text");
+    } else if (isTyped(*node)) {
+      lines_.push_back(key + ": " + node->Scalar() + " came as a number or a flag, must be a text: quote it ('" +
+                       node->Scalar() + "'), with the zeros that it may have lost");
+    } else {
+      value = node->Scalar();
     }
   }
 
@@ -338,6 +351,12 @@ std::vector<std::string> keysOf(const YAML::Node& tree) {
   std::vector<std::string> keys;
   for (const auto& [key, value] : statedIn(tree)) keys.push_back(key);
   return keys;
+}
+
+YAML::Node typedNode(const std::string& value, const std::string& type) {
+  YAML::Node node(value);
+  node.SetTag(kTypeTag + type);
+  return node;
 }
 
 std::string toYaml(const DescribeFunction& describe) {

@@ -40,6 +40,11 @@ std::vector<std::pair<std::string, YAML::Node>> statedIn(const YAML::Node& tree)
 /// The keys of statedIn().
 std::vector<std::string> keysOf(const YAML::Node& tree);
 
+/// A value that came as a number or a flag, from a source that has types: whoever wrote 0017 has 15 or 17 there. Serves for
+/// numbers, flags and choices; a text setting refuses it.
+/// - @p type YAML's name: "int", "float" or "bool"
+YAML::Node typedNode(const std::string& value, const std::string& type);
+
 /// Every described field as nested YAML, its unit, range and meaning beside it as a comment. Reads back by readYaml().
 std::string toYaml(const DescribeFunction& describe);
 

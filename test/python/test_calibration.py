@@ -472,6 +472,7 @@ class FacesTest(unittest.TestCase):
                                ({"scans": None}, r"measurements\[0\]/scans: are missing"),
                                ({"radius": 1e-6, "area": 1e-12}, r"measurements\[0\]/radius: is not allowed with area"),
                                ({"relative_humidity": 1.5}, r"measurements\[0\]: interface/relative_humidity"),
+                               ({"name": 0o17}, r"measurements\[0\]/name: 15 is not allowed, must be a text: quote it"),
                                ({"kind": ["force"]}, r"measurements\[0\]/kind: \['force'\] is not allowed, must be one of pull_off_force"),
                                ({"value": True}, r"measurements\[0\]/value: True is not allowed, must be a number"),
                                ({"contacts": 4}, r"measurements\[0\]/contacts: is not allowed without area"),

@@ -50,6 +50,17 @@ class SlipTest(unittest.TestCase):
         for sizes in ((-1.0, 1.0), (1.0,), (1.0, 1.0, 1.0), "ab", 1.0):
             self.named(mems_stiction.SurfaceError, "^physical_sizes: .*two numbers > 0", mems_stiction.predict, Topography(good, sizes, "m"))
 
+    def test_a_text_that_is_given_as_a_number(self):
+        for value, shown in ((0o17, "15"), (1e5, "100000"), (True, "true"), (np.int64(12), "12"), (np.float32(0.5), "0.5")):
+            for settings in ({"part": {"id": value}}, {"part/id": value}):
+                self.named(mems_stiction.OptionsError, "^part/id: %s came as a number or a flag, must be a text: quote it" % shown,
+                           mems_stiction.Settings, settings)
+        self.assertIn('id: "0017"', mems_stiction.Settings(part={"id": "0017"}).yaml())
+        with tempfile.TemporaryDirectory() as folder:  # a text has it as it is written
+            path = pathlib.Path(folder) / "part.yaml"
+            path.write_text("part: {id: 0017, serial: 1e5}\n")
+            self.assertRegex(mems_stiction.Settings(path).yaml(), 'id: "0017"[^\n]*\n  serial: "1e5"')
+
     def test_settings_that_contain_themselves(self):
         loop = {}
         loop["lower"] = loop

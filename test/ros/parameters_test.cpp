@@ -191,6 +191,40 @@ TEST(Parameters, TheParameterServersTypesArriveUnchanged) {
   EXPECT_TRUE(configuration.node.accumulate_deformation);
 }
 
+/// rosparam has made 15 of `part: {id: 0017}`, roscpp 12 of _part/serial:=0012.
+TEST(Parameters, ATextThatArrivesAsANumberIsRefused) {
+  XmlRpc::XmlRpcValue tree;
+  tree["part"]["id"] = 15;
+  tree["part"]["serial"] = 1e5;
+  tree["part"]["lot"] = true;
+  tree["counter_surface"]["frame"] = 3;
+  try {
+    nodeConfigurationFromYaml(yamlFromParameters(tree));
+    ADD_FAILURE();
+  } catch (const OptionsError& error) {
+    ASSERT_EQ(error.violations().size(), 4u) << error.what();
+    EXPECT_EQ(error.violations()[0].find("part/id: 15 came as a number or a flag, must be a text: quote it ('15')"), 0u)
+        << error.what();
+  }
+  tree = XmlRpc::XmlRpcValue();
+  tree["part"]["id"] = "0017";
+  tree["part"]["serial"] = "'0012'";  // _part/serial:="'0012'"
+  const StatedConfiguration stated = statedConfiguration(yamlFromParameters(tree));
+  EXPECT_EQ(stated.configuration.core.part.id, "0017");
+  EXPECT_EQ(stated.configuration.core.part.serial, "0012");
+}
+
+TEST(Parameters, WhatANodeHasTakenIsTheSameWhenItStartsAgain) {
+  XmlRpc::XmlRpcValue tree;
+  tree["load"]["max_voltage"] = 5;
+  tree["lower"]["hardness"] = 2e9;
+  tree["part"]["id"] = "0017";
+  tree["taken_at_start"] = statedConfiguration(yamlFromParameters(tree)).taken;
+  EXPECT_NO_THROW(statedConfiguration(yamlFromParameters(tree)));
+  tree["load"]["max_voltage"] = 6;
+  EXPECT_THROW(statedConfiguration(yamlFromParameters(tree)), OptionsError);
+}
+
 TEST(Parameters, TypesThatAreNoSettingAreNamed) {
   XmlRpc::XmlRpcValue tree;
   char bytes[] = "abc";
