@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <cstdio>
 
+#include "configuration/named_files.hpp"
 #include "mems_stiction/configuration/configuration.hpp"
 #include "numeric/words.hpp"
 #include "settings/option_values.hpp"
@@ -30,12 +31,14 @@ const char* packageVersion() { return MEMS_STICTION_VERSION; }
 
 std::string settingsHash(const Configuration& configuration) {
   std::uint64_t state = 0xcbf29ce484222325ULL;  // FNV-1a over "key=value" of each setting that counts
-  visitValues(configuration, [&state](const std::string& key, const auto& value) {
-    if (!counts(key)) return;
-    for (const char character : key + "=" + valueText(value) + "\n") {
-      state = (state ^ static_cast<unsigned char>(character)) * 0x100000001b3ULL;
-    }
+  const auto add = [&state](const std::string& line) {
+    for (const char character : line) state = (state ^ static_cast<unsigned char>(character)) * 0x100000001b3ULL;
+  };
+  visitValues(configuration, [&add](const std::string& key, const auto& value) {
+    if (counts(key)) add(key + "=" + (namesFile(key) ? "" : valueText(value)) + "\n");
   });
+  const std::string files = settingsFilesChecksum(configuration);
+  if (!files.empty()) add("files=" + files + "\n");
   char digits[17];
   std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(state));
   return digits;

@@ -4,11 +4,8 @@
 /// Which state of which files a row is of, so that a row is not kept for a file that was measured anew under its name.
 
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "files/input_file.hpp"
-#include "mems_stiction/configuration/configuration.hpp"
 #include "mems_stiction/settings/figure.hpp"
 
 namespace mems_stiction {
@@ -17,15 +14,8 @@ namespace mems_stiction {
 struct ScanState {
   FileState file;                      ///< the scan, or the bag that it is in
   std::string sidecar_checksum;        ///< of the settings beside a scan
-  std::string settings_file_checksum;  ///< settingsFilesChecksum()
+  std::string settings_file_checksum;  ///< settingsFilesChecksum() of named_files.hpp
 };
-
-/// Key and path of each setting whose name ends in "file", and that is set: it names one that is read.
-std::vector<std::pair<std::string, std::string>> filesNamedBy(const Configuration& configuration);
-
-/// Of what the settings name: counter_surface/file with its sidecar, masks and polygons of regions. Empty if they name
-/// none.
-std::string settingsFilesChecksum(const Configuration& configuration);
 
 /// Reads the whole file. To be called before the scan is read: what changes in between shows the next time.
 /// - @p has_sidecar false for bags

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "bindings.hpp"
+#include "configuration/named_files.hpp"
 #include "device/device_evidence.hpp"
 #include "device/device_force_fields.hpp"
 #include "evaluation/device_scans.hpp"
@@ -111,7 +112,7 @@ Predicted predictedScan(const HeightMap& scan, const PreparedScan& prepared, Pre
 class Predictor {
  public:
   explicit Predictor(Configuration configuration)
-      : configuration_(std::move(configuration)), predictor_(configuration_) {}
+      : configuration_(withFilesOfNow(std::move(configuration))), predictor_(configuration_) {}
 
   /// - @p counter_surface that was measured beside the scan; none: the configured one
   /// - @p notes on how the scan was read

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "configuration/named_files.hpp"
 #include "device/device_evidence.hpp"
 #include "evaluation/plausibility.hpp"
 #include "mems_stiction/errors/errors.hpp"
@@ -32,7 +33,7 @@ PartKey keyOf(const ScanOfPart& scan) {
 }  // namespace
 
 LivePredictor::LivePredictor(const Configuration& configuration, bool accumulate_deformation)
-    : settings_(configuration),
+    : settings_(withFilesOfNow(configuration)),
       predictor_(withRoughness(configuration)),
       accumulate_deformation_(accumulate_deformation) {}
 

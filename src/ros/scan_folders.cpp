@@ -6,8 +6,8 @@
 #include <sstream>
 #include <utility>
 
+#include "configuration/named_files.hpp"
 #include "errors/one_line.hpp"
-#include "evaluation/scan_state.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "numeric/words.hpp"
 
@@ -15,12 +15,6 @@ namespace mems_stiction {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Of those that are used.
-std::vector<std::pair<std::string, std::string>> filesOf(Configuration used) {
-  if (used.counter_surface.type != CounterSurfaceType::kFile) used.counter_surface.file.clear();
-  return filesNamedBy(used);
-}
 
 bool isBelow(const fs::path& path, const fs::path& folder) {
   return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
@@ -56,7 +50,7 @@ std::vector<fs::path> scanFolders() {
 
 std::vector<std::string> filesElsewhere(const Configuration& configuration, const std::vector<fs::path>& folders) {
   std::vector<std::string> lines;
-  for (const auto& [key, path] : filesOf(configuration)) {
+  for (const auto& [key, path] : filesNamedBy(configuration)) {
     std::error_code failed;
     const fs::path target = fs::weakly_canonical(fs::absolute(path, failed), failed);
     const auto contains = [&target = target](const fs::path& folder) { return isBelow(target, folder); };
@@ -71,7 +65,7 @@ std::vector<std::string> filesElsewhere(const Configuration& configuration, cons
 LivePredictor predictorFromFolders(const Configuration& configuration, bool accumulate_deformation) {
   std::vector<std::string> lines = filesElsewhere(configuration, scanFolders());
   if (!lines.empty()) throw OptionsError(std::move(lines));
-  const std::vector<std::pair<std::string, std::string>> files = filesOf(configuration);
+  const std::vector<std::pair<std::string, std::string>> files = filesNamedBy(configuration);
   try {
     return LivePredictor(configuration, accumulate_deformation);
   } catch (const std::bad_alloc&) {

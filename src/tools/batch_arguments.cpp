@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "command_line.hpp"
+#include "configuration/named_files.hpp"
 #include "files/input_file.hpp"
 #include "import/waiting_gwyddion.hpp"
 #include "mems_stiction/configuration/configuration_yaml.hpp"
@@ -114,7 +115,7 @@ Configuration configurationOf(const BatchArguments& arguments) {
   applyLoads(arguments, configuration.model.load);
   if (arguments.half_space) configuration.half_space.enabled = HalfSpaceUse::kAlways;
   configuration.check();
-  return configuration;
+  return withFilesOfNow(std::move(configuration));
 }
 
 }  // namespace mems_stiction

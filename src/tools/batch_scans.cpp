@@ -3,6 +3,7 @@
 #include <exception>
 #include <utility>
 
+#include "configuration/named_files.hpp"
 #include "errors/error_text.hpp"
 #include "numeric/words.hpp"
 

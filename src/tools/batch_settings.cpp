@@ -12,6 +12,7 @@
 #include "mems_stiction/configuration/configuration_yaml.hpp"
 #include "mems_stiction/configuration/provenance.hpp"
 #include "mems_stiction/errors/errors.hpp"
+#include "numeric/words.hpp"
 #include "settings/yaml_text.hpp"
 
 namespace mems_stiction {
@@ -41,14 +42,30 @@ std::string settingsText(std::size_t total, const std::vector<std::string>& inpu
   return text;
 }
 
+std::string comparableSettings(const std::string& settings) {
+  std::string text;
+  std::istringstream lines(settings);
+  for (std::string line; std::getline(lines, line);) {
+    if (startsWith(line, "settings_hash:")) continue;
+    const std::size_t path = line.find("file: \"");
+    const std::size_t end = line.find("\"  # ");
+    const bool names_file = startsWith(line, "    ") && path != std::string::npos && end != std::string::npos;
+    if (names_file) line = line.substr(0, path) + line.substr(line.find_last_of("\"/", end - 1));
+    text += line + "\n";
+  }
+  return text;
+}
+
 void checkSettings(const std::string& path, const std::string& settings) {
   const std::string settings_path = settingsPathOf(path);
   std::error_code ignored;
   if (std::filesystem::exists(settings_path, ignored)) {
-    if (readSettings(path) != settings) {
+    const std::string before = readSettings(path);
+    if (comparableSettings(before) != comparableSettings(settings)) {
       throw FileError(path + ": holds rows of other inputs, settings or another version (" + settings_path +
                       "): give the same ones to go on, or write another file");
     }
+    if (before != settings) writeFile(settings_path, settings);
     return;
   }
   if (hasRows(path)) {

@@ -16,6 +16,10 @@ namespace mems_stiction {
 std::string settingsText(std::size_t total, const std::vector<std::string>& inputs, const BatchArguments& arguments,
                          const std::map<std::string, std::string>& units, const Configuration& configuration);
 
+/// What of it must be the same: files that settings name may lie elsewhere, and rows say which content they are of
+/// (row_states.hpp).
+std::string comparableSettings(const std::string& settings);
+
 /// Writes the settings beside the rows, or compares them with what is there.
 /// @throw FileError if the file of rows has those of other settings
 void checkSettings(const std::string& path, const std::string& settings);

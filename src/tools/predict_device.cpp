@@ -8,6 +8,7 @@
 
 #include "busy_line.hpp"
 #include "command_line.hpp"
+#include "configuration/named_files.hpp"
 #include "device_picture.hpp"
 #include "evaluation/device_prediction.hpp"
 #include "evaluation/plausibility.hpp"
@@ -183,7 +184,7 @@ int run(const Arguments& arguments) {
   const std::vector<std::string> paths = scansOf(arguments.scans);
   const std::vector<InputScan> inputs = inputsOf(arguments, paths, false);
   const std::vector<InputScan> counter_inputs = inputsOf(arguments, scansOf(arguments.counter_surface), true);
-  const Configuration configuration = configurationOf(arguments);
+  const Configuration configuration = withFilesOfNow(configurationOf(arguments));
   requirePicture(arguments);
   for (const std::string& warning : settingsWarnings(configuration)) warn("predict_device", warning);
   predictDevice(arguments, configuration, inputs, counter_inputs);

@@ -11,6 +11,7 @@
 
 #include "busy_line.hpp"
 #include "command_line.hpp"
+#include "configuration/named_files.hpp"
 #include "curve_file.hpp"
 #include "device/device_evidence.hpp"
 #include "evaluation/device_scans.hpp"
@@ -307,6 +308,7 @@ int run(const Arguments& arguments) {
     configuration.model.output.deformed_surfaces = !arguments.deformed.empty();
     configuration.model.output.contact_map = false;
     configuration.model.output.roughness = true;
+    configuration = withFilesOfNow(std::move(configuration));
     predictor.emplace(configuration);
     half_space.emplace(configuration.half_space);
     curveFilesOf(arguments);

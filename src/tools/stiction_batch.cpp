@@ -194,7 +194,7 @@ int merge(const BatchArguments& arguments) {
   }
   const std::string settings = readSettings(shards.front());
   for (const std::string& shard : shards) {
-    if (readSettings(shard) != settings) {
+    if (comparableSettings(readSettings(shard)) != comparableSettings(settings)) {
       throw FileError(shard + ": made with other inputs or settings than " + shards.front());
     }
   }

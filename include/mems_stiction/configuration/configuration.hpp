@@ -53,6 +53,9 @@ struct Configuration {
   DeviceForceOptions device_force;
   UncertaintyOptions uncertainty;
   HalfSpaceOptions half_space;
+  /// Of the files that the settings name (counter-surface, masks, polygons), as they were when they were read, for
+  /// settingsHash(). Whoever reads them sets it; empty: of these files as they are when it is asked for.
+  std::string files_checksum;
 
   void describe(OptionVisitor& visitor);
   /// One line per violated constraint; empty when all is well.

@@ -6,7 +6,9 @@
 
 #include <string>
 
+#include "configuration/named_files.hpp"
 #include "mems_stiction/configuration/configuration.hpp"
+#include "support/scratch_folder.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -27,6 +29,37 @@ TEST(Provenance, AnotherSettingIsAnotherHash) {
   changed = Configuration();
   changed.half_space.enabled = HalfSpaceUse::kAlways;  // another judge
   EXPECT_NE(settingsHash(changed), hash);
+}
+
+TEST(Provenance, FilesCountByWhatTheyContain) {
+  const ScratchFolder folder;
+  Configuration named;
+  named.preprocessing.region.mask_file = folder.write("mask.png", "one");
+  const std::string hash = settingsHash(named);
+  EXPECT_EQ(settingsHash(named), hash);
+  Configuration elsewhere;
+  elsewhere.preprocessing.region.mask_file = folder.write("copy.png", "one");
+  EXPECT_EQ(settingsHash(elsewhere), hash);
+  Configuration polygon;
+  polygon.preprocessing.region.polygon_file = folder.file("copy.png");
+  EXPECT_NE(settingsHash(polygon), hash);
+
+  const Configuration read = withFilesOfNow(named);
+  folder.write("mask.png", "two");
+  EXPECT_NE(settingsHash(named), hash);
+  EXPECT_EQ(settingsHash(read), hash);  // of what was read
+  EXPECT_NE(settingsHash(withFilesOfNow(read)), hash);
+}
+
+TEST(Provenance, TheSidecarOfACounterSurfaceCountsAndAFileThatIsNotUsedDoesNot) {
+  const ScratchFolder folder;
+  Configuration named;
+  named.counter_surface.file = folder.write("upper.txt", "1 2\n3 4\n");
+  EXPECT_EQ(settingsHash(named), settingsHash(Configuration()));
+  named.counter_surface.type = CounterSurfaceType::kFile;
+  const std::string hash = settingsHash(named);
+  folder.write("upper.txt.yaml", "pitch_x: 1e-9\npitch_y: 1e-9\n");
+  EXPECT_NE(settingsHash(named), hash);
 }
 
 TEST(Provenance, WhoTheScanIsOfAndWhatIsAskedForDoNotCount) {
