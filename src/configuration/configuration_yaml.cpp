@@ -4,8 +4,10 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
+#include "configuration/named_files.hpp"
 #include "files/input_file.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "settings/option_yaml.hpp"
@@ -29,7 +31,11 @@ Configuration loadConfiguration(const std::string& path, const Configuration& de
   if (access(path.c_str(), R_OK) != 0) throw FileError(path + ": the configuration file cannot be opened");
   const YAML::Node tree = parseYaml(readInput(path, kSettingsInput), path);
   try {
-    return configurationFromYaml(tree, defaults);
+    Configuration configuration = configurationFromYaml(tree, defaults);
+    const std::filesystem::path here = std::filesystem::current_path();
+    placeNamedFiles(keysOf(tree), isOpenStream(path) ? here : here / std::filesystem::path(path).parent_path(),
+                    configuration);
+    return configuration;
   } catch (const OptionsError& error) {
     std::vector<std::string> lines;
     for (const std::string& line : error.violations()) lines.push_back(path + ": " + line);

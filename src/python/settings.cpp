@@ -5,10 +5,12 @@
 
 #include <opencv2/core.hpp>
 
+#include <filesystem>
 #include <string>
 #include <utility>
 
 #include "bindings.hpp"
+#include "configuration/named_files.hpp"
 #include "evaluation/plausibility.hpp"
 #include "mems_stiction/configuration/configuration_yaml.hpp"
 #include "mems_stiction/configuration/provenance.hpp"
@@ -88,7 +90,10 @@ void bindSettings(py::module& module) {
       .def(
           "changed",
           [](const Configuration& configuration, const py::dict& tree) {
-            return configurationFromYaml(nodeOf(tree), configuration);
+            const YAML::Node node = nodeOf(tree);
+            Configuration changed = configurationFromYaml(node, configuration);
+            placeNamedFiles(keysOf(node), std::filesystem::current_path(), changed);
+            return changed;
           },
           "tree"_a)
       .def(

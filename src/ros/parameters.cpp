@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <iterator>
 #include <map>
 #include <set>
@@ -11,11 +12,13 @@
 #include <ros/console.h>
 #include <yaml-cpp/yaml.h>
 
+#include "configuration/named_files.hpp"
 #include "errors/one_line.hpp"
 #include "files/input_file.hpp"
 #include "mems_stiction/configuration/provenance.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "ros/master_calls.hpp"
+#include "ros/scan_folders.hpp"
 #include "ros/topic_names.hpp"
 #include "settings/option_values.hpp"
 #include "settings/option_yaml.hpp"
@@ -119,6 +122,22 @@ struct FileText {
     }
   }
 };
+
+/// Relative paths that a file states go by its folder. Where nobody says which that is, they would go by the node's.
+void placeFilesOf(const FileText& file, const std::vector<std::string>& keys, Configuration& configuration,
+                  std::vector<std::string>& violations) {
+  const std::filesystem::path name = file.name;
+  if (name.is_absolute()) {
+    placeNamedFiles(keys, name.parent_path(), configuration);
+    return;
+  }
+  for (const auto& [key, path] : filesNamedBy(configuration)) {
+    if (std::filesystem::path(path).is_absolute() || std::find(keys.begin(), keys.end(), key) == keys.end()) continue;
+    violations.push_back(file.name + ": " + key + ": '" + path +
+                         "' goes by the folder of this file, which nobody states; give the whole path of either, as by "
+                         "config:=$PWD/part.yaml");
+  }
+}
 
 /// Every key of a tree with its value as text.
 std::map<std::string, std::string> valuesIn(const YAML::Node& tree) {
@@ -235,7 +254,9 @@ StatedConfiguration statedConfiguration(const YAML::Node& tree) {
     const FileText file(section, tree[section], violations);
     stated.files.push_back(file.name);
     for (const std::string& line : readYaml(file.tree, describe)) violations.push_back(file.name + ": " + line);
-    for (const std::string& key : keysOf(file.tree)) in_files.insert(key);
+    const std::vector<std::string> keys = keysOf(file.tree);
+    in_files.insert(keys.begin(), keys.end());
+    placeFilesOf(file, keys, configuration.core, violations);
   }
   if (in_files.empty() && tree[kTakenParameters]) {
     for (std::string& line : leftOvers(ours, tree[kTakenParameters].Scalar())) violations.push_back(std::move(line));
@@ -246,6 +267,7 @@ StatedConfiguration statedConfiguration(const YAML::Node& tree) {
   const std::vector<std::string> beside = keysOf(ours);
   const std::string before = toYaml(describe);
   violations = readYaml(ours, describe);
+  placeNamedFiles(beside, std::filesystem::current_path(), configuration.core);
   // Combinations of settings; ranges are found by both and named once.
   for (const std::string& line : configuration.core.validate()) {
     if (std::find(violations.begin(), violations.end(), line) == violations.end()) violations.push_back(line);
@@ -266,12 +288,15 @@ namespace {
 
 /// The node's first line: a launch file's argument that is misspelt, or forgotten, leaves the default in its place.
 void tellSource(const ros::NodeHandle& private_handle, const StatedConfiguration& stated) {
+  const Configuration& core = stated.configuration.core;
+  const bool may_read = filesElsewhere(core, scanFolders()).empty();
+  const std::string hash = may_read ? settingsHash(core) : "with files from elsewhere";
   std::string files;
   for (const std::string& file : stated.files) files += (files.empty() ? "" : ", then ") + oneLine(file);
   ROS_INFO_STREAM("configuration: " << (files.empty() ? "no file, the defaults and parameters under " +
                                                             private_handle.getNamespace()
                                                       : files)
-                                    << "; settings " << settingsHash(stated.configuration.core));
+                                    << "; settings " << hash);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "ros/parameters.hpp"
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -120,6 +121,25 @@ TEST(Parameters, WhatIsNoYamlIsNamedByItsFile) {
   } catch (const OptionsError& error) {
     EXPECT_EQ(std::string(error.what()).find("part.yaml: not valid YAML"), 0u) << error.what();
   }
+}
+
+TEST(Parameters, RelativePathsOfAFileGoByItsFolder) {
+  YAML::Node tree = withFile("counter_surface: {type: file, file: upper.npy, facing: up}\n");
+  tree["config"]["file"] = "/data/line 1/part.yaml";
+  EXPECT_EQ(statedConfiguration(tree).configuration.core.counter_surface.file, "/data/line 1/upper.npy");
+  tree["config"]["file"] = "part.yaml";  // which the node's own folder does not hold
+  try {
+    statedConfiguration(tree);
+    ADD_FAILURE();
+  } catch (const OptionsError& error) {
+    EXPECT_EQ(std::string(error.what()).find("part.yaml: counter_surface/file: 'upper.npy' goes by the folder of this"), 0u)
+        << error.what();
+  }
+  tree["config"]["text"] = "counter_surface: {type: file, file: /data/upper.npy, facing: up}\n";
+  EXPECT_EQ(statedConfiguration(tree).configuration.core.counter_surface.file, "/data/upper.npy");
+  const std::string here = std::filesystem::current_path().string();
+  EXPECT_EQ(fromText("{preprocessing: {region: {mask_file: mask.png}}}").core.preprocessing.region.mask_file,
+            here + "/mask.png");
 }
 
 TEST(Parameters, TextsThatContainThemselvesAreRefused) {
