@@ -182,7 +182,8 @@ void addContradictions(const Configuration& configuration, std::vector<std::stri
 std::vector<std::string> settingsWarnings(const Configuration& configuration) {
   PlausibilityCheck check;
   describeConst(configuration, check);
-  std::vector<std::string> lines = check.lines();
+  std::vector<std::string> lines = configuration.remarks;
+  for (const std::string& line : check.lines()) lines.push_back(line);
   addContradictions(configuration, lines);
   for (std::string& line : idleSettings(configuration)) lines.push_back(std::move(line));
   return lines;

@@ -14,8 +14,9 @@
 
 namespace mems_stiction {
 
-/// One sentence for each stated constant outside what is usual, with the unit that was probably meant; empty when all
-/// is well. Zeros say "not stated". Then one for each setting that is not its default, but has no effect.
+/// The remarks on the file of the settings. Then one sentence for each stated constant outside what is usual, with
+/// the unit that was probably meant; zeros say "not stated". Then one for each setting that is not its default, but
+/// has no effect. Empty when all is well.
 std::vector<std::string> settingsWarnings(const Configuration& configuration);
 
 /// What only a frame tells: a sentence for a load that is more than the softer surface could carry with all of its

@@ -31,9 +31,12 @@ class OpenFile {
     // A pipe without a writer would wait for one.
     descriptor_ = open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
     if (descriptor_ < 0) {
-      const bool is_missing = errno == ENOENT || errno == ENOTDIR;
+      const int cause = errno;
+      const bool is_missing = cause == ENOENT || cause == ENOTDIR;
+      struct stat link {};
+      if (is_missing && lstat(path.c_str(), &link) == 0) throw FileError(path + ": is a link that leads nowhere");
       throw FileError(
-          path + (is_missing ? ": there is no such file" : std::string(": cannot be opened: ") + std::strerror(errno)));
+          path + (is_missing ? ": there is no such file" : std::string(": cannot be opened: ") + std::strerror(cause)));
     }
     struct stat status {};
     const bool is_known = fstat(descriptor_, &status) == 0;

@@ -15,6 +15,7 @@
 #include "import/format_readers.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "numeric/words.hpp"
+#include "settings/option_values.hpp"
 #include "settings/option_yaml.hpp"
 #include "settings/yaml_text.hpp"
 
@@ -23,11 +24,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Settings, and whether the sidecar says what a pixel is worth.
+/// Settings, and what the sidecar says of them.
 struct Settings {
   ScanOptions options;
   ScanIdentity identity;
-  bool has_scale = false;
+  bool has_scale = false;                ///< the sidecar says what a pixel is worth
+  std::vector<std::string> empty_parts;  ///< of the sidecar, in words
 };
 
 /// Where the sidecar of a scan may be, the one that goes before first.
@@ -35,14 +37,41 @@ std::array<std::string, 2> sidecarsOf(const std::string& path) {
   return {path + ".yaml", fs::path(path).replace_extension(".yaml").string()};
 }
 
+/// Whatever has the name: a file, a folder, a link that leads nowhere.
+bool isThere(const std::string& path) {
+  std::error_code error;
+  return fs::exists(fs::symlink_status(path, error));
+}
+
+/// Whether a file states something of a scan and nothing else. "scan.yaml" may be the configuration of anything.
+bool looksLikeSidecar(const std::string& path) {
+  std::set<std::string> known;
+  const auto learn = [&known](const std::string& key, const auto&) { known.insert(key); };
+  visitValues(ScanOptions(), learn);
+  visitValues(ScanIdentity(), learn);
+  try {
+    bool has_known = false;
+    for (const std::string& key : keysOf(parseYaml(readInput(path, kSettingsInput), path))) {
+      const bool is_bare = key.find('/') == std::string::npos;
+      if (!is_bare && !startsWith(key, "scan/")) return false;
+      has_known = has_known || known.count(is_bare ? "scan/" + key : key) > 0;
+    }
+    return has_known;
+  } catch (const FileError&) {
+    return false;
+  }
+}
+
 /// The sidecar's settings over those given. Both spellings, "pitch_x" and "scan/pitch_x", are the same key.
 Settings withSidecar(const std::string& path, const ScanOptions& given, const ScanIdentity& stated = {}) {
   const std::string sidecar = sidecarOf(path);
-  Settings settings{given, stated, false};
+  Settings settings{given, stated, false, {}};
   if (sidecar.empty()) return settings;
   ScanOptions& options = settings.options;
   std::vector<std::string> lines;
   const YAML::Node tree = parseYaml(readInput(sidecar, kSettingsInput), sidecar);
+  settings.empty_parts = emptyPartsOf(tree);
+  for (std::string& line : settings.empty_parts) line.insert(0, sidecar + ": ");
   try {
     YAML::Node scan(YAML::NodeType::Map);
     if (tree.IsMap()) {
@@ -123,6 +152,47 @@ void notePitch(const FileChannel& channel, const HeightMap& surface, std::vector
                   numberText(surface.pitchX()) + " x " + numberText(surface.pitchY()) + " m is given and taken");
 }
 
+/// Whether a pitch that is stated (not 0) is another one, by more than a hundredth.
+bool isOther(double stated, double taken) { return stated > 0.0 && std::abs(stated - taken) > 0.01 * taken; }
+
+/// What configuration and sidecar state and the file's own statements go before, and what else is odd beside the file.
+/// - @p given by the configuration
+/// - @p has_pitch_option an option goes before all of them
+void noteUnused(const std::string& path, const FileChannel& channel, const ScanOptions& given, bool has_pitch_option,
+                const HeightMap& surface, std::vector<std::string>& notes) {
+  const std::string sidecar = sidecarOf(path);
+  const std::string of_stem = sidecarsOf(path)[1];
+  if (sidecar.empty() && of_stem != path && isThere(of_stem)) {
+    notes.push_back(of_stem +
+                    " is not read as its sidecar: it cannot be read, or has other keys than those of a scan; " +
+                    fs::path(path).filename().string() + ".yaml is the name of one");
+  }
+  const Settings beside = withSidecar(path, given);
+  notes.insert(notes.end(), beside.empty_parts.begin(), beside.empty_parts.end());
+  const ScanOptions& stated = beside.options;
+  const auto sourceOf = [&](bool is_of_sidecar) { return is_of_sidecar ? sidecar : "the configuration"; };
+  if (!has_pitch_option && (isOther(stated.pitch_x, surface.pitchX()) || isOther(stated.pitch_y, surface.pitchY()))) {
+    const bool is_of_sidecar = stated.pitch_x != given.pitch_x || stated.pitch_y != given.pitch_y;
+    notes.push_back("the file states a pitch of " + numberText(surface.pitchX()) + " x " +
+                    numberText(surface.pitchY()) + " m, which is taken, " + numberText(stated.pitch_x) + " x " +
+                    numberText(stated.pitch_y) + " m of " + sourceOf(is_of_sidecar) +
+                    " is not; --pitch goes before both");
+  }
+  const bool is_sidecar_applied = channel.takes_settings;
+  if (is_sidecar_applied && channel.unit_z != "m") return;
+  const ScanOptions& ignored = is_sidecar_applied ? given : stated;
+  const auto note = [&](const char* key, double value, double of_configuration) {
+    notes.push_back(std::string(key) + " " + numberText(value) + " of " + sourceOf(value != of_configuration) +
+                    " is not applied: the file states the unit of its heights");
+  };
+  if (ignored.height_scale != 1.0) note("scan/height_scale", ignored.height_scale, given.height_scale);
+  if (ignored.height_offset != 0.0) note("scan/height_offset", ignored.height_offset, given.height_offset);
+  if (is_sidecar_applied || std::isnan(ignored.invalid_value)) return;
+  notes.push_back("scan/invalid_value " + numberText(ignored.invalid_value) + " of " +
+                  sourceOf(ignored.invalid_value != given.invalid_value) +
+                  " is not applied: the file's format marks what is missing itself");
+}
+
 HeightMap surfaceOf(const std::string& path, const FileChannel& channel, const ScanOptions& given,
                     const ScanFileOptions& options) {
   if (!channel.takes_settings) {
@@ -194,6 +264,7 @@ ScanFile openScanFile(const std::string& path, const ScanOptions& scan, const Sc
     const std::string others = options.import.channel.empty() ? othersOfOtherSize(channels, chosen) : "";
     if (!others.empty()) file.notes.push_back(others);
     notePitch(channel, file.surface, file.notes);
+    noteUnused(path, channel, scan, options.pitch_x > 0.0, file.surface, file.notes);
     return file;
   });
 }
@@ -234,11 +305,9 @@ std::vector<ScanChannel> listScanChannels(const std::string& path, const ScanOpt
 }
 
 std::string sidecarOf(const std::string& path) {
-  for (const std::string& sidecar : sidecarsOf(path)) {
-    std::error_code error;
-    if (sidecar != path && fs::is_regular_file(sidecar, error)) return sidecar;
-  }
-  return "";
+  const auto [beside, of_stem] = sidecarsOf(path);
+  if (isThere(beside)) return beside;
+  return of_stem != path && isThere(of_stem) && looksLikeSidecar(of_stem) ? of_stem : "";
 }
 
 std::vector<std::string> withoutSidecars(const std::vector<std::string>& paths) {

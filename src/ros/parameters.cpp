@@ -257,6 +257,9 @@ StatedConfiguration statedConfiguration(const YAML::Node& tree) {
     const std::vector<std::string> keys = keysOf(file.tree);
     in_files.insert(keys.begin(), keys.end());
     placeFilesOf(file, keys, configuration.core, violations);
+    for (const std::string& line : emptyPartsOf(file.tree)) {
+      configuration.core.remarks.push_back(file.name + ": " + line);
+    }
   }
   if (in_files.empty() && tree[kTakenParameters]) {
     for (std::string& line : leftOvers(ours, tree[kTakenParameters].Scalar())) violations.push_back(std::move(line));

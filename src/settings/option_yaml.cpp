@@ -353,6 +353,15 @@ std::vector<std::string> keysOf(const YAML::Node& tree) {
   return keys;
 }
 
+std::vector<std::string> emptyPartsOf(const YAML::Node& tree) {
+  if (!tree.IsDefined() || tree.IsNull()) return {"states nothing, the defaults hold"};
+  std::vector<std::string> lines;
+  for (const auto& [key, value] : statedIn(tree)) {
+    if (value.IsNull()) lines.push_back(key + ": has nothing below it, the defaults hold");
+  }
+  return lines;
+}
+
 YAML::Node typedNode(const std::string& value, const std::string& type) {
   YAML::Node node(value);
   node.SetTag(kTypeTag + type);

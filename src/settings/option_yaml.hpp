@@ -34,14 +34,18 @@ using DescribeFunction = std::function<void(OptionVisitor&)>;
 /// well. A number out of range has been stored; after any violation the fields are not fit for use.
 std::vector<std::string> readYaml(const YAML::Node& tree, const DescribeFunction& describe);
 
-/// Keys and values that the tree states, nested ones with slashes, in its order; up to where readYaml() refuses it.
+/// Keys and values that the tree states, nested ones with slashes, in its order. Ends where readYaml()
+/// refuses the tree.
 std::vector<std::pair<std::string, YAML::Node>> statedIn(const YAML::Node& tree);
 
 /// The keys of statedIn().
 std::vector<std::string> keysOf(const YAML::Node& tree);
 
-/// A value that came as a number or a flag, from a source that has types: whoever wrote 0017 has 15 or 17 there. Serves for
-/// numbers, flags and choices; a text setting refuses it.
+/// What states nothing where somebody may have meant to: an empty text, a section with nothing below.
+std::vector<std::string> emptyPartsOf(const YAML::Node& tree);
+
+/// A value that came as a number or a flag from a source that has types, where 0017 has become 15 or 17.
+/// It serves for numbers, flags and choices; a text setting refuses it.
 /// - @p type YAML's name: "int", "float" or "bool"
 YAML::Node typedNode(const std::string& value, const std::string& type);
 

@@ -185,12 +185,30 @@ class BatchTest(unittest.TestCase):
         self.scan("counter.txt", 8)
         done = self.predict("shard1.csv", "--shard", "1/2", *config, inputs=scans)
         self.assertIn("a file that the settings name is another", done.stderr)
+        hashes = [re.search('settings_hash: "(.*)"', (self.folder / ("shard%d.csv.settings.yaml" % shard)).read_text()).group(1) for shard in (1, 2)]
+        self.assertNotEqual(*hashes)
+        self.assertEqual({row["settings_hash"] for row in self.rows("shard1.csv")}, {hashes[0]})
         done = run([self.batch, "--merge", "-o", self.folder / "all.csv", self.folder / "shard1.csv", self.folder / "shard2.csv"])
         self.assertEqual(done.returncode, 2)
         self.assertIn("is of another state of the files that the settings name", done.stderr)
         self.predict("shard2.csv", "--shard", "2/2", *config, inputs=scans)
         self.assertEqual(run([self.batch, "--merge", "-o", self.folder / "all.csv", self.folder / "shard1.csv",
                               self.folder / "shard2.csv"]).returncode, 0)
+
+    def test_a_batch_goes_on_where_its_configuration_has_moved(self):
+        scans = [self.scan("a.txt", 1), self.scan("b.txt", 2)]
+        for place in ("one", "two"):
+            (self.folder / place).mkdir()
+            self.scan("%s/counter.txt" % place, 7)
+            (self.folder / place / "pair.yaml").write_text("counter_surface: {type: file, file: counter.txt, facing: up}\n")
+        self.predict("rows.csv", "--config", self.folder / "one" / "pair.yaml", inputs=scans)
+        before = (self.folder / "rows.csv").read_bytes()
+        done = self.predict("rows.csv", "--config", self.folder / "two" / "pair.yaml", inputs=scans)
+        self.assertIn("2 rows, 2 of them from before", done.stdout)
+        self.assertEqual((self.folder / "rows.csv").read_bytes(), before)
+        (self.folder / "two" / "counter.txt").unlink()
+        done = self.predict("other.csv", "--config", self.folder / "two" / "pair.yaml", inputs=scans, status=2)
+        self.assertIn("%s: there is no such file" % (self.folder / "two" / "counter.txt"), done.stderr)
 
     def test_shards_of_files_that_have_changed_are_not_merged(self):
         scans = [self.scan("a.txt", 1), self.scan("b.txt", 2)]
@@ -255,6 +273,41 @@ class BatchTest(unittest.TestCase):
         self.assertGreater(kills, 0)
         self.predict("killed.csv", "--config", slow, inputs=inputs)
         self.assertEqual(path.read_bytes(), expected)
+
+    def test_a_scan_that_ends_the_program_gets_a_row_and_the_others_theirs(self):
+        scans = [self.scan("%d.txt" % number, number) for number in range(6)]
+        rough = 1e-9 * np.random.RandomState(2).standard_normal((1200, 1200))
+        np.save(str(self.folder / "large.npy"), rough)
+        (self.folder / "large.npy.yaml").write_text("pitch_x: 2.0e-8\npitch_y: 2.0e-8\n")
+        scans.insert(2, self.folder / "large.npy")
+        seconds = CPU_OF_SMALL_SCANS  # which the large one alone takes more of
+
+        def few_seconds():
+            resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds))
+            resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+
+        command = [self.batch, "-o", self.folder / "rows.csv"] + scans
+        killed = run(command, preexec_fn=few_seconds)
+        self.assertIn(killed.returncode, (-signal.SIGXCPU, -signal.SIGKILL))
+        self.assertTrue((self.folder / "rows.csv.in_hand").exists())
+        done = run(command, preexec_fn=few_seconds)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        rows = self.rows("rows.csv")
+        self.assertEqual([bool(row["reason"]) for row in rows], [False, False, True] + 4 * [False])
+        self.assertRegex(rows[2]["reason"], "^ended an earlier call, and ends the program by signal (24|9) .*: passed over$")
+        self.assertEqual(rows[2]["file"], str(scans[2]))
+        self.assertFalse((self.folder / "rows.csv.in_hand").exists())
+        before = (self.folder / "rows.csv").read_bytes()
+        self.assertEqual(run(command, preexec_fn=few_seconds).returncode, 0)
+        self.assertEqual((self.folder / "rows.csv").read_bytes(), before)
+
+    def test_a_batch_that_was_killed_from_outside_loses_no_row(self):
+        scans = [self.scan("%d.txt" % number, number) for number in range(3)]
+        (self.folder / "rows.csv.in_hand").write_text("5\n")
+        (self.folder / "rows.csv").write_text("")
+        self.predict("rows.csv", inputs=scans)
+        self.assertEqual([row["reason"] for row in self.rows("rows.csv")], ["", "", ""])
+        self.assertFalse((self.folder / "rows.csv.in_hand").exists())
 
     def test_a_line_torn_anywhere_is_mended(self):
         self.predict("one.csv")

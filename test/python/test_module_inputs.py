@@ -61,6 +61,25 @@ class SlipTest(unittest.TestCase):
             path.write_text("part: {id: 0017, serial: 1e5}\n")
             self.assertRegex(mems_stiction.Settings(path).yaml(), 'id: "0017"[^\n]*\n  serial: "1e5"')
 
+    def test_files_that_settings_name(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            (folder / "part.yaml").write_text("preprocessing/region/polygon_file: corners.txt\n")
+            (folder / "corners.txt").write_text("0 0\n0 1e-6\n1e-6 1e-6\n1e-6 0\n")
+            heights = rough(200, 200)
+            before = mems_stiction.predict(heights, PITCH, folder / "part.yaml")
+            (folder / "corners.txt").write_text("0 0\n0 1e-6\n2e-6 1e-6\n2e-6 0\n")
+            after = mems_stiction.predict(heights, PITCH, folder / "part.yaml")
+            self.assertNotEqual(before.nominal_area, after.nominal_area)
+            self.assertNotEqual(before.settings_hash, after.settings_hash)
+            written = mems_stiction.Settings(folder / "part.yaml").yaml()
+            self.assertIn('region/polygon_file: "%s"' % (folder / "corners.txt"), written)
+            stated = mems_stiction.Settings(preprocessing={"region": {"mask_file": "mask.png"}}).yaml()
+            self.assertIn('region/mask_file: "%s"' % (pathlib.Path.cwd() / "mask.png"), stated)
+            (folder / "empty.yaml").write_text("")
+            with self.assertWarnsRegex(mems_stiction.SettingsWarning, "empty.yaml: states nothing, the defaults hold"):
+                mems_stiction.Settings(folder / "empty.yaml")
+
     def test_settings_that_contain_themselves(self):
         loop = {}
         loop["lower"] = loop

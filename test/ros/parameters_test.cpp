@@ -132,7 +132,8 @@ TEST(Parameters, RelativePathsOfAFileGoByItsFolder) {
     statedConfiguration(tree);
     ADD_FAILURE();
   } catch (const OptionsError& error) {
-    EXPECT_EQ(std::string(error.what()).find("part.yaml: counter_surface/file: 'upper.npy' goes by the folder of this"), 0u)
+    EXPECT_EQ(std::string(error.what()).find("part.yaml: counter_surface/file: 'upper.npy' goes by the folder of this"),
+              0u)
         << error.what();
   }
   tree["config"]["text"] = "counter_surface: {type: file, file: /data/upper.npy, facing: up}\n";

@@ -53,9 +53,11 @@ struct Configuration {
   DeviceForceOptions device_force;
   UncertaintyOptions uncertainty;
   HalfSpaceOptions half_space;
-  /// Of the files that the settings name (counter-surface, masks, polygons), as they were when they were read, for
-  /// settingsHash(). Whoever reads them sets it; empty: of these files as they are when it is asked for.
+  /// Of the files that the settings name (counter-surface, masks, polygons) when they were read, for
+  /// settingsHash(). Whoever reads them sets it; empty: settingsHash() looks at the files itself.
   std::string files_checksum;
+  /// What is odd about the files that the settings were read from, for settingsWarnings().
+  std::vector<std::string> remarks;
 
   void describe(OptionVisitor& visitor);
   /// One line per violated constraint; empty when all is well.

@@ -17,7 +17,7 @@ namespace mems_stiction {
 /// @throw OptionsError one line per unknown key, wrong type, unphysical value or combination.
 Configuration configurationFromYaml(const YAML::Node& tree, const Configuration& defaults = {});
 
-/// Relative paths that the file states go by its folder, those of an open stream (/dev/stdin) by the working one.
+/// Relative paths that the file states go by its folder, those of /dev/stdin by the working one.
 /// @throw FileError if the file cannot be read or is not YAML; OptionsError as above, each line with the file's name.
 Configuration loadConfiguration(const std::string& path, const Configuration& defaults = {});
 

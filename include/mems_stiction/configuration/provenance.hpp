@@ -34,8 +34,8 @@ struct Provenance : ScanIdentity {
 const char* packageVersion();
 
 /// 16 hexadecimal digits, the same for configurations that give the same figures: of every setting but part/... (who it
-/// is), limits/... (what it may take), output/... (what is asked for) and half_space/threads. Files that settings name count
-/// by their content, not by their names.
+/// is), limits/... (what it may take), output/... (what is asked for) and half_space/threads.
+/// Files that settings name count by their content, not by their names.
 std::string settingsHash(const Configuration& configuration);
 
 /// - @p configuration that the prediction was made with

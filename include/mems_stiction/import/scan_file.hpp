@@ -4,9 +4,10 @@
 /// A scan from any file that we can read. doc/scans.md lists the formats.
 ///
 /// Pitch and unit are those that the format or the file states. Images, arrays and text often state nothing: then
-/// ScanOptions do. A sidecar goes before both, and a pitch in ScanFileOptions before all. The sidecar is a YAML file
-/// beside the scan, "scan.tiff.yaml" or "scan.yaml" for "scan.tiff", with keys of ScanOptions and ScanIdentity, with or
-/// without "scan/".
+/// ScanOptions do. A sidecar goes before both, and a pitch in ScanFileOptions before all. What a maker's
+/// file states is only replaced by that pitch; notes name what was not applied. The sidecar is a YAML file
+/// beside the scan, "scan.tiff.yaml" for "scan.tiff", with keys of ScanOptions and ScanIdentity, with or
+/// without "scan/". "scan.yaml" serves, too, if it states such keys and no others.
 
 #include <string>
 #include <vector>
@@ -53,7 +54,8 @@ struct ScanChannel {
 std::vector<ScanChannel> listScanChannels(const std::string& path, const ScanOptions& scan = {},
                                           const ScanFileOptions& options = {});
 
-/// The file of settings that is read with this scan; empty if there is none.
+/// The file of settings that is read with this scan; empty if there is none. If "scan.tiff.yaml" is a folder, a
+/// pipe or a link that leads nowhere, it is returned, and openScanFile() refuses it.
 std::string sidecarOf(const std::string& path);
 
 /// The paths without the sidecars of others among them, as "SCANS/*" lists both: those are read with their scans.

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <set>
 
+#include "evaluation/plausibility.hpp"
 #include "mems_stiction/configuration/configuration_yaml.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/evaluation/scan_predictor.hpp"
@@ -280,6 +281,44 @@ TEST(Configuration, FileErrorsNameTheFile) {
   } catch (const OptionsError& error) {
     EXPECT_EQ(std::string(error.what()).find(path + ": lower/hardness: -1"), 0u) << error.what();
   }
+}
+
+TEST(Configuration, RelativePathsGoByTheFolderOfTheFileThatStatesThem) {
+  const ScratchFolder folder;
+  const std::string path = folder.write(
+      "part.yaml",
+      "counter_surface: {type: file, file: upper.npy, facing: up}\npreprocessing/region/mask_file: /whole/mask.png\n");
+  Configuration defaults;
+  defaults.preprocessing.region.polygon_file = "corners.txt";  // another source has stated it
+  const Configuration configuration = loadConfiguration(path, defaults);
+  EXPECT_EQ(configuration.counter_surface.file, folder.file("upper.npy"));
+  EXPECT_EQ(configuration.preprocessing.region.mask_file, "/whole/mask.png");
+  EXPECT_EQ(configuration.preprocessing.region.polygon_file, "corners.txt");
+  EXPECT_EQ(read(toYaml(configuration)).counter_surface.file, folder.file("upper.npy"));  // wherever that is put
+  try {
+    const ScanPredictor predictor(
+        loadConfiguration(folder.write("flat.yaml", "counter_surface: {type: file, file: upper.npy, facing: up}\n")));
+    ADD_FAILURE();
+  } catch (const OptionsError& error) {
+    EXPECT_TRUE(mentions(error.what(), folder.file("upper.npy") + ": there is no such file")) << error.what();
+  }
+}
+
+TEST(Configuration, WhatStatesNothingIsSaid) {
+  const ScratchFolder folder;
+  const auto warnings = [&](const std::string& text) {
+    std::string lines;
+    for (const std::string& line : settingsWarnings(loadConfiguration(folder.write("part.yaml", text)))) lines += line;
+    return lines;
+  };
+  const std::string path = folder.file("part.yaml");
+  EXPECT_EQ(warnings(""), path + ": states nothing, the defaults hold");
+  EXPECT_EQ(warnings("# load: {voltage: 5}\n"), path + ": states nothing, the defaults hold");
+  EXPECT_EQ(warnings("interface:\n  # work_of_adhesion: 0.1\nlower: {hardness: 11e9}\n"),
+            path + ": interface: has nothing below it, the defaults hold");
+  EXPECT_EQ(warnings("{}"), "");
+  EXPECT_EQ(warnings("interface: {}\n"), "");
+  EXPECT_TRUE(settingsWarnings(loadConfiguration("/dev/null")).empty());
 }
 
 TEST(Configuration, EveryShippedFileLoads) {

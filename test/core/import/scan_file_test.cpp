@@ -1,6 +1,7 @@
 #include "mems_stiction/import/scan_file.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <chrono>
 #include <cmath>
@@ -16,6 +17,7 @@
 #include "import/tiff_tags.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "support/binary_writer.hpp"
+#include "support/gwy_bytes.hpp"
 #include "support/scratch_folder.hpp"
 
 namespace mems_stiction {
@@ -171,6 +173,95 @@ TEST(ScanFile, SidecarErrorsNameTheSidecar) {
   }
   folder.write("scan.txt.yaml", "a: [1, 2");
   EXPECT_THROW(readScanFile(path), FileError);
+}
+
+/// What is said of the file, in one text.
+std::string notesOn(const std::string& path, const ScanOptions& options = {},
+                    const ScanFileOptions& file_options = {}) {
+  std::string text;
+  for (const std::string& note : openScanFile(path, options, file_options).notes) text += note + "\n";
+  return text;
+}
+
+TEST(ScanFile, WhatAMakersFileGoesBeforeIsSaid) {
+  const ScratchFolder folder;
+  const std::string path = folder.write("scan.gwy", gwy_bytes::example());  // 1 x 2 um a pixel
+  const std::string silent = notesOn(path);
+  EXPECT_EQ(notesOn(path, withPitch(1e-6, 2e-6)), silent);
+  EXPECT_TRUE(mentions(notesOn(path, withPitch()),
+                       "the file states a pitch of 1e-06 x 2e-06 m, which is taken, 2e-09 x "
+                       "3e-09 m of the configuration is not"));
+  const std::string sidecar = folder.write("scan.gwy.yaml", "pitch_x: 5e-9\npitch_y: 6e-9\nheight_scale: 1e-9\n");
+  const std::string notes = notesOn(path);
+  EXPECT_TRUE(mentions(notes, "5e-09 x 6e-09 m of " + sidecar + " is not; --pitch goes before both")) << notes;
+  EXPECT_TRUE(mentions(notes, "scan/height_scale 1e-09 of " + sidecar + " is not applied")) << notes;
+  ScanFileOptions by_option;
+  by_option.pitch_x = by_option.pitch_y = 7e-9;
+  EXPECT_FALSE(mentions(notesOn(path, {}, by_option), "5e-09"));
+  folder.write("scan.gwy.yaml", "part_id: 17\n");
+  EXPECT_EQ(notesOn(path), silent);
+  ScanOptions scaled;
+  scaled.height_offset = 1e-6;
+  scaled.invalid_value = 0.0;
+  const std::string all = notesOn(path, scaled);
+  EXPECT_TRUE(mentions(all, "scan/height_offset 1e-06 of the configuration is not applied")) << all;
+  EXPECT_TRUE(mentions(all, "scan/invalid_value 0 of the configuration is not applied")) << all;
+}
+
+TEST(ScanFile, WhatAHeadingGoesBeforeIsSaidToo) {
+  const ScratchFolder folder;
+  const std::string path =
+      folder.write("scan.txt", "# Width: 2 um\n# Height: 2 um\n# Value units: m\n1e-9 2e-9\n3e-9 4e-9\n");
+  EXPECT_EQ(notesOn(path), "");
+  ScanOptions options = withPitch();
+  options.height_scale = 1e-9;
+  const std::string notes = notesOn(path, options);
+  EXPECT_TRUE(mentions(notes, "2e-09 x 3e-09 m of the configuration is not")) << notes;
+  EXPECT_TRUE(mentions(notes, "scan/height_scale 1e-09 of the configuration is not applied")) << notes;
+}
+
+TEST(ScanFile, ASidecarThatIsNoFileIsNamed) {
+  const ScratchFolder folder;
+  const std::string path = folder.write("scan.txt", "1 2\n3 4\n");
+  const std::string sidecar = folder.file("scan.txt.yaml");
+  std::filesystem::create_symlink(folder.file("gone.yaml"), sidecar);
+  EXPECT_TRUE(mentions(refusal(path), sidecar + ": is a link that leads nowhere"));
+  std::filesystem::remove(sidecar);
+  std::filesystem::create_directory(sidecar);
+  EXPECT_TRUE(mentions(refusal(path), sidecar + ": is a folder"));
+  std::filesystem::remove(sidecar);
+  ASSERT_EQ(mkfifo(sidecar.c_str(), 0600), 0);
+  EXPECT_TRUE(mentions(refusal(path), sidecar + ": is a pipe"));
+}
+
+TEST(ScanFile, ASidecarThatStatesNothingIsSaid) {
+  const ScratchFolder folder;
+  const std::string path = folder.write("scan.txt", "1 2\n3 4\n");
+  const std::string sidecar = folder.write("scan.txt.yaml", "# pitch_x: 5e-9\n");
+  EXPECT_EQ(notesOn(path, withPitch()), sidecar + ": states nothing, the defaults hold\n");
+  folder.write("scan.txt.yaml", "scan:\npart_id: A\n");
+  EXPECT_EQ(notesOn(path, withPitch()), sidecar + ": scan: has nothing below it, the defaults hold\n");
+}
+
+TEST(ScanFile, AFileOfTheScansStemIsItsSidecarIfItLooksLikeOne) {
+  const ScratchFolder folder;
+  const std::string path = folder.write("one.txt", "1 2\n3 4\n");
+  for (const char* text : {"pitch_x: 5e-9\npitch_y: 5e-9\n", "scan: {pitch_x: 5e-9, pitch_y: 5e-9}\n",
+                           "scan/pitch_x: 5e-9\npitch_y: 5e-9\nwafer_id: W3\n"}) {
+    EXPECT_EQ(sidecarOf(path), folder.write("one.yaml", text)) << text;
+    EXPECT_EQ(readScanFile(path).pitchX(), 5e-9) << text;
+    EXPECT_EQ(notesOn(path), "") << text;
+  }
+  for (const char* text : {"interface: {work_of_adhesion: 0.1}\nscan: {pitch_x: 5e-9, pitch_y: 5e-9}\n", "- 1\n- 2\n",
+                           "load/voltage: 5\nscan/pitch_x: 5e-9\n", "title: notes of the day\n", "a: [1", "\x01\x02"}) {
+    const std::string other = folder.write("one.yaml", text);
+    EXPECT_EQ(sidecarOf(path), "") << text;
+    EXPECT_EQ(readScanFile(path, withPitch()).pitchX(), 2e-9) << text;
+    EXPECT_EQ(notesOn(path, withPitch()).find(other + " is not read as its sidecar"), 0u) << text;
+  }
+  const std::string whole = folder.write("one.txt.yaml", "pitch_x: 6e-9\npitch_y: 6e-9\n");
+  EXPECT_EQ(sidecarOf(path), whole);
+  EXPECT_EQ(notesOn(path), "");
 }
 
 TEST(ScanFile, WhatIsScannedIsStatedByTheSidecarAndTheFilesBytes) {
