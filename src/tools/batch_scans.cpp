@@ -38,6 +38,17 @@ std::vector<std::string> BatchScans::files(const std::vector<std::size_t>& numbe
   return paths;
 }
 
+std::string BatchScans::shardOfFile(std::size_t number) const {
+  std::size_t index = 0;
+  std::size_t count = 0;
+  for (std::size_t item = 0; item < items_.size(); ++item) {
+    if (items_[item].input != items_[number - 1].input) continue;
+    ++count;
+    if (item < number) ++index;
+  }
+  return std::to_string(index) + "/" + std::to_string(count);
+}
+
 BatchScan BatchScans::read(std::size_t number) {
   const Item& item = items_[number - 1];
   BatchScan scan;
@@ -47,7 +58,8 @@ BatchScan BatchScans::read(std::size_t number) {
   scan.reason = item.reason;
   const auto bag = bag_states_.find(item.input);
   if (bag != bag_states_.end()) scan.state = bag->second;
-  if (item.scan == 0) return scan;
+  if (!item.reason.empty()) scan.state = state(number);
+  if (item.scan == 0 || !item.reason.empty()) return scan;
   try {
     const bool wants_counter = configuration_.counter_surface.type == CounterSurfaceType::kTopic;
     scan.of_bag = open(item.input).read(item.scan - 1, wants_counter);

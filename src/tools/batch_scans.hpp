@@ -42,6 +42,10 @@ class BatchScans {
   ScanState state(std::size_t number) const;
   /// Which of these are files, in this order.
   std::vector<std::string> files(const std::vector<std::size_t>& numbers) const;
+  /// Which scan it is among those of its file, as --shard takes it: "3/5".
+  std::string shardOfFile(std::size_t number) const;
+  /// It gets a row with this reason in place of a prediction.
+  void passOver(std::size_t number, const std::string& reason) { items_[number - 1].reason = reason; }
   /// Takes a scan out of its bag; what is wrong with it is its reason.
   BatchScan read(std::size_t number);
 

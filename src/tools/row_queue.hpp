@@ -21,6 +21,9 @@ class RowQueue {
   /// @throw OptionsError if the configuration cannot be used
   RowQueue(const BatchArguments& arguments, const Configuration& configuration, BatchScans& scans);
 
+  /// Rows that may be worked on at a time.
+  std::size_t inHand() const { return makers_.size() + ahead_.atATime(); }
+
   /// Which rows will be asked for, in this order: their files are read ahead.
   void expect(std::vector<std::size_t> numbers);
 

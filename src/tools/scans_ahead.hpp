@@ -35,6 +35,9 @@ class ScansAhead {
   /// The files that will be taken, in this order.
   void expect(std::vector<std::string> paths);
 
+  /// Files that are read, or wait to be taken, at a time.
+  std::size_t atATime() const { return at_a_time_; }
+
   /// One of the expected files, or any other.
   ScanAhead take(const std::string& path);
 

@@ -26,6 +26,7 @@
 #include "progress_bar.hpp"
 #include "row_queue.hpp"
 #include "row_states.hpp"
+#include "rows_in_hand.hpp"
 
 namespace {
 
@@ -143,6 +144,14 @@ int run(const BatchArguments& arguments) {
   for (const std::size_t place : changed) wanted_numbers.push_back(numbers[place]);
   wanted_numbers.insert(wanted_numbers.end(), numbers.begin() + static_cast<std::ptrdiff_t>(rows.done()),
                         numbers.end());
+  const RowsInHand in_hand(arguments.output, queue.inHand());
+  for (std::size_t i = 0; i < std::min(in_hand.left(), wanted_numbers.size()); ++i) {
+    const std::size_t number = wanted_numbers[i];
+    const std::string cause =
+        whileSaying(scans.file(number) + ": an earlier call was killed here; trying it alone",
+                    [&] { return causeOfDeath(arguments, scans.file(number), scans.shardOfFile(number)); });
+    if (!cause.empty()) scans.passOver(number, cause);
+  }
   queue.expect(wanted_numbers);
   std::size_t failed_count = 0;
   std::size_t unsolved_count = 0;

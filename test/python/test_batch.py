@@ -276,17 +276,17 @@ class BatchTest(unittest.TestCase):
 
     def test_a_scan_that_ends_the_program_gets_a_row_and_the_others_theirs(self):
         scans = [self.scan("%d.txt" % number, number) for number in range(6)]
-        rough = 1e-9 * np.random.RandomState(2).standard_normal((1200, 1200))
+        rough = 1e-9 * np.random.RandomState(2).standard_normal((1024, 1024))
         np.save(str(self.folder / "large.npy"), rough)
         (self.folder / "large.npy.yaml").write_text("pitch_x: 2.0e-8\npitch_y: 2.0e-8\n")
         scans.insert(2, self.folder / "large.npy")
-        seconds = CPU_OF_SMALL_SCANS  # which the large one alone takes more of
 
         def few_seconds():
-            resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds))
+            """Of the processor, until the kernel ends the program: more than the small scans take, less than the large one."""
+            resource.setrlimit(resource.RLIMIT_CPU, (3, 3))
             resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
-        command = [self.batch, "-o", self.folder / "rows.csv"] + scans
+        command = [self.batch, "--half-space", "-o", self.folder / "rows.csv"] + scans
         killed = run(command, preexec_fn=few_seconds)
         self.assertIn(killed.returncode, (-signal.SIGXCPU, -signal.SIGKILL))
         self.assertTrue((self.folder / "rows.csv.in_hand").exists())
