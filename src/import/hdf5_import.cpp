@@ -99,6 +99,21 @@ def coordinates(file):
             values, unit = values * LENGTHS[unit], "m"
         yield name, values, sides[1], sides[0], unit, ""
 
+def outside(file):
+    """What of the file stands in another one, in words; None if nothing does. Links and storage that lead outside would bring
+    any file's bytes into a map."""
+    def look(item):
+        if isinstance(item, h5py.Group):
+            for name in item.id:
+                if item.id.links.get_info(name).type not in (h5py.h5l.TYPE_HARD, h5py.h5l.TYPE_SOFT):
+                    return "the link '%s' leads to another file: copy what stands there into this one" % text(name)
+        if isinstance(item, h5py.Dataset):
+            layout = item.id.get_create_plist()
+            if layout.get_external_count() > 0 or layout.get_layout() == h5py.h5d.VIRTUAL:
+                return "the numbers of '%s' stand in other files: copy them into this one" % item.name
+        return None
+    return look(file) or file.visititems(lambda name, item: look(item))
+
 def is_map(item):
     return isinstance(item, h5py.Dataset) and item.ndim == 2 and item.dtype.kind in "fiu" and min(item.shape) > 1
 
@@ -107,6 +122,11 @@ def main(path, folder):
         file = h5py.File(path, "r")
     except OSError:
         sys.exit(4)
+    found = outside(file)
+    if found:
+        with open(folder + "/remark", "w", encoding="utf-8") as stream:
+            stream.write(" ".join(found.split()) + "\n")
+        sys.exit(5)
     lines = []
     for layout in (coordinates, jpk, topostats, surface_topography):
         if lines:

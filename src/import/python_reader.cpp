@@ -62,10 +62,11 @@ PythonReading channelsByPython(const std::string& script, const std::string& lib
   if (result.signal != 0) throw FileError(library + " crashed on this file: it is damaged");
   PythonReading read;
   read.is_library_missing = !result.started || result.exit_code == kPythonHasNoLibrary;
-  if (result.exit_code == kPythonReadsNoChannel) {
+  if (result.exit_code == kPythonReadsNoChannel || result.exit_code == kPythonRefuses) {
     std::ifstream remark(target + "/remark");
     for (std::string line; std::getline(remark, line);) read.remark += (read.remark.empty() ? "" : ", ") + line;
   }
+  if (result.exit_code == kPythonRefuses) throw FileError(read.remark);
   if (read.is_library_missing || result.exit_code == kPythonReadsNoChannel) return read;
   std::ifstream list(target + "/channels");
   if (result.exit_code != 0 || !list) throw FileError("its layout is known, but what it should have is not there");

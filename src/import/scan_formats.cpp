@@ -122,20 +122,30 @@ Channels readByGwyddion(const std::string& path, const std::string& bytes, const
   return channels;
 }
 
+/// True for HDF5, whose signature stands at the beginning or behind a block of 512, 1024, 2048 ... bytes.
+bool isHdf5(const std::string& bytes) {
+  const std::string signature = "\x89HDF\r\n\x1a\n";
+  for (std::size_t at = 0; at < bytes.size(); at = at == 0 ? 512 : 2 * at) {
+    if (bytes.compare(at, signature.size(), signature) == 0) return true;
+  }
+  return false;
+}
+
 /// HDF5 has arrays of any meaning under any names: some layouts are read by h5py, some by gwyddion, no other is guessed.
+/// Without h5py none is: nothing else tells whether links in the file lead to others.
 Channels readHdf5(const std::string& path, const std::string& bytes, const ImportOptions& options) {
   const Hdf5Channels read = channelsByH5py(path, options.timeout);
   if (!read.channels.empty()) return read.channels;
+  if (read.is_library_missing) {
+    throw FileError(
+        "needs h5py to be read (an HDF5 file: .h5-jpk, .topostats, NetCDF-4 and others), which is not "
+        "installed (Debian package: python3-h5py)");
+  }
   try {
     return channelsByGwyddion(path, bytes, options);
   } catch (const FileError& error) {
-    const std::string library =
-        read.is_library_missing
-            ? "h5py, which reads .h5-jpk, .topostats and NetCDF-4, is not installed (Debian package: "
-              "python3-h5py); else "
-            : "";
     const std::string arrays = read.arrays.empty() ? "" : "its arrays are " + read.arrays + "; ";
-    throw FileError(std::string(error.what()) + " (an HDF5 file: " + library + arrays +
+    throw FileError(std::string(error.what()) + " (an HDF5 file: " + arrays +
                     "write its array of heights as .npy and give --pitch)");
   }
 }
@@ -159,7 +169,7 @@ bool readKnown(const std::string& path, const std::string& bytes, const ImportOp
     channels = {parseSurferGrid(bytes)};
   } else if (isWsxmImage(bytes.substr(0, 200))) {
     channels = {parseWsxm(bytes)};
-  } else if (beginsWithOneOf(bytes, {"\x89HDF\r\n"})) {
+  } else if (isHdf5(bytes)) {
     channels = readHdf5(path, bytes, options);
   } else if (beginsWithOneOf(bytes, {std::string("CDF\1", 4), std::string("CDF\2", 4)})) {
     channels = readNetcdf(path, bytes, options);

@@ -8,6 +8,8 @@
 
 #include "configuration/named_files.hpp"
 #include "errors/one_line.hpp"
+#include "files/input_file.hpp"
+#include "import/file_bytes.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "numeric/words.hpp"
 
@@ -18,6 +20,57 @@ namespace fs = std::filesystem;
 
 bool isBelow(const fs::path& path, const fs::path& folder) {
   return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
+}
+
+bool isAllowed(const fs::path& path, const std::vector<fs::path>& folders) {
+  std::error_code failed;
+  const fs::path target = fs::weakly_canonical(fs::absolute(path, failed), failed);
+  return !failed && std::any_of(folders.begin(), folders.end(),
+                                [&target](const fs::path& folder) { return isBelow(target, folder); });
+}
+
+/// The beginning of a file of text; empty for others, and for what cannot be read.
+std::string textStart(const fs::path& path) {
+  constexpr std::uint64_t kHeader = 1 << 16;  // [bytes]
+  try {
+    const std::string start = readInputStart(path.string(), {"a scan", kMaxFileBytes}, kHeader);
+    return start.find('\0') == std::string::npos ? start : "";
+  } catch (const FileError&) {
+    return "";
+  }
+}
+
+/// A link to elsewhere that may be read with the file: its name begins as the file's, as those of sidecars and of makers'
+/// second files do, or stands in the file. Empty if there is none.
+std::string linkBeside(const fs::path& path, const std::string& text, const std::vector<fs::path>& folders) {
+  const std::string own = path.filename().string();
+  const std::string stem = lowered(own.substr(0, std::min(own.find('.'), own.find("--"))));
+  std::error_code failed;
+  for (fs::directory_iterator entry(path.parent_path(), failed), end; !failed && entry != end;
+       entry.increment(failed)) {
+    std::error_code unknown;
+    if (!entry->is_symlink(unknown)) continue;
+    const std::string name = entry->path().filename().string();
+    const bool may_be_named = text.find(entry->is_directory(unknown) ? name + "/" : name) != std::string::npos;
+    if ((startsWith(lowered(name), stem) || may_be_named) && !isAllowed(entry->path(), folders)) return name;
+  }
+  return "";
+}
+
+/// Why what is read with an allowed file may lie elsewhere; empty if nothing may.
+std::string leadsElsewhere(const std::string& path, const std::vector<fs::path>& folders) {
+  std::error_code failed;
+  const fs::path stated = fs::absolute(path, failed);
+  const fs::path target = fs::weakly_canonical(stated, failed);
+  const std::string text = textStart(target);
+  if (text.find("../") != std::string::npos || (startsWith(text, "NRRD") && text.find("\ndata") != std::string::npos)) {
+    return " names files of other folders";
+  }
+  for (const fs::path& file : {stated, target}) {
+    const std::string link = linkBeside(file, text, folders);
+    if (!link.empty()) return " has the link " + oneLine(link) + " beside it, which leads elsewhere";
+  }
+  return "";
 }
 
 std::string unusable(const std::string& key, const std::string& path) {
@@ -34,10 +87,8 @@ std::vector<fs::path> scanFolders() {
   if (const char* stated = std::getenv(kScanFoldersVariable)) {
     std::istringstream stream(stated);
     for (std::string name; std::getline(stream, name, ':');) names.push_back(name);
-  } else {
-    if (const char* home = std::getenv("HOME")) names.emplace_back(home);
-    std::error_code none;
-    names.push_back(fs::temp_directory_path(none).string());
+  } else if (const char* home = std::getenv("HOME")) {
+    names.emplace_back(home);
   }
   std::vector<fs::path> folders;
   for (const std::string& name : names) {
@@ -51,11 +102,11 @@ std::vector<fs::path> scanFolders() {
 std::vector<std::string> filesElsewhere(const Configuration& configuration, const std::vector<fs::path>& folders) {
   std::vector<std::string> lines;
   for (const auto& [key, path] : filesNamedBy(configuration)) {
-    std::error_code failed;
-    const fs::path target = fs::weakly_canonical(fs::absolute(path, failed), failed);
-    const auto contains = [&target = target](const fs::path& folder) { return isBelow(target, folder); };
-    if (!failed && std::any_of(folders.begin(), folders.end(), contains)) continue;
-    std::string line = key + ": " + oneLine(path) + " is not allowed, must lie below";
+    const bool is_allowed = isAllowed(path, folders);
+    const std::string beside = is_allowed ? leadsElsewhere(path, folders) : "";
+    if (is_allowed && beside.empty()) continue;
+    std::string line = key + ": " + oneLine(path) + beside;
+    line += beside.empty() ? " is not allowed, must lie below" : "; allowed is what lies below";
     for (const fs::path& folder : folders) line += " " + folder.string();
     lines.push_back(line + " (the environment variable " + kScanFoldersVariable + " of the node states these folders)");
   }

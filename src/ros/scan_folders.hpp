@@ -15,14 +15,15 @@
 
 namespace mems_stiction {
 
-/// Folders with a colon between them; not set: the user's home and the folder for temporary files. It is no parameter,
-/// which whoever is to be kept out could set.
+/// Folders with a colon between them; not set: the user's home. The folder for temporary files is everybody's. It is no
+/// parameter, which whoever is to be kept out could set.
 inline constexpr char kScanFoldersVariable[] = "MEMS_STICTION_SCAN_FOLDERS";
 
 /// Where links lead, without those that do not exist.
 std::vector<std::filesystem::path> scanFolders();
 
-/// One line per setting that names a file elsewhere; a link counts as what it leads to.
+/// One line per setting that names a file elsewhere, or one with which a file elsewhere may be read: a link beside it of
+/// a like name, or another folder in its header. A link counts as what it leads to.
 std::vector<std::string> filesElsewhere(const Configuration& configuration,
                                         const std::vector<std::filesystem::path>& folders);
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Bad parameters: the node exits with 1 and names every key; the nodelet names them and stays idle in its manager."""
 
+import os
 import pathlib
 import subprocess
 import tempfile
@@ -37,6 +38,7 @@ class BadParametersTest(unittest.TestCase):
             for path, reason in ((str(secret), "cannot be used"), ("/etc/passwd", "must lie below")):
                 rospy.set_param("/curious_node", {"counter_surface": {"type": "file", "facing": "up", "file": path}})
                 ended = subprocess.run([find_node("mems_stiction", "stiction_node")[0], "__name:=curious_node"], timeout=TIMEOUT,
+                                       env=dict(os.environ, MEMS_STICTION_SCAN_FOLDERS=folder),
                                        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
                 self.assertEqual(ended.returncode, 1, ended.stdout)
                 self.assertIn("counter_surface/file: %s" % path, ended.stdout)

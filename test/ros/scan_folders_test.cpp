@@ -94,18 +94,43 @@ TEST(ScanFolders, AFolderWithALongerNameIsAnother) {
   EXPECT_EQ(filesElsewhere(under(folder.file("scans/grid.txt")), folders).size(), 0U);
 }
 
-TEST(ScanFolders, WithoutAWordTheyAreHomeAndTheFolderForTemporaryFiles) {
+TEST(ScanFolders, WithoutAWordItIsTheHome) {
   unsetenv(kScanFoldersVariable);
   const ScratchFolder home;
   const std::string before = std::getenv("HOME") == nullptr ? "" : std::getenv("HOME");
   setenv("HOME", home.file("").c_str(), 1);
   const std::vector<std::filesystem::path> folders = scanFolders();
   setenv("HOME", before.c_str(), 1);
-  EXPECT_EQ(folders,
-            (std::vector<std::filesystem::path>{std::filesystem::canonical(home.file("")),
-                                                std::filesystem::canonical(std::filesystem::temp_directory_path())}));
+  EXPECT_EQ(folders, (std::vector<std::filesystem::path>{std::filesystem::canonical(home.file(""))}));
   const Stated nothing("");
   EXPECT_TRUE(scanFolders().empty());
+}
+
+TEST(ScanFolders, NothingElsewhereIsReadWithAFile) {
+  const ScratchFolder inside;
+  const ScratchFolder outside;
+  const Stated stated(inside.file(""));
+  const std::string grid = "0 1e-9 0\n1e-9 0 1e-9\n0 1e-9 0\n";
+  const std::string scan = inside.write("grid.txt", grid);
+  std::filesystem::create_symlink(inside.write("mine.yaml", "pitch_x: 2.0e-8\n"), inside.file("grid.yaml"));
+  std::filesystem::create_symlink(outside.write("other.txt", grid), inside.file("other.txt"));
+  EXPECT_EQ(whyNot(under(scan)), "");
+
+  const std::string theirs = outside.write("theirs.yaml", "pitch_x: 2.0e-8\n");
+  for (const char* name : {"grid.txt.yaml", "GRID_0001.mtrx"}) {
+    std::filesystem::create_symlink(theirs, inside.file(name));
+    const std::string text = whyNot(under(scan));
+    EXPECT_NE(text.find("has the link " + std::string(name) + " beside it"), std::string::npos) << text;
+    std::filesystem::remove(inside.file(name));
+  }
+  std::filesystem::create_symlink(theirs, inside.file("data.int"));
+  for (const char* header :
+       {"FileName : data.int\n", "FileName : ../data.int\n", "NRRD0004\ntype: float\ndata file: /etc/passwd\n"}) {
+    const std::string text = whyNot(under(inside.write("header.int.txt", header)));
+    EXPECT_TRUE(text.find("data.int beside it") != std::string::npos ||
+                text.find("names files of other folders") != std::string::npos)
+        << text;
+  }
 }
 
 }  // namespace

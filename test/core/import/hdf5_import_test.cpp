@@ -121,5 +121,57 @@ file["words"] = numpy.array([[b"a", b"b"], [b"c", b"d"]])
   EXPECT_FALSE(read.is_library_missing);
 }
 
+/// Each way of the format to bring numbers of another file in. The file is one that would be read.
+TEST_F(Hdf5, WhatLeadsToOtherFilesIsRefused) {
+  const std::string secret = folder_.write("secret", std::string(48, 's'));
+  writtenBy(folder_, "other.h5", "file['image'] = numpy.ones((2, 3))\n");
+  const std::string scaled = "file['pixel_to_nm_scaling'] = 2.0\n";
+  const std::string image = "file['image'] = numpy.ones((2, 3))\n";
+  const struct {
+    const char* name;
+    std::string lines;
+    std::string says;
+  } kWays[] = {
+      {"storage.topostats",
+       scaled + "file.create_dataset('image', (2, 3), 'f8', external=[('" + secret + "', 0, 48)])\n",
+       "the numbers of '/image' stand in other files"},
+      {"link.topostats", scaled + "file['image'] = h5py.ExternalLink('other.h5', '/image')\n",
+       "the link 'image' leads to another file"},
+      {"soft.topostats",
+       scaled + "file['deep/link'] = h5py.ExternalLink('other.h5', '/')\nfile['image'] = "
+                "h5py.SoftLink('/deep/link/image')\n",
+       "the link 'link' leads to another file"},
+      {"virtual.topostats",
+       scaled +
+           "layout = h5py.VirtualLayout((2, 3), 'f8')\nlayout[:] = h5py.VirtualSource('other.h5', 'image', (2, 3))\n" +
+           "file.create_virtual_dataset('image', layout)\n",
+       "the numbers of '/image' stand in other files"},
+      {"beside.topostats", scaled + image + "file['far/away'] = h5py.ExternalLink('other.h5', '/image')\n",
+       "the link 'away' leads to another file"},
+      {"unknown.h5", "file['away'] = h5py.ExternalLink('other.h5', '/image')\n", "the link 'away' leads"},
+  };
+  for (const auto& way : kWays) {
+    try {
+      readScanFile(writtenBy(folder_, way.name, way.lines));
+      ADD_FAILURE() << way.name;
+    } catch (const FileError& error) {
+      EXPECT_NE(std::string(error.what()).find(way.name + std::string(": ") + way.says), std::string::npos)
+          << error.what();
+    }
+  }
+  EXPECT_EQ(readScanFile(writtenBy(folder_, "soft_inside.topostats",
+                                   scaled + "file['a'] = numpy.ones((2, 3))\nfile['image'] = h5py.SoftLink('/a')\n"))
+                .cols(),
+            3);
+}
+
+/// A block of the user's before the signature, as MATLAB's files have it, hides nothing.
+TEST_F(Hdf5, IsKnownBehindABlockOfTheUser) {
+  const std::string path = writtenBy(folder_, "user.mat",
+                                     "file.close()\nfile = h5py.File(sys.argv[1], 'w', userblock_size=512)\n"
+                                     "file['image'] = numpy.ones((2, 3))\nfile['pixel_to_nm_scaling'] = 2.0\n");
+  EXPECT_EQ(readScanFile(path).cols(), 3);
+}
+
 }  // namespace
 }  // namespace mems_stiction
