@@ -29,4 +29,4 @@ runTests() {
   [ -d test_results ] && mv test_results "$results/cases"
 }
 
-testsDone() { grep -oE '^ *[0-9]+/[0-9]+ Test' "$test_log" | tail -n 1 | tr -d ' Tes' | sed 's|/| of |'; }
+testsDone() { grep -oE '^ *[0-9]+/[0-9]+ Test' "$test_log" | tail -n 1 | grep -oE '[0-9]+/[0-9]+' | sed 's|/| of |'; }
