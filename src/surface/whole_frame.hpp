@@ -24,6 +24,7 @@ namespace mems_stiction {
 /// Density of the power of a wave [rad/pixel], over that of white noise of variance 1 [m^2].
 using WavePower = std::function<double(double wave_x, double wave_y)>;
 
+/// The surfaces of one spectrum and size, one seed after the other.
 class WholeFrame {
  public:
   WholeFrame(const WavePower& power, int rows, int cols);
