@@ -313,6 +313,10 @@ class VerdictFigures:
     """[V] at which the electrodes close"""
     regime_flags: int
     """where the model leaves its range: bits, 0 when all is well"""
+    device_pull_off_force_lower: float
+    """[N] 2.5 % quantile of device_pull_off_force"""
+    device_pull_off_force_upper: float
+    """[N] 97.5 % quantile of device_pull_off_force"""
     verdict_by: str
     """whose figures it rests on: prediction or half_space"""
 
