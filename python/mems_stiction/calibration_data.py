@@ -197,11 +197,11 @@ def _differ_too_much(data: Sequence[Measurement]) -> bool:
             continue
         logs = np.log([datum.value for datum in members])
         shares = np.array([datum.uncertainty / datum.value for datum in members])
-        keep = np.argsort(np.abs(logs - np.median(logs)) / shares)[:-1]
-        weights = 1.0 / shares[keep] ** 2
-        mean = float(np.sum(weights * logs[keep]) / np.sum(weights))
-        chi_square += float(np.sum(weights * (logs[keep] - mean) ** 2))
-        freedom += len(keep) - 1
+        chosen = np.argsort(np.abs(logs - np.median(logs)) / shares)[:-1]
+        weights = 1.0 / shares[chosen] ** 2
+        mean = float(np.sum(weights * logs[chosen]) / np.sum(weights))
+        chi_square += float(np.sum(weights * (logs[chosen] - mean) ** 2))
+        freedom += len(chosen) - 1
     return freedom > 0 and float(scipy.stats.chi2.sf(chi_square, freedom)) < FALSE_OTHERS
 
 

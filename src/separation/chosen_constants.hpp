@@ -71,7 +71,7 @@ constexpr int kPlaceCells = 8;
 /// on frames of other kinds, seeds 14 to 16, and on 4,200 whose texture changes. No force hangs on it. Never:
 /// 2 % fewer frames of other kinds are doubted, and 0.5 % of those whose texture changes are out by more
 /// than 1.6 without a doubt, by up to 400. With 1.3 1.0 % more are doubted, and as many are out.
-constexpr double kHeldByPlaces = 1.6;
+constexpr double kPullOfPlaces = 1.6;
 
 /// Bonded surfaces are doubted where a quarter of the frame stores so many times as much when pressed
 /// flat as the frame does, per area [-]: (S10) has one stiffness. No force hangs on it.

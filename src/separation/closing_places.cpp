@@ -41,7 +41,7 @@ double ClosingPlaces::force(const GapField& field, const ContactTraction& law, d
   double largest = 0.0;
   for (int divisions = 2; divisions <= chosen::kPlacesPerSide; divisions *= 2) {
     takePlaces(divisions);
-    keepNear(curve.rest().approach);
+    onlyNear(curve.rest().approach);
     if (!(largestForce() > std::max(largest, least))) continue;
     for (Place& place : places_) measureEnergy(place);
     largest = std::max(largest, largestForce());
@@ -120,7 +120,7 @@ void ClosingPlaces::takePlaces(int divisions) {
   }
 }
 
-void ClosingPlaces::keepNear(double nearest) {
+void ClosingPlaces::onlyNear(double nearest) {
   const auto isFar = [&](const Place& place) {
     return !(drawingEnergy(place, std::max(0.0, place.mean_gap - nearest)) < law_->workOfAdhesion());
   };

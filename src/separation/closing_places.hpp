@@ -59,7 +59,7 @@ class ClosingPlaces {
   /// The places of one size; none if their sides would be too short.
   void takePlaces(int divisions);
   /// Without those that do not close at the end of the way even if flattening costs nothing.
-  void keepNear(double nearest);
+  void onlyNear(double nearest);
   /// What drawing a place up from its distance [m] takes, per area [J/m^2].
   double drawingEnergy(const Place& place, double distance) const;
   void measureEnergy(Place& place);

@@ -107,7 +107,7 @@ void SeparationSolver::doubtPlaces(const GapField& field, ContactSolution& solut
       solution.model.doubt = "the surfaces are bonded, and their texture changes from place to place";
     }
   } else if (places_.force(field, frame.law(), modulus, curve_.wayOut(),
-                           chosen::kHeldByPlaces * solution.pull_off_force) > 0.0) {
+                           chosen::kPullOfPlaces * solution.pull_off_force) > 0.0) {
     solution.model.doubt = "places smoother than the rest close by themselves, and hold more than the contacts";
   }
 }

@@ -313,7 +313,7 @@ class SlipTest(unittest.TestCase):
 
     def test_a_mask_that_is_none_is_named_once(self):
         (self.folder / "mask.yaml").write_text("preprocessing: {region: {mask_file: nowhere.png}}\n")
-        self.assert_refused("mask_file: nowhere.png: there is no such file", "predict_scan", "-c", "mask.yaml", "scan.npy")
+        self.assert_refused("nowhere.png: there is no such file", "predict_scan", "-c", "mask.yaml", "scan.npy")
 
     def test_a_tiff_has_the_name_of_one(self):
         for option in (("--deformed",), ("--half-space", "--half-space-pressure"), ("--half-space", "--half-space-deformed")):
