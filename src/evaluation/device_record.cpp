@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <string>
 
 #include "device/device_force_fields.hpp"
 #include "device/device_force_lists.hpp"
@@ -22,7 +23,7 @@ template <typename Fields>
 void addVerdict(const Verdict& verdict, Fields& fields) {
   visitVerdictFields(verdict, [&](const Figure& figure, const auto& value) {
     const bool force_has_it = std::strcmp(figure.name, "apparent_work_of_adhesion") == 0 ||
-                              std::strcmp(figure.name, "device_pull_off_force") == 0;
+                              std::string(figure.name).rfind("device_pull_off_force", 0) == 0;
     if (!force_has_it) fields(figure, value);
   });
   fields({"regime_flag_names"}, regimeFlagNames(verdict.regime_flags));

@@ -39,7 +39,6 @@ void visitResultFields(const HeightMap& scan, const Prediction& prediction, cons
   visit({"model_doubt"}, modelDoubt(prediction));
   if (extras.verdict) {
     visitVerdictFields(*extras.verdict, visit);
-    visitVerdictForce(*extras.verdict, visit);
     if (extras.half_space) visit({"verdict_by"}, std::string(judgeText(extras.verdict->judge)));
   } else {
     visit({"regime_flags"}, flags);

@@ -79,7 +79,6 @@ class DeclaredFields {
 template <typename Visitor>
 void visitJudgedFields(const Verdict& verdict, Visitor&& visit) {
   visitVerdictFields(verdict, visit);
-  visitVerdictForce(verdict, visit);
   visit({"verdict_by", "", "whose figures it rests on: prediction or half_space"},
         std::string(judgeText(verdict.judge)));
 }

@@ -42,7 +42,6 @@ void visitFigures(const HeightMap& scan, const std::vector<std::string>& warning
       const bool is_reason = std::strcmp(figure.name, "reason") == 0;
       visit(is_reason ? Figure{"verdict_reason", figure.unit, figure.meaning} : figure, value);
     });
-    visitVerdictForce(*verdict, visit);
     visit({"place_deviation"}, verdict->place_deviation);
   } else {
     visit({"regime_flags"}, flags);

@@ -35,11 +35,6 @@ void visitVerdictFields(VerdictType& verdict, Visitor&& visit) {
   visit({"unstuck_length", "m", "free arm of the beam while it is stuck"}, verdict.unstuck_length);
   visit({"pull_in_voltage", "V", "at which the electrodes close"}, verdict.pull_in_voltage);
   visit({"regime_flags", "", "where the model leaves its range: bits, 0 when all is well"}, verdict.regime_flags);
-}
-
-/// The force that the margin rests on; in records and Python, not in messages.
-template <typename VerdictType, typename Visitor>
-void visitVerdictForce(VerdictType& verdict, Visitor&& visit) {
   visit({"device_pull_off_force_lower", "N", "2.5 % quantile of device_pull_off_force"},
         verdict.device_pull_off_force_lower);
   visit({"device_pull_off_force_upper", "N", "97.5 % quantile of device_pull_off_force"},
