@@ -12,6 +12,7 @@ from mems_stiction import _core
 from mems_stiction._arrays import Pitch, ReadOnly, Surface, array_of, explained, pitch_of, pixels_of
 from mems_stiction._inputs import odd_in, scan_of, warn_about
 from mems_stiction._settings import Config, Settings, SurfaceError
+from mems_stiction._warnings import ScanWarning, warn
 from mems_stiction.quantities import with_unit
 
 
@@ -189,9 +190,11 @@ def roughness(heights: Any, pitch: Optional[Pitch] = None, config: Optional[Conf
     """Figures of ISO 25178-2, spectrum and summits of a surface as it is given.
 
     spatial: also those that reach sideways (sal to hurst), which take twice as long as a prediction. They wrap around a
-    topography that is_periodic.
+    topography that is_periodic. Spectra fill missing pixels (doc/theory.md, 13), with a ScanWarning.
     Raises SurfaceError without a valid pixel.
     """
     checked = Settings(config, **settings)
     surface = scan_of(heights, pitch, checked)
-    return Roughness(_core.roughness(surface.core, checked._configuration, spatial, surface.is_periodic))
+    figures, warnings = _core.roughness(surface.core, checked._configuration, spatial, surface.is_periodic)
+    warn(warnings, ScanWarning)
+    return Roughness(figures)

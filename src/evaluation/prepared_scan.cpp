@@ -12,6 +12,7 @@
 #include "preprocess/recipe.hpp"
 #include "preprocess/refine.hpp"
 #include "preprocess/tilt.hpp"
+#include "roughness/filled_surface.hpp"
 #include "roughness/tip_limit.hpp"
 #include "settings/time_limit.hpp"
 #include "surface/wear.hpp"
@@ -158,6 +159,10 @@ PreparedScan ScanPreparer::prepare(const HeightMap& scan) {
   prepared.outside = cleaned.outside;
   TimeLimit::check();
   addRoughness(prepared);
+  if (spatial_roughness_.enabled) {
+    const std::string filled = filledSentence(prepared.surfaces.lower);
+    if (!filled.empty()) prepared.warnings.push_back("output/spatial_roughness: " + filled);
+  }
   if (tip_radius_ > 0.0) prepared.tip_limit = tipLimit(prepared.surfaces.lower, tip_radius_);
   prepared.preparation_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return prepared;

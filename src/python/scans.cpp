@@ -9,6 +9,7 @@
 #include <string>
 #include <tuple>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "bindings.hpp"
@@ -26,6 +27,7 @@
 #include "mems_stiction/preprocess/pipeline.hpp"
 #include "mems_stiction/roughness/areal_parameters.hpp"
 #include "preprocess/cleaning_warnings.hpp"
+#include "roughness/filled_surface.hpp"
 #include "roughness/framed_roughness.hpp"
 #include "surface/counter_surface.hpp"
 #include "without_lock.hpp"
@@ -123,21 +125,27 @@ std::tuple<HeightMap, py::list, std::vector<std::string>> cleaned(const HeightMa
   return {result.surface, stepsOf(result.record), warnings};
 }
 
-py::dict roughnessOf(const HeightMap& scan, const Configuration& configuration, bool is_spatial, bool is_periodic) {
+/// The figures, and what is to be said about them.
+std::pair<py::dict, std::vector<std::string>> roughnessOf(const HeightMap& scan, const Configuration& configuration,
+                                                          bool is_spatial, bool is_periodic) {
   ArealParameters areal;
   SpatialRoughness spatial;
+  std::vector<std::string> warnings;
   {
     const WithoutLock unlocked;
     areal = arealParameters(scan);
     if (is_spatial) {
       spatial = spatialRoughness(scan, configuration.spatial_roughness,
                                  is_periodic ? FrameBoundary::kPeriodic : FrameBoundary::kOpen);
+      const std::string filled = filledSentence(scan);
+      if (!filled.empty()) warnings.push_back(filled);
     }
   }
-  return dictionaryOf([&](auto& fields) {
-    visitRoughnessFields(areal, fields);
-    visitSpatialRoughnessFields(spatial, fields);
-  });
+  return {dictionaryOf([&](auto& fields) {
+            visitRoughnessFields(areal, fields);
+            visitSpatialRoughnessFields(spatial, fields);
+          }),
+          warnings};
 }
 
 /// A generated surface as a probe would see it, asperities up.

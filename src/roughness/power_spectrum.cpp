@@ -9,36 +9,33 @@
 #include "numeric/constants.hpp"
 #include "numeric/value_range.hpp"
 #include "preprocess/working_surface.hpp"
+#include "roughness/filled_surface.hpp"
 #include "roughness/half_spectrum.hpp"
 
 namespace mems_stiction {
 namespace {
 
-/// Weights of one axis: Hann's periodic window, centred on the pixels.
 std::vector<double> axisWindow(int count, SpectrumWindow window) {
-  std::vector<double> weights(static_cast<std::size_t>(count), 1.0);
-  if (window == SpectrumWindow::kNone) return weights;
-  for (int index = 0; index < count; ++index) {
-    const double sine = std::sin(kPi * (index + 0.5) / count);
-    weights[static_cast<std::size_t>(index)] = sine * sine;
-  }
-  return weights;
+  if (window == SpectrumWindow::kHann) return hannWindow(count);
+  return std::vector<double>(static_cast<std::size_t>(count), 1.0);
 }
 
 /// Heights about their weighted mean times the window, in units of `unit`.
 struct Weighted {
   cv::Mat heights;
+  KnownShare known;
   double unit = 1.0;             ///< [m]
   double squared_weights = 0.0;  ///< sum over the frame
 };
 
-Weighted weightedHeights(const HeightMap& surface, SpectrumWindow window) {
+Weighted weightedHeights(const FilledSurface& filled, SpectrumWindow window) {
+  const HeightMap& surface = filled.surface;
   WorkingSurface work(surface);
   cv::Mat& heights = work.heights;
   const double mean = meansOf(heights, work.memory).height;
   const std::vector<double> window_x = axisWindow(surface.cols(), window);
   const std::vector<double> window_y = axisWindow(surface.rows(), window);
-  Weighted weighted;
+  Weighted weighted{{}, KnownShare(filled.distances, window_x, window_y)};
   ValueRange range;
   double sum = 0.0;
   double products = 0.0;
@@ -58,8 +55,7 @@ Weighted weightedHeights(const HeightMap& surface, SpectrumWindow window) {
     double* line = heights.ptr<double>(row);
     const double weight = is_flat ? 0.0 : window_y[static_cast<std::size_t>(row)] / weighted.unit;
     for (std::size_t col = 0; col < window_x.size(); ++col) {
-      const double height = (line[col] - weighted_mean) * (weight * window_x[col]);
-      line[col] = height == height ? height : 0.0;
+      line[col] = (line[col] - weighted_mean) * (weight * window_x[col]);
     }
   }
   weighted.heights = heights;
@@ -68,14 +64,16 @@ Weighted weightedHeights(const HeightMap& surface, SpectrumWindow window) {
 
 }  // namespace
 
-PowerSpectrum powerSpectrum(const HeightMap& surface, SpectrumWindow window) {
+PowerSpectrum powerSpectrum(const HeightMap& measured, SpectrumWindow window) {
+  const FilledSurface filled = filledSurface(measured);
+  const HeightMap& surface = filled.surface;
   const int rows = surface.rows();
   const int cols = surface.cols();
   if (rows < 2 || cols < 2) {
     throw SurfaceError("a spectrum needs at least 2 x 2 pixels, got " + std::to_string(cols) + " x " +
                        std::to_string(rows));
   }
-  const Weighted weighted = weightedHeights(surface, window);
+  const Weighted weighted = weightedHeights(filled, window);
   const cv::Mat transform = halfSpectrum(weighted.heights, weighted.heights.size());
 
   // C = |F dx dy|^2/(dx dy sum of w^2); integral d^2q/(2 pi)^2 = sum over wave vectors/(N dx dy)
@@ -98,7 +96,8 @@ PowerSpectrum powerSpectrum(const HeightMap& surface, SpectrumWindow window) {
       const double q_y = waveNumber(row, rows, surface.pitchY()) / width;
       const double square = q_x * q_x + q_y * q_y;
       const double q = std::sqrt(square);
-      const double power = twins * density * line[row].dot(line[row]);
+      const double in_pixels = std::hypot(waveNumber(col, cols, 1.0), waveNumber(row, rows, 1.0));
+      const double power = twins * density * line[row].dot(line[row]) / weighted.known.of(in_pixels);
       zeroth += power;
       second += power * square;
       fourth += power * square * square;

@@ -15,9 +15,9 @@
 /// Wave vectors run over the whole rectangle up to Nyquist's in each axis; dx may differ from dy, rows from columns.
 /// Heights are taken about their (weighted) mean; levelling is the caller's. `none` weights all pixels alike, for
 /// surfaces that wrap around their frame; `hann` fades the frame out towards its borders, for measured ones: without it
-/// the jump from one border to the other adds q^-2 to C and swamps m2 and m4. Invalid pixels have the weight 0. Their
-/// holes spread some power to large q: fill small ones before (fill_holes.hpp). m4 of a measured surface hangs on the
-/// pitch and on noise: it is a figure of this scan, not of the material.
+/// the jump from one border to the other adds q^-2 to C and swamps m2 and m4. Missing pixels are filled
+/// (filled_surface.hpp). m4 of a measured surface hangs on the pitch and on noise: it is a figure of this scan, not of
+/// the material.
 
 #include <vector>
 

@@ -17,11 +17,6 @@ constexpr int kPixels = 64;
 constexpr int kReach = 6;
 constexpr double kSourceStep = 0.25;
 
-double hann(int index, int count) {
-  const double sine = std::sin(kPi * (index + 0.5) / count);
-  return sine * sine;
-}
-
 /// Sums over the pixels of a side, of exp(2 pi i u x), for a number of waves u, each also with a factor by pixel.
 Complex waveSum(double waves, const std::vector<double>& factors) {
   Complex sum = 0.0;
@@ -33,6 +28,7 @@ Complex waveSum(double waves, const std::vector<double>& factors) {
 }
 
 WaveTransfer makeTransfer() {
+  const std::vector<double> weights = hannWindow(kPixels);
   std::vector<double> window(kPixels);
   std::vector<double> constant(kPixels, 1.0 / std::sqrt(static_cast<double>(kPixels)));
   std::vector<double> slope(kPixels);
@@ -40,8 +36,8 @@ WaveTransfer makeTransfer() {
   double window_square = 0.0;
   for (int pixel = 0; pixel < kPixels; ++pixel) {
     const auto place = static_cast<std::size_t>(pixel);
-    window[place] = hann(pixel, kPixels) / kPixels;
-    window_square += hann(pixel, kPixels) * hann(pixel, kPixels) / kPixels;
+    window[place] = weights[place] / kPixels;
+    window_square += weights[place] * weights[place] / kPixels;
     slope[place] = (pixel + 0.5) / kPixels - 0.5;
     slope_square += slope[place] * slope[place];
   }
@@ -110,24 +106,23 @@ const WaveTransfer& waveTransfer() {
   return transfer;
 }
 
-ScanWaves::ScanWaves(const HeightMap& surface)
-    : rows_(surface.rows()),
-      cols_(surface.cols()),
-      side_x_(surface.cols() * surface.pitchX()),
-      side_y_(surface.rows() * surface.pitchY()) {
+ScanWaves::ScanWaves(const HeightMap& surface) : ScanWaves(filledSurface(surface)) {}
+
+ScanWaves::ScanWaves(const FilledSurface& filled)
+    : rows_(filled.surface.rows()),
+      cols_(filled.surface.cols()),
+      side_x_(filled.surface.cols() * filled.surface.pitchX()),
+      side_y_(filled.surface.rows() * filled.surface.pitchY()) {
   cv::Mat heights;
-  levelled(surface).heights().convertTo(heights, CV_64F);
+  levelled(filled.surface).heights().convertTo(heights, CV_64F);
+  const std::vector<double> weights_x = hannWindow(cols_);
+  const std::vector<double> weights_y = hannWindow(rows_);
   double squares = 0.0;
   double largest = 0.0;
   for (int row = 0; row < rows_; ++row) {
     double* line = heights.ptr<double>(row);
-    const double at_row = hann(row, rows_);
     for (int col = 0; col < cols_; ++col) {
-      const double weight = at_row * hann(col, cols_);
-      if (!(line[col] == line[col])) {
-        line[col] = 0.0;
-        continue;
-      }
+      const double weight = weights_y[static_cast<std::size_t>(row)] * weights_x[static_cast<std::size_t>(col)];
       squares += weight * weight;
       line[col] *= weight;
       largest = std::max(largest, std::abs(line[col]));
@@ -137,12 +132,16 @@ ScanWaves::ScanWaves(const HeightMap& surface)
   const cv::Mat transform = halfSpectrum(heights, heights.size());
   const double per_count =
       1.0 / static_cast<double>(heights.total());  // in single precision large powers stay in range
-  unit_ = largest * largest * surface.cellArea() / squares / per_count;
+  unit_ = largest * largest * filled.surface.cellArea() / squares / per_count;
+  const KnownShare known(filled.distances, weights_x, weights_y);
   powers_.create(transform.size(), CV_32FC1);
   for (int x = 0; x < transform.rows; ++x) {
     const cv::Vec2d* line = transform.ptr<cv::Vec2d>(x);
     float* powers = powers_.ptr<float>(x);
-    for (int y = 0; y < transform.cols; ++y) powers[y] = static_cast<float>(per_count * line[y].dot(line[y]));
+    for (int y = 0; y < transform.cols; ++y) {
+      const double share = known.of(std::hypot(waveNumber(x, cols_, 1.0), waveNumber(y, rows_, 1.0)));
+      powers[y] = static_cast<float>(per_count * line[y].dot(line[y]) / share);
+    }
   }
 }
 

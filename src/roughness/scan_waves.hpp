@@ -12,6 +12,7 @@
 
 #include "mems_stiction/height_map/height_map.hpp"
 #include "numeric/constants.hpp"
+#include "roughness/filled_surface.hpp"
 
 namespace mems_stiction {
 
@@ -26,8 +27,9 @@ struct FrameWave {
 /// The waves of one scan.
 class ScanWaves {
  public:
-  /// - @p surface its heights, or numbers in their place; invalid ones weigh nothing
+  /// - @p surface its heights, or numbers in their place; missing ones are filled
   explicit ScanWaves(const HeightMap& surface);
+  explicit ScanWaves(const FilledSurface& filled);
 
   double sideX() const { return side_x_; }
   double sideY() const { return side_y_; }

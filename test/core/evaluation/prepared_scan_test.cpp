@@ -122,6 +122,16 @@ TEST(PreparedScan, HasItsRoughnessWhereThatIsAskedFor) {
             spatialRoughness(figures.surfaces.lower, configuration.spatial_roughness).sal);
 }
 
+TEST(PreparedScan, SaysWhereTheSpectrumFillsMissingPixels) {
+  Configuration configuration;
+  const HeightMap holed = analytic::withInvalidPixel(rough(1), 3, 3);
+  EXPECT_TRUE(ScanPreparer(configuration).prepare(holed).warnings.empty());
+  configuration.spatial_roughness.enabled = true;
+  const PreparedScan prepared = ScanPreparer(configuration).prepare(holed);
+  ASSERT_EQ(prepared.warnings.size(), 1U);
+  EXPECT_NE(prepared.warnings[0].find("output/spatial_roughness: 1 of "), std::string::npos) << prepared.warnings[0];
+}
+
 TEST(ScanPreparer, CleansEachMeasuredSurfaceOnce) {
   ScanPreparer preparer(cleaning(CounterSurfaceType::kTopic));
   EXPECT_THROW(preparer.prepare(rough(1)), SurfaceError);

@@ -8,7 +8,9 @@
 #include "mems_stiction/roughness/areal_parameters.hpp"
 #include "numeric/constants.hpp"
 #include "support/analytic_surfaces.hpp"
+#include "support/holed_surfaces.hpp"
 #include "surface/gaussian_surface.hpp"
+#include "surface/self_affine_surface.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -114,6 +116,30 @@ TEST(PowerSpectrum, doesNotDependOnOffsetPrecisionOrASingleHole) {
   expectRelative(powerSpectrum(lifted, SpectrumWindow::kHann).moments.m4, moments.m4, 1e-6);
   const HeightMap holed = analytic::withInvalidPixel(surface, 10, 90);
   expectRelative(powerSpectrum(holed, SpectrumWindow::kHann).moments.m0, moments.m0, 1e-3);
+}
+
+/// Missing pixels as zeros spread power over all waves: H fell from 0.80 to 0.65, m4 rose up to 190 times.
+TEST(PowerSpectrum, missingPixelsLeaveMomentsSlopeAndShortestWaves) {
+  SelfAffineSurfaceOptions options;
+  options.rows = options.cols = 512;
+  options.hurst_exponent = 0.8;
+  options.cutoff_wavelength = 2.0 * options.pitch_x;
+  const HeightMap surface = selfAffineSurface(options);
+  const double pitch = surface.pitchX();
+  const auto hurst = [&](const PowerSpectrum& spectrum) {
+    return fitHurstExponent(spectrum, 8.0 * pitch, 128.0 * pitch).hurst_exponent;
+  };
+  const PowerSpectrum whole = powerSpectrum(surface, SpectrumWindow::kHann);
+  for (const double share : {0.01, 0.05}) {
+    for (const HeightMap& holed : {withScatteredHoles(surface, share, 1), withRoundHoles(surface, share, 2)}) {
+      const PowerSpectrum found = powerSpectrum(holed, SpectrumWindow::kHann);
+      EXPECT_NEAR(hurst(found), hurst(whole), 0.01) << share;
+      expectRelative(found.moments.m0, whole.moments.m0, 0.02);
+      expectRelative(found.moments.m2, whole.moments.m2, 0.02);
+      expectRelative(found.moments.m4, whole.moments.m4, 0.04);
+      expectRelative(found.rings.back().density, whole.rings.back().density, 0.1);
+    }
+  }
 }
 
 TEST(PowerSpectrum, ofAConstantSurfaceIsZeroAndOfALineIsRefused) {

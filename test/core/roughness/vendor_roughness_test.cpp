@@ -57,7 +57,8 @@ TEST_F(VendorRoughness, spectrumCarriesTheKnownRmsHeight) {
     SCOPED_TRACE(known.file);
     const HeightMap surface = flat(known.file);
     const SpectralMoments moments = powerSpectrum(surface, SpectrumWindow::kNone).moments;
-    EXPECT_NEAR(std::sqrt(moments.m0) / known.sq, 1.0, 1e-6);  // Parseval; seven digits are listed
+    // Parseval; seven digits are listed. Pixels that the interferometer lacks lie in a pit, and are filled.
+    EXPECT_NEAR(std::sqrt(moments.m0) / known.sq, 1.0, invalidFraction(surface) > 0.0 ? 5e-3 : 1e-6);
     // Central differences see less than the spectrum up to its end; how much less hangs on the noise.
     EXPECT_GT(std::sqrt(2.0 * moments.m2), known.sdq);
     EXPECT_GE(moments.alpha, 1.5);
