@@ -47,6 +47,21 @@ TEST(Wear, pixelsThatOneScanLacksKeepTheirMark) {
   EXPECT_EQ(whole.lower.height(0, 1), 4.0);
 }
 
+/// cv::compare() calls NaN equal to itself where it takes several pixels at once.
+TEST(Wear, pixelsThatOneScanLacksKeepTheirHeightsInLongRowsToo) {
+  cv::Mat heights(4, 100, CV_64FC1, cv::Scalar(5.0));
+  cv::Mat left = heights.clone();
+  left.at<double>(0, 0) = 4.0;
+  left.row(2).setTo(kNone);
+  cv::Mat as_made = heights.clone();
+  as_made.row(2).setTo(kNone);
+  Wear wear;
+  wear.add({mapOf(as_made)}, left, cv::Mat::zeros(4, 100, CV_64FC1));
+  const HeightMap worn = wear.on({mapOf(heights)}).lower;
+  EXPECT_EQ(worn.height(0, 0), 4.0);
+  for (int col = 0; col < 100; ++col) EXPECT_EQ(worn.height(2, col), 5.0) << "was never in contact";
+}
+
 TEST(Wear, anotherSizeIsAnotherSurface) {
   Wear wear;
   wear.add({mapOf(cv::Mat::ones(2, 2, CV_64FC1))}, cv::Mat::zeros(2, 2, CV_64FC1), cv::Mat::zeros(2, 2, CV_64FC1));
