@@ -7,6 +7,7 @@
 #include "device/area_load.hpp"
 #include "device/scan_list.hpp"
 #include "errors/short_number.hpp"
+#include "height_map/validity.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
 #include "mems_stiction/settings/option_visitor.hpp"
@@ -29,6 +30,10 @@ constexpr std::int64_t kFrameSide = 4096;
 constexpr std::int64_t kTiltedSide = 2048;
 /// Pixels along the side of what is shown of a surface, at most.
 constexpr std::int64_t kShownSide = 512;
+
+/// Of a contact that is cut from a scan, so much must have been measured; so many places are tried.
+constexpr double kLeastMeasuredShare = 0.5;
+constexpr int kMostDraws = 100;
 
 /// Every so many pixels of a surface, to look at.
 class ShownSurface {
@@ -190,7 +195,7 @@ std::vector<Realisation> DeviceAreaSolver::realise(const std::vector<DeviceAreaS
                                                    const std::vector<HeightMap>& upper, std::uint64_t seed) {
   const DevicePieces& pieces = solvers.front()->pieces_;
   std::mt19937_64 engine(seed);
-  const auto partOf = [&](const std::vector<HeightMap>& scans) {
+  const auto drawnPart = [&](const std::vector<HeightMap>& scans) {
     const HeightMap& scan = scans[std::uniform_int_distribution<std::size_t>(0, scans.size() - 1)(engine)];
     const int rows = static_cast<int>(pieces.size.rows);
     const int cols = static_cast<int>(pieces.size.cols);
@@ -199,6 +204,16 @@ std::vector<Realisation> DeviceAreaSolver::realise(const std::vector<DeviceAreaS
     cv::Mat heights;
     scan.heights()(part).convertTo(heights, CV_64F);
     return heights;
+  };
+  const auto partOf = [&](const std::vector<HeightMap>& scans) {
+    for (int draw = 0; draw < kMostDraws; ++draw) {
+      cv::Mat heights = drawnPart(scans);
+      if (cv::countNonZero(validMask(heights)) >= kLeastMeasuredShare * static_cast<double>(heights.total()))
+        return heights;
+    }
+    throw SurfaceError("the scans have no place of the size of a contact, " +
+                       shortNumber(pieces.size.sideX() * 1e6, 2) +
+                       " um, of which half was measured: scans with fewer missing pixels, or preprocessing/fill, help");
   };
   Gatherer gatherer(pieces);
   cv::Mat relief;

@@ -16,6 +16,7 @@
 #include "device/scan_list.hpp"
 #include "device/scan_shortcomings.hpp"
 #include "device/surface_law.hpp"
+#include "device/usable_scans.hpp"
 #include "errors/short_number.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
 #include "numeric/constants.hpp"
@@ -400,19 +401,27 @@ void followAll(const DeviceSurfaces& surfaces, const DeviceArea& area, const std
   for (ModelRun* run : runs) takeRealisations(uncertainty, options.realisations, *run);
 }
 
+/// deviceForces() of usable scans.
+std::vector<DeviceForce> forcesOf(const DeviceSurfaces& surfaces, const DeviceArea& area,
+                                  const std::vector<Options>& models, const UncertaintyOptions& uncertainty,
+                                  const DeviceForceOptions& options, const std::function<void(double)>& on_progress);
+
 /// Of a part whose bodies are thin.
 DeviceForce forceOfThinBodies(const DeviceSurfaces& surfaces, const DeviceArea& area, const Options& model,
                               const UncertaintyOptions& uncertainty, const DeviceForceOptions& options,
                               const std::function<void(double)>& on_progress) {
+  const auto ofStiff = [&](const DeviceArea& part, const Options& stiff) {
+    return std::move(forcesOf(surfaces, part, {stiff}, uncertainty, options, on_progress).front());
+  };
   const double length = mosaicLength(surfaces, area, model, options);
   Options stiff = stiffModel(model);
   if (!std::isfinite(length)) {
     stiff.guidance = model.guidance;
-    DeviceForce force = deviceForce(surfaces, area, stiff, uncertainty, options, on_progress);
+    DeviceForce force = ofStiff(area, stiff);
     force.warnings.emplace_back("bodies of this thickness are stiff over the whole contact: no wave of it bends them");
     return force;
   }
-  DeviceForce force = deviceForce(surfaces, {length * length, 1}, stiff, uncertainty, options, on_progress);
+  DeviceForce force = ofStiff({length * length, 1}, stiff);
   takePlaces(area, length, force);
   if (model.guidance != Guidance::kGuided) {
     force.warnings.emplace_back(
@@ -421,19 +430,9 @@ DeviceForce forceOfThinBodies(const DeviceSurfaces& surfaces, const DeviceArea& 
   return force;
 }
 
-}  // namespace
-
-DeviceForce deviceForce(const DeviceSurfaces& surfaces, const DeviceArea& area, const Options& model,
-                        const UncertaintyOptions& uncertainty, const DeviceForceOptions& options,
-                        const std::function<void(double)>& on_progress) {
-  return std::move(deviceForces(surfaces, area, {model}, uncertainty, options, on_progress).front());
-}
-
-std::vector<DeviceForce> deviceForces(const DeviceSurfaces& surfaces, const DeviceArea& area,
-                                      const std::vector<Options>& models, const UncertaintyOptions& uncertainty,
-                                      const DeviceForceOptions& options,
-                                      const std::function<void(double)>& on_progress) {
-  checkDevice(surfaces, area, options);
+std::vector<DeviceForce> forcesOf(const DeviceSurfaces& surfaces, const DeviceArea& area,
+                                  const std::vector<Options>& models, const UncertaintyOptions& uncertainty,
+                                  const DeviceForceOptions& options, const std::function<void(double)>& on_progress) {
   const auto progress = [&](double share) {
     if (on_progress) on_progress(share);
   };
@@ -467,6 +466,27 @@ std::vector<DeviceForce> deviceForces(const DeviceSurfaces& surfaces, const Devi
   }
   if (!open.empty()) followAll(surfaces, area, open, guidances, uncertainty, options, progress);
   for (std::size_t i = 0; i < runs.size(); ++i) forces[places[i]] = std::move(runs[i].force);
+  return forces;
+}
+
+}  // namespace
+
+DeviceForce deviceForce(const DeviceSurfaces& surfaces, const DeviceArea& area, const Options& model,
+                        const UncertaintyOptions& uncertainty, const DeviceForceOptions& options,
+                        const std::function<void(double)>& on_progress) {
+  return std::move(deviceForces(surfaces, area, {model}, uncertainty, options, on_progress).front());
+}
+
+std::vector<DeviceForce> deviceForces(const DeviceSurfaces& surfaces, const DeviceArea& area,
+                                      const std::vector<Options>& models, const UncertaintyOptions& uncertainty,
+                                      const DeviceForceOptions& options,
+                                      const std::function<void(double)>& on_progress) {
+  checkDevice(surfaces, area, options);
+  const UsableScans usable = usableScans(surfaces);
+  std::vector<DeviceForce> forces = forcesOf(usable.surfaces, area, models, uncertainty, options, on_progress);
+  for (DeviceForce& force : forces) {
+    force.warnings.insert(force.warnings.begin(), usable.remarks.begin(), usable.remarks.end());
+  }
   return forces;
 }
 

@@ -6,6 +6,7 @@
 
 #include "device/area_load.hpp"
 #include "device/scan_list.hpp"
+#include "height_map/validity.hpp"
 #include "numeric/mean.hpp"
 #include "preprocess/level.hpp"
 
@@ -19,6 +20,20 @@ constexpr double kByChance = 4.0;
 constexpr double kCarried = 0.7;
 /// Of many scans, so many are made and predicted in each round.
 constexpr std::size_t kScansOfRound = 4;
+
+/// Empty where none is missing.
+cv::Mat missingPixels(const HeightMap& scan) {
+  cv::Mat missing = ~validMask(scan.heights());
+  return cv::countNonZero(missing) > 0 ? missing : cv::Mat();
+}
+
+/// Made scans get the holes of the scan that they stand for.
+HeightMap withHoles(const HeightMap& made, const cv::Mat& missing) {
+  if (missing.empty()) return made;
+  cv::Mat heights = made.heights().clone();
+  heights.setTo(std::numeric_limits<double>::quiet_NaN(), missing);
+  return {heights, made.pitchX(), made.pitchY()};
+}
 
 double logOf(double figure) { return std::log(std::max(figure, std::numeric_limits<double>::min())); }
 
@@ -48,19 +63,27 @@ double LawMisfit::shiftDeviation() const {
 LawCheck::LawCheck(const Options& model, const std::vector<HeightMap>& scans,
                    const std::vector<HeightMap>& counter_surface)
     : options_(model), loaded_area_(areaOf(scans.front())), adhesion_(model) {
+  for (const HeightMap& upper : counter_surface) missing_above_.push_back(missingPixels(upper));
   const double finest = finestPitch(scans);
   for (std::size_t place = 0; place < scans.size(); ++place) {
     if (!showsSummits(scans[place], finest)) continue;
     checked_.emplace_back();
     checked_.back().place = place;
+    checked_.back().missing = missingPixels(scans[place]);
     predict(scans[place], counter_surface, checked_.back().own);
   }
 }
 
 void LawCheck::add(const std::vector<HeightMap>& made, const std::vector<HeightMap>& made_counter_surface) {
   const std::size_t every = (checked_.size() + kScansOfRound - 1) / kScansOfRound;
+  std::vector<HeightMap> above;
+  for (std::size_t i = 0; i < made_counter_surface.size(); ++i) {
+    above.push_back(withHoles(made_counter_surface[i], missing_above_[i]));
+  }
   for (std::size_t i = 0; i < checked_.size(); ++i) {
-    if ((i + rounds_) % every == 0) predict(made[checked_[i].place], made_counter_surface, checked_[i].made);
+    if ((i + rounds_) % every != 0) continue;
+    Checked& checked = checked_[i];
+    predict(withHoles(made[checked.place], checked.missing), above, checked.made);
   }
   ++rounds_;
 }

@@ -59,6 +59,7 @@ class LawCheck {
   /// One of the scans that are looked at.
   struct Checked {
     std::size_t place = 0;  ///< among all of them
+    cv::Mat missing;        ///< not 0 at pixels that were not measured; empty = none
     Logs own;               ///< one number each
     Logs made;              ///< of scans that were made like it
   };
@@ -70,6 +71,7 @@ class LawCheck {
   double loaded_area_;
   AdhesionModel adhesion_;
   std::vector<Checked> checked_;
+  std::vector<cv::Mat> missing_above_;  ///< of the counter-surface's scans
   std::size_t rounds_ = 0;
 };
 

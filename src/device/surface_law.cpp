@@ -27,18 +27,27 @@ constexpr int kLevelSteps = 3;
 constexpr int kLevelStride = 7;
 constexpr double kMostNumber = 3.5;
 
-/// One scan in work, without slope, what is missing at the mean.
+/// One scan in work, without slope, its holes filled.
 struct Scan {
-  cv::Mat heights;  ///< CV_64FC1
+  cv::Mat heights;    ///< CV_64FC1
+  cv::Mat distances;  ///< of FilledSurface
   double pitch_x = 0.0;
   double pitch_y = 0.0;
   bool is_fine = false;
 
   double sideX() const { return heights.cols * pitch_x; }
   double sideY() const { return heights.rows * pitch_y; }
-  double area() const { return sideX() * sideY(); }
+  double measuredShare() const {
+    if (distances.empty()) return 1.0;
+    return 1.0 - static_cast<double>(cv::countNonZero(distances)) / static_cast<double>(distances.total());
+  }
+  double area() const { return sideX() * sideY() * measuredShare(); }  ///< that was measured
   double longerSide() const { return std::max(sideX(), sideY()); }
   HeightMap map(const cv::Mat& values) const { return {values, pitch_x, pitch_y}; }
+  FilledSurface filled(const cv::Mat& values) const {
+    if (distances.empty()) return {map(values), {}};
+    return {map(values), distances(cv::Rect(cv::Point(), values.size()))};
+  }
 };
 
 struct Moments {
@@ -151,13 +160,18 @@ cv::Mat highPassed(const Scan& scan, double split) {
   return passed;
 }
 
-/// Every second value, without a margin.
-void addSample(const cv::Mat& values, double margin, int stride, std::vector<double>& sample) {
+/// Every so many values that were measured, without a margin.
+/// - @p distances of FilledSurface
+void addSample(const cv::Mat& values, const cv::Mat& distances, double margin, int stride,
+               std::vector<double>& sample) {
   const int rows = static_cast<int>(margin * values.rows);
   const int cols = static_cast<int>(margin * values.cols);
   for (int row = rows; row < values.rows - rows; row += stride) {
     const double* line = values.ptr<double>(row);
-    for (int col = cols; col < values.cols - cols; col += stride) sample.push_back(line[col]);
+    const float* filled = distances.empty() ? nullptr : distances.ptr<float>(row);
+    for (int col = cols; col < values.cols - cols; col += stride) {
+      if (filled == nullptr || filled[col] == 0.0F) sample.push_back(line[col]);
+    }
   }
 }
 
@@ -211,8 +225,9 @@ std::vector<Scan> scansOf(const std::vector<HeightMap>& surfaces) {
   std::vector<Scan> scans;
   for (const HeightMap& surface : surfaces) {
     Scan scan;
-    levelled(surface).heights().convertTo(scan.heights, CV_64F);
-    scan.heights.setTo(0.0, scan.heights != scan.heights);
+    const FilledSurface filled = filledSurface(surface);
+    levelled(filled.surface).heights().convertTo(scan.heights, CV_64F);
+    scan.distances = filled.distances;
     scan.pitch_x = surface.pitchX();
     scan.pitch_y = surface.pitchY();
     scan.is_fine = showsSummits(surface, finest);
@@ -235,7 +250,7 @@ const Scan* widestOf(const std::vector<Scan>& scans) {
 std::vector<ScanWaves> wavesOf(const std::vector<Scan>& scans, const std::vector<cv::Mat>& values) {
   std::vector<ScanWaves> waves;
   waves.reserve(scans.size());
-  for (std::size_t i = 0; i < scans.size(); ++i) waves.emplace_back(scans[i].map(values[i]));
+  for (std::size_t i = 0; i < scans.size(); ++i) waves.emplace_back(scans[i].filled(values[i]));
   return waves;
 }
 
@@ -256,9 +271,9 @@ struct Candidate {
   }
 };
 
-std::vector<double> allOf(const cv::Mat& values) {
+std::vector<double> allOf(const Scan& scan) {
   std::vector<double> sample;
-  addSample(values, 0.0, 1, sample);
+  addSample(scan.heights, scan.distances, 0.0, 1, sample);
   return sample;
 }
 
@@ -270,7 +285,7 @@ Candidate fineCandidate(const std::vector<Scan>& scans, const MergedSpectrum& sp
   double area = 0.0;
   for (const Scan& scan : scans) {
     if (!scan.is_fine) continue;
-    addSample(highPassed(scan, candidate.split), margin, 2, candidate.sample);
+    addSample(highPassed(scan, candidate.split), scan.distances, margin, 2, candidate.sample);
     area += scan.area() * (1.0 - 2.0 * margin) * (1.0 - 2.0 * margin);
   }
   candidate.take(samplingVariance(spectrum, candidate.split, kFirstOfLevelled * 2.0 * kPi / side, area));
@@ -288,7 +303,7 @@ double fineSide(const std::vector<Scan>& scans) {
 Candidate widestCandidate(const Scan& widest, const MergedSpectrum& spectrum) {
   Candidate candidate;
   candidate.is_widest = true;
-  candidate.sample = allOf(widest.heights);
+  candidate.sample = allOf(widest);
   candidate.take(samplingVariance(spectrum, 0.0, kFirstOfLevelled * 2.0 * kPi / widest.longerSide(), widest.area()));
   return candidate;
 }
@@ -302,7 +317,7 @@ Candidate decisiveCandidate(const std::vector<Scan>& scans, const Scan* widest, 
   };
   if (widest != nullptr) {
     const double total = spectrum.rootMean(0, 2.0 * kPi / widest->longerSide(), spectrum.largest_wave_number);
-    const double deviation = momentsOf(allOf(widest->heights)).deviation;
+    const double deviation = momentsOf(allOf(*widest)).deviation;
     if (deviation * deviation > kMostVariance * total * total) {
       Candidate candidate = widestCandidate(*widest, spectrum);
       if (isDecisive(candidate)) return candidate;
@@ -371,7 +386,7 @@ void SurfaceStudy::Findings::translate(TailForm form, SurfaceLaw& translated) co
     if (!candidate.is_widest) {
       std::vector<double> sample;
       for (std::size_t i = 0; i < scans.size(); ++i) {
-        if (scans[i].is_fine) addSample(values[i], 0.0, 2, sample);
+        if (scans[i].is_fine) addSample(values[i], scans[i].distances, 0.0, 2, sample);
       }
       marginal = HeightMarginal(sample, independent, form);
       for (cv::Mat& value : values) value = levelledUnder(marginal, value);

@@ -29,8 +29,12 @@ std::string rowsText(std::int64_t first, std::int64_t end) {
                           : "rows " + std::to_string(first) + " to " + std::to_string(end - 1);
 }
 
-DevicePieces wholePieces(const DeviceSurfaces& surfaces, const DeviceArea& area, const DeviceForceOptions& options) {
+UsableScans checkedScans(const DeviceSurfaces& surfaces, const DeviceArea& area, const DeviceForceOptions& options) {
   checkDevice(surfaces, area, options);
+  return usableScans(surfaces);
+}
+
+DevicePieces wholePieces(const DeviceSurfaces& surfaces, const DeviceArea& area, const DeviceForceOptions& options) {
   return piecesOf(area, madePitch(surfaces, options), std::numeric_limits<double>::infinity());
 }
 
@@ -57,13 +61,18 @@ double depthOfHighest(DeviceSurface& surface) {
 
 DividedSurface::DividedSurface(const DeviceSurfaces& surfaces, const DeviceArea& area, const Options& model,
                                const DeviceForceOptions& options, int number, std::optional<double> depth)
-    : laws_(std::make_unique<const DeviceLaws>(lawsOf(surfaces, options, TailForm::kExponential))),
-      surface_(*laws_, wholePieces(surfaces, area, options), realisationSeed(options, number)),
-      solver_(stiffModel(model), areaOf(surfaces.scans.front().surface), surface_.pieces()),
-      depth_(depth) {
+    : DividedSurface(checkedScans(surfaces, area, options), area, model, options, number, depth) {}
+
+DividedSurface::DividedSurface(const UsableScans& scans, const DeviceArea& area, const Options& model,
+                               const DeviceForceOptions& options, int number, std::optional<double> depth)
+    : laws_(std::make_unique<const DeviceLaws>(lawsOf(scans.surfaces, options, TailForm::kExponential))),
+      surface_(*laws_, wholePieces(scans.surfaces, area, options), realisationSeed(options, number)),
+      solver_(stiffModel(model), areaOf(scans.surfaces.scans.front().surface), surface_.pieces()),
+      depth_(depth),
+      shortcomings_(scans.remarks) {
   const double side = std::sqrt(area.area / area.contacts);
-  shortcomings_ = missingLongWaves(surfaces, *laws_, side);
-  for (const std::string& warning : contradictions(surfaces)) shortcomings_.push_back(warning);
+  for (const std::string& warning : missingLongWaves(scans.surfaces, *laws_, side)) shortcomings_.push_back(warning);
+  for (const std::string& warning : contradictions(scans.surfaces)) shortcomings_.push_back(warning);
   if (depth_ && !(*depth_ > 0.0)) {
     throw OptionsError({"depth: " + numberText(*depth_) + " m is not allowed, must be > 0 m"});
   }

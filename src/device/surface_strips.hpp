@@ -20,6 +20,7 @@
 
 #include "device/device_area.hpp"
 #include "device/device_surface.hpp"
+#include "device/usable_scans.hpp"
 
 namespace mems_stiction {
 
@@ -42,10 +43,12 @@ class DividedSurface {
   /// @throw SurfaceError if rows are missing, or the cells do not reach deep enough
   Realisation realise(const SurfaceStrips& strips);
   const std::vector<std::string>& warnings() const { return solver_.warnings(); }
-  /// What the scans lack, and where they contradict each other, in words.
+  /// What the scans lack, what of them was filled or left out, and where they contradict each other, in words.
   const std::vector<std::string>& shortcomings() const { return shortcomings_; }
 
  private:
+  DividedSurface(const UsableScans& scans, const DeviceArea& area, const Options& model,
+                 const DeviceForceOptions& options, int number, std::optional<double> depth);
   /// Below the highest place of a strip [m].
   double depth();
 

@@ -146,6 +146,26 @@ class DeviceTest(unittest.TestCase):
             with self.assertRaisesRegex(mems_stiction.OptionsError, words):
                 predicted(given, area, PITCH)
 
+    def test_a_scan_that_is_given_twice_counts_once(self):
+        given = scans()
+        wanted = predicted(given, AREA, PITCH)
+        twice = predicted(given + [given[0].copy()], AREA, PITCH)
+        self.assertEqual((twice.pull_off_force, twice.pull_off_force_upper), (wanted.pull_off_force, wanted.pull_off_force_upper))
+        self.assertRegex(" ".join(twice.warnings), "shows the heights of .* again; both count as one scan")
+
+    def test_missing_pixels_of_the_wide_scan_are_filled_and_told(self):
+        wide = rough(64, 64, 2e-9, 3)
+        wide[20, 30] = np.nan
+        given = scans() + [wide]
+        found = predicted(given, AREA, [PITCH, PITCH, 8 * PITCH])
+        self.assertTrue(np.isfinite(found.pull_off_force))
+        self.assertRegex(" ".join(found.warnings), "1 of 4096 pixels are missing")
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("always")
+            surface = mems_stiction.MadeSurface(given, (64 * 8 * PITCH)**2, [PITCH, PITCH, 8 * PITCH])
+        self.assertTrue(np.isfinite(surface.heights(0, 0, 50, 50)).all())
+        self.assertRegex(" ".join(str(warning.message) for warning in told), "1 of 4096 pixels are missing")
+
     def test_settings_that_serve_do_not_warn(self):
         with warnings.catch_warnings():
             warnings.simplefilter("error", mems_stiction.SettingsWarning)

@@ -12,6 +12,8 @@
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/prediction/adhesion_model.hpp"
 #include "roughness/half_spectrum.hpp"
+#include "support/analytic_surfaces.hpp"
+#include "support/holed_surfaces.hpp"
 #include "surface/random_field.hpp"
 
 namespace mems_stiction {
@@ -130,6 +132,99 @@ TEST_F(DeviceForceTest, LongWavesThatAreMissingAreNamedAndWidenTheInterval) {
   const DeviceForce with = force(areaOfPixels(kSide));
   EXPECT_TRUE(with.warnings.empty()) << with.warnings.front();
   EXPECT_TRUE(with.spectrum.front().is_measured);
+}
+
+NamedScan wideScan(const cv::Mat& heights) {
+  cv::Mat coarse;
+  cv::resize(heights, coarse, heights.size() / 8, 0.0, 0.0, cv::INTER_AREA);
+  return {"wide", HeightMap(coarse, 8 * kPitch, 8 * kPitch)};
+}
+
+/// White light leaves pixels out: AFM and white light together gave no force.
+TEST_F(DeviceForceTest, MissingPixelsOfTheWideScanAreFilledAndTold) {
+  surfaces_.scans.push_back(wideScan(large_));
+  const DeviceForce whole = force(areaOfPixels(400));
+  HeightMap& wide = surfaces_.scans.back().surface;
+  wide = analytic::withInvalidPixel(wide, 40, 50);
+  const DeviceForce one = force(areaOfPixels(400));
+  EXPECT_NEAR(one.pull_off_force / whole.pull_off_force, 1.0, 0.05);
+  EXPECT_TRUE(isTold(one, "wide: 1 of 9216 pixels are missing"));
+  EXPECT_FALSE(isTold(one, "first: "));
+}
+
+/// Scattered ones and discs made 0.83 to 2.8 of the force without them.
+TEST_F(DeviceForceTest, MissingPixelsOfFineScansHardlyMoveTheForce) {
+  const double whole = force(areaOfPixels(400)).pull_off_force;
+  const std::vector<NamedScan> scans = surfaces_.scans;
+  for (const bool are_scattered : {true, false}) {
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+      const int seed = 1 + static_cast<int>(i);
+      surfaces_.scans[i].surface = are_scattered ? withScatteredHoles(scans[i].surface, 0.05, seed)
+                                                 : withRoundHoles(scans[i].surface, 0.05, seed);
+    }
+    EXPECT_NEAR(std::log(force(areaOfPixels(400)).pull_off_force / whole), 0.0, 0.15) << are_scattered;
+  }
+}
+
+/// As a region leaves it.
+TEST_F(DeviceForceTest, AScanWithoutItsSurroundingsIsUsed) {
+  const double whole = force(areaOfPixels(400)).pull_off_force;
+  cv::Mat heights = surfaces_.scans[0].surface.heights().clone();
+  cv::Mat inside = cv::Mat::zeros(heights.size(), CV_8UC1);
+  cv::circle(inside, cv::Point(128, 128), 110, cv::Scalar(255), cv::FILLED);
+  heights.setTo(std::numeric_limits<double>::quiet_NaN(), ~inside);
+  surfaces_.scans[0].surface = HeightMap(heights, kPitch, kPitch);
+  const DeviceForce found = force(areaOfPixels(400));
+  EXPECT_NEAR(std::log(found.pull_off_force / whole), 0.0, 0.4);  // of one scan less than half is left
+  EXPECT_TRUE(isTold(found, "first: ")) << found.warnings.front();
+}
+
+TEST_F(DeviceForceTest, ContactsAreCutWhereTheScansWereMeasured) {
+  for (NamedScan& scan : surfaces_.scans) {
+    cv::Mat heights = scan.surface.heights().clone();
+    heights(cv::Rect(0, 0, 128, 256)).setTo(std::numeric_limits<double>::quiet_NaN());
+    heights.at<double>(0, 0) = 0.0;  // the frame stays
+    scan.surface = HeightMap(heights, kPitch, kPitch);
+  }
+  for (const Realisation& realisation : force(areaOfPixels(40)).realisations) {
+    EXPECT_TRUE(std::isfinite(realisation.pull_off_force));
+  }
+}
+
+TEST_F(DeviceForceTest, AScanOfWhichNothingWasMeasuredIsNamed) {
+  const cv::Mat nothing(64, 64, CV_64FC1, cv::Scalar(std::numeric_limits<double>::quiet_NaN()));
+  surfaces_.scans.push_back({"dark.opd", HeightMap(nothing, kPitch, kPitch)});
+  try {
+    force(areaOfPixels(kSide));
+    FAIL() << "was taken";
+  } catch (const SurfaceError& error) {
+    EXPECT_NE(std::string(error.what()).find("dark.opd: its measured pixels lie within 0 x 0"), std::string::npos)
+        << error.what();
+    EXPECT_NE(std::string(error.what()).find("Leave it out"), std::string::npos) << error.what();
+  }
+}
+
+/// It counted as two, and halved the interval.
+TEST_F(DeviceForceTest, AScanThatIsGivenTwiceCountsOnce) {
+  const DeviceForce once = force(areaOfPixels(400));
+  const std::vector<NamedScan> scans = surfaces_.scans;
+  cv::Mat single;
+  scans[0].surface.heights().convertTo(single, CV_32F, 1.0, 1e-7);
+  surfaces_.scans.push_back({"copy", HeightMap(single, kPitch, kPitch)});
+  surfaces_.scans.push_back(scans[1]);
+  const DeviceForce twice = force(areaOfPixels(400));
+  EXPECT_EQ(twice.pull_off_force, once.pull_off_force);
+  EXPECT_EQ(twice.pull_off_force_lower, once.pull_off_force_lower);
+  EXPECT_EQ(twice.parts_of_scans.size(), 2U);
+  EXPECT_TRUE(isTold(twice, "copy: shows the heights of first again"));
+  EXPECT_TRUE(isTold(twice, "second: is given twice"));
+  // noise alone makes another scan of the same place
+  cv::Mat noise(single.size(), CV_32FC1);
+  cv::RNG random(1);
+  random.fill(noise, cv::RNG::NORMAL, 0.0, 1e-10);
+  surfaces_.scans = scans;
+  surfaces_.scans.push_back({"again", HeightMap(single + noise, kPitch, kPitch)});
+  EXPECT_FALSE(isTold(force(areaOfPixels(400)), "again"));
 }
 
 TEST_F(DeviceForceTest, ScansThatContradictEachOtherAreNamed) {

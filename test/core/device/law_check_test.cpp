@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "roughness/half_spectrum.hpp"
+#include "support/holed_surfaces.hpp"
 #include "surface/random_field.hpp"
 
 namespace mems_stiction {
@@ -49,6 +50,15 @@ TEST(LawCheck, ScansThatHoldMoreStronglyHaveOne) {
   EXPECT_GT(misfit.shift(), 0.5 * misfit.difference);
   EXPECT_LT(misfit.shift(), misfit.difference);
   EXPECT_GT(misfit.shiftDeviation(), 0.2 * misfit.difference);
+}
+
+/// A hole takes the summits of its place away, from the scan and from those that are made like it.
+TEST(LawCheck, MadeScansHaveTheHolesOfTheScan) {
+  std::vector<HeightMap> scans = scansOf(5e-9, 1, 4);
+  for (HeightMap& scan : scans) scan = withRoundHoles(scan, 0.6, 1);
+  LawCheck check(Options(), scans, {});
+  check.add(scansOf(5e-9, 1, 4), {});  // the same but for the holes
+  EXPECT_NEAR(check.force().difference, 0.0, 1e-6);
 }
 
 /// Many scans are not all made in each round, and none is left out.
