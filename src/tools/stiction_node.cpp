@@ -2,6 +2,7 @@
 /// scan at hand and take its name off the master, in 4 s at most, whatever the master does. Exit 1 with one line per bad parameter,
 /// or where a node of its name runs.
 
+#include <clocale>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -52,6 +53,8 @@ void shutDownOn(int number) {
 
 /// The whole of main(). @return the exit status
 int run(int argc, char** argv) {
+  // rosconsole's log writes "?" for each letter that the locale of C has not. Numbers keep their decimal point.
+  std::setlocale(LC_CTYPE, "C.UTF-8");
   std::setvbuf(stdout, nullptr, _IOLBF, 0);  // whenever it ends, what was said is written
   CLI::App app(
       "Predicts each scan that comes on the topic height; doc/ros_api.md. Settings are parameters of the node: start "

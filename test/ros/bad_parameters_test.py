@@ -31,6 +31,14 @@ class BadParametersTest(unittest.TestCase):
         for key in KEYS:
             self.assertIn(key, ended.stdout)
 
+    def test_letters_beyond_ascii_are_written_as_they_are_in_every_locale(self):
+        rospy.set_param("/umlaut_node", {"Härte": 1.0})
+        for locale in ("C", "C.UTF-8"):
+            ended = subprocess.run([find_node("mems_stiction", "stiction_node")[0], "__name:=umlaut_node"], timeout=TIMEOUT,
+                                   env=dict(os.environ, LC_ALL=locale), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, encoding="utf-8")
+            self.assertEqual(ended.returncode, 1, ended.stdout)
+            self.assertIn("Härte: '1' is given", ended.stdout)
+
     def test_no_word_of_a_file_reaches_the_log(self):
         with tempfile.TemporaryDirectory() as folder:
             secret = pathlib.Path(folder, "secret.txt")
