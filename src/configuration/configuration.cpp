@@ -2,9 +2,11 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 
 #include "contact/guidance_setting.hpp"
 #include "mems_stiction/errors/errors.hpp"
+#include "mems_stiction/height_map/scan_identity.hpp"
 #include "surface/counter_surface.hpp"
 
 namespace mems_stiction {
@@ -70,6 +72,13 @@ std::vector<std::string> Configuration::validate() const {
     violations.push_back("output/hurst_longest_wavelength: " + numberText(fit.hurst_longest_wavelength) +
                          " m is not allowed, must be > output/hurst_shortest_wavelength " +
                          numberText(fit.hurst_shortest_wavelength) + " m");
+  }
+  const std::pair<const char*, const std::string&> names[] = {
+      {"part/id", part.id}, {"part/serial", part.serial}, {"part/lot", part.lot}, {"part/wafer", part.wafer}};
+  for (const auto& [key, name] : names) {
+    if (name.size() <= kLongestName) continue;
+    violations.push_back(std::string(key) + ": a name of " + std::to_string(name.size()) +
+                         " bytes is not allowed, must have at most " + std::to_string(kLongestName));
   }
   if (counter_surface.type == CounterSurfaceType::kFile && counter_surface.file.empty()) {
     violations.emplace_back("counter_surface/file: '' is not allowed with counter_surface/type file; must name a file");

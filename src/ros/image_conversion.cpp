@@ -9,6 +9,7 @@
 #include <sensor_msgs/image_encodings.h>
 #include <boost/make_shared.hpp>
 
+#include "errors/one_line.hpp"
 #include "height_map/scan_sanity.hpp"
 #include "height_map/unmeasured.hpp"
 #include "mems_stiction/errors/errors.hpp"
@@ -40,7 +41,8 @@ const HeightEncoding& checkedEncoding(const sensor_msgs::Image& image) {
   const auto found = std::find_if(encodings.begin(), encodings.end(),
                                   [&](const HeightEncoding& encoding) { return encoding.name == image.encoding; });
   if (found == encodings.end()) {
-    throw SurfaceError("encoding '" + image.encoding + "' does not carry heights; accepted: " + acceptedEncodings());
+    throw SurfaceError("encoding '" + shortened(image.encoding, kLongestQuotation) +
+                       "' does not carry heights; accepted: " + acceptedEncodings());
   }
   if (image.height == 0 || image.width == 0 || image.height > std::numeric_limits<std::int32_t>::max() ||
       image.width > std::numeric_limits<std::int32_t>::max()) {

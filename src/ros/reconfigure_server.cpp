@@ -46,7 +46,7 @@ class Reader : public ValueVisitor<Take> {
               const std::string& meaning) override {
     ValueVisitor<Take>::choice(key, value, names, meaning);
     if (std::find(names.begin(), names.end(), value) != names.end()) return;
-    std::string line = key + ": '" + value + "' is not allowed, must be one of";
+    std::string line = key + ": '" + shortened(value, kLongestQuotation) + "' is not allowed, must be one of";
     for (const std::string& name : names) line += " " + name;
     violations.push_back(line);
   }
@@ -107,7 +107,7 @@ std::string lostSettings(const ros::NodeHandle& private_handle, const RunningSet
   compare(before.doubles, now.doubles, differences);
   compare(before.strs, now.strs, differences);
   if (differences.empty()) return {};
-  return "what was changed in the run before is lost: " + oneLine(differences);
+  return "what was changed in the run before is lost: " + oneLine(shortened(differences, kLongestSentence));
 }
 
 ros::NodeHandle reconfigureHandle(const ros::NodeHandle& private_handle) {

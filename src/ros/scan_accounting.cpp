@@ -7,6 +7,7 @@
 
 #include <diagnostic_msgs/DiagnosticStatus.h>
 
+#include "errors/one_line.hpp"
 #include "ros/own_log.hpp"
 
 namespace mems_stiction {
@@ -14,7 +15,7 @@ namespace {
 
 std::string named(const char* what, const std_msgs::Header& header, const std::string& reason) {
   std::ostringstream text;
-  text << what << " of stamp " << header.stamp << ": " << reason;
+  text << what << " of stamp " << header.stamp << ": " << shortened(reason, kLongestSentence);
   return text.str();
 }
 

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "errors/one_line.hpp"
+
 namespace mems_stiction {
 
 namespace {
@@ -72,7 +74,8 @@ void OptionValidator::choice(const std::string& key, std::string& value, const s
     if (name == value) return;
     allowed += (allowed.empty() ? "" : ", ") + name;
   }
-  violations_.push_back(key + ": '" + value + "' is not allowed, must be one of: " + allowed);
+  violations_.push_back(key + ": '" + shortened(value, kLongestQuotation) +
+                        "' is not allowed, must be one of: " + allowed);
 }
 
 std::string numberText(double value) {

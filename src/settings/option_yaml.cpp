@@ -10,6 +10,7 @@
 #include <map>
 #include <sstream>
 
+#include "errors/one_line.hpp"
 #include "numeric/words.hpp"
 #include "settings/yaml_text.hpp"
 
@@ -93,8 +94,8 @@ bool flatten(const YAML::Node& node, const std::string& prefix, std::vector<Leaf
     const std::string key = prefix.empty() ? name : prefix + "/" + name;
     const auto [first, is_new] = seen.emplace(name, entry.first);
     if (!is_new) {
-      lines.push_back(key + ": given" + placeOf(entry.first) + " and before" + placeOf(first->second) +
-                      ", must be given once: put what belongs to it together");
+      lines.push_back(shortened(key, kLongestQuotation) + ": given" + placeOf(entry.first) + " and before" +
+                      placeOf(first->second) + ", must be given once: put what belongs to it together");
       if (lines.size() < kMostUnknown) continue;
       lines.emplace_back("perhaps more keys are given twice");
       return false;
@@ -106,7 +107,10 @@ bool flatten(const YAML::Node& node, const std::string& prefix, std::vector<Leaf
 
 /// " (write 0.05: ...)" for 0,05; else empty.
 std::string commaHint(const YAML::Node& node) {
-  if (!node.IsScalar() || std::count(node.Scalar().begin(), node.Scalar().end(), ',') != 1) return "";
+  if (!node.IsScalar() || node.Scalar().size() > kLongestQuotation ||
+      std::count(node.Scalar().begin(), node.Scalar().end(), ',') != 1) {
+    return "";
+  }
   std::string text = node.Scalar();
   text[text.find(',')] = '.';
   double number = 0.0;
@@ -114,7 +118,7 @@ std::string commaHint(const YAML::Node& node) {
 }
 
 std::string shown(const YAML::Node& node) {
-  if (node.IsScalar()) return "'" + node.Scalar() + "'";
+  if (node.IsScalar()) return "'" + shortened(node.Scalar(), kLongestQuotation) + "'";
   return node.IsSequence() ? "a list" : "no value";
 }
 
@@ -141,6 +145,9 @@ std::string choiceOf(const std::string& text, const std::vector<std::string>& na
   const std::string flag = flagOf(text);
   return std::find(names.begin(), names.end(), flag) != names.end() ? flag : text;
 }
+
+/// Of a text that is a setting, such as the path of a file [bytes].
+constexpr std::size_t kLongestText = 4096;
 
 /// Takes each described field from the tree, if the tree names it, and checks its range by the common validator.
 class YamlReader : public OptionVisitor {
@@ -200,9 +207,13 @@ class YamlReader : public OptionVisitor {
     if (node == nullptr) return;
     if (!node->IsScalar()) {
       wrongType(key, *node, "a text");
+    } else if (node->Scalar().size() > kLongestText) {
+      lines_.push_back(key + ": a text of " + std::to_string(node->Scalar().size()) +
+                       " bytes is not allowed, must have at most " + std::to_string(kLongestText));
     } else if (isTyped(*node)) {
-      lines_.push_back(key + ": " + node->Scalar() + " came as a number or a flag, must be a text: quote it ('" +
-                       node->Scalar() + "'), with the zeros that it may have lost");
+      const std::string text = shortened(node->Scalar(), kLongestQuotation);
+      lines_.push_back(key + ": " + text + " came as a number or a flag, must be a text: quote it ('" + text +
+                       "'), with the zeros that it may have lost");
     } else {
       value = node->Scalar();
     }
@@ -237,7 +248,8 @@ class YamlReader : public OptionVisitor {
         const std::string name = lastPart(leaf.key);
         const bool is_fraction = leaf.node.IsNull() && !name.empty() &&
                                  name.find_first_not_of("0123456789") == std::string::npos;  // {voltage: 0,05}
-        lines.push_back(leaf.key + ": " + shown(leaf.node) + " is given, but there is no such setting" +
+        lines.push_back(shortened(leaf.key, kLongestQuotation) + ": " + shown(leaf.node) +
+                        " is given, but there is no such setting" +
                         (is_fraction ? " (is it behind a decimal comma? the decimal sign is a point)"
                                      : suggestion(leaf.key, known_)));
       }

@@ -13,18 +13,29 @@ namespace {
 
 constexpr double kMostStates = 1e6;  // each is a prediction: days
 
+/// The first violation of its kind, and how many more there are: a list may have a million of them.
+void addFirst(const std::string& first, std::size_t count, std::vector<std::string>& violations) {
+  if (count == 0) return;
+  violations.push_back(first + (count > 1 ? " (and " + std::to_string(count - 1) + " more)" : ""));
+}
+
 void addListViolations(const std::string& name, const std::vector<double>& values, const std::string& unit,
                        std::vector<std::string>& violations) {
   if (values.empty()) violations.push_back(name + ": an empty list is not allowed, must hold one value at least");
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (!std::isfinite(values[i]) || values[i] < 0.0) {
-      violations.push_back(name + ": " + numberText(values[i]) + " " + unit + " is not allowed, must be >= 0 " + unit);
-    }
-    if (i > 0 && !(values[i] > values[i - 1])) {
-      violations.push_back(name + ": " + numberText(values[i]) + " " + unit + " after " + numberText(values[i - 1]) +
-                           " " + unit + " is not allowed, must ascend");
-    }
+  const auto is_wrong = [](double value) { return !std::isfinite(value) || value < 0.0; };
+  const auto wrong = std::find_if(values.begin(), values.end(), is_wrong);
+  if (wrong != values.end()) {
+    addFirst(name + ": " + numberText(*wrong) + " " + unit + " is not allowed, must be >= 0 " + unit,
+             static_cast<std::size_t>(std::count_if(wrong, values.end(), is_wrong)), violations);
   }
+  std::string first;
+  std::size_t count = 0;
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    if (values[i] > values[i - 1] || ++count > 1) continue;
+    first = name + ": " + numberText(values[i]) + " " + unit + " after " + numberText(values[i - 1]) + " " + unit +
+            " is not allowed, must ascend";
+  }
+  addFirst(first, count, violations);
 }
 
 /// The force of the field that holds the closed device [N].

@@ -6,6 +6,7 @@ import pathlib
 import subprocess
 import tempfile
 import threading
+import time
 import unittest
 
 import rospy
@@ -31,13 +32,32 @@ class BadParametersTest(unittest.TestCase):
         for key in KEYS:
             self.assertIn(key, ended.stdout)
 
+    def start(self, name, parameters, **environment):
+        """What the node of this name says that refuses its parameters, and how long it takes [s]."""
+        rospy.set_param("/" + name, parameters)
+        begin = time.monotonic()
+        ended = subprocess.run([find_node("mems_stiction", "stiction_node")[0], "__name:=" + name], timeout=TIMEOUT,
+                               env=dict(os.environ, **environment), stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                               encoding="utf-8")
+        rospy.delete_param("/" + name)
+        self.assertEqual(ended.returncode, 1, ended.stdout[:1000])
+        return ended.stdout, time.monotonic() - begin
+
     def test_letters_beyond_ascii_are_written_as_they_are_in_every_locale(self):
-        rospy.set_param("/umlaut_node", {"Härte": 1.0})
         for locale in ("C", "C.UTF-8"):
-            ended = subprocess.run([find_node("mems_stiction", "stiction_node")[0], "__name:=umlaut_node"], timeout=TIMEOUT,
-                                   env=dict(os.environ, LC_ALL=locale), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, encoding="utf-8")
-            self.assertEqual(ended.returncode, 1, ended.stdout)
-            self.assertIn("Härte: '1' is given", ended.stdout)
+            self.assertIn("Härte: '1' is given", self.start("umlaut_node", {"Härte": 1.0}, LC_ALL=locale)[0])
+
+    def test_what_is_long_or_much_is_refused_soon_and_in_short(self):
+        for number, (parameters, words) in enumerate((
+                ({"drop_policy": 100000 * "a"}, ("~drop_policy: 'aaaa", "... (100000 bytes)' is not allowed")),
+                ({100000 * "k": 100000 * "a"}, ("kkk... (100000 bytes): 'aaaa", "there is no such setting")),
+                ({"part": {"id": 5000000 * "p"}}, ("~part/id: a text of 5000000 bytes is not allowed",)),
+                ({"unknown_%d" % number: number for number in range(10000)}, ("unknown_1: '1'", "9900 more keys are given")))):
+            said, seconds = self.start("long_node_%d" % number, parameters)
+            for word in words:
+                self.assertTrue(word in said, "%s is not in %s" % (word, said[:1000]))
+            self.assertLess(len(said), 50000)
+            self.assertLess(seconds, 8.0)  # 10,000 unknown ones had taken 12 s on an idle machine, and now take less than one
 
     def test_no_word_of_a_file_reaches_the_log(self):
         with tempfile.TemporaryDirectory() as folder:

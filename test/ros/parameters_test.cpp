@@ -1,10 +1,12 @@
 #include "ros/parameters.hpp"
 
+#include <ctime>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <ros/time.h>
 #include <yaml-cpp/yaml.h>
 
 #include "mems_stiction/errors/errors.hpp"
@@ -54,6 +56,47 @@ TEST(Parameters, EveryBadKeyIsNamedAtOnce) {
     EXPECT_NE(text.find(key), std::string::npos) << key << " in\n" << text;
   }
   EXPECT_NE(text.find("newest"), std::string::npos) << text;
+}
+
+TEST(Parameters, LongValuesAndNamesAreRefusedInShort) {
+  EXPECT_LT(violations("{drop_policy: " + std::string(100000, 'a') + "}").size(), 1000U);
+  EXPECT_LT(violations("{queue_size: " + std::string(100000, 'a') + "}").size(), 1000U);
+  EXPECT_LT(violations("{" + std::string(1000, 'k') + ": " + std::string(100000, 'a') + "}").size(), 1000U);
+  const std::string longest(1000, 'p');
+  for (const std::string key : {"id", "serial", "lot", "wafer"}) {
+    EXPECT_EQ(violations("{part: {" + key + ": " + longest + "p}}"),
+              "part/" + key + ": a name of 1001 bytes is not allowed, must have at most 1000");
+    EXPECT_EQ(violations("{part: {" + key + ": " + longest + "}}"), "");
+  }
+  EXPECT_EQ(violations("{part: {id: " + std::string(5000000, 'p') + "}}"),
+            "part/id: a text of 5000000 bytes is not allowed, must have at most 4096");
+}
+
+TEST(Parameters, TenThousandUnknownOnesAreRefusedWithinASecond) {
+  XmlRpc::XmlRpcValue tree;
+  for (int number = 0; number < 10000; ++number) tree["unknown_" + std::to_string(number)] = number;
+  const ros::WallTime begin = ros::WallTime::now();
+  try {
+    statedConfiguration(yamlFromParameters(tree));
+    ADD_FAILURE() << "none of them is a setting";
+  } catch (const OptionsError& error) {
+    EXPECT_NE(error.violations().back().find("9900 more keys"), std::string::npos) << error.violations().back();
+  }
+  // 12 s and more where each key was compared with all before; a tenth of a second else
+  EXPECT_LT((ros::WallTime::now() - begin).toSec(), 3.0);
+}
+
+TEST(Parameters, TenThousandOfNoTypeAreNamedInShort) {
+  XmlRpc::XmlRpcValue tree;
+  std::tm date = {};
+  for (int number = 0; number < 10000; ++number) tree["date_" + std::to_string(number)] = XmlRpc::XmlRpcValue(&date);
+  try {
+    yamlFromParameters(tree);
+    ADD_FAILURE() << "a date is no setting";
+  } catch (const OptionsError& error) {
+    EXPECT_EQ(error.violations().back(), "and 9600 more");
+    EXPECT_LT(std::string(error.what()).size(), 100000U);
+  }
 }
 
 TEST(Parameters, TimersHaveAShortestPeriod) {

@@ -182,6 +182,10 @@ class StationTest(unittest.TestCase):
             self.assertEqual(state, GoalStatus.ABORTED)
             self.assertIn(reason, result.message)
             self.assertNotIn("\n", result.message)
+        state, result, _ = self.run_goal(self.sweep, SweepLoadGoal(voltages=1000000 * [5.0]))
+        self.assertEqual(state, GoalStatus.ABORTED)
+        self.assertIn("must ascend (and 999998 more)", result.message)  # the answer had 53 MB
+        self.assertLess(len(result.message), 500)
         state, result, _ = self.run_goal(self.cycle, CycleContactGoal(count=0))
         self.assertEqual(state, GoalStatus.ABORTED)
         self.assertIn("count", result.message)

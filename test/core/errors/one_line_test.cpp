@@ -1,5 +1,7 @@
 #include "errors/one_line.hpp"
 
+#include <string>
+
 #include <gtest/gtest.h>
 
 namespace mems_stiction {
@@ -32,6 +34,13 @@ TEST(OneLine, LettersOfOtherLanguagesStay) {
                            "\xe9\xab\x98\xe3\x81\x95", "\xf0\x9f\x94\xac"}) {
     EXPECT_EQ(oneLine(text), text);
   }
+}
+
+TEST(Shortened, KeepsTheBeginningAndWholeLetters) {
+  EXPECT_EQ(shortened("12345", 5), "12345");
+  EXPECT_EQ(shortened("123456", 5), "12345... (6 bytes)");
+  EXPECT_EQ(shortened("1234\xC3\xA4", 5), "1234... (6 bytes)");
+  EXPECT_EQ(shortened(std::string(5000000, 'a'), 3), "aaa... (5000000 bytes)");
 }
 
 }  // namespace
