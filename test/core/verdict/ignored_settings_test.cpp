@@ -40,7 +40,7 @@ Settings busy() {
   settings.model.load.voltage = 5.0;
   settings.model.load.mechanical_load = 2e-6;
   settings.model.capillary.relative_humidity = 0.4;
-  settings.uncertainty.samples = 50;
+  settings.uncertainty.samples = 8;
   return settings;
 }
 
@@ -64,7 +64,7 @@ class Change : public OptionVisitor {
   }
   void integer(const std::string& key, int& value, const Range&, const std::string&) override {
     static const std::map<std::string, int> others = {
-        {"approach/max_steps", 3}, {"approach/connectivity", 8}, {"uncertainty/samples", 60}, {"uncertainty/seed", 2}};
+        {"approach/max_steps", 3}, {"approach/connectivity", 8}, {"uncertainty/samples", 9}, {"uncertainty/seed", 2}};
     if (isChanged(key)) value = others.at(key);
   }
   void flag(const std::string& key, bool& value, const std::string&) override {
