@@ -140,22 +140,22 @@ class MasterAwayTest(unittest.TestCase):
             self.assertNotIn("without having finished", node.end(self), away)
 
     def test_2_a_signal_ends_the_node_whatever_the_master_does(self):
-        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-            for away in ("there", "stopped", "killed"):
-                node = Node()
-                set_load = node.proxy("set_load", SetLoad)
-                set_load(1.0, LOAD)
-                if away == "stopped":
-                    self.roscore.stop()
-                elif away == "killed":
-                    self.roscore.kill()
-                Background(set_load, 2.0, LOAD)
-                time.sleep(3.0)
-                node.end(self, number)
-                if away == "stopped":
-                    self.roscore.go_on()
-                elif away == "killed":
-                    self.roscore.start()
+        # each signal with each state of the master once or more: they meet in one handler
+        for number, away in ((signal.SIGINT, "there"), (signal.SIGINT, "stopped"), (signal.SIGINT, "killed"), (signal.SIGTERM, "stopped"),
+                             (signal.SIGHUP, "killed")):
+            node = Node()
+            set_load = node.proxy("set_load", SetLoad)
+            set_load(1.0, LOAD)
+            if away == "stopped":
+                self.roscore.stop()
+            elif away == "killed":
+                self.roscore.kill()
+            Background(set_load, 2.0, LOAD).join(1.0)  # on its way to the master, or done
+            node.end(self, number)
+            if away == "stopped":
+                self.roscore.go_on()
+            elif away == "killed":
+                self.roscore.start()
 
     def test_3_a_signal_ends_a_node_that_waits_for_the_master_to_start(self):
         program = find_node("mems_stiction", "stiction_node")[0]
@@ -173,7 +173,7 @@ class MasterAwayTest(unittest.TestCase):
                 self.roscore.start() if away == "killed" else self.roscore.go_on()
 
     def test_4_calls_that_wait_keep_no_other_waiting(self):
-        timeout = 30.0
+        timeout = 15.0
         node = Node(**{"counter_surface/frame": "upper", "counter_surface/transform_timeout": timeout})
         get_load = node.proxy("get_load", GetLoad)
         reset = node.proxy("reset_surface", Trigger)
