@@ -189,7 +189,7 @@ def _say_latest(figure, trend, decided, hidden):
     if prediction.status == NO_EQUILIBRIUM:
         _headline(figure, number, "no equilibrium", UNKNOWN, "the forces are not to be used", limits)
     elif math.isnan(prediction.margin) and math.isnan(prediction.peel_number):
-        _headline(figure, number, force, None, "no device stated, so no verdict", limits)
+        _headline(figure, number, force, None, prediction.reason or "no verdict", limits)
     else:
         word = {NO: "RELEASES", MARGINAL: "MARGINAL", YES: "STICKS"}.get(prediction.sticks, "NOT KNOWN")
         _headline(figure, number, word, prediction.sticks, prediction.reason, limits)

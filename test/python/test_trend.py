@@ -209,7 +209,7 @@ class TrendPictureTest(unittest.TestCase):
         self.assertTrue(math.isnan(values[1]))
         self.assertIn("not predicted (1)", axes.get_legend_handles_labels()[1])
         self.assertIn("3 scans, 1 not predicted", self.texts(figure))
-        self.assertIn("Scan 3: pull-off force 400 nN", self.texts(figure))
+        self.assertIn("Scan 3: pull-off force 400 nN | the reason", self.texts(figure))  # why there is no verdict
 
     def test_a_device_brings_its_restoring_force_the_margin_and_the_verdict(self):
         figure = self.picture(prediction(2e-7, 0, 4.0), prediction(2e-7, 1, 1.2), prediction(2e-7, 2, 0.2))
