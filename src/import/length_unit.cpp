@@ -35,6 +35,8 @@ std::optional<double> lengthUnit(const std::string& text) {
     unit = replaced(unit, micro, "u");
   }
   for (const char* angstrom : {"\xC3\x85", "\xE2\x84\xAB"}) unit = replaced(unit, angstrom, "A");
+  unit = replaced(replaced(unit, "мк", "u"), "м", "m");  // as programs in Russian write them
+  unit = replaced(unit, "н", "n");
   static const std::map<std::string, double> kUnits = {
       {"m", 1.0},           {"meter", 1.0},        {"meters", 1.0},      {"metre", 1.0},        {"metres", 1.0},
       {"cm", 1e-2},         {"mm", 1e-3},          {"millimeter", 1e-3}, {"millimeters", 1e-3}, {"millimetre", 1e-3},
@@ -42,10 +44,14 @@ std::optional<double> lengthUnit(const std::string& text) {
       {"micrometre", 1e-6}, {"micrometres", 1e-6}, {"nm", 1e-9},         {"nanometer", 1e-9},   {"nanometers", 1e-9},
       {"nanometre", 1e-9},  {"nanometres", 1e-9},  {"pm", 1e-12},        {"A", 1e-10},          {"Ang", 1e-10},
       {"ang", 1e-10},       {"Angstrom", 1e-10},   {"angstrom", 1e-10},  {"AA", 1e-10},         {"inch", 0.0254},
-      {"fm", 1e-15}};
+      {"fm", 1e-15},        {"millimetres", 1e-3}};
   const auto found = kUnits.find(unit);
   if (found == kUnits.end()) return std::nullopt;
   return found->second;
+}
+
+std::optional<double> heightUnit(const std::string& text) {
+  return withoutBrackets(text) == "A" ? std::nullopt : lengthUnit(text);
 }
 
 std::optional<StatedLength> statedLength(const std::string& text) {

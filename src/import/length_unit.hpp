@@ -12,6 +12,9 @@ namespace mems_stiction {
 /// and brackets around it do not count. None for anything that is no length.
 std::optional<double> lengthUnit(const std::string& text);
 
+/// The same for the unit of heights. "A" is none: there it is the ampere of a current as well as an angstrom.
+std::optional<double> heightUnit(const std::string& text);
+
 /// A number and its unit of length, "1.5 µm" or "1.5e-6", in metres.
 struct StatedLength {
   double number = 0.0;

@@ -66,7 +66,7 @@ double metresPerVolt(const std::string& text) {
   std::string length = text.substr(2, end - 2);
   std::replace(length.begin(), length.end(), '~', 'u');
   const auto stated = statedLength(length);
-  const auto unit = stated ? lengthUnit(stated->unit) : std::nullopt;
+  const auto unit = stated ? heightUnit(stated->unit) : std::nullopt;
   return unit ? stated->number * *unit : 0.0;
 }
 

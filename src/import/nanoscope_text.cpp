@@ -83,7 +83,8 @@ FileChannel channelOf(const std::string& name, const Heading& heading, int id) {
   return channel;
 }
 
-double numberOf(const std::string& word) {
+double numberOf(std::string word) {
+  plainNans(word);
   const double number = isMissingWord(word) ? std::numeric_limits<double>::quiet_NaN() : plainNumber(word);
   return std::isfinite(number) ? number : std::numeric_limits<double>::quiet_NaN();
 }
@@ -120,32 +121,37 @@ std::vector<FileChannel> parseNanoscopeText(const std::string& bytes) {
     channels.back().identity = identity;
   }
   std::size_t pixel = 0;
+  const auto setNext = [&](FileChannel& channel, const std::string& word) {
+    channel.values.at<double>(static_cast<int>(pixel / heading.cols), static_cast<int>(pixel % heading.cols)) =
+        numberOf(word);
+  };
   while (std::getline(stream, line)) {
     ++number;
     const std::vector<std::string> words = bareWords(line);
     if (words.empty()) continue;
     const std::string where = "line " + std::to_string(number) + ": ";
-    if (words.size() != channels.size()) {
+    const bool is_line = channels.size() == 1 && words.size() == heading.cols;  // of a matrix
+    if (!is_line && words.size() != channels.size()) {
       throw FileError(where + std::to_string(words.size()) + " numbers under " + std::to_string(channels.size()) +
-                      " names: the file is cut off, or not one of points in columns");
+                      " names: the file is cut off, or neither points in columns nor the matrix of one channel");
     }
     if (pixel == heading.cols * heading.rows) throw FileError(where + "more points than the heading states");
     for (std::size_t at = 0; at < words.size(); ++at) {
       try {
-        channels[at].values.at<double>(static_cast<int>(pixel / heading.cols), static_cast<int>(pixel % heading.cols)) =
-            numberOf(words[at]);
+        setNext(channels[is_line ? 0 : at], words[at]);
       } catch (const FileError& error) {
         throw FileError(where + error.what() + ", column " + std::to_string(at + 1));
       }
+      if (is_line) ++pixel;
     }
-    ++pixel;
+    if (!is_line) ++pixel;
   }
   if (pixel != heading.cols * heading.rows) {
     throw FileError("the heading states " + std::to_string(heading.cols) + " x " + std::to_string(heading.rows) +
                     " points, the file has " + std::to_string(pixel) + ": it is cut off");
   }
   for (FileChannel& channel : channels) {
-    const auto unit = lengthUnit(channel.unit_z);
+    const auto unit = heightUnit(channel.unit_z);
     if (!unit) continue;
     channel.values *= *unit;
     channel.unit_z = "m";

@@ -204,7 +204,7 @@ std::optional<FileChannel> parseNetcdfHeights(const std::string& bytes) {
   // Where heights state no unit it is that of x and y.
   std::string unit_text = textOf(*heights, "unit");
   if (unit_text.empty() && file.find("x") != nullptr) unit_text = textOf(*file.find("x"), "unit");
-  const auto unit = lengthUnit(unit_text);
+  const auto unit = heightUnit(unit_text);
   channel.unit_z = unit ? "m" : unit_text;
 
   channel.values.create(static_cast<int>(rows), static_cast<int>(cols), CV_64FC1);
@@ -224,7 +224,7 @@ std::optional<FileChannel> parseNetcdfHeights(const std::string& bytes) {
 GxsmStatements gxsmStatements(const std::string& bytes) {
   const Netcdf file(bytes);
   GxsmStatements stated;
-  for (const char* name : {"FloatField", "H", "rangez", "dz"}) {
+  for (const char* name : {"FloatField", "DoubleField", "H", "rangez", "dz"}) {
     const Variable* variable = file.find(name);
     if (variable == nullptr) continue;
     if (variable->dimensions.size() == 4) {
@@ -233,7 +233,7 @@ GxsmStatements gxsmStatements(const std::string& bytes) {
     }
     for (const char* attribute : {"unit", "units", "var_unit", "var_units", "ZSrcUnit"}) {
       const std::string unit = textOf(*variable, attribute);
-      if (stated.other_unit.empty() && !unit.empty() && unit != "1" && !lengthUnit(unit)) stated.other_unit = unit;
+      if (stated.other_unit.empty() && !unit.empty() && unit != "1" && !heightUnit(unit)) stated.other_unit = unit;
     }
   }
   return stated;

@@ -14,7 +14,7 @@ try:
     import numpy
 except ImportError:
     sys.exit(3)
-LENGTHS = {"km": 1e3, "m": 1.0, "dm": 1e-1, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "\u00b5m": 1e-6, "\u03bcm": 1e-6, "nm": 1e-9, "pm": 1e-12, "A": 1e-10,
+LENGTHS = {"km": 1e3, "m": 1.0, "dm": 1e-1, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "\u00b5m": 1e-6, "\u03bcm": 1e-6, "nm": 1e-9, "pm": 1e-12,
            "\u00c5": 1e-10}
 NOT_RECOGNISED = ("asc", "xyz", "matrix", "npy", "npz", "mat", "nms", "hgt", "h5", "nc")
 

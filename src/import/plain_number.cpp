@@ -74,6 +74,21 @@ bool groupsAt(const std::string& text, std::size_t at, const std::string& mark, 
   return false;
 }
 
+/// Where a word that Windows prints for no number ends; the same place if none begins there.
+std::size_t windowsNanEnd(const std::string& text, std::size_t at) {
+  if (at > 0 && std::isalnum(static_cast<unsigned char>(text[at - 1])) != 0) return at;
+  std::size_t end = at;
+  if (end < text.size() && (text[end] == '+' || text[end] == '-')) ++end;
+  const bool is_old = end + 3 < text.size() && text[end] == '1' && (text[end + 1] == '.' || text[end + 1] == ',') &&
+                      text[end + 2] == '#' && std::isalpha(static_cast<unsigned char>(text[end + 3])) != 0;
+  const bool is_new = lowered(text.substr(end, 4)) == "nan(";
+  if (!is_old && !is_new) return at;
+  end += is_old ? 3 : 4;
+  while (end < text.size() && std::isalnum(static_cast<unsigned char>(text[end])) != 0) ++end;
+  if (is_old) return end;
+  return end < text.size() && text[end] == ')' ? end + 1 : at;
+}
+
 }  // namespace
 
 std::size_t numberEnd(const std::string& text, std::size_t at) {
@@ -178,6 +193,14 @@ void plainSigns(std::string& text) {
       from = at + sign.size();
     }
     text = plain + text.substr(from);
+  }
+}
+
+void plainNans(std::string& text) {
+  if (text.find_first_of("#(") == std::string::npos) return;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const std::size_t end = windowsNanEnd(text, at);
+    if (end > at) text.replace(at, end - at, "nan");
   }
 }
 

@@ -40,6 +40,9 @@ std::string withPlainMarks(const std::string& number, char decimal);
 /// - @p text UTF-8
 void plainSigns(std::string& text);
 
+/// Writes what programs of Windows print for no number, "-nan(ind)", "nan(snan)", "1.#QNAN", "-1,#IND00", as "nan".
+void plainNans(std::string& text);
+
 /// True if the blank at this place stands between groups of thousands, "1 500".
 bool isGroupBlank(const std::string& text, std::size_t at);
 

@@ -193,6 +193,12 @@ void noteUnused(const std::string& path, const FileChannel& channel, const ScanO
                   " is not applied: the file's format marks what is missing itself");
 }
 
+/// @throw FileError where the file says something of the unit that is not understood, and no setting says more
+void checkUnitTold(const FileChannel& channel, const Settings& settings) {
+  if (channel.unit_doubt.empty() || settings.has_scale || settings.options.height_scale != 1.0) return;
+  throw FileError(channel.unit_doubt + ". Or state the unit as scan/height_scale, 1e-9 for nm");
+}
+
 HeightMap surfaceOf(const std::string& path, const FileChannel& channel, const ScanOptions& given,
                     const ScanFileOptions& options) {
   if (!channel.takes_settings) {
@@ -200,7 +206,9 @@ HeightMap surfaceOf(const std::string& path, const FileChannel& channel, const S
     return {surface.heights(), options.pitch_x > 0.0 ? options.pitch_x : surface.pitchX(),
             options.pitch_y > 0.0 ? options.pitch_y : surface.pitchY()};
   }
-  ScanOptions settings = settingsFor(path, channel, given).options;
+  const Settings stated = settingsFor(path, channel, given);
+  checkUnitTold(channel, stated);
+  ScanOptions settings = stated.options;
   if (options.pitch_x > 0.0) settings.pitch_x = options.pitch_x;
   if (options.pitch_y > 0.0) settings.pitch_y = options.pitch_y;
   checkPitchStated(path, settings);

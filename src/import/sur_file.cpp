@@ -127,7 +127,7 @@ FileChannel readObject(ByteCursor& file, const Header& header) {
   const std::uint64_t size = points * static_cast<std::uint64_t>(header.bits / 8);
   const std::string data =
       header.is_compressed ? unpacked(file, size) : std::string(file.take(static_cast<std::size_t>(size)), size);
-  const auto unit_z = lengthUnit(header.unit_z);
+  const auto unit_z = heightUnit(header.unit_z);
   const bool is_turned = header.inversion >= 1 && header.inversion <= 3;
   const double scale = header.step_z * unit_z.value_or(1.0) * (is_turned ? -1.0 : 1.0);
   FileChannel channel;

@@ -10,8 +10,6 @@
 namespace mems_stiction {
 namespace {
 
-std::string at(const TextLine& line) { return "line " + std::to_string(line.number) + ": "; }
-
 /// Digits of a number, by which one that was cut off can be told from the others.
 struct NumberShape {
   std::size_t length = 0, decimals = 0, exponent = 0;
@@ -35,7 +33,8 @@ class CellReader {
   std::size_t read(const TextLine& line) {
     std::vector<TextPiece> pieces = piecesOf(line.text, style_.separator);
     if (style_.has_end && style_.separator != ' ') {
-      if (pieces.back().begin != pieces.back().end) throw FileError(at(line) + "a quotation mark without its partner");
+      if (pieces.back().begin != pieces.back().end)
+        throw FileError(lineName(line) + "a quotation mark without its partner");
       pieces.pop_back();
     }
     if (style_.separator == ' ') checkTabs(line);
@@ -45,7 +44,7 @@ class CellReader {
       try {
         cells_.values.push_back(value(unquoted(line.text, piece)));
       } catch (const FileError& error) {
-        throw FileError(at(line) + error.what() + ", column " + std::to_string(column));
+        throw FileError(lineName(line) + error.what() + ", column " + std::to_string(column));
       }
     }
     return pieces.size();
@@ -73,8 +72,8 @@ class CellReader {
       const bool is_last = text.find_first_not_of(" \t", i) == std::string::npos;
       if (is_last && style_.has_end && !is_open) return;
       if (is_open || is_last) {
-        throw FileError(at(line) + "an empty cell between tabs, column " + std::to_string(column + (is_open ? 0 : 1)) +
-                        ": write nan for missing values");
+        throw FileError(lineName(line) + "an empty cell between tabs, column " +
+                        std::to_string(column + (is_open ? 0 : 1)) + ": write nan for missing values");
       }
       is_open = true;
       ++column;
@@ -115,8 +114,9 @@ TextCells textCells(const std::vector<TextLine>& lines, const TextStyle& style) 
   for (const TextLine& line : lines) {
     const std::size_t count = reader.read(line);
     if (&line != &lines.front() && count != cols) {
-      throw FileError(at(line) + std::to_string(count) + " cells, the lines before it have " + std::to_string(cols) +
-                      ": the file is cut off, or not a grid; column " + std::to_string(std::min(count, cols) + 1));
+      throw FileError(lineName(line) + std::to_string(count) + " cells, the lines before it have " +
+                      std::to_string(cols) + ": the file is cut off, or not a grid; column " +
+                      std::to_string(std::min(count, cols) + 1));
     }
     cols = count;
   }

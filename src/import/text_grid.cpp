@@ -112,13 +112,26 @@ void checkStatedSize(const TextHeader& header, const cv::Mat& values) {
                   " numbers, the file has " + std::to_string(values.cols) + " x " + std::to_string(values.rows));
 }
 
+/// Heights above, a map of what was measured below: 0 is a void. @throw FileError for other numbers than 0 and 1
+cv::Mat withoutVoids(const cv::Mat& both) {
+  if (both.rows % 2 != 0) throw FileError("the heading states voids, and their map is not as large as the heights");
+  cv::Mat heights = both.rowRange(0, both.rows / 2).clone();
+  const cv::Mat map = both.rowRange(both.rows / 2, both.rows);
+  const cv::Mat is_void = map == 0.0;
+  if (cv::countNonZero(is_void | (map == 1.0)) != heights.rows * heights.cols) {
+    throw FileError("the heading states voids, and their map behind the heights has other numbers than 0 and 1");
+  }
+  heights.setTo(std::numeric_limits<double>::quiet_NaN(), is_void);
+  return heights;
+}
+
 void applyUnits(const TextHeader& header, FileChannel& channel) {
   if (header.missing_value)
     channel.values.setTo(std::numeric_limits<double>::quiet_NaN(), channel.values == *header.missing_value);
   if (header.scale != 1.0) channel.values *= header.scale;
   if (header.unit_z.empty()) return;
   channel.unit_z = header.unit_z;
-  const auto unit = lengthUnit(header.unit_z);
+  const auto unit = heightUnit(header.unit_z);
   if (!unit) return;  // no height: the choice of the channel says so
   channel.unit_z = "m";
   if (*unit != 1.0) channel.values *= *unit;
@@ -267,6 +280,7 @@ FileChannel parseTextGrid(const std::string& bytes, const TextOptions& options) 
   const TextStyle style = text.data.empty() ? TextStyle() : textStyle(text.data, stated, hint);
   const TextHeader header = headerOf(text, style, hint);
   channel.title = header.title;
+  channel.unit_doubt = header.unit_doubt;
   channel.notes = header.notes;
   if (!style.guess.empty()) {
     channel.notes.push_back("'" + shownPiece(style.guess) +
@@ -282,6 +296,13 @@ FileChannel parseTextGrid(const std::string& bytes, const TextOptions& options) 
   checkPixelCount(cells.cols, cells.rows);
   const cv::Mat grid(static_cast<int>(cells.rows), static_cast<int>(cells.cols), CV_64FC1, cells.values.data());
   checkEnd(text, cells, channel);
+  if (header.has_void_map) {
+    channel.values = withoutVoids(grid);
+    checkStatedSize(header, channel.values);
+    applySize(header, channel);
+    applyUnits(header, channel);
+    return channel;
+  }
   if (readPoints(header, options.y_axis, grid, channel)) {
     applyUnits(header, channel);
     return channel;

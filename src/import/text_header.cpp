@@ -6,26 +6,18 @@
 #include <optional>
 #include <vector>
 
+#include "import/heading_entries.hpp"
+#include "import/heading_remarks.hpp"
+#include "import/heading_words.hpp"
 #include "import/length_unit.hpp"
+#include "import/maker_headings.hpp"
 #include "import/plain_number.hpp"
-#include "import/text_style.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/settings/option_visitor.hpp"
 #include "numeric/words.hpp"
 
 namespace mems_stiction {
 namespace {
-
-constexpr double kSame = 1e-6;  // relative: what is stated twice may be rounded
-
-std::string bare(const std::string& text) { return trimmed(text, " \t\"'"); }
-
-/// Without the signs of a comment; blanks that do not break lines become plain ones.
-std::string content(const std::string& line) {
-  std::string text = line.substr(std::min(line.find_first_not_of("#% \t"), line.size()));
-  for (const char* blank : {"\xC2\xA0", "\xE2\x80\xAF", "\xE2\x80\x89"}) text = replaced(text, blank, " ");
-  return bare(text);
-}
 
 bool isOneOf(const std::string& key, std::initializer_list<const char*> names) {
   return std::any_of(names.begin(), names.end(), [&key](const char* name) { return key == name; });
@@ -74,38 +66,13 @@ double lengthOf(const std::string& value, const Marks& marks) {
 
 /// Blank or ESRI headings have "ncols 4"; the others "key: value" or "key = value".
 bool splitKey(const std::string& text, std::string& key, std::string& value) {
-  std::size_t at = text.find_first_of(":=");
-  if (at == std::string::npos) {
-    at = text.find_first_of(" \t");
-    if (at == std::string::npos) return false;
-    key = lowered(text.substr(0, at));
-    value = bare(text.substr(at));
-    return isOneOf(key,
-                   {"ncols", "nrows", "cellsize", "nodata_value", "xllcorner", "yllcorner", "xllcenter", "yllcenter"});
-  }
-  key = lowered(bare(text.substr(0, at)));
-  value = bare(text.substr(at + 1));
-  return true;
-}
-
-/// @throw FileError for what the heading states a second time, and otherwise
-template <typename Number>
-void state(Number& field, Number value, const std::string& what) {
-  if (field != Number() && std::abs(static_cast<double>(field) - static_cast<double>(value)) >
-                               kSame * std::abs(static_cast<double>(value))) {
-    throw FileError("the heading states the " + what + " twice, as " + numberText(static_cast<double>(field)) +
-                    " and " + numberText(static_cast<double>(value)) + ": remove one");
-  }
-  field = value;
-}
-
-void stateText(std::string& field, const std::string& value, const std::string& what) {
-  const auto unit = lengthUnit(value);
-  if (!field.empty() && field != value && !(unit && lengthUnit(field) == unit)) {
-    throw FileError("the heading states the " + what + " twice, as '" + shownPiece(field) + "' and '" +
-                    shownPiece(value) + "': remove one");
-  }
-  field = value;
+  if (splitEntry(text, key, value)) return true;
+  const std::size_t at = text.find_first_of(" \t");
+  if (at == std::string::npos) return false;
+  key = lowered(text.substr(0, at));
+  value = bareText(text.substr(at));
+  return isOneOf(key,
+                 {"ncols", "nrows", "cellsize", "nodata_value", "xllcorner", "yllcorner", "xllcenter", "yllcenter"});
 }
 
 /// "x [nm]", "X/um", "x_nm"
@@ -177,7 +144,7 @@ bool readPointHeading(const std::string& text, bool is_comment, TextHeader& head
   if (!stated || (is_comment && stated->unit_xy == 0.0)) return false;
   if (stated->unit_xy == 0.0) return true;
   state(header.unit_of_points, stated->unit_xy, "unit of x and y");
-  stateText(header.unit_z, bare(stated->unit_z), "unit of the heights");
+  stateText(header.unit_z, bareText(stated->unit_z), "unit of the heights");
   return true;
 }
 
@@ -200,19 +167,6 @@ void readLength(const std::string& value, const std::string& what, const Marks& 
   }
 }
 
-/// The pieces of a line without quotes and the blanks around them.
-std::vector<std::string> cellsOf(const std::string& line, char separator) {
-  std::vector<std::string> cells;
-  for (const TextPiece& piece : piecesOf(line, separator)) cells.push_back(bare(unquoted(line, piece)));
-  return cells;
-}
-
-/// 0 = none is stated; more than any scan has stays more.
-std::size_t countOf(const std::string& value) {
-  const double number = plainNumber(value);
-  return number >= 1.0 ? static_cast<std::size_t>(std::min(number, 1e12)) : 0;
-}
-
 /// "h=650 w=650": rows and columns. @return false if the line is no such pair
 bool readCounts(const std::string& text, TextHeader& header) {
   const std::vector<std::string> words = cellsOf(text, ' ');
@@ -223,67 +177,14 @@ bool readCounts(const std::string& text, TextHeader& header) {
     if (!is_count) return false;
   }
   for (const std::string& word : words) {
-    state(word[0] == 'h' ? header.rows : header.cols, countOf(word.substr(2)),
+    state(word[0] == 'h' ? header.rows : header.cols, headingCount(word.substr(2)),
           word[0] == 'h' ? "number of rows" : "number of columns");
   }
   return true;
 }
 
-constexpr char kWyko[] = "Wyko ASCII Data File Format";
-
-/// Wyko's text: blocks "name, type, length, value" between tabs, pitch in mm, heights in nm or in waves over `Mult`. Its
-/// "X Size" is the number of lines.
-TextHeader wykoHeader(const std::vector<TextLine>& heading) {
-  TextHeader header;
-  header.unit_z = "nm";
-  double wavelength = 0.0;
-  double divisor = 1.0;
-  for (const TextLine& line : heading) {
-    const std::vector<std::string> cells = cellsOf(line.text, '\t');
-    const std::string key = lowered(cells[0]);
-    if (cells.size() == 2 && key == "x size") state(header.rows, countOf(cells[1]), "number of rows");
-    if (cells.size() == 2 && key == "y size") state(header.cols, countOf(cells[1]), "number of columns");
-    if (cells.size() < 4 || cells[3].empty()) continue;
-    if (key == "pixel_size") header.pitch_x = header.pitch_y = 1e-3 * plainNumber(cells[3]);
-    if (key == "wavelength") wavelength = plainNumber(cells[3]);
-    if (key == "mult") divisor = plainNumber(cells[3]);
-  }
-  const std::vector<std::string> flags = cellsOf(heading.front().text.substr(sizeof kWyko - 1), '\t');
-  if (flags.size() > 1 && flags[1] == "1") return header;
-  if (!(wavelength > 0.0) || !(divisor > 0.0)) {
-    throw FileError("Wyko's heights are in waves and the heading states no wavelength");
-  }
-  header.scale = wavelength / divisor;
-  return header;
-}
-
-bool isKeyence(const std::vector<TextLine>& heading) {
-  return std::any_of(heading.begin(), heading.end(),
-                     [](const TextLine& line) { return startsWith(line.text, "\"XY Calibration\""); });
-}
-
-/// Keyence's tables: "key","value","unit", of which pitch, numbers of pixels and unit of the heights count.
-TextHeader keyenceHeader(const std::vector<TextLine>& heading) {
-  TextHeader header;
-  for (const TextLine& line : heading) {
-    const std::vector<std::string> cells = cellsOf(line.text, ',');
-    const std::string key = lowered(cells[0]);
-    if (cells.size() == 3 && key == "xy calibration") {
-      const auto unit = lengthUnit(cells[2]);
-      if (!unit) throw FileError("'" + shownPiece(cells[2]) + "' is not a unit of length");
-      header.pitch_x = header.pitch_y = plainNumber(cells[1]) * *unit;
-    }
-    if (cells.size() < 2) continue;
-    if (key == "horizontal") state(header.cols, countOf(cells[1]), "number of columns");
-    if (key == "vertical") state(header.rows, countOf(cells[1]), "number of rows");
-    if (key == "unit") stateText(header.unit_z, cells[1], "unit of the heights");
-    if (key == "output image data") header.title = cells[1];
-  }
-  return header;
-}
-
 /// The unit of "Z Amplitude: 25 nm", WSxM's: that of its numbers.
-std::string unitOfAmplitude(const std::string& value) { return bare(value.substr(markedNumberEnd(value))); }
+std::string unitOfAmplitude(const std::string& value) { return bareText(value.substr(markedNumberEnd(value))); }
 
 constexpr char kFactor[] = "height conversion factor (->";
 
@@ -303,24 +204,26 @@ void readFactor(const std::string& key, const std::string& value, const Marks& m
 
 /// @return true if the key is known
 bool readEntry(const std::string& key, const std::string& value, const Marks& marks, TextHeader& header) {
-  const auto count = [&value] { return countOf(value); };
-  if (isOneOf(key, {"width", "x-length", "x amplitude", "breite", "largeur", "anchura", "larghezza", "largura"})) {
+  const auto count = [&value] { return headingCount(value); };
+  const HeadingWord word = headingWord(key);
+  if (word == HeadingWord::kWidth) {
     readLength(value, "width", marks, header.width, header);
-  } else if (isOneOf(key, {"height", "y-length", "y amplitude", "höhe", "hauteur", "altura", "altezza"})) {
+  } else if (word == HeadingWord::kHeight) {
     readLength(value, "height", marks, header.height, header);
-  } else if (isOneOf(key, {"value units", "value unit", "data unit", "z-unit", "zunit", "unit data", "einheiten",
-                           "unités"})) {
+  } else if (word == HeadingWord::kUnitZ && value.empty()) {
+    header.unit_doubt = "'" + shownPiece(key) + "' of the heading is empty: its numbers have no unit";
+  } else if (word == HeadingWord::kUnitZ) {
     stateText(header.unit_z, value, "unit of the heights");
   } else if (startsWith(key, kFactor)) {
     readFactor(key, value, marks, header);
   } else if (key == "z amplitude") {
     stateText(header.unit_z, unitOfAmplitude(value), "unit of the heights");
-  } else if (key == "lateral units") {  // Gwyddion's lists: x and y are those of its images
+  } else if (word == HeadingWord::kUnitXy) {  // Gwyddion's lists: x and y are those of its images
     const auto unit = lengthUnit(value);
     if (!unit) throw FileError("'" + shownPiece(value) + "' is not a unit of length");
     state(header.unit_of_points, *unit, "unit of x and y");
     header.is_y_up = false;
-  } else if (isOneOf(key, {"channel", "kanal", "canal", "canale"})) {
+  } else if (word == HeadingWord::kTitle) {
     stateText(header.title, value, "channel");
   } else if (isOneOf(key, {"x-pixels", "ncols", "nx", "columns"})) {
     state(header.cols, count(), "number of columns");
@@ -345,18 +248,19 @@ bool readEntry(const std::string& key, const std::string& value, const Marks& ma
   return true;
 }
 
-/// A unit of length that a remark mentions: somebody meant it to be read.
-std::string unitMentioned(const std::string& text) {
-  std::string word;
-  for (std::size_t at = 0; at <= text.size(); ++at) {
-    if (at < text.size() && std::string(" \t,;:=()[]/").find(text[at]) == std::string::npos) {
-      word += text[at];
-      continue;
-    }
-    if (word.size() > 1 && word != "inch" && lengthUnit(word)) return word;
-    word.clear();
-  }
-  return "";
+/// "Height(nm)", "Height_Sensor [nm]": name and unit of a matrix. @return false for other texts
+bool readNameAndUnit(const std::string& text, TextHeader& header) {
+  if (text.empty()) return false;
+  const std::size_t open = text.find_first_of("([");
+  const bool is_named = open != std::string::npos && open > 0 && (text.back() == ')' || text.back() == ']') &&
+                        text.find_first_of("([", open + 1) == std::string::npos &&
+                        text.find_first_of("\t,;:=") == std::string::npos;
+  if (!is_named) return false;
+  const std::string unit = text.substr(open + 1, text.size() - open - 2);
+  if (!lengthUnit(unit) && !isOtherUnit(unit)) return false;
+  stateText(header.title, bareText(replaced(text.substr(0, open), "_", " ")), "channel");
+  stateText(header.unit_z, unit, "unit of the heights");
+  return true;
 }
 
 }  // namespace
@@ -367,7 +271,7 @@ char headingMark(const std::vector<TextLine>& heading) {
   for (const TextLine& line : heading) {
     std::string key;
     std::string value;
-    if (!splitKey(content(line.text), key, value)) continue;
+    if (!splitKey(headingContent(line.text), key, value)) continue;
     const std::size_t end = markedNumberEnd(value);
     if (end == 0 || !lengthUnit(value.substr(end))) continue;
     const std::string number = value.substr(0, end);
@@ -381,15 +285,14 @@ char headingMark(const std::vector<TextLine>& heading) {
 }
 
 TextHeader textHeader(const std::vector<TextLine>& heading, char decimal, char of_data) {
-  if (!heading.empty() && startsWith(heading.front().text, kWyko)) return wykoHeader(heading);
-  if (isKeyence(heading)) return keyenceHeader(heading);
+  if (auto header = makerHeading(heading)) return *header;
   const Marks marks{decimal, of_data};
   TextHeader header;
-  std::string mentioned;
+  HeadingRemarks remarks;
   for (const TextLine& line : heading) {
-    const std::string text = content(line.text);
+    const std::string text = headingContent(line.text);
     const bool is_comment = !line.text.empty() && (line.text[0] == '#' || line.text[0] == '%');
-    const std::string where = "line " + std::to_string(line.number) + ": ";
+    const std::string where = lineName(line);
     std::string key;
     std::string value;
     try {
@@ -397,6 +300,7 @@ TextHeader textHeader(const std::vector<TextLine>& heading, char decimal, char o
       if (splitKey(text, key, value) && readEntry(key, value, marks, header)) continue;
       if (readWsxmLine(text, header)) continue;
       if (readPointHeading(text, is_comment, header)) continue;
+      if (readNameAndUnit(text, header)) continue;
     } catch (const FileError& error) {
       throw FileError(where + error.what());
     }
@@ -406,17 +310,24 @@ TextHeader textHeader(const std::vector<TextLine>& heading, char decimal, char o
                       "' is not a number, column 1, and begins no known heading: keep the numbers, " +
                       "and state \"# Width: 2 um\", \"# Height: 2 um\" and \"# Value units: nm\"");
     }
-    const std::string unit = unitMentioned(text);
-    if (mentioned.empty() && !unit.empty()) {
-      mentioned =
-          where + "'" + shownPiece(unit) + "' is not understood there; \"# Value units: " + unit + "\" would be";
-    }
+    remarks.read(where, text, value);
   }
   if (header.factor > 0.0) {  // the unit of the numbers is that before it
     header.scale = header.factor;
     header.unit_z = header.unit_of_factor;
   }
-  if (header.unit_z.empty() && !mentioned.empty()) header.notes.push_back(mentioned);
+  if (!header.unit_z.empty()) {
+    header.unit_doubt.clear();
+    return header;
+  }
+  if (header.unit_doubt.empty()) header.unit_doubt = remarks.doubt;
+  TextHeader of_title;
+  if (header.unit_doubt.empty() && readNameAndUnit(header.title, of_title)) {
+    header.unit_doubt = "the channel is named '" + shownPiece(header.title) +
+                        "' and the heading states no unit of its numbers: state \"# Value units: " + of_title.unit_z +
+                        "\"";
+  }
+  if (!remarks.side.empty()) header.notes.push_back(remarks.side);
   return header;
 }
 

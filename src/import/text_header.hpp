@@ -1,8 +1,8 @@
 #pragma once
 
 /// @file
-/// What the heading of a text file says of its numbers: as Gwyddion, SurfaceTopography, SPIP, Nova, WSxM, Wyko, Keyence and
-/// ESRI grids write it.
+/// What the heading of a text file says of its numbers: as Gwyddion, SurfaceTopography, SPIP, Attocube, Nova, WSxM, Wyko,
+/// Keyence and ESRI grids write it.
 
 #include <optional>
 #include <string>
@@ -24,8 +24,10 @@ struct TextHeader {
   double unit_of_points = 0.0;          ///< of x and y in a heading "x [nm] y [nm] z [nm]" [m]; 0 = not stated
   std::size_t cols = 0, rows = 0;       ///< 0 = not stated
   std::optional<double> missing_value;  ///< "NODATA_value"
+  bool has_void_map = false;            ///< SPIP: as many lines more, 0 where a pixel was not measured
   std::optional<bool> is_y_up;          ///< in lists of points: WSxM's is, Gwyddion's is not
-  std::vector<std::string> notes;       ///< what stands there and is not understood
+  std::string unit_doubt;               ///< what is said of the unit of the heights and is not understood
+  std::vector<std::string> notes;       ///< what else stands there and is not understood
 };
 
 /// The decimal sign of the lengths in a heading, '.' or ','; 0 where they leave it open.

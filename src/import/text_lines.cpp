@@ -105,6 +105,8 @@ bool hasSignsBeyondNumbers(const std::string& text) {
 
 }  // namespace
 
+std::string lineName(const TextLine& line) { return "line " + std::to_string(line.number) + ": "; }
+
 TextLines textLines(const std::string& bytes) {
   const std::string text = decoded(bytes);
   const char line_end = text.find('\n') == std::string::npos ? '\r' : '\n';
@@ -122,13 +124,14 @@ TextLines textLines(const std::string& bytes) {
     }
     const std::size_t comment = commentStart(line);
     std::string content = withoutBlanks(line.substr(0, comment));
+    plainNans(content);
     if (hasSignsBeyondNumbers(content)) {
       content = toUtf8(content);
       plainSigns(content);
     }
     if (isEmpty(content)) {
       begins_block = true;
-      if (comment < line.size()) lines.heading.push_back({number, toUtf8(line.substr(comment))});
+      if (comment < line.size()) lines.heading.push_back({number, toUtf8(withoutBlanks(line.substr(comment)))});
     } else if (lines.data.empty() && isHeading(content)) {
       lines.heading.push_back({number, toUtf8(content)});
     } else {

@@ -14,6 +14,9 @@ struct TextLine {
   std::string text;  ///< UTF-8, without comment and without blanks at both ends
 };
 
+/// Before what is wrong with it: "line 3: ".
+std::string lineName(const TextLine& line);
+
 /// The lines of a file, heading and data apart.
 struct TextLines {
   std::vector<TextLine> heading;    ///< comments, and lines before the data that begin with a letter

@@ -15,8 +15,6 @@ bool isQuote(char c) { return c == '"' || c == '\''; }
 const std::string kBlankAdvice =
     "the blanks separate numbers, or they group thousands: write numbers without groups, or separate by semicolons";
 
-std::string at(const TextLine& line) { return "line " + std::to_string(line.number) + ": "; }
-
 /// What stands between the numbers of a file, gathered over all lines.
 struct Signs {
   bool semicolon = false, comma = false, point = false, quoted_comma = false;
@@ -143,7 +141,7 @@ char decimalOf(const std::vector<TextLine>& lines, char mark, char hint, TextSty
   if (has_groups) return other(mark);
   if (line_of_either == nullptr) return mark;
   if (hint != '\0') return hint;
-  if (mark == ',' || style.separator == ';') throw FileError(at(*line_of_either) + ambiguousMark(either));
+  if (mark == ',' || style.separator == ';') throw FileError(lineName(*line_of_either) + ambiguousMark(either));
   style.guess = either;
   return mark;
 }
@@ -166,7 +164,7 @@ void joinInCells(std::vector<TextLine>& lines, bool is_sure) {
     }
   }
   if (!has_groups) return;
-  if (whole != nullptr && !is_sure) throw FileError(at(*whole) + kBlankAdvice);
+  if (whole != nullptr && !is_sure) throw FileError(lineName(*whole) + kBlankAdvice);
   for (TextLine& line : lines) {
     std::string joined;
     for (std::size_t i = 0; i < line.text.size(); ++i) {
@@ -217,7 +215,7 @@ void joinThousands(std::vector<TextLine>& lines) {
   } else if (all_have('\t')) {
     joinInCells(lines, false);
   } else if (looksGrouped(lines, ' ')) {
-    throw FileError(at(lines.front()) + kBlankAdvice);
+    throw FileError(lineName(lines.front()) + kBlankAdvice);
   }
 }
 
@@ -230,14 +228,14 @@ TextStyle textStyle(const std::vector<TextLine>& lines, char stated, char hint) 
     style.separator = ';';
   } else if (signs.tight_comma != nullptr && signs.bare_gap != nullptr) {
     if (signs.loose_comma != nullptr) {
-      throw FileError(at(*signs.loose_comma) + "commas and blanks both stand between the numbers: " + advice);
+      throw FileError(lineName(*signs.loose_comma) + "commas and blanks both stand between the numbers: " + advice);
     }
   } else if (signs.comma) {
     style.separator = ',';
     const bool is_halved =
         !signs.point && ((signs.tight_comma != nullptr && signs.loose_comma != nullptr) || looksHalved(lines));
     if (!signs.quoted_comma && (stated == ',' || (stated == '\0' && (is_halved || looksGrouped(lines, ','))))) {
-      throw FileError(at(lines.front()) +
+      throw FileError(lineName(lines.front()) +
                       "the commas separate numbers, or they are decimal commas or group thousands: " + advice +
                       " and no other, or separate by semicolons; decimal_mark: point in the sidecar (SCAN.yaml) says "
                       "that they separate");
@@ -247,7 +245,7 @@ TextStyle textStyle(const std::vector<TextLine>& lines, char stated, char hint) 
   if (stated != '\0') {
     style.decimal = stated;
   } else if (has_comma && signs.point) {
-    throw FileError(at(lines.front()) + "points and decimal commas both stand inside numbers: " + advice +
+    throw FileError(lineName(lines.front()) + "points and decimal commas both stand inside numbers: " + advice +
                     " and no other, or state decimal_mark in the sidecar (SCAN.yaml)");
   } else if (has_comma || (signs.point && style.separator != ',')) {
     style.decimal = decimalOf(lines, has_comma ? ',' : '.', hint, style);

@@ -134,7 +134,7 @@ FileChannel parseWsxm(const std::string& bytes) {
   const std::string& amplitude_text = entry(header, "General Info/Z Amplitude");
   const auto amplitude = statedLength(amplitude_text);
   if (!amplitude) throw FileError("the WSxM header states the z amplitude '" + shownPiece(amplitude_text) + "'");
-  const auto unit = lengthUnit(amplitude->unit);
+  const auto unit = heightUnit(amplitude->unit);
   channel.unit_z = unit ? "m" : amplitude->unit;
   double scale = unit.value_or(1.0);
   if (type == NumberType::kShort && most > least) scale *= amplitude->number / (most - least);

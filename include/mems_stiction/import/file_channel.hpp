@@ -23,6 +23,8 @@ struct FileChannel {
   double height = 0.0;  ///< of the whole image along y [unit_xy]; 0 = not stated
   std::string unit_xy;  ///< "m", or another; empty = not stated: a width > 0 is then in the unit of the values
   std::string unit_z;
+  /// What the file says of the unit of its heights and is not understood: without a height_scale they are refused.
+  std::string unit_doubt;
   /// The format has no fixed units (images, text, arrays): what the file does not state, ScanOptions and sidecar do.
   bool takes_settings = false;
   /// The pitch is from a field that programs fill without being asked (dots per inch): ScanOptions go before it.

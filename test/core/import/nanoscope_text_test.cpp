@@ -62,6 +62,20 @@ TEST(NanoscopeText, IsReadAsAScan) {
   EXPECT_DOUBLE_EQ(readScanFile(folder.write("long.txt", exported(kPoints, "300 100 nm"))).pitchY(), 50e-9);
 }
 
+TEST(NanoscopeText, TheMatrixOfOneChannelIsRead) {
+  std::string text = exported("1.5\t2.5\t-3.5\t\r\n4.5\t-nan(ind)\t6.5\t\r\n");
+  text.replace(text.find("\tAdhesion(nN)"), 13, "");
+  const std::vector<FileChannel> channels = parseNanoscopeText(text);
+  ASSERT_EQ(channels.size(), 1U);
+  ASSERT_EQ(channels[0].values.size(), cv::Size(3, 2));
+  EXPECT_DOUBLE_EQ(channels[0].values.at<double>(0, 2), -3.5e-9);
+  EXPECT_TRUE(std::isnan(channels[0].values.at<double>(1, 1)));
+  EXPECT_NE(refusal(text.substr(0, text.find("4.5"))).find("cut off"), std::string::npos);
+  std::string current = text;
+  current.replace(current.find("Height_Sensor(nm)"), 17, "TUNA(A)");
+  EXPECT_EQ(parseNanoscopeText(current)[0].unit_z, "A");
+}
+
 TEST(NanoscopeText, WhatIsCutOffOrOfAnotherKindIsRefused) {
   EXPECT_NE(refusal(exported(kPoints.substr(0, 40))).find("cut off"), std::string::npos);
   EXPECT_NE(refusal(exported(kPoints + "7.5\t0.7\t\r\n")).find("more points"), std::string::npos);

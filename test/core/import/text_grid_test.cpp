@@ -215,9 +215,9 @@ TEST(TextGrid, EmptyCellsNeverShiftTheOthers) {
   EXPECT_TRUE(std::isnan(grid.at<double>(2, 2)));
 }
 
-TEST(TextGrid, NumbersOfOtherProgramsThatAreNoneAreRefusedWithLineAndColumn) {
-  EXPECT_TRUE(mentions(refusal("1.5 2.5\n3.5 1.#QNAN\n"), "line 2: '1.#QNAN' is not a number, column 2"));
-  EXPECT_TRUE(mentions(refusal("1.5 -1.#IND\n3.5 4.5\n"), "line 1: '-1.#IND' is not a number, column 2"));
+TEST(TextGrid, WordsThatAreNoNumbersAreRefusedWithLineAndColumn) {
+  EXPECT_TRUE(mentions(refusal("1.5 2.5\n3.5 1.#\n"), "line 2: '1.#' is not a number, column 2"));
+  EXPECT_TRUE(mentions(refusal("1.5 -1.4_\n3.5 4.5\n"), "line 1: '-1.4_' is not a number, column 2"));
   EXPECT_TRUE(mentions(refusal("1.5,2.5\n3.5,1e999\n"), "line 2: '1e999' is too large"));
   EXPECT_TRUE(mentions(refusal("1.5;2.5\n3,5;4 5\n"), "points and decimal commas"));
 }
@@ -343,10 +343,22 @@ TEST(TextGrid, TheListSaysWhereTheUnitIsNotStated) {
   EXPECT_FALSE(listScanChannels(folder.write("b.txt", "# Value units: m\n" + written(" "))).at(0).is_unit_assumed);
 }
 
-TEST(TextGrid, AUnitThatARemarkMentionsIsSaid) {
-  const FileChannel channel = parseTextGrid("# heights in nm\n" + written(" "));
-  ASSERT_EQ(channel.notes.size(), 1u);
-  EXPECT_TRUE(mentions(channel.notes[0], "line 1: 'nm' is not understood"));
+TEST(TextGrid, AUnitThatARemarkMentionsIsAskedFor) {
+  const ScratchFolder folder;
+  const std::string path = folder.write("a.txt", "# heights in nm\n" + written(" "));
+  ScanOptions options;
+  options.pitch_x = options.pitch_y = 1e-9;
+  try {
+    readScanFile(path, options);
+    ADD_FAILURE();
+  } catch (const FileError& error) {
+    EXPECT_TRUE(mentions(error.what(), "line 1: 'nm' is not understood")) << error.what();
+  }
+  options.height_scale = 1e-9;
+  EXPECT_NO_THROW(readScanFile(path, options));
+  options.height_scale = 1.0;
+  folder.write("a.txt.yaml", "height_scale: 1\n");
+  EXPECT_NO_THROW(readScanFile(path, options)) << "the sidecar says that they are metres";
 }
 
 TEST(TextGrid, AFileAndASidecarThatBothStateAUnitAreRefused) {
