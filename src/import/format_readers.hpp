@@ -53,6 +53,14 @@ FileChannel parseNpy(const std::string& bytes);
 /// @throw FileError the bytes are not a .gwy container.
 std::vector<FileChannel> parseGwy(const std::string& bytes, bool ignore_mask = false);
 
+/// Gwyddion Simple Field, .gsf (https://gwyddion.net/documentation/user-guide-en/gsf.html): a header in text, then float32.
+/// @throw FileError cut off, sizes or units that are stated twice, units with a prefix, which are beyond the format.
+FileChannel parseGsf(const std::string& bytes);
+
+/// TrueMap's .tmd, version 2.0: sides and heights in mm. Read here, since SurfaceTopography before 1.27 took mm for um.
+/// @throw FileError cut off, sides that are not > 0.
+FileChannel parseTmd(const std::string& bytes);
+
 /// Digital Surf's .sur surfaces: read here, since Gwyddion makes heights of points that were not measured. Uncompressed
 /// and compressed. A surface with colour or intensity images behind it gives the surface; several layers give as many
 /// channels. Points of the value "smallest - 2" are missing where the header says that there are any.

@@ -161,6 +161,10 @@ bool readKnown(const std::string& path, const std::string& bytes, const ImportOp
     channels = {parseExr(bytes)};
   } else if (beginsWithOneOf(bytes, {"GWYP"})) {
     channels = parseGwy(bytes, options.ignore_mask);
+  } else if (beginsWithOneOf(bytes, {"Binary TrueMap Data File v2.0"})) {
+    channels = {parseTmd(bytes)};
+  } else if (beginsWithOneOf(bytes, {"Gwyddion Simple Field 1."})) {
+    channels = {parseGsf(bytes)};
   } else if (beginsWithOneOf(bytes, {"\x93NUMPY"})) {
     channels = {parseNpy(bytes)};
   } else if (beginsWithOneOf(bytes, {"DIGITAL SURF", "DSCOMPRESSED"})) {

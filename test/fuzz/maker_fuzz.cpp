@@ -48,8 +48,8 @@ Channels checkWhole(const std::string& bytes) {
   return {};
 }
 
-const std::array<Reader, 15>& readers() {
-  static const std::array<Reader, 15> readers = {{
+const std::array<Reader, 17>& readers() {
+  static const std::array<Reader, 17> readers = {{
       {"\\*File list", readNanoscope},
       {"\\*File list", parseNanoscopeText},
       {"\"\\*File list", parseNanoscopeText},
@@ -69,6 +69,8 @@ const std::array<Reader, 15>& readers() {
       {std::string("MM\0*", 4), parseTiff},
       {"\x89PNG", [](const std::string& bytes) { return Channels{parsePng(bytes)}; }},
       {"\x76\x2f\x31\x01", [](const std::string& bytes) { return Channels{parseExr(bytes)}; }},
+      {"Gwyddion Simple Field 1.", [](const std::string& bytes) { return Channels{parseGsf(bytes)}; }},
+      {"Binary TrueMap Data File v2.0", [](const std::string& bytes) { return Channels{parseTmd(bytes)}; }},
   }};
   return readers;
 }

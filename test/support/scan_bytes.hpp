@@ -4,6 +4,7 @@
 
 #include <zlib.h>
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -234,6 +235,24 @@ inline std::string npy(const std::string& type, const std::string& data, const s
       "{'descr': '" + type + "', 'fortran_order': " + (fortran ? "True" : "False") + ", 'shape': " + shape + ", }";
   header = field(header, 117, ' ') + "\n";
   return std::string("\x93NUMPY\1\0", 8) + littleBytes(static_cast<std::uint16_t>(header.size())) + header + data;
+}
+
+// ---- Gwyddion Simple Field and TrueMap
+
+/// 2 x 2 heights, the first of them missing if so told.
+inline std::string gsf(const std::string& units, bool has_missing = false) {
+  std::string bytes = "Gwyddion Simple Field 1.0\nXRes = 2\nYRes = 2\nXReal = 4.0e-6\nYReal = 2.0e-6\n" + units;
+  bytes.resize((bytes.size() / 4 + 1) * 4, '\0');
+  for (const float height : {has_missing ? std::nanf("") : 1e-9F, 2e-9F, 3e-9F, 5e-9F}) bytes += littleBytes(height);
+  return bytes;
+}
+
+inline std::string tmd(const std::string& comment, float width = 4.0F) {
+  std::string bytes = std::string("Binary TrueMap Data File v2.0\r\n\0", 32) + comment + '\0';
+  for (int side = 0; side < 2; ++side) bytes += littleBytes(std::uint32_t{2});
+  for (const float length : {width, 2.0F, 0.0F, 0.0F}) bytes += littleBytes(length);
+  for (const float height : {0.001F, 0.002F, 0.003F, 0.005F}) bytes += littleBytes(height);
+  return bytes;
 }
 
 }  // namespace mems_stiction::scan_bytes

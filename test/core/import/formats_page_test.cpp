@@ -100,6 +100,8 @@ const std::map<std::string, std::vector<Example>> kRows = {
     {"`.grd`", {written("a.grd", "DSAA\n3 2\n0 2e-9\n0 1e-9\n0 1e-9\n0 1e-9 0\n2e-9 1.70141e+38 5e-10\n", 1)}},
     {"`.gwy`", {written("a.gwy", gwy_bytes::example(), 1)}},
     {"`.stp` `.top`", {written("a.stp", wsxmImage(), 0), published("top-1.top")}},
+    {"`.gsf`", {written("a.gsf", gsf("XYUnits = m\nZUnits = m\n", true), 1)}},
+    {"`.tmd`", {written("a.tmd", tmd("Created by TrueMap v6\r\n"), 0)}},
     {"`.sur`", {written("a.sur", sur(Sur{}), 1), published("misread/sur-2.sur", 117)}},
     {"`.nc`", {written("a.nc", heights("nm"), 0)}},
     {"`.di`", {published("di-3.di"), published("di-5.di"), published("di-6.di")}},

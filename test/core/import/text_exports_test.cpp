@@ -242,5 +242,34 @@ TEST(TextExports, WhatWindowsPrintsForNoNumberIsMissing) {
   EXPECT_THROW(parseTextGrid("1.5\t1.#\n2.5\t3.25\n"), FileError);
 }
 
+TEST(GsfFile, IsReadInMetresAlone) {
+  const ScratchFolder folder;
+  const HeightMap surface = readScanFile(folder.write("a.gsf", scan_bytes::gsf("XYUnits = m\nZUnits = m\n")));
+  EXPECT_DOUBLE_EQ(surface.pitchX(), 2e-6);
+  EXPECT_DOUBLE_EQ(surface.pitchY(), 1e-6);
+  EXPECT_DOUBLE_EQ(surface.height(1, 1), static_cast<double>(5e-9F));
+  for (const char* units : {"XYUnits = um\nZUnits = m\n", "XYUnits = m\nZUnits = nm\n"}) {
+    const std::string said = exportRefusal("a.gsf", scan_bytes::gsf(units));
+    EXPECT_NE(said.find("units without prefix alone"), std::string::npos) << said;
+  }
+  EXPECT_NE(exportRefusal("a.gsf", scan_bytes::gsf("XYUnits = m\nZUnits = A\n")).find("A]"), std::string::npos);
+  EXPECT_NE(exportRefusal("a.gsf", scan_bytes::gsf("XYUnits = m\nXYUnits = m\n")).find("twice"), std::string::npos);
+  EXPECT_NE(exportRefusal("a.gsf", scan_bytes::gsf("ZUnits = m\n") + "1234").find("cut off or damaged"),
+            std::string::npos);
+}
+
+TEST(TmdFile, IsInMillimetres) {
+  const ScratchFolder folder;
+  for (const char* comment : {"Created by TrueMap v6\r\n", ""}) {
+    const HeightMap surface = readScanFile(folder.write("a.tmd", scan_bytes::tmd(comment)));
+    EXPECT_DOUBLE_EQ(surface.pitchX(), 2e-3);
+    EXPECT_DOUBLE_EQ(surface.pitchY(), 1e-3);
+    EXPECT_DOUBLE_EQ(surface.height(1, 1), 1e-3 * static_cast<double>(0.005F));
+  }
+  EXPECT_NE(exportRefusal("a.tmd", scan_bytes::tmd("") + "1").find("cut off or damaged"), std::string::npos);
+  EXPECT_NE(exportRefusal("a.tmd", scan_bytes::tmd("", 0.0F)).find("not > 0"), std::string::npos);
+  EXPECT_NE(exportRefusal("a.tmd", scan_bytes::tmd("").substr(0, 40)), "");
+}
+
 }  // namespace
 }  // namespace mems_stiction
