@@ -79,16 +79,18 @@ void applyImageJ(const TiffNotes& notes, int pages, FileChannel& channel) {
   if (!images.empty() && number(images, "images") > pages) {
     throw FileError("ImageJ wrote a stack of " + images + " images: save the one that is a scan by itself");
   }
+  const std::string own_of_y = lineValue(text, "yunit");  // where y has another than x
   const auto unit = lengthUnit(lineValue(text, "unit"));
-  if (unit && notes.resolution_x > 0.0 && notes.resolution_y > 0.0) {
-    setPitch(channel, *unit / notes.resolution_x, *unit / notes.resolution_y);
+  const auto unit_of_y = own_of_y.empty() ? unit : lengthUnit(own_of_y);
+  if (unit && unit_of_y && notes.resolution_x > 0.0 && notes.resolution_y > 0.0) {
+    setPitch(channel, *unit / notes.resolution_x, *unit_of_y / notes.resolution_y);
   }
   const std::string value_unit = lineValue(text, "vunit");
   const std::string function = lineValue(text, "cf");
   if (function.empty()) return;
   if (number(function, "cf") != 0.0) throw FileError("ImageJ's calibration function of the values is no straight line");
   scaleValues(channel, number(lineValue(text, "c1"), "c1"), number(lineValue(text, "c0"), "c0"));
-  const auto height_unit = lengthUnit(value_unit);
+  const auto height_unit = heightUnit(value_unit);
   if (value_unit.empty() || value_unit == "Gray Value") return;
   channel.unit_z = height_unit ? "m" : value_unit;
   if (height_unit) channel.values *= *height_unit;

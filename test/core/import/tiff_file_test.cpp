@@ -252,6 +252,23 @@ TEST_F(TiffFile, TheScaleOfImageJIsThePitch) {
   EXPECT_NEAR(surface.pitchY(), 40e-9, 1e-15);
 }
 
+TEST_F(TiffFile, YOfImageJMayHaveAnotherUnit) {
+  const auto pitched = [this](const char* yunit) {
+    Page page = floatPage();
+    page.tags = [yunit](TIFF* tiff) {
+      TIFFSetField(tiff, TIFFTAG_IMAGEDESCRIPTION,
+                   (std::string("ImageJ=1.53t\nunit=um\nyunit=") + yunit + "\n").c_str());
+      TIFFSetField(tiff, TIFFTAG_XRESOLUTION, 50.0F);
+      TIFFSetField(tiff, TIFFTAG_YRESOLUTION, 0.05F);
+    };
+    return parsed(page)[0];
+  };
+  const FileChannel both = pitched("nm");
+  EXPECT_NEAR(both.width / both.values.cols, 2e-8, 1e-14);
+  EXPECT_NEAR(both.height / both.values.rows, 2e-8, 1e-14);
+  EXPECT_EQ(pitched("sec").width, 0.0);
+}
+
 TEST_F(TiffFile, AStackThatImageJHidesBehindThePageIsRefused) {
   Page page = floatPage();
   page.tags = [](TIFF* tiff) { TIFFSetField(tiff, TIFFTAG_IMAGEDESCRIPTION, "ImageJ=1.53t\nimages=7\nslices=7\n"); };
