@@ -9,6 +9,7 @@
 #include "import/byte_cursor.hpp"
 #include "import/file_bytes.hpp"
 #include "import/file_statements.hpp"
+#include "import/length_unit.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "numeric/words.hpp"
 
@@ -85,6 +86,21 @@ std::string readUnit(ByteCursor unit) {
   return "";
 }
 
+/// Gwyddion writes metres; other programs that write .gwy also um and nm. In Gwyddion's units A is the ampere.
+void toMetres(FileChannel& channel) {
+  const auto unit_xy = heightUnit(channel.unit_xy);
+  const auto unit_z = heightUnit(channel.unit_z);
+  if (unit_xy) {
+    channel.unit_xy = "m";
+    channel.width *= *unit_xy;
+    channel.height *= *unit_xy;
+  }
+  if (unit_z) {
+    channel.unit_z = "m";
+    if (*unit_z != 1.0) channel.values *= *unit_z;
+  }
+}
+
 /// Title and mask aside, a GwyDataField is a channel.
 FileChannel readField(ByteCursor field) {
   FileChannel channel;
@@ -120,6 +136,7 @@ FileChannel readField(ByteCursor field) {
     double* line = channel.values.ptr<double>(row);
     for (int col = 0; col < channel.values.cols; ++col) line[col] = data.number<double>();
   }
+  toMetres(channel);
   return channel;
 }
 

@@ -32,6 +32,23 @@ TEST(GwyFile, ChannelsCarrySizeUnitAndTitle) {
   EXPECT_EQ(channels[1].unit_z, "V");
 }
 
+TEST(GwyFile, UnitsWithAPrefixAreReadAndAmperesAreNone) {
+  const auto channelIn = [](const std::string& unit_xy, const std::string& unit_z) {
+    const std::string content = integer("xres", 2) + integer("yres", 2) + real("xreal", 4.0) + real("yreal", 2.0) +
+                                unit("si_unit_xy", unit_xy) + unit("si_unit_z", unit_z) +
+                                reals("data", {1.0, 2.0, 3.0, 4.0});
+    return parseGwy(file(object("/0/data", "GwyDataField", content)))[0];
+  };
+  const FileChannel scaled = channelIn("um", "nm");
+  EXPECT_EQ(scaled.unit_xy, "m");
+  EXPECT_EQ(scaled.unit_z, "m");
+  EXPECT_DOUBLE_EQ(scaled.width, 4e-6);
+  EXPECT_DOUBLE_EQ(scaled.height, 2e-6);
+  EXPECT_DOUBLE_EQ(scaled.values.at<double>(1, 1), 4e-9);
+  EXPECT_EQ(channelIn("\xC2\xB5m", "A").unit_z, "A");
+  EXPECT_EQ(channelIn("m", "A").values.at<double>(1, 1), 4.0);
+}
+
 TEST(GwyFile, RowsAndColumnsAreInReadingOrder) {
   const cv::Mat values = parseGwy(example())[0].values;
   ASSERT_EQ(values.size(), cv::Size(3, 2));
