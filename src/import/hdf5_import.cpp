@@ -15,7 +15,8 @@ try:
     import numpy
 except ImportError:
     sys.exit(3)
-LENGTHS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "\u00b5m": 1e-6, "\u03bcm": 1e-6, "nm": 1e-9, "pm": 1e-12, "A": 1e-10, "\u00c5": 1e-10}
+LENGTHS = {"AA": 1e-10, "Ang": 1e-10, "m": 1.0, "mm": 1e-3, "um": 1e-6, "\u00b5m": 1e-6, "\u03bcm": 1e-6, "nm": 1e-9, "pm": 1e-12, "A": 1e-10, "\u00c5": 1e-10}
+HEIGHTS = {unit: length for unit, length in LENGTHS.items() if unit != "A"}  # of values that is the ampere
 PACKED = ("scale_factor", "add_offset")  # attributes of CF: the numbers are not the heights
 
 def text(value):
@@ -71,8 +72,8 @@ def surface_topography(file):
         unit = unit or text(attributes.get("unit", ""))
         scale = LENGTHS.get(text(attributes.get("unit", "")), 0.0)
         sides.append(scale * number(attributes["length"]) if "length" in attributes else 0.0)
-    if unit in LENGTHS:
-        values, unit = values * LENGTHS[unit], "m"
+    if unit in HEIGHTS:
+        values, unit = values * HEIGHTS[unit], "m"
     yield "heights", values.T, sides[0], sides[1], unit, ""
 
 def coordinates(file):
@@ -95,8 +96,8 @@ def coordinates(file):
         for fill in ("_FillValue", "missing_value"):
             if fill in data.attrs:
                 values = numpy.where(values == numpy.ravel(data.attrs[fill])[0], numpy.nan, values)
-        if unit in LENGTHS:
-            values, unit = values * LENGTHS[unit], "m"
+        if unit in HEIGHTS:
+            values, unit = values * HEIGHTS[unit], "m"
         yield name, values, sides[1], sides[0], unit, ""
 
 def outside(file):
@@ -114,6 +115,36 @@ def outside(file):
         return None
     return look(file) or file.visititems(lambda name, item: look(item))
 
+def refuse(reason):
+    with open(sys.argv[2] + "/remark", "w", encoding="utf-8") as stream:
+        stream.write(" ".join(reason.split()) + "\n")
+    sys.exit(5)
+
+def gxsm(file):
+    """GXSM's NetCDF-4: FloatField, or a field of another type, over (time, value, y, x) counts in units of dz. Its lengths are
+    in "var_unit", which is angstrom where another is only shown; dx reaches from pixel to pixel, rangex from the first to the last."""
+    data = next((file[name] for name in ("FloatField", "DoubleField", "H", "Intensity", "ByteField") if name in file), None)
+    if not isinstance(data, h5py.Dataset) or data.ndim != 4 or "dx" not in file or "dz" not in file:
+        return
+    def length(name):
+        unit = text(file[name].attrs.get("var_unit", "AA"))
+        if unit not in LENGTHS:
+            refuse("%s is in '%s', which is no length" % (name, unit))
+        return abs(number(file[name])) * LENGTHS[unit]
+    sides = []
+    for axis, count in zip("yx", data.shape[2:]):
+        pitch = length("d" + axis)
+        if "range" + axis in file and abs(length("range" + axis) - pitch * (count - 1)) > 0.01 * length("range" + axis):
+            refuse("d%s, %g m, contradicts range%s, %g m of %d pixels" % (axis, pitch, axis, length("range" + axis), count))
+        sides.append(pitch * count)
+    unit = text(data.attrs.get("var_unit", data.attrs.get("unit", "")))
+    title = text(data.attrs.get("label", data.attrs.get("long_name", data.name.strip("/"))))
+    frames = [(time, layer) for time in range(data.shape[0]) for layer in range(data.shape[1])]
+    for time, layer in frames:
+        values = numpy.asarray(data[time, layer], dtype=float) * number(file["dz"]) * HEIGHTS.get(unit, 1.0)
+        name = title if len(frames) == 1 else "%s, time %d, layer %d" % (title, time, layer)
+        yield name, values, sides[1], sides[0], "m" if unit in HEIGHTS else unit, ""
+
 def is_map(item):
     return isinstance(item, h5py.Dataset) and item.ndim == 2 and item.dtype.kind in "fiu" and min(item.shape) > 1
 
@@ -124,11 +155,9 @@ def main(path, folder):
         sys.exit(4)
     found = outside(file)
     if found:
-        with open(folder + "/remark", "w", encoding="utf-8") as stream:
-            stream.write(" ".join(found.split()) + "\n")
-        sys.exit(5)
+        refuse(found)
     lines = []
-    for layout in (coordinates, jpk, topostats, surface_topography):
+    for layout in (coordinates, gxsm, jpk, topostats, surface_topography):
         if lines:
             break
         for title, values, width, height, unit, note in layout(file):

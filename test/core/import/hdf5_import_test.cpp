@@ -121,6 +121,40 @@ file["words"] = numpy.array([[b"a", b"b"], [b"c", b"d"]])
   EXPECT_FALSE(read.is_library_missing);
 }
 
+/// As Gxsm4 lays it out: counts over dz, everything in angstrom.
+std::string gxsmLines(const std::string& unit, double dx, const std::string& more = "") {
+  return "field = file.create_dataset('FloatField', data=numpy.arange(6.0, dtype='f4').reshape(1, 1, 2, 3))\n"
+         "field.attrs['label'] = 'ZS-Topo'\nfield.attrs['var_unit'] = '" +
+         unit + "'\nfield.attrs['unit'] = 'nm'\nfor name, value in (('dx', " + std::to_string(dx) +
+         "), ('dy', 5.0), ('rangex', 20.0), ('rangey', 5.0)):\n    file[name] = value\n    "
+         "file[name].attrs['var_unit'] = "
+         "'Å'\n    file[name].attrs['unit'] = 'nm'\nfile['dz'] = 2.0\n" +
+         more;
+}
+
+TEST_F(Hdf5, ReadsNetcdf4OfGxsm) {
+  const HeightMap surface = readScanFile(writtenBy(folder_, "scan.nc", gxsmLines("Å", 10.0)));
+  ASSERT_EQ(surface.cols(), 3);
+  ASSERT_EQ(surface.rows(), 2);
+  EXPECT_NEAR(surface.pitchX(), 1e-9, 1e-21);
+  EXPECT_NEAR(surface.pitchY(), 0.5e-9, 1e-21);
+  EXPECT_NEAR(surface.height(1, 2), 10e-10, 1e-22);
+  std::string doubles = gxsmLines("Å", 10.0);
+  doubles.replace(doubles.find("FloatField"), 10, "DoubleField");
+  EXPECT_NEAR(readScanFile(writtenBy(folder_, "doubles.nc", doubles)).height(1, 2), 10e-10, 1e-22);
+  for (const char* unit : {"nA", "A", "Hz"}) {
+    const Hdf5Channels read = channelsByH5py(writtenBy(folder_, "other.nc", gxsmLines(unit, 10.0)), 60.0);
+    ASSERT_EQ(read.channels.size(), 1U);
+    EXPECT_EQ(read.channels[0].unit_z, unit);
+  }
+  try {
+    readScanFile(writtenBy(folder_, "contradiction.nc", gxsmLines("Å", 11.0)));
+    ADD_FAILURE();
+  } catch (const FileError& error) {
+    EXPECT_NE(std::string(error.what()).find("contradicts rangex"), std::string::npos) << error.what();
+  }
+}
+
 /// Each way of the format to bring numbers of another file in. The file is one that would be read.
 TEST_F(Hdf5, WhatLeadsToOtherFilesIsRefused) {
   const std::string secret = folder_.write("secret", std::string(48, 's'));
