@@ -213,9 +213,12 @@ std::size_t chooseHeightChannel(const std::vector<FileChannel>& channels, const 
 }
 
 std::string passedOver(const std::vector<FileChannel>& channels, std::size_t chosen) {
-  const Likelihood taken = likelihood(channels[chosen]);
-  for (const FileChannel& channel : channels) {
-    if (!isLength(channel) || !isImage(channel) || likelihood(channel) >= taken || !isSteep(channel)) continue;
+  const auto rank = [&channels](std::size_t i) {  // without steepness
+    return std::make_tuple(likelihood(channels[i]), isBackward(channels[i]), i);
+  };
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    const FileChannel& channel = channels[i];
+    if (!isLength(channel) || !isImage(channel) || rank(i) >= rank(chosen) || !isSteep(channel)) continue;
     return channelName(channels[chosen]) + " is taken: the heights of " + channelName(channel) +
            (isBeyondReach(channel) ? " span more than the piezo can move" : " span more than the scan is wide");
   }

@@ -253,6 +253,22 @@ TEST(ChannelChoice, ASensorInVoltsThatCallsThemMetresIsPassedOver) {
   EXPECT_EQ(chooseHeightChannel({channels[1]}), 0u) << "what there is alone is taken; the scan's warning says the rest";
 }
 
+TEST(ChannelChoice, ASpikeThatSwitchesToTheWayBackIsSaid) {
+  std::vector<FileChannel> channels = {channel(0, "Z Forward"), channel(1, "Z Backward")};
+  EXPECT_EQ(chooseHeightChannel(channels), 0u);
+  EXPECT_EQ(passedOver(channels, 0), "");
+  channels[0].values.at<double>(1, 1) = 2e-6;  // on a scan of a micrometre
+  EXPECT_EQ(chooseHeightChannel(channels), 1u);
+  EXPECT_EQ(passedOver(channels, 1),
+            "1: Z Backward is taken: the heights of 0: Z Forward span more than the scan is wide");
+  channels[1].title = "Z Forward";  // the second frame, of no other title
+  EXPECT_EQ(chooseHeightChannel(channels), 1u);
+  EXPECT_NE(passedOver(channels, 1), "");
+  std::swap(channels[0].values, channels[1].values);
+  EXPECT_EQ(chooseHeightChannel(channels), 0u);
+  EXPECT_EQ(passedOver(channels, 0), "") << "what comes behind in any case";
+}
+
 TEST(ChannelChoice, ArraysOfCurvesAreNotTaken) {
   FileChannel curves = channel(0, "Z-Axis Sensor");
   curves.height = 1.0;  // 4 curves of 4 points a micrometre long
