@@ -13,6 +13,7 @@
 #include "import/format_readers.hpp"
 #include "import/nanoscope_check.hpp"
 #include "import/plain_number.hpp"
+#include "import/stated_twice.hpp"
 #include "import/tiff_tags.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "numeric/words.hpp"
@@ -110,6 +111,7 @@ Channels channelsByOthers(const std::string& path, const std::string& bytes, con
 Channels readByGwyddion(const std::string& path, const std::string& bytes, const ImportOptions& options) {
   if (beginsWithOneOf(bytes, {"PK\3\4"})) checkX3pFolder(checkZip(bytes));
   const NanoscopeStatements stated = checkedNanoscope(bytes);
+  checkStatedTwice(bytes);
   if (const auto whole = withWholeCreatecHeader(bytes)) return readRewritten(path, *whole, options);
   checkStatedLength(bytes);
   Channels channels = parseNanoscope(bytes);

@@ -13,6 +13,7 @@
 #include "import/file_checks.hpp"
 #include "import/format_readers.hpp"
 #include "import/nanoscope_check.hpp"
+#include "import/stated_twice.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -44,6 +45,7 @@ Channels readNetcdf(const std::string& bytes) {
 Channels checkWhole(const std::string& bytes) {
   checkTransfer(bytes);
   checkStatedLength(bytes);
+  checkStatedTwice(bytes);
   withWholeCreatecHeader(bytes);
   return {};
 }

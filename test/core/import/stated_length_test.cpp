@@ -6,6 +6,7 @@
 
 #include "import/file_checks.hpp"
 #include "import/nanoscope_check.hpp"
+#include "import/stated_twice.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "support/maker_bytes.hpp"
 
@@ -185,6 +186,27 @@ TEST(Transfer, WhatStandsInForAFileIsNamed) {
   EXPECT_TRUE(mentions(complaint(checkTransfer, "version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 1\n"),
                        "Git LFS"));
   EXPECT_TRUE(mentions(complaint(checkTransfer, "<!DOCTYPE html>\n<html></html>"), "web page"));
+}
+
+TEST(StatedTwice, ASizeOrGainThatDiffersIsRefused) {
+  const std::string sxm =
+      ":NANONIS_VERSION:\n2\n:SCAN_PIXELS:\n       256       256\n:SCAN_RANGE:\n  1.0E-8  "
+      "1.0E-8\n:Comment:\n:COMMENT:\n"
+      "first\n";
+  const std::string end = ":SCANIT_END:\n\x1A\x04:SCAN_PIXELS:\n1 1\n";
+  EXPECT_EQ(complaint(checkStatedTwice, sxm + end), "");
+  EXPECT_EQ(complaint(checkStatedTwice, sxm + ":SCAN_PIXELS:\n256 256\n" + end), "") << "the same";
+  EXPECT_TRUE(mentions(complaint(checkStatedTwice, sxm + ":SCAN_PIXELS:\n128 256\n" + end),
+                       "'scan_pixels' twice, as '256 256' and '128 256'"));
+  EXPECT_TRUE(mentions(complaint(checkStatedTwice, sxm + ":scan_range:\n2.0E-8 1.0E-8\n" + end), "'scan_range' twice"));
+  EXPECT_TRUE(
+      mentions(complaint(checkStatedTwice, sxm + ":DATA_INFO:\na\n:DATA_INFO:\nb\n" + end), "'data_info' twice"));
+  for (const char* kind : {"[Parameter]", "[Paramet32]", "[Paramco32]"}) {
+    const std::string header = std::string(kind) + "\r\nNum.X / Num.X=3\r\nGainZ / GainZ=10\r\nTitle=a\r\nTitle=b\r\n";
+    EXPECT_EQ(complaint(checkStatedTwice, header + "GainZ=10\r\n"), "");
+    EXPECT_TRUE(mentions(complaint(checkStatedTwice, header + "GainZ=1\r\n"), "'gainz' twice, as '10' and '1'"));
+    EXPECT_TRUE(mentions(complaint(checkStatedTwice, header + "Num.X / Num.X=4\r\n"), "'num.x' twice"));
+  }
 }
 
 }  // namespace
