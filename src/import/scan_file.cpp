@@ -10,6 +10,7 @@
 
 #include "files/input_file.hpp"
 #include "height_map/unmeasured.hpp"
+#include "height_map/validity.hpp"
 #include "import/channel_choice.hpp"
 #include "import/file_bytes.hpp"
 #include "import/format_readers.hpp"
@@ -267,6 +268,10 @@ ScanFile openScanFile(const std::string& path, const ScanOptions& scan, const Sc
     ScanFile file{surfaceOf(path, channel, scan, options), nameOf(channel, channels.size()), channel.notes,
                   identityOf(path, channel)};
     file.surface = measuredOnly(file.surface, file.notes);
+    if (cv::countNonZero(validMask(file.surface.heights())) == 0) {
+      throw FileError("has no measured pixel: all of its " + std::to_string(file.surface.cols()) + " x " +
+                      std::to_string(file.surface.rows()) + " heights are missing");
+    }
     const std::string passed_over = options.import.channel.empty() ? passedOver(channels, chosen) : "";
     if (!passed_over.empty()) file.notes.push_back(passed_over);
     const std::string others = options.import.channel.empty() ? othersOfOtherSize(channels, chosen) : "";

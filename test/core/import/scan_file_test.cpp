@@ -436,6 +436,21 @@ TEST(GwyddionImport, FailureQuotesTheProgram) {
   EXPECT_TRUE(mentions(importRefusal("#!/bin/sh\nexit 0\n"), "cannot read it"));
 }
 
+TEST(ScanFile, WithoutOneMeasuredPixelIsRefused) {
+  const ScratchFolder folder;
+  ScanOptions options;
+  options.pitch_x = options.pitch_y = 1e-9;
+  for (const char* text : {"nan nan\nnan nan\n", "1e30 nan\ninf 1e38\n"}) {
+    try {
+      readScanFile(folder.write("scan.txt", text), options);
+      ADD_FAILURE() << text;
+    } catch (const FileError& error) {
+      EXPECT_TRUE(mentions(error.what(), "has no measured pixel")) << error.what();
+    }
+  }
+  EXPECT_NO_THROW(readScanFile(folder.write("one.txt", "1e-9 nan\nnan nan\n"), options));
+}
+
 TEST(GwyddionImport, AnHdf5FileThatItDoesNotKnowIsRefusedWithWhatToDo) {
   const ScratchFolder folder;
   ScanFileOptions options;
