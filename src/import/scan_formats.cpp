@@ -192,7 +192,10 @@ Channels channelsOf(const std::string& path, const std::string& bytes, const Imp
   const std::string name_end = lowered(std::filesystem::path(path).extension().string());
   for (const char* text : {".txt", ".asc", ".csv", ".xyz"}) {
     const bool is_nanoscope = beginsWithOneOf(bytes, {"\\*File list", "\"\\*File list"});
-    if (name_end == text && is_nanoscope) return parseNanoscopeText(bytes);
+    if (name_end == text && is_nanoscope) {
+      const bool is_image = bytes.find('\0') != std::string::npos;  // under a name of text
+      return is_image ? readByGwyddion(path, bytes, options) : parseNanoscopeText(bytes);
+    }
     if (name_end == text) return {parseTextGrid(bytes, options.text)};
   }
   if (beginsWithOneOf(bytes, {"GWYO", "GWYQ"})) return readOtherGwy(path, bytes, options);

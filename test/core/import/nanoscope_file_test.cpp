@@ -114,5 +114,14 @@ TEST(NanoscopeFile, NeedsNoGwyddion) {
   EXPECT_THROW(openScanFile(folder.write("cut.spm", nanoscope({{}, {}}).substr(0, 4300)), {}, options), FileError);
 }
 
+TEST(NanoscopeFile, IsReadUnderTheNameOfAText) {
+  const ScratchFolder folder;
+  for (const char* name : {"scan.txt", "scan.asc", "scan.csv"}) {
+    const ScanFile scan = openScanFile(folder.write(name, nanoscope({{}, {}})));
+    EXPECT_EQ(scan.channel, "0: Height") << name;
+    EXPECT_DOUBLE_EQ(scan.surface.pitchX(), 1e-6 / 8) << name;
+  }
+}
+
 }  // namespace
 }  // namespace mems_stiction
