@@ -25,17 +25,20 @@ constexpr const char* kLog = "log";
 /// What gwyddion said first, without the file's name and if possible no remark of its libraries; empty if it said nothing.
 std::string complaint(const fs::path& log, const std::string& scan_path) {
   std::ifstream stream(log);
+  std::string first;
   std::string remark;
   for (std::string line; std::getline(stream, line);) {
     for (const std::string& name : {scan_path + ": ", kWaitingFileName + std::string(": ")}) {
       if (startsWith(line, name)) return line.substr(name.size());
     }
     const bool is_of_library = line.find("-CRITICAL **") != std::string::npos ||
-                               line.find("-WARNING **") != std::string::npos || startsWith(line, "(process:");
-    if (!line.empty() && !is_of_library) return line;
+                               line.find("-WARNING **") != std::string::npos || startsWith(line, "(process:") ||
+                               startsWith(line, "This indicates a bug") || startsWith(line, "The overwriting error") ||
+                               startsWith(line, "Cannot write ");  // the target, after what went wrong before
+    if (!line.empty() && !is_of_library && first.empty()) first = line;
     if (remark.empty()) remark = line;
   }
-  return remark;
+  return first.empty() ? remark : first;
 }
 
 /// By a gwyddion that waits, if there is one, else by one of its own.

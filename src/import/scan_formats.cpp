@@ -107,10 +107,29 @@ Channels channelsByOthers(const std::string& path, const std::string& bytes, con
   }
 }
 
+/// MATRIX keeps what a scan's numbers mean in a file of its own.
+void checkMatrixParameters(const std::string& path, const std::string& bytes) {
+  if (!beginsWithOneOf(bytes, {"ONTMATRX0101"})) return;
+  if (beginsWithOneOf(bytes, {"ONTMATRX0101ATEM"})) {
+    throw FileError("holds the parameters of MATRIX scans, none of their images: give one of those, NAME--1_1.Z_mtrx");
+  }
+  const std::string whole = std::filesystem::absolute(path).string();
+  const std::size_t dashes = whole.find("--");
+  if (dashes == std::string::npos) {
+    throw FileError(
+        "is a MATRIX scan under another name: its parameters are found by that, NAME_0001.mtrx beside "
+        "NAME--1_1.Z_mtrx");
+  }
+  const std::string parameters = whole.substr(0, dashes) + "_0001.mtrx";
+  if (std::filesystem::exists(parameters)) return;
+  throw FileError("needs the file of its parameters, " + parameters + ", which is not there: copy it, too");
+}
+
 /// What gwyddion reads, after the file's own statements have been held against each other and against its bytes.
 Channels readByGwyddion(const std::string& path, const std::string& bytes, const ImportOptions& options) {
   if (beginsWithOneOf(bytes, {"PK\3\4"})) checkX3pFolder(checkZip(bytes));
   const NanoscopeStatements stated = checkedNanoscope(bytes);
+  checkMatrixParameters(path, bytes);
   checkStatedTwice(bytes);
   if (const auto whole = withWholeCreatecHeader(bytes)) return readRewritten(path, *whole, options);
   checkStatedLength(bytes);

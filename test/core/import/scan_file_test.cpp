@@ -436,6 +436,37 @@ TEST(GwyddionImport, FailureQuotesTheProgram) {
   EXPECT_TRUE(mentions(importRefusal("#!/bin/sh\nexit 0\n"), "cannot read it"));
 }
 
+TEST(GwyddionImport, TheCauseGoesBeforeWhatFollowsFromIt) {
+  EXPECT_TRUE(mentions(importRefusal("#!/bin/sh\nexec >&2\necho \"(process:7): GLib-WARNING: GError set\"\n"
+                                     "echo \"This indicates a bug in someone's code.\"\necho \"$3: No such data.\"\n"
+                                     "echo \"Cannot write /folder/scan.gwy: No data.\"\nexit 1\n"),
+                       "gwyddion cannot read it: No such data."));
+  EXPECT_TRUE(mentions(importRefusal("#!/bin/sh\nexec >&2\necho \"Cannot write /folder/scan.gwy: No data.\"\n"
+                                     "echo \"No such data.\"\nexit 1\n"),
+                       "gwyddion cannot read it: No such data."));
+}
+
+TEST(GwyddionImport, AMatrixFileWithoutItsParametersNamesThem) {
+  const ScratchFolder folder;
+  const std::string path = folder.write("default_scan--1_1.Z_mtrx", "ONTMATRX0101 and what follows");
+  try {
+    openScanFile(path);
+    FAIL();
+  } catch (const FileError& error) {
+    EXPECT_TRUE(mentions(error.what(), folder.file("default_scan_0001.mtrx") + ", which is not there")) << error.what();
+  }
+  const auto said = [&folder](const std::string& name, const std::string& bytes) -> std::string {
+    try {
+      openScanFile(folder.write(name, bytes));
+      return "";
+    } catch (const FileError& error) {
+      return error.what();
+    }
+  };
+  EXPECT_TRUE(mentions(said("renamed.Z_mtrx", "ONTMATRX0101TLKB"), "under another name"));
+  EXPECT_TRUE(mentions(said("default_scan_0001.mtrx", "ONTMATRX0101ATEM"), "the parameters of MATRIX scans"));
+}
+
 TEST(ScanFile, WithoutOneMeasuredPixelIsRefused) {
   const ScratchFolder folder;
   ScanOptions options;
