@@ -96,14 +96,28 @@ Channels readRewritten(const std::string& path, const std::string& bytes, const 
   }
 }
 
+/// Which package of Python reads files of this name; empty if none is known to.
+std::string packageFor(const std::string& path) {
+  const std::string name_end = lowered(std::filesystem::path(path).extension().string());
+  if (name_end == ".asd") return "AFMReader";
+  for (const char* known : {".mnt", ".zmg", ".zon", ".os3d", ".qep", ".vk3", ".vk4", ".vk6", ".vk7", ".plux", ".poir",
+                            ".oir", ".lext", ".frt", ".opdx", ".mdt"}) {
+    if (name_end == known) return "SurfaceTopography";
+  }
+  return "";
+}
+
 /// By gwyddion, and what it has no reader for by packages of Python.
 Channels channelsByOthers(const std::string& path, const std::string& bytes, const ImportOptions& options) {
   try {
     return channelsByGwyddion(path, bytes, options);
   } catch (const NoFormatOfGwyddion& error) {
     Channels channels = channelsByPackages(path, options.timeout);
-    if (channels.empty()) throw FileError(error.what());
-    return channels;
+    if (!channels.empty()) return channels;
+    const std::string package = packageFor(path);
+    throw FileError(error.what() + (package.empty() ? ""
+                                                    : " (such files are read by the Python package " + package +
+                                                          ", where the python3 of the PATH has it)"));
   }
 }
 

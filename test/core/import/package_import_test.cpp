@@ -109,6 +109,15 @@ TEST_F(Packages, WhatTheyDoNotReadIsRefusedInTheWordsOfBefore) {
   EXPECT_NE(refusalOf("scan.new", "a format of its own").find("needs the program"), std::string::npos);
 }
 
+TEST_F(Packages, AFormatThatOnlyOneOfThemReadsSaysWhich) {
+  folder_.write("SurfaceTopography.py", "raise ImportError\n");
+  folder_.write("AFMReader/asd.py", "raise ImportError\n");
+  EXPECT_NE(refusalOf("scan.mnt", "a format of its own").find("by the Python package SurfaceTopography"),
+            std::string::npos);
+  EXPECT_NE(refusalOf("scan.asd", "frames").find("by the Python package AFMReader"), std::string::npos);
+  EXPECT_EQ(refusalOf("scan.new", "a format of its own").find("Python package"), std::string::npos);
+}
+
 TEST_F(Packages, DamagedFilesOfKnownFormatsAreNotGivenToThem) {
   EXPECT_NE(refusalOf("scan.x3p", "PK\3\4 cut off").find("zip archive"), std::string::npos);
   // Knows the format, or calls itself so, and has failed.
