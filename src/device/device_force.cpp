@@ -13,6 +13,7 @@
 #include "device/device_mosaic.hpp"
 #include "device/law_check.hpp"
 #include "device/made_surface.hpp"
+#include "device/place_check.hpp"
 #include "device/scan_list.hpp"
 #include "device/scan_shortcomings.hpp"
 #include "device/surface_law.hpp"
@@ -139,22 +140,38 @@ struct Logs {
 };
 
 /// Samples of a figure over its median: constants and model as they are, surfaces by Student's distribution.
-/// @param of_surfaces reach of ln figure to either side, 95 % [-]
-std::vector<double> factorsOf(std::vector<double> of_constants, int samples, double of_surfaces) {
+std::vector<double> factorsOf(std::vector<double> of_constants, int samples, const FactorRange& of_surfaces) {
   if (of_constants.empty()) of_constants.assign(static_cast<std::size_t>(samples), 1.0);  // none is uncertain
   const double median = quantile(of_constants, 0.5);
   for (double& factor : of_constants) factor /= median;
-  widen(of_constants, factorsWithin(of_surfaces));
+  widen(of_constants, of_surfaces);
   return of_constants;
+}
+
+/// By how much more a place may hold than the surfaces that are alike everywhere, of ln F and ln w; >= 0 [-].
+struct PlaceExcess {
+  double force = 0.0;
+  double work = 0.0;
+};
+
+/// What 95 % of the surfaces are within.
+/// - @p reach of ln figure to either side
+/// - @p excess of the upper end
+FactorRange surfaceRange(double reach, double excess) {
+  FactorRange range = factorsWithin(reach);
+  if (excess > 0.0) range.highest = std::exp(std::hypot(reach, excess));
+  return range;
 }
 
 /// - @p like a prediction whose figures move with the constants as the device's do
 /// - @p student standard deviations of the surfaces to either side
 void takeIntervals(const Prediction& like, const Options& model, const UncertaintyOptions& constants, double student,
-                   DeviceForce& force) {
+                   const PlaceExcess& places, DeviceForce& force) {
   AdhesionSpread spread = adhesionSpread(like, model, constants);
-  force.force_factors = factorsOf(std::move(spread.pull_off), constants.samples, student * force.force_deviation);
-  force.work_factors = factorsOf(std::move(spread.apparent_work), constants.samples, student * force.work_deviation);
+  force.force_factors = factorsOf(std::move(spread.pull_off), constants.samples,
+                                  surfaceRange(student * force.force_deviation, places.force));
+  force.work_factors = factorsOf(std::move(spread.apparent_work), constants.samples,
+                                 surfaceRange(student * force.work_deviation, places.work));
   force.pull_off_force_lower = force.pull_off_force * quantile(force.force_factors, kLowerShare);
   force.pull_off_force_upper = force.pull_off_force * quantile(force.force_factors, kUpperShare);
   force.apparent_work_of_adhesion_lower = force.apparent_work_of_adhesion * quantile(force.work_factors, kLowerShare);
@@ -234,6 +251,44 @@ void takeMisfit(const LawCheck& check, DeviceForce& force) {
       " times as large for that, and the interval holds what of it may not go for the device");
 }
 
+/// Places that differ, in words: the upper end of the interval reaches what the one that holds most may do.
+/// - @p checks of both surfaces
+PlaceExcess placesThatHoldMost(const std::vector<PlaceCheck>& checks, const LawCheck& scans, DeviceForce& force) {
+  PlaceExcess largest;
+  for (const PlaceCheck& places : checks) {
+    if (!places.isUneven()) continue;
+    const double force_excess = places.closes() ? places.forceExcess() : scans.largestForceExcess();
+    const double work_excess = places.closes() ? places.workExcess() : scans.largestWorkExcess();
+    largest.force = std::max(largest.force, force_excess);
+    largest.work = std::max(largest.work, work_excess);
+    std::string sentence = places.sentence();
+    if (force_excess > std::log(kToldMisfit)) {
+      sentence += places.closes() ? ". By itself it bonds all over: if it does so in the device, that holds up to "
+                                  : ". If the device is like the scan that holds most, it holds up to ";
+      sentence += shortNumber(std::exp(force_excess), 2) + " times as much, which the interval contains";
+    }
+    force.warnings.push_back(sentence);
+  }
+  return largest;
+}
+
+/// The same surfaces seen from the other side: the upper one lies below.
+std::vector<HeightMap> turned(const std::vector<HeightMap>& surfaces) {
+  std::vector<HeightMap> maps;
+  for (const HeightMap& surface : surfaces) {
+    const cv::Mat below = -surface.heights();
+    maps.emplace_back(below, surface.pitchX(), surface.pitchY());
+  }
+  return maps;
+}
+
+std::vector<NamedScan> turned(const std::vector<NamedScan>& scans) {
+  std::vector<NamedScan> named = scans;
+  const std::vector<HeightMap> maps = turned(mapsOf(scans));
+  for (std::size_t i = 0; i < named.size(); ++i) named[i].surface = maps[i];
+  return named;
+}
+
 /// What one model makes of the scans, and of the surfaces that are made after them.
 struct ModelRun {
   Options level;  ///< of scans, which are parts of a plate
@@ -244,6 +299,7 @@ struct ModelRun {
   std::vector<double> counts;
   std::vector<double> gaps;
   std::optional<LawCheck> check;
+  std::vector<PlaceCheck> places;  ///< of the lower surface, and of the upper one if that is no plane
   std::optional<DeviceAreaSolver> solver;
 
   bool isConforming() const {
@@ -308,7 +364,7 @@ void takeConforming(const std::vector<Prediction>& predictions, const Options& m
     force.work_deviation = deviationOf(works) * once_more;
     student = studentQuantile(static_cast<double>(forces.size()) - 1.0);
   }
-  takeIntervals(predictions.back(), model, uncertainty, student, force);
+  takeIntervals(predictions.back(), model, uncertainty, student, {}, force);
   force.warnings.emplace_back("the scans' surfaces conform and bond all over: force and work go with area");
 }
 
@@ -330,14 +386,17 @@ void takeRealisations(const UncertaintyOptions& uncertainty, int realisations, M
   };
   force.force_deviation = scatter(run.stated.force, run.others.force);
   force.work_deviation = scatter(run.stated.work, run.others.work);
+  const double student = studentQuantile(realisations - 1);
   if (run.check) takeMisfit(*run.check, force);
+  PlaceExcess excess;
+  if (run.check) excess = placesThatHoldMost(run.places, *run.check, force);
 
   UncertaintyOptions constants = uncertainty;
   constants.scan_sampling = uncertainty.scan_sampling && !run.check;  // few scans have few contacts
   Prediction like = run.predictions.back();
   like.pull_off_exponents = run.solver->lastForceExponents();
   like.work_exponents = run.solver->lastWorkExponents();
-  takeIntervals(like, run.level, constants, studentQuantile(realisations - 1), force);
+  takeIntervals(like, run.level, constants, student, excess, force);
   force.made_surface = run.solver->madeSurface();
   for (const std::string& warning : run.solver->warnings()) force.warnings.push_back(warning);
 }
@@ -373,7 +432,13 @@ void followAll(const DeviceSurfaces& surfaces, const DeviceArea& area, const std
       }
     }
     solvers.push_back(&run.solver.emplace(of_plate, loaded_area, pieces));
-    if (!has_parts) run.check.emplace(run.level, known.lower(), known.upper());
+    if (!has_parts) {
+      run.check.emplace(run.level, known.lower(), known.upper());
+      run.places.emplace_back(run.level, loaded_area, surfaces.scans, known.upper());
+      if (!known.upper().empty()) {
+        run.places.emplace_back(run.level, loaded_area, turned(surfaces.counter_surface), turned(known.lower()));
+      }
+    }
   }
   StatedSurfaces made(known, pieces);
   const auto addOthers = [&](const std::vector<Realisation>& found) {
@@ -391,7 +456,11 @@ void followAll(const DeviceSurfaces& surfaces, const DeviceArea& area, const std
                                           seed + 3));
     } else {
       const Surfaces::MadeScans scans = known.scansAgain(number, seed + 1);
-      for (ModelRun* run : runs) run->check->add(scans.lower, scans.upper);
+      for (ModelRun* run : runs) {
+        run->check->add(scans.lower, scans.upper);
+        run->places.front().add(scans.lower, scans.upper);
+        if (run->places.size() > 1) run->places.back().add(turned(scans.upper), turned(scans.lower));
+      }
       const DeviceLaws again = known.lawsAgain(number, scans);
       DeviceSurface surface(again, pieces, seed + 2);
       addOthers(DeviceAreaSolver::realise(solvers, surface));

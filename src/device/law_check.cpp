@@ -96,6 +96,15 @@ void LawCheck::predict(const HeightMap& scan, const std::vector<HeightMap>& coun
   logs.work.push_back(logOf(found.apparent_work_of_adhesion));
 }
 
+double LawCheck::largestExcess(std::vector<double> Logs::*figure) const {
+  double largest = 0.0;
+  for (const Checked& checked : checked_) {
+    const std::vector<double>& made = checked.made.*figure;
+    if (!made.empty()) largest = std::max(largest, (checked.own.*figure).front() - meanOf(made));
+  }
+  return largest;
+}
+
 LawMisfit LawCheck::misfit(std::vector<double> Logs::*figure) const {
   std::vector<double> differences;
   double squares = 0.0;

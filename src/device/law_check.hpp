@@ -47,6 +47,9 @@ class LawCheck {
   /// - @p made like the scans, in their order
   void add(const std::vector<HeightMap>& made, const std::vector<HeightMap>& made_counter_surface);
 
+  /// By how much the scan that holds most holds more than those that were made like it, of ln F and ln w; >= 0 [-].
+  double largestForceExcess() const { return largestExcess(&Logs::force); }
+  double largestWorkExcess() const { return largestExcess(&Logs::work); }
   LawMisfit force() const { return misfit(&Logs::force); }
   LawMisfit work() const { return misfit(&Logs::work); }
 
@@ -66,6 +69,7 @@ class LawCheck {
 
   void predict(const HeightMap& scan, const std::vector<HeightMap>& counter_surface, Logs& logs);
   LawMisfit misfit(std::vector<double> Logs::*figure) const;
+  double largestExcess(std::vector<double> Logs::*figure) const;
 
   Options options_;
   double loaded_area_;

@@ -227,6 +227,33 @@ TEST_F(DeviceForceTest, AScanThatIsGivenTwiceCountsOnce) {
   EXPECT_FALSE(isTold(force(areaOfPixels(400)), "again"));
 }
 
+/// Made surfaces are alike everywhere: a smooth place that bonds by itself was in no interval.
+TEST_F(DeviceForceTest, APlaceThatBondsByItselfIsNamedAndInTheInterval) {
+  const DeviceForce even = force(areaOfPixels(400));
+  cv::Mat heights = surfaces_.scans[1].surface.heights().clone();
+  heights(cv::Rect(64, 128, 64, 64)) *= 0.02;
+  surfaces_.scans[1].surface = HeightMap(heights, kPitch, kPitch);
+  const DeviceForce uneven = force(areaOfPixels(400));
+  EXPECT_TRUE(isTold(uneven,
+                     "second: its places differ by more than chance. The 0.64 x 0.64 um about x = 0.96 um, "
+                     "y = 1.6 um hold most"));
+  EXPECT_TRUE(isTold(uneven, "By itself it bonds all over"));
+  EXPECT_GT(uneven.pull_off_force_upper / uneven.pull_off_force, 2.0 * even.pull_off_force_upper / even.pull_off_force);
+  // less than the law of all scans says no place holds
+  EXPECT_GT(uneven.pull_off_force_lower / uneven.pull_off_force, 0.3 * even.pull_off_force_lower / even.pull_off_force);
+  EXPECT_FALSE(isTold(even, "its places differ"));
+}
+
+TEST_F(DeviceForceTest, APlaceOfTheCounterSurfaceIsNamed) {
+  cv::Mat heights = part("", large_, 300, 300, 256).surface.heights().clone();
+  heights(cv::Rect(64, 128, 64, 64)) *= 0.02;
+  surfaces_.counter_surface = {{"above", HeightMap(heights, kPitch, kPitch)}};
+  const DeviceForce found = force(areaOfPixels(400));
+  EXPECT_TRUE(isTold(found, "above: its places differ by more than chance. The 0.64 x 0.64 um about x = "));
+  EXPECT_FALSE(isTold(found, "first: its places"));
+  EXPECT_FALSE(isTold(found, "By itself it bonds all over")) << "under the rough scans";
+}
+
 TEST_F(DeviceForceTest, ScansThatContradictEachOtherAreNamed) {
   surfaces_.scans.push_back(
       {"other", HeightMap(3.0 * part("", large_, 300, 300, 256).surface.heights(), kPitch, kPitch)});
