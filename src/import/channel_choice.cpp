@@ -94,6 +94,12 @@ bool isSteep(const FileChannel& channel) {
   return isBeyondReach(channel) || rangeOf(channel) > std::max(channel.width, channel.height);
 }
 
+/// The direction that a scan was stopped in, or before.
+bool isUnmeasured(const FileChannel& channel) {
+  if (channel.takes_settings || channel.values.type() != CV_64FC1) return false;
+  return cv::countNonZero(channel.values == channel.values) == 0;  // NaN equals nothing
+}
+
 /// Lower is likelier to be the height; kOtherSignal is never taken by itself.
 enum Likelihood { kSensor, kHeight, kUnknown, kOtherSignal };
 
@@ -118,8 +124,8 @@ bool isOtherSignal(const std::string& letters) {
   return is_signal;
 }
 
-/// Lower is taken first: steep, then what the title says, then backward.
-using Rank = std::tuple<bool, Likelihood, bool>;
+/// Lower is taken first: steep (1) and empty (2) channels last, then what the title says, then backward.
+using Rank = std::tuple<int, Likelihood, bool>;
 
 Likelihood likelihood(const FileChannel& channel) {
   const std::string letters = lettersOf(channel.title);
@@ -189,7 +195,8 @@ std::size_t chooseHeightChannel(const std::vector<FileChannel>& channels, const 
     const FileChannel& channel = channels[i];
     const Likelihood kind = likelihood(channel);
     if (!isLength(channel) || !isImage(channel) || kind == kOtherSignal) continue;
-    const Rank rank(channels.size() > 1 && isSteep(channel), kind, isBackward(channel));
+    const int doubt = channels.size() == 1 ? 0 : isUnmeasured(channel) ? 2 : isSteep(channel) ? 1 : 0;
+    const Rank rank(doubt, kind, isBackward(channel));
     if (best == channels.size() || rank < rank_of_best) {
       best = i;
       rank_of_best = rank;
@@ -218,8 +225,11 @@ std::string passedOver(const std::vector<FileChannel>& channels, std::size_t cho
   };
   for (std::size_t i = 0; i < channels.size(); ++i) {
     const FileChannel& channel = channels[i];
-    if (!isLength(channel) || !isImage(channel) || rank(i) >= rank(chosen) || !isSteep(channel)) continue;
-    return channelName(channels[chosen]) + " is taken: the heights of " + channelName(channel) +
+    if (!isLength(channel) || !isImage(channel) || rank(i) >= rank(chosen)) continue;
+    const std::string taken = channelName(channels[chosen]) + " is taken: ";
+    if (isUnmeasured(channel)) return taken + channelName(channel) + " has no measured pixel";
+    if (!isSteep(channel)) continue;
+    return taken + "the heights of " + channelName(channel) +
            (isBeyondReach(channel) ? " span more than the piezo can move" : " span more than the scan is wide");
   }
   return "";

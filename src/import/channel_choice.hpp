@@ -22,7 +22,7 @@ namespace mems_stiction {
 std::size_t chooseHeightChannel(const std::vector<FileChannel>& channels, const std::string& wanted = {});
 
 /// What the user should know where a channel of a likelier title, a forward one or one before was not taken, since its
-/// heights span too much; empty if there is none.
+/// heights span too much or none was measured; empty if there is none.
 std::string passedOver(const std::vector<FileChannel>& channels, std::size_t chosen);
 
 /// Which of several topographies was taken, and which else there are, where they differ in pixels or size: images of

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <random>
 
 #include "import/channel_choice.hpp"
@@ -267,6 +268,15 @@ TEST(ChannelChoice, ASpikeThatSwitchesToTheWayBackIsSaid) {
   std::swap(channels[0].values, channels[1].values);
   EXPECT_EQ(chooseHeightChannel(channels), 0u);
   EXPECT_EQ(passedOver(channels, 0), "") << "what comes behind in any case";
+}
+
+TEST(ChannelChoice, AChannelWithoutAMeasuredPixelIsPassedOver) {
+  std::vector<FileChannel> channels = {channel(0, "Z Forward"), channel(1, "Z Backward")};
+  channels[0].values.setTo(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_EQ(chooseHeightChannel(channels), 1u);
+  EXPECT_EQ(passedOver(channels, 1), "1: Z Backward is taken: 0: Z Forward has no measured pixel");
+  channels[1].values.setTo(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_EQ(chooseHeightChannel(channels), 0u) << "whoever opens it says that nothing was measured";
 }
 
 TEST(ChannelChoice, ArraysOfCurvesAreNotTaken) {
