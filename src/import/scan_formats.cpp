@@ -223,6 +223,9 @@ Channels channelsOf(const std::string& path, const std::string& bytes, const Imp
   Channels channels;
   if (readKnown(path, bytes, options, channels)) return channels;
   const std::string name_end = lowered(std::filesystem::path(path).extension().string());
+  if (beginsWithOneOf(bytes, {":NANONIS_VERSION:", "[Parameter]", "[Paramet32]", "[Paramco32]", "ONTMATRX0101"})) {
+    return readByGwyddion(path, bytes, options);  // under whatever name
+  }
   for (const char* text : {".txt", ".asc", ".csv", ".xyz"}) {
     const bool is_nanoscope = beginsWithOneOf(bytes, {"\\*File list", "\"\\*File list"});
     if (name_end == text && is_nanoscope) {

@@ -120,7 +120,10 @@ TextLines textLines(const std::string& bytes) {
     at = end + 1;
     ++number;
     if (line.find('\0') != std::string::npos) {
-      throw FileError("line " + std::to_string(number) + ": binary data where numbers are expected");
+      throw FileError(
+          "line " + std::to_string(number) +
+          ": binary data where numbers are expected: damaged, or a scan of another format, which needs that "
+          "format's file name extension");
     }
     const std::size_t comment = commentStart(line);
     std::string content = withoutBlanks(line.substr(0, comment));
