@@ -15,7 +15,7 @@
 #include <ros/node_handle.h>
 #include <std_msgs/Header.h>
 #include <tf2/buffer_core.h>
-#include <tf2_ros/transform_listener.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include "surface/alignment.hpp"
 
@@ -43,9 +43,14 @@ class CounterSurfaceFrame {
   SurfacePose poseAt(const std_msgs::Header& header) const;
 
  private:
+  void take(const tf2_msgs::TFMessage& message, bool is_static);
+
   std::string frame_;
   mutable tf2::BufferCore buffer_;
-  tf2_ros::TransformListener listener_;
+  ros::NodeHandle handle_;
+  ros::Time last_update_;  ///< touched by the thread of the handle's queue only
+  ros::Subscriber moving_;
+  ros::Subscriber static_;
 };
 
 }  // namespace mems_stiction

@@ -4,7 +4,7 @@
 /// A queue whose callbacks cannot end the process: what one throws is said, and the next one is called.
 ///
 /// Nothing of this package throws there. Libraries do that act on what peers send, such as stamps whose sums are beyond 32 bits
-/// (tf2_ros, actionlib); the threads that call would end the process, or the manager of nodelets and all that it runs.
+/// (tf2, actionlib); the threads that call would end the process, or the manager of nodelets and all that it runs.
 
 #include <atomic>
 #include <chrono>

@@ -10,6 +10,7 @@
 #include "evaluation/frame_load.hpp"
 #include "mems_stiction/evaluation/half_space_scan.hpp"
 #include "ros/background_thread.hpp"
+#include "ros/checked_messages.hpp"
 #include "ros/half_space_conversion.hpp"
 #include "ros/message_parts.hpp"
 #include "ros/topic_names.hpp"
@@ -55,16 +56,24 @@ class PathProgress {
 }  // namespace
 
 HalfSpaceCalls::HalfSpaceCalls(const ros::NodeHandle& private_handle, const HalfSpaceOptions& options,
-                               SolutionPause& pause, FindCase find_case, Beside beside)
+                               double max_message_size, SolutionPause& pause, FindCase find_case, Beside beside)
     : solver_(options),
       pause_(pause),
       find_case_(std::move(find_case)),
       beside_(std::move(beside)),
-      action_(private_handle, kHalfSpaceAction, [this](const auto& goal, auto& result) { return run(goal, result); }),
+      action_(private_handle, kHalfSpaceAction, max_message_size,
+              [this](const auto& goal, auto& result) { return run(goal, result); }),
       handle_(private_handle),
       spinner_(kServiceThreads, &queue_) {
   handle_.setCallbackQueue(&queue_);
-  service_ = handle_.advertiseService(kSolveHalfSpaceService, &HalfSpaceCalls::serve, this);
+  service_ = advertiseChecked<SolveHalfSpace>(handle_, kSolveHalfSpaceService,
+                                              {[this](auto& request, auto& response) { serve(request, response); },
+                                               [](auto& response, const std::string& reason) {
+                                                 response.solution =
+                                                     refusedMessage(reason, LoadOptions(), std_msgs::Header());
+                                                 response.message = response.solution.message;
+                                               },
+                                               max_message_size});
 }
 
 HalfSpaceCalls::~HalfSpaceCalls() {
@@ -121,14 +130,13 @@ HalfSpaceSolution HalfSpaceCalls::solve(const Asked& asked, const HalfSpaceContr
   }
 }
 
-bool HalfSpaceCalls::serve(SolveHalfSpace::Request& request, SolveHalfSpace::Response& response) {
+void HalfSpaceCalls::serve(SolveHalfSpace::Request& request, SolveHalfSpace::Response& response) {
   HalfSpaceControl control;
   control.cancel = &stopping_;
   control.give_way = pause_.waiter(stopping_);
   response.solution = solve(request, control);
   response.success = response.solution.status == HalfSpaceSolution::SOLVED;
   response.message = stopping_ ? kShuttingDown : response.solution.message;
-  return true;
 }
 
 bool HalfSpaceCalls::run(const HalfSpaceGoal& goal, HalfSpaceResult& result) {

@@ -29,8 +29,8 @@ class HalfSpaceCalls {
   using Beside = std::function<Evidence(const StationCase& scan)>;
 
   /// - @p pause is given way to; it must outlive the calls
-  HalfSpaceCalls(const ros::NodeHandle& private_handle, const HalfSpaceOptions& options, SolutionPause& pause,
-                 FindCase find_case, Beside beside);
+  HalfSpaceCalls(const ros::NodeHandle& private_handle, const HalfSpaceOptions& options, double max_message_size,
+                 SolutionPause& pause, FindCase find_case, Beside beside);
   ~HalfSpaceCalls();
   HalfSpaceCalls(const HalfSpaceCalls&) = delete;
   HalfSpaceCalls& operator=(const HalfSpaceCalls&) = delete;
@@ -43,7 +43,7 @@ class HalfSpaceCalls {
   /// - @p asked goal or request, which have the same fields
   template <typename Asked>
   HalfSpaceSolution solve(const Asked& asked, const HalfSpaceControl& control);
-  bool serve(SolveHalfSpace::Request& request, SolveHalfSpace::Response& response);
+  void serve(SolveHalfSpace::Request& request, SolveHalfSpace::Response& response);
   bool run(const HalfSpaceGoal& goal, HalfSpaceResult& result);
 
   const HalfSpaceSolver solver_;

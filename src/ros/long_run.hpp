@@ -21,6 +21,7 @@
 #include <ros/node_handle.h>
 
 #include "errors/one_line.hpp"
+#include "ros/goal_gate.hpp"
 #include "ros/topic_names.hpp"
 
 namespace mems_stiction {
@@ -36,17 +37,23 @@ class LongRun {
   /// What it throws is the client's answer.
   using Work = std::function<bool(const Goal& goal, Result& result)>;
 
-  LongRun(const ros::NodeHandle& private_handle, const std::string& name, Work work)
+  /// - @p max_goal_size of a goal as it comes [bytes]
+  LongRun(const ros::NodeHandle& private_handle, const std::string& name, double max_goal_size, Work work)
       : work_(std::move(work)),
+        gate_(private_handle, name, max_goal_size),
         server_(
-            private_handle, name, [this](const auto& goal) { answer(*goal); }, kNoAutoStart) {
+            GoalGate<Action>::inside(private_handle, name), name, [this](const auto& goal) { answer(*goal); },
+            kNoAutoStart) {
     server_.registerPreemptCallback([this] { cancel_ = true; });
   }
   ~LongRun() { stop(); }
   LongRun(const LongRun&) = delete;
   LongRun& operator=(const LongRun&) = delete;
 
-  void start() { server_.start(); }
+  void start() {
+    server_.start();
+    gate_.open();
+  }
   /// Asks what runs to end; it is then aborted.
   void stop() {
     stopping_ = true;
@@ -93,6 +100,7 @@ class LongRun {
   Work work_;
   std::atomic<bool> stopping_{false};
   std::atomic<bool> cancel_{false};
+  GoalGate<Action> gate_;
   actionlib::SimpleActionServer<Action> server_;  // last: its thread ends before the rest goes
 };
 

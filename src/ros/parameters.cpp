@@ -17,6 +17,7 @@
 #include "files/input_file.hpp"
 #include "mems_stiction/configuration/provenance.hpp"
 #include "mems_stiction/errors/errors.hpp"
+#include "ros/checked_messages.hpp"
 #include "ros/master_calls.hpp"
 #include "ros/scan_folders.hpp"
 #include "ros/topic_names.hpp"
@@ -210,6 +211,8 @@ void NodeOptions::describe(OptionVisitor& visitor) {
   visitor.number(
       "max_waiting_memory", max_waiting_memory, "bytes", Range::within(1e6, 1e12),
       "that what waits in one place may hold, with either drop_policy; older ones beyond it are given up and counted");
+  visitor.number("max_message_size", max_message_size, "bytes", Range::within(1e3, kLargestMessage),
+                 "of an image, a scan_info, a goal or a request; larger ones are rejected before they get memory");
   visitor.flag("use_scan_info", use_scan_info, "false: the parameters scan/... serve for every scan");
   visitor.number("pairing_timeout", pairing_timeout, "s", kPeriod,
                  "how long a scan and its scan_info wait for each other");

@@ -56,6 +56,7 @@ struct NodeOptions {
   int queue_size = 10;  ///< scans that may wait for the worker; with DropPolicy::kAll more wait, with a warning
   DropPolicy drop_policy = DropPolicy::kAll;
   double max_waiting_memory = 4e9;      ///< of what waits in one place, see doc/ros_api.md [bytes]
+  double max_message_size = 1e9;        ///< of what comes on a topic or by a service, as it came [bytes]
   bool use_scan_info = true;            ///< false: the parameters scan/... serve for every scan
   double pairing_timeout = 5.0;         ///< how long a scan and its scan_info wait for each other [s], wall time
   bool accumulate_deformation = false;  ///< each contact leaves its mark on the scans that follow

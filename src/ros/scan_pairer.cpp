@@ -253,6 +253,33 @@ void ScanPairer::add(const sensor_msgs::ImageConstPtr& image, ros::WallTime now)
 
 void ScanPairer::add(const ScanInfoConstPtr& info, ros::WallTime now) { add(info, now, infos_, images_); }
 
+template <typename Message, typename Other>
+void ScanPairer::refuse(const std_msgs::Header& header, const std::string& reason, Topic<Message>& topic,
+                        Topic<Other>& other) {
+  const auto partner = std::find_if(other.waiting.begin(), other.waiting.end(), bears(header.stamp));
+  const auto counted = other.given_up.find(header.stamp);
+  if (partner != other.waiting.end()) {
+    other.waiting.erase(partner);
+  } else if (counted != other.given_up.end()) {
+    if (--counted->second.count == 0) other.given_up.erase(counted);
+    return;
+  } else if (!header.stamp.isZero()) {  // else it may be that nothing of the header is known
+    GivenUp& given_up = topic.given_up[header.stamp];
+    ++given_up.count;
+    given_up.arrival = ++topic.arrivals;
+    forgetOldest(topic.given_up);
+  }
+  reject_(header, reason);
+}
+
+void ScanPairer::refuseImage(const std_msgs::Header& header, const std::string& reason) {
+  refuse(header, reason, images_, infos_);
+}
+
+void ScanPairer::refuseInfo(const std_msgs::Header& header, const std::string& reason) {
+  refuse(header, reason, infos_, images_);
+}
+
 template <typename Message>
 bool ScanPairer::isLate(const Waiting<Message>& waiting, ros::WallTime now) const {
   return now - waiting.since > timeout_ && waiting.looks >= kFewestLooks;

@@ -55,6 +55,10 @@ class ScanPairer {
   void add(const sensor_msgs::ImageConstPtr& image, ros::WallTime now);
   void add(const ScanInfoConstPtr& info, ros::WallTime now);
 
+  /// An image or a scan_info that came and cannot be read: rejected. Its partner is no scan of its own.
+  void refuseImage(const std_msgs::Header& header, const std::string& reason);
+  void refuseInfo(const std_msgs::Header& header, const std::string& reason);
+
   /// Rejects what has waited for longer than the timeout and was looked at by this call several times: what a process
   /// that stood still finds waiting may have its partner in the queue. To be called a few times in each timeout.
   void expire(ros::WallTime now);
@@ -113,6 +117,8 @@ class ScanPairer {
   template <typename Message, typename Other, typename Predicate>
   void rejectIf(Topic<Message>& topic, Topic<Other>& other, const Predicate& is_lone, const std::string& reason,
                 const std::vector<ros::Time>& partners);
+  template <typename Message, typename Other>
+  void refuse(const std_msgs::Header& header, const std::string& reason, Topic<Message>& topic, Topic<Other>& other);
   template <typename Message, typename Other>
   void makeRoom(Topic<Message>& topic, Topic<Other>& other);
   template <typename Message>

@@ -43,11 +43,13 @@ std::optional<DeviceScale> scaleOf(const StationCase& scan, const KnownDevice& k
 
 }  // namespace
 
-StationActions::StationActions(const ros::NodeHandle& private_handle, FindCase find_case, KnownDevice known_device)
+StationActions::StationActions(const ros::NodeHandle& private_handle, double max_goal_size, FindCase find_case,
+                               KnownDevice known_device)
     : find_case_(std::move(find_case)),
       known_device_(std::move(known_device)),
-      sweep_(private_handle, kSweepLoadAction, [this](const auto& goal, auto& result) { return sweep(goal, result); }),
-      cycle_(private_handle, kCycleContactAction,
+      sweep_(private_handle, kSweepLoadAction, max_goal_size,
+             [this](const auto& goal, auto& result) { return sweep(goal, result); }),
+      cycle_(private_handle, kCycleContactAction, max_goal_size,
              [this](const auto& goal, auto& result) { return cycle(goal, result); }) {}
 
 void StationActions::start() {

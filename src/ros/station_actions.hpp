@@ -24,7 +24,8 @@ using KnownDevice = std::function<std::optional<DeviceScale>(const StationCase& 
 /// Both action servers. A run whose device is not known finds it first, by its scan alone.
 class StationActions {
  public:
-  StationActions(const ros::NodeHandle& private_handle, FindCase find_case, KnownDevice known_device);
+  StationActions(const ros::NodeHandle& private_handle, double max_goal_size, FindCase find_case,
+                 KnownDevice known_device);
 
   void start();
   /// Ends what runs after its present step; it is then aborted.

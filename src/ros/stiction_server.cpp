@@ -10,6 +10,7 @@
 #include "errors/error_text.hpp"
 #include "errors/one_line.hpp"
 #include "evaluation/plausibility.hpp"
+#include "ros/checked_messages.hpp"
 #include "ros/force_curve_picture.hpp"
 #include "ros/message_bytes.hpp"
 #include "ros/own_log.hpp"
@@ -96,10 +97,11 @@ StictionServer::StictionServer(const ros::NodeHandle& handle, const ros::NodeHan
           service_handle_, predictor_.settings(), [this](const auto& settings) { change(settings); },
           [this] { master_->writeSoon(this); }),
       actions_(
-          service_handle_, [this](const auto& height, const auto& info) { return findCase(height, info); },
+          service_handle_, options_.max_message_size,
+          [this](const auto& height, const auto& info) { return findCase(height, info); },
           [this](const auto& scan) { return device_force_ ? device_force_->scaleOf(scan) : std::nullopt; }),
       half_space_calls_(
-          service_handle_, configuration.core.half_space, half_space_pause_,
+          service_handle_, configuration.core.half_space, options_.max_message_size, half_space_pause_,
           [this](const auto& height, const auto& info) { return findCase(height, info); },
           [this](const auto& scan) { return device_force_ ? device_force_->evidenceOf(scan) : Evidence(); }),
       diagnostics_(handle_, name),
@@ -144,26 +146,48 @@ void StictionServer::subscribe() {
   const image_transport::TransportHints hints("raw", ros::TransportHints(), private_handle_);
   const bool use_scan_info = options_.use_scan_info;
   const auto subscribePair = [&](const char* image_topic, const char* info_topic, ScanPairer& pairer, auto on_single,
-                                 image_transport::Subscriber& image_subscriber, ros::Subscriber& info_subscriber) {
+                                 HeightSubscriber& image_subscriber, ros::Subscriber& info_subscriber) {
     const auto addToPairs = [&](const auto& half) {
       pairer.setSeveralPublishers(image_subscriber.getNumPublishers() > 1 || info_subscriber.getNumPublishers() > 1);
       pairer.add(half, ros::WallTime::now());
     };
     const bool is_scan = &pairer == &scans_;
-    image_subscriber = transport_.subscribe(
-        image_topic, kSubscriberQueue,
-        [=](const ImagePtr& image) {
-          if (is_scan) accounting_.arrived(image->header);
-          if (use_scan_info) {
-            addToPairs(image);
-          } else {
-            (this->*on_single)(image, nullptr);
-          }
-        },
-        {}, hints);
+    const double most = options_.max_message_size;
+    const auto take = [=](const ImagePtr& image) {
+      if (is_scan) accounting_.arrived(image->header);
+      if (use_scan_info) {
+        addToPairs(image);
+      } else {
+        (this->*on_single)(image, nullptr);
+      }
+    };
+    const auto refuseImage = [=, &pairer](const BoundedStream& bytes, const std::string& reason) {
+      std_msgs::Header header;
+      readBeginning(bytes, header);
+      if (is_scan && !header.stamp.isZero()) accounting_.arrived(header);
+      if (use_scan_info) {
+        pairer.refuseImage(header, reason);
+      } else if (is_scan) {
+        rejectLone(header, reason);
+      } else {
+        accounting_.counterSurfaceRejected(header, reason);
+      }
+    };
+    if (hints.getTransport() == "raw") {
+      image_subscriber.raw =
+          subscribeChecked<sensor_msgs::Image>(handle_, image_topic, kSubscriberQueue, {take, refuseImage, most});
+    } else {  // what its plugin receives is the plugin's
+      image_subscriber.other = transport_.subscribe(image_topic, kSubscriberQueue, take, {}, hints);
+    }
     if (!use_scan_info) return;
-    info_subscriber = handle_.subscribe<ScanInfo>(info_topic, kSubscriberQueue,
-                                                  [=](const ScanInfoConstPtr& info) { addToPairs(info); });
+    info_subscriber = subscribeChecked<ScanInfo>(handle_, info_topic, kSubscriberQueue,
+                                                 {[=](const ScanInfoConstPtr& info) { addToPairs(info); },
+                                                  [&pairer](const auto& bytes, const auto& reason) {
+                                                    std_msgs::Header header;
+                                                    readBeginning(bytes, header);
+                                                    pairer.refuseInfo(header, reason);
+                                                  },
+                                                  most});
   };
   subscribePair(kHeightTopic, kScanInfoTopic, scans_, &StictionServer::onScan, height_, scan_info_);
   if (predictor_.settings().snapshot()->counter_surface.type == CounterSurfaceType::kTopic) {

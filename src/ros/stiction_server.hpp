@@ -10,6 +10,7 @@
 /// from it what they need, and then work by themselves.
 
 #include <atomic>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -45,6 +46,14 @@
 #include "ros/work_queue.hpp"
 
 namespace mems_stiction {
+
+/// A subscription to an image: one of ours by the transport raw, whose messages are checked, else image_transport's.
+struct HeightSubscriber {
+  ros::Subscriber raw;
+  image_transport::Subscriber other;
+
+  std::uint32_t getNumPublishers() const { return raw ? raw.getNumPublishers() : other.getNumPublishers(); }
+};
 
 /// Lives as long as the node; everything happens on its own threads.
 class StictionServer {
@@ -105,7 +114,7 @@ class StictionServer {
   std::optional<LoadFigures> lastFiguresOrNothing();
   bool getLoad(GetLoad::Request& request, GetLoad::Response& response);
   bool getPrediction(GetPrediction::Request& request, GetPrediction::Response& response);
-  bool predict(Predict::Request& request, Predict::Response& response);
+  void predict(Predict::Request& request, Predict::Response& response);
   bool resetSurface(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
 
   // Declared before everything that holds handles on them.
@@ -131,9 +140,9 @@ class StictionServer {
   ScanPairer scans_;                                            ///< touched by the topic thread only
   ScanPairer counter_surfaces_;                                 ///< touched by the topic thread only
   image_transport::ImageTransport transport_;
-  image_transport::Subscriber height_;
+  HeightSubscriber height_;
   ros::Subscriber scan_info_;
-  image_transport::Subscriber counter_height_;
+  HeightSubscriber counter_height_;
   ros::Subscriber counter_scan_info_;
   std::vector<ros::ServiceServer> services_;
   ReconfigureServer reconfigure_;

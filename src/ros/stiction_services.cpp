@@ -10,6 +10,7 @@
 #include "errors/short_number.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/settings/option_visitor.hpp"
+#include "ros/checked_messages.hpp"
 #include "ros/prediction_conversion.hpp"
 #include "ros/topic_names.hpp"
 
@@ -74,7 +75,15 @@ void StictionServer::advertiseServices() {
                service_handle_.advertiseService(kSetMechanicalLoadService, &StictionServer::setMechanicalLoad, this),
                service_handle_.advertiseService(kGetLoadService, &StictionServer::getLoad, this),
                service_handle_.advertiseService(kGetPredictionService, &StictionServer::getPrediction, this),
-               service_handle_.advertiseService(kPredictService, &StictionServer::predict, this),
+               advertiseChecked<Predict>(service_handle_, kPredictService,
+                                         {[this](auto& request, auto& response) { predict(request, response); },
+                                          [](auto& response, const std::string& reason) {
+                                            response.prediction =
+                                                predictionMessage(PredictedScan(), std_msgs::Header());
+                                            response.success = false;
+                                            response.message = oneLine(reason);
+                                          },
+                                          options_.max_message_size}),
                service_handle_.advertiseService(kResetSurfaceService, &StictionServer::resetSurface, this)};
 }
 
@@ -170,7 +179,7 @@ bool StictionServer::getPrediction(GetPrediction::Request& /*request*/, GetPredi
   return true;
 }
 
-bool StictionServer::predict(Predict::Request& request, Predict::Response& response) {
+void StictionServer::predict(Predict::Request& request, Predict::Response& response) {
   response.prediction = predictionMessage(PredictedScan(), request.height.header);
   answer(response, [&] {
     const ReceivedScan scan = receiveByCall(std::move(request.height), request.scan_info);
@@ -183,7 +192,6 @@ bool StictionServer::predict(Predict::Request& request, Predict::Response& respo
     });
     response.success = true;
   });
-  return true;
 }
 
 bool StictionServer::resetSurface(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {

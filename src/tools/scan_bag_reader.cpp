@@ -16,6 +16,7 @@
 #include "files/input_file.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "numeric/words.hpp"
+#include "ros/bounded_stream.hpp"
 #include "ros/scan_pairer.hpp"
 #include "ros/topic_names.hpp"
 
@@ -42,6 +43,7 @@ std::string sibling(const std::string& topic, const char* name) {
 /// Calls `read` with the message's bytes. @throw SurfaceError if they are damaged
 template <typename Function>
 void readBytes(const rosbag::MessageInstance& message, const Function& read) {
+  const SurfaceError shorter("the bag is damaged: a message of '" + message.getTopic() + "' is shorter than it states");
   try {
     std::vector<std::uint8_t> bytes(message.size());
     ros::serialization::OStream written(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
@@ -49,26 +51,12 @@ void readBytes(const rosbag::MessageInstance& message, const Function& read) {
     read(ros::serialization::IStream(bytes.data(), static_cast<std::uint32_t>(bytes.size())));
   } catch (const rosbag::BagException& error) {
     throw SurfaceError("the bag is damaged: a message of '" + message.getTopic() + "' cannot be read: " + error.what());
+  } catch (const MessageError&) {
+    throw shorter;
   } catch (const ros::Exception&) {  // of roscpp's deserialization
-    throw SurfaceError("the bag is damaged: a message of '" + message.getTopic() + "' is shorter than it states");
+    throw shorter;
   }
 }
-
-/// roscpp makes room for the pixels that an image states before it looks whether they are there: up to 4 GB.
-/// @throw ros::serialization::StreamOverrunException if they are not
-void checkLength(ros::serialization::IStream stream, const sensor_msgs::Image& /*type*/) {
-  sensor_msgs::Image image;
-  stream.next(image.header);
-  stream.next(image.height);
-  stream.next(image.width);
-  stream.next(image.encoding);
-  stream.next(image.is_bigendian);
-  stream.next(image.step);
-  std::uint32_t length = 0;
-  stream.next(length);
-  stream.advance(length);
-}
-void checkLength(const ros::serialization::IStream& /*stream*/, const ScanInfo& /*type*/) {}  // has no array
 
 /// @throw SurfaceError if the message is of another type, or damaged
 template <typename Message>
@@ -78,10 +66,8 @@ boost::shared_ptr<const Message> instantiate(const rosbag::MessageInstance& mess
                        ros::message_traits::DataType<Message>::value());
   }
   const auto content = boost::make_shared<Message>();
-  readBytes(message, [&](ros::serialization::IStream stream) {
-    checkLength(stream, *content);
-    stream.next(*content);
-  });
+  readBytes(message,
+            [&](ros::serialization::IStream stream) { readMessage(stream.getData(), stream.getLength(), *content); });
   return content;
 }
 

@@ -7,9 +7,25 @@ import unittest
 import numpy as np
 import rospy
 import rostest
-from mems_stiction.msg import StictionPrediction
+from mems_stiction.msg import ScanInfo, StictionPrediction
+from mems_stiction.srv import Predict, PredictRequest
 from rosgraph_msgs.msg import Log
-from stiction_client import Collector, Counts, Station, figures, image_message, info_message, rough_surface, wait_until
+from rospy.msg import AnyMsg
+from sensor_msgs.msg import Image
+from stiction_client import (BytesPublisher, Collector, Counts, Station, bytes_of, figures, image_message, info_message, peak_memory,
+                             process_of, rough_surface, stating, wait_until)
+
+
+class BytesRequest(AnyMsg):
+    """Bytes as a hostile client sends them."""
+
+    def __init__(self, data=b""):
+        super().__init__()
+        self._buff = data
+
+
+class BytesPredict(Predict):
+    _request_class = BytesRequest
 
 
 class BadScansTest(unittest.TestCase):
@@ -125,6 +141,46 @@ class BadScansTest(unittest.TestCase):
             counts.wait(rejected=rejected + number)
         time.sleep(0.5)
         self.assertLessEqual(len([message for message in log.messages if "data has" in message.msg]), 1)
+
+    def test_5_messages_that_state_more_than_they_hold_are_counted_and_take_no_memory(self):
+        def image(stamp):
+            """43 bytes: an image without frame, encoding and pixels."""
+            message = Image()
+            message.header.stamp = stamp
+            return message
+
+        place = len(bytes_of(Image())) - 4  # of the pixels
+        counts = Counts()
+        predictions = Collector("prediction", StictionPrediction).connect()
+        station = Station()
+        surface = rough_surface(1)
+        process = process_of("prediction")
+        before = peak_memory(process)
+        hostile = BytesPublisher("height", Image)
+        hostile_info = BytesPublisher("scan_info", ScanInfo)
+        rejected = int(counts.fresh()["rejected"])
+        begin = time.monotonic()
+        for second in range(8000, 8005):
+            hostile.publish(stating(2**32 - 1, bytes_of(image(rospy.Time(second))), place))
+            station.info.publish(info_message(rospy.Time(second)))
+        counts.wait(rejected=rejected + 5, waiting=0)
+        self.assertIn("states 4294967295 elements", counts["last_reason"])
+        hostile_info.publish(bytes_of(info_message(rospy.Time(8005)))[:-1])
+        station.height.publish(image_message(surface, rospy.Time(8005)))
+        counts.wait(rejected=rejected + 6, waiting=0)
+        station.send(surface, rospy.Time(8010))
+        self.assertEqual(predictions.of(rospy.Time(8010)).header.stamp, rospy.Time(8010))
+        request = PredictRequest(image(rospy.Time(8011)), info_message(rospy.Time(8011)), 0.0, 1e-6)
+        refused = rospy.ServiceProxy("stiction_node/predict", BytesPredict)(BytesRequest(stating(2**32 - 1, bytes_of(request), place)))
+        self.assertFalse(refused.success)
+        self.assertIn("states 4294967295 elements", refused.message)
+        request.height = image_message(surface, rospy.Time(8011))
+        answer = rospy.ServiceProxy("stiction_node/predict", Predict)(request)
+        self.assertTrue(answer.success, answer.message)
+        self.assertLess(time.monotonic() - begin, 10.0)  # one of them took 13 s and 4.26 GB
+        self.assertLess(peak_memory(process) - before, 2**28)
+        hostile.end()
+        hostile_info.end()
 
 
 if __name__ == "__main__":

@@ -323,7 +323,7 @@ TEST(Parameters, TheShippedNodeYamlHoldsEveryKeyWithItsDefault) {
   compare(shipped, defaults, "");
   compare(shipped["display"], defaults["display"], "display/");
   compare(shipped["counter_surface"], defaults["counter_surface"], "counter_surface/");
-  EXPECT_EQ(compared, 21U);
+  EXPECT_EQ(compared, 22U);
 }
 
 }  // namespace

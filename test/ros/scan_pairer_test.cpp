@@ -299,6 +299,26 @@ TEST_F(ScanPairerTest, StampsMayLieAsFarApartAsTheyCan) {
   EXPECT_EQ(rejected_, (Stamps{4294967295, 1, 0}));
 }
 
+TEST_F(ScanPairerTest, AHalfThatCannotBeReadIsOneScanWithItsPartner) {
+  const auto refusedHeader = [](std::uint32_t stamp) {
+    std_msgs::Header header;
+    header.stamp = ros::Time(stamp, 0);
+    return header;
+  };
+  pairer_.refuseImage(refusedHeader(1), "damaged");  // before its partner
+  info(1);
+  info(2);
+  pairer_.refuseImage(refusedHeader(2), "damaged");  // after it
+  pairer_.refuseInfo(refusedHeader(3), "damaged");
+  pairer_.refuseImage(refusedHeader(3), "damaged");  // both
+  pairer_.refuseImage(std_msgs::Header(), "nothing of it can be read");
+  scan(4, "whole");
+  wait(20.0);
+  EXPECT_EQ(rejected_, (Stamps{1, 2, 3, 0}));
+  EXPECT_EQ(paired_, (Stamps{4}));
+  EXPECT_EQ(pairer_.waiting(), 0U);
+}
+
 // Scans that cross: all of them pair, whatever the order in which the halves of the two publishers come.
 TEST_F(ScanPairerTest, StampsOfTwoPublishersMayCross) {
   pairer_.setSeveralPublishers(true);

@@ -10,13 +10,13 @@ import actionlib
 import dynamic_reconfigure.client
 import rospy
 import rostest
-from actionlib_msgs.msg import GoalStatus
-from mems_stiction.msg import (CycleContactAction, CycleContactGoal, StictionPrediction, SweepLoadAction, SweepLoadGoal,
-                               SweepPoint)
+from actionlib_msgs.msg import GoalID, GoalStatus
+from mems_stiction.msg import (CycleContactAction, CycleContactGoal, StictionPrediction, SweepLoadAction,
+                               SweepLoadActionGoal, SweepLoadActionResult, SweepLoadGoal, SweepPoint)
 from mems_stiction.srv import GetLoad, SetLoad
 from rosgraph_msgs.msg import Log
-from stiction_client import (TIMEOUT, Collector, Counts, Station, Traffic, image_message, info_message, predict_scan, rough_surface,
-                             wait_until)
+from stiction_client import (TIMEOUT, BytesPublisher, Collector, Counts, Station, Traffic, bytes_of, image_message, info_message,
+                             peak_memory, predict_scan, process_of, rough_surface, stating, wait_until)
 
 LOAD = 1e-6
 DEVICE = dict(spring_stiffness=1.0, travel=1e-6, contact_area=48 * 64 * 1e-16, electrode_area=1e-8)
@@ -204,6 +204,20 @@ class StationTest(unittest.TestCase):
         finally:
             self.sweep.action_client.send_goal = send_goal
 
+    def test_5_a_goal_that_states_more_than_it_holds_is_rejected(self):
+        goal = SweepLoadActionGoal()
+        goal.goal_id.id = "hostile"
+        process = process_of("prediction")
+        before = peak_memory(process)
+        results = Collector("stiction_node/sweep_load/result", SweepLoadActionResult).connect()
+        hostile = BytesPublisher("stiction_node/sweep_load/goal", SweepLoadActionGoal)
+        hostile.publish(stating(2**29 - 1, bytes_of(goal), len(bytes_of(goal.header)) + len(bytes_of(goal.goal_id))))
+        status = results.wait(1)[0].status
+        self.assertEqual((status.goal_id.id, status.status), ("hostile", GoalStatus.REJECTED))
+        self.assertIn("states 536870911 elements", status.text)
+        self.assertLess(peak_memory(process) - before, 2**28)
+        hostile.end()
+
     def test_6_cycles_of_the_last_scan(self):
         live = self.live(rough_surface(2))
         state, result, feedback = self.run_goal(self.cycle, CycleContactGoal(count=4))
@@ -276,6 +290,30 @@ class StationTest(unittest.TestCase):
         state, result, _ = self.run_goal(other, CycleContactGoal(count=2))
         self.assertEqual(state, GoalStatus.SUCCEEDED, result.message)
         self.assertEqual(len(result.cycles), 2)
+
+    def test_8_a_cancel_of_a_wild_stamp_ends_what_runs_and_no_later_goal(self):
+        goal = SweepLoadGoal(voltages=[0.0, 1.0], mechanical_loads=[LOAD])
+        self.live(rough_surface(1))
+        log = Collector("/rosout", Log)
+        cancel = rospy.Publisher("stiction_node/sweep_load/cancel", GoalID, queue_size=1)
+        wait_until(cancel.get_num_connections, "the node to listen to cancels")
+        cancel.publish(GoalID(stamp=rospy.Time(2**32 - 1)))
+        wait_until(lambda: any("a cancel of sweep_load has a stamp that is yet to come" in message.msg for message in log.messages), "the warning")
+        self.assertEqual(self.run_goal(self.sweep, goal)[0], GoalStatus.SUCCEEDED)
+        # a goal of such a stamp is not for ever newer than those that follow
+        wild = SweepLoadActionGoal(goal=goal)
+        wild.goal_id.id, wild.goal_id.stamp = "wild", rospy.Time(2**32 - 1)
+        results = Collector("stiction_node/sweep_load/result", SweepLoadActionResult).connect()
+        self.sweep.action_client.pub_goal.publish(wild)
+        self.assertEqual(results.wait(1)[0].status.status, GoalStatus.SUCCEEDED)
+        self.assertEqual(self.run_goal(self.sweep, goal)[0], GoalStatus.SUCCEEDED)
+        # one of the time of a goal that runs cancels it, as ever
+        self.sweep.send_goal(SweepLoadGoal(voltages=[0.001 * step for step in range(10000)], mechanical_loads=[LOAD]))
+        wait_until(lambda: self.sweep.get_state() == GoalStatus.ACTIVE, "the goal to run")
+        cancel.publish(GoalID(stamp=rospy.Time.now()))
+        self.assertTrue(self.sweep.wait_for_result(rospy.Duration(TIMEOUT)))
+        self.assertEqual(self.sweep.get_state(), GoalStatus.PREEMPTED)
+        self.assertEqual(self.run_goal(self.sweep, goal)[0], GoalStatus.SUCCEEDED)
 
     def test_9_the_node_ends_while_an_action_runs(self):
         import rosnode

@@ -2,10 +2,12 @@
 
 import collections
 import contextlib
+import io
 import json
 import math
 import os
 import pathlib
+import struct
 import subprocess
 import tempfile
 import threading
@@ -20,6 +22,7 @@ import yaml
 from diagnostic_msgs.msg import DiagnosticArray
 from mems_stiction.msg import ScanInfo, StictionPrediction
 from roslib.packages import find_node
+from rospy.msg import AnyMsg
 from sensor_msgs.msg import Image
 
 PITCH = 10e-9
@@ -305,6 +308,40 @@ def _computed_seconds(stat):
 def processor_seconds(process):
     """What the process has computed so far."""
     return _computed_seconds(pathlib.Path("/proc/%d/stat" % process.pid))
+
+
+def bytes_of(message):
+    """The message as publishers send it."""
+    buffer = io.BytesIO()
+    message.serialize(buffer)
+    return buffer.getvalue()
+
+
+def stating(count, data, place):
+    """The bytes with an array at a place that states so many elements."""
+    return data[:place] + struct.pack("<I", count) + data[place + 4:]
+
+
+class BytesPublisher:
+    """Publishes bytes as a hostile program may, under the name of a type."""
+
+    def __init__(self, topic, kind):
+        self._type = type("Bytes", (AnyMsg,), dict(_md5sum=kind._md5sum, _type=kind._type, _full_text=kind._full_text))
+        self._publisher = rospy.Publisher(topic, self._type, queue_size=100)
+        wait_until(self._publisher.get_num_connections, "somebody to listen to %s" % topic)
+
+    def publish(self, data):
+        message = self._type()
+        message._buff = data
+        self._publisher.publish(message)
+
+    def end(self):
+        self._publisher.unregister()
+
+
+def peak_memory(process):
+    """What a process, by its number, has held at most so far [bytes]."""
+    return 1024 * int(pathlib.Path("/proc/%d/status" % process).read_text().split("VmHWM:")[1].split()[0])
 
 
 def process_of(topic):

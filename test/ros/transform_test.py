@@ -3,6 +3,7 @@
 transform is rejected with that reason, and nobody overtakes a scan that waits."""
 
 import math
+import struct
 import time
 import unittest
 
@@ -12,8 +13,8 @@ import rostest
 from geometry_msgs.msg import TransformStamped
 from mems_stiction.msg import StictionPrediction
 from mems_stiction.srv import Predict, SetLoad
-from stiction_client import (TIMEOUT, Collector, Counts, OwnNode, Station, image_message, info_message, predict_scan, rough_surface,
-                             settings_of, unlike, wait_until)
+from stiction_client import (TIMEOUT, BytesPublisher, Collector, Counts, OwnNode, Station, image_message, info_message, peak_memory,
+                             predict_scan, process_of, rough_surface, settings_of, unlike, wait_until)
 from tf2_msgs.msg import TFMessage
 
 FIRST = dict(offset_x=4.0e-8, offset_y=-2.5e-8, rotation=0.4, tilt_x=0.002, tilt_y=-0.001)
@@ -228,12 +229,22 @@ class TransformTest(unittest.TestCase):
             called = rospy.ServiceProxy("/wild/node/predict", Predict)(image_message(surface, beyond), info_message(beyond), 0.0, 1e-6)
             self.assertFalse(called.success)
             self.assertIn("too far from those of the transforms", called.message)
+            # what states more transforms than it holds takes no memory
+            process = process_of("/wild/prediction")
+            before = peak_memory(process)
+            hostile = BytesPublisher("/tf", TFMessage)
+            hostile.publish(struct.pack("<I", 20000000))
+            place(5003)
+            station.send(surface, rospy.Time(5003))
+            predictions.wait(3)
+            counts.wait(received=4, predicted=3, waiting=0)
+            self.assertLess(peak_memory(process) - before, 2**28)
             # a clock that is as far off states transforms, too
             for second in (2**32 - 5, 2**32 - 1):
                 place(second)
             station.send(surface, rospy.Time(2**32 - 3))
             station.send(surface, rospy.Time(5004))
-            counts.wait(received=5, predicted=2, rejected=3, waiting=0)  # the last once its time is up: tf has forgotten its place
+            counts.wait(received=6, predicted=3, rejected=3, waiting=0)  # the last once its time is up: tf has forgotten its place
 
 
 if __name__ == "__main__":
