@@ -31,6 +31,7 @@ from mems_stiction.report_figures import is_lower_bound, number, scan_figure, tr
 from mems_stiction.report_lots import lots_section
 from mems_stiction.report_template import PAGE
 from mems_stiction.surface_figures import surface_figure, surface_figures_of
+from mems_stiction.whole_file import whole
 
 STATES = {"EQUILIBRIUM": (0, "equilibrium"), "BONDED": (1, "bonded"), "NO_EQUILIBRIUM": (2, "no equilibrium")}
 FIGURES = (("formulation", "formulation"), ("pull-off force", "pull_off_force"), ("of contacts, by JKR", "pull_off_force_jkr"),
@@ -341,16 +342,17 @@ def _with_units(value):
 
 
 def write_csv(rows, path):
-    """Every row with the columns of stiction_batch."""
+    """Every row with the columns of stiction_batch. Raises CannotWrite."""
     columns = list(max(rows, key=len))
-    with open(str(path), "w", encoding="utf-8", newline="") as stream:
+    with whole(path) as part, open(str(part), "w", encoding="utf-8", newline="") as stream:
         writer = csv.DictWriter(stream, columns, lineterminator="\n")
         writer.writeheader()
         writer.writerows({name: csv_cell(value) for name, value in row.items()} for row in rows)
 
 
 def write_json(rows, parts, settings_text, path):
+    """Settings, parts and rows. Raises CannotWrite."""
     settings = yaml.safe_load(settings_text)
-    with open(str(path), "w", encoding="utf-8") as stream:
+    with whole(path) as part, open(str(part), "w", encoding="utf-8") as stream:
         json.dump({"settings": settings, "parts": parts, "scans": rows}, stream, indent=1, default=str)
         stream.write("\n")

@@ -32,6 +32,19 @@ class WordsTest(unittest.TestCase):
         for text in ("of 3 most", "scan 3 is", "2 scans say", "1 sticks", "4 Nodes", "at 3 min"):
             self.assertEqual(unbroken(text), text)
 
+    def test_a_table_that_cannot_be_written_whole_leaves_the_one_that_was_there(self):
+        class NoText:
+            def __str__(self):
+                raise ValueError("no text")
+
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "report.csv")
+            path.write_text("before")
+            for write in (lambda: report.write_csv([{"a": 1}, {"a": NoText()}], path), lambda: report.write_json([NoText()], [], "{}", path)):
+                self.assertRaises(ValueError, write)
+                self.assertEqual(path.read_text(), "before")
+            self.assertEqual(list(pathlib.Path(folder).iterdir()), [path])
+
     def test_the_device_is_what_the_settings_state(self):
         lines = dict(device_lines({"device": {"spring_stiffness": 10.0, "travel": 1e-6, "contact_area": 1e-10, "contacts": 4, "guidance": "free", "beam_type": "none"},
                                    "interface": {"work_of_adhesion": 0.05}, "load": {"voltage": 0.0, "mechanical_load": 2e-6}}))
