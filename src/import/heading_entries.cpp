@@ -43,8 +43,8 @@ double headingNumber(const std::string& value) {
 }
 
 void stateText(std::string& field, const std::string& value, const std::string& what) {
-  const auto unit = lengthUnit(value);
-  if (!field.empty() && field != value && !(unit && lengthUnit(field) == unit)) {
+  const auto unit = heightUnit(value);
+  if (!field.empty() && field != value && !(unit && heightUnit(field) == unit)) {
     throw FileError("the heading states the " + what + " twice, as '" + shownPiece(field) + "' and '" +
                     shownPiece(value) + "': remove one");
   }

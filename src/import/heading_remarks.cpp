@@ -25,7 +25,8 @@ Mention unitMentioned(const std::string& text) {
       continue;
     }
     if (word.empty()) continue;
-    const std::size_t number = numberEnd(word, 0);  // "2um" is one word
+    const bool is_counted = std::string("+-.0123456789").find(word[0]) != std::string::npos;
+    const std::size_t number = is_counted ? numberEnd(word, 0) : 0;  // "2um" is one word; "nan" begins one of its own
     const std::string unit = word.substr(number);
     if (unit.size() > 1 && unit != "inch" && lengthUnit(unit)) {
       const bool is_behind_number = !before.empty() && numberEnd(before, 0) == before.size();

@@ -87,6 +87,14 @@ TEST(TextExports, AmperesAreNoMetresInAnyLanguage) {
   EXPECT_NE(exportRefusal("matrix.txt", "TUNA_Current(A)\n" + kExportedGrid), "");
   EXPECT_DOUBLE_EQ(lengthUnit("нм").value_or(0.0), 1e-9);
   EXPECT_DOUBLE_EQ(lengthUnit("мкм").value_or(0.0), 1e-6);
+  for (const char* word : {"Micrometer", "microns", "micrómetros", "Mikrometern", "マイクロメートル"}) {
+    EXPECT_DOUBLE_EQ(lengthUnit(word).value_or(0.0), 1e-6) << word;
+  }
+  for (const char* word : {"Ångström", "Angstroms", "angstrom"})
+    EXPECT_DOUBLE_EQ(heightUnit(word).value_or(0.0), 1e-10);
+  EXPECT_FALSE(lengthUnit("micrometer-sized"));
+  EXPECT_NE(exportRefusal("twice.txt", "# Value units: A\n# Value units: Å\n" + kExportedGrid).find("twice"),
+            std::string::npos);
   EXPECT_FALSE(heightUnit("A"));
   EXPECT_FALSE(heightUnit("[A]"));
   for (const char* angstrom : {"Å", "Angstrom", "AA"}) EXPECT_DOUBLE_EQ(heightUnit(angstrom).value_or(0.0), 1e-10);
@@ -122,6 +130,10 @@ TEST(TextExports, TheHintNamesWhatTheLineStates) {
   EXPECT_NE(side.notes[0].find("\"# Width: 2 um\""), std::string::npos) << side.notes[0];
   EXPECT_EQ(side.notes[0].find("Value units"), std::string::npos) << side.notes[0];
   EXPECT_EQ(side.unit_doubt, "");
+  for (const char* remark :
+       {"# Höhen in Nanometern\n", "# hauteurs en nanomètres\n", "# высота, нанометры\n", "# 高度 纳米\n"}) {
+    EXPECT_NE(parseTextGrid(remark + kExportedGrid).unit_doubt, "") << remark;
+  }
   for (const char* remark : {"# heights in nm\n", "# \xC3\x89rt\xC3\xA9kek egys\xC3\xA9ge: nm\n"}) {
     const FileChannel heights = parseTextGrid(remark + kExportedGrid);
     EXPECT_TRUE(heights.notes.empty());
