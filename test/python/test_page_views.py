@@ -395,7 +395,7 @@ class ViewTest(unittest.TestCase):
             with Picture.open(io.BytesIO(self.saved("%s_scan_%d.png" % (name, self.number)))) as picture:
                 panel = self.page.value("(() => { const box = document.querySelector('.panel[data-picture=%s]').getBoundingClientRect(); return [box.width, box.height]; })()" % name)
                 self.assertGreater(picture.width, 2 * panel[0])
-                colours = np.unique(np.asarray(picture.convert("RGB")).reshape(-1, 3), axis=0)
+                colours = picture.convert("RGB").getcolors(picture.width * picture.height)
                 self.assertGreater(len(colours), 20, name)  # something is drawn
         self.assertEqual(self.page.errors, [])
 
