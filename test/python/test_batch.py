@@ -21,6 +21,7 @@ import rospy
 from mems_stiction import report
 from mems_stiction.msg import DeviceAdhesion, StictionPrediction
 from roslib.packages import find_node
+from tiers import times
 
 SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "scripts"
 CONFIG = """
@@ -253,7 +254,7 @@ class BatchTest(unittest.TestCase):
         self.assertIn("write another file", done.stderr)
 
     def test_killed_in_the_middle_it_goes_on_without_loss_or_repetition(self):
-        self.make_bag(self.folder / "long.bag", "--count", 150, "--rms-height", "1e-9", "8e-9")
+        self.make_bag(self.folder / "long.bag", "--count", times(60, 150), "--rms-height", "1e-9", "8e-9")
         inputs = [self.folder / "long.bag"]
         slow = self.folder / "slow.yaml"  # seconds, so that a busy test is in time
         slow.write_text(CONFIG + "approach: {formulation: paper, max_steps: 10000000}\npaper: {step: 1.0e-12}\n")
@@ -261,7 +262,7 @@ class BatchTest(unittest.TestCase):
         expected = (self.folder / "one.csv").read_bytes()
         path = self.folder / "killed.csv"
         kills = 0
-        for _ in range(4):
+        for _ in range(times(2, 4)):
             before = path.stat().st_size if path.exists() else 0
             process = subprocess.Popen([self.batch, "--config", str(slow), "-o", str(path)]
                                        + [str(name) for name in inputs], stdout=subprocess.DEVNULL)
