@@ -154,10 +154,11 @@ class ProcessesTest(unittest.TestCase):
             prediction = predictions.wait(1)[-1]
             self.assertEqual(prediction.header.stamp, stamp)
             self.assertEqual(prediction.pull_off_force, predict_scan(surface, LOAD)["pull_off_force"])
-            # Whole messages that are no image with a scan_info are rejected once time is up, the others were none.
+            # Two are whole messages and no scan: the empty one, and that without a scan_info, once time is up. They may be lost
+            # with their publisher. The others were none.
             wait_until(lambda: counts["waiting_for_partner"] == "0", "the end of waiting")
             counts.wait(predicted=1, waiting=0, dropped=0)
-            self.assertLess(int(counts["rejected"]), 2)
+            self.assertLessEqual(int(counts["rejected"]), 2)
             if not SANITIZER:
                 self.assertLess(node.resident() - before, 100 * MB)
 
