@@ -93,6 +93,9 @@ constexpr const char* kFileTexts[] = {"node_config", "config"};
 /// Where the node writes down what it took, when no file says what that should be.
 constexpr const char* kTakenParameters = "taken_at_start";
 
+/// Of the name of such a file [bytes]: every sentence about its text begins with it.
+constexpr std::size_t kLongestPath = 4096;
+
 /// One of them.
 struct FileText {
   std::string name;
@@ -113,6 +116,12 @@ struct FileText {
       } else {
         (key == "file" ? name : text) = entry.second.Scalar();
       }
+    }
+    if (name.size() > kLongestPath) {
+      violations.push_back(section + "/file: a text of " + std::to_string(name.size()) +
+                           " bytes is not allowed, must have at most " + std::to_string(kLongestPath));
+      name = section + "/text";
+      return;
     }
     if (text.size() > kSettingsInput.max_bytes) {
       violations.push_back(name + ": has " + std::to_string(text.size()) + " bytes, more than the " +

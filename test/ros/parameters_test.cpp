@@ -72,6 +72,12 @@ TEST(Parameters, LongValuesAndNamesAreRefusedInShort) {
             "part/id: a text of 5000000 bytes is not allowed, must have at most 4096");
 }
 
+TEST(Parameters, TheNameOfAConfigurationFileIsNoLongText) {
+  const std::string file(5000000, 'f');
+  EXPECT_EQ(violations("{config: {file: " + file + ", text: 'queue_sise: 5'}}"),
+            "config/file: a text of 5000000 bytes is not allowed, must have at most 4096");
+}
+
 TEST(Parameters, TenThousandUnknownOnesAreRefusedWithinASecond) {
   XmlRpc::XmlRpcValue tree;
   for (int number = 0; number < 10000; ++number) tree["unknown_" + std::to_string(number)] = number;
