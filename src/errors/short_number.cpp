@@ -1,20 +1,16 @@
 #include "errors/short_number.hpp"
 
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <cstring>
+
+#include "errors/plain_format.hpp"
 
 namespace mems_stiction {
 
 std::string shortNumber(double value, int digits) {
   if (std::isnan(value)) return "nan";  // printf shows its sign
-  char text[32];
-  std::snprintf(text, sizeof text, "%.*g", digits, value);
-  if (std::strstr(text, "e+") == nullptr || !(std::abs(value) < 1e6)) return text;
-  const double rounded = std::strtod(text, nullptr);  // 7250, not 7.25e+03
-  std::snprintf(text, sizeof text, "%.0f", rounded);
-  return text;
+  const std::string text = plainFormat("%.*g", digits, value);
+  if (text.find("e+") == std::string::npos || !(std::abs(value) < 1e6)) return text;
+  return plainFormat("%.0f", plainStrtod(text.c_str()));  // 7250, not 7.25e+03
 }
 
 int knownDigits(double value, double lower, double upper) {

@@ -1,9 +1,9 @@
 #include "mems_stiction/evaluation/convergence.hpp"
 
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
+#include "errors/plain_format.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "prediction/prediction_fields.hpp"
 
@@ -17,9 +17,7 @@ const char* resolutionName(int decimation) {
 
 std::string percent(double ratio) {
   if (std::isnan(ratio)) return "not known";
-  char text[32];
-  std::snprintf(text, sizeof text, "%+.1f %%", 100.0 * (ratio - 1.0));
-  return text;
+  return plainFormat("%+.1f %%", 100.0 * (ratio - 1.0));
 }
 
 }  // namespace
@@ -57,14 +55,13 @@ std::string convergenceTable(const std::vector<ConvergenceRow>& rows, const std:
       indent + "resolution     pixels        pull-off [N]           contact area [m^2]     contacts  pixels/contact\n";
   for (const ConvergenceRow& row : rows) {
     const std::string size = std::to_string(row.cols) + " x " + std::to_string(row.rows);
-    char line[200];
-    std::snprintf(line, sizeof line, "%-10s %13s  %10.3g %10s  %11.3g %10s  %8d  %14.3g%s\n",
-                  resolutionName(row.decimation), size.c_str(), row.pull_off_force,
-                  row.decimation == 1 ? "" : percent(row.pull_off_force_ratio).c_str(), row.contact_area,
-                  row.decimation == 1 ? "" : percent(row.contact_area_ratio).c_str(), row.asperity_count,
-                  row.median_contact_pixels,
-                  row.status == Status::kEquilibrium ? "" : (std::string("  ") + word(row.status)).c_str());
-    text += indent + line;
+    text += indent;
+    text += plainFormat("%-10s %13s  %10.3g %10s  %11.3g %10s  %8d  %14.3g%s\n", resolutionName(row.decimation),
+                        size.c_str(), row.pull_off_force,
+                        row.decimation == 1 ? "" : percent(row.pull_off_force_ratio).c_str(), row.contact_area,
+                        row.decimation == 1 ? "" : percent(row.contact_area_ratio).c_str(), row.asperity_count,
+                        row.median_contact_pixels,
+                        row.status == Status::kEquilibrium ? "" : (std::string("  ") + word(row.status)).c_str());
   }
   if (rows.size() < 2) return text;
   const ConvergenceRow& half = rows[1];

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <utility>
 
 #include "configuration/idle_settings.hpp"
+#include "errors/plain_format.hpp"
 #include "evaluation/breakdown.hpp"
 
 namespace mems_stiction {
@@ -104,11 +104,7 @@ const std::map<std::string, Usual>& usualValues() {
 constexpr double kColdest = 100.0;  // [K]; below it a temperature is one in degrees Celsius
 constexpr double kIcePoint = 273.15;
 
-std::string rounded(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
+std::string rounded(double value) { return plainFormat("%.4g", value); }
 
 class PlausibilityCheck : public OptionVisitor {
  public:

@@ -27,10 +27,10 @@ bool containsAny(const std::string& text, const Words& parts) {
 /// Small letters; everything else becomes a single blank.
 std::string lettersOf(const std::string& title) {
   std::string text;
-  for (const char c : title) {
+  for (const char c : lowered(title)) {
     const auto byte = static_cast<unsigned char>(c);
     if (byte >= 0x80 || std::isalnum(byte) != 0) {
-      text += static_cast<char>(std::tolower(byte));
+      text += c;
     } else if (!text.empty() && text.back() != ' ') {
       text += ' ';
     }

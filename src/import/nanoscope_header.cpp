@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "errors/plain_format.hpp"
 #include "import/length_unit.hpp"
 #include "import/plain_number.hpp"
 #include "numeric/words.hpp"
@@ -51,13 +52,13 @@ Size scanSize(const HeaderLines& lines) {
   std::replace(unit_text.begin(), unit_text.end(), '~', 'u');
   const auto unit = lengthUnit(unit_text);
   if (first == 0 || !unit) return {};
-  const double x = std::strtod(text.c_str(), nullptr) * *unit;
-  return {x, second > begin ? std::strtod(text.c_str() + begin, nullptr) * *unit : x};
+  const double x = plainStrtod(text.c_str()) * *unit;
+  return {x, second > begin ? plainStrtod(text.c_str() + begin) * *unit : x};
 }
 
 double hardValue(const std::string& text) {
   const std::size_t begin = text.find(')');
-  return begin == std::string::npos ? 0.0 : std::strtod(text.c_str() + begin + 1, nullptr);
+  return begin == std::string::npos ? 0.0 : plainStrtod(text.c_str() + begin + 1);
 }
 
 double metresPerVolt(const std::string& text) {

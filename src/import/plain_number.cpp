@@ -1,7 +1,5 @@
 #include "import/plain_number.hpp"
 
-#include <locale.h>
-#include <stdlib.h>
 #include <strings.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "errors/plain_format.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "numeric/words.hpp"
 
@@ -17,11 +16,6 @@ namespace {
 
 constexpr std::size_t kGroup = 3;  // digits
 constexpr int kMostGroups = 10;    // after the first
-
-locale_t pointLocale() {
-  static const locale_t kLocale = newlocale(LC_NUMERIC_MASK, "C", static_cast<locale_t>(nullptr));
-  return kLocale;
-}
 
 bool isDigit(const std::string& text, std::size_t at) {
   return at < text.size() && std::isdigit(static_cast<unsigned char>(text[at])) != 0;
@@ -41,8 +35,8 @@ bool isExponentSign(char c) { return c == 'e' || c == 'E' || c == 'd' || c == 'D
 
 double valueOf(const std::string& text) {
   const std::size_t exponent = text.find_first_of("dD");
-  if (exponent == std::string::npos) return strtod_l(text.c_str(), nullptr, pointLocale());
-  return strtod_l(std::string(text).replace(exponent, 1, "e").c_str(), nullptr, pointLocale());
+  if (exponent == std::string::npos) return plainStrtod(text.c_str());
+  return plainStrtod(std::string(text).replace(exponent, 1, "e").c_str());
 }
 
 /// How many digits there are from here on, no more than `most`.

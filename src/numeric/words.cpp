@@ -1,7 +1,6 @@
 #include "numeric/words.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cstddef>
 #include <iterator>
 #include <locale>
@@ -34,7 +33,10 @@ std::size_t editDistance(const std::string& left, const std::string& right, std:
 }  // namespace
 
 std::string lowered(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  // not std::tolower(): in a Turkish locale it leaves an I
+  for (char& c : text) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
   return text;
 }
 

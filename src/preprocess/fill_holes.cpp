@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <iterator>
 #include <string>
 #include <utility>
@@ -12,6 +11,7 @@
 #include <Eigen/Sparse>
 #include <opencv2/imgproc.hpp>
 
+#include "errors/plain_format.hpp"
 #include "mems_stiction/errors/errors.hpp"
 
 namespace mems_stiction {
@@ -205,10 +205,9 @@ HeightChange fillHoles(WorkingSurface& surface, const FillOptions& options, cons
       static_cast<double>(missing.size()) / static_cast<double>(static_cast<long long>(heights.total()) - left_out);
   if (fraction >= 1.0) throw SurfaceError("the height map has no valid pixel");
   if (fraction > options.max_fraction) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.4g", fraction);
-    throw SurfaceError(std::string("a fraction of ") + text + " of the pixels is missing, more than the limit of " +
-                       numberText(options.max_fraction) + " (preprocessing/fill/max_fraction)");
+    throw SurfaceError(plainFormat("a fraction of %.4g", fraction) +
+                       " of the pixels is missing, more than the limit of " + numberText(options.max_fraction) +
+                       " (preprocessing/fill/max_fraction)");
   }
   const std::vector<cv::Point> wanted = pixelsOfSmallHoles(heights, missing, outside, options.max_hole);
   fillAll(heights, wanted, surface.pitch_x, surface.pitch_y);

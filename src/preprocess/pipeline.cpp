@@ -1,10 +1,10 @@
 #include "mems_stiction/preprocess/pipeline.hpp"
 
 #include <cmath>
-#include <cstdio>
 
 #include <opencv2/imgproc.hpp>
 
+#include "errors/plain_format.hpp"
 #include "errors/short_number.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "preprocess/fill_holes.hpp"
@@ -165,15 +165,12 @@ CleanedScan cleanScan(const HeightMap& scan, const PipelineOptions& options) {
 std::vector<std::string> recordLines(const PreprocessRecord& record) {
   std::vector<std::string> lines;
   for (const PreprocessStep& step : record.steps) {
-    char change[32];
-    std::snprintf(change, sizeof change, "%.4g", step.rms_change);
+    const std::string change = plainFormat("%.4g", step.rms_change);
     lines.push_back(step.name + (step.parameters.empty() ? "" : " (" + step.parameters + ")") + ": rms change " +
                     change + " m; " + std::to_string(step.changed_pixels) + " pixels changed");
     if (!std::isnan(step.tilt_left)) lines.back() += "; tilt and bow left " + shortNumber(step.tilt_left) + " m";
     if (step.name == "tip") {
-      char fraction[32];
-      std::snprintf(fraction, sizeof fraction, "%.4g", record.tip_unreached_fraction);
-      lines.back() += std::string("; fraction not reached ") + fraction;
+      lines.back() += plainFormat("; fraction not reached %.4g", record.tip_unreached_fraction);
     }
   }
   return lines;

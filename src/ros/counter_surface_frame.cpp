@@ -1,7 +1,6 @@
 #include "ros/counter_surface_frame.hpp"
 
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -10,6 +9,7 @@
 #include <tf2/exceptions.h>
 
 #include "errors/one_line.hpp"
+#include "errors/plain_format.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "numeric/constants.hpp"
 #include "ros/checked_messages.hpp"
@@ -95,7 +95,7 @@ SurfacePose CounterSurfaceFrame::poseAt(const std_msgs::Header& header) const {
     throw NoTransform(missing + ": " + error.what());
   } catch (const std::runtime_error& error) {
     // ros::Time refuses differences beyond 2^31 s and sums beyond 2^32 s.
-    std::ostringstream stamp;
+    PlainStream stamp;
     stamp << header.stamp;
     throw SurfaceError(missing + " " + stamp.str() +
                        " s, which lies too far from those of the transforms: " + error.what());

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <iterator>
 #include <string>
 #include <vector>
@@ -14,6 +13,7 @@
 #include <sensor_msgs/point_cloud2_iterator.h>
 #include <std_msgs/ColorRGBA.h>
 
+#include "errors/plain_format.hpp"
 #include "ros/regime_colour.hpp"
 
 namespace mems_stiction {
@@ -39,13 +39,7 @@ double roundedDown(double value) {
 
 /// "600 nm", "1.95 um": what a line of text can show.
 std::string lengthText(double length) {
-  char text[32];
-  if (length < 1e-6) {
-    std::snprintf(text, sizeof text, "%.3g nm", length * 1e9);
-  } else {
-    std::snprintf(text, sizeof text, "%.3g um", length * 1e6);
-  }
-  return text;
+  return length < 1e-6 ? plainFormat("%.3g nm", length * 1e9) : plainFormat("%.3g um", length * 1e6);
 }
 
 /// From the scan to the screen.
@@ -75,10 +69,8 @@ class View {
   double bottom() const { return -0.5 * height_ * scale; }
 
   std::string text() const {
-    char factor[32];
-    std::snprintf(factor, sizeof factor, "%.3g", exaggeration_);
-    return lengthText(width_) + " x " + lengthText(height_) + ", heights x " + factor + ", rms " +
-           lengthText(rms_height);
+    return lengthText(width_) + " x " + lengthText(height_) + ", heights x " + plainFormat("%.3g", exaggeration_) +
+           ", rms " + lengthText(rms_height);
   }
 
   std_msgs::Header header;

@@ -9,7 +9,6 @@
 /// Goals are read with their lengths checked (checked_messages.hpp); one that is refused is rejected as actionlib would.
 
 #include <algorithm>
-#include <sstream>
 #include <string>
 
 #include <actionlib_msgs/GoalID.h>
@@ -18,6 +17,7 @@
 #include <boost/make_shared.hpp>
 
 #include "errors/one_line.hpp"
+#include "errors/plain_format.hpp"
 #include "ros/checked_messages.hpp"
 #include "ros/own_log.hpp"
 
@@ -72,7 +72,7 @@ class GoalGate {
   ros::Time notAfterNow(const ros::Time& stamp, const char* what) const {
     const ros::Time now = ros::Time::now();
     if (stamp.toSec() > now.toSec() + kFastClock) {
-      std::ostringstream text;
+      PlainStream text;
       text << "a " << what << " of " << name_ << " has a stamp that is yet to come, " << stamp
            << ": taken as one of now";
       warn(text.str());

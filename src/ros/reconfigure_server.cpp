@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <exception>
 #include <future>
-#include <sstream>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -11,6 +10,7 @@
 
 #include "errors/error_text.hpp"
 #include "errors/one_line.hpp"
+#include "errors/plain_format.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "numeric/words.hpp"
 #include "ros/own_log.hpp"
@@ -80,7 +80,7 @@ ShownConfig configOf(const RunningSettings& settings) {
 
 template <typename Value>
 std::string shown(const Value& value) {
-  std::ostringstream text;
+  PlainStream text;
   text << value;
   return text.str();
 }

@@ -8,13 +8,14 @@
 #include <diagnostic_msgs/DiagnosticStatus.h>
 
 #include "errors/one_line.hpp"
+#include "errors/plain_format.hpp"
 #include "ros/own_log.hpp"
 
 namespace mems_stiction {
 namespace {
 
 std::string named(const char* what, const std_msgs::Header& header, const std::string& reason) {
-  std::ostringstream text;
+  PlainStream text;
   text << what << " of stamp " << header.stamp << ": " << shortened(reason, kLongestSentence);
   return text.str();
 }
@@ -165,7 +166,7 @@ void ScanAccounting::report(diagnostic_updater::DiagnosticStatusWrapper& status)
   const double pause = elapsed - report_period_.toSec();
   longest_pause_ = std::max(longest_pause_, pause);
   if (pause > kNoticedPause + report_period_.toSec()) {
-    std::ostringstream text;
+    PlainStream text;
     text << "the node stood still for " << std::lround(pause) << " s: stopped, suspended, or without a processor";
     status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, text.str());
   }

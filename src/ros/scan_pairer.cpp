@@ -6,12 +6,12 @@
 #include <functional>
 #include <iterator>
 #include <numeric>
-#include <sstream>
 #include <utility>
 #include <vector>
 
 #include <ros/serialization.h>
 
+#include "errors/plain_format.hpp"
 #include "mems_stiction/settings/option_visitor.hpp"
 #include "ros/message_bytes.hpp"
 
@@ -72,7 +72,7 @@ std::string nearestOf(const std::vector<ros::Time>& stamps, const ros::Time& sta
   const auto nearest = std::min_element(
       stamps.begin(), stamps.end(), [&](const ros::Time& a, const ros::Time& b) { return distance(a) < distance(b); });
   if (nearest == stamps.end() || distance(*nearest) > kNear || *nearest == stamp) return "";
-  std::ostringstream text;
+  PlainStream text;
   text << "; one came with the stamp " << *nearest << ", " << distance(*nearest) << " s "
        << (*nearest > stamp ? "later" : "earlier");
   return text.str();

@@ -1,8 +1,8 @@
 #include "mems_stiction/settings/option_visitor.hpp"
 
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
+
+#include "errors/plain_format.hpp"
 
 #include "errors/one_line.hpp"
 
@@ -80,16 +80,16 @@ void OptionValidator::choice(const std::string& key, std::string& value, const s
 
 std::string numberText(double value) {
   if (std::isnan(value)) return "nan";  // printf shows the sign, which means nothing
-  char buffer[40];
+  std::string text;
   for (int digits = 1; digits <= 17; ++digits) {
-    std::snprintf(buffer, sizeof buffer, "%.*g", digits, value);
-    if (std::strtod(buffer, nullptr) == value) break;
+    text = plainFormat("%.*g", digits, value);
+    if (plainStrtod(text.c_str()) == value) break;
   }
   // "2000" rather than "2e+03": seven digits show every value that came out with an exponent below 1e7.
-  if (std::abs(value) >= 1.0 && std::abs(value) < 1e7 && std::string(buffer).find('e') != std::string::npos) {
-    std::snprintf(buffer, sizeof buffer, "%.7g", value);
+  if (std::abs(value) >= 1.0 && std::abs(value) < 1e7 && text.find('e') != std::string::npos) {
+    text = plainFormat("%.7g", value);
   }
-  return buffer;
+  return text;
 }
 
 }  // namespace mems_stiction

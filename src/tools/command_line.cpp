@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <iterator>
 
+#include "errors/plain_format.hpp"
 #include "files/output_file.hpp"
 #include "mems_stiction/configuration/provenance.hpp"
 #include "numeric/words.hpp"
@@ -116,7 +117,7 @@ void requireOutput(const std::string& option, const std::string& path, const std
 
 std::string positive(const std::string& text) {
   char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
+  const double value = plainStrtod(text.c_str(), &end);
   const bool is_number = !text.empty() && *end == '\0';  // else the conversion says so
   return is_number && !Range::positive().contains(value) ? "'" + text + "' is not allowed, must be > 0" : "";
 }

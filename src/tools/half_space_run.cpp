@@ -2,10 +2,10 @@
 
 #include <atomic>
 #include <csignal>
-#include <cstdio>
 #include <string>
 
 #include "busy_line.hpp"
+#include "errors/plain_format.hpp"
 #include "import/scan_writer.hpp"
 #include "mems_stiction/errors/errors.hpp"
 
@@ -55,10 +55,9 @@ std::string HalfSpaceText::next(const ForcePoint& point) {
   ++heights_;
   const bool is_higher = point.height > height_;
   height_ = point.height;
-  char text[128];
-  std::snprintf(text, sizeof text, "half-space: %s, %d heights, %.3g nm, %.3g uN",
-                is_higher && heights_ > 1 ? "retraction" : "approach", heights_, 1e9 * point.height, 1e6 * point.force);
-  return text;
+  return plainFormat("half-space: %s, %d heights, %.3g nm, %.3g uN",
+                     is_higher && heights_ > 1 ? "retraction" : "approach", heights_, 1e9 * point.height,
+                     1e6 * point.force);
 }
 
 SolvedHalfSpace withHalfSpaceProgress(const std::function<SolvedHalfSpace(const HalfSpaceControl&)>& solve) {

@@ -16,6 +16,7 @@
 
 #include "busy_line.hpp"
 #include "command_line.hpp"
+#include "errors/plain_format.hpp"
 #include "height_map/scan_sanity.hpp"
 #include "height_map/validity.hpp"
 #include "import/scan_writer.hpp"
@@ -78,9 +79,7 @@ void printChannels(const std::string& path, const ScanFileOptions& options) {
   for (const ScanChannel& channel : channels) {
     std::string pitch = "pitch not stated";
     if (channel.pitch_x > 0.0 && channel.pitch_y > 0.0) {
-      char numbers[60];
-      std::snprintf(numbers, sizeof numbers, "pitch %.6g x %.6g ", channel.pitch_x, channel.pitch_y);
-      pitch = numbers + unitText(oneLine(channel.unit_xy));
+      pitch = plainFormat("pitch %.6g x %.6g ", channel.pitch_x, channel.pitch_y) + unitText(oneLine(channel.unit_xy));
     }
     const std::string size = std::to_string(channel.cols) + " x " + std::to_string(channel.rows);
     std::cout << "  " << (channel.is_chosen ? '*' : ' ') << " "
@@ -148,9 +147,9 @@ class Importer {
  private:
   static void report(const std::string& path, const std::string& target, const ScanFile& scan) {
     const HeightMap& surface = scan.surface;
-    char figures[160];
-    std::snprintf(figures, sizeof figures, "%d x %d pixels of %.6g x %.6g m, %.3g %% missing", surface.cols(),
-                  surface.rows(), surface.pitchX(), surface.pitchY(), 100.0 * invalidFraction(surface));
+    const std::string figures =
+        plainFormat("%d x %d pixels of %.6g x %.6g m, %.3g %% missing", surface.cols(), surface.rows(),
+                    surface.pitchX(), surface.pitchY(), 100.0 * invalidFraction(surface));
     std::cout << oneLine(path) << (scan.channel.empty() ? "" : " [" + oneLine(scan.channel) + "]") << " -> "
               << oneLine(target) << ": " << figures;
     const ScanIdentity& identity = scan.identity;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "errors/one_line.hpp"
+#include "errors/plain_format.hpp"
 #include "evaluation/part_scans.hpp"
 #include "files/output_file.hpp"
 #include "row_texts.hpp"
@@ -28,7 +29,7 @@ class Row {
   std::string text(const std::string& name) const { return textOf(texts_, name); }
   double number(const std::string& name) const {
     const std::string value = text(name);
-    return value.empty() ? kNotStated : std::strtod(value.c_str(), nullptr);
+    return value.empty() ? kNotStated : plainStrtod(value.c_str());
   }
   std::uint32_t count(const std::string& name) const {
     return static_cast<std::uint32_t>(std::strtoul(text(name).c_str(), nullptr, 10));

@@ -2,12 +2,12 @@
 
 #include <exception>
 #include <iomanip>
-#include <sstream>
 #include <utility>
 
 #include "busy_line.hpp"
 #include "device/device_evidence.hpp"
 #include "errors/error_text.hpp"
+#include "errors/plain_format.hpp"
 #include "evaluation/device_scans.hpp"
 #include "evaluation/frame_load.hpp"
 #include "evaluation/half_space_call.hpp"
@@ -153,7 +153,7 @@ HalfSpaceAnswer RowMaker::solve(const std::function<void(const std::string&)>& t
 }
 
 void RowMaker::dump(std::size_t number, RowFields fields, const std::optional<SolvedHalfSpace>& half_space) const {
-  std::ostringstream folder;
+  PlainStream folder;
   folder << arguments_.dump << "/" << std::setw(6) << std::setfill('0') << number;
   NamedMaps maps;
   if (half_space) {

@@ -5,13 +5,13 @@
 #include <filesystem>
 #include <limits>
 #include <set>
-#include <sstream>
 #include <vector>
 
 #include <ros/serialization.h>
 #include <boost/make_shared.hpp>
 
 #include "bag_check.hpp"
+#include "errors/plain_format.hpp"
 #include "files/child_process.hpp"
 #include "files/input_file.hpp"
 #include "mems_stiction/errors/errors.hpp"
@@ -192,7 +192,7 @@ ReceivedScan ScanBagReader::pair(const rosbag::MessageInstance& message, const M
 BagScan ScanBagReader::read(std::size_t index, bool with_counter_surface) const {
   const rosbag::MessageInstance& message = heights_.at(index);
   const ReceivedScan scan = pair(message, infos_);
-  std::ostringstream stamp;
+  PlainStream stamp;
   stamp << scan.header.stamp;
   BagScan result{scan.surface, {}, scan.identity, scan.header.frame_id, stamp.str()};
   if (!with_counter_surface) return result;

@@ -1,4 +1,5 @@
-"""The rooms are as doc/architecture.md says: no include goes backwards, the core knows no ROS, and only one file knows a solver."""
+"""The rooms are as doc/architecture.md says: no include goes backwards, the core knows no ROS, only one file knows a solver. Numbers as text
+do not follow the locale."""
 
 import pathlib
 import re
@@ -50,6 +51,15 @@ def backward_includes(order, files):
     return found
 
 
+def by_locale(code):
+    """What writes or reads numbers, or turns letters, as the locale of the process has them; "%.0f" has no decimal sign."""
+    plain = re.sub(r"//[^\n]*", "", code)
+    found = re.findall(r"\b(?:strto(?:f|d|ld)|atof|sto(?:f|d|ld)|v?f?s?scanf|o?stringstream|tolower|toupper)\b", plain)
+    for call in re.findall(r"\bv?f?s?n?printf\([^;]*", plain):
+        found += re.findall(r"%(?!\.0f)[-+ #0-9.*]*[aefgAEFG]", call)
+    return found
+
+
 class ArchitectureTest(unittest.TestCase):
     def test_every_folder_is_a_room_of_the_page(self):
         self.assertEqual({room for room, _, _ in sources()}, set(rooms()))
@@ -78,6 +88,16 @@ class ArchitectureTest(unittest.TestCase):
         found = ["%s:%d: %s" % (path, number, line) for room, path, lines in sources() if room in core
                  for number, line in enumerate(lines, 1) if ROS.search(line.partition("//")[0])]
         self.assertEqual(found, [])
+
+    def test_numbers_do_not_follow_the_locale(self):
+        found = [(path, by_locale("\n".join(lines))) for _, path, lines in sources() if not path.startswith("errors/plain_format.")]
+        self.assertEqual([one for one in found if one[1]], [])
+
+    def test_the_check_sees_what_follows_the_locale(self):
+        for wrong in ("x = std::strtod(a, nullptr);", 'std::snprintf(text, sizeof text,\n  "%s %.3g", a, b);', "std::stod(text)", "std::ostringstream out;"):
+            self.assertTrue(by_locale(wrong), wrong)
+        for right in ('std::snprintf(text, 3, "%02x", a);', "plainStrtod(a)", 'plainFormat("%g", a)', '// printf shows "%g"', 'std::snprintf(t, 3, "%.0f s", a);'):
+            self.assertFalse(by_locale(right), right)
 
     def test_the_check_sees_what_is_wrong(self):
         order = {"low": None, "hidden": ["high", "middle/door.cpp"], "middle": None, "high": None}
