@@ -1,5 +1,6 @@
 /// make_scan_bag: a bag of scans as the node takes them, from generated rough surfaces or from scan files.
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -10,6 +11,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <random>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -81,6 +83,21 @@ void describe(CLI::App& app, Arguments& arguments) {
   app.footer("Exit status: 0, or 2 for bad input (one line on stderr for each; the other scans are still written).");
 }
 
+/// A new, empty file, by a name that nobody can guess: what lies there already, as a link, is never written to.
+/// @throw std::runtime_error naming the file
+std::string newFileBeside(const std::string& path) {
+  std::random_device random;
+  for (;;) {
+    const std::string name = path + "." + std::to_string(random()) + ".part";
+    const int descriptor = open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor >= 0) {
+      close(descriptor);
+      return name;
+    }
+    if (errno != EEXIST) throw std::runtime_error(path + ": cannot be written: " + std::strerror(errno));
+  }
+}
+
 /// A bag that has its name when it is whole: what was there before stays if it cannot be written.
 class ScanBag {
  public:
@@ -100,7 +117,7 @@ class ScanBag {
     }
     // It is made while no interruption is handled: one that came before would remove nothing, and the file would stay.
     partial_.emplace([&] {
-      std::string partial = path + "." + std::to_string(getpid());
+      std::string partial = newFileBeside(path);
       guarded(partial, [&] { bag_->open(partial, rosbag::bagmode::Write); });
       return partial;
     });

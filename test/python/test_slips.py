@@ -144,6 +144,16 @@ class SlipTest(unittest.TestCase):
                                         ("--count", "0", "not in range")):
             self.assert_refused(expected, "make_scan_bag", "-o", "a.bag", option, value)
 
+    def test_a_bag_is_never_written_through_a_link_that_lies_beside_it(self):
+        victim = self.folder / "victim"
+        victim.write_text("kept")
+        # the name that was predictable: that of the bag with the number of the process, which is the shell's
+        call = 'ln -s victim "guess.bag.$$"; exec "$0" -o guess.bag --pitch 1e-8 scan.npy'
+        subprocess.run(["sh", "-c", call, find_node("mems_stiction", "make_scan_bag")[0]], cwd=str(self.folder), check=True, timeout=300, stdout=subprocess.DEVNULL)
+        self.assertEqual(victim.read_text(), "kept")
+        self.assertTrue((self.folder / "guess.bag").read_bytes().startswith(b"#ROSBAG V2.0"))
+        self.assertFalse((self.folder / "guess.bag").is_symlink())
+
     def test_generated_surfaces_in_a_wrong_unit_are_warned_of(self):
         done = self.run_it("make_scan_bag", "-o", "a.bag", "--rows", 16, "--cols", 16, "--pitch", "10", "--correlation-length", "20")
         self.assertEqual(done.returncode, 0)
