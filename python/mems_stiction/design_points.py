@@ -26,7 +26,7 @@ MOST_AXES = 2
 MOST_VALUES = 10000  # of an axis
 MOST_WHOLE = 1e9  # that a setting counts
 # A spring that opens whatever holds: the verdict on it tells whether anything but the margin stands against a "no".
-SURE_SPRING = {STIFFNESS: 1e12, TRAVEL: 1.0, "device/beam_type": "none"}
+SURE_SPRING = {STIFFNESS: 1e6, TRAVEL: 1e-2, "device/beam_type": "none"}  # the strongest that is taken: 10 kN
 
 
 class Hold(NamedTuple):

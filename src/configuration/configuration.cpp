@@ -4,7 +4,9 @@
 #include <string>
 #include <utility>
 
+#include "configuration/usual_values.hpp"
 #include "contact/guidance_setting.hpp"
+#include "height_map/scan_sanity.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/height_map/scan_identity.hpp"
 #include "surface/counter_surface.hpp"
@@ -16,6 +18,18 @@ void ScanLimits::describe(OptionVisitor& visitor) {
                   "scans with more pixels, after refinement, are refused; a pixel takes up to 150 bytes");
   visitor.number(kMaxTime, max_time, "s", Range::nonNegative(),
                  "a scan that takes longer is given up, so that it does not hold up the next ones; 0 = no limit");
+  visitor.flag(kAcceptImplausible, accept_implausible,
+               "take scans and constants that no instrument, material or device has: they are refused otherwise");
+}
+
+std::string ScanLimits::howToAccept() {
+  return std::string("; ") + kAcceptImplausible + ": true takes it as it is (--accept-implausible of programs)";
+}
+
+void ScanLimits::checkPlausibility(const HeightMap& cleaned) const {
+  if (accept_implausible) return;
+  const std::vector<std::string> lines = scanRemarks(cleaned).implausible;
+  if (!lines.empty()) throw SurfaceError("implausible: " + lines.front() + howToAccept());
 }
 
 void ScanLimits::checkSize(const HeightMap& scan, int refinement) const {
@@ -72,6 +86,11 @@ std::vector<std::string> Configuration::validate() const {
     violations.push_back("output/hurst_longest_wavelength: " + numberText(fit.hurst_longest_wavelength) +
                          " m is not allowed, must be > output/hurst_shortest_wavelength " +
                          numberText(fit.hurst_shortest_wavelength) + " m");
+  }
+  if (!limits.accept_implausible) {
+    for (const std::string& line : settingRemarks(*this).implausible) {
+      violations.push_back(line + ScanLimits::howToAccept());
+    }
   }
   const std::pair<const char*, const std::string&> names[] = {
       {"part/id", part.id}, {"part/serial", part.serial}, {"part/lot", part.lot}, {"part/wafer", part.wafer}};

@@ -46,8 +46,8 @@ double misfit(const HeightMap& scan, const HeightMap& upper) {
 }  // namespace
 
 CounterSurfaceSource::CounterSurfaceSource(const CounterSurfaceOptions& options, const ScanOptions& scan,
-                                           const PipelineOptions& cleaning)
-    : options_(options), scan_(scan), cleaner_(cleaning) {}
+                                           const PipelineOptions& cleaning, const ScanLimits& limits)
+    : options_(options), scan_(scan), cleaner_(cleaning), limits_(limits) {}
 
 void CounterSurfaceSource::load() {
   if (options_.type != CounterSurfaceType::kFile || !surface_.empty()) return;
@@ -138,6 +138,7 @@ HeightMap CounterSurfaceSource::mounted(const HeightMap& measured) {
   const HeightMap cleaned =
       is_upside_down ? turnedOver(cleaner_.clean(turnedOver(measured)).surface) : cleaner_.clean(measured).surface;
   cleaner_.letGo();
+  limits_.checkPlausibility(cleaned);
   return mountedCounterSurface(cleaned, options_.facing);
 }
 

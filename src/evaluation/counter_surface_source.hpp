@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "mems_stiction/configuration/configuration.hpp"
 #include "mems_stiction/height_map/height_map.hpp"
 #include "mems_stiction/height_map/raw_scan.hpp"
 #include "mems_stiction/preprocess/pipeline.hpp"
@@ -25,7 +26,9 @@ class CounterSurfaceSource {
  public:
   /// - @p scan how pixels of the file become heights, where it does not say so itself
   /// - @p cleaning the steps of the scan, without refinement, which is left to the caller
-  CounterSurfaceSource(const CounterSurfaceOptions& options, const ScanOptions& scan, const PipelineOptions& cleaning);
+  /// - @p limits whether implausible heights are taken
+  CounterSurfaceSource(const CounterSurfaceOptions& options, const ScanOptions& scan, const PipelineOptions& cleaning,
+                       const ScanLimits& limits);
 
   /// Reads and cleans the file of type file; nothing for other types.
   /// @throw FileError, OptionsError, SurfaceError naming the file.
@@ -42,8 +45,8 @@ class CounterSurfaceSource {
 
   /// The counter-surface on the scan's grid; empty for a level plane. A measured one of another grid is not resampled,
   /// it belongs to another scan: it is returned as it is, and the model refuses the pair.
-  /// @throw SurfaceError for type topic without a measured surface, or one that cannot be cleaned, cannot be drawn on
-  /// this grid or does not overlap it.
+  /// @throw SurfaceError for type topic without a measured surface, or one that is implausible, cannot be cleaned, cannot
+  /// be drawn on this grid or does not overlap it.
   HeightMap over(const HeightMap& scan);
 
   /// What is odd about the counter-surface that over() has given for this scan, in words: a measured one that does not
@@ -62,6 +65,7 @@ class CounterSurfaceSource {
   CounterSurfaceOptions options_;
   ScanOptions scan_;
   ScanCleaner cleaner_;
+  ScanLimits limits_;
   HeightMap measured_;          ///< beside the scans, as it came
   HeightMap mounted_measured_;  ///< the same before its pose; empty: not asked for yet
   HeightMap surface_;           ///< mounted, before its pose; of type file, or the generated one of the latest grid

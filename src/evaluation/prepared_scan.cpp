@@ -102,7 +102,7 @@ ScanPreparer::ScanPreparer(const Configuration& configuration)
       tip_radius_(configuration.resolution.tip_radius > 0.0 ? configuration.resolution.tip_radius
                                                             : configuration.preprocessing.tip.radius),
       counter_surface_(std::make_unique<CounterSurfaceSource>(configuration.counter_surface, configuration.scan,
-                                                              withoutRegion(cleaner_.options()))) {
+                                                              withoutRegion(cleaner_.options()), limits_)) {
   try {
     counter_surface_->load();
   } catch (const OptionsError&) {
@@ -146,11 +146,13 @@ PreparedScan ScanPreparer::prepare(const HeightMap& scan) {
   ++scans_cleaned_;
   CleanedScan cleaned = cleanedOrWhyNot(cleaner_, scan);
   cleaner_.letGo();
+  const ScanRemarks remarks = scanRemarks(scan);
+  if (!remarks.implausible.empty()) limits_.checkPlausibility(cleaned.surface);
   PreparedScan prepared = ready({cleaned.surface, counter_surface_->over(cleaned.surface)});
   PreprocessRecord& record = cleaned.record;
   record.steps.insert(record.steps.end(), prepared.record.steps.begin(), prepared.record.steps.end());
   prepared.record = std::move(record);
-  prepared.warnings = scanWarnings(scan);
+  prepared.warnings = remarks.all();
   for (const std::string& warning : cleaningWarnings(scan, cleaned.surface, cleaner_.options())) {
     prepared.warnings.push_back(warning);
   }

@@ -87,17 +87,17 @@ bool checkPitch(const std::string& key, double pitch, std::vector<std::string>& 
   return true;
 }
 
-bool checkPitches(const HeightMap& scan, std::vector<std::string>& lines) {
-  const bool is_x_odd = checkPitch("pitch_x", scan.pitchX(), lines);
-  const bool is_y_odd = checkPitch("pitch_y", scan.pitchY(), lines);
+bool checkPitches(const HeightMap& scan, ScanRemarks& remarks) {
+  const bool is_x_odd = checkPitch("pitch_x", scan.pitchX(), remarks.implausible);
+  const bool is_y_odd = checkPitch("pitch_y", scan.pitchY(), remarks.implausible);
   if (is_x_odd || is_y_odd) return true;
   const double longer = std::max(scan.pitchX(), scan.pitchY());
   const double shorter = std::min(scan.pitchX(), scan.pitchY());
   if (longer / shorter <= kLongestPixel) return false;
   const double odd = pitchSlip(longer) != 1.0 ? longer : shorter;
-  lines.push_back("pitch_x " + metres(scan.pitchX()) + " and pitch_y " + metres(scan.pitchY()) + ": pixels " +
-                  shortNumber(longer / shorter) + " times as long as wide are unusual (up to " +
-                  shortNumber(kLongestPixel) + "); instead of " + metres(odd) + " " + meant(odd));
+  remarks.unusual.push_back("pitch_x " + metres(scan.pitchX()) + " and pitch_y " + metres(scan.pitchY()) + ": pixels " +
+                            shortNumber(longer / shorter) + " times as long as wide are unusual (up to " +
+                            shortNumber(kLongestPixel) + "); instead of " + metres(odd) + " " + meant(odd));
   return true;
 }
 
@@ -113,13 +113,13 @@ std::string heightSlip(double pitch, double factor) {
 }
 
 /// One line at most: a wrong unit of heights or pitch shows in range and slope alike.
-void checkHeights(const HeightMap& scan, const HeightStatistics& statistics, std::vector<std::string>& lines) {
+void checkHeights(const HeightMap& scan, const HeightStatistics& statistics, ScanRemarks& remarks) {
   const double pitch = std::sqrt(scan.pitchX() * scan.pitchY());
   const double width = std::max(scan.cols() * scan.pitchX(), scan.rows() * scan.pitchY());
   const double range = statistics.max - statistics.min;
   if (range > width) {
-    lines.push_back("heights range over " + metres(range) + ": more than the scan's width of " + metres(width) + "; " +
-                    heightSlip(pitch, 1.0 / kThousand) + " or damaged data");
+    remarks.implausible.push_back("heights range over " + metres(range) + ": more than the scan's width of " +
+                                  metres(width) + "; " + heightSlip(pitch, 1.0 / kThousand) + " or damaged data");
     return;
   }
   const double slope = scan.heights().depth() == CV_32F ? rmsSlope<float>(scan) : rmsSlope<double>(scan);
@@ -127,6 +127,7 @@ void checkHeights(const HeightMap& scan, const HeightStatistics& statistics, std
   if (std::isnan(slope) || (smoothest <= slope && slope <= kSteepest)) return;
   double factor = slope > kSteepest ? 1.0 / kThousand : kThousand;
   while (slope > 0.0 && slope * factor < smoothest) factor *= kThousand;
+  std::vector<std::string>& lines = slope > kSteepest ? remarks.implausible : remarks.unusual;
   lines.push_back("rms slope " + shortNumber(slope) + " of heights that range over " + metres(range) +
                   " is unusual (at a pitch of " + metres(pitch) + " it is " + shortNumber(smoothest) + " to " +
                   shortNumber(kSteepest) + "): " + heightSlip(pitch, factor));
@@ -174,18 +175,19 @@ bool isSinglePrecision(const cv::Mat& heights) {
   return true;
 }
 
-std::vector<std::string> scanWarnings(const HeightMap& scan) {
-  std::vector<std::string> lines;
-  const bool is_pitch_odd = checkPitches(scan, lines);
+ScanRemarks scanRemarks(const HeightMap& scan) {
+  ScanRemarks remarks;
+  std::vector<std::string>& lines = remarks.unusual;
+  const bool is_pitch_odd = checkPitches(scan, remarks);
   checkLines(scan, lines);
   HeightStatistics statistics;
   try {
     statistics = heightStatistics(scan);
   } catch (const SurfaceError&) {
-    return lines;  // no valid pixel: the prediction says so
+    return remarks;  // no valid pixel: the prediction says so
   }
-  if (checkContent(scan, statistics, lines)) return lines;
-  if (!is_pitch_odd) checkHeights(scan, statistics, lines);
+  if (checkContent(scan, statistics, lines)) return remarks;
+  if (!is_pitch_odd) checkHeights(scan, statistics, remarks);
   const double largest = std::max(std::abs(statistics.min), std::abs(statistics.max));
   const double spacing = std::nextafter(static_cast<float>(largest), std::numeric_limits<float>::infinity()) -
                          static_cast<double>(static_cast<float>(largest));
@@ -194,7 +196,15 @@ std::vector<std::string> scanWarnings(const HeightMap& scan) {
                     ": over a tenth of their rms height " + metres(statistics.rms_height) +
                     "; probably a stage offset: subtract it in double precision before narrowing");
   }
+  return remarks;
+}
+
+std::vector<std::string> ScanRemarks::all() const {
+  std::vector<std::string> lines = implausible;
+  lines.insert(lines.end(), unusual.begin(), unusual.end());
   return lines;
 }
+
+std::vector<std::string> scanWarnings(const HeightMap& scan) { return scanRemarks(scan).all(); }
 
 }  // namespace mems_stiction

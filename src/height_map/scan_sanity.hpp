@@ -26,6 +26,17 @@ inline constexpr int kFewestPixelsOfASide = 8;
 ///   rms height: a stage offset has swallowed the roughness.
 std::vector<std::string> scanWarnings(const HeightMap& scan);
 
+/// The same lines, by how wrong a scan looks.
+struct ScanRemarks {
+  std::vector<std::string>
+      implausible;  ///< no instrument gives it: the pitch, a range above the width, a slope above 10
+  std::vector<std::string> unusual;
+
+  std::vector<std::string> all() const;
+};
+
+ScanRemarks scanRemarks(const HeightMap& scan);
+
 /// Every finite height is a float32: the data has passed through one, or may do so without a loss.
 bool isSinglePrecision(const cv::Mat& heights);
 

@@ -63,13 +63,14 @@ void describe(CLI::App& app, BatchArguments& arguments) {
   app.add_option("--topic", arguments.topic, "of the scans in bags; scan_info is looked for beside it")
       ->capture_default_str();
   addMaskOption(app, arguments.ignore_mask);
+  addPlausibilityOptions(app, arguments);
   app.add_flag("--no-cache", arguments.no_cache,
                "convert instrument makers' files anew, and do not keep what was converted in ~/.cache/mems_stiction");
   app.add_flag("--clear-cache", arguments.clear_cache, "first remove all that is kept there");
   app.footer(
       "Exit status: 0 every scan has its row (the last line says how many failed), 1 so it has, but no scan of this "
       "call\n"
-      "could be predicted, 2 bad input.\n\n"
+      "could be predicted, or with --strict that a row has a warning, 2 bad input.\n\n"
       "Example: stiction_batch --config device.yaml --shard 1/2 -o part1.csv 2026-*.bag   # and 2/2 elsewhere\n"
       "         stiction_batch --merge -o all.csv part1.csv part2.csv");
 }
@@ -110,8 +111,7 @@ std::vector<std::string> inputsOf(const BatchArguments& arguments) {
 }
 
 Configuration configurationOf(const BatchArguments& arguments) {
-  Configuration configuration;
-  if (!arguments.configuration.empty()) configuration = loadConfiguration(arguments.configuration);
+  Configuration configuration = configurationFile(arguments.configuration, arguments.accept_implausible);
   applyLoads(arguments, configuration.model.load);
   if (arguments.half_space) configuration.half_space.enabled = HalfSpaceUse::kAlways;
   configuration.check();

@@ -31,6 +31,8 @@ struct BatchArguments {
   bool no_cache = false;
   bool clear_cache = false;
   bool ignore_mask = false;
+  bool accept_implausible = false;
+  bool strict = false;
   std::vector<std::string> inputs;
 
   /// Whether each row finds the device's own force by its scan alone; with --parts the parts have it.

@@ -9,6 +9,7 @@
 
 #include "errors/plain_format.hpp"
 #include "files/output_file.hpp"
+#include "mems_stiction/configuration/configuration_yaml.hpp"
 #include "mems_stiction/configuration/provenance.hpp"
 #include "numeric/words.hpp"
 
@@ -120,6 +121,19 @@ std::string positive(const std::string& text) {
   const double value = plainStrtod(text.c_str(), &end);
   const bool is_number = !text.empty() && *end == '\0';  // else the conversion says so
   return is_number && !Range::positive().contains(value) ? "'" + text + "' is not allowed, must be > 0" : "";
+}
+
+Configuration configurationFile(const std::string& path, bool accept_implausible) {
+  Configuration configuration;
+  configuration.limits.accept_implausible = accept_implausible;
+  return path.empty() ? configuration : loadConfiguration(path, configuration);
+}
+
+int strictStatus(const std::string& program, bool is_strict, int status) {
+  if (!is_strict || status != 0 || warningCount() == 0) return status;
+  complain(program, std::to_string(warningCount()) + (warningCount() == 1 ? " warning" : " warnings") +
+                        ", and --strict takes none");
+  return kStrict;
 }
 
 void addChannelOption(CLI::App& app, std::string& channel) {

@@ -15,6 +15,7 @@
 #include "errors/error_text.hpp"
 #include "errors/one_line.hpp"
 #include "files/interruption.hpp"
+#include "mems_stiction/configuration/configuration.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/import/scan_file.hpp"
 #include "mems_stiction/loads/interface.hpp"
@@ -24,13 +25,22 @@ namespace mems_stiction {
 
 /// Exit status when the command line or a scan cannot be used.
 constexpr int kBadInput = 2;
+/// Exit status of --strict where something was warned of.
+constexpr int kStrict = 1;
 
 inline void complain(const std::string& program, const std::string& what) {
   std::cerr << program << ": " << oneLine(what) << "\n";
 }
 
+/// How much has been warned of, for --strict.
+inline int& warningCount() {
+  static int count = 0;
+  return count;
+}
+
 /// One line about a scan that goes on.
 inline void warn(const std::string& path, const std::string& what) {
+  ++warningCount();
   std::cerr << oneLine(path) << ": warning: " << oneLine(what) << "\n";
 }
 
@@ -131,6 +141,21 @@ void applyLoads(const Arguments& arguments, LoadOptions& load) {
   if (arguments.voltage) load.voltage = *arguments.voltage;
   if (arguments.load) load.setMechanicalLoad(*arguments.load);
 }
+
+/// --accept-implausible and --strict, into members of these names.
+template <typename Arguments>
+void addPlausibilityOptions(CLI::App& app, Arguments& arguments) {
+  app.add_flag("--accept-implausible", arguments.accept_implausible,
+               "take scans and constants that no instrument, material or device has (limits/accept_implausible)");
+  app.add_flag("--strict", arguments.strict, "exit with 1 where there is a warning and nothing worse");
+}
+
+/// The configuration file of a program; empty: the defaults.
+/// @throw OptionsError, FileError
+Configuration configurationFile(const std::string& path, bool accept_implausible);
+
+/// The exit status of a program that has ended with @p status. @return kStrict with --strict and a warning in place of 0
+int strictStatus(const std::string& program, bool is_strict, int status);
 
 /// --channel of an instrument maker's file.
 void addChannelOption(CLI::App& app, std::string& channel);

@@ -33,6 +33,8 @@ struct Arguments {
   std::string picture;
   bool json = false;
   bool ignore_mask = false;
+  bool accept_implausible = false;
+  bool strict = false;
   std::vector<std::string> counter_surface;
   std::vector<std::string> scans;
 };
@@ -76,15 +78,15 @@ void describe(CLI::App& app, Arguments& arguments) {
   addLoadOptions(app, arguments);
   addChannelOption(app, arguments.channel);
   addMaskOption(app, arguments.ignore_mask);
+  addPlausibilityOptions(app, arguments);
   app.add_flag("-j,--json", arguments.json, "one JSON object on one line instead of a YAML document");
   app.add_option("--picture", arguments.picture,
                  "draw spectrum, roughness against scale, a made surface and force against area, .png, .pdf or .svg; "
                  "by plot_device")
       ->type_name("OUT.png");
   app.footer(
-      "Exit status: 0, or 2 for bad input (one line on stderr names the file and the cause; a scan that cannot be "
-      "used\n"
-      "is not left out silently).\n\n"
+      "Exit status: 0, 1 with --strict and a warning, or 2 for bad input (one line on stderr names the file and the\n"
+      "cause; a scan that cannot be used is not left out silently).\n\n"
       "Example: predict_device --config part.yaml --area 1e-8 afm_1.gwy afm_2.gwy wide.gwy");
 }
 
@@ -115,8 +117,7 @@ std::vector<InputScan> inputsOf(const Arguments& arguments, const std::vector<st
 
 /// The configuration file with the command line's values in it. @throw OptionsError, FileError
 Configuration configurationOf(const Arguments& arguments) {
-  Configuration configuration;
-  if (!arguments.configuration.empty()) configuration = loadConfiguration(arguments.configuration);
+  Configuration configuration = configurationFile(arguments.configuration, arguments.accept_implausible);
   applyLoads(arguments, configuration.model.load);
   if (arguments.area) configuration.device.contact_area = *arguments.area;
   if (arguments.contacts) configuration.device.contacts = *arguments.contacts;
@@ -188,7 +189,7 @@ int run(const Arguments& arguments) {
   requirePicture(arguments);
   for (const std::string& warning : settingsWarnings(configuration)) warn("predict_device", warning);
   predictDevice(arguments, configuration, inputs, counter_inputs);
-  return 0;
+  return strictStatus("predict_device", arguments.strict, 0);
 }
 
 }  // namespace

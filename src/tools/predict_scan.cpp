@@ -49,6 +49,8 @@ struct Arguments {
   HalfSpaceMapFiles half_space_maps;
   bool json = false;
   bool ignore_mask = false;
+  bool accept_implausible = false;
+  bool strict = false;
   bool record_curve = false;
   bool half_space = false;
   bool convergence = false;
@@ -78,6 +80,7 @@ void describe(CLI::App& app, Arguments& arguments) {
       ->type_name("M");
   addChannelOption(app, arguments.channel);
   addMaskOption(app, arguments.ignore_mask);
+  addPlausibilityOptions(app, arguments);
   app.add_flag("-j,--json", arguments.json, "one JSON object per line instead of YAML documents");
   app.add_option("--curve", arguments.curve,
                  "write force over height, both ways, as CSV: that of the formulation, its height z0 - displacement, "
@@ -111,8 +114,9 @@ void describe(CLI::App& app, Arguments& arguments) {
                  "as --deformed, by the half-space: what flowed is missing; for one scan")
       ->type_name("OUT.tiff");
   app.footer(
-      "Exit status: 0 all scans predicted, 2 bad input (one line on stderr names the file and the cause; the other\n"
-      "scans of the call are still predicted).\n\n"
+      "Exit status: 0 all scans predicted, 1 so they are, with --strict and a warning, 2 bad input (one line on "
+      "stderr\n"
+      "names the file and the cause; the other scans of the call are still predicted).\n\n"
       "Example: predict_scan --pitch 20e-9 --load 1e-6 surface.tiff");
 }
 
@@ -173,8 +177,7 @@ void setNumber(Options& options, const std::string& key, double number) {
 /// The configuration file with the command line's values in it.
 /// @throw OptionsError, FileError
 Configuration configurationOf(const Arguments& arguments) {
-  Configuration configuration;
-  if (!arguments.configuration.empty()) configuration = loadConfiguration(arguments.configuration);
+  Configuration configuration = configurationFile(arguments.configuration, arguments.accept_implausible);
   applyLoads(arguments, configuration.model.load);
   if (arguments.step) setNumber(configuration.model, "paper/step", *arguments.step);
   if (arguments.half_space) configuration.half_space.enabled = HalfSpaceUse::kAlways;
@@ -328,6 +331,6 @@ int run(const Arguments& arguments) {
 int main(int argc, char** argv) {
   return runProgram<Arguments>("predict_scan", argc, argv, describe, [](Arguments arguments) {
     arguments.scans = scansOf(arguments.scans);
-    return run(arguments);
+    return strictStatus("predict_scan", arguments.strict, run(arguments));
   });
 }

@@ -74,6 +74,7 @@ BatchRow RowMaker::row(const BatchScan& scan, const std::function<void(const std
     append(stateFields(state), row.fields);
     return row;
   }
+  row.is_warned = !subject.warnings.empty();
   beside_ = Evidence();
   if (arguments_.rowsHaveDeviceForce()) {
     beside_ = evidenceOfScan(prepared_, configuration_, [&](double share) { tell(deviceText(share)); });

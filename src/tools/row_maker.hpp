@@ -27,6 +27,7 @@ struct BatchRow {
   std::string reason;  ///< why it is not predicted; empty if it is
   bool is_predicted = false;
   bool is_unsolved = false;  ///< the half-space was asked and has no solution
+  bool is_warned = false;
 };
 
 /// Every column of a row, in order. @param with_verdict whether a device is stated

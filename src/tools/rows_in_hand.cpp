@@ -27,6 +27,7 @@ std::vector<std::string> probeCommand(const BatchArguments& arguments, const std
   if (arguments.load) command.push_back("--load=" + numberText(*arguments.load));
   if (arguments.half_space) command.emplace_back("--half-space");
   command.emplace_back(arguments.rowsHaveDeviceForce() ? "--device-force" : "--no-device-force");
+  if (arguments.accept_implausible) command.emplace_back("--accept-implausible");
   if (arguments.ignore_mask) command.emplace_back("--ignore-mask");
   if (arguments.no_cache) command.emplace_back("--no-cache");
   command.insert(command.end(), {"--", input});

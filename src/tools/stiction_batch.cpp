@@ -172,6 +172,7 @@ int run(const BatchArguments& arguments) {
       }
       if (!row.is_predicted && ++failed_count == 1) first_reason = row.reason;
       if (row.is_unsolved) ++unsolved_count;
+      if (row.is_warned) ++warningCount();
     }
   }
   rows.settle();
@@ -186,7 +187,9 @@ int run(const BatchArguments& arguments) {
              (failed_count > 1 ? "the first of " + std::to_string(failed_count) + ": " : "") + first_reason);
   }
   pool(arguments, scans.inputs(), stated);
-  return failed_count > 0 && failed_count == wanted_numbers.size() ? kNonePredicted : 0;
+  return failed_count > 0 && failed_count == wanted_numbers.size()
+             ? kNonePredicted
+             : strictStatus("stiction_batch", arguments.strict, 0);
 }
 
 int merge(const BatchArguments& arguments) {

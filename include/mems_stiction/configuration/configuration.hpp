@@ -23,17 +23,28 @@
 
 namespace mems_stiction {
 
-/// What one scan may take of the machine, so that no scan stops the ones behind it. Scans beyond are refused with a sentence.
+/// What is taken of scans and settings; what is beyond is refused with a sentence. One scan may not take so much of the
+/// machine that it stops the ones behind it.
 struct ScanLimits {
   static constexpr const char* kMaxTime = "limits/max_time";
+  static constexpr const char* kAcceptImplausible = "limits/accept_implausible";
 
   int max_pixels = 67108864;  ///< after refinement [-], >= 1
   double max_time = 60.0;     ///< of preparation and prediction together [s], >= 0; 0 = none
+  bool accept_implausible =
+      false;  ///< take what no instrument, material or device has (scan_sanity.hpp, usual_values.hpp)
 
   void describe(OptionVisitor& visitor);
 
   /// @throw SurfaceError if the scan, refined, has more than max_pixels.
   void checkSize(const HeightMap& scan, int refinement) const;
+
+  /// @throw SurfaceError for a surface that no instrument gives (scan_sanity.hpp), unless accept_implausible. It is to be
+  /// judged as cleaned: damage that is mended is none.
+  void checkPlausibility(const HeightMap& cleaned) const;
+
+  /// What a refusal of something implausible ends with.
+  static std::string howToAccept();
 
   /// For TimeLimit [s]: infinity without a limit.
   double longestTime() const { return max_time > 0.0 ? max_time : std::numeric_limits<double>::infinity(); }

@@ -252,12 +252,12 @@ TEST(Configuration, OtherTablesUseTheSameReader) {
 
 TEST(Configuration, PrintedConfigurationReadsBackTheSame) {
   Configuration configuration;
-  configuration.model.lower.hardness = 1.0 / 3.0;
+  configuration.model.lower.hardness = 1e9 / 3.0;
   configuration.model.formulation = "printed";
   configuration.scan.pitch_x = configuration.scan.pitch_y = 1e-9;
   const std::string text = toYaml(configuration);
   EXPECT_EQ(toYaml(read(text)), text);
-  EXPECT_EQ(read(text).model.lower.hardness, 1.0 / 3.0);
+  EXPECT_EQ(read(text).model.lower.hardness, 1e9 / 3.0);
   EXPECT_TRUE(mentions(text, "pitch_x: 1.0e-09  # [m]")) << text;
 }
 

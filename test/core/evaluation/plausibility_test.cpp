@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "mems_stiction/configuration/configuration_yaml.hpp"
+#include "mems_stiction/errors/errors.hpp"
 #include "mems_stiction/paper/paper_options.hpp"
 
 namespace mems_stiction {
@@ -24,7 +25,11 @@ TEST(Plausibility, ASlipOfAUnitIsNamedWithTheUnitThatWasMeant) {
   configuration.model.interface.work_of_adhesion = 50.0;
   EXPECT_EQ(
       onlyWarning(configuration),
-      "interface/work_of_adhesion 50 J/m^2 is outside the usual 1e-06 to 10 J/m^2: probably 50 mJ/m^2; write 0.05");
+      "interface/work_of_adhesion 50 J/m^2 is implausible (1e-07 to 20 J/m^2 are taken): probably 50 mJ/m^2; write 0.05");
+  configuration.model.interface.work_of_adhesion = 15.0;
+  EXPECT_EQ(
+      onlyWarning(configuration),
+      "interface/work_of_adhesion 15 J/m^2 is outside the usual 1e-06 to 10 J/m^2: probably 15 mJ/m^2; write 0.015");
   configuration = Configuration();
   configuration.model.lower.youngs_modulus = 169.0;
   EXPECT_NE(onlyWarning(configuration).find("probably 169 GPa; write 1.69e+11"), std::string::npos);
@@ -37,7 +42,7 @@ TEST(Plausibility, ASlipOfAUnitIsNamedWithTheUnitThatWasMeant) {
   configuration = Configuration();
   configuration.model.formulation = "paper";
   configuration.model.solver.of<PaperOptions>().step = 0.1;
-  EXPECT_NE(onlyWarning(configuration).find("paper/step 0.1 m is outside the usual"), std::string::npos);
+  EXPECT_NE(onlyWarning(configuration).find("paper/step 0.1 m is implausible"), std::string::npos);
   configuration = Configuration();
   configuration.model.capillary.relative_humidity = 0.4;
   configuration.model.capillary.temperature = 25.0;
@@ -85,6 +90,35 @@ TEST(Plausibility, ASettingThatTheSolverDoesNotUseIsNamed) {
   EXPECT_EQ(settingsWarnings(configuration).size(), 5u);
   configuration.model.capillary.relative_humidity = 0.4;
   EXPECT_EQ(settingsWarnings(configuration).size(), 4u);
+}
+
+TEST(Plausibility, WhatNoMaterialOrDeviceHasIsRefusedUnlessItIsMeant) {
+  const auto refusal = [](const Configuration& configuration) {
+    const std::vector<std::string> lines = configuration.validate();
+    EXPECT_EQ(lines.size(), 1U);
+    return lines.empty() ? "" : lines.front();
+  };
+  for (const double modulus : {169.0, 0.9e6, 2.1e12}) {
+    Configuration configuration;
+    configuration.model.lower.youngs_modulus = modulus;
+    const std::string line = refusal(configuration);
+    EXPECT_EQ(line.find("lower/youngs_modulus "), 0U) << line;
+    EXPECT_NE(line.find("is implausible (1e+06 to 2e+12 Pa are taken)"), std::string::npos) << line;
+    EXPECT_NE(line.find("limits/accept_implausible: true takes it"), std::string::npos) << line;
+    EXPECT_THROW(configuration.check(), OptionsError);
+    configuration.limits.accept_implausible = true;
+    EXPECT_NO_THROW(configuration.check());
+    EXPECT_EQ(settingsWarnings(configuration).size(), 1U) << "still said";
+  }
+  Configuration rubber;
+  rubber.model.upper.youngs_modulus = 1.5e6;
+  EXPECT_TRUE(rubber.validate().empty());
+  EXPECT_TRUE(settingsWarnings(rubber).empty());
+  Configuration large;
+  large.device.contact_area = 100.0;
+  EXPECT_NE(refusal(large).find("device/contact_area 100 m^2 is implausible"), std::string::npos);
+  large.device.contact_area = 0.9e-4;
+  EXPECT_TRUE(large.validate().empty());
 }
 
 TEST(Plausibility, ALoadThatNoAreaCouldCarryIsNamed) {

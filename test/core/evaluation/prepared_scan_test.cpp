@@ -289,6 +289,42 @@ TEST(ScanPreparer, SaysHowMuchOfTheScanACounterSurfaceCovers) {
   EXPECT_EQ(counterWarning(ScanPreparer(cleaning(CounterSurfaceType::kGaussian)).prepare(scan)), "");
 }
 
+TEST(ScanPreparer, RefusesWhatNoInstrumentGivesUnlessItIsMeant) {
+  const HeightMap scan = rough(1);
+  const HeightMap in_nanometres(scan.asDouble().heights() * 1e9, 5e-9, 5e-9);
+  const HeightMap in_metres(scan.heights(), 20.0, 20.0);
+  for (const auto& [implausible, part] : {std::make_pair(in_nanometres, "more than the scan's width"),
+                                          std::make_pair(in_metres, "pitch_x 20 m is above 1 mm")}) {
+    Configuration configuration = cleaning();
+    try {
+      ScanPreparer(configuration).prepare(implausible);
+      FAIL() << part;
+    } catch (const SurfaceError& error) {
+      EXPECT_EQ(std::string(error.what()).find("implausible: "), 0U) << error.what();
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("limits/accept_implausible: true"), std::string::npos) << error.what();
+    }
+    configuration.limits.accept_implausible = true;
+    const std::vector<std::string> warnings = ScanPreparer(configuration).prepare(implausible).warnings;
+    ASSERT_FALSE(warnings.empty());
+    EXPECT_NE(warnings.front().find(part), std::string::npos) << "still said";
+    Configuration topic = cleaning(CounterSurfaceType::kTopic);
+    ScanPreparer under(topic);
+    under.setMeasuredCounterSurface(implausible);
+    EXPECT_THROW(under.prepare(scan), SurfaceError) << part;
+  }
+}
+
+TEST(ScanPreparer, TakesAScanWhoseDamageTheCleaningMends) {
+  cv::Mat heights = rough(1).asDouble().heights().clone();
+  heights.at<double>(20, 30) = 1e-3;
+  const HeightMap damaged(heights, 5e-9, 5e-9);
+  Configuration configuration = cleaning();
+  EXPECT_THROW(ScanPreparer(configuration).prepare(damaged), SurfaceError);
+  configuration.preprocessing.spikes.enabled = true;
+  EXPECT_NO_THROW(ScanPreparer(configuration).prepare(damaged));
+}
+
 TEST(ScanPreparer, LooksAtCounterSurfacesAsAtScans) {
   const ScratchFolder folder;
   const HeightMap scan = rough(1);
