@@ -117,7 +117,10 @@ void DeviceForceStream::offer(const StationCase& scan, const PredictedScan& pred
     waiting_.push_back(std::move(task));
   }
   changed_.notify_all();
-  for (const Task& lost : gone) warn_(lost.scan.header, "device_force: scans of other parts came before its turn");
+  for (const Task& lost : gone) {
+    warn_(lost.scan.header, "device_force: scans of other parts came before its turn");
+    judged_({lost.scan, std::nullopt, std::nullopt});
+  }
 }
 
 bool DeviceForceStream::HalfSpaceOfScan::isOf(const PreparedScan& other, const std::string& other_hash) const {
@@ -158,24 +161,31 @@ void DeviceForceStream::loop() {
       task = std::move(waiting_.back());
       waiting_.pop_back();
       part = parts_.of(task->part);  // there as long as its scan waits, but for one that is to be judged again
-      if (!part) {
+      if (part) {
+        last_ = task;
+        at_hand_ = task->scan.id;
+        is_judged_ = false;
+      } else {
         ++counts_.skipped;
-        continue;
       }
-      last_ = task;
-      is_judged_ = false;
     }
+    DeviceAnswer answer{task->scan, std::nullopt, std::nullopt};
     try {
-      work(*task, *part);
+      if (part) answer = work(*task, *part);
     } catch (const Stopped&) {
       return;
     } catch (const std::exception& error) {  // of the publisher: the next part must get its turn
       warn_(task->scan.header, "device_force: " + reasonOf(error));
     }
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      at_hand_.reset();
+    }
+    judged_(answer);
   }
 }
 
-void DeviceForceStream::work(const Task& task, const ScannedPart& part) {
+DeviceAnswer DeviceForceStream::work(const Task& task, const ScannedPart& part) {
   std::optional<Verdict> verdict;
   DeviceAdhesion message;
   try {
@@ -188,9 +198,6 @@ void DeviceForceStream::work(const Task& task, const ScannedPart& part) {
   fillProvenance(task.scan.provenance, message);
   const bool is_refused = message.status == DeviceAdhesion::REFUSED;
   publisher_.publish(message);
-  if (verdict && PartKey{task.part.first, task.part.second, ""}.isStated()) {
-    judged_(pooledVerdictOf(part.statements(), *verdict), task.scan);
-  }
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     since_.reset();
@@ -201,6 +208,11 @@ void DeviceForceStream::work(const Task& task, const ScannedPart& part) {
     if (is_refused) last_failure_ = message.message;
   }
   if (is_refused) warn_(task.scan.header, "device_force: " + message.message);
+  DeviceAnswer answer{task.scan, verdict, std::nullopt, true};
+  if (verdict && PartKey{task.part.first, task.part.second, ""}.isStated()) {
+    answer.part = pooledVerdictOf(part.statements(), *verdict);
+  }
+  return answer;
 }
 
 DeviceAdhesion DeviceForceStream::find(const Task& task, const ScannedPart& part, std::optional<Verdict>& verdict) {
@@ -308,6 +320,12 @@ Evidence DeviceForceStream::evidenceOf(const StationCase& scan) const {
     evidence.device = deviceEvidence(found_->force);
   }
   return evidence;
+}
+
+bool DeviceForceStream::isExpected(std::uint64_t scan_id) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return at_hand_ == scan_id ||
+         std::any_of(waiting_.begin(), waiting_.end(), [&](const Task& task) { return task.scan.id == scan_id; });
 }
 
 void DeviceForceStream::report(diagnostic_updater::DiagnosticStatusWrapper& status) {

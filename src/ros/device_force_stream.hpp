@@ -29,6 +29,7 @@
 #include "evaluation/part_surfaces.hpp"
 #include "half_space/solution_pause.hpp"
 #include "ros/device_force_conversion.hpp"
+#include "ros/device_verdict_topic.hpp"
 #include "ros/live_predictor.hpp"
 
 namespace mems_stiction {
@@ -39,8 +40,9 @@ class DeviceForceStream {
   /// Called for each scan without a force, on the stream's thread or on that of offer().
   using Warn = std::function<void(const std_msgs::Header& header, const std::string& text)>;
 
-  /// Called on the stream's thread with what all scans of a part say, after the device has been judged.
-  using Judged = std::function<void(const PooledVerdict& part, const ScanOfPart& last)>;
+  /// Called for each scan that was offered and that no newer one of its part has overtaken, once nothing more is to come
+  /// of it: with the verdict on its device, or without one. On the stream's thread or on that of offer().
+  using Judged = std::function<void(const DeviceAnswer& answer)>;
 
   /// - @p pause is given way to; it must outlive the stream
   DeviceForceStream(const ros::NodeHandle& handle, const SurfaceLimits& most, SolutionPause& pause, Warn warn,
@@ -66,6 +68,9 @@ class DeviceForceStream {
   std::optional<DeviceScale> scaleOf(const StationCase& scan) const;
   /// The same as evidence for a verdict on the scan, under the load of the case alone.
   Evidence evidenceOf(const StationCase& scan) const;
+
+  /// Whether a scan waits for its device's force, or is at hand. @param scan_id ScanOfPart::id
+  bool isExpected(std::uint64_t scan_id) const;
 
   /// One status with every count; WARN if a scan since the last report has no force.
   void report(diagnostic_updater::DiagnosticStatusWrapper& status);
@@ -112,7 +117,8 @@ class DeviceForceStream {
   };
 
   void loop();
-  void work(const Task& task, const ScannedPart& part);
+  /// @return without a verdict if it could not be judged
+  DeviceAnswer work(const Task& task, const ScannedPart& part);
   /// With the mutex held: whether it was found with just this scan, but for the load.
   bool isFoundWith(const StationCase& scan) const;
   /// What the part's surfaces say under the task's settings, and whether they had to be made.
@@ -129,6 +135,7 @@ class DeviceForceStream {
   std::optional<Found> found_;               ///< changed by the stream's thread only
   std::deque<HalfSpaceOfScan> half_spaces_;  ///< the newest first; a few, since several scans wait for theirs
   std::optional<Task> last_;                 ///< that is at hand, or was
+  std::optional<std::uint64_t> at_hand_;     ///< ScanOfPart::id
   bool is_judged_ = false;                   ///< a half-space that comes now is too late for it
   std::condition_variable changed_;
   PartSurfaces parts_;

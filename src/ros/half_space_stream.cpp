@@ -77,6 +77,7 @@ void HalfSpaceStream::offer(const HalfSpaceCall& call, const StationCase& predic
   }
   changed_.notify_all();
   for (const Task& lost : gone) {
+    judged_(lost.scan, std::nullopt);
     if (lost.call.why.empty()) continue;
     warn_(lost.predicted.header, "half-space: " + lost.call.why + " asks for it, but newer scans came before its turn");
   }
@@ -92,16 +93,23 @@ void HalfSpaceStream::loop() {
       if (stopping_) return;
       task = std::move(waiting_.back());
       waiting_.pop_back();
+      at_hand_ = task->scan.id;
     }
+    std::optional<Verdict> verdict;
     try {
-      solve(*task);
+      verdict = solve(*task);
     } catch (const std::exception& error) {  // of the publishers: the next scan must get its turn
       warn_(task->predicted.header, "half-space: " + reasonOf(error));
     }
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      at_hand_.reset();
+    }
+    if (!stopping_) judged_(task->scan, verdict);
   }
 }
 
-void HalfSpaceStream::solve(const Task& task) {
+std::optional<Verdict> HalfSpaceStream::solve(const Task& task) {
   const StationCase& scan = task.predicted;
   Options model = scan.settings->model;
   HalfSpaceControl control;
@@ -126,14 +134,11 @@ void HalfSpaceStream::solve(const Task& task) {
   } catch (const std::exception& error) {
     message = refusedMessage(error.what(), model.load, scan.header);
   }
-  if (stopping_) return;
+  if (stopping_) return std::nullopt;
   fillProvenance(task.scan.provenance, message);
   const bool is_solved = message.status == HalfSpaceSolution::SOLVED;
   publish(message, task, map);
-  if (verdict) {
-    judged_(task.scan, *verdict);
-    solved_(scan, solved, task.call.why);
-  }
+  if (verdict) solved_(scan, solved, task.call.why);
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     ++(is_solved ? counts_.solved : counts_.failed);
@@ -141,6 +146,13 @@ void HalfSpaceStream::solve(const Task& task) {
     if (!is_solved) last_failure_ = message.message;
   }
   if (!is_solved) warn_(scan.header, "half-space: " + message.message);
+  return verdict;
+}
+
+bool HalfSpaceStream::isExpected(std::uint64_t scan_id) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return at_hand_ == scan_id ||
+         std::any_of(waiting_.begin(), waiting_.end(), [&](const Task& task) { return task.scan.id == scan_id; });
 }
 
 void HalfSpaceStream::publish(const HalfSpaceSolution& solution, const Task& task,

@@ -35,10 +35,11 @@ class HalfSpaceStream {
   /// Called for each scan without a solution, on the thread of the half-space or on that of offer().
   using Warn = std::function<void(const std_msgs::Header& header, const std::string& text)>;
 
-  /// Called with the verdict on each scan that was judged, on the thread of the half-space.
-  using Judged = std::function<void(const ScanOfPart& scan, const Verdict& verdict)>;
+  /// Called for each scan whose turn has come or has passed: with the verdict, or without one. On the thread of the
+  /// half-space or on that of offer().
+  using Judged = std::function<void(const ScanOfPart& scan, const std::optional<Verdict>& verdict)>;
 
-  /// Called after that with what judged it, on the same thread.
+  /// Called before that with what judges it, on the thread of the half-space.
   using Solved = std::function<void(const StationCase& scan, const SolvedHalfSpace& solution, const std::string& why)>;
 
   /// What is known of the device of a scan, called on the thread of the half-space.
@@ -66,6 +67,9 @@ class HalfSpaceStream {
   void offer(const HalfSpaceCall& call, const StationCase& predicted, const ScanOfPart& scan, const cv::Mat& model_map,
              const DrawnCurve& model_curve);
 
+  /// Whether a scan waits for its solution, or is at hand. @param scan_id ScanOfPart::id
+  bool isExpected(std::uint64_t scan_id) const;
+
   /// One status with every count; WARN if a scan since the last report has no solution.
   void report(diagnostic_updater::DiagnosticStatusWrapper& status);
 
@@ -86,7 +90,8 @@ class HalfSpaceStream {
   };
 
   void loop();
-  void solve(const Task& task);
+  /// @return the verdict on the scan's device; nothing if it could not be judged
+  std::optional<Verdict> solve(const Task& task);
   /// The message always, maps and pictures while somebody listens.
   void publish(const HalfSpaceSolution& solution, const Task& task, const cv::Mat& half_space_map) const;
 
@@ -102,9 +107,10 @@ class HalfSpaceStream {
   Solved solved_;
   Beside beside_;
   std::atomic<bool> stopping_{false};
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable changed_;
-  std::vector<Task> waiting_;  ///< the newest at the end
+  std::vector<Task> waiting_;             ///< the newest at the end
+  std::optional<std::uint64_t> at_hand_;  ///< ScanOfPart::id
   Counts counts_;
   std::uint64_t reported_failed_ = 0;
   std::string last_failure_;

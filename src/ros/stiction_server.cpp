@@ -57,7 +57,7 @@ StictionServer::StictionServer(const ros::NodeHandle& handle, const ros::NodeHan
                     withQueue(handle, service_queue_), configuration.core.half_space, half_space_pause_,
                     [this](const auto& header, const auto& text) { accounting_.warn(header, text); },
                     [this](const auto& scan, const auto& verdict) {
-                      worker_.push([=] { judgePartAgain(scan, verdict); });
+                      worker_.push([=] { takeHalfSpaceVerdict(scan, verdict); });
                     },
                     [this](const auto& scan, const auto& solution, const auto& why) {
                       if (device_force_) device_force_->takeHalfSpace(scan, solution, why);
@@ -71,9 +71,8 @@ StictionServer::StictionServer(const ros::NodeHandle& handle, const ros::NodeHan
                                             static_cast<std::size_t>(options_.max_part_memory)},
                               half_space_pause_,
                               [this](const auto& header, const auto& text) { accounting_.warn(header, text); },
-                              [this](const auto& part, const auto& last) {
-                                worker_.push([=] { publishPartOfDevice(part, last); });
-                              })),
+                              [this](const auto& answer) { worker_.push([=] { takeDeviceVerdict(answer); }); })),
+      verdict_(withQueue(handle, service_queue_)),
       worker_(capacityOf(options_), static_cast<std::size_t>(options_.max_waiting_memory)),
       counter_surface_frame_(options_.transform.frame.empty()
                                  ? nullptr
@@ -335,6 +334,11 @@ void StictionServer::predictAndPublish(const sensor_msgs::ImageConstPtr& image, 
     publisher_.publish(predicted, scan);
     offerToHalfSpace(predicted);
     offerToDevice(predicted);
+    if (predictor_.settings().snapshot()->device.isStated()) {
+      publishVerdict({{scan.header, predicted.provenance, predicted.pool_settings_hash, predicted.scan_id},
+                      predicted.verdict,
+                      predicted.part});
+    }
     if (publisher_.isPreviewWanted()) publisher_.publishPreview(predictor_.lastSurface(), scan.header);
     accounting_.predicted((ros::WallTime::now() - arrival).toSec(), predicted.prediction.processing_time);
     for (const std::string& line : predicted.warnings) accounting_.warn(scan.header, line);
@@ -343,10 +347,19 @@ void StictionServer::predictAndPublish(const sensor_msgs::ImageConstPtr& image, 
   }
 }
 
-void StictionServer::judgePartAgain(const ScanOfPart& scan, const Verdict& verdict) {
-  const std::optional<PartNews> news = predictor_.judgeAgain(scan, verdict);
+void StictionServer::takeHalfSpaceVerdict(const ScanOfPart& scan, const std::optional<Verdict>& verdict) {
+  DeviceAnswer answer{scan, std::nullopt, std::nullopt};
+  const std::optional<PartNews> news = verdict ? predictor_.judgeAgain(scan, *verdict) : std::nullopt;
   // A device that has been judged by its own force is not judged by one frame after that.
-  if (news && scan.id != judged_by_device_) publisher_.publishPart(news->verdict, news->last);
+  if (verdict && scan.id != judged_by_device_) {
+    answer.verdict = verdict;
+    if (news) {
+      answer.last = news->last;
+      answer.part = news->verdict;
+      publisher_.publishPart(news->verdict, news->last);
+    }
+  }
+  publishVerdict(answer);
 }
 
 void StictionServer::offerToHalfSpace(const PredictedScan& predicted) {
@@ -366,9 +379,15 @@ void StictionServer::offerToDevice(const PredictedScan& predicted) {
   if (device_force_) device_force_->offer(predictor_.stationCase(nullptr), predicted);
 }
 
-void StictionServer::publishPartOfDevice(const PooledVerdict& part, const ScanOfPart& last) {
-  judged_by_device_ = last.id;
-  publisher_.publishPart(part, last);
+void StictionServer::takeDeviceVerdict(const DeviceAnswer& answer) {
+  if (answer.verdict) judged_by_device_ = answer.last.id;
+  if (answer.part) publisher_.publishPart(*answer.part, answer.last);
+  publishVerdict(answer);
+}
+
+void StictionServer::publishVerdict(const DeviceAnswer& answer) {
+  verdict_.publish(answer, {device_force_ && device_force_->isExpected(answer.last.id),
+                            half_space_ && half_space_->isExpected(answer.last.id)});
 }
 
 void StictionServer::showLastScan() {

@@ -30,6 +30,7 @@
 #include "ros/call_queue.hpp"
 #include "ros/counter_surface_frame.hpp"
 #include "ros/device_force_stream.hpp"
+#include "ros/device_verdict_topic.hpp"
 #include "ros/diagnostics.hpp"
 #include "ros/guarded_queue.hpp"
 #include "ros/half_space_calls.hpp"
@@ -80,15 +81,17 @@ class StictionServer {
                  const std::optional<SurfacePose>& pose);
   void predictAndPublish(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info, ros::WallTime arrival,
                          const std::optional<SurfacePose>& pose);
-  /// What the part's scans say once the half-space has judged one of them.
-  void judgePartAgain(const ScanOfPart& scan, const Verdict& verdict);
+  /// What is said of a scan and its part once the half-space has judged it, or cannot.
+  void takeHalfSpaceVerdict(const ScanOfPart& scan, const std::optional<Verdict>& verdict);
   /// The last scan to the stream that solves it as a half-space, if it is to be.
   void offerToHalfSpace(const PredictedScan& predicted);
   /// The last scan to both streams, under settings that have changed: to that of the half-space if its flags ask for it.
   void offerAgain(const PredictedScan& predicted);
   /// The last scan to the stream that finds its device's force.
   void offerToDevice(const PredictedScan& predicted);
-  void publishPartOfDevice(const PooledVerdict& part, const ScanOfPart& last);
+  /// What is said of a scan and its part once the device's own force has judged it, or cannot.
+  void takeDeviceVerdict(const DeviceAnswer& answer);
+  void publishVerdict(const DeviceAnswer& answer);
   void showLastScan();
   void takeCounterSurface(const sensor_msgs::ImageConstPtr& image, const ScanInfoConstPtr& info);
   void rejectLone(const std_msgs::Header& header, const std::string& reason);
@@ -132,6 +135,7 @@ class StictionServer {
   std::unique_ptr<HalfSpaceStream> half_space_;      ///< null: half_space/enabled is false
   std::unique_ptr<DeviceForceStream> device_force_;  ///< null: device_force/enabled is not set
   std::uint64_t judged_by_device_ = 0;               ///< ScanOfPart::id of the last scan; touched by the worker only
+  DeviceVerdictTopic verdict_;
   WorkQueue worker_;
   std::atomic<bool> stopping_{false};
 

@@ -18,6 +18,7 @@ inline constexpr char kCounterScanInfoTopic[] = "counter_scan_info";
 inline constexpr char kPredictionTopic[] = "prediction";
 inline constexpr char kSummaryTopic[] = "summary";
 inline constexpr char kPartVerdictTopic[] = "part_verdict";
+inline constexpr char kVerdictTopic[] = "verdict";
 inline constexpr char kDeformedHeightTopic[] = "deformed_height";
 inline constexpr char kDeformedCounterHeightTopic[] = "deformed_counter_height";
 inline constexpr char kContactMapTopic[] = "contact_map";

@@ -14,7 +14,7 @@ import rospy
 import rostest
 import yaml
 from diagnostic_msgs.msg import DiagnosticArray
-from mems_stiction.msg import DeviceAdhesion, PartVerdict, StictionPrediction
+from mems_stiction.msg import DeviceAdhesion, DeviceVerdict, PartVerdict, StictionPrediction
 from mems_stiction.prediction_text import device_line
 from mems_stiction.srv import SetMechanicalLoad
 from roslib.packages import find_node
@@ -57,6 +57,7 @@ class DeviceTest(unittest.TestCase):
         cls.predictions = Collector("prediction", StictionPrediction).connect()
         cls.parts = Collector("part_verdict", PartVerdict).connect()
         cls.devices = Collector("device_force", DeviceAdhesion).connect()
+        cls.verdicts = Collector("verdict", DeviceVerdict).connect()
         cls.station = Station()
 
     def counts(self, node="stiction_node"):
@@ -83,6 +84,21 @@ class DeviceTest(unittest.TestCase):
         prediction, device = self.predictions.wait(scans + 1)[scans], self.devices.wait(devices + 1)[devices]
         self.assertEqual((prediction.header.stamp, device.header.stamp), (stamp, stamp))
         return prediction, device
+
+    def assert_one_answer(self, prediction, device, scan_count):
+        """The topic verdict has a provisional answer with the prediction, and a final one with the device's force."""
+
+        def said():
+            return [message for message in self.verdicts.messages if message.header.stamp == prediction.header.stamp]
+
+        wait_until(lambda: said() and said()[-1].is_final, "the final verdict")
+        first, last = said()[0], said()[-1]
+        self.assertEqual((first.is_final, first.waits_for, first.word, first.by_device_force), (False, "device_force", "unknown", False))
+        self.assertEqual((last.waits_for, last.by_device_force, last.scan_count), ("", True, scan_count))
+        self.assertEqual((last.part_id, last.serial_id, last.scan_name), (prediction.part_id, prediction.serial_id, prediction.scan_name))
+        self.assertEqual((last.sticks, STICKS[last.word]), (device.sticks, device.sticks))
+        for name in ("margin", "margin_lower", "margin_upper", "settings_hash", "version"):
+            self.assertEqual(getattr(last, name), getattr(device, name), name)
 
     def assert_is_force_of(self, device, surfaces):
         self.assertEqual((device.status, device.message, device.scan_count), (DeviceAdhesion.FOUND, "", len(surfaces)))
@@ -120,6 +136,7 @@ class DeviceTest(unittest.TestCase):
             prediction, device = self.send(surfaces[count - 1], ("lot 3", "0012"))
             self.assert_is_force_of(device, surfaces[:count])
             self.assert_judged(device)
+            self.assert_one_answer(prediction, device, count)
             for name in ("version", "settings_hash", "scan_name", "part_id", "serial_id"):
                 self.assertEqual(getattr(device, name), getattr(prediction, name), name)
             self.assertEqual((device.voltage, device.mechanical_load), (prediction.voltage, prediction.mechanical_load))
@@ -135,7 +152,9 @@ class DeviceTest(unittest.TestCase):
         self.assert_is_force_of(self.send(surfaces[1], ("lot 3", "0013"))[1], surfaces[1:2])
         parts = len(self.parts.messages)
         for scan in surfaces[:2]:
-            self.assert_is_force_of(self.send(scan)[1], [scan])
+            prediction, device = self.send(scan)
+            self.assert_is_force_of(device, [scan])
+            self.assert_one_answer(prediction, device, 1)
         self.assert_is_force_of(self.send(surfaces[0], ("lot 3", "0013"))[1], [surfaces[1], surfaces[0]])
         self.parts.wait(parts + 2)
         self.assertEqual(len(self.parts.messages), parts + 2)  # none of the scans without a part
@@ -143,6 +162,10 @@ class DeviceTest(unittest.TestCase):
     def test_3_who_comes_late_finds_the_newest(self):
         late = Collector("device_force", DeviceAdhesion)
         self.assertEqual(late.wait(1)[0].header.stamp, self.devices.messages[-1].header.stamp)
+        late.close()
+        late = Collector("verdict", DeviceVerdict)
+        found, newest = late.wait(1)[0], self.verdicts.messages[-1]
+        self.assertEqual((found.header.stamp, found.is_final, found.margin), (newest.header.stamp, newest.is_final, newest.margin))
         late.close()
 
     def test_3b_the_terminal_has_a_line_for_the_device(self):
@@ -194,6 +217,8 @@ class DeviceTest(unittest.TestCase):
         self.assert_refused(refused)
         shown = self.newest_counts()
         self.assertEqual((shown["failed"], shown["last_failure"].replace(",", ";")), ("1", refused.message))
+        last = self.verdicts.messages[-1]
+        self.assertEqual((last.header.stamp, last.is_final, last.word, last.by_device_force), (refused.header.stamp, True, "unknown", False))
         self.assert_is_force_of(self.send(surface(6))[1], [surface(6)])
 
     def test_6_without_a_contact_area_nothing_is_made(self):

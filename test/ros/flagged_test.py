@@ -7,7 +7,7 @@ import unittest
 import actionlib
 import rospy
 import rostest
-from mems_stiction.msg import (DeviceAdhesion, HalfSpaceAction, HalfSpaceGoal, HalfSpaceSolution, PartVerdict, StictionPrediction)
+from mems_stiction.msg import (DeviceAdhesion, DeviceVerdict, HalfSpaceAction, HalfSpaceGoal, HalfSpaceSolution, PartVerdict, StictionPrediction)
 from mems_stiction.srv import SetMechanicalLoad, SolveHalfSpace, SolveHalfSpaceRequest
 from stiction_client import TIMEOUT, Collector, Station, image_message, info_message, rough_surface, wait_until
 
@@ -36,6 +36,7 @@ class FlaggedTest(unittest.TestCase):
         cls.solutions = Collector("half_space", HalfSpaceSolution).connect()
         cls.parts = Collector("part_verdict", PartVerdict).connect()
         cls.devices = Collector("device_force", DeviceAdhesion).connect()
+        cls.verdicts = Collector("verdict", DeviceVerdict).connect()
         cls.station = Station()
 
     def send(self, heights, serial=""):
@@ -78,6 +79,10 @@ class FlaggedTest(unittest.TestCase):
         self.assertAlmostEqual(device.linear_pull_off_force / by_area, 1.0, places=9)
         part = self.of(self.parts, stamp, "the part", lambda message: message.margin == device.margin)
         self.assertEqual((part.sticks, part.margin_lower, part.scan_count), (device.sticks, device.margin_lower, 1))
+        verdict = self.of(self.verdicts, stamp, "the final verdict", lambda message: message.is_final)
+        self.assertEqual((verdict.verdict_by, verdict.by_device_force, verdict.margin), ("half_space", True, device.margin))
+        first = next(message for message in self.verdicts.messages if message.header.stamp == stamp)
+        self.assertEqual((first.is_final, first.waits_for), (False, "device_force half_space"))
 
     def test_2_other_scans_are_not_solved(self):
         first, prediction = self.send(rough(1))
