@@ -1,5 +1,7 @@
 #include "device/device_evidence.hpp"
 
+#include "verdict/part_verdict.hpp"
+
 namespace mems_stiction {
 
 bool wantsDeviceForce(const DeviceOptions& device, const DeviceForceOptions& options) {
@@ -13,6 +15,10 @@ DeviceEvidence deviceEvidence(const DeviceForce& force) {
   evidence.force_factors = force.force_factors;
   evidence.work_factors = force.work_factors;
   if (force.is_cut_from_scans) evidence.contacts = force.contacts_of_scans;
+  if (force.realisations.size() > 1) {
+    const double freedom = static_cast<double>(force.realisations.size()) - 1.0;
+    evidence.surface_reach = studentQuantile(freedom) * force.force_deviation;
+  }
   evidence.linear_pull_off_force = force.linear_pull_off_force;
   evidence.warnings = force.warnings;
   return evidence;

@@ -10,6 +10,7 @@
 #include "errors/short_number.hpp"
 #include "evaluation/record_fields.hpp"
 #include "verdict/regime_flags.hpp"
+#include "verdict/verdict_sentence.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -50,17 +51,15 @@ void addRecord(const DevicePrediction& prediction, Fields& fields) {
   fields.texts("warnings", prediction.warnings());
 }
 
-/// Force, work and margin for people.
+/// Force and verdict for people.
 std::string summaryComment(const DevicePrediction& prediction) {
   const DeviceForce& force = prediction.force;
   std::string text = "# Pull-off force of " + shortNumber(force.area) + " m^2 " +
                      withInterval(force.pull_off_force, force.pull_off_force_lower, force.pull_off_force_upper, "N") +
                      "; the scans' force by area would say " + shortNumber(force.linear_pull_off_force, 2) + " N";
-  if (prediction.verdict && !std::isnan(prediction.verdict->margin)) {
-    const Verdict& verdict = *prediction.verdict;
-    text += "; margin " + withInterval(verdict.margin, verdict.margin_lower, verdict.margin_upper);
-  }
-  return text + ".\n";
+  text += ".\n";
+  if (prediction.verdict) text += "# " + verdictSentence(*prediction.verdict) + "\n";
+  return text;
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "prediction/prediction_fields.hpp"
 #include "verdict/regime_flags.hpp"
 #include "verdict/verdict_fields.hpp"
+#include "verdict/verdict_sentence.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -59,17 +60,15 @@ const auto kVisitSeparationPoint = [](const auto& item, auto&& fields) { visitSe
 const auto kVisitCleaning = [](const auto& item, auto&& fields) { visitCleaningFields(item, fields); };
 const auto kVisitRow = [](const auto& item, auto&& fields) { visitConvergenceFields(item, fields); };
 
-/// Pull-off force and margin for people.
+/// Pull-off force and verdict for people.
 std::string summaryComment(const Prediction& prediction, const RecordExtras& extras) {
   if (!extras.pull_off_interval) return "";
   const ForceInterval& interval = *extras.pull_off_interval;
   std::string text = "# Pull-off force " + withInterval(prediction.pull_off_force, interval.lower, interval.upper, "N");
   if (prediction.isLowerBound()) text += ", a lower bound";
-  if (extras.verdict && !std::isnan(extras.verdict->margin)) {
-    const Verdict& verdict = *extras.verdict;
-    text += "; margin " + withInterval(verdict.margin, verdict.margin_lower, verdict.margin_upper);
-  }
-  return text + ".\n";
+  text += ".\n";
+  if (extras.verdict) text += "# " + verdictSentence(*extras.verdict) + "\n";
+  return text;
 }
 
 /// The record, in the order of its fields. @param fields of YAML or JSON

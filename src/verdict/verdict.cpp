@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kStandardLower = 0.158655;  // one standard deviation of a normal distribution to either side
 constexpr double kStandardUpper = 1.0 - kStandardLower;
+constexpr double kReach95 = 1.959964;  // standard deviations of a normal distribution that hold 95 % of it
 /// By less the linear rule's margin may differ unsaid [-].
 constexpr double kWorthSaying = 1.5;
 
@@ -186,6 +187,7 @@ Verdict verdictBy(const Prediction& prediction, const DeviceOptions& device, con
 
   const AdhesionSpread spread = spread_of();
   verdict.place_deviation = spread.place_deviation;
+  verdict.surface_reach = of_device != nullptr ? of_device->surface_reach : kReach95 * spread.place_deviation;
   const bool is_missing = of_device == nullptr && !hasSizeOfScan(prediction, device);
   const Holding holding{prediction,
                         device,

@@ -43,6 +43,8 @@ struct DeviceEvidence {
   /// Contacts that the force rests on: those of the scans where the device's places are cut from them, as many as that
   /// stands for where surfaces were made, whose scatter is in the samples.
   int contacts = std::numeric_limits<int>::max();
+  /// What of the samples the scans leave open: reach of ln force to either side, 95 % [-].
+  double surface_reach = kUnknown;
   double linear_pull_off_force = kUnknown;  ///< the scans' force by area, for comparison [N]
   std::vector<std::string> warnings;        ///< about the scans, in words
 };

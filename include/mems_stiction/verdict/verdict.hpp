@@ -93,6 +93,8 @@ struct Verdict {
   /// What of the interval is of the place alone, for pooledVerdictOf(): standard deviation of ln margin [-]; 0
   /// where the device's own force judges. In no message.
   double place_deviation = kNotStated;
+  /// What of the interval the scans leave open: reach of ln force to either side, 95 % [-]. In no message.
+  double surface_reach = kNotStated;
 };
 
 /// - @p options those that the prediction was made with

@@ -80,6 +80,9 @@ TEST_F(PredictDevice, takesAreaSpringAndSeedFromTheSettings) {
   EXPECT_EQ(run("--json --config " + config(settings) + " --pitch 10e-9 " + path).output, first.output);
   const nlohmann::json device = nlohmann::json::parse(first.output);
   EXPECT_EQ(device["sticks"], "no");
+  const std::string yaml = run("--config " + config(settings) + " --pitch 10e-9 " + path).output;
+  const std::string reason = device["reason"];
+  EXPECT_EQ(yaml.substr(yaml.rfind("\n# ") + 1), "# Does it stick? No: " + reason + ".\n");
   EXPECT_NEAR(device["margin"].get<double>() * device["pull_off_force"].get<double>(), 1e-4, 1e-12);
   const Outcome other =
       run("--json --config " + config(settings + "device_force/seed: 2\n") + " --pitch 10e-9 " + path);

@@ -10,6 +10,7 @@
 #include "verdict/margin_uncertainty.hpp"
 #include "verdict/part_verdict.hpp"
 #include "verdict/regime_flags.hpp"
+#include "verdict/verdict_sentence.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -282,6 +283,32 @@ TEST(DeviceEvidenceOf, isAskedForWhereItDecides) {
   EXPECT_FALSE(wantsDeviceForce(device, options)) << "nothing opens it";
   options.enabled = false;
   EXPECT_FALSE(wantsDeviceForce(springOf(3.0), options));
+}
+
+TEST(VerdictSentence, saysTheWordTheReasonAndWhatWouldMakeItSurer) {
+  const auto sentence = [](double of_surfaces, double margin) {
+    Verdict verdict;
+    verdict.sticks = margin > 2.0 ? Sticks::kNo : Sticks::kMarginal;
+    verdict.reason = "the reason";
+    verdict.margin = margin;
+    verdict.margin_lower = margin / 2.0;
+    verdict.margin_upper = margin * 2.0;
+    verdict.surface_reach = of_surfaces;
+    return verdictSentence(verdict);
+  };
+  EXPECT_EQ(sentence(0.6, 1.2), "Does it stick? Marginal: the reason. Surer by more scans of other places.");
+  EXPECT_EQ(sentence(0.3, 1.2),
+            "Does it stick? Marginal: the reason. Surer by a work of adhesion that was measured (calibrate).");
+  EXPECT_EQ(sentence(0.6, 4.0), "Does it stick? No: the reason.");
+  EXPECT_EQ(verdictSentence(Verdict()).rfind("Does it stick? Not known: ", 0), 0U);
+}
+
+TEST(VerdictSentence, knowsWhatTheScansLeaveOpenOfADevice) {
+  Evidence evidence = found();
+  evidence.device->surface_reach = studentQuantile(7.0) * kDeviation;
+  const Verdict verdict = verdictWith(evidence, 1.1);
+  ASSERT_EQ(verdict.sticks, Sticks::kMarginal);
+  EXPECT_NE(verdictSentence(verdict).find("Surer by more scans"), std::string::npos) << "all else is exact";
 }
 
 }  // namespace
