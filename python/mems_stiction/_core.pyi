@@ -317,6 +317,8 @@ class VerdictFigures:
     """[N] 2.5 % quantile of device_pull_off_force"""
     device_pull_off_force_upper: float
     """[N] 97.5 % quantile of device_pull_off_force"""
+    governed_by: str
+    """force or peeling: which of margin and peel number decides whether a beam sticks; empty where one is all there is"""
     verdict_by: str
     """whose figures it rests on: prediction or half_space"""
 

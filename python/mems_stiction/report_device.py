@@ -7,7 +7,7 @@ STATED = (("device/spring_stiffness", "stiffness of the suspension", "N/m"), ("d
           ("device/contact_area", "area of its contacts", "m^2"), ("device/contacts", "number of its contacts", ""),
           ("device/guidance", "guidance", "word"), ("device/electrode_area", "area of the electrodes", "m^2"), ("device/electrode_gap", "gap of the electrodes", "m"),
           ("device/beam_type", "beam", "word"), ("device/beam_length", "length of the beam", "m"), ("device/beam_thickness", "thickness of the beam", "m"),
-          ("device/beam_gap", "height of the beam above the substrate", "m"), ("device/beam_modulus", "modulus of the beam", "Pa"),
+          ("device/beam_width", "width of the beam", "m"), ("device/beam_gap", "height of the beam above the substrate", "m"), ("device/beam_modulus", "modulus of the beam", "Pa"),
           ("device/beam_residual_stress", "residual stress of the beam", "Pa"), ("device/apparent_work_of_adhesion", "work of adhesion, as measured on beams", "J/m^2"),
           ("lower/youngs_modulus", "modulus, lower body", "Pa"), ("lower/hardness", "hardness, lower body", "Pa"),
           ("upper/youngs_modulus", "modulus, upper body", "Pa"), ("upper/hardness", "hardness, upper body", "Pa"),

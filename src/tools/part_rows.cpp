@@ -64,8 +64,9 @@ ScanStatement statementOf(const Row& row) {
   scan.sticks = sticksOf(row.text("sticks"));
   scan.reason = row.text("sticks").empty() ? "the device is not stated" : row.text("verdict_reason");
   scan.judge = row.text("verdict_by") == judgeText(Judge::kHalfSpace) ? Judge::kHalfSpace : Judge::kPrediction;
-  scan.margin = row.ratio("margin");
-  scan.peel_number = row.ratio("peel_number");
+  const std::string governed_by = row.text("governed_by");
+  if (governed_by != kGovernedByPeeling) scan.margin = row.ratio("margin");
+  if (governed_by != kGovernedByForce) scan.peel_number = row.ratio("peel_number");
   scan.margin_transition = row.number("margin_transition");
   scan.place_deviation = row.number("place_deviation");
   scan.contacts = static_cast<int>(row.count("pull_off_contact_count"));

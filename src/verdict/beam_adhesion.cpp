@@ -65,6 +65,27 @@ double detachmentLength(const Beam& beam, double work) {
   return kNotStated;
 }
 
+double beamForce(const Beam& beam) {
+  const double plain = beam.modulus * beam.width * std::pow(beam.thickness, 3) * beam.gap / std::pow(beam.length, 3);
+  switch (beam.type) {
+    case BeamType::kCantilever:
+      return 0.25 * plain;
+    case BeamType::kDoublyClamped: {
+      const double stretch = beam.gap / beam.thickness;
+      const double slenderness = beam.length / beam.thickness;
+      return 16.0 * plain *
+             (1.0 + 0.72 * stretch * stretch + 0.3 * beam.residual_stress / beam.modulus * slenderness * slenderness);
+    }
+    case BeamType::kNone:
+      break;
+  }
+  return kNotStated;
+}
+
+double peelLength(const Beam& beam, double work, double pressure) {
+  return 0.5 * std::pow(2.0 * beam.modulus * std::pow(beam.thickness, 3) * work / (3.0 * pressure * pressure), 0.25);
+}
+
 double unstuckLength(const Beam& beam, double work) {
   return beam.type == BeamType::kNone ? kNotStated : ArmTerms(beam).length(work);
 }

@@ -1,11 +1,13 @@
 #include "mems_stiction/verdict/device_options.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <limits>
 #include <utility>
 
 #include "mechanics/surface_forces.hpp"
+#include "verdict/beam_electrode.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -22,7 +24,12 @@ std::string zerosOf(std::initializer_list<std::pair<const char*, double>> settin
 }  // namespace
 
 Beam DeviceOptions::beam() const {
-  return {beam_type, beam_length, beam_thickness, beam_gap, beam_modulus, beam_residual_stress};
+  return {beam_type, beam_length, beam_thickness, beam_gap, beam_modulus, beam_residual_stress, beam_width};
+}
+
+double DeviceOptions::beamContactLength() const {
+  const double of_strip = contact_area / beam_width;
+  return std::min(std::max(of_strip, std::sqrt(contact_area / contacts)), beam_length);
 }
 
 void DeviceOptions::describe(OptionVisitor& visitor) {
@@ -37,17 +44,23 @@ void DeviceOptions::describe(OptionVisitor& visitor) {
   visitor.number("device/electrode_area", electrode_area, "m^2", Range::nonNegative(),
                  "area that the voltage acts on, for the pull-in voltage; 0 = not stated");
   visitor.number("device/electrode_gap", electrode_gap, "m", Range::nonNegative(),
-                 "distance of the electrodes at rest; 0 = the travel");
+                 "distance of the electrodes at rest; 0 = the travel, of a beam its gap");
   visitor.enumeration(
       "device/beam_type", beam_type,
       {{"none", BeamType::kNone}, {"cantilever", BeamType::kCantilever}, {"doubly_clamped", BeamType::kDoublyClamped}},
       "beam whose peel number is asked for");
   visitor.number("device/beam_length", beam_length, "m", Range::nonNegative(), "length of the beam");
+  visitor.number("device/beam_width", beam_width, "m", Range::nonNegative(),
+                 "width of the beam, for its force and its pull-in voltage; 0 = not stated");
   visitor.number("device/beam_thickness", beam_thickness, "m", Range::nonNegative(), "thickness of the beam");
   visitor.number("device/beam_gap", beam_gap, "m", Range::nonNegative(), "height of the beam above the substrate");
   visitor.number("device/beam_modulus", beam_modulus, "Pa", Range::nonNegative(), "Young's modulus of the beam");
   visitor.number("device/beam_residual_stress", beam_residual_stress, "Pa", Range::any(),
                  "residual stress of a doubly clamped beam, tensile positive");
+  visitor.number("device/electrode_start", electrode_start, "m", Range::nonNegative(),
+                 "where the electrode below a beam begins, from the clamp");
+  visitor.number("device/electrode_length", electrode_length, "m", Range::nonNegative(),
+                 "length of the electrode along the beam, for its pull-in voltage; 0 = not stated");
   visitor.number("device/apparent_work_of_adhesion", apparent_work_of_adhesion, "J/m^2", Range::nonNegative(),
                  "of the rough interface, measured on beams; 0 = from the predicted contacts");
 }
@@ -59,6 +72,20 @@ std::vector<std::string> DeviceOptions::validate() const {
                          "device/electrode_gap " + numberText(electrode_gap) + " m");
   }
   if (!hasBeam()) return violations;
+  if (beam_width > 0.0 && contact_area > beam_width * beam_length && beam_length > 0.0) {
+    violations.push_back("device/contact_area: " + numberText(contact_area) +
+                         " m^2 is not allowed, must not exceed device/beam_width times device/beam_length, " +
+                         numberText(beam_width * beam_length) + " m^2");
+  }
+  if (electrode_start + electrode_length > beam_length && beam_length > 0.0) {
+    violations.push_back("device/electrode_length: " + numberText(electrode_length) +
+                         " m from device/electrode_start " + numberText(electrode_start) +
+                         " m is not allowed, must end within device/beam_length " + numberText(beam_length) + " m");
+  }
+  if (electrode_gap > 0.0 && electrode_length > 0.0 && electrode_gap < beam_gap) {
+    violations.push_back("device/electrode_gap: " + numberText(electrode_gap) +
+                         " m is not allowed, must be at least device/beam_gap " + numberText(beam_gap) + " m");
+  }
   const std::pair<const char*, double> sizes[] = {{"device/beam_length", beam_length},
                                                   {"device/beam_thickness", beam_thickness},
                                                   {"device/beam_gap", beam_gap},
@@ -86,6 +113,12 @@ std::string whatSpringLacks(const DeviceOptions& device) {
 }
 
 double closingVoltage(const DeviceOptions& device, const InterfaceOptions& interface) {
+  if (device.hasBeam() && !device.hasSpring() && device.electrode_length > 0.0) {
+    const double gap = device.electrode_gap > 0.0 ? device.electrode_gap : device.beam_gap;
+    return beamClosingVoltage(device.beam(),
+                              {device.electrode_start, device.electrode_length, gap,
+                               interface.insulator_thickness / interface.insulator_relative_permittivity});
+  }
   if (!device.hasSpring() || device.electrode_area <= 0.0) return std::numeric_limits<double>::quiet_NaN();
   const double rest_gap = device.electrode_gap > 0.0 ? device.electrode_gap : device.travel;
   const double thickness = interface.insulator_thickness;

@@ -248,8 +248,13 @@ void judgeAgain(ScanStatement& statement, const Verdict& verdict) {
   statement.sticks = verdict.sticks;
   statement.reason = verdict.reason;
   statement.judge = verdict.judge;
-  statement.margin = {verdict.margin, verdict.margin_lower, verdict.margin_upper};
-  statement.peel_number = {verdict.peel_number, verdict.peel_number_lower, verdict.peel_number_upper};
+  statement.margin = statement.peel_number = {};
+  if (verdict.governed_by != kGovernedByPeeling) {
+    statement.margin = {verdict.margin, verdict.margin_lower, verdict.margin_upper};
+  }
+  if (verdict.governed_by != kGovernedByForce) {
+    statement.peel_number = {verdict.peel_number, verdict.peel_number_lower, verdict.peel_number_upper};
+  }
   statement.margin_transition = verdict.margin_transition;
   statement.place_deviation = verdict.place_deviation;
   statement.regime_flags = verdict.regime_flags;

@@ -19,7 +19,10 @@ constexpr double kReach95 = 1.959964;  // standard deviations of a normal distri
 /// By less the linear rule's margin may differ unsaid [-].
 constexpr double kWorthSaying = 1.5;
 
-bool hasContact(const DeviceOptions& device) { return device.hasSpring() && device.contact_area > 0.0; }
+/// A margin can be found: by the spring, or by the force of a beam alone.
+bool hasContact(const DeviceOptions& device) {
+  return device.contact_area > 0.0 && (device.hasSpring() || device.hasBeamContact());
+}
 
 /// What there is to say where the contacts are not listed, so that nothing tells how far the figures may be off.
 Finding withoutContacts(const std::string& what, const Prediction& prediction) {
@@ -151,6 +154,24 @@ Finding beamFinding(const Holding& holding, Verdict& verdict) {
   return finding;
 }
 
+/// Of a beam whose force and whose work of adhesion are both known, that which decides (peelLength()).
+Finding governingFinding(const Holding& holding, Finding of_force, Finding of_work, Verdict& verdict) {
+  if (std::isnan(verdict.margin) || std::isnan(verdict.peel_number) || std::isinf(verdict.margin)) return of_work;
+  const DeviceOptions& device = holding.device;
+  const double reach = device.beamContactLength();
+  const double peeled =
+      peelLength(device.beam(), verdict.apparent_work_of_adhesion, verdict.device_pull_off_force / device.contact_area);
+  const bool is_force = reach < peeled;
+  verdict.governed_by = is_force ? kGovernedByForce : kGovernedByPeeling;
+  Finding finding = is_force ? std::move(of_force) : std::move(of_work);
+  finding.reason += "; the contact reaches " + shortNumber(reach, 2) + " m along the beam, " +
+                    (is_force ? "less" : "further") + " than the " + shortNumber(peeled, 2) +
+                    " m over which adhesion gives way at one time, so that " +
+                    (is_force ? "its force decides (peel number " + shortNumber(verdict.peel_number, 2) + ")"
+                              : "it is peeled (the margin of its force is " + shortNumber(verdict.margin, 2) + ")");
+  return finding;
+}
+
 /// - @p prediction of whoever judges the scan
 /// - @p flags of the formulation's prediction
 /// - @p cell_area of the scan [m^2]
@@ -164,7 +185,7 @@ Verdict verdictBy(const Prediction& prediction, const DeviceOptions& device, con
   verdict.pull_in_voltage = closingVoltage(device, options.interface);
   verdict.apparent_work_of_adhesion = prediction.apparent_work_of_adhesion;
   const bool has_contact = hasContact(device);
-  if (device.hasSpring()) verdict.restoring_force = device.restoringForce();
+  if (device.hasSpring() || device.hasBeamContact()) verdict.restoring_force = device.restoringForce();
   if (!has_contact && !device.hasBeam()) {
     const std::string missing = whatSpringLacks(device);
     verdict.reason =
@@ -199,7 +220,11 @@ Verdict verdictBy(const Prediction& prediction, const DeviceOptions& device, con
   if (has_contact) finding = springFinding(holding, verdict);
   if (device.hasBeam()) {
     const Finding of_beam = beamFinding(holding, verdict);
-    if (!has_contact || gravity(of_beam.sticks) > gravity(finding.sticks)) finding = of_beam;
+    if (device.hasBeamContact()) {
+      finding = governingFinding(holding, finding, of_beam, verdict);
+    } else if (!has_contact || gravity(of_beam.sticks) > gravity(finding.sticks)) {
+      finding = of_beam;
+    }
   }
   verdict.sticks = finding.sticks;
   verdict.reason = finding.reason;

@@ -31,9 +31,9 @@ CHANGED = {
     "interface/relative_humidity": 0.4, "interface/surface_tension": 0.03, "interface/contact_angle": 0.5, "interface/temperature": 350.0,
     "interface/molar_volume": 3e-5,
     "device/spring_stiffness": 5.0, "device/travel": 2e-6, "device/contact_area": 2e-12, "device/contacts": 3, "device/electrode_area": 2e-8,
-    "device/electrode_gap": 3e-6, "device/beam_residual_stress": 1e6, "device/apparent_work_of_adhesion": 1e-3, "device/guidance": "free"}
+    "device/electrode_gap": 3e-6, "device/electrode_start": 1e-5, "device/beam_residual_stress": 1e6, "device/apparent_work_of_adhesion": 1e-3, "device/guidance": "free"}
 BEAM = {"device/beam_type": "cantilever", "device/beam_length": 100e-6, "device/beam_thickness": 2e-6, "device/beam_gap": 2e-6,
-        "device/beam_modulus": 160e9}
+        "device/beam_modulus": 160e9, "device/beam_width": 2e-5, "device/electrode_length": 5e-5}
 CASES = [{key: value} for key, value in CHANGED.items()] + [
     {"load/mechanical_load": 0.0, "load/pressure": 5e6}, {"load/mechanical_load": 0.0, "load/device_force": 2e-5},
     {"load/mechanical_load": 0.0, "load/device_force": 2e-5, "device/contact_area": 3e-12}, BEAM,

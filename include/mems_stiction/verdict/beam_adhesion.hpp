@@ -44,6 +44,7 @@ struct Beam {
   double gap = 0.0;              ///< h [m], > 0
   double modulus = 0.0;          ///< E [Pa], > 0
   double residual_stress = 0.0;  ///< sigma, tensile positive [Pa]; of doubly clamped beams only
+  double width = 0.0;            ///< w [m]; 0 = not stated
 };
 
 /// G at which an S-shaped arm rests with the unstuck length s [J/m^2]. @p unstuck_length s [m], > 0
@@ -62,5 +63,22 @@ double detachmentLength(const Beam& beam, double work);
 /// Where the arm of a stuck beam rests: the s of the S-shape [m], of each arm when doubly clamped. A beam shorter than
 /// that (twice that) cannot hold an S-shape. NaN for BeamType::kNone.
 double unstuckLength(const Beam& beam, double work);
+
+/// What pulls where the beam touches, its gap closed: at the tip of a cantilever, in the middle of a doubly clamped beam, by
+/// dU/dh of the shapes above [N]. 0 without a width; NaN for BeamType::kNone.
+///
+///     cantilever          F = E w t^3 h/(4 l^3)
+///     doubly clamped      F = 16 E w t^3 h/l^3 [1 + (18/25) (h/t)^2 + (3/10) sigma l^2/(E t^2)]
+double beamForce(const Beam& beam);
+
+/// How far along the beam adhesion gives way at one time, before what lies behind takes part of the load [m]: half the decay
+/// length of a beam on an elastic foundation (Hetenyi, Beams on Elastic Foundation, 1946) that fails at the pressure p after
+/// it has taken the work G, since its end then carries p times that length. A contact that reaches less far is pulled open
+/// as a whole, and its force decides; one that reaches further is peeled, and its work does.
+///
+///     (1/2) (2 E t^3 G/(3 p^2))^(1/4)
+///
+/// - @p pressure pull-off force over nominal area [Pa], > 0
+double peelLength(const Beam& beam, double work, double pressure);
 
 }  // namespace mems_stiction

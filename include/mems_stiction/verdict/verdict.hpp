@@ -31,8 +31,10 @@
 /// own figures move by as much as it moves those of the scan. What speaks of the scan still counts. Other cleanings of
 /// the scan, if they were tried, widen the interval. The reason says both.
 ///
-/// With a spring and a beam stated, the worse of both counts: yes, unknown, marginal, no. A beam that states no
-/// device/contact_area is judged by the scan's work of adhesion, and the reason says so.
+/// With a spring and a beam stated, the worse of both counts: yes, unknown, marginal, no. A beam alone that states its width
+/// and its contact area has a margin, too: its force over the pull-off force. A contact that is shorter than what adhesion
+/// gives way to at one time (peelLength()) is judged by the margin, a longer one by the peel number, and the reason says
+/// why. A beam that states no device/contact_area is judged by the scan's work of adhesion, and the reason says so.
 /// Assumptions: the scans stand for the whole contact area; the load has been taken away before the device is to open
 /// (voltage and mechanical load made the contact, they do not hold it); the spring pulls along the normal and evenly on
 /// all contacts, so that none peels before the others (a tilting part comes off more easily than said here).
@@ -64,6 +66,10 @@ enum class Judge { kPrediction, kHalfSpace };
 /// "prediction", "half_space".
 const char* judgeText(Judge judge);
 
+/// What decides whether a beam sticks whose margin and peel number are both known.
+inline constexpr char kGovernedByForce[] = "force";
+inline constexpr char kGovernedByPeeling[] = "peeling";
+
 /// NaN stands for what the device's settings do not allow to say.
 struct Verdict {
   static constexpr double kNotStated = std::numeric_limits<double>::quiet_NaN();
@@ -71,6 +77,7 @@ struct Verdict {
   Sticks sticks = Sticks::kUnknown;
   std::string reason;  ///< one sentence for people
   Judge judge = Judge::kPrediction;
+  std::string governed_by;  ///< kGovernedBy...; empty where one of margin and peel number is all there is
 
   double restoring_force = kNotStated;              ///< of the device [N]
   double device_pull_off_force = kNotStated;        ///< of the whole device [N]

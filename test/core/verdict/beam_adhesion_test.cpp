@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "support/finite_difference_beam.hpp"
+
 namespace mems_stiction {
 namespace {
 
@@ -106,6 +108,44 @@ TEST(BeamAdhesion, noBeamHasNoFigures) {
   EXPECT_TRUE(std::isnan(peelNumber(Beam(), 1e-3)));
   EXPECT_TRUE(std::isnan(detachmentLength(Beam(), 1e-3)));
   EXPECT_TRUE(std::isnan(unstuckLength(Beam(), 1e-3)));
+}
+
+TEST(BeamAdhesion, forceIsTheDerivativeOfTheEnergyByTheGap) {
+  for (const BeamType type : {BeamType::kCantilever, BeamType::kDoublyClamped}) {
+    for (const double stress : {0.0, 50e6}) {
+      Beam beam = beamOf(type, 400 * kUm, stress);
+      beam.width = 20 * kUm;
+      beam.gap = 3 * kUm;
+      const auto energyAt = [&](double gap) {
+        Beam bent = beam;
+        bent.gap = gap;
+        // a cantilever touches with its tip alone: a quarter of the energy of an S
+        return type == BeamType::kCantilever ? 0.25 * beam.width * armEnergy(bent, beam.length)
+                                             : 2.0 * beam.width * armEnergy(bent, 0.5 * beam.length);
+      };
+      const double step = 1e-4 * beam.gap;
+      const double slope = (energyAt(beam.gap + step) - energyAt(beam.gap - step)) / (2.0 * step);
+      EXPECT_NEAR(beamForce(beam) / slope, 1.0, 1e-6);
+    }
+  }
+  EXPECT_EQ(beamForce(beamOf(BeamType::kCantilever, 400 * kUm)), 0.0) << "without a width";
+}
+
+TEST(BeamAdhesion, peelLengthIsWhatTheEndOfABondedBeamCarriesOverItsPressure) {
+  // a long bonded beam, pulled by a line force at its free end, until the foundation there gives way
+  Beam beam = beamOf(BeamType::kCantilever, 400 * kUm);
+  beam.width = 20 * kUm;
+  const double work = 2e-4;
+  const double pressure = 1e4;
+  const FiniteDifferenceBeam differences(beam, 400);
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(differences.nodes());
+  const double force = 1e-6;
+  load(differences.nodes() - 1) = force / (0.5 * differences.step());
+  const double stiffness = pressure * pressure / (2.0 * work);
+  const Eigen::VectorXd bent = differences.solve(differences.matrix(0.0, stiffness * beam.width), load);
+  const double range = 2.0 * work / pressure;
+  const double force_at_failure = force * range / bent(differences.nodes() - 1);
+  EXPECT_NEAR(force_at_failure / (pressure * beam.width) / peelLength(beam, work, pressure), 1.0, 0.02);
 }
 
 }  // namespace

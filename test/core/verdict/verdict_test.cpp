@@ -11,6 +11,7 @@
 #include "support/analytic_surfaces.hpp"
 #include "support/paper_options.hpp"
 #include "verdict/margin_uncertainty.hpp"
+#include "verdict/part_verdict.hpp"
 #include "verdict/regime_flags.hpp"
 #include "verdict/verdict_fields.hpp"
 
@@ -242,6 +243,33 @@ TEST(Verdict, countsTheWorseOfSpringAndBeam) {
   EXPECT_NE(verdict.reason.find("peel number"), std::string::npos);
 }
 
+TEST(Verdict, judgesAShortContactOfABeamByItsForceAndALongOneByItsWork) {
+  const Spheres spheres;
+  DeviceOptions device = cantilever(300e-6);
+  device.contact_area = spheres.prediction.nominal_area;
+  device.beam_width = 20e-6;
+  const Verdict pulled = verdictFor(spheres, device);
+  EXPECT_EQ(pulled.governed_by, kGovernedByForce);
+  EXPECT_DOUBLE_EQ(pulled.margin, beamForce(device.beam()) / pulled.device_pull_off_force);
+  EXPECT_DOUBLE_EQ(pulled.margin_lower, pulled.restoring_force / pulled.device_pull_off_force_upper);
+  EXPECT_EQ(pulled.reason.rfind("margin ", 0), 0U) << pulled.reason;
+  EXPECT_NE(pulled.reason.find("its force decides (peel number "), std::string::npos) << pulled.reason;
+  EXPECT_TRUE(std::isnan(statementOf("a", spheres.prediction, pulled).peel_number.value));
+
+  device.beam_width = device.contact_area / (0.9 * device.beam_length);
+  const Verdict peeled = verdictFor(spheres, device);
+  EXPECT_EQ(peeled.governed_by, kGovernedByPeeling);
+  EXPECT_DOUBLE_EQ(peeled.peel_number, pulled.peel_number) << "per width";
+  EXPECT_EQ(peeled.reason.rfind("peel number ", 0), 0U) << peeled.reason;
+  EXPECT_NE(peeled.reason.find("it is peeled (the margin of its force is "), std::string::npos) << peeled.reason;
+  EXPECT_TRUE(std::isnan(statementOf("a", spheres.prediction, peeled).margin.value));
+
+  device.beam_width = 0.0;
+  const Verdict unstated = verdictFor(spheres, device);
+  EXPECT_EQ(unstated.governed_by, "");
+  EXPECT_TRUE(std::isnan(unstated.margin));
+}
+
 TEST(VerdictFields, showEveryFigureOnce) {
   Verdict verdict;
   std::set<std::string> names;
@@ -252,8 +280,8 @@ TEST(VerdictFields, showEveryFigureOnce) {
     places.insert(&value);
     if (std::is_same<std::decay_t<decltype(value)>, double>::value) size += sizeof(double);
   });
-  EXPECT_EQ(names.size(), 19u);
-  EXPECT_EQ(places.size(), 19u);
+  EXPECT_EQ(names.size(), 20u);
+  EXPECT_EQ(places.size(), 20u);
   // a figure that is added to the struct and not to the list makes this fail: words before, flags after the figures
   const auto* first = reinterpret_cast<const char*>(&verdict.restoring_force);
   EXPECT_EQ(reinterpret_cast<const char*>(&verdict.regime_flags) - first, static_cast<std::ptrdiff_t>(size));

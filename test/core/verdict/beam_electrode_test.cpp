@@ -1,0 +1,112 @@
+/// The voltage at which beams close, against a beam by finite differences and against published numbers.
+
+#include "verdict/beam_electrode.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <gtest/gtest.h>
+
+#include "mems_stiction/verdict/device_options.hpp"
+#include "numeric/constants.hpp"
+#include "support/finite_difference_beam.hpp"
+
+namespace mems_stiction {
+namespace {
+
+constexpr double kMicrometre = 1e-6;
+
+Beam beamOfType(BeamType type, double stress = 0.0) {
+  return {type, 200 * kMicrometre, 2 * kMicrometre, 2 * kMicrometre, 160e9, stress, 20 * kMicrometre};
+}
+
+BeamElectrode wholeBelow(const Beam& beam) { return {0.0, beam.length, beam.gap, 0.0}; }
+
+/// Where it comes to rest under a voltage; nothing where it closes.
+std::optional<double> restUnder(double voltage, const Beam& beam, const BeamElectrode& electrode) {
+  const FiniteDifferenceBeam differences(beam, 80);
+  Eigen::VectorXd bent = Eigen::VectorXd::Zero(differences.nodes());
+  for (int round = 0; round < 400; ++round) {
+    Eigen::VectorXd load = Eigen::VectorXd::Zero(differences.nodes());
+    for (int node = 1; node <= differences.nodes(); ++node) {
+      const double x = differences.place(node);
+      const double from = std::max(x - 0.5 * differences.step(), electrode.start);
+      const double to = std::min({x + 0.5 * differences.step(), electrode.start + electrode.length, beam.length});
+      if (to <= from) continue;
+      const double gap = electrode.gap + electrode.insulator_gap - bent(node - 1);
+      // the last node of a free end stands for half a cell, as its equation does
+      const double share = (to - from) / (node == differences.nodes() ? 0.5 * differences.step() : differences.step());
+      load(node - 1) = 0.5 * kVacuumPermittivity * beam.width * voltage * voltage / (gap * gap) * share;
+    }
+    if (beam.type == BeamType::kDoublyClamped) load(differences.nodes() - 1) = 0.0;
+    const Eigen::VectorXd next = differences.solve(differences.matrix(differences.axialForce(bent), 0.0), load);
+    if (!(next.maxCoeff() < beam.gap)) return std::nullopt;
+    const double change = (next - bent).cwiseAbs().maxCoeff();
+    bent = beam.type == BeamType::kDoublyClamped ? Eigen::VectorXd(0.5 * (bent + next)) : next;
+    if (change < 1e-5 * beam.gap) return bent.maxCoeff();
+  }
+  return std::nullopt;  // it creeps: closed but for the last digit
+}
+
+double voltageByDifferences(const Beam& beam, const BeamElectrode& electrode) {
+  double open = 0.0;
+  double closed = 1.0;
+  while (restUnder(closed, beam, electrode)) closed *= 2.0;
+  while (closed - open > 0.003 * closed) {
+    const double middle = 0.5 * (open + closed);
+    (restUnder(middle, beam, electrode) ? open : closed) = middle;
+  }
+  return 0.5 * (open + closed);
+}
+
+TEST(BeamElectrode, closesWhereABeamByFiniteDifferencesDoes) {
+  for (const BeamType type : {BeamType::kCantilever, BeamType::kDoublyClamped}) {
+    for (const double stress : {0.0, 30e6, -5e6}) {
+      if (type == BeamType::kCantilever && stress != 0.0) continue;
+      const Beam beam = beamOfType(type, stress);
+      for (const BeamElectrode& electrode :
+           {wholeBelow(beam), BeamElectrode{0.3 * beam.length, 0.4 * beam.length, beam.gap, 50e-9},
+            BeamElectrode{0.0, 0.5 * beam.length, 1.5 * beam.gap, 0.0}}) {
+        const double expected = voltageByDifferences(beam, electrode);
+        EXPECT_NEAR(beamClosingVoltage(beam, electrode) / expected, 1.0, 0.05)
+            << static_cast<int>(type) << ", stress " << stress << ", from " << electrode.start;
+      }
+    }
+  }
+}
+
+TEST(BeamElectrode, agreesWithThePublishedNumberOfACantilever) {
+  // eps0 w V^2 l^4/(2 E I g^3) = 1.68 at pull-in of a cantilever above a whole electrode (Zhang and Zhao, Microsystem
+  // Technologies 12 (2006) 357)
+  const Beam beam = beamOfType(BeamType::kCantilever);
+  const double voltage = beamClosingVoltage(beam, wholeBelow(beam));
+  const double rigidity = beam.modulus * beam.width * std::pow(beam.thickness, 3) / 12.0;
+  EXPECT_NEAR(kVacuumPermittivity * beam.width * voltage * voltage * std::pow(beam.length, 4) /
+                  (2.0 * rigidity * std::pow(beam.gap, 3)),
+              1.68, 0.05);
+}
+
+TEST(BeamElectrode, isThatOfTheDeviceWhereItStatesABeamAlone) {
+  DeviceOptions device;
+  device.beam_type = BeamType::kCantilever;
+  device.beam_length = 200 * kMicrometre;
+  device.beam_thickness = device.beam_gap = 2 * kMicrometre;
+  device.beam_modulus = 160e9;
+  InterfaceOptions interface;
+  EXPECT_TRUE(std::isnan(closingVoltage(device, interface)));
+  device.electrode_length = device.beam_length;
+  EXPECT_TRUE(std::isnan(closingVoltage(device, interface))) << "without a width";
+  device.beam_width = 20 * kMicrometre;
+  const double bare = closingVoltage(device, interface);
+  EXPECT_EQ(bare, beamClosingVoltage(device.beam(), wholeBelow(device.beam())));
+  interface.insulator_thickness = 100e-9;
+  EXPECT_GT(closingVoltage(device, interface), bare);
+  device.electrode_gap = 3 * kMicrometre;
+  EXPECT_GT(closingVoltage(device, interface), 1.5 * bare);
+  device.electrode_start = 50 * kMicrometre;
+  EXPECT_EQ(device.validate().size(), 1U) << "it ends beyond the beam";
+}
+
+}  // namespace
+}  // namespace mems_stiction
