@@ -53,6 +53,7 @@ CHALLENGE = Pair(CHALLENGE_SIDE / SIZE, 25e6, 0.05, CHALLENGE_RANGE_FACTOR * 2.0
 SETTINGS = """
 lower: {{youngs_modulus: {modulus}, poisson_ratio: {poisson}, thickness: {thickness}, backing: bonded}}
 upper: {{youngs_modulus: 1.0e+30, poisson_ratio: 0.0}}
+limits: {{accept_implausible: true}}
 interface: {{work_of_adhesion: {work}}}
 half_space: {{range: {range}, flow: false, attraction: {attraction}, step: {step}, tolerance: {tolerance}}}
 """

@@ -23,7 +23,7 @@ import mems_stiction
 PIXELS = 64
 BEGIN, END = "<!-- plates: begin -->", "<!-- plates: end -->"
 GROUPS = [("set", 0, 1000), ("looked at", 1000, 7000), ("judged", 7000, 10**9)]
-STIFF = {"upper/youngs_modulus": 1e17, "upper/poisson_ratio": 0.0, "lower/poisson_ratio": 0.0, "lower/hardness": 1e14, "upper/hardness": 1e14}
+STIFF = {"upper/youngs_modulus": 1e17, "upper/poisson_ratio": 0.0, "lower/poisson_ratio": 0.0, "lower/hardness": 1e14, "upper/hardness": 1e14, "limits/accept_implausible": True}
 
 
 def self_affine(random, pixels, pitch, roll_off, hurst, shortest):

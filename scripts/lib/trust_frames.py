@@ -144,7 +144,7 @@ def configuration(frame, formulation):
     return ("lower: %s\nupper: %s\napproach: {formulation: %s}\n" % (body, body, formulation) +
             "interface: {work_of_adhesion: %r, hamaker_constant: %r}\n" % (frame["work"], frame["hamaker"]) +
             ("" if formulation == "separation_curve" else "paper: {cutoff_distance: %r}\n" % cut_off) +
-            "output: {roughness: false}\nload: {max_mechanical_load: 1.0e+3}\nhalf_space: {flow: false, step: 0.3}\n")
+            "output: {roughness: false}\nlimits: {accept_implausible: true}\nload: {max_mechanical_load: 1.0e+3}\nhalf_space: {flow: false, step: 0.3}\n")
 
 
 def load_of(frame):

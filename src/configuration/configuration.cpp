@@ -26,9 +26,9 @@ std::string ScanLimits::howToAccept() {
   return std::string("; ") + kAcceptImplausible + ": true takes it as it is (--accept-implausible of programs)";
 }
 
-void ScanLimits::checkPlausibility(const HeightMap& cleaned) const {
+void ScanLimits::checkPlausibility(const HeightMap& cleaned, bool is_probe) const {
   if (accept_implausible) return;
-  const std::vector<std::string> lines = scanRemarks(cleaned).implausible;
+  const std::vector<std::string> lines = scanRemarks(cleaned, is_probe).implausible;
   if (!lines.empty()) throw SurfaceError("implausible: " + lines.front() + howToAccept());
 }
 

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <utility>
 
 #include "errors/plain_format.hpp"
 #include "mems_stiction/configuration/configuration.hpp"
+#include "numeric/words.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -30,19 +32,23 @@ struct Usual {
   bool contains(double value) const { return lower <= std::abs(value) && std::abs(value) <= upper; }
   double lowest() const { return least > 0.0 ? least : lower / kBeyond; }
   double highest() const { return most > 0.0 ? most : upper * kBeyond; }
-  bool isImplausible(double value) const { return std::abs(value) < lowest() || std::abs(value) > highest(); }
+  bool isImplausible(double value) const {
+    constexpr double kRoundOff = 1e-9;
+    return std::abs(value) < (1.0 - kRoundOff) * lowest() || std::abs(value) > (1.0 + kRoundOff) * highest();
+  }
 };
 
 const std::map<std::string, Usual>& usualValues() {
   static const Usual modulus{1e6, 2e12, {{"GPa", 1e9}, {"MPa", 1e6}, {"kPa", 1e3}}, 1e6, 2e12};
-  static const Usual hardness{1e5, 2e11, {{"GPa", 1e9}, {"MPa", 1e6}, {"kPa", 1e3}}};
+  static const Usual hardness{
+      1e5, 2e11, {{"GPa", 1e9}, {"MPa", 1e6}, {"kPa", 1e3}}, 0.0, 1e300};  // a body that shall not flow
   static const Usual atomic{3e-11, 5e-9, {{"nm", 1e-9}, {"Angstrom", 1e-10}, {"pm", 1e-12}}};
   static const Usual layer{3e-10, 1e-4, {{"nm", 1e-9}, {"um", 1e-6}, {"Angstrom", 1e-10}}};
   static const Usual layer_or_part{3e-10, 1e-2, {{"um", 1e-6}, {"nm", 1e-9}, {"mm", 1e-3}}};
   static const Usual tip{1e-10, 1e-3, {{"nm", 1e-9}, {"um", 1e-6}}};
   static const Usual travel{1e-9, 1e-3, {{"um", 1e-6}, {"nm", 1e-9}, {"mm", 1e-3}}};
   static const std::vector<Unit> areas{{"um^2", 1e-12}, {"um^2", 1e-12, 1e6}, {"mm^2", 1e-6}};
-  static const Usual contact_area{1e-14, 1e-6, areas, 0.0, 1e-4};  // 1 cm^2: no device
+  static const Usual contact_area{1e-14, 1e-6, areas, 1e-20, 1e-4};  // 0.1 nm square to 1 cm^2
   static const Usual electrode_area{1e-14, 1e-5, areas};
   static const Usual beam{1e-8, 1e-1, {{"um", 1e-6}, {"mm", 1e-3}, {"nm", 1e-9}}};
   static const Usual roughness{1e-12, 1e-4, {{"nm", 1e-9}, {"um", 1e-6}, {"Angstrom", 1e-10}}};
@@ -107,6 +113,14 @@ const std::map<std::string, Usual>& usualValues() {
   return values;
 }
 
+/// Sections of numbers that are chosen for the program, and no constants of nature: they may be odd, but are not implausible.
+constexpr const char* kChosen[] = {"paper/", "device_force/", "output/", "preprocessing/", "half_space/"};
+
+bool isChosen(const std::string& key) {
+  return std::any_of(std::begin(kChosen), std::end(kChosen),
+                     [&](const char* section) { return startsWith(key, section); });
+}
+
 constexpr double kColdest = 100.0;  // [K]; below it a temperature is one in degrees Celsius
 constexpr double kIcePoint = 273.15;
 
@@ -126,7 +140,7 @@ class UsualCheck : public OptionVisitor {
     const auto found = usualValues().find(key);
     if (found == usualValues().end() || value == 0.0 || !range.contains(value)) return;
     const Usual& usual = found->second;
-    const bool is_implausible = usual.isImplausible(value);
+    const bool is_implausible = !isChosen(key) && usual.isImplausible(value);
     if (!is_implausible && usual.contains(value)) return;
     const std::string line = key + " " + rounded(value) + " " + unit;
     if (is_implausible) {

@@ -138,7 +138,7 @@ HeightMap CounterSurfaceSource::mounted(const HeightMap& measured) {
   const HeightMap cleaned =
       is_upside_down ? turnedOver(cleaner_.clean(turnedOver(measured)).surface) : cleaner_.clean(measured).surface;
   cleaner_.letGo();
-  limits_.checkPlausibility(cleaned);
+  limits_.checkPlausibility(cleaned, true);
   return mountedCounterSurface(cleaned, options_.facing);
 }
 

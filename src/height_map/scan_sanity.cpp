@@ -113,16 +113,19 @@ std::string heightSlip(double pitch, double factor) {
 }
 
 /// One line at most: a wrong unit of heights or pitch shows in range and slope alike.
-void checkHeights(const HeightMap& scan, const HeightStatistics& statistics, ScanRemarks& remarks) {
+/// - @p is_probe whose range is judged by its slope
+void checkHeights(const HeightMap& scan, const HeightStatistics& statistics, bool is_probe, ScanRemarks& remarks) {
   const double pitch = std::sqrt(scan.pitchX() * scan.pitchY());
   const double width = std::max(scan.cols() * scan.pitchX(), scan.rows() * scan.pitchY());
   const double range = statistics.max - statistics.min;
+  const double slope = scan.heights().depth() == CV_32F ? rmsSlope<float>(scan) : rmsSlope<double>(scan);
   if (range > width) {
-    remarks.implausible.push_back("heights range over " + metres(range) + ": more than the scan's width of " +
-                                  metres(width) + "; " + heightSlip(pitch, 1.0 / kThousand) + " or damaged data");
+    const bool is_shape = is_probe && slope <= kSteepest;
+    (is_shape ? remarks.unusual : remarks.implausible)
+        .push_back("heights range over " + metres(range) + ": more than the scan's width of " + metres(width) + "; " +
+                   heightSlip(pitch, 1.0 / kThousand) + " or damaged data");
     return;
   }
-  const double slope = scan.heights().depth() == CV_32F ? rmsSlope<float>(scan) : rmsSlope<double>(scan);
   const double smoothest = smoothestSlope(pitch);
   if (std::isnan(slope) || (smoothest <= slope && slope <= kSteepest)) return;
   double factor = slope > kSteepest ? 1.0 / kThousand : kThousand;
@@ -175,7 +178,7 @@ bool isSinglePrecision(const cv::Mat& heights) {
   return true;
 }
 
-ScanRemarks scanRemarks(const HeightMap& scan) {
+ScanRemarks scanRemarks(const HeightMap& scan, bool is_probe) {
   ScanRemarks remarks;
   std::vector<std::string>& lines = remarks.unusual;
   const bool is_pitch_odd = checkPitches(scan, remarks);
@@ -187,7 +190,7 @@ ScanRemarks scanRemarks(const HeightMap& scan) {
     return remarks;  // no valid pixel: the prediction says so
   }
   if (checkContent(scan, statistics, lines)) return remarks;
-  if (!is_pitch_odd) checkHeights(scan, statistics, remarks);
+  if (!is_pitch_odd) checkHeights(scan, statistics, is_probe, remarks);
   const double largest = std::max(std::abs(statistics.min), std::abs(statistics.max));
   const double spacing = std::nextafter(static_cast<float>(largest), std::numeric_limits<float>::infinity()) -
                          static_cast<double>(static_cast<float>(largest));

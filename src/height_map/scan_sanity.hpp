@@ -35,7 +35,8 @@ struct ScanRemarks {
   std::vector<std::string> all() const;
 };
 
-ScanRemarks scanRemarks(const HeightMap& scan);
+/// - @p is_probe a sphere or tip, which may be higher than its frame is wide
+ScanRemarks scanRemarks(const HeightMap& scan, bool is_probe = false);
 
 /// Every finite height is a float32: the data has passed through one, or may do so without a loss.
 bool isSinglePrecision(const cv::Mat& heights);

@@ -219,7 +219,7 @@ class RowsTest(unittest.TestCase):
         self.assertEqual(threads, [threading.active_count()] * 5)
 
     def test_an_error_or_the_end_of_a_process_ends_the_sweep(self):
-        with self.assertRaisesRegex(mems_stiction.SurfaceError, "no valid pixel"):
+        with self.assertRaisesRegex(mems_stiction.SurfaceError, "its measured pixels lie within 0 x 0"):
             swept({WORK: [0.02, 0.08]}, np.full((64, 64), np.nan), workers=2)
 
         def kill(share):

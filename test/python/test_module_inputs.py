@@ -159,26 +159,36 @@ class WarningTest(unittest.TestCase):
         return result, found
 
     def test_settings_that_look_like_a_wrong_unit_warn_once_at_the_callers_line(self):
-        for call in (lambda: mems_stiction.predict(rough(20, 30), PITCH, lower={"youngs_modulus": 169}),
-                     lambda: mems_stiction.half_space(rough(8, 8, 1e-10), PITCH, lower={"youngs_modulus": 169}),
-                     lambda: mems_stiction.Predictor({"lower": {"youngs_modulus": 169}}),
-                     lambda: mems_stiction.Settings(lower={"youngs_modulus": 169})):
+        for call in (lambda: mems_stiction.predict(rough(20, 30), PITCH, interface={"work_of_adhesion": 15.0}),
+                     lambda: mems_stiction.half_space(rough(8, 8, 1e-10), PITCH, interface={"work_of_adhesion": 15.0}),
+                     lambda: mems_stiction.Predictor({"interface": {"work_of_adhesion": 15.0}}),
+                     lambda: mems_stiction.Settings(interface={"work_of_adhesion": 15.0})):
             _, found = self.caught(call)
             self.assertEqual([(one.category, one.filename) for one in found], [(mems_stiction.SettingsWarning, __file__)])
-            self.assertIn("probably 169 GPa", str(found[0].message))
-        settings, _ = self.caught(lambda: mems_stiction.Settings(lower={"youngs_modulus": 169}))
+            self.assertIn("probably 15 mJ/m^2", str(found[0].message))
+        settings, _ = self.caught(lambda: mems_stiction.Settings(interface={"work_of_adhesion": 15.0}))
         prediction, found = self.caught(lambda: mems_stiction.predict(rough(20, 30), PITCH, settings))
         self.assertEqual(found, [])
-        self.assertIn("probably 169 GPa", prediction.warnings[0])
-        self.assertIn("probably 169 GPa", repr(prediction))
+        self.assertIn("probably 15 mJ/m^2", prediction.warnings[0])
+        self.assertIn("probably 15 mJ/m^2", repr(prediction))
         self.assertEqual(list(prediction.warnings), prediction.to_dict()["warnings"])
 
     def test_scans_warn_at_the_callers_line(self):
-        for call in (lambda: mems_stiction.predict(rough(20, 30), 20.0), lambda: mems_stiction.Predictor().predict(rough(20, 30), 20.0),
-                     lambda: mems_stiction.half_space(rough(8, 8), (20.0, PITCH)), lambda: mems_stiction.sweep_loads(rough(20, 30), 20.0)):
+        for call in (lambda: mems_stiction.predict(rough(20, 30), 20e-6), lambda: mems_stiction.Predictor().predict(rough(20, 30), 20e-6),
+                     lambda: mems_stiction.half_space(rough(8, 8), (20e-6, PITCH)), lambda: mems_stiction.sweep_loads(rough(20, 30), 20e-6)):
             _, found = self.caught(call)
             self.assertTrue(found)
             self.assertEqual({(one.category, one.filename) for one in found}, {(mems_stiction.ScanWarning, __file__)})
+
+    def test_what_is_implausible_is_refused_unless_it_is_meant(self):
+        meant = {"accept_implausible": True}
+        with self.assertRaisesRegex(mems_stiction.SurfaceError, "implausible: pitch_x 20 m .* limits/accept_implausible"):
+            mems_stiction.predict(rough(20, 30), 20.0)
+        with self.assertRaisesRegex(mems_stiction.OptionsError, "lower/youngs_modulus 169 Pa is implausible .* probably 169 GPa"):
+            mems_stiction.Settings(lower={"youngs_modulus": 169})
+        prediction, found = self.caught(lambda: mems_stiction.predict(rough(20, 30), 20.0, limits=meant, lower={"youngs_modulus": 169}))
+        self.assertEqual({one.category for one in found}, {mems_stiction.ScanWarning, mems_stiction.SettingsWarning})
+        self.assertTrue(any("pitch_x 20 m" in line for line in prediction.warnings), prediction.warnings)
 
     def test_steps_of_a_cleaning_that_hardly_do_what_is_meant_warn(self):
         ridge = rough(64, 64)

@@ -79,8 +79,10 @@ class WrongInputTest(unittest.TestCase):
 
     def test_a_wrong_unit_warns(self):
         with self.assertWarnsRegex(mems_stiction.ScanWarning, "pitch"):
-            prediction = mems_stiction.predict(rough(20, 30), 20.0)
+            prediction = mems_stiction.predict(rough(20, 30), 20e-6)
         self.assertIn("pitch", prediction.warnings[0])
+        with self.assertRaisesRegex(mems_stiction.SurfaceError, "pitch_x 20 m is above 1 mm"):
+            mems_stiction.predict(rough(20, 30), 20.0)
 
     def test_a_frame_that_fails_raises_or_takes_its_place(self):
         given = [rough(20, 30), rough(20, 30)[0], rough(20, 30)]

@@ -248,13 +248,13 @@ TEST(Parameters, TheMirrorOfReconfigureIsNoSetting) {
 
 TEST(Parameters, TheParameterServersTypesArriveUnchanged) {
   XmlRpc::XmlRpcValue tree;
-  tree["lower"]["youngs_modulus"] = 1.0 / 3.0;
+  tree["lower"]["youngs_modulus"] = 1e11 / 3.0;
   tree["load"]["max_voltage"] = 7;            // an integer serves for a number
   tree["paper"]["cutoff_distance"] = "1e-9";  // PyYAML reads this as text
   tree["scan"]["invalid_value"] = std::nan("");
   tree["accumulate_deformation"] = true;
   const NodeConfiguration configuration = nodeConfigurationFromYaml(yamlFromParameters(tree));
-  EXPECT_EQ(configuration.core.model.lower.youngs_modulus, 1.0 / 3.0);
+  EXPECT_EQ(configuration.core.model.lower.youngs_modulus, 1e11 / 3.0);
   EXPECT_EQ(configuration.core.model.load.max_voltage, 7.0);
   EXPECT_EQ(configuration.core.model.solver.of<PaperOptions>().cutoff_distance, 1e-9);
   EXPECT_TRUE(std::isnan(configuration.core.scan.invalid_value));

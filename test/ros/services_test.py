@@ -191,18 +191,28 @@ class ServicesTest(unittest.TestCase):
         self.assertIn("scan_info.site_y: -0.005 is stated without site_x", refused.message)
         info.site_x = 0.0
         counts = (np.arange(48 * 64) % 251).astype(np.uint8).reshape(48, 64)  # counts that pass for metres
-        answer = self.predict(image_message(counts, info.header.stamp, "mono8"), info, 0.0, LOAD)
+        refused = self.predict(image_message(counts, info.header.stamp, "mono8"), info, 0.0, LOAD)
+        self.assertFalse(refused.success)
+        self.assertIn("taken for metres", refused.message)
+        self.assertIn("limits/accept_implausible", refused.message)
+        flat = rough_surface(4, rms_height=1e-14)  # too smooth for any instrument
+        answer = self.predict(image_message(flat, info.header.stamp), info, 0.0, LOAD)
         self.assertTrue(answer.success)
-        self.assertIn("taken for metres", answer.message)
-        self.assertTrue(any("taken for metres" in text for text in answer.prediction.warnings))
-        # A live one has the same in its message, and in the log.
+        self.assertIn("is unusual", answer.message)
+        self.assertTrue(any("is unusual" in text for text in answer.prediction.warnings))
+        # A live one has the same in its message, and in the log; one that is implausible is rejected.
+        rejected = self.station.stamp()
+        self.station.height.publish(image_message(counts, rejected, "mono8"))
+        self.station.info.publish(info_message(rejected))
         stamp = self.station.stamp()
-        self.station.height.publish(image_message(counts, stamp, "mono8"))
+        self.station.height.publish(image_message(flat, stamp))
         self.station.info.publish(info_message(stamp))
         wait_until(lambda: self.predictions.messages[-1].header.stamp == stamp, "the prediction")
         self.assertEqual(self.predictions.messages[-1].warnings, answer.prediction.warnings)
-        wait_until(lambda: any(message.level == Log.WARN and message.msg.startswith("the scan of stamp %d.000000000: " % stamp.secs)
-                               and "taken for metres" in message.msg for message in self.log.messages), "a warning in the log")
+        self.assertNotIn(rejected, [message.header.stamp for message in self.predictions.messages])
+        for said, words in ((stamp, "is unusual"), (rejected, "taken for metres")):
+            wait_until(lambda: any(message.level == Log.WARN and "stamp %d.000000000" % said.secs in message.msg and words in message.msg
+                                   for message in self.log.messages), "a warning in the log")
 
     def test_4_predict_equals_the_topic_bit_for_bit_and_leaves_no_trace(self):
         surface = rough_surface(4)
@@ -232,7 +242,7 @@ class ServicesTest(unittest.TestCase):
             answer = self.predict(image, scan_info, voltage, LOAD)
             self.assertFalse(answer.success)
             self.assertIn(reason, answer.message)
-        self.counts.wait(rejected=0)
+        self.counts.wait(rejected=1)  # the implausible one of the topic
 
     def test_6_reset_surface_answers(self):
         self.assertTrue(self.reset_surface().success)

@@ -41,7 +41,8 @@ struct ScanLimits {
 
   /// @throw SurfaceError for a surface that no instrument gives (scan_sanity.hpp), unless accept_implausible. It is to be
   /// judged as cleaned: damage that is mended is none.
-  void checkPlausibility(const HeightMap& cleaned) const;
+  /// - @p is_probe a sphere or tip, which may be higher than its frame is wide
+  void checkPlausibility(const HeightMap& cleaned, bool is_probe = false) const;
 
   /// What a refusal of something implausible ends with.
   static std::string howToAccept();

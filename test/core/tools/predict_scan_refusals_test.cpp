@@ -57,12 +57,29 @@ TEST_F(PredictScan, AFormulationOfEarlierVersionsIsRefusedWithWhatServesInstead)
   EXPECT_NE(outcome.errors[0].find("'corrected' is no longer there: "), std::string::npos) << outcome.errors[0];
 }
 
-TEST_F(PredictScan, UnitSlipsAreWarnedOfOnStandardError) {
-  const Outcome outcome = run("--pitch 20 " + sphere());
-  EXPECT_EQ(outcome.status, 0);
-  ASSERT_FALSE(outcome.errors.empty());
-  EXPECT_NE(outcome.errors[0].find("warning: pitch_x 20 m"), std::string::npos) << outcome.errors[0];
-  EXPECT_EQ(outcome.output.find("warning: "), std::string::npos) << "the record has a list, no complaint";
+TEST_F(PredictScan, WhatIsImplausibleIsRefusedUnlessItIsMeant) {
+  const Outcome refused = run("--pitch 20 " + sphere());
+  EXPECT_EQ(refused.status, 2);
+  ASSERT_EQ(refused.errors.size(), 1u);
+  EXPECT_NE(refused.errors[0].find("implausible: pitch_x 20 m is above 1 mm"), std::string::npos) << refused.errors[0];
+  const Outcome meant = run("--accept-implausible --pitch 20 " + sphere());
+  EXPECT_EQ(meant.status, 0);
+  ASSERT_FALSE(meant.errors.empty());
+  EXPECT_NE(meant.errors[0].find("warning: pitch_x 20 m"), std::string::npos) << meant.errors[0];
+  EXPECT_EQ(meant.output.find("warning: "), std::string::npos) << "the record has a list, no complaint";
+  const std::string soft = folder_.write("soft.yaml", "lower: {youngs_modulus: 169}\n");
+  EXPECT_EQ(run("--config " + soft + " --pitch 20e-9 " + sphere()).status, 2);
+  EXPECT_EQ(run("--accept-implausible --config " + soft + " --pitch 20e-9 " + sphere()).status, 0);
+}
+
+TEST_F(PredictScan, StrictMakesAWarningAStatus) {
+  const std::string call = "--load 1 --pitch 20e-9 " + sphere();
+  EXPECT_EQ(run(call).status, 0);
+  const Outcome strict = run("--strict " + call);
+  EXPECT_EQ(strict.status, 1);
+  EXPECT_FALSE(strict.output.empty()) << "the record is there";
+  EXPECT_EQ(strict.errors.back(), "predict_scan: 1 warning, and --strict takes none");
+  EXPECT_EQ(run("--strict --pitch 20e-9 " + sphere()).status, 0);
 }
 
 TEST_F(PredictScan, WhatIsMistypedIsNamedWithWhatIsAllowed) {
