@@ -21,7 +21,9 @@ import rospy
 from mems_stiction import report
 from mems_stiction.msg import DeviceAdhesion, StictionPrediction
 from roslib.packages import find_node
-from tiers import times
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from tiers import times  # noqa: E402  (the path comes first)
 
 SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "scripts"
 CONFIG = """

@@ -14,7 +14,8 @@ try:
 except ImportError:
     raise unittest.SkipTest("the Python module is not built: MEMS_STICTION_WITH_PYTHON is off")
 
-from tiers import times
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from tiers import times  # noqa: E402  (the path comes first)
 
 HERE = pathlib.Path(__file__).resolve().parent
 COMMA = "de_DE.UTF-8"

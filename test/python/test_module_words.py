@@ -17,6 +17,7 @@ except ImportError:
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 from module_cases import DEVICE, FEW, FORMULATIONS, PITCH, REPOSITORY, rough  # noqa: E402  (the path comes first)
+from tiers import evidence  # noqa: E402
 
 
 class TextTest(unittest.TestCase):
@@ -96,6 +97,7 @@ class TextTest(unittest.TestCase):
 
 
 class TypeTest(unittest.TestCase):
+    @evidence
     def test_types_fit(self):
         try:
             import mypy.api
@@ -115,6 +117,7 @@ class TypeTest(unittest.TestCase):
 
 
 class NotebookTest(unittest.TestCase):
+    @evidence
     def test_it_runs(self):
         try:
             import nbclient

@@ -10,6 +10,9 @@ import unittest
 
 import numpy as np
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from tiers import evidence  # noqa: E402  (the path comes first)
+
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 PAGE = REPOSITORY / "doc" / "sensitivity.md"
 STUDY = REPOSITORY / "scripts" / "lib" / "sensitivity_study.py"
@@ -72,6 +75,7 @@ class SensitivityTest(unittest.TestCase):
                 self.assertEqual(outcome_far["pull_off_force"], outcome_near["pull_off_force"])
                 self.assertLess(2.0 * outcome_near["pull_off_force"], outcome_paper["pull_off_force"])
 
+    @evidence
     def test_own_scans_are_cut_into_quarters(self):
         random = np.random.RandomState(3)
         heights = random.standard_normal((128, 130))

@@ -12,6 +12,7 @@ import re
 import select
 import signal
 import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -20,7 +21,9 @@ import numpy as np
 import rosbag
 from mems_stiction.msg import StictionPrediction
 from roslib.packages import find_node
-from tiers import times
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from tiers import times  # noqa: E402  (the path comes first)
 
 BAD_INPUT = 2
 WIPED = b"\r\x1b[K"

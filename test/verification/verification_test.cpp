@@ -81,13 +81,11 @@ TEST(VerificationTable, noticesEveryFalsifiedRow) {
   }
 }
 
-TEST(VerificationTable, programFailsOnAFalsifiedRow) {
+TEST(VerificationTableEvidence, programFailsOnAFalsifiedRow) {
   const ScratchFolder scratch;
   const std::string name = rowNames(table()).front();
   const std::string page = scratch.file("verification.md");
   const std::string output = " > " + scratch.file("output.txt") + " 2>&1";
-  EXPECT_EQ(verify("--markdown " + page + output), 0);
-  EXPECT_EQ(rowNamesOfPage(ScratchFolder::read(page)), rowNames(table()));
   EXPECT_EQ(verify("--falsify '" + name + "' --markdown " + page + output), 1);
   EXPECT_NE(ScratchFolder::read(page).find(", 1 out"), std::string::npos);
   EXPECT_NE(ScratchFolder::read(scratch.file("output.txt")).find("<-- OUT"), std::string::npos);

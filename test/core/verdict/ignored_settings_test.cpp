@@ -101,7 +101,7 @@ struct Bits {
 };
 
 std::string bitsOf(const Settings& settings) {
-  Prediction prediction = AdhesionModel(settings.model).predict(samples::gaussian(64, 64, 4e-9, 4e-9, 3e-9, 15e-9, 5));
+  Prediction prediction = AdhesionModel(settings.model).predict(samples::gaussian(32, 32, 4e-9, 4e-9, 3e-9, 15e-9, 5));
   prediction.processing_time = 0.0;
   Bits bits;
   visitPredictionFields(prediction, bits);
