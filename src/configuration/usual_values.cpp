@@ -8,12 +8,12 @@
 
 #include "errors/plain_format.hpp"
 #include "mems_stiction/configuration/configuration.hpp"
+#include "numeric/constants.hpp"
 #include "numeric/words.hpp"
 
 namespace mems_stiction {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kBeyond = 10.0;  // times what is usual: no material, device or instrument has it
 
 struct Unit {
@@ -124,16 +124,14 @@ bool isChosen(const std::string& key) {
 constexpr double kColdest = 100.0;  // [K]; below it a temperature is one in degrees Celsius
 constexpr double kIcePoint = 273.15;
 
-std::string rounded(double value) { return plainFormat("%.4g", value); }
-
 class UsualCheck : public OptionVisitor {
  public:
   void number(const std::string& key, double& value, const std::string& unit, const Range& range,
               const std::string&) override {
     if (key == "interface/temperature") {
       if (value < kColdest) {
-        remarks_.unusual.push_back(key + " " + rounded(value) + " K is unusual: probably degrees Celsius; write " +
-                                   rounded(value + kIcePoint));
+        remarks_.unusual.push_back(key + " " + fourDigits(value) + " K is unusual: probably degrees Celsius; write " +
+                                   fourDigits(value + kIcePoint));
       }
       return;
     }
@@ -142,13 +140,13 @@ class UsualCheck : public OptionVisitor {
     const Usual& usual = found->second;
     const bool is_implausible = !isChosen(key) && usual.isImplausible(value);
     if (!is_implausible && usual.contains(value)) return;
-    const std::string line = key + " " + rounded(value) + " " + unit;
+    const std::string line = key + " " + fourDigits(value) + " " + unit;
     if (is_implausible) {
-      remarks_.implausible.push_back(line + " is implausible (" + rounded(usual.lowest()) + " to " +
-                                     rounded(usual.highest()) + " " + unit + " are taken): " + meant(usual, value));
+      remarks_.implausible.push_back(line + " is implausible (" + fourDigits(usual.lowest()) + " to " +
+                                     fourDigits(usual.highest()) + " " + unit + " are taken): " + meant(usual, value));
     } else {
-      remarks_.unusual.push_back(line + " is outside the usual " + rounded(usual.lower) + " to " +
-                                 rounded(usual.upper) + " " + unit + ": " + meant(usual, value));
+      remarks_.unusual.push_back(line + " is outside the usual " + fourDigits(usual.lower) + " to " +
+                                 fourDigits(usual.upper) + " " + unit + ": " + meant(usual, value));
     }
   }
   void integer(const std::string&, int&, const Range&, const std::string&) override {}
@@ -165,7 +163,7 @@ class UsualCheck : public OptionVisitor {
       const double number = value * unit.shift;
       const double in_si = number * unit.factor;
       if (usual.contains(in_si)) {
-        return "probably " + rounded(number) + " " + unit.name + "; write " + rounded(in_si);
+        return "probably " + fourDigits(number) + " " + unit.name + "; write " + fourDigits(in_si);
       }
     }
     return "is its unit right?";
@@ -175,6 +173,8 @@ class UsualCheck : public OptionVisitor {
 };
 
 }  // namespace
+
+std::string fourDigits(double value) { return plainFormat("%.4g", value); }
 
 SettingRemarks settingRemarks(const Configuration& configuration) {
   UsualCheck check;

@@ -20,6 +20,9 @@ struct SettingRemarks {
 
 SettingRemarks settingRemarks(const Configuration& configuration);
 
+/// A number as sentences about settings show it.
+std::string fourDigits(double value);
+
 /// Whether @p value of a key that settingRemarks() knows is usual.
 bool isUsual(const std::string& key, double value);
 

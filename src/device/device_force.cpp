@@ -456,10 +456,16 @@ void followAll(const DeviceSurfaces& surfaces, const DeviceArea& area, const std
                                           seed + 3));
     } else {
       const Surfaces::MadeScans scans = known.scansAgain(number, seed + 1);
+      const bool has_upper = !scans.upper.empty();
+      const std::vector<HeightMap> from_above = turned(scans.upper);
+      const std::vector<HeightMap> from_below = has_upper ? turned(scans.lower) : std::vector<HeightMap>();
       for (ModelRun* run : runs) {
+        const ModelRun* first = run == runs.front() ? nullptr : runs.front();
         run->check->add(scans.lower, scans.upper);
-        run->places.front().add(scans.lower, scans.upper);
-        if (run->places.size() > 1) run->places.back().add(turned(scans.upper), turned(scans.lower));
+        run->places.front().add(scans.lower, scans.upper, first != nullptr ? &first->places.front() : nullptr);
+        if (has_upper) {
+          run->places.back().add(from_above, from_below, first != nullptr ? &first->places.back() : nullptr);
+        }
       }
       const DeviceLaws again = known.lawsAgain(number, scans);
       DeviceSurface surface(again, pieces, seed + 2);

@@ -12,6 +12,7 @@
 #include "numeric/mean.hpp"
 #include "numeric/median.hpp"
 #include "preprocess/level.hpp"
+#include "surface/alignment.hpp"
 #include "verdict/part_verdict.hpp"
 
 namespace mems_stiction {
@@ -112,8 +113,12 @@ PlaceCheck::Range PlaceCheck::rangeOf(const std::vector<PlaceTexture>& textures)
   return range;
 }
 
-void PlaceCheck::add(const std::vector<HeightMap>& made, const std::vector<HeightMap>& made_counter_surface) {
-  for (Checked& checked : checked_) checked.made.push_back(rangeOf(placeTextures(made[checked.scan])));
+void PlaceCheck::add(const std::vector<HeightMap>& made, const std::vector<HeightMap>& made_counter_surface,
+                     const PlaceCheck* same_scans) {
+  for (std::size_t i = 0; i < checked_.size(); ++i) {
+    checked_[i].made.push_back(same_scans != nullptr ? same_scans->checked_[i].made.back()
+                                                     : rangeOf(placeTextures(made[checked_[i].scan])));
+  }
   for (Checked& checked : checked_) {
     if (!mayBeBeyond(checked)) continue;
     if (!checked.strongest) checked.strongest = strongestOf(scans_[checked.scan].surface, counter_surface_);
@@ -125,11 +130,7 @@ std::vector<double> PlaceCheck::madeLike(const Checked& checked, double Range::*
   const HeightMap& scan = scans_[checked.scan].surface;
   std::vector<double> figures;
   for (const Checked& other : checked_) {
-    const HeightMap& like = scans_[other.scan].surface;
-    if (like.heights().size() != scan.heights().size() || like.pitchX() != scan.pitchX() ||
-        like.pitchY() != scan.pitchY()) {
-      continue;
-    }
+    if (!haveSameGrid(scans_[other.scan].surface, scan)) continue;
     for (const Range& made : other.made) figures.push_back(made.*figure);
   }
   return figures;

@@ -43,7 +43,10 @@ class PlaceCheck {
              const std::vector<HeightMap>& counter_surface);
 
   /// - @p made like the scans, in their order
-  void add(const std::vector<HeightMap>& made, const std::vector<HeightMap>& made_counter_surface);
+  /// - @p same_scans a check of the same scans under another model, to which @p made has been added: they differ as there; may
+  ///   be null
+  void add(const std::vector<HeightMap>& made, const std::vector<HeightMap>& made_counter_surface,
+           const PlaceCheck* same_scans = nullptr);
 
   bool isUneven() const { return place() != nullptr; }
   /// Which scan has the place that holds most, where, and what it is like; empty if the scans are even.

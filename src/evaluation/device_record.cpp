@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <string>
 
 #include "device/device_force_fields.hpp"
 #include "device/device_force_lists.hpp"
 #include "errors/short_number.hpp"
 #include "evaluation/record_fields.hpp"
+#include "numeric/words.hpp"
 #include "verdict/regime_flags.hpp"
 #include "verdict/verdict_sentence.hpp"
 
@@ -23,8 +23,8 @@ const auto kVisitBand = [](const auto& item, auto&& fields) { visitBandFields(it
 template <typename Fields>
 void addVerdict(const Verdict& verdict, Fields& fields) {
   visitVerdictFields(verdict, [&](const Figure& figure, const auto& value) {
-    const bool force_has_it = std::strcmp(figure.name, "apparent_work_of_adhesion") == 0 ||
-                              std::string(figure.name).rfind("device_pull_off_force", 0) == 0;
+    const bool force_has_it =
+        std::strcmp(figure.name, "apparent_work_of_adhesion") == 0 || startsWith(figure.name, "device_pull_off_force");
     if (!force_has_it) fields(figure, value);
   });
   fields({"regime_flag_names"}, regimeFlagNames(verdict.regime_flags));

@@ -5,7 +5,6 @@
 
 #include "configuration/idle_settings.hpp"
 #include "configuration/usual_values.hpp"
-#include "errors/plain_format.hpp"
 #include "evaluation/breakdown.hpp"
 
 namespace mems_stiction {
@@ -15,15 +14,13 @@ constexpr double kSoftestShare =
     2e-4;  // hardness over modulus: a quarter of that of indium, the softest metal for devices
 constexpr double kSlenderness = 5.0;  // length over thickness of a beam
 
-std::string rounded(double value) { return plainFormat("%.4g", value); }
-
 /// What settings say of each other.
 void addContradictions(const Configuration& configuration, std::vector<std::string>& lines) {
   const auto checkBody = [&lines](const std::string& body, const Material& material) {
     const bool is_named = !isUsual(body + "/hardness", material.hardness);
     if (is_named || material.hardness >= kSoftestShare * material.youngs_modulus) return;
-    lines.push_back(body + "/hardness " + rounded(material.hardness) + " Pa beside " + body + "/youngs_modulus " +
-                    rounded(material.youngs_modulus) + " Pa is softer than any solid (" + rounded(kSoftestShare) +
+    lines.push_back(body + "/hardness " + fourDigits(material.hardness) + " Pa beside " + body + "/youngs_modulus " +
+                    fourDigits(material.youngs_modulus) + " Pa is softer than any solid (" + fourDigits(kSoftestShare) +
                     " of its modulus): are both units right?");
   };
   checkBody("lower", configuration.model.lower);
@@ -32,7 +29,8 @@ void addContradictions(const Configuration& configuration, std::vector<std::stri
     const LoadOptions& load = configuration.model.load;
     if (load.voltage == 0.0 || !(material.thickness > 0.0) || material.backing != Backing::kFree) return;
     lines.push_back(
-        "load/voltage " + rounded(load.voltage) + " V beside " + body + "/thickness " + rounded(material.thickness) +
+        "load/voltage " + fourDigits(load.voltage) + " V beside " + body + "/thickness " +
+        fourDigits(material.thickness) +
         " m: the voltage presses the surfaces of the frame together and their plate bends onto the contacts; how it "
         "bends the whole part between its anchors is left out");
   };
@@ -40,8 +38,8 @@ void addContradictions(const Configuration& configuration, std::vector<std::stri
   checkPlate("upper", configuration.model.upper);
   const DeviceOptions& device = configuration.device;
   if (device.hasBeam() && device.beam_length < kSlenderness * device.beam_thickness) {
-    lines.push_back("device/beam_length " + rounded(device.beam_length) + " m beside device/beam_thickness " +
-                    rounded(device.beam_thickness) + " m is no beam (at least " + rounded(kSlenderness) +
+    lines.push_back("device/beam_length " + fourDigits(device.beam_length) + " m beside device/beam_thickness " +
+                    fourDigits(device.beam_thickness) + " m is no beam (at least " + fourDigits(kSlenderness) +
                     " times as long as thick): were they swapped?");
   }
 }
@@ -65,8 +63,8 @@ std::vector<std::string> frameWarnings(const Prediction& prediction, const Optio
   const double pressure = prediction.mechanical_load / prediction.nominal_area;
   const double hardness = std::min(options.lower.hardness, options.upper.hardness);
   if (pressure > hardness) {
-    lines.push_back("the mechanical load of " + rounded(prediction.mechanical_load) + " N is " + rounded(pressure) +
-                    " Pa on this frame and more than the hardness of " + rounded(hardness) +
+    lines.push_back("the mechanical load of " + fourDigits(prediction.mechanical_load) + " N is " +
+                    fourDigits(pressure) + " Pa on this frame and more than the hardness of " + fourDigits(hardness) +
                     " Pa: it is the load on the scanned area; load/device_force is that on the device");
   }
   for (std::string& line : breakdownWarnings(options, device, prediction.mean_gap)) lines.push_back(std::move(line));

@@ -7,6 +7,7 @@
 
 #include "errors/short_number.hpp"
 #include "height_map/unmeasured.hpp"
+#include "height_map/validity.hpp"
 #include "mems_stiction/errors/errors.hpp"
 #include "numeric/words.hpp"
 
@@ -97,7 +98,7 @@ bool isSteep(const FileChannel& channel) {
 /// The direction that a scan was stopped in, or before.
 bool isUnmeasured(const FileChannel& channel) {
   if (channel.takes_settings || channel.values.type() != CV_64FC1) return false;
-  return cv::countNonZero(channel.values == channel.values) == 0;  // NaN equals nothing
+  return cv::countNonZero(validMask(channel.values)) == 0;
 }
 
 /// Lower is likelier to be the height; kOtherSignal is never taken by itself.

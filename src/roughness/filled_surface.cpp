@@ -9,7 +9,6 @@
 #include "errors/short_number.hpp"
 #include "height_map/validity.hpp"
 #include "mems_stiction/errors/errors.hpp"
-#include "numeric/constants.hpp"
 #include "preprocess/fill_holes.hpp"
 #include "preprocess/level.hpp"
 
@@ -115,15 +114,6 @@ std::string filledSentence(const HeightMap& surface) {
                            " %): the spectrum takes them as a plate through their surroundings, without waves that are "
                            "shorter than the holes";
   return share < kMuchMissing ? text : text + "; so much is missing that it may be out by as much";
-}
-
-std::vector<double> hannWindow(int count) {
-  std::vector<double> weights(static_cast<std::size_t>(count));
-  for (int index = 0; index < count; ++index) {
-    const double sine = std::sin(kPi * (index + 0.5) / count);
-    weights[static_cast<std::size_t>(index)] = sine * sine;
-  }
-  return weights;
 }
 
 KnownShare::KnownShare(const cv::Mat& distances, const std::vector<double>& weights_x,

@@ -31,9 +31,6 @@ FilledSurface filledSurface(const HeightMap& surface);
 /// What a spectrum does with the missing pixels of a surface, in words; empty where none is missing.
 std::string filledSentence(const HeightMap& surface);
 
-/// Weights along one axis: Hann's periodic window, centred on the pixels.
-std::vector<double> hannWindow(int count);
-
 /// Which share of the squared weights of a frame knows a wave?
 class KnownShare {
  public:

@@ -15,11 +15,6 @@
 namespace mems_stiction {
 namespace {
 
-std::vector<double> axisWindow(int count, SpectrumWindow window) {
-  if (window == SpectrumWindow::kHann) return hannWindow(count);
-  return std::vector<double>(static_cast<std::size_t>(count), 1.0);
-}
-
 /// Heights about their weighted mean times the window, in units of `unit`.
 struct Weighted {
   cv::Mat heights;
@@ -33,8 +28,8 @@ Weighted weightedHeights(const FilledSurface& filled, SpectrumWindow window) {
   WorkingSurface work(surface);
   cv::Mat& heights = work.heights;
   const double mean = meansOf(heights, work.memory).height;
-  const std::vector<double> window_x = axisWindow(surface.cols(), window);
-  const std::vector<double> window_y = axisWindow(surface.rows(), window);
+  const std::vector<double> window_x = windowWeights(surface.cols(), window);
+  const std::vector<double> window_y = windowWeights(surface.rows(), window);
   Weighted weighted{{}, KnownShare(filled.distances, window_x, window_y)};
   ValueRange range;
   double sum = 0.0;
@@ -63,6 +58,16 @@ Weighted weightedHeights(const FilledSurface& filled, SpectrumWindow window) {
 }
 
 }  // namespace
+
+std::vector<double> windowWeights(int count, SpectrumWindow window) {
+  std::vector<double> weights(static_cast<std::size_t>(count), 1.0);
+  if (window == SpectrumWindow::kNone) return weights;
+  for (int index = 0; index < count; ++index) {
+    const double sine = std::sin(kPi * (index + 0.5) / count);
+    weights[static_cast<std::size_t>(index)] = sine * sine;
+  }
+  return weights;
+}
 
 PowerSpectrum powerSpectrum(const HeightMap& measured, SpectrumWindow window) {
   const FilledSurface filled = filledSurface(measured);

@@ -27,6 +27,9 @@ namespace mems_stiction {
 
 enum class SpectrumWindow { kNone, kHann };
 
+/// Weights of the pixels along one axis: 1, or Hann's periodic window, centred on the pixels.
+std::vector<double> windowWeights(int count, SpectrumWindow window);
+
 /// Moments of a profile's spectrum, averaged over its directions.
 struct SpectralMoments {
   double m0 = 0.0;     ///< [m^2]

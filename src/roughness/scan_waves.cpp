@@ -6,6 +6,7 @@
 
 #include "preprocess/level.hpp"
 #include "roughness/half_spectrum.hpp"
+#include "roughness/power_spectrum.hpp"
 
 namespace mems_stiction {
 namespace {
@@ -28,7 +29,7 @@ Complex waveSum(double waves, const std::vector<double>& factors) {
 }
 
 WaveTransfer makeTransfer() {
-  const std::vector<double> weights = hannWindow(kPixels);
+  const std::vector<double> weights = windowWeights(kPixels, SpectrumWindow::kHann);
   std::vector<double> window(kPixels);
   std::vector<double> constant(kPixels, 1.0 / std::sqrt(static_cast<double>(kPixels)));
   std::vector<double> slope(kPixels);
@@ -115,8 +116,8 @@ ScanWaves::ScanWaves(const FilledSurface& filled)
       side_y_(filled.surface.rows() * filled.surface.pitchY()) {
   cv::Mat heights;
   levelled(filled.surface).heights().convertTo(heights, CV_64F);
-  const std::vector<double> weights_x = hannWindow(cols_);
-  const std::vector<double> weights_y = hannWindow(rows_);
+  const std::vector<double> weights_x = windowWeights(cols_, SpectrumWindow::kHann);
+  const std::vector<double> weights_y = windowWeights(rows_, SpectrumWindow::kHann);
   double squares = 0.0;
   double largest = 0.0;
   for (int row = 0; row < rows_; ++row) {

@@ -2,9 +2,8 @@
 
 #include <cmath>
 
-#include "errors/plain_format.hpp"
-
 #include "errors/one_line.hpp"
+#include "errors/plain_format.hpp"
 
 namespace mems_stiction {
 

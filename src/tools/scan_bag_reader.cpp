@@ -43,7 +43,9 @@ std::string sibling(const std::string& topic, const char* name) {
 /// Calls `read` with the message's bytes. @throw SurfaceError if they are damaged
 template <typename Function>
 void readBytes(const rosbag::MessageInstance& message, const Function& read) {
-  const SurfaceError shorter("the bag is damaged: a message of '" + message.getTopic() + "' is shorter than it states");
+  const auto shorter = [&] {
+    return SurfaceError("the bag is damaged: a message of '" + message.getTopic() + "' is shorter than it states");
+  };
   try {
     std::vector<std::uint8_t> bytes(message.size());
     ros::serialization::OStream written(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
@@ -52,9 +54,9 @@ void readBytes(const rosbag::MessageInstance& message, const Function& read) {
   } catch (const rosbag::BagException& error) {
     throw SurfaceError("the bag is damaged: a message of '" + message.getTopic() + "' cannot be read: " + error.what());
   } catch (const MessageError&) {
-    throw shorter;
+    throw shorter();
   } catch (const ros::Exception&) {  // of roscpp's deserialization
-    throw shorter;
+    throw shorter();
   }
 }
 

@@ -31,8 +31,8 @@ struct ScanLimits {
 
   int max_pixels = 67108864;  ///< after refinement [-], >= 1
   double max_time = 60.0;     ///< of preparation and prediction together [s], >= 0; 0 = none
-  bool accept_implausible =
-      false;  ///< take what no instrument, material or device has (scan_sanity.hpp, usual_values.hpp)
+  /// Take what no instrument, material or device has (scan_sanity.hpp, usual_values.hpp).
+  bool accept_implausible = false;
 
   void describe(OptionVisitor& visitor);
 
