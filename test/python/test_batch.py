@@ -15,12 +15,14 @@ import tempfile
 import time
 import unittest
 
+import genpy.dynamic
 import numpy as np
 import rosbag
 import rospy
 from mems_stiction import report
-from mems_stiction.msg import DeviceAdhesion, StictionPrediction
+from mems_stiction.msg import DeviceAdhesion, ScanInfo, StictionPrediction
 from roslib.packages import find_node
+from sensor_msgs.msg import Image
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 from tiers import times  # noqa: E402  (the path comes first)
@@ -41,6 +43,14 @@ def program(name):
 def run(command, **settings):
     return subprocess.run([str(part) for part in command], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                           stdin=subprocess.DEVNULL, universal_newlines=True, timeout=120, **settings)
+
+
+def first_fields(kind, count):
+    """The message when it had so many fields, as a bag of then has it."""
+    fields = "".join("%s %s\n" % field for field in list(zip(kind._slot_types, kind.__slots__))[:count])
+    between = "=" * 80 + "\n"
+    text = between.join([fields] + kind._full_text.split(between)[1:])
+    return genpy.dynamic.generate_dynamic(kind._type, text)[kind._type]
 
 
 class BatchTest(unittest.TestCase):
@@ -242,6 +252,26 @@ class BatchTest(unittest.TestCase):
         self.predict("rows.jsonl", inputs=scans)
         self.predict("fresh.jsonl", inputs=scans)
         self.assertEqual(path.read_bytes(), (self.folder / "fresh.jsonl").read_bytes())
+
+    def test_scans_that_were_recorded_before_they_named_part_or_wafer_are_read(self):
+        heights = np.random.RandomState(1).normal(scale=1e-9, size=(32, 48)).astype(np.float32)
+        rows = {}
+        for name, kind in (("unnamed", first_fields(ScanInfo, 7)), ("named", first_fields(ScanInfo, 10)), ("new", ScanInfo)):
+            image = Image(height=32, width=48, encoding="32FC1", step=4 * 48, data=heights.tobytes())
+            info = kind(pitch_x=1e-8, pitch_y=2e-8, height_scale=2.0)
+            if name != "unnamed":
+                info.scan_name, info.part_id, info.serial_id = "place 3", "lot 3", "0012"
+            image.header.stamp = info.header.stamp = rospy.Time(12, 34)
+            with rosbag.Bag(str(self.folder / (name + ".bag")), "w") as bag:
+                bag.write("/height", image, rospy.Time(12, 50))
+                bag.write("/scan_info", info, rospy.Time(12, 50))
+            self.predict(name + ".jsonl", inputs=[self.folder / (name + ".bag")])
+            row = json.loads((self.folder / (name + ".jsonl")).read_text())
+            rows[name] = {key: value for key, value in row.items() if not key.startswith("file")}
+        self.assertEqual(rows["new"]["pitch_y"], 2e-8)
+        self.assertEqual((rows["new"]["scan_name"], rows["new"]["part_id"], rows["new"]["serial_id"]), ("place 3", "lot 3", "0012"))
+        self.assertEqual(rows["named"], rows["new"])
+        self.assertEqual(rows["unnamed"], dict(rows["new"], scan_name="", part_id="", serial_id=""))
 
     def test_rows_of_an_earlier_version_are_refused(self):
         scans = [self.scan("a.txt", 1)]
