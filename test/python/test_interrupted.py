@@ -189,7 +189,7 @@ class InterruptedTest(unittest.TestCase):
         small = []
         for number, scan in enumerate(self.scans * 5):
             small.append(self.inputs / ("batch%02d.npy" % number))
-            np.save(str(small[-1]), np.load(str(scan))[number:number + 512, :512])
+            np.save(str(small[-1]), np.load(str(scan))[number:number + 256, :256])
         for name in ("rows.csv", "rows.jsonl"):
             command = [program("stiction_batch"), "-c", self.config, "--no-cache", "-o", self.folder / name, *small]
             _, expected = self.whole_run(command)
@@ -212,8 +212,10 @@ class InterruptedTest(unittest.TestCase):
     def test_a_report(self):
         scan = self.inputs / "report.npy"
         np.save(str(scan), np.load(str(self.scans[0]))[:128, :128])
+        larger = self.inputs / "larger.npy"
+        np.save(str(larger), np.load(str(self.scans[1]))[:512, :512])
         before = set(os.listdir(tempfile.gettempdir()))
-        errors = self.try_all_over([SCRIPTS / "stiction_report", "-c", self.config, "-o", self.folder / "report.html", scan, self.scans[1]],
+        errors = self.try_all_over([SCRIPTS / "stiction_report", "-c", self.config, "-o", self.folder / "report.html", scan, larger],
                                    same_bytes=False)
         left = {name for name in set(os.listdir(tempfile.gettempdir())) - before if name.startswith("stiction_report_")}
         self.assertEqual(left, set())

@@ -24,6 +24,7 @@ except ImportError:
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
 from module_cases import REPOSITORY, rough  # noqa: E402  (the path comes first)
+from tiers import evidence  # noqa: E402
 
 PITCH = 10e-9
 SIDE = 700  # pixels: a tile and a part of one
@@ -203,6 +204,7 @@ class DaskTest(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assert_found(done.stdout)
 
+    @evidence
     def test_a_worker_that_is_killed_costs_nothing(self):
         address_file = self.folder / "scheduler.json"
         self.start(sys.executable, "-m", "distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard",

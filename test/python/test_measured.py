@@ -17,6 +17,9 @@ sys.path.insert(0, str(LIBRARY))
 import measured  # noqa: E402  (the path comes first)
 import measured_cases as cases  # noqa: E402
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from tiers import evidence  # noqa: E402
+
 
 def first_cells(page):
     """Headings and the first cells of all rows: what a page has, whatever its figures."""
@@ -30,6 +33,7 @@ class MeasuredTest(unittest.TestCase):
         self.folder = pathlib.Path(holder.name)
         self.shipped = (REPOSITORY / "doc" / "measured.md").read_text(encoding="utf-8")
 
+    @evidence
     def test_shipped_page_is_one_of_this_study(self):
         path = self.folder / "page.md"
         done = subprocess.run([sys.executable, str(LIBRARY / "measured.py"), str(path), "--quick"],

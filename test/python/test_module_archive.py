@@ -16,6 +16,7 @@ from mems_stiction import archive
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 from module_cases import REPOSITORY, program, rough  # noqa: E402  (the path comes first)
+from tiers import evidence  # noqa: E402
 
 EXAMPLES = REPOSITORY / "scripts" / "examples"
 CONFIG = "load: {mechanical_load: 1.0e-6}\ndevice: {spring_stiffness: 2.0, travel: 1.0e-6, contact_area: 1.0e-11, contacts: 4}\ndevice_force: {enabled: false}\n"
@@ -201,6 +202,7 @@ class ArchiveTest(unittest.TestCase):
                     process.terminate()
                     process.wait()
 
+    @evidence
     def test_workers_of_this_machine(self):
         try:
             import distributed  # noqa: F401

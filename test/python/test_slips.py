@@ -381,10 +381,10 @@ class SlipTest(unittest.TestCase):
         (self.folder / "scan.tiff").write_bytes(b"II*\0\x90\x90\x90\x90\x90\n")
         self.assert_refused("scan.tiff cannot be read: is not a bag", "export_predictions", "-o", "a.csv", "scan.tiff")
 
-    def long_work(self, size, **more):
-        """Arguments of a prediction that takes seconds on a fast machine, too: as many steps as there may be, so small that none is the last."""
+    def long_work(self, size, steps=10000000, **more):
+        """Arguments of a prediction that takes seconds on a fast machine, too: many steps, so small that none is the last."""
         np.save(str(self.folder / "large.npy"), np.random.RandomState(1).normal(0.0, 2e-9, (size, size)).astype(np.float32))
-        settings = dict(approach={"formulation": "paper", "max_steps": 10000000}, paper={"step": 1e-21}, load={"mechanical_load": 1e-3}, **more)
+        settings = dict(approach={"formulation": "paper", "max_steps": steps}, paper={"step": 1e-21}, load={"mechanical_load": 1e-3}, **more)
         (self.folder / "long.yaml").write_text(json.dumps(settings))
         return "--config", "long.yaml", "--pitch", "20e-9", "large.npy"
 
@@ -397,7 +397,7 @@ class SlipTest(unittest.TestCase):
         self.assertEqual(sentence.count(b"\n"), 1)
 
     def test_on_a_terminal_ctrl_c_wipes_what_a_long_work_says(self):
-        with Terminal(self.folder, "predict_scan", "--cleanings", *self.long_work(64)) as terminal:
+        with Terminal(self.folder, "predict_scan", "--cleanings", *self.long_work(64, steps=2000000)) as terminal:
             terminal.until(b"large.npy: predicting under each cleaning, ")
             terminal.process.send_signal(signal.SIGINT)
             shown = terminal.until_it_ends(-signal.SIGINT)

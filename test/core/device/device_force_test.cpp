@@ -438,7 +438,7 @@ TEST_F(DeviceForceTest, aBlockIsAsGoodAsThickAndSaysSo) {
 TEST_F(DeviceForceTest, severalModelsHaveTheForcesOfEach) {
   std::vector<Options> models(2, model_);
   models[1].interface.work_of_adhesion *= 20.0;
-  for (const double side : {200.0, 300.0}) {  // parts of the scans, made surfaces
+  for (const double side : {200.0, 260.0}) {  // parts of the scans, made surfaces
     const DeviceArea area{areaOfPixels(side), 1};
     const std::vector<DeviceForce> together = deviceForces(surfaces_, area, models, uncertainty_, options_);
     ASSERT_EQ(together.size(), models.size());

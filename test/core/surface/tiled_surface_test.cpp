@@ -177,7 +177,7 @@ TEST(TiledSurface, hasTheRadialSpectrumThatWasAskedFor) {
 }
 
 // Wavelengths from 2048 pixels to 2: the longer ones of means over 16 x 16 pixels, the shorter ones of parts.
-TEST(TiledSurface, hasTheSpectrumOverThreeDecades) {
+TEST(TiledSurfaceEvidence, hasTheSpectrumOverThreeDecades) {
   constexpr int kSide = 8192;
   constexpr int kCell = 16;
   const SurfaceSpectrum spectrum = selfAffine(kSide / 4.0, 2.0);
@@ -250,7 +250,7 @@ TEST(TiledSurface, hasTheVarianceAndTheAutocorrelationThatWereAskedFor) {
     const double distance = std::hypot(lags[i].first, lags[i].second) / kLength;
     const Mean mean = meanOf(found[i]);
     EXPECT_NEAR(mean.value, std::exp(-distance * distance), 4.0 * mean.error + 1e-3) << distance;
-    EXPECT_LT(mean.error, 0.02);
+    EXPECT_LT(mean.error, 0.03);
   }
 }
 
@@ -262,7 +262,7 @@ TEST(TiledSurface, isStretchedAlongItsDirectionOnPixelsOfAnyShape) {
   SurfaceSpectrum spectrum = gaussian(kLength);
   spectrum.stretch = 3.0;
   spectrum.direction = 0.6;
-  constexpr std::uint64_t kRealisations = 12;
+  constexpr std::uint64_t kRealisations = 6;
   const std::array<std::pair<int, int>, 8> lags = {
       {{0, 0}, {0, 10}, {0, 25}, {6, 0}, {14, 0}, {7, 17}, {14, 34}, {8, -12}}};
   std::array<std::vector<double>, lags.size()> found;
