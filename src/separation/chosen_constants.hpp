@@ -90,7 +90,7 @@ constexpr double kBends = 0.85;
 /// on it: the flag and the interval do.
 constexpr double kBentTogether = 4.0;
 /// Standard deviations of the logarithm of force and work where bodies bend and may grow together, of contacts and of surfaces that
-/// conform: of 28 and 58 frames of plates (doc/separation_curve.md, "Bodies that bend").
+/// conform: of 28 and 58 frames of plates (doc/separation_evidence.md, "Thin bodies").
 constexpr ModelError kBentError{0.25, 0.25};
 constexpr ModelError kBentConformingError{0.2, 0.2};
 

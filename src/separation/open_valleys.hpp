@@ -17,7 +17,7 @@
 ///     f = exp(-2 u) sqrt(E Gamma q),   u = U/Gamma,   q = 4 U/(E sigma^2)
 ///
 /// U is the flattening energy per area, sigma the rms height, q the mean wave number that both tell of. The 2 is chosen on
-/// frames of the half-space (doc/separation_curve.md).
+/// frames of the half-space (doc/separation_evidence.md).
 
 #include "numeric/constants.hpp"
 #include "separation/relief_spectrum.hpp"
