@@ -57,19 +57,29 @@ def groups(rows):
             yield case, side, [row for row in asked if (row["case"], row["side"]) == (case, side)]
 
 
+def bias_of(rows):
+    """The geometric mean of the ratio; a star where the interval of a surface misses the truth."""
+    if not rows:
+        return "-"
+    return "%.2f%s" % (math.exp(logs(rows).mean()), "" if all(covered(row) for row in rows) else " *")
+
+
 def tables(rows):
-    parts = []
-    for case, side, found in groups(rows):
-        warned = [row for row in found if warned_of_long_waves(row)]
-        parts += ["### %s; surfaces of %d x %d pixels" % (CASES[case].capitalize(), side, side), "", COLUMNS.format("kind")]
-        for kind in [kind for kind in device_surfaces.KINDS if any(row["kind"] == kind for row in found)]:
-            parts.append(line(kind, [row for row in found if row["kind"] == kind]))
-        parts.append(line("all", found))
-        if warned and len(warned) < len(found):
-            parts.append(line("with the warning that long waves are missing", warned))
-            parts.append(line("without it", [row for row in found if row not in warned]))
-        parts.append("")
-    return "\n".join(parts)
+    """One row for each case, then the bias by kind."""
+    found = list(groups(rows))
+    parts = [COLUMNS.format("scans; side of the surfaces")]
+    for case, side, of_case in found:
+        parts.append(line("%s; %d pixels" % (CASES[case], side), of_case))
+        warned = [row for row in of_case if warned_of_long_waves(row)]
+        if warned and len(warned) < len(of_case):
+            parts.append(line("- with the warning that long waves are missing", warned))
+            parts.append(line("- without it", [row for row in of_case if row not in warned]))
+    titles = ["%s; %d pixels" % (CASES[case], side) for case, side, _ in found]
+    parts += ["", "| bias, by kind | %s |" % " | ".join(titles), "|---" * (len(titles) + 1) + "|"]
+    for kind in [kind for kind in device_surfaces.KINDS if any(row["kind"] == kind for row in rows)]:
+        cells = [bias_of([row for row in of_case if row["kind"] == kind]) for _, _, of_case in found]
+        parts.append("| %s | %s |" % (kind, " | ".join(cells)))
+    return "\n".join(parts + [""])
 
 
 def scan_tables(rows):
@@ -83,7 +93,7 @@ def scan_tables(rows):
         parts += [line("all", of_case), ""]
     conforming = sorted({row["scan"] for row in rows if row["is_conforming"]})
     if conforming:
-        parts.append("%s bond all over as a whole, and force goes with area: left out.\n" % ", ".join("`%s`" % scan for scan in conforming))
+        parts.append("%s bond all over: their force is proportional to area, so they are left out.\n" % ", ".join("`%s`" % scan for scan in conforming))
     return "\n".join(parts)
 
 
@@ -140,10 +150,12 @@ def main():
     rows = read(results)
     figure(rows, picture)
     sizes = ", ".join("%d x %d (%.0f um)" % (side, side, side * PITCH) for side in sorted({row["side"] for row in rows}, reverse=True))
-    head = ("Surfaces of %s pixels of 10 nm, %d of them, drawn by kind and number (seed %s); scans of 512 x 512\n"
-            "pixels at random places, the wide one with pixels of 80 nm over the whole. *Bias* is the geometric mean of the ratio to the force of the\n"
-            "whole surface, *spread* the standard deviation of its logarithm; the interval is that of the scans alone, since constants and model are the\n"
-            "same on both sides. Surfaces that bond all over are left out: their force goes with area.\n"
+    head = ("Surfaces of %s pixels of 10 nm, %d of them, drawn by kind and\nnumber (seed %s). "
+            "Scans have 512 x 512 pixels at random places; the wide scan covers the whole with\npixels of 80 nm. "
+            "*Bias* is the geometric mean of the ratio to the force of the whole surface,\n*spread* the standard "
+            "deviation of its logarithm. The interval is that of the scans alone, since\nconstants and model are the "
+            "same on both sides; a star marks a kind of which an interval misses the\ntruth. Surfaces that bond all "
+            "over are left out: their force is proportional to area.\n"
             % (sizes, len({(row["kind"], row["number"], row["seed"], row["side"]) for row in rows}),
                ", ".join(sorted({str(row["seed"]) for row in rows}))))
     rewrite(pathlib.Path(page), "study", "%s\n![force of devices](images/device.png)\n\n%s" % (head, tables(rows)))
