@@ -181,10 +181,14 @@ def section_of(lines, arguments):
             if line[which] and line[which]["status"] != "SOLVED":
                 others.setdefault((which, line[which]["status"]), []).append(line["frame"]["number"])
     text = [HEADING, "",
-            "Written by `scripts/trust --half-space-steps`: %d frames of %d x %d pixels, seed %d, in turns of the [map's](trust.md) kinds and of those that "
-            "[processes](trust_kinds.md) make; half of them under %.2g to %.0f MPa, all elastic. Each is solved with the default `half_space/step` of %g and with a quarter of it. "
-            "Shares are of the frames that both solved; *worst* is the largest deviation. An area may differ by a cell. A jump counts from %g %% of the pull-off force on, where "
-            "less than %g times that force is carried; it is met where the usual curve goes over it within a step. *Time* is the processor time of the usual steps over that of the fine ones."
+            "Written by `scripts/trust --half-space-steps`: %d frames of %d x %d pixels, seed %d, "
+            "alternately of the [map's](trust.md) kinds and of those that [processes](trust_kinds.md) "
+            "make. Half of them are under %.2g to %.0f MPa; nothing flows. Each frame is solved with the "
+            "default `half_space/step` of %g and with a quarter of it. Shares are of the frames that both "
+            "solved; *worst* is the largest deviation. An area may differ by a cell. Jumps of at least "
+            "%g %% of the pull-off force count if less than %g times that force is carried. A jump is met "
+            "if the usual curve jumps within a step of it. *Time* is the processor time of the usual "
+            "steps over that of the fine ones."
             % (len(lines), arguments.pixels, arguments.pixels, arguments.seed, 1e-6 * PRESSURES[0], 1e-6 * PRESSURES[1], usual_step(), 100 * COUNTED_JUMP, COUNTED_LOAD), "",
             "| frames | number | " + " | ".join("%s within %g %% | worst" % (name, 100 * limit) for limit, name in COMPARED.values()) + " | jumps met | time |",
             "|---|---|" + "---|---|" * len(COMPARED) + "---|---|"]
