@@ -42,13 +42,60 @@ const char* doubtOf(const SeparationCurve& curve, double exponent, double force_
 }  // namespace
 
 void ContactCurve::comeToRest(const GapField& field, const ContactSettings& settings, const FarGaps* far) {
+  start(field, settings, far, nullptr);
+}
+
+void ContactCurve::comeToRest(const GapField& field, const ContactSettings& settings, const FlowingPlaces& flow) {
+  start(field, settings, nullptr, &flow);
+}
+
+void ContactCurve::start(const GapField& field, const ContactSettings& settings, const FarGaps* far,
+                         const FlowingPlaces* flow) {
+  flow_ = flow;
   cell_area_ = field.cellArea();
   has_voltage_ = settings.load.voltage != 0.0;
   has_way_out_ = false;
-  frame_.start(field, settings, far);
+  frame_.start(field, settings, far, flow == nullptr);
   followCurve(frame_, settings, way_in_);
   const double gaps = takeContacts();
+  regime_of_dale_.clear();
+  if (flow != nullptr) takeFlow(*flow);
   if (way_in_.status == Status::kBonded && far == nullptr) growTo(settings.load.mechanical_load, gaps);
+}
+
+void ContactCurve::takeFlow(const FlowingPlaces& flow) {
+  const OverlapSweep& sweep = frame_.contactsAt(rest().approach);
+  std::vector<double> borne(contacts_.size(), 0.0);
+  std::vector<double> by_flow(contacts_.size(), 0.0);
+  std::vector<int> pressed(contacts_.size(), 0);
+  const auto placeOf = [&](const OrderedCell& ordered) {
+    return static_cast<std::size_t>(sweep.livePlace(sweep.patchOf(ordered)));
+  };
+  for (int i = 0; i < sweep.cellCount(); ++i) {
+    const OrderedCell& ordered = frame_.orderedCells()[static_cast<std::size_t>(i)];
+    const GridCell cell = frame_.field().cellAt(ordered.cell);
+    const double pressure = flow.pressure()(cell.row, cell.col);
+    borne[placeOf(ordered)] += pressure;
+    if (pressure > 0.0) ++pressed[placeOf(ordered)];
+    if (flow.flowed()(cell.row, cell.col) > 0.0) by_flow[placeOf(ordered)] += pressure;
+  }
+  by_contacts_.contact_area = 0.0;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    contacts_[i].is_of_places = pressed[i] * cell_area_ >= contacts_[i].area;
+    contacts_[i].area = std::max(contacts_[i].area, pressed[i] * cell_area_);
+    by_contacts_.contact_area += contacts_[i].area;
+    if (by_flow[i] >= chosen::kRegimeShare * borne[i] && by_flow[i] > 0.0) {
+      contacts_[i].regime = Regime::kPlastic;
+    } else if (by_flow[i] > (1.0 - chosen::kRegimeShare) * borne[i]) {
+      contacts_[i].regime = Regime::kElastoPlastic;
+    }
+  }
+  for (int i = 0; i < sweep.cellCount(); ++i) {
+    const OrderedCell& ordered = frame_.orderedCells()[static_cast<std::size_t>(i)];
+    const auto dale = static_cast<std::size_t>(ordered.tag.dale());
+    if (dale >= regime_of_dale_.size()) regime_of_dale_.resize(dale + 1, Regime::kElastic);
+    regime_of_dale_[dale] = contacts_[placeOf(ordered)].regime;
+  }
 }
 
 // (S13d)
@@ -85,6 +132,7 @@ double ContactCurve::takeContacts() {
   forces.loadsOf(sweep, rest.approach, loads_);
   by_contacts_.contact_area = 0.0;
   has_flowed_ = false;
+  largest_fullness_ = 0.0;
   double touching = 0.0;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const OverlapPatch& patch = sweep.patches()[i];
@@ -99,8 +147,10 @@ double ContactCurve::takeContacts() {
     contact.regime = regimeOf(contact.load, area, forces.hardness());
     by_contacts_.contact_area += contact.area;
     const double area_share = std::max(0.5, contact.load.carried / (forces.hardness() * area));
-    contact.remaining = RemainingOverlap(contact.load.elastic / (forces.hardness() * area), area_share,
-                                         patch.depth(rest.approach), rest.approach - patch.first_gap);
+    const double fullness = contact.load.elastic / (forces.hardness() * area);
+    largest_fullness_ = std::max(largest_fullness_, fullness);
+    contact.remaining =
+        RemainingOverlap(fullness, area_share, patch.depth(rest.approach), rest.approach - patch.first_gap);
     has_flowed_ = has_flowed_ || contact.remaining.isChanged();
     touching += patch.gap_sum;
   }
@@ -128,7 +178,6 @@ void ContactCurve::appendWayIn(std::vector<SeparationCurvePoint>& points) const 
 void ContactCurve::part(double force_from_next_rest) {
   const Way way = wayOutOf(way_in_, frame_.law().range());
   has_way_out_ = has_flowed_ || way.longest_hold > 0.0;
-  regime_of_dale_.clear();
   if (has_way_out_) followChanged(way);
   const SeparationCurve& curve = wayOut();
   const CurveExponents exponents = exponentsOf(frame_, curve);
@@ -136,13 +185,15 @@ void ContactCurve::part(double force_from_next_rest) {
   by_contacts_.force_exponents = exponents.pull_off;
   by_contacts_.work = curve.work / frame_.area();
   by_contacts_.work_exponents = exponents.work;
-  by_contacts_.lost = has_flowed_ ? 0.0 : 0.5 * std::max(0.0, curve.work - way_in_.work) / frame_.area();
+  by_contacts_.lost =
+      has_flowed_ || flow_ != nullptr ? 0.0 : 0.5 * std::max(0.0, curve.work - way_in_.work) / frame_.area();
   by_contacts_.doubt = doubtOf(curve, exponents.pull_off.adhesion, force_from_next_rest);
   by_contacts_.curve.clear();
   const bool has_edges = curve.states[curve.strongest].edge_share < 1.0 - chosen::kAccuracy;
-  if (!has_way_out_ && !has_voltage_ && !has_edges) return;
+  if (!has_way_out_ && !has_voltage_ && !has_edges && flow_ == nullptr) return;
+  const double lowering = flow_ != nullptr ? flow_->lowering() : 0.0;
   for (auto state = curve.states.rbegin(); state != curve.states.rend(); ++state) {
-    by_contacts_.curve.push_back({state->approach, state->partingForce(), true});
+    by_contacts_.curve.push_back({state->approach + lowering, state->partingForce(), true});
   }
 }
 

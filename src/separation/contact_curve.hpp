@@ -12,6 +12,7 @@
 
 #include <vector>
 
+#include "separation/flowing_places.hpp"
 #include "separation/remaining_overlap.hpp"
 #include "separation/separation_curve.hpp"
 #include "separation/way_out.hpp"
@@ -28,11 +29,16 @@ class ContactCurve {
     double area = 0.0;              ///< real [m^2]
     double composite_radius = 0.0;  ///< [m]
     Regime regime = Regime::kElastic;
+    bool is_of_places = false;  ///< whether the area is that of the places that a pressure presses
   };
 
   /// Field, settings and gaps must outlive the object's use.
   /// - @p far as in FrameSums
   void comeToRest(const GapField& field, const ContactSettings& settings, const FarGaps* far = nullptr);
+  /// The same of surfaces that have flowed place by place under these settings, and bear what made
+  /// them flow without flowing any more.
+  /// - @p flow of the places of `field`; both must outlive the object's use
+  void comeToRest(const GapField& field, const ContactSettings& settings, const FlowingPlaces& flow);
   /// From then on frame() is that of the surfaces as flow has changed them.
   /// - @p force_from_next_rest forceFromNextRest() of the way in; 0 where they are not asked for another rest [N]
   void part(double force_from_next_rest = 0.0);
@@ -48,6 +54,8 @@ class ContactCurve {
   }
   /// At rest, in the order of the sweep's patches there.
   const std::vector<Contact>& contacts() const { return contacts_; }
+  /// The largest P/(Ha A) of a contact at rest without flow [-].
+  double largestFullness() const { return largest_fullness_; }
   /// Mean gap of the cells apart at rest [m]; 0 when every cell touches.
   double meanGap() const { return mean_gap_; }
   /// -dF/dD at rest [N/m]; NaN if it is not known.
@@ -67,8 +75,12 @@ class ContactCurve {
   const std::vector<Regime>& regimeOfDale() const { return regime_of_dale_; }
 
  private:
+  void start(const GapField& field, const ContactSettings& settings, const FarGaps* far, const FlowingPlaces* flow);
   /// @return sum of the gaps of the cells in contact [m]
   double takeContacts();
+  /// Regimes of contacts by the share of their load that places bear which have flowed, and their
+  /// areas, which contain all that is pressed.
+  void takeFlow(const FlowingPlaces& flow);
   /// Lets the contact area grow where a load is more than the contacts carry at the end of the search: all of them as one
   /// patch, whose overlap is that of the heights.
   /// - @p gaps that takeContacts() has summed
@@ -83,8 +95,10 @@ class ContactCurve {
   std::vector<Contact> contacts_;
   std::vector<PatchLoad> loads_;  ///< in the same order
   double mean_gap_ = 0.0;
-  bool has_flowed_ = false;
-  SeparationCurve way_out_;  ///< where it is another than the way in
+  double largest_fullness_ = 0.0;
+  const FlowingPlaces* flow_ = nullptr;  ///< place by place, before the way in
+  bool has_flowed_ = false;              ///< as patches, at rest
+  SeparationCurve way_out_;              ///< where it is another than the way in
   bool has_way_out_ = false;
   WayOut by_contacts_;
   std::vector<Regime> regime_of_dale_;

@@ -55,6 +55,10 @@ class ContactTraction {
     return law_.energy(ratio(gap));
   }
 
+  /// By how much surfaces pressed by this come closer than the plane of contact, s [m]; 0 without
+  /// attraction.
+  /// - @p pressure [Pa], >= 0
+  double closingUnder(double pressure) const;
   /// What the bodies and the layer carry together, when the bodies alone would carry `elastic_pressure` [Pa] at this
   /// depth of overlap [m], > 0: the layer takes a part s of the depth, and both carry the same. Nothing where the bodies
   /// pull. Of one patch or of several.

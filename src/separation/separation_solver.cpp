@@ -19,12 +19,12 @@ void SeparationSolver::solve(const ContactProblem& problem, ContactSolution& sol
   const double gamma = settings.interface.work_of_adhesion;
   const GapField& settled = settings.guidance == Guidance::kGuided ? problem.gap : tilt_.settle(problem.gap, settings);
   const bool is_thick = WaveStiffness(settings.lower, settings.upper).isThick();
-  const GapField& at_rest = is_thick ? settled : bent_.solve(settled, settings);
+  const GapField& pressed = is_thick ? settled : bent_.solve(settled, settings);
   std::optional<BentContact::Closed> closed;
   if (!is_thick) closed = bent_.closed();
+  const GapField& at_rest =
+      comeToRest({problem.surfaces, pressed, problem.composite_rms_height, settings}, is_thick, solution);
   const ContactProblem standing = {problem.surfaces, at_rest, problem.composite_rms_height, settings};
-
-  comeToRest(standing, solution);
   const double joined_share = curve_.joinedShare();
   const double contact_modulus = curve_.frame().patchForces().contactModulus();
   const GapField& left_to_close = closed ? *closed->gap : at_rest;
@@ -55,17 +55,41 @@ void SeparationSolver::solve(const ContactProblem& problem, ContactSolution& sol
     takeWayOut(bentWayOut(parting, contact_area), solution);
     listPullOffContacts(strongest, solution);
   }
+  doubtFlow(solution);
   solution.model = CurveStatement::of(solution, gamma, bends);
 }
 
-void SeparationSolver::comeToRest(const ContactProblem& problem, ContactSolution& solution) {
+const GapField& SeparationSolver::comeToRest(const ContactProblem& problem, bool flows, ContactSolution& solution) {
   solution.clear();
   curve_.comeToRest(problem.gap, problem.settings);
   curve_.appendWayIn(solution.curve);
   solution.steps = static_cast<int>(curve_.wayIn().states.size());
-  takeRest(problem, solution);
-  listContacts(problem, solution);
-  fillMaps(problem, solution);
+  const bool may_flow = mayFlow(problem.settings.load);
+  has_flowed_ = may_flow && flows && flow(problem);
+  flows_as_patches_ = may_flow && !flows;
+  const GapField& gap = has_flowed_ ? places_that_flow_.changed() : problem.gap;
+  const ContactProblem standing = {problem.surfaces, gap, problem.composite_rms_height, problem.settings};
+  takeRest(standing, solution);
+  listContacts(standing, solution);
+  fillMaps(standing, solution);
+  return gap;
+}
+
+bool SeparationSolver::mayFlow(const LoadOptions& load) const {
+  const bool is_pressed = load.mechanical_load > 0.0 || load.voltage != 0.0;
+  return is_pressed && curve_.wayIn().status != Status::kNoEquilibrium && curve_.largestFullness() > chosen::kMayFlow;
+}
+
+bool SeparationSolver::flow(const ContactProblem& problem) {
+  const FrameSums& frame = curve_.frame();
+  const SeparationState& rest = curve_.rest();
+  const bool is_reached = curve_.wayIn().status == Status::kEquilibrium;
+  const bool has_flowed = places_that_flow_.press(problem.gap, frame.law(),
+                                                  {frame.patchForces().contactModulus(), frame.patchForces().hardness(),
+                                                   rest.force() + rest.carried + problem.settings.load.mechanical_load,
+                                                   is_reached ? rest.approach : GapField::kInvalidGap});
+  if (has_flowed) curve_.comeToRest(places_that_flow_.changed(), problem.settings, places_that_flow_);
+  return has_flowed;
 }
 
 WayOut SeparationSolver::bentWayOut(const BentContact::Parting& parting, double contact_area) const {
@@ -98,6 +122,11 @@ void SeparationSolver::takeWayOut(const WayOut& way_out, ContactSolution& soluti
   solution.curve.insert(solution.curve.end(), way_out.curve.begin(), way_out.curve.end());
 }
 
+void SeparationSolver::doubtFlow(ContactSolution& solution) const {
+  if (solution.model.doubt != nullptr || !flows_as_patches_) return;
+  solution.model.doubt = "contacts have flowed, and of thin bodies where is known of whole contacts alone";
+}
+
 void SeparationSolver::doubtPlaces(const GapField& field, ContactSolution& solution) {
   if (solution.model.doubt != nullptr) return;
   const FrameSums& frame = curve_.frame();
@@ -114,7 +143,7 @@ void SeparationSolver::doubtPlaces(const GapField& field, ContactSolution& solut
 
 void SeparationSolver::takeRest(const ContactProblem& problem, ContactSolution& solution) {
   const SeparationState& rest = curve_.rest();
-  solution.approach = rest.approach;
+  solution.approach = rest.approach + (has_flowed_ ? places_that_flow_.lowering() : 0.0);
   solution.load.van_der_waals = rest.adhesion;
   solution.load.electrostatic = rest.electrostatic;
   solution.load.mechanical = problem.settings.load.mechanical_load;
@@ -208,22 +237,29 @@ void SeparationSolver::fillMaps(const ContactProblem& problem, ContactSolution& 
 
   const DeformationShare share(settings.lower, settings.upper, settings.interface.hardness_ratio_limit);
   const double approach = curve_.rest().approach;
-  visitOverlaps(field,
-                [&](int row, int col, double overlap, const OverlapPatch& patch, const ContactCurve::Contact& contact) {
-                  if (wants_map) {
-                    // the deepest cells, as many as the real area has: those of a paraboloid whose overlap exceeds this
-                    const double area = patch.cells * field.cellArea();
-                    const double least = 2.0 * patch.depth(approach) * (1.0 - contact.area / area);
-                    if (overlap >= least || field.cellAt(row, col).index == patch.first_cell) {
-                      solution.contact_map.at<std::uint8_t>(row, col) = static_cast<std::uint8_t>(contact.regime);
-                    }
-                  }
-                  if (wants_surfaces) {
-                    const double flowed = overlap - contact.remaining.of(overlap);
-                    solution.displaced_lower.at<double>(row, col) -= share.lower(kPlasticLimit) * flowed;
-                    solution.displaced_upper.at<double>(row, col) += share.upper(kPlasticLimit) * flowed;
-                  }
-                });
+  visitOverlaps(
+      field, [&](int row, int col, double overlap, const OverlapPatch& patch, const ContactCurve::Contact& contact) {
+        if (wants_map) {
+          // the deepest cells, as many as the real area has: those of a paraboloid whose overlap exceeds this
+          const double area = patch.cells * field.cellArea();
+          const double least = 2.0 * patch.depth(approach) * (1.0 - contact.area / area);
+          const bool touches = contact.is_of_places ? places_that_flow_.pressure()(row, col) > 0.0 : overlap >= least;
+          if (touches || field.cellAt(row, col).index == patch.first_cell) {
+            const bool flows = has_flowed_ && places_that_flow_.flowed()(row, col) > 0.0;
+            const Regime regime = !has_flowed_ ? contact.regime : flows ? Regime::kPlastic : Regime::kElastic;
+            solution.contact_map.at<std::uint8_t>(row, col) = static_cast<std::uint8_t>(regime);
+          }
+        }
+        if (wants_surfaces) {
+          const double flowed = overlap - contact.remaining.of(overlap);
+          solution.displaced_lower.at<double>(row, col) -= share.lower(kPlasticLimit) * flowed;
+          solution.displaced_upper.at<double>(row, col) += share.upper(kPlasticLimit) * flowed;
+        }
+      });
+  if (!has_flowed_ || !wants_surfaces) return;
+  const cv::Mat1d& flowed = places_that_flow_.flowed();
+  solution.displaced_lower -= share.lower(kPlasticLimit) * flowed;
+  solution.displaced_upper += share.upper(kPlasticLimit) * flowed;
 }
 
 void SeparationSolver::listPullOffContacts(const ContactProblem& problem, ContactSolution& solution) {

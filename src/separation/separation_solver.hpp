@@ -25,6 +25,7 @@
 #include "separation/contact_curve.hpp"
 #include "separation/curve_statement.hpp"
 #include "separation/flattening.hpp"
+#include "separation/flowing_places.hpp"
 #include "separation/plate_tilt.hpp"
 #include "separation/way_out.hpp"
 
@@ -37,7 +38,14 @@ class SeparationSolver : public ContactSolver {
 
  private:
   /// All that a solution says of the surfaces at rest.
-  void comeToRest(const ContactProblem& problem, ContactSolution& solution);
+  /// - @p flows whether places that bear the hardness may flow one by one: of thick bodies
+  /// @return the gap at rest, as flow leaves it
+  const GapField& comeToRest(const ContactProblem& problem, bool flows, ContactSolution& solution);
+  /// Whether loads press contacts so hard that places of them may flow.
+  bool mayFlow(const LoadOptions& load) const;
+  /// Whether places flow under the loads at rest; if so the curve is that of the changed surfaces
+  /// from then on.
+  bool flow(const ContactProblem& problem);
   void takeRest(const ContactProblem& problem, ContactSolution& solution);
   void findBorder(const GapField& field);
   /// Calls take(row, column, overlap [m], patch, contact) for each cell that overlaps at rest, row by row.
@@ -53,12 +61,17 @@ class SeparationSolver : public ContactSolver {
   void takeWayOut(const WayOut& way_out, ContactSolution& solution) const;
   /// The doubt of surfaces whose texture changes from place to place, where there is no other.
   void doubtPlaces(const GapField& field, ContactSolution& solution);
+  /// The doubt of contacts that may have flowed here and there, where there is no other.
+  void doubtFlow(ContactSolution& solution) const;
   /// The contacts that hold at the pull-off: patches within reach of the attraction there.
   void listPullOffContacts(const ContactProblem& problem, ContactSolution& solution);
 
   PlateTilt tilt_;
   BentContact bent_;
   ContactCurve curve_;
+  FlowingPlaces places_that_flow_;
+  bool has_flowed_ = false;                 ///< place by place
+  bool flows_as_patches_ = false;           ///< may have flowed, and where is known of whole contacts alone
   std::vector<std::uint8_t> is_at_border_;  ///< of the contacts at rest
   std::vector<double> row_gaps_;
   std::vector<std::int32_t> columns_;

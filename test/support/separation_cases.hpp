@@ -30,8 +30,16 @@ inline Options elastic(double contact_modulus, double load = 0.0) {
   return options;
 }
 
-/// What the half-space says of the same surface, without flow.
-inline SolvedHalfSpace halfSpaceOf(const HeightMap& surface, const Options& options) {
+/// The same bodies, which flow at this hardness.
+inline Options flowing(double contact_modulus, double hardness, double load) {
+  Options options = elastic(contact_modulus, load);
+  options.deformation = Deformation::kThreeRegimes;
+  options.lower.hardness = options.upper.hardness = hardness;
+  return options;
+}
+
+/// What the half-space says of the same surface.
+inline SolvedHalfSpace halfSpaceOf(const HeightMap& surface, const Options& options, bool flows = false) {
   HalfSpaceProblem problem;
   problem.surfaces.lower = surface;
   problem.lower_material = options.lower;
@@ -39,7 +47,7 @@ inline SolvedHalfSpace halfSpaceOf(const HeightMap& surface, const Options& opti
   problem.interface = options.interface;
   problem.load = options.load;
   HalfSpaceOptions half_space;
-  half_space.flow = false;
+  half_space.flow = flows;
   return HalfSpaceSolver(half_space).solve(problem);
 }
 
