@@ -38,6 +38,9 @@ class KnownShare {
   /// - @p weights_x, weights_y the weight of a pixel is the product of both
   KnownShare(const cv::Mat& distances, const std::vector<double>& weights_x, const std::vector<double>& weights_y);
 
+  /// Whether no pixel is missing.
+  bool isWhole() const { return shares_.empty(); }
+
   /// 1 where no pixel is missing.
   /// - @p wave_number along rows and columns [rad/pixel]
   double of(double wave_number) const;

@@ -92,6 +92,7 @@ PowerSpectrum powerSpectrum(const HeightMap& measured, SpectrumWindow window) {
   double zeroth = 0.0;
   double second = 0.0;
   double fourth = 0.0;
+  const bool knows_all = weighted.known.isWhole();
   for (int col = 0; col < transform.rows; ++col) {
     const cv::Vec2d* line = transform.ptr<cv::Vec2d>(col);
     const double q_x = waveNumber(col, cols, surface.pitchX()) / width;
@@ -101,8 +102,8 @@ PowerSpectrum powerSpectrum(const HeightMap& measured, SpectrumWindow window) {
       const double q_y = waveNumber(row, rows, surface.pitchY()) / width;
       const double square = q_x * q_x + q_y * q_y;
       const double q = std::sqrt(square);
-      const double in_pixels = std::hypot(waveNumber(col, cols, 1.0), waveNumber(row, rows, 1.0));
-      const double power = twins * density * line[row].dot(line[row]) / weighted.known.of(in_pixels);
+      double power = twins * density * line[row].dot(line[row]);
+      if (!knows_all) power /= weighted.known.of(std::hypot(waveNumber(col, cols, 1.0), waveNumber(row, rows, 1.0)));
       zeroth += power;
       second += power * square;
       fourth += power * square * square;

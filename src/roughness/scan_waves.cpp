@@ -135,13 +135,15 @@ ScanWaves::ScanWaves(const FilledSurface& filled)
       1.0 / static_cast<double>(heights.total());  // in single precision large powers stay in range
   unit_ = largest * largest * filled.surface.cellArea() / squares / per_count;
   const KnownShare known(filled.distances, weights_x, weights_y);
+  const bool knows_all = known.isWhole();
   powers_.create(transform.size(), CV_32FC1);
   for (int x = 0; x < transform.rows; ++x) {
     const cv::Vec2d* line = transform.ptr<cv::Vec2d>(x);
     float* powers = powers_.ptr<float>(x);
     for (int y = 0; y < transform.cols; ++y) {
-      const double share = known.of(std::hypot(waveNumber(x, cols_, 1.0), waveNumber(y, rows_, 1.0)));
-      powers[y] = static_cast<float>(per_count * line[y].dot(line[y]) / share);
+      double power = per_count * line[y].dot(line[y]);
+      if (!knows_all) power /= known.of(std::hypot(waveNumber(x, cols_, 1.0), waveNumber(y, rows_, 1.0)));
+      powers[y] = static_cast<float>(power);
     }
   }
 }

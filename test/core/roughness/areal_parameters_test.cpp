@@ -87,6 +87,19 @@ TEST(ArealParameters, ofAParaboloidAreItsClosedForms) {
   expectRelative(found.sp, (-0.25 * kPitchX * kPitchX - mean) / (2.0 * radius), 1e-12);
 }
 
+/// Two heights, a share p of the upper: skewness (1 - 2 p)/sqrt(p (1 - p)), kurtosis 1/(p (1 - p)) - 3.
+TEST(ArealParameters, ofTwoLevelsAreThoseOfABernoulliVariable) {
+  cv::Mat1d heights(20, 30, 1e-9);
+  heights.rowRange(0, 3) = 7e-9;
+  const double share = 3.0 / 20.0;
+  const double variance = share * (1.0 - share);
+  const ArealParameters found = arealParameters(HeightMap(heights, kPitchX, kPitchY));
+  expectRelative(found.sq, 6e-9 * std::sqrt(variance), 1e-12);
+  expectRelative(found.sa, 2.0 * 6e-9 * variance, 1e-12);
+  expectRelative(found.ssk, (1.0 - 2.0 * share) / std::sqrt(variance), 1e-12);
+  expectRelative(found.sku, 1.0 / variance - 3.0, 1e-12);
+}
+
 TEST(ArealParameters, sdrIsHalfOfSdqSquaredForSmallSlopes) {
   const ArealParameters found = arealParameters(analytic::sine(40, 41, kPitchX, kPitchY, 2e-11, 3, 2));
   // next term: slope^2/4, slopes of 1e-3
