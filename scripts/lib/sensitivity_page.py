@@ -30,26 +30,29 @@ SETTINGS = {
     "pitch": (
         "Pixels of the scan; coarser ones are means over blocks, as `predict_scan --convergence` makes them. It is no "
         "setting: the scan brings it. *refined by N*: coarse pixels, then `preprocessing/refine/factor: N`.",
-        "", "The mean gap holds longest, then the contact area; the pull-off force goes first: "
-        "radii need pixels. Aim at {min_contact_pixels:g} pixels in the median contact, below which `is_resolution_limited` is set."),
+        "", "With coarser pixels the pull-off force is lost first, then the contact area, then the "
+            "mean gap: radii need pixels. Aim at {min_contact_pixels:g} pixels in the median "
+            "contact, below which `is_resolution_limited` is set."),
     "paper/step": (
         "Approach per step; sigma is the composite rms height.",
-        "Shorter steps say the same to well within the scan-to-scan spread; longer ones overlook places of rest.",
+        "Shorter steps agree well within the scan-to-scan spread; longer ones can miss the rest.",
         "The separation curve chooses its own, a tenth of z0 and more where the surfaces are deep in contact; `paper/step` is that of "
         "`formulation: paper`."),
     "approach/max_steps": (
         "Steps after which the search gives up, with the status NO_EQUILIBRIUM.",
-        "Far above what a scan needs: it ends only searches whose step was typed wrong.", ""),
+        "Far above what a scan needs: it only ends searches with a mistyped step.", ""),
     "approach/connectivity": (
         "Whether cells that meet at a corner belong to one contact (8) or not (4).",
-        "The stricter reading of \"connected\"; hardly matters.", "Only contacts of few pixels can tell them apart."),
+        "The stricter reading of \"connected\"; hardly matters.", "Only contacts of few pixels differ."),
     "approach/max_contact_fraction": (
         "Contact fraction from which on the surfaces count as bonded.",
-        "Decides only [near bonding](#near-bonding), where it lies between what rests and what has closed.", ""),
+        "Matters only [near bonding](#near-bonding), where it separates surfaces that rest from "
+        "surfaces that have closed.", ""),
     "paper/cutoff_distance": (
         "The smallest distance D0 [m] in van der Waals sums.",
-        "The usual value of the literature; the others tried are those in use.",
-        "The separation curve does not have it: it counts attraction from z0 = sqrt(H/(16 pi Gamma)) on, so that it sums to Gamma. Under "
+        "The usual value; the others tried are also in use.",
+        "The separation curve does not use it: its attraction starts at z0 = sqrt(H/(16 pi Gamma)) "
+        "and sums to Gamma. Under "
         "`formulation: paper` it moves the pull-off force more than all other settings together."),
     "interface/equilibrium_distance": (
         "z0 [m] of Tabor's parameter under `formulation: paper`, and of the law where the Hamaker constant is 0.",
@@ -57,8 +60,9 @@ SETTINGS = {
     "preprocessing/refine/factor": (
         "Pixels per pixel, interpolated.",
         "Off: it adds no information, costs its square in time, and fine scans do not need it.",
-        "It moves the result about as far as a scan of half the pitch does. Of use where contacts span some 6 pixels (see *pitch*: it narrows "
-        "the scatter); at 2 to 4 pixels it makes contacts too round, and forces too large."),
+        "It moves the result about as far as a scan of half the pitch. It helps where contacts span"
+        " some 6 pixels (see *pitch*: it narrows the scatter). At 2 to 4 pixels it makes contacts "
+        "too round and forces too large."),
     "preprocessing/refine/interpolation": (
         "How refinement draws between pixels, both with factor 2.",
         "Both agree within the scan-to-scan spread; cubic has no ripples beside steps.", ""),
@@ -270,7 +274,7 @@ def in_short(study):
     area, gap = study.spreads("contact_area"), study.spreads("mean_gap")
     lines = [
         "- **Another place of the same surface** moves the pull-off force by %s %% (standard deviation), the contact area by %s %%, "
-        "the mean gap by %s %%. Digits below that say something about this scan, not about the surface."
+        "the mean gap by %s %%. Smaller digits describe this scan, not the surface."
         % (span(spreads), span(area), span(gap)),
         "- **The step is converged**: steps of half to a tenth of the default move the mean pull-off force by %s %% at most." % percent(step)
         if abs(step) < max(spreads) else
@@ -288,7 +292,7 @@ def in_short(study):
                      % (", ".join(few), FEWEST_CONTACTS))
     others = [key for key in numerical if abs(study.largest_shift(key, "pull_off_force")) < max(spreads) / 3
               and key != "paper/step"]
-    lines.append("- **Lost beside the scan-to-scan spread**, whatever they are set to here: %s." % ", ".join("`%s`" % key for key in others))
+    lines.append("- **Below the scan-to-scan spread** for every value tried: %s." % ", ".join("`%s`" % key for key in others))
     return lines + [""]
 
 
@@ -314,9 +318,11 @@ def page(study, figure, is_generated):
     pressure = "%g MPa" % (1e-6 * study.record["pressure"])
     lines = ["# Sensitivities: which digits mean something", "",
              "*Written by `scripts/sensitivity`%s; do not edit it by hand.*" % ("" if is_generated else " for the scans named below"), "",
-             "How far does a prediction move when one numerical setting is changed? Each setting is changed alone, on every scan. Tables give the mean "
-             "change and its standard deviation over the scans, in percent. A shift below the spread from scan to scan cannot be seen in practice. A scan "
-             "*moves* when its pull-off force changes by more than %g %%. Words: [terminology](terminology.md); keys: [parameters](parameters.md)."
+             "Each numerical setting is changed alone, on every scan. Tables give the mean change "
+             "of the prediction and its standard deviation over the scans, in percent. A shift "
+             "below the spread from scan to scan cannot be seen in practice. A scan *moves* when "
+             "its pull-off force changes by more than %g %%. Words: [terminology](terminology.md); "
+             "keys: [parameters](parameters.md)."
              % (100 * MOVED), "",
              "## In short", ""]
     lines += in_short(study)
@@ -337,10 +343,12 @@ def page(study, figure, is_generated):
               "`approach/max_contact_fraction` matters only on surfaces so smooth that their attraction closes them. Here are Gaussian ones with a "
               "correlation length of 80 nm, without mechanical load: how many of the scans bond, and the mean pull-off force.", ""]
     lines += near_bonding_table(study)
-    lines += ["Only the smoothest surface minds the limit. Where a low limit calls it bonded, a higher one lets it rest, at nearly the same force. 0.5 lies "
-              "between what rests and what has closed.", "",
+    lines += ["The limit matters only for the smoothest surface: bonded with a low limit, at rest "
+              "with a higher one, at nearly the same force. 0.5 separates surfaces that rest from "
+              "surfaces that have closed.", "",
               "## Samples of the interval", "",
-              "The margin's 95 %% interval is drawn at random. The table has its ends, as pull-off force over the predicted one, and how they scatter from seed to seed. "
+              "The margin's 95 %% interval is drawn at random. The table gives its ends, as "
+              "pull-off force over the predicted one, and their scatter from seed to seed. "
               "With the default of %d they are good to a tenth; take more for figures that are to be published." % study.record["samples"], ""]
     lines += intervals_table(study)
     lines += ["## For comparison: the constants", "", "Each larger by its standard uncertainty (`uncertainty/...`).", ""]
