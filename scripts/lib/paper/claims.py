@@ -223,7 +223,7 @@ def compare(facts, material, field):
     return "; ".join(said) or "no such pair", numbers
 
 
-EQUAL = " Equal where what the few contacts that are not elastic no longer store does not move the level at which the pair rests."
+EQUAL = " Equal where the few contacts that are not elastic do not change the level of rest."
 
 
 def larger_area(facts, material):
@@ -236,7 +236,7 @@ def larger_area(facts, material):
 
 def higher_pull_off(facts, material):
     said, (smaller, equal, larger) = compare(facts, material, "pull_off_force")
-    note = " Smaller ones: further down some contacts merge or get a smaller radius; (11) goes with the sum of radii." if smaller else ""
+    note = " Smaller where contacts merge or get a smaller radius further down: (11) is proportional to the sum of radii." if smaller else ""
     return Row("higher_pull_off_" + material.name, "conclusions 4, fig. 6", "... and the pull-off force is higher: %s." % material.name,
                "The same pairs.", said + "." + note, verdict(larger > 0 and smaller == 0, larger > smaller))
 
