@@ -46,7 +46,7 @@ Row published(const std::string& quantity, const std::string& unit, const std::s
   Row row{quantity, unit, source, computed, std::stod(printed), 0.0, {}, {}};
   const double half_unit = 0.5 * std::pow(10.0, exponent - decimals);
   row.tolerance = half_unit / std::abs(row.reference) + 4.0 * std::numeric_limits<double>::epsilon();
-  row.reason = "half a unit of the last of " + std::to_string(digits) + " published digits";
+  row.reason = std::to_string(digits) + (digits == 1 ? " published digit" : " published digits");
   return row;
 }
 

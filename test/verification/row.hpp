@@ -48,7 +48,7 @@ struct Section {
 
 /// Closed form against closed form: some operations of round-off.
 inline constexpr double kRoundOff = 1e-12;
-inline constexpr const char* kRoundOffReason = "round-off of a few operations";
+inline constexpr const char* kRoundOffReason = "round-off";
 
 /// A row whose reference is a number as printed, "-0.436790e-9": the tolerance is half a unit of its last digit.
 Row published(const std::string& quantity, const std::string& unit, const std::string& source, double computed,

@@ -12,27 +12,27 @@ namespace {
 /// What test/property checks, and where a plausible property ends.
 constexpr const char* kProperties =
     "\n## Properties of every prediction\n\n"
-    "Checked by test/property on random rough surfaces, materials and loads (RapidCheck; a fixed seed, others by\n"
+    "test/property checks these on random rough surfaces, materials and loads (RapidCheck; a fixed seed, others by\n"
     "`RC_PARAMS=\"seed=42 max_success=5000\"`):\n\n"
-    "- lengths times c and stiffnesses times s make areas c^2, forces s c^2 and energies s c^3 times as large;\n"
-    "- turning or flipping the frame, a border of invalid pixels, exchanging the bodies, moving them along z change\n"
-    "  nothing;\n"
-    "- two tiles of a scan under twice the load have twice its force;\n"
-    "- more work of adhesion never touches less;\n"
-    "- F_w and F_e are the sums over cells; the contacts share the load, the area and the pull-off force;\n"
-    "- only what touched is lower afterwards, and volumes are shared by hardness;\n"
-    "- a second, slow path (relabelling the frame at each step) finds the same state.\n\n"
+    "- If lengths are multiplied by c and stiffnesses by s, then areas grow by c^2, forces by s c^2, energies by s "
+    "c^3.\n"
+    "- Nothing changes if the frame is turned or flipped, gets a border of invalid pixels, or the bodies are "
+    "exchanged\n"
+    "  or moved along z.\n"
+    "- Two tiles of a scan under twice the load have twice its force.\n"
+    "- With more work of adhesion the contact is never smaller.\n"
+    "- F_w and F_e are the sums over cells. The contacts share the load, the area and the pull-off force.\n"
+    "- Only cells that touched are lower afterwards. The hardness determines how both bodies share the volume.\n"
+    "- A second, slow algorithm, which labels the frame at each step, finds the same state.\n\n"
     "Two plausible properties have exceptions, which belong to the model:\n\n"
-    "- *More work of adhesion holds more.* The pull-off force is 3/2 pi w times the sum of radii. When contacts "
-    "merge,\n"
-    "  or a contact of few pixels grows by one, that sum may fall faster than w rises: on 2 of 1000 small random "
-    "frames\n"
-    "  at 1.5 times the work of adhesion. Of six surfaces together it never did.\n"
-    "- *More load touches more.* The generalised force of an asperity grows with its load P0 up to JKR's apparent "
-    "load\n"
-    "  P1 of its radius; (P1 - P0)^2 knows no sign. An asperity to which (6) gives more than P1 resists the more, and "
-    "a\n"
-    "  larger load may then rest on less area: on 3 of 10000 frames, all with such an asperity. Without one, never.\n";
+    "- *More work of adhesion gives more force.* The pull-off force is 3/2 pi w times the sum of radii. Where "
+    "contacts\n"
+    "  merge, or a contact of few pixels grows by one, that sum may fall faster than w rises: on 2 of 1000 small "
+    "random\n"
+    "  frames at 1.5 times the work of adhesion, never for six surfaces together.\n"
+    "- *More load gives more area.* The generalised force of an asperity grows with its load P0 up to JKR's apparent\n"
+    "  load P1 of its radius. An asperity that (6) loads beyond P1 resists more, and a larger load may then rest on\n"
+    "  less area: on 3 of 10000 frames, all with such an asperity.\n";
 
 constexpr int kNameWidth = 56;
 constexpr int kValueWidth = 14;
@@ -191,23 +191,26 @@ std::string terminalTable(const std::vector<Section>& sections) {
 std::string markdownPage(const std::vector<Section>& sections) {
   std::ostringstream page;
   page << "# Verification\n\n"
-          "Every closed form that the model is built from, and every published number that it must give, beside\n"
-          "what the code computes. Written by `scripts/verify`, which fails when a row is out. The references are\n"
-          "published numbers, or closed forms and quadratures written down separately in test/verification: none\n"
-          "comes from this package's code.\n\n"
-          "*error* is |computed/reference - 1|, or |computed| where the reference is 0. *order* is p in error ~\n"
-          "pitch^p, of rows that depend on the grid; their values are those of the finest grid, at its worst\n"
-          "phase. A row is out when its error exceeds the tolerance or its order falls short.\n\n"
+          "Every closed form of the model and every published number that it must give, beside what the code\n"
+          "computes. `scripts/verify` writes this page and fails when a row is out. References are published\n"
+          "numbers, or closed forms and quadratures written separately in test/verification. None comes from\n"
+          "this package's code.\n\n"
+          "- *error*: |computed/reference - 1|, or |computed| where the reference is 0.\n"
+          "- *tolerance*, with its reason. *round-off*: of a few operations. *N published digits*: half a unit of\n"
+          "  the last one.\n"
+          "- Rows that depend on the grid have the value of the finest grid, at its worst position. A table below\n"
+          "  them has their errors by resolution and the *order* p in error ~ pitch^p.\n"
+          "- A row is out if its error exceeds the tolerance or its order is too low.\n\n"
        << "**" << countText(countRows(sections)) << ".**\n";
   for (const Section& section : sections) {
     page << "\n## " << section.title << "\n\n"
-         << "| | quantity | unit | computed | reference | source of the reference | error | order | tolerance | why |\n"
-         << "|---|---|---|---|---|---|---|---|---|---|\n";
+         << "| | quantity | computed | reference | source of the reference | error | tolerance | reason |\n"
+         << "|---|---|---|---|---|---|---|---|\n";
     for (const Row& row : section.rows) {
-      page << (row.isWithin() ? "| ok | " : "| **out** | ") << cell(row.quantity) << " | " << row.unit << " | "
-           << valueText(row, row.computed) << " | " << valueText(row, row.reference) << " | " << cell(row.source)
-           << " | " << errorText(row.error()) << " | " << orderText(row) << " | " << toleranceText(row) << " | "
-           << cell(row.reason) << " |\n";
+      page << (row.isWithin() ? "| ok | " : "| **out** | ") << cell(row.quantity) << " | "
+           << valueText(row, row.computed) << (row.unit.empty() ? "" : " ") << row.unit << " | "
+           << valueText(row, row.reference) << " | " << cell(row.source) << " | " << errorText(row.error()) << " | "
+           << toleranceText(row) << " | " << cell(row.reason) << " |\n";
     }
     writeConvergence(section, page);
   }
