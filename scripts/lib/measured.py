@@ -128,8 +128,9 @@ def device_section(study):
               if plates[rms_height, 1.0].pull_off_force_lower <= cases.PLATE_FORCE <= plates[rms_height, 1.0].pull_off_force_upper]
     text += ["",
              "What can be said now: %s. The interval is that of plates of the same statistics; what roughness and constants leave open stands in "
-             "[the table of assumptions](#what-the-assumptions-move). The frames' force by area, which was all that could be said before, counts the "
-             "force of one frame for each part of the plate, though the whole rests on few summits." % (
+             "[the table of assumptions](#what-the-assumptions-move). The frames' force by area "
+             "counts the force of one frame for each part of the plate, although the whole plate "
+             "rests on few summits." % (
                  "of the rms heights that were tried, the measured force lies within the 95 %% interval of the whole plate at %s alone"
                  % " and ".join("%g nm" % round(rms_height * 1e9, 3) for rms_height in inside) if inside else
                  "the measured force lies outside of the 95 % interval of the whole plate for each of these rms heights"), "",
@@ -141,7 +142,8 @@ def device_section(study):
         forces = [plates[rms_height, share].pull_off_force for share in cases.AREA_SHARES]
         power = math.log(forces[-1] / forces[0]) / math.log(cases.AREA_SHARES[-1] / cases.AREA_SHARES[0])
         text.append("| %g nm | %s | %.2f |" % (round(rms_height * 1e9, 3), " | ".join(micro(force) for force in forces), power))
-    text += ["", "Force by area would be a power of 1. No number of the measured scaling was to be had, so that it is the trend that can be compared.", ""]
+    text += ["", "Force proportional to area would be a power of 1. The measured scaling was not "
+                 "available as a number, so only the trend can be compared.", ""]
     return text
 
 
@@ -158,7 +160,8 @@ def beams_section(study, results):
     case = case_of("beams")
     beam = cases.BEAM
     text = ["## The beams as a whole", "",
-            "What is measured on a beam is the work of the area that rests, by the length that stands free. Assumed: a cantilever %g um thick, %g um above the "
+            "A beam measures the work of the area that rests, by the length that stands free. "
+            "Assumed: a cantilever %g um thick, %g um above the "
             "ground, of %g GPa, of which %g um^2 rest. From %d frames each:" % (
                 beam["beam_thickness"] * 1e6, beam["beam_gap"] * 1e6, beam["beam_modulus"] * 1e-9, cases.BEAM_AREA * 1e12, cases.PLATE_SCANS), "",
             "| rms height | measured [uJ/m^2] | the area that rests [uJ/m^2] | 95 % interval | a frame [uJ/m^2] | factor | crack length [um] |",
@@ -170,8 +173,9 @@ def beams_section(study, results):
             round(rms_height * 1e9, 3), micro(measured), case.known, micro(found.apparent_work_of_adhesion), micro(found.apparent_work_of_adhesion_lower),
             micro(found.apparent_work_of_adhesion_upper), micro(statistics.median(values)), number(found.apparent_work_of_adhesion / measured),
             "%.0f" % (found.to_dict()["unstuck_length"] * 1e6)))
-    return text + ["", "A larger area rests on higher summits, so that its work is below that of a frame. A beam that is thin enough to follow the ground lies "
-                   "closer, and holds more. One that is shorter than its crack length comes off.", ""]
+    return text + ["", "A larger area rests on higher summits, so its work is below that of a "
+                       "frame. A beam thin enough to follow the ground lies closer and holds "
+                       "more. A beam shorter than its crack length comes off.", ""]
 
 
 def exponent(rows):
@@ -187,11 +191,13 @@ def page(study):
     separations = list(separation_rows(study))
     text = [
         "# Against measurement", "",
-        "What others measured on rough surfaces, beside what `approach/formulation: separation_curve` predicts from surfaces with the same statistics. Written by `scripts/measured`.", "",
+        "Published measurements on rough surfaces, beside predictions by `approach/formulation: "
+        "separation_curve` for surfaces with the same statistics. Written by `scripts/measured`.", "",
         "**This page shows an order of magnitude and a trend, no more.** A prediction needs roughness, correlation length, work of adhesion, Hamaker "
-        "constant, humidity and area. No source whose full text was to be had gives all of them, and most were read as abstracts. What is missing is "
-        "assumed; [the second table](#what-the-assumptions-move) says what each assumption moves. The [error map](trust.md) answers another question, "
-        "with much smaller numbers: how far the model is from the mechanics that it approximates.", "",
+        "constant, humidity and area. No available source gives all of them, and most were read "
+        "as abstracts. Missing values are assumed; [a table](#what-the-assumptions-move) shows "
+        "the effect of each assumption. How far the model lies from the mechanics that it "
+        "approximates is another question, with much smaller numbers: [error map](trust.md).", "",
         "## Measured and predicted", "",
         "%d Gaussian surfaces each; median, lowest and highest. *factor*: predicted median over measured. *recalled*: not checked against the source." % len(study.seeds), "",
         "| case | rms height | measured | predicted | over seeds | factor |", "|---|---|---|---|---|---|"]
@@ -199,30 +205,34 @@ def page(study):
     text += ["", "| case | source | says | assumed |", "|---|---|---|---|"]
     text += ["| %s | %s (%s) | %s | %s |" % (case.key, case.source.name, case.source.where, case.source.says, case.assumed) for case in cases.CASES]
     text += ["",
-             "A ratio is that of the apparent works of two rough planes, but for the flat tips, where it is that of their pull-off forces. It stands for the forces of a large sphere: the force between a sphere and a "
-             "plane is 2 pi R times the energy per area of planes at the same separation (Derjaguin). So the sphere's pull-off force is 2 pi R times "
-             "the work of the planes from rest on.", "",
-             "A plate that springs tear off does not stay parallel. It peels, and the largest force is not that of all its area at once: for such a "
-             "plate the prediction is an upper bound. Where the measured force is larger still, the plates were smoother, wet or charged, or fitted "
-             "each other; the source does not say.", ""]
+             "A ratio compares the apparent works of two rough planes; for the flat tips it "
+             "compares their pull-off forces. The ratio of works stands for the forces of a large"
+             " sphere: by Derjaguin, the pull-off force of a sphere is 2 pi R times the work of "
+             "the planes from rest on.", "",
+             "A plate that springs tear off peels instead of staying parallel, so the prediction "
+             "is an upper bound for it. Where the measured force is larger still, the plates were"
+             " smoother, wet or charged, or fitted each other; the source does not say.", ""]
     text += device_section(study) + beams_section(study, results)
     text += ["## The separation law", "",
-             "One statement of the polysilicon measurements was read that needs no constant but the Hamaker constant. At small roughness the work is "
+             "One result of the polysilicon measurements needs no constant but the Hamaker "
+             "constant. At small roughness the work is "
              "that of planes at the average separation, H/(12 pi D_ave^2); at large roughness contacts take over. Predicted, for the beams' settings:", "",
              "| rms height | D_ave | work [uJ/m^2] | H/(12 pi D_ave^2) [uJ/m^2] | ratio |", "|---|---|---|---|---|"]
     text += [row for _, _, row in separations]
-    text += ["", "The work goes with D_ave to the power of %.2f. What it has beyond the planes' work, from contacts and the uneven gap, is most where the surfaces are roughest." % exponent(separations), "",
+    text += ["", "The work goes with D_ave to the power of %.2f. The excess over the planes' "
+                 "work, from contacts and the uneven gap, is largest on the roughest surfaces." % exponent(separations), "",
              "## What the assumptions move", "",
              "Median with the change over the median without; geometric mean over the rms heights of a case. Where the correlation length changes, pixels and frame change with it.", "",
              "| | %s |" % " | ".join(case.key for case in cases.CASES), "|---|%s" % ("---|" * len(cases.CASES))]
     text += ["| %s | %s |" % (variation.name, " | ".join(number(moved_by(results, case, variation)) for case in cases.CASES))
              for variation in cases.VARIATIONS]
     text += ["", "What moves each most: %s." % "; ".join("%s, %s" % (case.key, most_moving(results, case).name) for case in cases.CASES), "",
-             "The rms height is that of both surfaces together: a source that gives that of one leaves a factor open. A larger frame has a higher "
-             "highest summit, which holds the rest further apart. Real plates are larger still, but not flat over their length. Surfaces that were "
-             "grown on each other fit each other, so their composite roughness is smaller than either's (DelRio et al. 2005 say that this correlation "
-             "must be considered).", "",
-             "## Found, but not predicted", "", "The text that was to be had lacks the roughness, or the force:", "",
+             "The rms height is that of both surfaces together: a source that gives one surface "
+             "leaves a factor open. A larger frame has a higher highest summit, which keeps the "
+             "surfaces further apart. Real plates are larger still, but not flat over their "
+             "length. Surfaces grown on each other fit each other, so their composite roughness "
+             "is smaller than either's (DelRio et al. 2005).", "",
+             "## Found, but not predicted", "", "The available text lacks the roughness, or the force:", "",
              "| source | read | says |", "|---|---|---|"]
     text += ["| %s | %s | %s |" % found for found in cases.FOUND]
     text += ["", "Whoever has the full texts, or a beam and its AFM scan, can replace an assumption in `scripts/lib/measured_cases.py` and run `scripts/measured` again.", ""]
