@@ -34,6 +34,9 @@ constexpr const char* kProperties =
     "  load P1 of its radius. An asperity that (6) loads beyond P1 resists more, and a larger load may then rest on\n"
     "  less area: on 3 of 10000 frames, all with such an asperity.\n";
 
+/// Of the page's tables of rows, and what marks a row that is out.
+constexpr const char* kHeader = "| quantity | computed | reference | source of the reference | error | allowed |\n";
+constexpr const char* kOutMark = "| **out:** ";
 constexpr int kNameWidth = 56;
 constexpr int kValueWidth = 14;
 constexpr int kErrorWidth = 9;
@@ -152,10 +155,12 @@ std::vector<std::string> rowNamesOfPage(const std::string& page) {
   std::vector<std::string> names;
   std::istringstream lines(page);
   std::string title;
+  bool is_table = false;
   for (std::string line; std::getline(lines, line);) {
     if (line.rfind("## ", 0) == 0) title = line.substr(3);
-    if (line.rfind("| ok | ", 0) != 0 && line.rfind("| **out** | ", 0) != 0) continue;
-    const std::size_t begin = line.find("| ", 2) + 2;
+    is_table = line + "\n" == kHeader || (is_table && line.rfind("|", 0) == 0);
+    if (!is_table || line.rfind("| ", 0) != 0 || line + "\n" == kHeader) continue;
+    const std::size_t begin = line.rfind(kOutMark, 0) == 0 ? std::string(kOutMark).size() : 2;
     std::string name = line.substr(begin, line.find(" | ", begin) - begin);
     for (std::size_t at = name.find("\\|"); at != std::string::npos; at = name.find("\\|")) name.erase(at, 1);
     names.push_back(title + ": " + name);
@@ -196,21 +201,19 @@ std::string markdownPage(const std::vector<Section>& sections) {
           "numbers, or closed forms and quadratures written separately in test/verification. None comes from\n"
           "this package's code.\n\n"
           "- *error*: |computed/reference - 1|, or |computed| where the reference is 0.\n"
-          "- *tolerance*, with its reason. *round-off*: of a few operations. *N published digits*: half a unit of\n"
-          "  the last one.\n"
+          "- *allowed*: largest error, with its reason. *round-off*: of a few operations. *N published digits*:\n"
+          "  half a unit of the last one.\n"
           "- Rows that depend on the grid have the value of the finest grid, at its worst position. A table below\n"
           "  them has their errors by resolution and the *order* p in error ~ pitch^p.\n"
-          "- A row is out if its error exceeds the tolerance or its order is too low.\n\n"
+          "- A row is out, and marked so, if its error exceeds what is allowed or its order is too low.\n\n"
        << "**" << countText(countRows(sections)) << ".**\n";
   for (const Section& section : sections) {
-    page << "\n## " << section.title << "\n\n"
-         << "| | quantity | computed | reference | source of the reference | error | tolerance | reason |\n"
-         << "|---|---|---|---|---|---|---|---|\n";
+    page << "\n## " << section.title << "\n\n" << kHeader << "|---|---|---|---|---|---|\n";
     for (const Row& row : section.rows) {
-      page << (row.isWithin() ? "| ok | " : "| **out** | ") << cell(row.quantity) << " | "
-           << valueText(row, row.computed) << (row.unit.empty() ? "" : " ") << row.unit << " | "
-           << valueText(row, row.reference) << " | " << cell(row.source) << " | " << errorText(row.error()) << " | "
-           << toleranceText(row) << " | " << cell(row.reason) << " |\n";
+      page << (row.isWithin() ? "| " : kOutMark) << cell(row.quantity) << " | " << valueText(row, row.computed)
+           << (row.unit.empty() ? "" : " ") << row.unit << " | " << valueText(row, row.reference) << " | "
+           << cell(row.source) << " | " << errorText(row.error()) << " | " << toleranceText(row) << ": "
+           << cell(row.reason) << " |\n";
     }
     writeConvergence(section, page);
   }
