@@ -75,25 +75,31 @@ def tables(rows):
             parts.append(line("- with the warning that long waves are missing", warned))
             parts.append(line("- without it", [row for row in of_case if row not in warned]))
     titles = ["%s; %d pixels" % (CASES[case], side) for case, side, _ in found]
-    parts += ["", "| bias, by kind | %s |" % " | ".join(titles), "|---" * (len(titles) + 1) + "|"]
-    for kind in [kind for kind in device_surfaces.KINDS if any(row["kind"] == kind for row in rows)]:
-        cells = [bias_of([row for row in of_case if row["kind"] == kind]) for _, _, of_case in found]
-        parts.append("| %s | %s |" % (kind, " | ".join(cells)))
-    return "\n".join(parts + [""])
+    kinds = {kind: kind for kind in device_surfaces.KINDS if any(row["kind"] == kind for row in rows)}
+    return "\n".join(parts + ["", *bias_table("kind", kinds, dict(zip(titles, (of_case for _, _, of_case in found)))), ""])
+
+
+def bias_table(name, titles, groups_of_rows):
+    """A line for each value of the field, with its title, and a column for each group of rows."""
+    parts = ["| bias, by %s | %s |" % (name, " | ".join(groups_of_rows)), "|---" * (len(groups_of_rows) + 1) + "|"]
+    for value, title in titles.items():
+        cells = [bias_of([row for row in group if row[name] == value]) for group in groups_of_rows.values()]
+        parts.append("| %s | %s |" % (title, " | ".join(cells)))
+    return parts
 
 
 def scan_tables(rows):
-    parts = []
-    for case in [case for case in CASES if any(row["case"] == case for row in rows)]:
-        of_case = [row for row in rows if row["case"] == case and not row["is_conforming"]]
-        parts += ["### %s, measured" % CASES[case].capitalize(), "", COLUMNS.format("scan").replace("surfaces", "draws")]
-        for scan in dict.fromkeys(row["scan"] for row in of_case):
-            of_scan = [row for row in of_case if row["scan"] == scan]
-            parts.append(line("`%s`, %d pixels of %.3g nm" % (scan, of_scan[0]["side"], 1e9 * of_scan[0]["pitch"]), of_scan))
-        parts += [line("all", of_case), ""]
+    """As tables(), by scan."""
+    asked = [row for row in rows if not row["is_conforming"]]
+    found = {CASES[case]: [row for row in asked if row["case"] == case] for case in CASES}
+    found = {title: group for title, group in found.items() if group}
+    parts = [COLUMNS.format("scans").replace("surfaces", "draws")] + [line(title, group) for title, group in found.items()]
+    scans = {row["scan"]: "`%s`, %d pixels of %.3g nm" % (row["scan"], row["side"], 1e9 * row["pitch"]) for row in asked}
+    parts += ["", *bias_table("scan", scans, found), ""]
     conforming = sorted({row["scan"] for row in rows if row["is_conforming"]})
     if conforming:
-        parts.append("%s bond all over: their force is proportional to area, so they are left out.\n" % ", ".join("`%s`" % scan for scan in conforming))
+        parts.append("%s bond all over: their force is proportional to area, so they are left out.\n"
+                     % ", ".join("`%s`" % scan for scan in conforming))
     return "\n".join(parts)
 
 
